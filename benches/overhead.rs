@@ -40,7 +40,7 @@ fn simulator(count: usize, sliding: f64) -> Simulator {
     sim
 }
 
-/// The settings of `src/dynamics/world.rs`.
+/// The settings of `crates/dynamics/src/world.rs`.
 fn parameters() -> IntegrationParameters {
     let softness = SpringCoefficients { natural_frequency: 60.0, damping_ratio: 5.0 };
     IntegrationParameters {

@@ -1,7 +1,9 @@
 //! The `swanilda` command.
 
+mod cli;
+
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    swanilda::cli::main()
+    cli::main()
 }

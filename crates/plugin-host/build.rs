@@ -1,16 +1,16 @@
 //! Compiles the library whose symbols plugins look up: one C function for each row, which passes its parameters to the simulator.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-#[path = "../src/plugin/signature.rs"]
+#[path = "src/signature.rs"]
 mod signature;
 
 use signature::{Param, Row, Size, name};
 
-const ROWS: &str = include_str!("../src/plugin/symbols.tsv");
+const ROWS: &str = include_str!("src/symbols.tsv");
 
 /// The beginning of the C file. A value is what C passes for one parameter.
 const HEAD: &str = r"#include <stdbool.h>
@@ -28,9 +28,15 @@ static int64_t call(uint32_t row, value* values, uint32_t count, int64_t failure
 
 /// Makes `OUT_DIR/libswanilda_plugin.so`; an empty file where plugins are not supported.
 #[allow(clippy::disallowed_methods, reason = "cargo tells a build script its target through the environment")]
-pub fn compile(out: &Path) {
-    println!("cargo:rerun-if-changed=src/plugin/symbols.tsv");
-    println!("cargo:rerun-if-changed=src/plugin/signature.rs");
+fn main() {
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
+    compile(&out);
+}
+
+#[allow(clippy::disallowed_methods, reason = "cargo tells a build script its target through the environment")]
+fn compile(out: &Path) {
+    println!("cargo:rerun-if-changed=src/symbols.tsv");
+    println!("cargo:rerun-if-changed=src/signature.rs");
     let library = out.join("libswanilda_plugin.so");
     if env::var("CARGO_CFG_TARGET_FAMILY").is_ok_and(|family| family != "unix") {
         return fs::write(library, b"").expect("the output folder is writable");

@@ -8,7 +8,7 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use swanilda::testing::Coverage;
+use testing::Coverage;
 use swanilda::{Options, Permissions, ScriptKind, Simulator};
 
 /// Checks one record; `found` and `hit` are the lines counted so far.

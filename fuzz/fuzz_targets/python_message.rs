@@ -5,17 +5,9 @@
 
 use libfuzzer_sys::fuzz_target;
 
-// The decoders are private to the simulator and need nothing of it but its values.
-mod scene {
-    pub use swanilda::scene::{Data, Key};
-}
-#[path = "."]
-mod wire {
-    #[path = "../../src/wire/marshal.rs"]
-    pub mod marshal;
-}
+// The decoder of messages is private to its crate.
 #[allow(dead_code)]
-#[path = "../../src/script/python_runtime/message.rs"]
+#[path = "../../crates/script/src/python_runtime/message.rs"]
 mod message;
 
 use message::Message;

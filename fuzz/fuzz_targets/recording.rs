@@ -12,21 +12,19 @@ use std::io::Cursor;
 
 use libfuzzer_sys::fuzz_target;
 
-#[path = "../../src/view/recording/chunk.rs"]
+#[path = "../../crates/view/src/recording/chunk.rs"]
 mod chunk;
-#[path = "../../src/view/recording/format.rs"]
+#[path = "../../crates/view/src/recording/format.rs"]
 mod format;
-#[path = "../../src/view/hash.rs"]
+#[path = "../../crates/view/src/hash.rs"]
 mod hash;
-#[path = "../../src/view/recording/index.rs"]
+#[path = "../../crates/view/src/recording/index.rs"]
 mod index;
-#[path = "../../src/view/recording/reader.rs"]
+#[path = "../../crates/view/src/recording/reader.rs"]
 mod reader;
 
-mod view {
-    pub(crate) mod blobs {
-        pub(crate) use crate::hash::Hash;
-    }
+mod blobs {
+    pub(crate) use crate::hash::Hash;
 }
 
 use format::{CHUNK_HEAD, END, FILE_END, FILE_HEAD, LARGEST_CHUNK, MAGIC, RecordingError, VERSION};

@@ -6,12 +6,7 @@
 
 use libfuzzer_sys::fuzz_target;
 
-// The protocol is private to the simulator and needs nothing of it.
-#[allow(dead_code)]
-#[path = "../../src/wire/simx/mod.rs"]
-mod simx;
-
-use simx::{Answer, Packets, Session, Stamp, Violation, cut};
+use wire::simx::{Answer, Packets, Session, Stamp, Violation, cut};
 
 /// All messages in `bytes`, which come in pieces of `size`.
 fn read(bytes: &[u8], size: usize) -> (Vec<Vec<u8>>, Result<(), Violation>) {

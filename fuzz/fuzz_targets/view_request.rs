@@ -8,7 +8,7 @@ use serde_json::Value;
 
 // The parser is private to the viewer and needs nothing of it.
 #[allow(dead_code)]
-#[path = "../../src/view/request.rs"]
+#[path = "../../crates/view/src/request.rs"]
 mod request;
 
 use request::{Action, Request};

@@ -8,7 +8,7 @@ use libfuzzer_sys::fuzz_target;
 
 // The decoder is private to the simulator and needs nothing of it.
 #[allow(dead_code)]
-#[path = "../../src/io/zmtp.rs"]
+#[path = "../../crates/io/src/zmtp.rs"]
 mod zmtp;
 
 use zmtp::{Decoder, Said, Violation};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::process::ExitCode;
 
 use super::{Outcome, say};
-use crate::docs::{self, Function};
+use docs::{self, Function};
 
 /// Largest edit distance of a suggested name.
 const NEAR: usize = 3;

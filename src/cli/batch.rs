@@ -13,9 +13,9 @@ use super::interrupt::Interrupt;
 use super::permissions::PermissionArgs;
 use super::resources::ResourceArgs;
 use super::setup::{named_param, seconds};
-use crate::Options;
-use crate::testing::batch::{self, Batch, Run, Store};
-use crate::testing::{Allowance, Config};
+use simulator::Options;
+use testing::batch::{self, Batch, Run, Store};
+use testing::{Allowance, Config};
 
 /// Exit code when some runs failed.
 const FAILED: u8 = 1;

@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 
 use serde_json::{Value, json};
 
-use crate::testing::batch::Batch;
+use testing::batch::Batch;
 
 /// Has the runs made by a cluster, and returns the exit code: 0, or 1 when some failed.
 ///

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use super::{Outcome, files, unpack};
-use crate::format::gltf_file::GltfFile;
-use crate::format::robot_file::{ExportOptions, RobotFile, export};
-use crate::format::scene_file::{SceneFile, write_whole};
-use crate::format::scene_folder;
-use crate::format::ttt::File;
-use crate::scene::{Handle, Scene};
+use format::gltf_file::GltfFile;
+use format::robot_file::{ExportOptions, RobotFile, export};
+use format::scene_file::{SceneFile, write_whole};
+use format::scene_folder;
+use format::ttt::File;
+use scene::{Handle, Scene};
 
 /// Convert a scene, a model or a robot to another format
 #[derive(clap::Args)]

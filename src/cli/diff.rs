@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use super::{Outcome, files, say};
-use crate::format::scene_outline::{Outline, differences};
+use format::scene_outline::{Outline, differences};
 
 /// Exit code when the scenes differ.
 const DIFFERENT: u8 = 1;

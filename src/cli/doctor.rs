@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use super::{Outcome, python_uses, say};
-use crate::docs::{self, Support, Use};
-use crate::format::{scene_file, script_file};
-use crate::permissions::read_bounded;
+use docs::{self, Support, Use};
+use format::{scene_file, script_file};
+use permissions::read_bounded;
 
 /// Exit code when something a script calls is approximated or missing.
 const NOT_ALL_WORKS: u8 = 1;

@@ -9,10 +9,10 @@ use serde_json::Value;
 
 use super::Outcome;
 use super::graphs;
-use crate::format::graph_file::GraphData;
-use crate::format::scene_file::WholeFile;
-use crate::view::mcap;
-use crate::view::recording::{self, Content, Recording, RecordingError};
+use format::graph_file::GraphData;
+use format::scene_file::WholeFile;
+use view::mcap;
+use view::recording::{self, Content, Recording, RecordingError};
 
 /// Write a recording as one HTML file, as MCAP for Foxglove and Rerun, or a graph of it as SVG or CSV
 #[derive(clap::Args)]
@@ -42,7 +42,7 @@ impl Args {
     fn export(&self) -> Result<(), String> {
         let mut recording = open(&self.recording)?;
         if let Some(path) = &self.html {
-            whole(path, |file| recording::html(&mut recording, &crate::view::page_file, file))?;
+            whole(path, |file| recording::html(&mut recording, &view::page_file, file))?;
         }
         if let Some(path) = &self.mcap {
             whole(path, |file| mcap::write(&mut recording, file))?;

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use super::complain;
-use crate::format::gltf_file::GltfFile;
-use crate::format::robot_file::RobotFile;
-use crate::format::scene_file::{self, SceneFile};
-use crate::format::scene_folder;
-use crate::format::script_file;
-use crate::format::ttt::File;
-use crate::permissions::Permissions;
+use format::gltf_file::GltfFile;
+use format::robot_file::RobotFile;
+use format::scene_file::{self, SceneFile};
+use format::scene_folder;
+use format::script_file;
+use format::ttt::File;
+use permissions::Permissions;
 
 /// # Errors
 /// When it cannot be read; in words, with the path.

@@ -7,7 +7,6 @@ use std::process::ExitCode;
 use serde_json::json;
 
 use super::{Outcome, say};
-use crate::docs;
 
 /// Where the stubs go, seen from the folder.
 const STUBS: &str = ".swanilda/stubs";

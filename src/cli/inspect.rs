@@ -6,9 +6,9 @@ use std::process::ExitCode;
 
 use super::doctor::uses_of;
 use super::{Outcome, files, say};
-use crate::docs::Support;
-use crate::format::scene_file::{SceneFile, ScriptCode};
-use crate::format::scene_outline::{Item, Outline};
+use docs::Support;
+use format::scene_file::{SceneFile, ScriptCode};
+use format::scene_outline::{Item, Outline};
 
 /// Exit code when a script uses something approximated or missing.
 const NOT_ALL_WORKS: u8 = 1;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::{Child, Command, ExitCode, ExitStatus};
 
 use super::{INTERNAL, complain};
-use crate::io::signals;
+use io::signals;
 
 /// The variable with the file in which the child notes the plugin that is running.
 const NOTE: &str = "SWANILDA_PLUGIN_NOTE";

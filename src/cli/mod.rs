@@ -71,7 +71,7 @@ enum Command {
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
     // Scripts may recurse deeply, within Lua and across scripts.
-    let thread = std::thread::Builder::new().name("simulator".into()).stack_size(crate::Simulator::STACK_SIZE);
+    let thread = std::thread::Builder::new().name("simulator".into()).stack_size(simulator::Simulator::STACK_SIZE);
     let outcome = thread.spawn(|| parse().map_or_else(|code| code, |cli| cli.command.execute()));
     match outcome.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,

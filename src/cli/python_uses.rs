@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::docs::{self, Use};
-use crate::script::{python_interpreter, python_parts};
+use docs::{self, Use};
+use script::{python_interpreter, python_parts};
 
 /// Prints what a text on its input uses.
 const READER: &str = include_str!("python_uses.py");

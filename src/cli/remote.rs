@@ -8,8 +8,8 @@ use super::interrupt::Interrupt;
 use super::output::Output;
 use super::permissions::{HEADING, PermissionArgs};
 use super::setup::Setup;
-use crate::permissions::Permissions;
-use crate::{Options, Simulator};
+use permissions::Permissions;
+use simulator::{Options, Simulator};
 
 /// Number of ports to try.
 const TRIED_PORTS: u16 = 100;

@@ -10,11 +10,11 @@ use super::run::Kind;
 use super::setup::{Setup, seconds};
 use super::video::picture_size;
 use super::{Outcome, say};
-use crate::format::picture::{self, Layout, PictureError};
-use crate::format::scene_file::write_whole;
-use crate::perception::vision::first_camera;
-use crate::scene::{Handle, Kind as ObjectKind};
-use crate::{Channels, Picture, RunLimits, Simulator};
+use format::picture::{self, Layout, PictureError};
+use format::scene_file::write_whole;
+use perception::vision::first_camera;
+use scene::{Handle, Kind as ObjectKind};
+use simulator::{Channels, Picture, RunLimits, Simulator};
 
 /// Exit code when a script raised an error.
 const SCRIPT_ERROR: u8 = 1;

@@ -18,8 +18,8 @@ use super::setup::{Setup, seconds};
 use super::video::VideoArgs;
 use super::view::ViewArgs;
 use super::{Outcome, USAGE, complain, isolated};
-use crate::view::Viewer;
-use crate::{RunLimits, RunTotals, ScriptKind, SimulationState, Simulator};
+use simulator::{RunLimits, RunTotals, ScriptKind, SimulationState, Simulator};
+use view::Viewer;
 
 /// Exit code when a script raised an error.
 const SCRIPT_ERROR: u8 = 1;

@@ -10,7 +10,7 @@ use super::progress::Progress;
 use super::remote::Remote;
 use super::setup::Setup;
 use super::view::ViewArgs;
-use crate::{RunLimits, ScriptKind};
+use simulator::{RunLimits, ScriptKind};
 
 /// Start a simulator that remote API clients control
 #[derive(clap::Args)]

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use super::{Outcome, files};
-use crate::format::scene_file::{SceneFile, save, write_whole};
-use crate::format::scene_folder;
-use crate::format::ttt::File;
-use crate::format::xml::{self, Variant};
-use crate::scene::Scene;
-use crate::script::readable_bytes;
+use format::scene_file::{SceneFile, save, write_whole};
+use format::scene_folder;
+use format::ttt::File;
+use format::xml::{self, Variant};
+use scene::Scene;
+use script::readable_bytes;
 
 /// Unpack a scene or model into a folder: tree as JSON, scripts as Lua files, meshes as OBJ files
 #[derive(clap::Args)]

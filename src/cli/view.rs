@@ -14,8 +14,8 @@ use super::progress::Progress;
 use super::remote::Remote;
 use super::run::Kind;
 use super::setup::Setup;
-use crate::view::{RecordedViewer, Viewer};
-use crate::{RunLimits, Simulator};
+use simulator::{RunLimits, Simulator};
+use view::{RecordedViewer, Viewer};
 
 /// How often ctrl-c is looked for while a recording is shown.
 const NAP: Duration = Duration::from_millis(50);

@@ -138,7 +138,7 @@ fn who_calls_the_operating_system_asks_for_permission() {
 /// What belongs to one part is a field of that part: `Sim` only puts the parts together.
 #[test]
 fn the_simulator_consists_of_few_parts() {
-    let text = read(&root().join("src/script/sim.rs"));
+    let text = read(&root().join("crates/script/src/sim.rs"));
     let (_, body) = text.split_once("struct Sim {\n").expect("the simulator is a struct");
     let (body, _) = body.split_once("\n}").expect("the struct ends");
     let fields: Vec<_> = code_lines(body).filter(|line| line.contains(": ")).collect();

@@ -12,7 +12,7 @@ const EXPORTS: &[&str] = &["export function ", "export async function ", "export
 
 fn modules() -> Vec<PathBuf> {
     let mut found = Vec::new();
-    let mut folders = vec![root().join("src/view/page")];
+    let mut folders = vec![root().join("crates/view/src/page")];
     while let Some(folder) = folders.pop() {
         for entry in folder.read_dir().expect("the page is a folder").flatten() {
             let path = entry.path();

@@ -62,7 +62,7 @@ fn expand(attribute: &Attribute, function: &mut ItemFn) -> syn::Result<Tokens> {
         #[allow(non_snake_case, unused_imports, clippy::wildcard_imports)]
         pub(crate) mod #ident {
             use super::*;
-            use crate::script::{ApiFn, Args, FromScript, IntoScript, Param, Source, Values};
+            use ::script::{ApiFn, Args, FromScript, IntoScript, Param, Source, Values};
 
             pub(crate) const API: ApiFn = ApiFn {
                 name: #name,
@@ -79,7 +79,7 @@ fn expand(attribute: &Attribute, function: &mut ItemFn) -> syn::Result<Tokens> {
                 args.finish(out)
             }
 
-            fn call_data<'a>(args: &mut Args<'a, Values<'a>>) -> Result<Vec<crate::scene::Data>> {
+            fn call_data<'a>(args: &mut Args<'a, Values<'a>>) -> Result<Vec<::scene::Data>> {
                 let mut results = Vec::new();
                 perform(args)?.into_script(&mut results)?;
                 Ok(results)

@@ -14,10 +14,10 @@ mod scripts;
 mod sensors;
 pub(crate) mod shapes;
 
-use crate::script::{Hooks, Module};
+use script::{Hooks, Module};
 
-pub(crate) use crate::script::{ApiError, ApiResult as Result, functions};
-pub use crate::script::{ApiFn, Args, Cx, FromScript, IntoScript, Param};
+pub(crate) use script::{ApiError, ApiResult as Result, functions};
+pub use script::{ApiFn, Args, Cx, FromScript, IntoScript, Param};
 
 /// All native functions, file by file.
 const CATEGORIES: &[(&str, &[ApiFn])] = &[
@@ -86,7 +86,7 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
 ];
 
 /// The module `sim`, with the global functions that come along with it.
-pub(crate) static SIM: Module = Module {
+pub static SIM: Module = Module {
     functions: CATEGORIES,
     constants: include_str!("tables/constants.tsv"),
     aliases: include_str!("tables/aliases.tsv"),
@@ -99,4 +99,4 @@ pub(crate) static SIM: Module = Module {
 };
 
 /// `name<TAB>tier` of the reference's functions: T1 is what published code uses most.
-pub(crate) const TIERS: &str = include_str!("tables/tiers.tsv");
+pub const TIERS: &str = include_str!("tables/tiers.tsv");

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use crate::script::pairs;
+use script::pairs;
 
 /// `name<TAB>what is different`: functions as they are called (`sim.name`), or modules.
 const TABLE: &str = include_str!("approximated.tsv");
@@ -18,15 +18,13 @@ pub fn difference(name: &str) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::docs::{functions, modules};
+    use crate::{functions, modules};
 
     #[test]
     fn only_what_is_there_is_approximated() {
         let mut known: Vec<String> = functions().into_iter().map(|function| function.name).collect();
         known.extend(modules::names());
-        known.extend(
-            crate::modules::registry().members_of_sim().names().into_iter().map(|member| format!("sim.{member}")),
-        );
+        known.extend(::modules::registry().members_of_sim().names().into_iter().map(|member| format!("sim.{member}")));
         for (name, _) in pairs(TABLE) {
             assert!(known.iter().any(|known| known == name), "{name}");
         }

@@ -137,7 +137,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::all;
-    use crate::script::SysCall;
+    use script::SysCall;
 
     #[test]
     fn every_callback_is_described_once() {

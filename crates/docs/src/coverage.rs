@@ -6,8 +6,7 @@ use std::fmt::Write as _;
 use super::approximated::difference;
 use super::row::Function;
 use super::{Age, ReferenceRow, reference};
-use crate::api;
-use crate::script::pairs;
+use script::pairs;
 
 /// The table.
 pub(super) fn text(functions: &[Function]) -> String {

@@ -22,9 +22,8 @@ mod usage;
 
 use std::collections::BTreeMap;
 
-use crate::api;
-use crate::modules::registry;
-use crate::script::{Member, pairs};
+use ::modules::registry;
+use script::{Member, pairs};
 
 pub use approximated::difference;
 pub use markdown::function_text;

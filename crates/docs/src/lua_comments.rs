@@ -1,8 +1,7 @@
 //! Rows from the comments of the Lua library: `--- text`, then `-- @api results = sim.name(parameters)`, `-- @param`, `-- @return`.
 
 use super::row::{Doc, Function, Parameter, Returned};
-use crate::api;
-use crate::script::FILES;
+use lua_library::FILES;
 
 /// The category of each file of `lua/library/sim`.
 const CATEGORIES: &[(&str, &str)] = &[

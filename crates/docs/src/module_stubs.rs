@@ -10,8 +10,8 @@ use super::lua_comments;
 use super::modules::{self, source_of};
 use super::row::Function;
 use super::stubs::declare;
-use crate::modules::ALL;
-use crate::script::pairs;
+use ::modules::ALL;
+use script::pairs;
 
 /// A function whose types are not known.
 #[derive(Debug, Default, PartialEq, Eq)]

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use super::row::Function;
 use super::{markdown, module_stubs};
-use crate::modules::ALL;
-use crate::script::FILES;
+use lua_library::FILES;
+use modules::ALL;
 
 /// Files of the library for its own use.
 const INNER: &[&str] = &[
@@ -83,7 +83,7 @@ const INNER: &[&str] = &[
 pub(super) fn page() -> String {
     let mut out =
         "# Modules\n\n[All categories](README.md)\n\nThe modules that `require` finds, except `sim`. Generated from \
-                   `src/modules` and `lua`.\n"
+                   `crates/modules` and `lua`.\n"
             .to_owned();
     for (name, source) in public() {
         let module = name.replace('/', ".");

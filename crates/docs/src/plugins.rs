@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use super::{approximated::difference, modules};
-use crate::plugin::symbols;
-use crate::script::ReferenceModule;
+use plugin_host::symbols;
+use script::ReferenceModule;
 
 /// State of a module.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,12 +78,12 @@ fn row(module: ReferenceModule, state: State) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::plugin::symbols;
-    use crate::script::Member;
+    use plugin_host::symbols;
+    use script::Member;
 
     #[test]
     fn every_function_of_scripts_that_plugins_call_is_there() {
-        let registry = crate::modules::registry();
+        let registry = modules::registry();
         let is_there = |name: &str| matches!(registry.find(name), Some(Member::Native(_) | Member::Lua { .. }));
         let called = symbols().map(|row| row.function).filter(|function| function.starts_with("sim."));
         let missing: Vec<_> = called.filter(|function| !is_there(function)).collect();

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::script::property_table::{described, flags};
+use script::property_table::{described, flags};
 
 /// Parts in the order of the page, with what they belong to.
 const PARTS: [(&str, &str); 27] = [

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 
 use super::row::{Function, Parameter};
 use super::{functions, module_functions, module_names};
-use crate::modules::ALL;
-use crate::script::pairs;
+use modules::ALL;
+use script::pairs;
 
 /// Where the file lies in the repository.
 pub(super) const PATH: &str = "python/swanilda/_modules.pyi";

@@ -1,6 +1,6 @@
 //! A function as described by its documentation.
 
-use crate::api::ApiFn;
+use api::ApiFn;
 
 /// One documented function.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -3,8 +3,7 @@
 use std::fmt::Write as _;
 
 use super::row::Function;
-use crate::api;
-use crate::script::pairs;
+use script::pairs;
 
 /// Words that cannot name a parameter.
 const KEYWORDS: &[&str] = &["end", "function", "repeat", "until", "local", "and", "or", "not", "in", "goto", "break"];

@@ -9,8 +9,8 @@ use std::sync::LazyLock;
 use super::approximated::difference;
 use super::lua_tokens::{Kind, Token, tokens};
 use super::{module_stubs, modules};
-use crate::format::scene_file::old_names;
-use crate::script::{Member, ReferenceModule, member_by_rule};
+use format::scene_file::old_names;
+use script::{Member, ReferenceModule, member_by_rule};
 
 /// Scripts in strings of scripts in strings are read up to here.
 const DEEPEST_SCRIPT: usize = 4;
@@ -268,7 +268,7 @@ fn current_name(written: &str) -> Option<String> {
     if written.contains('.') || !written.starts_with("sim") {
         return None;
     }
-    let registry = crate::modules::registry();
+    let registry = ::modules::registry();
     let members = registry.members_of_sim();
     let by_rule = || {
         let member = member_by_rule(written).filter(|member| members.contains(member))?;
@@ -282,7 +282,7 @@ fn current_name(written: &str) -> Option<String> {
 /// A function of V-REP that is no member of `sim`; what is called like one of them and unknown is missing.
 fn global(written: &str, is_call: bool, line: usize) -> Option<Use> {
     let rest = written.strip_prefix("sim")?;
-    let support = match crate::modules::registry().members_of_sim().of_global(written) {
+    let support = match ::modules::registry().members_of_sim().of_global(written) {
         Some(Member::Constant(_)) => return None,
         Some(Member::Native(_) | Member::Lua { .. }) => Support::Works,
         Some(Member::Missing(_)) => Support::Missing,
@@ -294,7 +294,7 @@ fn global(written: &str, is_call: bool, line: usize) -> Option<Use> {
 
 /// None for constants, which are no functions.
 fn of_sim(member: &str) -> Option<Support> {
-    match crate::modules::registry().members_of_sim().get(member) {
+    match ::modules::registry().members_of_sim().get(member) {
         Some(Member::Constant(_)) => None,
         Some(Member::Missing(_)) | None => Some(Support::Missing),
         Some(_) => Some(of_function(&format!("sim.{member}"))),

@@ -14,8 +14,8 @@ use super::colliders;
 use super::convert::{from_pose, to_matrix, to_pose, to_vector};
 use super::plan::{BodyBuild, BodyPlan, FrictionRule, Surface, is_far};
 use super::world::{ALL_HOOKS, World};
-use crate::scene::shape::Velocity;
-use crate::scene::{Field, Handle, Pose, Scene};
+use scene::shape::Velocity;
+use scene::{Field, Handle, Pose, Scene};
 
 /// A static body that moved less than this between two calls has not moved: metres and radians.
 const STILL: (f64, f64) = (1e-5, 0.05 * std::f64::consts::PI / 180.0);
@@ -262,7 +262,7 @@ impl Bodies {
     }
 }
 
-fn take_initial_velocity(scene: &mut Scene, shape: Handle) -> crate::scene::SceneResult<Velocity> {
+fn take_initial_velocity(scene: &mut Scene, shape: Handle) -> scene::SceneResult<Velocity> {
     let object = scene.object(shape)?;
     let velocity = object.shape()?.dynamics.initial_velocity;
     if object.dynamics_reset || velocity != Default::default() {

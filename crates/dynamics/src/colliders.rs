@@ -11,7 +11,7 @@ use rapier3d_f64::prelude::SharedShape;
 
 use super::convert::{to_pose, to_vector};
 use super::plan::PartForm;
-use crate::scene::shape::Primitive;
+use scene::shape::Primitive;
 
 /// The smallest thickness of anything, metres.
 const THIN: f64 = 0.0001;

@@ -13,11 +13,11 @@ use super::bodies::Tag;
 use super::convert::from_vector;
 use super::exact_contacts::ExactContacts;
 use super::world::{World, parts_of_impulse};
-use crate::scene::Handle;
+use scene::Handle;
 
 /// A point where two shapes touched in one sub-step. World axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Contact {
+pub struct Contact {
     /// Index of the sub-step, from 0.
     pub sub_step: u32,
     pub shapes: [Handle; 2],
@@ -31,7 +31,7 @@ pub(crate) struct Contact {
 
 impl Contact {
     /// The contact as seen from `shape`: it comes first.
-    pub(crate) fn seen_from(mut self, shape: Handle) -> Self {
+    pub fn seen_from(mut self, shape: Handle) -> Self {
         if self.shapes[0] != shape {
             self.shapes.swap(0, 1);
             self.force = self.force.map(|x| -x);

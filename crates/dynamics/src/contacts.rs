@@ -13,14 +13,14 @@ use super::bodies::Tag;
 use super::convert::from_vector;
 use super::flat_faces;
 use super::world::{ALL_HOOKS, Known, World, parts_of_impulse};
-use crate::scene::Handle;
+use scene::Handle;
 
 /// A body of which a point moves faster, m/s, may touch what the sub-step before did not find near.
 const FAST: f64 = 1.0;
 
 /// The answer of scripts for a pair of shapes that may touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum ContactResponse {
+pub enum ContactResponse {
     /// The shapes' own materials decide.
     Default,
     NoCollision,
@@ -31,7 +31,7 @@ pub(crate) enum ContactResponse {
 }
 
 /// Called once per pair of shapes and sub-step.
-pub(crate) type ContactCallback<'a> = &'a dyn Fn(Handle, Handle) -> ContactResponse;
+pub type ContactCallback<'a> = &'a dyn Fn(Handle, Handle) -> ContactResponse;
 
 /// Two colliders by their indices.
 pub(super) type ColliderPair = (u32, u32);
@@ -44,7 +44,7 @@ pub(super) fn pair_of(colliders: [ColliderHandle; 2]) -> ColliderPair {
 
 /// What scripts have decided about pairs of shapes for a sub-step.
 #[derive(Default)]
-pub(crate) struct Verdicts {
+pub struct Verdicts {
     /// The pairs they were asked about, which all differ.
     asked: Vec<(Handle, Handle)>,
     /// Whether the pairs rise: few sub-steps look one up.
@@ -55,7 +55,7 @@ pub(crate) struct Verdicts {
 
 impl Verdicts {
     /// What scripts have answered about pairs of shapes, which all differ.
-    pub(crate) fn new(asked: Vec<(Handle, Handle)>, responses: Vec<ContactResponse>) -> Self {
+    pub fn new(asked: Vec<(Handle, Handle)>, responses: Vec<ContactResponse>) -> Self {
         let all = asked.iter().copied().zip(responses);
         let special = all.filter(|(_, response)| *response != ContactResponse::Default).collect();
         Self { asked, is_sorted: false, special }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use rapier3d_f64::math::{Matrix, Pose as EnginePose, Rotation, Vector};
 
-use crate::scene::Pose;
+use scene::Pose;
 
 pub(super) fn to_vector(v: [f64; 3]) -> Vector {
     Vector::new(v[0], v[1], v[2])

@@ -16,7 +16,7 @@ use super::bodies::Tag;
 use super::contacts::{self, ColliderPair, ContactResponse, Verdicts, pair_of, tags};
 use super::convert::{from_vector, to_vector};
 use super::world::{PREDICTION, World};
-use crate::scene::Handle;
+use scene::Handle;
 
 /// Points of one surface that are solved.
 const LARGEST_GROUP: usize = 4;

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::scene::{Handle, Pose, Scene, Uid};
+use scene::{Handle, Pose, Scene, Uid};
 
 /// The shapes that are held.
 #[derive(Default)]

@@ -41,21 +41,21 @@ use std::num::NonZero;
 use rapier3d_f64::math::Vector;
 
 use bodies::Bodies;
-pub(crate) use contact_log::Contact;
+pub use contact_log::Contact;
 use contact_log::ContactLog;
 use contacts::ColliderPair;
-pub(crate) use contacts::{ContactCallback, ContactResponse, Verdicts};
+pub use contacts::{ContactCallback, ContactResponse, Verdicts};
 use frozen::Frozen;
 use links::Links;
 use mechanisms::Mechanisms;
 use motors::Motion;
 use plan::Plan;
-pub(crate) use report::Trigger;
+pub use report::Trigger;
 use workers::Workers;
 use world::World;
 
-use crate::scene::joint::{Joint, JointMode};
-use crate::scene::{Field, Handle, Mark, Scene, Topics};
+use scene::joint::{Joint, JointMode};
+use scene::{Field, Handle, Mark, Scene, Topics};
 
 /// Changes that can alter bodies and constraints.
 const PLANNED: Topics = Topics::TREE.with_fields(&[
@@ -72,7 +72,7 @@ const PLANNED: Topics = Topics::TREE.with_fields(&[
 
 /// The physics world that belongs to a scene.
 #[derive(Default)]
-pub(crate) struct Dynamics {
+pub struct Dynamics {
     /// None while a sub-step runs. Boxed, since it is large and moves into every sub-step.
     world: Option<Box<World>>,
     bodies: Bodies,
@@ -94,7 +94,7 @@ pub(crate) struct Dynamics {
 
 /// A dynamics call in progress.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Call {
+pub struct Call {
     pub sub_steps: u32,
     /// Length of a sub-step, seconds.
     pub step: f64,
@@ -102,11 +102,11 @@ pub(crate) struct Call {
 
 /// A call requested during another one.
 #[derive(Debug, PartialEq)]
-pub(crate) struct Busy;
+pub struct Busy;
 
 /// A joint in callback control: what a script needs to know to answer.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct JointRequest {
+pub struct JointRequest {
     pub joint: Handle,
     /// No sub-step has run yet with this joint.
     pub first: bool,
@@ -120,13 +120,13 @@ pub(crate) struct JointRequest {
 
 /// Involvement of scripts in a sub-step.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Attention {
+pub struct Attention {
     /// Scripts run before, during or after the sub-step, so that they may read and change the scene.
     pub watched: bool,
 }
 
 /// A sub-step ready to run. Holds the engine, so that a script called meanwhile finds no physics to disturb.
-pub(crate) struct SubStep {
+pub struct SubStep {
     world: Box<World>,
     gravity: Vector,
     step: f64,
@@ -141,7 +141,7 @@ pub(crate) struct SubStep {
 
 impl SubStep {
     /// Advances the engine; `callback` decides about pairs of shapes that may touch.
-    pub(crate) fn run(&mut self, callback: Option<ContactCallback<'_>>) {
+    pub fn run(&mut self, callback: Option<ContactCallback<'_>>) {
         let rules = contacts::Rules::new(callback, std::mem::take(&mut self.verdicts), &self.apart);
         if self.is_integrated {
             self.world.detect_collisions(self.gravity, &rules);
@@ -153,17 +153,17 @@ impl SubStep {
 
 impl Dynamics {
     /// An empty world that is computed on up to `threads` threads, which does not show in the results.
-    pub(crate) fn new(threads: NonZero<usize>) -> Self {
+    pub fn new(threads: NonZero<usize>) -> Self {
         Self { workers: Workers::new(threads), ..Self::default() }
     }
 
     /// Drops the world; it is rebuilt at the next step.
-    pub(crate) fn reset(&mut self) {
+    pub fn reset(&mut self) {
         *self = Self { workers: std::mem::take(&mut self.workers), ..Self::default() };
     }
 
     /// Begins a call that advances `time_step` seconds; None when there is nothing to simulate.
-    pub(crate) fn begin(&mut self, scene: &mut Scene, time_step: f64) -> Result<Option<Call>, Busy> {
+    pub fn begin(&mut self, scene: &mut Scene, time_step: f64) -> Result<Option<Call>, Busy> {
         if self.call.is_some() {
             return Err(Busy);
         }
@@ -221,7 +221,7 @@ impl Dynamics {
     }
 
     /// Before sub-step number `sub_step` (from 1): moves the static bodies and sets the motors. Returns the joints only a script can drive.
-    pub(crate) fn prepare(&mut self, scene: &Scene, sub_step: u32) -> Vec<JointRequest> {
+    pub fn prepare(&mut self, scene: &Scene, sub_step: u32) -> Vec<JointRequest> {
         let (Some(world), Some(call)) = (self.world.as_mut(), self.call) else { return Vec::new() };
         self.bodies.sweep(f64::from(sub_step) / f64::from(call.sub_steps), call.step, world);
         let engine = scene.settings().dynamics.engine.engine;
@@ -250,19 +250,19 @@ impl Dynamics {
     }
 
     /// Sets the motor of a joint in callback control to the result of its script.
-    pub(crate) fn drive(&mut self, joint: Handle, velocity: Option<f64>, force: Option<f64>) {
+    pub fn drive(&mut self, joint: Handle, velocity: Option<f64>, force: Option<f64>) {
         if let (Some(link), Some(world)) = (self.links.get_mut(joint), self.world.as_mut()) {
             link.set_drive(motors::answered(velocity, force), world);
         }
     }
 
     /// The pairs of shapes that may touch in the next sub-step, as far as they are known.
-    pub(crate) fn pairs_near(&self) -> Vec<(Handle, Handle)> {
+    pub fn pairs_near(&self) -> Vec<(Handle, Handle)> {
         self.world.as_deref().map(contacts::pairs_near).unwrap_or_default()
     }
 
     /// Prepares sub-step number `sub_step` (from 1): forces of scripts, gravity. `verdicts`: what scripts decided about contacts.
-    pub(crate) fn start_sub_step(
+    pub fn start_sub_step(
         &mut self,
         scene: &Scene,
         sub_step: u32,
@@ -311,18 +311,18 @@ impl Dynamics {
     }
 
     /// Whether the engine holds this shape, joint or force sensor.
-    pub(crate) fn simulates(&self, object: Handle) -> bool {
+    pub fn simulates(&self, object: Handle) -> bool {
         self.bodies.get(object).is_some()
             || self.links.get(object).is_some_and(|link| link.plan.kind != plan::LinkKind::Weld)
     }
 
     /// Shapes that had to be stopped since this was last asked: their motion was no longer one of numbers.
-    pub(crate) fn take_frozen(&mut self) -> Vec<Handle> {
+    pub fn take_frozen(&mut self) -> Vec<Handle> {
         self.frozen.take_unreported()
     }
 
     /// The contacts of the last call, in the order of its sub-steps.
-    pub(crate) fn contacts(&self) -> impl Iterator<Item = Contact> {
+    pub fn contacts(&self) -> impl Iterator<Item = Contact> {
         self.contacts.iter()
     }
 }

@@ -14,7 +14,7 @@ use super::exact_contacts::Touching;
 use super::links::{Link, Links};
 use super::reach::Reach;
 use super::world::World;
-use crate::scene::Handle;
+use scene::Handle;
 
 /// Iterations of rapier's solver over linked bodies in each part of a sub-step, beside the usual ones: what a contact changes has to find
 /// its way along the chain.

@@ -20,8 +20,8 @@ use super::load::{Load, Rows};
 use super::motors::{Drive, Motion, Motor};
 use super::plan::{LinkKind, LinkPlan};
 use super::world::World;
-use crate::scene::joint::Joint;
-use crate::scene::{Field, Handle, Pose, Scene};
+use scene::joint::Joint;
+use scene::{Field, Handle, Pose, Scene};
 
 /// Damping that makes a velocity motor rigid within its force.
 const RIGID: f64 = 1e12;

@@ -10,7 +10,7 @@ use rapier3d_f64::prelude::{RigidBody, RigidBodyHandle};
 use super::convert::{from_pose, from_vector};
 use super::plan::LinkPlan;
 use super::world::World;
-use crate::scene::Pose;
+use scene::Pose;
 
 /// Force and torque on the parent, in the frame of the sensor.
 pub(super) type Load = ([f64; 3], [f64; 3]);

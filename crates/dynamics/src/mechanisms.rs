@@ -21,8 +21,8 @@ use super::links::Links;
 use super::plan::LinkPlan;
 use super::workers::Workers;
 use super::world::World;
-use crate::scene::Handle;
-use crate::scene::joint::JointSolver;
+use scene::Handle;
+use scene::joint::JointSolver;
 
 /// Mechanisms are solved on several threads from so many joints on: for fewer it takes as long to wake these.
 const WORTH_THREADS: usize = 150;

@@ -4,8 +4,8 @@
 
 use motion::{ruckig, ruckig_plan};
 
-use crate::scene::joint::{Control, Joint};
-use crate::scene::parameters::engine::Engine;
+use scene::joint::{Control, Joint};
+use scene::parameters::engine::Engine;
 
 /// The time in which position control closes the fraction P of its error, whatever the sub-step.
 const CONTROL_PERIOD: f64 = 0.005;
@@ -141,7 +141,7 @@ fn push(force: f64) -> Drive {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::joint::{JointMode, JointType};
+    use scene::joint::{JointMode, JointType};
 
     fn joint(control: Control) -> Joint {
         Joint { control, ..Joint::new(JointType::Revolute, JointMode::Dynamic) }

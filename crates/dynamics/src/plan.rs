@@ -10,11 +10,11 @@ use articulation::JointKind;
 use geometry::{Finite, MassProperties, Mesh};
 
 use super::frozen::Frozen;
-use crate::scene::joint::{Joint, JointMode, JointSolver, JointType};
-use crate::scene::object::dummy::LinkType;
-use crate::scene::parameters::engine::Engine;
-use crate::scene::shape::{Primitive, Shape};
-use crate::scene::{Handle, Kind, ModelFlags, Object, Pose, Scene, Uid};
+use scene::joint::{Joint, JointMode, JointSolver, JointType};
+use scene::object::dummy::LinkType;
+use scene::parameters::engine::Engine;
+use scene::shape::{Primitive, Shape};
+use scene::{Handle, Kind, ModelFlags, Object, Pose, Scene, Uid};
 
 /// `sim.physics_mujoco`.
 /// Root shapes further from the origin than this are out of service with their trees, metres.
@@ -169,7 +169,7 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
 }
 
 impl PartForm {
-    fn of(part: &crate::scene::shape::Part) -> Self {
+    fn of(part: &scene::shape::Part) -> Self {
         Self { mesh: part.mesh.clone(), pose: part.pose, primitive: part.primitive.clone(), convex: part.convex }
     }
 }

@@ -11,16 +11,16 @@ use super::load::Load;
 use super::plan::LinkKind;
 use super::world::World;
 use super::{Dynamics, SubStep};
-use crate::scene::joint::Joint;
-use crate::scene::pose::placement::is_place;
-use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
-use crate::scene::shape::Velocity;
-use crate::scene::simulation::dynamics_report::JointReport;
-use crate::scene::{DynamicFlags, Field, Handle, Kind, Pose, Scene};
+use scene::joint::Joint;
+use scene::pose::placement::is_place;
+use scene::sensor::force_sensor::{Filter, ForceSensor};
+use scene::shape::Velocity;
+use scene::simulation::dynamics_report::JointReport;
+use scene::{DynamicFlags, Field, Handle, Kind, Pose, Scene};
 
 /// A force sensor whose threshold was exceeded often enough.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Trigger {
+pub struct Trigger {
     pub sensor: Handle,
     /// Mean over the sub-steps of the last call: force and torque.
     pub raw: Load,
@@ -30,7 +30,7 @@ pub(crate) struct Trigger {
 impl Dynamics {
     /// Takes the engine back after a sub-step and tells the scene: joints and force sensors first, then shapes, base-to-tip. Only when
     /// somebody can see them before the next sub-step, or when the engine gave up on a shape.
-    pub(crate) fn finish_sub_step(&mut self, sub_step: SubStep, scene: &mut Scene) {
+    pub fn finish_sub_step(&mut self, sub_step: SubStep, scene: &mut Scene) {
         let SubStep { mut world, step, seen, is_integrated, .. } = sub_step;
         if self.call.is_none() {
             return;
@@ -89,7 +89,7 @@ impl Dynamics {
     }
 
     /// Ends the call: clears forces, averages readings, sets the dynamic flags. Returns the force sensors that trigger.
-    pub(crate) fn end(&mut self, scene: &mut Scene) -> Vec<Trigger> {
+    pub fn end(&mut self, scene: &mut Scene) -> Vec<Trigger> {
         self.call = None;
         let forced: Vec<Handle> = scene.objects().filter(|o| is_forced(o)).map(|o| o.handle()).collect();
         for shape in forced {
@@ -184,7 +184,7 @@ fn shown_position(joint: &Joint, kind: LinkKind, position: f64) -> f64 {
     }
 }
 
-fn is_forced(object: &crate::scene::Object) -> bool {
+fn is_forced(object: &scene::Object) -> bool {
     object.shape().is_ok_and(|shape| shape.force != [0.0; 3] || shape.torque != [0.0; 3])
 }
 

@@ -2,18 +2,18 @@
 
 #[cfg(feature = "plots")]
 use super::plot::{self, Chart, PlottedCurve};
-use crate::scene::graph::{Graph, Style};
+use scene::graph::{Graph, Style};
 
 /// The kind of a file, from its extension; None for others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum GraphFile {
+pub enum GraphFile {
     Csv,
     #[cfg(feature = "plots")]
     Svg,
 }
 
 impl GraphFile {
-    pub(crate) fn of_extension(extension: &str) -> Option<Self> {
+    pub fn of_extension(extension: &str) -> Option<Self> {
         match extension.to_ascii_lowercase().as_str() {
             "csv" => Some(Self::Csv),
             #[cfg(feature = "plots")]
@@ -25,7 +25,7 @@ impl GraphFile {
 
 /// What a graph has recorded.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct GraphData {
+pub struct GraphData {
     /// The path of the graph.
     pub title: String,
     pub background: [f32; 3],
@@ -37,7 +37,7 @@ pub(crate) struct GraphData {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct StreamData {
+pub struct StreamData {
     pub style: Style,
     pub visible: bool,
     /// Times and values.
@@ -45,7 +45,7 @@ pub(crate) struct StreamData {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct CurveData {
+pub struct CurveData {
     pub style: Style,
     /// 2 or 3.
     pub dimensions: usize,
@@ -55,7 +55,7 @@ pub(crate) struct CurveData {
 }
 
 impl GraphData {
-    pub(crate) fn new(graph: &Graph, title: &str) -> Self {
+    pub fn new(graph: &Graph, title: &str) -> Self {
         let streams = graph.streams().iter().map(|stream| StreamData {
             style: stream.style.clone(),
             visible: stream.visible,
@@ -78,7 +78,7 @@ impl GraphData {
     }
 
     /// The content of such a file.
-    pub(crate) fn file(&self, kind: GraphFile) -> Vec<u8> {
+    pub fn file(&self, kind: GraphFile) -> Vec<u8> {
         match kind {
             GraphFile::Csv => csv(self).into_bytes(),
             #[cfg(feature = "plots")]
@@ -172,7 +172,7 @@ fn quoted(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::graph::{Curve, Stream};
+    use scene::graph::{Curve, Stream};
 
     fn style(name: &str, unit: &str) -> Style {
         Style { id: 0, name: name.into(), unit: unit.into(), colour: [1.0, 0.0, 0.0], label: true, linked: true }

@@ -1,18 +1,18 @@
 //! Files of other programs.
 
-pub(crate) mod gltf_file;
-pub(crate) mod graph_file;
-pub(crate) mod mesh_file;
-pub(crate) mod picture;
+pub mod gltf_file;
+pub mod graph_file;
+pub mod mesh_file;
+pub mod picture;
 #[cfg(feature = "plots")]
-pub(crate) mod plot;
+pub mod plot;
 
-pub(crate) mod robot_file;
-pub(crate) mod scene_file;
-pub(crate) mod scene_folder;
-pub(crate) mod scene_input;
-pub(crate) mod scene_outline;
-pub(crate) mod script_file;
+pub mod robot_file;
+pub mod scene_file;
+pub mod scene_folder;
+pub mod scene_input;
+pub mod scene_outline;
+pub mod script_file;
 pub mod ttt;
-pub(crate) mod video;
-pub(crate) mod xml;
+pub mod video;
+pub mod xml;

@@ -16,7 +16,7 @@ const MAX_SIDE: u32 = 16_384;
 
 /// Why a picture cannot be had.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum PictureError {
+pub enum PictureError {
     #[error("the image has {found} bytes, but its resolution asks for {expected}.")]
     Length { found: usize, expected: usize },
     #[error("the resolution of an image lies between 1 and {MAX_SIDE}.")]
@@ -44,7 +44,7 @@ impl From<ImageError> for PictureError {
 
 /// Bytes per pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Layout {
+pub enum Layout {
     Grey = 1,
     Rgb = 3,
     Rgba = 4,
@@ -52,7 +52,7 @@ pub(crate) enum Layout {
 
 /// A picture in memory.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Picture {
+pub struct Picture {
     width: u32,
     height: u32,
     layout: Layout,
@@ -63,7 +63,7 @@ pub(crate) struct Picture {
 ///
 /// # Errors
 /// When there are not as many values as the resolution says.
-pub(crate) fn grey_16_bit_png(values: Vec<u16>, [width, height]: [u32; 2]) -> Result<Vec<u8>, PictureError> {
+pub fn grey_16_bit_png(values: Vec<u16>, [width, height]: [u32; 2]) -> Result<Vec<u8>, PictureError> {
     let (found, expected) = (2 * values.len(), 2 * width as usize * height as usize);
     let picture = image::ImageBuffer::<image::Luma<u16>, _>::from_raw(width, height, values)
         .ok_or(PictureError::Length { found, expected })?;
@@ -75,7 +75,7 @@ pub(crate) fn grey_16_bit_png(values: Vec<u16>, [width, height]: [u32; 2]) -> Re
 impl Picture {
     /// # Errors
     /// When the resolution is impossible, or the bytes do not fit it.
-    pub(crate) fn new(bytes: Vec<u8>, [width, height]: [i64; 2], layout: Layout) -> Result<Self, PictureError> {
+    pub fn new(bytes: Vec<u8>, [width, height]: [i64; 2], layout: Layout) -> Result<Self, PictureError> {
         let (width, height) = (side(width)?, side(height)?);
         let expected = width as usize * height as usize * layout as usize;
         if bytes.len() != expected {
@@ -88,7 +88,7 @@ impl Picture {
     ///
     /// # Errors
     /// When the bytes are no picture of a known kind, or one that is too large.
-    pub(crate) fn decode(file: &[u8], layout: Layout) -> Result<Self, PictureError> {
+    pub fn decode(file: &[u8], layout: Layout) -> Result<Self, PictureError> {
         let mut reader = ImageReader::new(Cursor::new(file)).with_guessed_format()?;
         let mut limits = Limits::default();
         (limits.max_image_width, limits.max_image_height) = (Some(MAX_SIDE), Some(MAX_SIDE));
@@ -97,7 +97,7 @@ impl Picture {
     }
 
     /// Whether the bytes begin like a picture of a known kind.
-    pub(crate) fn is_file(bytes: &[u8]) -> bool {
+    pub fn is_file(bytes: &[u8]) -> bool {
         image::guess_format(bytes).is_ok()
     }
 
@@ -106,7 +106,7 @@ impl Picture {
     /// # Errors
     /// When there is no such kind.
     #[cfg_attr(not(feature = "pictures"), allow(unused_variables, reason = "there is no JPEG"))]
-    pub(crate) fn encode(&self, extension: &str, quality: u8) -> Result<Vec<u8>, PictureError> {
+    pub fn encode(&self, extension: &str, quality: u8) -> Result<Vec<u8>, PictureError> {
         let format = ImageFormat::from_extension(extension).filter(ImageFormat::can_write);
         let mut file = Cursor::new(Vec::new());
         match format {
@@ -127,7 +127,7 @@ impl Picture {
     ///
     /// # Errors
     /// When the resolution is impossible.
-    pub(crate) fn scaled(&self, size: [i64; 2], keep_aspect: bool, layout: Layout) -> Result<Self, PictureError> {
+    pub fn scaled(&self, size: [i64; 2], keep_aspect: bool, layout: Layout) -> Result<Self, PictureError> {
         let (width, height) = (side(size[0])?, side(size[1])?);
         let picture = self.to_dynamic();
         let scaled = match keep_aspect {
@@ -138,7 +138,7 @@ impl Picture {
     }
 
     /// The picture mirrored left to right, top to bottom, or both.
-    pub(crate) fn flipped(&self, horizontally: bool, vertically: bool) -> Self {
+    pub fn flipped(&self, horizontally: bool, vertically: bool) -> Self {
         let mut picture = self.to_dynamic();
         if horizontally {
             imageops::flip_horizontal_in_place(&mut picture);
@@ -149,11 +149,11 @@ impl Picture {
         Self::from_dynamic(&picture, self.layout)
     }
 
-    pub(crate) fn resolution(&self) -> [i64; 2] {
+    pub fn resolution(&self) -> [i64; 2] {
         [self.width.into(), self.height.into()]
     }
 
-    pub(crate) fn into_bytes(self) -> Vec<u8> {
+    pub fn into_bytes(self) -> Vec<u8> {
         self.bytes
     }
 

@@ -106,13 +106,13 @@ fn rgb(colour: [f32; 3]) -> RGBColor {
 }
 
 /// Points that can be drawn: larger values leave no room between two lines of a grid.
-pub(crate) fn drawable(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+pub fn drawable(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let is_fine = |value: f64| value.is_finite() && value.abs() < 1e100;
     points.iter().copied().filter(|(x, y)| is_fine(*x) && is_fine(*y)).collect()
 }
 
 /// Of many points over one pixel, only the lowest and the highest can be seen. Curves that turn back keep all.
-pub(crate) fn thinned(points: Vec<(f64, f64)>, width: usize) -> Vec<(f64, f64)> {
+pub fn thinned(points: Vec<(f64, f64)>, width: usize) -> Vec<(f64, f64)> {
     if points.len() <= 2 * width || !points.is_sorted_by(|a, b| a.0 <= b.0) {
         return points;
     }
@@ -127,12 +127,12 @@ pub(crate) fn thinned(points: Vec<(f64, f64)>, width: usize) -> Vec<(f64, f64)> 
 }
 
 /// A number beside an axis.
-pub(crate) fn label(value: f64) -> String {
+pub fn label(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) { format!("{value:.2e}") } else { format!("{value:.4}") }
 }
 
 /// The range of some numbers with a little room; never empty.
-pub(crate) fn range(values: impl Iterator<Item = f64>) -> Range<f64> {
+pub fn range(values: impl Iterator<Item = f64>) -> Range<f64> {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
     if low > high {
         return 0.0..1.0;
@@ -142,7 +142,7 @@ pub(crate) fn range(values: impl Iterator<Item = f64>) -> Range<f64> {
 }
 
 /// plotters brings no font; it needs one also to measure the words of an SVG.
-pub(crate) fn load_font() {
+pub fn load_font() {
     static LOADED: Once = Once::new();
     // A font that cannot be loaded leaves a picture without words.
     LOADED.call_once(|| drop(register_font("sans-serif", FontStyle::Normal, dejavu::sans::regular())));

@@ -8,7 +8,7 @@ use super::scene_file::{self, SceneFile, ScriptSources};
 use super::scene_folder;
 use super::script_file;
 use super::ttt::{File, FileResult};
-use crate::permissions::{Permissions, read_bounded};
+use permissions::{Permissions, read_bounded};
 
 /// A scene or model that has been read, from which any number of simulators can be filled.
 #[derive(Debug)]

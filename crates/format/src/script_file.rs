@@ -60,7 +60,7 @@ pub fn check(path: &Path, content: &[u8]) -> Result<(), NotAScript> {
 }
 
 /// The language of a script: that of its file's name, else what its first line says.
-pub(crate) fn language(path: Option<&Path>, text: &[u8]) -> &'static str {
+pub fn language(path: Option<&Path>, text: &[u8]) -> &'static str {
     let extension = path.and_then(Path::extension).map(|extension| extension.to_string_lossy().to_lowercase());
     let first_line = text.split(|&byte| byte == b'\n').next().unwrap_or_default();
     match extension.as_deref() {

@@ -4,34 +4,35 @@ use kinematics::{
     Constraints, Environment, Flags, Frame, GroupFlags, GroupId, JointMode, Method, Outcome, Pose, Start,
 };
 
+use super::Result;
 use super::{SceneElement, SceneLinks};
-use crate::scene::tree::ik_groups::{IkElement, IkGroup, Jacobian};
-use crate::scene::{Handle, Scene, SceneError, SceneResult, joint};
+use scene::tree::ik_groups::{IkElement, IkGroup, Jacobian};
+use scene::{Handle, Scene, SceneError, joint};
 
 /// More iterations would not end in a reasonable time.
 const MOST_ITERATIONS: i32 = 100_000;
 
 /// What a calculation came to; scripts see the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum IkResult {
+pub enum IkResult {
     NotPerformed = 0,
     Success = 1,
     Failure = 2,
 }
 
 /// A script's number of a method, if there is one.
-pub(crate) fn method(raw: i64) -> Option<i32> {
+pub fn method(raw: i64) -> Option<i32> {
     Method::from_raw(raw).map(|method| method as i32)
 }
 
 /// The constraints among the bits of a script's number.
-pub(crate) fn constraints(raw: i64) -> i32 {
+pub fn constraints(raw: i64) -> i32 {
     (raw & i64::from(Constraints::POSE.0)) as i32
 }
 
 /// A copy of a group with its chains, which is solved without moving the scene.
 #[derive(Clone)]
-pub(crate) struct GroupCopy {
+pub struct GroupCopy {
     env: Environment,
     links: SceneLinks,
     group: GroupId,
@@ -44,7 +45,7 @@ impl GroupCopy {
     ///
     /// # Errors
     /// When an object is gone, or tip or target is a joint.
-    pub(crate) fn new(scene: &Scene, group: &IkGroup, seed: u64) -> SceneResult<Self> {
+    pub fn new(scene: &Scene, group: &IkGroup, seed: u64) -> Result<Self> {
         let (mut env, mut links) = (Environment::new(seed), SceneLinks::default());
         let (id, complete) = links.add_group(scene, &mut env, group)?;
         links.keep_other_joints(scene, &mut env)?;
@@ -52,13 +53,13 @@ impl GroupCopy {
     }
 
     /// Whether all tips have targets.
-    pub(crate) fn is_complete(&self) -> bool {
+    pub fn is_complete(&self) -> bool {
         self.complete
     }
 
     /// # Errors
     /// When the environment lost an object.
-    pub(crate) fn solve(&mut self) -> SceneResult<IkResult> {
+    pub fn solve(&mut self) -> Result<IkResult> {
         if !self.complete {
             return Ok(IkResult::NotPerformed);
         }
@@ -73,7 +74,7 @@ impl GroupCopy {
     ///
     /// # Errors
     /// When the environment lost an object.
-    pub(crate) fn find(&mut self, iterations: &mut u32) -> SceneResult<bool> {
+    pub fn find(&mut self, iterations: &mut u32) -> Result<bool> {
         if !self.complete {
             *iterations = 0;
             return Ok(false);
@@ -85,7 +86,7 @@ impl GroupCopy {
     ///
     /// # Errors
     /// When the object is no joint.
-    pub(crate) fn limit(&mut self, joint: Handle, min: f64, range: f64) -> SceneResult<()> {
+    pub fn limit(&mut self, joint: Handle, min: f64, range: f64) -> Result<()> {
         let Some(&id) = self.links.copies.get(&joint) else { return Ok(()) };
         let copy = self.env.joint_mut(id)?;
         (copy.cyclic, copy.min, copy.range) = (false, min, range);
@@ -100,7 +101,7 @@ impl GroupCopy {
     ///
     /// # Errors
     /// When the environment lost an object.
-    pub(crate) fn ends(&self) -> SceneResult<Vec<[Pose; 2]>> {
+    pub fn ends(&self) -> Result<Vec<[Pose; 2]>> {
         let tips = self.tips()?;
         let pose = |id| self.env.pose(id, Frame::World);
         tips.into_iter().map(|[tip, target]| Ok([pose(tip)?, pose(target)?])).collect()
@@ -110,14 +111,14 @@ impl GroupCopy {
     ///
     /// # Errors
     /// When the environment lost an object, or a pose is not finite.
-    pub(crate) fn set_targets(&mut self, poses: impl IntoIterator<Item = Pose>) -> SceneResult<()> {
+    pub fn set_targets(&mut self, poses: impl IntoIterator<Item = Pose>) -> Result<()> {
         for ([_, target], pose) in self.tips()?.into_iter().zip(poses) {
             self.env.set_pose(target, pose, Frame::World)?;
         }
         Ok(())
     }
 
-    fn tips(&self) -> SceneResult<Vec<[kinematics::ObjectId; 2]>> {
+    fn tips(&self) -> Result<Vec<[kinematics::ObjectId; 2]>> {
         let elements = self.env.group(self.group)?.elements();
         let pair = |tip| Ok([tip, self.env.partner(tip)?.ok_or(SceneError::NoSuchObject)?]);
         elements.map(|(_, element)| pair(element.tip)).collect()
@@ -127,7 +128,7 @@ impl GroupCopy {
     ///
     /// # Errors
     /// When one of them is no joint.
-    pub(crate) fn config(&self, scene: &Scene, joints: &[Handle]) -> SceneResult<Vec<f64>> {
+    pub fn config(&self, scene: &Scene, joints: &[Handle]) -> Result<Vec<f64>> {
         let position = |joint: &Handle| match self.links.copies.get(joint) {
             Some(&id) => Ok(self.env.joint(id).map_err(|_| SceneError::WrongType("joint"))?.position),
             None => Ok(scene.object(*joint)?.joint()?.position),
@@ -139,7 +140,7 @@ impl GroupCopy {
     ///
     /// # Errors
     /// When the environment lost an object.
-    pub(crate) fn jacobian(&mut self, weighted: bool) -> SceneResult<Option<Jacobian>> {
+    pub fn jacobian(&mut self, weighted: bool) -> Result<Option<Jacobian>> {
         if !self.complete {
             return Ok(None);
         }
@@ -158,7 +159,7 @@ impl GroupCopy {
     ///
     /// # Errors
     /// When a joint has no place to go to.
-    pub(crate) fn apply(&self, scene: &mut Scene, is_dynamic: impl Fn(Handle) -> bool) -> SceneResult<()> {
+    pub fn apply(&self, scene: &mut Scene, is_dynamic: impl Fn(Handle) -> bool) -> Result<()> {
         self.links.sync_to(scene, &self.env, &[self.group], is_dynamic)
     }
 }
@@ -167,7 +168,7 @@ impl GroupCopy {
 ///
 /// # Errors
 /// When an object is gone, or tip or target is a joint.
-pub(crate) fn export(scene: &Scene) -> SceneResult<Vec<u8>> {
+pub fn export(scene: &Scene) -> Result<Vec<u8>> {
     let (mut env, mut links) = (Environment::new(0), SceneLinks { named: true, ..SceneLinks::default() });
     for (_, group) in scene.ik_groups().iter() {
         links.add_group(scene, &mut env, group)?;
@@ -178,7 +179,7 @@ pub(crate) fn export(scene: &Scene) -> SceneResult<Vec<u8>> {
 
 impl SceneLinks {
     /// Adds a group with its elements; whether all tips have targets.
-    fn add_group(&mut self, scene: &Scene, env: &mut Environment, group: &IkGroup) -> SceneResult<(GroupId, bool)> {
+    fn add_group(&mut self, scene: &Scene, env: &mut Environment, group: &IkGroup) -> Result<(GroupId, bool)> {
         let id = env.create_group(&group.name);
         let copy = env.group_mut(id)?;
         copy.method = Method::from_raw(group.method.into()).unwrap_or(Method::PseudoInverse);
@@ -203,7 +204,7 @@ impl SceneLinks {
         group: GroupId,
         element: &IkElement,
         target: Handle,
-    ) -> SceneResult<()> {
+    ) -> Result<()> {
         let constraints = Constraints(element.constraints as u32 & Constraints::POSE.0);
         let added = SceneElement { base: element.base, tip: element.tip, target, constraints };
         let added = self.add_element(scene, env, group, &added)?;
@@ -216,7 +217,7 @@ impl SceneLinks {
     }
 
     /// Makes the copies of joints passive that are not in the old mode of inverse kinematics.
-    fn keep_other_joints(&self, scene: &Scene, env: &mut Environment) -> SceneResult<()> {
+    fn keep_other_joints(&self, scene: &Scene, env: &mut Environment) -> Result<()> {
         for &(handle, id) in &self.joints {
             let joint = scene.object(handle)?.joint()?;
             let copy = env.joint_mut(id)?;

@@ -3,18 +3,18 @@
 //! Objects are copied once, from the tips and targets down to the world; later only positions of joints and poses of targets pass, as
 //! seen from the bases. The groups of old scenes are copied anew each time: `groups.rs`.
 
-pub(crate) mod groups;
+pub mod groups;
 
 use std::collections::BTreeMap;
 
 use kinematics::{Constraints, ElementId, Environment, Frame, GroupId, JointMode, JointType, Law, ObjectId};
 
-use crate::scene::joint::{self, Joint};
-use crate::scene::{self, Handle, Kind, Scene, SceneError, SceneResult};
+use scene::joint::{self, Joint};
+use scene::{self, Handle, Kind, Scene, SceneError};
 
 /// Which objects of an environment stand for objects of the scene.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct SceneLinks {
+pub struct SceneLinks {
     copies: BTreeMap<Handle, ObjectId>,
     /// In the order in which they were copied.
     joints: Vec<(Handle, ObjectId)>,
@@ -32,7 +32,7 @@ struct Task {
 }
 
 /// An element of the scene that is to be copied.
-pub(crate) struct SceneElement {
+pub struct SceneElement {
     /// None: the world.
     pub base: Option<Handle>,
     pub tip: Handle,
@@ -40,28 +40,36 @@ pub(crate) struct SceneElement {
     pub constraints: Constraints,
 }
 
-impl From<kinematics::KinematicsError> for SceneError {
-    fn from(error: kinematics::KinematicsError) -> Self {
-        Self::Refused(error.to_string())
-    }
+/// Why chains of the scene cannot be copied, solved or moved.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// An object of the scene does not exist, or is none of the right type.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The solver refuses what it is given.
+    #[error(transparent)]
+    Kinematics(#[from] kinematics::KinematicsError),
 }
+
+/// A result, or why there is none.
+pub type Result<T> = std::result::Result<T, Error>;
 
 impl SceneLinks {
     /// Adds an element to a group, with copies of its chains.
     ///
     /// # Errors
     /// When an object does not exist, or tip or target is a joint.
-    pub(crate) fn add_element(
+    pub fn add_element(
         &mut self,
         scene: &Scene,
         env: &mut Environment,
         group: GroupId,
         element: &SceneElement,
-    ) -> SceneResult<ElementId> {
+    ) -> Result<ElementId> {
         env.group(group)?;
         for end in [element.tip, element.target] {
             if matches!(scene.object(end)?.kind, Kind::Joint(_)) {
-                return Err(SceneError::WrongType("dummy"));
+                return Err(SceneError::WrongType("dummy").into());
             }
         }
         let base = element.base.map(|base| self.copy(scene, env, base)).transpose()?;
@@ -78,12 +86,12 @@ impl SceneLinks {
     }
 
     /// The copies of objects of the scene.
-    pub(crate) fn copies(&self) -> impl Iterator<Item = (Handle, ObjectId)> {
+    pub fn copies(&self) -> impl Iterator<Item = (Handle, ObjectId)> {
         self.copies.iter().map(|(handle, id)| (*handle, *id))
     }
 
     /// The copy of an object, which is made with all its ancestors if there is none.
-    fn copy(&mut self, scene: &Scene, env: &mut Environment, handle: Handle) -> SceneResult<ObjectId> {
+    fn copy(&mut self, scene: &Scene, env: &mut Environment, handle: Handle) -> Result<ObjectId> {
         let mut path = Vec::new();
         let mut next = Some(handle);
         while let Some(object) = next.filter(|object| !self.copies.contains_key(object)) {
@@ -98,10 +106,10 @@ impl SceneLinks {
             self.copies.insert(object, id);
             parent = Some(id);
         }
-        self.copies.get(&handle).copied().ok_or(SceneError::NoSuchObject)
+        self.copies.get(&handle).copied().ok_or(SceneError::NoSuchObject.into())
     }
 
-    fn copy_one(&mut self, scene: &Scene, env: &mut Environment, handle: Handle) -> SceneResult<ObjectId> {
+    fn copy_one(&mut self, scene: &Scene, env: &mut Environment, handle: Handle) -> Result<ObjectId> {
         let object = scene.object(handle)?;
         let name = if self.named { object.old_name() } else { "" };
         let Kind::Joint(joint) = &object.kind else {
@@ -122,7 +130,7 @@ impl SceneLinks {
     }
 
     /// Makes copies of dependent joints depend on the copies of their masters; without one they are passive.
-    fn copy_dependencies(&self, scene: &Scene, env: &mut Environment) -> SceneResult<()> {
+    fn copy_dependencies(&self, scene: &Scene, env: &mut Environment) -> Result<()> {
         for &(handle, id) in &self.joints {
             let joint = scene.object(handle)?.joint()?;
             let Some(law) = joint.dependency.filter(|_| joint.mode == joint::JointMode::Dependent) else { continue };
@@ -142,7 +150,7 @@ impl SceneLinks {
     ///
     /// # Errors
     /// When the environment lost an object.
-    pub(crate) fn sync_from(&self, scene: &Scene, env: &mut Environment, groups: &[GroupId]) -> SceneResult<()> {
+    pub fn sync_from(&self, scene: &Scene, env: &mut Environment, groups: &[GroupId]) -> Result<()> {
         if groups.iter().all(|group| !self.groups.contains_key(&group.raw())) {
             return Ok(());
         }
@@ -167,13 +175,13 @@ impl SceneLinks {
     ///
     /// # Errors
     /// When a group does not exist, or a joint has no place to go to.
-    pub(crate) fn sync_to(
+    pub fn sync_to(
         &self,
         scene: &mut Scene,
         env: &Environment,
         groups: &[GroupId],
         is_dynamic: impl Fn(Handle) -> bool,
-    ) -> SceneResult<()> {
+    ) -> Result<()> {
         for handle in self.joints_of(scene, groups) {
             let Some(joint) = self.copies.get(&handle).and_then(|id| env.joint(*id).ok()) else { continue };
             if joint.mode != JointMode::Ik || joint.dependency.is_some() {
@@ -196,7 +204,7 @@ impl SceneLinks {
     }
 
     /// The joints between base and tip of the groups' elements.
-    pub(crate) fn joints_of(&self, scene: &Scene, groups: &[GroupId]) -> Vec<Handle> {
+    pub fn joints_of(&self, scene: &Scene, groups: &[GroupId]) -> Vec<Handle> {
         let mut joints = Vec::new();
         for task in groups.iter().flat_map(|group| self.groups.get(&group.raw())).flatten() {
             let mut next = Some(task.tip);
@@ -213,7 +221,7 @@ impl SceneLinks {
 }
 
 /// Moves a copy to where its joint is, by the joint's own position: dependent ones follow their masters.
-fn copy_position(env: &mut Environment, id: ObjectId, joint: &Joint) -> SceneResult<()> {
+fn copy_position(env: &mut Environment, id: ObjectId, joint: &Joint) -> Result<()> {
     match joint.joint_type {
         joint::JointType::Spherical => env.set_rotation(id, joint.spherical)?,
         _ => env.set_joint_position(id, joint.position)?,

@@ -21,7 +21,7 @@ const TASKS_PER_LOOK: u32 = 1024;
 const LOOKS: usize = 40;
 
 /// The event loop of one simulator.
-pub(crate) struct EventLoop {
+pub struct EventLoop {
     /// None only while it is dropped.
     runtime: Option<Runtime>,
     waiting: Arc<Waiting>,
@@ -37,7 +37,7 @@ struct Waiting {
 impl EventLoop {
     /// # Errors
     /// When the system has no event queue.
-    pub(crate) fn new() -> io::Result<Self> {
+    pub fn new() -> io::Result<Self> {
         let mut builder = tokio::runtime::Builder::new_current_thread();
         let runtime = builder.enable_io().enable_time().event_interval(TASKS_PER_LOOK).build()?;
         Ok(Self { runtime: Some(runtime), waiting: Arc::default() })
@@ -48,7 +48,7 @@ impl EventLoop {
     }
 
     /// Moves the sockets without waiting for anything.
-    pub(crate) fn turn(&self) {
+    pub fn turn(&self) {
         self.block_on(async {
             // First the system reports which sockets are ready, then their tasks run.
             tokio::task::yield_now().await;
@@ -57,7 +57,7 @@ impl EventLoop {
     }
 
     /// Moves the sockets until there is something to fetch, at most that long.
-    pub(crate) fn wait(&self, patience: Duration) {
+    pub fn wait(&self, patience: Duration) {
         let something = async {
             while self.waiting.count.load(Ordering::Relaxed) == 0 {
                 self.waiting.more.notified().await;

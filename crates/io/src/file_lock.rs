@@ -6,7 +6,7 @@ use std::os::fd::BorrowedFd;
 
 /// Operation on the lock of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum FileLock {
+pub enum FileLock {
     Shared,
     Exclusive,
     Released,
@@ -14,7 +14,7 @@ pub(crate) enum FileLock {
 
 /// Changes the lock of an open file, without waiting.
 #[cfg(unix)]
-pub(crate) fn lock_file(file: BorrowedFd<'_>, lock: FileLock) -> io::Result<()> {
+pub fn lock_file(file: BorrowedFd<'_>, lock: FileLock) -> io::Result<()> {
     use rustix::fs::{FlockOperation, flock};
     let operation = match lock {
         FileLock::Shared => FlockOperation::NonBlockingLockShared,

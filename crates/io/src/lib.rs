@@ -13,22 +13,22 @@ mod serial;
 #[cfg(not(feature = "serial"))]
 #[path = "serial_left_out.rs"]
 mod serial;
-pub(crate) mod signals;
+pub mod signals;
 mod simx_server;
-pub(crate) mod socket;
+pub mod socket;
 mod ws;
-pub(crate) mod zmq;
+pub mod zmq;
 mod zmq_server;
 mod zmtp;
 
-pub(crate) use event_loop::EventLoop;
-pub(crate) use file_lock::FileLock;
+pub use event_loop::EventLoop;
+pub use file_lock::FileLock;
 #[cfg(unix)]
-pub(crate) use file_lock::lock_file;
-pub(crate) use peer_process::{PeerError, PeerProcess};
-pub(crate) use process::{Process, ProcessError, Program};
-pub(crate) use serial::SerialPort;
-pub(crate) use simx_server::SimxServer;
-pub(crate) use ws::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent, WsPages, WsRequest};
-pub(crate) use ws::{Site, SiteMessage, SiteReply, SiteServer, SiteWaker, Visitor};
-pub(crate) use zmq_server::{Incoming, ZmqServer};
+pub use file_lock::lock_file;
+pub use peer_process::{PeerError, PeerProcess};
+pub use process::{Process, ProcessError, Program};
+pub use serial::SerialPort;
+pub use simx_server::SimxServer;
+pub use ws::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent, WsPages, WsRequest};
+pub use ws::{Site, SiteMessage, SiteReply, SiteServer, SiteWaker, Visitor};
+pub use zmq_server::{Incoming, ZmqServer};

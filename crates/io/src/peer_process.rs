@@ -37,7 +37,7 @@ const PAUSE: Duration = Duration::from_millis(2);
 
 /// Why the connection has ended.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum PeerError {
+pub enum PeerError {
     #[error("the connection is closed")]
     Closed,
     #[error("a message is longer than 256 MiB")]
@@ -47,7 +47,7 @@ pub(crate) enum PeerError {
 }
 
 /// A running program. Dropping it ends the program and all that it has started.
-pub(crate) struct PeerProcess {
+pub struct PeerProcess {
     socket: UnixStream,
     lifeline: Option<UnixStream>,
     child: Child,
@@ -71,7 +71,7 @@ impl PeerProcess {
     ///
     /// # Errors
     /// When there is no such program, or no room for one more.
-    pub(crate) fn start(program: &str, args: &[&str], working_dir: Option<&Path>) -> io::Result<Self> {
+    pub fn start(program: &str, args: &[&str], working_dir: Option<&Path>) -> io::Result<Self> {
         let (socket, theirs) = UnixStream::pair()?;
         let (lifeline, their_lifeline) = UnixStream::pair()?;
         socket.set_write_timeout(Some(WRITE_LIMIT))?;
@@ -94,7 +94,7 @@ impl PeerProcess {
     ///
     /// # Errors
     /// When the program has ended, or reads nothing.
-    pub(crate) fn send(&mut self, content: &[u8]) -> Result<(), PeerError> {
+    pub fn send(&mut self, content: &[u8]) -> Result<(), PeerError> {
         let length = u32::try_from(content.len()).ok().filter(|_| content.len() <= MAX_FRAME);
         let length = length.ok_or(PeerError::TooLong)?.to_le_bytes();
         Ok(self.socket.write_all(&[&length, content].concat())?)
@@ -104,7 +104,7 @@ impl PeerProcess {
     ///
     /// # Errors
     /// When the program has ended, or sends what is no frame.
-    pub(crate) fn receive(&mut self, limit: Duration) -> Result<Option<Vec<u8>>, PeerError> {
+    pub fn receive(&mut self, limit: Duration) -> Result<Option<Vec<u8>>, PeerError> {
         loop {
             if let Some(frame) = self.next_frame()? {
                 return Ok(Some(frame));
@@ -165,14 +165,14 @@ impl PeerProcess {
     }
 
     /// What the program wrote beside its frames since the last time, and how many bytes of that were lost since they were too many.
-    pub(crate) fn take_output(&self) -> (Vec<u8>, usize) {
+    pub fn take_output(&self) -> (Vec<u8>, usize) {
         let mut output = self.output.lock().unwrap_or_else(PoisonError::into_inner);
         (std::mem::take(&mut output.bytes).into(), std::mem::take(&mut output.lost))
     }
 
     /// The same of a program that has ended, whose last words are on their way.
     #[allow(clippy::disallowed_methods, reason = "they come in a moment, which nothing depends on")]
-    pub(crate) fn last_output(&self) -> Vec<u8> {
+    pub fn last_output(&self) -> Vec<u8> {
         let is_complete = || self.output.lock().unwrap_or_else(PoisonError::into_inner).is_complete;
         let mut left = GUARDIAN_LIMIT;
         while !left.is_zero() && !is_complete() {
@@ -184,7 +184,7 @@ impl PeerProcess {
 
     /// The status with which the program ended; None while it runs, for at most `limit`.
     #[allow(clippy::disallowed_methods, reason = "a program that ends takes a moment, which nothing depends on")]
-    pub(crate) fn wait_for_end(&mut self, limit: Duration) -> Option<ExitStatus> {
+    pub fn wait_for_end(&mut self, limit: Duration) -> Option<ExitStatus> {
         let mut left = limit;
         loop {
             match self.child.try_wait() {
@@ -198,7 +198,7 @@ impl PeerProcess {
     }
 
     /// Ends the program and all that it has started, at once.
-    pub(crate) fn kill(&mut self) {
+    pub fn kill(&mut self) {
         self.lifeline = None;
         if self.wait_for_end(GUARDIAN_LIMIT).is_none() {
             // Not even its guardian works.

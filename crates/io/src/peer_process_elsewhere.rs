@@ -8,13 +8,13 @@ use std::time::Duration;
 
 /// Why the connection has ended.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum PeerError {
+pub enum PeerError {
     #[error("the connection is closed")]
     Closed,
 }
 
 /// A running program: there is none.
-pub(crate) struct PeerProcess(Infallible);
+pub struct PeerProcess(Infallible);
 
 impl PeerProcess {
     /// # Errors

@@ -11,7 +11,7 @@ pub(crate) const MAX_OUTPUT: usize = 256 << 20;
 
 /// Why a program gave no result. In the words of CoppeliaSim.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum ProcessError {
+pub enum ProcessError {
     #[error("waitForStarted timed out: {0}")]
     NotStarted(#[from] io::Error),
     #[error("the process crashed")]
@@ -22,14 +22,13 @@ pub(crate) enum ProcessError {
 
 /// A program to run, with its options.
 #[derive(Debug, Default)]
-pub(crate) struct Program {
+pub struct Program {
     pub path: String,
     pub args: Vec<String>,
     /// Whether a bare name is looked up in the folders of the system.
     pub search_path: bool,
     pub working_dir: Option<String>,
     /// On Windows: in a window of its own.
-    #[cfg_attr(not(windows), expect(dead_code, reason = "elsewhere programs have no windows"))]
     pub new_console: bool,
 }
 
@@ -51,7 +50,7 @@ impl Program {
     }
 
     /// Starts it with `input`; what it writes is read while it runs, so that neither side waits for the other.
-    pub(crate) fn run(&self, input: Vec<u8>) -> Result<Run, ProcessError> {
+    pub fn run(&self, input: Vec<u8>) -> Result<Run, ProcessError> {
         let mut command = self.command()?;
         let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
         let mut child = Process(child);
@@ -64,12 +63,12 @@ impl Program {
     }
 
     /// Starts it with the outputs of this program. Its input is open and empty.
-    pub(crate) fn start(&self) -> Result<Process, ProcessError> {
+    pub fn start(&self) -> Result<Process, ProcessError> {
         Ok(Process(self.command()?.stdin(Stdio::piped()).spawn()?))
     }
 
     /// Starts it detached: it outlives the simulator.
-    pub(crate) fn launch(&self) -> io::Result<()> {
+    pub fn launch(&self) -> io::Result<()> {
         let mut child = self.command()?.stdin(Stdio::null()).spawn()?;
         // A process that has ended must be reaped.
         Builder::new().spawn(move || drop(child.wait())).map(drop)
@@ -77,15 +76,15 @@ impl Program {
 }
 
 /// A program that runs, or ran. It is killed when it is dropped.
-pub(crate) struct Process(Child);
+pub struct Process(Child);
 
 impl Process {
-    pub(crate) fn id(&self) -> u32 {
+    pub fn id(&self) -> u32 {
         self.0.id()
     }
 
     /// The exit code, once the program has ended.
-    pub(crate) fn exit_code(&mut self) -> Option<Result<i32, ProcessError>> {
+    pub fn exit_code(&mut self) -> Option<Result<i32, ProcessError>> {
         match self.0.try_wait() {
             Ok(status) => status.map(exit_code),
             Err(error) => Some(Err(error.into())),
@@ -93,7 +92,7 @@ impl Process {
     }
 
     /// Ends it at once.
-    pub(crate) fn kill(&mut self) {
+    pub fn kill(&mut self) {
         // It may have ended by itself.
         let _ = self.0.kill();
         let _ = self.0.wait();
@@ -111,7 +110,7 @@ fn exit_code(status: ExitStatus) -> Result<i32, ProcessError> {
 }
 
 /// A program whose outputs are collected.
-pub(crate) struct Run {
+pub struct Run {
     child: Process,
     out: Collected,
     err: Collected,
@@ -119,7 +118,7 @@ pub(crate) struct Run {
 
 impl Run {
     /// The exit code, once the program has ended.
-    pub(crate) fn exit_code(&mut self) -> Option<Result<i32, ProcessError>> {
+    pub fn exit_code(&mut self) -> Option<Result<i32, ProcessError>> {
         if self.out.is_too_much() || self.err.is_too_much() {
             return Some(Err(ProcessError::TooMuchOutput));
         }
@@ -127,12 +126,12 @@ impl Run {
     }
 
     /// Whether both outputs are closed. Those of a program that has ended may be held open by another one it has started.
-    pub(crate) fn outputs_are_complete(&self) -> bool {
+    pub fn outputs_are_complete(&self) -> bool {
         self.out.is_complete() && self.err.is_complete()
     }
 
     /// Standard output and error output.
-    pub(crate) fn outputs(&self) -> Result<(Vec<u8>, Vec<u8>), ProcessError> {
+    pub fn outputs(&self) -> Result<(Vec<u8>, Vec<u8>), ProcessError> {
         if self.out.is_too_much() || self.err.is_too_much() {
             return Err(ProcessError::TooMuchOutput);
         }

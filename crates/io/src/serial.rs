@@ -21,7 +21,7 @@ const SLICES_PER_SECOND: u32 = 20;
 const BITS_PER_BYTE: u32 = 10;
 
 /// An open port. Closed when dropped.
-pub(crate) struct SerialPort {
+pub struct SerialPort {
     path: String,
     device: Box<dyn serialport::SerialPort>,
     /// Slices without progress after which a write ends.
@@ -33,7 +33,7 @@ impl SerialPort {
     ///
     /// # Errors
     /// When this build has no serial ports.
-    pub(crate) fn open(path: &str, baud_rate: i64) -> Result<Option<Self>, &'static str> {
+    pub fn open(path: &str, baud_rate: i64) -> Result<Option<Self>, &'static str> {
         Ok(Self::opened(path, baud_rate))
     }
 
@@ -50,23 +50,23 @@ impl SerialPort {
     }
 
     /// The file of a device.
-    pub(crate) fn file(path: &str) -> PathBuf {
+    pub fn file(path: &str) -> PathBuf {
         // Windows names ports in a folder of devices.
         if cfg!(windows) { Path::new(r"\\.").join(path) } else { path.into() }
     }
 
     /// The device as it was given.
-    pub(crate) fn path(&self) -> &str {
+    pub fn path(&self) -> &str {
         &self.path
     }
 
     /// How many bytes can be read; None when the device is gone.
-    pub(crate) fn available(&self) -> Option<usize> {
+    pub fn available(&self) -> Option<usize> {
         self.device.bytes_to_read().ok().map(|count| count as usize)
     }
 
     /// At most `wanted` of the bytes that are there, without waiting.
-    pub(crate) fn read(&mut self, wanted: usize) -> Vec<u8> {
+    pub fn read(&mut self, wanted: usize) -> Vec<u8> {
         let mut bytes = vec![0; wanted.min(self.available().unwrap_or(0))];
         let count = if bytes.is_empty() { 0 } else { self.device.read(&mut bytes).unwrap_or(0) };
         bytes.truncate(count);
@@ -75,7 +75,7 @@ impl SerialPort {
 
     /// Writes bytes and returns how many the device accepted: fewer when it is gone, when it accepts none for longer than its rate
     /// explains, or when `stop` returns true.
-    pub(crate) fn write(&mut self, bytes: &[u8], stop: impl Fn() -> bool) -> usize {
+    pub fn write(&mut self, bytes: &[u8], stop: impl Fn() -> bool) -> usize {
         let (mut written, mut idle) = (0, 0);
         while written < bytes.len() && idle < self.patience && !stop() {
             let end = bytes.len().min(written + CHUNK);

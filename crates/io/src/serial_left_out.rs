@@ -3,30 +3,30 @@
 use std::path::PathBuf;
 
 /// There are none.
-pub(crate) enum SerialPort {}
+pub enum SerialPort {}
 
 impl SerialPort {
-    pub(crate) fn open(_: &str, _: i64) -> Result<Option<Self>, &'static str> {
+    pub fn open(_: &str, _: i64) -> Result<Option<Self>, &'static str> {
         Err("this build has no serial ports: build Swanilda with the feature `serial`.")
     }
 
-    pub(crate) fn file(path: &str) -> PathBuf {
+    pub fn file(path: &str) -> PathBuf {
         path.into()
     }
 
-    pub(crate) fn path(&self) -> &str {
+    pub fn path(&self) -> &str {
         match *self {}
     }
 
-    pub(crate) fn available(&self) -> Option<usize> {
+    pub fn available(&self) -> Option<usize> {
         match *self {}
     }
 
-    pub(crate) fn read(&mut self, _: usize) -> Vec<u8> {
+    pub fn read(&mut self, _: usize) -> Vec<u8> {
         match *self {}
     }
 
-    pub(crate) fn write(&mut self, _: &[u8], _: impl Fn() -> bool) -> usize {
+    pub fn write(&mut self, _: &[u8], _: impl Fn() -> bool) -> usize {
         match *self {}
     }
 }

@@ -3,18 +3,18 @@
 //! Elsewhere than on Unix there are none: the end is asked for by ctrl-c, and threads cannot be interrupted.
 
 #[cfg(not(unix))]
-pub(crate) use elsewhere::{
+pub use elsewhere::{
     InterruptibleThread, last_request, note_requests, reserve_standard_output, run_on_crash, standard_output_is_closed,
 };
 #[cfg(unix)]
-pub(crate) use unix::{
+pub use unix::{
     InterruptibleThread, last_request, note_requests, reserve_standard_output, run_on_crash, standard_output_is_closed,
 };
 
 /// The number of the signal that ctrl-c sends.
-pub(crate) const INTERRUPT: i32 = 2;
+pub const INTERRUPT: i32 = 2;
 /// The number of the signal for writing to a pipe that nobody reads.
-pub(crate) const CLOSED_PIPE: i32 = 13;
+pub const CLOSED_PIPE: i32 = 13;
 
 #[cfg(unix)]
 mod unix {
@@ -41,7 +41,7 @@ mod unix {
     static ON_WAKE: OnceLock<fn()> = OnceLock::new();
 
     /// From now on remembers which signal asked for the end, and calls the handlers that are there already.
-    pub(crate) fn note_requests() {
+    pub fn note_requests() {
         for (next, &signal) in NEXT.iter().zip(&REQUESTS) {
             if let Some(before) = handle(signal, note, libc::SA_RESTART)
                 && before != note as *const () as usize
@@ -52,7 +52,7 @@ mod unix {
     }
 
     /// The number of the signal that asked for the end last.
-    pub(crate) fn last_request() -> i32 {
+    pub fn last_request() -> i32 {
         LAST.load(Ordering::Relaxed)
     }
 
@@ -85,12 +85,12 @@ mod unix {
 
     /// A thread that another one can interrupt.
     #[derive(Debug, Clone, Copy)]
-    pub(crate) struct InterruptibleThread(libc::pthread_t);
+    pub struct InterruptibleThread(libc::pthread_t);
 
     impl InterruptibleThread {
         /// The running thread, which lives as long as the process. `on_wake` runs in a signal handler, so it neither allocates nor waits; it
         /// is the same one for all threads.
-        pub(crate) fn current(on_wake: fn()) -> Self {
+        pub fn current(on_wake: fn()) -> Self {
             ON_WAKE.get_or_init(|| on_wake);
             // Without `SA_RESTART`: what waits in the system is to return.
             handle(WAKE, wake, 0);
@@ -99,7 +99,7 @@ mod unix {
         }
 
         /// Runs `on_wake` in the middle of what the thread does.
-        pub(crate) fn wake(self) {
+        pub fn wake(self) {
             // SAFETY: the thread lives as long as the process.
             unsafe { libc::pthread_kill(self.0, WAKE) };
         }
@@ -127,7 +127,7 @@ mod unix {
 
     /// When native code crashes, prints `message` and replaces this process by the program `args[0]`, which has no crash handler then. Does
     /// nothing where the arguments are too many, or cannot be passed on.
-    pub(crate) fn run_on_crash(message: String, args: Vec<OsString>) {
+    pub fn run_on_crash(message: String, args: Vec<OsString>) {
         let args: Result<Vec<_>, _> = args.into_iter().map(|arg| CString::new(arg.into_vec())).collect();
         let Some(args) = args.ok().filter(|args| (1..MOST_ARGS).contains(&args.len())) else { return };
         SUCCESSOR.get_or_init(|| Successor { message, args });
@@ -156,7 +156,7 @@ mod unix {
 
     /// Standard output for lines of the program's own. What native code and scripts write there by themselves goes to standard error from now
     /// on. None where that is not possible.
-    pub(crate) fn reserve_standard_output() -> Option<&'static File> {
+    pub fn reserve_standard_output() -> Option<&'static File> {
         static RESERVED: OnceLock<Option<File>> = OnceLock::new();
         let reserve = || {
             // Processes that are started do not get it.
@@ -168,7 +168,7 @@ mod unix {
     }
 
     /// Whether nobody reads standard output any more, or that which was reserved.
-    pub(crate) fn standard_output_is_closed(reserved: Option<&File>) -> bool {
+    pub fn standard_output_is_closed(reserved: Option<&File>) -> bool {
         let stdout = std::io::stdout();
         let output = reserved.map_or_else(|| stdout.as_fd(), AsFd::as_fd);
         let mut polled = [PollFd::from_borrowed_fd(output, PollFlags::empty())];
@@ -181,25 +181,25 @@ mod unix {
 mod elsewhere {
     use std::fs::File;
 
-    pub(crate) fn note_requests() {}
+    pub fn note_requests() {}
 
-    pub(crate) fn last_request() -> i32 {
+    pub fn last_request() -> i32 {
         super::INTERRUPT
     }
 
-    pub(crate) fn run_on_crash(_: String, _: Vec<std::ffi::OsString>) {}
+    pub fn run_on_crash(_: String, _: Vec<std::ffi::OsString>) {}
 
-    pub(crate) fn reserve_standard_output() -> Option<&'static File> {
+    pub fn reserve_standard_output() -> Option<&'static File> {
         None
     }
 
-    pub(crate) fn standard_output_is_closed(_: Option<&File>) -> bool {
+    pub fn standard_output_is_closed(_: Option<&File>) -> bool {
         false
     }
 
     /// A thread that cannot be interrupted here.
     #[derive(Debug, Clone, Copy)]
-    pub(crate) struct InterruptibleThread;
+    pub struct InterruptibleThread;
 
     impl InterruptibleThread {
         pub(crate) fn current(_: fn()) -> Self {

@@ -16,7 +16,7 @@ use tokio::sync::Notify;
 use tokio::time::{Instant, timeout};
 
 use super::event_loop::{Bell, EventLoop};
-use crate::wire::simx::{Packets, Received, Session, cut};
+use wire::simx::{Packets, Received, Session, cut};
 
 /// A client that is silent for so long is gone.
 const SILENCE: Duration = Duration::from_secs(10);
@@ -31,7 +31,7 @@ const REST: Duration = Duration::from_millis(50);
 const CHUNK: usize = 64 << 10;
 
 /// A server for one client at a time; others wait until that one is gone.
-pub(crate) struct SimxServer {
+pub struct SimxServer {
     shared: Arc<Shared>,
     /// None only while it is dropped.
     thread: Option<JoinHandle<()>>,
@@ -56,7 +56,7 @@ impl SimxServer {
     ///
     /// # Errors
     /// When the system refuses a thread or an event queue.
-    pub(crate) fn start(
+    pub fn start(
         event_loop: &EventLoop,
         listener: TcpListener,
         max_packet: usize,
@@ -87,17 +87,17 @@ impl SimxServer {
     }
 
     /// What is known of the client. Hold it for a moment only: the client waits.
-    pub(crate) fn session(&self) -> MutexGuard<'_, Session> {
+    pub fn session(&self) -> MutexGuard<'_, Session> {
         self.shared.session()
     }
 
     /// The simulator looks for commands.
-    pub(crate) fn note_look(&self) {
+    pub fn note_look(&self) {
         self.shared.bell.answer();
     }
 
     /// The results of commands are there.
-    pub(crate) fn note_executed(&self) {
+    pub fn note_executed(&self) {
         self.shared.executed.notify_one();
     }
 }
@@ -190,7 +190,7 @@ async fn serve(mut stream: TcpStream, shared: &Shared) -> io::Result<()> {
     }
 }
 
-fn refused(violation: crate::wire::simx::Violation) -> io::Error {
+pub fn refused(violation: wire::simx::Violation) -> io::Error {
     io::Error::new(ErrorKind::InvalidData, violation)
 }
 

@@ -46,7 +46,7 @@ pub(super) enum Said {
 
 /// A request, and what its answer must begin with.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Request {
+pub struct Request {
     /// Frames up to the empty one, as they came.
     pub envelope: Vec<u8>,
     pub content: Vec<u8>,

@@ -7,11 +7,11 @@ use geometry::DecompositionParameters;
 use geometry::Mesh;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::scene::shape::Shape;
-use crate::scene::{Data, Handle, Kind, SceneError};
-use crate::script::{Handles, Table};
+use scene::shape::Shape;
+use scene::{Data, Handle, Kind, SceneError};
+use script::{Handles, Table};
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Convex hulls and convex decomposition of shapes.",
     functions: &[("Convex shapes", FUNCTIONS)],
     ..Module::new("simConvex")

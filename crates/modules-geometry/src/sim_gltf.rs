@@ -6,13 +6,13 @@ use std::path::Path;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::format::gltf_file::{GltfFile, Recording};
-use crate::format::scene_file::write_whole;
-use crate::scene::{Handle, SceneError};
-use crate::script::log::verbosity;
-use crate::script::{Handles, Hooks, Host};
+use format::gltf_file::{GltfFile, Recording};
+use format::scene_file::write_whole;
+use scene::{Handle, SceneError};
+use script::log::verbosity;
+use script::{Handles, Hooks, Host};
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "glTF files: scenes with colours, textures, cameras, lights and recorded movements.",
     functions: &[("Contents", CONTENTS), ("Files", FILES), ("Animation", ANIMATION)],
     constants: "TextureFormat.bmp\t6761\nTextureFormat.png\t6762\nTextureFormat.jpg\t6763\n",

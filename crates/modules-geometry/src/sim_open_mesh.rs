@@ -4,11 +4,11 @@ use api_macro::api;
 use mesh_processing::Target;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::scene::shape::Shape;
-use crate::scene::{Data, Handle, Key, Kind, SceneError};
-use crate::script::Table;
+use scene::shape::Shape;
+use scene::{Data, Handle, Key, Kind, SceneError};
+use script::Table;
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Shapes with fewer triangles.",
     functions: &[("Decimation", FUNCTIONS)],
     reference: "getDecimated\tDecimation\tdeprecated\t\n",

@@ -5,12 +5,12 @@ use std::path::Path;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::format::robot_file::{Format, ImportOptions, RobotFile};
-use crate::scene::Data;
-use crate::script::Table;
-use crate::script::log::verbosity;
+use format::robot_file::{Format, ImportOptions, RobotFile};
+use scene::Data;
+use script::Table;
+use script::log::verbosity;
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Robots and worlds from SDF files.",
     functions: &[("Robots and worlds", FUNCTIONS)],
     plugin_errors: true,

@@ -5,12 +5,12 @@ use std::path::Path;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::format::robot_file::{ExportOptions, Format, ImportOptions, RobotFile, export};
-use crate::scene::Handle;
-use crate::script::Number;
-use crate::script::log::verbosity;
+use format::robot_file::{ExportOptions, Format, ImportOptions, RobotFile, export};
+use scene::Handle;
+use script::Number;
+use script::log::verbosity;
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Robots from URDF files, and models as URDF files.",
     functions: &[("Robots", FUNCTIONS)],
     aliases: "importFile\timport\n",

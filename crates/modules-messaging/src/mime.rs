@@ -5,14 +5,14 @@
 use api_macro::api;
 
 use super::{ApiFn, Cx, Module, Result, functions};
-use crate::scene::Data;
-use crate::script::{LuaNumber, LuaString, Results};
-use crate::wire::mime::{
+use scene::Data;
+use script::{LuaNumber, LuaString, Results};
+use wire::mime::{
     QuotedPrintable, decode_base64, decode_quoted_printable, encode_base64, finish_base64, stuff_dots, unify_line_ends,
     wrap_quoted_printable, wrap_text,
 };
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "The low-level filters of mime.",
     functions: &[("Filters", FUNCTIONS)],
     ..Module::new("mime.core")

@@ -1,23 +1,21 @@
 //! The native part of the remote APIs (`lua/library/remote`): messages of programs outside.
 
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::net::TcpListener;
 use std::rc::Rc;
-use std::sync::LazyLock;
 use std::time::Duration;
 
 use api_macro::api;
 
-use super::{ALL, ApiFn, Cx, Module, Result, functions, sim_ws};
-use crate::io::{Incoming, ZmqServer};
-use crate::script::{Bytes, FILES, States, Text};
+use super::{ApiFn, Cx, Module, Result, functions, sim_ws};
+use io::{Incoming, ZmqServer};
+use script::{Bytes, States, Text};
 
-pub(super) static ZMQ: Module = Module { inner: &[FUNCTIONS, TYPES, NAMES], ..Module::new("remote.zmq") };
+pub static ZMQ: Module = Module { inner: &[FUNCTIONS, TYPES, NAMES], ..Module::new("remote.zmq") };
 /// What the library of scripts in Python needs.
-pub(super) static PYTHON: Module = Module { inner: &[TYPES, NAMES], ..Module::new("swanilda.python") };
-pub(super) static WS: Module = Module { inner: &[sim_ws::REMOTE, NAMES], ..Module::new("remote.ws") };
-pub(super) static VISUALIZATION: Module = Module { inner: &[sim_ws::STREAM], ..Module::new("remote.visualization") };
+pub static PYTHON: Module = Module { inner: &[TYPES, NAMES], ..Module::new("swanilda.python") };
+pub static WS: Module = Module { inner: &[sim_ws::REMOTE, NAMES], ..Module::new("remote.ws") };
+pub static VISUALIZATION: Module = Module { inner: &[sim_ws::STREAM], ..Module::new("remote.visualization") };
 
 const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, others];
 /// Types of results.
@@ -34,17 +32,17 @@ struct Listeners {
 }
 
 /// Lets programs outside call functions by ZeroMQ.
-pub(crate) fn set_zmq_server(states: &States, server: ZmqServer) {
+pub fn set_zmq_server(states: &States, server: ZmqServer) {
     states.get::<Listeners>().zmq_server.replace(Some(Rc::new(server)));
 }
 
 /// Where the WebSocket remote API is to listen.
-pub(crate) fn set_web_socket_listener(states: &States, listener: TcpListener) {
+pub fn set_web_socket_listener(states: &States, listener: TcpListener) {
     states.get::<Listeners>().web_socket_listener.replace(Some(listener));
 }
 
 /// Where the visualization stream is to listen.
-pub(crate) fn set_visualization_listener(states: &States, listener: TcpListener) {
+pub fn set_visualization_listener(states: &States, listener: TcpListener) {
     states.get::<Listeners>().visualization_listener.replace(Some(listener));
 }
 
@@ -112,9 +110,9 @@ fn others(cx: &Cx) -> Result<bool> {
 /// @param name of the function, with its module
 /// @return types nothing when the function declares none
 #[api("remote.zmq.returns")]
-fn returns(_cx: &Cx, name: String) -> Result<Option<Vec<String>>> {
-    static DECLARED: LazyLock<HashMap<&str, Vec<String>>> = LazyLock::new(declared);
-    Ok(DECLARED.get(name.as_str()).cloned())
+fn returns(cx: &Cx, name: String) -> Result<Option<Vec<String>>> {
+    let types = cx.env().registry.result_types(&name);
+    Ok(types.map(|types| types.iter().map(|&ty| ty.to_owned()).collect()))
 }
 
 /// The names `sim` has, in alphabetical order; the table itself fills at first use.
@@ -123,20 +121,4 @@ fn returns(_cx: &Cx, name: String) -> Result<Option<Vec<String>>> {
 #[api("remote.zmq.members")]
 fn members(cx: &Cx) -> Result<Vec<String>> {
     Ok(cx.env().registry.members_of_sim().names().into_iter().map(str::to_owned).collect())
-}
-
-/// Types of the results by function: of native ones from their rows, of those in Lua from the comments above them.
-fn declared() -> HashMap<&'static str, Vec<String>> {
-    let rows = ALL.iter().flat_map(|module| module.public_functions());
-    let native = rows.map(|function| (function.name, function.returns.iter().map(|&ty| ty.to_owned()).collect()));
-    let lines = FILES.iter().flat_map(|(_, source)| source.lines()).filter_map(|line| line.strip_prefix("-- @api "));
-    native.chain(lines.filter_map(declared_in_comment)).filter(|(_, types): &(_, Vec<_>)| !types.is_empty()).collect()
-}
-
-/// `int a, float[3] b = module.name(...)`.
-fn declared_in_comment(line: &'static str) -> Option<(&'static str, Vec<String>)> {
-    let (results, call) = line.split_once('(')?.0.rsplit_once(" = ")?;
-    let name = call.trim();
-    let types = results.split(',').filter_map(|result| result.trim().split(' ').next()).map(str::to_owned).collect();
-    Some((name, types))
 }

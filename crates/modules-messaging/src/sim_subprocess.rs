@@ -10,11 +10,11 @@ use std::time::Duration;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::io::{Process, ProcessError, Program};
-use crate::scene::Data;
-use crate::script::{Bytes, Nil, Results, Table};
+use io::{Process, ProcessError, Program};
+use scene::Data;
+use script::{Bytes, Nil, Results, Table};
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Starts programs, where that is allowed (`--allow-run`).",
     functions: &[("Programs", FUNCTIONS)],
     ..Module::new("simSubprocess")

@@ -5,7 +5,7 @@
 use ros_interfaces::{Array, Number, Numbers, Record, Value};
 
 use super::{ApiError, Result};
-use crate::scene::{Data, Key};
+use scene::{Data, Key};
 
 /// The most pixels of a row or column.
 const SIDE: i64 = 1 << 16;

@@ -6,7 +6,7 @@ use ros_interfaces::{
     Array, Duration, Element, Field, FieldType, Layout, Number, NumberType, Numbers, Record, Shape, Time, Value,
 };
 
-use crate::scene::{Data, Key};
+use scene::{Data, Key};
 
 /// How scripts want to see messages.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

@@ -7,9 +7,9 @@ use mesh_processing::{KdTree, register};
 use proximity::{Geometry, Placed, TriangleMesh, distance};
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::scene::{Handle, SceneError};
+use scene::{Handle, SceneError};
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Registration: moves points onto others, or onto a shape.",
     functions: &[("Registration", FUNCTIONS)],
     ..Module::new("simICP")

@@ -5,10 +5,10 @@ use geometry::Mesh;
 use mesh_processing::{SurfaceOptions, surface};
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::scene::shape::Shape;
-use crate::scene::{Handle, Kind, SceneError};
+use scene::shape::Shape;
+use scene::{Handle, Kind, SceneError};
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Shapes of point clouds.",
     functions: &[("Reconstruction", FUNCTIONS)],
     ..Module::new("simSurfRec")

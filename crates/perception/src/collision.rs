@@ -6,18 +6,18 @@ use super::Perception;
 use super::entity::{Entity, Purpose};
 use super::index::{Body, Index};
 use super::pairs::Pairs;
-use crate::scene::{Handle, Scene};
+use scene::{Handle, Scene};
 
 impl Perception {
     /// The first pair of objects that collide.
-    pub(crate) fn collision(&mut self, scene: &Scene, entities: [Entity; 2]) -> Option<[Handle; 2]> {
+    pub fn collision(&mut self, scene: &Scene, entities: [Entity; 2]) -> Option<[Handle; 2]> {
         let pairs = Pairs::of(scene, Purpose::Collision, entities);
         first_collision(&pairs, scene, self.index(scene))
     }
 
     /// Prepares a test of whether any of some pairs of entities collide when `displaced` objects stand elsewhere. It holds for as long as
     /// no object comes or goes or gets another parent, flag or collection.
-    pub(crate) fn collision_test(
+    pub fn collision_test(
         &mut self,
         scene: &Scene,
         entities: &[[Entity; 2]],
@@ -28,13 +28,13 @@ impl Perception {
     }
 
     /// Whether any pair of a test collides, with objects displaced as the test has it. The journal need not mention that.
-    pub(crate) fn collides(&mut self, scene: &Scene, test: &CollisionTest) -> bool {
+    pub fn collides(&mut self, scene: &Scene, test: &CollisionTest) -> bool {
         self.index.place_displaced(scene, &test.displaced);
         test.pairs.iter().any(|pairs| first_collision(pairs, scene, &self.index).is_some())
     }
 
     /// The segments (world, metres) in which the surfaces of the entities intersect.
-    pub(crate) fn intersections(&mut self, scene: &Scene, entities: [Entity; 2]) -> Vec<[[f64; 3]; 2]> {
+    pub fn intersections(&mut self, scene: &Scene, entities: [Entity; 2]) -> Vec<[[f64; 3]; 2]> {
         let pairs = Pairs::of(scene, Purpose::Collision, entities);
         let index = self.index(scene);
         let mut segments = Vec::new();
@@ -48,7 +48,7 @@ impl Perception {
 }
 
 /// Pairs of entities, and what moves with the objects that are displaced.
-pub(crate) struct CollisionTest {
+pub struct CollisionTest {
     pairs: Vec<Pairs>,
     displaced: Vec<Handle>,
 }

@@ -13,13 +13,13 @@ use super::Perception;
 use super::entity::{Group, Purpose};
 use super::index::{Body, Index};
 use super::volume::SearchVolume;
-use crate::scene::sensor::volume::{Volume, VolumeType};
-use crate::scene::sensor::{Detection, ProximitySensor};
-use crate::scene::{Handle, Pose, Scene, SceneResult};
+use scene::sensor::volume::{Volume, VolumeType};
+use scene::sensor::{Detection, ProximitySensor};
+use scene::{Handle, Pose, Scene, SceneResult};
 
 /// How a sensor looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Mode {
+pub struct Mode {
     pub filter: Filter,
     /// Nothing farther away is detected, metres.
     pub reach: f64,
@@ -27,7 +27,7 @@ pub(crate) struct Mode {
 
 impl Mode {
     /// As the sensor is set.
-    pub(crate) fn of(sensor: &ProximitySensor) -> Self {
+    pub fn of(sensor: &ProximitySensor) -> Self {
         let filter = Filter {
             front: sensor.front_faces,
             back: sensor.back_faces,
@@ -38,7 +38,7 @@ impl Mode {
     }
 
     /// As the options of `sim.checkProximitySensor` say: 1 front faces, 2 back faces, 4 fast, 8 limited angle (rad).
-    pub(crate) fn from_options(options: i64, max_angle: f64) -> Self {
+    pub fn from_options(options: i64, max_angle: f64) -> Self {
         let filter = Filter {
             front: options & 3 != 2,
             back: options & 2 != 0,
@@ -49,14 +49,14 @@ impl Mode {
     }
 
     /// The same up to a distance (m); 0 for no limit.
-    pub(crate) fn within(self, threshold: f64) -> Self {
+    pub fn within(self, threshold: f64) -> Self {
         Self { reach: if threshold > 0.0 { threshold } else { self.reach }, ..self }
     }
 }
 
 /// A detected point, and the distance that was measured: of randomised sensors the mean, which is not that of the point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Detected {
+pub struct Detected {
     pub detection: Detection,
     pub distance: f64,
 }
@@ -83,7 +83,7 @@ impl Perception {
     ///
     /// # Errors
     /// When there is no such sensor.
-    pub(crate) fn detect(
+    pub fn detect(
         &mut self,
         scene: &Scene,
         sensor: Handle,

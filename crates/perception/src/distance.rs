@@ -6,11 +6,11 @@ use super::Perception;
 use super::entity::{Entity, Purpose};
 use super::index::Body;
 use super::pairs::Pairs;
-use crate::scene::{Handle, Scene};
+use scene::{Handle, Scene};
 
 /// The closest points of two entities.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Shortest {
+pub struct Shortest {
     /// One of each entity.
     pub objects: [Handle; 2],
     /// On their surfaces, in the world (m).
@@ -20,7 +20,7 @@ pub(crate) struct Shortest {
 
 impl Perception {
     /// The closest points of two entities, if they are nearer than `below` (m).
-    pub(crate) fn distance(&mut self, scene: &Scene, entities: [Entity; 2], below: f64) -> Option<Shortest> {
+    pub fn distance(&mut self, scene: &Scene, entities: [Entity; 2], below: f64) -> Option<Shortest> {
         let pairs = Pairs::of(scene, Purpose::Distance, entities);
         let index = self.index(scene);
         let mut shortest: Option<Shortest> = None;

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use crate::scene::{Handle, Kind, ModelFlags, Object, Scene, SceneError, SceneResult, SpecialFlags, special};
+use scene::{Handle, Kind, ModelFlags, Object, Scene, SceneError, SceneResult, SpecialFlags, special};
 
 /// Purpose of a query. Objects have a flag for each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Purpose {
+pub enum Purpose {
     Collision,
     Distance,
     Detection,
@@ -31,7 +31,7 @@ impl Purpose {
     }
 
     /// Whether an object has the flag, and no model above it that overrides it.
-    pub(crate) fn includes(self, scene: &Scene, object: &Object) -> bool {
+    pub fn includes(self, scene: &Scene, object: &Object) -> bool {
         is_solid(&object.kind)
             && object.special_property.intersects(self.flag())
             && !scene.calculated_model_property(object.handle()).intersects(self.excluded_by())
@@ -45,7 +45,7 @@ pub(super) fn is_solid(kind: &Kind) -> bool {
 
 /// Entity named by a script.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Entity {
+pub enum Entity {
     Object(Handle),
     Collection(i64),
     /// All objects with the flag of the purpose.
@@ -57,7 +57,7 @@ impl Entity {
     ///
     /// # Errors
     /// When there is none.
-    pub(crate) fn named(scene: &Scene, raw: i64) -> SceneResult<Self> {
+    pub fn named(scene: &Scene, raw: i64) -> SceneResult<Self> {
         if let Some(object) = Handle::from_raw(raw).filter(|&handle| scene.exists(handle)) {
             return Ok(Self::Object(object));
         }
@@ -68,12 +68,12 @@ impl Entity {
     ///
     /// # Errors
     /// When there is no such object or collection.
-    pub(crate) fn named_or_all(scene: &Scene, raw: i64) -> SceneResult<Self> {
+    pub fn named_or_all(scene: &Scene, raw: i64) -> SceneResult<Self> {
         if raw == special::ALL { Ok(Self::All) } else { Self::named(scene, raw) }
     }
 
     /// The objects that take part. Flags of an object that is named alone do not count.
-    pub(crate) fn group(self, scene: &Scene, purpose: Purpose) -> Group {
+    pub fn group(self, scene: &Scene, purpose: Purpose) -> Group {
         match self {
             Self::All => Group::All { except: BTreeSet::new() },
             _ => Group::List(self.objects(scene, purpose)),
@@ -121,7 +121,7 @@ fn members(scene: &Scene, collection: i64, purpose: Purpose) -> Vec<Handle> {
 
 /// The objects on one side of a query.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Group {
+pub enum Group {
     /// In the order of the scene.
     List(Vec<Handle>),
     /// All objects with the flag, except for some.
@@ -131,9 +131,9 @@ pub(crate) enum Group {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::perception::tests::cuboid;
-    use crate::scene::object::dummy::Dummy;
-    use crate::scene::{CollectionItem, Field, ItemOptions, Members};
+    use crate::tests::cuboid;
+    use scene::object::dummy::Dummy;
+    use scene::{CollectionItem, Field, ItemOptions, Members};
 
     #[test]
     fn a_model_switches_off_what_is_below() {

@@ -5,14 +5,14 @@ use proximity::{Geometry, Hit, Placed, PointSet, TriangleMesh, cast_ray};
 
 use super::Perception;
 use super::detection::{Mode, range};
-use crate::scene::sensor::volume::VolumeType;
-use crate::scene::{Handle, Pose, Scene, SceneError, SceneResult};
+use scene::sensor::volume::VolumeType;
+use scene::{Handle, Pose, Scene, SceneError, SceneResult};
 
 type Point = [f64; 3];
 
 /// Points, segments or triangles in the frame of a sensor (m).
 #[derive(Debug)]
-pub(crate) enum Items {
+pub enum Items {
     /// Items without extent or with numbers that are not finite are left out: nothing may be left.
     None,
     Points(PointSet),
@@ -25,7 +25,7 @@ impl Items {
     ///
     /// # Errors
     /// When there is no such type, or there are not enough coordinates.
-    pub(crate) fn new(coordinates: &[f64], item_type: i64, count: i64) -> SceneResult<Self> {
+    pub fn new(coordinates: &[f64], item_type: i64, count: i64) -> SceneResult<Self> {
         let corners =
             usize::try_from(item_type).ok().filter(|corners| *corners < 3).ok_or(SceneError::InvalidArgument)? + 1;
         let count = usize::try_from(count).ok().and_then(|count| count.checked_mul(corners));
@@ -48,7 +48,7 @@ impl Perception {
     ///
     /// # Errors
     /// When there is no such sensor.
-    pub(crate) fn detect_items(
+    pub fn detect_items(
         &mut self,
         scene: &Scene,
         sensor: Handle,

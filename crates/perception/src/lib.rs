@@ -3,14 +3,14 @@
 //! Results are computed from the scene when they are asked for. [`Perception`] owns what makes that fast, such as prepared meshes; it is
 //! derived from the scene, and whether it is new or old makes no difference to a result. Only the generator of random numbers has a memory.
 
-pub(crate) mod collision;
-pub(crate) mod detection;
+pub mod collision;
+pub mod detection;
 pub(crate) mod distance;
-pub(crate) mod entity;
+pub mod entity;
 mod index;
-pub(crate) mod items;
+pub mod items;
 mod pairs;
-pub(crate) mod vision;
+pub mod vision;
 mod volume;
 
 #[cfg(test)]
@@ -22,12 +22,12 @@ use std::rc::Rc;
 
 use rand_mt::Mt;
 
-use crate::scene::{Handle, Scene};
 use index::Index;
+use scene::{Handle, Scene};
 use volume::SearchVolume;
 
 /// The state of all perception of one simulator.
-pub(crate) struct Perception {
+pub struct Perception {
     pub vision: vision::Vision,
     index: Index,
     /// The volumes of sensors that were asked.
@@ -40,7 +40,7 @@ pub(crate) struct Perception {
 impl Perception {
     /// Perceives nothing yet. The seed is that of randomised sensors; `render_threads`: how many threads draw pictures; None for as many
     /// as there are processor cores.
-    pub(crate) fn new(seed: u32, render_threads: Option<NonZero<usize>>) -> Self {
+    pub fn new(seed: u32, render_threads: Option<NonZero<usize>>) -> Self {
         let vision = vision::Vision::new(render_threads);
         Self { vision, index: Index::default(), volumes: BTreeMap::new(), seed, random: None }
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::entity::{Entity, Group, Purpose};
 use super::index::{Body, Index};
-use crate::scene::{Handle, Scene};
+use scene::{Handle, Scene};
 
 /// Objects of a collection that is compared with itself are not compared where their indicators differ by one of these.
 const NEIGHBOURS: [u64; 6] = [1, 10, 100, 1000, 10_000, 100_000];
@@ -69,7 +69,7 @@ impl Pairs {
     /// Whether a pair counts: not an object with itself, and no pair twice.
     fn is_compared(&self, scene: &Scene, object: Handle, other: Handle) -> bool {
         let both = self.shared.contains(&object) && self.shared.contains(&other);
-        let created = |object| scene.object(object).ok().map(crate::scene::Object::uid);
+        let created = |object| scene.object(object).ok().map(scene::Object::uid);
         let is_second_time = || created(other) < created(object);
         object != other && !(both && is_second_time()) && !(self.is_self && are_neighbours(scene, object, other))
     }

@@ -8,13 +8,13 @@ use super::Perception;
 use super::detection::{Detected, Mode};
 use super::distance::Shortest;
 use super::entity::{Entity, Purpose};
-use crate::scene::object::dummy::Dummy;
-use crate::scene::sensor::volume::VolumeType;
-use crate::scene::sensor::{ProximityOptions, ProximitySensor};
-use crate::scene::shape::Shape;
-use crate::scene::shape::options::PrimitiveOptions;
-use crate::scene::voxels::octree::{OcTree, Voxel};
-use crate::scene::{Field, Handle, Kind, Pose, Scene};
+use scene::object::dummy::Dummy;
+use scene::sensor::volume::VolumeType;
+use scene::sensor::{ProximityOptions, ProximitySensor};
+use scene::shape::Shape;
+use scene::shape::options::PrimitiveOptions;
+use scene::voxels::octree::{OcTree, Voxel};
+use scene::{Field, Handle, Kind, Pose, Scene};
 
 /// A cube of 0.2 m at x.
 pub(super) fn cuboid(scene: &mut Scene, x: f64) -> Handle {
@@ -180,19 +180,18 @@ fn nothing_is_stored_before_the_first_query_and_nothing_breaks_without_geometry(
     let mut scene = Scene::new();
     let flat = cuboid(&mut scene, 0.0);
     let mesh = geometry::Mesh { vertices: vec![[0.0; 3]; 3], triangles: vec![[0, 1, 2]], normals: vec![[0.0; 3]; 3] };
-    let flatten =
-        |object: &mut crate::scene::Object| object.shape_mut().unwrap().parts[0].mesh = std::rc::Rc::new(mesh);
+    let flatten = |object: &mut scene::Object| object.shape_mut().unwrap().parts[0].mesh = std::rc::Rc::new(mesh);
     scene.modify(flat, Field::Geometry, flatten).unwrap();
     let empty = scene.add("octree", Kind::OcTree(Box::new(OcTree::new(0.1, 1.0)))).unwrap();
     let other = cuboid(&mut scene, 0.0);
     let mut perception = Perception::new(0, None);
-    assert!(!scene.journal().is_followed(crate::scene::Topic::Added));
+    assert!(!scene.journal().is_followed(scene::Topic::Added));
     for object in [flat, empty] {
         let entities = [Entity::Object(object), Entity::Object(other)];
         assert_eq!(perception.distance(&scene, entities, f64::INFINITY), None);
         assert_eq!(perception.collision(&scene, entities), None);
     }
-    assert!(scene.journal().is_followed(crate::scene::Topic::Added));
+    assert!(scene.journal().is_followed(scene::Topic::Added));
 }
 
 #[test]

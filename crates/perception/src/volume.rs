@@ -4,9 +4,9 @@ use std::cell::OnceCell;
 
 use proximity::{Bounds, Filter, Hit, Placed, closest_in_volume};
 
-use crate::scene::Pose;
-use crate::scene::sensor::volume::Volume;
-use crate::scene::sensor::volume_planes::{ConvexPiece, Plane};
+use scene::Pose;
+use scene::sensor::volume::Volume;
+use scene::sensor::volume_planes::{ConvexPiece, Plane};
 
 /// This near to a hole (m), a point is outside of it.
 const TOUCHING: f64 = 1e-12;

@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 pub use bounded::read_bounded;
 pub use network::HostRule;
-pub(crate) use resolve::c_path;
+pub use resolve::c_path;
 use resolve::{resolve, resolve_entry};
 
 /// Permissions of scripts; see the methods named `allow_`.

@@ -9,7 +9,7 @@ use std::path::{Component, Path, PathBuf};
 const MAX_LINKS: usize = 40;
 
 /// The path that C reads in bytes: they end at a NUL.
-pub(crate) fn c_path(bytes: &[u8]) -> PathBuf {
+pub fn c_path(bytes: &[u8]) -> PathBuf {
     let bytes = bytes.split(|&byte| byte == 0).next().unwrap_or_default();
     #[cfg(unix)]
     return <std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(bytes).into();

@@ -8,7 +8,7 @@ use super::buffers::Buffers;
 use super::signature::Row;
 use super::stacks::Stacks;
 use super::{Host, Plugin};
-use crate::scene::Data;
+use scene::Data;
 
 /// What the plugins of one simulator have in common.
 #[derive(Default)]

@@ -7,7 +7,7 @@ use super::current::{Frame, current};
 use super::ffi::Value;
 use super::functions::{self, Function};
 use super::signature::{self, Param, Row, Size};
-use crate::scene::Data;
+use scene::Data;
 
 /// The symbols plugins may look up, one row for each.
 const SYMBOLS: &str = include_str!("symbols.tsv");
@@ -38,7 +38,7 @@ static BOUND: LazyLock<Vec<Bound>> = LazyLock::new(|| {
 });
 
 /// All symbols.
-pub(crate) fn symbols() -> impl Iterator<Item = &'static Row> {
+pub fn symbols() -> impl Iterator<Item = &'static Row> {
     BOUND.iter().map(|bound| &bound.row)
 }
 

@@ -3,7 +3,7 @@
 use super::dispatch::Call;
 use super::stacks::{as_list, insert, item_type, place, table_info, unfolded};
 use super::{Registered, Variable, scene_functions};
-use crate::scene::Data;
+use scene::Data;
 
 pub(super) type Answer = Result<Vec<Data>, String>;
 pub(super) type Function = fn(&Call<'_>) -> Answer;
@@ -291,7 +291,7 @@ fn unpack(call: &Call<'_>) -> Answer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plugin::dispatch::integer;
+    use crate::dispatch::integer;
 
     /// Integers are read from numbers that are a little off.
     #[test]

@@ -22,14 +22,14 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::{Mutex, PoisonError};
 
-use crate::scene::Data;
-pub(crate) use dispatch::symbols;
+pub use dispatch::symbols;
+use scene::Data;
 
 use current::{Frame, Shared, within};
 use ffi::{Callback, Caller, Library, Message};
 
 /// What plugins need of the simulator, in the name of the script on whose behalf they run.
-pub(crate) trait Host {
+pub trait Host {
     /// Calls a function of the API.
     ///
     /// # Errors
@@ -52,7 +52,7 @@ pub(crate) trait Host {
 }
 
 /// A plugin of a simulator.
-pub(crate) struct Plugin {
+pub struct Plugin {
     /// The name under which scripts have its functions.
     pub name: String,
     library: Library,
@@ -73,7 +73,7 @@ struct Registered {
 
 /// A value for scripts.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Variable {
+pub enum Variable {
     /// In Lua.
     Expression(String),
     Value(Data),
@@ -81,7 +81,7 @@ pub(crate) enum Variable {
 
 /// The plugins of one simulator.
 #[derive(Default)]
-pub(crate) struct Plugins {
+pub struct Plugins {
     shared: Rc<Shared>,
     loaded: RefCell<Vec<Rc<Plugin>>>,
     note: Note,
@@ -118,7 +118,7 @@ impl Note {
 
 /// Moments of which plugins are told. The numbers are those of the interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Moment {
+pub enum Moment {
     SceneSaved = 260,
     ModelSaved = 261,
     Pass = 269,
@@ -136,34 +136,34 @@ pub(crate) enum Moment {
 
 impl Plugin {
     /// Names of its functions, in the order of their registration.
-    pub(crate) fn functions(&self) -> Vec<String> {
+    pub fn functions(&self) -> Vec<String> {
         self.functions.borrow().iter().map(|function| function.name.clone()).collect()
     }
 
     /// Names and values of its variables.
-    pub(crate) fn variables(&self) -> Vec<(String, Variable)> {
+    pub fn variables(&self) -> Vec<(String, Variable)> {
         self.variables.borrow().clone()
     }
 
     /// Whether code of it is running.
-    pub(crate) fn is_running(&self) -> bool {
+    pub fn is_running(&self) -> bool {
         self.calls.get() > 0
     }
 }
 
 impl Plugins {
     /// The plugin with that name, if it is loaded.
-    pub(crate) fn get(&self, name: &str) -> Option<Rc<Plugin>> {
+    pub fn get(&self, name: &str) -> Option<Rc<Plugin>> {
         self.loaded.borrow().iter().find(|plugin| plugin.name == name).cloned()
     }
 
     /// All of them, in the order in which they were loaded.
-    pub(crate) fn all(&self) -> Vec<Rc<Plugin>> {
+    pub fn all(&self) -> Vec<Rc<Plugin>> {
         self.loaded.borrow().clone()
     }
 
     /// From now on the function that is running is noted in a file.
-    pub(crate) fn note_calls(&self, file: Option<PathBuf>) {
+    pub fn note_calls(&self, file: Option<PathBuf>) {
         self.note.file.replace(file);
     }
 
@@ -171,7 +171,7 @@ impl Plugins {
     ///
     /// # Errors
     /// Why it cannot run, in a sentence.
-    pub(crate) fn load(&self, host: Rc<dyn Host>, name: &str, path: &Path) -> Result<Rc<Plugin>, String> {
+    pub fn load(&self, host: Rc<dyn Host>, name: &str, path: &Path) -> Result<Rc<Plugin>, String> {
         let own_library = own_library::connected()?;
         let claim = Claim::of(path)?;
         let library = Library::open(path)?;
@@ -197,7 +197,7 @@ impl Plugins {
     ///
     /// # Errors
     /// The error that the plugin has set.
-    pub(crate) fn call(
+    pub fn call(
         &self,
         host: Rc<dyn Host>,
         plugin: &Rc<Plugin>,
@@ -220,7 +220,7 @@ impl Plugins {
     }
 
     /// Sends a message to all plugins.
-    pub(crate) fn send(&self, host: Rc<dyn Host>, moment: Moment, values: [i32; 4]) {
+    pub fn send(&self, host: Rc<dyn Host>, moment: Moment, values: [i32; 4]) {
         for plugin in self.all() {
             let message = Message { id: moment as i32, values };
             self.run(Rc::clone(&host), &plugin, "simMsg", |plugin| plugin.library.receive(message));
@@ -228,7 +228,7 @@ impl Plugins {
     }
 
     /// Ends a plugin. Its library stays in memory.
-    pub(crate) fn unload(&self, host: Rc<dyn Host>, plugin: &Rc<Plugin>) {
+    pub fn unload(&self, host: Rc<dyn Host>, plugin: &Rc<Plugin>) {
         self.loaded.borrow_mut().retain(|loaded| !Rc::ptr_eq(loaded, plugin));
         self.run(host, plugin, "simCleanup", |plugin| plugin.library.clean_up());
     }

@@ -2,7 +2,7 @@
 
 use super::dispatch::Call;
 use super::functions::{Answer, Function};
-use crate::scene::{Data, Key};
+use scene::{Data, Key};
 
 /// Added to the index of a contact: its normal is wanted as well.
 const EXTENDED: i64 = 0x40_0000;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::scene::{Data, Key};
+use scene::{Data, Key};
 
 /// The stacks of a simulator, by handle.
 #[derive(Debug, Default)]

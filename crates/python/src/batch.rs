@@ -8,8 +8,8 @@ use std::time::Duration;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use swanilda::Permissions;
-use swanilda::testing::batch::{self, Row, Run, Store};
-use swanilda::testing::{Allowance, Config};
+use testing::batch::{self, Row, Run, Store};
+use testing::{Allowance, Config};
 
 use crate::errors::Error;
 

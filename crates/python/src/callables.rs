@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
-use swanilda::scene::Data;
+use scene::Data;
 
 use crate::convert;
 

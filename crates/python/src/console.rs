@@ -1,7 +1,7 @@
 //! What scripts print and log, on the streams of Python.
 
 use pyo3::prelude::*;
-use swanilda::script::log::verbosity;
+use script::log::verbosity;
 use swanilda::{Console, LogLine};
 
 /// Writes to `sys.stdout` and `sys.stderr`, whatever they are at the time.
@@ -20,10 +20,10 @@ impl Console for PythonConsole {
         write(if is_bad { "stderr" } else { "stdout" }, &(line.located() + "\n"));
     }
 
-    fn write(&mut self, text: &[u8], stream: swanilda::script::Stream, _: f64) {
+    fn write(&mut self, text: &[u8], stream: script::Stream, _: f64) {
         let name = match stream {
-            swanilda::script::Stream::Output => "stdout",
-            swanilda::script::Stream::Error => "stderr",
+            script::Stream::Output => "stdout",
+            script::Stream::Error => "stderr",
         };
         write(name, &String::from_utf8_lossy(text));
     }

@@ -6,7 +6,7 @@
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyByteArray, PyBytes, PyDict, PyFloat, PyInt, PyList, PyMemoryView, PyString, PyTuple};
-use swanilda::scene::{Data, Key};
+use scene::{Data, Key};
 
 use crate::callables::Callables;
 

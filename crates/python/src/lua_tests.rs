@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use swanilda::testing::{self, Allowance, Config, Outcome, Reporter, Status};
+use testing::{self, Allowance, Config, Outcome, Reporter, Status};
 
 /// Bytes that the scripts of a test may have.
 const MEMORY: usize = 1024 << 20;

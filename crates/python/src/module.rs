@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pyo3::exceptions::{PyAttributeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use swanilda::scene::Data;
+use scene::Data;
 use swanilda::{ApiFunction, ModuleMember, Progress, SimulationState};
 
 use crate::worlds::{Speaker, World};
@@ -110,8 +110,8 @@ impl Function {
 
     #[getter]
     fn __doc__(&self) -> Option<String> {
-        let text = swanilda::docs::functions().into_iter().find(|function| function.name == self.function.name());
-        text.as_ref().map(swanilda::docs::function_text)
+        let text = docs::functions().into_iter().find(|function| function.name == self.function.name());
+        text.as_ref().map(docs::function_text)
     }
 
     fn __repr__(&self) -> String {

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use pyo3::exceptions::PyStopIteration;
 use pyo3::prelude::*;
-use swanilda::scene::Data;
+use scene::Data;
 use swanilda::{Caller, NativeScript};
 
 use crate::callables::{self, Callables};

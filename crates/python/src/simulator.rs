@@ -9,7 +9,7 @@ use std::time::Duration;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple};
-use swanilda::scene::Handle;
+use scene::Handle;
 use swanilda::{Channels, Options, Permissions, ScriptKind, SimulationState, Viewer};
 
 use crate::callables::Callables;

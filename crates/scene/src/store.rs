@@ -258,7 +258,7 @@ impl Scene {
         &self.journal
     }
 
-    pub(crate) fn journal_mut(&mut self) -> &mut Journal {
+    pub fn journal_mut(&mut self) -> &mut Journal {
         &mut self.journal
     }
 }

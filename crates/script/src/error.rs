@@ -1,7 +1,8 @@
 //! Errors of API calls and of the host.
 
-use crate::permissions::Denied;
-use crate::scene::SceneError;
+use geometry::PoseError;
+use permissions::Denied;
+use scene::SceneError;
 
 pub type ApiResult<T> = std::result::Result<T, ApiError>;
 
@@ -73,9 +74,40 @@ pub enum ApiError {
     Other(String),
 }
 
-impl From<crate::ui::UiError> for ApiError {
-    fn from(error: crate::ui::UiError) -> Self {
-        Self::Other(error.to_string())
+/// Errors of the layers and libraries below, which scripts see in the words these have.
+macro_rules! in_their_words {
+    ($($error:ty),* $(,)?) => { $(
+        impl From<$error> for ApiError {
+            fn from(error: $error) -> Self {
+                Self::Other(error.to_string())
+            }
+        }
+    )* };
+}
+
+in_their_words![
+    format::mesh_file::MeshFileError,
+    imaging::matrix::MatrixError,
+    kinematics::KinematicsError,
+    ui::UiError,
+];
+
+impl From<ik::Error> for ApiError {
+    fn from(error: ik::Error) -> Self {
+        match error {
+            ik::Error::Scene(error) => error.into(),
+            ik::Error::Kinematics(error) => error.into(),
+        }
+    }
+}
+
+impl From<PoseError> for ApiError {
+    fn from(error: PoseError) -> Self {
+        match error {
+            PoseError::MissingAxis2 => Self::MoreArguments,
+            PoseError::TransformSize(_) => Self::TableSize,
+            PoseError::UnknownMode(_) => Self::Other(error.to_string()),
+        }
     }
 }
 

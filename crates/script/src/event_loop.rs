@@ -4,18 +4,18 @@ use std::cell::OnceCell;
 use std::rc::Rc;
 use std::time::Duration;
 
-use crate::io::EventLoop;
+use io::EventLoop;
 
 /// The event loop of one simulator.
 #[derive(Default)]
-pub(crate) struct SharedEventLoop(OnceCell<Rc<EventLoop>>);
+pub struct SharedEventLoop(OnceCell<Rc<EventLoop>>);
 
 impl SharedEventLoop {
     /// The event loop, which is created by the first call.
     ///
     /// # Errors
     /// When the system cannot create one.
-    pub(crate) fn get(&self) -> std::io::Result<Rc<EventLoop>> {
+    pub fn get(&self) -> std::io::Result<Rc<EventLoop>> {
         if let Some(event_loop) = self.0.get() {
             return Ok(event_loop.clone());
         }
@@ -24,7 +24,7 @@ impl SharedEventLoop {
     }
 
     /// Runs the sockets until input arrives, at most for `limit`; false at once if there are no sockets.
-    pub(crate) fn wait_for_input(&self, limit: Duration) -> bool {
+    pub fn wait_for_input(&self, limit: Duration) -> bool {
         self.0.get().is_some_and(|event_loop| {
             event_loop.wait(limit);
             true

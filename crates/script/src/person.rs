@@ -4,15 +4,15 @@ use std::rc::Rc;
 use std::sync::atomic::Ordering;
 
 use super::sim::Sim;
-use crate::scene::Data;
-use crate::ui::Question;
+use scene::Data;
+use ui::Question;
 
 /// Asks a question and waits for the answer, as long as the second argument does not say that the simulator is to end. None when nobody answers.
-pub(crate) type Ask = dyn Fn(&Question, &dyn Fn() -> bool) -> Option<Data>;
+pub type Ask = dyn Fn(&Question, &dyn Fn() -> bool) -> Option<Data>;
 
 impl Sim {
     /// Questions go there from now on.
-    pub(crate) fn set_person(&self, ask: Rc<Ask>) {
+    pub fn set_person(&self, ask: Rc<Ask>) {
         self.app.borrow_mut().person = Some(ask);
     }
 

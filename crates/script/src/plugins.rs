@@ -9,9 +9,9 @@ use super::error::{ApiError, ApiResult};
 use super::lifecycle::instance::Script;
 use super::log::verbosity;
 use super::sim::Sim;
-use crate::plugin::{Host, Moment, Plugin, Plugins};
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::{Data, Journal, Mark, Topic, Topics};
+use plugin_host::{Host, Moment, Plugin, Plugins};
+use scene::object::script_object::ScriptType;
+use scene::{Data, Journal, Mark, Topic, Topics};
 
 /// The plugins that are loaded, and who uses them. A simulator without plugins has none of this.
 #[derive(Default)]
@@ -124,7 +124,7 @@ impl Sim {
     /// The object that a script is attached to, or -1.
     fn object_of(&self, script: &Script) -> i64 {
         let scene = self.scene.borrow();
-        let parent = |handle| scene.object(handle).ok().and_then(crate::scene::Object::parent);
+        let parent = |handle| scene.object(handle).ok().and_then(scene::Object::parent);
         script.owner().or_else(|| script.object.and_then(parent)).map_or(-1, |object| object.raw())
     }
 
@@ -170,21 +170,21 @@ impl Sim {
     }
 
     /// Unloads all plugins, at the end of the simulator.
-    pub(crate) fn unload_plugins(self: &Rc<Self>) {
+    pub fn unload_plugins(self: &Rc<Self>) {
         let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else { return };
         loaded.users.borrow_mut().clear();
         self.unload_unused(&loaded);
     }
 
     /// Sends a message to the plugins.
-    pub(in crate::script) fn notify_plugins(self: &Rc<Self>, moment: Moment, values: [i32; 4]) {
+    pub(crate) fn notify_plugins(self: &Rc<Self>, moment: Moment, values: [i32; 4]) {
         let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else { return };
         loaded.changes.set(loaded.changes.get() | change(moment));
         loaded.plugins.send(self.plugin_host(None), moment, values);
     }
 
     /// The message of each turn of the application's loop.
-    pub(in crate::script) fn notify_plugins_of_pass(self: &Rc<Self>) {
+    pub(crate) fn notify_plugins_of_pass(self: &Rc<Self>) {
         let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else { return };
         self.unload_unused(&loaded);
         let changes = loaded.changes.take() | loaded.marks.borrow_mut().changes(self.scene.borrow().journal());

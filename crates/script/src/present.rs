@@ -5,11 +5,11 @@ use std::collections::BTreeSet;
 use super::log::RecentLine;
 use super::sim::Sim;
 use super::step::clock::SimulationState;
-use crate::scene::{Data, Handle, Scene};
+use scene::{Data, Handle, Scene};
 
 /// A simulator at a moment.
 #[derive(Clone, Copy)]
-pub(crate) struct Situation<'a> {
+pub struct Situation<'a> {
     pub scene: &'a Scene,
     /// Another one after another scene was loaded.
     pub scene_uid: i64,
@@ -22,7 +22,7 @@ pub(crate) struct Situation<'a> {
 }
 
 /// A simulator after a step.
-pub(crate) struct Present<'a> {
+pub struct Present<'a> {
     pub now: Situation<'a>,
     /// Lines of the log since the last time.
     pub lines: Vec<RecentLine>,
@@ -35,11 +35,11 @@ pub(crate) struct Present<'a> {
 }
 
 /// A function that looks at each of them.
-pub(crate) type Watcher = Box<dyn FnMut(&Present<'_>)>;
+pub type Watcher = Box<dyn FnMut(&Present<'_>)>;
 
 /// The watcher of a simulator.
 #[derive(Default)]
-pub(crate) struct Watching {
+pub struct Watching {
     watcher: Option<Watcher>,
     /// Lines of the log that were shown.
     lines: u64,
@@ -48,13 +48,13 @@ pub(crate) struct Watching {
 
 impl Sim {
     /// Shows the state after each step from now on; None ends that.
-    pub(crate) fn watch(&self, watcher: Option<Watcher>) {
+    pub fn watch(&self, watcher: Option<Watcher>) {
         self.log.keep_recent();
         self.app.borrow_mut().watching.watcher = watcher;
     }
 
     /// Calls `look` with the present state.
-    pub(crate) fn with_present<T>(&self, look: impl FnOnce(&Present<'_>) -> T) -> T {
+    pub fn with_present<T>(&self, look: impl FnOnce(&Present<'_>) -> T) -> T {
         let (lines, broadcasts) = {
             let watching = &mut self.app.borrow_mut().watching;
             (self.log.recent_since(&mut watching.lines), std::mem::take(&mut watching.broadcasts))
@@ -70,7 +70,7 @@ impl Sim {
     }
 
     /// The simulator with its scene as it is now.
-    pub(crate) fn situation<'a>(&self, scene: &'a Scene) -> Situation<'a> {
+    pub fn situation<'a>(&self, scene: &'a Scene) -> Situation<'a> {
         Situation {
             scene,
             scene_uid: self.scene_uid(),

@@ -10,10 +10,10 @@ use super::coverage::LineCounts;
 use super::error::ApiError;
 use super::lifecycle::env::{Env, Hook};
 use super::sim::Sim;
-use crate::scene::{Data, Key};
+use scene::{Data, Key};
 
 /// A language scripts can be written in.
-pub(crate) trait Language {
+pub trait Language {
     /// Its name in the property `language` of scripts.
     fn name(&self) -> &'static str;
 
@@ -25,7 +25,7 @@ pub(crate) trait Language {
 ///
 /// Calls nest: while one is in progress, the script may call API functions, and these may call the same interpreter again. The
 /// simulator waits for each call, so an interpreter has to ask [`Env::interruption`] again and again while a script runs.
-pub(crate) trait Interpreter {
+pub trait Interpreter {
     /// Prepares the interpreter for a text: library, globals, processes. Called once, first.
     ///
     /// # Errors
@@ -114,13 +114,13 @@ pub(crate) trait Interpreter {
 }
 
 /// A running script: its interpreter, and what the host knows about it.
-pub(crate) struct Runtime<I: Interpreter + ?Sized = dyn Interpreter> {
+pub struct Runtime<I: Interpreter + ?Sized = dyn Interpreter> {
     pub env: Rc<Env>,
     pub interpreter: I,
 }
 
 impl Runtime {
-    pub(crate) fn new<I: Interpreter + 'static>(env: Rc<Env>, interpreter: I) -> Rc<Self> {
+    pub fn new<I: Interpreter + 'static>(env: Rc<Env>, interpreter: I) -> Rc<Self> {
         let runtime: Rc<Self> = Rc::new(Runtime { env, interpreter });
         // An environment is made for one interpreter.
         let _ = runtime.env.runtime.set(Rc::downgrade(&runtime));
@@ -137,7 +137,7 @@ impl<I: Interpreter + ?Sized> Drop for Runtime<I> {
 }
 
 /// A script's own text.
-pub(crate) struct SourceText<'a> {
+pub struct SourceText<'a> {
     pub text: &'a [u8],
     /// Its name in error positions; a file after `@`.
     pub chunk_name: &'a str,
@@ -147,7 +147,7 @@ pub(crate) struct SourceText<'a> {
 
 /// Function that a script is to call.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Callee<'a> {
+pub enum Callee<'a> {
     /// The global function of that name; dots walk through tables. The script's `sysCall_ext`, if there is one, replaces all of them.
     Named(&'a str),
     /// A function the script has passed to the host.
@@ -156,7 +156,7 @@ pub(crate) enum Callee<'a> {
 
 /// The argument of a callback that is called very often: a table of integers.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Integers<'a> {
+pub struct Integers<'a> {
     pub names: &'static [&'static str],
     /// As many as names.
     pub values: &'a [i64],
@@ -171,7 +171,7 @@ impl Integers<'_> {
 
 /// The outcome of a callback.
 #[derive(Debug, PartialEq)]
-pub(crate) enum CallbackResult {
+pub enum CallbackResult {
     NotDefined,
     /// The last value it returned; None when it returned nothing.
     Returned(Option<Data>),
@@ -182,18 +182,18 @@ pub(crate) enum CallbackResult {
 pub struct FunctionRef(i32);
 
 impl FunctionRef {
-    pub(crate) fn new(number: i32) -> Self {
+    pub fn new(number: i32) -> Self {
         Self(number)
     }
 
-    pub(crate) fn number(self) -> i32 {
+    pub fn number(self) -> i32 {
         self.0
     }
 }
 
 /// An error of a script.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ScriptError {
+pub struct ScriptError {
     /// The message, and the traceback where there is one.
     pub text: String,
     /// The error ends the script without a line in the log, as some do in the original.
@@ -201,7 +201,7 @@ pub(crate) struct ScriptError {
 }
 
 impl ScriptError {
-    pub(crate) fn new(text: impl Into<String>) -> Self {
+    pub fn new(text: impl Into<String>) -> Self {
         Self { text: text.into(), is_silent: false }
     }
 
@@ -218,7 +218,7 @@ impl ScriptError {
 
 /// Why a call of a function failed.
 #[derive(Debug, PartialEq)]
-pub(crate) enum CallError {
+pub enum CallError {
     NoSuchFunction,
     Script(ScriptError),
 }
@@ -237,10 +237,10 @@ impl From<ScriptError> for CallError {
 
 /// The languages of a simulator. The first one is for scripts of an unknown language.
 #[derive(Default)]
-pub(crate) struct Languages(Vec<Box<dyn Language>>);
+pub struct Languages(Vec<Box<dyn Language>>);
 
 impl Languages {
-    pub(crate) fn new(languages: Vec<Box<dyn Language>>) -> Self {
+    pub fn new(languages: Vec<Box<dyn Language>>) -> Self {
         Self(languages)
     }
 

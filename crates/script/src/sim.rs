@@ -26,10 +26,10 @@ use super::ros_options::RosOptions;
 use super::runtime::Languages;
 use super::step::clock::Clock;
 use super::test_bench::TestBench;
-use crate::dynamics::Dynamics;
-use crate::perception::Perception;
-use crate::permissions::Permissions;
-use crate::scene::{Handle, Scene, SceneError};
+use dynamics::Dynamics;
+use perception::Perception;
+use permissions::Permissions;
+use scene::{Handle, Scene, SceneError};
 
 /// The options of a simulator.
 #[derive(Debug, Clone)]
@@ -109,7 +109,7 @@ pub struct Limits {
 }
 
 /// Everything a running simulator consists of. Borrows of the parts never outlive a statement that calls a script.
-pub(crate) struct Sim {
+pub struct Sim {
     pub options: Options,
     /// The modules scripts can use, with their state.
     pub modules: Modules,
@@ -132,12 +132,7 @@ pub(crate) struct Sim {
 }
 
 impl Sim {
-    pub(crate) fn new(
-        options: Options,
-        registry: Arc<Registry>,
-        console: Box<dyn Console>,
-        languages: Languages,
-    ) -> Rc<Self> {
+    pub fn new(options: Options, registry: Arc<Registry>, console: Box<dyn Console>, languages: Languages) -> Rc<Self> {
         let perception = RefCell::new(Perception::new(options.seed, options.render_threads));
         let dynamics = RefCell::new(Some(Dynamics::new(options.threads)));
         Rc::new(Self {
@@ -160,7 +155,7 @@ impl Sim {
     }
 
     /// The script with that handle.
-    pub(crate) fn script(&self, id: i64) -> Option<Rc<Script>> {
+    pub fn script(&self, id: i64) -> Option<Rc<Script>> {
         if let Some(script) = self.scripts.get(id) {
             return Some(script);
         }
@@ -213,7 +208,7 @@ impl Sim {
     }
 
     /// Logs in the name of a plugin.
-    pub(in crate::script) fn log_as(&self, origin: &str, level: i64, text: &str) {
+    pub(crate) fn log_as(&self, origin: &str, level: i64, text: &str) {
         let time = self.clock.time();
         self.log_line(&LogLine { origin, level, text, located: None, time, status: false }, None);
     }

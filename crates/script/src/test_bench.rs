@@ -11,7 +11,7 @@ use super::Options;
 use super::coverage::LineCounts;
 use super::log::console::{Console, LogLine, Stream};
 use super::log::verbosity;
-use crate::scene::object::script_object::ScriptType;
+use scene::object::script_object::ScriptType;
 
 /// Bytes of the console a test may fill; the rest is counted only.
 const CONSOLE_SIZE: usize = 1 << 20;

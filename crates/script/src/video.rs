@@ -8,9 +8,9 @@ use std::path::PathBuf;
 use super::log::verbosity;
 use super::sim::Sim;
 use super::step::clock::SimulationState;
-use crate::format::video::{self, VideoError, VideoFile, VideoFormat};
-use crate::perception::vision::{Channels, Viewpoint, first_camera};
-use crate::scene::{Handle, Scene, SceneError};
+use format::video::{self, VideoError, VideoFile, VideoFormat};
+use perception::vision::{Channels, Viewpoint, first_camera};
+use scene::{Handle, Scene, SceneError};
 
 /// `sim.boolparam_video_recording_triggered`.
 const TRIGGERED: i64 = 29;
@@ -51,7 +51,7 @@ pub enum VideoView {
 
 /// The videos of a simulator.
 #[derive(Default)]
-pub(crate) struct Videos {
+pub struct Videos {
     // Boxes, since both are taken out for each step.
     of_user: Option<Box<Recorder>>,
     of_scripts: Option<Box<Recorder>>,
@@ -169,17 +169,17 @@ fn wrong_camera(error: SceneError) -> VideoFailure {
 
 impl Sim {
     /// Begins a video with the next step.
-    pub(crate) fn start_video(&self, options: VideoOptions) {
+    pub fn start_video(&self, options: VideoOptions) {
         self.app.borrow_mut().videos.of_user = Some(Recorder::new(options));
     }
 
     /// Why the video of the user has ended.
-    pub(crate) fn video_failure(&self) -> Option<VideoFailure> {
+    pub fn video_failure(&self) -> Option<VideoFailure> {
         self.app.borrow().videos.of_user.as_ref()?.failure.clone()
     }
 
     /// Completes the video of the user.
-    pub(crate) fn finish_video(&self) -> Result<(), VideoFailure> {
+    pub fn finish_video(&self) -> Result<(), VideoFailure> {
         let recorder = self.app.borrow_mut().videos.of_user.take();
         recorder.map_or(Ok(()), |recorder| recorder.finish())
     }
@@ -227,7 +227,7 @@ impl Sim {
         }
     }
 
-    pub(crate) fn end_video_of_scripts(&self) {
+    pub fn end_video_of_scripts(&self) {
         let recorder = self.app.borrow_mut().videos.of_scripts.take();
         if let Some(recorder) = recorder {
             self.end_video(*recorder);

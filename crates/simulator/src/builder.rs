@@ -3,9 +3,8 @@
 use std::rc::Rc;
 
 use super::{NativeLanguage, NativeScripts, Simulator};
-use crate::modules;
-use crate::permissions::Permissions;
-use crate::script::{Console, Languages, LuaLanguage, Options, PythonHost, PythonLanguage, Silent, Sim, UserModule};
+use permissions::Permissions;
+use script::{Console, Languages, LuaLanguage, Options, PythonHost, PythonLanguage, Silent, Sim, UserModule};
 
 /// Collects what a [`Simulator`] is made of; see [`Simulator::builder`].
 #[must_use = "nothing is made before `build`"]

@@ -3,8 +3,8 @@
 use std::rc::{Rc, Weak};
 
 use super::Error;
-use crate::scene::Data;
-use crate::script::{ApiError, Member, Script, Sim, SimulationState, is_short};
+use scene::Data;
+use script::{ApiError, Member, Script, Sim, SimulationState, is_short};
 
 /// The library's helper for calls from programs.
 const HELPER: &str = "swanilda.calls";

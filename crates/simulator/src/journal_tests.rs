@@ -1,8 +1,8 @@
 //! The journal from both sides: what Rust changes, scripts learn; what scripts change, a reader in Rust learns.
 
-use crate::scene::{Change, Cursor, Data, Field, Handle, Kind, Pose, Topics, Unread};
-use crate::script::Options;
-use crate::simulator::{ScriptKind, ScriptRef, Simulator};
+use crate::{ScriptKind, ScriptRef, Simulator};
+use scene::{Change, Cursor, Data, Field, Handle, Kind, Pose, Topics, Unread};
+use script::Options;
 
 /// Counts events about objects by name, and remembers the last position of the object `watched`.
 const LISTENER: &[u8] = b"
@@ -22,7 +22,7 @@ function placed() return place end
 
 fn simulator() -> (Simulator, Handle) {
     let mut sim = Simulator::new(Options::default());
-    let dummy = Kind::Dummy(crate::scene::object::dummy::Dummy::new(0.01));
+    let dummy = Kind::Dummy(scene::object::dummy::Dummy::new(0.01));
     let dummy = sim.scene_mut().add("watched", dummy).expect("there is room");
     (sim, dummy)
 }

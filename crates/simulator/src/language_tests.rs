@@ -4,14 +4,13 @@ use std::cell::{Cell, OnceCell, RefCell};
 use std::rc::{Rc, Weak};
 use std::sync::atomic::Ordering;
 
-use crate::modules;
-use crate::scene::object::script_object::{ScriptObject, ScriptType};
-use crate::scene::{Data, Kind};
-use crate::script::{
+use crate::{ScriptRef, Simulator};
+use scene::object::script_object::{ScriptObject, ScriptType};
+use scene::{Data, Kind};
+use script::{
     CallError, CallbackResult, Callee, Console, Env, FunctionRef, Handler, HeldFunction, Hook, Interpreter, Language,
     Languages, Limits, LogLine, LuaLanguage, Options, Runtime, ScriptError, Sim, SourceText, SysCall,
 };
-use crate::simulator::{ScriptRef, Simulator};
 
 type Lines = Rc<RefCell<Vec<String>>>;
 type Outcome = Result<Vec<Data>, ScriptError>;

@@ -24,23 +24,25 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use crate::format::scene_file::SceneFile;
-use crate::format::script_file;
-use crate::io::ZmqServer;
-use crate::modules;
-use crate::scene::object::script_object::{ScriptObject, ScriptType};
-use crate::scene::{Data, Handle, Kind, Scene};
-use crate::script::coverage::LineCounts;
-use crate::script::{
-    ApiError, Console, Detached, Options, SceneSource, Script, Sim, SimulationState, SysCall, TestBench,
-};
+use ::scene::object::script_object::{ScriptObject, ScriptType};
+use ::scene::{Data, Handle, Kind, Scene};
+use format::scene_file::SceneFile;
+use format::script_file;
+use io::ZmqServer;
+use script::coverage::LineCounts;
+use script::{ApiError, Detached, SceneSource, Script, Sim, SysCall, TestBench};
 
 pub use builder::Builder;
 pub use caller::{ApiFunction, Caller, ModuleMember, Progress};
 use native_script::{NativeLanguage, NativeScripts};
 pub use native_script::{NativeScript, NativeScriptFactory};
+pub use perception::vision::{Channels, Picture};
 pub use run::{RunLimits, RunObserver, RunTotals};
-pub(crate) use viewing::PropertyRow;
+pub use script::{
+    Console, EmbeddedScript, Limits, LogLine, Options, PythonHost, RosOptions, ScriptCalls, Silent, SimulationState,
+    VideoFailure, VideoOptions, VideoView,
+};
+pub use viewing::PropertyRow;
 
 /// The add-on that serves clients by ZeroMQ.
 const ZMQ_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.zmq'";
@@ -142,7 +144,7 @@ impl Simulator {
     pub fn serve_zmq(&mut self, listener: TcpListener, stop: Arc<AtomicBool>) -> std::io::Result<SocketAddr> {
         let address = listener.local_addr()?;
         let server = ZmqServer::start(self.sim.event_loop.get()?, listener, stop)?;
-        modules::remote::set_zmq_server(&self.sim.modules.states, server);
+        modules_messaging::remote::set_zmq_server(&self.sim.modules.states, server);
         let port = address.port().to_string().into_bytes();
         self.sim.app.borrow_mut().named_params.insert("zmqRemoteApi.rpcPort".to_owned(), port);
         let add_on = self
@@ -159,7 +161,7 @@ impl Simulator {
     /// When the listener cannot be used.
     pub fn serve_ws(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
         let address = listener.local_addr()?;
-        modules::remote::set_web_socket_listener(&self.sim.modules.states, listener);
+        modules_messaging::remote::set_web_socket_listener(&self.sim.modules.states, listener);
         let port = address.port().to_string().into_bytes();
         self.sim.app.borrow_mut().named_params.insert("wsRemoteApi.port".to_owned(), port);
         let add_on = self
@@ -177,7 +179,7 @@ impl Simulator {
     pub fn serve_legacy(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
         let event_loop = self.sim.event_loop.get()?;
         let age = Duration::from_secs_f64(self.sim.clock.wall_seconds());
-        modules::sim_remote_api::serve(&self.sim.modules.states, &event_loop, listener, age)
+        modules_messaging::sim_remote_api::serve(&self.sim.modules.states, &event_loop, listener, age)
     }
 
     /// Streams events (protocol 3) to those that connect by WebSocket, as CoppeliaSim's add-on "Visualization stream" does.
@@ -186,7 +188,7 @@ impl Simulator {
     /// When the listener cannot be used.
     pub fn serve_visualization_stream(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
         let address = listener.local_addr()?;
-        modules::remote::set_visualization_listener(&self.sim.modules.states, listener);
+        modules_messaging::remote::set_visualization_listener(&self.sim.modules.states, listener);
         let port = address.port().to_string().into_bytes();
         self.sim.app.borrow_mut().named_params.insert("visualizationStream.ws.port".to_owned(), port);
         let detached = Detached::of_text("Visualization stream@addOnScript", VISUALIZATION_ADD_ON);
@@ -202,7 +204,7 @@ impl Simulator {
 
     /// Whether scripts have ZeroMQ sockets, whose messages `wait_for_request` does not notice.
     pub fn has_zmq_sockets(&self) -> bool {
-        modules::sim_zmq::has_sockets(&self.sim.modules.states)
+        modules_messaging::sim_zmq::has_sockets(&self.sim.modules.states)
     }
 
     /// Adds a script in Lua, or in Python if its first line is `#python`. Customization scripts, add-ons and the sandbox start at once; a simulation script starts with the simulation.
@@ -333,7 +335,7 @@ impl Simulator {
 
     /// Removes every object.
     pub fn clear_scene(&mut self) {
-        let all: Vec<Handle> = self.scene().objects().map(crate::scene::Object::handle).collect();
+        let all: Vec<Handle> = self.scene().objects().map(::scene::Object::handle).collect();
         // The handles were just read, so none is unknown or given twice.
         let _ = self.sim.remove_objects(&all);
     }
@@ -396,7 +398,7 @@ impl Simulator {
     }
 
     /// The names of the parameters that scripts have read.
-    pub(crate) fn params_read(&self) -> BTreeSet<String> {
+    pub fn params_read(&self) -> BTreeSet<String> {
         self.sim.app.borrow().params_read.borrow().clone()
     }
 

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::{Caller, Error, ScriptKind, ScriptRef, Simulator};
-use crate::scene::object::script_object::{ScriptObject, ScriptType};
-use crate::scene::{Data, Kind};
-use crate::script::{
+use scene::object::script_object::{ScriptObject, ScriptType};
+use scene::{Data, Kind};
+use script::{
     ApiError, CallError, CallbackResult, Callee, Detached, Env, FunctionRef, Hook, Interpreter, Language, Runtime,
     ScriptError, SourceText, SysCall,
 };

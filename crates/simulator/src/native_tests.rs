@@ -3,9 +3,9 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use crate::scene::Data;
-use crate::script::Options;
-use crate::simulator::{Caller, NativeScript, Progress, ScriptKind, ScriptRef, Simulator};
+use crate::{Caller, NativeScript, Progress, ScriptKind, ScriptRef, Simulator};
+use scene::Data;
+use script::Options;
 
 /// Notes what it is called, and calls the API meanwhile.
 struct Robot {

@@ -1,10 +1,10 @@
 //! Pictures and videos of the scene for Rust programs.
 
 use super::{Error, Simulator};
-use crate::perception::vision::{Channels, Picture, projection};
-use crate::scene::Handle;
-use crate::scene::sensor::View;
-use crate::script::{ApiError, VideoFailure, VideoOptions};
+use perception::vision::{Channels, Picture, projection};
+use scene::Handle;
+use scene::sensor::View;
+use script::{ApiError, VideoFailure, VideoOptions};
 
 impl Simulator {
     /// Picture of a camera or a vision sensor; without one the scene from a place where all of it can be seen. `resolution` (width and

@@ -1,7 +1,7 @@
 //! A whole run: loop iterations until scripts, a limit or the caller ends it.
 
 use super::Simulator;
-use crate::script::SimulationState;
+use script::SimulationState;
 
 /// How a run comes to its end, unless a script ends it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -42,7 +42,7 @@ pub trait RunObserver {
 
 impl RunLimits {
     /// Whether a run of that simulator is as long as it may be.
-    pub(crate) fn are_reached(self, sim: &Simulator) -> bool {
+    pub fn are_reached(self, sim: &Simulator) -> bool {
         // Time is a sum of steps; it may fall short of a round number by its rounding errors.
         let late = |limit: f64| sim.time() * (1.0 + 1e-12) >= limit;
         self.steps.is_some_and(|limit| sim.steps() >= limit) || self.time.is_some_and(late)

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::{Error, ScriptKind, Simulator};
-use crate::format::scene_input::SceneInput;
-use crate::permissions::Permissions;
+use format::scene_input::SceneInput;
+use permissions::Permissions;
 
 impl Simulator {
     /// Fills the empty scene from a file, as `swanilda run` does: a scene of CoppeliaSim, a folder made by `unpack`, or a model or script

@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::Simulator;
 
 impl Simulator {
-    /// All windows of scripts with their widgets and values. The head of `crate::ui` (`src/ui/mod.rs`) describes the JSON: `revision`, `windows`,
+    /// All windows of scripts with their widgets and values. The head of `crate::ui` (`crates/ui/src/lib.rs`) describes the JSON: `revision`, `windows`,
     /// `dialogs`, `banners`.
     pub fn ui_snapshot(&self) -> Value {
         self.sim.app.borrow().ui.borrow().snapshot()

@@ -3,15 +3,15 @@
 use std::rc::Rc;
 
 use super::Simulator;
-use crate::dynamics::Contact;
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::{Data, Scene, ValueType};
-use crate::script::log::RecentLine;
-use crate::script::property_table::flags;
-use crate::script::{ApiError, Ask, Present, Situation, SysCall, Watcher};
+use dynamics::Contact;
+use scene::object::script_object::ScriptType;
+use scene::{Data, Scene, ValueType};
+use script::log::RecentLine;
+use script::property_table::flags;
+use script::{ApiError, Ask, Present, Situation, SysCall, Watcher};
 
 /// A property of an object, of the scene or of the application.
-pub(crate) struct PropertyRow {
+pub struct PropertyRow {
     pub name: String,
     /// The class it belongs to.
     pub class: &'static str,
@@ -39,37 +39,37 @@ const NOT_SHOWN: &[&str] = &[
 
 impl Simulator {
     /// Keeps lines of the log from now on, for [`take_recent_lines`](Self::take_recent_lines).
-    pub(crate) fn keep_recent_lines(&self) {
+    pub fn keep_recent_lines(&self) {
         self.sim.log.keep_recent();
     }
 
     /// Lines of the log and prints since the last call.
-    pub(crate) fn take_recent_lines(&self) -> Vec<RecentLine> {
+    pub fn take_recent_lines(&self) -> Vec<RecentLine> {
         self.sim.log.take_recent()
     }
 
     /// Dialogs of scripts are answered by it from now on.
-    pub(crate) fn set_person(&self, ask: Rc<Ask>) {
+    pub fn set_person(&self, ask: Rc<Ask>) {
         self.sim.set_person(ask);
     }
 
     /// Shows the state after each step from now on; None ends that.
-    pub(crate) fn watch(&self, watcher: Option<Watcher>) {
+    pub fn watch(&self, watcher: Option<Watcher>) {
         self.sim.watch(watcher);
     }
 
     /// Calls `look` with the present state, and the lines of the log since the last time.
-    pub(crate) fn with_present<T>(&self, look: impl FnOnce(&Present<'_>) -> T) -> T {
+    pub fn with_present<T>(&self, look: impl FnOnce(&Present<'_>) -> T) -> T {
         self.sim.with_present(look)
     }
 
     /// This simulator with its scene as it is now.
-    pub(crate) fn situation<'a>(&self, scene: &'a Scene) -> Situation<'a> {
+    pub fn situation<'a>(&self, scene: &'a Scene) -> Situation<'a> {
         self.sim.situation(scene)
     }
 
     /// Another one after another scene was loaded.
-    pub(crate) fn scene_uid(&self) -> i64 {
+    pub fn scene_uid(&self) -> i64 {
         self.sim.scene_uid()
     }
 
@@ -77,7 +77,7 @@ impl Simulator {
     ///
     /// # Errors
     /// When there is nothing with that handle.
-    pub(crate) fn property_rows(&self, handle: i64) -> Result<Vec<PropertyRow>, ApiError> {
+    pub fn property_rows(&self, handle: i64) -> Result<Vec<PropertyRow>, ApiError> {
         let sim = &self.sim;
         let target = sim.property_target(handle, &self.the(ScriptType::Sandbox).0)?;
         let (before, after) = sim.rows_of(&target)?;
@@ -102,7 +102,7 @@ impl Simulator {
     ///
     /// # Errors
     /// When there is nothing with that handle, or it has no such property.
-    pub(crate) fn property_type(&self, handle: i64, name: &str) -> Result<ValueType, ApiError> {
+    pub fn property_type(&self, handle: i64, name: &str) -> Result<ValueType, ApiError> {
         let target = self.sim.property_target(handle, &self.the(ScriptType::Sandbox).0)?;
         self.sim.property_info(&target, name).map(|(ty, _)| ty).ok_or(ApiError::UnknownProperty)
     }
@@ -111,7 +111,7 @@ impl Simulator {
     ///
     /// # Errors
     /// When there is no script with that handle.
-    pub(crate) fn script_text(&self, handle: i64) -> Result<(String, String, Vec<u8>), ApiError> {
+    pub fn script_text(&self, handle: i64) -> Result<(String, String, Vec<u8>), ApiError> {
         let script = self.sim.script(handle).ok_or(ApiError::NoSuchScript)?;
         Ok(self.sim.text_of(&script))
     }
@@ -120,28 +120,28 @@ impl Simulator {
     ///
     /// # Errors
     /// When there is no script with that handle.
-    pub(crate) fn configure(&mut self, script: i64) -> Result<bool, ApiError> {
+    pub fn configure(&mut self, script: i64) -> Result<bool, ApiError> {
         let script = self.sim.script(script).ok_or(ApiError::NoSuchScript)?;
         Ok(self.sim.deliver(&script, SysCall::UserConfig, &[]).ran)
     }
 
     /// Starts or resumes the simulation, beyond a pause that [`step_and_pause`](Self::step_and_pause) has set.
-    pub(crate) fn play(&mut self) {
+    pub fn play(&mut self) {
         self.sim.play();
     }
 
     /// Starts or resumes the simulation for that many steps, and pauses it.
-    pub(crate) fn step_and_pause(&mut self, steps: u64) {
+    pub fn step_and_pause(&mut self, steps: u64) {
         self.sim.step_and_pause(steps);
     }
 
     /// Asks for the end of the run, also of one that is about to pause.
-    pub(crate) fn stop_in_place_of_pause(&mut self) {
+    pub fn stop_in_place_of_pause(&mut self) {
         self.sim.stop_in_place_of_pause();
     }
 
     /// Runs so many times as fast as the wall clock from now on; as fast as possible if that is 0.
-    pub(crate) fn set_pace(&mut self, factor: f64) {
+    pub fn set_pace(&mut self, factor: f64) {
         self.sim.set_pace(factor);
     }
 
@@ -149,18 +149,18 @@ impl Simulator {
     ///
     /// # Errors
     /// When the sandbox cannot run.
-    pub(crate) fn evaluate(&mut self, code: &str) -> Result<(), super::Error> {
+    pub fn evaluate(&mut self, code: &str) -> Result<(), super::Error> {
         let sandbox = self.the(ScriptType::Sandbox);
         self.call(&sandbox, "_evalExec", &[Data::text(code)]).map(drop)
     }
 
     /// The handle of the sandbox.
-    pub(crate) fn sandbox(&self) -> i64 {
+    pub fn sandbox(&self) -> i64 {
         self.the(ScriptType::Sandbox).handle()
     }
 
     /// The contacts of the last sub-step of the physics.
-    pub(crate) fn last_contacts(&self) -> Vec<Contact> {
+    pub fn last_contacts(&self) -> Vec<Contact> {
         let dynamics = self.sim.dynamics.borrow();
         let all: Vec<Contact> = dynamics.iter().flat_map(|dynamics| dynamics.contacts()).collect();
         let last = all.last().map(|contact| contact.sub_step);

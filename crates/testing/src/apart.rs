@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use crate::format::scene_input::SceneInput;
-use crate::scene::object::script_object::ScriptType;
-use crate::script::TestBench;
-use crate::script::test_bench::{RunReport, RunRequest};
-use crate::{Options, RunLimits, RunObserver, RunTotals, ScriptKind, Simulator};
+use format::scene_input::SceneInput;
+use scene::object::script_object::ScriptType;
+use script::TestBench;
+use script::test_bench::{RunReport, RunRequest};
+use simulator::{Options, RunLimits, RunObserver, RunTotals, ScriptKind, Simulator};
 
 /// Runs the scene that a test requested. The scene's own modules are found beside it.
 pub(super) fn run_apart(options: Options, request: &RunRequest) -> Result<RunReport, String> {

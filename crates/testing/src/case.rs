@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use super::excerpt::Excerpt;
 use super::golden::Comparison;
-use crate::script::coverage::LineCounts;
-use crate::script::test_bench::{ConsoleLine, Golden};
+use script::coverage::LineCounts;
+use script::test_bench::{ConsoleLine, Golden};
 
 /// One test of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -11,8 +11,8 @@ use serde_json::{Value, json};
 use super::case::{Outcome, Status, TestCase};
 use super::excerpt::Excerpt;
 use super::report;
-use crate::script::coverage::{CountedText, Function, LineCounts};
-use crate::script::test_bench::ConsoleLine;
+use script::coverage::{CountedText, Function, LineCounts};
+use script::test_bench::ConsoleLine;
 
 /// How often the process is looked at.
 const TICK: Duration = Duration::from_millis(5);
@@ -46,14 +46,14 @@ fn wait(mut child: Child, stop: &AtomicBool) -> std::io::Result<(ExitStatus, Str
             child.kill()?;
             break child.wait()?;
         }
-        crate::testing::workers::rest(TICK);
+        crate::workers::rest(TICK);
     };
     // A program that the test has left behind may keep the pipe open.
     for _ in 0..200 {
         if reader.is_finished() {
             break;
         }
-        crate::testing::workers::rest(TICK);
+        crate::workers::rest(TICK);
     }
     let text = if reader.is_finished() { reader.join().unwrap_or_default() } else { String::new() };
     Ok((status, text))

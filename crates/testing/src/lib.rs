@@ -30,10 +30,10 @@ pub use discover::find_files;
 pub use excerpt::Excerpt;
 pub use golden::{Comparison, ComparisonResult, Difference, Divergence, ImageDifference, RecordedImage, Recordings};
 
-use crate::permissions::Permissions;
-use crate::script::coverage::LineCounts;
+use permissions::Permissions;
 use plan::Plan;
 use results::Results;
+use script::coverage::LineCounts;
 use workers::{Message, Task, work};
 
 /// Selection of tests, and how to run them.
@@ -66,7 +66,7 @@ pub struct Config {
     pub allowance: Allowance,
     /// Permissions of scripts; the scene's folder is that of the test's file.
     pub permissions: Permissions,
-    /// Folder of an installation of CoppeliaSim ([`crate::Options::resources`]).
+    /// Folder of an installation of CoppeliaSim ([`simulator::Options::resources`]).
     pub resources: Option<PathBuf>,
     /// The command that runs a test in a process of its own and prints its outcome by [`run_child`]; None: tests run here.
     pub isolate: Option<fn(&TestCase) -> std::process::Command>,
@@ -92,7 +92,7 @@ impl Config {
             filters: Vec::new(),
             shard: None,
             repeat: 1,
-            seed: crate::Options::default().seed,
+            seed: simulator::Options::default().seed,
             fail_fast: false,
             update_golden: false,
             artifacts: PathBuf::new(),

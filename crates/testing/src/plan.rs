@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Config;
 use super::case::{Outcome, TestCase};
-use crate::script::test_bench::CompiledFile;
+use script::test_bench::CompiledFile;
 
 /// Tests of a loaded file.
 pub(super) struct Collection {

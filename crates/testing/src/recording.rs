@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use super::case::{Outcome, TestCase};
-use crate::Simulator;
-use crate::format::scene_file::write_whole;
-use crate::view::recording::{self, Recorded, Recording, RunRecorder};
+use format::scene_file::write_whole;
+use simulator::Simulator;
+use view::recording::{self, Recorded, Recording, RunRecorder};
 
 /// A test that is being recorded.
 pub(super) struct TestRecording {
@@ -49,7 +49,7 @@ fn keep(file: &NamedTempFile, test: &TestCase, folder: &Path) -> std::io::Result
     write_whole(&path.with_extension("swr"), &std::fs::read(file.path())?)?;
     let mut recording = Recording::open(BufReader::new(file.reopen()?)).map_err(std::io::Error::other)?;
     let mut page = BufWriter::new(Vec::new());
-    recording::html(&mut recording, &crate::view::page_file, &mut page).map_err(std::io::Error::other)?;
+    recording::html(&mut recording, &view::page_file, &mut page).map_err(std::io::Error::other)?;
     page.flush()?;
     let page_path = path.with_extension("html");
     write_whole(&page_path, page.get_ref())?;

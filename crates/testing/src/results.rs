@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::case::{Outcome, TestCase};
 use super::golden::{self, Claims};
 use super::{Config, Reporter};
-use crate::script::coverage::LineCounts;
+use script::coverage::LineCounts;
 
 /// Takes what comes back from the tests.
 pub(super) struct Results<'a> {

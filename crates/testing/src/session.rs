@@ -11,10 +11,10 @@ use super::case::{Outcome, Status, TestCase};
 use super::excerpt::{Excerpt, positions};
 use super::plan::{Collection, Found};
 use super::recording::TestRecording;
-use crate::scene::Data;
-use crate::script::TestBench;
-use crate::script::test_bench::CompiledFile;
-use crate::{Limits, Options, ScriptKind, ScriptRef, Simulator};
+use scene::Data;
+use script::TestBench;
+use script::test_bench::CompiledFile;
+use simulator::{Limits, Options, ScriptKind, ScriptRef, Simulator};
 
 /// A simulator that has loaded a test file.
 pub(super) struct Session {

@@ -19,7 +19,7 @@ use super::case::{Outcome, Status, TestCase};
 use super::isolated;
 use super::plan::{Collection, Job};
 use super::session::Session;
-use crate::Simulator;
+use simulator::Simulator;
 
 /// How often the clock is looked at.
 const TICK: Duration = Duration::from_millis(20);

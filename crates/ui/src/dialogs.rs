@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use serde_json::{Value, json};
 
 use super::window::Event;
-use crate::scene::Data;
+use scene::Data;
 
 /// Dialogs that are remembered.
 const MAX_SHOWN: usize = 100;
@@ -14,7 +14,7 @@ const MAX_ANSWERS: usize = 1000;
 
 /// What a dialog asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum DialogKind {
+pub enum DialogKind {
     Message,
     File,
     Color,
@@ -25,7 +25,7 @@ impl DialogKind {
     const ALL: [Self; 4] = [Self::Message, Self::File, Self::Color, Self::Input];
 
     /// The name of the function that opens it.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Message => "msgBox",
             Self::File => "fileDialog",
@@ -34,14 +34,14 @@ impl DialogKind {
         }
     }
 
-    pub(crate) fn named(name: &str) -> Option<Self> {
+    pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 }
 
 /// A dialog that was shown.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Shown {
+pub struct Shown {
     /// Counts from 1.
     pub number: u64,
     pub kind: DialogKind,
@@ -52,7 +52,7 @@ pub(crate) struct Shown {
 
 /// A line of text above all windows, with buttons.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Banner {
+pub struct Banner {
     pub id: i64,
     pub text: String,
     /// Key and label.
@@ -64,7 +64,7 @@ pub(crate) struct Banner {
 
 /// Dialogs and banners of a simulator.
 #[derive(Debug, Default)]
-pub(crate) struct Dialogs {
+pub struct Dialogs {
     answers: VecDeque<(DialogKind, Data)>,
     shown: VecDeque<Shown>,
     count: u64,
@@ -77,7 +77,7 @@ impl Dialogs {
     ///
     /// # Errors
     /// When too many are waiting.
-    pub(crate) fn leave_answer(&mut self, kind: DialogKind, answer: Data) -> Result<(), String> {
+    pub fn leave_answer(&mut self, kind: DialogKind, answer: Data) -> Result<(), String> {
         if self.answers.len() >= MAX_ANSWERS {
             return Err(format!("{MAX_ANSWERS} answers wait for dialogs already."));
         }
@@ -86,13 +86,13 @@ impl Dialogs {
     }
 
     /// The answer that was left for a dialog of this kind, if there is one.
-    pub(crate) fn take_answer(&mut self, kind: DialogKind) -> Option<Data> {
+    pub fn take_answer(&mut self, kind: DialogKind) -> Option<Data> {
         let at = self.answers.iter().position(|(of, _)| *of == kind)?;
         self.answers.remove(at).map(|(_, answer)| answer)
     }
 
     /// Notes a dialog with its answer, for pages and tests.
-    pub(crate) fn note(&mut self, kind: DialogKind, title: &str, text: &str, answer: String) {
+    pub fn note(&mut self, kind: DialogKind, title: &str, text: &str, answer: String) {
         self.count += 1;
         if self.shown.len() >= MAX_SHOWN {
             self.shown.pop_front();
@@ -102,23 +102,23 @@ impl Dialogs {
     }
 
     /// The dialogs that were shown; the oldest ones may be gone.
-    pub(crate) fn shown(&self) -> impl Iterator<Item = &Shown> {
+    pub fn shown(&self) -> impl Iterator<Item = &Shown> {
         self.shown.iter()
     }
 
     /// Shows a banner; its id.
-    pub(crate) fn add_banner(&mut self, banner: Banner) -> i64 {
+    pub fn add_banner(&mut self, banner: Banner) -> i64 {
         self.last_banner += 1;
         self.banners.push(Banner { id: self.last_banner, ..banner });
         self.last_banner
     }
 
-    pub(crate) fn has_banner(&self, id: i64) -> bool {
+    pub fn has_banner(&self, id: i64) -> bool {
         self.banners.iter().any(|banner| banner.id == id)
     }
 
     /// Whether there was such a banner.
-    pub(crate) fn remove_banner(&mut self, id: i64) -> bool {
+    pub fn remove_banner(&mut self, id: i64) -> bool {
         let before = self.banners.len();
         self.banners.retain(|banner| banner.id != id);
         self.banners.len() != before

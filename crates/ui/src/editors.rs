@@ -16,7 +16,7 @@ pub(super) struct Panes {
 
 /// What scripts learn of a text editor.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct EditorState {
+pub struct EditorState {
     pub text: String,
     pub position: [i64; 2],
     pub size: [i64; 2],
@@ -29,7 +29,7 @@ const MAX_CONSOLE: usize = 1 << 20;
 impl Ui {
     /// Opens a text editor. Of the properties, an element in XML, `title`, `editable`, `closeable`, `position`, `size` and `on-close` count. Returns its number
     /// and the handle of its window.
-    pub(crate) fn open_editor(&mut self, text: &str, properties: &str, owner: i64) -> (i64, String) {
+    pub fn open_editor(&mut self, text: &str, properties: &str, owner: i64) -> (i64, String) {
         let properties = xml::parse(properties).unwrap_or_default();
         let attribute = |names: &[&str]| {
             let found = properties.attributes.iter().find(|(name, _)| names.contains(&name.as_str()));
@@ -62,20 +62,20 @@ impl Ui {
     }
 
     /// What an editor shows; None without such an editor.
-    pub(crate) fn editor(&self, number: i64) -> Option<EditorState> {
+    pub fn editor(&self, number: i64) -> Option<EditorState> {
         let window = self.window(self.panes.editors.get(&number)?).ok()?;
         let text = window.get::<TextBrowser>(1).ok()?.text.clone();
         Some(EditorState { text, position: window.position, size: window.size, visible: window.visible })
     }
 
     /// Shows or hides an editor; whether there is one.
-    pub(crate) fn show_editor(&mut self, number: i64, visible: bool) -> bool {
+    pub fn show_editor(&mut self, number: i64, visible: bool) -> bool {
         let Some(handle) = self.panes.editors.get(&number).cloned() else { return false };
         self.set_visible(&handle, visible).is_ok()
     }
 
     /// Closes an editor, and returns what it showed; None without such an editor.
-    pub(crate) fn close_editor(&mut self, number: i64) -> Option<EditorState> {
+    pub fn close_editor(&mut self, number: i64) -> Option<EditorState> {
         let state = self.editor(number);
         if let Some(handle) = self.panes.editors.remove(&number) {
             // The window may be gone with its script.
@@ -85,7 +85,7 @@ impl Ui {
     }
 
     /// Opens a console; the handle of its window.
-    pub(crate) fn open_console(&mut self, title: &str, position: Option<[i64; 2]>, size: Option<[i64; 2]>) -> String {
+    pub fn open_console(&mut self, title: &str, position: Option<[i64; 2]>, size: Option<[i64; 2]>) -> String {
         let kind =
             Kind::TextBrowser(TextBrowser { text_type: TextType::Plain, read_only: true, ..TextBrowser::default() });
         // A console is the simulator's: it stays when its script ends.
@@ -103,7 +103,7 @@ impl Ui {
     ///
     /// # Errors
     /// When the window is gone.
-    pub(crate) fn print_to_console(&mut self, handle: &str, text: Option<&str>, lines: usize) -> UiResult<()> {
+    pub fn print_to_console(&mut self, handle: &str, text: Option<&str>, lines: usize) -> UiResult<()> {
         self.change(handle, |window| {
             let shown = &mut window.get_mut::<TextBrowser>(1)?.text;
             match text {
@@ -121,7 +121,7 @@ impl Ui {
 
     /// # Errors
     /// When the window is gone.
-    pub(crate) fn set_visible(&mut self, handle: &str, visible: bool) -> UiResult<()> {
+    pub fn set_visible(&mut self, handle: &str, visible: bool) -> UiResult<()> {
         self.change(handle, |window| {
             window.visible = visible;
             Ok(())

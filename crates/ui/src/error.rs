@@ -2,7 +2,7 @@
 
 /// An error of a call about windows.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub(crate) enum UiError {
+pub enum UiError {
     #[error("invalid object handle")]
     NoSuchWindow,
     #[error("invalid widget id: {0}")]
@@ -28,4 +28,4 @@ impl UiError {
     }
 }
 
-pub(crate) type UiResult<T> = Result<T, UiError>;
+pub type UiResult<T> = Result<T, UiError>;

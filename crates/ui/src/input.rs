@@ -5,11 +5,11 @@ use super::widgets::{
     Tabs, TextBrowser, Tree,
 };
 use super::window::Window;
-use crate::scene::Data;
+use scene::Data;
 
 /// A value as a person enters it.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum InputValue {
+pub enum InputValue {
     Bool(bool),
     Number(f64),
     Text(String),
@@ -17,7 +17,7 @@ pub(crate) enum InputValue {
 
 /// Keys that are held down meanwhile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Modifiers {
+pub struct Modifiers {
     pub shift: bool,
     pub control: bool,
     pub alt: bool,
@@ -25,7 +25,7 @@ pub(crate) struct Modifiers {
 
 impl Modifiers {
     /// As handlers get them.
-    pub(crate) fn data(self) -> Data {
+    pub fn data(self) -> Data {
         Data::map([
             ("shift", Data::Bool(self.shift)),
             ("control", Data::Bool(self.control)),
@@ -36,7 +36,7 @@ impl Modifiers {
 
 /// What the left mouse button does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Mouse {
+pub enum Mouse {
     Down,
     Up,
     Move,
@@ -55,7 +55,7 @@ impl Mouse {
 
 /// What a person does with a widget.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Input {
+pub enum Input {
     /// Of buttons, radio buttons and check boxes.
     Click,
     /// A new value, text or choice.
@@ -288,7 +288,7 @@ impl Window {
     }
 
     /// The value of a widget, as a person sees it; None for one without.
-    pub(crate) fn value(&self, id: i64) -> Option<Data> {
+    pub fn value(&self, id: i64) -> Option<Data> {
         Some(match self.kind(id).ok()? {
             Kind::Slider(Slider { value, .. }) | Kind::Checkbox(Checkbox { value, .. }) => Data::Int(*value),
             Kind::Spinbox(Spinbox { value, decimals: None, .. }) => Data::Int(*value as i64),

@@ -91,23 +91,23 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use serde_json::{Value, json};
 
-use crate::scene::Data;
 use build::Warning;
 use editors::Panes;
 use json::{Action, action};
+use scene::Data;
 use views::FloatingViews;
 
-pub(crate) use dialogs::{Banner, DialogKind, Dialogs};
-pub(crate) use editors::EditorState;
-pub(crate) use error::{UiError, UiResult};
-pub(crate) use input::{Input, InputValue, Modifiers};
-pub(crate) use question::{Details, Question, answer_of_page};
-pub(crate) use widgets::{
+pub use dialogs::{Banner, DialogKind, Dialogs};
+pub use editors::EditorState;
+pub use error::{UiError, UiResult};
+pub use input::{Input, InputValue, Modifiers};
+pub use question::{Details, Question, answer_of_page};
+pub use widgets::{
     Button, Cell, Checkbox, Combobox, Curve, CurveOptions, CurveType, Edit, Image, Kind, Label, Plot, Properties,
     Property, Radiobutton, Scene3d, Slider, Spinbox, Svg, Table, Tabs, TextBrowser, Tree,
 };
 use widgets::{Container, Item, Widget};
-pub(crate) use window::{Event, Source, Window};
+pub use window::{Event, Source, Window};
 
 /// Inputs that may wait for the simulator; further ones are refused.
 const MAX_WAITING: usize = 10_000;
@@ -116,7 +116,7 @@ const MAX_REMOVED: usize = 1000;
 
 /// All windows of a simulator.
 #[derive(Debug, Default)]
-pub(crate) struct Ui {
+pub struct Ui {
     windows: BTreeMap<u64, Window>,
     /// The number of the last window.
     last: u64,
@@ -144,12 +144,7 @@ impl Ui {
     ///
     /// # Errors
     /// When the text is wrong.
-    pub(crate) fn create(
-        &mut self,
-        text: &str,
-        owner: i64,
-        names: BTreeMap<String, i64>,
-    ) -> UiResult<(String, Vec<String>)> {
+    pub fn create(&mut self, text: &str, owner: i64, names: BTreeMap<String, i64>) -> UiResult<(String, Vec<String>)> {
         let (mut window, warnings) = build::window(text, &mut self.anonymous).map_err(UiError::Xml)?;
         window.names = names.into_iter().filter(|(_, id)| window.widgets.contains_key(id)).collect();
         window.visible = true;
@@ -207,7 +202,7 @@ impl Ui {
 
     /// # Errors
     /// When there is no such window.
-    pub(crate) fn window(&self, handle: &str) -> UiResult<&Window> {
+    pub fn window(&self, handle: &str) -> UiResult<&Window> {
         let number = self.number(handle)?;
         self.windows.get(&number).ok_or(UiError::NoSuchWindow)
     }
@@ -221,7 +216,7 @@ impl Ui {
     ///
     /// # Errors
     /// When there is no such window, or those of `change`.
-    pub(crate) fn change<T>(&mut self, handle: &str, change: impl FnOnce(&mut Window) -> UiResult<T>) -> UiResult<T> {
+    pub fn change<T>(&mut self, handle: &str, change: impl FnOnce(&mut Window) -> UiResult<T>) -> UiResult<T> {
         let number = self.number(handle)?;
         let window = self.windows.get_mut(&number).ok_or(UiError::NoSuchWindow)?;
         let outcome = change(window);
@@ -233,7 +228,7 @@ impl Ui {
 
     /// # Errors
     /// When there is no such window.
-    pub(crate) fn destroy(&mut self, handle: &str) -> UiResult<()> {
+    pub fn destroy(&mut self, handle: &str) -> UiResult<()> {
         let number = self.number(handle)?;
         self.windows.remove(&number);
         self.revision += 1;
@@ -245,17 +240,17 @@ impl Ui {
     }
 
     /// Something that is not in a window has changed.
-    pub(crate) fn touch(&mut self) {
+    pub fn touch(&mut self) {
         self.revision += 1;
     }
 
     /// How many events wait.
-    pub(crate) fn waiting(&self) -> usize {
+    pub fn waiting(&self) -> usize {
         self.events.len()
     }
 
     /// The next event; of those that are about something that is gone, the text of a warning.
-    pub(crate) fn next_event(&mut self) -> Option<Result<Event, String>> {
+    pub fn next_event(&mut self) -> Option<Result<Event, String>> {
         let event = self.events.pop_front()?;
         let Some(window) = event.window else { return Some(Ok(event)) };
         let exists = self
@@ -266,7 +261,7 @@ impl Ui {
     }
 
     /// Goes on with an edit whose text was evaluated: it becomes the result, and its handlers run.
-    pub(crate) fn replace_by_result(&mut self, window: u64, widget: i64, result: String) {
+    pub fn replace_by_result(&mut self, window: u64, widget: i64, result: String) {
         let handle = format!("{window:x}:UI");
         // The window may have been destroyed by the evaluation: then there is nothing to do.
         let _ = self.change(&handle, |window| {
@@ -277,7 +272,7 @@ impl Ui {
     }
 
     /// Everything a page shows. The head of this module describes it.
-    pub(crate) fn snapshot(&self) -> Value {
+    pub fn snapshot(&self) -> Value {
         json!({
             "revision": self.revision,
             "windows": self.windows.values().map(Window::json).collect::<Vec<_>>(),
@@ -288,7 +283,7 @@ impl Ui {
     }
 
     /// What has changed since a revision; None for nothing. The head of this module describes it.
-    pub(crate) fn changes_since(&self, since: u64) -> Option<Value> {
+    pub fn changes_since(&self, since: u64) -> Option<Value> {
         if since == self.revision {
             return None;
         }
@@ -311,7 +306,7 @@ impl Ui {
     ///
     /// # Errors
     /// What is wrong with the request, or why it is refused.
-    pub(crate) fn input(&mut self, json: &Value) -> Result<(), String> {
+    pub fn input(&mut self, json: &Value) -> Result<(), String> {
         match action(json)? {
             Action::Widget { window, widget, input } => self.widget_input(&window, widget, input),
             Action::Close { window, escape } => self.close(&window, escape),
@@ -330,7 +325,7 @@ impl Ui {
     ///
     /// # Errors
     /// Why it is refused.
-    pub(crate) fn widget_input(&mut self, window: &str, widget: i64, input: Input) -> Result<(), String> {
+    pub fn widget_input(&mut self, window: &str, widget: i64, input: Input) -> Result<(), String> {
         self.check_reachable(window)?;
         if let Input::Key { modifiers, .. } | Input::Mouse { modifiers, .. } = &input {
             self.modifiers = *modifiers;
@@ -359,7 +354,7 @@ impl Ui {
     ///
     /// # Errors
     /// When the window cannot be closed by persons.
-    pub(crate) fn close(&mut self, handle: &str, escape: bool) -> Result<(), String> {
+    pub fn close(&mut self, handle: &str, escape: bool) -> Result<(), String> {
         self.check_reachable(handle)?;
         self.change(handle, |window| {
             if !escape && !window.closeable {

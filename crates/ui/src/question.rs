@@ -3,11 +3,11 @@
 use serde_json::{Value, json};
 
 use super::dialogs::DialogKind;
-use crate::scene::Data;
+use scene::Data;
 
 /// A dialog that waits.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Question {
+pub struct Question {
     pub title: String,
     pub text: String,
     pub details: Details,
@@ -15,7 +15,7 @@ pub(crate) struct Question {
 
 /// What a dialog asks for.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Details {
+pub enum Details {
     /// One of the buttons; the usual one is pressed by Enter.
     Message {
         buttons: Vec<&'static str>,
@@ -45,14 +45,14 @@ pub(crate) enum Details {
 
 impl Details {
     /// A file to load, of any kind.
-    pub(crate) fn any_file() -> Self {
+    pub fn any_file() -> Self {
         let none = String::new;
         Self::Files { selects: 0, start_path: none(), initial_name: none(), extension_name: none(), extensions: none() }
     }
 }
 
 impl Question {
-    pub(crate) fn kind(&self) -> DialogKind {
+    pub fn kind(&self) -> DialogKind {
         match self.details {
             Details::Message { .. } => DialogKind::Message,
             Details::Files { .. } => DialogKind::File,
@@ -62,7 +62,7 @@ impl Question {
     }
 
     /// As pages get it (docs/VIEW_PROTOCOL.md).
-    pub(crate) fn json(&self, number: u64) -> Value {
+    pub fn json(&self, number: u64) -> Value {
         let mut all = json!({"number": number, "kind": self.kind().name(), "title": self.title, "text": self.text});
         let details = match &self.details {
             Details::Message { buttons, usual, level } => json!({"buttons": buttons, "usual": usual, "type": level}),
@@ -81,7 +81,7 @@ impl Question {
 }
 
 /// What a page answers: texts, numbers, and lists of them. None for null and for what is no answer.
-pub(crate) fn answer_of_page(answer: &Value) -> Option<Data> {
+pub fn answer_of_page(answer: &Value) -> Option<Data> {
     match answer {
         Value::String(text) => Some(Data::text(text)),
         Value::Number(number) => number.as_i64().map(Data::Int).or_else(|| number.as_f64().map(Data::Float)),

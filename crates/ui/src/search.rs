@@ -9,7 +9,7 @@ impl Ui {
     ///
     /// # Errors
     /// Which windows there are.
-    pub(crate) fn find_window(&self, title: &str) -> Result<String, String> {
+    pub fn find_window(&self, title: &str) -> Result<String, String> {
         let named = |window: &&Window| window.title == title || window.handle() == title;
         let mut found: Vec<&Window> = self.windows().filter(named).collect();
         found.sort_by_key(|window| (window.is_visible(), window.id));
@@ -28,7 +28,7 @@ impl Window {
     ///
     /// # Errors
     /// Which widgets there are.
-    pub(crate) fn find_widget(&self, name: &str) -> Result<i64, String> {
+    pub fn find_widget(&self, name: &str) -> Result<i64, String> {
         let order = self.in_reading_order();
         let by_name = self.names.get(name).copied();
         let by_id = || name.parse().ok().filter(|id| self.widgets.contains_key(id));

@@ -6,14 +6,14 @@ use super::widgets::{
     Tabs, TextBrowser, TextType, Tree,
 };
 use super::window::Window;
-use crate::scene::Data;
+use scene::Data;
 
 impl Window {
     /// Presses or releases a button that stays down; others stay as they are.
     ///
     /// # Errors
     /// When it is no button.
-    pub(crate) fn set_button_pressed(&mut self, id: i64, pressed: bool) -> UiResult<()> {
+    pub fn set_button_pressed(&mut self, id: i64, pressed: bool) -> UiResult<()> {
         let button = self.get_mut::<Button>(id)?;
         if !button.checkable {
             return Ok(());
@@ -39,7 +39,7 @@ impl Window {
 
     /// # Errors
     /// When it is no slider.
-    pub(crate) fn set_slider(&mut self, id: i64, value: i64, raise: bool) -> UiResult<()> {
+    pub fn set_slider(&mut self, id: i64, value: i64, raise: bool) -> UiResult<()> {
         let slider = self.get_mut::<Slider>(id)?;
         let value = slider.clamped(value);
         let changes = std::mem::replace(&mut slider.value, value) != value;
@@ -55,7 +55,7 @@ impl Window {
 
     /// # Errors
     /// When it is no edit.
-    pub(crate) fn set_edit(&mut self, id: i64, value: String, raise: bool) -> UiResult<()> {
+    pub fn set_edit(&mut self, id: i64, value: String, raise: bool) -> UiResult<()> {
         let edit = self.get_mut::<Edit>(id)?;
         let changes = edit.value != value;
         edit.value.clone_from(&value);
@@ -68,7 +68,7 @@ impl Window {
     ///
     /// # Errors
     /// When it is no edit.
-    pub(crate) fn select_edit(&mut self, id: i64) -> UiResult<()> {
+    pub fn select_edit(&mut self, id: i64) -> UiResult<()> {
         if id == -1 {
             return Ok(());
         }
@@ -83,7 +83,7 @@ impl Window {
 
     /// # Errors
     /// When it is no spin box.
-    pub(crate) fn set_spinbox(&mut self, id: i64, value: f64, raise: bool) -> UiResult<()> {
+    pub fn set_spinbox(&mut self, id: i64, value: f64, raise: bool) -> UiResult<()> {
         let spinbox = self.get_mut::<Spinbox>(id)?;
         let value = spinbox.clamped(value);
         let changes = std::mem::replace(&mut spinbox.value, value) != value;
@@ -94,7 +94,7 @@ impl Window {
 
     /// # Errors
     /// When it is no check box, or the value is none of 0, 1 and 2.
-    pub(crate) fn set_checkbox(&mut self, id: i64, value: i64, raise: bool) -> UiResult<()> {
+    pub fn set_checkbox(&mut self, id: i64, value: i64, raise: bool) -> UiResult<()> {
         let checkbox = self.get_mut::<Checkbox>(id)?;
         if !(0..=2).contains(&value) {
             return Err(UiError::other("invalid checkbox value: must be 0, 1 or 2"));
@@ -108,7 +108,7 @@ impl Window {
     ///
     /// # Errors
     /// When it is no radio button, or the value is none of 0 and 1.
-    pub(crate) fn set_radiobutton(&mut self, id: i64, value: i64) -> UiResult<()> {
+    pub fn set_radiobutton(&mut self, id: i64, value: i64) -> UiResult<()> {
         let button = self.get_mut::<Radiobutton>(id)?;
         match value {
             0 if button.auto_exclusive => {}
@@ -126,7 +126,7 @@ impl Window {
 
     /// # Errors
     /// When it is no label.
-    pub(crate) fn set_label(&mut self, id: i64, text: String) -> UiResult<()> {
+    pub fn set_label(&mut self, id: i64, text: String) -> UiResult<()> {
         self.get_mut::<Label>(id)?.text = text;
         Ok(())
     }
@@ -135,7 +135,7 @@ impl Window {
     ///
     /// # Errors
     /// When it is no combo box.
-    pub(crate) fn change_combobox(&mut self, id: i64, raise: bool, change: impl FnOnce(&mut Combobox)) -> UiResult<()> {
+    pub fn change_combobox(&mut self, id: i64, raise: bool, change: impl FnOnce(&mut Combobox)) -> UiResult<()> {
         let combobox = self.get_mut::<Combobox>(id)?;
         let before = combobox.selected;
         change(combobox);
@@ -149,7 +149,7 @@ impl Window {
     ///
     /// # Errors
     /// When they are no tabs.
-    pub(crate) fn set_tab(&mut self, id: i64, index: i64) -> UiResult<()> {
+    pub fn set_tab(&mut self, id: i64, index: i64) -> UiResult<()> {
         let tabs = self.get_mut::<Tabs>(id)?;
         if let Some(index) = usize::try_from(index).ok().filter(|index| *index < tabs.pages.len()) {
             tabs.current = index;
@@ -161,7 +161,7 @@ impl Window {
     ///
     /// # Errors
     /// When it is no progress bar.
-    pub(crate) fn set_progress(&mut self, id: i64, value: i64) -> UiResult<()> {
+    pub fn set_progress(&mut self, id: i64, value: i64) -> UiResult<()> {
         let bar = self.get_mut::<ProgressBar>(id)?;
         if (bar.minimum..=bar.maximum).contains(&value) {
             bar.value = value;
@@ -171,7 +171,7 @@ impl Window {
 
     /// # Errors
     /// When it is no text browser.
-    pub(crate) fn set_browser_text(&mut self, id: i64, text: String, raise: bool) -> UiResult<()> {
+    pub fn set_browser_text(&mut self, id: i64, text: String, raise: bool) -> UiResult<()> {
         let browser = self.get_mut::<TextBrowser>(id)?;
         let changes = browser.text != text;
         browser.text.clone_from(&text);
@@ -188,7 +188,7 @@ impl Window {
     ///
     /// # Errors
     /// When it is no table.
-    pub(crate) fn set_cell(&mut self, id: i64, [row, column]: [i64; 2], text: String, raise: bool) -> UiResult<()> {
+    pub fn set_cell(&mut self, id: i64, [row, column]: [i64; 2], text: String, raise: bool) -> UiResult<()> {
         let table = self.get_mut::<Table>(id)?;
         let changes = table.set_text(row, column, text.clone());
         if changes && raise {
@@ -205,7 +205,7 @@ impl Window {
     ///
     /// # Errors
     /// When it is no table.
-    pub(crate) fn set_cells(&mut self, id: i64, rows: Vec<Vec<String>>) -> UiResult<()> {
+    pub fn set_cells(&mut self, id: i64, rows: Vec<Vec<String>>) -> UiResult<()> {
         let table = self.get_mut::<Table>(id)?;
         let longest = rows.iter().map(Vec::len).max().unwrap_or(0) as i64;
         table.resize(rows.len() as i64, table.column_count.max(longest));
@@ -220,7 +220,7 @@ impl Window {
 
     /// # Errors
     /// When it is no table.
-    pub(crate) fn select_cell(&mut self, id: i64, row: i64, column: i64, raise: bool) -> UiResult<()> {
+    pub fn select_cell(&mut self, id: i64, row: i64, column: i64, raise: bool) -> UiResult<()> {
         let table = self.get_mut::<Table>(id)?;
         let selection = table.selection_at(row, column);
         let changes = std::mem::replace(&mut table.selection, selection) != selection;
@@ -234,7 +234,7 @@ impl Window {
     ///
     /// # Errors
     /// When it is no tree.
-    pub(crate) fn select_item(&mut self, id: i64, item: i64, raise: bool) -> UiResult<()> {
+    pub fn select_item(&mut self, id: i64, item: i64, raise: bool) -> UiResult<()> {
         let tree = self.get_mut::<Tree>(id)?;
         let item = if tree.items.contains_key(&item) { item } else { 0 };
         let changes = std::mem::replace(&mut tree.selected, item) != item;
@@ -248,7 +248,7 @@ impl Window {
     ///
     /// # Errors
     /// When they are no properties.
-    pub(crate) fn select_property(&mut self, id: i64, row: i64, raise: bool) -> UiResult<()> {
+    pub fn select_property(&mut self, id: i64, row: i64, raise: bool) -> UiResult<()> {
         let properties = self.get_mut::<Properties>(id)?;
         let row = if (0..properties.rows.len() as i64).contains(&row) { row } else { -1 };
         let changes = std::mem::replace(&mut properties.selected, row) != row;

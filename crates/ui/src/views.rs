@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 /// A view.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct FloatingView {
+pub struct FloatingView {
     /// Its centre as part of the main view, 0 to 1, from the left lower corner.
     pub position: [f64; 2],
     /// Width and height as part of the main view.
@@ -19,14 +19,14 @@ pub(crate) struct FloatingView {
 
 /// All views by their handles, which count from 1.
 #[derive(Debug, Default)]
-pub(crate) struct FloatingViews {
+pub struct FloatingViews {
     last: i64,
     by_handle: BTreeMap<i64, FloatingView>,
 }
 
 impl FloatingViews {
     /// Adds one; its handle. Numbers that are none, or beyond the main view, become the nearest place in it.
-    pub(crate) fn add(&mut self, position: [f64; 2], size: [f64; 2]) -> i64 {
+    pub fn add(&mut self, position: [f64; 2], size: [f64; 2]) -> i64 {
         let part = |number: f64| if number.is_finite() { number.clamp(0.0, 1.0) } else { 0.5 };
         let view =
             FloatingView { position: position.map(part), size: size.map(part), object: -1, label: String::new() };
@@ -35,16 +35,16 @@ impl FloatingViews {
         self.last
     }
 
-    pub(crate) fn get_mut(&mut self, handle: i64) -> Option<&mut FloatingView> {
+    pub fn get_mut(&mut self, handle: i64) -> Option<&mut FloatingView> {
         self.by_handle.get_mut(&handle)
     }
 
-    pub(crate) fn contains(&self, handle: i64) -> bool {
+    pub fn contains(&self, handle: i64) -> bool {
         self.by_handle.contains_key(&handle)
     }
 
     /// Whether there was such a view.
-    pub(crate) fn remove(&mut self, handle: i64) -> bool {
+    pub fn remove(&mut self, handle: i64) -> bool {
         self.by_handle.remove(&handle).is_some()
     }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::error::{UiError, UiResult};
 use super::widgets::{Container, Kind, TextBrowser, Widget, WidgetType};
-use crate::scene::Data;
+use scene::Data;
 
 /// Where a window without a position of its own would be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -33,7 +33,7 @@ impl Placement {
 
 /// Who shows a window: what a page may say about it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Source {
+pub enum Source {
     /// `simUI.create`.
     #[default]
     SimUi,
@@ -60,7 +60,7 @@ const USUAL_SIZE: [i64; 2] = [320, 240];
 
 /// What a person did, or a script that wants handlers to run: the name of a function of the owner's, and its arguments.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Event {
+pub struct Event {
     /// The window it is about; None for banners.
     pub window: Option<u64>,
     /// The widget it is about, if it is about one: without it nothing is called.
@@ -75,7 +75,7 @@ pub(crate) struct Event {
 
 /// A window with its widgets.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Window {
+pub struct Window {
     pub(super) id: u64,
     /// The handle of the script it belongs to.
     pub(super) owner: i64,
@@ -110,7 +110,7 @@ impl Window {
     }
 
     /// Whether it is seen.
-    pub(crate) fn is_visible(&self) -> bool {
+    pub fn is_visible(&self) -> bool {
         self.visible
     }
 
@@ -125,41 +125,41 @@ impl Window {
     }
 
     /// Gives it the size it would have by itself.
-    pub(crate) fn adjust_size(&mut self) {
+    pub fn adjust_size(&mut self) {
         self.size = USUAL_SIZE;
     }
 
     /// # Errors
     /// When there is no such widget.
-    pub(crate) fn widget(&self, id: i64) -> UiResult<&Widget> {
+    pub fn widget(&self, id: i64) -> UiResult<&Widget> {
         self.widgets.get(&id).ok_or(UiError::NoSuchWidget(id))
     }
 
     /// # Errors
     /// When there is no such widget.
-    pub(crate) fn widget_mut(&mut self, id: i64) -> UiResult<&mut Widget> {
+    pub fn widget_mut(&mut self, id: i64) -> UiResult<&mut Widget> {
         self.widgets.get_mut(&id).ok_or(UiError::NoSuchWidget(id))
     }
 
     /// # Errors
     /// When there is no such widget, or it is of another kind.
-    pub(crate) fn get<T: WidgetType>(&self, id: i64) -> UiResult<&T> {
+    pub fn get<T: WidgetType>(&self, id: i64) -> UiResult<&T> {
         T::of(&self.widget(id)?.kind).ok_or(UiError::WidgetType(T::CLASS))
     }
 
     /// # Errors
     /// When there is no such widget, or it is of another kind.
-    pub(crate) fn get_mut<T: WidgetType>(&mut self, id: i64) -> UiResult<&mut T> {
+    pub fn get_mut<T: WidgetType>(&mut self, id: i64) -> UiResult<&mut T> {
         T::of_mut(&mut self.widget_mut(id)?.kind).ok_or(UiError::WidgetType(T::CLASS))
     }
 
     /// The widgets of a kind, in the order of their ids.
-    pub(crate) fn all<'a, T: WidgetType + 'a>(&'a self) -> impl Iterator<Item = (i64, &'a T)> {
+    pub fn all<'a, T: WidgetType + 'a>(&'a self) -> impl Iterator<Item = (i64, &'a T)> {
         self.widgets.iter().filter_map(|(id, widget)| Some((*id, T::of(&widget.kind)?)))
     }
 
     /// Whether a widget is seen, with all that is around it.
-    pub(crate) fn is_widget_visible(&self, id: i64) -> bool {
+    pub fn is_widget_visible(&self, id: i64) -> bool {
         self.is_visible() && self.with_parents(id).all(|widget| widget.visible)
     }
 

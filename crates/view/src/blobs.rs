@@ -5,9 +5,9 @@ use std::sync::Arc;
 use nalgebra::Point3;
 use ring::digest::{SHA256, digest};
 
-use crate::perception::vision::texture_coordinates;
-use crate::scene::appearance::texture::Texture;
-use crate::scene::shape::Part;
+use perception::vision::texture_coordinates;
+use scene::appearance::texture::Texture;
+use scene::shape::Part;
 
 pub(crate) use super::hash::Hash;
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// The first 16 bytes of the SHA-256 of a blob. Shown in hexadecimal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Hash(pub [u8; 16]);
+pub struct Hash(pub [u8; 16]);
 
 impl Hash {
     /// The hash that is written so; None where the text is none.

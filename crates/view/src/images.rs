@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::scene::{Handle, Scene};
+use scene::{Handle, Scene};
 
 /// What of the images of sensors was shown last: time and length do not tell, so the bytes are compared.
 #[derive(Default)]

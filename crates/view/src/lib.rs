@@ -10,16 +10,16 @@
 pub(crate) mod blobs;
 mod hash;
 mod images;
-pub(crate) mod mcap;
+pub mod mcap;
 pub(crate) mod mirror;
 pub(crate) mod observe;
 mod perform;
 mod question;
-pub(crate) mod recording;
+pub mod recording;
 pub(crate) mod request;
 mod server;
 mod viewer;
 
-pub(crate) use server::page_file;
-pub(crate) use viewer::RecordedViewer;
+pub use server::page_file;
+pub use viewer::RecordedViewer;
 pub use viewer::Viewer;

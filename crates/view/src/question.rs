@@ -6,9 +6,9 @@ use serde_json::{Value, json};
 
 use super::request::Action;
 use super::server::{Pending, Shared};
-use crate::io::SiteWaker;
-use crate::scene::Data;
-use crate::ui::{Question, answer_of_page};
+use io::SiteWaker;
+use scene::Data;
+use ui::{Question, answer_of_page};
 
 /// How often it is looked whether anybody is still there.
 const NAP: Duration = Duration::from_millis(100);

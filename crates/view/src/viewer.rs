@@ -14,11 +14,11 @@ use super::question::ask;
 use super::recording::Recording;
 use super::request::Action;
 use super::server::{RecordedSite, Shared, ViewSite};
-use crate::Simulator;
-use crate::io::SiteServer;
+use ::io::SiteServer;
+use simulator::Simulator;
 
-use crate::script::log::RecentLine;
-use crate::script::step::wall_clock;
+use script::log::RecentLine;
+use script::step::wall_clock;
 
 /// Time between two observations: 60 a second.
 const FRAME: Duration = Duration::from_micros(16_600);
@@ -193,7 +193,7 @@ fn values(sim: &Simulator, handle: i64) -> Option<Vec<(String, String)>> {
 }
 
 /// Shows a recording to pages, as long as this is there.
-pub(crate) struct RecordedViewer {
+pub struct RecordedViewer {
     server: SiteServer,
     token: String,
 }
@@ -203,7 +203,7 @@ impl RecordedViewer {
     ///
     /// # Errors
     /// When the server cannot start.
-    pub(crate) fn start<R: io::Read + io::Seek + Send + Sync + 'static>(
+    pub fn start<R: io::Read + io::Seek + Send + Sync + 'static>(
         recording: Recording<R>,
         listener: TcpListener,
     ) -> io::Result<Self> {
@@ -213,7 +213,7 @@ impl RecordedViewer {
     }
 
     /// Where the page is.
-    pub(crate) fn url(&self) -> String {
+    pub fn url(&self) -> String {
         url(self.server.address(), &self.token)
     }
 }

@@ -8,7 +8,7 @@ use ciborium_ll::{Decoder, Header, simple};
 
 use super::Unreadable;
 use super::cbor_head::{BREAK, FALSE, INDEFINITE, NULL, TRUE, major, push_float, push_head, push_int};
-use crate::scene::{Data, Key};
+use scene::{Data, Key};
 
 /// How deep arrays and maps may be nested.
 const MAX_DEPTH: usize = 100;

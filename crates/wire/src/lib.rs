@@ -3,12 +3,12 @@
 pub mod cbor;
 pub mod cbor_head;
 pub mod marshal;
-pub(crate) mod mime;
+pub mod mime;
 pub mod number_buffer;
 pub mod pack;
-pub(crate) mod simx;
+pub mod simx;
 
-use crate::scene::Data;
+use scene::Data;
 
 /// Bytes that are not taken for data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]

@@ -3,7 +3,7 @@
 //! The format is built into every Python, where it is the fastest way to write and read plain values. Version 2 has no references and no
 //! interned texts: a value is a type byte and its content, numbers little-endian. Only the types that scripts can pass on are known here.
 
-use crate::scene::{Data, Key};
+use scene::{Data, Key};
 
 /// Maximum nesting of lists and dictionaries.
 const MAX_DEPTH: usize = 100;

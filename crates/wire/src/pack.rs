@@ -13,7 +13,7 @@
 use std::cmp::Ordering;
 
 use super::Unreadable;
-use crate::scene::{Data, Key};
+use scene::{Data, Key};
 
 const VERSION: u8 = 5;
 /// Numbers are doubles and nothing follows the table.

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use crate::Simulator;
-use crate::format::graph_file::{GraphData, GraphFile};
-use crate::format::scene_file::write_whole;
-use crate::scene::{Handle, Scene};
+use format::graph_file::{GraphData, GraphFile};
+use format::scene_file::write_whole;
+use scene::{Handle, Scene};
+use simulator::Simulator;
 
 /// The graphs of a run, as files.
 #[derive(clap::Args)]

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::io::signals::{self, InterruptibleThread};
-use crate::script::{calls_begun, interrupt_running_code, place_of_interruption};
+use io::signals::{self, InterruptibleThread};
+use script::{calls_begun, interrupt_running_code, place_of_interruption};
 
 /// How long a call into a script may take after the request, before it is interrupted.
 const PATIENCE: Duration = Duration::from_millis(300);

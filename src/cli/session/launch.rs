@@ -7,7 +7,7 @@ use super::output::Output;
 use super::progress::Progress;
 use super::setup::{Setup, Sources};
 use crate::cli::remote::Remote;
-use crate::{Options, ScriptKind, Simulator};
+use simulator::{Options, ScriptKind, Simulator};
 
 /// A simulator of the command line, and what reports about it.
 pub(in crate::cli) struct Launch<'a> {

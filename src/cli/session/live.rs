@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use super::interrupt::Interrupt;
-use crate::Simulator;
-use crate::view::Viewer;
+use simulator::Simulator;
+use view::Viewer;
 
 /// Longest wait for a request before an idle loop iteration.
 const NAP: Duration = Duration::from_millis(50);

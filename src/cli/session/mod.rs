@@ -19,7 +19,7 @@ use interrupt::Interrupt;
 use output::Output;
 use progress::Progress;
 
-use crate::{RunObserver, Simulator};
+use simulator::{RunObserver, Simulator};
 
 /// Sleep between polls of the wall clock in real-time mode.
 const REAL_TIME_NAP: Duration = Duration::from_millis(1);

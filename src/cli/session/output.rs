@@ -11,9 +11,9 @@ use indicatif::ProgressBar;
 use serde_json::{Value, json};
 
 use super::interrupt::Interrupt;
-use crate::io::signals::{reserve_standard_output, standard_output_is_closed};
-use crate::script::log::{status, verbosity};
-use crate::{Console, LogLine, RunTotals};
+use io::signals::{reserve_standard_output, standard_output_is_closed};
+use script::log::{status, verbosity};
+use simulator::{Console, LogLine, RunTotals};
 
 /// Output format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

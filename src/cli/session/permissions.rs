@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use crate::permissions::{HostRule, Permissions};
+use permissions::{HostRule, Permissions};
 
 /// Where the help text lists them.
 pub(in crate::cli) const HEADING: &str = "Permissions of scripts and remote clients (default: everything)";

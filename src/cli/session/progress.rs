@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::{RunLimits, Simulator};
+use simulator::{RunLimits, Simulator};
 
 /// Runs shorter than this show nothing.
 const LONG: Duration = Duration::from_secs(1);

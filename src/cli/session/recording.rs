@@ -3,8 +3,8 @@
 use std::fs::File;
 use std::path::PathBuf;
 
-use crate::Simulator;
-use crate::view::recording::{Recorded, RunRecorder};
+use simulator::Simulator;
+use view::recording::{Recorded, RunRecorder};
 
 /// A recording of the run.
 #[derive(clap::Args)]

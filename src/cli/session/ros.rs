@@ -3,7 +3,7 @@
 use std::net::Ipv4Addr;
 use std::path::{Path, PathBuf};
 
-use crate::RosOptions;
+use simulator::RosOptions;
 
 /// Options of ROS
 #[derive(Debug, Clone, Default, clap::Args)]

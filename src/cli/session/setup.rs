@@ -9,13 +9,13 @@ use super::progress::Progress;
 use super::resources::ResourceArgs;
 use super::ros::RosArgs;
 use crate::cli::complain;
-use crate::format::scene_file::{self, SceneFile};
-use crate::format::scene_input::SceneInput;
-use crate::format::script_file;
-use crate::format::ttt::FileError;
-use crate::permissions::{Permissions, read_bounded};
-use crate::script::log::verbosity;
-use crate::{Error, Options, ScriptKind, ScriptRef, Simulator};
+use format::scene_file::{self, SceneFile};
+use format::scene_input::SceneInput;
+use format::script_file;
+use format::ttt::FileError;
+use permissions::{Permissions, read_bounded};
+use script::log::verbosity;
+use simulator::{Error, Options, ScriptKind, ScriptRef, Simulator};
 
 /// Simulator options
 #[derive(clap::Args)]

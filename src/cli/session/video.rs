@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::{Simulator, VideoOptions, VideoView};
+use simulator::{Simulator, VideoOptions, VideoView};
 
 /// Where the help text lists them.
 const HEADING: &str = "Video";

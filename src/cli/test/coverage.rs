@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use crate::testing::{Coverage, Record};
+use testing::{Coverage, Record};
 
 /// Ranges of missed lines that are shown of a script.
 const RANGES: usize = 12;

@@ -1,8 +1,8 @@
 //! Description of a failed test for the terminal.
 
 use super::paint::{DIM, Paint, RED, harmless};
-use crate::testing::report::{console_line, moment};
-use crate::testing::{Excerpt, Outcome};
+use testing::report::{console_line, moment};
+use testing::{Excerpt, Outcome};
 
 /// Lines of a test's console that are shown.
 const CONSOLE_LINES: usize = 20;

@@ -4,8 +4,8 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::io::signals::run_on_crash;
-use crate::testing::{self, Config, TestCase};
+use io::signals::run_on_crash;
+use testing::{self, Config, TestCase};
 
 /// The variable with the number, repetition and file of the one test to run.
 const TEST: &str = "SWANILDA_ISOLATED_TEST";

@@ -10,8 +10,8 @@ use super::interrupt::Interrupt;
 use super::permissions::PermissionArgs;
 use super::resources::ResourceArgs;
 use super::setup::seconds;
-use crate::Options;
-use crate::testing::{self, Allowance, Config, Summary};
+use simulator::Options;
+use testing::{self, Allowance, Config, Summary};
 
 mod coverage;
 mod failure;

@@ -1,6 +1,6 @@
 //! Terminal colours, and removal of control characters.
 
-use crate::testing::Status;
+use testing::Status;
 
 /// When to use colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]

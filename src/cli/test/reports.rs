@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use super::paint::ColorChoice;
 use super::terminal::{Terminal, TerminalOptions};
-use crate::format::scene_file::{is_special, link_target, write_whole};
-use crate::testing::report::{html, json, junit, tap};
-use crate::testing::{Outcome, Reporter, Summary, TestCase};
+use format::scene_file::{is_special, link_target, write_whole};
+use testing::report::{html, json, junit, tap};
+use testing::{Outcome, Reporter, Summary, TestCase};
 
 /// The options of reports.
 #[derive(clap::Args)]

@@ -12,8 +12,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::failure;
 use super::paint::{BOLD, ColorChoice, DIM, GREEN, Paint, RED, YELLOW, harmless};
-use crate::testing::report::files;
-use crate::testing::{Outcome, Reporter, Status, Summary, TestCase};
+use testing::report::files;
+use testing::{Outcome, Reporter, Status, Summary, TestCase};
 
 /// Options for the terminal.
 #[derive(Debug, Clone, Copy)]

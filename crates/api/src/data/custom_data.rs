@@ -7,9 +7,9 @@ use std::collections::BTreeSet;
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::{CustomData, Data, Edit, Namespace, SceneError, special};
-use crate::script::{Bytes, Number, Section, Target};
+use crate::{ApiFn, Cx, Result, functions};
+use scene::{CustomData, Data, Edit, Namespace, SceneError, special};
+use script::{Bytes, Number, Section, Target};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     write_custom_string_data,

@@ -1,5 +1,5 @@
 //! `sim.*`: properties, custom data, packing.
 
-pub(in crate::api) mod custom_data;
-pub(in crate::api) mod packing;
-pub(in crate::api) mod property;
+pub(crate) mod custom_data;
+pub(crate) mod packing;
+pub(crate) mod property;

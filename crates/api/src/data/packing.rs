@@ -3,11 +3,11 @@
 use api_macro::api;
 use base64::Engine;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{Data, SceneError};
-use crate::script::{Bytes, Number, Table};
-use crate::wire::number_buffer::{Format, Mapping, transform};
-use crate::wire::{cbor, pack};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::{Data, SceneError};
+use script::{Bytes, Number, Table};
+use wire::number_buffer::{Format, Mapping, transform};
+use wire::{cbor, pack};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     pack_int32_table,

@@ -2,10 +2,10 @@
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Args, Cx, FromScript, Result, functions};
-use crate::scene::Data;
-use crate::script::Source;
-use crate::script::{
+use crate::{ApiError, ApiFn, Args, Cx, FromScript, Result, functions};
+use scene::Data;
+use script::Source;
+use script::{
     Bytes, Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Table, Text, Vector2, Vector3,
 };
 

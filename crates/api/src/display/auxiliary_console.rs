@@ -4,11 +4,11 @@
 
 use api_macro::api;
 
-use crate::api::files::semaphores;
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::Data;
-use crate::script::log::verbosity;
-use crate::script::{AuxiliaryConsole, Bytes, Number};
+use crate::files::semaphores;
+use crate::{ApiFn, Cx, Result, functions};
+use scene::Data;
+use script::log::verbosity;
+use script::{AuxiliaryConsole, Bytes, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     auxiliary_console_open,

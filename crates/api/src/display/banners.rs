@@ -6,9 +6,9 @@ use std::collections::BTreeSet;
 use api_macro::api;
 use nalgebra::{Point3, Vector3};
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Handle, Pose, Scene, SceneError, special};
-use crate::script::{Number, Rest};
+use crate::{ApiFn, Cx, Result, functions};
+use scene::{Data, Handle, Pose, Scene, SceneError, special};
+use script::{Number, Rest};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![add_banner, remove_banner, camera_fit_to_view];
 

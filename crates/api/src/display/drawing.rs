@@ -2,12 +2,12 @@
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::appearance::colour::Colour;
-use crate::scene::drawing::DrawingStyle;
-use crate::scene::drawing::options::{DrawingFlags, DrawingKind};
-use crate::scene::{Data, Handle, SceneError, flag, special};
-use crate::script::Number;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::appearance::colour::Colour;
+use scene::drawing::DrawingStyle;
+use scene::drawing::options::{DrawingFlags, DrawingKind};
+use scene::{Data, Handle, SceneError, flag, special};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![add_drawing_object, add_drawing_object_item, remove_drawing_object];
 

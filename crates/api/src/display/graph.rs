@@ -5,10 +5,10 @@ use std::f64::consts::PI;
 use api_macro::api;
 use geometry::Finite;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::graph::{Curve, Graph, GraphOptions, Stream, Style, Transformation, TransformationKind};
-use crate::scene::{Data, Field, Handle, Kind, Object, SceneError, special};
-use crate::script::{Number, Results};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::graph::{Curve, Graph, GraphOptions, Stream, Style, Transformation, TransformationKind};
+use scene::{Data, Field, Handle, Kind, Object, SceneError, special};
+use script::{Number, Results};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     add_graph_stream,

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::format::picture::{Layout, Picture, PictureError};
-use crate::format::scene_file::write_whole;
-use crate::permissions::read_bounded;
-use crate::script::{Bytes, IntPair};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use format::picture::{Layout, Picture, PictureError};
+use format::scene_file::write_whole;
+use permissions::read_bounded;
+use script::{Bytes, IntPair};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_image, save_image, get_scaled_image, transform_image];
 
@@ -24,7 +24,7 @@ mod option {
     pub const FLIP_Y: i64 = 4;
 }
 
-pub(in crate::api) fn failure(error: PictureError) -> ApiError {
+pub(crate) fn failure(error: PictureError) -> ApiError {
     ApiError::Other(error.to_string())
 }
 
@@ -48,7 +48,7 @@ fn load_image(cx: &Cx, options: i64, filename: Bytes) -> Result<(Bytes, IntPair)
     Ok((Bytes(picture.into_bytes()), resolution))
 }
 
-pub(in crate::api) fn read_file(cx: &Cx, name: &[u8]) -> Result<Vec<u8>> {
+pub(crate) fn read_file(cx: &Cx, name: &[u8]) -> Result<Vec<u8>> {
     let name = String::from_utf8_lossy(name);
     cx.permissions().check_read(Path::new(&*name))?;
     read_bounded(Path::new(&*name)).map_err(|error| ApiError::Other(format!("cannot read {name}: {error}.")))

@@ -1,9 +1,9 @@
 //! `sim.*`: display functions: drawing objects, graphs, consoles, images.
 
-pub(in crate::api) mod auxiliary_console;
-pub(in crate::api) mod banners;
-pub(in crate::api) mod drawing;
-pub(in crate::api) mod graph;
-pub(in crate::api) mod images;
-pub(in crate::api) mod text_editor;
-pub(in crate::api) mod views;
+pub(crate) mod auxiliary_console;
+pub(crate) mod banners;
+pub(crate) mod drawing;
+pub(crate) mod graph;
+pub(crate) mod images;
+pub(crate) mod text_editor;
+pub(crate) mod views;

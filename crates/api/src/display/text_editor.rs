@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::script::Number;
-use crate::ui::EditorState;
+use crate::{ApiFn, Cx, Result, functions};
+use script::Number;
+use ui::EditorState;
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![text_editor_open, text_editor_close, text_editor_show, text_editor_get_info];

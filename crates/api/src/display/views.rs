@@ -5,9 +5,9 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Handle, SceneError, special};
-use crate::script::{ByHandle, Number, Rest};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::{Data, Handle, SceneError, special};
+use script::{ByHandle, Number, Rest};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     floating_view_add,

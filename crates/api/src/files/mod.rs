@@ -1,6 +1,6 @@
 //! `sim.*`: files, serial ports, programs.
 
-pub(in crate::api) mod program;
-pub(in crate::api) mod scene_file;
-pub(in crate::api) mod semaphores;
-pub(in crate::api) mod serial;
+pub(crate) mod program;
+pub(crate) mod scene_file;
+pub(crate) mod semaphores;
+pub(crate) mod serial;

@@ -2,8 +2,8 @@
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::io::Program;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use io::Program;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![launch_executable];
 

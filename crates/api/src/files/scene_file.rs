@@ -6,12 +6,12 @@ use std::path::{Component, Path, PathBuf};
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::format::scene_file::{SceneFile, read_file};
-use crate::format::scene_input::SceneInput;
-use crate::permissions::read_bounded;
-use crate::scene::{Data, Handle, SceneError, special};
-use crate::script::{SceneSource, readable_bytes};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use format::scene_file::{SceneFile, read_file};
+use format::scene_input::SceneInput;
+use permissions::read_bounded;
+use scene::{Data, Handle, SceneError, special};
+use script::{SceneSource, readable_bytes};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, save_scene, close_scene, load_model, save_model];
 

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use fs4::{FileExt, TryLockError};
 
-use crate::api::{ApiError, Cx, Result};
+use crate::{ApiError, Cx, Result};
 
 /// File names are not longer, in bytes of the key.
 const LONGEST_KEY: usize = 100;
@@ -52,7 +52,7 @@ fn path_of(key: &[u8]) -> PathBuf {
 ///
 /// # Errors
 /// When the key is too long, its file cannot be made, or the program is being stopped.
-pub(in crate::api) fn acquire(cx: &mut Cx, key: &[u8]) -> Result<()> {
+pub(crate) fn acquire(cx: &mut Cx, key: &[u8]) -> Result<()> {
     cx.permissions().check_write(&path_of(key))?;
     let held = cx.module_state::<Held>();
     let acquired = cx.wait_for(None, || held.try_acquire(key).transpose())?;
@@ -60,7 +60,7 @@ pub(in crate::api) fn acquire(cx: &mut Cx, key: &[u8]) -> Result<()> {
 }
 
 /// Releases a semaphore, if it is held.
-pub(in crate::api) fn release(cx: &mut Cx, key: &[u8]) {
+pub(crate) fn release(cx: &mut Cx, key: &[u8]) {
     cx.module_state::<Held>().0.borrow_mut().remove(key);
 }
 

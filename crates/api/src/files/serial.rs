@@ -8,9 +8,9 @@ use std::sync::atomic::Ordering;
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::io::SerialPort;
-use crate::script::{ByHandle, Bytes, Host, Number};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use io::SerialPort;
+use script::{ByHandle, Bytes, Host, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![serial_open, serial_close, serial_send, serial_check, serial_read, serial_rest];
@@ -20,7 +20,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] =
 struct Ports(RefCell<ByHandle<SerialPort>>);
 
 /// Closes all ports: they last no longer than a simulation.
-pub(in crate::api) fn end_simulation(host: &Host) {
+pub(crate) fn end_simulation(host: &Host) {
     if let Some(ports) = host.module_state::<Ports>() {
         ports.0.borrow_mut().clear();
     }

@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::{Field, Handle, Object, SceneError, flag, special};
-use crate::script::ObjectRef;
+use crate::{ApiFn, Cx, Result, functions};
+use scene::{Field, Handle, Object, SceneError, flag, special};
+use script::ObjectRef;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     add_force,

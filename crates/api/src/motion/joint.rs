@@ -2,10 +2,10 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::joint::{Joint, JointMode, JointType};
-use crate::scene::{Handle, Kind, SceneError};
-use crate::script::Number;
+use crate::{ApiFn, Cx, Result, functions};
+use scene::joint::{Joint, JointMode, JointType};
+use scene::{Handle, Kind, SceneError};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     create_joint,

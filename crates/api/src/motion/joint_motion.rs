@@ -2,16 +2,16 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::{Handle, Object, SceneError, special};
-use crate::script::Number;
+use crate::{ApiFn, Cx, Result, functions};
+use scene::{Handle, Object, SceneError, special};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![handle_joint_motion, sim_handle_joint, sim_reset_joint];
 
 /// Moves kinematic joints towards their targets by one step. For the main script.
 #[api("sim.handleJointMotion")]
 fn handle_joint_motion(cx: &mut Cx) -> Result<()> {
-    crate::api::scripts::simulation::main_script_only(cx)?;
+    crate::scripts::simulation::main_script_only(cx)?;
     cx.handle_joint_motion();
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! `sim.*`: joints, trajectories, forces.
 
-pub(in crate::api) mod dynamics;
-pub(in crate::api) mod joint;
-pub(in crate::api) mod joint_motion;
-pub(in crate::api) mod ruckig;
-pub(in crate::api) mod trajectory;
+pub(crate) mod dynamics;
+pub(crate) mod joint;
+pub(crate) mod joint_motion;
+pub(crate) mod ruckig;
+pub(crate) mod trajectory;

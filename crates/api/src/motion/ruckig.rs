@@ -8,8 +8,8 @@ use std::rc::Rc;
 use api_macro::api;
 use motion::ruckig::{BAD_CYCLE_TIME, RuckigError, Trajectory};
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::script::{ByHandle, Number};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use script::{ByHandle, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![ruckig_pos, ruckig_vel, ruckig_step, ruckig_remove];
 

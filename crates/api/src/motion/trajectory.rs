@@ -4,8 +4,8 @@ use api_macro::api;
 use motion::spline::Boundary;
 use motion::time_optimal::{Limits, TimeOptimalError, TimedPath};
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::script::Number;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![generate_time_optimal_trajectory];
 

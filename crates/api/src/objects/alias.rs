@@ -3,9 +3,9 @@
 use api_macro::api;
 
 use super::old_name::OldName;
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Handle, SceneError, special};
-use crate::script::{Bytes, Table};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::{Data, Handle, SceneError, special};
+use script::{Bytes, Table};
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![get_object, get_object_handle, get_object_alias, set_object_alias, get_object_name, set_object_name,];
@@ -31,7 +31,7 @@ fn get_object(cx: &Cx, path: Bytes, #[default(None)] options: Option<Table>) -> 
 /// @param nameSuffix the number that the script adds to old names without one; -1: none
 /// @return objectHandle the object
 #[api("sim._getObjectHandle")]
-pub(in crate::api) fn get_object_handle(
+pub(crate) fn get_object_handle(
     cx: &Cx,
     path: Data,
     #[default(None)] options: Option<Table>,

@@ -2,13 +2,13 @@
 
 use api_macro::api;
 
-use crate::api::old::calculation_objects::handle_of;
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{
+use crate::old::calculation_objects::handle_of;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::{
     CollectionItem, CollectionOptions, Data, Handle, ItemOptions, Members, Object, Scene, SceneError,
     is_legal_old_name, special,
 };
-use crate::script::Number;
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     create_collection,

@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::object::dummy::Dummy;
-use crate::scene::{Handle, Kind};
+use crate::{ApiFn, Cx, Result, functions};
+use scene::object::dummy::Dummy;
+use scene::{Handle, Kind};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![create_dummy, get_link_dummy, set_link_dummy];
 

@@ -1,11 +1,11 @@
 //! `sim.*`: objects: names, poses, the tree, copies, collections.
 
-pub(in crate::api) mod alias;
-pub(in crate::api) mod collection;
-pub(in crate::api) mod copy;
-pub(in crate::api) mod dummy;
-pub(in crate::api) mod old_name;
-pub(in crate::api) mod pose;
-pub(in crate::api) mod pose_maths;
-pub(in crate::api) mod property;
-pub(in crate::api) mod tree;
+pub(crate) mod alias;
+pub(crate) mod collection;
+pub(crate) mod copy;
+pub(crate) mod dummy;
+pub(crate) mod old_name;
+pub(crate) mod pose;
+pub(crate) mod pose_maths;
+pub(crate) mod property;
+pub(crate) mod tree;

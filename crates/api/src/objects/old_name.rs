@@ -1,7 +1,7 @@
 //! Old-style names in the arguments of functions (spec: vrep-era 1.1).
 
-use crate::api::Cx;
-use crate::scene::{Handle, Scene, SceneResult, name_suffix};
+use crate::Cx;
+use scene::{Handle, Scene, SceneResult, name_suffix};
 
 /// An old-style name as a script writes it: `arm`, `arm#` (no suffix), `arm#3`, with `@silentError` or `@alt`.
 pub(crate) struct OldName {

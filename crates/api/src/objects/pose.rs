@@ -6,10 +6,10 @@ use api_macro::api;
 use geometry::pose::euler;
 use geometry::pose::{self, Pose};
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{Frame, Handle, Placement, SceneError, flag, special};
-use crate::script::Source;
-use crate::script::{Args, FromScript, ObjectRef};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::{Frame, Handle, Placement, SceneError, flag, special};
+use script::Source;
+use script::{Args, FromScript, ObjectRef};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_object_position,
@@ -302,7 +302,7 @@ fn arrange<const N: usize>(
 }
 
 /// Refuses what is not a number; infinity passes.
-pub(in crate::api) fn checked<const N: usize>(numbers: [f64; N]) -> Result<[f64; N]> {
+pub(crate) fn checked<const N: usize>(numbers: [f64; N]) -> Result<[f64; N]> {
     if numbers.iter().any(|number| number.is_nan()) { Err(SceneError::InvalidData.into()) } else { Ok(numbers) }
 }
 

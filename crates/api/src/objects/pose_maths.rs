@@ -2,12 +2,12 @@
 
 use api_macro::api;
 use geometry::pose::euler;
-use geometry::pose::{self, Pose, PoseError};
+use geometry::pose::{self, Pose};
 
 use super::pose::checked;
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::script::Source;
-use crate::script::{Args, FromScript};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use script::Source;
+use script::{Args, FromScript};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     build_identity_matrix,
@@ -29,16 +29,6 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_rotation_axis,
     rotate_around_axis,
 ];
-
-impl From<PoseError> for ApiError {
-    fn from(error: PoseError) -> Self {
-        match error {
-            PoseError::MissingAxis2 => Self::MoreArguments,
-            PoseError::TransformSize(_) => Self::TableSize,
-            PoseError::UnknownMode(_) => Self::Other(error.to_string()),
-        }
-    }
-}
 
 /// The identity.
 ///

@@ -2,12 +2,12 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::values::extension_string;
-use crate::scene::{
+use crate::{ApiFn, Cx, Result, functions};
+use scene::values::extension_string;
+use scene::{
     Field, Handle, Kind, ModelFlags, Object, ObjectFlags, References, Scene, SceneError, SpecialFlags, flag, special,
 };
-use crate::script::{Handles, Number, ObjectRef};
+use script::{Handles, Number, ObjectRef};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_object_property,

@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Handle, SceneError, special};
-use crate::script::{Handles, Number, ObjectRef, Table};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::{Data, Handle, SceneError, special};
+use script::{Handles, Number, ObjectRef, Table};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_object_parent,

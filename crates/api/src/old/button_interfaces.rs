@@ -5,11 +5,11 @@ use std::cell::{Ref, RefMut};
 
 use api_macro::api;
 
-use crate::api::objects::old_name::{name_with_suffix, suffix_of_script};
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::tree::button_interfaces::{Button, ButtonInterface};
-use crate::scene::{Scene, SceneError, special};
-use crate::script::Number;
+use crate::objects::old_name::{name_with_suffix, suffix_of_script};
+use crate::{ApiFn, Cx, Result, functions};
+use scene::tree::button_interfaces::{Button, ButtonInterface};
+use scene::{Scene, SceneError, special};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     sim_get_ui_handle,

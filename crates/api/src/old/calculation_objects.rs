@@ -2,10 +2,10 @@
 
 use api_macro::api;
 
-use crate::api::objects::old_name::{OldName, suffix_of_script};
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Handle, Scene, SceneError, special};
-use crate::script::{Number, Results};
+use crate::objects::old_name::{OldName, suffix_of_script};
+use crate::{ApiFn, Cx, Result, functions};
+use scene::{Data, Handle, Scene, SceneError, special};
+use script::{Number, Results};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_collision_handle,
@@ -19,7 +19,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 ];
 
 /// Looks up an old name.
-pub(in crate::api) fn handle_of(
+pub(crate) fn handle_of(
     cx: &Cx,
     name: &str,
     find: impl Fn(&Scene, &str) -> Option<i64>,

@@ -2,10 +2,10 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::parameters::engine::is_step_size;
-use crate::scene::{Handle, SceneError};
-use crate::script::Number;
+use crate::{ApiFn, Cx, Result, functions};
+use scene::parameters::engine::is_step_size;
+use scene::{Handle, SceneError};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_engine_float_param,

@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::{CustomData, Data, Edit, Handle, Namespace};
-use crate::script::{Bytes, Number, Target};
+use crate::{ApiFn, Cx, Result, functions};
+use scene::{CustomData, Data, Edit, Handle, Namespace};
+use script::{Bytes, Number, Target};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     sim_add_object_custom_data,

@@ -5,11 +5,11 @@ use std::collections::BTreeSet;
 use api_macro::api;
 
 use super::calculation_objects::{handle_of, with_explicit};
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::ik::groups::{self, GroupCopy, IkResult};
-use crate::scene::tree::ik_groups::{IkElement, IkGroup, IkGroupOptions};
-use crate::scene::{Handle, Scene, SceneError, special};
-use crate::script::Number;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use ik::groups::{self, GroupCopy, IkResult};
+use scene::tree::ik_groups::{IkElement, IkGroup, IkGroupOptions};
+use scene::{Handle, Scene, SceneError, special};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_ik_group_handle,
@@ -53,7 +53,7 @@ fn handle_ik_group(cx: &mut Cx, ik_group_handle: Number) -> Result<i64> {
 }
 
 /// Computes all groups, or those that are not tagged for explicit handling; returns how many were performed.
-pub(in crate::api) fn handle_ik_groups(cx: &mut Cx, with_explicit: bool) -> Result<i64> {
+pub(crate) fn handle_ik_groups(cx: &mut Cx, with_explicit: bool) -> Result<i64> {
     let handles: Vec<i64> = {
         let scene = cx.scene();
         let groups = scene.ik_groups().iter().filter(|(_, group)| with_explicit || !group.explicit);
@@ -90,7 +90,7 @@ fn compute(cx: &mut Cx, handle: i64) -> Result<IkResult> {
 
 fn dynamic_joints(cx: &Cx) -> BTreeSet<Handle> {
     let (scene, dynamics) = (cx.scene(), cx.dynamics());
-    let joints = scene.objects().filter(|object| object.joint().is_ok()).map(crate::scene::Object::handle);
+    let joints = scene.objects().filter(|object| object.joint().is_ok()).map(scene::Object::handle);
     joints.filter(|joint| dynamics.as_ref().is_some_and(|dynamics| dynamics.simulates(*joint))).collect()
 }
 

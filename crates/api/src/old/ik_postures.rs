@@ -7,12 +7,12 @@ use api_macro::api;
 use geometry::pose::interpolate;
 
 use super::ik_groups::group;
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::format::scene_file::write_whole;
-use crate::ik::groups::{GroupCopy, IkResult, export};
-use crate::perception::entity::Entity;
-use crate::scene::{Handle, Scene, SceneError};
-use crate::script::Number;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use format::scene_file::write_whole;
+use ik::groups::{GroupCopy, IkResult, export};
+use perception::entity::Entity;
+use scene::{Handle, Scene, SceneError};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     check_ik_group,

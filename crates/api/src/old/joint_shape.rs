@@ -4,9 +4,9 @@ use api_macro::api;
 use geometry::MassProperties;
 use geometry::pose::{pose_from_matrix, pose_to_matrix};
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::{Field, Handle, Pose, SceneError};
-use crate::script::Number;
+use crate::{ApiFn, Cx, Result, functions};
+use scene::{Field, Handle, Pose, SceneError};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_joint_matrix,

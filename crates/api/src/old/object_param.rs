@@ -7,9 +7,9 @@ use std::rc::Rc;
 use api_macro::api;
 
 use super::script;
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Handle, SceneError};
-use crate::script::{Bytes, Number, Script, Text};
+use crate::{ApiFn, Cx, Result, functions};
+use ::script::{Bytes, Number, Script, Text};
+use scene::{Data, Handle, SceneError};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_object_int32_param,

@@ -2,8 +2,8 @@
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::script::{Number, Rest};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use script::{Number, Rest};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     sim_get_path_planning_handle,

@@ -4,12 +4,12 @@ use api_macro::api;
 use geometry::pose::euler;
 use nalgebra::Translation3;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::path_object::{
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::path_object::{
     ControlPoint, LengthMethod, LinePoint, Measures, PathAttributes, PathObject, Travel, TravelLimits,
 };
-use crate::scene::{Data, Handle, Kind, Pose, SceneError, special};
-use crate::script::Number;
+use scene::{Data, Handle, Kind, Pose, SceneError, special};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     create_path_object,

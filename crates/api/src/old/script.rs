@@ -4,13 +4,13 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use crate::api::objects::alias::get_object_handle;
-use crate::api::objects::old_name::suffix_of_script;
-use crate::api::scripts::script::script_of;
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::{Data, Handle, SceneError, ValueType, special};
-use crate::script::{Bytes, Number, Script, Target, Text};
+use crate::objects::alias::get_object_handle;
+use crate::objects::old_name::suffix_of_script;
+use crate::scripts::script::script_of;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::object::script_object::ScriptType;
+use scene::{Data, Handle, SceneError, ValueType, special};
+use script::{Bytes, Number, Script, Target, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_object_associated_with_script,
@@ -298,21 +298,21 @@ fn get_script_int32_param(cx: &Cx, script_handle: Number, parameter_id: Number) 
     int_param(cx, &script_of(cx, script_handle.0)?, parameter_id.0)
 }
 
-pub(in crate::api) fn int_param(cx: &Cx, script: &Rc<Script>, parameter: i64) -> Result<i64> {
+pub(crate) fn int_param(cx: &Cx, script: &Rc<Script>, parameter: i64) -> Result<i64> {
     match read(cx, script, Attribute::from_number(parameter)?)? {
         Data::Int(value) => Ok(value),
         value => Ok(i64::from(value.truthy())),
     }
 }
 
-pub(in crate::api) fn string_param(cx: &Cx, script: &Rc<Script>, parameter: i64) -> Result<Option<Text>> {
+pub(crate) fn string_param(cx: &Cx, script: &Rc<Script>, parameter: i64) -> Result<Option<Text>> {
     match read(cx, script, Attribute::from_number(parameter)?)? {
         Data::Text(text) => Ok(Some(Text(text))),
         _ => Ok(None),
     }
 }
 
-pub(in crate::api) fn set_param(cx: &mut Cx, script: &Rc<Script>, parameter: i64, value: Data) -> Result<()> {
+pub(crate) fn set_param(cx: &mut Cx, script: &Rc<Script>, parameter: i64, value: Data) -> Result<()> {
     write(cx, script, Attribute::from_number(parameter)?, value)
 }
 

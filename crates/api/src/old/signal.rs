@@ -4,9 +4,9 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::Namespace;
-use crate::script::{Bytes, Number, PropertyValue, Target, Text};
+use crate::{ApiFn, Cx, Result, functions};
+use scene::Namespace;
+use script::{Bytes, Number, PropertyValue, Target, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     set_int32_signal,

@@ -5,8 +5,8 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::script::{Bytes, Number};
+use crate::{ApiFn, Cx, Result, functions};
+use script::{Bytes, Number};
 
 use super::tubes::Tubes;
 

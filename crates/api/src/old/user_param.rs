@@ -2,10 +2,10 @@
 
 use api_macro::api;
 
-use crate::api::scripts::script::script_of;
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Field, Handle, Scene, special};
-use crate::script::{Number, Results};
+use crate::scripts::script::script_of;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::{Data, Field, Handle, Scene, special};
+use script::{Number, Results};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_script_simulation_parameter,

@@ -2,11 +2,11 @@
 
 use api_macro::api;
 
-use crate::api::sensors::vision::{area, packed, unpacked};
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::sensor::{Area, VisionSensor};
-use crate::scene::{Data, Handle, flag};
-use crate::script::{Bytes, Number, ObjectRef};
+use crate::sensors::vision::{area, packed, unpacked};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::sensor::{Area, VisionSensor};
+use scene::{Data, Handle, flag};
+use script::{Bytes, Number, ObjectRef};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_vision_sensor_image,

@@ -1,4 +1,4 @@
 //! `sim.*`: numbered and named parameters.
 
-pub(in crate::api) mod param;
-pub(in crate::api) mod param_property;
+pub(crate) mod param;
+pub(crate) mod param_property;

@@ -9,9 +9,9 @@ use api_macro::api;
 use geometry::pose::euler;
 
 use super::param_property::{self, FLOATS, INTEGERS, LEVELS, LIGHT, SWITCHES, TEXTS};
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::{Calculations, SceneError};
-use crate::script::{Bytes, Color, Number, PropertyValue, Target, Text};
+use crate::{ApiFn, Cx, Result, functions};
+use scene::{Calculations, SceneError};
+use script::{Bytes, Color, Number, PropertyValue, Target, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_int32_param,
@@ -156,7 +156,7 @@ fn get_bool_param(cx: &Cx, parameter: Number) -> Result<bool> {
 }
 
 /// Whether sensors are handled at all: `parameter` is one of sim.boolparam_*_sensor_handling_enabled.
-pub(in crate::api) fn sensors_are_handled(cx: &Cx, parameter: i64) -> bool {
+pub(crate) fn sensors_are_handled(cx: &Cx, parameter: i64) -> bool {
     cx.app().idle_params.bools.get(&parameter).copied().unwrap_or(true)
 }
 
@@ -317,7 +317,7 @@ fn set_named_string_param(cx: &mut Cx, param_name: String, string_param: Text) -
 /// Calls the handlers of what came from outside: what persons did with windows (simUI). It happens at the end of each loop iteration anyway.
 #[api("sim.handleExtCalls")]
 fn handle_ext_calls(cx: &mut Cx) -> Result<()> {
-    crate::api::scripts::simulation::main_script_only(cx)?;
+    crate::scripts::simulation::main_script_only(cx)?;
     cx.deliver_ui_events();
     Ok(())
 }

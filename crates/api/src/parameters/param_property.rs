@@ -1,14 +1,14 @@
 //! Numbered parameters of the simulator that are properties by another name: the property is where the value is.
 
-use crate::api::{Cx, Result};
-use crate::scene::special::{APP, SCENE};
-use crate::script::{PropertyValue, Target};
+use crate::{Cx, Result};
+use scene::special::{APP, SCENE};
+use script::{PropertyValue, Target};
 
 /// The number of a parameter, the target of its property, and the property's name.
 type PropertyParam = (i64, i64, &'static str);
 
 /// `sim.intparam_*`.
-pub(in crate::api) const INTEGERS: &[PropertyParam] = &[
+pub(crate) const INTEGERS: &[PropertyParam] = &[
     (11, SCENE, "visibilityLayers"),
     (16, APP, "qtVersion"),
     (19, APP, "platform"),
@@ -28,7 +28,7 @@ pub(in crate::api) const INTEGERS: &[PropertyParam] = &[
 ];
 
 /// `sim.boolparam_*`.
-pub(in crate::api) const SWITCHES: &[PropertyParam] = &[
+pub(crate) const SWITCHES: &[PropertyParam] = &[
     (0, APP, "hierarchyEnabled"),
     (6, SCENE, "dynamicsEnabled"),
     (12, APP, "browserEnabled"),
@@ -40,14 +40,14 @@ pub(in crate::api) const SWITCHES: &[PropertyParam] = &[
 ];
 
 /// `sim.floatparam_*`.
-pub(in crate::api) const FLOATS: &[PropertyParam] =
+pub(crate) const FLOATS: &[PropertyParam] =
     &[(1, SCENE, "timeStep"), (3, SCENE, "dynamicsStepSize"), (5, SCENE, "dynamicsStepSize")];
 
 /// `sim.arrayparam_*` that are colours.
-pub(in crate::api) const LIGHT: &[PropertyParam] = &[(5, SCENE, "ambientLight")];
+pub(crate) const LIGHT: &[PropertyParam] = &[(5, SCENE, "ambientLight")];
 
 /// `sim.stringparam_*`.
-pub(in crate::api) const TEXTS: &[PropertyParam] = &[
+pub(crate) const TEXTS: &[PropertyParam] = &[
     (0, APP, "appPath"),
     (2, APP, "appArg1"),
     (3, APP, "appArg2"),
@@ -82,7 +82,7 @@ pub(in crate::api) const TEXTS: &[PropertyParam] = &[
 ];
 
 /// Texts that set a level by its name.
-pub(in crate::api) const LEVELS: &[PropertyParam] =
+pub(crate) const LEVELS: &[PropertyParam] =
     &[(121, APP, "consoleVerbosityStr"), (122, APP, "statusbarVerbosityStr"), (123, APP, "dialogVerbosityStr")];
 
 fn property_of(params: &[PropertyParam], number: i64) -> Option<(Target, &'static str)> {
@@ -91,18 +91,13 @@ fn property_of(params: &[PropertyParam], number: i64) -> Option<(Target, &'stati
 }
 
 /// The value of the property that `number` is; None when it is none.
-pub(in crate::api) fn read<T: PropertyValue>(cx: &Cx, params: &[PropertyParam], number: i64) -> Result<Option<T>> {
+pub(crate) fn read<T: PropertyValue>(cx: &Cx, params: &[PropertyParam], number: i64) -> Result<Option<T>> {
     let Some((target, name)) = property_of(params, number) else { return Ok(None) };
     Ok(T::from_data(cx.read_property(&target, name, T::TYPE)?))
 }
 
 /// Sets the property with that parameter number; returns whether there is one.
-pub(in crate::api) fn write<T: PropertyValue>(
-    cx: &mut Cx,
-    params: &[PropertyParam],
-    number: i64,
-    value: T,
-) -> Result<bool> {
+pub(crate) fn write<T: PropertyValue>(cx: &mut Cx, params: &[PropertyParam], number: i64, value: T) -> Result<bool> {
     let Some((target, name)) = property_of(params, number) else { return Ok(false) };
     cx.write_property(&target, name, (T::TYPE, value.into_data()))?;
     Ok(true)

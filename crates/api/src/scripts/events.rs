@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::Data;
-use crate::script::{Bytes, Filters, Table};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::Data;
+use script::{Bytes, Filters, Table};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![set_event_filters, get_genesis_events, push_user_event];
 

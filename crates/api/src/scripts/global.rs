@@ -4,12 +4,11 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::plugin::Variable;
-use crate::scene::Data;
-use crate::script::Source;
-use crate::script::log::verbosity;
-use crate::script::{Args, FromScript, Hook, LevelChange, Rest, Results, ScriptFunction, SysCall, changed_level};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use plugin_host::Variable;
+use scene::Data;
+use script::log::verbosity;
+use script::{Hook, LevelChange, Rest, Results, ScriptFunction, SysCall, changed_level};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     register_script_func_hook,
@@ -82,19 +81,6 @@ fn toggle(entries: &mut Vec<Hook>, name: String) -> i64 {
 /// Lets go of the functions of hooks that are gone.
 fn release(cx: &Cx, entries: &[Hook]) {
     entries.iter().filter_map(|hook| hook.function).for_each(|function| cx.release_function(function));
-}
-
-impl FromScript for LevelChange {
-    const TYPE: &'static str = "any";
-
-    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
-        Ok(match Data::from_script(args)? {
-            Data::Int(level) => Self::Set(level),
-            Data::Float(level) => Self::Set(level as i64),
-            other if other.truthy() => Self::Allow,
-            _ => Self::Forbid,
-        })
-    }
 }
 
 /// Allows or forbids that the running coroutine is pre-empted.
@@ -183,7 +169,7 @@ fn quit_simulator(cx: &mut Cx) -> Result<()> {
 ///
 /// @param text the line
 #[api("_print")]
-fn print_line(cx: &Cx, text: crate::script::Bytes) -> Result<()> {
+fn print_line(cx: &Cx, text: script::Bytes) -> Result<()> {
     cx.print(&text.0);
     Ok(())
 }

@@ -1,8 +1,8 @@
 //! `sim.*`: scripts, threads, time, the simulation, events.
 
-pub(in crate::api) mod events;
-pub(in crate::api) mod global;
-pub(in crate::api) mod script;
-pub(in crate::api) mod simulation;
-pub(in crate::api) mod thread;
-pub(in crate::api) mod time;
+pub(crate) mod events;
+pub(crate) mod global;
+pub(crate) mod script;
+pub(crate) mod simulation;
+pub(crate) mod thread;
+pub(crate) mod time;

@@ -4,11 +4,11 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::object::script_object::{ScriptObject, ScriptType};
-use crate::scene::{Data, Handle, Kind, SceneError, special};
-use crate::script::Source;
-use crate::script::{Bytes, Number, Rest, Results, Script};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::object::script_object::{ScriptObject, ScriptType};
+use scene::{Data, Handle, Kind, SceneError, special};
+use script::Source;
+use script::{Bytes, Number, Rest, Results, Script};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     create_script,
@@ -66,7 +66,7 @@ fn remove_script(cx: &mut Cx, script_handle: Number) -> Result<i64> {
 }
 
 /// The script a number means: a handle, or the caller itself.
-pub(in crate::api) fn script_of(cx: &Cx, raw: i64) -> Result<Rc<Script>> {
+pub(crate) fn script_of(cx: &Cx, raw: i64) -> Result<Rc<Script>> {
     match raw {
         special::SELF => Ok(Rc::clone(cx.script())),
         _ => cx.script_by_handle(raw).ok_or(ApiError::NoSuchScript),
@@ -134,10 +134,10 @@ fn call_script_function(cx: &mut Cx, function_name: Callee, script_handle: Calle
 /// One of the two leading arguments of a call: a name or a handle.
 struct Callee(Data);
 
-impl crate::api::FromScript for Callee {
+impl crate::FromScript for Callee {
     const TYPE: &'static str = "string/int";
 
-    fn from_script<'a, S: Source<'a>>(args: &crate::api::Args<'a, S>) -> Result<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &crate::Args<'a, S>) -> Result<Self> {
         Data::from_script(args).map(Self)
     }
 }

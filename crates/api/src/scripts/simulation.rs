@@ -2,10 +2,10 @@
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::special;
-use crate::script::{Group, Number, Rest, SysCall};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::object::script_object::ScriptType;
+use scene::special;
+use script::{Group, Number, Rest, SysCall};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     start_simulation,
@@ -69,7 +69,7 @@ fn get_simulation_time_step(cx: &Cx) -> Result<f64> {
     Ok(cx.scene().settings().time_step)
 }
 
-pub(in crate::api) fn main_script_only(cx: &Cx) -> Result<()> {
+pub(crate) fn main_script_only(cx: &Cx) -> Result<()> {
     if cx.script().script_type == ScriptType::Main { Ok(()) } else { Err(ApiError::MainScriptOnly) }
 }
 
@@ -171,7 +171,7 @@ fn handle_dynamics(cx: &mut Cx, delta_time: f64, #[default(0)] ik_groups: Number
         return Err(ApiError::MainOrSimulationScriptOnly);
     }
     if ik_groups.0 == special::ALL_EXCEPT_EXPLICIT && cx.scene().ik_groups().iter().next().is_some() {
-        crate::api::old::ik_groups::handle_ik_groups(cx, false)?;
+        crate::old::ik_groups::handle_ik_groups(cx, false)?;
     }
     cx.handle_dynamics(delta_time)
 }

@@ -2,7 +2,7 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
+use crate::{ApiFn, Cx, Result, functions};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![set_auto_yield_delay, get_auto_yield_delay];
 

@@ -3,9 +3,9 @@
 use api_macro::api;
 
 use super::script::script_of;
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::special;
-use crate::script::Number;
+use crate::{ApiFn, Cx, Result, functions};
+use scene::special;
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![get_system_time, get_system_time_in_ms, get_random, get_stack_traceback];

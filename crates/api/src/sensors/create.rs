@@ -2,15 +2,15 @@
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::appearance::colour::Component;
-use crate::scene::sensor::volume::VolumeType;
-use crate::scene::sensor::{ProximityOptions, ProximitySensor, VisionOptions, VisionSensor};
-use crate::scene::voxels::octree::{OcTree, cell_size};
-use crate::scene::voxels::options::StorageOptions;
-use crate::scene::voxels::point_cloud::PointCloud;
-use crate::scene::{Field, Handle, Kind, SceneError};
-use crate::script::Number;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::appearance::colour::Component;
+use scene::sensor::volume::VolumeType;
+use scene::sensor::{ProximityOptions, ProximitySensor, VisionOptions, VisionSensor};
+use scene::voxels::octree::{OcTree, cell_size};
+use scene::voxels::options::StorageOptions;
+use scene::voxels::point_cloud::PointCloud;
+use scene::{Field, Handle, Kind, SceneError};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     create_proximity_sensor,

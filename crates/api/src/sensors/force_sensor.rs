@@ -2,10 +2,10 @@
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
-use crate::scene::{Handle, Kind};
-use crate::script::Number;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::sensor::force_sensor::{Filter, ForceSensor};
+use scene::{Handle, Kind};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![create_force_sensor];
 

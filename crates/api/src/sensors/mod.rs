@@ -1,9 +1,9 @@
 //! `sim.*`: sensors, octrees and point clouds.
 
-pub(in crate::api) mod create;
-pub(in crate::api) mod force_sensor;
-pub(in crate::api) mod proximity_sensor;
-pub(in crate::api) mod queries;
-pub(in crate::api) mod vision;
-pub(in crate::api) mod voxel_objects;
-pub(in crate::api) mod voxels;
+pub(crate) mod create;
+pub(crate) mod force_sensor;
+pub(crate) mod proximity_sensor;
+pub(crate) mod queries;
+pub(crate) mod vision;
+pub(crate) mod voxel_objects;
+pub(crate) mod voxels;

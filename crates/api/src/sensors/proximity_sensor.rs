@@ -5,13 +5,13 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::perception::detection::{Detected, Mode};
-use crate::perception::entity::{Entity, Purpose};
-use crate::perception::items::Items;
-use crate::scene::sensor::Detection;
-use crate::scene::{Handle, Scene, SceneError, special};
-use crate::script::{Number, SimulationState};
+use crate::{ApiFn, Cx, Result, functions};
+use perception::detection::{Detected, Mode};
+use perception::entity::{Entity, Purpose};
+use perception::items::Items;
+use scene::sensor::Detection;
+use scene::{Handle, Scene, SceneError, special};
+use script::{Number, SimulationState};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     handle_proximity_sensor,

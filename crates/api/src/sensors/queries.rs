@@ -2,10 +2,10 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::perception::entity::Entity;
-use crate::scene::{Handle, Scene, special};
-use crate::script::Number;
+use crate::{ApiFn, Cx, Result, functions};
+use perception::entity::Entity;
+use scene::{Handle, Scene, special};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![check_collision, check_collision_ex, check_distance];
 
@@ -33,7 +33,7 @@ fn check_collision(
     let found = cx.query(|perception, scene| {
         let entities = entities(scene, [entity1_handle, entity2_handle])?;
         let is_on = scene.settings().calculations.collision;
-        Ok::<_, crate::api::ApiError>(if is_on { perception.collision(scene, entities) } else { None })
+        Ok::<_, crate::ApiError>(if is_on { perception.collision(scene, entities) } else { None })
     })?;
     Ok((i64::from(found.is_some()), raw(found)))
 }
@@ -49,7 +49,7 @@ fn check_collision_ex(cx: &Cx, entity1_handle: Number, entity2_handle: Number) -
     let segments = cx.query(|perception, scene| {
         let entities = entities(scene, [entity1_handle, entity2_handle])?;
         let is_on = scene.settings().calculations.collision;
-        Ok::<_, crate::api::ApiError>(if is_on { perception.intersections(scene, entities) } else { Vec::new() })
+        Ok::<_, crate::ApiError>(if is_on { perception.intersections(scene, entities) } else { Vec::new() })
     })?;
     Ok((segments.len() as i64, segments.as_flattened().as_flattened().to_vec()))
 }
@@ -73,7 +73,7 @@ fn check_distance(
     let found = cx.query(|perception, scene| {
         let entities = entities(scene, [entity1_handle, entity2_handle])?;
         let is_on = scene.settings().calculations.distance;
-        Ok::<_, crate::api::ApiError>(if is_on { perception.distance(scene, entities, below) } else { None })
+        Ok::<_, crate::ApiError>(if is_on { perception.distance(scene, entities, below) } else { None })
     })?;
     let data = found
         .map_or(vec![0.0; 7], |found| found.points.as_flattened().iter().copied().chain([found.distance]).collect());

@@ -2,11 +2,11 @@
 
 use api_macro::api;
 
-use crate::api::parameters::param::sensors_are_handled;
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::sensor::{Area, Entity, VisionSensor};
-use crate::scene::{Data, Handle, Kind, Object, SceneError, special};
-use crate::script::{Bytes, IntPair, Number, Results};
+use crate::parameters::param::sensors_are_handled;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::sensor::{Area, Entity, VisionSensor};
+use scene::{Data, Handle, Kind, Object, SceneError, special};
+use script::{Bytes, IntPair, Number, Results};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     handle_vision_sensor,
@@ -172,7 +172,7 @@ fn sensors(cx: &Cx, handle: Number) -> Result<Vec<Handle>> {
 }
 
 /// The part of a sensor's picture that a script means.
-pub(in crate::api) fn area(sensor: &VisionSensor, position: [f64; 2], size: [f64; 2]) -> Result<Area> {
+pub(crate) fn area(sensor: &VisionSensor, position: [f64; 2], size: [f64; 2]) -> Result<Area> {
     let whole = |side: f64| side as i64;
     Area::part(sensor.view.resolution, position.map(whole), size.map(whole))
         .ok_or_else(|| ApiError::Other("invalid arguments.".into()))
@@ -226,12 +226,12 @@ fn get_vision_sensor_depth(
 }
 
 /// 32-bit floats as bytes.
-pub(in crate::api) fn packed(values: &[f32]) -> Vec<u8> {
+pub(crate) fn packed(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|value| value.to_le_bytes()).collect()
 }
 
 /// 32-bit floats from bytes.
-pub(in crate::api) fn unpacked(bytes: &[u8]) -> Vec<f32> {
+pub(crate) fn unpacked(bytes: &[u8]) -> Vec<f32> {
     bytes.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect()
 }
 

@@ -3,11 +3,11 @@
 use api_macro::api;
 
 use super::voxels::{change_cloud, count};
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::voxels::octree::{Voxel, cell_size};
-use crate::scene::voxels::point_cloud::CloudPoint;
-use crate::scene::{Field, Handle, Scene};
-use crate::script::Number;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::voxels::octree::{Voxel, cell_size};
+use scene::voxels::point_cloud::CloudPoint;
+use scene::{Field, Handle, Scene};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     insert_object_into_octree,

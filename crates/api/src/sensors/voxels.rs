@@ -2,12 +2,12 @@
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::voxels::octree::Voxel;
-use crate::scene::voxels::options::{PointOptions, StorageOptions};
-use crate::scene::voxels::point_cloud::{CloudPoint, PointCloud};
-use crate::scene::{Data, Field, Handle, Pose, Scene};
-use crate::script::Number;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::voxels::octree::Voxel;
+use scene::voxels::options::{PointOptions, StorageOptions};
+use scene::voxels::point_cloud::{CloudPoint, PointCloud};
+use scene::{Data, Field, Handle, Pose, Scene};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     insert_voxels,
@@ -66,7 +66,7 @@ fn colours(
     }
 }
 
-pub(in crate::api) fn count(len: usize) -> i64 {
+pub(crate) fn count(len: usize) -> i64 {
     i64::try_from(len).unwrap_or(i64::MAX)
 }
 
@@ -196,11 +196,7 @@ fn insert_points(
     })
 }
 
-pub(in crate::api) fn change_cloud(
-    scene: &mut Scene,
-    handle: Handle,
-    change: impl FnOnce(&mut PointCloud),
-) -> Result<i64> {
+pub(crate) fn change_cloud(scene: &mut Scene, handle: Handle, change: impl FnOnce(&mut PointCloud)) -> Result<i64> {
     Ok(scene.try_modify(handle, Field::Geometry, |object| {
         let cloud = object.point_cloud_mut()?;
         change(cloud);
@@ -297,7 +293,7 @@ fn set_cloud_options(
     let options = StorageOptions::from_bits_retain(options.0);
     let mut scene = cx.scene_mut();
     change_cloud(&mut scene, point_cloud_handle, |cloud| {
-        cloud.max_cell_size = crate::scene::voxels::octree::cell_size(max_voxel_size);
+        cloud.max_cell_size = scene::voxels::octree::cell_size(max_voxel_size);
         cloud.max_points_in_cell = max_pt_cnt_per_voxel.0.max(1);
         cloud.random_colours = options.contains(StorageOptions::RANDOM_COLOURS);
         cloud.uses_octree = !options.contains(StorageOptions::WITHOUT_OCTREE);

@@ -2,10 +2,10 @@
 
 use api_macro::api;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::appearance::colour::{ColourName, Component};
-use crate::scene::{Data, Handle, SceneError};
-use crate::script::Number;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::appearance::colour::{ColourName, Component};
+use scene::{Data, Handle, SceneError};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![get_shape_color, set_shape_color, get_object_color, set_object_color];
 

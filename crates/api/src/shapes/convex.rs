@@ -6,12 +6,12 @@ use geometry::pose::pose_from_array;
 use geometry::{Mesh, MeshError};
 use mesh_processing::Target;
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::shape::Shape;
-use crate::scene::shape::decimate::decimated_mesh;
-use crate::scene::shape::options::{DecompositionOptions, PathShapeOptions};
-use crate::scene::{Handle, Kind, SceneError};
-use crate::script::{Number, Rest};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::shape::Shape;
+use scene::shape::decimate::decimated_mesh;
+use scene::shape::options::{DecompositionOptions, PathShapeOptions};
+use scene::{Handle, Kind, SceneError};
+use script::{Number, Rest};
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![get_q_hull, get_decimated_mesh, convex_decompose, generate_shape_from_path];

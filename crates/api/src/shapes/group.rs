@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::{Handle, SceneError};
-use crate::script::{Handles, Number};
+use crate::{ApiFn, Cx, Result, functions};
+use scene::{Handle, SceneError};
+use script::{Handles, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![group_shapes, ungroup_shape];
 

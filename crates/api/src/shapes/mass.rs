@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::Handle;
-use crate::script::Number;
+use crate::{ApiFn, Cx, Result, functions};
+use scene::Handle;
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_shape_mass,

@@ -3,11 +3,11 @@
 use api_macro::api;
 use mesh_files::{ExportFormat, MeshFile};
 
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::format::mesh_file::{ImportOptions, Looks, MeshFileError, Up, load, store, to_lists, to_parts, to_shapes};
-use crate::scene::shape::Shape;
-use crate::scene::{Data, Handle, Kind};
-use crate::script::{Number, Table};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use format::mesh_file::{self, ImportOptions, Looks, MeshFileError, Up, load, store, to_lists, to_parts, to_shapes};
+use scene::shape::Shape;
+use scene::{Data, Handle, Kind};
+use script::{Number, Table};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![import_shape, import_mesh, export_mesh];
 
@@ -44,7 +44,7 @@ fn import_shape(
     let _ = (fileformat, identical_vertice_tolerance);
     let has = |bit: i64| options.0 & bit != 0;
     let import = import_options(options.0, scaling_factor, has(option::KEEP_TEXTURES))?;
-    let mut file = load(&path_and_filename, import, cx.permissions()).map_err(failure)?;
+    let mut file = load(&path_and_filename, import, cx.permissions())?;
     let looks = Looks {
         colours: !has(option::DROP_COLOURS),
         transparency: !has(option::DROP_COLOURS),
@@ -79,7 +79,7 @@ fn import_mesh(
 ) -> Result<(Data, Data)> {
     let _ = (fileformat, identical_vertice_tolerance);
     let import = import_options(options.0, scaling_factor, false)?;
-    let file = load(&path_and_filename, import, cx.permissions()).map_err(failure)?;
+    let file = load(&path_and_filename, import, cx.permissions())?;
     to_lists(&file).ok_or_else(|| ApiError::Other("the meshes are too large for tables.".into()))
 }
 
@@ -109,33 +109,20 @@ fn export_mesh(
         5 => ExportFormat::Collada,
         6 => ExportFormat::PlyText,
         7 => ExportFormat::PlyBinary,
-        _ => return Err(failure(MeshFileError::UnknownFormat)),
+        _ => return Err(MeshFileError::UnknownFormat.into()),
     };
     let parts = to_parts(&vertices.0, &indices.0).ok_or(ApiError::TableSize)?;
     let mut file = MeshFile { parts, ..MeshFile::default() };
-    file.scale(factor(scaling_factor)?);
-    store(&file, format, &path_and_filename, cx.permissions()).map_err(failure)
+    file.scale(mesh_file::scaling_factor(scaling_factor)?);
+    Ok(store(&file, format, &path_and_filename, cx.permissions())?)
 }
 
 fn import_options(options: i64, scaling: f64, textures: bool) -> Result<ImportOptions> {
     Ok(ImportOptions {
-        scaling: factor(scaling)?,
+        scaling: mesh_file::scaling_factor(scaling)?,
         up: if options & option::IGNORE_UP_AXIS != 0 { Up::Z } else { Up::OfFile },
         keep_identical: options & option::KEEP_IDENTICAL != 0,
         merge_parts: false,
         textures,
     })
-}
-
-/// A factor of coordinates; 0 means that of the file.
-pub(crate) fn factor(scaling: f64) -> Result<f64> {
-    match scaling {
-        0.0 => Ok(1.0),
-        factor if factor > 0.0 && factor.is_finite() => Ok(factor),
-        _ => Err(ApiError::Other("the scaling factor must be positive, or 0.".into())),
-    }
-}
-
-pub(crate) fn failure(error: MeshFileError) -> ApiError {
-    ApiError::Other(error.to_string())
 }

@@ -1,9 +1,9 @@
 //! `sim.*`: shapes: geometry, mass, groups, colours, textures.
 
-pub(in crate::api) mod colour;
-pub(in crate::api) mod convex;
-pub(in crate::api) mod group;
-pub(in crate::api) mod mass;
+pub(crate) mod colour;
+pub(crate) mod convex;
+pub(crate) mod group;
+pub(crate) mod mass;
 pub(crate) mod mesh_file;
-pub(in crate::api) mod shape;
-pub(in crate::api) mod texture;
+pub(crate) mod shape;
+pub(crate) mod texture;

@@ -6,11 +6,11 @@ use geometry::pose::{pose_from_array, pose_to_array};
 use geometry::{Mesh, MeshError};
 
 use super::texture;
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::shape::options::{HeightfieldOptions, MeshOptions, PrimitiveOptions, PureShapeOptions};
-use crate::scene::shape::{Appearance, Part, Shape};
-use crate::scene::{Data, Field, Handle, Key, Kind, Scene, SceneError, SpecialFlags};
-use crate::script::{Bytes, Number};
+use crate::{ApiFn, Cx, Result, functions};
+use scene::shape::options::{HeightfieldOptions, MeshOptions, PrimitiveOptions, PureShapeOptions};
+use scene::shape::{Appearance, Part, Shape};
+use scene::{Data, Field, Handle, Key, Kind, Scene, SceneError, SpecialFlags};
+use script::{Bytes, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     create_primitive_shape,

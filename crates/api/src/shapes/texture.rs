@@ -6,17 +6,15 @@ use api_macro::api;
 use geometry::pose::euler::rotation_from_euler;
 use geometry::{Finite, PrimitiveKind};
 
-use crate::api::display::images::{failure, read_file};
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::format::picture::{Layout, Picture};
-use crate::scene::appearance::texture::Texture;
-use crate::scene::appearance::texture_mapping::{
-    ApplyMode, MappingMode, TextureMapping, TextureOptions, TextureSource,
-};
-use crate::scene::shape::options::MeshOptions;
-use crate::scene::shape::{Part, Shape};
-use crate::scene::{Data, Handle, Kind, Pose, Scene, SceneError};
-use crate::script::{Bytes, IntPair, Number};
+use crate::display::images::{failure, read_file};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use format::picture::{Layout, Picture};
+use scene::appearance::texture::Texture;
+use scene::appearance::texture_mapping::{ApplyMode, MappingMode, TextureMapping, TextureOptions, TextureSource};
+use scene::shape::options::MeshOptions;
+use scene::shape::{Part, Shape};
+use scene::{Data, Handle, Kind, Pose, Scene, SceneError};
+use script::{Bytes, IntPair, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![create_texture, get_texture_id, get_shape_texture_id, set_shape_texture, read_texture, write_texture];
@@ -214,7 +212,7 @@ fn write_texture(
 }
 
 /// The texture of `sim.createShape`: two coordinates for each of `corners` corners, and the pixels of an image.
-pub(in crate::api) fn of_mesh(
+pub(crate) fn of_mesh(
     cx: &mut Cx,
     options: MeshOptions,
     coordinates: &[f64],
@@ -247,7 +245,7 @@ fn single_precision(numbers: &[f64]) -> Result<Rc<[f32]>> {
 }
 
 /// The texture of a mesh as `sim.getShapeViz` returns it; nothing without a texture or image.
-pub(in crate::api) fn viz(scene: &Scene, part: &Part) -> Option<Data> {
+pub(crate) fn viz(scene: &Scene, part: &Part) -> Option<Data> {
     let mapping = part.texture.as_deref()?;
     let texture = scene.textures().get(mapping.source.raw()).ok()?;
     let [u, v] = mapping.repeat;

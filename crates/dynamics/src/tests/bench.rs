@@ -4,9 +4,9 @@ use geometry::MassProperties;
 use geometry::PrimitiveKind;
 
 use super::super::*;
-use crate::scene::joint::JointType;
-use crate::scene::shape::Shape;
-use crate::scene::{Field, Kind, Pose};
+use scene::joint::JointType;
+use scene::shape::Shape;
+use scene::{Field, Kind, Pose};
 
 pub(super) const STEP: f64 = 0.05;
 

@@ -11,7 +11,7 @@ fn tower() -> (Bench, Vec<Handle>) {
     let at = |i: i32| [0.01 * f64::from(i % 2), 0.0, 0.05 + 0.1 * f64::from(i)];
     let mut boxes: Vec<Handle> = (0..10).map(|i| bench.shape([0.1; 3], at(i), 1.0, true, true)).collect();
     let thrown = bench.shape([0.1; 3], [-3.0, 0.02, 0.7], 1.0, true, true);
-    let change = |object: &mut crate::scene::Object| {
+    let change = |object: &mut scene::Object| {
         object.shape_mut()?.dynamics.initial_velocity.linear = [6.0, 0.0, 0.5];
         Ok(())
     };

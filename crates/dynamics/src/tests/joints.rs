@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::scene::joint::JointSolver;
+use scene::joint::JointSolver;
 
 #[test]
 fn position_control_decays_geometrically() {

@@ -10,11 +10,11 @@ mod sleep;
 use bench::{Bench, STEP, along_y, near};
 
 use super::*;
-use crate::scene::joint::Control;
-use crate::scene::joint::JointType;
-use crate::scene::object::dummy::{Dummy, LinkType};
-use crate::scene::sensor::force_sensor::ForceSensor;
-use crate::scene::{Field, Kind, Pose};
+use scene::joint::Control;
+use scene::joint::JointType;
+use scene::object::dummy::{Dummy, LinkType};
+use scene::sensor::force_sensor::ForceSensor;
+use scene::{Field, Kind, Pose};
 
 #[test]
 fn free_fall_is_semi_implicit_euler() {

@@ -1,7 +1,7 @@
 //! Bodies that rest fall asleep, and everything that could move them wakes them.
 
 use super::*;
-use crate::scene::shape::{RespondableMask, Shape, Velocity};
+use scene::shape::{RespondableMask, Shape, Velocity};
 
 /// A box asleep on a floor, both respondable.
 struct Sleeper {

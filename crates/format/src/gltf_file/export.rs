@@ -7,16 +7,16 @@ use mesh_files::gltf::Node;
 use mesh_files::{MeshFile, Part};
 
 use super::{Exported, GltfFile, Placed};
-use crate::format::mesh_file::ShapeParts;
-use crate::scene::shape::Shape;
-use crate::scene::{Handle, Kind, Scene, SceneResult};
+use crate::mesh_file::ShapeParts;
+use scene::shape::Shape;
+use scene::{Handle, Kind, Scene, SceneResult};
 
 impl GltfFile {
     /// Adds objects, parents first; the kind of their textures is an extension. Scripts are left out, and the meshes of shapes nobody sees.
     ///
     /// # Errors
     /// When a handle is unknown; nothing happens then.
-    pub(crate) fn add_objects(&mut self, scene: &Scene, handles: &[Handle], textures: &'static str) -> SceneResult<()> {
+    pub fn add_objects(&mut self, scene: &Scene, handles: &[Handle], textures: &'static str) -> SceneResult<()> {
         for handle in handles {
             scene.object(*handle)?;
         }
@@ -34,7 +34,7 @@ impl GltfFile {
     ///
     /// # Errors
     /// When the handle is unknown.
-    pub(crate) fn add_object(&mut self, scene: &Scene, handle: Handle, textures: &'static str) -> SceneResult<usize> {
+    pub fn add_object(&mut self, scene: &Scene, handle: Handle, textures: &'static str) -> SceneResult<usize> {
         let object = scene.object(handle)?;
         let above = scene.ancestors(handle).find_map(|above| Some((above, *self.nodes.get(&above)?)));
         let (parent, parent_node) = match above {
@@ -56,7 +56,7 @@ impl GltfFile {
     ///
     /// # Errors
     /// When there is no such shape or parent.
-    pub(crate) fn add_shape(
+    pub fn add_shape(
         &mut self,
         scene: &Scene,
         shape: Handle,

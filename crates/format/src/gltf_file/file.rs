@@ -3,18 +3,18 @@
 use std::path::Path;
 
 use super::GltfFile;
-use crate::format::scene_file::{save, write_whole};
-use crate::format::ttt::File;
-use crate::permissions::Permissions;
-use crate::scene::object::dummy::Dummy;
-use crate::scene::{Field, Handle, Kind, ModelFlags, Scene, SceneResult, clean_alias};
+use crate::scene_file::{save, write_whole};
+use crate::ttt::File;
+use permissions::Permissions;
+use scene::object::dummy::Dummy;
+use scene::{Field, Handle, Kind, ModelFlags, Scene, SceneResult, clean_alias};
 
 /// Of the dummy above several objects, metres.
 const DUMMY: f64 = 0.01;
 
 impl GltfFile {
     /// Whether a file's name is that of a glTF file.
-    pub(crate) fn has_name_of(path: &Path) -> bool {
+    pub fn has_name_of(path: &Path) -> bool {
         let extension = path.extension().unwrap_or_default();
         ["glb", "gltf"].iter().any(|known| extension.eq_ignore_ascii_case(known))
     }
@@ -23,7 +23,7 @@ impl GltfFile {
     ///
     /// # Errors
     /// When it may not or cannot be read, or is damaged; in words.
-    pub(crate) fn open(path: &Path, permissions: &Permissions) -> Result<Self, String> {
+    pub fn open(path: &Path, permissions: &Permissions) -> Result<Self, String> {
         let bytes = permissions.read_file(path).map_err(|error| error.to_string())?;
         Self::parse(&bytes, path, permissions)
     }
@@ -32,7 +32,7 @@ impl GltfFile {
     ///
     /// # Errors
     /// When they are damaged; in words.
-    pub(crate) fn parse(bytes: &[u8], path: &Path, permissions: &Permissions) -> Result<Self, String> {
+    pub fn parse(bytes: &[u8], path: &Path, permissions: &Permissions) -> Result<Self, String> {
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut resolve = |name: &str| permissions.read_file(&folder.join(name)).map_err(|error| error.to_string());
         Self::read(bytes, &mut resolve).map_err(|error| error.to_string())
@@ -42,7 +42,7 @@ impl GltfFile {
     ///
     /// # Errors
     /// When it has none; in words.
-    pub(crate) fn model(self, path: &Path) -> Result<(File, Vec<String>), String> {
+    pub fn model(self, path: &Path) -> Result<(File, Vec<String>), String> {
         let mut scene = Scene::new();
         let (handles, warnings) = self.add_to(&mut scene).map_err(|error| error.to_string())?;
         if handles.is_empty() {
@@ -58,7 +58,7 @@ impl GltfFile {
     ///
     /// # Errors
     /// When a texture is not in the scene.
-    pub(crate) fn of_scene(scene: &Scene) -> SceneResult<Self> {
+    pub fn of_scene(scene: &Scene) -> SceneResult<Self> {
         let mut file = Self::default();
         let all: Vec<Handle> = scene.objects().map(|object| object.handle()).collect();
         file.add_objects(scene, &all, "png")?;
@@ -69,7 +69,7 @@ impl GltfFile {
     ///
     /// # Errors
     /// When it is too large, or the file cannot be written; in words.
-    pub(crate) fn write(&self, path: &Path) -> Result<(), String> {
+    pub fn write(&self, path: &Path) -> Result<(), String> {
         let is_text = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gltf"));
         let bytes = if is_text { self.asset.to_text().map(String::into_bytes) } else { self.asset.to_binary() };
         write_whole(path, &bytes.map_err(|error| error.to_string())?).map_err(|error| error.to_string())

@@ -6,10 +6,10 @@ use mesh_files::gltf::Node;
 
 use super::viewers::{camera_object, light_object};
 use super::{GltfFile, Placed, is_turned, pose_of, upright};
-use crate::format::mesh_file::{Looks, to_shapes};
-use crate::scene::object::dummy::Dummy;
-use crate::scene::shape::Shape;
-use crate::scene::{Handle, Kind, Scene, SceneResult, clean_alias};
+use crate::mesh_file::{Looks, to_shapes};
+use scene::object::dummy::Dummy;
+use scene::shape::Shape;
+use scene::{Handle, Kind, Scene, SceneResult, clean_alias};
 
 /// Of a frame that holds nothing, metres.
 const DUMMY: f64 = 0.01;
@@ -22,7 +22,7 @@ impl GltfFile {
     ///
     /// # Errors
     /// When a mesh is too large for a scene, or all handles are in use.
-    pub(crate) fn add_to(&self, scene: &mut Scene) -> SceneResult<(Vec<Handle>, Vec<String>)> {
+    pub fn add_to(&self, scene: &mut Scene) -> SceneResult<(Vec<Handle>, Vec<String>)> {
         let (mut shapes, warnings) = self.shapes(scene)?;
         let mut placed: Vec<(Option<Handle>, Pose)> = Vec::with_capacity(self.asset.nodes.len());
         let mut handles = Vec::new();

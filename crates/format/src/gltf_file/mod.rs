@@ -16,15 +16,15 @@ use mesh_files::gltf::{Asset, Node};
 use mesh_files::{Limits, ReadError};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
-use crate::scene::{Handle, Kind, Scene, SceneResult};
-pub(crate) use recording::Recording;
+pub use recording::Recording;
+use scene::{Handle, Kind, Scene, SceneResult};
 
 /// How much a file may contain: no scene could hold more.
 const LIMITS: Limits = Limits { vertices: 12_000_000, triangles: 4_000_000, parts: 10_000 };
 
 /// A glTF file in memory, and which objects became which nodes.
 #[derive(Debug)]
-pub(crate) struct GltfFile {
+pub struct GltfFile {
     asset: Asset,
     /// The node that turns z up; a file that was read has none at first.
     root: Option<usize>,
@@ -76,7 +76,7 @@ impl GltfFile {
         })
     }
 
-    pub(crate) fn asset(&self) -> &Asset {
+    pub fn asset(&self) -> &Asset {
         &self.asset
     }
 }

@@ -6,14 +6,14 @@ use geometry::Pose;
 use mesh_files::gltf::{Animation, Track};
 
 use super::{GltfFile, Placed};
-use crate::scene::{Handle, Scene};
+use scene::{Handle, Scene};
 
 /// Most poses that are kept, some 600 MB.
 const MAX_POSES: usize = 10_000_000;
 
 /// The poses of all objects, each at those frames at which it was somewhere else than before.
 #[derive(Debug, Default)]
-pub(crate) struct Recording {
+pub struct Recording {
     is_on: bool,
     /// Of each frame: seconds since the first one.
     times: Vec<f64>,
@@ -25,24 +25,24 @@ pub(crate) struct Recording {
 
 impl Recording {
     /// Begins a new recording.
-    pub(crate) fn start(&mut self) {
+    pub fn start(&mut self) {
         *self = Self { is_on: true, ..Self::default() };
     }
 
-    pub(crate) fn stop(&mut self) {
+    pub fn stop(&mut self) {
         self.is_on = false;
     }
 
-    pub(crate) fn is_on(&self) -> bool {
+    pub fn is_on(&self) -> bool {
         self.is_on
     }
 
-    pub(crate) fn frames(&self) -> usize {
+    pub fn frames(&self) -> usize {
         self.times.len()
     }
 
     /// Adds a frame. False if there is no room for more: the recording ends.
-    pub(crate) fn record(&mut self, scene: &Scene, simulation_time: f64, time_step: f64) -> bool {
+    pub fn record(&mut self, scene: &Scene, simulation_time: f64, time_step: f64) -> bool {
         // A simulation that was started again begins at 0.
         let step = if simulation_time > self.clock { simulation_time - self.clock } else { time_step };
         self.times.push(self.times.last().map_or(0.0, |last| last + step));
@@ -83,7 +83,7 @@ impl Recording {
 
 impl GltfFile {
     /// Adds what was recorded of the exported objects as an animation.
-    pub(crate) fn add_animation(&mut self, recording: &Recording) {
+    pub fn add_animation(&mut self, recording: &Recording) {
         let mut tracks: BTreeMap<usize, Track> = BTreeMap::new();
         for exported in &self.exported {
             let poses = recording.frames_of(exported.object, exported.parent).into_iter().filter_map(|frame| {

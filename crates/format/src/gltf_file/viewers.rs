@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use mesh_files::gltf::{self, Extent, LightKind};
 
-use crate::scene::sensor::{Camera, Light, LightType, View};
+use scene::sensor::{Camera, Light, LightType, View};
 
 /// Pixels along the larger side of a camera that comes from a file.
 const PIXELS: f64 = 256.0;

@@ -2,10 +2,10 @@
 
 use mesh_files::{MeshFile, Part};
 
-use crate::scene::Data;
+use scene::Data;
 
 /// A table of coordinates for each part, and one of indices. None where tables could not hold them.
-pub(crate) fn to_lists(file: &MeshFile) -> Option<(Data, Data)> {
+pub fn to_lists(file: &MeshFile) -> Option<(Data, Data)> {
     let numbers: usize = file.parts.iter().map(|part| 3 * (part.vertices.len() + part.triangles.len())).sum();
     if numbers > Data::MAX_ITEMS {
         return None;
@@ -21,7 +21,7 @@ pub(crate) fn to_lists(file: &MeshFile) -> Option<(Data, Data)> {
 }
 
 /// Parts from tables of tables, or from two flat tables. None where they are no meshes.
-pub(crate) fn to_parts(vertices: &Data, indices: &Data) -> Option<Vec<Part>> {
+pub fn to_parts(vertices: &Data, indices: &Data) -> Option<Vec<Part>> {
     let (Data::Array(vertices), Data::Array(indices)) = (vertices, indices) else { return None };
     if vertices.first().is_some_and(|first| first.as_f64().is_some()) {
         return Some(vec![part(vertices, indices)?]);

@@ -7,19 +7,19 @@ mod shapes;
 
 use std::path::{Path, PathBuf};
 
-pub(crate) use lists::{to_lists, to_parts};
+pub use lists::{to_lists, to_parts};
 use mesh_files::{ExportFormat, Format, Limits, MeshFile, UpAxis};
-pub(crate) use shapes::{Looks, ShapeParts, to_shapes};
+pub use shapes::{Looks, ShapeParts, to_shapes};
 
 use super::scene_file::write_whole;
-use crate::permissions::Permissions;
+use permissions::Permissions;
 
 /// What is read for scripts: their tables, and the physics, could not hold more.
 const LIMITS: Limits = Limits { vertices: 12_000_000, triangles: 4_000_000, parts: 10_000 };
 
 /// Why a mesh file is not read or written.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum MeshFileError {
+pub enum MeshFileError {
     #[error("file does not exist.")]
     NotFound,
     #[error("invalid file format.")]
@@ -32,11 +32,25 @@ pub(crate) enum MeshFileError {
     Damaged(String, mesh_files::ReadError),
     #[error("{0}: {1}.")]
     NotWritable(String, mesh_files::WriteError),
+    #[error("the scaling factor must be positive, or 0.")]
+    Scaling,
+}
+
+/// A factor of coordinates; 0 means that of the file.
+///
+/// # Errors
+/// [`MeshFileError::Scaling`] if it is negative or not finite.
+pub fn scaling_factor(scaling: f64) -> Result<f64, MeshFileError> {
+    match scaling {
+        0.0 => Ok(1.0),
+        factor if factor > 0.0 && factor.is_finite() => Ok(factor),
+        _ => Err(MeshFileError::Scaling),
+    }
 }
 
 /// Which axis of the file points up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Up {
+pub enum Up {
     /// What the file or its format says; z if it says nothing.
     OfFile,
     Y,
@@ -45,18 +59,18 @@ pub(crate) enum Up {
 
 /// How a file is read.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct ImportOptions {
+pub struct ImportOptions {
     /// Factor of all coordinates, beside the unit of the file.
-    pub(crate) scaling: f64,
-    pub(crate) up: Up,
-    pub(crate) keep_identical: bool,
+    pub scaling: f64,
+    pub up: Up,
+    pub keep_identical: bool,
     /// Joins parts that look the same.
-    pub(crate) merge_parts: bool,
-    pub(crate) textures: bool,
+    pub merge_parts: bool,
+    pub textures: bool,
 }
 
 /// Reads a mesh file and what it refers to, as far as permitted: metres, z up.
-pub(crate) fn load(name: &str, options: ImportOptions, permissions: &Permissions) -> Result<MeshFile, MeshFileError> {
+pub fn load(name: &str, options: ImportOptions, permissions: &Permissions) -> Result<MeshFile, MeshFileError> {
     let format = Format::of_name(name).ok_or(MeshFileError::UnknownFormat)?;
     let path = Path::new(name);
     let bytes = permissions.read_file(path).map_err(|error| match error.kind() {
@@ -95,7 +109,7 @@ fn beside(folder: &Path, reference: &str, with_textures: bool, permissions: &Per
 }
 
 /// Writes a mesh file, and beside it the materials and textures it refers to.
-pub(crate) fn store(
+pub fn store(
     file: &MeshFile,
     format: ExportFormat,
     name: &str,
@@ -114,7 +128,7 @@ pub(crate) fn store(
 }
 
 /// Turns what is z-up so that y points up: (x, y, z) becomes (x, z, -y).
-pub(crate) fn turn_to_y_up(file: &mut MeshFile) {
+pub fn turn_to_y_up(file: &mut MeshFile) {
     let turn = |[x, y, z]: [f64; 3]| [x, z, -y];
     for part in &mut file.parts {
         part.vertices.iter_mut().for_each(|vertex| *vertex = turn(*vertex));

@@ -5,27 +5,27 @@ use std::rc::Rc;
 use geometry::Mesh;
 use mesh_files::{Material, MeshFile, Part};
 
-use crate::format::picture::{Layout, Picture};
-use crate::scene::appearance::colour::Colour;
-use crate::scene::appearance::texture::Texture;
-use crate::scene::appearance::texture_mapping::{TextureMapping, TextureSource};
-use crate::scene::shape::{Appearance, Shape};
-use crate::scene::{Pose, Scene, SceneError, SceneResult};
+use crate::picture::{Layout, Picture};
+use scene::appearance::colour::Colour;
+use scene::appearance::texture::Texture;
+use scene::appearance::texture_mapping::{TextureMapping, TextureSource};
+use scene::shape::{Appearance, Shape};
+use scene::{Pose, Scene, SceneError, SceneResult};
 
 /// What of the looks of a file is used.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Looks {
-    pub(crate) colours: bool,
-    pub(crate) transparency: bool,
+pub struct Looks {
+    pub colours: bool,
+    pub transparency: bool,
     /// The longest side of a texture in pixels; larger ones are made smaller. None: no textures.
-    pub(crate) textures: Option<u32>,
+    pub textures: Option<u32>,
 }
 
 /// A shape for each part, with the frame of the file. What could not be used is added to the file's warnings.
 ///
 /// # Errors
 /// Where a part is too large for a scene.
-pub(crate) fn to_shapes(file: &mut MeshFile, looks: Looks, scene: &mut Scene) -> SceneResult<Vec<Shape>> {
+pub fn to_shapes(file: &mut MeshFile, looks: Looks, scene: &mut Scene) -> SceneResult<Vec<Shape>> {
     let mut numbers = vec![None; file.textures.len()];
     if let Some(longest) = looks.textures {
         for (number, texture) in numbers.iter_mut().zip(&file.textures) {
@@ -104,12 +104,12 @@ fn appearance(material: &Material, looks: Looks) -> Appearance {
 }
 
 /// The meshes of shapes as parts of a file.
-pub(crate) struct ShapeParts {
-    pub(crate) file: MeshFile,
+pub struct ShapeParts {
+    pub file: MeshFile,
     /// The kind of textures, an extension such as `png`. None: without.
-    pub(crate) textures: Option<&'static str>,
-    pub(crate) colours: bool,
-    pub(crate) normals: bool,
+    pub textures: Option<&'static str>,
+    pub colours: bool,
+    pub normals: bool,
 }
 
 impl ShapeParts {
@@ -117,7 +117,7 @@ impl ShapeParts {
     ///
     /// # Errors
     /// When a texture is not in the scene.
-    pub(crate) fn add(&mut self, name: &str, shape: &Shape, pose: &Pose, scene: &Scene) -> SceneResult<()> {
+    pub fn add(&mut self, name: &str, shape: &Shape, pose: &Pose, scene: &Scene) -> SceneResult<()> {
         for part in &shape.parts {
             let mut mesh = Mesh::default();
             mesh.append(&part.mesh, &(pose * part.pose));

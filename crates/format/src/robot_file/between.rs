@@ -4,8 +4,8 @@ use geometry::MassProperties;
 use robot_description::{Inertial, JointKind};
 
 use super::{Format, Import};
-use crate::scene::shape::Shape;
-use crate::scene::{Pose, SceneResult};
+use scene::shape::Shape;
+use scene::{Pose, SceneResult};
 
 /// Diameter of what carries a joint and has no geometry, metres.
 const CARRIER: f64 = 0.05;
@@ -31,7 +31,7 @@ impl Import<'_> {
         if self.format == Format::Urdf || !self.carries_motion(index) {
             return Ok(None);
         }
-        let mut shape = Shape::ball(CARRIER)?;
+        let mut shape = super::shapes::ball(CARRIER)?;
         shape.dynamics.is_static = self.is_fixed(index);
         if !shape.dynamics.is_static {
             shape.mass = light(self.next_inertial(index));

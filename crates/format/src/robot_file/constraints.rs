@@ -4,9 +4,9 @@ use robot_description::mjcf::Equality;
 use robot_description::{Joint as JointDescription, Mimic};
 
 use super::{Format, Import, joints};
-use crate::scene::joint::{Joint, JointMode, JointType};
-use crate::scene::object::dummy::{Dummy, LinkType};
-use crate::scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
+use scene::joint::{Joint, JointMode, JointType};
+use scene::object::dummy::{Dummy, LinkType};
+use scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
 
 impl Import<'_> {
     /// Adds the sites as dummies below the links that they are on.

@@ -7,9 +7,9 @@ use robot_description::{
     Collision, Dynamics, Geometry, Inertial, Joint, JointKind, Limits, Link, Material, Robot, Visual, urdf,
 };
 
-use crate::scene::joint::{Joint as SceneJoint, JointType};
-use crate::scene::shape::{Part, Shape};
-use crate::scene::{Handle, Kind, Layers, Object, Pose, Scene, SceneError, SceneResult};
+use scene::joint::{Joint as SceneJoint, JointType};
+use scene::shape::{Part, Shape};
+use scene::{Handle, Kind, Layers, Object, Pose, Scene, SceneError, SceneResult};
 
 bitflags! {
     /// The options of `simURDF.export`.

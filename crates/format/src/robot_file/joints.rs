@@ -5,10 +5,10 @@ use robot_description::mjcf::{Actuator, Drive};
 use robot_description::{Dynamics, Joint as Description, JointKind, Limits, Robot};
 
 use super::{Import, ImportOptions};
-use crate::scene::joint::{Control, Joint, JointMode, JointType};
-use crate::scene::object::dummy::Dummy;
-use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
-use crate::scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
+use scene::joint::{Control, Joint, JointMode, JointType};
+use scene::object::dummy::Dummy;
+use scene::sensor::force_sensor::{Filter, ForceSensor};
+use scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
 
 /// Torque of a motor with limits, N m; force of one that slides, or that turns without end, N or N m; speed of both (spec: import 1).
 const TORQUE: f64 = 2.0;

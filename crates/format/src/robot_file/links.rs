@@ -4,8 +4,8 @@ use geometry::MassProperties;
 use robot_description::{Geometry, Inertial, Link};
 
 use super::{Format, Import, ImportOptions, Node};
-use crate::scene::shape::{RespondableMask, Shape};
-use crate::scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
+use scene::shape::{RespondableMask, Shape};
+use scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
 
 /// Diameter of the body of a link that has mass and nothing to touch, metres.
 const CARRIER: f64 = 0.05;
@@ -54,7 +54,7 @@ impl Import<'_> {
         if touched.is_none()
             && let Some(inertial) = &inertial
         {
-            touched = Some((self.carrier_pose(inertial), Shape::ball(CARRIER)?));
+            touched = Some((self.carrier_pose(inertial), super::shapes::ball(CARRIER)?));
         }
         let between = if touched.is_none() { self.body_between(index)? } else { None };
         let mut seen = self.visual(link, touched.as_ref().filter(|_| !collisions.is_empty()))?;
@@ -71,7 +71,7 @@ impl Import<'_> {
             },
         };
         if seen.is_none() && body.is_none() && self.options.contains(ImportOptions::CREATE_VISUALS) {
-            let mut speck = Shape::cube(SPECK.0)?;
+            let mut speck = super::shapes::cube(SPECK.0)?;
             speck.mass.set_mass(SPECK.1);
             seen = Some((Pose::identity(), speck));
         }

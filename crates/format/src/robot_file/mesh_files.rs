@@ -6,10 +6,10 @@ use std::rc::Rc;
 use mesh_files::{Format, Limits, MeshFile};
 use robot_description::Search;
 
-use crate::format::mesh_file::{Looks, to_shapes};
-use crate::permissions::Permissions;
-use crate::scene::shape::Shape;
-use crate::scene::{Pose, Scene};
+use crate::mesh_file::{Looks, to_shapes};
+use permissions::Permissions;
+use scene::shape::Shape;
+use scene::{Pose, Scene};
 
 /// The longest side of a texture, pixels: larger ones are made smaller, as sim.importShape does.
 const LONGEST_TEXTURE: u32 = 512;

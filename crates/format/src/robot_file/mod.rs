@@ -20,11 +20,11 @@ use robot_description::mjcf::{Actuator, Equality, Site};
 
 use super::scene_file::save;
 use super::ttt::File;
-use crate::scene::object::dummy::Dummy;
-use crate::scene::{Field, Handle, Kind, ModelFlags, ObjectFlags, Pose, Scene, SceneResult, clean_alias};
 pub use export::{ExportOptions, export};
 use mesh_files::MeshFiles;
 use place::lift_to_ground;
+use scene::object::dummy::Dummy;
+use scene::{Field, Handle, Kind, ModelFlags, ObjectFlags, Pose, Scene, SceneResult, clean_alias};
 
 bitflags! {
     /// The options of `simURDF.import`.

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::scene::{Handle, Scene, SceneResult};
+use scene::{Handle, Scene, SceneResult};
 
 /// Moves objects so that their shapes are centred on the z axis of the world and stand on its ground.
 pub(super) fn lift_to_ground(scene: &mut Scene, objects: &[Handle], roots: &[Handle]) -> SceneResult<()> {

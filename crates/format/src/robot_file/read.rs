@@ -8,7 +8,7 @@ use robot_description::{JointKind, Parsed, ReadError, Search, urdf};
 
 use super::mesh_files::{MeshFiles, variable};
 use super::{Description, Format, RobotFile};
-use crate::permissions::Permissions;
+use permissions::Permissions;
 
 impl Format {
     /// The format that a file's name says, or its beginning.

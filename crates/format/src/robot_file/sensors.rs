@@ -4,10 +4,10 @@ use nalgebra::{UnitQuaternion, Vector3};
 use robot_description::{Sensor, SensorKind};
 
 use super::Import;
-use crate::scene::sensor::options::{ProximityOptions, VisionOptions};
-use crate::scene::sensor::volume::VolumeType;
-use crate::scene::sensor::{ProximitySensor, VisionSensor};
-use crate::scene::{Field, Kind, ObjectFlags, Pose, SceneResult};
+use scene::sensor::options::{ProximityOptions, VisionOptions};
+use scene::sensor::volume::VolumeType;
+use scene::sensor::{ProximitySensor, VisionSensor};
+use scene::{Field, Kind, ObjectFlags, Pose, SceneResult};
 
 /// The angle of a camera, whatever the file says (spec: import 1).
 const CAMERA_ANGLE: f64 = std::f64::consts::FRAC_PI_3;

@@ -6,8 +6,8 @@ use robot_description::{Geometry, Link, Material};
 
 use super::links::Part;
 use super::{Format, Import, ImportOptions};
-use crate::scene::shape::Shape;
-use crate::scene::{Pose, SceneError, SceneResult};
+use scene::shape::Shape;
+use scene::{Pose, SceneError, SceneResult};
 
 /// What becomes of a mesh that is not convex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,16 +22,14 @@ const SPECULAR: [f32; 3] = [0.2; 3];
 /// Edge and thickness of what stands for an endless plane, metres.
 const PLANE: (f64, f64) = (20.0, 0.1);
 
-impl Shape {
-    /// A ball, a pure one.
-    pub(super) fn ball(diameter: f64) -> SceneResult<Self> {
-        Self::primitive(PrimitiveKind::Spheroid, [diameter; 3], Default::default())
-    }
+/// A ball, a pure shape.
+pub(super) fn ball(diameter: f64) -> SceneResult<Shape> {
+    Shape::primitive(PrimitiveKind::Spheroid, [diameter; 3], Default::default())
+}
 
-    /// A cube, a pure one.
-    pub(super) fn cube(edge: f64) -> SceneResult<Self> {
-        Self::primitive(PrimitiveKind::Cuboid, [edge; 3], Default::default())
-    }
+/// A cube, a pure shape.
+pub(super) fn cube(edge: f64) -> SceneResult<Shape> {
+    Shape::primitive(PrimitiveKind::Cuboid, [edge; 3], Default::default())
 }
 
 impl Import<'_> {

@@ -2,8 +2,8 @@
 
 use super::SceneFile;
 use super::tests::own_files;
-use crate::format::ttt::{File, FileError, FileKind, Header, container};
-use crate::scene::Scene;
+use crate::ttt::{File, FileError, FileKind, Header, container};
+use scene::Scene;
 
 fn model() -> Vec<u8> {
     std::fs::read(&own_files()[2]).unwrap()
@@ -33,7 +33,7 @@ fn load(bytes: &[u8]) -> Result<(), FileError> {
 
 #[test]
 fn every_shortened_file_is_an_error() {
-    let (file, body) = (super::save::scene(&crate::scene::Scene::new(), &[]).unwrap().write(), body());
+    let (file, body) = (super::save::scene(&scene::Scene::new(), &[]).unwrap().write(), body());
     for end in 0..file.len() - 1 {
         assert!(File::read(&file[..end]).is_err(), "{end}");
     }
@@ -65,9 +65,9 @@ fn flipped_bits_do_no_harm() {
 #[test]
 fn an_object_at_no_place_is_an_error() {
     let mut scene = Scene::new();
-    scene.add("far", crate::scene::Kind::Dummy(crate::scene::object::dummy::Dummy::new(0.1))).unwrap();
+    scene.add("far", scene::Kind::Dummy(scene::object::dummy::Dummy::new(0.1))).unwrap();
     let mut file = super::save::scene(&scene, &[]).unwrap();
-    let far = crate::scene::Pose::translation(1e300, 0.0, 0.0);
+    let far = scene::Pose::translation(1e300, 0.0, 0.0);
     file.contents.objects[0].common.pose = Some(far.into());
     let error = SceneFile::read(&file.write()).err().unwrap().to_string();
     assert!(error.contains("far") && error.contains("no place"), "{error}");

@@ -15,15 +15,15 @@ mod bad_input;
 pub(crate) mod tests;
 
 pub use load::SceneFile;
-pub(crate) use migrate::old_names;
+pub use migrate::old_names;
 pub use migrate::with_compat;
 pub use read::{is_scene, read_file, read_path};
 pub use write::write_whole;
-pub(crate) use write::{WholeFile, is_special, link_target, part_of};
+pub use write::{WholeFile, is_special, link_target, part_of};
 
-use crate::format::ttt::{FileResult, container};
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::{Handle, Scene, SceneResult};
+use crate::ttt::{FileResult, container};
+use scene::object::script_object::ScriptType;
+use scene::{Handle, Scene, SceneResult};
 
 impl SceneFile {
     /// The bytes of a file of this scene, as CoppeliaSim 4.10 writes them. `scripts` are those outside of the tree.

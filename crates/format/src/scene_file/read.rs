@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use crate::format::ttt::{self, File, FileError, FileResult};
-use crate::format::xml;
-use crate::permissions::{Permissions, read_bounded};
+use crate::ttt::{self, File, FileError, FileResult};
+use crate::xml;
+use permissions::{Permissions, read_bounded};
 
 /// True where the bytes begin as a scene or model does, binary or XML.
 pub fn is_scene(bytes: &[u8]) -> bool {

@@ -8,17 +8,17 @@ use std::rc::Rc;
 use geometry::PrimitiveKind;
 
 use super::{Loaded, SceneFile, save};
-use crate::format::ttt::File;
-use crate::scene::parameters::engine::Engine;
-use crate::scene::parameters::engine_blocks::EngineValues;
-use crate::scene::pose::check_cached_poses;
-use crate::scene::shape::Shape;
-use crate::scene::{DynamicsSettings, Handle, InertValues, Kind, Object, Pose, Scene, Settings};
+use crate::ttt::File;
+use scene::parameters::engine::Engine;
+use scene::parameters::engine_blocks::EngineValues;
+use scene::pose::check_cached_poses;
+use scene::shape::Shape;
+use scene::{DynamicsSettings, Handle, InertValues, Kind, Object, Pose, Scene, Settings};
 
 /// The smaller ones of other people's scenes and models, in a folder beside the repository. Without that folder the terminal shows that a
 /// test has only our own files; the writer of standard error itself is used, since the output of tests that pass is hidden.
 pub(crate) fn real_files() -> Vec<PathBuf> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/scenes/files");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/scenes/files");
     let Ok(entries) = std::fs::read_dir(folder) else {
         let thread = std::thread::current();
         let name = thread.name().unwrap_or("a test");
@@ -33,7 +33,7 @@ pub(crate) fn real_files() -> Vec<PathBuf> {
 
 /// Small files written by the saver; together they hold objects of every kind.
 pub(crate) fn own_files() -> [PathBuf; 4] {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/data");
     ["robot.ttt", "world.ttt", "robot.ttm", "part.ttm"].map(|name| folder.join(name))
 }
 
@@ -234,9 +234,9 @@ fn groups_in_groups_come_apart_level_by_level_after_loading() {
 
 #[test]
 fn what_v_rep_had_is_kept() {
-    use crate::scene::object::dummy::Dummy;
-    use crate::scene::path_object::{ControlPoint, Measures, PathAttributes, PathFollowing, PathObject, Shaping};
-    use crate::scene::tree::ik_groups::{IkElement, IkGroup};
+    use scene::object::dummy::Dummy;
+    use scene::path_object::{ControlPoint, Measures, PathAttributes, PathFollowing, PathObject, Shaping};
+    use scene::tree::ik_groups::{IkElement, IkGroup};
 
     let mut scene = Scene::new();
     let mut path = PathObject::new(PathAttributes::USUAL, Measures::default());
@@ -258,7 +258,7 @@ fn what_v_rep_had_is_kept() {
         scale: 2.0,
         element: (0.25, 3),
         section: vec![0.5, -0.5],
-        colour: crate::scene::appearance::colour::Colour::new([0.5, 0.25, 0.125]),
+        colour: scene::appearance::colour::Colour::new([0.5, 0.25, 0.125]),
     });
     let path = scene.add("path", Kind::Path(Box::new(path))).unwrap();
     let following = PathFollowing { bits: 2, offsets: [0.25, 0.5] };

@@ -32,7 +32,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
 }
 
 /// A file that is written piece by piece, and appears under its name when it is complete. Pipes and devices are written directly.
-pub(crate) struct WholeFile {
+pub struct WholeFile {
     file: File,
     /// None for pipes and devices.
     part: Option<(TempPath, PathBuf)>,
@@ -41,7 +41,7 @@ pub(crate) struct WholeFile {
 impl WholeFile {
     /// # Errors
     /// When the folder is not there or cannot be written.
-    pub(crate) fn create(path: &Path) -> std::io::Result<Self> {
+    pub fn create(path: &Path) -> std::io::Result<Self> {
         if is_special(path) {
             return Ok(Self { file: File::create(path)?, part: None });
         }
@@ -54,7 +54,7 @@ impl WholeFile {
     ///
     /// # Errors
     /// When it cannot be renamed.
-    pub(crate) fn finish(self) -> std::io::Result<()> {
+    pub fn finish(self) -> std::io::Result<()> {
         self.part.map_or(Ok(()), |(part, path)| Ok(part.persist(path)?))
     }
 }
@@ -79,7 +79,7 @@ impl Seek for WholeFile {
 ///
 /// # Errors
 /// When the folder is not there or cannot be written.
-pub(crate) fn part_of(path: &Path) -> std::io::Result<NamedTempFile> {
+pub fn part_of(path: &Path) -> std::io::Result<NamedTempFile> {
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     remove_abandoned(folder, TIME_TO_LOCK);
     let file = new_file().tempfile_in(folder)?;
@@ -89,12 +89,12 @@ pub(crate) fn part_of(path: &Path) -> std::io::Result<NamedTempFile> {
 }
 
 /// Whether this is a pipe or a device.
-pub(crate) fn is_special(path: &Path) -> bool {
+pub fn is_special(path: &Path) -> bool {
     std::fs::metadata(path).is_ok_and(|data| !data.is_file() && !data.is_dir())
 }
 
 /// Where a link leads: the link stays one.
-pub(crate) fn link_target(path: &Path) -> PathBuf {
+pub fn link_target(path: &Path) -> PathBuf {
     std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }
 

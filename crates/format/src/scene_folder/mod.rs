@@ -8,14 +8,14 @@ mod obj;
 
 use std::path::{Component, Path};
 
-use crate::format::scene_file::ScriptSources;
-use crate::format::ttt::File;
-use crate::format::ttt::chunks::{MeshData, MeshNode};
-use crate::format::ttt::mesh_arrays::MeshArrays;
-use crate::format::ttt::node::{Node, NodeResult, at};
-use crate::format::ttt::tree::{Class, MeshTree};
-use crate::permissions::Permissions;
+use crate::scene_file::ScriptSources;
+use crate::ttt::File;
+use crate::ttt::chunks::{MeshData, MeshNode};
+use crate::ttt::mesh_arrays::MeshArrays;
+use crate::ttt::node::{Node, NodeResult, at};
+use crate::ttt::tree::{Class, MeshTree};
 use names::Names;
+use permissions::Permissions;
 
 /// The file with the tree.
 const TREE: &str = "scene.json";
@@ -244,7 +244,7 @@ fn find<T>(list: &[T], place: Option<i32>) -> Option<&T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::scene_file::tests::{own_files, real_files};
+    use crate::scene_file::tests::{own_files, real_files};
 
     #[test]
     fn an_unpacked_scene_packs_to_the_same() {

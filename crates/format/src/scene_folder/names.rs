@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use crate::format::ttt::File;
-use crate::format::ttt::tree::Object;
-use crate::scene::clean_alias;
+use crate::ttt::File;
+use crate::ttt::tree::Object;
+use scene::clean_alias;
 
 /// Longer aliases are cut, since systems limit the names of files.
 const LONGEST: usize = 60;

@@ -6,10 +6,10 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use super::find;
-use crate::format::ttt::chunks::MeshPool;
-use crate::format::ttt::mesh_arrays::{Arrays, Places};
-use crate::format::ttt::node::NodeResult;
-use crate::format::ttt::{Indices, Normals, Rest};
+use crate::ttt::chunks::MeshPool;
+use crate::ttt::mesh_arrays::{Arrays, Places};
+use crate::ttt::node::NodeResult;
+use crate::ttt::{Indices, Normals, Rest};
 
 const EDGES: &str = "# edges ";
 

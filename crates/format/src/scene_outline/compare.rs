@@ -115,11 +115,11 @@ fn scripts(out: &mut String, path: &str, a: &[(String, String)], b: &[(String, S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::scene_file::tests::{own_files, real_files};
-    use crate::format::scene_file::{SceneFile, save};
-    use crate::format::ttt::tree::Class;
-    use crate::format::ttt::{File, Rest};
-    use crate::scene::Scene;
+    use crate::scene_file::tests::{own_files, real_files};
+    use crate::scene_file::{SceneFile, save};
+    use crate::ttt::tree::Class;
+    use crate::ttt::{File, Rest};
+    use scene::Scene;
 
     fn outline(file: File) -> Outline {
         Outline::new(SceneFile::new(file).unwrap()).unwrap()

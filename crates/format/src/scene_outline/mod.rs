@@ -12,9 +12,9 @@ use super::scene_file::{LoadedScript, SceneFile, save};
 use super::ttt::chunks::MeshPool;
 use super::ttt::node::{Node, NodeResult};
 use super::ttt::{File, Indices, Rest};
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::{Handle, Scene};
 pub use compare::differences;
+use scene::object::script_object::ScriptType;
+use scene::{Handle, Scene};
 
 /// Fields that are other ones in each session, or follow from others.
 const LEFT_OUT: [&str; 20] = [

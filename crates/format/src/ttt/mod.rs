@@ -1,7 +1,7 @@
 //! Scenes and models of CoppeliaSim and V-REP: `.ttt` and `.ttm`.
 //!
 //! [`container`] is the header and the compression, [`chunks`] the streams of chunks as types, [`tree`] what a file holds. Nothing
-//! here knows what a scene is; that is `crate::format::scene_file`.
+//! here knows what a scene is; that is `crate::scene_file`.
 
 pub mod chunks;
 pub mod container;
@@ -118,7 +118,7 @@ fn contents(body: &mut Reader<'_>) -> FileResult<Contents> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::scene_file::tests::{own_files, real_files};
+    use crate::scene_file::tests::{own_files, real_files};
 
     #[test]
     fn real_files_come_back_as_they_were() {

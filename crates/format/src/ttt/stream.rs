@@ -112,11 +112,11 @@ macro_rules! streams {
             $($(#[$field_doc])* pub $field: $type,)*
         }
 
-        impl $crate::format::ttt::stream::Stream for $name {
-            const END: $crate::format::ttt::read::Tag = *$end;
+        impl $crate::ttt::stream::Stream for $name {
+            const END: $crate::ttt::read::Tag = *$end;
 
-            fn take(&mut self, chunk: &mut $crate::format::ttt::read::Reader<'_>) -> $crate::format::ttt::error::FileResult<bool> {
-                use $crate::format::ttt::{read::Real, stream::Slot};
+            fn take(&mut self, chunk: &mut $crate::ttt::read::Reader<'_>) -> $crate::ttt::error::FileResult<bool> {
+                use $crate::ttt::{read::Real, stream::Slot};
                 match &chunk.tag() {
                     $($tag $(| $other)* => self.$field.fill(chunk, Real::Double)?,
                     $($single => self.$field.fill(chunk, Real::Single)?,)?)*
@@ -125,21 +125,21 @@ macro_rules! streams {
                 Ok(true)
             }
 
-            fn write_chunks(&self, out: &mut $crate::format::ttt::write::Writer) {
-                use $crate::format::ttt::stream::Slot;
+            fn write_chunks(&self, out: &mut $crate::ttt::write::Writer) {
+                use $crate::ttt::stream::Slot;
                 $(self.$field.write(*$tag, out);)*
             }
 
-            fn entries(&self) -> Vec<(String, $crate::format::ttt::node::Node)> {
-                use $crate::format::ttt::stream::Slot;
+            fn entries(&self) -> Vec<(String, $crate::ttt::node::Node)> {
+                use $crate::ttt::stream::Slot;
                 let all = [$((stringify!($field), self.$field.to_node())),*];
                 all.into_iter().filter_map(|(name, node)| Some((name.to_owned(), node?))).collect()
             }
 
             fn of_entries(
-                entries: &[(String, $crate::format::ttt::node::Node)],
-            ) -> $crate::format::ttt::node::NodeResult<Self> {
-                use $crate::format::ttt::{node::at, stream::Slot};
+                entries: &[(String, $crate::ttt::node::Node)],
+            ) -> $crate::ttt::node::NodeResult<Self> {
+                use $crate::ttt::{node::at, stream::Slot};
                 let mut stream = Self::default();
                 for (name, node) in entries {
                     match name.as_str() {
@@ -151,24 +151,24 @@ macro_rules! streams {
             }
         }
 
-        impl $crate::format::ttt::value::Value for $name {
+        impl $crate::ttt::value::Value for $name {
             fn read(
-                input: &mut $crate::format::ttt::read::Reader<'_>,
-                _: $crate::format::ttt::read::Real,
-            ) -> $crate::format::ttt::error::FileResult<Self> {
-                <Self as $crate::format::ttt::stream::Stream>::read_stream(input)
+                input: &mut $crate::ttt::read::Reader<'_>,
+                _: $crate::ttt::read::Real,
+            ) -> $crate::ttt::error::FileResult<Self> {
+                <Self as $crate::ttt::stream::Stream>::read_stream(input)
             }
 
-            fn write(&self, out: &mut $crate::format::ttt::write::Writer) {
-                $crate::format::ttt::stream::Stream::write_stream(self, out);
+            fn write(&self, out: &mut $crate::ttt::write::Writer) {
+                $crate::ttt::stream::Stream::write_stream(self, out);
             }
 
-            fn to_node(&self) -> $crate::format::ttt::node::Node {
-                $crate::format::ttt::node::Node::Table($crate::format::ttt::stream::Stream::entries(self))
+            fn to_node(&self) -> $crate::ttt::node::Node {
+                $crate::ttt::node::Node::Table($crate::ttt::stream::Stream::entries(self))
             }
 
-            fn from_node(node: &$crate::format::ttt::node::Node) -> $crate::format::ttt::node::NodeResult<Self> {
-                $crate::format::ttt::stream::Stream::of_entries($crate::format::ttt::stream::entries_of(node)?)
+            fn from_node(node: &$crate::ttt::node::Node) -> $crate::ttt::node::NodeResult<Self> {
+                $crate::ttt::stream::Stream::of_entries($crate::ttt::stream::entries_of(node)?)
             }
         }
     )*};

@@ -12,7 +12,7 @@ use super::read::{Reader, Real, Tag};
 use super::stream::{Stream, entries_of, streams};
 use super::value::{Rest, Value};
 use super::write::Writer;
-use crate::format::ttt::chunks::ButtonBlock;
+use crate::ttt::chunks::ButtonBlock;
 
 /// A mesh: a node of the tree, and its triangles.
 #[derive(Debug, Clone, Default, PartialEq)]

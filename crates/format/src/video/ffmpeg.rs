@@ -8,10 +8,10 @@ use std::process::{Child, Command, Stdio};
 use tempfile::NamedTempFile;
 
 use super::{VideoError, VideoFile, VideoFormat};
-use crate::format::scene_file::{link_target, part_of};
+use crate::scene_file::{link_target, part_of};
 
 /// The program, looked for in the folders of `PATH`.
-pub(crate) const PROGRAM: &str = "ffmpeg";
+pub const PROGRAM: &str = "ffmpeg";
 
 /// Extensions of files, and what ffmpeg calls the kind.
 pub(super) const KINDS: [(&str, &str); 5] =

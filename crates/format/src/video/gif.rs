@@ -7,7 +7,7 @@ use gif::{DisposalMethod, Encoder, Repeat};
 
 use super::frames::{Frame, Frames};
 use super::{VideoError, VideoFile, VideoFormat};
-use crate::format::scene_file::WholeFile;
+use crate::scene_file::WholeFile;
 
 /// From 1, slow and with the best colours, to 30.
 const SPEED: i32 = 10;

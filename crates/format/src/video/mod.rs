@@ -15,14 +15,14 @@ mod webp;
 
 use std::path::Path;
 
-pub(crate) use ffmpeg::PROGRAM;
+pub use ffmpeg::PROGRAM;
 
 /// Most pictures per second: the steps of GIF are hundredths of a second.
-pub(crate) const MAX_RATE: f64 = 100.0;
+pub const MAX_RATE: f64 = 100.0;
 
 /// Why a video cannot be written.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum VideoError {
+pub enum VideoError {
     #[error(
         "unknown kind of video: {0} (known: webp, gif, a series of png files such as out-%05d.png, and with ffmpeg: {known})",
         known = ffmpeg::KINDS.map(|(kind, _)| kind).join(", ")
@@ -60,13 +60,13 @@ pub(crate) enum VideoError {
 
 /// Width and height in pixels, and pictures per second.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct VideoFormat {
+pub struct VideoFormat {
     pub size: [u32; 2],
     pub rate: f64,
 }
 
 /// A video that is being written. Nothing but a series is there under its name before it is finished.
-pub(crate) trait VideoFile {
+pub trait VideoFile {
     /// Adds a picture, RGB with rows from the top, that is shown for as many periods of the rate.
     ///
     /// # Errors
@@ -81,7 +81,7 @@ pub(crate) trait VideoFile {
 }
 
 /// Whether a video with that name is made by another program.
-pub(crate) fn needs_program(path: &Path) -> bool {
+pub fn needs_program(path: &Path) -> bool {
     let extension = extension(path);
     ffmpeg::kind(&extension).is_some() && !(cfg!(feature = "video") && extension == "mp4")
 }
@@ -90,7 +90,7 @@ pub(crate) fn needs_program(path: &Path) -> bool {
 ///
 /// # Errors
 /// When the kind is unknown, or the file cannot be created.
-pub(crate) fn create(path: &Path, format: VideoFormat) -> Result<Box<dyn VideoFile>, VideoError> {
+pub fn create(path: &Path, format: VideoFormat) -> Result<Box<dyn VideoFile>, VideoError> {
     match extension(path).as_str() {
         #[cfg(not(feature = "pictures"))]
         kind @ ("gif" | "webp") => Err(VideoError::LeftOut(kind.to_owned())),

@@ -10,7 +10,7 @@ use openh264::encoder::{
 use openh264::formats::{RgbSliceU8, YUVBuffer};
 
 use super::{VideoError, VideoFile, VideoFormat};
-use crate::format::scene_file::WholeFile;
+use crate::scene_file::WholeFile;
 
 /// Units of time per second; common rates of video divide it.
 const TIME_SCALE: u32 = 90_000;

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::{VideoError, VideoFile, VideoFormat};
-use crate::format::picture::{Layout, Picture};
-use crate::format::scene_file::write_whole;
+use crate::picture::{Layout, Picture};
+use crate::scene_file::write_whole;
 
 pub(super) struct Series {
     name: Name,

@@ -70,7 +70,7 @@ fn a_series_has_a_file_for_each_picture() {
     write(&folder.path().join("a-%03d.png"), 20.0).unwrap();
     let file = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
     assert_eq!(file("a-001.png"), file("a-002.png"));
-    let last = crate::format::picture::Picture::decode(&file("a-003.png"), crate::format::picture::Layout::Rgb);
+    let last = crate::picture::Picture::decode(&file("a-003.png"), crate::picture::Layout::Rgb);
     assert_eq!(last.unwrap().into_bytes(), picture(0));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 4);
 }

@@ -7,7 +7,7 @@ use image_webp::{ColorType, WebPEncoder};
 
 use super::frames::{Frame, Frames};
 use super::{VideoError, VideoFile, VideoFormat};
-use crate::format::scene_file::WholeFile;
+use crate::scene_file::WholeFile;
 
 /// Seconds; a frame has 24 bits for its milliseconds.
 const LONGEST: f64 = 3600.0;

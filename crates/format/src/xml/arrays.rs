@@ -5,9 +5,9 @@ use super::read::{Reading, put};
 use super::side_files::Bytes;
 use super::table::Step;
 use super::write::Item;
-use crate::format::picture::{Layout, Picture};
-use crate::format::ttt::chunks::MeshPool;
-use crate::format::ttt::{FileResult, Indices, Node, Normals, Rest};
+use crate::picture::{Layout, Picture};
+use crate::ttt::chunks::MeshPool;
+use crate::ttt::{FileResult, Indices, Node, Normals, Rest};
 
 /// The fields that say where the arrays of a mesh are in the pool.
 const PLACES: [&str; 4] = ["vertices_at", "indices_at", "normals_at", "edges_at"];

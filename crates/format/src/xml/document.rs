@@ -6,7 +6,7 @@ use std::cell::Cell;
 use quick_xml::Reader;
 use quick_xml::events::{BytesRef, BytesStart, Event};
 
-use crate::format::ttt::{FileError, FileResult, decode};
+use crate::ttt::{FileError, FileResult, decode};
 
 /// Deeper elements than any scene has: objects in objects, groups in groups.
 const MAX_DEPTH: usize = 1000;

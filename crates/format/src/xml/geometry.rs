@@ -11,8 +11,8 @@ use super::document::Element;
 use super::read::{Reading, numbers, put, word};
 use super::table::{Step, Unit, word_of};
 use super::write::{Item, Writing, number};
-use crate::format::ttt::{FileResult, Node, PositionFirst, unit_quaternion};
-use crate::scene::Pose;
+use crate::ttt::{FileResult, Node, PositionFirst, unit_quaternion};
+use scene::Pose;
 
 /// Default density, kg/m3.
 const DENSITY: f64 = 1000.0;

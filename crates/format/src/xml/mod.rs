@@ -18,8 +18,8 @@ mod tests;
 use std::path::Path;
 
 use super::ttt::{File, FileResult};
-use crate::permissions::Permissions;
 use document::Document;
+use permissions::Permissions;
 use side_files::SideFiles;
 
 /// Which of the two XML formats is written.

@@ -8,8 +8,8 @@ use geometry::pose::euler::rotation_from_euler;
 use super::document::Element;
 use super::side_files::SideFiles;
 use super::table::{Count, Kind, Row, Step, Unit, number_of, rows};
-use crate::format::ttt::chunks::MeshPool;
-use crate::format::ttt::{FileError, FileResult, Node};
+use crate::ttt::chunks::MeshPool;
+use crate::ttt::{FileError, FileResult, Node};
 
 /// Deeper groups of meshes are as wrong here as in binary files.
 const MAX_GROUPS: usize = 90;

@@ -7,9 +7,9 @@ use super::read::{Reading, put};
 use super::side_files::SideFiles;
 use super::table::Step;
 use super::write::{Item, Writing};
-use crate::format::ttt::chunks::MeshPool;
-use crate::format::ttt::tree::Object;
-use crate::format::ttt::{File, FileKind, FileResult, Header, Node, Skipped, object_node, object_of_node};
+use crate::ttt::chunks::MeshPool;
+use crate::ttt::tree::Object;
+use crate::ttt::{File, FileKind, FileResult, Header, Node, Skipped, object_node, object_of_node};
 
 /// The elements of objects, and the types they are. The first of a type is written, in the simple variant the last.
 const CLASSES: [(&str, &str); 14] = [
@@ -268,12 +268,12 @@ fn names(objects: &[Node], contents: &Node) -> BTreeMap<i64, String> {
     for object in objects {
         let [handle, _] = handles(object);
         let alias = object.get("Object").and_then(|common| common.get("alias")?.bytes().ok()).unwrap_or_default();
-        names.insert(handle, format!("{}*{handle}", crate::format::ttt::decode(&alias)));
+        names.insert(handle, format!("{}*{handle}", crate::ttt::decode(&alias)));
     }
     for collection in contents.get("collections").and_then(|list| list.list().ok()).unwrap_or_default() {
         let name = collection.get("name").and_then(|name| name.bytes().ok()).unwrap_or_default();
         if let Some(handle) = collection.get("handle").and_then(|handle| handle.int().ok()) {
-            names.insert(handle, format!("@collection@{}", crate::format::ttt::decode(&name)));
+            names.insert(handle, format!("@collection@{}", crate::ttt::decode(&name)));
         }
     }
     names

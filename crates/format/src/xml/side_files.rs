@@ -2,7 +2,7 @@
 
 use std::path::{Component, Path};
 
-use crate::permissions::Permissions;
+use permissions::Permissions;
 
 /// Those of one scene.
 #[derive(Debug, Clone, Copy)]

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use super::{Variant, read, write};
-use crate::format::scene_file::tests::{assert_same, load, own_files, real_files};
-use crate::format::scene_file::{Loaded, SceneFile, save};
-use crate::format::ttt::{File, FileResult};
-use crate::permissions::Permissions;
-use crate::scene::Scene;
+use crate::scene_file::tests::{assert_same, load, own_files, real_files};
+use crate::scene_file::{Loaded, SceneFile, save};
+use crate::ttt::{File, FileResult};
+use permissions::Permissions;
+use scene::Scene;
 
 fn read_all(bytes: &[u8], folder: Option<&Path>) -> FileResult<File> {
     read(bytes, folder, &Permissions::all())
@@ -41,7 +41,7 @@ fn exhaustive_scenes_come_back_equal() {
 
 /// Attributes of objects that the simple variant stores: path, position and mass.
 fn outline(scene: &Scene) -> Vec<String> {
-    let line = |object: &crate::scene::Object| {
+    let line = |object: &scene::Object| {
         let pose = scene.world_pose(object.handle()).unwrap();
         let round = |v: f64| (v * 1e5).round() / 1e5 + 0.0;
         let place: [f64; 3] = pose.translation.vector.into();
@@ -64,7 +64,7 @@ fn simple_scenes_keep_objects_places_and_masses() {
 }
 
 fn kinds() -> Vec<u8> {
-    std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/kinds.simscene.xml")).unwrap()
+    std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/kinds.simscene.xml")).unwrap()
 }
 
 #[test]

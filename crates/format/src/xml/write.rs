@@ -6,9 +6,9 @@ use geometry::pose::euler::rotation_to_euler;
 use super::arrays;
 use super::read::{CODED, get};
 use super::table::{Kind, Row, Unit, rows, word_of};
-use crate::format::ttt::Node;
-use crate::format::ttt::chunks::MeshPool;
-use crate::format::ttt::unit_quaternion;
+use crate::ttt::Node;
+use crate::ttt::chunks::MeshPool;
+use crate::ttt::unit_quaternion;
 
 const REVOLUTE: i64 = 10;
 
@@ -172,7 +172,7 @@ fn handle(node: &Node) -> Option<i64> {
 }
 
 fn string(node: &Node) -> Option<String> {
-    node.bytes().ok().map(|bytes| crate::format::ttt::decode(&bytes))
+    node.bytes().ok().map(|bytes| crate::ttt::decode(&bytes))
 }
 
 /// All digits it has.

@@ -8,7 +8,7 @@ use socket2::{Domain, SockAddr};
 
 /// The address family of an object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Family {
+pub enum Family {
     /// Whatever the first address is.
     Any,
     Inet,
@@ -48,7 +48,7 @@ impl Family {
 
 /// The address of a socket or of its peer.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Place {
+pub enum Place {
     Net(SocketAddr),
     /// A path; empty for a socket without a name.
     Path(Vec<u8>),

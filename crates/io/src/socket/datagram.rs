@@ -12,7 +12,7 @@ use super::{Failure, Family, Place, Socket, Timeout, Wait, open};
 const LONGEST_DATAGRAM: usize = 65_536;
 
 /// A datagram socket, or the place for one.
-pub(crate) struct Datagram {
+pub struct Datagram {
     /// Whether it is connected to one peer.
     pub connected: bool,
     pub timeout: Timeout,
@@ -21,17 +21,17 @@ pub(crate) struct Datagram {
 }
 
 impl Datagram {
-    pub(crate) fn new(family: Family) -> Result<Self, Failure> {
+    pub fn new(family: Family) -> Result<Self, Failure> {
         let socket = family.domain().map(|domain| open(domain, Type::DGRAM)).transpose()?;
         Ok(Self { connected: false, timeout: Timeout::default(), family, socket })
     }
 
-    pub(crate) fn socket(&self) -> Option<&Socket> {
+    pub fn socket(&self) -> Option<&Socket> {
         self.socket.as_ref()
     }
 
     /// Takes another socket, or none; returns the one before.
-    pub(crate) fn replace_socket(&mut self, socket: Option<Socket>) -> Option<Socket> {
+    pub fn replace_socket(&mut self, socket: Option<Socket>) -> Option<Socket> {
         std::mem::replace(&mut self.socket, socket)
     }
 
@@ -39,17 +39,17 @@ impl Datagram {
         self.socket.as_ref().ok_or_else(Failure::not_open)
     }
 
-    pub(crate) fn close(&mut self) {
+    pub fn close(&mut self) {
         self.socket = None;
     }
 
     /// Binds to the first of these addresses that is free.
-    pub(crate) fn bind(&mut self, places: &[Place]) -> Result<(), Failure> {
+    pub fn bind(&mut self, places: &[Place]) -> Result<(), Failure> {
         self.try_each(places, |socket, place| Ok(socket.bind(&place.address()?)?))
     }
 
     /// Speaks to the first of these places only.
-    pub(crate) fn connect(&mut self, places: &[Place]) -> Result<(), Failure> {
+    pub fn connect(&mut self, places: &[Place]) -> Result<(), Failure> {
         self.try_each(places, |socket, place| Ok(socket.connect(&place.address()?)?))?;
         self.connected = true;
         Ok(())
@@ -84,14 +84,14 @@ impl Datagram {
     }
 
     /// Speaks to everybody again.
-    pub(crate) fn disconnect(&mut self) -> Result<(), Failure> {
+    pub fn disconnect(&mut self) -> Result<(), Failure> {
         rustix::net::connect_unspec(&**self.opened()?)?;
         self.connected = false;
         Ok(())
     }
 
     /// Sends to the peer, or to `place`.
-    pub(crate) fn send(&mut self, data: &[u8], place: Option<&Place>, wait: &Wait<'_>) -> Result<usize, Failure> {
+    pub fn send(&mut self, data: &[u8], place: Option<&Place>, wait: &Wait<'_>) -> Result<usize, Failure> {
         let address = place.map(Place::address).transpose()?;
         if let Some(place) = place {
             self.open_for(place)?;
@@ -111,7 +111,7 @@ impl Datagram {
     }
 
     /// The next datagram and where it came from. What is longer than `size` is lost.
-    pub(crate) fn receive(&self, size: usize, wait: &Wait<'_>) -> Result<(Vec<u8>, Place), Failure> {
+    pub fn receive(&self, size: usize, wait: &Wait<'_>) -> Result<(Vec<u8>, Place), Failure> {
         let socket = self.socket.as_ref().ok_or(Failure::Closed)?;
         let mut data = vec![0; size.min(LONGEST_DATAGRAM)];
         loop {
@@ -126,11 +126,11 @@ impl Datagram {
         }
     }
 
-    pub(crate) fn local(&self) -> Result<Place, Failure> {
+    pub fn local(&self) -> Result<Place, Failure> {
         Ok(Place::of(&self.opened()?.local_addr()?))
     }
 
-    pub(crate) fn peer(&self) -> Result<Place, Failure> {
+    pub fn peer(&self) -> Result<Place, Failure> {
         Ok(Place::of(&self.opened()?.peer_addr()?))
     }
 }

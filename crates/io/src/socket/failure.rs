@@ -6,7 +6,7 @@ use rustix::io::Errno;
 
 /// A failure scripts see as nil and its text.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Failure {
+pub enum Failure {
     Timeout,
     Closed,
     /// The simulator is being stopped: an error in the script, so that loops end.
@@ -17,7 +17,7 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    pub(crate) fn words(text: &str) -> Self {
+    pub fn words(text: &str) -> Self {
         Self::Words(text.to_owned())
     }
 
@@ -27,7 +27,7 @@ impl Failure {
     }
 
     /// The text scripts compare.
-    pub(crate) fn text(&self) -> &str {
+    pub fn text(&self) -> &str {
         match self {
             Self::Timeout => "timeout",
             Self::Closed => "closed",

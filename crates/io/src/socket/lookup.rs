@@ -15,7 +15,7 @@ use super::{Failure, Family};
 
 /// Name resolution for sockets of one sort.
 #[derive(Clone, Copy)]
-pub(crate) struct Lookup<'a> {
+pub struct Lookup<'a> {
     pub family: Family,
     /// Datagrams; otherwise streams.
     pub datagrams: bool,
@@ -25,7 +25,7 @@ pub(crate) struct Lookup<'a> {
 
 impl Lookup<'_> {
     /// The addresses of a service of a host: a name, an address, or `*` for every address of this machine.
-    pub(crate) fn resolve(&self, host: &str, service: &str) -> Result<Vec<SocketAddr>, Failure> {
+    pub fn resolve(&self, host: &str, service: &str) -> Result<Vec<SocketAddr>, Failure> {
         let port = port(service)?;
         if let Some(ip) = self.any_address(host).or_else(|| host.parse::<IpAddr>().ok()) {
             let port = port.map_or_else(|| self.query("localhost", service).map(|found| found[0].port()), Ok)?;
@@ -69,19 +69,19 @@ impl Lookup<'_> {
 }
 
 /// A numeric address: no name is looked up.
-pub(crate) fn numeric(host: &str, service: &str, family: Family) -> Result<SocketAddr, Failure> {
+pub fn numeric(host: &str, service: &str, family: Family) -> Result<SocketAddr, Failure> {
     let ip = host.parse().map_err(|_| unknown_name())?;
     let address = SocketAddr::new(ip, port(service)?.ok_or_else(unknown_name)?);
     if family.admits(address) { Ok(address) } else { Err(wrong_family()) }
 }
 
 /// The name of an address; its digits when it has none.
-pub(crate) fn name_of(address: SocketAddr, stop: &AtomicBool) -> Result<(String, String), Failure> {
+pub fn name_of(address: SocketAddr, stop: &AtomicBool) -> Result<(String, String), Failure> {
     on_thread(stop, move || dns_lookup::getnameinfo(&address, 0).map_err(lookup_failure))?
 }
 
 /// The name of this machine.
-pub(crate) fn host_name() -> Result<String, Failure> {
+pub fn host_name() -> Result<String, Failure> {
     Ok(dns_lookup::get_hostname()?)
 }
 
@@ -104,7 +104,7 @@ fn on_thread<T: Send + 'static>(
 }
 
 /// The number of a port; None for the name of a service.
-pub(crate) fn port(service: &str) -> Result<Option<u16>, Failure> {
+pub fn port(service: &str) -> Result<Option<u16>, Failure> {
     match service.parse::<f64>() {
         Ok(number) if number.fract() == 0.0 && (0.0..=65535.0).contains(&number) => Ok(Some(number as u16)),
         Ok(_) => Err(Failure::words("service not supported for socket type")),

@@ -17,23 +17,23 @@ mod tls;
 mod tls_settings;
 mod wait;
 
-pub(crate) use address::{Family, Place};
-pub(crate) use datagram::Datagram;
-pub(crate) use failure::Failure;
-pub(crate) use lookup::{Lookup, host_name, name_of, numeric, port};
-pub(crate) use options::{OptionValue, option, set_option};
-pub(crate) use reader::Pattern;
-pub(crate) use stream::{Role, Stream};
-pub(crate) use tls_settings::{TlsSettings, Verify};
-pub(crate) use wait::{Timeout, Wait, select, sleep};
+pub use address::{Family, Place};
+pub use datagram::Datagram;
+pub use failure::Failure;
+pub use lookup::{Lookup, host_name, name_of, numeric, port};
+pub use options::{OptionValue, option, set_option};
+pub use reader::Pattern;
+pub use stream::{Role, Stream};
+pub use tls_settings::{TlsSettings, Verify};
+pub use wait::{Timeout, Wait, select, sleep};
 
 use std::rc::Rc;
 
 /// A socket of the system. Two objects of a script may share one.
-pub(crate) type Socket = Rc<socket2::Socket>;
+pub type Socket = Rc<socket2::Socket>;
 
 /// The system's number of a socket.
-pub(crate) fn descriptor(socket: &Socket) -> i64 {
+pub fn descriptor(socket: &Socket) -> i64 {
     #[cfg(unix)]
     return std::os::fd::AsRawFd::as_raw_fd(&**socket).into();
     #[cfg(windows)]

@@ -9,7 +9,7 @@ use socket2::Socket;
 
 /// The value of an option.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum OptionValue {
+pub enum OptionValue {
     Bool(bool),
     Number(f64),
     Text(String),
@@ -29,7 +29,7 @@ pub(crate) enum OptionValue {
 use OptionValue::{Bool, Number, Text};
 
 /// Reads an option; None for one of another name.
-pub(crate) fn option(socket: &Socket, name: &str) -> Option<io::Result<OptionValue>> {
+pub fn option(socket: &Socket, name: &str) -> Option<io::Result<OptionValue>> {
     let count = |value: io::Result<usize>| value.map(|value| Number(value as f64));
     let number = |value: io::Result<u32>| value.map(|value| Number(value.into()));
     let seconds = |value: io::Result<Duration>| value.map(|value| Number(value.as_secs_f64()));
@@ -63,7 +63,7 @@ pub(crate) fn option(socket: &Socket, name: &str) -> Option<io::Result<OptionVal
 }
 
 /// Changes an option; None for one of another name, or of another type of value.
-pub(crate) fn set_option(socket: &Socket, name: &str, value: &OptionValue) -> Option<io::Result<()>> {
+pub fn set_option(socket: &Socket, name: &str, value: &OptionValue) -> Option<io::Result<()>> {
     Some(match (name, value) {
         ("keepalive", Bool(on)) => socket.set_keepalive(*on),
         ("reuseaddr", Bool(on)) => socket.set_reuse_address(*on),

@@ -11,7 +11,7 @@ const LONGEST: usize = 1 << 29;
 
 /// The pattern of `receive`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Pattern {
+pub enum Pattern {
     /// Up to the next LF, which is dropped with every CR.
     Line,
     /// Until the other side closes.

@@ -13,14 +13,14 @@ use super::{Failure, Family, Place, Socket, Timeout, Wait, open};
 
 /// The state of a stream object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Role {
+pub enum Role {
     Master,
     Client,
     Server,
 }
 
 /// A stream socket, or the place for one.
-pub(crate) struct Stream {
+pub struct Stream {
     pub role: Role,
     pub timeout: Timeout,
     pub family: Family,
@@ -54,7 +54,7 @@ impl Stream {
     }
 
     /// A stream for addresses of a family.
-    pub(crate) fn new(family: Family) -> Result<Self, Failure> {
+    pub fn new(family: Family) -> Result<Self, Failure> {
         let mut stream = Self::unopened(family);
         if let Some(domain) = family.domain() {
             stream.socket = Some(open(domain, Type::STREAM)?);
@@ -62,22 +62,22 @@ impl Stream {
         Ok(stream)
     }
 
-    pub(crate) fn socket(&self) -> Option<&Socket> {
+    pub fn socket(&self) -> Option<&Socket> {
         self.socket.as_ref()
     }
 
     /// Takes another socket, or none; returns the one before.
-    pub(crate) fn replace_socket(&mut self, socket: Option<Socket>) -> Option<Socket> {
+    pub fn replace_socket(&mut self, socket: Option<Socket>) -> Option<Socket> {
         std::mem::replace(&mut self.socket, socket)
     }
 
     /// Moves the stream to another object; this one has no socket any more.
-    pub(crate) fn handed_over(&mut self) -> Self {
+    pub fn handed_over(&mut self) -> Self {
         let empty = Self { role: self.role, timeout: self.timeout, ..Self::unopened(self.family) };
         std::mem::replace(self, empty)
     }
 
-    pub(crate) fn is_tls(&self) -> bool {
+    pub fn is_tls(&self) -> bool {
         self.tls.is_some()
     }
 
@@ -86,11 +86,11 @@ impl Stream {
     }
 
     /// Whether unread data have arrived.
-    pub(crate) fn is_dirty(&self) -> bool {
+    pub fn is_dirty(&self) -> bool {
         !self.reader.is_empty() || self.tls.as_ref().is_some_and(|tls| tls.has_plaintext())
     }
 
-    pub(crate) fn close(&mut self) {
+    pub fn close(&mut self) {
         if let (Some(tls), Some(socket)) = (&mut self.tls, &self.socket) {
             tls.say_goodbye(socket);
         }
@@ -100,12 +100,12 @@ impl Stream {
     }
 
     /// Binds to the first address that lets it.
-    pub(crate) fn bind(&mut self, places: &[Place]) -> Result<(), Failure> {
+    pub fn bind(&mut self, places: &[Place]) -> Result<(), Failure> {
         self.try_each(places, false, |stream, address| Ok(stream.opened()?.bind(address)?))
     }
 
     /// Connects to the first address that answers.
-    pub(crate) fn connect(&mut self, places: &[Place], wait: &Wait<'_>) -> Result<(), Failure> {
+    pub fn connect(&mut self, places: &[Place], wait: &Wait<'_>) -> Result<(), Failure> {
         // Even if it fails: a connection that takes longer goes on.
         self.role = Role::Client;
         self.try_each(places, wait.is_zero(), |stream, address| stream.connect_to(address, wait))
@@ -156,14 +156,14 @@ impl Stream {
         }
     }
 
-    pub(crate) fn listen(&mut self, backlog: i32) -> Result<(), Failure> {
+    pub fn listen(&mut self, backlog: i32) -> Result<(), Failure> {
         self.opened()?.listen(backlog)?;
         self.role = Role::Server;
         Ok(())
     }
 
     /// The next connection.
-    pub(crate) fn accept(&self, wait: &Wait<'_>) -> Result<Self, Failure> {
+    pub fn accept(&self, wait: &Wait<'_>) -> Result<Self, Failure> {
         let socket = self.opened()?;
         loop {
             match socket.accept() {
@@ -183,7 +183,7 @@ impl Stream {
     }
 
     /// Appends to `out` what `pattern` requests, or what came before a failure.
-    pub(crate) fn receive(&mut self, pattern: Pattern, out: &mut Vec<u8>, wait: &Wait<'_>) -> Result<(), Failure> {
+    pub fn receive(&mut self, pattern: Pattern, out: &mut Vec<u8>, wait: &Wait<'_>) -> Result<(), Failure> {
         let Self { reader, socket, tls, .. } = self;
         let socket = socket.as_ref().ok_or(Failure::Closed)?;
         reader.read(pattern, out, |space| match tls {
@@ -193,7 +193,7 @@ impl Stream {
     }
 
     /// Sends everything, or returns how much was sent.
-    pub(crate) fn send(&mut self, data: &[u8], wait: &Wait<'_>) -> (usize, Result<(), Failure>) {
+    pub fn send(&mut self, data: &[u8], wait: &Wait<'_>) -> (usize, Result<(), Failure>) {
         let Some(socket) = &self.socket else { return (0, Err(Failure::Closed)) };
         let mut count = 0;
         let mut result = Ok(());
@@ -211,7 +211,7 @@ impl Stream {
         (count, result)
     }
 
-    pub(crate) fn shutdown(&self, how: std::net::Shutdown) {
+    pub fn shutdown(&self, how: std::net::Shutdown) {
         if let Some(socket) = &self.socket {
             // As in LuaSocket, it is no error if the connection was already closed.
             let _ = socket.shutdown(how);
@@ -219,26 +219,26 @@ impl Stream {
     }
 
     /// Whether it has no address yet; the system chooses one when it becomes a server.
-    pub(crate) fn is_unbound(&self) -> bool {
+    pub fn is_unbound(&self) -> bool {
         self.local().is_ok_and(|place| matches!(place, Place::Net(address) if address.port() == 0))
     }
 
-    pub(crate) fn local(&self) -> Result<Place, Failure> {
+    pub fn local(&self) -> Result<Place, Failure> {
         Ok(Place::of(&self.opened()?.local_addr()?))
     }
 
-    pub(crate) fn peer(&self) -> Result<Place, Failure> {
+    pub fn peer(&self) -> Result<Place, Failure> {
         Ok(Place::of(&self.opened()?.peer_addr()?))
     }
 
     /// Bytes received and sent, and seconds since the object was made.
-    pub(crate) fn stats(&self) -> (f64, f64, f64) {
+    pub fn stats(&self) -> (f64, f64, f64) {
         let received = self.received_before + self.reader.received as f64;
         (received, self.sent, self.age_before + self.birth.elapsed().as_secs_f64())
     }
 
     /// Sets the values of [`stats`](Self::stats).
-    pub(crate) fn set_stats(&mut self, received: f64, sent: f64, age: f64) {
+    pub fn set_stats(&mut self, received: f64, sent: f64, age: f64) {
         self.received_before = received - self.reader.received as f64;
         self.sent = sent;
         self.birth = now();

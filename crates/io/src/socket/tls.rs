@@ -125,20 +125,20 @@ impl Tls {
 
 impl Stream {
     /// Switches the connection to TLS; the handshake comes next.
-    pub(crate) fn wrap(&mut self, settings: &TlsSettings) -> Result<(), Failure> {
+    pub fn wrap(&mut self, settings: &TlsSettings) -> Result<(), Failure> {
         self.tls = Some(Box::new(Tls { connection: connection(settings)?, waiting: 0 }));
         Ok(())
     }
 
     /// Agrees with the other side on keys.
-    pub(crate) fn shake_hands(&mut self, wait: &Wait<'_>) -> Result<(), Failure> {
+    pub fn shake_hands(&mut self, wait: &Wait<'_>) -> Result<(), Failure> {
         let socket = self.socket().ok_or(Failure::Closed)?.clone();
         let tls = self.tls.as_mut().ok_or_else(|| Failure::words("no TLS connection"))?;
         tls.shake_hands(&socket, wait)
     }
 
     /// Version and cipher of the connection.
-    pub(crate) fn tls_info(&self) -> Option<(String, String)> {
+    pub fn tls_info(&self) -> Option<(String, String)> {
         self.tls.as_ref().and_then(|tls| tls.info())
     }
 }

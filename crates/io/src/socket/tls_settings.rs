@@ -3,14 +3,14 @@
 
 /// Whether the other side must prove who it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Verify {
+pub enum Verify {
     Peer,
     Nobody,
 }
 
 /// The parameters of a connection.
 #[derive(Debug, Clone)]
-pub(crate) struct TlsSettings {
+pub struct TlsSettings {
     pub is_server: bool,
     pub verify: Verify,
     /// The name the certificate of a server must have.

@@ -15,7 +15,7 @@ pub(super) const SLICE: Duration = Duration::from_millis(100);
 
 /// Limits in seconds; negative ones are none.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Timeout {
+pub struct Timeout {
     /// Of each wait.
     pub block: f64,
     /// Of a whole operation.
@@ -29,7 +29,7 @@ impl Default for Timeout {
 }
 
 /// The waits of one operation.
-pub(crate) struct Wait<'a> {
+pub struct Wait<'a> {
     timeout: Timeout,
     /// Looked up only where it matters.
     began: Option<Instant>,
@@ -38,7 +38,7 @@ pub(crate) struct Wait<'a> {
 
 impl<'a> Wait<'a> {
     /// An operation begins. Once `stop` is set, it waits no longer.
-    pub(crate) fn begin(timeout: Timeout, stop: &'a AtomicBool) -> Self {
+    pub fn begin(timeout: Timeout, stop: &'a AtomicBool) -> Self {
         Self { timeout, began: (timeout.total >= 0.0).then(now), stop }
     }
 
@@ -72,7 +72,7 @@ impl<'a> Wait<'a> {
 }
 
 /// Waits until one of `readers` can be read or one of `writers` written, at most `limit` seconds. Returns those that are ready.
-pub(crate) fn select(
+pub fn select(
     readers: &[Socket],
     writers: &[Socket],
     limit: f64,
@@ -88,7 +88,7 @@ pub(crate) fn select(
 }
 
 /// Does nothing for that many seconds.
-pub(crate) fn sleep(seconds: f64, stop: &AtomicBool) -> Result<(), Failure> {
+pub fn sleep(seconds: f64, stop: &AtomicBool) -> Result<(), Failure> {
     let limit = duration(seconds).unwrap_or_default();
     if limit.is_zero() { Ok(()) } else { wait_for(&mut [], Some(limit), stop).map(drop) }
 }

@@ -11,7 +11,7 @@ use tokio_tungstenite::{WebSocketStream, client_async_with_config};
 use super::{Connection, HANDSHAKE, Reports, WsEvent, config, connection};
 
 /// The address to connect to, and the request.
-pub(crate) struct Request {
+pub struct Request {
     handshake: Handshake,
     host: String,
     port: u16,
@@ -24,7 +24,7 @@ impl Request {
     ///
     /// # Errors
     /// When the address or the user agent is invalid.
-    pub(crate) fn new(uri: &str, user_agent: &str, connection: Connection) -> Result<Self, String> {
+    pub fn new(uri: &str, user_agent: &str, connection: Connection) -> Result<Self, String> {
         let mut handshake = uri.into_client_request().map_err(|error| error.to_string())?;
         let agent = user_agent.parse().map_err(|_| format!("invalid user agent: {user_agent}"))?;
         handshake.headers_mut().insert(USER_AGENT, agent);
@@ -42,7 +42,7 @@ impl Request {
     }
 
     /// Host and port.
-    pub(crate) fn place(&self) -> (&str, u16) {
+    pub fn place(&self) -> (&str, u16) {
         (&self.host, self.port)
     }
 }

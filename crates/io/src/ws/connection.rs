@@ -24,7 +24,7 @@ const OVERHEAD: usize = 64;
 
 /// Why a message cannot be sent; the words are CoppeliaSim's.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub(crate) enum SendError {
+pub enum SendError {
     #[error("invalid opcode: {0}")]
     Opcode(i64),
     #[error("invalid payload: text must be valid UTF-8")]
@@ -49,7 +49,7 @@ pub(super) fn message(data: Vec<u8>, opcode: i64) -> Result<Message, SendError> 
 }
 
 /// The way to a peer.
-pub(crate) struct Outgoing {
+pub struct Outgoing {
     queue: UnboundedSender<Message>,
     /// Bytes on their way; the queue is bounded by them.
     bytes: Arc<AtomicUsize>,

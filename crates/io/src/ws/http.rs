@@ -12,23 +12,23 @@ const MOST_HEADERS: usize = 100;
 
 /// The answer to an HTTP request.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Reply {
-    pub(crate) status: u16,
-    pub(crate) data: Vec<u8>,
+pub struct Reply {
+    pub status: u16,
+    pub data: Vec<u8>,
 }
 
 impl Reply {
     /// An answer without content.
-    pub(crate) fn status(status: u16) -> Self {
+    pub fn status(status: u16) -> Self {
         Self { status, data: Vec::new() }
     }
 }
 
 /// The client that waits for the response.
-pub(crate) struct Requester(pub(super) oneshot::Sender<Reply>);
+pub struct Requester(pub(super) oneshot::Sender<Reply>);
 
 impl Requester {
-    pub(crate) fn answer(self, reply: Reply) {
+    pub fn answer(self, reply: Reply) {
         // A client that is gone needs no response.
         let _ = self.0.send(reply);
     }

@@ -23,12 +23,12 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio_tungstenite::tungstenite::protocol::WebSocketConfig;
 
 use super::event_loop::{Deliver, EventLoop, Inbox, Task};
-pub(crate) use client::Request as WsRequest;
-pub(crate) use connection::{Outgoing, SendError};
-pub(crate) use http::Reply as HttpReply;
+pub use client::Request as WsRequest;
+pub use connection::{Outgoing, SendError};
+pub use http::Reply as HttpReply;
 use http::Requester;
-pub(crate) use pages::Pages as WsPages;
-pub(crate) use site::{Site, SiteMessage, SiteReply, SiteServer, SiteWaker, Visitor};
+pub use pages::Pages as WsPages;
+pub use site::{Site, SiteMessage, SiteReply, SiteServer, SiteWaker, Visitor};
 
 /// The largest message and the largest body of an HTTP request, bytes.
 const LARGEST_MESSAGE: usize = 32_000_000;
@@ -45,21 +45,21 @@ pub(crate) type Connection = u64;
 
 /// Counts endpoints and connections.
 #[derive(Clone, Default)]
-pub(crate) struct Numbers(Arc<AtomicU64>);
+pub struct Numbers(Arc<AtomicU64>);
 
 impl Numbers {
-    pub(crate) fn next(&self) -> u64 {
+    pub fn next(&self) -> u64 {
         self.0.fetch_add(1, Ordering::Relaxed) + 1
     }
 
     /// Whether that number has been issued.
-    pub(crate) fn was_issued(&self, number: u64) -> bool {
+    pub fn was_issued(&self, number: u64) -> bool {
         (1..=self.0.load(Ordering::Relaxed)).contains(&number)
     }
 }
 
 /// An event of an endpoint.
-pub(crate) enum WsEvent {
+pub enum WsEvent {
     Open(Connection),
     /// There will be no connection, and why.
     Fail(Connection, String),
@@ -116,7 +116,7 @@ impl Reports {
 }
 
 /// A server or a client. When it is dropped, its sockets are closed at once.
-pub(crate) struct WsEndpoint {
+pub struct WsEndpoint {
     event_loop: Rc<EventLoop>,
     inbox: RefCell<Inbox<Arrival>>,
     open: RefCell<BTreeMap<Connection, Outgoing>>,
@@ -130,7 +130,7 @@ impl WsEndpoint {
     ///
     /// # Errors
     /// When the listener cannot be used.
-    pub(crate) fn listen(
+    pub fn listen(
         event_loop: Rc<EventLoop>,
         listener: TcpListener,
         pages: WsPages,
@@ -145,7 +145,7 @@ impl WsEndpoint {
     }
 
     /// Connects to a server; how that ends is an event.
-    pub(crate) fn connect(event_loop: Rc<EventLoop>, request: WsRequest, numbers: Numbers) -> Self {
+    pub fn connect(event_loop: Rc<EventLoop>, request: WsRequest, numbers: Numbers) -> Self {
         Self::new(event_loop, numbers, |reports| client::connect(request, reports))
     }
 
@@ -160,17 +160,17 @@ impl WsEndpoint {
         Self { event_loop, inbox: RefCell::new(inbox), open: RefCell::default(), port: None, task }
     }
 
-    pub(crate) fn port(&self) -> Option<u16> {
+    pub fn port(&self) -> Option<u16> {
         self.port
     }
 
     /// How many events wait.
-    pub(crate) fn arrived(&self) -> usize {
+    pub fn arrived(&self) -> usize {
         self.inbox.borrow().len()
     }
 
     /// The next event, if there is one.
-    pub(crate) fn next(&self) -> Option<WsEvent> {
+    pub fn next(&self) -> Option<WsEvent> {
         let Arrival { event, outgoing, .. } = self.inbox.borrow_mut().fetch()?;
         match (&event, outgoing) {
             (WsEvent::Open(connection), Some(outgoing)) => {
@@ -188,7 +188,7 @@ impl WsEndpoint {
     ///
     /// # Errors
     /// When the connection is gone or takes no more, or this is no message.
-    pub(crate) fn send(&self, connection: Connection, data: Vec<u8>, opcode: i64) -> Result<(), SendError> {
+    pub fn send(&self, connection: Connection, data: Vec<u8>, opcode: i64) -> Result<(), SendError> {
         let message = connection::message(data, opcode)?;
         self.open.borrow().get(&connection).ok_or(SendError::Expired)?.send(message)
     }

@@ -4,7 +4,7 @@ use std::net::IpAddr;
 
 /// The pages a server admits, by their origin.
 #[derive(Debug, Clone)]
-pub(crate) enum Pages {
+pub enum Pages {
     All,
     /// Those of this machine, and these.
     Own(Vec<String>),

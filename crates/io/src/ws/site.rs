@@ -36,7 +36,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 const FAREWELL: Duration = Duration::from_millis(500);
 
 /// What a server shows.
-pub(crate) trait Site: Send + Sync + 'static {
+pub trait Site: Send + Sync + 'static {
     /// The answer to a GET for a path (with its query); `known` is what the browser has of it, by the tag of an earlier answer.
     fn get(&self, path: &str, known: Option<&str>) -> SiteReply;
 
@@ -45,7 +45,7 @@ pub(crate) trait Site: Send + Sync + 'static {
 }
 
 /// The site's side of one WebSocket connection. Dropped when that ends.
-pub(crate) trait Visitor: Send {
+pub trait Visitor: Send {
     /// A message of the page.
     fn receive(&mut self, message: &[u8]);
 
@@ -55,13 +55,13 @@ pub(crate) trait Visitor: Send {
 
 /// A message to a page.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum SiteMessage {
+pub enum SiteMessage {
     Text(String),
     Binary(Vec<u8>),
 }
 
 /// The answer to a GET.
-pub(crate) struct SiteReply {
+pub struct SiteReply {
     pub status: u16,
     /// Besides the length and the connection.
     pub headers: Vec<(&'static str, String)>,
@@ -69,7 +69,7 @@ pub(crate) struct SiteReply {
 }
 
 /// A running server. It ends when this is dropped.
-pub(crate) struct SiteServer {
+pub struct SiteServer {
     address: SocketAddr,
     wake: Arc<watch::Sender<Signal>>,
     thread: Option<JoinHandle<()>>,
@@ -77,7 +77,7 @@ pub(crate) struct SiteServer {
 
 /// Wakes the connections of a server.
 #[derive(Clone)]
-pub(crate) struct SiteWaker(Arc<watch::Sender<Signal>>);
+pub struct SiteWaker(Arc<watch::Sender<Signal>>);
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 struct Signal {
@@ -87,7 +87,7 @@ struct Signal {
 
 impl SiteWaker {
     /// There may be something new for the pages.
-    pub(crate) fn wake(&self) {
+    pub fn wake(&self) {
         self.0.send_modify(|signal| signal.count += 1);
     }
 }
@@ -97,7 +97,7 @@ impl SiteServer {
     ///
     /// # Errors
     /// When the listener cannot be used, or there is no thread for the server.
-    pub(crate) fn start<S: Site>(listener: TcpListener, site: impl FnOnce(SiteWaker) -> S) -> io::Result<Self> {
+    pub fn start<S: Site>(listener: TcpListener, site: impl FnOnce(SiteWaker) -> S) -> io::Result<Self> {
         listener.set_nonblocking(true)?;
         let address = listener.local_addr()?;
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
@@ -117,11 +117,11 @@ impl SiteServer {
         Ok(Self { address, wake, thread: Some(thread) })
     }
 
-    pub(crate) fn address(&self) -> SocketAddr {
+    pub fn address(&self) -> SocketAddr {
         self.address
     }
 
-    pub(crate) fn waker(&self) -> SiteWaker {
+    pub fn waker(&self) -> SiteWaker {
         SiteWaker(Arc::clone(&self.wake))
     }
 }

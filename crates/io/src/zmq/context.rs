@@ -18,7 +18,7 @@ const MAX_SOCKETS: c_int = 65_535;
 const TIMEOUT: Duration = Duration::from_secs(2);
 
 /// A context. It is terminated when it is dropped; its sockets are closed by then, since a [`super::Socket`] holds its context.
-pub(crate) struct Context {
+pub struct Context {
     /// None only while it is dropped.
     raw: Option<RawContext>,
 }
@@ -26,7 +26,7 @@ pub(crate) struct Context {
 impl Context {
     /// # Errors
     /// When there are too many of them.
-    pub(crate) fn new() -> ZmqResult<Self> {
+    pub fn new() -> ZmqResult<Self> {
         Ok(Self { raw: Some(RawContext::new()?) })
     }
 
@@ -38,13 +38,13 @@ impl Context {
         self.raw().socket(kind)
     }
 
-    pub(crate) fn get(&self, option: c_int) -> ZmqResult<c_int> {
+    pub fn get(&self, option: c_int) -> ZmqResult<c_int> {
         self.raw().get(option)
     }
 
     /// # Errors
     /// Also for values with which libzmq aborts the program if the system refuses them: many threads, and how they are scheduled.
-    pub(crate) fn set(&self, option: c_int, value: c_int) -> ZmqResult<()> {
+    pub fn set(&self, option: c_int, value: c_int) -> ZmqResult<()> {
         let is_dangerous = match option as u32 {
             ffi::ZMQ_IO_THREADS => value > MAX_IO_THREADS,
             ffi::ZMQ_MAX_SOCKETS => value > MAX_SOCKETS,
@@ -55,12 +55,12 @@ impl Context {
     }
 
     /// From now on every call on its sockets fails with `ETERM`.
-    pub(crate) fn shutdown(&self) -> ZmqResult<()> {
+    pub fn shutdown(&self) -> ZmqResult<()> {
         self.raw().shutdown()
     }
 
     /// Starts its termination, which unsent messages of closed sockets can delay.
-    pub(crate) fn terminate(mut self) -> Termination {
+    pub fn terminate(mut self) -> Termination {
         Termination::start(self.raw.take())
     }
 }
@@ -74,7 +74,7 @@ impl Drop for Context {
 }
 
 /// A termination in progress.
-pub(crate) struct Termination {
+pub struct Termination {
     done: Receiver<()>,
 }
 
@@ -95,12 +95,12 @@ impl Termination {
     }
 
     /// Waits for the end, at most so long; returns whether it was reached.
-    pub(crate) fn wait(&self, timeout: Duration) -> bool {
+    pub fn wait(&self, timeout: Duration) -> bool {
         self.done.recv_timeout(timeout) != Err(mpsc::RecvTimeoutError::Timeout)
     }
 
     /// Waits for several, altogether as long as for one.
-    pub(crate) fn wait_for_all(all: impl IntoIterator<Item = Self>) {
+    pub fn wait_for_all(all: impl IntoIterator<Item = Self>) {
         let mut timeout = TIMEOUT;
         for termination in all.into_iter().collect::<Vec<_>>() {
             if !termination.wait(timeout) {

@@ -92,26 +92,26 @@ fn check(returned: c_int) -> ZmqResult<c_int> {
 }
 
 /// The text of an error.
-pub(crate) fn strerror(errno: c_int) -> String {
+pub fn strerror(errno: c_int) -> String {
     // SAFETY: the text is valid until the next call on this thread, and is copied before.
     let text = unsafe { zmq_strerror(errno) }.map(Text::into_bytes).unwrap_or_default();
     String::from_utf8_lossy(&text).into_owned()
 }
 
 /// Major, minor and patch number of libzmq.
-pub(crate) fn version() -> (c_int, c_int, c_int) {
+pub fn version() -> (c_int, c_int, c_int) {
     let (mut major, mut minor, mut patch) = (0, 0, 0);
     zmq_version(&mut major, &mut minor, &mut patch);
     (major, minor, patch)
 }
 
 /// Whether libzmq was built with a capability.
-pub(crate) fn has(capability: &str) -> bool {
+pub fn has(capability: &str) -> bool {
     CString::new(capability).is_ok_and(|capability| zmq_has(Text::new(&capability)) != 0)
 }
 
 /// Bytes as printable text, five characters for four bytes (ZeroMQ RFC 32). None unless their number is a multiple of 4.
-pub(crate) fn z85_encode(bytes: &[u8]) -> Option<Vec<u8>> {
+pub fn z85_encode(bytes: &[u8]) -> Option<Vec<u8>> {
     if bytes.is_empty() || !bytes.len().is_multiple_of(4) {
         return None;
     }
@@ -123,7 +123,7 @@ pub(crate) fn z85_encode(bytes: &[u8]) -> Option<Vec<u8>> {
 }
 
 /// The bytes that `z85_encode` turned into `text`; None if there are none.
-pub(crate) fn z85_decode(text: &[u8]) -> Option<Vec<u8>> {
+pub fn z85_decode(text: &[u8]) -> Option<Vec<u8>> {
     if text.is_empty() || !text.len().is_multiple_of(5) {
         return None;
     }

@@ -14,14 +14,14 @@ const MAX_SIZE: i64 = 1 << 30;
 const DONTWAIT: c_int = ffi::ZMQ_DONTWAIT as c_int;
 
 /// A message. A closed one is empty, and most operations refuse it.
-pub(crate) struct Message {
+pub struct Message {
     raw: RawMessage,
     is_open: bool,
 }
 
 impl Message {
     /// One that must be opened before it is used.
-    pub(crate) fn closed() -> Self {
+    pub fn closed() -> Self {
         Self { raw: RawMessage::new(), is_open: false }
     }
 
@@ -30,7 +30,7 @@ impl Message {
     }
 
     /// Makes it an empty message.
-    pub(crate) fn open(&mut self) {
+    pub fn open(&mut self) {
         *self = Self::with(RawMessage::new());
     }
 
@@ -38,7 +38,7 @@ impl Message {
     ///
     /// # Errors
     /// When it is too long.
-    pub(crate) fn open_with_size(&mut self, size: i64) -> ZmqResult<()> {
+    pub fn open_with_size(&mut self, size: i64) -> ZmqResult<()> {
         let size = usize::try_from(size).ok().filter(|&size| size as i64 <= MAX_SIZE).ok_or(Errno::NO_MEMORY)?;
         *self = Self::with(RawMessage::with_size(size)?);
         Ok(())
@@ -46,7 +46,7 @@ impl Message {
 
     /// # Errors
     /// When it is closed already.
-    pub(crate) fn close(&mut self) -> ZmqResult<()> {
+    pub fn close(&mut self) -> ZmqResult<()> {
         self.require_open()?;
         *self = Self::closed();
         Ok(())
@@ -54,66 +54,66 @@ impl Message {
 
     /// # Errors
     /// When it is closed.
-    pub(crate) fn require_open(&self) -> ZmqResult<()> {
+    pub fn require_open(&self) -> ZmqResult<()> {
         if self.is_open { Ok(()) } else { Err(Errno::NO_MESSAGE) }
     }
 
-    pub(crate) fn bytes(&self) -> &[u8] {
+    pub fn bytes(&self) -> &[u8] {
         self.raw.bytes()
     }
 
-    pub(crate) fn size(&self) -> usize {
+    pub fn size(&self) -> usize {
         self.raw.size()
     }
 
     /// Whether more parts of the same message follow.
-    pub(crate) fn has_more(&self) -> bool {
+    pub fn has_more(&self) -> bool {
         self.raw.has_more()
     }
 
-    pub(crate) fn get(&self, property: c_int) -> ZmqResult<c_int> {
+    pub fn get(&self, property: c_int) -> ZmqResult<c_int> {
         self.require_open()?;
         self.raw.get(property)
     }
 
-    pub(crate) fn set(&mut self, property: c_int, value: c_int) -> ZmqResult<()> {
+    pub fn set(&mut self, property: c_int, value: c_int) -> ZmqResult<()> {
         self.require_open()?;
         self.raw.set(property, value)
     }
 
     /// Metadata of the sender.
-    pub(crate) fn property(&self, name: &str) -> ZmqResult<Vec<u8>> {
+    pub fn property(&self, name: &str) -> ZmqResult<Vec<u8>> {
         self.require_open()?;
         self.raw.property(&c_text(name)?)
     }
 
     /// A second message with the same content, which is shared.
-    pub(crate) fn copy(&mut self) -> ZmqResult<Self> {
+    pub fn copy(&mut self) -> ZmqResult<Self> {
         self.require_open()?;
         Ok(Self::with(self.raw.copy()?))
     }
 
     /// Moves the content into a new message; an empty message remains.
-    pub(crate) fn take(&mut self) -> ZmqResult<Self> {
+    pub fn take(&mut self) -> ZmqResult<Self> {
         self.require_open()?;
         Ok(Self::with(mem::replace(&mut self.raw, RawMessage::new())))
     }
 
     /// Replaces the content by that of another message.
-    pub(crate) fn replace(&mut self, content: Self) -> ZmqResult<()> {
+    pub fn replace(&mut self, content: Self) -> ZmqResult<()> {
         self.require_open()?;
         *self = content;
         Ok(())
     }
 
     /// Moves the content into a socket without waiting; an empty message remains. Returns the length.
-    pub(crate) fn send(&mut self, socket: &Socket, flags: c_int) -> ZmqResult<c_int> {
+    pub fn send(&mut self, socket: &Socket, flags: c_int) -> ZmqResult<c_int> {
         self.require_open()?;
         self.raw.send(socket.raw(), flags | DONTWAIT)
     }
 
     /// Receives into this message without waiting. Returns the length of what came.
-    pub(crate) fn receive(&mut self, socket: &Socket, flags: c_int) -> ZmqResult<c_int> {
+    pub fn receive(&mut self, socket: &Socket, flags: c_int) -> ZmqResult<c_int> {
         self.require_open()?;
         self.raw.receive(socket.raw(), flags | DONTWAIT)
     }

@@ -18,19 +18,19 @@ use std::ffi::{CString, c_int};
 
 use zmq_sys as ffi;
 
-pub(crate) use context::{Context, Termination};
-pub(crate) use libzmq::{has, strerror, version, z85_decode, z85_encode};
-pub(crate) use message::Message;
-pub(crate) use socket::{Socket, poll};
+pub use context::{Context, Termination};
+pub use libzmq::{has, strerror, version, z85_decode, z85_encode};
+pub use message::Message;
+pub use socket::{Socket, poll};
 
 /// Why libzmq failed: one of [`ERRORS`], or a number of the system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Errno(pub c_int);
+pub struct Errno(pub c_int);
 
-pub(crate) type ZmqResult<T> = Result<T, Errno>;
+pub type ZmqResult<T> = Result<T, Errno>;
 
 impl Errno {
-    pub(crate) const INTERRUPTED: Self = Self(ffi::errno::EINTR);
+    pub const INTERRUPTED: Self = Self(ffi::errno::EINTR);
     const INVALID: Self = Self(ffi::errno::EINVAL);
     const NO_MEMORY: Self = Self(ffi::errno::ENOMEM);
     const NO_PROTOCOL: Self = Self(ffi::errno::EPROTONOSUPPORT);
@@ -38,7 +38,7 @@ impl Errno {
 }
 
 /// The errors with names, and their numbers on this system.
-pub(crate) const ERRORS: &[(&str, c_int)] = &[
+pub const ERRORS: &[(&str, c_int)] = &[
     ("EADDRINUSE", ffi::errno::EADDRINUSE),
     ("EADDRNOTAVAIL", ffi::errno::EADDRNOTAVAIL),
     ("EAGAIN", ffi::errno::EAGAIN),

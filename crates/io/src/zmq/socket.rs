@@ -23,7 +23,7 @@ const MAX_OPTION: usize = 4096;
 const MAX_LINGER: c_int = 30_000;
 
 /// A socket. Dropping it discards unsent messages, unless it is closed before.
-pub(crate) struct Socket {
+pub struct Socket {
     raw: RawSocket,
     /// Whether it may still send its messages after it is dropped.
     is_closed: Cell<bool>,
@@ -35,7 +35,7 @@ pub(crate) struct Socket {
 }
 
 impl Socket {
-    pub(crate) fn new(context: &Rc<Context>, kind: c_int) -> ZmqResult<Self> {
+    pub fn new(context: &Rc<Context>, kind: c_int) -> ZmqResult<Self> {
         if kind > LAST_TYPE {
             return Err(Errno::INVALID);
         }
@@ -52,18 +52,18 @@ impl Socket {
         &self.raw
     }
 
-    pub(crate) fn is_in(&self, context: &Rc<Context>) -> bool {
+    pub fn is_in(&self, context: &Rc<Context>) -> bool {
         Rc::ptr_eq(&self.context, context)
     }
 
     /// Closes it when the last reference is dropped. Unsent messages are still sent during the time of the option LINGER.
-    pub(crate) fn close(self: Rc<Self>) {
+    pub fn close(self: Rc<Self>) {
         self.limit_linger();
         self.is_closed.set(true);
     }
 
     /// Limits its lifetime, even if its messages are never delivered.
-    pub(crate) fn limit_linger(&self) {
+    pub fn limit_linger(&self) {
         let linger = self.get(LINGER, size_of::<c_int>()).ok().and_then(|bytes| bytes.try_into().ok());
         if linger.is_some_and(|linger| !(0..=MAX_LINGER).contains(&c_int::from_ne_bytes(linger))) {
             self.set_linger(MAX_LINGER);
@@ -75,24 +75,24 @@ impl Socket {
         let _ = self.set(LINGER, &milliseconds.to_ne_bytes());
     }
 
-    pub(crate) fn bind(&self, endpoint: &str) -> ZmqResult<()> {
+    pub fn bind(&self, endpoint: &str) -> ZmqResult<()> {
         self.raw.bind(&c_text(endpoint)?)
     }
 
-    pub(crate) fn unbind(&self, endpoint: &str) -> ZmqResult<()> {
+    pub fn unbind(&self, endpoint: &str) -> ZmqResult<()> {
         self.raw.unbind(&c_text(endpoint)?)
     }
 
-    pub(crate) fn connect(&self, endpoint: &str) -> ZmqResult<()> {
+    pub fn connect(&self, endpoint: &str) -> ZmqResult<()> {
         self.raw.connect(&c_text(endpoint)?)
     }
 
-    pub(crate) fn disconnect(&self, endpoint: &str) -> ZmqResult<()> {
+    pub fn disconnect(&self, endpoint: &str) -> ZmqResult<()> {
         self.raw.disconnect(&c_text(endpoint)?)
     }
 
     /// Publishes the events of its connections to a PAIR socket at `endpoint`, in place of an earlier monitor.
-    pub(crate) fn monitor(&self, endpoint: &str, events: c_int) -> ZmqResult<()> {
+    pub fn monitor(&self, endpoint: &str, events: c_int) -> ZmqResult<()> {
         monitor::check_endpoint(endpoint)?;
         if let Some(previous) = self.monitor.take() {
             previous.stop(&self.raw);
@@ -102,12 +102,12 @@ impl Socket {
     }
 
     /// Whether unread events of its monitor were dropped since the last call.
-    pub(crate) fn has_lost_events(&self) -> bool {
+    pub fn has_lost_events(&self) -> bool {
         self.monitor.borrow().as_ref().is_some_and(Monitor::has_lost)
     }
 
     /// Sets an option to a value of any type, as bytes.
-    pub(crate) fn set(&self, option: c_int, value: &[u8]) -> ZmqResult<()> {
+    pub fn set(&self, option: c_int, value: &[u8]) -> ZmqResult<()> {
         if option == USE_FD {
             // A script has no open files: any number would be a file of the program.
             return Err(Errno::INVALID);
@@ -125,7 +125,7 @@ impl Socket {
     }
 
     /// The bytes of an option, at most `room` of them.
-    pub(crate) fn get(&self, option: c_int, room: usize) -> ZmqResult<Vec<u8>> {
+    pub fn get(&self, option: c_int, room: usize) -> ZmqResult<Vec<u8>> {
         let mut value = vec![0_u8; room.min(MAX_OPTION)];
         let length = self.raw.get(option, &mut value)?;
         value.truncate(length);
@@ -133,7 +133,7 @@ impl Socket {
     }
 
     /// Sends without waiting. Returns the number of bytes.
-    pub(crate) fn send(&self, bytes: &[u8], flags: c_int) -> ZmqResult<c_int> {
+    pub fn send(&self, bytes: &[u8], flags: c_int) -> ZmqResult<c_int> {
         self.raw.send(bytes, flags | ffi::ZMQ_DONTWAIT as c_int)
     }
 }
@@ -147,7 +147,7 @@ impl Drop for Socket {
 }
 
 /// Waits until one of the sockets is ready for one of its events, at most so many milliseconds. Returns the events each is ready for.
-pub(crate) fn poll(sockets: &[(Rc<Socket>, c_short)], milliseconds: c_long) -> ZmqResult<Vec<c_short>> {
+pub fn poll(sockets: &[(Rc<Socket>, c_short)], milliseconds: c_long) -> ZmqResult<Vec<c_short>> {
     let mut items = Vec::new();
     // Each socket once: the system limits the list to the number of open files, and libzmq aborts the program beyond it.
     let places: Vec<_> = sockets.iter().map(|(socket, events)| place(&mut items, socket, *events)).collect();

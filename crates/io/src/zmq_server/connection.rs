@@ -34,7 +34,7 @@ pub(super) struct State {
 }
 
 #[derive(Default)]
-pub(super) struct Outgoing {
+pub struct Outgoing {
     /// The envelope of the reply to the last request.
     pub(super) envelope: Vec<u8>,
     /// Bytes that the system has not accepted yet.

@@ -44,14 +44,14 @@ struct Limits {
 
 /// Something that has arrived.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) enum Incoming {
+pub enum Incoming {
     Request(Peer, Vec<u8>),
     /// The connection is gone.
     Gone(Peer),
 }
 
 /// A server for REQ sockets.
-pub(crate) struct ZmqServer {
+pub struct ZmqServer {
     event_loop: Rc<EventLoop>,
     inbox: std::cell::RefCell<Inbox<Incoming>>,
     connections: Arc<Connections>,
@@ -68,7 +68,7 @@ impl ZmqServer {
     ///
     /// # Errors
     /// When the listener cannot be used.
-    pub(crate) fn start(event_loop: Rc<EventLoop>, listener: TcpListener, stop: Arc<AtomicBool>) -> io::Result<Self> {
+    pub fn start(event_loop: Rc<EventLoop>, listener: TcpListener, stop: Arc<AtomicBool>) -> io::Result<Self> {
         Self::start_limited(event_loop, listener, stop, LIMITS)
     }
 
@@ -87,7 +87,7 @@ impl ZmqServer {
     }
 
     /// The next of what came in; waits for it at most that long. Requests of connections that are gone are dropped.
-    pub(crate) fn receive(&self, patience: Duration) -> Option<Incoming> {
+    pub fn receive(&self, patience: Duration) -> Option<Incoming> {
         loop {
             let incoming = self.event_loop.fetch(&mut self.inbox.borrow_mut(), patience)?;
             let Incoming::Request(peer, _) = &incoming else { return Some(incoming) };
@@ -99,17 +99,17 @@ impl ZmqServer {
     }
 
     /// Whether the program is about to end, so that waits must end.
-    pub(crate) fn is_closed(&self) -> bool {
+    pub fn is_closed(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 
     /// Whether other sockets of the event loop have received data.
-    pub(crate) fn others_wait(&self) -> bool {
+    pub fn others_wait(&self) -> bool {
         self.event_loop.arrivals() > self.inbox.borrow().len()
     }
 
     /// Answers a connection; nothing happens when it is gone.
-    pub(crate) fn reply(&self, peer: Peer, bytes: &[u8]) {
+    pub fn reply(&self, peer: Peer, bytes: &[u8]) {
         let Some(connection) = self.connections.lock().get(&peer).cloned() else { return };
         connection.answer(bytes);
     }

@@ -8,11 +8,10 @@ use mesh_files::{ExportFormat, MeshFile, UpAxis};
 
 use super::formats::export_format;
 use super::up_axis;
-use crate::api::shapes::mesh_file::{factor, failure};
-use crate::format::mesh_file::{ShapeParts, Up, store, to_parts, turn_to_y_up};
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{Handle, Scene, SceneError};
-use crate::script::{Number, Table};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use format::mesh_file::{ShapeParts, Up, scaling_factor, store, to_parts, turn_to_y_up};
+use scene::{Handle, Scene, SceneError};
+use script::{Number, Table};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![export_shapes, export_meshes];
 
@@ -100,7 +99,7 @@ fn export_meshes(
 }
 
 fn write(cx: &Cx, mut file: MeshFile, format: ExportFormat, name: &str, scaling: f64, up: i64) -> Result<()> {
-    file.scale(factor(scaling)?);
+    file.scale(scaling_factor(scaling)?);
     // Textures lie beside the file: those of another file in the same folder stay as they are.
     let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
     file.textures.iter_mut().for_each(|texture| texture.name = format!("{stem}-{}", texture.name));
@@ -108,5 +107,5 @@ fn write(cx: &Cx, mut file: MeshFile, format: ExportFormat, name: &str, scaling:
         Up::Y => turn_to_y_up(&mut file),
         Up::Z | Up::OfFile => file.up = Some(UpAxis::Z),
     }
-    store(&file, format, name, cx.permissions()).map_err(failure)
+    Ok(store(&file, format, name, cx.permissions())?)
 }

@@ -3,7 +3,7 @@
 use api_macro::api;
 use mesh_files::{ExportFormat, Format};
 
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![get_import_format, get_export_format];
 

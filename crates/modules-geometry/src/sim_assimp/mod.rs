@@ -9,14 +9,13 @@ use api_macro::api;
 use mesh_files::MeshFile;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::api::shapes::mesh_file::{factor, failure};
-use crate::format::mesh_file::{ImportOptions, Looks, Up, load, to_lists, to_shapes};
-use crate::scene::shape::Shape;
-use crate::scene::{Data, Handle, Kind};
-use crate::script::Number;
-use crate::script::log::verbosity;
+use format::mesh_file::{ImportOptions, Looks, Up, load, scaling_factor, to_lists, to_shapes};
+use scene::shape::Shape;
+use scene::{Data, Handle, Kind};
+use script::Number;
+use script::log::verbosity;
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Shapes and meshes from files (OBJ, STL, PLY, COLLADA, glTF, 3DS, DXF), and to files.",
     functions: &[("Import", IMPORT), ("Export", export::FUNCTIONS), ("Formats", formats::FUNCTIONS)],
     constants: include_str!("constants.tsv"),
@@ -69,7 +68,7 @@ fn import_shapes(
     // All are read before the first shape is made: a file that is refused leaves the scene as it is.
     let mut shapes = Vec::new();
     for name in names(&filenames) {
-        let mut file = load(name, import, cx.permissions()).map_err(failure)?;
+        let mut file = load(name, import, cx.permissions())?;
         let own = to_shapes(&mut file, looks, &mut cx.scene_mut())?;
         warn(cx, name, &file, options.0);
         if has(option::ONE_PER_FILE) { shapes.push(Shape::compound(own)?) } else { shapes.extend(own) }
@@ -105,7 +104,7 @@ fn import_meshes(
     let import = import_options(scaling, up_vector.0, options.0, false)?;
     let mut all = MeshFile::default();
     for name in names(&filenames) {
-        let mut file = load(name, import, cx.permissions()).map_err(failure)?;
+        let mut file = load(name, import, cx.permissions())?;
         if options.0 & option::ONE_PER_FILE != 0 {
             file.parts.iter_mut().for_each(|part| part.material = Default::default());
             file.merge_parts();
@@ -122,7 +121,7 @@ fn names(filenames: &str) -> impl Iterator<Item = &str> {
 fn import_options(scaling: f64, up: i64, options: i64, textures: bool) -> Result<ImportOptions> {
     let has = |bit: i64| options & bit != 0;
     Ok(ImportOptions {
-        scaling: factor(scaling)?,
+        scaling: scaling_factor(scaling)?,
         up: match up_axis(up)? {
             Up::OfFile if has(option::IGNORE_UP_AXIS) => Up::Z,
             axis => axis,

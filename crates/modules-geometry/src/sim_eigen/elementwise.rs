@@ -4,7 +4,7 @@ use api_macro::api;
 use nalgebra::DMatrix;
 
 use super::store::{finish, get, refused};
-use crate::modules::{ApiFn, Cx, Result, functions};
+use crate::{ApiFn, Cx, Result, functions};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![mtx_op, mtx_op_k];
 

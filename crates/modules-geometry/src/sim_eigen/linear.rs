@@ -6,7 +6,7 @@ use api_macro::api;
 use nalgebra::{DMatrix, SVD};
 
 use super::store::{add, check_size, get, refused, replace};
-use crate::modules::{ApiFn, Cx, Result, functions};
+use crate::{ApiFn, Cx, Result, functions};
 
 pub(super) const FUNCTIONS: &[ApiFn] =
     functions![mtx_mul, mtx_i_mul, mtx_kron, mtx_dot, mtx_cross, mtx_determinant, mtx_svd, mtx_p_inv];
@@ -16,7 +16,7 @@ type Matrix = DMatrix<f64>;
 /// A method that does not converge by then never will.
 const MOST_ITERATIONS: usize = 10_000;
 
-fn misfit() -> crate::modules::ApiError {
+fn misfit() -> crate::ApiError {
     refused("the sizes of the matrices do not fit")
 }
 

@@ -9,7 +9,7 @@ mod store;
 
 use super::Module;
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     functions: &[
         ("Matrices", matrices::FUNCTIONS),
         ("Element by element", elementwise::FUNCTIONS),

@@ -5,7 +5,7 @@ use geometry::pose::euler::{rotation_from_euler, rotation_to_euler};
 use nalgebra::{DMatrix, Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
 use super::store::{add, finish, get, refused, remove, replace};
-use crate::modules::{ApiFn, Cx, Result, functions};
+use crate::{ApiFn, Cx, Result, functions};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     quat_new,

@@ -8,9 +8,9 @@ use std::rc::Rc;
 
 use nalgebra::{DMatrix, Quaternion};
 
-use crate::modules::{ApiError, Args, Cx, FromScript, Result};
-use crate::scene::Data;
-use crate::script::{Source, Table};
+use crate::{ApiError, Args, Cx, FromScript, Result};
+use scene::Data;
+use script::{Source, Table};
 
 /// Handles of one script.
 const NUMBERS_PER_SCRIPT: u64 = 1 << 32;

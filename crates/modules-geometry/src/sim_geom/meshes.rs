@@ -5,7 +5,7 @@ use geometry::{Mesh, MeshError};
 
 use super::structures::MeshStructure;
 use super::{ApiFn, Cx, Result, factor, frame, functions, invalid_data, refused, serialization, structures};
-use crate::script::Bytes;
+use script::Bytes;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     create_mesh,

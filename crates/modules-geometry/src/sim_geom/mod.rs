@@ -19,10 +19,10 @@ use geometry::{Finite, Pose};
 use proximity::{Closest, Geometry, Placed, TriangleMesh};
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::scene::SceneError;
+use scene::SceneError;
 use structures::Structures;
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Distances and collisions between meshes, octrees, point clouds and primitives that belong to no scene.",
     functions: &[
         ("Meshes", meshes::FUNCTIONS),

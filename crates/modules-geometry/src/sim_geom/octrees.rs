@@ -6,9 +6,9 @@ use nalgebra::Point3;
 
 use super::structures::OctreeStructure;
 use super::{ApiError, ApiFn, Cx, Result, colour, factor, frame, functions, points, pose, serialization, structures};
-use crate::scene::voxels::octree::{OcTree, Voxel};
-use crate::scene::voxels::{cells_of_mesh, cells_of_octree};
-use crate::script::Bytes;
+use scene::voxels::octree::{OcTree, Voxel};
+use scene::voxels::{cells_of_mesh, cells_of_octree};
+use script::Bytes;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     create_octree_from_points,

@@ -5,8 +5,8 @@ use nalgebra::Point3;
 
 use super::structures::CloudStructure;
 use super::{ApiError, ApiFn, Cx, Result, colour, factor, frame, functions, points, serialization, structures};
-use crate::scene::voxels::point_cloud::{CloudPoint, PointCloud};
-use crate::script::Bytes;
+use scene::voxels::point_cloud::{CloudPoint, PointCloud};
+use script::Bytes;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     create_ptcloud_from_points,

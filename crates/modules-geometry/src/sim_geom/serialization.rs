@@ -4,8 +4,8 @@
 use geometry::{Finite, Mesh};
 
 use super::{ApiError, Result, refused};
-use crate::scene::voxels::octree::{OcTree, Voxel};
-use crate::scene::voxels::point_cloud::{CloudPoint, PointCloud};
+use scene::voxels::octree::{OcTree, Voxel};
+use scene::voxels::point_cloud::{CloudPoint, PointCloud};
 
 const MESH: [u8; 4] = *b"sgM1";
 const OCTREE: [u8; 4] = *b"sgO1";

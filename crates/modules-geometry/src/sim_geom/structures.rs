@@ -8,8 +8,8 @@ use geometry::{Mesh, Pose};
 use proximity::{Geometry, Placed, PointSet, TriangleMesh, VoxelGrid};
 
 use super::{ApiError, Result, refused};
-use crate::scene::voxels::octree::OcTree;
-use crate::scene::voxels::point_cloud::PointCloud;
+use scene::voxels::octree::OcTree;
+use scene::voxels::point_cloud::PointCloud;
 
 /// Structures created by a script. They are dropped with the script's state.
 #[derive(Default)]

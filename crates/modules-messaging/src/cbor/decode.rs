@@ -4,9 +4,9 @@ use std::ffi::c_int;
 
 use super::low_level::position;
 use super::{MAX_DEPTH, TOO_DEEP};
-use crate::scene::Data;
-use crate::script::{ApiError, ApiResult, Args, LuaType, Stack, push_buffer};
-use crate::wire::cbor_head::{Head, INDEFINITE, major};
+use scene::Data;
+use script::{ApiError, ApiResult, Args, LuaType, Stack, push_buffer};
+use wire::cbor_head::{Head, INDEFINITE, major};
 
 /// Room made for elements before they are read: a head may promise more than follows.
 const MAX_HINT: usize = 1 << 10;

@@ -3,8 +3,8 @@
 use std::ffi::c_int;
 
 use super::{MAX_DEPTH, TOO_DEEP};
-use crate::script::{ApiResult, Args, LuaType, Stack, read_buffer};
-use crate::wire::cbor_head::{FALSE, NULL, TRUE, is_text, major, push_float, push_head, push_int};
+use script::{ApiResult, Args, LuaType, Stack, read_buffer};
+use wire::cbor_head::{FALSE, NULL, TRUE, is_text, major, push_float, push_head, push_int};
 
 /// Nulls written for holes of one array. Lua's `#` may be astronomic for a table with a few elements.
 const MAX_HOLES: i64 = 1 << 16;

@@ -2,8 +2,8 @@
 
 use std::ffi::c_int;
 
-use crate::script::{ApiError, ApiResult, Args, LuaType, Stack};
-use crate::wire::cbor_head::{Head, HeadError, INDEFINITE, major, push_float, push_head};
+use script::{ApiError, ApiResult, Args, LuaType, Stack};
+use wire::cbor_head::{Head, HeadError, INDEFINITE, major, push_float, push_head};
 
 pub(super) fn encode(args: &mut Args<'_>) -> ApiResult<c_int> {
     args.require(1)?;

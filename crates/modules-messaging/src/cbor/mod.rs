@@ -10,7 +10,7 @@ mod low_level;
 use std::ffi::c_int;
 
 use super::{ApiFn, Args, Module, Param, Result};
-use crate::script::needs_lua;
+use script::needs_lua;
 
 /// Nesting limit of arrays, maps and tags.
 const MAX_DEPTH: usize = 500;
@@ -27,13 +27,13 @@ const fn required(name: &'static str, ty: &'static str) -> Param {
     Param { name, ty, default: None }
 }
 
-pub(super) static CBOR: Module = Module { inner: &[TREES], ..Module::new("org.conman.cbor") };
-pub(super) static CBOR_HEADS: Module = Module {
+pub static CBOR: Module = Module { inner: &[TREES], ..Module::new("org.conman.cbor") };
+pub static CBOR_HEADS: Module = Module {
     about: "The heads of CBOR items: low-level functions of org.conman.cbor.",
     functions: &[("CBOR", HEADS)],
     ..Module::new("org.conman.cbor_c")
 };
-pub(super) static SIM_CBOR: Module = Module { inner: &[TREES], ..Module::new("simCBOR") };
+pub static SIM_CBOR: Module = Module { inner: &[TREES], ..Module::new("simCBOR") };
 
 const TREES: &[ApiFn] = &[
     row(

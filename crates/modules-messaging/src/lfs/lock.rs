@@ -4,8 +4,8 @@
 
 use std::ffi::c_int;
 
-use crate::io::FileLock;
-use crate::script::{ApiError, ApiFn, ApiResult, Args, Param, needs_lua};
+use io::FileLock;
+use script::{ApiError, ApiFn, ApiResult, Args, Param, needs_lua};
 
 pub(super) const FUNCTIONS: &[ApiFn] = &[ApiFn {
     name: "lfs.lock",

@@ -13,19 +13,19 @@ use std::time::{Duration, SystemTime};
 use api_macro::api;
 
 use super::{ApiFn, Cx, Module, Result, functions};
-use crate::permissions::Denied;
-use crate::scene::{Data, Key};
-use crate::script::Results;
 use lock::system_words;
+use permissions::Denied;
+use scene::{Data, Key};
+use script::Results;
 
-pub(super) static LFS: Module = Module {
+pub static LFS: Module = Module {
     about: "Files and folders, with the interface of LuaFileSystem.",
     functions: &[("Files", FUNCTIONS), ("Files", lock::FUNCTIONS)],
     inner: &[INNER],
     ..Module::new("lfs")
 };
 
-pub(super) static LFSX: Module = Module {
+pub static LFSX: Module = Module {
     about: "lfs with functions on paths and folder trees: `require 'lfsx'` adds them to lfs.",
     functions: &[("Paths", PATHS)],
     ..Module::new("lfsx")

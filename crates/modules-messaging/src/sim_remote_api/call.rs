@@ -1,10 +1,10 @@
 //! A command that is being executed: what it reads and writes, and how it calls functions.
 
 use super::service::Service;
-use crate::permissions::Denied;
-use crate::scene::{Data, SceneError};
-use crate::script::{ApiError, Host};
-use crate::wire::simx::{Reader, Violation, Writer};
+use permissions::Denied;
+use scene::{Data, SceneError};
+use script::{ApiError, Host};
+use wire::simx::{Reader, Violation, Writer};
 
 /// Why a command fails.
 #[derive(Debug)]

@@ -5,8 +5,8 @@ use super::direct::DIRECT;
 use super::service::Service;
 use super::services::update_waiting;
 use super::{files, group_data, objects, script_call, sensors, signals};
-use crate::script::Host;
-use crate::wire::simx::{Answer, Command, Order, Reader, Writer};
+use script::Host;
+use wire::simx::{Answer, Command, Order, Reader, Writer};
 
 type Special = (u16, fn(&mut Call<'_>) -> Outcome);
 
@@ -112,6 +112,8 @@ fn change_state(call: &mut Call<'_>) -> Outcome {
 
 #[cfg(test)]
 mod tests {
+    use script::Registry;
+
     use super::*;
 
     #[test]
@@ -126,7 +128,7 @@ mod tests {
 
     #[test]
     fn every_function_exists() {
-        let registry = crate::modules::registry();
+        let registry = Registry::new(&[&api::SIM], lua_library::FILES);
         let missing = |name: &&str| registry.find(name).is_none();
         let unknown: Vec<&str> = DIRECT.iter().map(|direct| direct.function).filter(missing).collect();
         assert_eq!(unknown, [""; 0]);

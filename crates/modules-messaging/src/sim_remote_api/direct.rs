@@ -1,7 +1,7 @@
 //! Commands that are one call of a function of `sim`.
 
 use super::call::{Call, Failure, Outcome, bytes, integer};
-use crate::scene::Data;
+use scene::Data;
 
 /// An argument of the function: where it comes from.
 #[derive(Debug, Clone, Copy)]

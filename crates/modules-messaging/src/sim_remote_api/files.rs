@@ -5,7 +5,7 @@
 use std::path::PathBuf;
 
 use super::call::{Call, Failure, Outcome};
-use crate::scene::Data;
+use scene::Data;
 
 /// How the names of files begin that clients send to load them.
 const SENT: &str = "REMOTE_API_TEMPFILE_";

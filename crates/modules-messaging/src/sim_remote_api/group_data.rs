@@ -1,7 +1,7 @@
 //! One kind of data of many objects (spec: legacy-remote-api 5.2).
 
 use super::call::{Call, Failure, Outcome, bytes, floats, integer};
-use crate::scene::Data;
+use scene::Data;
 
 /// `sim.appobj_object_type`: all objects.
 const ALL_OBJECTS: i64 = 109;
@@ -41,7 +41,7 @@ fn members(call: &Call<'_>, group: i64) -> Result<Vec<i64>, Failure> {
     if !(0..=LAST_TYPE).contains(&group) && group != ALL_OBJECTS {
         return Ok(scene.collection_objects(group)?.into_iter().map(|handle| handle.raw()).collect());
     }
-    let is_member = |object: &&crate::scene::Object| group == ALL_OBJECTS || object.is_of_type(group);
+    let is_member = |object: &&scene::Object| group == ALL_OBJECTS || object.is_of_type(group);
     Ok(scene.objects().filter(is_member).map(|object| object.handle().raw()).collect())
 }
 

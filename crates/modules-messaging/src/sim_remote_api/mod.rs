@@ -1,6 +1,6 @@
 //! `simRemoteApi`: servers of the legacy remote API, the API of `simxStart` (spec: legacy-remote-api).
 //!
-//! `crate::wire::simx` is the protocol, `crate::io::SimxServer` has the sockets, `services` decides when commands are executed, and the
+//! `wire::simx` is the protocol, `io::SimxServer` has the sockets, `services` decides when commands are executed, and the
 //! other files here are the commands.
 
 mod call;
@@ -21,16 +21,16 @@ use std::time::Duration;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::io::EventLoop;
-use crate::scene::Data;
-use crate::scene::object::script_object::ScriptType;
-use crate::script::log::verbosity;
-use crate::script::{Hooks, Results, States};
-use crate::wire::simx::VERSION;
+use io::EventLoop;
+use scene::Data;
+use scene::object::script_object::ScriptType;
+use script::log::verbosity;
+use script::{Hooks, Results, States};
 use service::{Lifetime, Service, Settings};
 use services::Services;
+use wire::simx::VERSION;
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Servers of the legacy remote API, for programs with `simxStart`.",
     functions: &[("Servers", FUNCTIONS)],
     hooks: Hooks {
@@ -51,7 +51,7 @@ const PACKETS: std::ops::RangeInclusive<i64> = 200..=30_000;
 ///
 /// # Errors
 /// When the listener cannot be used.
-pub(crate) fn serve(
+pub fn serve(
     states: &States,
     event_loop: &EventLoop,
     listener: TcpListener,

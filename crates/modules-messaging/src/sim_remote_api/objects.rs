@@ -1,8 +1,8 @@
 //! Objects, joints, the log and windows.
 
 use super::call::{Call, Failure, Outcome, floats, integer};
-use crate::scene::Data;
-use crate::script::log::verbosity;
+use scene::Data;
+use script::log::verbosity;
 
 /// `sim.joint_spherical`.
 const SPHERICAL: i64 = 12;

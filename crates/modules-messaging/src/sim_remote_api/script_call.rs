@@ -1,9 +1,9 @@
 //! Calls of functions in scripts (spec: legacy-remote-api 5.4).
 
 use super::call::{Call, Failure, Outcome, bytes, described, floats, integer};
-use crate::scene::Data;
-use crate::scene::object::script_object::ScriptType;
-use crate::wire::simx::{Reader, Violation};
+use scene::Data;
+use scene::object::script_object::ScriptType;
+use wire::simx::{Reader, Violation};
 
 /// The arguments as the function receives them.
 fn arguments(data: &mut Reader<'_>) -> Result<[Data; 4], Violation> {

@@ -1,7 +1,7 @@
 //! Sensors and their pictures.
 
 use super::call::{Call, Failure, Outcome, bytes, floats, integer};
-use crate::scene::Data;
+use scene::Data;
 
 /// Option of the functions for images: a byte per pixel.
 const GREY: i64 = 1;

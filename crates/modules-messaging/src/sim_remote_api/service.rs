@@ -10,9 +10,9 @@ use std::time::Duration;
 use tempfile::TempDir;
 
 use super::call::Failure;
-use crate::io::{EventLoop, SimxServer};
-use crate::script::Host;
-use crate::wire::simx::Session;
+use ::io::{EventLoop, SimxServer};
+use script::Host;
+use wire::simx::Session;
 
 /// Texts of errors that are kept for the client.
 const MAX_ERRORS: usize = 50;

@@ -6,9 +6,9 @@ use std::rc::Rc;
 
 use super::commands;
 use super::service::{Lifetime, Service};
-use crate::scene::{Data, SceneError};
-use crate::script::{Host, SimulationState};
-use crate::wire::simx::{Answer, Stamp};
+use scene::{Data, SceneError};
+use script::{Host, SimulationState};
+use wire::simx::{Answer, Stamp};
 
 /// The servers by port.
 #[derive(Default)]
@@ -139,7 +139,7 @@ fn show_monitor(host: &Host<'_>, service: &Service) {
     }
 }
 
-fn console(host: &Host<'_>, service: &Service) -> crate::script::ApiResult<i64> {
+fn console(host: &Host<'_>, service: &Service) -> script::ApiResult<i64> {
     if let Some(console) = service.console.get() {
         return Ok(console);
     }

@@ -1,7 +1,7 @@
 //! Signals, and streams of strings.
 
 use super::call::{Call, Failure, Outcome, bytes};
-use crate::scene::Data;
+use scene::Data;
 
 /// Removes a signal; all of its type without a name.
 pub(super) fn clear(call: &mut Call<'_>, function: &str) -> Outcome {

@@ -4,9 +4,9 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::{Rc, Weak};
 
-use crate::io::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent};
-use crate::scene::Data;
-use crate::script::{Cx, Handler, Host, Script};
+use io::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent};
+use scene::Data;
+use script::{Cx, Handler, Host, Script};
 
 use super::log;
 

@@ -3,10 +3,10 @@
 use std::io;
 
 use super::endpoints::Endpoint;
-use crate::io::WsEvent;
-use crate::script::Host;
-use crate::script::log::verbosity;
-use crate::script::step::wall_clock;
+use ::io::WsEvent;
+use script::Host;
+use script::log::verbosity;
+use script::step::wall_clock;
 
 pub(super) fn log_event(host: &Host, endpoint: &Endpoint, event: &WsEvent) {
     match event {

@@ -9,11 +9,11 @@ use std::rc::Rc;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions, remote};
-use crate::io::{Numbers, SendError, WsEndpoint, WsPages, WsRequest};
-use crate::script::{Bytes, Handler, Hooks, ScriptFunction};
 use endpoints::{Endpoint, HandlerKind, Role, WebSockets, handle_number};
+use io::{Numbers, SendError, WsEndpoint, WsPages, WsRequest};
+use script::{Bytes, Handler, Hooks, ScriptFunction};
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "WebSocket servers and clients.",
     functions: &[("WebSocket", FUNCTIONS)],
     constants: "opcode.continuation\t0\nopcode.text\t1\nopcode.binary\t2\n",

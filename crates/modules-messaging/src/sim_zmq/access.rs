@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::modules::{Cx, Result};
+use crate::{Cx, Result};
 
 /// The option of a socket with the address of a proxy.
 const SOCKS_PROXY: i32 = 68;

@@ -6,9 +6,9 @@ use std::time::Duration;
 use api_macro::api;
 
 use super::objects::{forbid_singleton, no_socket, objects, singleton_handle};
-use crate::io::zmq::{Context, Socket};
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::script::Number;
+use crate::{ApiFn, Cx, Result, functions};
+use io::zmq::{Context, Socket};
+use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![ctx_new, ctx_singleton, ctx_get, ctx_set, ctx_shutdown, socket];
 

@@ -4,9 +4,9 @@ use api_macro::api;
 
 use super::int;
 use super::objects::objects;
-use crate::io::zmq::{Message, ZmqResult};
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::script::{Number, Text};
+use crate::{ApiFn, Cx, Result, functions};
+use io::zmq::{Message, ZmqResult};
+use script::{Number, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     msg_new,

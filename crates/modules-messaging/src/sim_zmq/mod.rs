@@ -13,14 +13,14 @@ use std::ffi::c_int;
 use api_macro::api;
 
 use super::{ApiFn, Cx, Module, Result, functions};
-use crate::io::zmq::{self, ERRORS};
-use crate::scene::{Data, Key};
-use crate::script::{Bytes, Number, Param, Table, Text};
+use io::zmq::{self, ERRORS};
 use objects::objects;
+use scene::{Data, Key};
+use script::{Bytes, Number, Param, Table, Text};
 
-pub(crate) use objects::has_sockets;
+pub use objects::has_sockets;
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "ZeroMQ: sockets that carry whole messages between programs.",
     functions: &[
         ("Contexts", contexts::FUNCTIONS),

@@ -7,9 +7,9 @@ use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use crate::io::zmq::{Context, Errno, Message, Socket, Termination, ZmqResult};
-use crate::modules::{ApiError, Cx, Result};
-use crate::script::States;
+use crate::{ApiError, Cx, Result};
+use io::zmq::{Context, Errno, Message, Socket, Termination, ZmqResult};
+use script::States;
 
 /// The number of the context all scripts of a simulator share.
 const SINGLETON: u64 = 1;
@@ -32,7 +32,7 @@ struct Shared {
 }
 
 /// Whether some script has ZeroMQ sockets. Nothing wakes the simulator for those: scripts look whether a message has come.
-pub(crate) fn has_sockets(states: &States) -> bool {
+pub fn has_sockets(states: &States) -> bool {
     states.existing::<Shared>().is_some_and(|shared| Rc::strong_count(&shared.users) > 1)
 }
 

@@ -7,10 +7,10 @@ use api_macro::api;
 use super::access::{check_endpoint, check_option};
 use super::int;
 use super::objects::objects;
-use crate::io::zmq::{self, Errno, Message, Socket};
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::Data;
-use crate::script::{Args, Bytes, FromScript, Number, Source, Table, Text};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use io::zmq::{self, Errno, Message, Socket};
+use scene::Data;
+use script::{Args, Bytes, FromScript, Number, Source, Table, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![close, bind, unbind, connect, disconnect, setsockopt, getsockopt, socket_monitor, send, recv, poll,];

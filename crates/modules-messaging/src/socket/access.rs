@@ -1,8 +1,8 @@
 //! Permissions of sockets.
 
-use crate::api::{Cx, Result};
-use crate::io::socket::{Family, TlsSettings, port};
-use crate::permissions::c_path;
+use crate::{Cx, Result};
+use io::socket::{Family, TlsSettings, port};
+use permissions::c_path;
 
 /// A host and a service, to listen at or to connect to.
 pub(super) fn check_place(cx: &Cx, family: Family, host: &str, service: &str) -> Result<()> {

@@ -5,11 +5,11 @@ use api_macro::api;
 use super::methods::{Done, places, with_places};
 use super::results::{Outcome, done};
 use super::{AnySocket, Shared, access, class, prefix, stop};
-use crate::api::{ApiFn, Args, Cx, FromScript, Result, functions};
-use crate::io::socket::{Datagram, Failure, Family, Place, Wait, numeric};
-use crate::scene::Data;
-use crate::script::Source;
-use crate::script::{ApiError, LuaNumber, LuaString, Results, Text};
+use crate::{ApiFn, Args, Cx, FromScript, Result, functions};
+use io::socket::{Datagram, Failure, Family, Place, Wait, numeric};
+use scene::Data;
+use script::Source;
+use script::{ApiError, LuaNumber, LuaString, Results, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![bind, connect, receive, receivefrom, send, sendto];
 

@@ -7,10 +7,10 @@ use api_macro::api;
 use super::access::check_lookup;
 use super::results::Outcome;
 use super::stop;
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::io::socket::{Failure, Family, Lookup, host_name, name_of};
-use crate::scene::Data;
-use crate::script::{LuaString, Results};
+use crate::{ApiFn, Cx, Result, functions};
+use io::socket::{Failure, Family, Lookup, host_name, name_of};
+use scene::Data;
+use script::{LuaString, Results};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![toip, tohostname, getaddrinfo, getnameinfo, gethostname];
 

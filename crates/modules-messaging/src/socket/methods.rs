@@ -4,10 +4,10 @@ use api_macro::api;
 
 use super::results::{Outcome, done};
 use super::{AnySocket, Sockets, access, descriptor};
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::io::socket::{Failure, Family, Place, Socket, Timeout};
-use crate::scene::Data;
-use crate::script::{ApiError, LuaNumber, LuaString, Results};
+use crate::{ApiFn, Cx, Result, functions};
+use io::socket::{Failure, Family, Place, Socket, Timeout};
+use scene::Data;
+use script::{ApiError, LuaNumber, LuaString, Results};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     collect,
@@ -179,7 +179,7 @@ pub(super) fn places(
     let missing = || ApiError::BadArgument { position: 3, reason: "string expected, got no value".into() };
     let service = service.ok_or_else(missing)?;
     access::check_place(cx, family, &host.text(), &service.text())?;
-    let lookup = crate::io::socket::Lookup { family, datagrams, stop: super::stop(cx) };
+    let lookup = ::io::socket::Lookup { family, datagrams, stop: super::stop(cx) };
     let found = lookup.resolve(&host.text(), &service.text());
     Ok(found.map(|found| found.into_iter().map(Place::Net).collect()))
 }

@@ -21,16 +21,16 @@ use std::sync::atomic::AtomicBool;
 use api_macro::api;
 
 use super::{ApiFn, Args, Cx, FromScript, Module, Result, functions};
-use crate::io::socket::{self, Datagram, Failure, Family, Role, Socket, Stream, descriptor};
-use crate::scene::Data;
-use crate::script::Source;
-use crate::script::step::wall_clock;
-use crate::script::{ApiError, ByHandle, LuaNumber, Object, Results};
+use io::socket::{self, Datagram, Failure, Family, Role, Socket, Stream, descriptor};
+use scene::Data;
+use script::Source;
+use script::step::wall_clock;
+use script::{ApiError, ByHandle, LuaNumber, Object, Results};
 
 use results::{Created, Outcome};
 
 /// The core of LuaSocket: `lua/network/socket/core.lua` makes classes of these functions.
-pub(super) static CORE: Module = Module {
+pub static CORE: Module = Module {
     inner: &[
         FUNCTIONS,
         OBJECTS,
@@ -42,8 +42,8 @@ pub(super) static CORE: Module = Module {
     ],
     ..Module::new("socket.core")
 };
-pub(super) static UNIX: Module = Module { inner: &[FUNCTIONS], ..Module::new("socket.unix") };
-pub(super) static SSL: Module =
+pub static UNIX: Module = Module { inner: &[FUNCTIONS], ..Module::new("socket.unix") };
+pub static SSL: Module =
     Module { inner: &[tls::FUNCTIONS, OBJECTS, methods::FUNCTIONS, stream::FUNCTIONS], ..Module::new("ssl") };
 
 const FUNCTIONS: &[ApiFn] = functions![tcp, tcp4, tcp6, udp, udp4, udp6, unix_stream, unix_dgram, poll, gettime, sleep];
@@ -55,7 +55,7 @@ const OBJECTS: &[ApiFn] = &[ApiFn {
     returns: &[],
     mutates: false,
     call: define,
-    call_data: crate::script::needs_lua,
+    call_data: script::needs_lua,
 }];
 
 /// Classes of objects; the Lua files know them by these numbers.

@@ -4,10 +4,10 @@ use api_macro::api;
 
 use super::AnySocket;
 use super::results::Outcome;
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::io::socket::{self, Failure, OptionValue};
-use crate::scene::Data;
-use crate::script::{ApiError, LuaString, Results};
+use crate::{ApiFn, Cx, Result, functions};
+use io::socket::{self, Failure, OptionValue};
+use scene::Data;
+use script::{ApiError, LuaString, Results};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![getoption, setoption];
 

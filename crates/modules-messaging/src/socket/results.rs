@@ -3,9 +3,10 @@
 use std::rc::Rc;
 
 use super::Sockets;
-use crate::api::{IntoScript, Result};
-use crate::io::socket::Failure;
-use crate::script::{ApiError, Object, Sink};
+use crate::Result;
+use io::socket::Failure;
+use script::IntoScript;
+use script::{ApiError, Object, Sink};
 
 /// The most memory that is kept for the next call.
 const KEPT: usize = 1 << 16;

@@ -8,10 +8,10 @@ use api_macro::api;
 use super::methods::{Done, places, with_places};
 use super::results::{Created, Outcome, Received, Sent, done};
 use super::{AnySocket, Shared, Sockets, access, class, prefix, role_name, stop};
-use crate::api::{ApiFn, Args, Cx, FromScript, Result, functions};
-use crate::io::socket::{Pattern, Role, Stream, Wait};
-use crate::script::Source;
-use crate::script::{ApiError, LuaNumber, LuaString};
+use crate::{ApiFn, Args, Cx, FromScript, Result, functions};
+use io::socket::{Pattern, Role, Stream, Wait};
+use script::Source;
+use script::{ApiError, LuaNumber, LuaString};
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![bind, connect, listen, accept, receive, send, shutdown, getstats, setstats];
@@ -101,24 +101,29 @@ fn accept(cx: &Cx, object: Server) -> Result<Outcome<Created>> {
     Ok(Outcome(accepted.map(|client| cx.script_state::<Sockets>().add_stream(object.class, client))))
 }
 
-impl Pattern {
+/// The argument that says how much to receive.
+struct Amount(Pattern);
+
+impl Amount {
+    const LINE: Self = Self(Pattern::Line);
+
     fn named(name: &[u8]) -> Option<Self> {
         match name {
-            [b'*', b'l', ..] => Some(Self::Line),
-            [b'*', b'a', ..] => Some(Self::All),
+            [b'*', b'l', ..] => Some(Self(Pattern::Line)),
+            [b'*', b'a', ..] => Some(Self(Pattern::All)),
             _ => None,
         }
     }
 }
 
-impl FromScript for Pattern {
+impl FromScript for Amount {
     const TYPE: &'static str = "string";
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         match args.with_bytes(Self::named).flatten() {
-            Some(pattern) => Ok(pattern),
+            Some(amount) => Ok(amount),
             None => match args.lua_number() {
-                Some(count) if count >= 0.0 => Ok(Self::Count(count as usize)),
+                Some(count) if count >= 0.0 => Ok(Self(Pattern::Count(count as usize))),
                 _ => Err(args.refused("invalid receive pattern")),
             },
         }
@@ -130,13 +135,14 @@ impl FromScript for Pattern {
 fn receive(
     cx: &Cx,
     object: Client,
-    #[default(Pattern::Line)] pattern: Pattern,
+    #[default(Amount::LINE)] pattern: Amount,
     prefix: Option<LuaString>,
 ) -> Result<Received> {
     let sockets = cx.script_state::<Sockets>();
     let mut data = sockets.space.take();
     data.clear();
     data.extend(prefix.iter().flat_map(|prefix| &prefix.0));
+    let Amount(pattern) = pattern;
     let is_enough = matches!(pattern, Pattern::Count(count) if !data.is_empty() && count <= data.len());
     let result = if is_enough {
         Ok(())

@@ -5,10 +5,10 @@ use api_macro::api;
 use super::results::{Created, Outcome};
 use super::stream::Client;
 use super::{Sockets, access, class, stop};
-use crate::api::{ApiFn, Cx, Result, functions};
-use crate::io::socket::{TlsSettings, Verify, Wait};
-use crate::scene::Data;
-use crate::script::Table;
+use crate::{ApiFn, Cx, Result, functions};
+use io::socket::{TlsSettings, Verify, Wait};
+use scene::Data;
+use script::Table;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![wrap, dohandshake, info];
 

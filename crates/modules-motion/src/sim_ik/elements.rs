@@ -5,8 +5,8 @@ use kinematics::{Constraints, Element, ElementId, Environment, GroupId, Kinemati
 
 use super::groups::group;
 use super::{ApiFn, Cx, Result, finite, functions, object, optional, raw, with};
-use crate::modules::ApiError;
-use crate::script::Number;
+use crate::ApiError;
+use script::Number;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     add_element,

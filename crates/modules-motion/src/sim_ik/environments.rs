@@ -8,8 +8,8 @@ use api_macro::api;
 use kinematics::Environment;
 
 use super::{ApiError, ApiFn, Cx, Result, busy, functions, refused, with};
-use crate::ik::SceneLinks;
-use crate::script::{Bytes, Number};
+use ik::SceneLinks;
+use script::{Bytes, Number};
 
 pub(super) const FUNCTIONS: &[ApiFn] =
     functions![create_environment, erase_environment, duplicate_environment, save, load];

@@ -4,7 +4,7 @@ use api_macro::api;
 use kinematics::{Group, GroupFlags, GroupId, KinematicsError, Method, ObjectId};
 
 use super::{ApiFn, Cx, Result, finite, functions, refused, with};
-use crate::script::Number;
+use script::Number;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     create_group,

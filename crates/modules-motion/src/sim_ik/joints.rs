@@ -7,8 +7,8 @@ use geometry::pose::{pose_from_matrix, quaternion_from_array};
 use kinematics::{Joint, JointMode, JointType, Law, ObjectId};
 
 use super::{ApiFn, Cx, Result, finite, functions, object, raw, refused, rotation, with};
-use crate::scene::Data;
-use crate::script::{Number, ScriptCallback, ScriptFunction};
+use scene::Data;
+use script::{Number, ScriptCallback, ScriptFunction};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     get_joint_type,

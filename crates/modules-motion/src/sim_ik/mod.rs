@@ -18,10 +18,10 @@ use kinematics::{Frame, KinematicsError, ObjectId};
 use nalgebra::UnitQuaternion;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::scene::{SceneError, special};
+use ::scene::{SceneError, special};
 use environments::{Held, environment};
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Forward and inverse kinematics of mechanisms.",
     functions: &[
         ("Environments", environments::FUNCTIONS),
@@ -38,12 +38,6 @@ pub(super) static MODULE: Module = Module {
     plugin_errors: true,
     ..Module::new("simIK")
 };
-
-impl From<KinematicsError> for ApiError {
-    fn from(error: KinematicsError) -> Self {
-        Self::Other(error.to_string())
-    }
-}
 
 /// Reads or changes an environment.
 fn with<R>(cx: &Cx, handle: i64, work: impl FnOnce(&mut Held) -> kinematics::Result<R>) -> Result<R> {

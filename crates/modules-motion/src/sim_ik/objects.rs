@@ -4,7 +4,7 @@ use api_macro::api;
 use kinematics::{JointType, KinematicsError};
 
 use super::{ApiFn, Cx, Result, functions, object, optional, raw, refused, with};
-use crate::script::{Number, Results};
+use script::{Number, Results};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     create_dummy,
@@ -107,7 +107,7 @@ fn get_objects(cx: &Cx, environment_handle: Number, index: Number) -> Result<Res
         let found = usize::try_from(index.0).ok().and_then(|index| held.env.objects().nth(index));
         let Some((id, found)) = found else { return Ok(Results(vec![(-1).into()])) };
         let joint_type = found.joint().map(|joint| joint.joint_type as i64);
-        let name = crate::scene::Data::text(&found.name);
+        let name = scene::Data::text(&found.name);
         Ok(Results(vec![id.raw().into(), name, joint_type.is_some().into(), joint_type.unwrap_or(0).into()]))
     })
 }

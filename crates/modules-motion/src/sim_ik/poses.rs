@@ -6,8 +6,8 @@ use geometry::pose::{pose_from_array, pose_from_matrix, pose_to_array, pose_to_m
 use kinematics::Pose;
 
 use super::{ApiFn, Cx, Result, finite, frame, functions, object, rotation, with};
-use crate::scene::special;
-use crate::script::Number;
+use scene::special;
+use script::Number;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     get_object_pose,

@@ -6,9 +6,9 @@ use kinematics::{Constraints, GroupId};
 use super::environments::environment;
 use super::groups::group;
 use super::{ApiFn, Cx, Result, busy, functions};
-use crate::ik::{SceneElement, SceneLinks};
-use crate::scene::{Data, Handle, Key, SceneError, special};
-use crate::script::{Number, Table};
+use ik::{SceneElement, SceneLinks};
+use scene::{Data, Handle, Key, SceneError, special};
+use script::{Number, Table};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![add_element_from_scene, sync_from_sim, sync_to_sim];
 

@@ -8,8 +8,8 @@ use nalgebra::DMatrix;
 
 use super::groups::group;
 use super::{ApiFn, Cx, Result, functions, object, optional, refused, transform, with};
-use crate::scene::Data;
-use crate::script::{Number, ScriptCallback, ScriptFunction};
+use scene::Data;
+use script::{Number, ScriptCallback, ScriptFunction};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     handle_groups,

@@ -8,9 +8,9 @@ use planning::{Nearness, State};
 use super::goals::TaskGoal;
 use super::objects::task;
 use super::{ApiError, ApiFn, Cx, Result, functions, refused};
-use crate::scene::Data;
-use crate::script::log::verbosity;
-use crate::script::{Env, Number, ScriptCallback, ScriptFunction};
+use scene::Data;
+use script::log::verbosity;
+use script::{Env, Number, ScriptCallback, ScriptFunction};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     set_state_validation_callback,

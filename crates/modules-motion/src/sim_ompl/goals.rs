@@ -6,8 +6,8 @@ use planning::{Nearness, State};
 use super::callbacks::Callback;
 use super::objects::task;
 use super::{ApiFn, Cx, Result, functions};
-use crate::scene::{Frame, Handle, Pose, Scene, SceneError, special};
-use crate::script::Number;
+use scene::{Frame, Handle, Pose, Scene, SceneError, special};
+use script::Number;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![set_start_state, set_goal_state, add_goal_state, set_goal];
 

@@ -7,7 +7,7 @@ use super::objects::{objects, task};
 use super::spaces::StateSpace;
 use super::tasks::Task;
 use super::{ApiFn, Cx, Result, algorithm_name, functions};
-use crate::script::log::verbosity;
+use script::log::verbosity;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![print_task_info];
 

@@ -18,7 +18,7 @@ mod tasks;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Motion planning by sampling.",
     functions: &[
         ("State spaces", spaces::FUNCTIONS),

@@ -11,7 +11,7 @@ use super::session::{Limit, Session};
 use super::solving::measures;
 use super::tasks::{Task, ready};
 use super::{ApiFn, Cx, Result, functions, refused};
-use crate::script::Number;
+use script::Number;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![get_path, simplify_path, interpolate_path];
 

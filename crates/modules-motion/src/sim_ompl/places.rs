@@ -6,8 +6,8 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::Result;
 use super::spaces::{Kind, StateSpace};
-use crate::scene::pose::displacement::Displacement;
-use crate::scene::{Frame, Handle, Placement, Pose, Scene, SceneError, SceneResult};
+use scene::pose::displacement::Displacement;
+use scene::{Frame, Handle, Placement, Pose, Scene, SceneError, SceneResult};
 
 /// What moves objects: the scene, or a displacement of it.
 pub(super) trait Mover {

@@ -14,10 +14,10 @@ use super::places::{self, Mover};
 use super::setup::{Draws, Setup};
 use super::tasks::Task;
 use super::{ApiError, Cx, Result};
-use crate::perception::collision::CollisionTest;
-use crate::perception::entity::Entity;
-use crate::scene::{Scene, SceneResult};
-use crate::script::step::wall_clock;
+use perception::collision::CollisionTest;
+use perception::entity::Entity;
+use scene::{Scene, SceneResult};
+use script::step::wall_clock;
 
 /// Checks and iterations that a second stands for.
 const STEPS_PER_SECOND: f64 = 20_000.0;
@@ -108,7 +108,7 @@ impl<'a, 'cx> Session<'a, 'cx> {
     }
 
     /// Calls a function of the script, which may change the scene.
-    fn ask<R>(&self, call: impl FnOnce(&crate::script::Env) -> Result<R>) -> Result<R> {
+    fn ask<R>(&self, call: impl FnOnce(&script::Env) -> Result<R>) -> Result<R> {
         let env = self.cx.borrow().env();
         let result = call(env);
         self.test.replace(None);

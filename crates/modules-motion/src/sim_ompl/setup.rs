@@ -11,7 +11,7 @@ use super::objects::{new_generator, objects};
 use super::spaces::StateSpace;
 use super::tasks::Task;
 use super::{Cx, Result, refused};
-use crate::script::log::verbosity;
+use script::log::verbosity;
 
 /// A task as it was at the setup, and what planning has found.
 pub(super) struct Setup {

@@ -12,9 +12,9 @@ use super::session::{Limit, Session};
 use super::setup::Setup;
 use super::tasks::{Task, ready};
 use super::{ApiFn, Cx, Result, algorithm_name, functions, refused};
-use crate::scene::Data;
-use crate::script::log::verbosity;
-use crate::script::{Number, Results};
+use scene::Data;
+use script::log::verbosity;
+use script::{Number, Results};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     setup,

@@ -5,8 +5,8 @@ use planning::space::{Bounds, Component};
 
 use super::objects::{invalid, objects, space_number, task};
 use super::{ApiFn, Cx, Result, functions, refused};
-use crate::scene::{Frame, Handle, special};
-use crate::script::Number;
+use scene::{Frame, Handle, special};
+use script::Number;
 
 pub(super) const FUNCTIONS: &[ApiFn] =
     functions![create_state_space, destroy_state_space, set_dubins_params, set_state_space, get_state_space_dimension];

@@ -10,7 +10,7 @@ use super::goals::TaskGoal;
 use super::objects::{invalid, objects, task, task_number};
 use super::setup::Setup;
 use super::{ApiError, ApiFn, Cx, Result, functions, refused};
-use crate::script::{Number, log::verbosity};
+use script::{Number, log::verbosity};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     create_task,

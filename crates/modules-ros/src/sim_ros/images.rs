@@ -7,10 +7,10 @@ use api_macro::api;
 use super::node::{Entity, add, get, node, shut_down};
 use super::topics::{Publisher, Subscription};
 use super::{ApiFn, Cx, Result, functions};
-use crate::modules::ros_images;
-pub(super) use crate::modules::ros_images::arguments;
-use crate::scene::Data;
-use crate::script::{Bytes, ScriptFunction};
+use crate::ros_images;
+pub(super) use crate::ros_images::arguments;
+use scene::Data;
+use script::{Bytes, ScriptFunction};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     image_transport_advertise,

@@ -10,9 +10,9 @@ mod services;
 mod topics;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions, ros_values};
-use crate::script::Hooks;
+use script::Hooks;
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "A node of ROS 1: topics, services, parameters, transforms, images. A master is needed, but no installation of ROS.",
     functions: &[
         ("Topics", topics::FUNCTIONS),

@@ -11,9 +11,9 @@ use ros1::{MessageType, Network, Parameter, ServiceType, Settings, Subscriber};
 use super::services::{Client, Service};
 use super::topics::{Publisher, Subscription};
 use super::{ApiError, ApiFn, Cx, Result, failed, functions};
-use crate::modules::ros_entities::Entities;
-use crate::script::Host;
-use crate::script::step::wall_clock;
+use crate::ros_entities::Entities;
+use script::Host;
+use script::step::wall_clock;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![get_time];
 

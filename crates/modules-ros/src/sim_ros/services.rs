@@ -11,8 +11,8 @@ use ros1::{ServiceServer, ServiceType};
 use super::node::{Entity, add, get, node, running, service, service_type, shut_down};
 use super::ros_values::{self, Style};
 use super::{ApiError, ApiFn, Cx, Result, failed, functions};
-use crate::scene::Data;
-use crate::script::{ScriptCallback, ScriptFunction, Table};
+use scene::Data;
+use script::{ScriptCallback, ScriptFunction, Table};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     service_client,

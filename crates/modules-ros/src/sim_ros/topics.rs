@@ -10,8 +10,8 @@ use ros_interfaces::{Layout, Record};
 use super::node::{Entity, add, get, message, message_type, node, queue_size, running, shut_down};
 use super::ros_values::{self, Style};
 use super::{ApiError, ApiFn, Cx, Result, failed, functions, images};
-use crate::scene::Data;
-use crate::script::{ScriptCallback, ScriptFunction, Table};
+use scene::Data;
+use script::{ScriptCallback, ScriptFunction, Table};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     advertise,

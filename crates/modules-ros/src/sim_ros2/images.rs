@@ -13,9 +13,9 @@ use super::ros_values::Style;
 use super::times;
 use super::topics::{Publisher, Subscription};
 use super::{ApiFn, Cx, Result, functions, interfaces};
-use crate::modules::ros_images;
-pub(super) use crate::modules::ros_images::arguments;
-use crate::script::{Bytes, ScriptCallback, ScriptFunction};
+use crate::ros_images;
+pub(super) use crate::ros_images::arguments;
+use script::{Bytes, ScriptCallback, ScriptFunction};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     image_transport_create_publisher,

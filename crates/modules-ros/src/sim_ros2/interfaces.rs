@@ -8,7 +8,7 @@ use ros_interfaces::{InterfaceError, InterfaceKind, Layout, Record, TypeName};
 use super::node::node;
 use super::ros_values::{self, Style};
 use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::Data;
+use scene::Data;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![create_interface, get_interface_constants, supported_interfaces];
 

@@ -17,9 +17,9 @@ mod topics;
 
 use super::ros_values;
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::script::Hooks;
+use script::Hooks;
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "A node of ROS 2: topics, services, actions, parameters, transforms, images. No installation of ROS is needed.",
     functions: &[
         ("Topics", topics::FUNCTIONS),

@@ -13,8 +13,8 @@ use super::parameters::Parameters;
 use super::services::{Client, Service};
 use super::topics::{Publisher, Subscription};
 use super::{ApiError, Cx, Result};
-use crate::modules::ros_entities::Entities;
-use crate::script::{Host, RosOptions};
+use crate::ros_entities::Entities;
+use script::{Host, RosOptions};
 
 /// The state of the module.
 #[derive(Default)]

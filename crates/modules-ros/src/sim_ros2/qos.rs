@@ -5,7 +5,7 @@ use std::time::Duration;
 use rtps::{Durability, History, Liveliness, Qos, Reliability};
 
 use super::{ApiError, Result};
-use crate::scene::Data;
+use scene::Data;
 
 /// The default profile, with what a table states; nil for the profile itself.
 ///

@@ -15,8 +15,8 @@ use super::names;
 use super::node::{Entity, Running, add, get, node, running, shut_down};
 use super::ros_values::{self, Style};
 use super::{ApiError, ApiFn, Cx, Result, functions, interfaces};
-use crate::scene::Data;
-use crate::script::{ScriptCallback, ScriptFunction, Table};
+use scene::Data;
+use script::{ScriptCallback, ScriptFunction, Table};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     create_client,

@@ -4,8 +4,8 @@ use api_macro::api;
 
 use super::node::{node, running};
 use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::Data;
-use crate::script::step::wall_clock;
+use scene::Data;
+use script::step::wall_clock;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![get_time, spin_some];
 

@@ -12,8 +12,8 @@ use super::endpoint::Endpoint;
 use super::node::{self, Entity, add, get, running, shut_down};
 use super::ros_values::{self, Style};
 use super::{ApiError, ApiFn, Cx, Result, functions, images, interfaces, qos};
-use crate::scene::Data;
-use crate::script::{ScriptCallback, ScriptFunction, Table};
+use scene::Data;
+use script::{ScriptCallback, ScriptFunction, Table};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     create_publisher,

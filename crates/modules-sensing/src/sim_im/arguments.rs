@@ -1,8 +1,8 @@
 //! Arguments of `simIM`: lists of integers of a known length, and lists of handles.
 
-use crate::modules::{ApiError, Args, FromScript, Result};
-use crate::scene::Data;
-use crate::script::{Source, Table};
+use crate::{ApiError, Args, FromScript, Result};
+use scene::Data;
+use script::{Source, Table};
 
 /// Integers; a longer table is cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

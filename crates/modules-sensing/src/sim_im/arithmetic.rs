@@ -5,8 +5,8 @@ use imaging::matrix::{Bitwise, Comparison, Matrix};
 
 use super::images::refused;
 use super::objects::{binary, unary};
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::script::Number;
+use crate::{ApiFn, Cx, Result, functions};
+use script::Number;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     abs,

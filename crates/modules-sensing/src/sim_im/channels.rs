@@ -6,7 +6,7 @@ use imaging::matrix::Matrix;
 use super::arguments::HandleList;
 use super::images::refused;
 use super::objects::{images, unary};
-use crate::modules::{ApiFn, Cx, Result, functions};
+use crate::{ApiFn, Cx, Result, functions};
 
 pub(super) const FUNCTIONS: &[ApiFn] =
     functions![rgb2gray, gray2rgb, rgb2hsv, hsv2rgb, rgb2hls, hls2rgb, split, merge, mix_channels];

@@ -7,8 +7,8 @@ use imaging::matrix::{Matrix, MatrixError};
 use super::arguments::Ints;
 use super::images::refused;
 use super::objects::images;
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::script::{IntPair, Number};
+use crate::{ApiFn, Cx, Result, functions};
+use script::{IntPair, Number};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     line,

@@ -7,12 +7,12 @@ use imaging::matrix::{Depth, Matrix, MatrixError};
 
 use super::images::{refused, turned};
 use super::objects::images;
-use crate::format::picture::{Layout, Picture};
-use crate::format::scene_file::write_whole;
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::permissions::read_bounded;
-use crate::script::Text;
-use crate::wire::mime::{encode_base64, finish_base64};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use format::picture::{Layout, Picture};
+use format::scene_file::write_whole;
+use permissions::read_bounded;
+use script::Text;
+use wire::mime::{encode_base64, finish_base64};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![read, write, encode, data_url];
 

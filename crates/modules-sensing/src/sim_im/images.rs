@@ -5,8 +5,8 @@ use imaging::matrix::{Depth, Format, Matrix, MatrixError};
 
 use super::arguments::Ints;
 use super::objects::{images, unary};
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::script::{Bytes, Number};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use script::{Bytes, Number};
 
 pub(super) const FUNCTIONS: &[ApiFn] =
     functions![create, create_from_data, destroy, size, get_format, convert, get, set];

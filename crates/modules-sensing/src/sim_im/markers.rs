@@ -6,8 +6,8 @@ use imaging::matrix::{Matrix, MatrixError};
 
 use super::images::refused;
 use super::objects::images;
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::script::Number;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use script::Number;
 
 pub(super) const FUNCTIONS: &[ApiFn] =
     functions![get_marker_dictionary, draw_marker, detect_markers, get_marker_bit_size];

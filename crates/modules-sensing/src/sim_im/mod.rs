@@ -16,7 +16,7 @@ mod vectors;
 
 use super::Module;
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Image processing as OpenCV does it.",
     functions: &[
         ("Images", images::FUNCTIONS),

@@ -7,21 +7,15 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use imaging::matrix::{Matrix, MatrixError, MatrixResult, Values};
+use imaging::matrix::{Matrix, MatrixResult, Values};
 
-use crate::modules::{ApiError, Cx, Result};
+use crate::{ApiError, Cx, Result};
 
 const KIND: &str = "cv.Mat";
 /// Handles of one script.
 const NUMBERS_PER_SCRIPT: u64 = 1 << 32;
 /// Bytes of all images of a script.
 const MOST_BYTES: usize = 2 << 30;
-
-impl From<MatrixError> for ApiError {
-    fn from(error: MatrixError) -> Self {
-        Self::Other(error.to_string())
-    }
-}
 
 /// Images of a script. They are dropped with the script's state.
 #[derive(Default)]

@@ -6,8 +6,8 @@ use imaging::matrix::{Flip, Interpolation, MatrixError, Reduction};
 use super::arguments::Ints;
 use super::images::{refused, sides};
 use super::objects::{images, unary};
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::script::Number;
+use crate::{ApiFn, Cx, Result, functions};
+use script::Number;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![resize, copy, flip, repeat, reduce];
 

@@ -5,8 +5,8 @@ use imaging::matrix::Matrix;
 
 use super::images::{refused, turned};
 use super::objects::images;
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::Handle;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::Handle;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     read_from_vision_sensor,

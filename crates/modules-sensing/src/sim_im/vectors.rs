@@ -5,8 +5,8 @@ use imaging::matrix::{DistanceType, MaskSize, Matrix};
 
 use super::images::refused;
 use super::objects::{binary, images, unary};
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::script::Number;
+use crate::{ApiFn, Cx, Result, functions};
+use script::Number;
 
 pub(super) const FUNCTIONS: &[ApiFn] =
     functions![add_weighted, scale_add, magnitude, phase, cart2polar, polar2cart, distance_transform];

@@ -5,7 +5,7 @@ use imaging::rgb::RgbImage;
 
 use super::checked::Checked;
 use super::images::{SensorArgument, of_sensor, remove_unbuffered, set_work_image, size_of, with_handle, with_images};
-use crate::modules::{ApiFn, Cx, Result, functions};
+use crate::{ApiFn, Cx, Result, functions};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     sensor_img_to_work_img,

@@ -1,7 +1,7 @@
 //! Arguments whose errors have the words of CoppeliaSim's plugins.
 
-use crate::modules::{ApiError, Args, FromScript, Result};
-use crate::script::Source;
+use crate::{ApiError, Args, FromScript, Result};
+use script::Source;
 
 /// An argument that must be there and be right. `#[api]` leaves it to this type to say that it is not there.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,9 +5,9 @@ use imaging::rgb::{RgbImage, mean, sphere};
 
 use super::checked::{Checked, wrong_size};
 use super::images::{SensorArgument, of_sensor, size_of};
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{Field, Handle};
-use crate::script::Number;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::{Field, Handle};
+use script::Number;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![handle_anaglyph_stereo, handle_spherical];
 
@@ -28,8 +28,7 @@ pub(super) struct Part {
 /// # Errors
 /// When it is no vision sensor.
 pub(super) fn part(cx: &Cx, sensor: i64) -> Result<Part> {
-    let read =
-        |sensor: &crate::scene::sensor::VisionSensor| Some((size_of(sensor), sensor.explicit, sensor.view.clipping));
+    let read = |sensor: &scene::sensor::VisionSensor| Some((size_of(sensor), sensor.explicit, sensor.view.clipping));
     let (handle, (size, is_explicit, clipping)) = of_sensor(cx, Checked(Number(sensor)), read)
         .map_err(|_| refused("Invalid handles, or handles are not vision sensor handles."))?;
     Ok(Part { handle, size, is_explicit, clipping })

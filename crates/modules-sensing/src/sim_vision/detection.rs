@@ -8,9 +8,9 @@ use nalgebra::Point3;
 
 use super::checked::{Checked, wrong, wrong_size};
 use super::images::{SensorArgument, not_initialized, of_sensor, with_images};
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::scene::sensor::View;
-use crate::script::Bytes;
+use crate::{ApiFn, Cx, Result, functions};
+use scene::sensor::View;
+use script::Bytes;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     binary_work_img,

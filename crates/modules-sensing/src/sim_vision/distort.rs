@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 use api_macro::api;
 
 use super::images::{SensorArgument, of_sensor};
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::Handle;
-use crate::scene::sensor::VisionSensor;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::Handle;
+use scene::sensor::VisionSensor;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![distort];
 

@@ -5,8 +5,8 @@ use imaging::rgb::{Component, Kernel, RgbImage};
 
 use super::checked::{Checked, wrong_size};
 use super::images::{ImageSet, SensorArgument, with_images};
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::script::Number;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use script::Number;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     horizontal_flip_work_img,

@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 use imaging::rgb::{BLACK, RgbImage};
 
 use super::checked::Checked;
-use crate::modules::{ApiError, Cx, Result};
-use crate::scene::sensor::VisionSensor;
-use crate::scene::{Handle, special};
-use crate::script::Number;
+use crate::{ApiError, Cx, Result};
+use scene::sensor::VisionSensor;
+use scene::{Handle, special};
+use script::Number;
 
 /// A vision sensor as scripts pass it; sim.handle_self is the object of the calling script.
 pub(super) type SensorArgument = Checked<Number>;

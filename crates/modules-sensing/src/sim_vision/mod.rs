@@ -13,7 +13,7 @@ mod velodyne;
 
 use super::Module;
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Image processing of vision sensors.",
     functions: &[
         ("Sensors and buffers", buffers::FUNCTIONS),

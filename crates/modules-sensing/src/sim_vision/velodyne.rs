@@ -12,10 +12,10 @@ use super::checked::Checked;
 use super::composed::{Part, parts, refused};
 use super::detection::packet;
 use super::images::invalid_handle;
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::sensor::VisionReading;
-use crate::scene::{Data, Handle, Pose};
-use crate::script::{Number, Results};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::sensor::VisionReading;
+use scene::{Data, Handle, Pose};
+use script::{Number, Results};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     create_velodyne_vpl16,

@@ -1,9 +1,9 @@
 //! Arguments of `simUI`: handles, lists of texts, options of curves.
 
-use crate::modules::{ApiError, Args, FromScript, Result};
-use crate::scene::{Data, Key};
-use crate::script::{Source, Table};
-use crate::ui::CurveOptions;
+use crate::{ApiError, Args, FromScript, Result};
+use scene::{Data, Key};
+use script::{Source, Table};
+use ui::CurveOptions;
 
 /// The handle of a window: a text, not a number, as old scripts may have it.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 use api_macro::api;
 
 use super::arguments::{Texts, WindowHandle};
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::ui::{Combobox, Tabs};
+use crate::{ApiFn, Cx, Result, functions};
+use ui::{Combobox, Tabs};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     insert_combobox_item,

@@ -4,11 +4,11 @@
 use api_macro::api;
 
 use super::arguments::Texts;
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::Data;
-use crate::script::Table;
-use crate::script::log::verbosity;
-use crate::ui::{Banner, Details, DialogKind, Question};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::Data;
+use script::Table;
+use script::log::verbosity;
+use ui::{Banner, Details, DialogKind, Question};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     msg_box,

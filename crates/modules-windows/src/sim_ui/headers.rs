@@ -3,9 +3,9 @@
 use api_macro::api;
 
 use super::arguments::WindowHandle;
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::script::Bytes;
-use crate::ui::{Kind, UiError, UiResult, Window};
+use crate::{ApiFn, Cx, Result, functions};
+use script::Bytes;
+use ui::{Kind, UiError, UiResult, Window};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     get_column_count,

@@ -15,7 +15,7 @@ mod windows;
 
 use super::Module;
 
-pub(super) static MODULE: Module = Module {
+pub static MODULE: Module = Module {
     about: "Windows with buttons, sliders, tables and plots.",
     functions: &[
         ("Windows", windows::FUNCTIONS),

@@ -5,12 +5,12 @@ use std::path::Path;
 use api_macro::api;
 
 use super::arguments::WindowHandle;
-use crate::format::picture::{Layout, Picture};
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::permissions::read_bounded;
-use crate::script::Bytes;
-use crate::script::log::verbosity;
-use crate::ui::{Image, Svg, UiError};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use format::picture::{Layout, Picture};
+use permissions::read_bounded;
+use script::Bytes;
+use script::log::verbosity;
+use ui::{Image, Svg, UiError};
 
 pub(super) const FUNCTIONS: &[ApiFn] =
     functions![set_image_data, svg_load_file, svg_load_data, supported_image_formats];

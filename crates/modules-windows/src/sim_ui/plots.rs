@@ -3,8 +3,8 @@
 use api_macro::api;
 
 use super::arguments::{Options, WindowHandle};
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::ui::{Curve, CurveType, Plot};
+use crate::{ApiFn, Cx, Result, functions};
+use ui::{Curve, CurveType, Plot};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     add_curve,

@@ -3,9 +3,9 @@
 use api_macro::api;
 
 use super::arguments::{Texts, WindowHandle};
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::script::Bytes;
-use crate::ui::{Properties, Property};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use script::Bytes;
+use ui::{Properties, Property};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     set_properties,

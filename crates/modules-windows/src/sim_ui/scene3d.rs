@@ -3,9 +3,9 @@
 use api_macro::api;
 
 use super::arguments::WindowHandle;
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::scene::Data;
-use crate::ui::Scene3d;
+use crate::{ApiFn, Cx, Result, functions};
+use scene::Data;
+use ui::Scene3d;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     add_scene_3d_node,

@@ -3,11 +3,11 @@
 use api_macro::api;
 
 use super::arguments::WindowHandle;
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::Data;
-use crate::script::Bytes;
-use crate::ui::{Cell, Image, Table};
-use crate::wire::cbor;
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::Data;
+use script::Bytes;
+use ui::{Cell, Image, Table};
+use wire::cbor;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     clear_table,

@@ -3,8 +3,8 @@
 use api_macro::api;
 
 use super::arguments::{Texts, WindowHandle};
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::ui::Tree;
+use crate::{ApiFn, Cx, Result, functions};
+use ui::Tree;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     clear_tree,

@@ -3,8 +3,8 @@
 use api_macro::api;
 
 use super::arguments::WindowHandle;
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::ui::{Button, Checkbox, Edit, Label, Radiobutton, Slider, Spinbox, TextBrowser};
+use crate::{ApiFn, Cx, Result, functions};
+use ui::{Button, Checkbox, Edit, Label, Radiobutton, Slider, Spinbox, TextBrowser};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     set_button_text,

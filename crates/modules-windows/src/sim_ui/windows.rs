@@ -6,10 +6,10 @@ use api_macro::api;
 
 use super::arguments::WindowHandle;
 use super::pictures;
-use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Key};
-use crate::script::Table;
-use crate::script::log::verbosity;
+use crate::{ApiFn, Cx, Result, functions};
+use scene::{Data, Key};
+use script::Table;
+use script::log::verbosity;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     destroy,

@@ -1,8 +1,8 @@
 //! User interfaces of V-REP in tests, as `t.ui` finds windows.
 
-use crate::modules::Cx;
-use crate::scene::tree::button_interfaces::{Button, ButtonInput, ButtonKind, button_property};
-use crate::scene::{Data, Scene};
+use crate::Cx;
+use scene::tree::button_interfaces::{Button, ButtonInput, ButtonKind, button_property};
+use scene::{Data, Scene};
 
 const PREFIX: &str = "2DElement-";
 

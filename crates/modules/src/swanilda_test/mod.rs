@@ -9,8 +9,8 @@ use std::rc::Rc;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::scene::{Data, Handle, Key};
-use crate::script::test_bench::{ConsoleLine, Golden, GoldenContent, Snapshot, TestBench, Tolerances, Trace};
+use scene::{Data, Handle, Key};
+use script::test_bench::{ConsoleLine, Golden, GoldenContent, Snapshot, TestBench, Tolerances, Trace};
 
 pub(super) static MODULE: Module =
     Module { inner: &[FUNCTIONS, run::FUNCTIONS, windows::FUNCTIONS], ..Module::new("swanilda.test") };

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use api_macro::api;
 
 use super::{bench, line_data};
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::{Data, Key};
-use crate::script::Options;
-use crate::script::test_bench::{RunReport, RunRequest};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::object::script_object::ScriptType;
+use scene::{Data, Key};
+use script::Options;
+use script::test_bench::{RunReport, RunRequest};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![run];
 

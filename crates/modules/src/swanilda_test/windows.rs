@@ -3,9 +3,9 @@
 use api_macro::api;
 
 use super::{bench, button_interfaces};
-use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::Data;
-use crate::ui::{DialogKind, Input, InputValue};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::Data;
+use ui::{DialogKind, Input, InputValue};
 
 pub(super) const FUNCTIONS: &[ApiFn] =
     functions![window, widget, widget_state, window_input, close_window, answer, dialogs];

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use geometry::Mesh;
 use proximity::{Bounds, Geometry, Placed, PointSet, TriangleMesh, VoxelGrid};
 
-use crate::scene::{Kind, Object, Pose, Uid};
+use scene::{Kind, Object, Pose, Uid};
 
 /// A mesh, prepared for queries when the first one comes near. Copies of a shape share it.
 #[derive(Debug)]
@@ -76,8 +76,7 @@ impl Body {
     pub(super) fn of(object: &Object, meshes: &mut Meshes) -> Option<Self> {
         let parts: Vec<Part> = match &object.kind {
             Kind::Shape(shape) => {
-                let part =
-                    |part: &crate::scene::shape::Part| Part::new(Solid::Mesh(meshes.share(&part.mesh)), part.pose);
+                let part = |part: &scene::shape::Part| Part::new(Solid::Mesh(meshes.share(&part.mesh)), part.pose);
                 shape.parts.iter().map(part).collect()
             }
             Kind::OcTree(tree) => {

@@ -10,9 +10,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use proximity::{Bounds, BoundsTree};
 
 use super::entity::{Group, Purpose};
-use crate::scene::{Change, Cursor, Field, Handle, Scene, Topic, Topics, Unread};
 pub(crate) use body::Body;
 use body::Meshes;
+use scene::{Change, Cursor, Field, Handle, Scene, Topic, Topics, Unread};
 
 /// Changes that can move an object or change its geometry.
 const TOPICS: Topics = Topics::TREE.with(Topic::Added).with(Topic::Removed).with_fields(&[

@@ -3,9 +3,9 @@
 use rendering::{Background, Fog, FogDensity, Light, LightKind};
 
 use super::{Look, Shot};
-use crate::scene::appearance::environment::{Fog as SceneFog, FogType};
-use crate::scene::sensor::{Light as SceneLight, LightType};
-use crate::scene::{Handle, Kind, Object, Scene};
+use scene::appearance::environment::{Fog as SceneFog, FogType};
+use scene::sensor::{Light as SceneLight, LightType};
+use scene::{Handle, Kind, Object, Scene};
 
 /// Background of the views of a scene that has none of its own: at the top and at the bottom, as files of the original have it.
 const USUAL_BACKGROUND: [[f32; 3]; 2] = [[0.804, 0.867, 0.916], [0.05, 0.05, 0.1]];
@@ -14,7 +14,7 @@ const USUAL_FOG_END: f64 = 5.0;
 
 /// Background behind all objects.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Backdrop {
+pub enum Backdrop {
     Colour([f32; 3]),
     /// The colour of the fog of the scene, for sensors.
     Fog,
@@ -37,7 +37,7 @@ impl Backdrop {
 }
 
 /// What views of the scene have behind all objects: the colours at the top and at the bottom.
-pub(crate) fn views_background(scene: &Scene) -> [[f32; 3]; 2] {
+pub fn views_background(scene: &Scene) -> [[f32; 3]; 2] {
     scene.settings().environment.background.unwrap_or(USUAL_BACKGROUND)
 }
 

@@ -19,20 +19,20 @@ use std::thread::available_parallelism;
 
 use rendering::{Camera, Fog, Instance, Lines, Material, Points, Projection, Renderer, World};
 
-use crate::scene::sensor::View;
-use crate::scene::{Handle, Pose, Scene};
 use models::{Model, Models};
+use scene::sensor::View;
+use scene::{Handle, Pose, Scene};
 
-pub(crate) use drawings::item_colour;
-pub(crate) use lighting::{Backdrop, views_background};
+pub use drawings::item_colour;
+pub use lighting::{Backdrop, views_background};
 pub use rendering::{Channels, Picture};
 pub(crate) use subjects::Subjects;
-pub(crate) use surfaces::texture_coordinates;
-pub(crate) use views::{Viewpoint, first_camera, projection};
+pub use surfaces::texture_coordinates;
+pub use views::{Viewpoint, first_camera, projection};
 
 /// Draws pictures of a scene, with cached data of its objects.
 #[derive(Default)]
-pub(crate) struct Vision {
+pub struct Vision {
     /// None before the first picture.
     renderer: Option<Renderer>,
     /// None for as many as there are processor cores.
@@ -42,7 +42,7 @@ pub(crate) struct Vision {
 
 /// Content and viewpoint of a picture.
 #[derive(Debug, Clone)]
-pub(crate) struct Shot {
+pub struct Shot {
     /// The camera or vision sensor; none for a view from elsewhere.
     pub viewer: Option<Handle>,
     /// In the world.
@@ -59,7 +59,7 @@ pub(crate) struct Shot {
 
 /// Meaning of the colours of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Look {
+pub enum Look {
     /// Surfaces as the lights show them.
     Lit { shadows: bool },
     /// The auxiliary colours of the objects, unlit.
@@ -73,7 +73,7 @@ impl Vision {
     }
 
     /// A picture of the scene; its ids are handles of objects.
-    pub(crate) fn picture(&mut self, scene: &Scene, shot: &Shot, channels: Channels) -> Picture {
+    pub fn picture(&mut self, scene: &Scene, shot: &Shot, channels: Channels) -> Picture {
         self.models.follow(scene);
         let subjects = shot.subjects.objects(scene, shot.viewer);
         let depth_apart = channels.depth && subjects.iter().any(|subject| subject.depth_invisible);

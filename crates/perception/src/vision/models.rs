@@ -7,8 +7,8 @@ use rendering::{Material, Mesh};
 
 use super::surfaces::Surfaces;
 use super::voxels;
-use crate::scene::appearance::texture_mapping::TextureSource;
-use crate::scene::{Change, Cursor, Field, Handle, Kind, Object, Pose, Scene, Topic, Topics, Unread};
+use scene::appearance::texture_mapping::TextureSource;
+use scene::{Change, Cursor, Field, Handle, Kind, Object, Pose, Scene, Topic, Topics, Unread};
 
 /// Changes of what an object looks like.
 const LOOKS: Topics = Topics::NONE.with(Topic::Added).with(Topic::Removed).with_fields(&[

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use geometry::Mesh;
 use nalgebra::{Point3, Vector3};
 
-use crate::scene::appearance::texture_mapping::{MappingMode, TextureMapping};
+use scene::appearance::texture_mapping::{MappingMode, TextureMapping};
 
 /// Numbers that decide about the coordinates of a mesh.
 pub(super) fn key(mapping: &TextureMapping) -> (i32, [u64; 9]) {
@@ -72,8 +72,8 @@ fn close_seam(places: &mut [[f64; 2]; 3]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Pose;
-    use crate::scene::appearance::texture_mapping::TextureSource;
+    use scene::Pose;
+    use scene::appearance::texture_mapping::TextureSource;
 
     fn mapping(mode: MappingMode) -> TextureMapping {
         let mapping = TextureMapping::new(TextureSource::Texture(2_180_009));

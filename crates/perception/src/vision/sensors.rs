@@ -3,15 +3,15 @@
 use rendering::{Channels, Picture};
 
 use super::{Backdrop, Look, Shot, Subjects, Vision};
-use crate::scene::sensor::{Entity, RenderMode, VisionSensor};
-use crate::scene::{Handle, Scene, SceneResult};
+use scene::sensor::{Entity, RenderMode, VisionSensor};
+use scene::{Handle, Scene, SceneResult};
 
 /// The colour of nothing where colours are handles.
 const NOTHING: [u8; 3] = [255; 3];
 
 /// Picture of a vision sensor. Channels that the sensor ignores are missing.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct SensorPicture {
+pub struct SensorPicture {
     /// Red, green, blue of each pixel, from the lowest row.
     pub image: Option<Vec<u8>>,
     /// Depth of each pixel, 0 near to 1 far.
@@ -25,7 +25,7 @@ impl Vision {
     ///
     /// # Errors
     /// When `sensor` is no vision sensor.
-    pub(crate) fn sensor_picture(
+    pub fn sensor_picture(
         &mut self,
         scene: &Scene,
         handle: Handle,

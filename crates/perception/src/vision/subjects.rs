@@ -1,11 +1,11 @@
 //! Which objects are seen.
 
-use crate::scene::sensor::Entity;
-use crate::scene::{Handle, Kind, ModelFlags, Object, ObjectFlags, Scene, SpecialFlags};
+use scene::sensor::Entity;
+use scene::{Handle, Kind, ModelFlags, Object, ObjectFlags, Scene, SpecialFlags};
 
 /// Which objects a picture shows, of those on the visible layers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Subjects {
+pub enum Subjects {
     /// All, as cameras show them.
     Visible,
     /// All that are renderable, as sensors see them.

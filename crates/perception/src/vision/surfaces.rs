@@ -8,11 +8,11 @@ use rendering::{Edges, Image, Material, Mesh, Texture, TextureMode};
 
 use super::models::ModelPart;
 use super::projection;
-use crate::scene::Scene;
-use crate::scene::appearance::colour::Colour;
-use crate::scene::appearance::texture::Texture as SceneTexture;
-use crate::scene::appearance::texture_mapping::{ApplyMode, TextureMapping, TextureSource};
-use crate::scene::shape::{Appearance, Part};
+use scene::Scene;
+use scene::appearance::colour::Colour;
+use scene::appearance::texture::Texture as SceneTexture;
+use scene::appearance::texture_mapping::{ApplyMode, TextureMapping, TextureSource};
+use scene::shape::{Appearance, Part};
 
 const EDGE_COLOUR: [f32; 3] = [0.0; 3];
 /// Pixels.
@@ -120,7 +120,7 @@ fn prepared_mesh(part: &Part) -> Option<Mesh> {
 }
 
 /// Texture coordinates of each corner of each triangle of a mesh; none without a texture.
-pub(crate) fn texture_coordinates(part: &Part) -> Vec<[f32; 2]> {
+pub fn texture_coordinates(part: &Part) -> Vec<[f32; 2]> {
     match part.texture.as_deref() {
         None => Vec::new(),
         Some(mapping) if !mapping.coordinates.is_empty() => mapping.coordinates.as_chunks().0.to_vec(),

@@ -4,13 +4,13 @@ use geometry::PrimitiveKind;
 use rendering::Channels;
 
 use super::{Picture, Vision};
-use crate::scene::appearance::texture::Texture;
-use crate::scene::appearance::texture_mapping::{ApplyMode, TextureMapping, TextureSource};
-use crate::scene::object::viewers::Viewers;
-use crate::scene::sensor::{Light, LightType, RenderMode, VisionOptions, VisionSensor};
-use crate::scene::shape::Shape;
-use crate::scene::voxels::octree::{OcTree, Voxel};
-use crate::scene::{CollectionItem, CopyOptions, Field, Handle, ItemOptions, Kind, Members, Pose, Scene};
+use scene::appearance::texture::Texture;
+use scene::appearance::texture_mapping::{ApplyMode, TextureMapping, TextureSource};
+use scene::object::viewers::Viewers;
+use scene::sensor::{Light, LightType, RenderMode, VisionOptions, VisionSensor};
+use scene::shape::Shape;
+use scene::voxels::octree::{OcTree, Voxel};
+use scene::{CollectionItem, CopyOptions, Field, Handle, ItemOptions, Kind, Members, Pose, Scene};
 
 const GLOW: [f32; 3] = [1.0, 0.0, 0.0];
 
@@ -104,7 +104,7 @@ fn images_are_on_what_they_belong_to() {
     let screen = studio.scene.add("screen", Kind::VisionSensor(Box::new(screen))).unwrap();
     studio.scene.set_shape_texture(cube, decal(TextureSource::Sensor(screen))).unwrap();
     assert_eq!(studio.middle().0, [0, 0, 0]);
-    let shows = |object: &mut crate::scene::Object| object.vision_sensor_mut().unwrap().image = vec![9, 8, 7];
+    let shows = |object: &mut scene::Object| object.vision_sensor_mut().unwrap().image = vec![9, 8, 7];
     studio.scene.modify(screen, Field::Measured, shows).unwrap();
     assert_eq!(studio.middle().0, [9, 8, 7]);
 }
@@ -127,7 +127,7 @@ fn voxels_are_cubes_without_inner_faces() {
 fn lights_that_are_not_attached_do_not_count_where_only_those_do() {
     let mut studio = Studio::new();
     let cube = studio.cube(2.0);
-    let looks = |object: &mut crate::scene::Object| {
+    let looks = |object: &mut scene::Object| {
         let colour = &mut object.shape_mut().unwrap().parts[0].appearance.colour;
         (colour.emission, colour.ambient_diffuse) = ([0.0; 3], [1.0; 3]);
     };
@@ -135,7 +135,7 @@ fn lights_that_are_not_attached_do_not_count_where_only_those_do() {
     studio.scene.modify_settings(|settings| settings.environment.ambient_light = [0.0; 3]);
     let light = studio.scene.add("light", Kind::Light(Box::new(Light::new(LightType::Directional)))).unwrap();
     assert_eq!(studio.middle().0, [128; 3]);
-    let local = |object: &mut crate::scene::Object| object.vision_sensor_mut().unwrap().local_lights = true;
+    let local = |object: &mut scene::Object| object.vision_sensor_mut().unwrap().local_lights = true;
     studio.scene.modify(studio.sensor, Field::Sensor, local).unwrap();
     assert_eq!(studio.middle().0, [0; 3]);
     studio.scene.set_parent(light, Some(studio.sensor), true).unwrap();
@@ -146,8 +146,7 @@ fn lights_that_are_not_attached_do_not_count_where_only_those_do() {
 fn handles_are_listed_once_each() {
     let mut studio = Studio::new();
     let cubes = [studio.cube(2.0), studio.cube(2.4)];
-    let mode =
-        |object: &mut crate::scene::Object| object.vision_sensor_mut().unwrap().render_mode = RenderMode::HANDLES;
+    let mode = |object: &mut scene::Object| object.vision_sensor_mut().unwrap().render_mode = RenderMode::HANDLES;
     studio.scene.modify(studio.sensor, Field::Sensor, mode).unwrap();
     studio.scene.set_world_pose(cubes[1], Pose::translation(0.6, 0.0, 2.0)).unwrap();
     let picture = studio.vision.sensor_picture(&studio.scene, studio.sensor, None).unwrap();

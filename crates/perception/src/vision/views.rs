@@ -5,8 +5,8 @@ use rendering::{Channels, Picture};
 
 use super::sensors::sensor_shot;
 use super::{Backdrop, Look, Shot, Subjects, Vision};
-use crate::scene::sensor::{Camera, View};
-use crate::scene::{Handle, Kind, Object, ObjectFlags, Pose, Scene, SceneError, SceneResult};
+use scene::sensor::{Camera, View};
+use scene::{Handle, Kind, Object, ObjectFlags, Pose, Scene, SceneError, SceneResult};
 
 /// From where a scene without a camera is seen: towards the middle of what is visible.
 const USUAL_DIRECTION: [f64; 3] = [-1.0, -1.5, 1.2];
@@ -21,7 +21,7 @@ impl Vision {
     ///
     /// # Errors
     /// When `from` is neither a camera nor a vision sensor.
-    pub(crate) fn view(
+    pub fn view(
         &mut self,
         scene: &Scene,
         from: Option<Handle>,
@@ -40,12 +40,12 @@ impl Vision {
 ///
 /// # Errors
 /// When `from` is neither a camera nor a vision sensor.
-pub(crate) fn projection(scene: &Scene, from: Option<Handle>) -> SceneResult<View> {
+pub fn projection(scene: &Scene, from: Option<Handle>) -> SceneResult<View> {
     Ok(shot(scene, from)?.view)
 }
 
 /// From where a series of pictures is taken.
-pub(crate) enum Viewpoint {
+pub enum Viewpoint {
     /// A camera or vision sensor, wherever it is.
     Object(Handle),
     /// A place from which the whole scene could be seen at first.
@@ -57,13 +57,13 @@ impl Viewpoint {
     ///
     /// # Errors
     /// When `from` is neither a camera nor a vision sensor.
-    pub(crate) fn new(scene: &Scene, from: Option<Handle>) -> SceneResult<Self> {
+    pub fn new(scene: &Scene, from: Option<Handle>) -> SceneResult<Self> {
         let shot = shot(scene, from)?;
         Ok(from.map_or_else(|| Self::Place(Box::new(shot)), Self::Object))
     }
 
     /// Width and height of a vision sensor.
-    pub(crate) fn resolution(&self, scene: &Scene) -> Option<[u32; 2]> {
+    pub fn resolution(&self, scene: &Scene) -> Option<[u32; 2]> {
         let Self::Object(handle) = self else { return None };
         Some(scene.object(*handle).ok()?.vision_sensor().ok()?.view.resolution)
     }
@@ -72,7 +72,7 @@ impl Viewpoint {
     ///
     /// # Errors
     /// When the object is gone.
-    pub(crate) fn shot(&self, scene: &Scene, resolution: [u32; 2]) -> SceneResult<Shot> {
+    pub fn shot(&self, scene: &Scene, resolution: [u32; 2]) -> SceneResult<Shot> {
         let mut shot = match self {
             Self::Object(handle) => shot(scene, Some(*handle))?,
             Self::Place(shot) => (**shot).clone(),
@@ -83,7 +83,7 @@ impl Viewpoint {
 }
 
 /// The first camera of a scene.
-pub(crate) fn first_camera(scene: &Scene) -> Option<Handle> {
+pub fn first_camera(scene: &Scene) -> Option<Handle> {
     scene.objects().find(|object| matches!(object.kind, Kind::Camera(_))).map(Object::handle)
 }
 

@@ -7,10 +7,10 @@ use rendering::{Material, Mesh};
 use super::models::{Model, ModelPart, ModelPoints};
 use super::palette::Palette;
 use super::surfaces::of_colour;
-use crate::scene::Pose;
-use crate::scene::appearance::colour::Colour;
-use crate::scene::voxels::octree::OcTree;
-use crate::scene::voxels::point_cloud::PointCloud;
+use scene::Pose;
+use scene::appearance::colour::Colour;
+use scene::voxels::octree::OcTree;
+use scene::voxels::point_cloud::PointCloud;
 
 /// Directions of the faces of a cube, and of the two edges around each, so that their cross product points outwards.
 const FACES: [[[f64; 3]; 3]; 6] = [

@@ -7,7 +7,7 @@ use std::ptr;
 use super::memory::Value;
 
 /// What C calls for each function of the simulator: number of the row, values, their number.
-pub(in crate::plugin) type Entrance = extern "C" fn(u32, *mut Value, u32) -> i64;
+pub(crate) type Entrance = extern "C" fn(u32, *mut Value, u32) -> i64;
 
 /// An exception may come out of any function of a plugin. Rust cannot catch it, but ends the process in a defined way.
 type Init = extern "C-unwind" fn(*mut InitInfo) -> c_int;
@@ -47,7 +47,7 @@ const ERROR_BUFFER: usize = 258;
 
 /// A plugin's library. It is never closed: its functions and threads may be in use.
 #[derive(Clone, Copy)]
-pub(in crate::plugin) struct Library {
+pub(crate) struct Library {
     init: Init,
     cleanup: Option<Cleanup>,
     receive: Option<Receive>,
@@ -55,18 +55,18 @@ pub(in crate::plugin) struct Library {
 
 /// A message to a plugin.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::plugin) struct Message {
+pub(crate) struct Message {
     pub id: c_int,
     pub values: [c_int; 4],
 }
 
 /// A function that a plugin has registered for scripts.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::plugin) struct Callback(pub(super) CallbackEntry);
+pub(crate) struct Callback(pub(super) CallbackEntry);
 
 /// On whose behalf a callback runs.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::plugin) struct Caller {
+pub(crate) struct Caller {
     /// The object that the script is attached to, or -1.
     pub object: i32,
     pub script: i32,
@@ -130,7 +130,7 @@ impl Callback {
 ///
 /// # Errors
 /// When it cannot be opened.
-pub(in crate::plugin) fn connect(path: &Path, entrance: Entrance) -> Result<(), String> {
+pub(crate) fn connect(path: &Path, entrance: Entrance) -> Result<(), String> {
     let library = open(path)?;
     let connect: extern "C" fn(Entrance) = symbol(&library, c"swanilda_connect").ok_or("it is damaged")?;
     connect(entrance);

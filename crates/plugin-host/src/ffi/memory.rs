@@ -8,7 +8,7 @@ use super::library::{Callback, CallbackEntry};
 /// What C passes for one parameter. `build/plugin.rs` has the same struct in C.
 #[repr(C)]
 #[derive(Debug)]
-pub(in crate::plugin) struct Value {
+pub(crate) struct Value {
     pub integer: i64,
     pub number: f64,
     pub address: Address,
@@ -17,10 +17,10 @@ pub(in crate::plugin) struct Value {
 /// An address from C. Nothing else makes one, so that it leads to what the row of the called function says, or is null.
 #[repr(transparent)]
 #[derive(Debug, Clone, Copy)]
-pub(in crate::plugin) struct Address(*mut c_void);
+pub(crate) struct Address(*mut c_void);
 
 /// Numbers that are the same in C and in Rust, and for which all bits are valid.
-pub(in crate::plugin) trait Plain: Copy + Default {}
+pub(crate) trait Plain: Copy + Default {}
 
 impl Plain for u8 {}
 impl Plain for i32 {}

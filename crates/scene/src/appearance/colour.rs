@@ -1,7 +1,7 @@
 //! Colours of objects, as scripts read and write them (spec: shapes 8).
 
-use crate::scene::shape::{Appearance, Shape};
-use crate::scene::{Field, Handle, Kind, Object, Scene, SceneError, SceneResult};
+use crate::shape::{Appearance, Shape};
+use crate::{Field, Handle, Kind, Object, Scene, SceneError, SceneResult};
 
 /// A colour, in 32 bits as the original keeps it. Values are not limited.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,7 +111,7 @@ impl Colour {
 
 impl Kind {
     /// The colour of a new object; shapes have theirs in their meshes. Values as files of the original hold them.
-    pub(in crate::scene) fn default_colour(&self) -> Colour {
+    pub(crate) fn default_colour(&self) -> Colour {
         Colour::new(match self {
             Self::Joint(_) => [1.0, 0.3, 0.1],
             Self::Graph(_) => [0.15; 3],
@@ -254,7 +254,7 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::sensor::{Light, LightType};
+    use crate::sensor::{Light, LightType};
     use geometry::PrimitiveKind;
 
     #[test]
@@ -275,7 +275,7 @@ mod tests {
         assert_eq!(scene.object_colour(light, 1, Component::Specular), Ok(Some(vec![1.0, 0.0, 0.0])));
         assert_eq!(scene.object_colour(light, 0, Component::Specular), Ok(Some(vec![0.25; 3])));
         assert_eq!(scene.object_colour(light, 2, Component::Specular), Ok(None));
-        let dummy = scene.add("d", Kind::Dummy(crate::scene::object::dummy::Dummy::new(0.1))).unwrap();
+        let dummy = scene.add("d", Kind::Dummy(crate::object::dummy::Dummy::new(0.1))).unwrap();
         assert_eq!(scene.set_object_colour(dummy, 1, Component::Specular, &[0.0; 3]), Ok(false));
     }
 }

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::scene::{SceneError, SceneResult};
+use crate::{SceneError, SceneResult};
 
 /// An image. Its first row is the bottom one.
 #[derive(Debug, Clone, PartialEq, Eq)]

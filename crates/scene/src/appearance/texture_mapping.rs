@@ -6,8 +6,8 @@ use std::rc::Rc;
 use bitflags::bitflags;
 
 use super::texture::Texture;
-use crate::scene::shape::{Part, Shape};
-use crate::scene::{Field, Handle, Object, Pose, Scene, SceneError, SceneResult};
+use crate::shape::{Part, Shape};
+use crate::{Field, Handle, Object, Pose, Scene, SceneError, SceneResult};
 
 /// Number of the first texture (`sim.object_texturestart`), and of the one that cannot be any more (`sim.object_textureend`).
 const FIRST: i64 = 2_180_009;
@@ -122,13 +122,13 @@ impl TextureMapping {
     }
 
     /// Turns each triangle as [`Mesh::flip`](geometry::Mesh::flip) does.
-    pub(in crate::scene) fn flip(&mut self) {
+    pub(crate) fn flip(&mut self) {
         let turned = self.coordinates.as_chunks::<6>().0.iter().flat_map(|&[a, b, c, d, e, f]| [a, b, e, f, c, d]);
         self.coordinates = turned.collect();
     }
 
     /// The same on some of the triangles only.
-    pub(in crate::scene) fn of_triangles(&self, triangles: &[usize]) -> Self {
+    pub(crate) fn of_triangles(&self, triangles: &[usize]) -> Self {
         let all = self.coordinates.as_chunks::<6>().0;
         let some = triangles.iter().filter_map(|at| all.get(*at)).flatten().copied();
         Self { coordinates: some.collect(), ..self.clone() }
@@ -243,7 +243,7 @@ impl Scene {
     }
 
     /// Forgets those of the textures that no mesh has.
-    pub(in crate::scene) fn forget_unused_textures(&mut self, ids: &[i64]) {
+    pub(crate) fn forget_unused_textures(&mut self, ids: &[i64]) {
         for id in ids {
             if self.textures.get(*id).is_ok() && !self.objects().any(|object| uses(object, *id)) {
                 self.textures.0.remove(id);
@@ -263,7 +263,7 @@ fn no_texture() -> SceneError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Kind;
+    use crate::Kind;
     use geometry::PrimitiveKind;
 
     fn image(name: &str) -> Texture {

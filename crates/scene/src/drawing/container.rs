@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{DrawingObject, DrawingStyle};
-use crate::scene::{Handle, Scene, SceneError, SceneResult};
+use crate::{Handle, Scene, SceneError, SceneResult};
 
 /// Drawing objects by handle. Handles count from 1 and are not used twice.
 #[derive(Debug, Default)]
@@ -61,12 +61,12 @@ impl Drawings {
     }
 
     /// Removes those that move with objects which are being removed.
-    pub(in crate::scene) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
+    pub(crate) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
         self.last_change += 1;
         self.by_handle.retain(|_, drawing| drawing.style.parent.is_none_or(|parent| !doomed.contains(&parent)));
     }
 
-    pub(in crate::scene) fn forget_owner(&mut self, owner: i64) {
+    pub(crate) fn forget_owner(&mut self, owner: i64) {
         self.last_change += 1;
         self.by_handle.retain(|_, drawing| drawing.owner != Some(owner));
     }
@@ -109,7 +109,7 @@ impl Scene {
     }
 
     /// Removes what ends with the script `owner`: its collections, and its drawing objects that are not persistent.
-    pub(crate) fn forget_owner(&mut self, owner: i64) {
+    pub fn forget_owner(&mut self, owner: i64) {
         self.collections.forget_owner(owner);
         self.drawings.forget_owner(owner);
     }

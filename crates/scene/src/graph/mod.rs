@@ -1,6 +1,6 @@
 //! Graphs: streams of values over time, and curves made of them (spec: sensors 7). Nothing is drawn.
 
-pub(in crate::scene) mod record;
+pub(crate) mod record;
 
 use std::collections::VecDeque;
 

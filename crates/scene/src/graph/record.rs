@@ -123,7 +123,7 @@ impl Transformation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::graph::Style;
+    use crate::graph::Style;
 
     fn style(name: &str) -> Style {
         let name = name.to_owned();

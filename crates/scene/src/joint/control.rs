@@ -8,7 +8,7 @@ use geometry::Finite;
 use geometry::pose::euler::wrap_angle;
 
 use super::{Control, Joint, JointMode, JointType, Motion};
-use crate::scene::{Field, Handle, Scene, SceneError, SceneResult};
+use crate::{Field, Handle, Scene, SceneError, SceneResult};
 
 /// Farthest lower limits: rad of revolute, m of prismatic joints.
 const MIN_BOUNDS: (f64, f64) = (1e5, 1e3);
@@ -199,7 +199,7 @@ impl Scene {
     }
 
     /// Where a joint goes that a script sets to a position; None for one that is moving towards a target.
-    pub(in crate::scene) fn accepted_position(&self, handle: Handle, position: f64) -> SceneResult<Option<f64>> {
+    pub(crate) fn accepted_position(&self, handle: Handle, position: f64) -> SceneResult<Option<f64>> {
         let joint = self.object(handle)?.joint()?;
         joint.single_axis()?;
         [position].finite().ok_or(SceneError::InvalidData)?;
@@ -221,7 +221,7 @@ impl Scene {
     }
 
     /// Brings the position of a joint back into its interval, unless it has a master.
-    pub(in crate::scene) fn relimit_joint(&mut self, handle: Handle) -> SceneResult<()> {
+    pub(crate) fn relimit_joint(&mut self, handle: Handle) -> SceneResult<()> {
         let joint = self.object(handle)?.joint()?;
         if joint.joint_type == JointType::Spherical || joint.dependency.is_some() {
             return Ok(());
@@ -307,7 +307,7 @@ mod tests {
     #[test]
     fn a_moving_joint_cannot_be_set() {
         let mut scene = Scene::new();
-        let kind = crate::scene::Kind::Joint(Box::new(Joint::new(JointType::Prismatic, JointMode::Kinematic)));
+        let kind = crate::Kind::Joint(Box::new(Joint::new(JointType::Prismatic, JointMode::Kinematic)));
         let handle = scene.add("j", kind).unwrap();
         assert_eq!(scene.set_joint_position(handle, 0.7), Ok(true));
         assert_eq!(scene.object(handle).unwrap().joint().unwrap().position, 0.5);

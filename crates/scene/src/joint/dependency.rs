@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Dependency, JointMode, JointType};
-use crate::scene::{Field, Handle, Mark, Scene, SceneResult, Topic, Topics};
+use crate::{Field, Handle, Mark, Scene, SceneResult, Topic, Topics};
 
 /// Largest offset and coefficient.
 const BOUND: f64 = 1e4;
@@ -13,7 +13,7 @@ const LAWS: Topics =
 
 /// Who follows whom, kept until a joint changes.
 #[derive(Debug, Default)]
-pub(in crate::scene) struct DependentJoints {
+pub(crate) struct DependentJoints {
     known: Option<Mark>,
     by_master: BTreeMap<Handle, Vec<(Handle, Dependency)>>,
 }
@@ -76,7 +76,7 @@ impl Scene {
     }
 
     /// The position of a joint, and those that the joints take which follow it.
-    pub(in crate::scene) fn positions_with_followers(&mut self, handle: Handle, position: f64) -> Vec<(Handle, f64)> {
+    pub(crate) fn positions_with_followers(&mut self, handle: Handle, position: f64) -> Vec<(Handle, f64)> {
         self.refresh_dependent_joints();
         let mut positions = vec![(handle, position)];
         let mut next = 0;
@@ -89,7 +89,7 @@ impl Scene {
     }
 
     /// Moves the joints that follow `handle` and that the physics does not move itself.
-    pub(in crate::scene) fn move_followers(&mut self, handle: Handle, position: f64) -> SceneResult<()> {
+    pub(crate) fn move_followers(&mut self, handle: Handle, position: f64) -> SceneResult<()> {
         self.refresh_dependent_joints();
         for (follower, law) in self.dependent_joints.of(handle).to_vec() {
             if self.object(follower)?.dynamic_flag.is_empty() {
@@ -148,8 +148,8 @@ impl Dependency {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Kind;
-    use crate::scene::joint::Joint;
+    use crate::Kind;
+    use crate::joint::Joint;
 
     fn scene_with_joints(count: usize) -> (Scene, Vec<Handle>) {
         let mut scene = Scene::new();

@@ -1,7 +1,7 @@
 //! Joints as data: type, mode, limits, position, control parameters.
 
 pub mod control;
-pub(in crate::scene) mod dependency;
+pub(crate) mod dependency;
 pub mod motion;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};

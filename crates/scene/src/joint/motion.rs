@@ -3,7 +3,7 @@
 //! The steps themselves come from scripts (`sysCall_joint`).
 
 use super::{Joint, JointMode, Motion};
-use crate::scene::{Field, Handle, Scene, SceneResult};
+use crate::{Field, Handle, Scene, SceneResult};
 
 /// One step of a joint, as a script asks for it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

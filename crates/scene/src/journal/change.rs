@@ -1,6 +1,6 @@
 //! Changes of a scene, and their topics.
 
-use crate::scene::{Handle, Holder, Namespace, Uid};
+use crate::{Handle, Holder, Namespace, Uid};
 
 /// A changed aspect of an object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -35,7 +35,7 @@ pub enum Field {
 
 impl Field {
     /// Whether such a change can move the object in its parent's frame, or the frame its children live in.
-    pub(in crate::scene) fn can_move(self) -> bool {
+    pub(crate) fn can_move(self) -> bool {
         use Field::*;
         matches!(self, Parent | Pose | Geometry | Joint | JointPosition | Other)
     }

@@ -64,7 +64,7 @@ impl Mark {
 
 impl Journal {
     /// Notes a change that was just made.
-    pub(in crate::scene) fn note(&mut self, change: Change) {
+    pub(crate) fn note(&mut self, change: Change) {
         let topic = change.topic();
         self.count(topic);
         self.log.push(topic, change);
@@ -77,7 +77,7 @@ impl Journal {
 
     /// Notes what an edit of named values did. It is also remembered for scripts attached to objects, see
     /// [`take_changed_data`](Self::take_changed_data).
-    pub(crate) fn note_stored(&mut self, holder: Holder, namespace: Namespace, edited: &Edited<'_>) {
+    pub fn note_stored(&mut self, holder: Holder, namespace: Namespace, edited: &Edited<'_>) {
         match edited {
             Edited::Nothing => {}
             Edited::Written(name) => self.note_name(holder, namespace, name, true),
@@ -97,7 +97,7 @@ impl Journal {
     }
 
     /// Which data of which objects was changed since the last call.
-    pub(crate) fn take_changed_data(&mut self) -> DataOfObjects {
+    pub fn take_changed_data(&mut self) -> DataOfObjects {
         self.changed_data.take()
     }
 

@@ -1,8 +1,8 @@
 //! Readers of different speeds.
 
 use super::*;
-use crate::scene::object::dummy::Dummy;
-use crate::scene::{Kind, Pose, Scene};
+use crate::object::dummy::Dummy;
+use crate::{Kind, Pose, Scene};
 
 const POSES: Topics = Topics::NONE.with_fields(&[Field::Pose]);
 

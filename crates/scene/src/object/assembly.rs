@@ -1,6 +1,6 @@
 //! Assembly of models. Stored for files; there is no interactive assembly.
 
-use crate::scene::Pose;
+use crate::Pose;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assembly {

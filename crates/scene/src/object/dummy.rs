@@ -1,7 +1,7 @@
 //! Dummies: frames, and the ends of loop closures.
 
-use crate::scene::path_object::PathFollowing;
-use crate::scene::{Field, Handle, InertValues, Scene, SceneResult};
+use crate::path_object::PathFollowing;
+use crate::{Field, Handle, InertValues, Scene, SceneResult};
 
 /// Type of the link between two dummies (`sim.dummytype_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

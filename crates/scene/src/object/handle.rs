@@ -24,7 +24,7 @@ impl Handle {
         i64::from(self.0)
     }
 
-    pub(in crate::scene) fn index(self) -> usize {
+    pub(crate) fn index(self) -> usize {
         self.0 as usize
     }
 }

@@ -2,15 +2,15 @@
 //!
 //! Both come from the counter of unique identifiers, so that a run that is repeated gives the same ones.
 
-use crate::scene::Uid;
+use crate::Uid;
 
 /// The text that stays with one object when it is saved: 16 hexadecimal digits.
-pub(in crate::scene) fn persistent_uid(uid: Uid) -> String {
+pub(crate) fn persistent_uid(uid: Uid) -> String {
     format!("{:016X}", scattered(uid as u64))
 }
 
 /// 16 bytes that an object shares with its copies.
-pub(in crate::scene) fn dna(uid: Uid) -> Vec<u8> {
+pub(crate) fn dna(uid: Uid) -> Vec<u8> {
     let half = scattered(!(uid as u64));
     [half, scattered(half)].iter().flat_map(|part| part.to_be_bytes()).collect()
 }

@@ -4,9 +4,9 @@ pub mod assembly;
 pub mod dummy;
 pub mod flags;
 pub mod handle;
-pub(in crate::scene) mod identity;
+pub(crate) mod identity;
 pub mod movement;
-pub(in crate::scene) mod objects;
+pub(crate) mod objects;
 pub mod script_object;
 pub mod viewers;
 
@@ -16,32 +16,32 @@ use flags::{DynamicFlags, Layers, ModelFlags, ObjectFlags, SpecialFlags};
 use script_object::{ExecutionPriority, ScriptObject};
 use viewers::Viewers;
 
-use crate::scene::appearance::colour::Colour;
-use crate::scene::graph::Graph;
-use crate::scene::joint::Joint;
-use crate::scene::path_object::PathObject;
-use crate::scene::pose::world::PlaceInWorld;
-use crate::scene::sensor::force_sensor::ForceSensor;
-use crate::scene::sensor::{Camera, Light, ProximitySensor, VisionSensor};
-use crate::scene::shape::Shape;
-use crate::scene::simulation::restore::InitialState;
-use crate::scene::voxels::octree::OcTree;
-use crate::scene::voxels::point_cloud::PointCloud;
-use crate::scene::{CustomData, Handle, InertValues, Movement, Pose, SceneError, SceneResult, Uid};
+use crate::appearance::colour::Colour;
+use crate::graph::Graph;
+use crate::joint::Joint;
+use crate::path_object::PathObject;
+use crate::pose::world::PlaceInWorld;
+use crate::sensor::force_sensor::ForceSensor;
+use crate::sensor::{Camera, Light, ProximitySensor, View, VisionSensor};
+use crate::shape::Shape;
+use crate::simulation::restore::InitialState;
+use crate::voxels::octree::OcTree;
+use crate::voxels::point_cloud::PointCloud;
+use crate::{CustomData, Handle, InertValues, Movement, Pose, SceneError, SceneResult, Uid};
 
 /// A scene object.
 #[derive(Debug, Clone)]
 pub struct Object {
-    pub(in crate::scene) handle: Handle,
-    pub(in crate::scene) uid: Uid,
-    pub(in crate::scene) alias: String,
+    pub(crate) handle: Handle,
+    pub(crate) uid: Uid,
+    pub(crate) alias: String,
     /// The name that functions from before aliases see, unique in the scene.
-    pub(in crate::scene) old_name: String,
-    pub(in crate::scene) parent: Option<Handle>,
-    pub(in crate::scene) children: Vec<Handle>,
+    pub(crate) old_name: String,
+    pub(crate) parent: Option<Handle>,
+    pub(crate) children: Vec<Handle>,
     /// In the parent's full frame (its moving side, for joints and force sensors).
-    pub(in crate::scene) pose: Pose,
-    pub(in crate::scene) place: PlaceInWorld,
+    pub(crate) pose: Pose,
+    pub(crate) place: PlaceInWorld,
     pub object_property: ObjectFlags,
     pub special_property: SpecialFlags,
     /// [`ModelFlags::NOT_MODEL`] for objects that are no model base.
@@ -79,8 +79,8 @@ pub struct Object {
     /// Parameters of the old parameter dialog: name and value as text.
     pub user_params: Vec<(String, String)>,
     /// Tagged lists of handles: `(tag, handles)`; -1 stands for an object that is gone.
-    pub references: crate::scene::ReferenceLists,
-    pub original_references: crate::scene::ReferenceLists,
+    pub references: crate::ReferenceLists,
+    pub original_references: crate::ReferenceLists,
     /// Aspects of this object that the physics simulates.
     pub dynamic_flag: DynamicFlags,
     /// Requests that the physics rebuilds this object.
@@ -105,7 +105,7 @@ pub struct Measured {
 
 impl Measured {
     /// Whether both have the same velocity, whatever the pose.
-    pub(in crate::scene) fn same_velocity(&self, other: &Self) -> bool {
+    pub(crate) fn same_velocity(&self, other: &Self) -> bool {
         self.linear == other.linear && self.angular == other.angular
     }
 }
@@ -178,7 +178,7 @@ impl Kind {
 }
 
 impl Object {
-    pub(in crate::scene) fn new(handle: Handle, uid: Uid, alias: &str, kind: Kind) -> Self {
+    pub(crate) fn new(handle: Handle, uid: Uid, alias: &str, kind: Kind) -> Self {
         Self {
             handle,
             uid,
@@ -251,7 +251,7 @@ impl Object {
 
     /// Whether this is a `sim.sceneobject_*`; every object is a `sim.handle_all`.
     pub fn is_of_type(&self, object_type: i64) -> bool {
-        object_type == crate::scene::special::ALL || object_type == self.kind.type_number()
+        object_type == crate::special::ALL || object_type == self.kind.type_number()
     }
 
     pub fn is_model(&self) -> bool {
@@ -269,6 +269,26 @@ impl Object {
             Kind::Joint(joint) => Some(joint.intrinsic_pose()),
             Kind::ForceSensor(sensor) => sensor.error,
             _ => None,
+        }
+    }
+}
+
+impl Object {
+    /// What a camera or a vision sensor sees, or the error scripts see.
+    pub fn view(&self) -> SceneResult<&View> {
+        match &self.kind {
+            Kind::Camera(camera) => Ok(&camera.view),
+            Kind::VisionSensor(sensor) => Ok(&sensor.view),
+            _ => Err(SceneError::WrongType("camera")),
+        }
+    }
+
+    /// What a camera or a vision sensor sees, or the error scripts see.
+    pub fn view_mut(&mut self) -> SceneResult<&mut View> {
+        match &mut self.kind {
+            Kind::Camera(camera) => Ok(&mut camera.view),
+            Kind::VisionSensor(sensor) => Ok(&mut sensor.view),
+            _ => Err(SceneError::WrongType("camera")),
         }
     }
 }

@@ -6,12 +6,12 @@
 use std::collections::BTreeMap;
 
 use super::{Kind, Object};
-use crate::scene::joint::Joint;
-use crate::scene::pose::world::{Moves, PlaceInWorld};
-use crate::scene::{Handle, SceneError, SceneResult, Uid};
+use crate::joint::Joint;
+use crate::pose::world::{Moves, PlaceInWorld};
+use crate::{Handle, SceneError, SceneResult, Uid};
 
 #[derive(Debug, Default)]
-pub(in crate::scene) struct Objects {
+pub(crate) struct Objects {
     slots: Vec<Option<Box<Object>>>,
     live: usize,
     next_handle: u32,
@@ -28,7 +28,7 @@ impl Objects {
     ///
     /// # Errors
     /// When all are in use.
-    pub(in crate::scene) fn free_handle(&mut self) -> SceneResult<Handle> {
+    pub(crate) fn free_handle(&mut self) -> SceneResult<Handle> {
         if self.live >= Handle::END as usize {
             return Err(SceneError::TooManyObjects);
         }
@@ -42,7 +42,7 @@ impl Objects {
     }
 
     /// Puts an object where its handle says, which was free.
-    pub(in crate::scene) fn insert(&mut self, mut object: Object) {
+    pub(crate) fn insert(&mut self, mut object: Object) {
         let (handle, index) = (object.handle, object.handle.index());
         if index >= self.slots.len() {
             self.slots.resize_with(index + 1, || None);
@@ -61,7 +61,7 @@ impl Objects {
         self.slots[index] = Some(Box::new(object));
     }
 
-    pub(in crate::scene) fn remove(&mut self, handle: Handle) -> Option<Box<Object>> {
+    pub(crate) fn remove(&mut self, handle: Handle) -> Option<Box<Object>> {
         let object = self.slots.get_mut(handle.index()).and_then(Option::take)?;
         self.live -= 1;
         self.sensors -= usize::from(is_sensor(&object.kind));
@@ -71,67 +71,67 @@ impl Objects {
         Some(object)
     }
 
-    pub(in crate::scene) fn get(&self, handle: Handle) -> SceneResult<&Object> {
+    pub(crate) fn get(&self, handle: Handle) -> SceneResult<&Object> {
         self.slots.get(handle.index()).and_then(Option::as_deref).ok_or(SceneError::NoSuchObject)
     }
 
     /// An object to be changed in any way.
-    pub(in crate::scene) fn get_mut(&mut self, handle: Handle) -> SceneResult<&mut Object> {
+    pub(crate) fn get_mut(&mut self, handle: Handle) -> SceneResult<&mut Object> {
         let object = slot_mut(&mut self.slots, handle)?;
         self.moves.note(object);
         Ok(object)
     }
 
     /// An object to be changed in a way that moves neither it nor what hangs on it.
-    pub(in crate::scene) fn get_in_place(&mut self, handle: Handle) -> SceneResult<&mut Object> {
+    pub(crate) fn get_in_place(&mut self, handle: Handle) -> SceneResult<&mut Object> {
         slot_mut(&mut self.slots, handle)
     }
 
     /// All objects in the order of their creation.
-    pub(in crate::scene) fn iter(&self) -> impl Iterator<Item = &Object> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Object> {
         self.by_uid.values().filter_map(|&handle| self.get(handle).ok())
     }
 
     /// All joints in the order of their creation.
-    pub(in crate::scene) fn joints(&self) -> impl Iterator<Item = (Handle, &Joint)> {
+    pub(crate) fn joints(&self) -> impl Iterator<Item = (Handle, &Joint)> {
         self.joints.values().filter_map(|&handle| Some((handle, self.get(handle).ok()?.joint().ok()?)))
     }
 
     /// All paths in the order of their creation.
-    pub(in crate::scene) fn paths(&self) -> impl Iterator<Item = Handle> {
+    pub(crate) fn paths(&self) -> impl Iterator<Item = Handle> {
         self.paths.values().copied()
     }
 
-    pub(in crate::scene) fn by_uid(&self, uid: Uid) -> Option<Handle> {
+    pub(crate) fn by_uid(&self, uid: Uid) -> Option<Handle> {
         self.by_uid.get(&uid).copied()
     }
 
-    pub(in crate::scene) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.live
     }
 
-    pub(in crate::scene) fn has_sensors(&self) -> bool {
+    pub(crate) fn has_sensors(&self) -> bool {
         self.sensors > 0
     }
 
     /// The object, unless the measurement of velocities in progress has met it before.
-    pub(in crate::scene) fn not_yet_measured(&mut self, handle: Handle) -> Option<&Object> {
+    pub(crate) fn not_yet_measured(&mut self, handle: Handle) -> Option<&Object> {
         let object = slot_mut(&mut self.slots, handle).ok()?;
         self.moves.measurements.is_first(object).then_some(object)
     }
 
-    pub(in crate::scene) fn moves_mut(&mut self) -> &mut Moves {
+    pub(crate) fn moves_mut(&mut self) -> &mut Moves {
         &mut self.moves
     }
 
     /// The changes of place so far.
-    pub(in crate::scene) fn moves(&self) -> &Moves {
+    pub(crate) fn moves(&self) -> &Moves {
         &self.moves
     }
 
     /// The next new object gets this handle, if it is free.
     #[cfg(test)]
-    pub(in crate::scene) fn start_handles_at(&mut self, handle: Handle) {
+    pub(crate) fn start_handles_at(&mut self, handle: Handle) {
         self.next_handle = handle.0;
     }
 }
@@ -147,7 +147,7 @@ fn is_sensor(kind: &Kind) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::object::dummy::Dummy;
+    use crate::object::dummy::Dummy;
 
     fn add(store: &mut Objects) -> SceneResult<Handle> {
         let handle = store.free_handle()?;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::scene::{Handle, Scene};
+use crate::{Handle, Scene};
 
 /// Those that see an object.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub enum Viewers {
 
 impl Viewers {
     /// The same without a viewer that is removed: then all see it.
-    pub(in crate::scene) fn without(self, removed: &BTreeSet<Handle>) -> Self {
+    pub(crate) fn without(self, removed: &BTreeSet<Handle>) -> Self {
         match self {
             Self::One(viewer) if removed.contains(&viewer) => Self::All,
             _ => self,

@@ -1,8 +1,8 @@
 //! The numbered parameters of cameras, sensors, lights and voxels (`sim.visionintparam_*`, `sim.camerafloatparam_*`, ...).
 
-use crate::scene::sensor::force_sensor::ForceSensor;
-use crate::scene::sensor::{Camera, Entity, Light, ProximitySensor, RenderMode, View, VisionSensor};
-use crate::scene::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
+use crate::sensor::force_sensor::ForceSensor;
+use crate::sensor::{Camera, Entity, Light, ProximitySensor, RenderMode, View, VisionSensor};
+use crate::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
 
 /// `sim.visionintparam_*`, `sim.visionfloatparam_*`.
 mod vision {
@@ -174,7 +174,7 @@ impl Camera {
 
 impl Object {
     /// An integer parameter of a camera, sensor or light; None when it has no such parameter.
-    pub(in crate::scene) fn display_int_param(&self, id: i64) -> Option<i64> {
+    pub(crate) fn display_int_param(&self, id: i64) -> Option<i64> {
         match &self.kind {
             Kind::VisionSensor(sensor) => sensor.int_param(id),
             Kind::ProximitySensor(sensor) => sensor.int_param(id),
@@ -197,7 +197,7 @@ impl Object {
     }
 
     /// A float parameter of a camera, sensor or light (SI units); None when it has no such parameter.
-    pub(in crate::scene) fn display_float_param(&self, id: i64) -> Option<f64> {
+    pub(crate) fn display_float_param(&self, id: i64) -> Option<f64> {
         match &self.kind {
             Kind::VisionSensor(sensor) => sensor.view.float_param(id, OF_VISION_SENSOR),
             Kind::Camera(camera) => camera.view.float_param(id, OF_CAMERA),
@@ -231,7 +231,7 @@ impl Scene {
         })
     }
 
-    pub(in crate::scene) fn set_display_int(&mut self, handle: Handle, id: i64, value: i64) -> SceneResult<bool> {
+    pub(crate) fn set_display_int(&mut self, handle: Handle, id: i64, value: i64) -> SceneResult<bool> {
         if id == camera::TRACKED_OBJECT && self.object(handle)?.camera().is_ok() {
             return self.track(handle, value).map(|()| true);
         }
@@ -239,7 +239,7 @@ impl Scene {
     }
 
     /// Values that are not finite are ignored.
-    pub(in crate::scene) fn set_display_float(&mut self, handle: Handle, id: i64, value: f64) -> SceneResult<bool> {
+    pub(crate) fn set_display_float(&mut self, handle: Handle, id: i64, value: f64) -> SceneResult<bool> {
         if !value.is_finite() {
             return Ok(self.object(handle)?.display_float_param(id).is_some());
         }

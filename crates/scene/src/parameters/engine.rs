@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use crate::scene::{Data, ValueType};
+use crate::{Data, ValueType};
 
 /// `owner<TAB>name<TAB>type<TAB>flags<TAB>state<TAB>default<TAB>numbers<TAB>bit`, in the order of enumeration.
 ///
@@ -93,7 +93,7 @@ pub struct EngineParam {
 
 /// Meaning of a number in the old API.
 #[derive(Debug)]
-pub(in crate::scene) enum Numbered {
+pub(crate) enum Numbered {
     /// An element of a parameter; of one that is no list, the parameter itself.
     Element(&'static EngineParam, usize),
     /// Switches, each with its bit.
@@ -152,7 +152,7 @@ fn owner_of(part: &str) -> Option<EngineOwner> {
 }
 
 /// The parameter with that number (`sim.bullet_*`, `sim.ode_*` and so on).
-pub(in crate::scene) fn numbered(number: i64) -> Option<&'static Numbered> {
+pub(crate) fn numbered(number: i64) -> Option<&'static Numbered> {
     static NUMBERS: LazyLock<BTreeMap<i64, Numbered>> = LazyLock::new(numbers);
     NUMBERS.get(&number)
 }

@@ -4,10 +4,10 @@
 
 use super::engine::{Engine, EngineOwner, EngineParam, Numbered, is_step_size, numbered};
 use super::engine_values::{element, value_in, with_element};
-use crate::scene::joint::Joint;
-use crate::scene::object::dummy::Dummy;
-use crate::scene::shape::Material;
-use crate::scene::{Data, DynamicsSettings, InertValues};
+use crate::joint::Joint;
+use crate::object::dummy::Dummy;
+use crate::shape::Material;
+use crate::{Data, DynamicsSettings, InertValues};
 
 /// The numbers of a row of parameters: the first one of the real ones and how many a file of 4.10 holds, then of the integers.
 #[derive(Debug, Clone, Copy)]

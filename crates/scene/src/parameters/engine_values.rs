@@ -4,9 +4,9 @@
 use super::engine::{
     Engine, EngineOwner, EngineParam, Numbered, SelectedEngine, engine_params, is_step_size, numbered,
 };
-use crate::scene::joint::Joint;
-use crate::scene::shape::Material;
-use crate::scene::{Data, Field, Handle, InertValues, Object, Scene, SceneError, SceneResult};
+use crate::joint::Joint;
+use crate::shape::Material;
+use crate::{Data, Field, Handle, InertValues, Object, Scene, SceneError, SceneResult};
 
 /// The version of Bullet that has the newer friction; version 0 is Bullet 2.78.
 const BULLET_283: i64 = 283;
@@ -103,7 +103,7 @@ impl Scene {
 }
 
 /// Values that were not set are the default.
-pub(in crate::scene) fn value_in(values: &InertValues, param: &EngineParam) -> Data {
+pub(crate) fn value_in(values: &InertValues, param: &EngineParam) -> Data {
     values.get(param.name).unwrap_or(&param.default).clone()
 }
 
@@ -119,7 +119,7 @@ fn set_in(object: &mut Object, param: &EngineParam, value: Data) -> SceneResult<
     Ok(())
 }
 
-pub(in crate::scene) fn element(value: &Data, at: usize) -> Option<f64> {
+pub(crate) fn element(value: &Data, at: usize) -> Option<f64> {
     match value {
         Data::Bool(on) => Some(f64::from(u8::from(*on))),
         Data::Array(items) => items.get(at)?.as_f64(),
@@ -127,7 +127,7 @@ pub(in crate::scene) fn element(value: &Data, at: usize) -> Option<f64> {
     }
 }
 
-pub(in crate::scene) fn with_element(whole: Data, at: usize, value: f64) -> Data {
+pub(crate) fn with_element(whole: Data, at: usize, value: f64) -> Data {
     match whole {
         Data::Bool(_) => Data::Bool(value != 0.0),
         Data::Int(_) => Data::Int(value as i64),
@@ -171,7 +171,7 @@ impl Material {
         engine_params(EngineOwner::Material).find(|param| param.name == name).map(|param| self.engine_value(param))
     }
 
-    pub(in crate::scene) fn engine_value(&self, param: &EngineParam) -> Data {
+    pub(crate) fn engine_value(&self, param: &EngineParam) -> Data {
         match param.name {
             "bullet.restitution" => self.restitution.into(),
             "bullet.frictionOld" => self.friction.into(),
@@ -181,7 +181,7 @@ impl Material {
         }
     }
 
-    pub(in crate::scene) fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
+    pub(crate) fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
         match (self.field(param.name), value.as_f64()) {
             (Some(field), Some(number)) => *field = number,
             _ => {
@@ -192,11 +192,11 @@ impl Material {
 }
 
 impl Joint {
-    pub(in crate::scene) fn engine_value(&self, param: &EngineParam) -> Data {
+    pub(crate) fn engine_value(&self, param: &EngineParam) -> Data {
         engine_of_gains(param).map_or_else(|| value_in(&self.engine_values, param), |engine| self.gains[engine].into())
     }
 
-    pub(in crate::scene) fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
+    pub(crate) fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
         match engine_of_gains(param) {
             Some(engine) => self.gains[engine] = [0, 1, 2].map(|at| element(&value, at).unwrap_or_default()),
             None => {
@@ -215,8 +215,8 @@ fn engine_of_gains(param: &EngineParam) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Kind;
-    use crate::scene::joint::{JointMode, JointType};
+    use crate::Kind;
+    use crate::joint::{JointMode, JointType};
 
     #[test]
     fn numbers_and_names_lead_to_the_same_value() {

@@ -5,7 +5,7 @@
 use geometry::pose::pose_to_array;
 use nalgebra::{Quaternion, UnitQuaternion};
 
-use crate::scene::joint::{Control, Joint};
+use crate::joint::{Control, Joint};
 
 /// Control of old releases: a motor that is on is in position control when its controller is on, in velocity control otherwise.
 fn motor_control(motor: bool, controller: bool) -> Control {
@@ -103,7 +103,7 @@ impl Joint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::joint::{JointMode, JointType};
+    use crate::joint::{JointMode, JointType};
 
     #[test]
     fn upper_limit_is_that_of_the_velocity() {

@@ -1,7 +1,7 @@
 //! Numbered parameters by object type: where a value is stored, and side effects of a change.
 
-use crate::scene::object::dummy::LinkType;
-use crate::scene::{Field, Handle, Kind, Scene, SceneResult};
+use crate::object::dummy::LinkType;
+use crate::{Field, Handle, Kind, Scene, SceneResult};
 
 /// Parameters of shapes whose change needs a new rigid body.
 const BODY_PARAMS: [i64; 4] = [3003, 3004, 3005, 3030];
@@ -64,7 +64,7 @@ impl Scene {
         &mut self,
         handle: Handle,
         id: i64,
-        set: impl FnOnce(&mut crate::scene::shape::Shape) -> bool,
+        set: impl FnOnce(&mut crate::shape::Shape) -> bool,
     ) -> SceneResult<bool> {
         self.try_modify(handle, Field::Dynamics, |object| {
             let known = set(object.shape_mut()?);

@@ -1,10 +1,10 @@
 //! Numbered parameters of objects and of physics engines.
 
-pub(in crate::scene) mod display;
+pub(crate) mod display;
 pub mod engine;
 pub mod engine_blocks;
-pub(in crate::scene) mod engine_values;
-pub(in crate::scene) mod joint;
-pub(in crate::scene) mod kind;
-pub(in crate::scene) mod object;
-pub(in crate::scene) mod shape;
+pub(crate) mod engine_values;
+pub(crate) mod joint;
+pub(crate) mod kind;
+pub(crate) mod object;
+pub(crate) mod shape;

@@ -5,9 +5,7 @@
 use geometry::BoundingBox;
 use nalgebra::{Point3, Vector3};
 
-use crate::scene::{
-    Field, Handle, Kind, Layers, ModelFlags, Object, ObjectFlags, Pose, Scene, SceneResult, SpecialFlags,
-};
+use crate::{Field, Handle, Kind, Layers, ModelFlags, Object, ObjectFlags, Pose, Scene, SceneResult, SpecialFlags};
 
 /// `sim.dummystringparam_assemblytag`.
 const ASSEMBLY_TAG: i64 = 10004;
@@ -142,7 +140,7 @@ impl Object {
     }
 
     /// Smallest and largest coordinates of the box along the axes of the object.
-    pub(crate) fn extent(&self) -> Extent {
+    pub fn extent(&self) -> Extent {
         let bounding_box = self.bounding_box();
         let half = Vector3::from(bounding_box.size) * 0.5;
         transformed((-half, half), &bounding_box.pose)

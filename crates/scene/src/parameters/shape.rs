@@ -2,8 +2,8 @@
 
 use geometry::pose::euler::{rotation_from_euler, rotation_to_euler};
 
-use crate::scene::appearance::texture_mapping::TextureMapping;
-use crate::scene::shape::{Appearance, RespondableMask, Shape};
+use crate::appearance::texture_mapping::TextureMapping;
+use crate::shape::{Appearance, RespondableMask, Shape};
 
 impl Shape {
     fn first_appearance(&self) -> Option<&Appearance> {
@@ -126,7 +126,7 @@ impl TextureMapping {
 
 #[cfg(test)]
 mod tests {
-    use crate::scene::shape::Shape;
+    use crate::shape::Shape;
     use geometry::PrimitiveKind;
 
     #[test]

@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 
 use super::PathObject;
-use crate::scene::{Field, Frame, Handle, Placement, Pose, Scene, SceneError, SceneResult};
+use crate::{Field, Frame, Handle, Placement, Pose, Scene, SceneError, SceneResult};
 
 /// How a dummy moves with the path it belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use geometry::pose::{interpolate, rotation_axis};
 
-use crate::scene::Pose;
+use crate::Pose;
 
 /// Points that are closer together than that, metres and radians, are one.
 const SAME_PLACE: f64 = 0.0001;

@@ -15,8 +15,8 @@ pub use travel::{Travel, TravelLimits};
 
 use bitflags::bitflags;
 
-use crate::scene::appearance::colour::Colour;
-use crate::scene::{Pose, SceneError, SceneResult};
+use crate::appearance::colour::Colour;
+use crate::{Pose, SceneError, SceneResult};
 
 /// More control points than that are a mistake of a script or file.
 const MOST_POINTS: usize = 100_000;
@@ -313,11 +313,11 @@ impl PathObject {
     }
 
     /// Position, nominal and target velocity: what a simulation restores.
-    pub(in crate::scene) fn motion(&self) -> [f64; 3] {
+    pub(crate) fn motion(&self) -> [f64; 3] {
         [self.position, self.nominal_velocity, self.target_velocity]
     }
 
-    pub(in crate::scene) fn restore_motion(&mut self, [position, nominal, target]: [f64; 3]) {
+    pub(crate) fn restore_motion(&mut self, [position, nominal, target]: [f64; 3]) {
         self.set_position(position);
         (self.nominal_velocity, self.target_velocity) = (nominal, target);
     }
@@ -330,7 +330,7 @@ impl PathObject {
     }
 
     /// Scales all lengths.
-    pub(in crate::scene) fn scale(&mut self, factor: f64) {
+    pub(crate) fn scale(&mut self, factor: f64) {
         for point in &mut self.control_points {
             point.pose.translation.vector *= factor;
             point.on_spot *= factor;

@@ -3,8 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::*;
-use crate::scene::object::dummy::Dummy;
-use crate::scene::{Kind, Scene};
+use crate::object::dummy::Dummy;
+use crate::{Kind, Scene};
 
 fn at(x: f64, y: f64, count: usize) -> ControlPoint {
     let pose = Pose::translation(x, y, 0.0);

@@ -3,7 +3,7 @@
 //! The journal learns nothing of it: whoever reads it finds the scene as it was. Who looks meanwhile must be told.
 
 use super::placement::{Frame, Placement, is_place, normalized};
-use crate::scene::{Handle, Pose, Scene, SceneError, SceneResult};
+use crate::{Handle, Pose, Scene, SceneError, SceneResult};
 
 /// A scene some of whose objects stand elsewhere. They go back when this is dropped.
 #[derive(Debug)]
@@ -82,10 +82,10 @@ impl Drop for Displacement<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::joint::{Joint, JointMode, JointType};
-    use crate::scene::object::dummy::Dummy;
-    use crate::scene::pose::check_cached_poses;
-    use crate::scene::{Kind, Topics, Unread};
+    use crate::joint::{Joint, JointMode, JointType};
+    use crate::object::dummy::Dummy;
+    use crate::pose::check_cached_poses;
+    use crate::{Kind, Topics, Unread};
     use nalgebra::Vector3;
 
     fn dummy(scene: &mut Scene, parent: Option<Handle>) -> Handle {
@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn cached_poses_are_right_before_and_after() {
         check_cached_poses(300, |scene, _| {
-            let handles: Vec<Handle> = scene.objects().map(crate::scene::Object::handle).collect();
+            let handles: Vec<Handle> = scene.objects().map(crate::Object::handle).collect();
             let mut displaced = scene.displace();
             for &handle in handles.iter().step_by(3) {
                 let there = Placement::Position(Vector3::new(1.0, 2.0, 3.0));

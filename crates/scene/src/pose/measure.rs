@@ -4,14 +4,14 @@
 
 use geometry::pose::velocity;
 
-use crate::scene::{Change, Field, Handle, Measured, Object, Pose, Scene, Topic, Uid};
+use crate::{Change, Field, Handle, Measured, Object, Pose, Scene, Topic, Uid};
 
 /// More objects are not listed: looking at all of them is as fast.
 const MOST: usize = 1 << 16;
 
 /// Which objects the next measurement concerns: those listed here, or all of them.
 #[derive(Debug, Default)]
-pub(in crate::scene) struct Measurements {
+pub(crate) struct Measurements {
     /// Whether every object was measured, and what moved since is listed.
     complete: bool,
     /// How many measurements there were.
@@ -26,7 +26,7 @@ pub(in crate::scene) struct Measurements {
 
 impl Measurements {
     /// Notes a change of the place of an object, whose last one before had the number `previous`.
-    pub(in crate::scene) fn note_move(&mut self, handle: Handle, previous: u64) {
+    pub(crate) fn note_move(&mut self, handle: Handle, previous: u64) {
         if self.complete && previous <= self.last_move {
             self.moved.push(handle);
             self.complete = self.moved.len() < MOST;
@@ -34,25 +34,25 @@ impl Measurements {
     }
 
     /// The next measurement concerns all objects.
-    pub(in crate::scene) fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         self.complete = false;
     }
 
     /// The lists of the objects that the next measurement concerns: those that moved with all below them, and those that stand for
     /// themselves. None for all objects.
-    pub(in crate::scene) fn begin(&mut self) -> Option<(Vec<Handle>, Vec<Handle>)> {
+    pub(crate) fn begin(&mut self) -> Option<(Vec<Handle>, Vec<Handle>)> {
         self.count += 1;
         let (moved, in_motion) = (std::mem::take(&mut self.moved), std::mem::take(&mut self.in_motion));
         self.complete.then_some((moved, in_motion))
     }
 
     /// Whether the object is met for the first time in this measurement.
-    pub(in crate::scene) fn is_first(&self, object: &mut Object) -> bool {
+    pub(crate) fn is_first(&self, object: &mut Object) -> bool {
         std::mem::replace(&mut object.place.measurement, self.count) != self.count
     }
 
     /// Ends a measurement, after the change of place number `last_move`.
-    pub(in crate::scene) fn end(&mut self, last_move: u64, in_motion: Vec<Handle>) {
+    pub(crate) fn end(&mut self, last_move: u64, in_motion: Vec<Handle>) {
         (self.complete, self.last_move, self.in_motion) = (true, last_move, in_motion);
     }
 }

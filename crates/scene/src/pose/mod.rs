@@ -1,9 +1,10 @@
 //! Poses of objects: in the world, relative to a frame, and their rate of change.
 
 pub mod displacement;
-pub(in crate::scene) mod measure;
+pub(crate) mod measure;
 pub mod placement;
-pub(in crate::scene) mod world;
+pub(crate) mod world;
 
-#[cfg(test)]
-pub(crate) use world::tests::check_cached_poses;
+/// Random operations of layers above, and a check of all poses after each: for tests.
+#[cfg(any(test, feature = "test-support"))]
+pub use world::tests::check_cached_poses;

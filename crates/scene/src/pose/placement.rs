@@ -2,8 +2,8 @@
 
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
-use crate::scene::joint::JointType;
-use crate::scene::{DynamicFlags, Field, Handle, Kind, Pose, Scene, SceneError, SceneResult, special};
+use crate::joint::JointType;
+use crate::{DynamicFlags, Field, Handle, Kind, Pose, Scene, SceneError, SceneResult, special};
 
 /// The frame a pose is expressed in, as scripts name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

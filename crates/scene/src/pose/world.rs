@@ -4,43 +4,43 @@
 //! pose is checked when it is asked for, by the largest number from the object up to its root. That walk ends at the first object
 //! that was looked at since the last change, so that reading all poses after a change looks at each object once.
 
-#[cfg(test)]
-pub(in crate::scene) mod tests;
+#[cfg(any(test, feature = "test-support"))]
+pub mod tests;
 
 use std::cell::{Cell, RefCell};
 
 use geometry::pose::pose_to_array;
 
 use super::measure::Measurements;
-use crate::scene::{Handle, Object, Pose, Scene, SceneResult};
+use crate::{Handle, Object, Pose, Scene, SceneResult};
 
 /// The changes of place of a scene.
 #[derive(Debug, Default)]
-pub(in crate::scene) struct Moves {
+pub(crate) struct Moves {
     /// Number of the last one.
     last: u64,
     /// Reused by each walk.
     walk: RefCell<Vec<Handle>>,
-    pub(in crate::scene) measurements: Measurements,
+    pub(crate) measurements: Measurements,
 }
 
 impl Moves {
     /// Notes that `object` may have moved in its parent's frame, or its children in its own.
-    pub(in crate::scene) fn note(&mut self, object: &mut Object) {
+    pub(crate) fn note(&mut self, object: &mut Object) {
         self.measurements.note_move(object.handle, object.place.moved);
         self.last += 1;
         object.place.moved = self.last;
     }
 
     /// Ends a measurement of velocities, which found these objects in motion.
-    pub(in crate::scene) fn end_measurement(&mut self, in_motion: Vec<Handle>) {
+    pub(crate) fn end_measurement(&mut self, in_motion: Vec<Handle>) {
         self.measurements.end(self.last, in_motion);
     }
 }
 
 /// Cached world pose of an object.
 #[derive(Clone)]
-pub(in crate::scene) struct PlaceInWorld {
+pub(crate) struct PlaceInWorld {
     /// The last change of its own place.
     moved: u64,
     /// The last change of its place or of one above, as it was found after change `checked`.
@@ -53,7 +53,7 @@ pub(in crate::scene) struct PlaceInWorld {
     intrinsic: Cell<Option<Pose>>,
     intrinsic_of: Cell<u64>,
     /// The last measurement of velocities that concerned it.
-    pub(in crate::scene::pose) measurement: u64,
+    pub(in crate::pose) measurement: u64,
 }
 
 impl Default for PlaceInWorld {
@@ -149,7 +149,7 @@ impl Object {
     }
 
     /// Local frames that determine the world poses of the object and its descendants, as bits.
-    pub(in crate::scene) fn frames(&self) -> impl PartialEq + use<> {
+    pub(crate) fn frames(&self) -> impl PartialEq + use<> {
         (self.parent, bits(&self.pose), self.intrinsic_pose().as_ref().map(bits))
     }
 }

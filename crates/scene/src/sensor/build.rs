@@ -3,7 +3,7 @@
 use super::options::{ProximityOptions, VisionOptions};
 use super::volume::{Volume, VolumeType};
 use super::{Entity, ProximitySensor, RenderMode, View, VisionSensor};
-use crate::scene::appearance::colour::Colour;
+use crate::appearance::colour::Colour;
 
 const DISPLAY_SIZE: f64 = 0.01;
 /// Colour of rays in files of the original.

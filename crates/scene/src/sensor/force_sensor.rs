@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use crate::scene::Pose;
+use crate::Pose;
 
 /// How samples are combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Sensors, cameras and lights as data. What sensors measure is computed by the layer `perception`.
 
-pub(in crate::scene) mod build;
+pub(crate) mod build;
 pub mod force_sensor;
 pub mod options;
 pub mod vision;

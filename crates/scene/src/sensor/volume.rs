@@ -89,7 +89,7 @@ impl Volume {
     }
 
     /// The polygons at both ends of a pyramid or a cylinder.
-    pub(in crate::scene) fn ends(&self) -> [Vec<Point>; 2] {
+    pub(crate) fn ends(&self) -> [Vec<Point>; 2] {
         let depths = [self.offset, self.offset + self.range];
         [0, 1].map(|end| match self.volume_type {
             VolumeType::Cylinder => circle(self.radius[end], depths[end], self.faces[0]),
@@ -186,7 +186,7 @@ fn prism(near: &[Point], far: &[Point]) -> Vec<[Point; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::sensor::{ProximityOptions, ProximitySensor};
+    use crate::sensor::{ProximityOptions, ProximitySensor};
 
     fn volume(volume_type: VolumeType) -> Volume {
         ProximitySensor::new(volume_type, ProximityOptions::empty(), ProximitySensor::INTEGERS, None).volume

@@ -60,9 +60,9 @@ impl ProximitySensor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::sensor::ProximityOptions;
-    use crate::scene::sensor::volume::VolumeType;
-    use crate::scene::sensor::volume_planes::Plane;
+    use crate::sensor::ProximityOptions;
+    use crate::sensor::volume::VolumeType;
+    use crate::sensor::volume_planes::Plane;
 
     fn sensor(volume_type: VolumeType) -> ProximitySensor {
         ProximitySensor::new(volume_type, ProximityOptions::empty(), ProximitySensor::INTEGERS, None)

@@ -199,7 +199,7 @@ fn count(number: i64, least: i64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::sensor::{ProximityOptions, ProximitySensor};
+    use crate::sensor::{ProximityOptions, ProximitySensor};
 
     fn volume(volume_type: VolumeType) -> Volume {
         ProximitySensor::new(volume_type, ProximityOptions::empty(), ProximitySensor::INTEGERS, None).volume

@@ -9,8 +9,8 @@ use geometry::primitive::{PrimitiveKind, bounding_size, clamp_size, has_pure_siz
 
 use super::options::PrimitiveOptions;
 use super::{Appearance, HeightField, Material, Part, Primitive, Shape, ShapeDynamics, Velocity};
-use crate::scene::Pose;
-use crate::scene::{SceneError, SceneResult};
+use crate::Pose;
+use crate::{SceneError, SceneResult};
 
 /// Density of new primitives, kg/m3.
 const DENSITY: f64 = 500.0;

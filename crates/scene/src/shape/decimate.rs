@@ -4,7 +4,7 @@ use geometry::Mesh;
 use mesh_processing::{Target, decimate};
 
 use super::Shape;
-use crate::scene::{SceneError, SceneResult};
+use crate::{SceneError, SceneResult};
 
 /// A mesh with fewer triangles, and flat normals. None if its triangles have no area.
 pub fn decimated_mesh(mut mesh: Mesh, target: Target) -> Option<Mesh> {

@@ -11,7 +11,7 @@ use geometry::PrimitiveKind;
 
 use super::reshape::box_of;
 use super::{Part, Shape};
-use crate::scene::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
+use crate::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
 
 impl Shape {
     /// The parts with the mass each would have as a shape of its own, in the part's frame. Those of a group share the mass the group
@@ -106,7 +106,7 @@ impl Scene {
         self.set_parent(new, source.parent(), false)?;
         self.set_local_pose(new, source.pose())?;
         self.set_hierarchy_order(new, position as i64)?;
-        self.modify(new, crate::scene::Field::ObjectProperty, |object| {
+        self.modify(new, crate::Field::ObjectProperty, |object| {
             object.object_property = source.object_property;
             object.special_property = source.special_property;
             object.model_property = source.model_property;

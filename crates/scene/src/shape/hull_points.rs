@@ -2,8 +2,8 @@
 
 use nalgebra::Point3;
 
-use crate::scene::voxels::octree::OcTree;
-use crate::scene::{Handle, Kind, Scene, SceneResult};
+use crate::voxels::octree::OcTree;
+use crate::{Handle, Kind, Scene, SceneResult};
 
 impl Scene {
     /// In the world: vertices of a shape, the place of a dummy, points of a point cloud, corners of an octree's cells; none of others.

@@ -3,24 +3,24 @@
 use std::collections::BTreeMap;
 
 use super::Shape;
-use crate::scene::{Handle, Uid};
+use crate::{Handle, Uid};
 
 /// The shapes of all meshes.
 #[derive(Debug, Default)]
-pub(in crate::scene) struct MeshOwners(BTreeMap<Uid, Handle>);
+pub(crate) struct MeshOwners(BTreeMap<Uid, Handle>);
 
 impl MeshOwners {
-    pub(in crate::scene) fn note(&mut self, handle: Handle, shape: &Shape) {
+    pub(crate) fn note(&mut self, handle: Handle, shape: &Shape) {
         self.0.extend(shape.parts.iter().map(|part| (part.uid, handle)));
     }
 
-    pub(in crate::scene) fn forget(&mut self, shape: &Shape) {
+    pub(crate) fn forget(&mut self, shape: &Shape) {
         for part in &shape.parts {
             self.0.remove(&part.uid);
         }
     }
 
-    pub(in crate::scene) fn of(&self, mesh: Uid) -> Option<Handle> {
+    pub(crate) fn of(&self, mesh: Uid) -> Option<Handle> {
         self.0.get(&mesh).copied()
     }
 }

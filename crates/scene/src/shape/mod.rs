@@ -2,9 +2,9 @@
 
 pub mod build;
 pub mod decimate;
-pub(in crate::scene) mod group;
-pub(in crate::scene) mod hull_points;
-pub(in crate::scene) mod mesh_owners;
+pub(crate) mod group;
+pub(crate) mod hull_points;
+pub(crate) mod mesh_owners;
 pub mod options;
 pub mod reshape;
 

@@ -10,7 +10,7 @@ use geometry::mass::compute_mass_and_inertia;
 use nalgebra::UnitQuaternion;
 
 use super::{Part, Shape};
-use crate::scene::{Field, Handle, Pose, Scene, SceneError, SceneResult};
+use crate::{Field, Handle, Pose, Scene, SceneError, SceneResult};
 
 impl Part {
     /// Turns the mesh inside out; what physics takes for a solid is the same.
@@ -146,7 +146,7 @@ fn stretch_part(part: &mut Part, box_frame: &Pose, factors: [f64; 3]) {
     }
 }
 
-pub(in crate::scene) fn too_large() -> SceneError {
+pub(crate) fn too_large() -> SceneError {
     SceneError::Refused(format!(
         "the object would be larger than {LARGEST_COORDINATE:e} m, which scene files cannot hold."
     ))
@@ -228,7 +228,7 @@ mod tests {
     fn a_primitive_keeps_its_frame() {
         let mut scene = Scene::new();
         let shape = Shape::primitive(PrimitiveKind::Cuboid, [0.2; 3], Default::default()).unwrap();
-        let handle = scene.add("s", crate::scene::Kind::Shape(Box::new(shape))).unwrap();
+        let handle = scene.add("s", crate::Kind::Shape(Box::new(shape))).unwrap();
         assert_eq!(scene.relocate_shape_frame(handle, None), Ok(false));
     }
 }

@@ -2,9 +2,9 @@
 
 use nalgebra::UnitQuaternion;
 
-use crate::scene::pose::placement::normalized;
-use crate::scene::shape::Velocity;
-use crate::scene::{Change, Field, Handle, Pose, Scene, SceneResult};
+use crate::pose::placement::normalized;
+use crate::shape::Velocity;
+use crate::{Change, Field, Handle, Pose, Scene, SceneResult};
 
 /// The state of a dynamic joint after a sub-step.
 #[derive(Debug, Clone, PartialEq)]

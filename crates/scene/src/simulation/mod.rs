@@ -1,5 +1,5 @@
 //! Settings of a run, what the physics reports, and what is restored at its end.
 
 pub mod dynamics_report;
-pub(in crate::scene) mod restore;
+pub(crate) mod restore;
 pub mod settings;

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use crate::scene::joint::Joint;
-use crate::scene::shape::Velocity;
-use crate::scene::{
+use crate::joint::Joint;
+use crate::shape::Velocity;
+use crate::{
     DynamicFlags, Field, Handle, Kind, Layers, ModelFlags, Object, ObjectFlags, Pose, Scene, SceneResult, Uid,
 };
 
@@ -55,7 +55,7 @@ impl Scene {
     }
 
     /// Stores the first state of a copy made during a run. Other new objects have no stored state and stay as the run leaves them.
-    pub(in crate::scene) fn store_state_of_copy(&mut self, handle: Handle) -> SceneResult<()> {
+    pub(crate) fn store_state_of_copy(&mut self, handle: Handle) -> SceneResult<()> {
         if !self.in_run {
             return Ok(());
         }
@@ -98,7 +98,7 @@ impl Scene {
         let mut restored = Vec::with_capacity(objects.len());
         for handle in objects {
             let Ok(object) = self.object_in_place(handle) else { continue };
-            object.measured = crate::scene::Measured::default();
+            object.measured = crate::Measured::default();
             (object.dynamic_flag, object.dynamics_reset) = (DynamicFlags::empty(), false);
             end_suspension(object);
             match object.initial.take().filter(|_| !unrestored.contains(&handle)) {
@@ -170,7 +170,7 @@ impl InitialState {
     }
 
     /// Position, nominal and target velocity of a path.
-    pub(in crate::scene) fn path_motion(&self) -> Option<[f64; 3]> {
+    pub(crate) fn path_motion(&self) -> Option<[f64; 3]> {
         match self.kind {
             InitialKind::Path(motion) => Some(motion),
             _ => None,
@@ -234,7 +234,7 @@ fn restore_joint(joint: &mut Joint, initial: &Joint) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::object::dummy::Dummy;
+    use crate::object::dummy::Dummy;
 
     #[test]
     fn a_tree_turned_upside_down_comes_back() {

@@ -1,8 +1,8 @@
 //! Settings of a scene, as in CoppeliaSim's simulation dialog.
 
-use crate::scene::appearance::environment::Environment;
-use crate::scene::parameters::engine::SelectedEngine;
-use crate::scene::{InertValues, Layers};
+use crate::appearance::environment::Environment;
+use crate::parameters::engine::SelectedEngine;
+use crate::{InertValues, Layers};
 
 /// Scene-wide settings. Times in seconds.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,7 +7,7 @@ mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::scene::{Handle, Scene, SceneError, SceneResult};
+use crate::{Handle, Scene, SceneError, SceneResult};
 use input::Events;
 pub use input::{ButtonEvent, ButtonInput};
 
@@ -222,7 +222,7 @@ impl ButtonInterfaces {
     }
 
     /// Removes those of objects that are removed.
-    pub(in crate::scene) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
+    pub(crate) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
         let before = self.by_handle.len();
         self.by_handle.retain(|_, interface| !interface.object.is_some_and(|object| doomed.contains(&object)));
         if self.by_handle.len() != before {

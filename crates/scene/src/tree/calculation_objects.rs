@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::scene::{Handle, Scene};
+use crate::{Handle, Scene};
 
 /// What collides, if anything does.
 pub type CollisionObjects = CalculationObjects<Option<[Handle; 2]>, 2_010_001>;
@@ -103,7 +103,7 @@ impl Scene {
     }
 
     /// Removes collision and distance objects of objects that are removed, and results that name them.
-    pub(in crate::scene) fn forget_calculations(&mut self, doomed: &BTreeSet<Handle>) {
+    pub(crate) fn forget_calculations(&mut self, doomed: &BTreeSet<Handle>) {
         self.collision_objects.forget(doomed);
         self.distance_objects.forget(doomed);
         for object in self.collision_objects.by_handle.values_mut() {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use bitflags::bitflags;
 
-use crate::scene::{Handle, Scene, SceneError, SceneResult};
+use crate::{Handle, Scene, SceneError, SceneResult};
 
 /// The first handle of a collection.
 const FIRST_HANDLE: i64 = 2_000_000;
@@ -141,7 +141,7 @@ impl Collections {
         self.by_handle.get_mut(&handle).ok_or(SceneError::NoSuchCollection)
     }
 
-    pub(in crate::scene) fn forget_owner(&mut self, owner: i64) {
+    pub(crate) fn forget_owner(&mut self, owner: i64) {
         self.by_handle.retain(|_, collection| collection.owner != Some(owner));
     }
 
@@ -178,13 +178,13 @@ impl Scene {
         }
         // By their numbers, without a look at all objects of the scene: sensors ask in each step.
         let mut in_order: Vec<Handle> = members.into_iter().collect();
-        in_order.sort_by_key(|handle| self.object(*handle).map_or(i64::MAX, crate::scene::Object::uid));
+        in_order.sort_by_key(|handle| self.object(*handle).map_or(i64::MAX, crate::Object::uid));
         Ok(in_order)
     }
 
     fn item_objects(&self, item: &CollectionItem) -> Vec<Handle> {
         let mut objects: Vec<Handle> = match item.members {
-            Members::All => return self.objects().map(crate::scene::Object::handle).collect(),
+            Members::All => return self.objects().map(crate::Object::handle).collect(),
             Members::Single(object) => vec![object],
             Members::Tree(base) => self.subtree(base),
             Members::Chain(tip) => std::iter::once(tip).chain(self.ancestors(tip)).collect(),

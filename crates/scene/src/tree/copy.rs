@@ -4,13 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use bitflags::bitflags;
 
-use crate::scene::appearance::texture_mapping::TextureSource;
-use crate::scene::object::script_object::ScriptObject;
-use crate::scene::object::viewers::Viewers;
-use crate::scene::pose::placement::normalized;
-use crate::scene::sensor::Entity;
-use crate::scene::shape::Velocity;
-use crate::scene::{CustomData, DynamicFlags, Handle, Kind, Measured, ModelFlags, Object, Scene, SceneResult};
+use crate::appearance::texture_mapping::TextureSource;
+use crate::object::script_object::ScriptObject;
+use crate::object::viewers::Viewers;
+use crate::pose::placement::normalized;
+use crate::sensor::Entity;
+use crate::shape::Velocity;
+use crate::{CustomData, DynamicFlags, Handle, Kind, Measured, ModelFlags, Object, Scene, SceneResult};
 
 bitflags! {
     /// Options of `sim.copyPasteObjects`.
@@ -85,7 +85,7 @@ impl Scene {
             Ok(())
         });
         for &copy in copies.values() {
-            self.modify(copy, crate::scene::Field::Other, |object| redirect(object, &copies))?;
+            self.modify(copy, crate::Field::Other, |object| redirect(object, &copies))?;
         }
         self.number_names(&names)?;
         all.map(|()| copies)
@@ -149,9 +149,8 @@ fn redirect(object: &mut Object, copies: &BTreeMap<Handle, Handle>) {
     let copy_of = |handle: Handle| copies.get(&handle).copied();
     match &mut object.kind {
         Kind::Joint(joint) => {
-            joint.dependency = joint
-                .dependency
-                .and_then(|law| Some(crate::scene::joint::Dependency { master: copy_of(law.master)?, ..law }));
+            joint.dependency =
+                joint.dependency.and_then(|law| Some(crate::joint::Dependency { master: copy_of(law.master)?, ..law }));
         }
         Kind::Shape(shape) => {
             for texture in shape.parts.iter_mut().filter_map(|part| part.texture.as_mut()) {

@@ -3,11 +3,11 @@
 use geometry::PrimitiveKind;
 use nalgebra::UnitQuaternion;
 
-use crate::scene::object::dummy::Dummy;
-use crate::scene::sensor::{Light, LightType};
-use crate::scene::shape::options::PrimitiveOptions;
-use crate::scene::shape::{Material, Shape};
-use crate::scene::{Field, Handle, Kind, Layers, ModelFlags, Pose, Scene, SceneResult};
+use crate::object::dummy::Dummy;
+use crate::sensor::{Light, LightType};
+use crate::shape::options::PrimitiveOptions;
+use crate::shape::{Material, Shape};
+use crate::{Field, Handle, Kind, Layers, ModelFlags, Pose, Scene, SceneResult};
 
 /// Full extents of the floor, m. Its top is the plane z = 0.
 const FLOOR: [f64; 3] = [5.0, 5.0, 0.2];

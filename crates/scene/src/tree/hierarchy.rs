@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeSet, HashMap, VecDeque};
 
-use crate::scene::pose::placement::normalized;
-use crate::scene::{Change, Field, Handle, ModelFlags, Scene, SceneError, SceneResult};
+use crate::pose::placement::normalized;
+use crate::{Change, Field, Handle, ModelFlags, Scene, SceneError, SceneResult};
 
 impl Scene {
     /// Root objects in scene order.
@@ -33,7 +33,7 @@ impl Scene {
     pub fn child_orders(&self, parent: Option<Handle>) -> Vec<(Handle, Option<usize>)> {
         let children = match parent {
             None => &self.roots[..],
-            Some(parent) => self.object(parent).map_or(&[][..], crate::scene::Object::children),
+            Some(parent) => self.object(parent).map_or(&[][..], crate::Object::children),
         };
         let named = children.iter().filter_map(|&child| Some((child, self.object(child).ok()?.alias())));
         let named: Vec<(Handle, &str)> = named.collect();
@@ -62,7 +62,7 @@ impl Scene {
 
     /// Parent, grandparent, ... up to the root.
     pub fn ancestors(&self, handle: Handle) -> impl Iterator<Item = Handle> {
-        let parent = move |h: Handle| self.object(h).ok().and_then(crate::scene::Object::parent);
+        let parent = move |h: Handle| self.object(h).ok().and_then(crate::Object::parent);
         std::iter::successors(parent(handle), move |&h| parent(h))
     }
 
@@ -107,7 +107,7 @@ impl Scene {
     fn set_dynamic_when_parented(&mut self, handle: Handle) -> SceneResult<()> {
         let object = self.object_mut(handle)?;
         let parented = object.parent.is_some();
-        if let crate::scene::Kind::Shape(shape) = &mut object.kind
+        if let crate::Kind::Shape(shape) = &mut object.kind
             && shape.dynamics.dynamic_when_parented
             && parented
         {
@@ -119,8 +119,8 @@ impl Scene {
     /// (Un)linking below a joint or force sensor ends the deviation the physics had left there.
     fn clear_physics_error(&mut self, handle: Handle) -> SceneResult<()> {
         match &mut self.object_mut(handle)?.kind {
-            crate::scene::Kind::Joint(joint) => joint.error = None,
-            crate::scene::Kind::ForceSensor(sensor) => sensor.error = None,
+            crate::Kind::Joint(joint) => joint.error = None,
+            crate::Kind::ForceSensor(sensor) => sensor.error = None,
             _ => {}
         }
         Ok(())
@@ -222,7 +222,7 @@ impl Scene {
     }
 
     fn children_outside(&self, doomed: &BTreeSet<Handle>) -> Vec<Handle> {
-        let mut orphans: Vec<&crate::scene::Object> = doomed
+        let mut orphans: Vec<&crate::Object> = doomed
             .iter()
             .filter_map(|&h| self.object(h).ok())
             .flat_map(|object| object.children().iter())
@@ -230,7 +230,7 @@ impl Scene {
             .filter_map(|&child| self.object(child).ok())
             .collect();
         orphans.sort_by_key(|object| object.uid());
-        orphans.into_iter().map(crate::scene::Object::handle).collect()
+        orphans.into_iter().map(crate::Object::handle).collect()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::scene::{Handle, Scene};
+use crate::{Handle, Scene};
 
 const FIRST_HANDLE: i64 = 2_030_003;
 

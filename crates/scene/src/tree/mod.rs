@@ -2,13 +2,13 @@
 
 pub mod button_interfaces;
 pub mod calculation_objects;
-pub(in crate::scene) mod collection;
-pub(in crate::scene) mod copy;
-pub(in crate::scene) mod default_scene;
-pub(in crate::scene) mod hierarchy;
+pub(crate) mod collection;
+pub(crate) mod copy;
+pub(crate) mod default_scene;
+pub(crate) mod hierarchy;
 pub mod ik_groups;
-pub(in crate::scene) mod old_names;
-pub(in crate::scene) mod path;
-pub(in crate::scene) mod references;
-pub(in crate::scene) mod scale;
-pub(in crate::scene) mod selection;
+pub(crate) mod old_names;
+pub(crate) mod path;
+pub(crate) mod references;
+pub(crate) mod scale;
+pub(crate) mod selection;

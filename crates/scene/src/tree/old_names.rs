@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use crate::scene::{Field, Handle, Scene, SceneError, SceneResult};
+use crate::{Field, Handle, Scene, SceneError, SceneResult};
 
 /// Longest name that a script may choose, bytes.
 const LONGEST: usize = 127;
 
 /// The names of a scene.
 #[derive(Debug, Default)]
-pub(in crate::scene) struct OldNames {
+pub(crate) struct OldNames {
     handles: BTreeMap<String, Handle>,
     /// How many of them have a suffix, -1 for none.
     suffixes: BTreeMap<i64, usize>,
@@ -20,7 +20,7 @@ pub(in crate::scene) struct OldNames {
 
 impl OldNames {
     /// Reserves a name for an object: the wished one, or the next free number at its end.
-    pub(in crate::scene) fn claim(&mut self, wished: String, handle: Handle) -> String {
+    pub(crate) fn claim(&mut self, wished: String, handle: Handle) -> String {
         let name = if self.handles.contains_key(&wished) { self.next_free(&wished) } else { wished };
         if self.handles.insert(name.clone(), handle).is_none() {
             *self.suffixes.entry(suffix(&name).0).or_default() += 1;
@@ -29,7 +29,7 @@ impl OldNames {
     }
 
     /// Makes a name available again.
-    pub(in crate::scene) fn release(&mut self, name: &str) {
+    pub(crate) fn release(&mut self, name: &str) {
         if self.handles.remove(name).is_some() {
             self.forget_suffix(suffix(name).0);
         }
@@ -231,8 +231,8 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Kind;
-    use crate::scene::object::dummy::Dummy;
+    use crate::Kind;
+    use crate::object::dummy::Dummy;
 
     fn add(scene: &mut Scene, name: &str) -> Handle {
         let handle = scene.add("dummy", Kind::Dummy(Dummy::new(0.01))).expect("there is room");

@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 
-use crate::scene::{Field, Handle, Object, Scene, SceneError, SceneResult};
+use crate::{Field, Handle, Object, Scene, SceneError, SceneResult};
 
 /// Paths with more parts than this are written in full.
 const SHORT_PATH_PARTS: usize = 8;
@@ -326,8 +326,8 @@ fn wildcard_match(pattern: &[u8], text: &[u8]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Kind;
-    use crate::scene::object::dummy::Dummy;
+    use crate::Kind;
+    use crate::object::dummy::Dummy;
 
     fn dummy(scene: &mut Scene, alias: &str, parent: Option<Handle>) -> Handle {
         let handle = scene.add(alias, Kind::Dummy(Dummy::new(0.01))).unwrap();

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::scene::object::viewers::Viewers;
-use crate::scene::{Change, Field, Handle, Kind, Object, Scene, SceneResult};
+use crate::object::viewers::Viewers;
+use crate::{Change, Field, Handle, Kind, Object, Scene, SceneResult};
 
 /// Lists of handles by tag.
 pub type ReferenceLists = Vec<(String, Vec<i64>)>;
@@ -19,11 +19,11 @@ pub enum References {
 
 /// Objects that may contain handles of others, so that a removal does not visit all objects.
 #[derive(Debug, Default)]
-pub(in crate::scene) struct Referrers(BTreeSet<Handle>);
+pub(crate) struct Referrers(BTreeSet<Handle>);
 
 impl Referrers {
     /// Notes an object that is new or was changed.
-    pub(in crate::scene) fn note(&mut self, object: &Object) {
+    pub(crate) fn note(&mut self, object: &Object) {
         if object.refers() {
             self.0.insert(object.handle());
         }
@@ -100,7 +100,7 @@ impl Scene {
 
     /// Removes references to objects that are being removed: links, dependencies, selection, collections, lists of handles. The drawing
     /// objects that move with them are removed.
-    pub(in crate::scene) fn forget_references(&mut self, doomed: &BTreeSet<Handle>) {
+    pub(crate) fn forget_references(&mut self, doomed: &BTreeSet<Handle>) {
         if self.selection.forget(doomed) {
             self.note(Change::Selection);
         }

@@ -7,13 +7,13 @@ use geometry::Mesh;
 use geometry::PrimitiveKind;
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use crate::scene::joint::{Control, Joint, JointType};
-use crate::scene::pose::placement::is_place;
-use crate::scene::sensor::View;
-use crate::scene::sensor::volume::Volume;
-use crate::scene::shape::reshape::too_large;
-use crate::scene::shape::{Part, Shape};
-use crate::scene::{Field, Handle, Kind, Object, Pose, Scene, SceneError, SceneResult};
+use crate::joint::{Control, Joint, JointType};
+use crate::pose::placement::is_place;
+use crate::sensor::View;
+use crate::sensor::volume::Volume;
+use crate::shape::reshape::too_large;
+use crate::shape::{Part, Shape};
+use crate::{Field, Handle, Kind, Object, Pose, Scene, SceneError, SceneResult};
 
 /// Smaller factors are refused.
 const SMALLEST_FACTOR: f64 = 0.0001;

@@ -2,15 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use crate::scene::{Change, Handle, Scene};
+use crate::{Change, Handle, Scene};
 
 /// Selected objects, the last selected one last.
 #[derive(Debug, Default, PartialEq)]
-pub(in crate::scene) struct Selection(Vec<Handle>);
+pub(crate) struct Selection(Vec<Handle>);
 
 impl Selection {
     /// Takes objects out; tells whether any was in it.
-    pub(in crate::scene) fn forget(&mut self, doomed: &BTreeSet<Handle>) -> bool {
+    pub(crate) fn forget(&mut self, doomed: &BTreeSet<Handle>) -> bool {
         let before = self.0.len();
         self.0.retain(|handle| !doomed.contains(handle));
         self.0.len() < before

@@ -3,7 +3,7 @@
 //! A value is stored under a tag: the mark of its type followed by its name. Buffers have no mark, so that raw custom data of a name
 //! and its buffer property are the same.
 
-use crate::scene::{Data, Handle, Scene, SceneResult, ValueType};
+use crate::{Data, Handle, Scene, SceneResult, ValueType};
 
 /// A modification of named values. Names have no mark of a type, tags have one.
 #[derive(Debug, Clone, PartialEq)]

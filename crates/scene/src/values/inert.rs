@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::scene::{Change, Data, Field, Handle, Scene, SceneResult};
+use crate::{Change, Data, Field, Handle, Scene, SceneResult};
 
 /// Values by property name. Values that were not set are absent; callers supply the default.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -58,9 +58,9 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::{Change, Data, Field, Scene};
-    use crate::scene::journal::{Topics, Unread};
-    use crate::scene::object::dummy::Dummy;
-    use crate::scene::{CopyOptions, Kind};
+    use crate::journal::{Topics, Unread};
+    use crate::object::dummy::Dummy;
+    use crate::{CopyOptions, Kind};
 
     #[test]
     fn only_new_values_are_changes_and_copies_inherit_them() {

@@ -2,7 +2,7 @@
 
 use geometry::Finite;
 
-use crate::scene::Data;
+use crate::Data;
 
 macro_rules! value_types {
     ($($variant:ident = $code:literal $word:literal $mark:literal;)*) => {

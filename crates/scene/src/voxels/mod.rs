@@ -3,6 +3,6 @@
 pub mod octree;
 pub mod options;
 pub mod point_cloud;
-pub(in crate::scene) mod voxelize;
+pub(crate) mod voxelize;
 
 pub use voxelize::{cells_of_mesh, cells_of_octree};

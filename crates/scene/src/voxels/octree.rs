@@ -88,7 +88,7 @@ impl OcTree {
     }
 
     /// The centres of the voxels in the layers between two heights.
-    pub(in crate::scene) fn layers(&self, low: f64, high: f64) -> impl Iterator<Item = [f64; 3]> {
+    pub(crate) fn layers(&self, low: f64, high: f64) -> impl Iterator<Item = [f64; 3]> {
         let layer = |height: f64| (height / self.voxel_size).floor() as i32;
         let (first, last) = (layer(low), layer(high));
         let cells = [first, i32::MIN, i32::MIN]..=[last.max(first), i32::MAX, i32::MAX];

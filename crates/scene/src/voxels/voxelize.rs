@@ -12,7 +12,7 @@ use parry3d_f64::shape::{TriMesh, Triangle};
 
 use super::octree::OcTree;
 use super::point_cloud::PointCloud;
-use crate::scene::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
+use crate::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
 
 type Point = [f64; 3];
 type Cell = [i32; 3];
@@ -223,8 +223,8 @@ impl OcTree {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::shape::Shape;
-    use crate::scene::voxels::octree::Voxel;
+    use crate::shape::Shape;
+    use crate::voxels::octree::Voxel;
     use geometry::PrimitiveKind;
 
     fn cube(scene: &mut Scene, edge: f64) -> Handle {

@@ -10,10 +10,10 @@ use std::marker::PhantomData;
 use super::cx::Cx;
 use super::returns::IntoScript;
 use super::source::Source;
-use crate::scene::{Data, Frame, Handle};
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lua::{Object, Stack, Type};
-use crate::script::runtime::FunctionRef;
+use crate::error::{ApiError, ApiResult};
+use crate::lua::{Object, Stack, Type};
+use crate::runtime::FunctionRef;
+use scene::{Data, Frame, Handle};
 
 /// Reads the arguments of one call in order.
 pub struct Args<'a, S: Source<'a> = Stack<'a>> {
@@ -37,7 +37,7 @@ pub trait FromScript: Sized {
 
 impl<'a> Args<'a> {
     /// The stack the arguments are on, for functions that decode them themselves.
-    pub(crate) fn stack(&self) -> Stack<'a> {
+    pub fn stack(&self) -> Stack<'a> {
         self.source
     }
 
@@ -65,7 +65,7 @@ impl<'a, S: Source<'a>> Args<'a, S> {
     }
 
     /// Reads the bytes of the argument, when it is a string.
-    pub(crate) fn with_bytes<T>(&self, read: impl FnOnce(&[u8]) -> T + Send) -> Option<T> {
+    pub fn with_bytes<T>(&self, read: impl FnOnce(&[u8]) -> T + Send) -> Option<T> {
         if self.position > self.count { None } else { self.source.with_bytes(self.position, read) }
     }
 
@@ -121,21 +121,21 @@ impl<'a, S: Source<'a>> Args<'a, S> {
     }
 
     /// The error of Lua's own functions for an argument they cannot take.
-    pub(crate) fn refused(&self, reason: &str) -> ApiError {
+    pub fn refused(&self, reason: &str) -> ApiError {
         ApiError::BadArgument { position: self.position, reason: reason.into() }
     }
 
     /// The argument, when it is an object of a library.
-    pub(crate) fn object(&self) -> Option<Object> {
+    pub fn object(&self) -> Option<Object> {
         if self.position > self.count { None } else { self.source.object(self.position) }
     }
 
     /// The argument, when it is a number or a string of one.
-    pub(crate) fn lua_number(&self) -> Option<f64> {
+    pub fn lua_number(&self) -> Option<f64> {
         self.number().ok()
     }
 
-    pub(crate) fn is_table(&self, position: c_int) -> bool {
+    pub fn is_table(&self, position: c_int) -> bool {
         position <= self.count && self.source.kind(position) == Type::Table
     }
 
@@ -214,7 +214,7 @@ scalars! {
     };
     Data, "any", |args| args.source.data(args.position);
     Frame, "int", |args| Ok(Frame::from_raw(args.number()? as i64)?);
-    Handle, "int", |args| Handle::from_raw(args.number()? as i64).ok_or(crate::scene::SceneError::NoSuchObject.into());
+    Handle, "int", |args| Handle::from_raw(args.number()? as i64).ok_or(scene::SceneError::NoSuchObject.into());
     ObjectRef, "int", |args| ObjectRef::from_raw(args.number()? as i64);
     Handles, "int[]", |args| args.integers().map(Handles);
     Vec<f64>, "float[]", |args| args.numbers();
@@ -320,7 +320,7 @@ pub struct ObjectRef {
 
 impl ObjectRef {
     fn from_raw(raw: i64) -> ApiResult<Self> {
-        let handle = Handle::from_raw(raw).ok_or(crate::scene::SceneError::NoSuchObject)?;
+        let handle = Handle::from_raw(raw).ok_or(scene::SceneError::NoSuchObject)?;
         Ok(Self { handle, flags: raw & !Handle::MASK })
     }
 
@@ -340,3 +340,16 @@ pub enum ScriptFunction {
 /// All remaining arguments.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rest(pub Vec<Data>);
+
+impl FromScript for crate::LevelChange {
+    const TYPE: &'static str = "any";
+
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
+        Ok(match Data::from_script(args)? {
+            Data::Int(level) => Self::Set(level),
+            Data::Float(level) => Self::Set(level as i64),
+            other if other.truthy() => Self::Allow,
+            _ => Self::Forbid,
+        })
+    }
+}

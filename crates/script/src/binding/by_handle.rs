@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 /// Values by handle. Handles count from 1 and are never reused.
-pub(crate) struct ByHandle<T> {
+pub struct ByHandle<T> {
     last: i64,
     values: BTreeMap<i64, T>,
 }
@@ -15,27 +15,27 @@ impl<T> Default for ByHandle<T> {
 }
 
 impl<T> ByHandle<T> {
-    pub(crate) fn add(&mut self, value: T) -> i64 {
+    pub fn add(&mut self, value: T) -> i64 {
         self.last += 1;
         self.values.insert(self.last, value);
         self.last
     }
 
-    pub(crate) fn get_mut(&mut self, handle: i64) -> Option<&mut T> {
+    pub fn get_mut(&mut self, handle: i64) -> Option<&mut T> {
         self.values.get_mut(&handle)
     }
 
     /// The values in the order of their handles.
-    pub(crate) fn values(&self) -> impl Iterator<Item = &T> {
+    pub fn values(&self) -> impl Iterator<Item = &T> {
         self.values.values()
     }
 
     /// Drops all values; their handles are not reused.
-    pub(crate) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.values.clear();
     }
 
-    pub(crate) fn remove(&mut self, handle: i64) -> Option<T> {
+    pub fn remove(&mut self, handle: i64) -> Option<T> {
         self.values.remove(&handle)
     }
 }

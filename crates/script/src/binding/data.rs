@@ -2,10 +2,10 @@
 
 use std::ffi::{CStr, c_int, c_void};
 
-use crate::scene::{Data, Key};
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lua::{Entries, Room, Scalar, Stack, Type};
-use crate::script::runtime::FunctionRef;
+use crate::error::{ApiError, ApiResult};
+use crate::lua::{Entries, Room, Scalar, Stack, Type};
+use crate::runtime::FunctionRef;
+use scene::{Data, Key};
 
 /// Registry key of the metatable of all buffers of a state.
 pub(crate) const BUFFER_METATABLE: &CStr = c"swanilda.buffer";
@@ -88,7 +88,7 @@ pub(crate) fn is_buffer(stack: Stack<'_>, index: c_int) -> bool {
 }
 
 /// The bytes of the table at `table`, when it is a buffer.
-pub(crate) fn read_buffer(stack: Stack<'_>, table: c_int) -> Option<Vec<u8>> {
+pub fn read_buffer(stack: Stack<'_>, table: c_int) -> Option<Vec<u8>> {
     if !is_buffer(stack, table) {
         return None;
     }
@@ -226,7 +226,7 @@ fn push<'a>(stack: Stack<'a>, room: Room<'a>, data: &Data) {
 }
 
 /// Pushes a buffer.
-pub(crate) fn push_buffer(stack: Stack<'_>, bytes: &[u8]) {
+pub fn push_buffer(stack: Stack<'_>, bytes: &[u8]) {
     stack.new_table(0, 1);
     stack.push_bytes(bytes);
     stack.raw_set_field(-2, BUFFER_FIELD);

@@ -3,14 +3,14 @@
 use std::cell::Ref;
 use std::rc::Rc;
 
-use crate::io::EventLoop;
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::{Data, Scene};
-use crate::script::calls::handler::Handler;
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lifecycle::instance::Script;
-use crate::script::sim::{Options, Sim};
-use crate::script::step::clock::Clock;
+use crate::calls::handler::Handler;
+use crate::error::{ApiError, ApiResult};
+use crate::lifecycle::instance::Script;
+use crate::sim::{Options, Sim};
+use crate::step::clock::Clock;
+use io::EventLoop;
+use scene::object::script_object::ScriptType;
+use scene::{Data, Scene};
 
 /// A function of a module that runs outside of calls.
 pub type ModuleHook = fn(&Host<'_>);
@@ -40,7 +40,7 @@ pub struct Host<'a> {
 
 impl Host<'_> {
     /// The state of a module, if a call has created it.
-    pub(crate) fn module_state<T: 'static>(&self) -> Option<Rc<T>> {
+    pub fn module_state<T: 'static>(&self) -> Option<Rc<T>> {
         self.sim.modules.states.existing()
     }
 
@@ -48,40 +48,40 @@ impl Host<'_> {
     ///
     /// # Errors
     /// When the system cannot create one.
-    pub(crate) fn event_loop(&self) -> std::io::Result<Rc<EventLoop>> {
+    pub fn event_loop(&self) -> std::io::Result<Rc<EventLoop>> {
         self.sim.event_loop.get()
     }
 
     /// Calls a handler of a script; None if it fails, which is logged.
-    pub(crate) fn call_handler(&self, script: &Rc<Script>, handler: &Handler, args: &[Data]) -> Option<Vec<Data>> {
+    pub fn call_handler(&self, script: &Rc<Script>, handler: &Handler, args: &[Data]) -> Option<Vec<Data>> {
         self.sim.call_handler(script, handler, args)
     }
 
     /// The value of a named parameter of the application.
-    pub(crate) fn named_param(&self, name: &str) -> Option<Vec<u8>> {
+    pub fn named_param(&self, name: &str) -> Option<Vec<u8>> {
         self.sim.app.borrow().named_params.get(name).cloned()
     }
 
-    pub(crate) fn log(&self, level: i64, text: &str) {
+    pub fn log(&self, level: i64, text: &str) {
         self.sim.log(level, text);
     }
 
     /// The options of the simulator.
-    pub(crate) fn options(&self) -> &Options {
+    pub fn options(&self) -> &Options {
         &self.sim.options
     }
 
     /// State and time of the simulation.
-    pub(crate) fn clock(&self) -> &Clock {
+    pub fn clock(&self) -> &Clock {
         &self.sim.clock
     }
 
-    pub(crate) fn scene(&self) -> Ref<'_, Scene> {
+    pub fn scene(&self) -> Ref<'_, Scene> {
         self.sim.scene.borrow()
     }
 
     /// Distinguishes this scene from others.
-    pub(crate) fn scene_uid(&self) -> i64 {
+    pub fn scene_uid(&self) -> i64 {
         self.sim.scene_uid()
     }
 
@@ -89,7 +89,7 @@ impl Host<'_> {
     ///
     /// # Errors
     /// Those of the function.
-    pub(crate) fn call_api(&self, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+    pub fn call_api(&self, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
         let sandbox = self.sim.scripts.detached(ScriptType::Sandbox).ok_or(ApiError::NoSuchScript)?;
         self.sim.call_api(&sandbox, name, args)
     }
@@ -98,7 +98,7 @@ impl Host<'_> {
     ///
     /// # Errors
     /// When there is no such script or function, or the function fails.
-    pub(crate) fn call_function(&self, script: i64, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+    pub fn call_function(&self, script: i64, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
         let script = self.sim.script(script).ok_or(ApiError::NoSuchScript)?;
         self.sim.call_function(&script, name, args)
     }
@@ -106,13 +106,13 @@ impl Host<'_> {
 
 impl Sim {
     /// Runs the hooks of one moment, module by module in the order of the registry.
-    pub(in crate::script) fn run_hooks(self: &Rc<Self>, moment: impl Fn(&Hooks) -> Option<ModuleHook>) {
+    pub(crate) fn run_hooks(self: &Rc<Self>, moment: impl Fn(&Hooks) -> Option<ModuleHook>) {
         let host = Host { sim: self };
         self.modules.registry.hooks.iter().filter_map(moment).for_each(|hook| hook(&host));
     }
 
     /// Whether a module holds the step back that is due. All are asked: each does what it has to do before a step.
-    pub(in crate::script) fn step_is_held(self: &Rc<Self>) -> bool {
+    pub(crate) fn step_is_held(self: &Rc<Self>) -> bool {
         let host = Host { sim: self };
         let mut held = false;
         for hook in self.modules.registry.hooks.iter().filter_map(|hooks| hooks.before_step) {

@@ -1,24 +1,24 @@
 //! Definition of functions for scripts, and their lookup from Lua.
 
-pub(in crate::script) mod args;
-pub(in crate::script) mod by_handle;
-pub(in crate::script) mod cx;
-pub(in crate::script) mod data;
-pub(in crate::script) mod hooks;
-pub(in crate::script) mod module;
-pub(in crate::script) mod registry;
-pub(in crate::script) mod returns;
-pub(in crate::script) mod sink;
-pub(in crate::script) mod source;
-pub(in crate::script) mod states;
+pub(crate) mod args;
+pub(crate) mod by_handle;
+pub(crate) mod cx;
+pub(crate) mod data;
+pub(crate) mod hooks;
+pub(crate) mod module;
+pub(crate) mod registry;
+pub(crate) mod returns;
+pub(crate) mod sink;
+pub(crate) mod source;
+pub(crate) mod states;
 
 use std::ffi::c_int;
 
 use super::error::{ApiError, ApiResult};
 use super::lua::{Stack, push_callback};
-use crate::scene::Data;
 use args::Args;
 use registry::{Bound, FunctionId};
+use scene::Data;
 use source::Values;
 
 /// One parameter of a scriptable function.
@@ -39,19 +39,19 @@ pub struct ApiFn {
     pub returns: &'static [&'static str],
     pub mutates: bool,
     /// The call from a Lua stack.
-    pub(crate) call: fn(&mut Args<'_>) -> ApiResult<c_int>,
+    pub call: fn(&mut Args<'_>) -> ApiResult<c_int>,
     /// The call with plain values.
-    pub(crate) call_data: for<'a> fn(&mut Args<'a, Values<'a>>) -> ApiResult<Vec<Data>>,
+    pub call_data: for<'a> fn(&mut Args<'a, Values<'a>>) -> ApiResult<Vec<Data>>,
 }
 
 /// The table of contents of a file of scriptable functions.
+#[macro_export]
 macro_rules! functions {
     ($($name:ident),* $(,)?) => { &[$($name::API),*] };
 }
-pub(crate) use functions;
 
 /// The error of a call with plain values for functions that read Lua's stack themselves.
-pub(crate) fn needs_lua<'a>(_: &mut Args<'a, Values<'a>>) -> ApiResult<Vec<Data>> {
+pub fn needs_lua<'a>(_: &mut Args<'a, Values<'a>>) -> ApiResult<Vec<Data>> {
     Err(ApiError::NeedsLua)
 }
 

@@ -62,7 +62,7 @@ impl Module {
     }
 
     /// The Lua files whose functions are members, out of all embedded ones.
-    pub(crate) fn member_files<'a>(
+    pub fn member_files<'a>(
         &self,
         files: &'a [(&'static str, &'static str)],
     ) -> impl Iterator<Item = (&'static str, &'static str)> + 'a {
@@ -72,6 +72,6 @@ impl Module {
 }
 
 /// The rows of a table of two columns.
-pub(crate) fn pairs(table: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
+pub fn pairs(table: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
     table.lines().filter_map(|line| line.split_once('\t'))
 }

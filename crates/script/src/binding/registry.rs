@@ -2,18 +2,18 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::ApiFn;
 use super::hooks::Hooks;
 use super::module::{Module, pairs};
 use super::states::States;
-use crate::script::error::ApiError;
-use crate::script::lua_runtime::embedded::Embedded;
+use crate::error::ApiError;
+use crate::lua_runtime::embedded::Embedded;
 
 /// A native function, by its place in the registry of a simulator. Lua code holds it as a number, so that no pointer can be forged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) struct FunctionId(usize);
+pub struct FunctionId(usize);
 
 impl FunctionId {
     /// The number Lua keeps.
@@ -24,7 +24,7 @@ impl FunctionId {
 
 /// A name of the reference that is not built, by its place in the registry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct MissingId(usize);
+pub struct MissingId(usize);
 
 impl MissingId {
     /// The number Lua keeps.
@@ -75,7 +75,7 @@ pub(crate) struct Bound {
 
 /// A member of a module.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Member {
+pub enum Member {
     Constant(i64),
     Native(FunctionId),
     /// Implemented as `function` in the embedded Lua file `file`.
@@ -89,7 +89,7 @@ pub(crate) enum Member {
 }
 
 /// A module with its names bound.
-pub(crate) struct Namespace {
+pub struct Namespace {
     pub module: &'static Module,
     members: HashMap<&'static str, Member>,
     /// Names of constants and native functions as the module lists them.
@@ -102,16 +102,16 @@ pub(crate) struct Namespace {
 }
 
 impl Namespace {
-    pub(crate) fn get(&self, name: &str) -> Option<Member> {
+    pub fn get(&self, name: &str) -> Option<Member> {
         self.members.get(name).copied()
     }
 
-    pub(crate) fn contains(&self, name: &str) -> bool {
+    pub fn contains(&self, name: &str) -> bool {
         self.members.contains_key(name)
     }
 
     /// All names, in alphabetical order.
-    pub(crate) fn names(&self) -> Vec<&'static str> {
+    pub fn names(&self) -> Vec<&'static str> {
         let mut names: Vec<&str> = self.members.keys().copied().collect();
         names.sort_unstable();
         names
@@ -130,7 +130,7 @@ impl Namespace {
 
     /// What a global name from before there were modules stands for: `simGetObjectHandle` is `sim.getObjectHandle`, `sim_handle_all` is
     /// `sim.handle_all`.
-    pub(crate) fn of_global(&self, name: &str) -> Option<Member> {
+    pub fn of_global(&self, name: &str) -> Option<Member> {
         if let Some(id) = self.old_function(name) {
             return Some(Member::Native(id));
         }
@@ -141,14 +141,14 @@ impl Namespace {
     }
 
     /// The member of a global name from before there were modules.
-    pub(crate) fn of_old_name(&self, name: &str) -> Option<&'static str> {
+    pub fn of_old_name(&self, name: &str) -> Option<&'static str> {
         self.old_names.get(name).copied()
     }
 }
 
 /// The member that the global name of V-REP stands for, if it is one of the regular ones: `getObject` for `simGetObject`, `handle_all` for
 /// `sim_handle_all`.
-pub(crate) fn member_by_rule(global: &str) -> Option<String> {
+pub fn member_by_rule(global: &str) -> Option<String> {
     let rest = global.strip_prefix("sim")?;
     match (rest.strip_prefix('_'), rest.chars().next()?) {
         (Some(constant), _) => Some(constant.to_owned()),
@@ -158,14 +158,14 @@ pub(crate) fn member_by_rule(global: &str) -> Option<String> {
 }
 
 /// The modules of one simulator.
-pub(crate) struct Modules {
+pub struct Modules {
     pub registry: Arc<Registry>,
     /// Their state for the simulator.
     pub states: States,
 }
 
 /// Modules with their names bound. Simulators with the same modules share it.
-pub(crate) struct Registry {
+pub struct Registry {
     functions: Vec<Bound>,
     missing: Vec<Missing>,
     /// Functions that are globals, with their names.
@@ -177,11 +177,15 @@ pub(crate) struct Registry {
     pub hooks: Vec<Hooks>,
     /// Embedded Lua files by path.
     pub files: HashMap<&'static str, Embedded>,
+    result_types: OnceLock<ResultTypes>,
 }
+
+/// By function, with its module.
+type ResultTypes = HashMap<&'static str, Vec<&'static str>>;
 
 impl Registry {
     /// Binds `modules`, of which the first is `sim`. `files` are the paths and texts of the embedded Lua files.
-    pub(crate) fn new(modules: &[&'static Module], files: &'static [(&'static str, &'static str)]) -> Self {
+    pub fn new(modules: &[&'static Module], files: &'static [(&'static str, &'static str)]) -> Self {
         let mut registry = Self {
             functions: Vec::new(),
             missing: Vec::new(),
@@ -190,6 +194,7 @@ impl Registry {
             by_name: HashMap::new(),
             hooks: modules.iter().map(|module| module.hooks).collect(),
             files: files.iter().map(|&(name, source)| (name, Embedded::new(source))).collect(),
+            result_types: OnceLock::new(),
         };
         for (place, &module) in modules.iter().enumerate() {
             let namespace = registry.bind(module, files);
@@ -206,16 +211,16 @@ impl Registry {
         Arc::new(Self::new(&[&NOTHING], &[]))
     }
 
-    pub(crate) fn members_of_sim(&self) -> &Namespace {
+    pub fn members_of_sim(&self) -> &Namespace {
         &self.namespaces[0]
     }
 
-    pub(crate) fn module(&self, name: &str) -> Option<&Namespace> {
+    pub fn module(&self, name: &str) -> Option<&Namespace> {
         self.by_name.get(name).map(|&place| &self.namespaces[place])
     }
 
     /// The member of the name `module.member`, or of a global function.
-    pub(crate) fn find(&self, name: &str) -> Option<Member> {
+    pub fn find(&self, name: &str) -> Option<Member> {
         match name.rsplit_once('.') {
             Some((module, member)) => self.module(module)?.get(member),
             None => {
@@ -245,8 +250,21 @@ impl Registry {
     }
 
     /// The text of the main script of a scene that has none of its own; empty when the registry has no files.
-    pub(crate) fn main_script(&self) -> &'static str {
+    pub fn main_script(&self) -> &'static str {
         self.files.get("main").map_or("", |file| file.source)
+    }
+
+    /// The types that a function is declared to return: a native one by its row, one in Lua by the comment above it. None without any.
+    pub fn result_types(&self, name: &str) -> Option<&[&'static str]> {
+        self.result_types.get_or_init(|| self.declared_result_types()).get(name).map(Vec::as_slice)
+    }
+
+    fn declared_result_types(&self) -> ResultTypes {
+        let functions = self.namespaces.iter().flat_map(|namespace| namespace.module.public_functions());
+        let native = functions.map(|function| (function.name, function.returns.to_vec()));
+        let lines = self.files.values().flat_map(|file| file.source.lines());
+        let comments = lines.filter_map(|line| line.strip_prefix("-- @api "));
+        native.chain(comments.filter_map(declared_in_comment)).filter(|(_, types)| !types.is_empty()).collect()
     }
 
     fn bind(&mut self, module: &'static Module, files: &[(&'static str, &'static str)]) -> Namespace {
@@ -348,6 +366,13 @@ fn add_constants(namespace: &mut Namespace) {
         namespace.members.insert(name, Member::Constant(value));
         namespace.listed.push(name);
     }
+}
+
+/// `int a, float[3] b = module.name(...)`.
+fn declared_in_comment(declaration: &'static str) -> Option<(&'static str, Vec<&'static str>)> {
+    let (results, name) = declaration.split_once('(')?.0.rsplit_once(" = ")?;
+    let types = results.split(',').filter_map(|result| result.trim().split(' ').next());
+    Some((name.trim(), types.collect()))
 }
 
 /// Functions of the module's Lua files: each is a line `function M.name(`.

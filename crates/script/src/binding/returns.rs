@@ -2,8 +2,8 @@
 
 use super::args::{Bytes, Table};
 use super::sink::Sink;
-use crate::scene::{Data, Handle};
-use crate::script::error::{ApiError, ApiResult};
+use crate::error::{ApiError, ApiResult};
+use scene::{Data, Handle};
 
 /// A type that scripts get back.
 pub trait IntoScript {

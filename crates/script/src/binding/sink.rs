@@ -1,9 +1,9 @@
 //! Destinations of the results of an API function: a Lua stack, or a list of plain values.
 
 use super::data::{push_buffer, push_data};
-use crate::scene::Data;
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lua::{LONGEST_LIST, Object, Stack};
+use crate::error::{ApiError, ApiResult};
+use crate::lua::{LONGEST_LIST, Object, Stack};
+use scene::Data;
 
 /// A destination of results.
 #[doc(hidden)]

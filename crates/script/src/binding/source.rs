@@ -7,11 +7,11 @@ use std::ffi::c_int;
 
 use super::cx::Cx;
 use super::data::{read_data, read_function};
-use crate::scene::{Data, Key};
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lifecycle::env::Env;
-use crate::script::lua::{Object, Stack, Type};
-use crate::script::runtime::FunctionRef;
+use crate::error::{ApiError, ApiResult};
+use crate::lifecycle::env::Env;
+use crate::lua::{Object, Stack, Type};
+use crate::runtime::FunctionRef;
+use scene::{Data, Key};
 
 /// A source of arguments, by position from 1.
 #[doc(hidden)]

@@ -7,11 +7,11 @@ use std::rc::Rc;
 
 /// One value of each type, made at the first use and dropped with the owner of the store.
 #[derive(Default)]
-pub(crate) struct States(RefCell<HashMap<TypeId, Rc<dyn Any>>>);
+pub struct States(RefCell<HashMap<TypeId, Rc<dyn Any>>>);
 
 impl States {
     /// The value of type `T`, which is made if there is none.
-    pub(crate) fn get<T: Default + 'static>(&self) -> Rc<T> {
+    pub fn get<T: Default + 'static>(&self) -> Rc<T> {
         if let Some(state) = self.existing() {
             return state;
         }
@@ -22,7 +22,7 @@ impl States {
     }
 
     /// The value of type `T`, if it was made.
-    pub(crate) fn existing<T: 'static>(&self) -> Option<Rc<T>> {
+    pub fn existing<T: 'static>(&self) -> Option<Rc<T>> {
         let state = self.0.borrow().get(&TypeId::of::<T>()).cloned()?;
         Some(state.downcast().expect("the key is the type"))
     }

@@ -2,15 +2,15 @@
 
 use std::rc::Rc;
 
-use crate::scene::Data;
-use crate::script::binding::args::Args;
-use crate::script::binding::registry::{Bound, Member};
-use crate::script::binding::source::Values;
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lifecycle::instance::Script;
-use crate::script::lifecycle::level::Level;
-use crate::script::runtime::Runtime;
-use crate::script::sim::Sim;
+use crate::binding::args::Args;
+use crate::binding::registry::{Bound, Member};
+use crate::binding::source::Values;
+use crate::error::{ApiError, ApiResult};
+use crate::lifecycle::instance::Script;
+use crate::lifecycle::level::Level;
+use crate::runtime::Runtime;
+use crate::sim::Sim;
+use scene::Data;
 
 impl Sim {
     /// Calls `module.function`, or a global function, in the name of a script. A native function is called directly; one that is written
@@ -18,7 +18,7 @@ impl Sim {
     ///
     /// # Errors
     /// The errors of the function, or when there is no such function.
-    pub(crate) fn call_api(&self, caller: &Rc<Script>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+    pub fn call_api(&self, caller: &Rc<Script>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
         self.call_member(caller, self.modules.registry.find(name), name, args)
     }
 
@@ -26,7 +26,7 @@ impl Sim {
     ///
     /// # Errors
     /// As `call_api`.
-    pub(crate) fn call_member(
+    pub fn call_member(
         &self,
         caller: &Rc<Script>,
         member: Option<Member>,
@@ -47,7 +47,7 @@ impl Sim {
     ///
     /// # Errors
     /// The first line of the function's error, or when the script is not running.
-    pub(crate) fn call_library_function(
+    pub fn call_library_function(
         &self,
         caller: &Rc<Script>,
         module: &str,

@@ -3,11 +3,11 @@
 use std::rc::Rc;
 
 use super::callback::SysCall;
-use crate::scene::journal::ChangedNames;
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::{Data, Handle, Key, Namespace};
-use crate::script::lifecycle::instance::Script;
-use crate::script::sim::Sim;
+use crate::lifecycle::instance::Script;
+use crate::sim::Sim;
+use scene::journal::ChangedNames;
+use scene::object::script_object::ScriptType;
+use scene::{Data, Handle, Key, Namespace};
 
 impl Sim {
     /// Notifies scripts of custom data and signals that were written or removed since the last loop iteration: one call per object and

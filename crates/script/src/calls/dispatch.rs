@@ -3,11 +3,11 @@
 use std::rc::Rc;
 
 use super::callback::SysCall;
-use crate::scene::Data;
-use crate::script::lifecycle::Reply;
-use crate::script::lifecycle::instance::{Script, state};
-use crate::script::lifecycle::order::Group;
-use crate::script::sim::Sim;
+use crate::lifecycle::Reply;
+use crate::lifecycle::instance::{Script, state};
+use crate::lifecycle::order::Group;
+use crate::sim::Sim;
+use scene::Data;
 
 impl Sim {
     /// Delivers a callback to the scripts of a group; returns how many ran it.
@@ -74,7 +74,7 @@ impl Sim {
         }
         let mut vetoed = false;
         for script in self.active_scripts().iter() {
-            let is_main = script.script_type == crate::scene::object::script_object::ScriptType::Main;
+            let is_main = script.script_type == scene::object::script_object::ScriptType::Main;
             if !is_main && script.base_state() == state::INITIALIZED {
                 let Reply { value, .. } = self.deliver(script, SysCall::BeforeMainScript, &[]);
                 vetoed |= value.as_ref().and_then(|v| v.field("doNotRunMainScript")).is_some_and(Data::truthy);

@@ -3,26 +3,26 @@
 use std::rc::{Rc, Weak};
 
 use super::callback::SysCall;
-use crate::scene::Data;
-use crate::script::binding::args::ScriptFunction;
-use crate::script::binding::cx::Cx;
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lifecycle::env::Env;
-use crate::script::lifecycle::instance::Script;
-use crate::script::lifecycle::level::Level;
-use crate::script::lifecycle::script_set::MAX_DEPTH;
-use crate::script::log::verbosity;
-use crate::script::runtime::{CallError, Callee, FunctionRef, Runtime};
-use crate::script::sim::Sim;
+use crate::binding::args::ScriptFunction;
+use crate::binding::cx::Cx;
+use crate::error::{ApiError, ApiResult};
+use crate::lifecycle::env::Env;
+use crate::lifecycle::instance::Script;
+use crate::lifecycle::level::Level;
+use crate::lifecycle::script_set::MAX_DEPTH;
+use crate::log::verbosity;
+use crate::runtime::{CallError, Callee, FunctionRef, Runtime};
+use crate::sim::Sim;
+use scene::Data;
 
 /// A function by name, looked up at each call in a script of the caller's choice, or by value.
-pub(crate) enum Handler {
+pub enum Handler {
     Name(String),
     Function(HeldFunction),
 }
 
 /// A function of an interpreter, released when this is dropped.
-pub(crate) struct HeldFunction {
+pub struct HeldFunction {
     runtime: Option<Weak<Runtime>>,
     function: FunctionRef,
 }
@@ -37,7 +37,7 @@ impl Drop for HeldFunction {
 
 impl HeldFunction {
     /// A function that the script with that environment has passed to the host.
-    pub(crate) fn new(env: &Env, function: FunctionRef) -> Self {
+    pub fn new(env: &Env, function: FunctionRef) -> Self {
         Self { runtime: env.runtime().as_ref().map(Rc::downgrade), function }
     }
 
@@ -48,7 +48,7 @@ impl HeldFunction {
 
 impl Handler {
     /// From a parameter of the calling script.
-    pub(crate) fn new(cx: &Cx, given: ScriptFunction) -> Self {
+    pub fn new(cx: &Cx, given: ScriptFunction) -> Self {
         match given {
             ScriptFunction::Name(name) => Self::Name(name),
             ScriptFunction::Value(function) => Self::Function(HeldFunction::new(cx.env(), function)),
@@ -65,7 +65,7 @@ impl Handler {
 }
 
 /// A function of a script that native code may call for as long as the script runs.
-pub(crate) struct ScriptCallback {
+pub struct ScriptCallback {
     sim: Weak<Sim>,
     script: Weak<Script>,
     handler: Handler,
@@ -73,29 +73,27 @@ pub(crate) struct ScriptCallback {
 
 impl ScriptCallback {
     /// From a parameter of the calling script.
-    pub(crate) fn new(cx: &Cx, given: ScriptFunction) -> Self {
+    pub fn new(cx: &Cx, given: ScriptFunction) -> Self {
         let handler = Handler::new(cx, given);
         Self { sim: cx.env().sim.clone(), script: Rc::downgrade(cx.script()), handler }
     }
 
     /// # Errors
     /// When the function fails, or its script has ended.
-    pub(crate) fn call(&self, args: &[Data]) -> ApiResult<Vec<Data>> {
+    pub fn call(&self, args: &[Data]) -> ApiResult<Vec<Data>> {
         let alive = self.sim.upgrade().zip(self.script.upgrade());
         let (sim, script) = alive.ok_or(ApiError::ScriptNotInitialized)?;
         sim.try_handler(&script, &self.handler, args)
     }
 
     /// As [`ScriptCallback::call`], but a failure is logged and counted. None then, and when the script has ended.
-    #[cfg(any(feature = "ros1", feature = "ros2"))]
-    pub(crate) fn call_logged(&self, args: &[Data]) -> Option<Vec<Data>> {
+    pub fn call_logged(&self, args: &[Data]) -> Option<Vec<Data>> {
         let (sim, script) = self.sim.upgrade().zip(self.script.upgrade())?;
         sim.call_handler(&script, &self.handler, args)
     }
 
     /// Logs a warning, if the script still runs.
-    #[cfg(any(feature = "ros1", feature = "ros2"))]
-    pub(crate) fn warn(&self, text: &str) {
+    pub fn warn(&self, text: &str) {
         if let Some(sim) = self.sim.upgrade() {
             sim.log(verbosity::SCRIPT_WARNINGS, text);
         }
@@ -105,12 +103,7 @@ impl ScriptCallback {
 impl Sim {
     /// Calls a handler; one by name is a function of `script`. A failure is logged and counted, and the script continues: it must not
     /// end because of what a peer has sent.
-    pub(crate) fn call_handler(
-        self: &Rc<Self>,
-        script: &Rc<Script>,
-        handler: &Handler,
-        args: &[Data],
-    ) -> Option<Vec<Data>> {
+    pub fn call_handler(self: &Rc<Self>, script: &Rc<Script>, handler: &Handler, args: &[Data]) -> Option<Vec<Data>> {
         match self.try_handler(script, handler, args) {
             Ok(results) => Some(results),
             Err(error) => {

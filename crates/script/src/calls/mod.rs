@@ -1,12 +1,12 @@
 //! Calls between scripts: functions by name, code strings, initialisation (spec: calls).
 
 mod api_call;
-pub(in crate::script) mod callback;
-pub(in crate::script) mod data_changes;
-pub(in crate::script) mod dispatch;
-pub(in crate::script) mod handler;
+pub(crate) mod callback;
+pub(crate) mod data_changes;
+pub(crate) mod dispatch;
+pub(crate) mod handler;
 mod ui_events;
-pub(in crate::script) mod vision;
+pub(crate) mod vision;
 
 use std::rc::Rc;
 
@@ -16,21 +16,16 @@ use super::lifecycle::level::Level;
 use super::lifecycle::script_set::MAX_DEPTH;
 use super::runtime::{CallError, CallbackResult, Callee, Runtime, ScriptError};
 use super::sim::Sim;
-use crate::scene::Data;
-use crate::scene::object::script_object::ScriptType;
 use callback::SysCall;
+use scene::Data;
+use scene::object::script_object::ScriptType;
 
 impl Sim {
     /// Calls the global function `name` (dots walk through tables) of a script.
     ///
     /// # Errors
     /// In CoppeliaSim's words; the callee's own error is logged under its name and ends it.
-    pub(crate) fn call_function(
-        self: &Rc<Self>,
-        script: &Rc<Script>,
-        name: &str,
-        args: &[Data],
-    ) -> ApiResult<Vec<Data>> {
+    pub fn call_function(self: &Rc<Self>, script: &Rc<Script>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
         let runtime = script.current_runtime().ok_or(ApiError::ScriptNotInitialized)?;
         if !script.is_running() {
             return Err(ApiError::CallFailed);
@@ -60,19 +55,19 @@ impl Sim {
 
     /// Runs a string in a script: as an expression if it is one, else as a chunk. The script is not marked when it fails.
     pub(crate) fn execute_string(self: &Rc<Self>, script: &Rc<Script>, code: &[u8]) -> ApiResult<Vec<Data>> {
-        let runtime = script.current_runtime().ok_or(ApiError::Scene(crate::scene::SceneError::OperationFailed))?;
+        let runtime = script.current_runtime().ok_or(ApiError::Scene(scene::SceneError::OperationFailed))?;
         let level = Level::enter_from_script(&self.scripts, &runtime.env);
         if level.too_deep {
             return Err(ApiError::TooDeep(MAX_DEPTH));
         }
-        runtime.interpreter.evaluate(code).map_err(|_| crate::scene::SceneError::OperationFailed.into())
+        runtime.interpreter.evaluate(code).map_err(|_| scene::SceneError::OperationFailed.into())
     }
 
     /// Runs a file's text as a chunk in a script that lives already, as the sandbox does.
     ///
     /// # Errors
     /// The text of the error, which has been logged.
-    pub(crate) fn run_in(
+    pub fn run_in(
         self: &Rc<Self>,
         script: &Rc<Script>,
         code: &[u8],
@@ -95,7 +90,7 @@ impl Sim {
     }
 
     /// Resets a script and initialises it at once where 4.10 does.
-    pub(crate) fn init_script(self: &Rc<Self>, script: &Rc<Script>) {
+    pub fn init_script(self: &Rc<Self>, script: &Rc<Script>) {
         if script.depth() > 0 {
             // Its interpreter is in use: it restarts at the next call.
             return;
@@ -107,7 +102,7 @@ impl Sim {
     }
 
     /// Starts sandbox and add-ons.
-    pub(crate) fn start_detached(self: &Rc<Self>, script: &Rc<Script>) {
+    pub fn start_detached(self: &Rc<Self>, script: &Rc<Script>) {
         if script.script_type == ScriptType::AddOn && !self.add_on_starts_itself(script) {
             return;
         }
@@ -143,12 +138,12 @@ impl Sim {
     }
 
     /// Closes every interpreter. A script and its interpreter know each other: without this neither would ever go.
-    pub(crate) fn close_all(&self) {
+    pub fn close_all(&self) {
         self.scripts.all().iter().for_each(|script| drop(script.runtime.take()));
     }
 
     /// Ends an add-on or the sandbox at application exit.
-    pub(crate) fn end_detached(self: &Rc<Self>) {
+    pub fn end_detached(self: &Rc<Self>) {
         for script in self.active_scripts().iter() {
             if matches!(script.script_type, ScriptType::AddOn | ScriptType::Sandbox)
                 && script.base_state() == state::INITIALIZED

@@ -3,11 +3,11 @@
 use std::rc::Rc;
 
 use super::handler::Handler;
-use crate::scene::Data;
-use crate::scene::object::script_object::ScriptType;
-use crate::script::log::verbosity;
-use crate::script::sim::Sim;
-use crate::ui::Event;
+use crate::log::verbosity;
+use crate::sim::Sim;
+use scene::Data;
+use scene::object::script_object::ScriptType;
+use ui::Event;
 
 impl Sim {
     /// Closes the consoles that last as long as the simulation.

@@ -3,10 +3,10 @@
 use std::rc::Rc;
 
 use super::callback::SysCall;
-use crate::scene::sensor::{Entity, VisionReading, VisionSensor};
-use crate::scene::{Data, Field, Handle, SceneResult};
-use crate::script::lifecycle::instance::Script;
-use crate::script::sim::Sim;
+use crate::lifecycle::instance::Script;
+use crate::sim::Sim;
+use scene::sensor::{Entity, VisionReading, VisionSensor};
+use scene::{Data, Field, Handle, SceneResult};
 
 impl Sim {
     /// Takes a picture with a sensor and lets its scripts look at it. Where the pictures come from scripts, these are the results of the

@@ -15,8 +15,8 @@ pub use text::read_text;
 use super::lifecycle::instance::Script;
 use super::runtime::Interpreter;
 use super::sim::Sim;
-use crate::scene::Kind;
-use crate::scene::object::script_object::ScriptType;
+use scene::Kind;
+use scene::object::script_object::ScriptType;
 
 /// A text whose lines are counted.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -62,7 +62,7 @@ impl LineCounts {
         self.functions.extend(other.functions);
     }
 
-    pub(crate) fn add(&mut self, text: CountedText, counts: &[u64]) {
+    pub fn add(&mut self, text: CountedText, counts: &[u64]) {
         let sums = self.texts.entry(text).or_default();
         if sums.len() < counts.len() {
             sums.resize(counts.len(), 0);
@@ -82,7 +82,7 @@ impl Sim {
     }
 
     /// Returns the counts of all states since the last call. Scripts of the scene that have not run are included without counts.
-    pub(crate) fn take_line_counts(&self) -> LineCounts {
+    pub fn take_line_counts(&self) -> LineCounts {
         let running: Vec<_> = self.scripts.all().iter().filter_map(|script| script.current_runtime()).collect();
         running.iter().for_each(|runtime| self.collect_line_counts(&runtime.interpreter));
         let mut counts = self.line_counts.take();

@@ -7,10 +7,10 @@ use super::encode;
 use super::protocol::{Protocol, renamed};
 use super::queue::{Entry, Event, Source};
 use super::watch::{Watch, Watched, stored_entry, stored_key};
-use crate::scene::journal::Changes;
-use crate::scene::{Change, Data, Field, Handle, Holder, Namespace, Uid, Unread, ValueType};
-use crate::script::property::Target;
-use crate::script::sim::Sim;
+use crate::property::Target;
+use crate::sim::Sim;
+use scene::journal::Changes;
+use scene::{Change, Data, Field, Handle, Holder, Namespace, Uid, Unread, ValueType};
 
 /// Lists of the scene, sent when objects are added, removed, selected or get another parent.
 pub(super) const LISTS: [&str; 3] = ["objectHandles", "orphanHandles", "selectionHandles"];
@@ -183,7 +183,7 @@ impl Collector<'_> {
     }
 
     fn collect_modified(&mut self, handle: Handle, field: Field) {
-        let Ok(parent) = self.sim.scene.borrow().object(handle).map(crate::scene::Object::parent) else { return };
+        let Ok(parent) = self.sim.scene.borrow().object(handle).map(scene::Object::parent) else { return };
         if field == Field::Parent {
             self.collect_new_parent(handle, parent);
         }
@@ -278,7 +278,7 @@ impl Collector<'_> {
             Holder::App => (Target::App, Source::APP),
             Holder::Scene => (Target::Scene, Source::SCENE),
             Holder::Object(handle) => {
-                let Ok(uid) = self.sim.scene.borrow().object(handle).map(crate::scene::Object::uid) else { return };
+                let Ok(uid) = self.sim.scene.borrow().object(handle).map(scene::Object::uid) else { return };
                 (Target::Object(handle), Source::object(handle, uid))
             }
         };

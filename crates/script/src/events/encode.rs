@@ -4,9 +4,9 @@
 //! of 32 bits for all values, integers of 32 bits inside arrays.
 
 use super::protocol::{Meaning, Protocol};
-use crate::scene::{Data, ValueType};
-use crate::wire::cbor;
-use crate::wire::cbor_head::{BREAK, FALSE, INDEFINITE, NULL, TRUE, major, push_head, push_int};
+use scene::{Data, ValueType};
+use wire::cbor;
+use wire::cbor_head::{BREAK, FALSE, INDEFINITE, NULL, TRUE, major, push_head, push_int};
 
 /// Tags of protocol 4.
 mod tag {

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::queue::{Class, Source};
-use crate::scene::{Data, Key, special};
+use scene::{Data, Key, special};
 
 /// Names of fields; an empty list means all of them.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -17,11 +17,11 @@ impl Keys {
 
 /// Fields by target: handles of objects, scripts, application and scene, or a kind of them.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Filters(BTreeMap<i64, Keys>);
+pub struct Filters(BTreeMap<i64, Keys>);
 
 impl Filters {
     /// The table a script gave to `sim.setEventFilters`; None when it filters nothing out. What is no handle or no name is ignored.
-    pub(crate) fn from_table(table: &Data) -> Option<Self> {
+    pub fn from_table(table: &Data) -> Option<Self> {
         let targets: BTreeMap<i64, Keys> = match table {
             Data::Map(entries) => entries.iter().filter_map(|(key, keys)| Some((handle(key)?, names(keys)))).collect(),
             Data::Array(items) => (1..).zip(items.iter().map(names)).collect(),

@@ -7,8 +7,8 @@ use super::data_entry;
 use super::protocol::Protocol;
 use super::queue::{Class, Event, Source};
 use super::watch::{Listeners, Watched};
-use crate::scene::{Data, Namespace};
-use crate::script::sim::Sim;
+use crate::sim::Sim;
+use scene::{Data, Namespace};
 
 impl Sim {
     /// Application, scripts outside of the scene, the scene, its objects parents first, the main script.

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::{LazyLock, Mutex};
 
 use super::protocol::{Meaning, Protocol, renamed};
-use crate::scene::Field;
-use crate::script::property::{Class, Row, flags};
+use crate::property::{Class, Row, flags};
+use scene::Field;
 
 /// Readable properties without events: derived ones, those read on purpose, and those that differ at each reading.
 const SILENT: &[&str] = &[
@@ -155,7 +155,7 @@ fn is_sent(row: &Row) -> bool {
 }
 
 /// The properties sent for targets of that class: computed once per process.
-pub(super) fn keys(class: &'static Class) -> &'static Keys {
+pub fn keys(class: &'static Class) -> &'static Keys {
     static KNOWN: LazyLock<Mutex<BTreeMap<usize, &'static Keys>>> = LazyLock::new(Mutex::default);
     let mut known = KNOWN.lock().expect("nothing panics while it holds the lock");
     let address = std::ptr::from_ref(class) as usize;

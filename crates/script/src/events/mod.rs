@@ -21,19 +21,19 @@ use super::lifecycle::instance::{Script, state};
 use super::log::verbosity;
 use super::sim::Sim;
 use super::step::wall_clock;
-use crate::scene::{Cursor, Data, Handle, Key, Topics, special};
-use crate::wire::cbor;
 use queue::{Class, Content, Entry, Event, Queue, Source};
+use scene::{Cursor, Data, Handle, Key, Topics, special};
 use watch::{Listeners, Watch};
+use wire::cbor;
 
-pub(crate) use filter::Filters;
+pub use filter::Filters;
 pub(crate) use protocol::Protocol;
 
 /// Bit of the options of `sim.pushUserEvent`.
 const MERGEABLE: i64 = 1;
 
 /// The stream of one simulator.
-pub(crate) struct EventStream {
+pub struct EventStream {
     /// Shared with every environment, which looks at it after each call that may have changed something.
     pub listening: Rc<Cell<bool>>,
     queue: RefCell<Queue>,

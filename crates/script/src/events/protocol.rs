@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 /// The dialect of the stream.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Protocol {
+pub enum Protocol {
     /// CoppeliaSim 4.7 to 4.10: plain numbers and arrays.
     #[default]
     V3 = 3,

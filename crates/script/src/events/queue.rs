@@ -6,15 +6,15 @@ use std::hash::{BuildHasherDefault, Hasher};
 
 use super::encode;
 use super::filter::Filters;
-use crate::scene::{Handle, Uid, special};
-use crate::wire::cbor_head::push_int;
+use scene::{Handle, Uid, special};
+use wire::cbor_head::push_int;
 
 /// A name that is nearly always known at compile time.
 pub(super) type Name = Cow<'static, str>;
 
 /// The kind of the subject of an event; filters name kinds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Class {
+pub enum Class {
     /// Nothing in particular: a log line, the ends of a snapshot.
     None,
     App,

@@ -8,14 +8,12 @@ use super::filter::Filters;
 use super::keys::{Keys, keys};
 use super::protocol::Protocol;
 use super::queue::{Class, Entry, Event, Source};
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::parameters::engine::SelectedEngine;
-use crate::scene::{Data, Field, Handle, Namespace, Object, ValueType};
-use crate::script::lifecycle::instance::Script;
-use crate::script::property::{
-    Class as PropertyClass, Target, app_class, mesh_class, object_class, scene_class, script_class,
-};
-use crate::script::sim::Sim;
+use crate::lifecycle::instance::Script;
+use crate::property::{Class as PropertyClass, Target, app_class, mesh_class, object_class, scene_class, script_class};
+use crate::sim::Sim;
+use scene::object::script_object::ScriptType;
+use scene::parameters::engine::SelectedEngine;
+use scene::{Data, Field, Handle, Namespace, Object, ValueType};
 
 /// Bytes that most values do not exceed: a pose has 37.
 const USUAL_SIZE: usize = 40;

@@ -1,5 +1,5 @@
 //! Files of scripts: scenes, persistent data, locks.
 
-pub(in crate::script) mod app_storage;
-pub(in crate::script) mod scene_save;
-pub(in crate::script) mod scene_switch;
+pub(crate) mod app_storage;
+pub(crate) mod scene_save;
+pub(crate) mod scene_switch;

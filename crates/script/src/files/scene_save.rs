@@ -3,15 +3,15 @@
 use std::path::Path;
 use std::rc::Rc;
 
-use crate::format::scene_file::{LoadedScript, SceneFile, save, write_whole};
-use crate::format::ttt::File;
-use crate::format::xml::{self, Variant};
-use crate::plugin::Moment;
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::{Data, Handle, SceneError};
-use crate::script::calls::callback::SysCall;
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::sim::Sim;
+use crate::calls::callback::SysCall;
+use crate::error::{ApiError, ApiResult};
+use crate::sim::Sim;
+use format::scene_file::{LoadedScript, SceneFile, save, write_whole};
+use format::ttt::File;
+use format::xml::{self, Variant};
+use plugin_host::Moment;
+use scene::object::script_object::ScriptType;
+use scene::{Data, Handle, SceneError};
 
 impl Sim {
     /// The scene as a file.
@@ -100,7 +100,7 @@ impl Sim {
 ///
 /// # Errors
 /// When they cannot be read.
-pub(crate) fn readable_bytes(file: &File, variant: Option<Variant>) -> ApiResult<Vec<u8>> {
+pub fn readable_bytes(file: &File, variant: Option<Variant>) -> ApiResult<Vec<u8>> {
     let bytes = variant.map_or_else(|| file.write(), |variant| xml::write(file, variant).into_bytes());
     match SceneFile::read(&bytes) {
         Ok(_) => Ok(bytes),

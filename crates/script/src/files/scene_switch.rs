@@ -2,18 +2,18 @@
 
 use std::rc::Rc;
 
-use crate::format::scene_file::{Loaded, LoadedScript, SceneFile};
-use crate::plugin::Moment;
-use crate::scene::object::script_object::{ScriptObject, ScriptType};
-use crate::scene::{Edit, Handle, InertValues, Kind, Namespace, Settings};
-use crate::script::calls::callback::SysCall;
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lifecycle::instance::Script;
-use crate::script::log::verbosity;
-use crate::script::sim::Sim;
+use crate::calls::callback::SysCall;
+use crate::error::{ApiError, ApiResult};
+use crate::lifecycle::instance::Script;
+use crate::log::verbosity;
+use crate::sim::Sim;
+use format::scene_file::{Loaded, LoadedScript, SceneFile};
+use plugin_host::Moment;
+use scene::object::script_object::{ScriptObject, ScriptType};
+use scene::{Edit, Handle, InertValues, Kind, Namespace, Settings};
 
 /// The source of a scene.
-pub(crate) enum SceneSource {
+pub enum SceneSource {
     /// The default scene.
     Default,
     /// The text of a customization script of the default scene.
@@ -55,7 +55,7 @@ impl Sim {
     }
 
     /// Fills the empty scene.
-    pub(crate) fn fill_scene(self: &Rc<Self>, source: SceneSource) -> ApiResult<()> {
+    pub fn fill_scene(self: &Rc<Self>, source: SceneSource) -> ApiResult<()> {
         match source {
             SceneSource::Default => self.scene.borrow_mut().add_default_objects()?,
             SceneSource::Script { code, python_file } => {
@@ -75,7 +75,7 @@ impl Sim {
     ///
     /// # Errors
     /// When the scene is full.
-    pub(crate) fn load_model_file(self: &Rc<Self>, file: SceneFile) -> ApiResult<Option<Handle>> {
+    pub fn load_model_file(self: &Rc<Self>, file: SceneFile) -> ApiResult<Option<Handle>> {
         let loaded = self.load_file(file, false)?;
         self.notify_created(&loaded.objects);
         self.notify_plugins(Moment::ModelLoaded, [0; 4]);
@@ -116,7 +116,7 @@ impl Sim {
 
     /// Removes all objects, and forgets what belongs to a scene: settings, custom data, signals, a main script of its own.
     fn clear_scene(self: &Rc<Self>) -> ApiResult<()> {
-        let everything: Vec<_> = self.scene.borrow().objects().map(crate::scene::Object::handle).collect();
+        let everything: Vec<_> = self.scene.borrow().objects().map(scene::Object::handle).collect();
         if !everything.is_empty() {
             self.remove_objects(&everything)?;
         }

@@ -3,9 +3,9 @@
 use std::rc::Rc;
 
 use super::instance::{Detached, Script};
-use crate::scene::object::script_object::{ExecutionPriority, ScriptObject, ScriptType};
-use crate::scene::{Handle, Scene};
-use crate::script::sim::Sim;
+use crate::sim::Sim;
+use scene::object::script_object::{ExecutionPriority, ScriptObject, ScriptType};
+use scene::{Handle, Scene};
 
 impl Sim {
     /// Attaches a script to an object, as scenes before 4.7 have it.
@@ -53,7 +53,7 @@ impl Sim {
     }
 
     /// The script that Lua calls `name` in positions, under its full name, and its text. Lua cuts long names and ends them with dots.
-    pub(crate) fn code_shown_as(&self, name: &str) -> Option<(String, Vec<u8>)> {
+    pub fn code_shown_as(&self, name: &str) -> Option<(String, Vec<u8>)> {
         let start = name.strip_suffix("...").filter(|start| !start.is_empty());
         let scripts = self.scripts.all();
         let found = scripts.iter().map(|script| script.code(&self.scene.borrow()));
@@ -76,5 +76,5 @@ fn script_children(scene: &Scene, object: Handle) -> Vec<Handle> {
     let mut scripts: Vec<_> =
         children.into_iter().filter_map(|h| scene.object(h).ok()).filter(|o| o.script().is_ok()).collect();
     scripts.sort_by_key(|object| object.priority);
-    scripts.into_iter().map(crate::scene::Object::handle).collect()
+    scripts.into_iter().map(scene::Object::handle).collect()
 }

@@ -6,7 +6,7 @@ use std::cell::Cell;
 /// not enough raises `not enough memory`. What the host itself pushes always goes through, since a refusal would raise through Rust;
 /// it is bounded by other means and counted all the same.
 #[derive(Debug)]
-pub(crate) struct Budget {
+pub struct Budget {
     used: Cell<usize>,
     limit: usize,
     /// Rust code runs, not Lua code.
@@ -20,17 +20,17 @@ impl Budget {
     }
 
     /// Whether anything can be refused.
-    pub(in crate::script) fn is_limited(&self) -> bool {
+    pub(crate) fn is_limited(&self) -> bool {
         self.limit != usize::MAX
     }
 
     #[cfg(test)]
-    pub(in crate::script) fn used(&self) -> usize {
+    pub(crate) fn used(&self) -> usize {
         self.used.get()
     }
 
     /// Accounts for a block that changes its size; false when that is refused.
-    pub(in crate::script) fn resize(&self, old_size: usize, size: usize) -> bool {
+    pub(crate) fn resize(&self, old_size: usize, size: usize) -> bool {
         let used = self.used.get() - old_size + size;
         if used > self.limit && size > old_size && !self.in_host.get() {
             return false;
@@ -40,11 +40,11 @@ impl Budget {
     }
 
     /// Marks the beginning of host code, or of Lua code; returns what ran before, to be restored by [`leave`](Self::leave).
-    pub(in crate::script) fn enter(&self, host: bool) -> bool {
+    pub(crate) fn enter(&self, host: bool) -> bool {
         self.in_host.replace(host)
     }
 
-    pub(in crate::script) fn leave(&self, before: bool) {
+    pub(crate) fn leave(&self, before: bool) {
         self.in_host.set(before);
     }
 }

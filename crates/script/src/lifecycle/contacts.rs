@@ -5,17 +5,17 @@ use std::rc::Rc;
 use super::instance::Script;
 use super::level::Level;
 use super::script_set::MAX_DEPTH;
-use crate::scene::Data;
-use crate::script::calls::callback::SysCall;
-use crate::script::runtime::{CallbackResult, Integers, Runtime, ScriptError};
-use crate::script::sim::Sim;
+use crate::calls::callback::SysCall;
+use crate::runtime::{CallbackResult, Integers, Runtime, ScriptError};
+use crate::sim::Sim;
+use scene::Data;
 
 /// The callbacks that filter contacts: the old name first.
-pub(in crate::script) const CONTACT: [SysCall; 2] = [SysCall::ContactCallback, SysCall::Contact];
+pub(crate) const CONTACT: [SysCall; 2] = [SysCall::ContactCallback, SysCall::Contact];
 const CONTACT_BITS: u64 = SysCall::ContactCallback.bit() | SysCall::Contact.bit();
 
 /// The only script that is to be asked about contacts.
-pub(in crate::script) struct SoleResponder {
+pub(crate) struct SoleResponder {
     script: Rc<Script>,
     runtime: Rc<Runtime>,
     call: SysCall,
@@ -23,7 +23,7 @@ pub(in crate::script) struct SoleResponder {
 
 impl Sim {
     /// The only script that has functions for contacts, if it has one, no hooks, and no call of it is in progress.
-    pub(in crate::script) fn sole_responder(&self) -> Option<SoleResponder> {
+    pub(crate) fn sole_responder(&self) -> Option<SoleResponder> {
         let scripts = self.active_scripts_reversed();
         let script = scripts.iter().find(|script| !script.ignores(CONTACT_BITS))?;
         let runtime = script.current_runtime()?;
@@ -49,7 +49,7 @@ impl Sim {
 
     /// Calls the function of the script for one table after the other, as long as it returns nothing. Returns how often it was called, and
     /// what the last call returned. `next` makes the tables from their number.
-    pub(in crate::script) fn ask_in_turn(
+    pub(crate) fn ask_in_turn(
         self: &Rc<Self>,
         responder: &SoleResponder,
         names: &'static [&'static str; 3],

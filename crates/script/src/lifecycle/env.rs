@@ -9,21 +9,21 @@ use super::budget::Budget;
 use super::instance::Script;
 use super::random::Random;
 use super::yields::Yields;
-use crate::permissions::Permissions;
-use crate::script::binding::registry::Registry;
-use crate::script::binding::states::States;
-use crate::script::calls::callback::SysCall;
-use crate::script::events::Filters;
-use crate::script::log::verbosity;
-use crate::script::runtime::{FunctionRef, Runtime};
-use crate::script::sim::Sim;
+use crate::binding::registry::Registry;
+use crate::binding::states::States;
+use crate::calls::callback::SysCall;
+use crate::events::Filters;
+use crate::log::verbosity;
+use crate::runtime::{FunctionRef, Runtime};
+use crate::sim::Sim;
+use permissions::Permissions;
 
 /// The host's side of one interpreter.
-pub(crate) struct Env {
-    pub(in crate::script) sim: Weak<Sim>,
+pub struct Env {
+    pub(crate) sim: Weak<Sim>,
     pub script: Rc<Script>,
     /// The interpreter this belongs to; there from its creation on.
-    pub(in crate::script) runtime: OnceCell<Weak<Runtime>>,
+    pub(crate) runtime: OnceCell<Weak<Runtime>>,
     /// The functions and modules that the script can reach.
     pub registry: Arc<Registry>,
     /// Callbacks whose function existed after the chunk had run.
@@ -60,20 +60,20 @@ pub(crate) struct Env {
 
 /// Functions that run before and after callbacks. The lists are shared with the callback that is running, which may change them.
 #[derive(Default)]
-pub(crate) struct Hooks {
+pub struct Hooks {
     pub before: BTreeMap<SysCall, Rc<Vec<Hook>>>,
     pub after: BTreeMap<SysCall, Rc<Vec<Hook>>>,
 }
 
 /// One hook: a kept function, or the dotted name of a global.
 #[derive(Clone)]
-pub(crate) struct Hook {
+pub struct Hook {
     pub name: String,
     pub function: Option<FunctionRef>,
 }
 
 impl Env {
-    pub(in crate::script) fn new(sim: &Rc<Sim>, script: &Rc<Script>) -> Self {
+    pub(crate) fn new(sim: &Rc<Sim>, script: &Rc<Script>) -> Self {
         Self {
             sim: Rc::downgrade(sim),
             script: script.clone(),
@@ -101,7 +101,7 @@ impl Env {
     }
 
     /// Logs a warning at the first call of `name` in this state.
-    pub(crate) fn warn_once(&self, name: &'static str, warning: &str) {
+    pub fn warn_once(&self, name: &'static str, warning: &str) {
         if self.warned.borrow_mut().insert(name) {
             self.log(verbosity::SCRIPT_WARNINGS, warning);
         }
@@ -115,7 +115,7 @@ impl Env {
     }
 
     /// Logs in the name of the script.
-    pub(crate) fn log(&self, level: i64, text: &str) {
+    pub fn log(&self, level: i64, text: &str) {
         if let Some(sim) = self.sim.upgrade() {
             sim.log_from(&self.script, level, text);
         }
@@ -128,7 +128,7 @@ impl Env {
 
     /// The error that has to end the running code, if it has to end. An interpreter asks this while a script runs: the thread that could
     /// interrupt it is waiting for it. The runner of a test learns where the code was.
-    pub(crate) fn interruption(&self, traceback: impl FnOnce() -> String) -> Option<&'static str> {
+    pub fn interruption(&self, traceback: impl FnOnce() -> String) -> Option<&'static str> {
         if !self.watched {
             return None;
         }
@@ -143,7 +143,7 @@ impl Env {
     }
 
     /// The simulator, until it is gone.
-    pub(crate) fn simulator(&self) -> Option<Rc<Sim>> {
+    pub fn simulator(&self) -> Option<Rc<Sim>> {
         self.sim.upgrade()
     }
 
@@ -180,12 +180,12 @@ impl Env {
     }
 
     /// Notes that the callback gets a hook.
-    pub(crate) fn note_hook(&self, call: SysCall) {
+    pub fn note_hook(&self, call: SysCall) {
         self.hooked.set(self.hooked.get() | call.bit());
     }
 
     /// The hooks that run before the callback, or those that run after it.
-    pub(in crate::script) fn hooks_of(&self, call: SysCall, before: bool) -> Option<Rc<Vec<Hook>>> {
+    pub(crate) fn hooks_of(&self, call: SysCall, before: bool) -> Option<Rc<Vec<Hook>>> {
         if self.hooked.get() & call.bit() == 0 {
             return None;
         }

@@ -3,9 +3,9 @@
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use crate::scene::Handle;
-use crate::scene::object::script_object::{ExecutionPriority, ScriptType};
-use crate::script::runtime::Runtime;
+use crate::runtime::Runtime;
+use scene::Handle;
+use scene::object::script_object::{ExecutionPriority, ScriptType};
 
 /// Base states and bits of a script's state (spec: scripts 3).
 pub(crate) mod state {
@@ -31,16 +31,16 @@ pub struct Script {
     /// The scene object that holds text and flags; None for main, sandbox and add-ons.
     pub object: Option<Handle>,
     /// The data of a detached script, which has no object.
-    pub(crate) detached: Box<RefCell<Detached>>,
+    pub detached: Box<RefCell<Detached>>,
     /// The file its text comes from, as the user named it: errors name it in the log.
-    pub(crate) file: RefCell<Option<String>>,
+    pub file: RefCell<Option<String>>,
     /// The run counter of an old script, from before callbacks had one.
-    pub(crate) execution_count: Cell<i64>,
+    pub execution_count: Cell<i64>,
 }
 
 /// Text and flags of a script that is no scene object.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Detached {
+pub struct Detached {
     pub name: String,
     pub code: Vec<u8>,
     /// The name of the text in error positions.
@@ -58,7 +58,7 @@ pub(crate) struct Detached {
 
 impl Detached {
     /// A script of the simulator's own, with the name that Lua shows in error positions as well.
-    pub(crate) fn of_text(name: &str, code: &[u8]) -> Self {
+    pub fn of_text(name: &str, code: &[u8]) -> Self {
         Self {
             name: name.to_owned(),
             chunk_name: name.to_owned(),
@@ -99,7 +99,7 @@ impl Script {
     }
 
     /// The object an old script is attached to, instead of being one itself.
-    pub(crate) fn owner(&self) -> Option<Handle> {
+    pub fn owner(&self) -> Option<Handle> {
         self.detached.borrow().owner
     }
 
@@ -141,7 +141,7 @@ impl Script {
         }
     }
 
-    pub(crate) fn current_runtime(&self) -> Option<Rc<Runtime>> {
+    pub fn current_runtime(&self) -> Option<Rc<Runtime>> {
         self.runtime.borrow().clone()
     }
 

@@ -3,10 +3,10 @@
 use std::rc::Rc;
 
 use super::instance::Script;
-use crate::scene::Handle;
-use crate::scene::object::script_object::ScriptType;
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::sim::Sim;
+use crate::error::{ApiError, ApiResult};
+use crate::sim::Sim;
+use scene::Handle;
+use scene::object::script_object::ScriptType;
 
 impl Sim {
     /// The script of that type attached to an object: the first of its children by priority, else the object itself.

@@ -1,18 +1,18 @@
 //! The life of a script: loading, initialization, callbacks, cleanup (spec: scripts 3, scripts 4, scripts 5).
 
-pub(in crate::script) mod attached;
-pub(in crate::script) mod budget;
-pub(in crate::script) mod contacts;
-pub(in crate::script) mod env;
-pub(in crate::script) mod instance;
-pub(in crate::script) mod level;
-pub(in crate::script) mod lookup;
-pub(in crate::script) mod order;
-pub(in crate::script) mod random;
-pub(in crate::script) mod removal;
-pub(in crate::script) mod script_set;
-pub(in crate::script) mod source;
-pub(in crate::script) mod yields;
+pub(crate) mod attached;
+pub(crate) mod budget;
+pub(crate) mod contacts;
+pub(crate) mod env;
+pub(crate) mod instance;
+pub(crate) mod level;
+pub(crate) mod lookup;
+pub(crate) mod order;
+pub(crate) mod random;
+pub(crate) mod removal;
+pub(crate) mod script_set;
+pub(crate) mod source;
+pub(crate) mod yields;
 
 use std::rc::Rc;
 
@@ -20,16 +20,16 @@ use super::calls::callback::SysCall;
 use super::error::ApiError;
 use super::runtime::{CallbackResult, Runtime, ScriptError, SourceText};
 use super::sim::Sim;
-use crate::scene::Data;
-use crate::scene::object::script_object::ScriptType;
 use env::{Env, Hook};
 use instance::{Script, state};
 use level::Level;
+use scene::Data;
+use scene::object::script_object::ScriptType;
 use script_set::MAX_DEPTH;
 
 /// The result of a callback.
 #[derive(Debug, Default)]
-pub(crate) struct Reply {
+pub struct Reply {
     /// The script's function or a hook was there and ran.
     pub ran: bool,
     /// The last value returned; None when nothing was.
@@ -38,7 +38,7 @@ pub(crate) struct Reply {
 
 impl Sim {
     /// Delivers a callback to one script, loading and initialising it first where the callback does that.
-    pub(crate) fn deliver(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, args: &[Data]) -> Reply {
+    pub fn deliver(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, args: &[Data]) -> Reply {
         if script.removed.get() || (call != SysCall::Cleanup && self.is_disabled(script)) {
             return Reply::default();
         }
@@ -102,11 +102,7 @@ impl Sim {
     ///
     /// # Errors
     /// When there is no such language.
-    pub(crate) fn create_runtime(
-        self: &Rc<Self>,
-        script: &Rc<Script>,
-        language: &str,
-    ) -> Result<Rc<Runtime>, ScriptError> {
+    pub fn create_runtime(self: &Rc<Self>, script: &Rc<Script>, language: &str) -> Result<Rc<Runtime>, ScriptError> {
         self.scripts.languages.create(language, Rc::new(Env::new(self, script)))
     }
 
@@ -243,7 +239,7 @@ impl Sim {
     }
 
     /// Resets a script; it starts again at its next eligible call.
-    pub(crate) fn reset(self: &Rc<Self>, script: &Rc<Script>) {
+    pub fn reset(self: &Rc<Self>, script: &Rc<Script>) {
         self.end(script);
         script.set_state(state::UNLOADED);
     }
@@ -284,11 +280,11 @@ impl Sim {
         }
     }
 
-    fn clear_restart_flag(&self, handle: crate::scene::Handle) -> bool {
+    fn clear_restart_flag(&self, handle: scene::Handle) -> bool {
         let mut scene = self.scene.borrow_mut();
         let Ok(true) = scene.object(handle).and_then(|o| o.script()).map(|s| s.restart_on_error) else { return false };
-        let cleared = scene
-            .try_modify(handle, crate::scene::Field::Other, |o| o.script_mut().map(|s| s.restart_on_error = false));
+        let cleared =
+            scene.try_modify(handle, scene::Field::Other, |o| o.script_mut().map(|s| s.restart_on_error = false));
         cleared.is_ok()
     }
 }

@@ -3,9 +3,9 @@
 use std::rc::Rc;
 
 use super::instance::Script;
-use crate::scene::object::script_object::{ExecutionPriority, ScriptType};
-use crate::scene::{Field, Handle, Mark, ModelFlags, Object, Scene, Topics};
-use crate::script::sim::Sim;
+use crate::sim::Sim;
+use scene::object::script_object::{ExecutionPriority, ScriptType};
+use scene::{Field, Handle, Mark, ModelFlags, Object, Scene, Topics};
 
 /// Changes that can alter the order of scripts.
 const ORDER: Topics = Topics::TREE.with_fields(&[Field::ModelProperty, Field::Script, Field::Priority]);
@@ -35,7 +35,7 @@ impl OrderCache {
 
 /// A group of scripts that is called together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Group {
+pub enum Group {
     Simulation,
     Customization,
     Main,

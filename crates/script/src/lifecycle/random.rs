@@ -6,7 +6,7 @@ use nalgebra::{Quaternion, UnitQuaternion};
 use rand_mt::Mt;
 
 /// The Mersenne twister behind `sim.getRandom`: 32 bits per number, so that the sequences are those scripts know.
-pub(crate) struct Random {
+pub struct Random {
     seed: u32,
     /// Made with the first number: it has 2.5 kB, and most scripts want none.
     generator: Option<Box<Mt>>,
@@ -27,12 +27,12 @@ impl Random {
     }
 
     /// Begins another sequence.
-    pub(crate) fn restart(&mut self, seed: u32) {
+    pub fn restart(&mut self, seed: u32) {
         *self = Self::new(seed);
     }
 
     /// The next number in [0, 1).
-    pub(crate) fn next(&mut self) -> f64 {
+    pub fn next(&mut self) -> f64 {
         let generator = self.generator.get_or_insert_with(|| Box::new(Mt::new(self.seed)));
         f64::from(generator.next_u32()) / 4_294_967_296.0
     }
@@ -44,7 +44,7 @@ impl Random {
     }
 
     /// A rotation, all being equally likely (K. Shoemake, Uniform random rotations, Graphics Gems III).
-    pub(crate) fn rotation(&mut self) -> UnitQuaternion<f64> {
+    pub fn rotation(&mut self) -> UnitQuaternion<f64> {
         let (share, first, second) = (self.next(), TAU * self.next(), TAU * self.next());
         let (a, b) = ((1.0 - share).sqrt(), share.sqrt());
         UnitQuaternion::new_normalize(Quaternion::new(

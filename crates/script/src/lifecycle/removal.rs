@@ -5,17 +5,17 @@ use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
 
 use super::instance::{Script, state};
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::{CopyOptions, Data, Handle, Holder, Key, Kind, Object, Scene, SceneError, Uid};
-use crate::script::SimulationState;
-use crate::script::calls::callback::SysCall;
-use crate::script::error::ApiResult;
-use crate::script::log::verbosity;
-use crate::script::sim::Sim;
+use crate::SimulationState;
+use crate::calls::callback::SysCall;
+use crate::error::ApiResult;
+use crate::log::verbosity;
+use crate::sim::Sim;
+use scene::object::script_object::ScriptType;
+use scene::{CopyOptions, Data, Handle, Holder, Key, Kind, Object, Scene, SceneError, Uid};
 
 /// Objects that are to go later.
 #[derive(Default)]
-pub(crate) struct Removals {
+pub struct Removals {
     /// At the end of the loop iteration.
     delayed: RefCell<Vec<Handle>>,
     /// Scripts that are no objects, at the end of the loop iteration.
@@ -38,7 +38,7 @@ impl Removals {
         handles
     }
 
-    pub(in crate::script) fn note_start(&self, scene: &Scene) {
+    pub(crate) fn note_start(&self, scene: &Scene) {
         self.at_start.replace(Some(scene.objects().map(Object::uid).collect()));
     }
 
@@ -98,7 +98,7 @@ impl Sim {
     ///
     /// # Errors
     /// When a handle is unknown or repeated; nothing happens then.
-    pub(crate) fn remove_objects(self: &Rc<Self>, handles: &[Handle]) -> ApiResult<()> {
+    pub fn remove_objects(self: &Rc<Self>, handles: &[Handle]) -> ApiResult<()> {
         self.check_removable(handles)?;
         let removed: Vec<Handle> = handles.iter().copied().filter(|&handle| self.end_scripts_of(handle)).collect();
         if removed.len() < handles.len() {
@@ -187,7 +187,7 @@ impl Sim {
     }
 
     /// Removes the objects and scripts whose removal was deferred.
-    pub(in crate::script) fn remove_delayed(self: &Rc<Self>) {
+    pub(crate) fn remove_delayed(self: &Rc<Self>) {
         for script in self.removals.delayed_scripts.take() {
             self.end_attached_script(&script);
         }
@@ -202,7 +202,7 @@ impl Sim {
     }
 
     /// Removes the objects that were created during the simulation, if the scene is set to do so.
-    pub(in crate::script) fn remove_new_objects(self: &Rc<Self>) {
+    pub(crate) fn remove_new_objects(self: &Rc<Self>) {
         let new = self.removals.take_new(&self.scene.borrow());
         if !new.is_empty() && self.scene.borrow().settings().remove_new_objects_at_end {
             // The handles were just read, so none is unknown or repeated.

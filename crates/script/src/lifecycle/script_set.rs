@@ -7,10 +7,10 @@ use std::rc::Rc;
 use super::budget::Budget;
 use super::instance::{Detached, Script};
 use super::order::OrderCache;
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::{Field, Handle, Mark, Scene, Topics};
-use crate::script::calls::callback::SysCall;
-use crate::script::runtime::Languages;
+use crate::calls::callback::SysCall;
+use crate::runtime::Languages;
+use scene::object::script_object::ScriptType;
+use scene::{Field, Handle, Mark, Scene, Topics};
 
 /// Changes that can disable a script of the scene, or remove it.
 const SCRIPTS: Topics = Topics::TREE.with_fields(&[Field::Script]);
@@ -22,9 +22,9 @@ const FIRST_DETACHED: i64 = 1_010_000;
 pub(crate) const MAX_DEPTH: usize = 100;
 
 /// All scripts that have been looked up, and those that are no scene objects.
-pub(crate) struct ScriptSet {
+pub struct ScriptSet {
     /// The languages they can be written in.
-    pub(in crate::script) languages: Languages,
+    pub(crate) languages: Languages,
     /// The memory all of them share.
     pub(super) budget: Rc<Budget>,
     by_id: RefCell<BTreeMap<i64, Rc<Script>>>,
@@ -44,12 +44,12 @@ pub(crate) struct ScriptSet {
     /// The selection that scripts were last notified of.
     notified_selection: RefCell<Vec<Handle>>,
     /// Vision sensors whose scripts are looking at the picture now.
-    pub(in crate::script) examined_sensors: RefCell<BTreeSet<Handle>>,
+    pub(crate) examined_sensors: RefCell<BTreeSet<Handle>>,
 }
 
 impl ScriptSet {
     /// No scripts yet, which may use `memory` bytes.
-    pub(in crate::script) fn new(languages: Languages, memory: usize) -> Self {
+    pub(crate) fn new(languages: Languages, memory: usize) -> Self {
         Self {
             languages,
             budget: Rc::new(Budget::new(memory)),
@@ -76,7 +76,7 @@ impl ScriptSet {
     }
 
     /// Adds a script that is no scene object.
-    pub(crate) fn add_detached(&self, script_type: ScriptType, detached: Detached) -> Rc<Script> {
+    pub fn add_detached(&self, script_type: ScriptType, detached: Detached) -> Rc<Script> {
         if detached.owner.is_some() {
             self.has_attached.set(true);
         }
@@ -87,7 +87,7 @@ impl ScriptSet {
         script
     }
 
-    pub(in crate::script) fn add(&self, script: &Rc<Script>) {
+    pub(crate) fn add(&self, script: &Rc<Script>) {
         self.by_id.borrow_mut().insert(script.id, Rc::clone(script));
         if script.object.is_none() {
             self.detached.borrow_mut().insert(script.id, Rc::clone(script));
@@ -95,27 +95,27 @@ impl ScriptSet {
     }
 
     /// The script with that handle, if it has been looked up before.
-    pub(in crate::script) fn get(&self, id: i64) -> Option<Rc<Script>> {
+    pub(crate) fn get(&self, id: i64) -> Option<Rc<Script>> {
         self.by_id.borrow().get(&id).cloned()
     }
 
     /// All scripts by handle: objects first, then those that are none, in the order of their creation.
-    pub(in crate::script) fn all(&self) -> Vec<Rc<Script>> {
+    pub(crate) fn all(&self) -> Vec<Rc<Script>> {
         self.by_id.borrow().values().cloned().collect()
     }
 
     /// The one script of that type without an object: main or sandbox.
-    pub(crate) fn detached(&self, script_type: ScriptType) -> Option<Rc<Script>> {
+    pub fn detached(&self, script_type: ScriptType) -> Option<Rc<Script>> {
         self.detached.borrow().values().find(|script| script.script_type == script_type).cloned()
     }
 
     /// All scripts that are no objects, in the order of their creation.
-    pub(in crate::script) fn all_detached(&self) -> Vec<Rc<Script>> {
+    pub(crate) fn all_detached(&self) -> Vec<Rc<Script>> {
         self.detached.borrow().values().cloned().collect()
     }
 
     /// The old scripts attached to an object, simulation scripts first.
-    pub(in crate::script) fn attached_to(&self, object: Handle) -> Vec<Rc<Script>> {
+    pub(crate) fn attached_to(&self, object: Handle) -> Vec<Rc<Script>> {
         if !self.has_attached.get() {
             return Vec::new();
         }
@@ -156,21 +156,21 @@ impl ScriptSet {
     }
 
     /// A priority has changed, or a script without an object came.
-    pub(in crate::script) fn forget_order(&self) {
+    pub(crate) fn forget_order(&self) {
         self.order.borrow_mut().forget();
     }
 
     /// Remembers that some script has these callbacks, so that the others need not be offered to anyone.
-    pub(in crate::script) fn note_callbacks(&self, bits: u64) {
+    pub(crate) fn note_callbacks(&self, bits: u64) {
         self.callbacks_in_use.set(self.callbacks_in_use.get() | bits);
     }
 
     /// Whether a script can respond to `call`: one has or had the callback, or the call starts scripts.
-    pub(in crate::script) fn may_respond(&self, call: SysCall) -> bool {
+    pub(crate) fn may_respond(&self, call: SysCall) -> bool {
         call.wakes() || self.callbacks_in_use.get() & call.bit() != 0
     }
 
-    pub(in crate::script) fn may_respond_to_any(&self, calls: &[SysCall]) -> bool {
+    pub(crate) fn may_respond_to_any(&self, calls: &[SysCall]) -> bool {
         calls.iter().any(|&call| self.may_respond(call))
     }
 
@@ -189,7 +189,7 @@ impl ScriptSet {
     }
 
     /// Notes the selection scripts are notified of; false when it is the one they know.
-    pub(in crate::script) fn note_selection(&self, selection: &[Handle]) -> bool {
+    pub(crate) fn note_selection(&self, selection: &[Handle]) -> bool {
         let mut notified = self.notified_selection.borrow_mut();
         let differs = *notified != selection;
         if differs {

@@ -1,9 +1,9 @@
 //! Name, text and flags of a script: the scene holds those of script objects, a detached script its own.
 
 use super::instance::Script;
-use crate::scene::Scene;
-use crate::scene::object::script_object::{ScriptObject, ScriptType};
-use crate::script::sim::Sim;
+use crate::sim::Sim;
+use scene::Scene;
+use scene::object::script_object::{ScriptObject, ScriptType};
 
 /// A file as Lua shows it in positions: as it is, without quotes.
 fn file_name(path: &str) -> String {
@@ -12,7 +12,7 @@ fn file_name(path: &str) -> String {
 
 impl Sim {
     /// Name in the log, language and text of a script.
-    pub(crate) fn text_of(&self, script: &Script) -> (String, String, Vec<u8>) {
+    pub fn text_of(&self, script: &Script) -> (String, String, Vec<u8>) {
         let scene = self.scene.borrow();
         (script.log_name(&scene), script.language(&scene), script.code(&scene).0)
     }
@@ -20,7 +20,7 @@ impl Sim {
 
 impl Script {
     /// The name in the log.
-    pub(in crate::script) fn log_name(&self, scene: &Scene) -> String {
+    pub(crate) fn log_name(&self, scene: &Scene) -> String {
         let path = |handle| scene.print_path(handle).unwrap_or_default();
         match (self.object, self.owner()) {
             (Some(handle), _) => path(handle),
@@ -30,7 +30,7 @@ impl Script {
     }
 
     /// The text, and the name Lua shows for it in positions.
-    pub(in crate::script) fn code(&self, scene: &Scene) -> (Vec<u8>, String) {
+    pub(crate) fn code(&self, scene: &Scene) -> (Vec<u8>, String) {
         if let Some(object) = self.script_object(scene) {
             let name = object.source.as_deref().map(file_name);
             return (object.code.clone(), name.unwrap_or_else(|| self.log_name(scene)));
@@ -45,7 +45,7 @@ impl Script {
     }
 
     /// `lua` or `python`.
-    pub(in crate::script) fn language(&self, scene: &Scene) -> String {
+    pub(crate) fn language(&self, scene: &Scene) -> String {
         match self.object {
             Some(_) => self.script_object(scene).map(|object| object.language.clone()).unwrap_or_default(),
             None => self.detached.borrow().language().to_owned(),
@@ -53,7 +53,7 @@ impl Script {
     }
 
     /// A script whose object is gone counts as disabled.
-    pub(in crate::script) fn is_disabled(&self, scene: &Scene) -> bool {
+    pub(crate) fn is_disabled(&self, scene: &Scene) -> bool {
         match self.object {
             Some(_) => self.script_object(scene).is_none_or(|object| object.disabled),
             None => self.detached.borrow().disabled,

@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 /// May code of a script yield, and when is it made to?
 #[derive(Default)]
-pub(crate) struct Yields {
+pub struct Yields {
     /// 0: pre-emption is allowed in code outside of coroutines that have a level of their own.
     pub auto: Cell<i64>,
     /// 0: yielding is allowed at all.
@@ -26,7 +26,7 @@ impl Yields {
 }
 
 /// The level after `change`: false raises it, true lowers it (not below 0), a number sets it.
-pub(crate) fn changed_level(level: i64, change: LevelChange) -> i64 {
+pub fn changed_level(level: i64, change: LevelChange) -> i64 {
     match change {
         LevelChange::Forbid => level + 1,
         LevelChange::Allow => (level - 1).max(0),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 /// An open console.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct AuxiliaryConsole {
+pub struct AuxiliaryConsole {
     pub title: String,
     /// It is open until the end of the simulation only.
     pub closes_at_end: bool,
@@ -16,13 +16,13 @@ pub(crate) struct AuxiliaryConsole {
 
 /// The open ones, by handle.
 #[derive(Default)]
-pub(crate) struct AuxiliaryConsoles {
+pub struct AuxiliaryConsoles {
     open: BTreeMap<i64, AuxiliaryConsole>,
     opened: i64,
 }
 
 impl AuxiliaryConsoles {
-    pub(crate) fn open(&mut self, console: AuxiliaryConsole) -> i64 {
+    pub fn open(&mut self, console: AuxiliaryConsole) -> i64 {
         self.opened += 1;
         let handle = self.opened;
         self.open.insert(handle, console);
@@ -30,12 +30,12 @@ impl AuxiliaryConsoles {
     }
 
     /// An open console.
-    pub(crate) fn get(&self, handle: i64) -> Option<&AuxiliaryConsole> {
+    pub fn get(&self, handle: i64) -> Option<&AuxiliaryConsole> {
         self.open.get(&handle)
     }
 
     /// The console that was open until now.
-    pub(crate) fn close(&mut self, handle: i64) -> Option<AuxiliaryConsole> {
+    pub fn close(&mut self, handle: i64) -> Option<AuxiliaryConsole> {
         self.open.remove(&handle)
     }
 

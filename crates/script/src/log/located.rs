@@ -12,18 +12,18 @@ const SHOWN: usize = 59;
 
 /// The files of scripts, by what Lua shows for their texts.
 #[derive(Debug, Default)]
-pub(in crate::script) struct ScriptFiles {
+pub(crate) struct ScriptFiles {
     by_name: BTreeMap<String, String>,
 }
 
 impl ScriptFiles {
     /// The text with that name is the content of `file`.
-    pub(in crate::script) fn insert(&mut self, chunk_name: &str, file: &str) {
+    pub(crate) fn insert(&mut self, chunk_name: &str, file: &str) {
         self.by_name.insert(shown(chunk_name), file.to_owned());
     }
 
     /// The error with files in its positions, and a hint below the message. A line of the library never stands for one of the script: the nearest call in a script does.
-    pub(in crate::script) fn locate(&self, error: &str, hint: &str, is_library: impl Fn(&str) -> bool) -> String {
+    pub(crate) fn locate(&self, error: &str, hint: &str, is_library: impl Fn(&str) -> bool) -> String {
         let (message, calls) = match error.find(TRACEBACK) {
             Some(at) => error.split_at(at),
             None => (error, ""),

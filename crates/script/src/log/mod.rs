@@ -1,7 +1,7 @@
 //! Output of scripts and the simulator: levels, consoles, error count.
 
-pub(in crate::script) mod auxiliary_consoles;
-pub(in crate::script) mod console;
+pub(crate) mod auxiliary_consoles;
+pub(crate) mod console;
 mod located;
 mod recent;
 pub mod status;
@@ -14,10 +14,10 @@ use std::collections::HashSet;
 use console::{Console, LogLine, Stream};
 use located::ScriptFiles;
 use recent::Recent;
-pub(crate) use recent::RecentLine;
+pub use recent::RecentLine;
 
 /// The way to the console of one simulator.
-pub(crate) struct Log {
+pub struct Log {
     console: RefCell<Box<dyn Console>>,
     verbosity: Cell<i64>,
     /// Origin, level and text of the lines that are to be logged only once.
@@ -53,7 +53,7 @@ impl Log {
     }
 
     /// Number of uncaught script errors.
-    pub(crate) fn errors(&self) -> u64 {
+    pub fn errors(&self) -> u64 {
         self.errors.get()
     }
 
@@ -98,7 +98,7 @@ impl Log {
     }
 
     /// Keeps lines from now on, for [`take_recent`](Self::take_recent).
-    pub(crate) fn keep_recent(&self) {
+    pub fn keep_recent(&self) {
         self.recent.borrow_mut().begin();
     }
 
@@ -108,7 +108,7 @@ impl Log {
     }
 
     /// The lines since the last call, with the scripts they come from.
-    pub(crate) fn take_recent(&self) -> Vec<RecentLine> {
+    pub fn take_recent(&self) -> Vec<RecentLine> {
         self.recent.borrow_mut().take()
     }
 

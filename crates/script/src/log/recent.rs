@@ -10,7 +10,7 @@ const MOST: usize = 10_000;
 
 /// A line of the log, or of a script's `print`.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct RecentLine {
+pub struct RecentLine {
     /// Simulated time, seconds.
     pub time: f64,
     /// `sim.verbosity_*`; None for a print.
@@ -26,13 +26,13 @@ pub(crate) struct RecentLine {
 
 impl RecentLine {
     /// The name of its level as on the command line, or `print`.
-    pub(crate) fn level_name(&self) -> &'static str {
+    pub fn level_name(&self) -> &'static str {
         let named = |level: i64| verbosity::NAMES.iter().find(|(_, number)| *number == verbosity::plain(level));
         self.level.map_or("print", |level| named(level).map_or("infos", |(name, _)| name))
     }
 
     /// Whether a script raised an error that nobody caught.
-    pub(crate) fn is_script_error(&self) -> bool {
+    pub fn is_script_error(&self) -> bool {
         self.level.is_some_and(|level| verbosity::plain(level) == verbosity::SCRIPT_ERRORS)
     }
 }

@@ -25,7 +25,7 @@ pub(super) struct Slot(c_int);
 /// The index of a table.
 #[repr(transparent)]
 #[derive(Clone, Copy)]
-pub(super) struct Table(c_int);
+pub struct Table(c_int);
 
 /// The indices from a value up to the top.
 #[repr(transparent)]
@@ -34,7 +34,7 @@ pub(super) struct Occupied(c_int);
 /// A function that Lua calls as a hook.
 #[repr(transparent)]
 #[derive(Clone, Copy)]
-pub(super) struct Hook(ffi::lua_Hook);
+pub struct Hook(ffi::lua_Hook);
 
 /// A stack with a free place.
 #[repr(transparent)]
@@ -154,7 +154,7 @@ impl<'a> Stack<'a> {
     }
 
     /// The table at `index`.
-    pub(super) fn table(self, index: c_int) -> Table {
+    pub fn table(self, index: c_int) -> Table {
         let slot = self.slot(index);
         assert_eq!(Type::from_raw(lua_type(self, slot)), Type::Table, "raw access is for tables");
         Table(slot.0)
@@ -286,7 +286,7 @@ impl<'a> Stack<'a> {
         lua_settop(self, Occupied(top));
     }
 
-    pub(crate) fn pop(self, count: c_int) {
+    pub fn pop(self, count: c_int) {
         let top = lua_gettop(self);
         assert!((0..=top).contains(&count), "only what is there can be popped");
         lua_settop(self, Occupied(top - count));
@@ -335,7 +335,7 @@ impl<'a> Top<'a> {
 }
 
 /// The entries of a table, in Lua's order. While one is looked at, its key and value are on the stack.
-pub(crate) struct Entries<'a> {
+pub struct Entries<'a> {
     stack: Stack<'a>,
     table: c_int,
     key: c_int,
@@ -345,7 +345,7 @@ pub(crate) struct Entries<'a> {
 impl<'a> Stack<'a> {
     /// The entries of the table at `index`, which gets no new fields meanwhile. The key and value on top of the stack are popped by
     /// [`Entries::advance`], together with what has been pushed since.
-    pub(crate) fn entries(self, index: c_int) -> Entries<'a> {
+    pub fn entries(self, index: c_int) -> Entries<'a> {
         let table = self.table(index).0;
         lua_pushnil(self.room_for(3));
         Entries { stack: self, table, key: lua_gettop(self), is_first: true }
@@ -354,17 +354,17 @@ impl<'a> Stack<'a> {
 
 impl Entries<'_> {
     /// The index of the key.
-    pub(crate) fn key(&self) -> c_int {
+    pub fn key(&self) -> c_int {
         self.key
     }
 
     /// The index of the value.
-    pub(crate) fn value(&self) -> c_int {
+    pub fn value(&self) -> c_int {
         self.key + 1
     }
 
     /// Goes to the next entry; false after the last one, or when the table has lost the current one.
-    pub(crate) fn advance(&mut self) -> bool {
+    pub fn advance(&mut self) -> bool {
         let (stack, table) = (self.stack, self.stack.table(self.table));
         stack.set_top(self.key);
         match self.known_key(table) {

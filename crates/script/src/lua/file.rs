@@ -11,7 +11,7 @@ use mlua::ffi;
 
 use super::calls::guard::{Next, guarded, install};
 use super::stack::{Stack, Type};
-use crate::io::FileLock;
+use ::io::FileLock;
 
 /// Lua's `luaL_Stream`.
 #[repr(C)]
@@ -23,7 +23,7 @@ struct Stream {
 
 impl Stack<'_> {
     /// Changes the lock of the file at `index`, without waiting; None when that is not an open file.
-    pub(crate) fn lock_file(self, index: c_int, lock: FileLock) -> Option<io::Result<()>> {
+    pub fn lock_file(self, index: c_int, lock: FileLock) -> Option<io::Result<()>> {
         let _room = self.large_room();
         // SAFETY: userdata with that metatable are streams of Lua's io library. There is room for the metatables that are compared.
         let stream = unsafe { ffi::luaL_testudata(self.raw(), index, c"FILE*".as_ptr()).cast::<Stream>().as_ref() }?;
@@ -69,7 +69,7 @@ fn apply(file: File<'_>, lock: FileLock) -> io::Result<()> {
     unsafe extern "C" {
         safe fn fileno<'a>(file: File<'a>) -> Option<BorrowedFd<'a>>;
     }
-    crate::io::lock_file(fileno(file).ok_or_else(io::Error::last_os_error)?, lock)
+    ::io::lock_file(fileno(file).ok_or_else(io::Error::last_os_error)?, lock)
 }
 
 #[cfg(not(unix))]

@@ -34,12 +34,12 @@ pub(crate) use calls::{LuaError, MULTIPLE};
 pub(crate) use file::report_closed_pipes;
 pub(crate) use hooks::count::{HOOK_INTERVAL, HookAction, hasten_count_hook, install_coroutine_hooks, set_count_hook};
 pub(crate) use hooks::debug_library::restrict_debug;
-pub(crate) use hooks::interrupt::{calls_begun, interrupt_running_code, place_of_interruption};
-pub(crate) use object::Object;
+pub use hooks::interrupt::{calls_begun, interrupt_running_code, place_of_interruption};
+pub use object::Object;
 pub(crate) use permissions::restrict_libraries;
 pub(crate) use seal::seal_argument;
 pub(crate) use stack::tables::LONGEST_LIST;
-pub(crate) use stack::{Stack, Type};
+pub use stack::{Stack, Type};
 pub(crate) use state::State;
 pub(crate) use subjects::accept_buffers;
 

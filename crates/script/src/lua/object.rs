@@ -22,7 +22,7 @@ pub struct Object {
 
 impl Stack<'_> {
     /// Pops a table, which becomes the metatable of the objects of `class`. Its `__gc` must be there by now.
-    pub(crate) fn define_class(self, class: i64) {
+    pub fn define_class(self, class: i64) {
         if self.push_registry(CLASSES) != Type::Table {
             self.pop(1);
             self.new_table(0, 0);

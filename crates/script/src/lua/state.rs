@@ -8,7 +8,7 @@ use mlua::{Lua, LuaOptions, StdLib, ffi};
 
 use super::pool::{Allocator, Pool};
 use super::{Budget, Stack};
-use crate::script::lifecycle::env::Env;
+use crate::lifecycle::env::Env;
 
 /// A Lua state with the standard libraries. mlua owns it: it is closed when the last [`Lua`] of it is dropped.
 pub(crate) struct State {
@@ -129,7 +129,7 @@ mod tests {
     use mlua::ffi;
 
     use super::MAX_BLOCK;
-    use crate::script::lua::tests::with_state;
+    use crate::lua::tests::with_state;
 
     #[test]
     fn a_block_that_may_not_grow_stays_as_it_was() {

@@ -5,9 +5,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::rc::{Rc, Weak};
 
 use super::{Stack, State, push_callback};
-use crate::scene::object::script_object::ScriptType;
-use crate::script::lifecycle::env::Env;
-use crate::script::{Detached, Languages, Options, Registry, Silent, Sim};
+use crate::lifecycle::env::Env;
+use crate::{Detached, Languages, Options, Registry, Silent, Sim};
+use scene::object::script_object::ScriptType;
 
 /// Calls `test` with a state that has the standard libraries only.
 pub(super) fn with_state<T>(test: impl FnOnce(&State) -> T) -> T {

@@ -5,9 +5,9 @@ use std::cell::Cell;
 use std::ffi::c_int;
 
 use super::reused::{self, ReusedArgument};
-use crate::script::calls::callback::SysCall;
-use crate::script::lua::{Stack, Type};
-use crate::script::runtime::Integers;
+use crate::calls::callback::SysCall;
+use crate::lua::{Stack, Type};
+use crate::runtime::Integers;
 
 /// Where the message handler is.
 pub(super) const HANDLER: c_int = 1;

@@ -3,8 +3,8 @@
 use std::ffi::c_int;
 
 use super::stand_ins::go_on;
-use crate::script::binding::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE, is_buffer, push_buffer};
-use crate::script::lua::{Outcome, Stack, Type, accept_buffers, push_plain};
+use crate::binding::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE, is_buffer, push_buffer};
+use crate::lua::{Outcome, Stack, Type, accept_buffers, push_plain};
 
 /// Makes the metatable of all buffers and the functions for them, and lets Lua's functions take them for strings.
 pub(super) fn install(stack: Stack<'_>) {

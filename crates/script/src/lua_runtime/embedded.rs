@@ -2,13 +2,10 @@
 
 use std::sync::OnceLock;
 
-use crate::script::lua::Bytecode;
-
-/// `(module, text)` of every file below `lua/`.
-pub(crate) const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/lua_files.rs"));
+use crate::lua::Bytecode;
 
 /// An embedded Lua module: its text, and its bytecode once it was needed.
-pub(crate) struct Embedded {
+pub struct Embedded {
     pub source: &'static str,
     bytecode: OnceLock<Bytecode>,
 }
@@ -30,7 +27,7 @@ impl Embedded {
 mod tests {
     #[test]
     fn every_embedded_file_compiles() {
-        for (name, text) in super::FILES {
+        for (name, text) in lua_library::FILES {
             super::Bytecode::compile(text.as_bytes(), name).expect(name);
         }
     }

@@ -6,7 +6,7 @@
 use std::ffi::CStr;
 
 use super::stand_ins::{go_on, push_iteration};
-use crate::script::lua::{Outcome, Stack, Type, push_plain};
+use crate::lua::{Outcome, Stack, Type, push_plain};
 
 /// The metatable of proxies, which are tables with the name of their module; nil once there are no more.
 const PROXY: &CStr = c"swanilda.proxy";

@@ -2,19 +2,19 @@
 
 mod bottom;
 mod buffers;
-pub(in crate::script) mod coverage;
-pub(in crate::script) mod embedded;
+pub(crate) mod coverage;
+pub(crate) mod embedded;
 mod implicit;
 mod library_globals;
 mod old_calls;
-pub(in crate::script) mod reference_modules;
+pub(crate) mod reference_modules;
 mod reused;
 mod shared_process;
 mod stand_ins;
 mod startup;
 mod test_file;
-pub(in crate::script) mod threads;
-pub(in crate::script) mod user_modules;
+pub(crate) mod threads;
+pub(crate) mod user_modules;
 
 use std::rc::Rc;
 
@@ -27,9 +27,9 @@ use super::runtime::{
     CallError, CallbackResult, Callee, FunctionRef, Integers, Interpreter, Language, Runtime, ScriptError, SourceText,
 };
 use super::sim::Sim;
-use crate::scene::Data;
 use bottom::Bottom;
 use coverage::Coverage;
+use scene::Data;
 use user_modules::UserModule;
 
 /// Calls a function of a module, both by name, with all that follows.
@@ -41,18 +41,18 @@ const YIELD_ERRORS: [&str; 2] =
 
 /// The language Lua.
 #[derive(Clone)]
-pub(crate) struct LuaLanguage {
+pub struct LuaLanguage {
     user_modules: Rc<[UserModule]>,
 }
 
 impl LuaLanguage {
     /// With modules that the embedding program has written.
-    pub(crate) fn new(user_modules: Vec<UserModule>) -> Self {
+    pub fn new(user_modules: Vec<UserModule>) -> Self {
         Self { user_modules: user_modules.into() }
     }
 
     /// An interpreter that is a part of another one.
-    pub(in crate::script) fn interpreter(&self, env: &Rc<Env>) -> LuaInterpreter {
+    pub(crate) fn interpreter(&self, env: &Rc<Env>) -> LuaInterpreter {
         let (state, user_modules) = (State::new(Rc::clone(env)), Rc::clone(&self.user_modules));
         LuaInterpreter { state, bottom: Bottom::default(), user_modules }
     }
@@ -70,7 +70,7 @@ impl Language for LuaLanguage {
 }
 
 /// A Lua state of its own for one script.
-pub(in crate::script) struct LuaInterpreter {
+pub(crate) struct LuaInterpreter {
     state: State,
     bottom: Bottom,
     user_modules: Rc<[UserModule]>,
@@ -82,7 +82,7 @@ impl LuaInterpreter {
     }
 
     /// Sets a global to what `push` pushes.
-    pub(in crate::script) fn set_global(&self, name: &str, push: impl FnOnce(Stack<'_>)) {
+    pub(crate) fn set_global(&self, name: &str, push: impl FnOnce(Stack<'_>)) {
         let stack = self.stack();
         push(stack);
         stack.set_global(name);

@@ -1,9 +1,9 @@
 //! Scripts from before callbacks existed. `lua/library/old_calls.lua` runs them.
 
 use super::startup;
-use crate::script::calls::callback::SysCall;
-use crate::script::lua::{LuaError, Stack};
-use crate::script::sim::Sim;
+use crate::calls::callback::SysCall;
+use crate::lua::{LuaError, Stack};
+use crate::sim::Sim;
 
 /// Names that identify such a text: the call it runs for, and the first of the calls. They are searched in the text as in the original, so that a
 /// comment is enough.

@@ -5,7 +5,7 @@ const TABLE: &str = include_str!("reference_modules.tsv");
 
 /// A plugin or Lua module of CoppeliaSim.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct ReferenceModule {
+pub struct ReferenceModule {
     pub name: &'static str,
     /// `plugin`, `library` or `third-party library`.
     pub kind: &'static str,
@@ -15,7 +15,7 @@ pub(crate) struct ReferenceModule {
 }
 
 impl ReferenceModule {
-    pub(crate) fn all() -> impl Iterator<Item = Self> {
+    pub fn all() -> impl Iterator<Item = Self> {
         TABLE.lines().map(|line| {
             let mut columns = line.split('\t');
             let mut next = || columns.next().unwrap_or_default();

@@ -1,11 +1,11 @@
-//! Restrictions of simulators that share their process with others: those with [`Limits`](crate::script::Limits).
+//! Restrictions of simulators that share their process with others: those with [`Limits`](crate::Limits).
 
 use std::ffi::c_int;
 
 use super::startup::load_module;
-use crate::script::log::console::Stream;
-use crate::script::lua::{LuaError, Stack, push_callback};
-use crate::script::sim::Sim;
+use crate::log::console::Stream;
+use crate::lua::{LuaError, Stack, push_callback};
+use crate::sim::Sim;
 
 /// Keeps a state from ending the process, and from writing between the lines of the others.
 pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {

@@ -5,7 +5,7 @@
 use std::ffi::CStr;
 
 use super::library_globals;
-use crate::script::lua::{Outcome, Stack, Type, push_plain};
+use crate::lua::{Outcome, Stack, Type, push_plain};
 
 /// The function of `base.lua` that loads a file and calls a function of it.
 const GO_ON: &CStr = c"swanilda.go_on";

@@ -11,11 +11,11 @@ use super::user_modules::UserModule;
 use super::{
     buffers, coverage, implicit, library_globals, shared_process, stand_ins, test_file, threads, user_modules,
 };
-use crate::script::binding::registry::{Member, MissingId, Namespace};
-use crate::script::binding::{deprecation_notice, error_text, push_function, push_function_of_old_name};
-use crate::script::lifecycle::instance::Script;
-use crate::script::lua::{self, LuaError, Outcome, Stack, State, Type, push_callback, push_plain};
-use crate::script::sim::Sim;
+use crate::binding::registry::{Member, MissingId, Namespace};
+use crate::binding::{deprecation_notice, error_text, push_function, push_function_of_old_name};
+use crate::lifecycle::instance::Script;
+use crate::lua::{self, LuaError, Outcome, Stack, State, Type, push_callback, push_plain};
+use crate::sim::Sim;
 
 /// The `sim` table of a state.
 const SIM: &CStr = c"swanilda.sim";
@@ -77,7 +77,7 @@ fn run_base(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
 fn name_suffix(sim: &Sim, script: &Script) -> i64 {
     let scene = sim.scene.borrow();
     let object = script.owner().or(script.object).and_then(|handle| scene.object(handle).ok());
-    object.map_or(-1, |object| crate::scene::name_suffix(object.old_name()).0)
+    object.map_or(-1, |object| scene::name_suffix(object.old_name()).0)
 }
 
 /// `math.random` starts from the simulator's seed: Lua's own start is different in every state. From seeds that follow each other its generator

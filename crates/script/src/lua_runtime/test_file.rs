@@ -4,8 +4,8 @@ use std::ffi::c_int;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use crate::script::lua::{Bytecode, PassedFunction, Stack, Type, push_callback};
-use crate::script::test_bench::TestBench;
+use crate::lua::{Bytecode, PassedFunction, Stack, Type, push_callback};
+use crate::test_bench::TestBench;
 
 /// The module that loads test files.
 pub(super) const MODULE: &str = "busted";

@@ -6,8 +6,8 @@
 
 use std::ffi::CStr;
 
-use crate::script::lifecycle::env::Env;
-use crate::script::lua::{HOOK_INTERVAL, HookAction, Stack, Type, hasten_count_hook, set_count_hook};
+use crate::lifecycle::env::Env;
+use crate::lua::{HOOK_INTERVAL, HookAction, Stack, Type, hasten_count_hook, set_count_hook};
 
 /// Weak table from coroutine to its own pre-emption level.
 const LEVELS: &CStr = c"swanilda.levels";

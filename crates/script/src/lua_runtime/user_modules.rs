@@ -5,15 +5,15 @@ use std::rc::Rc;
 use mlua::{Lua, Table};
 
 use super::startup::load_module;
-use crate::script::lua::{LuaError, Stack, push_callback, seal_argument};
-use crate::script::sim::Sim;
+use crate::lua::{LuaError, Stack, push_callback, seal_argument};
+use crate::sim::Sim;
 
 /// Makes a module for the Lua state of one script.
 type Open = dyn Fn(&Lua) -> mlua::Result<Table>;
 
 /// A module by its name in `require`.
 #[derive(Clone)]
-pub(crate) struct UserModule {
+pub struct UserModule {
     pub name: String,
     pub open: Rc<Open>,
 }

@@ -5,19 +5,19 @@ use std::rc::Rc;
 use geometry::Finite;
 
 use super::Target;
-use crate::scene::{Data, Handle, SceneError, SceneResult};
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lifecycle::instance::Script;
-use crate::script::sim::Sim;
+use crate::error::{ApiError, ApiResult};
+use crate::lifecycle::instance::Script;
+use crate::sim::Sim;
+use scene::{Data, Handle, SceneError, SceneResult};
 
 /// The target of the property.
-pub(crate) struct Subject<'a> {
+pub struct Subject<'a> {
     pub sim: &'a Rc<Sim>,
     pub target: &'a Target,
 }
 
 /// Code of one static property; what is missing in one direction is not built or not allowed.
-pub(crate) struct Accessor {
+pub struct Accessor {
     pub name: &'static str,
     pub read: Option<fn(&Subject<'_>) -> ApiResult<Data>>,
     pub write: Option<fn(&Subject<'_>, Data) -> ApiResult<()>>,
@@ -61,17 +61,17 @@ impl Subject<'_> {
 /// Rows of properties that are read and written through `&Subject`.
 macro_rules! subject_properties {
     ($($name:literal: $ty:ty, |$s:ident| $get:expr $(, |$w:ident, $v:ident| $set:expr)?;)*) => { &[ $(
-        $crate::script::property::access::Accessor {
+        $crate::property::access::Accessor {
             name: $name,
-            read: Some(|$s| Ok(<$ty as $crate::script::property::PropertyValue>::into_data($get))),
+            read: Some(|$s| Ok(<$ty as $crate::property::PropertyValue>::into_data($get))),
             write: subject_properties!(@write $ty $(, |$w, $v| $set)?),
         },
     )* ] };
     (@write $ty:ty) => { None };
     (@write $ty:ty, |$w:ident, $v:ident| $set:expr) => {
         Some(|$w, data| {
-            let $v = <$ty as $crate::script::property::PropertyValue>::from_data(data)
-                .ok_or($crate::script::error::ApiError::PropertyType)?;
+            let $v = <$ty as $crate::property::PropertyValue>::from_data(data)
+                .ok_or($crate::error::ApiError::PropertyType)?;
             $set;
             Ok(())
         })
@@ -81,12 +81,12 @@ macro_rules! subject_properties {
 /// Rows of properties that an object holds itself: read from `&Object`, written to `&mut Object` as a change of a `Field`.
 macro_rules! object_properties {
     ($($name:literal: $ty:ty, |$o:ident| $get:expr $(, $field:ident |$w:ident, $v:ident| $set:expr)?;)*) => { &[ $(
-        $crate::script::property::access::Accessor {
+        $crate::property::access::Accessor {
             name: $name,
             read: Some(|subject| {
                 let scene = subject.sim.scene.borrow();
                 let $o = scene.object(subject.object()?)?;
-                Ok(<$ty as $crate::script::property::PropertyValue>::into_data($get))
+                Ok(<$ty as $crate::property::PropertyValue>::into_data($get))
             }),
             write: object_properties!(@write $ty $(, $field |$w, $v| $set)?),
         },
@@ -94,10 +94,10 @@ macro_rules! object_properties {
     (@write $ty:ty) => { None };
     (@write $ty:ty, $field:ident |$w:ident, $v:ident| $set:expr) => {
         Some(|subject, data| {
-            let $v = <$ty as $crate::script::property::PropertyValue>::from_data(data)
-                .ok_or($crate::script::error::ApiError::PropertyType)?;
+            let $v = <$ty as $crate::property::PropertyValue>::from_data(data)
+                .ok_or($crate::error::ApiError::PropertyType)?;
             let handle = subject.object()?;
-            subject.sim.scene.borrow_mut().try_modify(handle, $crate::scene::Field::$field, |$w| {
+            subject.sim.scene.borrow_mut().try_modify(handle, ::scene::Field::$field, |$w| {
                 $set;
                 Ok(())
             })?;
@@ -109,11 +109,11 @@ macro_rules! object_properties {
 /// Rows of properties of an object that concern more than itself: read from `&Scene` and its handle, written to `&mut Scene`.
 macro_rules! placed_properties {
     ($($name:literal: $ty:ty, |$s:ident, $h:ident| $get:expr $(, |$w:ident, $wh:ident, $v:ident| $set:expr)?;)*) => { &[ $(
-        $crate::script::property::access::Accessor {
+        $crate::property::access::Accessor {
             name: $name,
             read: Some(|subject| {
                 let ($s, $h) = (subject.sim.scene.borrow(), subject.object()?);
-                Ok(<$ty as $crate::script::property::PropertyValue>::into_data($get))
+                Ok(<$ty as $crate::property::PropertyValue>::into_data($get))
             }),
             write: placed_properties!(@write $ty $(, |$w, $wh, $v| $set)?),
         },
@@ -121,8 +121,8 @@ macro_rules! placed_properties {
     (@write $ty:ty) => { None };
     (@write $ty:ty, |$w:ident, $h:ident, $v:ident| $set:expr) => {
         Some(|subject, data| {
-            let $v = <$ty as $crate::script::property::PropertyValue>::from_data(data)
-                .ok_or($crate::script::error::ApiError::PropertyType)?;
+            let $v = <$ty as $crate::property::PropertyValue>::from_data(data)
+                .ok_or($crate::error::ApiError::PropertyType)?;
             let (mut $w, $h) = (subject.sim.scene.borrow_mut(), subject.object()?);
             $set;
             Ok(())

@@ -1,8 +1,8 @@
 //! Inert properties: stored and read back without effect.
 
 use super::{Sim, Target};
-use crate::scene::Data;
-use crate::script::error::{ApiError, ApiResult};
+use crate::error::{ApiError, ApiResult};
+use scene::Data;
 
 impl Sim {
     /// An inert value; None if it was not set.

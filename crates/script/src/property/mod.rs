@@ -7,7 +7,7 @@ mod access;
 mod inert;
 mod model_hash;
 mod stored;
-pub(crate) mod table;
+pub mod table;
 mod types;
 mod value;
 
@@ -16,8 +16,8 @@ use std::rc::Rc;
 use super::error::{ApiError, ApiResult};
 use super::lifecycle::instance::Script;
 use super::sim::Sim;
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::{Data, FIRST_MESH_UID, Handle, Namespace, Uid, ValueType, special};
+use ::scene::object::script_object::ScriptType;
+use ::scene::{Data, FIRST_MESH_UID, Handle, Namespace, Uid, ValueType, special};
 use access::{Accessor, Subject};
 use table::Source;
 use types::{
@@ -26,13 +26,13 @@ use types::{
 };
 
 pub(crate) use stored::SignalOwners;
-pub(crate) use table::{Class, Row, app_class, flags, mesh_class, object_class, scene_class, script_class};
+pub use table::{Class, Row, app_class, flags, mesh_class, object_class, scene_class, script_class};
 pub(crate) use types::app::AppData;
 pub use value::{Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2, Vector3};
 
 /// An entity with properties.
 #[derive(Clone)]
-pub(crate) enum Target {
+pub enum Target {
     App,
     Scene,
     Object(Handle),
@@ -64,7 +64,7 @@ pub(crate) type Info = (ValueType, i64);
 
 impl Sim {
     /// The target a script means by `raw`.
-    pub(crate) fn property_target(&self, raw: i64, caller: &Rc<Script>) -> ApiResult<Target> {
+    pub fn property_target(&self, raw: i64, caller: &Rc<Script>) -> ApiResult<Target> {
         let script = match raw {
             special::APP => return Ok(Target::App),
             special::SCENE => return Ok(Target::Scene),
@@ -82,7 +82,7 @@ impl Sim {
     }
 
     /// Value of a property of type `ty`.
-    pub(crate) fn read_property(self: &Rc<Self>, target: &Target, name: &str, ty: ValueType) -> ApiResult<Data> {
+    pub fn read_property(self: &Rc<Self>, target: &Target, name: &str, ty: ValueType) -> ApiResult<Data> {
         let class = self.class_of(target)?;
         match parse_name(class, target, name) {
             Name::Stored(namespace, name) => self.read_stored(target, namespace, name, ty),
@@ -92,7 +92,7 @@ impl Sim {
     }
 
     /// Value of a static property.
-    pub(crate) fn read_row(self: &Rc<Self>, target: &Target, row: &Row) -> ApiResult<Data> {
+    pub fn read_row(self: &Rc<Self>, target: &Target, row: &Row) -> ApiResult<Data> {
         if row.flags & flags::NOT_READABLE != 0 {
             return Err(ApiError::PropertyNotReadable);
         }
@@ -164,7 +164,7 @@ impl Sim {
     }
 
     /// Type and flags of a property; None if unknown. The flag for large values depends on the present value.
-    pub(crate) fn property_info(self: &Rc<Self>, target: &Target, name: &str) -> Option<Info> {
+    pub fn property_info(self: &Rc<Self>, target: &Target, name: &str) -> Option<Info> {
         let class = self.class_of(target).ok()?;
         let (ty, flags) = match parse_name(class, target, name) {
             Name::Stored(namespace, name) => self.stored_info(target, namespace, name)?,
@@ -201,7 +201,7 @@ impl Sim {
     ///
     /// # Errors
     /// When the target is gone.
-    pub(crate) fn rows_of(&self, target: &Target) -> ApiResult<(&'static [Row], &'static [Row])> {
+    pub fn rows_of(&self, target: &Target) -> ApiResult<(&'static [Row], &'static [Row])> {
         Ok(self.class_of(target)?.rows())
     }
 

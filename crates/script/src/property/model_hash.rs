@@ -4,8 +4,8 @@ use std::rc::Rc;
 
 use super::access::{Accessor, subject_properties};
 use super::{Sim, Target, flags};
-use crate::scene::{Data, Handle, Key, Kind, Namespace, Uid};
-use crate::script::error::ApiResult;
+use crate::error::ApiResult;
+use scene::{Data, Handle, Key, Kind, Namespace, Uid};
 
 pub(super) const MODEL_HASH: &[Accessor] = subject_properties! {
     "modelHash": String, |s| s.sim.model_hash(s.object()?)?;

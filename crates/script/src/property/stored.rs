@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 
 use super::table::flags;
 use super::{Info, Sim, Target};
-use crate::scene::{CustomData, Data, Edit, Handle, Holder, Namespace, ValueType};
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lifecycle::instance::Script;
+use crate::error::{ApiError, ApiResult};
+use crate::lifecycle::instance::Script;
+use scene::{CustomData, Data, Edit, Handle, Holder, Namespace, ValueType};
 
 /// The script that last wrote each signal. A signal is removed with the interpreter of that script.
 #[derive(Default)]
-pub(crate) struct SignalOwners(BTreeMap<Holder, BTreeMap<String, i64>>);
+pub struct SignalOwners(BTreeMap<Holder, BTreeMap<String, i64>>);
 
 impl SignalOwners {
     fn set(&mut self, holder: Holder, name: &str, script: i64) {
@@ -176,7 +176,7 @@ impl Sim {
     }
 
     /// Names of custom data, then of signals, then of named parameters.
-    pub(crate) fn stored_names(&self, target: &Target) -> Vec<String> {
+    pub fn stored_names(&self, target: &Target) -> Vec<String> {
         let Some(holder) = target.holder() else { return Vec::new() };
         let mut names = Vec::new();
         for (namespace, prefix) in [(Namespace::CustomData, "customData"), (Namespace::Signal, "signal")] {

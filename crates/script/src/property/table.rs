@@ -10,8 +10,8 @@ use super::{
     app, colour, display, dummy, engine, force_sensor, joint, mesh, model_hash, object, proximity_sensor, scene,
     script, shape, view,
 };
-use crate::scene::parameters::engine::{EngineOwner, EngineParam, engine_params};
-use crate::scene::{Data, Kind, ValueType};
+use ::scene::parameters::engine::{EngineOwner, EngineParam, engine_params};
+use ::scene::{Data, Kind, ValueType};
 
 /// `part<TAB>name<TAB>type<TAB>flags<TAB>state<TAB>default`, in the order of enumeration within a part.
 ///
@@ -22,7 +22,7 @@ use crate::scene::{Data, Kind, ValueType};
 const STATIC: &str = include_str!("static.tsv");
 
 /// Bits of the flags of a property.
-pub(crate) mod flags {
+pub mod flags {
     pub const NOT_WRITABLE: i64 = 1;
     pub const NOT_READABLE: i64 = 2;
     pub const REMOVABLE: i64 = 4;
@@ -33,7 +33,7 @@ pub(crate) mod flags {
 
 /// One static property of one class.
 #[derive(Clone)]
-pub(crate) struct Row {
+pub struct Row {
     pub name: &'static str,
     pub ty: ValueType,
     pub flags: i64,
@@ -44,7 +44,7 @@ pub(crate) struct Row {
 
 /// The source of the value of a property.
 #[derive(Clone)]
-pub(crate) enum Source {
+pub enum Source {
     Works(&'static Accessor),
     /// Stored as scripts set it, without effect; the default until then.
     Inert(Data),
@@ -54,7 +54,7 @@ pub(crate) enum Source {
 }
 
 /// Targets that have the same static properties.
-pub(crate) struct Class {
+pub struct Class {
     /// The class name, which may prefix a property name.
     pub word: &'static str,
     /// Words that may precede it.
@@ -164,26 +164,26 @@ const CLASSES: [ClassSpec; 17] = [
     ("mesh", "app.scene.mesh", &["scene"], &["colour", "mesh"], &[]),
 ];
 
-pub(crate) fn app_class() -> &'static Class {
+pub fn app_class() -> &'static Class {
     class(ClassId::App)
 }
 
-pub(crate) fn scene_class() -> &'static Class {
+pub fn scene_class() -> &'static Class {
     class(ClassId::Scene)
 }
 
 /// The class of scripts that are no objects.
-pub(crate) fn script_class() -> &'static Class {
+pub fn script_class() -> &'static Class {
     class(ClassId::Script)
 }
 
 /// The class of the meshes of shapes.
-pub(crate) fn mesh_class() -> &'static Class {
+pub fn mesh_class() -> &'static Class {
     class(ClassId::Mesh)
 }
 
 /// The class of objects of that kind.
-pub(crate) fn object_class(kind: &Kind) -> &'static Class {
+pub fn object_class(kind: &Kind) -> &'static Class {
     class(match kind {
         Kind::Shape(_) => ClassId::Shape,
         Kind::Joint(_) => ClassId::Joint,
@@ -250,7 +250,7 @@ fn parts() -> Parts {
 }
 
 /// A line of `static.tsv`.
-pub(crate) struct Line {
+pub struct Line {
     pub part: &'static str,
     pub name: &'static str,
     pub ty: ValueType,
@@ -272,7 +272,7 @@ fn lines() -> impl Iterator<Item = Line> {
 }
 
 /// Every static property for the reference, those of physics engines after the others.
-pub(crate) fn described() -> Vec<Line> {
+pub fn described() -> Vec<Line> {
     let engine_line = |part: &'static str, param: &'static EngineParam| Line {
         part,
         name: param.name,

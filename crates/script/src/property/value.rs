@@ -2,12 +2,12 @@
 
 use arrayvec::ArrayString;
 
-use crate::scene::{Data, Key, ValueType};
-use crate::script::binding::args::{Args, Bytes, FromScript, Table};
-use crate::script::binding::returns::IntoScript;
-use crate::script::binding::sink::Sink;
-use crate::script::binding::source::Source;
-use crate::script::error::{ApiError, ApiResult};
+use crate::binding::args::{Args, Bytes, FromScript, Table};
+use crate::binding::returns::IntoScript;
+use crate::binding::sink::Sink;
+use crate::binding::source::Source;
+use crate::error::{ApiError, ApiResult};
+use scene::{Data, Key, ValueType};
 
 /// A Rust type that properties have.
 pub trait PropertyValue: Sized {

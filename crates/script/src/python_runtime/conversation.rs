@@ -5,16 +5,16 @@ use std::time::Duration;
 
 use super::link::Link;
 use super::message::{self, Message};
-use crate::scene::Data;
-use crate::script::binding::args::Args;
-use crate::script::binding::registry::{Bound, Member};
-use crate::script::binding::source::Values;
-use crate::script::calls::callback::SysCall;
-use crate::script::error::ApiError;
-use crate::script::lifecycle::env::Env;
-use crate::script::lifecycle::level::Level;
-use crate::script::runtime::ScriptError;
-use crate::wire::marshal::Declared;
+use crate::binding::args::Args;
+use crate::binding::registry::{Bound, Member};
+use crate::binding::source::Values;
+use crate::calls::callback::SysCall;
+use crate::error::ApiError;
+use crate::lifecycle::env::Env;
+use crate::lifecycle::level::Level;
+use crate::runtime::ScriptError;
+use scene::Data;
+use wire::marshal::Declared;
 
 /// The module of the library that calls what is written in Lua.
 pub(super) const LIBRARY: &str = "swanilda.python";

@@ -8,8 +8,8 @@ use std::time::Duration;
 
 use super::conversation::Conversation;
 use super::message::Message;
-use crate::script::binding::registry::Member;
-use crate::script::lifecycle::env::Env;
+use crate::binding::registry::Member;
+use crate::lifecycle::env::Env;
 
 /// The Python of the program that the simulator is a part of.
 pub trait PythonHost {
@@ -83,7 +83,7 @@ impl ScriptCalls {
 }
 
 /// Whether a function returns at once: it reads or sets values, and runs no script.
-pub(crate) fn is_short(name: &str, member: &Member) -> bool {
+pub fn is_short(name: &str, member: &Member) -> bool {
     const SHORT: &[&str] = &["get", "set", "is", "has", "pack", "unpack", "read", "write"];
     let name = name.strip_prefix("sim.").filter(|_| matches!(member, Member::Native(_)));
     name.is_some_and(|name| SHORT.iter().any(|verb| name.starts_with(verb)))

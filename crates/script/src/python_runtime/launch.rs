@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use super::embedding::{EmbeddedScript, PythonHost, ScriptCalls};
-use crate::io::PeerProcess;
-use crate::permissions::Denied;
-use crate::scene::Data;
-use crate::script::lifecycle::env::Env;
-use crate::script::lifecycle::instance::Script;
-use crate::script::sim::Sim;
-use crate::wire::marshal::Encoder;
+use crate::lifecycle::env::Env;
+use crate::lifecycle::instance::Script;
+use crate::sim::Sim;
+use io::PeerProcess;
+use permissions::Denied;
+use scene::Data;
+use wire::marshal::Encoder;
 
 /// The first code of a process.
 const GUARDIAN: &str = include_str!("child/guardian.py");

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::scene::{Data, Key};
-use crate::script::coverage::{CountedText, Function, LineCounts};
-use crate::script::sim::Sim;
+use crate::coverage::{CountedText, Function, LineCounts};
+use crate::sim::Sim;
+use scene::{Data, Key};
 
 /// The script's own text in reports.
 pub(super) struct Own {

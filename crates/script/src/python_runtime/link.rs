@@ -8,15 +8,15 @@ use std::time::Duration;
 
 use super::embedding::EmbeddedScript;
 use super::message::Message;
-use crate::io::{PeerError, PeerProcess};
-use crate::scene::Data;
-use crate::script::calls::callback::SysCall;
-use crate::script::error::ApiError;
-use crate::script::lifecycle::env::Env;
-use crate::script::log::console::Stream;
-use crate::script::log::verbosity;
-use crate::script::runtime::ScriptError;
-use crate::script::step::wall_clock;
+use crate::calls::callback::SysCall;
+use crate::error::ApiError;
+use crate::lifecycle::env::Env;
+use crate::log::console::Stream;
+use crate::log::verbosity;
+use crate::runtime::ScriptError;
+use crate::step::wall_clock;
+use io::{PeerError, PeerProcess};
+use scene::Data;
 
 /// How often a wait looks whether the program is to end.
 const TICK: Duration = Duration::from_millis(20);

@@ -1,7 +1,7 @@
 //! Messages between the simulator and the process of a script.
 
-use crate::scene::Data;
-use crate::wire::marshal::{Declared, Encoder, MarshalError, decode};
+use scene::Data;
+use wire::marshal::{Declared, Encoder, MarshalError, decode};
 
 /// What the process says.
 #[derive(Debug, PartialEq)]

@@ -27,14 +27,14 @@ use super::runtime::{
     CallError, CallbackResult, Callee, FunctionRef, Interpreter, Language, Runtime, ScriptError, SourceText,
 };
 use super::sim::Sim;
-use crate::permissions::read_bounded;
-use crate::scene::Data;
 use conversation::{Conversation, LIBRARY};
-pub(crate) use embedding::is_short;
+pub use embedding::is_short;
 pub use embedding::{EmbeddedScript, PythonHost, ScriptCalls};
 use launch::LaunchError;
 use line_counts::Own;
 use link::{Link, Peer};
+use permissions::read_bounded;
+use scene::Data;
 
 /// Seconds in which a script has to be loaded.
 const INIT_LIMIT: f64 = 10.0;
@@ -48,26 +48,26 @@ const SETTINGS: &[u8] =
     b"pythonExecutable, initTimeout, additionalPaths, additionalIncludePaths, contactCallback, dynCallback, eventCallback, pythonFile";
 
 /// The language Python.
-pub(crate) struct PythonLanguage {
+pub struct PythonLanguage {
     lua: LuaLanguage,
     host: Option<Rc<dyn PythonHost>>,
 }
 
 impl PythonLanguage {
     /// With the Lua that its library functions are written in, and the Python of the program, if it has one.
-    pub(crate) fn new(lua: LuaLanguage, host: Option<Rc<dyn PythonHost>>) -> Self {
+    pub fn new(lua: LuaLanguage, host: Option<Rc<dyn PythonHost>>) -> Self {
         Self { lua, host }
     }
 }
 
 /// The Lua lines at the head of a Python text, and what is left of it, with the same lines.
-pub(crate) fn python_parts(text: &[u8]) -> (Vec<u8>, Vec<u8>) {
+pub fn python_parts(text: &[u8]) -> (Vec<u8>, Vec<u8>) {
     let parts = source::split(text);
     (parts.lua, parts.python)
 }
 
 /// The Python that a script in this folder gets where nothing else is said.
-pub(crate) fn python_interpreter(folder: Option<&Path>) -> String {
+pub fn python_interpreter(folder: Option<&Path>) -> String {
     launch::default_interpreter(&folder.map(Path::to_owned).into_iter().collect::<Vec<_>>())
 }
 

@@ -10,12 +10,12 @@ use std::time::Duration;
 
 use super::conversation::{ApiResults, Conversation, answer};
 use super::message::{self, Message};
-use crate::scene::Data;
-use crate::script::binding::data;
-use crate::script::calls::callback::SysCall;
-use crate::script::lua::{Stack, push_callback};
-use crate::script::lua_runtime::threads;
-use crate::script::runtime::ScriptError;
+use crate::binding::data;
+use crate::calls::callback::SysCall;
+use crate::lua::{Stack, push_callback};
+use crate::lua_runtime::threads;
+use crate::runtime::ScriptError;
+use scene::Data;
 
 /// A thread that calls nothing for so long runs beside the simulator.
 const PATIENCE: Duration = Duration::from_millis(50);

@@ -1,8 +1,8 @@
 //! Handling of the collision and distance objects of old scenes: what is found is stored (spec: sensors 2.1).
 
-use crate::perception::entity::Entity;
-use crate::scene::{Handle, Scene, SceneError, SceneResult};
-use crate::script::sim::Sim;
+use crate::sim::Sim;
+use perception::entity::Entity;
+use scene::{Handle, Scene, SceneError, SceneResult};
 
 impl Sim {
     /// Handles one collision object, which must be tagged for that; returns what collides.

@@ -31,7 +31,7 @@ impl SimulationState {
 }
 
 /// Time, state and pending requests. Readable by all; only the host changes it.
-pub(crate) struct Clock {
+pub struct Clock {
     state: Cell<SimulationState>,
     /// Seconds since the start, by repeated addition of the step.
     time: Cell<f64>,
@@ -71,103 +71,103 @@ impl Clock {
         }
     }
 
-    pub(crate) fn state(&self) -> SimulationState {
+    pub fn state(&self) -> SimulationState {
         self.state.get()
     }
 
-    pub(crate) fn is_stopped(&self) -> bool {
+    pub fn is_stopped(&self) -> bool {
         self.state.get() == SimulationState::Stopped
     }
 
     /// Simulated seconds since the start.
-    pub(crate) fn time(&self) -> f64 {
+    pub fn time(&self) -> f64 {
         self.time.get()
     }
 
     /// Simulation steps since the start.
-    pub(crate) fn steps(&self) -> u64 {
+    pub fn steps(&self) -> u64 {
         self.steps.get()
     }
 
     /// Seconds since this simulator was made, by the wall clock.
-    pub(crate) fn wall_seconds(&self) -> f64 {
+    pub fn wall_seconds(&self) -> f64 {
         self.created.elapsed().as_secs_f64()
     }
 
-    pub(crate) fn stop_is_requested(&self) -> bool {
+    pub fn stop_is_requested(&self) -> bool {
         self.stop_requested.get()
     }
 
-    pub(crate) fn quit_is_requested(&self) -> bool {
+    pub fn quit_is_requested(&self) -> bool {
         self.quit_requested.get()
     }
 
     /// Whether a client of the legacy remote API must allow the next step.
-    pub(crate) fn is_waiting_for_trigger(&self) -> bool {
+    pub fn is_waiting_for_trigger(&self) -> bool {
         self.waiting_for_trigger.get()
     }
 
     /// Only for the legacy remote API, which decides about that.
-    pub(crate) fn set_waiting_for_trigger(&self, on: bool) {
+    pub fn set_waiting_for_trigger(&self, on: bool) {
         self.waiting_for_trigger.set(on);
     }
 
-    pub(in crate::script) fn set_state(&self, state: SimulationState) {
+    pub(crate) fn set_state(&self, state: SimulationState) {
         self.state.set(state);
     }
 
-    pub(in crate::script) fn set_quit_requested(&self, on: bool) {
+    pub(crate) fn set_quit_requested(&self, on: bool) {
         self.quit_requested.set(on);
     }
 
     /// A stop beats a pause that was requested before.
-    pub(in crate::script) fn request_stop(&self) {
+    pub(crate) fn request_stop(&self) {
         self.stop_requested.set(true);
         self.pause_requested.set(false);
     }
 
     /// The run goes on where only one step was missing to a pause.
-    pub(in crate::script) fn cancel_begun_pause(&self) {
+    pub(crate) fn cancel_begun_pause(&self) {
         if self.state() == SimulationState::LastBeforePause {
             self.state.set(SimulationState::Running);
         }
     }
 
     /// Refused when not running or when a stop is requested.
-    pub(in crate::script) fn request_pause(&self) {
+    pub(crate) fn request_pause(&self) {
         if self.state().is_advancing() && !self.stop_requested.get() {
             self.pause_requested.set(true);
         }
     }
 
     /// Requests the pause at a set time, once per run.
-    pub(in crate::script) fn request_pause_at_time(&self) {
+    pub(crate) fn request_pause_at_time(&self) {
         if !self.paused_at_time.replace(true) {
             self.request_pause();
         }
     }
 
     /// The run pauses after that many more steps, without the last steps of a pause that a script asks for.
-    pub(in crate::script) fn pause_after(&self, steps: u64) {
+    pub(crate) fn pause_after(&self, steps: u64) {
         self.pause_at_step.set(Some(self.steps().saturating_add(steps)));
     }
 
     /// The run goes on where it would have paused.
-    pub(in crate::script) fn cancel_pause_after(&self) {
+    pub(crate) fn cancel_pause_after(&self) {
         self.pause_at_step.set(None);
     }
 
     /// Marks the beginning of the start procedure; false when it is in progress already.
-    pub(in crate::script) fn begin_start(&self) -> bool {
+    pub(crate) fn begin_start(&self) -> bool {
         !self.starting.replace(true)
     }
 
-    pub(in crate::script) fn end_start(&self) {
+    pub(crate) fn end_start(&self) {
         self.starting.set(false);
     }
 
     /// Back to time zero, for a start.
-    pub(in crate::script) fn reset(&self) {
+    pub(crate) fn reset(&self) {
         self.time.set(0.0);
         self.steps.set(0);
         self.stop_requested.set(false);
@@ -178,26 +178,26 @@ impl Clock {
     }
 
     /// One simulation step of `dt` seconds is over.
-    pub(in crate::script) fn advance(&self, dt: f64) {
+    pub(crate) fn advance(&self, dt: f64) {
         self.time.set(self.time.get() + dt);
         self.steps.set(self.steps.get() + 1);
     }
 
     /// Real time continues from `wall` scaled seconds, ignoring the time while stopped or paused.
-    pub(in crate::script) fn restart_real_time(&self, wall: f64) {
+    pub(crate) fn restart_real_time(&self, wall: f64) {
         self.real_time_origin.set(wall - self.time.get());
     }
 
     /// Whether the next step of `dt` seconds is due in real time, `wall` scaled seconds after the simulator was made. Being late is
     /// forgiven except for one step.
-    pub(in crate::script) fn is_due(&self, wall: f64, dt: f64) -> bool {
+    pub(crate) fn is_due(&self, wall: f64, dt: f64) -> bool {
         let latest_origin = wall - self.time.get() - 2.0 * dt;
         self.real_time_origin.set(self.real_time_origin.get().max(latest_origin));
         self.time.get() + dt < wall - self.real_time_origin.get()
     }
 
     /// The state after a step (spec: simulation 2). `LastBeforeStop` stays: the caller runs the end procedure. A stop beats a pause.
-    pub(in crate::script) fn state_after_step(&self) -> SimulationState {
+    pub(crate) fn state_after_step(&self) -> SimulationState {
         use SimulationState as S;
         let is_stopping = self.state().is_stopping() || self.stop_requested.get();
         if !is_stopping && self.pause_at_step.get().is_some_and(|at| self.steps() >= at) {

@@ -2,11 +2,11 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::ContactResponse;
-use crate::scene::parameters::engine::Engine;
-use crate::scene::{Data, Handle};
-use crate::script::lifecycle::contacts::{CONTACT, SoleResponder};
-use crate::script::sim::Sim;
+use crate::lifecycle::contacts::{CONTACT, SoleResponder};
+use crate::sim::Sim;
+use dynamics::ContactResponse;
+use scene::parameters::engine::Engine;
+use scene::{Data, Handle};
 
 /// The fields of the table that scripts get.
 const FIELDS: [&str; 3] = ["handle1", "handle2", "engine"];

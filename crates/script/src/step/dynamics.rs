@@ -3,14 +3,14 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::{Attention, Call, Dynamics, JointRequest, Trigger, Verdicts};
-use crate::scene::joint::Joint;
-use crate::scene::{Data, Handle, Scene};
-use crate::script::calls::callback::SysCall;
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lifecycle::contacts::CONTACT;
-use crate::script::log::verbosity;
-use crate::script::sim::Sim;
+use crate::calls::callback::SysCall;
+use crate::error::{ApiError, ApiResult};
+use crate::lifecycle::contacts::CONTACT;
+use crate::log::verbosity;
+use crate::sim::Sim;
+use dynamics::{Attention, Call, Dynamics, JointRequest, Trigger, Verdicts};
+use scene::joint::Joint;
+use scene::{Data, Handle, Scene};
 
 /// The callbacks before and after a sub-step: the old name first.
 const DYN: [SysCall; 2] = [SysCall::DynCallback, SysCall::Dyn];

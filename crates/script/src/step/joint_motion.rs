@@ -5,11 +5,11 @@ use std::rc::Rc;
 
 use motion::ruckig_plan::{position_step, velocity_step};
 
-use crate::scene::joint::motion::JointStep;
-use crate::scene::joint::{Joint, Motion};
-use crate::scene::{Data, Handle, Key, SceneResult};
-use crate::script::calls::callback::SysCall;
-use crate::script::sim::Sim;
+use crate::calls::callback::SysCall;
+use crate::sim::Sim;
+use scene::joint::motion::JointStep;
+use scene::joint::{Joint, Motion};
+use scene::{Data, Handle, Key, SceneResult};
 
 impl Sim {
     /// One step of every joint that is on its way to a target.

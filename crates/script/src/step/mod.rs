@@ -1,13 +1,13 @@
 //! The application's loop: idle iterations, simulation steps, start, pause and stop (spec: callbacks 2, spec: simulation).
 
 mod calculation_objects;
-pub(in crate::script) mod clock;
+pub(crate) mod clock;
 mod contacts;
-pub(in crate::script) mod dynamics;
-pub(in crate::script) mod joint_motion;
+pub(crate) mod dynamics;
+pub(crate) mod joint_motion;
 mod proximity;
-pub(in crate::script) mod waiting;
-pub(crate) mod wall_clock;
+pub(crate) mod waiting;
+pub mod wall_clock;
 
 use std::rc::Rc;
 
@@ -16,14 +16,14 @@ use super::lifecycle::instance::{Script, state};
 use super::lifecycle::order::Group;
 use super::log::{status, verbosity};
 use super::sim::Sim;
-use crate::plugin::Moment;
-use crate::scene::Data;
-use crate::scene::object::script_object::ScriptType;
 use clock::SimulationState;
+use plugin_host::Moment;
+use scene::Data;
+use scene::object::script_object::ScriptType;
 
 impl Sim {
     /// One iteration of the application's loop: idle, paused or advancing.
-    pub(crate) fn loop_iteration(self: &Rc<Self>) {
+    pub fn loop_iteration(self: &Rc<Self>) {
         self.notify_plugins_of_pass();
         self.run_hooks(|hooks| hooks.start_of_iteration);
         if !self.clock.state().is_advancing() {
@@ -140,7 +140,7 @@ impl Sim {
     }
 
     /// Starts a stopped simulation or resumes a paused one; otherwise nothing.
-    pub(crate) fn start(self: &Rc<Self>) {
+    pub fn start(self: &Rc<Self>) {
         match self.clock.state() {
             SimulationState::Stopped if self.clock.begin_start() => {
                 self.begin();
@@ -196,24 +196,24 @@ impl Sim {
     }
 
     /// Asks for a pause; refused when not running or when a stop is pending.
-    pub(crate) fn pause(&self) {
+    pub fn pause(&self) {
         self.clock.request_pause();
     }
 
     /// Starts or resumes the simulation for that many steps, and pauses it.
-    pub(crate) fn step_and_pause(self: &Rc<Self>, steps: u64) {
+    pub fn step_and_pause(self: &Rc<Self>, steps: u64) {
         self.start();
         self.clock.pause_after(steps);
     }
 
     /// Starts or resumes the simulation for as long as it lasts.
-    pub(crate) fn play(self: &Rc<Self>) {
+    pub fn play(self: &Rc<Self>) {
         self.clock.cancel_pause_after();
         self.start();
     }
 
     /// Runs so many times as fast as the wall clock from now on; as fast as possible if that is 0.
-    pub(crate) fn set_pace(&self, factor: f64) {
+    pub fn set_pace(&self, factor: f64) {
         self.scene.borrow_mut().modify_settings(|settings| {
             settings.real_time = factor > 0.0;
             if settings.real_time {
@@ -236,13 +236,13 @@ impl Sim {
 
     /// Asks for the end of the run as a person does, who does not see that a pause has begun: a script's request would wait until the
     /// simulation resumes (spec: simulation 2).
-    pub(crate) fn stop_in_place_of_pause(self: &Rc<Self>) {
+    pub fn stop_in_place_of_pause(self: &Rc<Self>) {
         self.clock.cancel_begun_pause();
         self.stop();
     }
 
     /// Asks for the end of the run; a paused one resumes for its last steps.
-    pub(crate) fn stop(self: &Rc<Self>) {
+    pub fn stop(self: &Rc<Self>) {
         match self.clock.state() {
             SimulationState::Stopped => {}
             SimulationState::Paused => {

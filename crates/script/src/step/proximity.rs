@@ -2,12 +2,12 @@
 
 use std::rc::Rc;
 
-use crate::perception::detection::{Detected, Mode};
-use crate::perception::entity::{Entity, Group, Purpose};
-use crate::scene::sensor::Detection;
-use crate::scene::{Data, Field, Handle, Object, Scene, SceneError, SceneResult};
-use crate::script::calls::callback::SysCall;
-use crate::script::sim::Sim;
+use crate::calls::callback::SysCall;
+use crate::sim::Sim;
+use perception::detection::{Detected, Mode};
+use perception::entity::{Entity, Group, Purpose};
+use scene::sensor::Detection;
+use scene::{Data, Field, Handle, Object, Scene, SceneError, SceneResult};
 
 impl Sim {
     /// Handles one sensor, which must be tagged for that.
@@ -79,7 +79,7 @@ impl Sim {
             return Ok(None);
         }
         let group = match data.entity {
-            crate::scene::sensor::Entity::ALL => Entity::All.group(&scene, Purpose::Detection),
+            scene::sensor::Entity::ALL => Entity::All.group(&scene, Purpose::Detection),
             entity => match Entity::named(&scene, entity.raw()) {
                 Ok(entity) => with_flag(entity.group(&scene, Purpose::Detection), entity, &scene),
                 Err(_) => return Ok(None),

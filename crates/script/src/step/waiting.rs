@@ -4,8 +4,8 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use super::wall_clock;
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::sim::Sim;
+use crate::error::{ApiError, ApiResult};
+use crate::sim::Sim;
 
 /// The first pause between two looks; each is twice as long as the one before.
 const FIRST_PAUSE: Duration = Duration::from_micros(50);
@@ -50,7 +50,7 @@ mod tests {
     use std::sync::atomic::Ordering;
     use std::time::Duration;
 
-    use crate::script::{ApiError, Languages, Options, Registry, Silent, Sim};
+    use crate::{ApiError, Languages, Options, Registry, Silent, Sim};
 
     /// Runs with a simulator of its own.
     fn with_sim<R>(options: Options, test: impl FnOnce(&Sim) -> R) -> R {

@@ -2,7 +2,7 @@
 
 /// Now.
 #[allow(clippy::disallowed_methods, reason = "reading the wall clock is this function's job")]
-pub(crate) fn now() -> std::time::Instant {
+pub fn now() -> std::time::Instant {
     std::time::Instant::now()
 }
 
@@ -12,12 +12,12 @@ pub(crate) fn unix_milliseconds() -> i64 {
 }
 
 /// Unix time, seconds.
-pub(crate) fn unix_seconds() -> f64 {
+pub fn unix_seconds() -> f64 {
     unix_time().as_secs_f64()
 }
 
 /// Now, in the format of logs: `2026-01-31 12:00:00`, UTC.
-pub(crate) fn utc_date_and_time() -> String {
+pub fn utc_date_and_time() -> String {
     date_and_time(unix_time().as_secs())
 }
 

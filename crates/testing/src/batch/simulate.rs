@@ -8,11 +8,11 @@ use std::sync::atomic::AtomicBool;
 use super::super::Config;
 use super::super::apart;
 use super::super::case::{Outcome, Status, TestCase};
-use crate::format::scene_input::SceneInput;
-use crate::permissions::Permissions;
-use crate::scene::object::script_object::ScriptType;
-use crate::script::test_bench::{RunReport, RunRequest};
-use crate::{Limits, Options};
+use format::scene_input::SceneInput;
+use permissions::Permissions;
+use scene::object::script_object::ScriptType;
+use script::test_bench::{RunReport, RunRequest};
+use simulator::{Limits, Options};
 
 /// Named parameters that begin so are results.
 const RESULT: &str = "result.";

@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value, json};
 
 use super::{Batch, Row, Run};
-use crate::format::scene_input::SceneInput;
-use crate::permissions::Permissions;
+use format::scene_input::SceneInput;
+use permissions::Permissions;
 
 /// Why a folder is of no use.
 #[derive(Debug, thiserror::Error)]

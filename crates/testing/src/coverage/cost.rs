@@ -3,8 +3,8 @@
 
 use std::time::{Duration, Instant};
 
-use crate::scene::Data;
-use crate::{Limits, Options, ScriptKind, Simulator};
+use scene::Data;
+use simulator::{Limits, Options, ScriptKind, Simulator};
 
 /// A loop of short lines.
 const SCRIPT: &[u8] = b"function loop(n)\n local sum = 0\n for i = 1, n do\n  if i < 0 then\n   sum = 0\n  end\n  sum = sum + i\n end\nend";

@@ -45,7 +45,7 @@ fn write_functions(text: &mut String, record: &Record) -> std::fmt::Result {
 /// LCOV knows functions by their names, so each must have one of its own.
 fn names(record: &Record) -> Vec<String> {
     let mut known = HashSet::new();
-    let name = |function: &crate::script::coverage::Function| {
+    let name = |function: &script::coverage::Function| {
         let name = function.name.clone().unwrap_or_else(|| format!("anonymous@{}", function.line));
         if known.insert(name.clone()) { name } else { format!("{name}@{}", function.line) }
     };
@@ -56,7 +56,7 @@ fn names(record: &Record) -> Vec<String> {
 mod tests {
     use super::super::Record;
     use super::text;
-    use crate::script::executable;
+    use script::executable;
 
     #[test]
     fn the_format_is_that_of_lcov() {

@@ -14,9 +14,9 @@ use std::path::{Path, PathBuf};
 
 pub use record::Record;
 
-use crate::script::coverage::{CountedText, Function, LineCounts};
-use crate::script::executable;
 use place::Places;
+use script::coverage::{CountedText, Function, LineCounts};
+use script::executable;
 
 /// The coverage of all texts.
 #[derive(Debug, Default)]

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
-use crate::format::script_file::language;
-use crate::script::coverage::{CountedText, read_text};
+use format::script_file::language;
+use script::coverage::{CountedText, read_text};
 
 /// The folder beside the report with copies of scripts that have no file.
 const COPIES: &str = "coverage";
@@ -101,7 +101,7 @@ mod tests {
     use std::path::{Path, PathBuf};
 
     use super::{Places, below, file_name};
-    use crate::script::coverage::CountedText;
+    use script::coverage::CountedText;
 
     fn script(scene: &str, path: &str, text: &str) -> CountedText {
         CountedText::Script { scene: scene.into(), path: path.into(), text: text.as_bytes().into() }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::script::coverage::Function;
+use script::coverage::Function;
 
 /// A number of a line.
 pub type Line = u32;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::script::test_bench::{Tolerances, Trace};
+use script::test_bench::{Tolerances, Trace};
 
 /// The difference between two traces.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use std::io::{self, Write as _};
 use std::path::Path;
 
-use crate::permissions::read_bounded;
-use crate::script::test_bench::Trace;
+use permissions::read_bounded;
+use script::test_bench::Trace;
 
 const FIRST_LINE: &str = "# swanilda golden 1";
 /// A larger file is none of ours.

@@ -17,7 +17,7 @@ pub use compare::{Difference, Divergence};
 pub use snapshot::{ImageDifference, RecordedImage};
 
 use super::case::{Outcome, Status, TestCase};
-use crate::script::test_bench::{Golden, GoldenContent, Snapshot, Tolerances, Trace};
+use script::test_bench::{Golden, GoldenContent, Snapshot, Tolerances, Trace};
 
 const WRONG_NAME: &str = "a name is made of letters, digits, '_', '-' and blanks.";
 const IF_RIGHT: &str = "If that is right, record it with --update-golden.";

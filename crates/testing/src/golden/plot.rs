@@ -7,9 +7,9 @@ use plotters::prelude::*;
 
 use super::compare::Difference;
 use super::{Comparison, ComparisonResult, Recordings};
-use crate::format::picture::{Layout, Picture};
-use crate::format::plot::{drawable, label, load_font, range, thinned};
-use crate::script::test_bench::Trace;
+use format::picture::{Layout, Picture};
+use format::plot::{drawable, label, load_font, range, thinned};
+use script::test_bench::Trace;
 
 /// Pixels.
 const WIDTH: u32 = 900;

@@ -4,10 +4,10 @@ use std::fmt;
 use std::io;
 use std::path::Path;
 
-use crate::format::picture::{Layout, Picture};
-use crate::format::scene_file::write_whole;
-use crate::permissions::read_bounded;
-use crate::script::test_bench::Snapshot;
+use format::picture::{Layout, Picture};
+use format::scene_file::write_whole;
+use permissions::read_bounded;
+use script::test_bench::Snapshot;
 
 /// A larger file is none of ours.
 const MAX_SIZE: u64 = 64 << 20;

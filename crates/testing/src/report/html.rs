@@ -9,8 +9,8 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD as BASE64;
 
 use super::parts;
-use crate::script::test_bench::ConsoleLine;
-use crate::testing::{Comparison, Excerpt, Outcome, Recordings, Status, Summary};
+use crate::{Comparison, Excerpt, Outcome, Recordings, Status, Summary};
+use script::test_bench::ConsoleLine;
 
 const STYLE: &str = include_str!("html/page.css");
 const SCRIPT: &str = include_str!("html/page.js");

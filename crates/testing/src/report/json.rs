@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 
 use super::parts;
-use crate::script::test_bench::ConsoleLine;
-use crate::testing::{Excerpt, Outcome, Status, Summary, TestCase};
+use crate::{Excerpt, Outcome, Status, Summary, TestCase};
+use script::test_bench::ConsoleLine;
 
 /// The first line: how many tests will run.
 pub fn begin(tests: &[impl AsRef<TestCase>]) -> String {
@@ -19,7 +19,7 @@ pub fn test(outcome: &Outcome) -> String {
     line(&test_value(outcome))
 }
 
-pub(in crate::testing) fn test_value(outcome: &Outcome) -> Value {
+pub(crate) fn test_value(outcome: &Outcome) -> Value {
     let test = &outcome.test;
     json!({
         "type": "test",

@@ -7,7 +7,7 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
 
 use super::parts;
-use crate::testing::{Outcome, Status, Summary};
+use crate::{Outcome, Status, Summary};
 
 type Xml = Writer<Vec<u8>>;
 

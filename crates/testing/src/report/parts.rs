@@ -1,7 +1,7 @@
 //! Shared parts of reports.
 
-use crate::script::test_bench::ConsoleLine;
-use crate::testing::{Outcome, Status, Summary};
+use crate::{Outcome, Status, Summary};
+use script::test_bench::ConsoleLine;
 
 /// Parts of a summary in the order of the files: the outcomes of each file.
 pub fn files(summary: &Summary) -> impl Iterator<Item = &[Outcome]> {
@@ -65,8 +65,8 @@ pub(super) mod sample {
     use std::sync::Arc;
     use std::time::Duration;
 
-    use crate::script::test_bench::ConsoleLine;
-    use crate::testing::{Excerpt, Outcome, Status, Summary, TestCase};
+    use crate::{Excerpt, Outcome, Status, Summary, TestCase};
+    use script::test_bench::ConsoleLine;
 
     pub const HOSTILE: &str = "<script>alert('x')</script> ]]> & \"q\" \u{0}\u{1b}[31m\u{fffe} # -->";
 

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::parts;
-use crate::testing::{Outcome, Status, Summary};
+use crate::{Outcome, Status, Summary};
 
 /// The first lines, with the plan.
 pub fn begin(count: usize) -> String {

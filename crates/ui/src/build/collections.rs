@@ -7,7 +7,7 @@ use super::super::widgets::{
 };
 use super::super::xml::Element;
 use super::attributes::{Attributes, Result, bool_of};
-use crate::scene::Data;
+use scene::Data;
 
 /// The colours of a plot that its text may set: those of both axes, and of one.
 const COLORS: [&str; 14] = [

@@ -6,7 +6,7 @@ use super::super::input::{Input, InputValue, Modifiers, Mouse};
 
 /// What a page asks for.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::ui) enum Action {
+pub(crate) enum Action {
     /// With a widget of a window.
     Widget {
         window: String,
@@ -37,7 +37,7 @@ pub(in crate::ui) enum Action {
 ///
 /// # Errors
 /// What is wrong with it, for the author of a page.
-pub(in crate::ui) fn action(json: &Value) -> Result<Action, String> {
+pub(crate) fn action(json: &Value) -> Result<Action, String> {
     let fields = Fields(json);
     let kind = fields.text("type")?;
     if kind == "banner" {

@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 use super::super::widgets::{Curve, Image, Kind, Plot, Scene3d, Table, Tree};
 use super::super::window::Window;
 use super::base64;
-use crate::scene::Data;
+use scene::Data;
 
 /// Columns whose headers a page gets.
 const MAX_HEADERS: i64 = 1000;

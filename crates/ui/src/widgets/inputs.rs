@@ -2,7 +2,7 @@
 
 /// A push button.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Button {
+pub struct Button {
     pub text: String,
     /// It stays down.
     pub checkable: bool,
@@ -15,7 +15,7 @@ pub(crate) struct Button {
 
 /// A box with a tick.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Checkbox {
+pub struct Checkbox {
     pub text: String,
     /// 0, 1 for partially, 2.
     pub value: i64,
@@ -25,7 +25,7 @@ pub(crate) struct Checkbox {
 
 /// One choice of several.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Radiobutton {
+pub struct Radiobutton {
     pub text: String,
     pub checked: bool,
     pub checkable: bool,
@@ -34,14 +34,14 @@ pub(crate) struct Radiobutton {
 
 /// A list of texts of which one is selected.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Combobox {
+pub struct Combobox {
     pub items: Vec<String>,
     pub selected: Option<usize>,
 }
 
 /// A line of text to change.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Edit {
+pub struct Edit {
     pub value: String,
     pub password: bool,
     /// What a person enters is an expression in Lua.
@@ -52,7 +52,7 @@ pub(crate) struct Edit {
 
 /// A slider of integers.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Slider {
+pub struct Slider {
     pub vertical: bool,
     pub value: i64,
     pub minimum: i64,
@@ -71,7 +71,7 @@ impl Slider {
 
 /// A number with steps.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Spinbox {
+pub struct Spinbox {
     pub value: f64,
     pub minimum: f64,
     pub maximum: f64,
@@ -100,14 +100,14 @@ impl Spinbox {
 
 /// A text that only scripts change.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Label {
+pub struct Label {
     pub text: String,
     pub word_wrap: bool,
 }
 
 /// How far something has come.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct ProgressBar {
+pub struct ProgressBar {
     pub value: i64,
     pub minimum: i64,
     pub maximum: i64,
@@ -118,7 +118,7 @@ pub(crate) struct ProgressBar {
 
 /// What the text of a browser is written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum TextType {
+pub enum TextType {
     Plain,
     #[default]
     Html,
@@ -143,7 +143,7 @@ impl TextType {
 
 /// A long text.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct TextBrowser {
+pub struct TextBrowser {
     pub text: String,
     pub text_type: TextType,
     pub read_only: bool,

@@ -10,19 +10,19 @@ mod tree;
 
 use std::collections::BTreeMap;
 
-pub(crate) use inputs::{
+pub use inputs::{
     Button, Checkbox, Combobox, Edit, Label, ProgressBar, Radiobutton, Slider, Spinbox, TextBrowser, TextType,
 };
-pub(crate) use picture::{Image, Svg};
-pub(crate) use plot::{Curve, CurveOptions, CurveType, Plot};
-pub(crate) use properties::{Properties, Property};
-pub(crate) use scene3d::{NODE_TYPES, Node, Scene3d};
-pub(crate) use table::{Cell, SelectionMode, Table};
-pub(crate) use tree::Tree;
+pub use picture::{Image, Svg};
+pub use plot::{Curve, CurveOptions, CurveType, Plot};
+pub use properties::{Properties, Property};
+pub use scene3d::{NODE_TYPES, Node, Scene3d};
+pub use table::{Cell, SelectionMode, Table};
+pub use tree::Tree;
 
 /// How the widgets in a container are placed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Layout {
+pub enum Layout {
     #[default]
     VerticalBox,
     HorizontalBox,
@@ -54,7 +54,7 @@ impl Layout {
 
 /// What stands in a container.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Item {
+pub enum Item {
     /// A widget, by its id.
     Widget(i64),
     /// The next row of a grid begins.
@@ -65,7 +65,7 @@ pub(crate) enum Item {
 
 /// Widgets with their layout.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Container {
+pub struct Container {
     pub layout: Layout,
     /// Left, top, right, bottom, pixels.
     pub margins: [i64; 4],
@@ -83,7 +83,7 @@ impl Container {
 
 /// A frame around widgets.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Group {
+pub struct Group {
     pub container: Container,
     /// Without the frame.
     pub flat: bool,
@@ -91,7 +91,7 @@ pub(crate) struct Group {
 
 /// Pages of which one is seen.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Tabs {
+pub struct Tabs {
     /// The ids of the pages.
     pub pages: Vec<i64>,
     /// Counts from 0.
@@ -101,7 +101,7 @@ pub(crate) struct Tabs {
 
 /// A page of tabs.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Tab {
+pub struct Tab {
     pub title: String,
     pub container: Container,
 }
@@ -110,11 +110,11 @@ macro_rules! kinds {
     ($($kind:ident $tag:literal $class:literal;)*) => {
         /// What a widget is.
         #[derive(Debug, Clone, PartialEq)]
-        pub(crate) enum Kind { $($kind($kind)),* }
+        pub enum Kind { $($kind($kind)),* }
 
         impl Kind {
             /// The name of its element.
-            pub(crate) fn tag(&self) -> &'static str {
+            pub fn tag(&self) -> &'static str {
                 match self {
                     Self::Slider(slider) if slider.vertical => "vslider",
                     $(Self::$kind(_) => $tag),*
@@ -160,7 +160,7 @@ kinds! {
 }
 
 /// A kind of widget as a type.
-pub(crate) trait WidgetType: Sized {
+pub trait WidgetType: Sized {
     /// The name errors call it by.
     const CLASS: &'static str;
 
@@ -170,7 +170,7 @@ pub(crate) trait WidgetType: Sized {
 
 /// A widget of a window.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Widget {
+pub struct Widget {
     /// Positive from the text; negative for one without.
     pub id: i64,
     /// The widget around it; None directly in the window.

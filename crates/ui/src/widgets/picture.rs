@@ -4,7 +4,7 @@ use super::super::error::{UiError, UiResult};
 
 /// A picture of pixels.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Image {
+pub struct Image {
     pub width: usize,
     pub height: usize,
     /// Red, green, blue, opacity of each pixel, the top row first; empty without a picture.
@@ -31,7 +31,7 @@ impl Image {
     ///
     /// # Errors
     /// When there are not as many bytes as the size asks for.
-    pub(crate) fn set_rgb(&mut self, data: &[u8], width: i64, height: i64) -> UiResult<()> {
+    pub fn set_rgb(&mut self, data: &[u8], width: i64, height: i64) -> UiResult<()> {
         let (width, height, pixels) = rgba_of(data, width, height)?;
         (self.width, self.height, self.pixels) = (width, height, pixels);
         Ok(())
@@ -57,7 +57,7 @@ pub(super) fn rgba_of(data: &[u8], width: i64, height: i64) -> UiResult<(usize, 
 
 /// A drawing.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Svg {
+pub struct Svg {
     /// The file to load it from.
     pub file: String,
     pub text: String,

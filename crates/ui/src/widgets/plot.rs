@@ -6,7 +6,7 @@ use super::super::error::{UiError, UiResult};
 
 /// What the points of a curve are sorted by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum CurveType {
+pub enum CurveType {
     /// By x.
     Time,
     /// By a parameter of their own, so that a curve may return.
@@ -15,7 +15,7 @@ pub(crate) enum CurveType {
 
 impl CurveType {
     /// The kind with that number (simUI.curve_type).
-    pub(crate) fn from_code(code: i64) -> Option<Self> {
+    pub fn from_code(code: i64) -> Option<Self> {
         match code {
             20400 => Some(Self::Time),
             20401 => Some(Self::Xy),
@@ -33,7 +33,7 @@ impl CurveType {
 
 /// How a curve is drawn; numbers are those of simUI's constants.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct CurveOptions {
+pub struct CurveOptions {
     pub scatter_shape: i64,
     /// Pixels.
     pub scatter_size: i64,
@@ -62,7 +62,7 @@ impl Default for CurveOptions {
 
 /// A curve of a plot.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Curve {
+pub struct Curve {
     pub name: String,
     pub curve_type: CurveType,
     /// Red, green, blue, 0 to 255.
@@ -106,7 +106,7 @@ impl Curve {
 
 /// A plot.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Plot {
+pub struct Plot {
     /// The colours that are not the usual ones, by attribute.
     pub colors: BTreeMap<&'static str, [i64; 3]>,
     pub square: bool,
@@ -149,7 +149,7 @@ impl Default for Plot {
 impl Plot {
     /// # Errors
     /// When there is no curve of that name.
-    pub(crate) fn curve(&self, name: &str) -> UiResult<&Curve> {
+    pub fn curve(&self, name: &str) -> UiResult<&Curve> {
         self.curves.iter().find(|curve| curve.name == name).ok_or_else(|| no_curve(name))
     }
 
@@ -159,7 +159,7 @@ impl Plot {
 
     /// # Errors
     /// When there is a curve of that name.
-    pub(crate) fn add_curve(&mut self, curve: Curve) -> UiResult<()> {
+    pub fn add_curve(&mut self, curve: Curve) -> UiResult<()> {
         if self.curve(&curve.name).is_ok() {
             return Err(UiError::other(format!("curve with name \"{}\" already exists", curve.name)));
         }
@@ -169,7 +169,7 @@ impl Plot {
 
     /// # Errors
     /// When there is no curve of that name and type.
-    pub(crate) fn add_points(
+    pub fn add_points(
         &mut self,
         name: &str,
         curve_type: CurveType,
@@ -186,21 +186,21 @@ impl Plot {
 
     /// # Errors
     /// When there is no curve of that name.
-    pub(crate) fn clear_curve(&mut self, name: &str) -> UiResult<()> {
+    pub fn clear_curve(&mut self, name: &str) -> UiResult<()> {
         self.curve_mut(name)?.points.clear();
         Ok(())
     }
 
     /// # Errors
     /// When there is no curve of that name.
-    pub(crate) fn remove_curve(&mut self, name: &str) -> UiResult<()> {
+    pub fn remove_curve(&mut self, name: &str) -> UiResult<()> {
         self.curve(name)?;
         self.curves.retain(|curve| curve.name != name);
         Ok(())
     }
 
     /// Moves the lower end of an axis, 0 for x and 1 for y, down by `lower` and the upper one up by `upper`.
-    pub(crate) fn grow(&mut self, axis: usize, [lower, upper]: [f64; 2]) {
+    pub fn grow(&mut self, axis: usize, [lower, upper]: [f64; 2]) {
         self.ranges[axis][0] -= lower;
         self.ranges[axis][1] += upper;
     }
@@ -209,7 +209,7 @@ impl Plot {
     ///
     /// # Errors
     /// When there is no curve of that name.
-    pub(crate) fn rescale(&mut self, name: Option<&str>, only_enlarge: [bool; 2]) -> UiResult<()> {
+    pub fn rescale(&mut self, name: Option<&str>, only_enlarge: [bool; 2]) -> UiResult<()> {
         let curves: Vec<&Curve> = match name {
             Some(name) => vec![self.curve(name)?],
             None => self.curves.iter().collect(),

@@ -2,7 +2,7 @@
 
 /// A row.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Property {
+pub struct Property {
     pub name: String,
     pub type_name: String,
     pub value: String,
@@ -17,7 +17,7 @@ pub(crate) struct Property {
 
 /// Rows of names, types and values.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Properties {
+pub struct Properties {
     pub rows: Vec<Property>,
     /// -1 for none.
     pub selected: i64,

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::super::error::{UiError, UiResult};
-use crate::scene::Data;
+use scene::Data;
 
 /// The types of nodes; the first has the number 44100 (simUI.scene3d_node_type).
-pub(crate) const NODE_TYPES: [&str; 22] = [
+pub const NODE_TYPES: [&str; 22] = [
     "entity",
     "transform",
     "camera",
@@ -33,7 +33,7 @@ pub(crate) const NODE_TYPES: [&str; 22] = [
 
 /// A node.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Node {
+pub struct Node {
     pub node_type: &'static str,
     /// -1 for the root.
     pub parent: i64,
@@ -43,7 +43,7 @@ pub(crate) struct Node {
 
 /// A scene of its own.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Scene3d {
+pub struct Scene3d {
     pub nodes: BTreeMap<i64, Node>,
     pub clear_color: String,
 }
@@ -51,7 +51,7 @@ pub(crate) struct Scene3d {
 impl Scene3d {
     /// # Errors
     /// When the id is in use, or parent or type are unknown.
-    pub(crate) fn add(&mut self, id: i64, parent: i64, type_code: i64) -> UiResult<()> {
+    pub fn add(&mut self, id: i64, parent: i64, type_code: i64) -> UiResult<()> {
         if self.nodes.contains_key(&id) {
             return Err(UiError::other("node id already exists"));
         }
@@ -67,7 +67,7 @@ impl Scene3d {
 
     /// # Errors
     /// When there is no such node.
-    pub(crate) fn node_mut(&mut self, id: i64) -> UiResult<&mut Node> {
+    pub fn node_mut(&mut self, id: i64) -> UiResult<&mut Node> {
         self.nodes.get_mut(&id).ok_or_else(|| UiError::other("invalid node id"))
     }
 }

@@ -6,7 +6,7 @@ use super::picture::Image;
 
 /// What a click selects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum SelectionMode {
+pub enum SelectionMode {
     #[default]
     Item,
     Row,
@@ -31,14 +31,14 @@ impl SelectionMode {
 
 /// A cell.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Cell {
+pub struct Cell {
     pub text: String,
     pub editable: bool,
     pub image: Option<Image>,
 }
 
 impl Cell {
-    pub(crate) fn of_text(text: String) -> Self {
+    pub fn of_text(text: String) -> Self {
         Self { text, editable: true, image: None }
     }
 }
@@ -51,7 +51,7 @@ pub(crate) type Sizes = Option<[i64; 2]>;
 
 /// A table.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Table {
+pub struct Table {
     pub row_count: i64,
     pub column_count: i64,
     pub cells: BTreeMap<(i64, i64), Cell>,
@@ -71,12 +71,12 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    pub(crate) fn contains(&self, row: i64, column: i64) -> bool {
+    pub fn contains(&self, row: i64, column: i64) -> bool {
         (0..self.row_count).contains(&row) && (0..self.column_count).contains(&column)
     }
 
     /// The text of a cell; empty where there is none.
-    pub(crate) fn text(&self, row: i64, column: i64) -> &str {
+    pub fn text(&self, row: i64, column: i64) -> &str {
         self.cells.get(&(row, column)).map_or("", |cell| cell.text.as_str())
     }
 
@@ -92,14 +92,14 @@ impl Table {
     }
 
     /// Removes cells and headers; the size stays.
-    pub(crate) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.cells.clear();
         self.row_headers.clear();
         self.column_headers.clear();
         self.selection = [-1; 2];
     }
 
-    pub(crate) fn resize(&mut self, rows: i64, columns: i64) {
+    pub fn resize(&mut self, rows: i64, columns: i64) {
         (self.row_count, self.column_count) = (rows.max(0), columns.max(0));
         let (rows, columns) = (self.row_count, self.column_count);
         self.cells.retain(|(row, column), _| *row < rows && *column < columns);
@@ -111,7 +111,7 @@ impl Table {
     }
 
     /// Opens a row, which keeps the text of the one it moves down. Nothing happens outside of the table.
-    pub(crate) fn insert_row(&mut self, at: i64) {
+    pub fn insert_row(&mut self, at: i64) {
         if !(0..=self.row_count).contains(&at) {
             return;
         }
@@ -120,7 +120,7 @@ impl Table {
         self.copy(|(row, column)| (row == at + 1).then_some((at, column)));
     }
 
-    pub(crate) fn insert_column(&mut self, at: i64) {
+    pub fn insert_column(&mut self, at: i64) {
         if !(0..=self.column_count).contains(&at) {
             return;
         }
@@ -129,7 +129,7 @@ impl Table {
         self.copy(|(row, column)| (column == at + 1).then_some((row, at)));
     }
 
-    pub(crate) fn remove_row(&mut self, at: i64) {
+    pub fn remove_row(&mut self, at: i64) {
         if !(0..self.row_count).contains(&at) {
             return;
         }
@@ -138,7 +138,7 @@ impl Table {
         self.resize(self.row_count - 1, self.column_count);
     }
 
-    pub(crate) fn remove_column(&mut self, at: i64) {
+    pub fn remove_column(&mut self, at: i64) {
         if !(0..self.column_count).contains(&at) {
             return;
         }

@@ -6,7 +6,7 @@ use super::table::{HeaderTexts, Sizes};
 
 /// An item.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct TreeItem {
+pub struct TreeItem {
     /// 0 at the top.
     pub parent: i64,
     pub texts: Vec<String>,
@@ -17,7 +17,7 @@ pub(crate) struct TreeItem {
 
 /// A tree.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Tree {
+pub struct Tree {
     pub items: BTreeMap<i64, TreeItem>,
     pub column_count: i64,
     pub column_headers: HeaderTexts,
@@ -33,7 +33,7 @@ pub(crate) struct Tree {
 
 impl Tree {
     /// Adds an item, or replaces the one with that id. Nothing happens when the parent is unknown.
-    pub(crate) fn add(&mut self, id: i64, parent: i64, texts: Vec<String>, expanded: bool) {
+    pub fn add(&mut self, id: i64, parent: i64, texts: Vec<String>, expanded: bool) {
         if (parent != 0 && !self.items.contains_key(&parent)) || self.is_within(parent, id) {
             return;
         }
@@ -63,7 +63,7 @@ impl Tree {
 
     /// Moves an item that has a parent below another, or to the top for 0. Nothing happens for one at the top, as in the original, for unknown
     /// ones, and where it would come below itself.
-    pub(crate) fn move_item(&mut self, id: i64, parent: i64) {
+    pub fn move_item(&mut self, id: i64, parent: i64) {
         let known = parent == 0 || self.items.contains_key(&parent);
         if !known || self.is_within(parent, id) {
             return;
@@ -75,7 +75,7 @@ impl Tree {
     }
 
     /// Removes an item with those below it.
-    pub(crate) fn remove(&mut self, id: i64) {
+    pub fn remove(&mut self, id: i64) {
         let mut gone = vec![id];
         while let Some(id) = gone.pop() {
             if self.items.remove(&id).is_some() {
@@ -88,7 +88,7 @@ impl Tree {
     }
 
     /// Expands the items of the first `depth` levels below the top one and collapses the others.
-    pub(crate) fn expand_to(&mut self, depth: i64) {
+    pub fn expand_to(&mut self, depth: i64) {
         let depths: Vec<(i64, i64)> = self.items.keys().map(|id| (*id, self.depth(*id))).collect();
         for (id, at) in depths {
             if let Some(item) = self.items.get_mut(&id) {

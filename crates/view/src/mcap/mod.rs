@@ -37,7 +37,7 @@ enum Channel {
 ///
 /// # Errors
 /// When it is damaged, or the file cannot be written.
-pub(crate) fn write<R: Read + Seek, W: Write>(recording: &mut Recording<R>, out: W) -> Result<(), RecordingError> {
+pub fn write<R: Read + Seek, W: Write>(recording: &mut Recording<R>, out: W) -> Result<(), RecordingError> {
     let mut file = File { container: Container::new(out)?, channels: BTreeMap::new() };
     let mut objects = Objects::default();
     for number in 0..recording.index().chunks.len() {

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::proto::Proto;
 use super::{WORLD, timestamp};
-use crate::view::blobs::Hash;
+use crate::blobs::Hash;
 
 /// Frames are named by paths of at most so many objects: a recording may be damaged.
 const DEEPEST: usize = 100;

@@ -68,7 +68,7 @@ impl Proto {
     }
 
     /// A repeated field of messages.
-    pub(super) fn messages(self, field: u32, all: impl IntoIterator<Item = Self>) -> Self {
+    pub fn messages(self, field: u32, all: impl IntoIterator<Item = Self>) -> Self {
         all.into_iter().fold(self, |message, one| message.message(field, one))
     }
 

@@ -37,7 +37,7 @@ pub(crate) struct Changes {
 
 impl Changes {
     /// The messages that make a reader see them: a text, and the poses.
-    pub(crate) fn messages(self) -> Vec<Message> {
+    pub fn messages(self) -> Vec<Message> {
         let text = self.text().map(Message::Text);
         text.into_iter().chain(self.poses.map(Message::Binary)).collect()
     }

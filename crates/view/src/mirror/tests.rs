@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 
 use super::*;
-use crate::view::blobs::Blob;
+use crate::blobs::Blob;
 
 fn object(text: &str, blobs: &[Arc<Blob>]) -> ObservedObject {
     ObservedObject { text: text.into(), blobs: blobs.to_vec() }

@@ -1,11 +1,11 @@
-//! User interfaces of V-REP as windows of the same form as those of simUI (`src/ui/mod.rs`), so that a page shows both alike.
+//! User interfaces of V-REP as windows of the same form as those of simUI (`crates/ui/src/lib.rs`), so that a page shows both alike.
 
 use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use crate::scene::Scene;
-use crate::scene::tree::button_interfaces::{Button, ButtonInterface, ButtonKind, button_property, ui_property};
+use scene::Scene;
+use scene::tree::button_interfaces::{Button, ButtonInterface, ButtonKind, button_property, ui_property};
 
 /// Buttons are at least as high on a page, pixels.
 const LEAST_HEIGHT: i32 = 24;

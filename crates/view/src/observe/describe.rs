@@ -4,8 +4,8 @@ use serde_json::{Value, json};
 
 use super::meshes::Meshes;
 use super::{ObservedObject, ScriptError, members};
-use crate::scene::{Handle, Kind, Object, ObjectFlags, Scene};
-use crate::script::property_table::object_class;
+use scene::{Handle, Kind, Object, ObjectFlags, Scene};
+use script::property_table::object_class;
 
 /// An object as pages show it; `place` is that among its siblings.
 pub(super) fn object(

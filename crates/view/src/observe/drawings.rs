@@ -5,10 +5,10 @@ use std::sync::Arc;
 use serde_json::json;
 
 use super::Observer;
-use crate::perception::vision::item_colour;
-use crate::scene::Scene;
-use crate::scene::drawing::options::{DrawingFlags, DrawingKind};
-use crate::scene::drawing::{DrawingObject, Item};
+use perception::vision::item_colour;
+use scene::Scene;
+use scene::drawing::options::{DrawingFlags, DrawingKind};
+use scene::drawing::{DrawingObject, Item};
 
 impl Observer {
     /// Drawing objects that changed, or all; and the identifiers of those that are gone.

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use crate::script::log::RecentLine;
+use script::log::RecentLine;
 
 /// Characters of a line that pages get; the rest is cut off.
 const LONGEST: usize = 20_000;

@@ -7,14 +7,14 @@ use serde_json::{Value, json};
 
 use super::ScriptError;
 use super::meshes::Meshes;
-use crate::scene::appearance::colour::Colour;
-use crate::scene::appearance::texture_mapping::{ApplyMode, TextureMapping};
-use crate::scene::joint::{Joint, JointType};
-use crate::scene::object::script_object::{ScriptObject, ScriptType};
-use crate::scene::sensor::{Light, LightType, ProximitySensor, View};
-use crate::scene::shape::Part;
-use crate::scene::{Kind, Object, Scene};
-use crate::view::blobs::Blob;
+use crate::blobs::Blob;
+use scene::appearance::colour::Colour;
+use scene::appearance::texture_mapping::{ApplyMode, TextureMapping};
+use scene::joint::{Joint, JointType};
+use scene::object::script_object::{ScriptObject, ScriptType};
+use scene::sensor::{Light, LightType, ProximitySensor, View};
+use scene::shape::Part;
+use scene::{Kind, Object, Scene};
 
 type Blobs = Vec<Arc<Blob>>;
 

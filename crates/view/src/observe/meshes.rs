@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use crate::scene::Scene;
-use crate::scene::appearance::texture::Texture;
-use crate::scene::appearance::texture_mapping::{TextureMapping, TextureSource};
-use crate::scene::shape::Part;
-use crate::view::blobs::Blob;
+use crate::blobs::Blob;
+use scene::Scene;
+use scene::appearance::texture::Texture;
+use scene::appearance::texture_mapping::{TextureMapping, TextureSource};
+use scene::shape::Part;
 
 /// Blobs of meshes and images that are shown.
 #[derive(Default)]
@@ -32,7 +32,7 @@ struct Key {
 
 impl Key {
     fn of(part: &Part, edges: Option<f64>) -> Self {
-        let bits = |pose: &crate::scene::Pose| geometry::pose::pose_to_array(pose).map(f64::to_bits);
+        let bits = |pose: &scene::Pose| geometry::pose::pose_to_array(pose).map(f64::to_bits);
         let mapping = |mapping: &TextureMapping| {
             let [x, y, z, qx, qy, qz, qw] = bits(&mapping.frame);
             let [u, v] = mapping.scale.map(f64::to_bits);

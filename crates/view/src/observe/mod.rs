@@ -19,8 +19,8 @@ mod windows;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::scene::{Change, Cursor, Field, Handle, Kind, Scene, Topic, Topics, Unread};
-use crate::script::log::RecentLine;
+use ::scene::{Change, Cursor, Field, Handle, Kind, Scene, Topic, Topics, Unread};
+use script::log::RecentLine;
 
 use super::blobs::Blob;
 pub(crate) use button_interfaces::handle_of;
@@ -140,7 +140,7 @@ impl Observer {
         concerned.objects.extend(self.restless.iter().copied().filter(|handle| scene.exists(*handle)));
         let layers = scene.settings().visibility_layers.bits();
         if std::mem::replace(&mut self.visibility_layers, layers) != layers {
-            concerned.objects.extend(scene.objects().map(crate::scene::Object::handle));
+            concerned.objects.extend(scene.objects().map(::scene::Object::handle));
         }
         self.place_in_tree(scene, &mut concerned);
         let complete = concerned.is_complete;
@@ -175,7 +175,7 @@ impl Observer {
         match scene.journal().read(cursor) {
             Unread::Everything => {
                 concerned.is_complete = true;
-                concerned.objects.extend(scene.objects().map(crate::scene::Object::handle));
+                concerned.objects.extend(scene.objects().map(::scene::Object::handle));
                 self.places.clear();
                 self.restless.retain(|handle| scene.exists(*handle));
             }
@@ -190,7 +190,7 @@ impl Observer {
     fn place_in_tree(&mut self, scene: &Scene, concerned: &mut Concerned) {
         if concerned.is_complete {
             let parents = scene.objects().filter(|object| !object.children().is_empty());
-            let families = parents.map(crate::scene::Object::children).chain([scene.roots()]);
+            let families = parents.map(::scene::Object::children).chain([scene.roots()]);
             self.places = families.flat_map(|family| family.iter().copied().zip(0..)).collect();
             return;
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use geometry::pose::pose_to_array;
 
-use crate::scene::{Handle, Object, Scene};
+use scene::{Handle, Object, Scene};
 
 /// Finds out who moved, without looking at an object twice.
 #[derive(Default)]

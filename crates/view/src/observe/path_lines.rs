@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use serde_json::json;
 
-use crate::scene::path_object::PathAttributes;
-use crate::scene::{Handle, Kind, Scene};
+use scene::path_object::PathAttributes;
+use scene::{Handle, Kind, Scene};
 
 /// The lines that pages have, by identifier.
 #[derive(Default)]

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use crate::Simulator;
-use crate::perception::vision::views_background;
-use crate::scene::Scene;
-use crate::scene::appearance::environment::{Fog, FogType};
-use crate::script::{SimulationState, Situation};
+use perception::vision::views_background;
+use scene::Scene;
+use scene::appearance::environment::{Fog, FogType};
+use script::{SimulationState, Situation};
+use simulator::Simulator;
 
 /// The mode of what is recorded.
 pub(crate) const RECORDING: &str = "recording";

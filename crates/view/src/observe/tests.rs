@@ -3,11 +3,11 @@
 use serde_json::Value;
 
 use super::*;
-use crate::scene::Pose;
-use crate::scene::object::dummy::Dummy;
-use crate::script::{SimulationState, Situation};
-use crate::view::blobs::Hash;
-use crate::view::mirror::{Message, Mirror};
+use crate::blobs::Hash;
+use crate::mirror::{Message, Mirror};
+use ::scene::Pose;
+use ::scene::object::dummy::Dummy;
+use script::{SimulationState, Situation};
 
 /// A scene with its observer and mirror.
 struct Stage {
@@ -110,15 +110,15 @@ fn a_layer_that_is_switched_off_hides_all_on_it() {
     let mut stage = Stage::new();
     stage.dummy("a");
     assert_eq!(stage.update()["objects"][0]["visible"], true);
-    stage.scene.modify_settings(|settings| settings.visibility_layers = crate::scene::Layers::empty());
+    stage.scene.modify_settings(|settings| settings.visibility_layers = ::scene::Layers::empty());
     assert_eq!(stage.update()["objects"][0]["visible"], false);
 }
 
 #[test]
 fn errors_belong_to_their_script() {
     let mut stage = Stage::new();
-    let script = crate::scene::object::script_object::ScriptObject::new(
-        crate::scene::object::script_object::ScriptType::Customization,
+    let script = ::scene::object::script_object::ScriptObject::new(
+        ::scene::object::script_object::ScriptType::Customization,
         b"error('no')".to_vec(),
         "lua",
         false,
@@ -127,7 +127,7 @@ fn errors_belong_to_their_script() {
     stage.update();
     let line = RecentLine {
         time: 1.0,
-        level: Some(crate::script::log::verbosity::SCRIPT_ERRORS),
+        level: Some(script::log::verbosity::SCRIPT_ERRORS),
         origin: "/Script".to_owned(),
         script: Some(script.raw()),
         text: "[string \"/Script\"]:3: <b>no</b>".to_owned(),
@@ -146,9 +146,9 @@ fn errors_belong_to_their_script() {
 
 #[test]
 fn drawing_objects_are_sent_when_they_change() {
-    use crate::scene::appearance::colour::Colour;
-    use crate::scene::drawing::DrawingStyle;
-    use crate::scene::drawing::options::{DrawingFlags, DrawingKind};
+    use ::scene::appearance::colour::Colour;
+    use ::scene::drawing::DrawingStyle;
+    use ::scene::drawing::options::{DrawingFlags, DrawingKind};
     let mut stage = Stage::new();
     let style = DrawingStyle {
         kind: DrawingKind::Lines,
@@ -172,7 +172,7 @@ fn drawing_objects_are_sent_when_they_change() {
 
 #[test]
 fn lines_of_old_paths_are_sent_when_they_change() {
-    use crate::scene::path_object::{ControlPoint, Measures, PathAttributes, PathObject};
+    use ::scene::path_object::{ControlPoint, Measures, PathAttributes, PathObject};
     let mut stage = Stage::new();
     let path = PathObject::new(PathAttributes::USUAL, Measures::default());
     let handle = stage.scene.add("Path", Kind::Path(path.into())).unwrap();
@@ -202,7 +202,7 @@ fn shapes_share_their_meshes() {
     let shape = stage.scene.objects().find(|object| object.shape().is_ok()).unwrap().handle();
     stage.update();
     let before = stage.mirror.blobs_since(0).count();
-    let copies = stage.scene.copy_objects(&[shape], crate::scene::CopyOptions::empty()).unwrap();
+    let copies = stage.scene.copy_objects(&[shape], ::scene::CopyOptions::empty()).unwrap();
     let update = stage.update();
     assert!(!copies.is_empty() && update["objects"].as_array().is_some_and(|objects| !objects.is_empty()));
     assert_eq!(stage.mirror.blobs_since(0).count(), before);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use super::button_interfaces::ButtonWindows;
-use crate::Simulator;
+use simulator::Simulator;
 
 /// Lists that pages get whole whenever they change.
 const LISTS: [&str; 3] = ["dialogs", "banners", "views"];

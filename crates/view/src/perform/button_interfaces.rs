@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use crate::Simulator;
-use crate::scene::tree::button_interfaces::ButtonInput;
+use scene::tree::button_interfaces::ButtonInput;
+use simulator::Simulator;
 
 /// Does what a page asks for with a button.
 ///

@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 
-use crate::Simulator;
-use crate::scene::graph::{Graph, Style};
-use crate::scene::{Handle, SceneError};
+use scene::graph::{Graph, Style};
+use scene::{Handle, SceneError};
+use simulator::Simulator;
 
 /// Streams over time, and curves of two streams, as a page draws them.
 ///

@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 
 use super::values::to_json;
-use crate::Simulator;
-use crate::simulator::PropertyRow;
+use simulator::PropertyRow;
+use simulator::Simulator;
 
 /// Units of properties that have one: name, unit.
 const UNITS: &str = include_str!("units.tsv");

@@ -9,9 +9,9 @@ use serde_json::{Value, json};
 
 use super::observe::handle_of;
 use super::request::Action;
-use crate::Simulator;
-use crate::scene::{Data, Handle};
-use crate::script::log::RecentLine;
+use scene::{Data, Handle};
+use script::log::RecentLine;
+use simulator::Simulator;
 
 pub(crate) use inspector::rows;
 
@@ -93,7 +93,7 @@ fn run(sim: &mut Simulator, code: &str, lines: &mut Vec<RecentLine>) -> Result<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Options, ScriptKind};
+    use simulator::{Options, ScriptKind};
 
     fn simulator() -> Simulator {
         let sim = Simulator::new(Options::default());
@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn a_simulation_steps_pauses_plays_and_stops() {
-        use crate::SimulationState as State;
+        use simulator::SimulationState as State;
         let mut sim = simulator();
         done(&mut sim, &Action::Step(1)).unwrap();
         for _ in 0..5 {
@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn a_stop_ends_also_what_is_about_to_pause() {
-        use crate::SimulationState as State;
+        use simulator::SimulationState as State;
         let code = b"function sysCall_actuation() error('no') end";
         let mut states = Vec::new();
         for iterations in 0..6 {

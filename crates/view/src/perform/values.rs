@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::scene::{Data, Key, ValueType};
+use scene::{Data, Key, ValueType};
 
 /// Bytes of a text or list that pages get; longer ones are only counted.
 const LONGEST: usize = 2000;

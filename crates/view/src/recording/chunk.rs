@@ -14,7 +14,7 @@ const HASH: usize = 16;
 
 /// What a message contains.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Content<'a> {
+pub enum Content<'a> {
     /// JSON.
     Text(&'a str),
     /// Begins with its kind.
@@ -27,7 +27,7 @@ pub(crate) enum Content<'a> {
 
 /// A message of a recording.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct TimedMessage<'a> {
+pub struct TimedMessage<'a> {
     /// Seconds.
     pub time: f64,
     pub content: Content<'a>,
@@ -51,7 +51,7 @@ pub(super) fn push(chunk: &mut Vec<u8>, time: f64, content: Content<'_>) -> Resu
 }
 
 /// The messages of a chunk; an error ends them.
-pub(crate) fn messages(chunk: &[u8]) -> impl Iterator<Item = Result<TimedMessage<'_>, RecordingError>> {
+pub fn messages(chunk: &[u8]) -> impl Iterator<Item = Result<TimedMessage<'_>, RecordingError>> {
     let mut rest = chunk;
     std::iter::from_fn(move || {
         if rest.is_empty() {

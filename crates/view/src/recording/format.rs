@@ -15,7 +15,7 @@ pub(super) const LARGEST_CHUNK: u64 = 512 << 20;
 
 /// Why a recording cannot be read.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum RecordingError {
+pub enum RecordingError {
     #[error("it is not a recording of Swanilda")]
     NoRecording,
     #[error("it has version {0} of the format, and this program knows version {VERSION}")]

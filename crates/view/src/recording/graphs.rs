@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 
-use crate::format::graph_file::{CurveData, GraphData, StreamData};
-use crate::scene::graph::Style;
-use crate::scene::{Kind, Scene};
+use format::graph_file::{CurveData, GraphData, StreamData};
+use scene::graph::Style;
+use scene::{Kind, Scene};
 
 /// The message; None for a scene without graphs.
 pub(super) fn message(scene: &Scene) -> Option<String> {
@@ -47,7 +47,7 @@ fn style_json(style: &Style) -> Value {
 }
 
 /// The graphs of such a message, with their handles; None if it is another one.
-pub(crate) fn read(message: &Value) -> Option<Vec<(i64, GraphData)>> {
+pub fn read(message: &Value) -> Option<Vec<(i64, GraphData)>> {
     (message["type"] == "graphs").then_some(())?;
     message["graphs"].as_array()?.iter().map(|graph| Some((graph["handle"].as_i64()?, graph_data(graph)?))).collect()
 }

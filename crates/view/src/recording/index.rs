@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use super::{CHUNK_HEAD, FILE_HEAD, RecordingError};
-use crate::view::blobs::Hash;
+use crate::blobs::Hash;
 
 /// Marks that are kept of each kind: nobody looks at more, and a script may fail at every step.
 const MOST_MARKS: usize = 10_000;
 
 /// Where a chunk is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ChunkPlace {
+pub struct ChunkPlace {
     /// Of its first message, seconds.
     pub time: f64,
     /// Of its head, from the beginning of the file.
@@ -23,7 +23,7 @@ pub(crate) struct ChunkPlace {
 
 /// Something that happened, to be found on the timeline.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Mark {
+pub struct Mark {
     /// Seconds.
     pub time: f64,
     pub kind: MarkKind,
@@ -33,7 +33,7 @@ pub(crate) struct Mark {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum MarkKind {
+pub enum MarkKind {
     Error,
     Signal,
     Broadcast,
@@ -58,7 +58,7 @@ impl MarkKind {
 
 /// What a recording contains.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Index {
+pub struct Index {
     /// Of the scene.
     pub name: String,
     /// Times of the first and the last message, seconds.

@@ -17,7 +17,7 @@ const SCRIPT: &str = "<script type=\"module\" src=\"main.js\"></script>";
 ///
 /// # Errors
 /// When the recording is damaged, or the file cannot be written.
-pub(crate) fn html<R: Read + Seek>(
+pub fn html<R: Read + Seek>(
     recording: &mut Recording<R>,
     read: &dyn Fn(&str) -> Option<String>,
     out: &mut impl Write,
@@ -45,7 +45,7 @@ pub(crate) fn html<R: Read + Seek>(
 ///
 /// # Errors
 /// None in memory.
-pub(crate) fn gzip(bytes: &[u8]) -> std::io::Result<Vec<u8>> {
+pub fn gzip(bytes: &[u8]) -> std::io::Result<Vec<u8>> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::default());
     encoder.write_all(bytes)?;
     encoder.finish()

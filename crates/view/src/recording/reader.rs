@@ -10,10 +10,10 @@ use super::{
     CHUNK_HEAD, ChunkPlace, END, FILE_END, FILE_HEAD, Index, LARGEST_CHUNK, MAGIC, Mark, MarkKind, RecordingError,
     VERSION,
 };
-use crate::view::blobs::Hash;
+use crate::blobs::Hash;
 
 /// A recording that is being read.
-pub(crate) struct Recording<R> {
+pub struct Recording<R> {
     file: R,
     index: Index,
 }
@@ -30,7 +30,7 @@ impl<R: Read + Seek> Recording<R> {
     ///
     /// # Errors
     /// When it is no recording, or nothing can be read.
-    pub(crate) fn open(mut file: R) -> Result<Self, RecordingError> {
+    pub fn open(mut file: R) -> Result<Self, RecordingError> {
         let length = file.seek(SeekFrom::End(0))?;
         check_head(&mut file)?;
         let index = match end_of_chunks(&mut file, length)? {
@@ -43,7 +43,7 @@ impl<R: Read + Seek> Recording<R> {
         Ok(Self { file, index })
     }
 
-    pub(crate) fn index(&self) -> &Index {
+    pub fn index(&self) -> &Index {
         &self.index
     }
 
@@ -51,7 +51,7 @@ impl<R: Read + Seek> Recording<R> {
     ///
     /// # Errors
     /// When there is no such chunk, or it is damaged.
-    pub(crate) fn chunk(&mut self, number: usize) -> Result<Vec<u8>, RecordingError> {
+    pub fn chunk(&mut self, number: usize) -> Result<Vec<u8>, RecordingError> {
         let place = self.index.chunks.get(number).ok_or(RecordingError::Damaged("there is no such chunk"))?;
         let end = place.place + CHUNK_HEAD + u64::from(place.length);
         Ok(read_at(&mut self.file, place.place, end)?.1)

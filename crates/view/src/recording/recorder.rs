@@ -3,12 +3,12 @@
 use std::io::Write;
 
 use super::{Mark, MarkKind, Writer, graphs};
-use crate::scene::Scene;
-use crate::script::log::RecentLine;
-use crate::view::images::Images;
-use crate::view::mirror::Revision;
-use crate::view::mirror::{Message, Mirror};
-use crate::view::observe::{Observation, Observer, Source};
+use crate::images::Images;
+use crate::mirror::Revision;
+use crate::mirror::{Message, Mirror};
+use crate::observe::{Observation, Observer, Source};
+use scene::Scene;
+use script::log::RecentLine;
 
 /// A recording in the making. Nothing of the clock or of this machine is in it: the same simulation is the same bytes.
 pub(crate) struct Recorder<W> {
@@ -27,7 +27,7 @@ pub(crate) struct Recorder<W> {
 
 /// What is recorded of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Recorded {
+pub enum Recorded {
     #[default]
     Scene,
     SceneAndImages,

@@ -6,13 +6,13 @@ use std::io::Write;
 use std::rc::Rc;
 
 use super::{MarkKind, Recorded, Recorder};
-use crate::Simulator;
-use crate::scene::{Handle, Scene};
-use crate::script::Present;
-use crate::view::observe::{RECORDING, Source};
+use crate::observe::{RECORDING, Source};
+use scene::{Handle, Scene};
+use script::Present;
+use simulator::Simulator;
 
 /// Records every step of a simulator until it is finished.
-pub(crate) struct RunRecorder<W: Write>(Rc<RefCell<State<W>>>);
+pub struct RunRecorder<W: Write>(Rc<RefCell<State<W>>>);
 
 struct State<W: Write> {
     /// None after a failure.
@@ -27,7 +27,7 @@ impl<W: Write + 'static> RunRecorder<W> {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub(crate) fn start(sim: &Simulator, file: W, recorded: Recorded) -> std::io::Result<Self> {
+    pub fn start(sim: &Simulator, file: W, recorded: Recorded) -> std::io::Result<Self> {
         let recorder = sim.with_present(|present| Recorder::new(file, &source(present), &present.lines, recorded))?;
         let (signals, contacts) = Default::default();
         let state = Rc::new(RefCell::new(State { recorder: Some(recorder), failure: None, signals, contacts }));
@@ -37,7 +37,7 @@ impl<W: Write + 'static> RunRecorder<W> {
     }
 
     /// Marks the present time as that of a failure.
-    pub(crate) fn mark_failure(&self, text: &str) {
+    pub fn mark_failure(&self, text: &str) {
         self.0.borrow_mut().mark(MarkKind::Failure, text, None);
     }
 
@@ -45,7 +45,7 @@ impl<W: Write + 'static> RunRecorder<W> {
     ///
     /// # Errors
     /// When it could not be written, at any time.
-    pub(crate) fn finish(self, sim: &Simulator) -> std::io::Result<W> {
+    pub fn finish(self, sim: &Simulator) -> std::io::Result<W> {
         sim.watch(None);
         let state = &mut *self.0.borrow_mut();
         if let Some(error) = state.failure.take() {

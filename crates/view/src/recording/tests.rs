@@ -4,8 +4,8 @@ use std::io::Cursor;
 
 use super::chunk::TimedMessage;
 use super::*;
-use crate::view::blobs::Blob;
-use crate::view::mirror::Message;
+use crate::blobs::Blob;
+use crate::mirror::Message;
 
 fn text(text: &str) -> Message {
     Message::Text(text.to_owned())

@@ -4,8 +4,8 @@ use std::io::Write;
 
 use super::chunk::{self, Content};
 use super::{ChunkPlace, END, FILE_HEAD, Index, MAGIC, Mark, VERSION};
-use crate::view::blobs::Blob;
-use crate::view::mirror::Message;
+use crate::blobs::Blob;
+use crate::mirror::Message;
 
 /// Seconds of simulation in a chunk.
 const CHUNK_DURATION: f64 = 1.0;

@@ -22,7 +22,7 @@ pub(super) fn find(name: &str) -> Option<&'static Asset> {
 }
 
 /// The text of a file.
-pub(crate) fn page_file(name: &str) -> Option<String> {
+pub fn page_file(name: &str) -> Option<String> {
     let mut text = String::new();
     GzDecoder::new(find(name)?.gzip).read_to_string(&mut text).ok()?;
     Some(text)
@@ -43,7 +43,7 @@ pub(super) fn content_type(name: &str) -> &'static str {
 
 /// Used by the build script, tested here.
 #[cfg(test)]
-#[path = "../../../build/bundle.rs"]
+#[path = "../../build/bundle.rs"]
 mod bundle;
 
 #[cfg(test)]

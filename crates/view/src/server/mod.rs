@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 
 use super::mirror::Mirror;
 use super::request::Action;
-pub(crate) use assets::page_file;
+pub use assets::page_file;
 pub(crate) use recorded::RecordedSite;
 pub(crate) use site::ViewSite;
 

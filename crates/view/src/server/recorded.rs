@@ -7,9 +7,9 @@ use serde_json::{Value, json};
 
 use super::assets;
 use super::site::{asset_reply, common_headers, inside, not_found};
-use crate::io::{Site, SiteReply, Visitor};
-use crate::view::blobs::Hash;
-use crate::view::recording::{Recording, RecordingError, gzip};
+use crate::blobs::Hash;
+use crate::recording::{Recording, RecordingError, gzip};
+use io::{Site, SiteReply, Visitor};
 
 /// The viewer of a recording.
 pub(crate) struct RecordedSite<R> {

@@ -7,8 +7,8 @@ use ring::rand::{SecureRandom, SystemRandom};
 use super::Shared;
 use super::assets::{self, Asset};
 use super::visitor::Page;
-use crate::io::{Site, SiteReply, Visitor};
-use crate::view::blobs::{Blob, Hash};
+use crate::blobs::{Blob, Hash};
+use io::{Site, SiteReply, Visitor};
 
 /// Scripts, styles, connections and images come from this server only, and no other page may frame this one.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data: blob:; \

@@ -6,9 +6,9 @@ use std::sync::{Arc, Mutex};
 use serde_json::{Value, json};
 
 use super::{PageId, Pending, Shared, lock, reply};
-use crate::io::{SiteMessage, Visitor};
-use crate::view::mirror::{Message, Revision};
-use crate::view::request::{Action, Request};
+use crate::mirror::{Message, Revision};
+use crate::request::{Action, Request};
+use io::{SiteMessage, Visitor};
 
 /// A connected page.
 pub(super) struct Page {

@@ -4,18 +4,18 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
 /// Encodes all whole groups of three bytes; the rest comes back.
-pub(crate) fn encode_base64(bytes: &[u8]) -> (String, &[u8]) {
+pub fn encode_base64(bytes: &[u8]) -> (String, &[u8]) {
     let (whole, rest) = bytes.split_at(bytes.len() - bytes.len() % 3);
     (STANDARD.encode(whole), rest)
 }
 
 /// Encodes the last bytes, with padding.
-pub(crate) fn finish_base64(rest: &[u8]) -> String {
+pub fn finish_base64(rest: &[u8]) -> String {
     STANDARD.encode(rest)
 }
 
 /// Decodes all whole groups of four letters; the letters left over come back. What is no letter of the alphabet is skipped.
-pub(crate) fn decode_base64(text: &[u8]) -> (Vec<u8>, Vec<u8>) {
+pub fn decode_base64(text: &[u8]) -> (Vec<u8>, Vec<u8>) {
     let mut out = Vec::with_capacity(text.len() / 4 * 3);
     let mut group = Vec::with_capacity(4);
     for &letter in text.iter().filter(|&&letter| value_of(letter).is_some() || letter == b'=') {

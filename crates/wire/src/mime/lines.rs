@@ -1,7 +1,7 @@
 //! Lines: length, line ends, leading dots.
 
 /// Breaks text into lines of at most `length` bytes. `left` is what still fits the current line.
-pub(crate) fn wrap_text(text: &[u8], length: i64, mut left: i64, out: &mut Vec<u8>) -> i64 {
+pub fn wrap_text(text: &[u8], length: i64, mut left: i64, out: &mut Vec<u8>) -> i64 {
     for &byte in text {
         match byte {
             b'\r' => {}
@@ -23,7 +23,7 @@ pub(crate) fn wrap_text(text: &[u8], length: i64, mut left: i64, out: &mut Vec<u
 }
 
 /// The same for quoted-printable text: lines are broken softly, and no escape is torn apart.
-pub(crate) fn wrap_quoted_printable(text: &[u8], length: i64, mut left: i64, out: &mut Vec<u8>) -> i64 {
+pub fn wrap_quoted_printable(text: &[u8], length: i64, mut left: i64, out: &mut Vec<u8>) -> i64 {
     for &byte in text {
         let needed = match byte {
             b'\r' => continue,
@@ -47,7 +47,7 @@ pub(crate) fn wrap_quoted_printable(text: &[u8], length: i64, mut left: i64, out
 }
 
 /// Replaces CR, LF, CR LF and LF CR by `marker`. `last` is half a line end seen before, or 0.
-pub(crate) fn unify_line_ends(text: &[u8], mut last: u8, marker: &[u8], out: &mut Vec<u8>) -> u8 {
+pub fn unify_line_ends(text: &[u8], mut last: u8, marker: &[u8], out: &mut Vec<u8>) -> u8 {
     for &byte in text {
         last = match (byte, last) {
             (b'\r' | b'\n', b'\r' | b'\n') => {
@@ -70,7 +70,7 @@ pub(crate) fn unify_line_ends(text: &[u8], mut last: u8, marker: &[u8], out: &mu
 }
 
 /// Doubles the dots at the beginnings of lines. `seen` of the bytes of a CR LF went before.
-pub(crate) fn stuff_dots(text: &[u8], mut seen: usize, out: &mut Vec<u8>) -> usize {
+pub fn stuff_dots(text: &[u8], mut seen: usize, out: &mut Vec<u8>) -> usize {
     for &byte in text {
         out.push(byte);
         seen = match (byte, seen) {

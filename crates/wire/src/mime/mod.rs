@@ -6,6 +6,6 @@ mod base64;
 mod lines;
 mod quoted_printable;
 
-pub(crate) use base64::{decode_base64, encode_base64, finish_base64};
-pub(crate) use lines::{stuff_dots, unify_line_ends, wrap_quoted_printable, wrap_text};
-pub(crate) use quoted_printable::{QuotedPrintable, decode_quoted_printable};
+pub use base64::{decode_base64, encode_base64, finish_base64};
+pub use lines::{stuff_dots, unify_line_ends, wrap_quoted_printable, wrap_text};
+pub use quoted_printable::{QuotedPrintable, decode_quoted_printable};

@@ -1,7 +1,7 @@
 //! Quoted-printable in chunks.
 
 /// The encoder. What cannot be decided before more comes (a space that may end a line, a CR) waits in `pending`.
-pub(crate) struct QuotedPrintable<'a> {
+pub struct QuotedPrintable<'a> {
     /// The representation of a line end.
     pub marker: &'a [u8],
     pub pending: Vec<u8>,
@@ -9,7 +9,7 @@ pub(crate) struct QuotedPrintable<'a> {
 
 impl QuotedPrintable<'_> {
     /// Encodes a chunk.
-    pub(crate) fn encode(&mut self, chunk: &[u8], out: &mut Vec<u8>) {
+    pub fn encode(&mut self, chunk: &[u8], out: &mut Vec<u8>) {
         for &byte in chunk {
             self.pending.push(byte);
             self.end_line(out);
@@ -38,7 +38,7 @@ impl QuotedPrintable<'_> {
     }
 
     /// Encodes what waits: nothing follows. A soft line break keeps a blank from the end of the text.
-    pub(crate) fn finish(&mut self, out: &mut Vec<u8>) {
+    pub fn finish(&mut self, out: &mut Vec<u8>) {
         if self.pending.is_empty() {
             return;
         }
@@ -66,7 +66,7 @@ fn quote(byte: u8, out: &mut Vec<u8>) {
 }
 
 /// Decodes; an escape that is not complete comes back. What is no escape stays as it is.
-pub(crate) fn decode_quoted_printable(mut text: &[u8]) -> (Vec<u8>, &[u8]) {
+pub fn decode_quoted_printable(mut text: &[u8]) -> (Vec<u8>, &[u8]) {
     let mut out = Vec::with_capacity(text.len());
     loop {
         let at = memchr::memchr(b'=', text).unwrap_or(text.len());

@@ -4,20 +4,20 @@ use super::Violation;
 
 /// The byte order of a client.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Order {
+pub enum Order {
     #[default]
     Little,
     Big,
 }
 
 /// Reads fields one after the other.
-pub(crate) struct Reader<'a> {
+pub struct Reader<'a> {
     bytes: &'a [u8],
     order: Order,
 }
 
 impl<'a> Reader<'a> {
-    pub(crate) fn new(bytes: &'a [u8], order: Order) -> Self {
+    pub fn new(bytes: &'a [u8], order: Order) -> Self {
         Self { bytes, order }
     }
 
@@ -25,18 +25,18 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// When there are fewer.
-    pub(crate) fn take(&mut self, count: usize) -> Result<&'a [u8], Violation> {
+    pub fn take(&mut self, count: usize) -> Result<&'a [u8], Violation> {
         let (taken, rest) = self.bytes.split_at_checked(count).ok_or(Violation::Malformed)?;
         self.bytes = rest;
         Ok(taken)
     }
 
     /// All bytes that are left.
-    pub(crate) fn rest(&mut self) -> &'a [u8] {
+    pub fn rest(&mut self) -> &'a [u8] {
         std::mem::take(&mut self.bytes)
     }
 
-    pub(crate) fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         self.bytes.is_empty()
     }
 
@@ -50,7 +50,7 @@ impl<'a> Reader<'a> {
 
     /// # Errors
     /// As all readers of numbers: when there are not enough bytes.
-    pub(crate) fn byte(&mut self) -> Result<u8, Violation> {
+    pub fn byte(&mut self) -> Result<u8, Violation> {
         self.array().map(u8::from_le_bytes)
     }
 
@@ -62,19 +62,19 @@ impl<'a> Reader<'a> {
 
     /// # Errors
     /// When there are not enough bytes.
-    pub(crate) fn int(&mut self) -> Result<i32, Violation> {
+    pub fn int(&mut self) -> Result<i32, Violation> {
         self.array().map(i32::from_le_bytes)
     }
 
     /// # Errors
     /// When there are not enough bytes, or the number is negative.
-    pub(crate) fn size(&mut self) -> Result<usize, Violation> {
+    pub fn size(&mut self) -> Result<usize, Violation> {
         usize::try_from(self.int()?).map_err(|_| Violation::Malformed)
     }
 
     /// # Errors
     /// When there are not enough bytes.
-    pub(crate) fn float(&mut self) -> Result<f32, Violation> {
+    pub fn float(&mut self) -> Result<f32, Violation> {
         self.array().map(f32::from_le_bytes)
     }
 
@@ -82,7 +82,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// When there is no zero.
-    pub(crate) fn text(&mut self) -> Result<&'a [u8], Violation> {
+    pub fn text(&mut self) -> Result<&'a [u8], Violation> {
         let end = self.bytes.iter().position(|&byte| byte == 0).ok_or(Violation::Malformed)?;
         let text = self.take(end)?;
         self.take(1)?;
@@ -92,21 +92,21 @@ impl<'a> Reader<'a> {
 
 /// Writes fields one after the other.
 #[derive(Default)]
-pub(crate) struct Writer {
+pub struct Writer {
     bytes: Vec<u8>,
     order: Order,
 }
 
 impl Writer {
-    pub(crate) fn new(order: Order) -> Self {
+    pub fn new(order: Order) -> Self {
         Self { bytes: Vec::new(), order }
     }
 
-    pub(crate) fn into_bytes(self) -> Vec<u8> {
+    pub fn into_bytes(self) -> Vec<u8> {
         self.bytes
     }
 
-    pub(crate) fn bytes(&mut self, bytes: &[u8]) {
+    pub fn bytes(&mut self, bytes: &[u8]) {
         self.bytes.extend_from_slice(bytes);
     }
 
@@ -117,7 +117,7 @@ impl Writer {
         self.bytes(&array);
     }
 
-    pub(crate) fn byte(&mut self, value: u8) {
+    pub fn byte(&mut self, value: u8) {
         self.bytes.push(value);
     }
 
@@ -125,21 +125,21 @@ impl Writer {
         self.array(value.to_le_bytes());
     }
 
-    pub(crate) fn int(&mut self, value: i32) {
+    pub fn int(&mut self, value: i32) {
         self.array(value.to_le_bytes());
     }
 
     /// A size or a count. What is too large for the protocol becomes the largest number, which no client accepts.
-    pub(crate) fn size(&mut self, value: usize) {
+    pub fn size(&mut self, value: usize) {
         self.int(i32::try_from(value).unwrap_or(i32::MAX));
     }
 
-    pub(crate) fn float(&mut self, value: f32) {
+    pub fn float(&mut self, value: f32) {
         self.array(value.to_le_bytes());
     }
 
     /// A text up to its first zero, and a zero.
-    pub(crate) fn text(&mut self, text: &[u8]) {
+    pub fn text(&mut self, text: &[u8]) {
         self.bytes(text.split(|&byte| byte == 0).next().unwrap_or_default());
         self.byte(0);
     }

@@ -57,7 +57,7 @@ impl Mode {
 
 /// A command of a client, complete.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Command {
+pub struct Command {
     pub id: u16,
     pub(crate) mode: Mode,
     /// What distinguishes it from others of the same id: handles, names.
@@ -95,7 +95,7 @@ pub(super) struct Head {
 
 /// The state of the simulator when commands are executed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Stamp {
+pub struct Stamp {
     /// Milliseconds since the simulator began.
     pub system_time: i32,
     /// Milliseconds of simulation; 0 while stopped.

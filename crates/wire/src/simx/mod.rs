@@ -8,13 +8,13 @@ mod pending;
 mod session;
 mod splits;
 
-pub(crate) use bytes::{Order, Reader, Writer};
-pub(crate) use message::{Command, Stamp};
-pub(crate) use packets::{Packets, cut};
-pub(crate) use session::{Answer, Received, Session};
+pub use bytes::{Order, Reader, Writer};
+pub use message::{Command, Stamp};
+pub use packets::{Packets, cut};
+pub use session::{Answer, Received, Session};
 
 /// The version of the protocol that both sides report.
-pub(crate) const VERSION: u8 = 11;
+pub const VERSION: u8 = 11;
 
 /// Bytes of one message, and of one command, that are accepted.
 pub(crate) const MAX_SIZE: usize = 256 << 20;
@@ -24,7 +24,7 @@ pub(crate) const MAX_COMMANDS: usize = 10_000;
 
 /// Why a connection is closed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub(crate) enum Violation {
+pub enum Violation {
     #[error("the data is not of the legacy remote API.")]
     Malformed,
     #[error("the data is larger than {MAX_SIZE} bytes.")]

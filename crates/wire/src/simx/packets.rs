@@ -18,7 +18,7 @@ const MAX_CONTENT: usize = 29_994;
 
 /// Puts messages together from what arrives, in pieces of any length.
 #[derive(Default)]
-pub(crate) struct Packets {
+pub struct Packets {
     arrived: Vec<u8>,
     /// The content of the packets of the message that is incomplete.
     message: Vec<u8>,
@@ -29,12 +29,12 @@ pub(crate) struct Packets {
 
 impl Packets {
     /// Adds what has arrived.
-    pub(crate) fn feed(&mut self, bytes: &[u8]) {
+    pub fn feed(&mut self, bytes: &[u8]) {
         self.arrived.extend_from_slice(bytes);
     }
 
     /// The byte order of the last message.
-    pub(crate) fn order(&self) -> Order {
+    pub fn order(&self) -> Order {
         self.order
     }
 
@@ -42,7 +42,7 @@ impl Packets {
     ///
     /// # Errors
     /// When the bytes are no packet, or the message is too large.
-    pub(crate) fn next(&mut self) -> Result<Option<Vec<u8>>, Violation> {
+    pub fn next(&mut self) -> Result<Option<Vec<u8>>, Violation> {
         let mut start = 0;
         let mut complete = None;
         while complete.is_none() {
@@ -83,7 +83,7 @@ impl Packets {
 }
 
 /// A message as packets of at most `max_packet` bytes; of more, where it would be too many for clients.
-pub(crate) fn cut(message: &[u8], max_packet: usize, order: Order) -> Vec<u8> {
+pub fn cut(message: &[u8], max_packet: usize, order: Order) -> Vec<u8> {
     let usual = max_packet.saturating_sub(HEADER).clamp(1, MAX_CONTENT);
     let size = if message.len().div_ceil(usual) <= MAX_PACKETS { usual } else { MAX_CONTENT };
     let count = message.len().div_ceil(size);

@@ -16,7 +16,7 @@ const MAX_LINES: usize = 1000;
 
 /// The state of one server, of which one client is served at a time.
 #[derive(Default)]
-pub(crate) struct Session {
+pub struct Session {
     /// Where the client is; None without one.
     peer: Option<String>,
     /// How many clients there were.
@@ -55,7 +55,7 @@ impl Default for ReplyHead {
 
 /// What `simRemoteApi.status` reports, times in milliseconds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Traffic {
+pub struct Traffic {
     pub last_request: i64,
     pub last_reply: i64,
     pub between_requests: i64,
@@ -65,7 +65,7 @@ pub(crate) struct Traffic {
 
 /// What a message asks the server to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Received {
+pub struct Received {
     /// Commands wait that can be executed now.
     pub is_waiting: bool,
     /// The connection ends after the reply.
@@ -73,7 +73,7 @@ pub(crate) struct Received {
 }
 
 /// Commands to be executed, and their results so far.
-pub(crate) struct Batch {
+pub struct Batch {
     connection: u64,
     /// Of the reply that fetches the results.
     head: ReplyHead,
@@ -85,7 +85,7 @@ pub(crate) struct Batch {
 
 /// The result of a command.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct Answer {
+pub struct Answer {
     pub failed: bool,
     pub data: Vec<u8>,
     /// A stream is over.
@@ -93,14 +93,14 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    pub(crate) fn failure() -> Self {
+    pub fn failure() -> Self {
         Self { failed: true, ..Self::default() }
     }
 }
 
 impl Batch {
     /// The next command that is to be executed. Discontinued streams need no execution.
-    pub(crate) fn next(&mut self) -> Option<std::sync::Arc<Command>> {
+    pub fn next(&mut self) -> Option<std::sync::Arc<Command>> {
         while let Some(job) = self.jobs.front() {
             if job.command.mode != Mode::Discontinue {
                 return Some(job.command.clone());
@@ -111,12 +111,12 @@ impl Batch {
     }
 
     /// Whether the results are as many as a reply can have.
-    pub(crate) fn is_full(&self) -> bool {
+    pub fn is_full(&self) -> bool {
         self.size > MAX_SIZE / 4
     }
 
     /// The result of that command.
-    pub(crate) fn answer(&mut self, answer: Answer) {
+    pub fn answer(&mut self, answer: Answer) {
         if let Some(job) = self.jobs.pop_front() {
             self.size += answer.data.len();
             self.answers.push((job, answer));
@@ -125,12 +125,12 @@ impl Batch {
 }
 
 impl Session {
-    pub(crate) fn new(is_monitored: bool) -> Self {
+    pub fn new(is_monitored: bool) -> Self {
         Self { monitor: is_monitored.then(VecDeque::new), ..Self::default() }
     }
 
     /// A client has come.
-    pub(crate) fn connect(&mut self, peer: String) {
+    pub fn connect(&mut self, peer: String) {
         self.note(|| "connecting to client...".into());
         self.connections += 1;
         self.peer = Some(peer);
@@ -140,31 +140,31 @@ impl Session {
     }
 
     /// The client is gone, and with it what it wanted.
-    pub(crate) fn disconnect(&mut self) {
+    pub fn disconnect(&mut self) {
         self.peer = None;
         self.client = Client::default();
         self.note(|| "disconnected from client.".into());
     }
 
     /// The number of the connection; None without a client.
-    pub(crate) fn connection(&self) -> Option<u64> {
+    pub fn connection(&self) -> Option<u64> {
         self.peer.as_ref().map(|_| self.connections)
     }
 
-    pub(crate) fn peer(&self) -> Option<&str> {
+    pub fn peer(&self) -> Option<&str> {
         self.peer.as_deref()
     }
 
-    pub(crate) fn client_version(&self) -> Option<u8> {
+    pub fn client_version(&self) -> Option<u8> {
         self.client.version
     }
 
-    pub(crate) fn traffic(&self) -> Traffic {
+    pub fn traffic(&self) -> Traffic {
         self.traffic
     }
 
     /// What has happened since the last time.
-    pub(crate) fn take_lines(&mut self) -> Vec<String> {
+    pub fn take_lines(&mut self) -> Vec<String> {
         self.monitor.as_mut().map(|lines| lines.drain(..).collect()).unwrap_or_default()
     }
 
@@ -178,12 +178,12 @@ impl Session {
     }
 
     /// Whether there is something to execute, and room for its results.
-    pub(crate) fn is_ready(&self) -> bool {
+    pub fn is_ready(&self) -> bool {
         self.client.outbox.is_empty() && !self.client.pending.is_empty()
     }
 
     /// Whether the commands of the last message have not been executed yet, though they could be.
-    pub(crate) fn is_waiting(&self) -> bool {
+    pub fn is_waiting(&self) -> bool {
         self.client.is_executing || self.client.is_waiting && self.is_ready()
     }
 
@@ -191,7 +191,7 @@ impl Session {
     ///
     /// # Errors
     /// When the connection is to be closed.
-    pub(crate) fn receive(&mut self, message: &[u8], order: Order, now: i64) -> Result<Received, Violation> {
+    pub fn receive(&mut self, message: &[u8], order: Order, now: i64) -> Result<Received, Violation> {
         let (head, pieces) = message::parse(message, order)?;
         let traffic = &mut self.traffic;
         traffic.between_requests = now - if traffic.last_request == 0 { now } else { traffic.last_request };
@@ -212,7 +212,7 @@ impl Session {
     }
 
     /// The reply to the message that was received, which fetches the results; `now` is in milliseconds.
-    pub(crate) fn reply(&mut self, now: i64) -> Vec<u8> {
+    pub fn reply(&mut self, now: i64) -> Vec<u8> {
         let client = &mut self.client;
         let mut writer = Writer::new(client.order);
         writer.bytes(&client.outbox);
@@ -229,7 +229,7 @@ impl Session {
     }
 
     /// The commands to be executed now. None before the last results are fetched, and when there are none.
-    pub(crate) fn due(&mut self, stamp: Stamp) -> Option<Batch> {
+    pub fn due(&mut self, stamp: Stamp) -> Option<Batch> {
         let client = &mut self.client;
         if !client.outbox.is_empty() {
             return None;
@@ -249,7 +249,7 @@ impl Session {
     }
 
     /// Takes the results of commands. Those of a client that is gone are dropped.
-    pub(crate) fn complete(&mut self, batch: Batch) {
+    pub fn complete(&mut self, batch: Batch) {
         if self.connection() != Some(batch.connection) {
             return;
         }

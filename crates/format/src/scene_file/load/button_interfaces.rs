@@ -2,10 +2,10 @@
 
 use super::HandleMap;
 use super::references::numbered;
-use crate::format::ttt::chunks::{Button as ButtonChunk, ButtonBlock};
-use crate::format::ttt::{File, Text};
-use crate::scene::tree::button_interfaces::{Button, ButtonInterface};
-use crate::scene::{Handle, Scene};
+use crate::ttt::chunks::{Button as ButtonChunk, ButtonBlock};
+use crate::ttt::{File, Text};
+use scene::tree::button_interfaces::{Button, ButtonInterface};
+use scene::{Handle, Scene};
 
 /// Adds those of the file. Their names are numbered as those of the objects of the file are.
 pub(super) fn add(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) {

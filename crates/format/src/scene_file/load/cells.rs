@@ -1,9 +1,9 @@
 //! Voxels and points, from the cell trees in files (spec: scene-files 7.4).
 
-use crate::format::ttt::Counted;
-use crate::format::ttt::chunks as file;
-use crate::scene::voxels::octree::{OcTree, Voxel};
-use crate::scene::voxels::point_cloud::{CloudPoint, PointCloud};
+use crate::ttt::Counted;
+use crate::ttt::chunks as file;
+use scene::voxels::octree::{OcTree, Voxel};
+use scene::voxels::point_cloud::{CloudPoint, PointCloud};
 
 /// Cells within cells; a metre of cells of a thousandth needs ten.
 const DEEPEST_CELL: usize = 60;
@@ -15,7 +15,7 @@ type Point = [f64; 3];
 
 /// # Errors
 /// In words, when the tree is damaged.
-pub(in crate::format::scene_file) fn octree(chunk: &file::OcTree) -> Result<OcTree> {
+pub(in crate::scene_file) fn octree(chunk: &file::OcTree) -> Result<OcTree> {
     let (voxel_size, point_size) = chunk.sizes.unwrap_or((0.05, 8));
     let flags = chunk.flags.unwrap_or(0);
     let mut tree = OcTree::new(voxel_size, point_size.into());
@@ -42,7 +42,7 @@ pub(in crate::format::scene_file) fn octree(chunk: &file::OcTree) -> Result<OcTr
 
 /// # Errors
 /// In words, when the tree is damaged.
-pub(in crate::format::scene_file) fn point_cloud(chunk: &file::PointCloud) -> Result<PointCloud> {
+pub(in crate::scene_file) fn point_cloud(chunk: &file::PointCloud) -> Result<PointCloud> {
     let (size, point_size) = chunk.sizes.unwrap_or((0.02, 2));
     let (max_points_in_cell, max_cell_size) = chunk.cells.unwrap_or((20, size));
     let flags = chunk.flags.unwrap_or(0);
@@ -65,7 +65,7 @@ pub(in crate::format::scene_file) fn point_cloud(chunk: &file::PointCloud) -> Re
 }
 
 /// The newest tree a file has.
-fn first(blobs: [(&Option<crate::format::ttt::Rest<u8>>, bool); 3]) -> Option<(&[u8], bool)> {
+fn first(blobs: [(&Option<crate::ttt::Rest<u8>>, bool); 3]) -> Option<(&[u8], bool)> {
     blobs.into_iter().find_map(|(blob, double)| Some((blob.as_ref()?.0.as_slice(), double)))
 }
 
@@ -188,7 +188,7 @@ impl<'a> Blob<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::ttt::Rest;
+    use crate::ttt::Rest;
 
     #[test]
     fn damaged_trees_are_errors() {

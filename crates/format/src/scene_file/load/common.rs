@@ -1,13 +1,13 @@
 //! The common part of objects (spec: scene-files 6).
 
 use super::{Context, custom_data};
-use crate::format::ttt::chunks::{Common, UserParams};
-use crate::format::ttt::tree::{Class, Object as FileObject};
-use crate::format::ttt::{Counted, Text};
-use crate::scene::object::assembly::Assembly;
-use crate::scene::object::movement::MovementFrame;
-use crate::scene::object::script_object::ExecutionPriority;
-use crate::scene::{
+use crate::ttt::chunks::{Common, UserParams};
+use crate::ttt::tree::{Class, Object as FileObject};
+use crate::ttt::{Counted, Text};
+use scene::object::assembly::Assembly;
+use scene::object::movement::MovementFrame;
+use scene::object::script_object::ExecutionPriority;
+use scene::{
     Data, Field, ForbiddenMovements, Handle, Layers, ModelFlags, Movement, Object, ObjectFlags, Pose, PreferredAxes,
     Scene, SceneResult, SpecialFlags, clean_alias,
 };

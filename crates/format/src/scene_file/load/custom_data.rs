@@ -1,9 +1,9 @@
 //! Custom data of objects and scenes, in their old and new layout.
 
-use crate::format::ttt::chunks::{CustomData as Chunk, OldCustomData};
-use crate::format::ttt::{Text, decode};
-use crate::scene::{CustomData, Data, Edit, ValueType};
-use crate::wire::pack;
+use crate::ttt::chunks::{CustomData as Chunk, OldCustomData};
+use crate::ttt::{Text, decode};
+use scene::{CustomData, Data, Edit, ValueType};
+use wire::pack;
 
 /// The number under which old files keep named blocks.
 const PACKED_TAGS: i32 = 356_248_756;

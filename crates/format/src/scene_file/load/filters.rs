@@ -4,12 +4,12 @@
 
 use std::fmt::Write as _;
 
-use crate::format::scene_file::LoadedScript;
-use crate::format::ttt::Counted;
-use crate::format::ttt::chunks::Filter;
-use crate::format::ttt::tree::{Class, Object as FileObject};
-use crate::scene::Handle;
-use crate::scene::object::script_object::ScriptType;
+use crate::scene_file::LoadedScript;
+use crate::ttt::Counted;
+use crate::ttt::chunks::Filter;
+use crate::ttt::tree::{Class, Object as FileObject};
+use scene::Handle;
+use scene::object::script_object::ScriptType;
 
 /// `sim.filtercomponent_*`: the image comes in and goes out. Alone they change nothing, and no script is written for them.
 const ORIGINAL_IMAGE: i32 = 1;

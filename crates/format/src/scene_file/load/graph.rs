@@ -3,10 +3,10 @@
 use std::collections::VecDeque;
 
 use super::sensors::groups;
-use crate::format::ttt::chunks as file;
-use crate::format::ttt::{Counted, Rest, Text};
-use crate::scene::Handle;
-use crate::scene::graph::{Curve, Graph, OldSource, Sample, Stream, Style, Transformation, TransformationKind};
+use crate::ttt::chunks as file;
+use crate::ttt::{Counted, Rest, Text};
+use scene::Handle;
+use scene::graph::{Curve, Graph, OldSource, Sample, Stream, Style, Transformation, TransformationKind};
 
 /// Bits of a stream; of a curve the first says that it moves with the graph.
 const VISIBLE: u8 = 0x1;

@@ -2,13 +2,13 @@
 
 use super::HandleMap;
 use super::references::numbered;
-use crate::format::ttt::chunks::{IkElement as ElementChunk, IkGroup as GroupChunk};
-use crate::format::ttt::{File, Text};
-use crate::scene::tree::ik_groups::{IkElement, IkGroup};
-use crate::scene::{Handle, Scene};
+use crate::ttt::chunks::{IkElement as ElementChunk, IkGroup as GroupChunk};
+use crate::ttt::{File, Text};
+use scene::tree::ik_groups::{IkElement, IkGroup};
+use scene::{Handle, Scene};
 
 /// Set where a group is handled explicitly.
-pub(in crate::format::scene_file) const EXPLICIT: u8 = 0x40;
+pub(in crate::scene_file) const EXPLICIT: u8 = 0x40;
 
 /// Adds the groups; elements whose tip is gone are left out. Their names are numbered as those of the objects of the file are.
 pub(super) fn add(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) {

@@ -3,14 +3,14 @@
 use std::f64::consts::{PI, TAU};
 
 use super::{Context, material};
-use crate::format::ttt::chunks::{Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk};
-use crate::format::ttt::{Text, unit_quaternion};
-use crate::scene::joint::{Control, Joint, JointMode, JointType};
-use crate::scene::object::dummy::{Dummy, LinkType};
-use crate::scene::parameters::engine::Engine;
-use crate::scene::parameters::engine_blocks::EngineValues;
-use crate::scene::path_object::PathFollowing;
-use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
+use crate::ttt::chunks::{Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk};
+use crate::ttt::{Text, unit_quaternion};
+use scene::joint::{Control, Joint, JointMode, JointType};
+use scene::object::dummy::{Dummy, LinkType};
+use scene::parameters::engine::Engine;
+use scene::parameters::engine_blocks::EngineValues;
+use scene::path_object::PathFollowing;
+use scene::sensor::force_sensor::{Filter, ForceSensor};
 
 /// The step of the physics that gains were multiplied by before 3.1.1.
 const OLD_STEP: f64 = 0.005;

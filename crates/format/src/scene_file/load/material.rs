@@ -1,11 +1,11 @@
 //! Materials: surface parameters of each physics engine (spec: scene-files 8).
 
 use super::Context;
-use crate::format::ttt::EngineBlock;
-use crate::format::ttt::chunks::{Material as Chunk, MeshNode, Shape as ShapeChunk};
-use crate::scene::parameters::engine::Engine;
-use crate::scene::parameters::engine_blocks::EngineValues;
-use crate::scene::shape::Material;
+use crate::ttt::EngineBlock;
+use crate::ttt::chunks::{Material as Chunk, MeshNode, Shape as ShapeChunk};
+use scene::parameters::engine::Engine;
+use scene::parameters::engine_blocks::EngineValues;
+use scene::shape::Material;
 
 /// Shapes have had materials of their own since 3.3.3; before, they named one of the file.
 const OWN_MATERIAL_SINCE: u16 = 30_303;

@@ -6,9 +6,9 @@ use std::rc::Rc;
 use geometry::Mesh;
 use nalgebra::Vector3;
 
-use crate::format::ttt::chunks::{MeshData, MeshPool};
-use crate::format::ttt::{File, Indices, Normals, Rest};
-use crate::scene::Pose;
+use crate::ttt::chunks::{MeshData, MeshPool};
+use crate::ttt::{File, Indices, Normals, Rest};
+use scene::Pose;
 
 /// How far a corner may stand out of a face of a convex mesh, by the mean side of its box.
 const CONVEX_TOLERANCE: f64 = 0.015;

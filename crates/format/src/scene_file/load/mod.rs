@@ -24,14 +24,14 @@ pub(super) use ik_groups::EXPLICIT as EXPLICIT_IK_GROUP;
 pub(super) use references::UNNAMED_COLLECTION;
 
 use super::{Loaded, LoadedScript, ScriptCode, ScriptSources, read_file};
-use crate::format::ttt::tree::{Class, Object as FileObject};
-use crate::format::ttt::{File, FileError, FileKind, FileResult, Header};
-use crate::permissions::Permissions;
-use crate::scene::object::dummy::{Dummy, LinkType};
-use crate::scene::pose::placement::is_place;
-use crate::scene::shape::Shape;
-use crate::scene::{Handle, Kind, Scene, SceneResult};
+use crate::ttt::tree::{Class, Object as FileObject};
+use crate::ttt::{File, FileError, FileKind, FileResult, Header};
 use mesh::Meshes;
+use permissions::Permissions;
+use scene::object::dummy::{Dummy, LinkType};
+use scene::pose::placement::is_place;
+use scene::shape::Shape;
+use scene::{Handle, Kind, Scene, SceneResult};
 use texture::TextureMap;
 
 /// Data of the file that are needed to interpret a chunk.

@@ -1,12 +1,10 @@
 //! Paths of V-REP.
 
 use super::sensors::colour;
-use crate::format::ttt::chunks::{Path, PathControl, PathPoint};
-use crate::scene::Pose;
-use crate::scene::appearance::colour::Colour;
-use crate::scene::path_object::{
-    ControlPoint, LengthMethod, Measures, PathAttributes, PathObject, Shaping, VelocityProfile,
-};
+use crate::ttt::chunks::{Path, PathControl, PathPoint};
+use scene::Pose;
+use scene::appearance::colour::Colour;
+use scene::path_object::{ControlPoint, LengthMethod, Measures, PathAttributes, PathObject, Shaping, VelocityProfile};
 
 /// The bit of [`Path::flags`]; the others concern the shape along the path.
 const EXPLICIT: u8 = 0x20;

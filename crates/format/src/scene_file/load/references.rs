@@ -3,21 +3,21 @@
 use std::collections::BTreeMap;
 
 use super::HandleMap;
-use crate::format::ttt::chunks::{Collection as CollectionChunk, CollectionElement, Common, Joint as JointChunk};
-use crate::format::ttt::tree::{Class, Object as FileObject};
-use crate::format::ttt::{Counted, EngineBlock, File, Text};
-use crate::scene::joint::{Dependency, JointMode};
-use crate::scene::object::viewers::Viewers;
-use crate::scene::sensor::Entity;
-use crate::scene::tree::calculation_objects::CalculationObject;
-use crate::scene::{
+use crate::ttt::chunks::{Collection as CollectionChunk, CollectionElement, Common, Joint as JointChunk};
+use crate::ttt::tree::{Class, Object as FileObject};
+use crate::ttt::{Counted, EngineBlock, File, Text};
+use scene::joint::{Dependency, JointMode};
+use scene::object::viewers::Viewers;
+use scene::sensor::Entity;
+use scene::tree::calculation_objects::CalculationObject;
+use scene::{
     CollectionItem, Field, Handle, Members, ReferenceLists, References, Scene, SceneResult, name_suffix, special,
 };
 
 /// Larger numbers are handles of collections.
 const LAST_OBJECT: i32 = 999_999;
 /// Before the handle of a collection without a name.
-pub(in crate::format::scene_file) const UNNAMED_COLLECTION: &str = "collection";
+pub(in crate::scene_file) const UNNAMED_COLLECTION: &str = "collection";
 /// Instead of the handle of who sees an object.
 const NOBODY: i32 = -2;
 

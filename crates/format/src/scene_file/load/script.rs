@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 
 use super::common::{alias, user_params};
 use super::{Context, HandleMap};
-use crate::format::scene_file::migrate::{self, Origin, Thread};
-use crate::format::scene_file::{LoadedScript, ScriptCode};
-use crate::format::ttt::chunks::{Script as Chunk, ScriptObject as ObjectChunk};
-use crate::format::ttt::tree::{Class, Object as FileObject};
-use crate::format::ttt::{ScriptText, Text};
-use crate::scene::object::script_object::{ExecutionPriority, ScriptObject, ScriptType};
-use crate::scene::{Field, Scene, SceneResult};
+use crate::scene_file::migrate::{self, Origin, Thread};
+use crate::scene_file::{LoadedScript, ScriptCode};
+use crate::ttt::chunks::{Script as Chunk, ScriptObject as ObjectChunk};
+use crate::ttt::tree::{Class, Object as FileObject};
+use crate::ttt::{ScriptText, Text};
+use scene::object::script_object::{ExecutionPriority, ScriptObject, ScriptType};
+use scene::{Field, Scene, SceneResult};
 
 const THREADED: u8 = 0x1;
 const DISABLED: u8 = 0x2;

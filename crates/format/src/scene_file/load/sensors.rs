@@ -1,12 +1,12 @@
 //! Sensors, cameras, lights, and colours (spec: scene-files 7.1, scene-files 7.4).
 
 use super::Context;
-use crate::format::ttt::Counted;
-use crate::format::ttt::chunks as file;
-use crate::scene::appearance::colour::Colour;
-use crate::scene::sensor::volume::{Volume, VolumeType};
-use crate::scene::sensor::volume_faces::VolumeFaces;
-use crate::scene::sensor::{Camera, Entity, Light, LightType, ProximitySensor, RenderMode, View, VisionSensor};
+use crate::ttt::Counted;
+use crate::ttt::chunks as file;
+use scene::appearance::colour::Colour;
+use scene::sensor::volume::{Volume, VolumeType};
+use scene::sensor::volume_faces::VolumeFaces;
+use scene::sensor::{Camera, Entity, Light, LightType, ProximitySensor, RenderMode, View, VisionSensor};
 
 /// Where this bit of a colour is clear, it is translucent.
 const OPAQUE: u8 = 0x4;

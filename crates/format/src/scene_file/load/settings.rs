@@ -2,11 +2,11 @@
 
 use super::custom_data;
 use super::material::load_all;
-use crate::format::ttt::chunks::{self, Dynamics, ModuleSettings, Simulation};
-use crate::format::ttt::{File, Text};
-use crate::scene::appearance::environment::{Environment, Fog, FogType};
-use crate::scene::parameters::engine::{Engine, SelectedEngine};
-use crate::scene::{Calculations, DynamicsSettings, Layers, Scene, SceneResult, Settings};
+use crate::ttt::chunks::{self, Dynamics, ModuleSettings, Simulation};
+use crate::ttt::{File, Text};
+use scene::appearance::environment::{Environment, Fog, FogType};
+use scene::parameters::engine::{Engine, SelectedEngine};
+use scene::{Calculations, DynamicsSettings, Layers, Scene, SceneResult, Settings};
 
 /// Simulation steps of the presets of old files, seconds; the next number means a step of one's own.
 const STEP_PRESETS: [f64; 5] = [0.2, 0.1, 0.05, 0.025, 0.01];

@@ -11,12 +11,12 @@ use nalgebra::Matrix3;
 use super::mesh::is_nearly_convex;
 use super::sensors::colour;
 use super::{Context, material, texture};
-use crate::format::ttt::PositionFirst;
-use crate::format::ttt::chunks::{MeshData, MeshNode, Shape as Chunk, ShapeGeometry};
-use crate::format::ttt::tree::{Mesh as FileMesh, MeshTree};
-use crate::scene::Pose;
-use crate::scene::appearance::texture_mapping::TextureMapping;
-use crate::scene::shape::{Appearance, HeightField, Part, Primitive, RespondableMask, Shape, ShapeDynamics, Velocity};
+use crate::ttt::PositionFirst;
+use crate::ttt::chunks::{MeshData, MeshNode, Shape as Chunk, ShapeGeometry};
+use crate::ttt::tree::{Mesh as FileMesh, MeshTree};
+use scene::Pose;
+use scene::appearance::texture_mapping::TextureMapping;
+use scene::shape::{Appearance, HeightField, Part, Primitive, RespondableMask, Shape, ShapeDynamics, Velocity};
 
 /// Smallest moment of inertia per kilogram (m2) that counts.
 const SMALLEST_MOMENT: f64 = 1e-8;
@@ -209,9 +209,8 @@ fn appearance(data: &MeshData) -> Appearance {
     let mut appearance = Appearance::new([1.0; 3]);
     if let Some(chunk) = &data.colour {
         appearance.colour = colour(chunk, appearance.colour, false);
-        appearance.colour_extension =
-            chunk.extension_string.as_ref().map(crate::format::ttt::Text::decode).unwrap_or_default();
-        appearance.colour_name = chunk.name.as_ref().map(crate::format::ttt::Text::decode).unwrap_or_default();
+        appearance.colour_extension = chunk.extension_string.as_ref().map(crate::ttt::Text::decode).unwrap_or_default();
+        appearance.colour_name = chunk.name.as_ref().map(crate::ttt::Text::decode).unwrap_or_default();
     }
     let switches = data.switches.unwrap_or(0);
     (appearance.edges, appearance.culling, appearance.wireframe) =

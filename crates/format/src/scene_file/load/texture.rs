@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::HandleMap;
-use crate::format::ttt::chunks::{Texture as Chunk, TextureMapping as MappingChunk};
-use crate::format::ttt::{Rest, Text};
-use crate::scene::appearance::texture::Texture;
-use crate::scene::appearance::texture_mapping::{ApplyMode, MappingMode, TextureMapping, TextureSource};
-use crate::scene::{Field, Handle, Scene, SceneResult};
+use crate::ttt::chunks::{Texture as Chunk, TextureMapping as MappingChunk};
+use crate::ttt::{Rest, Text};
+use scene::appearance::texture::Texture;
+use scene::appearance::texture_mapping::{ApplyMode, MappingMode, TextureMapping, TextureSource};
+use scene::{Field, Handle, Scene, SceneResult};
 
 /// Larger numbers are textures, smaller ones handles of vision sensors.
 const LAST_OBJECT: i32 = 999_999;

@@ -3,12 +3,12 @@
 //! All of it works on the text, not on Lua: comments and strings are rewritten alike, as in the original. Line numbers stay, save
 //! where functions are put in front.
 
-pub(crate) mod old_names;
+pub mod old_names;
 mod poses;
 mod texts;
 mod threads;
 
-use crate::format::ttt::Header;
+use crate::ttt::Header;
 
 /// Where a script comes from.
 #[derive(Debug, Clone, Copy, Default)]

@@ -1,8 +1,8 @@
 //! Custom user interfaces of V-REP. A model has those of its objects.
 
 use super::Context;
-use crate::format::ttt::chunks::{Button as ButtonChunk, ButtonBlock};
-use crate::scene::tree::button_interfaces::{Button, ButtonInterface};
+use crate::ttt::chunks::{Button as ButtonChunk, ButtonBlock};
+use scene::tree::button_interfaces::{Button, ButtonInterface};
 
 pub(super) fn blocks(context: &Context<'_>, is_model: bool) -> Vec<ButtonBlock> {
     let interfaces = context.scene.button_interfaces().iter();

@@ -1,10 +1,10 @@
 //! Collision and distance objects of old scenes, whose entities are saved.
 
 use super::{Context, colour};
-use crate::format::ttt::chunks::{Collision, Distance};
-use crate::scene::Handle;
-use crate::scene::appearance::colour::Colour;
-use crate::scene::tree::calculation_objects::CalculationObject;
+use crate::ttt::chunks::{Collision, Distance};
+use scene::Handle;
+use scene::appearance::colour::Colour;
+use scene::tree::calculation_objects::CalculationObject;
 
 /// Of the lines that show them, pixels.
 const WIDTH: i32 = 1;

@@ -1,10 +1,10 @@
 //! Voxels and points as cell trees: version 2, readable since 4.5.1.
 
 use super::sensors::bits;
-use crate::format::ttt::chunks as file;
-use crate::format::ttt::{Counted, Rest};
-use crate::scene::voxels::octree::{OcTree, Voxel};
-use crate::scene::voxels::point_cloud::{CloudPoint, PointCloud};
+use crate::ttt::chunks as file;
+use crate::ttt::{Counted, Rest};
+use scene::voxels::octree::{OcTree, Voxel};
+use scene::voxels::point_cloud::{CloudPoint, PointCloud};
 
 const VERSION: u8 = 2;
 

@@ -1,7 +1,7 @@
 //! Colours, in the present model and in that before 3.1.4, which current versions write as well.
 
-use crate::format::ttt::chunks::Colour as Chunk;
-use crate::scene::appearance::colour::Colour;
+use crate::ttt::chunks::Colour as Chunk;
+use scene::appearance::colour::Colour;
 
 const OPAQUE: u8 = 0x4;
 /// The diffuse light every colour had before ambient and diffuse became one.

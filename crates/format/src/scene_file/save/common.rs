@@ -1,10 +1,10 @@
 //! The common part of objects.
 
 use super::{Context, custom_data};
-use crate::format::ttt::chunks::{Common, UserParams};
-use crate::format::ttt::{Counted, OriginalReference, Text};
-use crate::scene::object::viewers::Viewers;
-use crate::scene::{Data, ForbiddenMovements, Handle, Object, SceneResult, alternative_name};
+use crate::ttt::chunks::{Common, UserParams};
+use crate::ttt::{Counted, OriginalReference, Text};
+use scene::object::viewers::Viewers;
+use scene::{Data, ForbiddenMovements, Handle, Object, SceneResult, alternative_name};
 
 /// Current programs mark every property with it.
 const WRITTEN_SINCE_2_5: i32 = 0x4;

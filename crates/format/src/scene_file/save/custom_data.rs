@@ -1,9 +1,9 @@
 //! Custom data as bytes: the inverse of loading.
 
-use crate::format::ttt::Text;
-use crate::format::ttt::chunks::CustomData as Chunk;
-use crate::scene::{CustomData, Data, ValueType};
-use crate::wire::pack;
+use crate::ttt::Text;
+use crate::ttt::chunks::CustomData as Chunk;
+use scene::{CustomData, Data, ValueType};
+use wire::pack;
 
 /// Nothing where there is no data: the chunk is left out then.
 pub(super) fn chunk(data: &CustomData) -> Option<Chunk> {

@@ -2,9 +2,9 @@
 
 use super::Context;
 use super::sensors::bits;
-use crate::format::ttt::chunks as file;
-use crate::format::ttt::{Counted, Rest};
-use crate::scene::graph::{Curve, Graph, OldSource, Sample, Stream, Style};
+use crate::ttt::chunks as file;
+use crate::ttt::{Counted, Rest};
+use scene::graph::{Curve, Graph, OldSource, Sample, Stream, Style};
 
 /// Streams and curves that scripts made outlive them here.
 const NO_SCRIPT: i32 = -1;
@@ -120,7 +120,7 @@ fn old_stream(context: &Context<'_>, stream: &Stream, source: OldSource, slots: 
 }
 
 fn old_curve(curve: &Curve) -> file::OldCurve {
-    let mut colour = crate::scene::appearance::colour::Colour::new(curve.style.colour);
+    let mut colour = scene::appearance::colour::Colour::new(curve.style.colour);
     colour.specular = [0.0; 3];
     file::OldCurve {
         name: Some(curve.style.name.as_str().into()),

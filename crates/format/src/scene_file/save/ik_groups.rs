@@ -1,9 +1,9 @@
 //! Groups of inverse kinematics of old scenes, whose tips are saved.
 
 use super::Context;
-use crate::format::scene_file::load::EXPLICIT_IK_GROUP;
-use crate::format::ttt::chunks::{IkElement as ElementChunk, IkGroup as GroupChunk};
-use crate::scene::tree::ik_groups::{IkElement, IkGroup};
+use crate::scene_file::load::EXPLICIT_IK_GROUP;
+use crate::ttt::chunks::{IkElement as ElementChunk, IkGroup as GroupChunk};
+use scene::tree::ik_groups::{IkElement, IkGroup};
 
 pub(super) fn groups(context: &Context<'_>) -> Vec<GroupChunk> {
     let is_saved = |group: &IkGroup| group.elements.iter().all(|element| context.saved.contains(&element.tip));

@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 
 use super::{Context, shape};
-use crate::format::ttt::EngineBlock;
-use crate::format::ttt::chunks::{Colour, Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk};
-use crate::scene::joint::{Control, Joint};
-use crate::scene::object::dummy::Dummy;
-use crate::scene::parameters::engine::Engine;
-use crate::scene::parameters::engine_blocks::EngineValues;
-use crate::scene::sensor::force_sensor::ForceSensor;
+use crate::ttt::EngineBlock;
+use crate::ttt::chunks::{Colour, Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk};
+use scene::joint::{Control, Joint};
+use scene::object::dummy::Dummy;
+use scene::parameters::engine::Engine;
+use scene::parameters::engine_blocks::EngineValues;
+use scene::sensor::force_sensor::ForceSensor;
 
 const CYCLIC: u8 = 0x1;
 const MOTOR: u8 = 0x10;

@@ -6,9 +6,9 @@ use std::rc::Rc;
 use geometry::Mesh;
 
 use super::edges;
-use crate::format::ttt::chunks::MeshData;
-use crate::format::ttt::mesh_arrays::{Arrays, MeshArrays, Places};
-use crate::scene::Pose;
+use crate::ttt::chunks::MeshData;
+use crate::ttt::mesh_arrays::{Arrays, MeshArrays, Places};
+use scene::Pose;
 
 /// The arrays of a file as it grows.
 #[derive(Default)]

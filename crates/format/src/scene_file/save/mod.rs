@@ -24,12 +24,12 @@ mod texture;
 use std::collections::BTreeSet;
 
 use super::LoadedScript;
-use crate::format::ttt::chunks::ModelInfo;
-use crate::format::ttt::tree::{Class, Contents, Object as FileObject};
-use crate::format::ttt::{File, FileKind, Header};
-use crate::scene::shape::Shape;
-use crate::scene::{Handle, Kind, Object, Pose, Scene, SceneResult};
+use crate::ttt::chunks::ModelInfo;
+use crate::ttt::tree::{Class, Contents, Object as FileObject};
+use crate::ttt::{File, FileKind, Header};
 use mesh::Pool;
+use scene::shape::Shape;
+use scene::{Handle, Kind, Object, Pose, Scene, SceneResult};
 
 /// Data of the scene that are needed to write an object.
 struct Context<'a> {

@@ -1,9 +1,9 @@
 //! Paths of V-REP.
 
 use super::colour;
-use crate::format::ttt::Counted;
-use crate::format::ttt::chunks::{Colour, Path, PathControl, PathPoint};
-use crate::scene::path_object::{ControlPoint, PathObject};
+use crate::ttt::Counted;
+use crate::ttt::chunks::{Colour, Path, PathControl, PathPoint};
+use scene::path_object::{ControlPoint, PathObject};
 
 /// Set where a path is handled explicitly.
 const EXPLICIT: u8 = 0x20;

@@ -1,10 +1,10 @@
 //! Scripts: script objects, attached scripts, the main script.
 
-use crate::format::scene_file::LoadedScript;
-use crate::format::ttt::chunks::{Colour, Script as Chunk, ScriptObject as ObjectChunk};
-use crate::format::ttt::{Counted, ScriptText};
-use crate::scene::Handle;
-use crate::scene::object::script_object::{ScriptObject, ScriptType};
+use crate::scene_file::LoadedScript;
+use crate::ttt::chunks::{Colour, Script as Chunk, ScriptObject as ObjectChunk};
+use crate::ttt::{Counted, ScriptText};
+use scene::Handle;
+use scene::object::script_object::{ScriptObject, ScriptType};
 
 const DISABLED: u8 = 0x2;
 const OWN_MAIN_SCRIPT: u8 = 0x8;

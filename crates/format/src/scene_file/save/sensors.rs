@@ -1,11 +1,11 @@
 //! Sensors, cameras, lights, graphs.
 
 use super::{Context, colour};
-use crate::format::ttt::Counted;
-use crate::format::ttt::chunks as file;
-use crate::scene::sensor::volume::Volume;
-use crate::scene::sensor::volume_faces::VolumeFaces;
-use crate::scene::sensor::{Camera, Entity, Light, ProximitySensor, VisionSensor};
+use crate::ttt::Counted;
+use crate::ttt::chunks as file;
+use scene::sensor::volume::Volume;
+use scene::sensor::volume_faces::VolumeFaces;
+use scene::sensor::{Camera, Entity, Light, ProximitySensor, VisionSensor};
 
 /// Kinds of detectable objects in old versions.
 const ULTRASONIC: i32 = 16;

@@ -3,14 +3,14 @@
 use std::collections::BTreeSet;
 
 use super::{Context, custom_data, shape};
-use crate::format::scene_file::load::UNNAMED_COLLECTION;
-use crate::format::ttt::Counted;
-use crate::format::ttt::chunks::{
+use crate::scene_file::load::UNNAMED_COLLECTION;
+use crate::ttt::Counted;
+use crate::ttt::chunks::{
     Collection, CollectionElement, Dynamics, Environment, ModuleSettings, Page, Simulation, View, Views,
 };
-use crate::format::ttt::tree::Contents;
-use crate::scene::object::viewers::Viewers;
-use crate::scene::{Calculations, Collection as Collected, CollectionItem, Kind, Members, Object, Scene, Settings};
+use crate::ttt::tree::Contents;
+use scene::object::viewers::Viewers;
+use scene::{Calculations, Collection as Collected, CollectionItem, Kind, Members, Object, Scene, Settings};
 
 /// The preset of the physics, and of the step, that means settings of one's own.
 const CUSTOM: i32 = 5;

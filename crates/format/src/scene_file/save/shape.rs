@@ -4,14 +4,14 @@ use geometry::MassProperties;
 use geometry::PrimitiveKind;
 
 use super::{Context, colour, texture};
-use crate::format::ttt::chunks::{Material as MaterialChunk, MeshData, MeshNode, Shape as Chunk, ShapeGeometry};
-use crate::format::ttt::tree::{Mesh as FileMesh, MeshTree};
-use crate::format::ttt::{EngineBlock, Heights};
-use crate::scene::Pose;
-use crate::scene::parameters::engine::Engine;
-use crate::scene::parameters::engine_blocks::EngineValues;
-use crate::scene::shape::reshape::box_of;
-use crate::scene::shape::{Appearance, Material, Part, Primitive, Shape, ShapeDynamics};
+use crate::ttt::chunks::{Material as MaterialChunk, MeshData, MeshNode, Shape as Chunk, ShapeGeometry};
+use crate::ttt::tree::{Mesh as FileMesh, MeshTree};
+use crate::ttt::{EngineBlock, Heights};
+use scene::Pose;
+use scene::parameters::engine::Engine;
+use scene::parameters::engine_blocks::EngineValues;
+use scene::shape::reshape::box_of;
+use scene::shape::{Appearance, Material, Part, Primitive, Shape, ShapeDynamics};
 
 const CONVEX: u8 = 0x4;
 const CONVEXITY_KNOWN: u8 = 0x20;

@@ -1,11 +1,11 @@
 //! Textures and their mapping on meshes.
 
 use super::Context;
-use crate::format::ttt::Rest;
-use crate::format::ttt::chunks::{Texture as Chunk, TextureMapping as MappingChunk};
-use crate::scene::Scene;
-use crate::scene::appearance::texture::Texture;
-use crate::scene::appearance::texture_mapping::{ApplyMode, TextureMapping, TextureSource};
+use crate::ttt::Rest;
+use crate::ttt::chunks::{Texture as Chunk, TextureMapping as MappingChunk};
+use scene::Scene;
+use scene::appearance::texture::Texture;
+use scene::appearance::texture_mapping::{ApplyMode, TextureMapping, TextureSource};
 
 /// The images of a scene, or those of a model that are `used`.
 pub(super) fn all(scene: &Scene, used: impl Fn(i64) -> bool) -> Vec<Chunk> {

@@ -1,8 +1,8 @@
 //! Octrees, point clouds, markers.
 
 use super::Colour;
-use crate::format::ttt::stream::streams;
-use crate::format::ttt::value::{Counted, Rest};
+use crate::ttt::stream::streams;
+use crate::ttt::value::{Counted, Rest};
 
 streams! {
     /// An octree.

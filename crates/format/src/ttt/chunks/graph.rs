@@ -1,8 +1,8 @@
 //! Graphs and their curves.
 
 use super::Colour;
-use crate::format::ttt::stream::streams;
-use crate::format::ttt::value::{Counted, Rest, Text};
+use crate::ttt::stream::streams;
+use crate::ttt::value::{Counted, Rest, Text};
 
 streams! {
     /// A graph.

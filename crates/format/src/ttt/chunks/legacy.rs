@@ -1,8 +1,8 @@
 //! Chunks of features that later versions removed.
 
 use super::{Colour, TextureMapping, Volume};
-use crate::format::ttt::stream::streams;
-use crate::format::ttt::value::{Rest, Text};
+use crate::ttt::stream::streams;
+use crate::ttt::value::{Rest, Text};
 
 streams! {
     /// A mirror or clipping plane, removed since.

@@ -1,8 +1,8 @@
 //! Joints, force sensors, dummies.
 
 use super::Colour;
-use crate::format::ttt::stream::streams;
-use crate::format::ttt::value::{EngineBlock, Text};
+use crate::ttt::stream::streams;
+use crate::ttt::value::{EngineBlock, Text};
 
 streams! {
     /// A joint.

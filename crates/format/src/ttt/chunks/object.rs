@@ -1,7 +1,7 @@
 //! The common part of scene objects.
 
-use crate::format::ttt::stream::streams;
-use crate::format::ttt::value::{Counted, OriginalReference, Rest, RotationFirst, Text};
+use crate::ttt::stream::streams;
+use crate::ttt::value::{Counted, OriginalReference, Rest, RotationFirst, Text};
 
 streams! {
     /// Common data of all scene objects.

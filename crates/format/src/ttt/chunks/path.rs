@@ -1,8 +1,8 @@
 //! Paths from before 4.2.
 
 use super::Colour;
-use crate::format::ttt::stream::streams;
-use crate::format::ttt::value::{Counted, PositionFirst};
+use crate::ttt::stream::streams;
+use crate::ttt::value::{Counted, PositionFirst};
 
 streams! {
     /// A path of the kind that was replaced in 4.2.

@@ -1,8 +1,8 @@
 //! Scene-level and model-level chunks.
 
 use super::Colour;
-use crate::format::ttt::stream::streams;
-use crate::format::ttt::value::{Counted, EngineBlock, PositionFirst, Rest, Text};
+use crate::ttt::stream::streams;
+use crate::ttt::value::{Counted, EngineBlock, PositionFirst, Rest, Text};
 
 streams! {
     /// How a simulation runs.

@@ -1,8 +1,8 @@
 //! Scripts.
 
 use super::{Colour, OldCustomData, UserParams};
-use crate::format::ttt::stream::streams;
-use crate::format::ttt::value::{Counted, Rest, ScriptText, Text};
+use crate::ttt::stream::streams;
+use crate::ttt::value::{Counted, Rest, ScriptText, Text};
 
 streams! {
     /// A script in the tree of objects, since 4.7.

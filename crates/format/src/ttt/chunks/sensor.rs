@@ -1,8 +1,8 @@
 //! Sensors, cameras, lights.
 
 use super::Colour;
-use crate::format::ttt::stream::streams;
-use crate::format::ttt::value::{Counted, Text};
+use crate::ttt::stream::streams;
+use crate::ttt::value::{Counted, Text};
 
 streams! {
     /// A proximity sensor.

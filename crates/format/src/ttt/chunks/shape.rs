@@ -1,9 +1,9 @@
 //! Shapes: geometry, materials, textures.
 
 use super::Colour;
-use crate::format::ttt::stream::streams;
-use crate::format::ttt::tree::{Mesh, MeshTree};
-use crate::format::ttt::value::{EngineBlock, Heights, Indices, Normals, PositionFirst, Rest, RotationFirst, Text};
+use crate::ttt::stream::streams;
+use crate::ttt::tree::{Mesh, MeshTree};
+use crate::ttt::value::{EngineBlock, Heights, Indices, Normals, PositionFirst, Rest, RotationFirst, Text};
 
 streams! {
     /// A shape, except for what all objects have.

@@ -1,10 +1,10 @@
 //! Lists: with a count, or until the end of their chunk.
 
 use super::{Plain, Value};
-use crate::format::ttt::error::FileResult;
-use crate::format::ttt::node::{Node, NodeResult, at};
-use crate::format::ttt::read::{Reader, Real};
-use crate::format::ttt::write::Writer;
+use crate::ttt::error::FileResult;
+use crate::ttt::node::{Node, NodeResult, at};
+use crate::ttt::read::{Reader, Real};
+use crate::ttt::write::Writer;
 
 /// Things behind their number.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -2,10 +2,10 @@
 
 use super::list::{list, of_list};
 use super::{Plain, Rest, Value};
-use crate::format::ttt::error::FileResult;
-use crate::format::ttt::node::{Node, NodeResult};
-use crate::format::ttt::read::{Reader, Real};
-use crate::format::ttt::write::Writer;
+use crate::ttt::error::FileResult;
+use crate::ttt::node::{Node, NodeResult};
+use crate::ttt::read::{Reader, Real};
+use crate::ttt::write::Writer;
 
 /// The heights of a terrain, row by row. Both counts are zero where a mesh is none.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -3,11 +3,11 @@
 use nalgebra::{Quaternion, UnitQuaternion};
 
 use super::Value;
-use crate::format::ttt::error::FileResult;
-use crate::format::ttt::node::{Node, NodeResult};
-use crate::format::ttt::read::{Reader, Real};
-use crate::format::ttt::write::Writer;
-use crate::scene::Pose;
+use crate::ttt::error::FileResult;
+use crate::ttt::node::{Node, NodeResult};
+use crate::ttt::read::{Reader, Real};
+use crate::ttt::write::Writer;
+use scene::Pose;
 
 /// A pose that begins with its quaternion: w x y z, then the position.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

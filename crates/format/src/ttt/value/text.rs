@@ -1,10 +1,10 @@
 //! Strings with their length, and the obfuscated text of scripts.
 
 use super::Value;
-use crate::format::ttt::error::FileResult;
-use crate::format::ttt::node::{Node, NodeResult};
-use crate::format::ttt::read::{Reader, Real};
-use crate::format::ttt::write::Writer;
+use crate::ttt::error::FileResult;
+use crate::ttt::node::{Node, NodeResult};
+use crate::ttt::read::{Reader, Real};
+use crate::ttt::write::Writer;
 
 /// A text or other bytes behind their length. Mostly UTF-8; names and scripts of old Windows programs are Latin-1.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -11,15 +11,15 @@ use ros_interfaces::{Layout, Record, Value, cdr};
 use rtps::Qos;
 
 use super::goal::{self, GoalId, Status};
-use crate::modules::ros_values::{self, Style};
-use crate::modules::sim_ros2::endpoint::Endpoint;
-use crate::modules::sim_ros2::node::{Entity, add, get, node, running, shut_down};
-use crate::modules::sim_ros2::services::{Client, ask};
-use crate::modules::sim_ros2::{ApiError, ApiFn, Cx, Result, functions, interfaces};
-use crate::scene::Data;
-use crate::script::{ScriptCallback, ScriptFunction, Table};
+use crate::ros_values::{self, Style};
+use crate::sim_ros2::endpoint::Endpoint;
+use crate::sim_ros2::node::{Entity, add, get, node, running, shut_down};
+use crate::sim_ros2::services::{Client, ask};
+use crate::sim_ros2::{ApiError, ApiFn, Cx, Result, functions, interfaces};
+use scene::Data;
+use script::{ScriptCallback, ScriptFunction, Table};
 
-pub(in crate::modules::sim_ros2) const FUNCTIONS: &[ApiFn] = functions![
+pub(in crate::sim_ros2) const FUNCTIONS: &[ApiFn] = functions![
     create_action_client,
     send_goal,
     cancel_last_goal,
@@ -31,7 +31,7 @@ pub(in crate::modules::sim_ros2) const FUNCTIONS: &[ApiFn] = functions![
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// What sends goals.
-pub(in crate::modules::sim_ros2) struct ActionClient {
+pub(in crate::sim_ros2) struct ActionClient {
     goals: Client,
     cancel: Client,
     results: Client,
@@ -49,7 +49,7 @@ pub(in crate::modules::sim_ros2) struct ActionClient {
 
 impl ActionClient {
     /// Calls back for feedback and results that have arrived.
-    pub(in crate::modules::sim_ros2) fn spin(&self) {
+    pub(in crate::sim_ros2) fn spin(&self) {
         for _ in 0..self.feedback.waiting() {
             let Some(sample) = self.feedback.take() else { break };
             let Ok(message) = cdr::decode(&self.feedback_layout, &sample.payload) else { continue };

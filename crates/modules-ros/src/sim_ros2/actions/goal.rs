@@ -2,8 +2,8 @@
 
 use ros_interfaces::{Array, Number, Numbers, Record, Value};
 
-use crate::modules::ros_values::{self, Style};
-use crate::scene::Data;
+use crate::ros_values::{self, Style};
+use scene::Data;
 
 /// The identity of a goal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

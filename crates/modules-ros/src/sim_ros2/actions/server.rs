@@ -7,14 +7,14 @@ use ros_interfaces::{Record, Value};
 use rtps::{Call, Durability, History, Qos};
 
 use super::goal::{self, GoalId, Status};
-use crate::modules::ros_values::{self, Style};
-use crate::modules::sim_ros2::endpoint::Endpoint;
-use crate::modules::sim_ros2::interfaces::ActionLayouts;
-use crate::modules::sim_ros2::node::Running;
-use crate::modules::sim_ros2::services::Server;
-use crate::modules::sim_ros2::{ApiError, Result, times};
-use crate::scene::Data;
-use crate::script::ScriptCallback;
+use crate::ros_values::{self, Style};
+use crate::sim_ros2::endpoint::Endpoint;
+use crate::sim_ros2::interfaces::ActionLayouts;
+use crate::sim_ros2::node::Running;
+use crate::sim_ros2::services::Server;
+use crate::sim_ros2::{ApiError, Result, times};
+use scene::Data;
+use script::ScriptCallback;
 
 const ACCEPT_AND_EXECUTE: i64 = 12857;
 const ACCEPT_AND_DEFER: i64 = 12858;
@@ -32,7 +32,7 @@ pub(super) struct Callbacks {
 }
 
 /// What carries out goals.
-pub(in crate::modules::sim_ros2) struct ActionServer {
+pub(in crate::sim_ros2) struct ActionServer {
     send_goal: Server,
     cancel: Server,
     get_result: Server,
@@ -83,7 +83,7 @@ impl ActionServer {
     }
 
     /// Calls back for goals and cancellations that have arrived, and notes who asks for results.
-    pub(in crate::modules::sim_ros2) fn spin(&self) {
+    pub(in crate::sim_ros2) fn spin(&self) {
         for (call, request) in self.send_goal.arrived() {
             self.goal_arrived(call, &request);
         }

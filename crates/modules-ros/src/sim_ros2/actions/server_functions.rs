@@ -6,12 +6,12 @@ use api_macro::api;
 
 use super::goal::{GoalId, Status};
 use super::server::{ActionServer, Callbacks};
-use crate::modules::ros_values::Style;
-use crate::modules::sim_ros2::node::{Entity, add, get, running, shut_down};
-use crate::modules::sim_ros2::{ApiError, ApiFn, Cx, Result, functions, interfaces};
-use crate::script::{ScriptCallback, ScriptFunction, Table};
+use crate::ros_values::Style;
+use crate::sim_ros2::node::{Entity, add, get, running, shut_down};
+use crate::sim_ros2::{ApiError, ApiFn, Cx, Result, functions, interfaces};
+use script::{ScriptCallback, ScriptFunction, Table};
 
-pub(in crate::modules::sim_ros2) const FUNCTIONS: &[ApiFn] = functions![
+pub(in crate::sim_ros2) const FUNCTIONS: &[ApiFn] = functions![
     create_action_server,
     action_server_publish_feedback,
     action_server_action_execute,

@@ -8,13 +8,13 @@ use std::f64::consts::TAU;
 use std::rc::Rc;
 use std::sync::LazyLock;
 
-use crate::perception::vision::models::ModelPart;
-use crate::perception::vision::palette::Palette;
-use crate::perception::vision::surfaces::of_colour;
-use crate::scene::Pose;
-use crate::scene::appearance::colour::Colour;
-use crate::scene::drawing::options::{DrawingFlags, DrawingKind};
-use crate::scene::drawing::{DrawingStyle, Item};
+use crate::vision::models::ModelPart;
+use crate::vision::palette::Palette;
+use crate::vision::surfaces::of_colour;
+use scene::Pose;
+use scene::appearance::colour::Colour;
+use scene::drawing::options::{DrawingFlags, DrawingKind};
+use scene::drawing::{DrawingStyle, Item};
 
 /// Corners of a disc.
 const DISC_CORNERS: usize = 16;

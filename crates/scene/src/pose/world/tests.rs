@@ -4,15 +4,15 @@ use geometry::PrimitiveKind;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::bits;
-use crate::scene::joint::{Joint, JointMode, JointType};
-use crate::scene::object::dummy::Dummy;
-use crate::scene::pose::measure::measured;
-use crate::scene::shape::{Shape, Velocity};
-use crate::scene::simulation::dynamics_report::JointReport;
-use crate::scene::{CopyOptions, DynamicFlags, Field, Handle, Kind, Measured, Pose, Scene};
+use crate::joint::{Joint, JointMode, JointType};
+use crate::object::dummy::Dummy;
+use crate::pose::measure::measured;
+use crate::shape::{Shape, Velocity};
+use crate::simulation::dynamics_report::JointReport;
+use crate::{CopyOptions, DynamicFlags, Field, Handle, Kind, Measured, Pose, Scene};
 
 /// A generator of numbers, the same in every run.
-pub(crate) struct Random(u64);
+pub struct Random(u64);
 
 impl Random {
     fn next(&mut self) -> u64 {
@@ -20,7 +20,7 @@ impl Random {
         self.0 >> 33
     }
 
-    pub(crate) fn below(&mut self, end: usize) -> usize {
+    pub fn below(&mut self, end: usize) -> usize {
         (self.next() % end as u64) as usize
     }
 
@@ -38,7 +38,7 @@ impl Random {
         self.pose().rotation
     }
 
-    pub(crate) fn of(&mut self, handles: &[Handle]) -> Handle {
+    pub fn of(&mut self, handles: &[Handle]) -> Handle {
         handles[self.below(handles.len())]
     }
 
@@ -166,7 +166,7 @@ impl Play {
 }
 
 /// Checks cached poses during `turns` random operations. `other` is one more operation, for tests of the layers above.
-pub(crate) fn check_cached_poses(turns: usize, mut other: impl FnMut(&mut Scene, &mut Random)) {
+pub fn check_cached_poses(turns: usize, mut other: impl FnMut(&mut Scene, &mut Random)) {
     let mut play = Play { scene: Scene::new(), random: Random(1) };
     (0..15).for_each(|_| play.add());
     let mut most = 0;

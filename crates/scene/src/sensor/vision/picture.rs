@@ -131,7 +131,7 @@ impl VisionSensor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::sensor::VisionOptions;
+    use crate::sensor::VisionOptions;
 
     fn sensor() -> VisionSensor {
         let mut sensor = VisionSensor::new(VisionOptions::empty(), [3, 2], None);

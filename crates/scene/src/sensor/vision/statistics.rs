@@ -56,7 +56,7 @@ impl VisionSensor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::sensor::VisionOptions;
+    use crate::sensor::VisionOptions;
 
     #[test]
     fn means_are_whole_steps() {

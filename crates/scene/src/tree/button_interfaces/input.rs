@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::{Button, ButtonInterface, ButtonInterfaces, ButtonKind, button_property, ui_property};
-use crate::scene::{Handle, Scene};
+use crate::{Handle, Scene};
 
 /// Events of a user interface that may wait for scripts; further inputs are refused.
 const MAX_WAITING: usize = 1000;
@@ -156,7 +156,7 @@ impl ButtonInterfaces {
     }
 
     /// A new pass begins: of each user interface scripts see the next event, if there is one.
-    pub(crate) fn next_pass(&mut self) {
+    pub fn next_pass(&mut self) {
         self.events.retain(|_, events| {
             events.current = events.waiting.pop_front();
             events.current.is_some()

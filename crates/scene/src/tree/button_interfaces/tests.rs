@@ -1,8 +1,8 @@
 //! Persons use user interfaces of V-REP.
 
 use super::*;
-use crate::scene::Kind;
-use crate::scene::object::dummy::Dummy;
+use crate::Kind;
+use crate::object::dummy::Dummy;
 
 const BUTTON: i32 = button_property::ENABLED;
 const HELD: i32 = BUTTON | button_property::DOWN_UP_EVENT;

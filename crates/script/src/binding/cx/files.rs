@@ -3,18 +3,18 @@
 use std::rc::Rc;
 
 use super::Cx;
-use crate::format::scene_file::SceneFile;
-use crate::format::ttt::File;
-use crate::scene::Handle;
-use crate::script::error::ApiResult;
-use crate::script::files::scene_switch::SceneSource;
+use crate::error::ApiResult;
+use crate::files::scene_switch::SceneSource;
+use format::scene_file::SceneFile;
+use format::ttt::File;
+use scene::Handle;
 
 impl Cx<'_> {
     /// The scene as a file.
     ///
     /// # Errors
     /// When the scene is locked, or its tree is damaged.
-    pub(crate) fn scene_file(&self) -> ApiResult<File> {
+    pub fn scene_file(&self) -> ApiResult<File> {
         self.sim.scene_file()
     }
 
@@ -22,7 +22,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is no such object.
-    pub(crate) fn model_file(&self, base: Handle) -> ApiResult<File> {
+    pub fn model_file(&self, base: Handle) -> ApiResult<File> {
         self.sim.model_file(base)
     }
 
@@ -30,7 +30,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When the scene is locked, or the file cannot be written.
-    pub(crate) fn save_scene(&mut self, name: &str) -> ApiResult<()> {
+    pub fn save_scene(&mut self, name: &str) -> ApiResult<()> {
         self.sim.save_scene(name)
     }
 
@@ -38,7 +38,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When the file may not or cannot be written.
-    pub(crate) fn save_model(&mut self, model: &File, name: &str) -> ApiResult<()> {
+    pub fn save_model(&mut self, model: &File, name: &str) -> ApiResult<()> {
         self.sim.save_model(model, name)
     }
 
@@ -46,7 +46,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// While a simulation runs; from a script that is part of the scene; when the file is damaged.
-    pub(crate) fn switch_scene(&mut self, source: SceneSource, path: Option<String>) -> ApiResult<()> {
+    pub fn switch_scene(&mut self, source: SceneSource, path: Option<String>) -> ApiResult<()> {
         let caller = Rc::clone(self.script());
         self.sim.switch_scene(&caller, source, path)
     }
@@ -55,7 +55,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When the scene is full.
-    pub(crate) fn load_model(&mut self, file: SceneFile) -> ApiResult<Option<Handle>> {
+    pub fn load_model(&mut self, file: SceneFile) -> ApiResult<Option<Handle>> {
         self.sim.load_model_file(file)
     }
 }

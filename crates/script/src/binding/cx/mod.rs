@@ -19,14 +19,14 @@ use std::cell::{Ref, RefMut};
 use std::rc::Rc;
 use std::time::Duration;
 
-use crate::permissions::Permissions;
-use crate::scene::Scene;
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lifecycle::env::Env;
-use crate::script::lifecycle::instance::Script;
-use crate::script::lua::Stack;
-use crate::script::lua_runtime::threads;
-use crate::script::sim::{Options, Sim};
+use crate::error::{ApiError, ApiResult};
+use crate::lifecycle::env::Env;
+use crate::lifecycle::instance::Script;
+use crate::lua::Stack;
+use crate::lua_runtime::threads;
+use crate::sim::{Options, Sim};
+use permissions::Permissions;
+use scene::Scene;
 
 /// The context of an API function: `&Cx` to read, `&mut Cx` to write the scene or call scripts. A function cannot hold a borrow of the
 /// scene while it calls a script, because both need the context.
@@ -53,26 +53,26 @@ impl<'a> Cx<'a> {
     }
 
     /// The script that is calling.
-    pub(crate) fn script(&self) -> &'a Rc<Script> {
+    pub fn script(&self) -> &'a Rc<Script> {
         &self.env().script
     }
 
-    pub(crate) fn env(&self) -> &'a Env {
+    pub fn env(&self) -> &'a Env {
         self.env
     }
 
     /// The options of the simulator.
-    pub(crate) fn options(&self) -> &Options {
+    pub fn options(&self) -> &Options {
         &self.sim.options
     }
 
     /// Permissions of the script. Functions check them before they call the operating system for it.
-    pub(crate) fn permissions(&self) -> &Permissions {
+    pub fn permissions(&self) -> &Permissions {
         &self.sim.options.permissions
     }
 
     /// Whether the program is being stopped.
-    pub(crate) fn is_interrupted(&self) -> bool {
+    pub fn is_interrupted(&self) -> bool {
         self.sim.is_interrupted()
     }
 
@@ -80,26 +80,22 @@ impl<'a> Cx<'a> {
     ///
     /// # Errors
     /// When the program is being stopped.
-    pub(crate) fn wait_for<T>(
-        &self,
-        limit: Option<Duration>,
-        answer: impl FnMut() -> Option<T>,
-    ) -> ApiResult<Option<T>> {
+    pub fn wait_for<T>(&self, limit: Option<Duration>, answer: impl FnMut() -> Option<T>) -> ApiResult<Option<T>> {
         self.sim.wait_for(limit, answer)
     }
 
     /// The state of a module for the simulator: created by the first call, dropped with the simulator.
-    pub(crate) fn module_state<T: Default + 'static>(&self) -> Rc<T> {
+    pub fn module_state<T: Default + 'static>(&self) -> Rc<T> {
         self.sim.modules.states.get()
     }
 
     /// The state of a module for the calling script: created by the first call, dropped with the script's interpreter.
-    pub(crate) fn script_state<T: Default + 'static>(&self) -> Rc<T> {
+    pub fn script_state<T: Default + 'static>(&self) -> Rc<T> {
         self.env().module_states.get()
     }
 
     /// Whether the caller is a thread that may hand over to the simulation now.
-    pub(crate) fn can_yield(&self) -> bool {
+    pub fn can_yield(&self) -> bool {
         self.env().yields.overall.get() == 0 && self.stack.is_some_and(|stack| !stack.is_main_coroutine())
     }
 
@@ -107,7 +103,7 @@ impl<'a> Cx<'a> {
     ///
     /// # Errors
     /// When the call does not come from Lua.
-    pub(crate) fn auto_level(&self) -> ApiResult<i64> {
+    pub fn auto_level(&self) -> ApiResult<i64> {
         self.stack.map(threads::auto_level).ok_or(ApiError::NeedsLua)
     }
 
@@ -115,22 +111,22 @@ impl<'a> Cx<'a> {
     ///
     /// # Errors
     /// When the call does not come from Lua.
-    pub(crate) fn set_auto_level(&mut self, level: i64) -> ApiResult<()> {
+    pub fn set_auto_level(&mut self, level: i64) -> ApiResult<()> {
         self.stack.map(|stack| threads::set_auto_level(stack, level)).ok_or(ApiError::NeedsLua)
     }
 
     /// Ends the time slice of the calling thread, as work does that takes longer in the original.
-    pub(crate) fn end_time_slice(&self) {
+    pub fn end_time_slice(&self) {
         if let Some(stack) = self.stack {
             threads::end_time_slice(stack);
         }
     }
 
-    pub(crate) fn scene(&self) -> Ref<'_, Scene> {
+    pub fn scene(&self) -> Ref<'_, Scene> {
         self.sim.scene.borrow()
     }
 
-    pub(crate) fn scene_mut(&mut self) -> RefMut<'_, Scene> {
+    pub fn scene_mut(&mut self) -> RefMut<'_, Scene> {
         self.sim.scene.borrow_mut()
     }
 }

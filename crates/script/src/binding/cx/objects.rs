@@ -3,20 +3,20 @@
 use std::collections::BTreeMap;
 
 use super::Cx;
-use crate::scene::{CopyOptions, Handle, Kind};
-use crate::script::error::ApiResult;
+use crate::error::ApiResult;
+use scene::{CopyOptions, Handle, Kind};
 
 impl Cx<'_> {
     /// Adds an object and notifies the scripts.
     ///
     /// # Errors
     /// When the scene is full.
-    pub(crate) fn add_object(&mut self, alias: &str, kind: Kind) -> ApiResult<Handle> {
+    pub fn add_object(&mut self, alias: &str, kind: Kind) -> ApiResult<Handle> {
         self.sim.add_object(alias, kind)
     }
 
     /// Notifies the scripts of objects that were added to the scene.
-    pub(crate) fn notify_created(&mut self, handles: &[Handle]) {
+    pub fn notify_created(&mut self, handles: &[Handle]) {
         self.sim.notify_created(handles);
     }
 
@@ -24,11 +24,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When a handle is unknown or the scene is full.
-    pub(crate) fn copy_objects(
-        &mut self,
-        handles: &[Handle],
-        options: CopyOptions,
-    ) -> ApiResult<BTreeMap<Handle, Handle>> {
+    pub fn copy_objects(&mut self, handles: &[Handle], options: CopyOptions) -> ApiResult<BTreeMap<Handle, Handle>> {
         self.sim.copy_objects(handles, options)
     }
 
@@ -36,12 +32,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When a handle is unknown or occurs twice; nothing happens then.
-    pub(crate) fn remove_objects(&mut self, handles: &[Handle]) -> ApiResult<()> {
+    pub fn remove_objects(&mut self, handles: &[Handle]) -> ApiResult<()> {
         self.sim.remove_objects(handles)
     }
 
     /// Marks objects to be removed at the end of the loop iteration.
-    pub(crate) fn remove_objects_later(&mut self, handles: &[Handle]) {
+    pub fn remove_objects_later(&mut self, handles: &[Handle]) {
         self.sim.removals.delay(handles);
     }
 }

@@ -3,33 +3,33 @@
 use std::rc::Rc;
 
 use super::Cx;
-use crate::script::coverage::LineCounts;
-use crate::script::test_bench::TestBench;
+use crate::coverage::LineCounts;
+use crate::test_bench::TestBench;
 
 impl Cx<'_> {
     /// A line of a script's `print`.
-    pub(crate) fn print(&self, line: &[u8]) {
+    pub fn print(&self, line: &[u8]) {
         let origin = || self.script().log_name(&self.sim.scene.borrow());
         self.sim.log.print(line, self.sim.clock.time(), self.script().id, origin);
     }
 
     /// Remembers a path that leads to no object, for the hint beside the error.
-    pub(crate) fn note_missing_path(&self, path: &str) {
+    pub fn note_missing_path(&self, path: &str) {
         self.sim.log.note_missing_path(path);
     }
 
     /// Number of uncaught script errors.
-    pub(crate) fn errors(&self) -> u64 {
+    pub fn errors(&self) -> u64 {
         self.sim.log.errors()
     }
 
     /// The connection to the test runner, if this is a test.
-    pub(crate) fn test_bench(&self) -> Option<&Rc<TestBench>> {
+    pub fn test_bench(&self) -> Option<&Rc<TestBench>> {
         self.sim.test_bench.get()
     }
 
     /// Adds lines that another simulator has counted.
-    pub(crate) fn add_line_counts(&mut self, counts: LineCounts) {
+    pub fn add_line_counts(&mut self, counts: LineCounts) {
         self.sim.line_counts.borrow_mut().merge(counts);
     }
 }

@@ -3,14 +3,14 @@
 use std::rc::Rc;
 
 use super::Cx;
-use crate::io::EventLoop;
-use crate::plugin::Plugin;
-use crate::scene::Data;
-use crate::script::error::ApiResult;
+use crate::error::ApiResult;
+use io::EventLoop;
+use plugin_host::Plugin;
+use scene::Data;
 
 impl Cx<'_> {
     /// Whether a plugin of CoppeliaSim is a module here, and no library of that name is to be found.
-    pub(crate) fn has_module_for_plugin(&self, name: &str) -> bool {
+    pub fn has_module_for_plugin(&self, name: &str) -> bool {
         self.sim.has_module_for_plugin(name)
     }
 
@@ -18,7 +18,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When native code is not allowed.
-    pub(crate) fn load_plugin(&mut self, name: &str) -> ApiResult<Option<Rc<Plugin>>> {
+    pub fn load_plugin(&mut self, name: &str) -> ApiResult<Option<Rc<Plugin>>> {
         self.permissions().check_native(&format!("loading the plugin '{name}'"))?;
         Ok(self.sim.load_plugin(self.script(), name))
     }
@@ -27,7 +27,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// The plugin's.
-    pub(crate) fn call_plugin(&mut self, plugin: &str, function: usize, args: Vec<Data>) -> ApiResult<Vec<Data>> {
+    pub fn call_plugin(&mut self, plugin: &str, function: usize, args: Vec<Data>) -> ApiResult<Vec<Data>> {
         self.sim.call_plugin(self.script(), plugin, function, args)
     }
 
@@ -35,7 +35,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When it is not loaded, or running.
-    pub(crate) fn unload_plugin(&mut self, name: &str, is_forced: bool) -> ApiResult<()> {
+    pub fn unload_plugin(&mut self, name: &str, is_forced: bool) -> ApiResult<()> {
         self.sim.unload_plugin(self.script(), name, is_forced)
     }
 
@@ -43,7 +43,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When the system cannot create one.
-    pub(crate) fn event_loop(&self) -> std::io::Result<Rc<EventLoop>> {
+    pub fn event_loop(&self) -> std::io::Result<Rc<EventLoop>> {
         self.sim.event_loop.get()
     }
 }

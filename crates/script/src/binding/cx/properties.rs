@@ -3,17 +3,17 @@
 use std::cell::{Ref, RefMut};
 
 use super::Cx;
-use crate::scene::{CustomData, Data, Edit, Namespace, ValueType};
-use crate::script::error::ApiResult;
-use crate::script::files::app_storage::{AppStorage, Section};
-use crate::script::property::{AppData, Info, Target};
+use crate::error::ApiResult;
+use crate::files::app_storage::{AppStorage, Section};
+use crate::property::{AppData, Info, Target};
+use scene::{CustomData, Data, Edit, Namespace, ValueType};
 
 impl Cx<'_> {
     /// The target the calling script means by `raw`.
     ///
     /// # Errors
     /// When there is none.
-    pub(crate) fn property_target(&self, raw: i64) -> ApiResult<Target> {
+    pub fn property_target(&self, raw: i64) -> ApiResult<Target> {
         self.sim.property_target(raw, self.script())
     }
 
@@ -21,7 +21,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is no such property, or it cannot be read.
-    pub(crate) fn read_property(&self, target: &Target, name: &str, ty: ValueType) -> ApiResult<Data> {
+    pub fn read_property(&self, target: &Target, name: &str, ty: ValueType) -> ApiResult<Data> {
         self.sim.read_property(target, name, ty)
     }
 
@@ -29,7 +29,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is no such property, or it cannot be written.
-    pub(crate) fn write_property(&mut self, target: &Target, name: &str, value: (ValueType, Data)) -> ApiResult<()> {
+    pub fn write_property(&mut self, target: &Target, name: &str, value: (ValueType, Data)) -> ApiResult<()> {
         self.sim.write_property(target, name, value, self.script())
     }
 
@@ -37,17 +37,17 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is none, or it cannot be removed.
-    pub(crate) fn remove_property(&mut self, target: &Target, name: &str) -> ApiResult<()> {
+    pub fn remove_property(&mut self, target: &Target, name: &str) -> ApiResult<()> {
         self.sim.remove_property(target, name)
     }
 
     /// Type and flags of a property; None when there is none of that name.
-    pub(crate) fn property_info(&self, target: &Target, name: &str) -> Option<Info> {
+    pub fn property_info(&self, target: &Target, name: &str) -> Option<Info> {
         self.sim.property_info(target, name)
     }
 
     /// The property at `index` in the order of enumeration, with its class; None past the end.
-    pub(crate) fn property_name(&self, target: &Target, index: usize, prefix: &str) -> Option<(String, &'static str)> {
+    pub fn property_name(&self, target: &Target, index: usize, prefix: &str) -> Option<(String, &'static str)> {
         self.sim.property_name(target, index, prefix)
     }
 
@@ -55,7 +55,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When the target has none or is gone.
-    pub(crate) fn named_values<R>(
+    pub fn named_values<R>(
         &self,
         target: &Target,
         namespace: Namespace,
@@ -68,36 +68,31 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When the target has none or is gone.
-    pub(crate) fn edit_named_values(
-        &mut self,
-        target: &Target,
-        namespace: Namespace,
-        edit: Edit<'_>,
-    ) -> ApiResult<bool> {
+    pub fn edit_named_values(&mut self, target: &Target, namespace: Namespace, edit: Edit<'_>) -> ApiResult<bool> {
         self.sim.edit_named_values(target, namespace, edit)
     }
 
     /// Data that scripts store in the application.
-    pub(crate) fn app(&self) -> Ref<'_, AppData> {
+    pub fn app(&self) -> Ref<'_, AppData> {
         self.sim.app.borrow()
     }
 
-    pub(crate) fn app_mut(&mut self) -> RefMut<'_, AppData> {
+    pub fn app_mut(&mut self) -> RefMut<'_, AppData> {
         self.sim.app.borrow_mut()
     }
 
     /// Bytes in the application's file, which is read at its first use.
-    pub(crate) fn stored_block(&self, section: Section, tag: &str) -> Option<Vec<u8>> {
+    pub fn stored_block(&self, section: Section, tag: &str) -> Option<Vec<u8>> {
         self.sim.with_app_storage(|storage| storage.blocks(section).get(tag).cloned())
     }
 
     /// The tags of the bytes in the application's file, in alphabetical order.
-    pub(crate) fn stored_tags(&self, section: Section) -> Vec<String> {
+    pub fn stored_tags(&self, section: Section) -> Vec<String> {
         self.sim.with_app_storage(|storage| storage.blocks(section).keys().cloned().collect())
     }
 
     /// Changes what is in the application's file.
-    pub(crate) fn change_storage<R>(&mut self, change: impl FnOnce(&mut AppStorage) -> R) -> R {
+    pub fn change_storage<R>(&mut self, change: impl FnOnce(&mut AppStorage) -> R) -> R {
         self.sim.with_app_storage(change)
     }
 }

@@ -3,22 +3,22 @@
 use std::rc::Rc;
 
 use super::Cx;
-use crate::scene::object::script_object::ScriptType;
-use crate::scene::{Data, Handle};
-use crate::script::calls::callback::SysCall;
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lifecycle::instance::Script;
-use crate::script::lifecycle::order::Group;
-use crate::script::runtime::FunctionRef;
+use crate::calls::callback::SysCall;
+use crate::error::{ApiError, ApiResult};
+use crate::lifecycle::instance::Script;
+use crate::lifecycle::order::Group;
+use crate::runtime::FunctionRef;
+use scene::object::script_object::ScriptType;
+use scene::{Data, Handle};
 
 impl Cx<'_> {
     /// The script with that handle.
-    pub(crate) fn script_by_handle(&self, handle: i64) -> Option<Rc<Script>> {
+    pub fn script_by_handle(&self, handle: i64) -> Option<Rc<Script>> {
         self.sim.script(handle)
     }
 
     /// The script of that type attached to an object: the first of its children by priority, else the object itself.
-    pub(crate) fn script_attached_to(&self, object: Handle, script_type: ScriptType) -> Option<i64> {
+    pub fn script_attached_to(&self, object: Handle, script_type: ScriptType) -> Option<i64> {
         self.sim.script_attached_to(object, script_type)
     }
 
@@ -26,12 +26,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is none.
-    pub(crate) fn script_by_name(&self, script_type: ScriptType, name: &str) -> ApiResult<i64> {
+    pub fn script_by_name(&self, script_type: ScriptType, name: &str) -> ApiResult<i64> {
         self.sim.script_by_name(script_type, name)
     }
 
     /// Script calls in progress, over all states.
-    pub(crate) fn call_depth(&self) -> usize {
+    pub fn call_depth(&self) -> usize {
         self.sim.scripts.depth()
     }
 
@@ -39,7 +39,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// In CoppeliaSim's words; the callee's own error is logged under its name and ends it.
-    pub(crate) fn call_function(&mut self, script: &Rc<Script>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+    pub fn call_function(&mut self, script: &Rc<Script>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
         self.sim.call_function(script, name, args)
     }
 
@@ -47,37 +47,37 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When it fails.
-    pub(crate) fn execute_string(&mut self, script: &Rc<Script>, code: &[u8]) -> ApiResult<Vec<Data>> {
+    pub fn execute_string(&mut self, script: &Rc<Script>, code: &[u8]) -> ApiResult<Vec<Data>> {
         self.sim.execute_string(script, code)
     }
 
     /// Sends a message to all initialised scripts but the calling one.
-    pub(crate) fn broadcast_message(&mut self, args: &[Data]) {
+    pub fn broadcast_message(&mut self, args: &[Data]) {
         self.sim.broadcast_message(self.script().id, args);
     }
 
     /// Calls a callback of the scripts of a group; returns how many ran it.
-    pub(crate) fn call_group(&mut self, group: Group, call: SysCall, args: &[Data]) -> i64 {
+    pub fn call_group(&mut self, group: Group, call: SysCall, args: &[Data]) -> i64 {
         self.sim.deliver_to(group, call, args)
     }
 
     /// Resets a script and, where 4.10 does, initialises it at once.
-    pub(crate) fn init_script(&mut self, script: &Rc<Script>) {
+    pub fn init_script(&mut self, script: &Rc<Script>) {
         self.sim.init_script(script);
     }
 
     /// Removes a script that is no object, now or later.
-    pub(crate) fn remove_attached_script(&mut self, script: &Rc<Script>) {
+    pub fn remove_attached_script(&mut self, script: &Rc<Script>) {
         self.sim.remove_attached_script(script);
     }
 
     /// A new script without an object; returns its handle.
-    pub(crate) fn add_script_without_object(&mut self, script_type: ScriptType) -> i64 {
+    pub fn add_script_without_object(&mut self, script_type: ScriptType) -> i64 {
         self.sim.add_script_without_object(script_type)
     }
 
     /// Attaches a script that is no object to an object, or to none.
-    pub(crate) fn reattach_script(&mut self, script: &Script, owner: Option<Handle>) {
+    pub fn reattach_script(&mut self, script: &Script, owner: Option<Handle>) {
         self.sim.reattach_script(script, owner);
     }
 
@@ -85,7 +85,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When the script does not run.
-    pub(crate) fn traceback(&self, script: &Script) -> ApiResult<String> {
+    pub fn traceback(&self, script: &Script) -> ApiResult<String> {
         match self.stack.filter(|_| script.id == self.script().id) {
             Some(stack) => Ok(stack.traceback()),
             None => {
@@ -96,14 +96,14 @@ impl Cx<'_> {
     }
 
     /// Releases a function that the calling script has passed to the host.
-    pub(crate) fn release_function(&self, function: FunctionRef) {
+    pub fn release_function(&self, function: FunctionRef) {
         if let Some(runtime) = self.env.runtime() {
             runtime.interpreter.release(function);
         }
     }
 
     /// Ends a script as a crash would: without its cleanup.
-    pub(crate) fn abort_script(&mut self, script: &Script) {
+    pub fn abort_script(&mut self, script: &Script) {
         self.sim.abort(script);
     }
 }

@@ -1,19 +1,19 @@
 //! Sensors, and queries of the geometry of the scene.
 
 use super::Cx;
-use crate::perception::Perception;
-use crate::scene::sensor::Detection;
-use crate::scene::{Handle, Scene};
-use crate::script::error::ApiResult;
+use crate::error::ApiResult;
+use perception::Perception;
+use scene::sensor::Detection;
+use scene::{Handle, Scene};
 
 impl Cx<'_> {
     /// Queries the geometry of the scene. The index behind that changes, but no result depends on it.
-    pub(crate) fn query<R>(&self, query: impl FnOnce(&mut Perception, &Scene) -> R) -> R {
+    pub fn query<R>(&self, query: impl FnOnce(&mut Perception, &Scene) -> R) -> R {
         query(&mut self.sim.perception.borrow_mut(), &self.sim.scene.borrow())
     }
 
     /// The same where objects are displaced for the query (`Scene::displace`).
-    pub(crate) fn query_displaced<R>(&mut self, query: impl FnOnce(&mut Perception, &mut Scene) -> R) -> R {
+    pub fn query_displaced<R>(&mut self, query: impl FnOnce(&mut Perception, &mut Scene) -> R) -> R {
         query(&mut self.sim.perception.borrow_mut(), &mut self.sim.scene.borrow_mut())
     }
 
@@ -21,12 +21,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When it is not tagged, or no proximity sensor.
-    pub(crate) fn handle_proximity_sensor(&mut self, sensor: Handle) -> ApiResult<Option<Detection>> {
+    pub fn handle_proximity_sensor(&mut self, sensor: Handle) -> ApiResult<Option<Detection>> {
         Ok(self.sim.handle_proximity_sensor(sensor)?)
     }
 
     /// The same for all, or those that are not tagged; returns the nearest detection.
-    pub(crate) fn handle_proximity_sensors(&mut self, with_explicit: bool) -> Option<Detection> {
+    pub fn handle_proximity_sensors(&mut self, with_explicit: bool) -> Option<Detection> {
         self.sim.handle_proximity_sensors(with_explicit)
     }
 
@@ -34,12 +34,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When it is not tagged, or no proximity sensor.
-    pub(crate) fn reset_proximity_sensor(&mut self, sensor: Handle) -> ApiResult<()> {
+    pub fn reset_proximity_sensor(&mut self, sensor: Handle) -> ApiResult<()> {
         Ok(self.sim.reset_proximity_sensor(sensor)?)
     }
 
     /// The same for all, or those that are not tagged.
-    pub(crate) fn reset_proximity_sensors(&mut self, with_explicit: bool) {
+    pub fn reset_proximity_sensors(&mut self, with_explicit: bool) {
         self.sim.reset_proximity_sensors(with_explicit);
     }
 
@@ -47,12 +47,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When it is not tagged, or no collision object.
-    pub(crate) fn handle_collision_object(&mut self, handle: i64) -> ApiResult<Option<[Handle; 2]>> {
+    pub fn handle_collision_object(&mut self, handle: i64) -> ApiResult<Option<[Handle; 2]>> {
         Ok(self.sim.handle_collision_object(handle)?)
     }
 
     /// The same for all, or those that are not tagged; returns how many collide.
-    pub(crate) fn handle_collision_objects(&mut self, with_explicit: bool) -> i64 {
+    pub fn handle_collision_objects(&mut self, with_explicit: bool) -> i64 {
         self.sim.handle_collision_objects(with_explicit)
     }
 
@@ -60,12 +60,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When it is not tagged, or no distance object.
-    pub(crate) fn handle_distance_object(&mut self, handle: i64) -> ApiResult<Option<f64>> {
+    pub fn handle_distance_object(&mut self, handle: i64) -> ApiResult<Option<f64>> {
         Ok(self.sim.handle_distance_object(handle)?)
     }
 
     /// The same for all, or those that are not tagged; returns the smallest distance (m).
-    pub(crate) fn handle_distance_objects(&mut self, with_explicit: bool) -> Option<f64> {
+    pub fn handle_distance_objects(&mut self, with_explicit: bool) -> Option<f64> {
         self.sim.handle_distance_objects(with_explicit)
     }
 }

@@ -3,44 +3,44 @@
 use std::cell::Ref;
 
 use super::Cx;
-use crate::dynamics::Dynamics;
-use crate::scene::Handle;
-use crate::script::error::ApiResult;
-use crate::script::step::clock::Clock;
+use crate::error::ApiResult;
+use crate::step::clock::Clock;
+use dynamics::Dynamics;
+use scene::Handle;
 
 impl Cx<'_> {
     /// State and time of the simulation.
-    pub(crate) fn clock(&self) -> &Clock {
+    pub fn clock(&self) -> &Clock {
         &self.sim.clock
     }
 
     /// Starts a stopped simulation or resumes a paused one; otherwise nothing.
-    pub(crate) fn start_simulation(&mut self) {
+    pub fn start_simulation(&mut self) {
         self.sim.start();
     }
 
     /// Asks for a pause; refused when not running or when a stop is pending.
-    pub(crate) fn pause_simulation(&mut self) {
+    pub fn pause_simulation(&mut self) {
         self.sim.pause();
     }
 
     /// Asks for the end of the simulation; a paused one resumes for its last steps.
-    pub(crate) fn stop_simulation(&mut self) {
+    pub fn stop_simulation(&mut self) {
         self.sim.stop();
     }
 
     /// Asks for the end of the program, or withdraws that.
-    pub(crate) fn request_quit(&mut self, on: bool) {
+    pub fn request_quit(&mut self, on: bool) {
         self.sim.request_quit(on);
     }
 
     /// One iteration of the application's loop.
-    pub(crate) fn run_loop_iteration(&mut self) {
+    pub fn run_loop_iteration(&mut self) {
         self.sim.loop_iteration();
     }
 
     /// The physics; None during a sub-step.
-    pub(crate) fn dynamics(&self) -> Option<Ref<'_, Dynamics>> {
+    pub fn dynamics(&self) -> Option<Ref<'_, Dynamics>> {
         Ref::filter_map(self.sim.dynamics.borrow(), Option::as_ref).ok()
     }
 
@@ -48,12 +48,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// While the physics steps already.
-    pub(crate) fn handle_dynamics(&mut self, time_step: f64) -> ApiResult<i64> {
+    pub fn handle_dynamics(&mut self, time_step: f64) -> ApiResult<i64> {
         self.sim.handle_dynamics(time_step)
     }
 
     /// One step of every joint that is on its way to a target.
-    pub(crate) fn handle_joint_motion(&mut self) {
+    pub fn handle_joint_motion(&mut self) {
         self.sim.handle_joint_motion();
     }
 
@@ -61,7 +61,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is no such joint.
-    pub(crate) fn follow_profile(&mut self, joint: Handle, dt: f64) -> ApiResult<()> {
+    pub fn follow_profile(&mut self, joint: Handle, dt: f64) -> ApiResult<()> {
         Ok(self.sim.follow_profile(joint, dt)?)
     }
 
@@ -69,12 +69,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is no such engine.
-    pub(crate) fn set_engine(&mut self, number: i64, version: i64) -> ApiResult<()> {
+    pub fn set_engine(&mut self, number: i64, version: i64) -> ApiResult<()> {
         self.sim.set_engine(number, version)
     }
 
     /// Sets the desired sub-step of the physics, seconds. Without effect while the simulation is not stopped.
-    pub(crate) fn set_physics_step(&mut self, step: f64) {
+    pub fn set_physics_step(&mut self, step: f64) {
         self.sim.set_physics_step(step);
     }
 }

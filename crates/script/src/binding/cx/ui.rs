@@ -4,9 +4,9 @@ use std::cell::RefCell;
 use std::rc::{Rc, Weak};
 
 use super::Cx;
-use crate::scene::Data;
-use crate::script::error::ApiResult;
-use crate::ui::{Question, Ui, UiResult, Window};
+use crate::error::ApiResult;
+use scene::Data;
+use ui::{Question, Ui, UiResult, Window};
 
 /// What a script has opened: it goes with the state of the script.
 #[derive(Default)]
@@ -40,33 +40,33 @@ impl Drop for Ownership {
 }
 
 impl Cx<'_> {
-    pub(crate) fn read_ui<T>(&self, read: impl FnOnce(&Ui) -> T) -> T {
+    pub fn read_ui<T>(&self, read: impl FnOnce(&Ui) -> T) -> T {
         let ui = self.app().ui.clone();
         read(&ui.borrow())
     }
 
-    pub(crate) fn change_ui<T>(&mut self, change: impl FnOnce(&mut Ui) -> T) -> T {
+    pub fn change_ui<T>(&mut self, change: impl FnOnce(&mut Ui) -> T) -> T {
         let ui = self.app().ui.clone();
         change(&mut ui.borrow_mut())
     }
 
     /// Destroys a window when the calling script ends.
-    pub(crate) fn own_window(&mut self, window: &str) {
+    pub fn own_window(&mut self, window: &str) {
         self.own(Item::Window(window.to_owned()));
     }
 
     /// Removes a banner when the calling script ends.
-    pub(crate) fn own_banner(&mut self, banner: i64) {
+    pub fn own_banner(&mut self, banner: i64) {
         self.own(Item::Banner(banner));
     }
 
     /// Removes a floating view when the calling script ends.
-    pub(crate) fn own_view(&mut self, view: i64) {
+    pub fn own_view(&mut self, view: i64) {
         self.own(Item::View(view));
     }
 
     /// What a person answers to a dialog; None without one.
-    pub(crate) fn ask_person(&mut self, question: &Question) -> Option<Data> {
+    pub fn ask_person(&mut self, question: &Question) -> Option<Data> {
         self.sim.ask_person(question)
     }
 
@@ -86,7 +86,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is no such window, or those of `read`.
-    pub(crate) fn read_window<T>(&self, handle: &str, read: impl FnOnce(&Window) -> UiResult<T>) -> ApiResult<T> {
+    pub fn read_window<T>(&self, handle: &str, read: impl FnOnce(&Window) -> UiResult<T>) -> ApiResult<T> {
         Ok(self.read_ui(|ui| ui.window(handle).and_then(read))?)
     }
 
@@ -94,16 +94,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is no such window, or those of `change`.
-    pub(crate) fn change_window<T>(
-        &mut self,
-        handle: &str,
-        change: impl FnOnce(&mut Window) -> UiResult<T>,
-    ) -> ApiResult<T> {
+    pub fn change_window<T>(&mut self, handle: &str, change: impl FnOnce(&mut Window) -> UiResult<T>) -> ApiResult<T> {
         Ok(self.change_ui(|ui| ui.change(handle, change))?)
     }
 
     /// Calls the handlers of the events of windows that wait.
-    pub(crate) fn deliver_ui_events(&mut self) {
+    pub fn deliver_ui_events(&mut self) {
         self.sim.deliver_ui_events();
     }
 }

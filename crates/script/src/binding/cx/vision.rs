@@ -1,17 +1,17 @@
 //! Vision sensors: their pictures, and the scripts that look at them. Read a picture with `Cx::scene` and the methods of `VisionSensor`.
 
 use super::Cx;
-use crate::perception::vision::Channels;
-use crate::scene::sensor::{Entity, VisionReading, VisionSensor};
-use crate::scene::{Field, Handle, SceneError};
-use crate::script::error::{ApiError, ApiResult};
+use crate::error::{ApiError, ApiResult};
+use perception::vision::Channels;
+use scene::sensor::{Entity, VisionReading, VisionSensor};
+use scene::{Field, Handle, SceneError};
 
 impl Cx<'_> {
     /// Takes a picture with a sensor, lets its scripts look at it, and returns the results.
     ///
     /// # Errors
     /// When `sensor` is no vision sensor.
-    pub(crate) fn handle_vision_sensor(&mut self, sensor: Handle) -> ApiResult<VisionReading> {
+    pub fn handle_vision_sensor(&mut self, sensor: Handle) -> ApiResult<VisionReading> {
         self.sim.handle_vision_sensor(sensor).map_err(ApiError::Scene)
     }
 
@@ -19,11 +19,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When `sensor` is no vision sensor.
-    pub(crate) fn check_vision_sensor(
-        &mut self,
-        sensor: Handle,
-        entity: Entity,
-    ) -> ApiResult<(VisionReading, VisionSensor)> {
+    pub fn check_vision_sensor(&mut self, sensor: Handle, entity: Entity) -> ApiResult<(VisionReading, VisionSensor)> {
         self.sim.check_vision_sensor(sensor, entity).map_err(ApiError::Scene)
     }
 
@@ -32,7 +28,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When `from` is neither a camera nor a vision sensor.
-    pub(crate) fn seen_image(&self, from: Handle) -> ApiResult<([u32; 2], Vec<u8>)> {
+    pub fn seen_image(&self, from: Handle) -> ApiResult<([u32; 2], Vec<u8>)> {
         let scene = self.scene();
         if let Ok(sensor) = scene.object(from)?.vision_sensor()
             && !sensor.image.is_empty()
@@ -56,7 +52,7 @@ impl Cx<'_> {
     /// # Errors
     /// When `sensor` is no vision sensor, or there are not as many bytes as its resolution needs.
     #[allow(dead_code, reason = "for modules that process images")]
-    pub(crate) fn set_vision_image(&mut self, sensor: Handle, image: Vec<u8>) -> ApiResult<()> {
+    pub fn set_vision_image(&mut self, sensor: Handle, image: Vec<u8>) -> ApiResult<()> {
         self.change_picture(sensor, |sensor| {
             let fits = image.len() == sensor.image_len();
             if fits {
@@ -72,7 +68,7 @@ impl Cx<'_> {
     /// # Errors
     /// When `sensor` is no vision sensor, or there are not as many depths as its resolution needs.
     #[allow(dead_code, reason = "for modules that process images")]
-    pub(crate) fn set_vision_depth(&mut self, sensor: Handle, depth: Vec<f32>) -> ApiResult<()> {
+    pub fn set_vision_depth(&mut self, sensor: Handle, depth: Vec<f32>) -> ApiResult<()> {
         self.change_picture(sensor, |sensor| {
             let fits = depth.len() == sensor.pixels();
             if fits {
@@ -86,11 +82,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// Then, and when `sensor` is no vision sensor.
-    pub(crate) fn change_picture(
-        &mut self,
-        sensor: Handle,
-        change: impl FnOnce(&mut VisionSensor) -> bool,
-    ) -> ApiResult<()> {
+    pub fn change_picture(&mut self, sensor: Handle, change: impl FnOnce(&mut VisionSensor) -> bool) -> ApiResult<()> {
         let refused = || SceneError::Refused("incorrect buffer size.".into());
         Ok(self.scene_mut().try_modify(sensor, Field::Measured, |object| {
             if change(object.vision_sensor_mut()?) { Ok(()) } else { Err(refused()) }
@@ -101,12 +93,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When `sensor` is no vision sensor.
-    pub(crate) fn evaluate_set_picture(&mut self, sensor: Handle) -> ApiResult<()> {
+    pub fn evaluate_set_picture(&mut self, sensor: Handle) -> ApiResult<()> {
         self.sim.evaluate_set_picture(sensor).map_err(ApiError::Scene)
     }
 
     /// Forgets the results of a sensor.
-    pub(crate) fn reset_vision_sensor(&mut self, sensor: Handle) {
+    pub fn reset_vision_sensor(&mut self, sensor: Handle) {
         self.sim.store_reading(sensor, None);
     }
 }

@@ -8,11 +8,11 @@ mod file;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use crate::permissions::Permissions;
-use crate::scene::{CustomData, Edit, Edited};
-use crate::script::log::verbosity;
-use crate::script::sim::Sim;
+use crate::log::verbosity;
+use crate::sim::Sim;
 use file::Failure;
+use permissions::Permissions;
+use scene::{CustomData, Edit, Edited};
 
 /// Bytes by tag.
 pub(crate) type Blocks = BTreeMap<String, Vec<u8>>;
@@ -30,7 +30,7 @@ struct Contents {
 
 /// A part of the contents that consists of bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Section {
+pub enum Section {
     Tags,
     Persistent,
 }
@@ -44,7 +44,7 @@ enum Dirty {
 
 /// The file as scripts see it.
 #[derive(Default)]
-pub(crate) struct AppStorage {
+pub struct AppStorage {
     folder: Option<PathBuf>,
     loaded: bool,
     contents: Contents,
@@ -116,13 +116,13 @@ impl AppStorage {
         edited
     }
 
-    pub(crate) fn blocks(&mut self, section: Section) -> &Blocks {
+    pub fn blocks(&mut self, section: Section) -> &Blocks {
         self.load();
         self.contents.blocks(section)
     }
 
     /// Sets the bytes of a tag; None removes it.
-    pub(crate) fn set_block(&mut self, section: Section, tag: &str, bytes: Option<Vec<u8>>) {
+    pub fn set_block(&mut self, section: Section, tag: &str, bytes: Option<Vec<u8>>) {
         if self.blocks(section).get(tag) == bytes.as_ref() {
             return;
         }
@@ -195,7 +195,7 @@ impl Sim {
     }
 
     /// Writes what scripts have changed to the file.
-    pub(crate) fn save_app_storage(&self) {
+    pub fn save_app_storage(&self) {
         self.with_app_storage(AppStorage::save);
     }
 }
@@ -203,7 +203,7 @@ impl Sim {
 #[cfg(test)]
 mod tests {
     use super::{AppStorage, Edit, Section};
-    use crate::scene::{Data, ValueType};
+    use scene::{Data, ValueType};
 
     fn number(name: &str, n: i64) -> Edit<'_> {
         Edit::Name(name, Some((ValueType::Int, Data::Int(n))))

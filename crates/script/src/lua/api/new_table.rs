@@ -6,8 +6,8 @@ use super::{
     Pair, Room, Table, Top, lua_checkstack, lua_createtable, lua_gettop, lua_pushboolean, lua_pushinteger, lua_pushnil,
     lua_pushnumber, lua_rawset, lua_rawseti,
 };
-use crate::script::lua::Stack;
-use crate::script::lua::stack::tables::MAX_HINT;
+use crate::lua::Stack;
+use crate::lua::stack::tables::MAX_HINT;
 
 impl<'a> Room<'a> {
     /// Pushes a value that is no table, string or function.

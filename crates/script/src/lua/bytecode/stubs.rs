@@ -137,7 +137,7 @@ impl Instruction {
 #[cfg(test)]
 mod tests {
     use super::super::Bytecode;
-    use crate::script::lua::tests::with_state;
+    use crate::lua::tests::with_state;
 
     /// The lines of the functions that can be replaced.
     fn lines(text: &str) -> Vec<(usize, usize)> {

@@ -4,7 +4,7 @@ use std::any::Any;
 use std::ffi::c_int;
 
 use super::entry::{Exit, push_function};
-use crate::script::lua::Stack;
+use crate::lua::Stack;
 
 /// A Rust function Lua can call: gets the stack with its arguments and the number given to [`push_callback`], returns how many
 /// results it pushed, or the text of the error to raise. It is a function, not a closure with values.
@@ -50,12 +50,12 @@ pub(crate) fn push_plain<F: Fn(Stack<'_>) -> Outcome + Copy + 'static>(stack: St
 }
 
 /// The error a script gets for a mistake of ours.
-pub(in crate::script::lua) fn panic_message(panic: &(dyn Any + Send)) -> String {
+pub(in crate::lua) fn panic_message(panic: &(dyn Any + Send)) -> String {
     format!("internal error in Swanilda, please report it: {}", panic_text(panic))
 }
 
 /// The message of a panic.
-pub(in crate::script::lua) fn panic_text(panic: &(dyn Any + Send)) -> &str {
+pub(in crate::lua) fn panic_text(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
     text.unwrap_or("panic")
 }

@@ -10,10 +10,10 @@ use std::ptr::NonNull;
 use mlua::ffi;
 
 use super::callback::panic_message;
-use crate::script::lua::{Stack, api};
+use crate::lua::{Stack, api};
 
 /// How a function ends.
-pub(in crate::script::lua) enum Exit {
+pub(in crate::lua) enum Exit {
     /// This number of values on top are its results.
     Results(c_int),
     /// The value on top is raised.
@@ -27,17 +27,17 @@ pub(in crate::script::lua) enum Exit {
 }
 
 /// A function that Lua can call. It has no values of its own, since Lua stores its type only.
-pub(in crate::script::lua) trait Function: Fn(Stack<'_>) -> Exit + Copy + 'static {}
+pub(in crate::lua) trait Function: Fn(Stack<'_>) -> Exit + Copy + 'static {}
 
 impl<F: Fn(Stack<'_>) -> Exit + Copy + 'static> Function for F {}
 
 /// A function of Lua's own libraries.
 #[derive(Clone, Copy)]
-pub(in crate::script::lua) struct Original(ffi::lua_CFunction);
+pub(in crate::lua) struct Original(ffi::lua_CFunction);
 
 impl Original {
     /// The function at `index`; None for one of Lua code, and for one with upvalues, which only works in its own frame.
-    pub(in crate::script::lua) fn at(stack: Stack<'_>, index: c_int) -> Option<Self> {
+    pub(in crate::lua) fn at(stack: Stack<'_>, index: c_int) -> Option<Self> {
         if stack.push_upvalue(index, 1) {
             stack.pop(1);
             return None;
@@ -47,7 +47,7 @@ impl Original {
 }
 
 /// Pushes a function. It finds the number, if it has one, with [`Stack::number_of_function`].
-pub(in crate::script::lua) fn push_function<F: Function>(stack: Stack<'_>, number: Option<i64>, _function: F) {
+pub(in crate::lua) fn push_function<F: Function>(stack: Stack<'_>, number: Option<i64>, _function: F) {
     const { assert!(size_of::<F>() == 0, "Lua stores the type of a function, and no values") };
     let _room = stack.room();
     if let Some(number) = number {

@@ -7,10 +7,10 @@ use std::ffi::{CStr, c_int};
 use std::sync::OnceLock;
 
 use super::entry::{Exit, Original, push_function};
-use crate::script::lua::Stack;
+use crate::lua::Stack;
 
 /// Functions of Lua's with a guard.
-pub(in crate::script::lua) mod guarded {
+pub(in crate::lua) mod guarded {
     pub const COROUTINE_CREATE: usize = 0;
     pub const COROUTINE_WRAP: usize = 1;
     pub const GET_LOCAL: usize = 2;
@@ -54,7 +54,7 @@ pub(in crate::script::lua) mod guarded {
 }
 
 /// The action after a guard.
-pub(in crate::script::lua) enum Next {
+pub(in crate::lua) enum Next {
     /// Lua's function continues.
     Original,
     /// The same, then the function sees its results.
@@ -68,7 +68,7 @@ pub(in crate::script::lua) enum Next {
 }
 
 /// A function that looks at the arguments of a call before Lua's function does; not a closure with values.
-pub(in crate::script::lua) trait Guard: Fn(Stack<'_>) -> Next + Copy + 'static {}
+pub(in crate::lua) trait Guard: Fn(Stack<'_>) -> Next + Copy + 'static {}
 
 impl<F: Fn(Stack<'_>) -> Next + Copy + 'static> Guard for F {}
 
@@ -76,7 +76,7 @@ impl<F: Fn(Stack<'_>) -> Next + Copy + 'static> Guard for F {}
 static ORIGINALS: [OnceLock<Original>; guarded::COUNT] = [const { OnceLock::new() }; _];
 
 /// Puts a guard in front of the function `name` of the table on top.
-pub(in crate::script::lua) fn install<const FUNCTION: usize, F: Guard>(stack: Stack<'_>, name: &str, guard: F) {
+pub(in crate::lua) fn install<const FUNCTION: usize, F: Guard>(stack: Stack<'_>, name: &str, guard: F) {
     stack.raw_get_field(-1, name);
     let original = Original::at(stack, -1);
     stack.pop(1);

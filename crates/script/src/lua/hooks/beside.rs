@@ -8,9 +8,9 @@ use std::sync::OnceLock;
 use mlua::ffi;
 
 use super::count::{HOOK_INTERVAL, Step, hook, next_step};
-use crate::script::lua::Stack;
-use crate::script::lua::api::{self, Hook, Slot};
-use crate::script::lua::calls::guard::{Next, guarded, install};
+use crate::lua::Stack;
+use crate::lua::api::{self, Hook, Slot};
+use crate::lua::calls::guard::{Next, guarded, install};
 
 /// The hook of Lua's library, which calls the function of the script.
 static OF_LIBRARY: OnceLock<Hook> = OnceLock::new();
@@ -64,10 +64,7 @@ fn unwatch(stack: Stack<'_>) {
 }
 
 /// Beside a hook that counts nothing.
-pub(in crate::script::lua) unsafe extern "C-unwind" fn beside_hook(
-    raw: *mut ffi::lua_State,
-    record: *mut ffi::lua_Debug,
-) {
+pub(in crate::lua) unsafe extern "C-unwind" fn beside_hook(raw: *mut ffi::lua_State, record: *mut ffi::lua_Debug) {
     // SAFETY: Lua's call is passed on. Nothing is owned here.
     unsafe {
         if (*record).event == ffi::LUA_HOOKCOUNT {
@@ -79,7 +76,7 @@ pub(in crate::script::lua) unsafe extern "C-unwind" fn beside_hook(
 }
 
 /// Beside a hook that counts instructions as well.
-pub(in crate::script::lua) unsafe extern "C-unwind" fn beside_counting_hook(
+pub(in crate::lua) unsafe extern "C-unwind" fn beside_counting_hook(
     raw: *mut ffi::lua_State,
     record: *mut ffi::lua_Debug,
 ) {

@@ -6,10 +6,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use mlua::ffi;
 
 use super::interrupt::{is_requested, place_of_interruption};
-use crate::script::lua::Stack;
-use crate::script::lua::api::{self, Hook};
-use crate::script::lua::calls::callback::panic_message;
-use crate::script::lua::calls::guard::{Next, guarded, install};
+use crate::lua::Stack;
+use crate::lua::api::{self, Hook};
+use crate::lua::calls::callback::panic_message;
+use crate::lua::calls::guard::{Next, guarded, install};
 
 /// Virtual machine instructions between two checks of the budget.
 pub(crate) const HOOK_INTERVAL: c_int = 1000;
@@ -94,7 +94,7 @@ pub(crate) enum HookAction {
 }
 
 /// The hook: yields without values, or raises an error, as the host decides.
-pub(in crate::script::lua) unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
+pub(in crate::lua) unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
     // SAFETY: Lua calls the hook of a running coroutine. Yields and errors leave it by `longjmp`; nothing is owned here.
     unsafe {
         match next_step(Stack::from_raw(raw)) {
@@ -152,7 +152,7 @@ fn step(stack: Stack<'_>, action: impl FnOnce() -> HookAction) -> Step {
 #[cfg(test)]
 mod tests {
     use super::{HookAction, Step, step};
-    use crate::script::lua::tests::with_state;
+    use crate::lua::tests::with_state;
 
     #[test]
     fn a_panic_of_the_host_is_an_error_of_the_script() {

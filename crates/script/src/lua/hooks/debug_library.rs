@@ -9,10 +9,10 @@ use std::ffi::{CStr, c_int};
 use mlua::ffi;
 
 use super::beside::keep_watch;
-use crate::script::lua::api::{self, Slot};
-use crate::script::lua::calls::guard::{Next, guarded, install};
-use crate::script::lua::stack::frame::Facts;
-use crate::script::lua::{Outcome, Stack, Type, push_plain};
+use crate::lua::api::{self, Slot};
+use crate::lua::calls::guard::{Next, guarded, install};
+use crate::lua::stack::frame::Facts;
+use crate::lua::{Outcome, Stack, Type, push_plain};
 
 /// What scripts get as the registry.
 const PUBLIC_REGISTRY: &CStr = c"swanilda.registry";

@@ -13,9 +13,9 @@ use std::sync::atomic::{AtomicU8, AtomicU64, AtomicUsize, Ordering};
 use mlua::ffi;
 
 use super::count::restore_count_hook;
-use crate::script::lua::Stack;
-use crate::script::lua::api::{self, Hook, Slot};
-use crate::script::lua::stack::frame::Facts;
+use crate::lua::Stack;
+use crate::lua::api::{self, Hook, Slot};
+use crate::lua::stack::frame::Facts;
 
 /// Coroutines within coroutines that are looked at.
 const LONGEST_CHAIN: usize = 250;
@@ -40,12 +40,12 @@ static PLACE: [AtomicU8; LONGEST_PLACE] = [const { AtomicU8::new(0) }; LONGEST_P
 static PLACE_LENGTH: AtomicUsize = AtomicUsize::new(0);
 
 /// A call into Lua from outside. Nested ones end in reverse order.
-pub(in crate::script::lua) struct Running {
+pub(in crate::lua) struct Running {
     outer: *mut ffi::lua_State,
 }
 
 impl Running {
-    pub(in crate::script::lua) fn begin(stack: Stack<'_>) -> Self {
+    pub(in crate::lua) fn begin(stack: Stack<'_>) -> Self {
         let outer = RUNNING.replace(stack.raw());
         if outer.is_null() {
             REQUESTED.set(false);
@@ -64,19 +64,19 @@ impl Drop for Running {
 }
 
 /// How many calls into Lua have begun, those inside of others not counted. While the number stays, the same call runs.
-pub(crate) fn calls_begun() -> u64 {
+pub fn calls_begun() -> u64 {
     CALLS.load(Ordering::Relaxed)
 }
 
 /// Where code was when it was last interrupted: the function written in C that it waits for, chunks and lines.
-pub(crate) fn place_of_interruption() -> Option<String> {
+pub fn place_of_interruption() -> Option<String> {
     let length = PLACE_LENGTH.load(Ordering::Acquire);
     let bytes: Vec<u8> = PLACE[..length].iter().map(|byte| byte.load(Ordering::Relaxed)).collect();
     (length > 0).then(|| String::from_utf8_lossy(&bytes).into_owned())
 }
 
 /// Stops the Lua code of this thread. For signal handlers: it neither allocates nor waits.
-pub(crate) fn interrupt_running_code() {
+pub fn interrupt_running_code() {
     let running = RUNNING.get();
     if running.is_null() {
         return;

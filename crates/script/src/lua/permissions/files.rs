@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::super::calls::guard::{Next, guarded, install as guard};
 use super::super::{Stack, Type};
 use super::{c_text, or_raise, path, permissions, unless_denied};
-use crate::permissions::{Denied, Permissions};
+use permissions::{Denied, Permissions};
 
 pub(super) fn install(stack: Stack<'_>) {
     stack.push_global("io");

@@ -8,7 +8,7 @@ use super::super::calls::callback::push_callback;
 use super::super::calls::guard::{Next, guarded, install as guard};
 use super::super::{Stack, Type};
 use super::{c_text, or_raise, path, permissions, unless_denied};
-use crate::permissions::c_path;
+use permissions::c_path;
 
 pub(super) fn install(stack: Stack<'_>) {
     stack.push_globals();

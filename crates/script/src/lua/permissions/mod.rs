@@ -11,7 +11,7 @@ use std::path::PathBuf;
 
 use super::calls::guard::Next;
 use super::{Stack, Type};
-use crate::permissions::{Denied, Permissions, c_path};
+use permissions::{Denied, Permissions, c_path};
 
 /// Puts the guards into a fresh state, before any Lua code could keep Lua's functions. `restricted.lua` does what builds on them.
 pub(crate) fn restrict_libraries(stack: Stack<'_>) {

@@ -8,25 +8,25 @@ use mlua::ffi;
 use super::Stack;
 
 /// A running function, and what was asked about it. Its texts are read while it runs.
-pub(in crate::script::lua) struct Frame<'a> {
+pub(in crate::lua) struct Frame<'a> {
     stack: Stack<'a>,
     record: ffi::lua_Debug,
 }
 
 /// Facts that Lua reports about a running function. None of them pushes a value.
 #[derive(Clone, Copy)]
-pub(in crate::script::lua) struct Facts(&'static CStr);
+pub(in crate::lua) struct Facts(&'static CStr);
 
 impl Facts {
-    pub(in crate::script::lua) const LINE_AND_SOURCE: Self = Self(c"lS");
-    pub(in crate::script::lua) const NAME: Self = Self(c"n");
-    pub(in crate::script::lua) const SOURCE: Self = Self(c"S");
-    pub(in crate::script::lua) const ALL: Self = Self(c"nSl");
+    pub(in crate::lua) const LINE_AND_SOURCE: Self = Self(c"lS");
+    pub(in crate::lua) const NAME: Self = Self(c"n");
+    pub(in crate::lua) const SOURCE: Self = Self(c"S");
+    pub(in crate::lua) const ALL: Self = Self(c"nSl");
 }
 
 impl<'a> Stack<'a> {
     /// The function `level` calls up; 0 is the running one.
-    pub(in crate::script::lua) fn frame(self, level: c_int, facts: Facts) -> Option<Frame<'a>> {
+    pub(in crate::lua) fn frame(self, level: c_int, facts: Facts) -> Option<Frame<'a>> {
         let mut record = MaybeUninit::<ffi::lua_Debug>::zeroed();
         // SAFETY: a record of zeros is valid; Lua fills in the requested fields.
         let record = unsafe {
@@ -42,37 +42,37 @@ impl<'a> Stack<'a> {
 
 impl Frame<'_> {
     /// The line being executed; -1 for a function written in C.
-    pub(in crate::script::lua) fn line(&self) -> c_int {
+    pub(in crate::lua) fn line(&self) -> c_int {
         self.record.currentline
     }
 
     /// The name it was called by.
-    pub(in crate::script::lua) fn name(&self) -> Option<&CStr> {
+    pub(in crate::lua) fn name(&self) -> Option<&CStr> {
         self.text(self.record.name)
     }
 
     /// Whether it was called as a method.
-    pub(in crate::script::lua) fn is_method(&self) -> bool {
+    pub(in crate::lua) fn is_method(&self) -> bool {
         self.text(self.record.namewhat) == Some(c"method")
     }
 
     /// Whether it is written in C.
-    pub(in crate::script::lua) fn is_native(&self) -> bool {
+    pub(in crate::lua) fn is_native(&self) -> bool {
         self.text(self.record.what) == Some(c"C")
     }
 
     /// Its chunk, as errors name it.
-    pub(in crate::script::lua) fn chunk(&self) -> &CStr {
+    pub(in crate::lua) fn chunk(&self) -> &CStr {
         self.text(self.record.short_src.as_ptr()).unwrap_or_default()
     }
 
     /// The name its chunk was loaded by.
-    pub(in crate::script::lua) fn source(&self) -> &CStr {
+    pub(in crate::lua) fn source(&self) -> &CStr {
         self.text(self.record.source).unwrap_or_default()
     }
 
     /// The name of a local variable or temporary value; None where there is none.
-    pub(in crate::script::lua) fn local_name(&self, number: c_int) -> Option<&CStr> {
+    pub(in crate::lua) fn local_name(&self, number: c_int) -> Option<&CStr> {
         let _room = self.stack.room();
         // SAFETY: the function runs, and there is room for the value that is pushed with the name.
         let name = unsafe { ffi::lua_getlocal(self.stack.raw(), &raw const self.record, number) };

@@ -11,7 +11,7 @@ use mlua::{Lua, ffi};
 
 use super::api::Slot;
 use super::{Budget, api};
-use crate::script::lifecycle::env::Env;
+use crate::lifecycle::env::Env;
 
 /// The stack of one coroutine of a living state. Indices are Lua's: 1 is the bottom, -1 the top.
 #[repr(transparent)]
@@ -22,10 +22,10 @@ pub struct Stack<'a> {
 }
 
 /// A string of a state, which Lua does not collect before this is dropped.
-pub(crate) struct SharedString(mlua::LuaString);
+pub struct SharedString(mlua::LuaString);
 
 impl SharedString {
-    pub(crate) fn bytes(&self) -> impl Deref<Target = [u8]> + '_ {
+    pub fn bytes(&self) -> impl Deref<Target = [u8]> + '_ {
         self.0.as_bytes()
     }
 }
@@ -81,39 +81,39 @@ impl<'a> Stack<'a> {
         &self.owner().budget
     }
 
-    pub(crate) fn top(self) -> c_int {
+    pub fn top(self) -> c_int {
         api::lua_gettop(self)
     }
 
     /// Makes room for `count` more values; false when the stack would grow past Lua's limit.
-    pub(crate) fn reserve(self, count: usize) -> bool {
+    pub fn reserve(self, count: usize) -> bool {
         c_int::try_from(count).is_ok_and(|n| api::lua_checkstack(self, n) != 0)
     }
 
-    pub(crate) fn kind(self, index: c_int) -> Type {
+    pub fn kind(self, index: c_int) -> Type {
         Type::from_raw(api::lua_type(self, self.slot(index)))
     }
 
     /// The number at `index`; numeric strings count.
-    pub(crate) fn number(self, index: c_int) -> Option<f64> {
+    pub fn number(self, index: c_int) -> Option<f64> {
         let mut is_number = 0;
         let number = api::lua_tonumberx(self, self.slot(index), Some(&mut is_number));
         (is_number != 0).then_some(number)
     }
 
     /// The number at `index` if it is an integer; 2.0 and "2" are not.
-    pub(crate) fn integer(self, index: c_int) -> Option<i64> {
+    pub fn integer(self, index: c_int) -> Option<i64> {
         let slot = self.slot(index);
         (api::lua_isinteger(self, slot) != 0).then(|| api::lua_tointegerx(self, slot, None))
     }
 
-    pub(crate) fn truthy(self, index: c_int) -> bool {
+    pub fn truthy(self, index: c_int) -> bool {
         api::lua_toboolean(self, self.slot(index)) != 0
     }
 
     /// Reads the bytes of the string at `index`. What reads them can be sent to another thread, so it has no access to any state, and the
     /// string stays where it is meanwhile.
-    pub(crate) fn with_bytes<T>(self, index: c_int, read: impl FnOnce(&[u8]) -> T + Send) -> Option<T> {
+    pub fn with_bytes<T>(self, index: c_int, read: impl FnOnce(&[u8]) -> T + Send) -> Option<T> {
         if self.kind(index) != Type::String {
             return None;
         }
@@ -125,7 +125,7 @@ impl<'a> Stack<'a> {
     }
 
     /// The string at `index`, which stays alive while it is looked at, wherever else it is.
-    pub(crate) fn string(self, index: c_int) -> Option<SharedString> {
+    pub fn string(self, index: c_int) -> Option<SharedString> {
         if self.kind(index) == Type::String { self.to_mlua(index).ok().map(SharedString) } else { None }
     }
 
@@ -160,28 +160,28 @@ impl<'a> Stack<'a> {
         api::lua_topointer(self, self.slot(index))
     }
 
-    pub(crate) fn push_nil(self) {
+    pub fn push_nil(self) {
         api::lua_pushnil(self.room());
     }
 
-    pub(crate) fn push_bool(self, value: bool) {
+    pub fn push_bool(self, value: bool) {
         api::lua_pushboolean(self.room(), c_int::from(value));
     }
 
-    pub(crate) fn push_int(self, value: i64) {
+    pub fn push_int(self, value: i64) {
         api::lua_pushinteger(self.room(), value);
     }
 
-    pub(crate) fn push_number(self, value: f64) {
+    pub fn push_number(self, value: f64) {
         api::lua_pushnumber(self.room(), value);
     }
 
     /// Pushes a string; one that is too long for Lua's allocator is cut.
-    pub(crate) fn push_bytes(self, bytes: &[u8]) {
+    pub fn push_bytes(self, bytes: &[u8]) {
         self.room().push_bytes(bytes);
     }
 
-    pub(crate) fn push_value(self, index: c_int) {
+    pub fn push_value(self, index: c_int) {
         assert!(self.kind(index) != Type::None, "only what is there can be copied");
         let slot = self.slot(index);
         api::lua_pushvalue(self.room(), slot);
@@ -199,7 +199,7 @@ impl<'a> Stack<'a> {
     }
 
     /// The positive index of the same slot.
-    pub(crate) fn absolute(self, index: c_int) -> c_int {
+    pub fn absolute(self, index: c_int) -> c_int {
         if index < 0 { self.top() + index + 1 } else { index }
     }
 

@@ -5,11 +5,11 @@ use std::ffi::{CStr, c_int};
 use mlua::ffi;
 
 use super::{Stack, Type};
-use crate::script::lua::api::{self, Table};
-use crate::script::runtime::FunctionRef;
+use crate::lua::api::{self, Table};
+use crate::runtime::FunctionRef;
 
 /// Size hints beyond this are not worth their memory: tables grow by themselves.
-pub(in crate::script::lua) const MAX_HINT: usize = 1 << 16;
+pub(in crate::lua) const MAX_HINT: usize = 1 << 16;
 
 /// Items of the longest list Rust pushes; where the items, of 16 bytes each, do not fit one block, Lua raises.
 pub(crate) const LONGEST_LIST: usize = 1 << 26;
@@ -22,17 +22,17 @@ impl Stack<'_> {
     }
 
     /// Raw length of the table at `index`.
-    pub(crate) fn raw_len(self, index: c_int) -> usize {
+    pub fn raw_len(self, index: c_int) -> usize {
         api::lua_rawlen(self, self.slot(index)) as usize
     }
 
-    pub(crate) fn new_table(self, array: usize, fields: usize) {
+    pub fn new_table(self, array: usize, fields: usize) {
         let hint = |n: usize| n.min(MAX_HINT) as c_int;
         api::lua_createtable(self.room(), hint(array), hint(fields));
     }
 
     /// Pushes `table[i]`.
-    pub(crate) fn raw_get_index(self, table: c_int, i: i64) -> Type {
+    pub fn raw_get_index(self, table: c_int, i: i64) -> Type {
         let table = self.table(table);
         Type::from_raw(api::lua_rawgeti(self.room(), table, i))
     }
@@ -64,7 +64,7 @@ impl Stack<'_> {
     }
 
     /// Pops a value into `table[i]`.
-    pub(crate) fn raw_set_index(self, table: c_int, i: i64) {
+    pub fn raw_set_index(self, table: c_int, i: i64) {
         let (table, value) = self.table_and_value(table);
         api::lua_rawseti(value, table, i);
     }
@@ -83,7 +83,7 @@ impl Stack<'_> {
     }
 
     /// Pops key and value into the table; nil and NaN keys are dropped.
-    pub(crate) fn raw_set(self, table: c_int) {
+    pub fn raw_set(self, table: c_int) {
         let table = self.table(table);
         match self.pair() {
             Some(pair) => api::lua_rawset(pair, table),
@@ -123,7 +123,7 @@ impl Stack<'_> {
     }
 
     /// Pushes the value that is stored under a name, as Lua's own libraries do.
-    pub(in crate::script::lua) fn push_named_registry(self, name: &'static str) {
+    pub(in crate::lua) fn push_named_registry(self, name: &'static str) {
         self.push_bytes(name.as_bytes());
         api::lua_rawget(self.value(), Table::REGISTRY);
     }
@@ -134,13 +134,13 @@ impl Stack<'_> {
     }
 
     /// Pushes the metatable of the value at `index`, if it has one.
-    pub(crate) fn push_metatable(self, index: c_int) -> bool {
+    pub fn push_metatable(self, index: c_int) -> bool {
         let slot = self.slot(index);
         api::lua_getmetatable(self.room(), slot) != 0
     }
 
     /// Pushes upvalue `number` of the function at `index`, if it has that many.
-    pub(in crate::script::lua) fn push_upvalue(self, index: c_int, number: c_int) -> bool {
+    pub(in crate::lua) fn push_upvalue(self, index: c_int, number: c_int) -> bool {
         let slot = self.slot(index);
         !api::lua_getupvalue(self.room(), slot, number).is_null()
     }

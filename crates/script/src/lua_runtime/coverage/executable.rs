@@ -5,8 +5,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::script::coverage::Function;
-use crate::script::lua::{Bytecode, Prototype};
+use crate::coverage::Function;
+use crate::lua::{Bytecode, Prototype};
 
 /// The functions of a text and their lines that can run, sorted by first line. None if the text does not compile.
 pub fn executable(text: &[u8]) -> Option<Vec<Function>> {

@@ -12,11 +12,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::startup::load_module;
-use crate::script::coverage::{CountedText, Counts, LineCounts, read_text};
-use crate::script::lifecycle::instance::Script;
-use crate::script::lua::{LuaError, Stack, Type, push_callback};
-use crate::script::runtime::SourceText;
-use crate::script::sim::Sim;
+use crate::coverage::{CountedText, Counts, LineCounts, read_text};
+use crate::lifecycle::instance::Script;
+use crate::lua::{LuaError, Stack, Type, push_callback};
+use crate::runtime::SourceText;
+use crate::sim::Sim;
 pub use executable::executable;
 
 /// Maximum number of texts per state: Lua code can use any number of names.

@@ -9,22 +9,22 @@ use geometry::pose::quaternion_to_array;
 
 use super::access::{Accessor, Subject, subject_properties};
 use super::{PropertyValue, Quaternion};
-use crate::scene::{CustomData, Data, InertValues};
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::events::Protocol;
-use crate::script::files::app_storage::AppStorage;
-use crate::script::lifecycle::random::Random;
-use crate::script::log::auxiliary_consoles::AuxiliaryConsoles;
-use crate::script::log::verbosity;
-use crate::script::person::Ask;
-use crate::script::present::Watching;
-use crate::script::sim::{Options, Sim};
-use crate::script::video::Videos;
-use crate::ui::Ui;
+use crate::error::{ApiError, ApiResult};
+use crate::events::Protocol;
+use crate::files::app_storage::AppStorage;
+use crate::lifecycle::random::Random;
+use crate::log::auxiliary_consoles::AuxiliaryConsoles;
+use crate::log::verbosity;
+use crate::person::Ask;
+use crate::present::Watching;
+use crate::sim::{Options, Sim};
+use crate::video::Videos;
+use scene::{CustomData, Data, InertValues};
+use ui::Ui;
 
 /// Data that scripts store in the application.
 #[derive(Default)]
-pub(crate) struct AppData {
+pub struct AppData {
     /// Persistent data beyond the life of the program, including its custom data.
     pub storage: AppStorage,
     /// Raw custom data: it ends with the program.
@@ -55,7 +55,7 @@ pub(crate) struct AppData {
 
 /// Parameters of the user interface and the like, by number.
 #[derive(Default)]
-pub(crate) struct IdleParams {
+pub struct IdleParams {
     pub bools: BTreeMap<i64, bool>,
     pub integers: BTreeMap<i64, i64>,
     pub floats: BTreeMap<i64, f64>,
@@ -87,7 +87,7 @@ impl AppData {
     }
 }
 
-pub(in crate::script::property) const APP: &[Accessor] = subject_properties! {
+pub(in crate::property) const APP: &[Accessor] = subject_properties! {
     "sessionId": String, |s| s.sim.session_id();
     "platform": i64, |_s| platform();
     "protocolVersion": i64, |s| s.sim.events.protocol.get() as i64, |s, number| {
@@ -101,7 +101,7 @@ pub(in crate::script::property) const APP: &[Accessor] = subject_properties! {
 };
 
 /// Levels by their name, to be written only.
-pub(in crate::script::property) const VERBOSITY_WORDS: &[Accessor] = &[
+pub(in crate::property) const VERBOSITY_WORDS: &[Accessor] = &[
     Accessor { name: "consoleVerbosityStr", read: None, write: Some(set_console_level) },
     Accessor {
         name: "statusbarVerbosityStr",
@@ -112,7 +112,7 @@ pub(in crate::script::property) const VERBOSITY_WORDS: &[Accessor] = &[
 ];
 
 /// Folders of this program, and of the user's installation of CoppeliaSim: empty without one, as what they hold is part of the program.
-pub(in crate::script::property) const PATHS: &[Accessor] = subject_properties! {
+pub(in crate::property) const PATHS: &[Accessor] = subject_properties! {
     "appPath": String, |s| installed(&s.sim.options, "").unwrap_or_else(program_folder);
     "resourcePath": String, |s| installed(&s.sim.options, "").unwrap_or_default();
     "luaPath": String, |s| installed(&s.sim.options, "lua").unwrap_or_default();
@@ -126,7 +126,7 @@ pub(in crate::script::property) const PATHS: &[Accessor] = subject_properties! {
 };
 
 /// Each read returns a new value, from the generator of the application.
-pub(in crate::script::property) const RANDOM: &[Accessor] = subject_properties! {
+pub(in crate::property) const RANDOM: &[Accessor] = subject_properties! {
     "randomQuaternion": Quaternion, |s| Quaternion(quaternion_to_array(&s.sim.app.borrow_mut().random.rotation()));
     "randomFloat": f64, |s| s.sim.app.borrow_mut().random.next();
     "randomString": String, |s| s.sim.app.borrow_mut().random.string(RANDOM_LETTERS);

@@ -2,9 +2,9 @@
 
 use super::access::{Accessor, Subject, subject_properties};
 use super::{Color, Target};
-use crate::scene::Handle;
-use crate::scene::appearance::colour::{ColourSlot, Component};
-use crate::script::error::{ApiError, ApiResult};
+use crate::error::{ApiError, ApiResult};
+use scene::Handle;
+use scene::appearance::colour::{ColourSlot, Component};
 
 impl Subject<'_> {
     /// The object and the colour meant by `slot`; of a mesh it is its own.
@@ -60,11 +60,11 @@ macro_rules! colours {
     } };
 }
 
-pub(in crate::script::property) const COLOUR: &[Accessor] =
+pub(in crate::property) const COLOUR: &[Accessor] =
     colours!(Body: "color.diffuse", "color.specular", "color.emission", "color.transparency");
 
-pub(in crate::script::property) const RAY_COLOUR: &[Accessor] =
+pub(in crate::property) const RAY_COLOUR: &[Accessor] =
     colours!(Emitted: "rayColor.diffuse", "rayColor.specular", "rayColor.emission", "rayColor.transparency");
 
-pub(in crate::script::property) const LIGHT_COLOUR: &[Accessor] =
+pub(in crate::property) const LIGHT_COLOUR: &[Accessor] =
     colours!(Emitted: "lightColor.diffuse", "lightColor.specular", "lightColor.emission");

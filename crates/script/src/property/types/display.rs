@@ -4,10 +4,10 @@ use geometry::Finite;
 
 use super::Color;
 use super::access::{Accessor, length, object_properties, refused};
-use crate::scene::graph::Graph;
-use crate::script::Bytes;
+use crate::Bytes;
+use scene::graph::Graph;
 
-pub(in crate::script::property) const LIGHT: &[Accessor] = object_properties! {
+pub(in crate::property) const LIGHT: &[Accessor] = object_properties! {
     "lightSize": f64, |o| o.light()?.size, Appearance |o, size| o.light_mut()?.size = length(size)?;
     "enabled": bool, |o| o.light()?.enabled, Appearance |o, on| o.light_mut()?.enabled = on;
     "lightType": i64, |o| o.light()?.light_type.code();
@@ -24,7 +24,7 @@ pub(in crate::script::property) const LIGHT: &[Accessor] = object_properties! {
     "povray.castShadows": bool, |o| o.light()?.casts_shadows, Appearance |o, on| o.light_mut()?.casts_shadows = on;
 };
 
-pub(in crate::script::property) const GRAPH: &[Accessor] = object_properties! {
+pub(in crate::property) const GRAPH: &[Accessor] = object_properties! {
     "graphSize": f64, |o| o.graph()?.size, Appearance |o, size| o.graph_mut()?.size = length(size)?;
     "bufferSize": i64, |o| o.graph()?.buffer_size,
         Other |o, size| o.graph_mut()?.buffer_size = size.clamp(1, Graph::MAX_BUFFER_SIZE);
@@ -35,14 +35,14 @@ pub(in crate::script::property) const GRAPH: &[Accessor] = object_properties! {
         Appearance |o, colour| o.graph_mut()?.foreground = colour.to_f32();
 };
 
-pub(in crate::script::property) const OCTREE: &[Accessor] = object_properties! {
+pub(in crate::property) const OCTREE: &[Accessor] = object_properties! {
     "voxelSize": f64, |o| o.octree()?.voxel_size(),
         Geometry |o, size| o.octree_mut()?.set_voxel_size(size.finite().ok_or_else(refused)?);
     "voxels": Vec<f64>, |o| o.octree()?.voxels().flat_map(|(centre, _)| centre).collect();
     "colors": Bytes, |o| Bytes(o.octree()?.voxels().flat_map(|(_, voxel)| voxel.colour).collect());
 };
 
-pub(in crate::script::property) const POINT_CLOUD: &[Accessor] = object_properties! {
+pub(in crate::property) const POINT_CLOUD: &[Accessor] = object_properties! {
     "points": Vec<f64>, |o| o.point_cloud()?.points.iter().flat_map(|point| point.position).collect();
     "colors": Bytes, |o| Bytes(o.point_cloud()?.points.iter().flat_map(|point| point.colour).collect());
     "ocTreeStruct": bool, |o| o.point_cloud()?.uses_octree, Geometry |o, on| o.point_cloud_mut()?.uses_octree = on;

@@ -6,13 +6,13 @@
 use serde_json::{Map, Value};
 
 use super::access::{Accessor, Subject, subject_properties};
-use crate::scene::parameters::engine::{EngineOwner, EngineParam, engine_params};
-use crate::scene::{Data, ValueType};
-use crate::script::error::{ApiError, ApiResult};
+use crate::error::{ApiError, ApiResult};
+use scene::parameters::engine::{EngineOwner, EngineParam, engine_params};
+use scene::{Data, ValueType};
 
 macro_rules! engine_properties {
     ($($name:ident $owner:ident;)*) => { $(
-        pub(in crate::script::property) const $name: &[Accessor] = subject_properties! {
+        pub(in crate::property) const $name: &[Accessor] = subject_properties! {
             "engineProperties": String, |s| read(s, EngineOwner::$owner)?, |s, json| write(s, EngineOwner::$owner, &json)?;
         };
     )* };

@@ -5,10 +5,10 @@ use geometry::pose::pose_to_array;
 
 use super::access::{Accessor, length, object_properties, refused};
 use super::{PoseArray, Vector3};
-use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
-use crate::scene::{Object, Pose, SceneResult};
+use scene::sensor::force_sensor::{Filter, ForceSensor};
+use scene::{Object, Pose, SceneResult};
 
-pub(in crate::script::property) const FORCE_SENSOR: &[Accessor] = object_properties! {
+pub(in crate::property) const FORCE_SENSOR: &[Accessor] = object_properties! {
     "sensorSize": f64, |o| o.force_sensor()?.size, Appearance |o, size| o.force_sensor_mut()?.size = length(size)?;
     "forceThresholdEnabled": bool, |o| o.force_sensor()?.force_threshold_enabled,
         Sensor |o, on| o.force_sensor_mut()?.force_threshold_enabled = on;

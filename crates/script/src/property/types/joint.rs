@@ -4,11 +4,11 @@ use geometry::pose::{pose_to_array, quaternion_from_array, quaternion_to_array};
 
 use super::access::{Accessor, object_properties, placed_properties};
 use super::{PoseArray, Quaternion};
-use crate::scene::joint::{Control, JointMode, JointSolver};
-use crate::scene::{Handle, Pose, Scene, SceneError, SceneResult};
-use crate::script::error::ApiError;
+use crate::error::ApiError;
+use scene::joint::{Control, JointMode, JointSolver};
+use scene::{Handle, Pose, Scene, SceneError, SceneResult};
 
-pub(in crate::script::property) const JOINT: &[Accessor] = object_properties! {
+pub(in crate::property) const JOINT: &[Accessor] = object_properties! {
     "jointLength": f64, |o| o.joint()?.size[0], Appearance |o, length| o.joint_mut()?.size[0] = length;
     "jointDiameter": f64, |o| o.joint()?.size[1], Appearance |o, diameter| o.joint_mut()?.size[1] = diameter;
     "quaternion": Quaternion, |o| Quaternion(quaternion_to_array(&o.joint()?.spherical)),
@@ -21,7 +21,7 @@ pub(in crate::script::property) const JOINT: &[Accessor] = object_properties! {
     "enforceLimits": bool, |o| o.joint()?.enforce_limits, Joint |o, on| o.joint_mut()?.enforce_limits = on;
 };
 
-pub(in crate::script::property) const CONTROL: &[Accessor] = object_properties! {
+pub(in crate::property) const CONTROL: &[Accessor] = object_properties! {
     "jointForce": f64, |o| o.joint()?.raw_force.unwrap_or_default();
     "averageJointForce": f64, |o| o.joint()?.force.unwrap_or_default();
     "maxVelAccelJerk": Vec<f64>, |o| { let joint = o.joint()?; vec![joint.max_vel, joint.max_accel, joint.max_jerk] },
@@ -38,7 +38,7 @@ pub(in crate::script::property) const CONTROL: &[Accessor] = object_properties! 
 };
 
 /// Properties whose change has consequences for the joint or for those that follow it.
-pub(in crate::script::property) const STATE: &[Accessor] = placed_properties! {
+pub(in crate::property) const STATE: &[Accessor] = placed_properties! {
     "jointPosition": f64, |s, h| s.object(h)?.joint()?.position, |s, h, position| s.set_joint_position(h, position)?;
     "cyclic": bool, |s, h| s.object(h)?.joint()?.cyclic, |s, h, cyclic| {
         let interval = interval_of(&s, h)?;

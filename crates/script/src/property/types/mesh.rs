@@ -4,21 +4,17 @@ use geometry::{Finite, Mesh};
 
 use super::access::{Accessor, Subject, refused, subject_properties};
 use super::{IntPair, Target, Text};
-use crate::scene::appearance::texture::Texture;
-use crate::scene::appearance::texture_mapping::{ApplyMode, TextureMapping};
-use crate::scene::shape::Part;
-use crate::scene::{Field, Object, Uid};
-use crate::script::binding::args::Bytes;
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::sim::Sim;
+use crate::binding::args::Bytes;
+use crate::error::{ApiError, ApiResult};
+use crate::sim::Sim;
+use scene::appearance::texture::Texture;
+use scene::appearance::texture_mapping::{ApplyMode, TextureMapping};
+use scene::shape::Part;
+use scene::{Field, Object, Uid};
 
 impl Sim {
     /// The result of `read` for a mesh and its shape.
-    pub(in crate::script::property) fn with_mesh<R>(
-        &self,
-        uid: Uid,
-        read: impl FnOnce(&Object, &Part) -> R,
-    ) -> ApiResult<R> {
+    pub(in crate::property) fn with_mesh<R>(&self, uid: Uid, read: impl FnOnce(&Object, &Part) -> R) -> ApiResult<R> {
         let scene = self.scene.borrow();
         let (handle, index) = scene.mesh(uid).ok_or(ApiError::NoSuchTarget)?;
         let object = scene.object(handle)?;
@@ -68,7 +64,7 @@ impl Subject<'_> {
     }
 }
 
-pub(in crate::script::property) const TEXTURE: &[Accessor] = subject_properties! {
+pub(in crate::property) const TEXTURE: &[Accessor] = subject_properties! {
     "textureResolution": IntPair, |s| IntPair(s.image([0; 2], |image| image.size().map(i64::from))?);
     "textureCoordinates": Vec<f64>,
         |s| s.texture(Vec::new(), |texture| texture.coordinates.iter().copied().map(f64::from).collect())?;
@@ -84,7 +80,7 @@ pub(in crate::script::property) const TEXTURE: &[Accessor] = subject_properties!
     "textureID": i64, |s| s.texture(-1, |texture| texture.source.raw())?;
 };
 
-pub(in crate::script::property) const MESH: &[Accessor] = subject_properties! {
+pub(in crate::property) const MESH: &[Accessor] = subject_properties! {
     "vertices": Vec<f64>, |s| s.geometry(Mesh::flat_vertices)?;
     "indices": Vec<i64>, |s| s.geometry(Mesh::flat_indices)?;
     "normals": Vec<f64>, |s| s.geometry(Mesh::flat_normals)?;

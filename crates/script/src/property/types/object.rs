@@ -5,14 +5,14 @@ use geometry::pose::{pose_from_array, pose_to_array};
 use super::access::{Accessor, object_properties, pair, placed_properties, refused};
 use super::table::object_class;
 use super::{Long, PoseArray, Text, Vector3};
-use crate::scene::object::movement::MovementFrame;
-use crate::scene::{
+use crate::Bytes;
+use scene::object::movement::MovementFrame;
+use scene::{
     ForbiddenMovements, Handle, Layers, ModelFlags, Object, ObjectFlags, PreferredAxes, Scene, SceneResult,
     SpecialFlags, clean_alias,
 };
-use crate::script::Bytes;
 
-pub(in crate::script::property) const OWN: &[Accessor] = object_properties! {
+pub(in crate::property) const OWN: &[Accessor] = object_properties! {
     "layer": i64, |o| o.layer.number(), Layer |o, layer| o.layer = Layers::from_number(layer);
     "objectUid": Long, |o| Long(o.uid());
     "parentHandle": i64, |o| o.parent().map_or(-1, Handle::raw);
@@ -30,7 +30,7 @@ pub(in crate::script::property) const OWN: &[Accessor] = object_properties! {
     "objectType": String, |o| object_class(&o.kind).word.to_owned();
 };
 
-pub(in crate::script::property) const PLACED: &[Accessor] = placed_properties! {
+pub(in crate::property) const PLACED: &[Accessor] = placed_properties! {
     "alias": Text, |scene, h| Text(scene.object(h)?.alias().into()),
         |scene, h, alias| if clean_alias(&alias.0).as_bytes() == alias.0 { scene.set_alias(h, &alias.0)? };
     "pose": PoseArray, |scene, h| PoseArray(pose_to_array(&scene.object(h)?.pose())),
@@ -52,7 +52,7 @@ macro_rules! bits {
     )* } };
 }
 
-pub(in crate::script::property) const FLAGS: &[Accessor] = bits! {
+pub(in crate::property) const FLAGS: &[Accessor] = bits! {
     "collidable": special_property SpecialProperty SpecialFlags::COLLIDABLE;
     "measurable": special_property SpecialProperty SpecialFlags::MEASURABLE;
     "detectable": special_property SpecialProperty SpecialFlags::DETECTABLE;
@@ -75,7 +75,7 @@ pub(in crate::script::property) const FLAGS: &[Accessor] = bits! {
     "model.notInParentBB": model_property ModelProperty ModelFlags::NOT_IN_PARENT_BOX;
 };
 
-pub(in crate::script::property) const FLAG_SETS: &[Accessor] = object_properties! {
+pub(in crate::property) const FLAG_SETS: &[Accessor] = object_properties! {
     "objectPropertyFlags": i64, |o| o.object_property.bits(),
         ObjectProperty |o, bits| o.object_property = ObjectFlags::from_bits_retain(bits);
     "model.propertyFlags": i64, |o| o.model_property.bits(),
@@ -94,7 +94,7 @@ macro_rules! movement {
     )* } };
 }
 
-pub(in crate::script::property) const MOVEMENT: &[Accessor] = movement! {
+pub(in crate::property) const MOVEMENT: &[Accessor] = movement! {
     "mov.optionsFlags": i64, forbidden, |bits| ForbiddenMovements::from_bits_retain(bits), |flags| flags.bits();
     "mov.stepSize": Vec<f64>, step, |steps| pair(&steps)?, |steps| steps.to_vec();
     "mov.relativity": Vec<i64>, relativity,
@@ -115,7 +115,7 @@ macro_rules! movement_bits {
     (@set $flags:expr, $on:ident, = $allow:path) => { $flags.set($allow, $on) };
 }
 
-pub(in crate::script::property) const MOVEMENT_FLAGS: &[Accessor] = movement_bits! {
+pub(in crate::property) const MOVEMENT_FLAGS: &[Accessor] = movement_bits! {
     "mov.translNoSim": forbidden !ForbiddenMovements::TRANSLATION_STOPPED;
     "mov.translInSim": forbidden !ForbiddenMovements::TRANSLATION_RUNNING;
     "mov.rotNoSim": forbidden !ForbiddenMovements::ROTATION_STOPPED;

@@ -4,11 +4,11 @@ use geometry::Finite;
 
 use super::Vector3;
 use super::access::{Accessor, length, object_properties, pair, refused};
-use crate::scene::SceneResult;
-use crate::scene::sensor::volume::Volume;
-use crate::scene::sensor::{Detection, ProximitySensor};
+use scene::SceneResult;
+use scene::sensor::volume::Volume;
+use scene::sensor::{Detection, ProximitySensor};
 
-pub(in crate::script::property) const PROXIMITY_SENSOR: &[Accessor] = object_properties! {
+pub(in crate::property) const PROXIMITY_SENSOR: &[Accessor] = object_properties! {
     "sensorPointSize": f64, |o| o.proximity_sensor()?.size,
         Appearance |o, size| o.proximity_sensor_mut()?.size = length(size)?;
     "frontFaceDetection": bool, |o| o.proximity_sensor()?.front_faces,
@@ -29,7 +29,7 @@ pub(in crate::script::property) const PROXIMITY_SENSOR: &[Accessor] = object_pro
     "detectedNormal": Vector3, |o| Vector3(detection(o.proximity_sensor()?).map_or([0.0; 3], |found| found.normal));
 };
 
-pub(in crate::script::property) const VOLUME: &[Accessor] = object_properties! {
+pub(in crate::property) const VOLUME: &[Accessor] = object_properties! {
     "closeThreshold": f64, |o| o.proximity_sensor()?.volume.close_threshold,
         Sensor |o, distance| o.proximity_sensor_mut()?.volume.close_threshold = distance.finite().ok_or_else(refused)?.max(0.0);
     "volume_offset": f64, |o| o.proximity_sensor()?.volume.offset,

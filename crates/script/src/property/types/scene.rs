@@ -2,11 +2,11 @@
 
 use super::access::{Accessor, subject_properties};
 use super::{Color, Vector3};
-use crate::scene::parameters::engine::{Engine, SelectedEngine};
-use crate::scene::{Counters, Handle, Layers, SceneError};
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lifecycle::random::Random;
-use crate::script::sim::Sim;
+use crate::error::{ApiError, ApiResult};
+use crate::lifecycle::random::Random;
+use crate::sim::Sim;
+use scene::parameters::engine::{Engine, SelectedEngine};
+use scene::{Counters, Handle, Layers, SceneError};
 
 /// Letters and digits of the identifier of a scene.
 const SCENE_UID_LETTERS: usize = 16;
@@ -53,7 +53,7 @@ impl Sim {
     }
 
     /// Distinguishes this scene from earlier ones.
-    pub(crate) fn scene_uid(&self) -> i64 {
+    pub fn scene_uid(&self) -> i64 {
         self.app.borrow().closed_scenes + 1
     }
 
@@ -81,7 +81,7 @@ macro_rules! settings {
     )* } };
 }
 
-pub(in crate::script::property) const SIMULATION: &[Accessor] = subject_properties! {
+pub(in crate::property) const SIMULATION: &[Accessor] = subject_properties! {
     "realtimeSimulation": bool, |s| s.sim.scene.borrow().settings().real_time, |s, on| s.sim.set_real_time(on);
     "stepsPerRendering": i64, |s| s.sim.scene.borrow().settings().steps_per_rendering,
         |s, steps| s.sim.set_steps_per_rendering(steps);
@@ -91,7 +91,7 @@ pub(in crate::script::property) const SIMULATION: &[Accessor] = subject_properti
     "simulationState": i64, |s| s.sim.clock.state() as i64;
 };
 
-pub(in crate::script::property) const SIMULATION_SETTINGS: &[Accessor] = settings! {
+pub(in crate::property) const SIMULATION_SETTINGS: &[Accessor] = settings! {
     "removeNewObjectsAtEnd": bool, |s| s.remove_new_objects_at_end, |s, on| s.remove_new_objects_at_end = on;
     "pauseSimulationAtTime": bool, |s| s.pause_at_time, |s, on| s.pause_at_time = on;
     "pauseSimulationAtError": bool, |s| s.pause_at_error, |s, on| s.pause_at_error = on;
@@ -99,7 +99,7 @@ pub(in crate::script::property) const SIMULATION_SETTINGS: &[Accessor] = setting
     "realtimeModifier": f64, |s| s.real_time_factor, |s, factor| s.real_time_factor = factor.clamp(0.001, 100.0);
 };
 
-pub(in crate::script::property) const ENVIRONMENT: &[Accessor] = settings! {
+pub(in crate::property) const ENVIRONMENT: &[Accessor] = settings! {
     "visibilityLayers": i64, |s| s.visibility_layers.number(),
         |s, layers| s.visibility_layers = Layers::from_number(layers);
     "scenePath": String, |s| s.path.clone(), |s, path| s.path = path;
@@ -108,14 +108,14 @@ pub(in crate::script::property) const ENVIRONMENT: &[Accessor] = settings! {
     "acknowledgment": String, |s| s.acknowledgment.clone(), |s, text| s.acknowledgment = text;
 };
 
-pub(in crate::script::property) const IDENTITY: &[Accessor] = subject_properties! {
+pub(in crate::property) const IDENTITY: &[Accessor] = subject_properties! {
     "sceneUid": i64, |s| s.sim.scene_uid();
     "sceneIsLocked": bool, |s| s.sim.scene.borrow().settings().locked;
     "sceneUidString": String, |s| s.sim.scene_uid_text();
 };
 
 /// Settings of the physics that change only while the simulation is stopped.
-pub(in crate::script::property) const PHYSICS: &[Accessor] = subject_properties! {
+pub(in crate::property) const PHYSICS: &[Accessor] = subject_properties! {
     "dynamicsEngine": Vec<i64>, |s| s.sim.scene.borrow().settings().dynamics.engine.numbers().to_vec(), |s, engine| {
         let [kind, version, ..] = engine[..] else { return Err(ApiError::PropertyNotWritable) };
         s.sim.set_engine(kind, version)?;
@@ -123,7 +123,7 @@ pub(in crate::script::property) const PHYSICS: &[Accessor] = subject_properties!
     "dynamicsStepSize": f64, |s| s.sim.scene.borrow().settings().dynamics.step, |s, step| s.sim.set_physics_step(step);
 };
 
-pub(in crate::script::property) const CONTAINER: &[Accessor] = subject_properties! {
+pub(in crate::property) const CONTAINER: &[Accessor] = subject_properties! {
     "objectCreationCounter": i64, |s| s.sim.counters().creations;
     "objectDestructionCounter": i64, |s| s.sim.counters().destructions;
     "hierarchyChangeCounter": i64, |s| s.sim.counters().hierarchy;
@@ -136,7 +136,7 @@ pub(in crate::script::property) const CONTAINER: &[Accessor] = subject_propertie
         };
 };
 
-pub(in crate::script::property) const DYNAMICS: &[Accessor] = settings! {
+pub(in crate::property) const DYNAMICS: &[Accessor] = settings! {
     "dynamicsEnabled": bool, |s| s.dynamics.enabled, |s, on| s.dynamics.enabled = on;
     "showContactPoints": bool, |s| s.dynamics.show_contact_points, |s, on| s.dynamics.show_contact_points = on;
     "gravity": Vector3, |s| Vector3(Color::from_f32(s.dynamics.gravity).0),

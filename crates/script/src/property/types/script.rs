@@ -1,10 +1,10 @@
 //! Properties of script objects and detached scripts.
 
 use super::access::{Accessor, Subject, object_properties, subject_properties};
-use crate::scene::object::script_object::{ExecutionPriority, ScriptObject};
-use crate::scene::{Field, SceneResult};
-use crate::script::error::ApiResult;
-use crate::script::lifecycle::instance::Detached;
+use crate::error::ApiResult;
+use crate::lifecycle::instance::Detached;
+use scene::object::script_object::{ExecutionPriority, ScriptObject};
+use scene::{Field, SceneResult};
 
 /// Suffix of an add-on's log name that `sim.getStringProperty(.., 'scriptName')` omits.
 const ADD_ON_SUFFIX: &str = "@addOnScript";
@@ -32,7 +32,7 @@ impl Subject<'_> {
         let script = self.script()?;
         match script.object {
             Some(handle) => {
-                let change = |o: &mut crate::scene::Object| -> SceneResult<()> { o.script_mut().map(object) };
+                let change = |o: &mut scene::Object| -> SceneResult<()> { o.script_mut().map(object) };
                 self.sim.scene.borrow_mut().try_modify(handle, Field::Script, change)?;
             }
             None => detached(&mut script.detached.borrow_mut()),
@@ -71,7 +71,7 @@ impl Subject<'_> {
     }
 }
 
-pub(in crate::script::property) const SCRIPT: &[Accessor] = subject_properties! {
+pub(in crate::property) const SCRIPT: &[Accessor] = subject_properties! {
     "scriptDisabled": bool, |s| s.read_script(|o| o.disabled, |d| d.disabled)?,
         |s, on| s.write_script(|o| o.disabled = on, |d| d.disabled = on)?;
     "restartOnError": bool, |s| s.read_script(|o| o.restart_on_error, |d| d.restart_on_error)?,
@@ -89,7 +89,7 @@ pub(in crate::script::property) const SCRIPT: &[Accessor] = subject_properties! 
     "addOnMenuPath": String, |s| s.read_script(|_| String::new(), |_| String::new())?;
 };
 
-pub(in crate::script::property) const SCRIPT_OBJECT: &[Accessor] = object_properties! {
+pub(in crate::property) const SCRIPT_OBJECT: &[Accessor] = object_properties! {
     "scriptSize": f64, |o| o.script()?.size, Appearance |o, size| o.script_mut()?.size = size;
     "resetAfterSimError": bool, |o| o.script()?.reset_after_sim_error,
         Other |o, on| o.script_mut()?.reset_after_sim_error = on;

@@ -5,11 +5,11 @@ use geometry::pose::quaternion_to_array;
 
 use super::access::{Accessor, object_properties, refused};
 use super::{Color, Quaternion, Vector3};
-use crate::scene::Field;
-use crate::scene::shape::RespondableMask;
-use crate::script::error::ApiError;
+use crate::error::ApiError;
+use scene::Field;
+use scene::shape::RespondableMask;
 
-pub(in crate::script::property) const SHAPE: &[Accessor] = object_properties! {
+pub(in crate::property) const SHAPE: &[Accessor] = object_properties! {
     "respondableMask": i64, |o| o.shape()?.dynamics.respondable_mask.0,
         Dynamics |o, mask| o.shape_mut()?.dynamics.respondable_mask = RespondableMask(mask);
     "startInDynSleepMode": bool, |o| o.shape()?.dynamics.start_asleep,
@@ -50,7 +50,7 @@ macro_rules! applied {
     )* ] };
 }
 
-pub(in crate::script::property) const APPLY: &[Accessor] = applied! {
+pub(in crate::property) const APPLY: &[Accessor] = applied! {
     "applyCulling": bool, Appearance |part, on| part.appearance.culling = on;
     "applyShadingAngle": f64, Appearance |part, angle| part.appearance.shading_angle = angle;
     "applyShowEdges": bool, Appearance |part, on| part.appearance.edges = on;
@@ -63,7 +63,7 @@ pub(in crate::script::property) const APPLY: &[Accessor] = applied! {
     "flipFaces": bool, Geometry |part, on| if on { part.flip_faces() };
 };
 
-pub(in crate::script::property) const MASS: &[Accessor] = object_properties! {
+pub(in crate::property) const MASS: &[Accessor] = object_properties! {
     "mass": f64, |o| o.shape()?.mass.mass, Geometry |o, mass| {
         o.shape_mut()?.mass.set_mass(mass.finite().ok_or_else(refused)?);
         o.dynamics_reset = true;

@@ -4,14 +4,14 @@ use geometry::Finite;
 
 use super::access::{Accessor, length, object_properties, pair, placed_properties, refused};
 use super::{Color, IntPair, Vector3};
-use crate::scene::sensor::{RenderMode, View};
-use crate::scene::{Handle, Kind, Object, SceneError, SceneResult};
-use crate::script::Bytes;
+use crate::Bytes;
+use scene::sensor::RenderMode;
+use scene::{Handle, Kind, SceneResult};
 
 /// Angles of view, rad.
 const ANGLES: (f64, f64) = (0.001, 3.1);
 
-pub(in crate::script::property) const VIEWABLE: &[Accessor] = object_properties! {
+pub(in crate::property) const VIEWABLE: &[Accessor] = object_properties! {
     "viewAngle": f64, |o| o.view()?.angle,
         Sensor |o, angle| o.view_mut()?.angle = angle.finite().ok_or_else(refused)?.clamp(ANGLES.0, ANGLES.1);
     "viewSize": f64, |o| o.view()?.ortho_size, Sensor |o, size| o.view_mut()?.ortho_size = length(size)?;
@@ -28,7 +28,7 @@ pub(in crate::script::property) const VIEWABLE: &[Accessor] = object_properties!
         };
 };
 
-pub(in crate::script::property) const VISION_SENSOR: &[Accessor] = object_properties! {
+pub(in crate::property) const VISION_SENSOR: &[Accessor] = object_properties! {
     "sensorSize": f64, |o| o.vision_sensor()?.size, Appearance |o, size| o.vision_sensor_mut()?.size = length(size)?;
     "backgroundColor": Color, |o| Color::from_f32(o.vision_sensor()?.background),
         Sensor |o, colour| o.vision_sensor_mut()?.background = colour.to_f32();
@@ -55,11 +55,11 @@ pub(in crate::script::property) const VISION_SENSOR: &[Accessor] = object_proper
     "depthBuffer": Vec<f64>, |o| o.vision_sensor()?.depth().iter().map(|&depth| depth.into()).collect();
 };
 
-pub(in crate::script::property) const CAMERA: &[Accessor] = object_properties! {
+pub(in crate::property) const CAMERA: &[Accessor] = object_properties! {
     "cameraSize": f64, |o| o.camera()?.size, Appearance |o, size| o.camera_mut()?.size = length(size)?;
 };
 
-pub(in crate::script::property) const TRACKED: &[Accessor] = placed_properties! {
+pub(in crate::property) const TRACKED: &[Accessor] = placed_properties! {
     "trackedObjectHandle": i64, |s, h| s.object(h)?.camera()?.tracked.map_or(-1, Handle::raw),
         |s, h, tracked| s.track(h, tracked)?;
 };
@@ -69,22 +69,4 @@ fn clipping(planes: &[f64]) -> SceneResult<[f64; 2]> {
     let [near, far] = pair(planes)?;
     let near = length(near)?;
     Ok([near, far.max(near + 1e-4)])
-}
-
-impl Object {
-    fn view(&self) -> SceneResult<&View> {
-        match &self.kind {
-            Kind::Camera(camera) => Ok(&camera.view),
-            Kind::VisionSensor(sensor) => Ok(&sensor.view),
-            _ => Err(SceneError::WrongType("camera")),
-        }
-    }
-
-    fn view_mut(&mut self) -> SceneResult<&mut View> {
-        match &mut self.kind {
-            Kind::Camera(camera) => Ok(&mut camera.view),
-            Kind::VisionSensor(sensor) => Ok(&mut sensor.view),
-            _ => Err(SceneError::WrongType("camera")),
-        }
-    }
 }

@@ -1,4 +1,4 @@
-// The elements of simUI as HTML forms, by the JSON of src/ui: a function per kind, and containers with their layouts.
+// The elements of simUI as HTML forms, by the JSON of crates/ui: a function per kind, and containers with their layouts.
 import { el } from '../dom.js';
 import { collections } from './widgets_collections.js';
 import { richText } from './rich_text.js';
@@ -7,7 +7,7 @@ import { richText } from './rich_text.js';
 
 const USUAL_SPACING = 6;
 
-/** @param {any} content a container as in src/ui @param {Form} form */
+/** @param {any} content a container as in crates/ui @param {Form} form */
 export function container(content, form) {
   const { layout = 'vbox', margins = [7, 7, 7, 7], spacing = -1, items = [] } = content;
   const element = el('div', { class: `layout ${layout}` });

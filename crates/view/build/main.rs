@@ -1,0 +1,16 @@
+//! Lists the files of the viewer's page, joined and compressed.
+
+mod bundle;
+mod page;
+
+use std::env;
+use std::path::PathBuf;
+
+#[allow(clippy::disallowed_methods, reason = "cargo tells a build script its folders through the environment")]
+fn main() {
+    println!("cargo:rerun-if-changed=src/page");
+    println!("cargo:rerun-if-changed=build");
+    let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
+    page::compress(&package.join("src/page"), &out);
+}
