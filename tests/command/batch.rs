@@ -4,8 +4,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-mod support;
-use support::process::run_for_code;
+use test_support::process::run_for_code;
 
 const SCENE: &str = "
 sim = require 'sim'

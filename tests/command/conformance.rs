@@ -9,12 +9,10 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
-mod support;
-use support::compare::{difference, normalize};
-use support::process::run_bounded;
+use test_support::compare::{difference, normalize};
+use test_support::parallel;
+use test_support::process::run_bounded;
 
 #[test]
 fn cases_print_what_the_original_prints() {
@@ -75,20 +73,8 @@ fn case_name(case: &Path) -> String {
 
 /// The cases that differ, with how.
 fn run_all(cases: &[PathBuf]) -> BTreeMap<String, String> {
-    let next = AtomicUsize::new(0);
-    let failures = Mutex::new(BTreeMap::new());
-    std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(2, usize::from) {
-            scope.spawn(|| {
-                while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    if let Some(difference) = run_case(case) {
-                        failures.lock().expect("no holder panics").insert(case_name(case), difference);
-                    }
-                }
-            });
-        }
-    });
-    failures.into_inner().expect("no holder panics")
+    let differences = parallel::map(cases, |case| run_case(case));
+    cases.iter().zip(differences).filter_map(|(case, difference)| Some((case_name(case), difference?))).collect()
 }
 
 /// How the output of a case differs from the recording, if it does.

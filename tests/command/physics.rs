@@ -1,12 +1,19 @@
 //! Mechanics against closed forms: every file in tests/physics is a case that measures and compares. What came out stands in
-//! docs/PHYSICS.md, which `UPDATE=1 cargo test --test physics` rewrites.
+//! docs/PHYSICS.md, which `UPDATE=1 cargo test --test command physics` rewrites.
 
 #![allow(clippy::disallowed_methods, reason = "UPDATE=1 asks for new files")]
 
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::Command;
+use std::time::Duration;
+
+use test_support::parallel;
+use test_support::process::run_for_code;
+
+/// How long a case may take: some simulate minutes.
+const LIMIT: Duration = Duration::from_secs(600);
 
 /// A quantity a case has measured.
 struct Check {
@@ -37,7 +44,7 @@ fn mechanics_comes_out_right() {
     let text = fs::read_to_string(&page).expect("the page is there");
     let missing: Vec<&str> =
         cases.iter().map(|case| case.about.as_str()).filter(|about| !text.contains(about)).collect();
-    assert!(missing.is_empty(), "not in docs/PHYSICS.md: {missing:?}\nrun UPDATE=1 cargo test --test physics");
+    assert!(missing.is_empty(), "not in docs/PHYSICS.md: {missing:?}\nrun UPDATE=1 cargo test --test command physics");
 }
 
 impl Check {
@@ -61,28 +68,22 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// All cases, at the same time.
+/// All cases, as many at the same time as there are processors.
 fn run_all() -> Vec<Case> {
     let entries = fs::read_dir(root().join("tests/physics")).expect("tests/physics is readable").flatten();
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
     files.retain(|path| path.extension().is_some_and(|extension| extension == "lua"));
     files.sort();
     assert!(!files.is_empty(), "there are cases");
-    let running: Vec<(PathBuf, Child)> = files.into_iter().map(|file| (file.clone(), start(&file))).collect();
-    running.into_iter().map(|(file, child)| finish(&file, child)).collect()
+    parallel::map(&files, |file| run(file))
 }
 
-fn start(file: &Path) -> Child {
+fn run(file: &Path) -> Case {
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
     command.arg("run").arg(file).args(["--empty", "--time", "120"]);
-    command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("swanilda runs")
-}
-
-fn finish(file: &Path, child: Child) -> Case {
-    let output = child.wait_with_output().expect("swanilda ends");
-    let (log, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    let checks: Vec<Check> = log.lines().chain(errors.lines()).filter_map(Check::read).collect();
-    assert!(output.status.success() && !checks.is_empty(), "{}:\n{log}{errors}", file.display());
+    let (code, log) = run_for_code(&mut command, LIMIT).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+    let checks: Vec<Check> = log.lines().filter_map(Check::read).collect();
+    assert!(code == 0 && !checks.is_empty(), "{}:\n{log}", file.display());
     let source = fs::read_to_string(file).expect("the case is readable");
     let about =
         source.lines().next().and_then(|line| line.strip_prefix("-- ")).expect("a case begins with what it is about");

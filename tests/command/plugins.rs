@@ -5,8 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-mod support;
-use support::process::{run_bounded, run_for_code};
+use test_support::process::{output_of, run_bounded, run_for_code};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
@@ -289,7 +288,7 @@ fn plugins_in_other_folders_and_in_cpp() {
 fn an_exception_that_nobody_catches_ends_the_process() {
     let folder = folder("print(pcall(loadPlugin('simCpp').uncaught)) print('still here')");
     compile("plugin.cpp", &folder.path().join("libsimCpp.so"));
-    let ended = run_for_code(&mut command(folder.path(), &["--quiet"]), support::process::LIMIT);
+    let ended = run_for_code(&mut command(folder.path(), &["--quiet"]), test_support::process::LIMIT);
     let text = ended.expect_err("it ends by a signal");
     let told = "swanilda: uncaught of the plugin simCpp let an exception out.";
     assert!(text.contains(told) && !text.contains("still here"), "{text}");
@@ -298,19 +297,19 @@ fn an_exception_that_nobody_catches_ends_the_process() {
 #[test]
 fn a_crash_is_told_with_its_place() {
     let folder = folder("loadPlugin('simT').func() loadPlugin('simT').crash()");
-    let ended = run_for_code(&mut command(folder.path(), &["--quiet", "--isolate"]), support::process::LIMIT);
+    let ended = run_for_code(&mut command(folder.path(), &["--quiet", "--isolate"]), test_support::process::LIMIT);
     let (code, text) = ended.expect("only the child ends by a signal");
     let told = "the process of the scene has crashed in crash of the plugin simT: signal: 6 (SIGABRT)";
     assert!(code == 70 && text.contains(told), "{code}: {text}");
     fs::write(folder.path().join("scene.lua"), "error('on purpose')").expect("it is writable");
-    let ended = run_for_code(&mut command(folder.path(), &["--quiet", "--isolate"]), support::process::LIMIT);
+    let ended = run_for_code(&mut command(folder.path(), &["--quiet", "--isolate"]), test_support::process::LIMIT);
     assert_eq!(ended.expect("it ends").0, 1);
 }
 
 #[test]
 fn what_a_plugin_prints_itself_is_no_line_of_json() {
     let folder = folder("loadPlugin('simT').shout() print('Hello')");
-    let output = command(folder.path(), &["--json"]).output().expect("the command starts");
+    let output = output_of(&mut command(folder.path(), &["--json"]));
     let (lines, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     let is_json = |line: &str| serde_json::from_str::<serde_json::Value>(line).is_ok();
     assert!(lines.contains("Hello") && lines.lines().all(is_json), "{lines}");

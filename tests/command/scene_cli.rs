@@ -6,11 +6,10 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 use tempfile::TempDir;
-
-mod support;
+use test_support::process::output_of;
 
 fn swanilda(args: &[&Path]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_swanilda")).args(args).output().expect("the command starts")
+    output_of(Command::new(env!("CARGO_BIN_EXE_swanilda")).args(args))
 }
 
 /// Runs a command of words and paths: `command("diff", &[a, b])`.
@@ -175,7 +174,7 @@ fn git_shows_differences_of_scenes() {
     let repository = folder.path().join("repository");
     fs::create_dir(&repository).expect("our own folder is writable");
     if git(&repository, &["init", "-q"]).is_none() {
-        return support::skipped_outside_of_ci("there is no git");
+        return test_support::skipped_outside_of_ci("there is no git");
     }
     let run = |args: &[&str]| stdout(&git(&repository, args).expect("git is there"));
     let program = env!("CARGO_BIN_EXE_swanilda");

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use tempfile::TempDir;
+use test_support::process::output_of;
 
 /// How many things `check.lua` looks at, so that it cannot pass by looking at nothing.
 const CHECKS: (&str, &str) = ("87 checks\n", "31 checks\n");
@@ -17,7 +18,7 @@ fn folder() -> TempDir {
 }
 
 fn swanilda(args: &[&Path]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_swanilda")).args(args).output().expect("the command starts")
+    output_of(Command::new(env!("CARGO_BIN_EXE_swanilda")).args(args))
 }
 
 /// Runs a command for scene files, which succeeds.
@@ -32,7 +33,7 @@ fn checked(file: &Path, options: &[&str]) -> String {
     command.arg("run").arg(data().join("check.lua"));
     command.args(["--as", "sandbox", "--empty", "--no-start", "--quiet", "-D"]);
     command.arg(format!("file={}", file.display())).args(options);
-    let output = command.output().expect("the command starts");
+    let output = output_of(&mut command);
     String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
 }
 
@@ -69,7 +70,7 @@ fn xml_scenes_are_written_and_read() {
 fn the_files_can_be_made_again() {
     let folder = folder();
     let mut make = Command::new(data().join("make.sh"));
-    let output = make.arg(env!("CARGO_BIN_EXE_swanilda")).arg(folder.path()).output().expect("there is a shell");
+    let output = output_of(make.arg(env!("CARGO_BIN_EXE_swanilda")).arg(folder.path()));
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     for name in ["world.ttt", "part.ttm", "robot.ttt", "robot.ttm"] {
         let (kept, made) = (data().join(name), folder.path().join(name));

@@ -1,13 +1,11 @@
 //! The module `socket`: what LuaSocket 3.0.0 printed for `sockets/probe.lua`, and the end of a script that waits.
 
-mod support;
-
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use support::process::{LIMIT, run_bounded, wait_within};
+use test_support::process::{LIMIT, run_bounded, wait_within};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/sockets")

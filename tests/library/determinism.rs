@@ -5,15 +5,21 @@ use std::cell::RefCell;
 use std::fs;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::rc::Rc;
+use std::time::Duration;
 
 use geometry::pose::pose_to_array;
 
 use swanilda::{Channels, Console, LogLine, Options, Picture, ScriptKind, Simulator};
+use test_support::parallel;
+use test_support::process::run_for_code;
 
 /// Steps after which a scene that does not end by itself is stopped.
 const LONGEST: u64 = 400;
+
+/// How long a command may take.
+const LIMIT: Duration = Duration::from_secs(600);
 
 /// Scenes that speak with the world outside; how they go is a matter of who is there.
 const OUTSIDE: [&str; 5] = ["ros", "ws_", "zmq_", "serial_", "fetch_"];
@@ -32,24 +38,24 @@ fn scenes() -> Vec<PathBuf> {
 
 #[test]
 fn twice_in_one_process() {
-    for scene in scenes() {
+    parallel::map(&scenes(), |scene| {
         let run = || on_a_large_stack(record, scene.clone());
-        assert_same(&run(), &run(), &scene);
-    }
+        assert_same(&run(), &run(), scene);
+    });
 }
 
 #[test]
 fn twice_in_processes_of_their_own() {
-    for scene in scenes() {
+    parallel::map(&scenes(), |scene| {
         let run = || {
             let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-            command.arg("run").arg(&scene).args(["--quiet", "--json", "--steps", &LONGEST.to_string()]);
-            let output = command.output().expect("the command starts");
-            assert!(output.status.success(), "{} fails", scene.display());
-            String::from_utf8_lossy(&output.stdout).into_owned()
+            command.arg("run").arg(scene).args(["--quiet", "--json", "--steps", &LONGEST.to_string()]);
+            let (code, said) = run_for_code(&mut command, LIMIT).expect("it ends");
+            assert!(code == 0, "{} fails: {said}", scene.display());
+            said
         };
-        assert_same(&run(), &run(), &scene);
-    }
+        assert_same(&run(), &run(), scene);
+    });
 }
 
 /// Colours, depths and objects do not depend on how many threads draw.
@@ -100,8 +106,8 @@ fn ten_thousand_steps() {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/determinism/long_run.lua");
     let start = || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-        command.arg("run").arg(&scene).args(["--quiet", "--json"]).stdout(Stdio::piped());
-        command.spawn().expect("the command starts")
+        command.arg("run").arg(&scene).args(["--quiet", "--json"]);
+        std::thread::spawn(move || run_for_code(&mut command, LIMIT).expect("it ends"))
     };
     let processes = [start(), start()];
     let runs = on_a_large_stack(two_short_runs, scene.clone());
@@ -109,9 +115,8 @@ fn ten_thousand_steps() {
     let [first, second] = hashes[..] else { panic!("each run prints a line: {runs}") };
     assert_eq!(first, second, "a run differs from the one before it");
     let said = processes.map(|process| {
-        let output = process.wait_with_output().expect("the command ends");
-        let said = String::from_utf8_lossy(&output.stdout).into_owned();
-        assert!(output.status.success() && said.contains(first), "a process differs from `{first}`: {said}");
+        let (code, said) = process.join().expect("it was run");
+        assert!(code == 0 && said.contains(first), "a process differs from `{first}`: {said}");
         let end = said.lines().find(|line| line.contains("after 50.0 s")).map(str::to_owned);
         end.unwrap_or_else(|| panic!("10 000 steps end with a line: {said}"))
     });

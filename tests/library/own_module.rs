@@ -6,11 +6,10 @@ use std::rc::Rc;
 use swanilda::mlua::{self, Function, Lua, Table, UserData, UserDataFields, UserDataMethods, Value, Variadic};
 use swanilda::{Limits, Options, ScriptKind, Simulator};
 
-mod support;
-use support::lines::Lines;
+use crate::lines::Lines;
 
 #[allow(dead_code, reason = "its `main` is for people")]
-#[path = "../examples/own_module.rs"]
+#[path = "../../examples/own_module.rs"]
 mod example;
 
 /// Says when it goes.

@@ -9,8 +9,6 @@ use std::process::Command;
 use swanilda::scene::{Kind, Object};
 use swanilda::{Options, SceneFile, ScriptKind, Simulator};
 
-mod support;
-
 /// Larger files take too long without optimisation, in Python and here.
 const LARGEST: u64 = 300_000;
 
@@ -20,7 +18,7 @@ fn shared() -> PathBuf {
 
 fn files() -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(shared().join("scenes/files")) else {
-        support::skipped("the scenes of other people: there is no ../shared");
+        test_support::skipped("the scenes of other people: there is no ../shared");
         return own_files();
     };
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("a readable folder").path()).collect();
@@ -82,12 +80,12 @@ fn the_independent_reader_reads_what_is_saved() {
 fn compare_files(files: &[PathBuf]) -> Option<usize> {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/independent.py");
     if !shared().join("tools/ttt").exists() {
-        support::skipped("there is no reader of others: ../shared is missing");
+        test_support::skipped("there is no reader of others: ../shared is missing");
         return None;
     }
     let reader = Command::new("python3").arg(script).arg(shared().join("tools/ttt")).args(files).output();
     let Ok(output) = reader else {
-        support::skipped_outside_of_ci("there is no python3");
+        test_support::skipped_outside_of_ci("there is no python3");
         return None;
     };
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -1,13 +1,11 @@
 //! Serial ports, at both ends of pseudo-terminals.
 #![cfg(unix)]
-#![allow(clippy::disallowed_methods, reason = "every wait of a test is bounded by the clock")]
-
-use std::io::{Read, Write};
-use std::time::{Duration, Instant};
 
 use serialport::{SerialPort, TTYPort};
+use std::io::{Read, Write};
 use swanilda::scene::Data;
 use swanilda::{Options, ScriptKind, ScriptRef, SimulationState, Simulator};
+use test_support::process::{LIMIT, wait_until};
 
 /// A script that does what it is told, at once or in its thread.
 const SCRIPT: &str = "
@@ -68,16 +66,12 @@ impl Bench {
         let waiting = |line: &TTYPort| line.bytes_to_read().expect("the line is there") as usize;
         let before = waiting(&self.line);
         self.device.write_all(bytes).expect("the line takes it");
-        let deadline = Instant::now() + Duration::from_secs(10);
-        while waiting(&self.line) < before + bytes.len() {
-            assert!(Instant::now() < deadline, "the bytes do not arrive");
-            std::thread::sleep(Duration::from_millis(1));
-        }
+        wait_until("the bytes arrive", || waiting(&self.line) >= before + bytes.len());
     }
 
     fn device_gets(&mut self, count: usize) -> Vec<u8> {
         let mut bytes = vec![0; count];
-        self.device.set_timeout(Duration::from_secs(10)).expect("a time-out can be set");
+        self.device.set_timeout(LIMIT).expect("a time-out can be set");
         self.device.read_exact(&mut bytes).expect("the script has sent it");
         bytes
     }
@@ -288,7 +282,7 @@ fn the_bridge_scene_obeys_its_device() {
     let path = line.name().expect("the line has a name");
     let named_params = [("port".to_owned(), path)].into();
     let mut sim = Simulator::new(Options { named_params, ..Options::default() });
-    add_script(&mut sim, include_str!("../scenes/serial_bridge.lua"));
+    add_script(&mut sim, include_str!("../../scenes/serial_bridge.lua"));
     sim.start();
     sim.step(2);
     device.write_all(b"speed 2\nnonsense\n").expect("the line takes it");

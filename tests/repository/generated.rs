@@ -1,4 +1,4 @@
-//! The committed reference is what the sources say. `UPDATE=1 cargo test --test generated` rewrites it.
+//! The committed reference is what the sources say. `UPDATE=1 cargo test --test repository generated` rewrites it.
 
 #![allow(clippy::disallowed_methods, reason = "UPDATE=1 asks for new files")]
 
@@ -21,7 +21,7 @@ fn reference_is_current() {
     if std::env::var_os("UPDATE").is_some() {
         return update(&files, &left_over);
     }
-    assert!(stale.is_empty(), "stale: {stale:?}\nrun UPDATE=1 cargo test --test generated");
+    assert!(stale.is_empty(), "stale: {stale:?}\nrun UPDATE=1 cargo test --test repository generated");
     assert!(left_over.is_empty(), "no longer generated: {left_over:?}");
 }
 
@@ -34,7 +34,7 @@ fn readme_is_current() {
     if std::env::var_os("UPDATE").is_some() {
         return fs::write(path, current).expect("the repository is writable");
     }
-    assert!(readme == current, "README.md is stale: run UPDATE=1 cargo test --test generated");
+    assert!(readme == current, "README.md is stale: run UPDATE=1 cargo test --test repository generated");
 }
 
 #[test]

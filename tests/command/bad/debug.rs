@@ -3,8 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-mod support;
-use support::process::run_bounded;
+use test_support::process::run_bounded;
 
 /// Runs a scene; what it prints and logs.
 fn run(code: &str, args: &[&str]) -> String {

@@ -3,10 +3,8 @@
 use std::fs;
 use std::process::Command;
 
-use swanilda::docs::{self, Function};
-
-mod support;
-use support::process::run_bounded;
+use test_support::parallel;
+use test_support::process::run_bounded;
 
 /// Runs a scene to its end; what it printed and logged.
 fn run(code: &str, args: &[&str]) -> String {
@@ -40,28 +38,28 @@ fn errors_in_every_callback() {
     let callbacks = "info init cleanup nonSimulation beforeSimulation afterSimulation actuation sensing suspend suspended \
         resume beforeCopy afterCopy beforeDelete afterDelete afterCreate beforeMainScript msg selChange joint dyn contact \
         trigger vision thread userConfig moduleEntry event ext realTimeIdle beforeSave afterSave afterLoad data";
-    for callback in callbacks.split_whitespace() {
-        for error in [
-            "error('broken')",
-            "error({})",
-            "error()",
-            "error(setmetatable({}, {__tostring = error}))",
-            "local x = nil + 1",
-        ] {
-            let code = format!(
-                "sim = require 'sim'
-                local done
-                function sysCall_{callback}() {error} end
-                sysCall_init = sysCall_init or function()
-                    other = sim.createDummy(0.1)
-                    sim.copyPasteObjects({{other}}, 0)
-                    sim.removeObjects({{other}})
-                    sim.broadcastMsg({{id = 'x'}})
-                end"
-            );
-            run_briefly(&code);
-        }
-    }
+    let errors = [
+        "error('broken')",
+        "error({})",
+        "error()",
+        "error(setmetatable({}, {__tostring = error}))",
+        "local x = nil + 1",
+    ];
+    let cases: Vec<_> =
+        callbacks.split_whitespace().flat_map(|callback| errors.map(|error| (callback, error))).collect();
+    parallel::map(&cases, |(callback, error)| {
+        run_briefly(&format!(
+            "sim = require 'sim'
+            local done
+            function sysCall_{callback}() {error} end
+            sysCall_init = sysCall_init or function()
+                other = sim.createDummy(0.1)
+                sim.copyPasteObjects({{other}}, 0)
+                sim.removeObjects({{other}})
+                sim.broadcastMsg({{id = 'x'}})
+            end"
+        ))
+    });
 }
 
 #[test]
@@ -144,21 +142,21 @@ fn threads_that_never_yield() {
 
 #[test]
 fn scripts_that_remove_themselves() {
-    for callback in
-        ["init", "actuation", "sensing", "cleanup", "beforeSimulation", "afterSimulation", "thread", "nonSimulation"]
-    {
-        for code in [
-            "sim.removeObjects({sim_script_handle})",
-            "sim.removeObjects({sim_script_handle}, true)",
-            "sim.removeObjects(sim.getObjectsInTree(sim.handle_scene))",
-            "sim.initScript(sim.handle_self) sim.initScript(sim.handle_self)",
-            "sim.closeScene()",
-            "sim.loadScene('')",
-            "sim.stopSimulation() sim.startSimulation() sim.pauseSimulation() sim.startSimulation()",
-        ] {
-            run_briefly(&format!("sim = require 'sim' function sysCall_{callback}() {code} end"));
-        }
-    }
+    let callbacks =
+        ["init", "actuation", "sensing", "cleanup", "beforeSimulation", "afterSimulation", "thread", "nonSimulation"];
+    let removals = [
+        "sim.removeObjects({sim_script_handle})",
+        "sim.removeObjects({sim_script_handle}, true)",
+        "sim.removeObjects(sim.getObjectsInTree(sim.handle_scene))",
+        "sim.initScript(sim.handle_self) sim.initScript(sim.handle_self)",
+        "sim.closeScene()",
+        "sim.loadScene('')",
+        "sim.stopSimulation() sim.startSimulation() sim.pauseSimulation() sim.startSimulation()",
+    ];
+    let cases: Vec<_> = callbacks.iter().flat_map(|callback| removals.map(|code| (callback, code))).collect();
+    parallel::map(&cases, |(callback, code)| {
+        run_briefly(&format!("sim = require 'sim' function sysCall_{callback}() {code} end"))
+    });
 }
 
 #[test]
@@ -183,69 +181,11 @@ fn numbers_beyond_reason() {
     assert!(output.contains("alive"), "{output}");
 }
 
-/// These end the program, or wait for the wall clock as long as they are told.
-const NOT_CALLED: &[&str] = &["quitSimulator", "sim.quitSimulator", "sim.wait"];
-
 #[test]
 fn odd_values_for_every_property() {
-    let output = run(include_str!("support/odd_properties.lua"), &["--steps", "5"]);
+    let output = run(include_str!("../../support/odd_properties.lua"), &["--steps", "5"]);
     assert!(output.contains("every property was written"), "{output}");
 }
-
-#[test]
-fn wrong_arguments_for_every_function() {
-    let functions: Vec<Function> = docs::functions().into_iter().filter(|f| !NOT_CALLED.contains(&&*f.name)).collect();
-    assert!(functions.len() > 100, "the table of functions is read");
-    for chunk in functions.chunks(functions.len().div_ceil(8)) {
-        let names: Vec<String> = chunk.iter().map(|f| format!("{{'{}', {}}}", f.name, f.parameters.len())).collect();
-        let code = CALL_WRONGLY.replace("FUNCTIONS", &names.join(", "));
-        let output = run(&code, &["--as", "sandbox", "--no-start", "--loops", "1", "--quiet"]);
-        let last = output.lines().rev().find(|line| line.starts_with("calling")).unwrap_or_default();
-        assert!(
-            output.contains("all called"),
-            "{last}\n{}",
-            output.lines().rev().take(20).collect::<Vec<_>>().join("\n")
-        );
-        assert!(!output.contains("no string"), "{output}");
-    }
-}
-
-/// Calls each function with values of every kind at every place, with a few sound values around them.
-const CALL_WRONGLY: &str = r#"
-sim = require 'sim'
-local write = print
-print = function() end
-local deep = {}
-for i = 1, 50 do deep = {deep} end
-local long = {}
-for i = 1, 1000 do long[i] = i * 0.5 end
-local dummy = sim.createDummy and sim.createDummy(0.1) or 0
-local values = {
-    false, true, 0, 1, -1, -4, 1.5, 0/0, 1/0, -1/0, 1e300, math.maxinteger, math.mininteger, 2^31, '', 'text', '\0\255', 'sysCall_init',
-    {}, {1, 2, 3}, {0/0, 1/0, -1/0}, {'a', {}, false}, {x = 1}, deep, long, {0, 0, 0, 0, 0, 0, 1}, print, coroutine.create(print), dummy,
-}
-local function check(name, ok, message)
-    if not ok and type(message) ~= 'string' then write('no string', name, type(message)) end
-end
-for _, entry in ipairs{FUNCTIONS} do
-    local name, count = entry[1], entry[2]
-    write('calling ' .. name)
-    local f = name:match('^sim%.') and sim[name:sub(5)] or _G[name]
-    check(name, pcall(f))
-    check(name, pcall(f, table.unpack({}, 1, 12)))
-    for place = 1, math.min(count, 6) do
-        for _, filler in ipairs{false, dummy, 'text', {1, 2, 3}} do
-            for _, value in ipairs(values) do
-                local arguments = {}
-                for i = 1, count do arguments[i] = filler end
-                arguments[place] = value
-                check(name, pcall(f, table.unpack(arguments, 1, count)))
-            end
-        end
-    end
-end
-write('all called')
-"#;
 
 #[test]
 fn running_out_of_memory_is_an_error() {

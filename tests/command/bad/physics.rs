@@ -4,8 +4,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-mod support;
-use support::process::run_within;
+use test_support::process::run_within;
 
 /// Debug builds are slow where meshes are divided into convex pieces.
 const LIMIT: Duration = Duration::from_secs(240);

@@ -3,12 +3,13 @@
 use std::fs;
 
 use serde_json::Value;
+use test_support::process::output_of;
 
 use super::{Scene, stderr, stdout, swanilda};
 
 #[test]
 fn api_prints_the_reference() {
-    let run = |args: &[&str]| swanilda().arg("api").args(args).output().expect("the command starts");
+    let run = |args: &[&str]| output_of(swanilda().arg("api").args(args));
     let output = run(&["getSimulationTime"]);
     assert_eq!(output.status.code(), Some(0));
     assert!(stdout(&output).contains("float time = sim.getSimulationTime()"), "{}", stdout(&output));
@@ -29,7 +30,7 @@ fn doctor_tells_what_works() {
     let scene = Scene::new(
         "sim = require 'sim'\nsim.getObject('/a') -- sim.nothing()\nsim.frobnicate()\nsimGetSimulationTime()",
     );
-    let doctor = |args: &[&str]| swanilda().arg("doctor").args(args).output().expect("the command starts");
+    let doctor = |args: &[&str]| output_of(swanilda().arg("doctor").args(args));
     let folder = scene.folder.path().display().to_string();
     let output = doctor(&[&folder]);
     assert_eq!(output.status.code(), Some(1));
@@ -62,9 +63,9 @@ fn init_does_not_overwrite() {
 
 #[test]
 fn completions_and_version() {
-    let completions = swanilda().args(["completions", "bash"]).output().expect("the command starts");
+    let completions = output_of(swanilda().args(["completions", "bash"]));
     assert!(stdout(&completions).contains("swanilda"));
-    let version = swanilda().arg("--version").output().expect("the command starts");
+    let version = output_of(swanilda().arg("--version"));
     assert_eq!(stdout(&version), format!("swanilda {}\n", env!("CARGO_PKG_VERSION")));
 }
 
@@ -72,7 +73,7 @@ fn completions_and_version() {
 #[cfg(unix)]
 fn endless_files_are_refused() {
     for command in ["run", "doctor", "inspect"] {
-        let output = swanilda().args([command, "/dev/zero"]).output().expect("the command starts");
+        let output = output_of(swanilda().args([command, "/dev/zero"]));
         assert_eq!(output.status.code(), Some(2), "{command}");
         assert!(
             stderr(&output).contains("cannot read /dev/zero: this device or pipe has more than 64 MiB"),

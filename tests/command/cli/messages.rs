@@ -3,6 +3,8 @@
 use std::fs;
 use std::process::Output;
 
+use test_support::process::output_of;
+
 use super::{Scene, stderr, stdout, swanilda};
 
 /// What `swanilda COMMAND FILE` says about a file with that name and content.
@@ -10,7 +12,7 @@ fn said_about(command: &str, name: &str, content: &[u8]) -> String {
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
     let path = folder.path().join(name);
     fs::write(&path, content).expect("our own folder is writable");
-    let output = swanilda().arg(command).arg(&path).output().expect("the command starts");
+    let output = output_of(swanilda().arg(command).arg(&path));
     assert_eq!(output.status.code(), Some(2), "{name}: {}", stdout(&output));
     stderr(&output)
 }
@@ -58,7 +60,7 @@ fn options_say_what_they_need() {
 fn a_folder_without_tests_says_how_to_begin() {
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
     let test = |args: &[&str]| {
-        let output = swanilda().arg("test").args(args).current_dir(folder.path()).output().expect("the command starts");
+        let output = output_of(swanilda().arg("test").args(args).current_dir(folder.path()));
         assert_eq!(output.status.code(), Some(5));
         stdout(&output)
     };
@@ -70,7 +72,7 @@ fn a_folder_without_tests_says_how_to_begin() {
 
 #[test]
 fn our_own_scenes_need_nothing_that_is_missing() {
-    let output = swanilda().args(["doctor", "scenes"]).output().expect("the command starts");
+    let output = output_of(swanilda().args(["doctor", "scenes"]));
     assert_eq!(output.status.code(), Some(0), "{}", stdout(&output));
 }
 
@@ -78,15 +80,18 @@ fn our_own_scenes_need_nothing_that_is_missing() {
 #[test]
 fn a_run_without_an_end_says_so_once() {
     use std::process::{Command, Stdio};
+    use test_support::process::{LIMIT, wait_until, wait_within};
     let scene = Scene::new("");
+    let log = scene.path().with_file_name("log");
     let mut child = swanilda();
-    let child = child.arg("run").arg(scene.path()).args(["--realtime", "--empty"]).stderr(Stdio::piped());
-    let child = child.spawn().expect("the command starts");
-    std::thread::sleep(std::time::Duration::from_secs(5));
+    let child = child.arg("run").arg(scene.path()).args(["--realtime", "--empty"]).stdout(Stdio::null());
+    let mut child = child.stderr(fs::File::create(&log).expect("our own folder")).spawn().expect("the command starts");
+    let said = || fs::read_to_string(&log).expect("our own file").matches("This run has no end so far").count();
+    wait_until("it is said", || said() > 0);
     let signal = ["-INT", &child.id().to_string()].map(str::to_owned);
     Command::new("kill").args(signal).status().expect("kill exists");
-    let output = child.wait_with_output().expect("it ends");
-    assert_eq!(stderr(&output).matches("This run has no end so far").count(), 1, "{}", stderr(&output));
+    assert!(wait_within(&mut child, LIMIT).is_some(), "the process goes on");
+    assert_eq!(said(), 1);
 }
 
 #[test]

@@ -19,6 +19,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use tempfile::TempDir;
+use test_support::process::output_of;
 
 const PRINTS_TIME: &str = "sim = require 'sim'
 function sysCall_actuation() print(sim.getSimulationTime()) end
@@ -56,7 +57,7 @@ impl Scene {
     }
 
     fn run(&self, args: &[&str]) -> Output {
-        swanilda().arg("run").arg(self.path()).args(args).output().expect("the command starts")
+        output_of(swanilda().arg("run").arg(self.path()).args(args))
     }
 }
 
@@ -201,7 +202,7 @@ fn json_is_one_object_per_line() {
 
 #[test]
 fn wrong_command_lines_and_files_exit_with_2() {
-    let missing = swanilda().args(["run", "/nowhere/scene.lua"]).output().expect("the command starts");
+    let missing = output_of(swanilda().args(["run", "/nowhere/scene.lua"]));
     assert_eq!(missing.status.code(), Some(2));
     assert!(stderr(&missing).contains("/nowhere/scene.lua"));
     let scene = Scene::new("");
@@ -226,7 +227,7 @@ fn a_port_in_use_is_refused() {
     let port = taken.local_addr().expect("it has an address").port();
     let legacy = format!("--legacy-remote-api={port}");
     for option in [format!("--remote-api={port}"), legacy, "-DzmqRemoteApi.rpcPort=nonsense".to_owned()] {
-        let refused = swanilda().args(["serve", &option]).output().expect("the command starts");
+        let refused = output_of(swanilda().args(["serve", &option]));
         assert_eq!(refused.status.code(), Some(2), "{option}");
         assert!(stderr(&refused).contains("port") || stderr(&refused).contains(&port.to_string()), "{option}");
     }

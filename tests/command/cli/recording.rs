@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 use std::process::Output;
 
+use test_support::process::output_of;
+
 use super::{Scene, stderr, swanilda};
 
 const SCENE: &str = "sim = require 'sim'
@@ -32,12 +34,12 @@ fn file(scene: &Scene, name: &str) -> PathBuf {
 fn run(scene: &Scene, args: &[&str]) -> Output {
     let mut command = swanilda();
     command.arg("run").arg(scene.path()).arg("--quiet").args(args).current_dir(scene.folder.path());
-    command.output().expect("the command starts")
+    output_of(&mut command)
 }
 
 fn export(scene: &Scene, args: &[&str]) -> Output {
     let mut command = swanilda();
-    command.arg("export").args(args).current_dir(scene.folder.path()).output().expect("the command starts")
+    output_of(command.arg("export").args(args).current_dir(scene.folder.path()))
 }
 
 /// The index in a page that plays a recording.

@@ -3,12 +3,14 @@
 use std::path::Path;
 use std::process::Output;
 
+use test_support::process::output_of;
+
 use super::{BALL, Scene, stderr, stdout, swanilda};
 
 fn render(scene: &Scene, args: &[&str]) -> Output {
     let mut command = swanilda();
     command.arg("render").arg(scene.path()).args(args).current_dir(scene.folder.path());
-    command.output().expect("the command starts")
+    output_of(&mut command)
 }
 
 /// Width, height, bits per channel, and colour type of a PNG file.

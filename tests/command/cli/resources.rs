@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::Output;
 
 use tempfile::TempDir;
+use test_support::process::output_of;
 
 use super::{Scene, stderr, stdout, swanilda};
 
@@ -110,10 +111,9 @@ fn the_environment_names_them_and_a_missing_folder_is_an_error() {
     let scene = Scene::new("sim = require 'sim' print(require 'mylib')");
     let mut command = swanilda();
     command.arg("run").arg(scene.path()).args(["--no-start", "--loops", "1", "--quiet"]);
-    let found = command.env("SWANILDA_RESOURCES", installation.path().join("CoppeliaSim")).output();
-    assert_eq!(stdout(&found.expect("the command starts")), "from lua\n");
-    let missing = command.env("SWANILDA_RESOURCES", installation.path().join("nothing")).output();
-    let missing = missing.expect("the command starts");
+    let found = output_of(command.env("SWANILDA_RESOURCES", installation.path().join("CoppeliaSim")));
+    assert_eq!(stdout(&found), "from lua\n");
+    let missing = output_of(command.env("SWANILDA_RESOURCES", installation.path().join("nothing")));
     assert_eq!(missing.status.code(), Some(2));
     assert!(stderr(&missing).contains("there is no such folder"), "{}", stderr(&missing));
 }

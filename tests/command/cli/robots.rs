@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use test_support::process::output_of;
+
 use super::swanilda;
 
 const CRANE: &str = r#"<mujoco model="crane">
@@ -46,7 +48,7 @@ function sysCall_afterSimulation()
 end";
 
 fn said_by(folder: &Path, args: &[&str]) -> String {
-    let output = swanilda().args(args).current_dir(folder).output().expect("the command starts");
+    let output = output_of(swanilda().args(args).current_dir(folder));
     let all = [output.stdout, output.stderr].concat();
     let text = String::from_utf8_lossy(&all).into_owned();
     assert!(output.status.success(), "{args:?}: {text}");

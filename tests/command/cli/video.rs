@@ -3,12 +3,14 @@
 use std::path::Path;
 use std::process::Output;
 
+use test_support::process::output_of;
+
 use super::{BALL, Scene, stderr, swanilda};
 
 fn run(scene: &Scene, args: &[&str]) -> Output {
     let mut command = swanilda();
     command.arg("run").arg(scene.path()).arg("--quiet").args(args).current_dir(scene.folder.path());
-    command.output().expect("the command starts")
+    output_of(&mut command)
 }
 
 /// The names of the files beside the scene's.
@@ -123,12 +125,7 @@ fn ffmpeg_gets_every_picture() {
         let path = format!("{}:{}", scene.folder.path().display(), std::env::var("PATH").unwrap_or_default());
         let mut command = swanilda();
         command.arg("run").arg(scene.path()).args(["--quiet", "--steps", "10", "--video-camera", "Eye"]);
-        command
-            .args(["--video", "a.mp4"])
-            .current_dir(scene.folder.path())
-            .env("PATH", path)
-            .output()
-            .expect("it starts")
+        output_of(command.args(["--video", "a.mp4"]).current_dir(scene.folder.path()).env("PATH", path))
     };
     let output = run_with("#!/bin/sh\nfor file; do :; done\ncat > \"$file\"\necho \"$@\" > arguments\n");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

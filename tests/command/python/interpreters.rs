@@ -3,14 +3,12 @@
 #![allow(clippy::disallowed_methods, reason = "tests look at the environment")]
 #![cfg(unix)]
 
-mod support;
-
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::Command;
 
-use support::process::run_bounded;
+use test_support::process::run_bounded;
 
 /// Whether that Python is there and runs this code.
 fn works(python: &str, code: &str) -> bool {
@@ -20,7 +18,7 @@ fn works(python: &str, code: &str) -> bool {
 fn has_python() -> bool {
     let found = works("python3", "");
     if !found {
-        support::skipped_outside_of_ci("there is no python3");
+        test_support::skipped_outside_of_ci("there is no python3");
     }
     found
 }
@@ -195,7 +193,7 @@ fn python_with_numpy() -> Option<String> {
 #[test]
 fn arrays_of_numpy_are_lists() {
     let Some(python) = python_with_numpy() else {
-        return support::skipped_outside_of_ci("there is no Python with numpy, and none can be made");
+        return test_support::skipped_outside_of_ci("there is no Python with numpy, and none can be made");
     };
     let scene = "#luaExec function echo(...) return ... end
 import numpy as np

@@ -4,8 +4,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-mod support;
-use support::process::run_for_code;
+use test_support::process::run_for_code;
 
 const SCENE: &str = "sim = require 'sim'
 local pid = require 'lib.pid'
@@ -64,7 +63,7 @@ it('moves', function()
 end)
 ";
 
-const ROBOT: &[u8] = include_bytes!("data/robot.ttt");
+const ROBOT: &[u8] = include_bytes!("../../data/robot.ttt");
 
 const REPORT: &str = "TN:
 SF:coverage/scenes/robot.ttt/robot/script.lua
@@ -274,7 +273,7 @@ end)
 /// A text with every kind of jump, and with more constants than an instruction can name.
 fn odd_text() -> String {
     let many: String = (0..300).map(|i| format!("    t.field{i} = {i}.5 + #t\n")).collect();
-    include_str!("coverage/odd.lua").replace("    -- MANY\n", &many)
+    include_str!("../../coverage/odd.lua").replace("    -- MANY\n", &many)
 }
 
 /// Lua's own hook is asked at the same time: slow, and right.

@@ -4,11 +4,13 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
+mod coverage;
 mod goldens;
 mod recordings;
-#[path = "../support/mod.rs"]
-mod support;
-use support::process::run_for_code;
+mod reports;
+mod runs;
+
+use test_support::process::run_for_code;
 
 /// Writes test files into a folder and runs them there; the exit code, and what was written to standard output and error.
 fn run(files: &[(&str, &str)], args: &[&str]) -> (i32, String) {

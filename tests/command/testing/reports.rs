@@ -3,13 +3,9 @@
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
-use std::time::Duration;
 
 use serde_json::Value;
-
-mod support;
-
-const LIMIT: Duration = Duration::from_secs(60);
+use test_support::process::{LIMIT, output_of, wait_within};
 
 const SUITE: &str = "
 describe('group', function()
@@ -43,7 +39,7 @@ fn command(folder: &Path, files: &[(&str, &str)], args: &[&str]) -> Command {
 }
 
 fn run(folder: &Path, files: &[(&str, &str)], args: &[&str]) -> Output {
-    command(folder, files, args).output().expect("the command starts")
+    output_of(&mut command(folder, files, args))
 }
 
 fn stdout(files: &[(&str, &str)], args: &[&str]) -> String {
@@ -218,7 +214,7 @@ fn an_interrupted_run_reports_what_it_did() {
     assert!(signal.success());
     let last: Value = serde_json::from_str(&lines.last().expect("a summary").expect("text")).expect("JSON");
     assert_eq!((&last["interrupted"], &last["notRun"], &last["passed"]), (&true.into(), &2.into(), &1.into()));
-    let status = support::process::wait_within(&mut child, LIMIT).expect("it ends");
+    let status = wait_within(&mut child, LIMIT).expect("it ends");
     assert_eq!(status.code(), Some(2));
     let junit = fs::read_to_string(folder.path().join("junit.xml")).expect("it is written");
     assert!(junit.contains("tests=\"1\""), "{junit}");

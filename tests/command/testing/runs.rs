@@ -4,8 +4,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-mod support;
-use support::process::{run_for_code, run_within};
+use test_support::process::{run_for_code, run_within};
 
 /// Writes test files into a folder and runs them there; the exit code, and what was written to standard output and error.
 fn run(files: &[(&str, &str)], args: &[&str]) -> (i32, String) {
@@ -74,8 +73,8 @@ fn a_scene_that_does_not_end_is_ended() {
         ("loop.lua", "function sysCall_sensing() while true do end end"),
         ("idle.lua", "function sysCall_sensing() end"),
     ];
-    let (code, output) = run(&files, &["--timeout", "4", "--sim-timeout", "10"]);
-    assert!(code == 1 && output.contains("longer than 4 s") && output.contains("more than 10 s"), "{output}");
+    let (code, output) = run(&files, &["--timeout", "4", "--sim-timeout", "2"]);
+    assert!(code == 1 && output.contains("longer than 4 s") && output.contains("more than 2 s"), "{output}");
 }
 
 #[test]
@@ -91,7 +90,7 @@ fn a_test_that_is_stopped_tells_where_it_was() {
         sim.setObjectAlias(sim.createScript(sim.scripttype_simulation, code), 'robot')
         t.step()
     end)";
-    let (code, output) = run(&[("loop_test.lua", suite)], &["--timeout", "2"]);
+    let (code, output) = run(&[("loop_test.lua", suite)], &["--timeout", "3"]);
     assert_eq!(code, 1);
     for place in ["It was at loop_test.lua:5:", "It was at [string \"/robot\"]:2:", "--> /robot:2"] {
         assert!(output.contains(place), "{place}:\n{output}");
@@ -109,7 +108,7 @@ fn a_test_that_hangs_while_it_is_closed_fails_alone() {
         for key in next, registry do registry[key] = false end
         for key in next, package.loaded do package.loaded[key] = false end
     end)";
-    let (code, output) = run(&[("close_test.lua", suite)], &["-v", "--timeout", "1"]);
+    let (code, output) = run(&[("close_test.lua", suite)], &["-v", "--timeout", "3"]);
     assert_eq!(code, 1, "{output}");
     assert!(output.contains("ERROR close_test.lua::hangs") && output.contains("in a finalizer (__gc)"), "{output}");
     assert!(output.contains("PASS close_test.lua::goes on") && output.contains("1 error"), "{output}");
@@ -126,11 +125,11 @@ fn isolated_tests_crash_alone() {
     it('fails', function() print('last words') assert.equal(1, 2) end)
     it('loops', function() while true do end end)
     pending('is to be written')";
-    let (code, output) = run(&[("crash_test.lua", suite)], &["-v", "--isolate", "--timeout", "2", "-j", "2"]);
+    let (code, output) = run(&[("crash_test.lua", suite)], &["-v", "--isolate", "--timeout", "3", "-j", "2"]);
     assert_eq!(code, 1, "{output}");
     assert!(output.contains("the test has ended its process") && output.contains("SIGABRT"), "{output}");
     assert!(output.contains("1 passed, 1 failed, 2 errors, 1 pending"), "{output}");
-    assert!(output.contains("last words") && output.contains("longer than 2 s"), "{output}");
+    assert!(output.contains("last words") && output.contains("longer than 3 s"), "{output}");
     assert!(output.contains("crash_test.lua:6"), "{output}");
 }
 
@@ -187,7 +186,7 @@ fn a_hook_of_a_script_runs_beside_the_time_limit() {
         debug.sethook()
         assert.is_true(lines > 1 and counts > 50)
     end)";
-    let (code, output) = run(&[("hook_test.lua", suite)], &["-v", "--timeout", "1"]);
+    let (code, output) = run(&[("hook_test.lua", suite)], &["-v", "--timeout", "3"]);
     assert_eq!(code, 1, "{output}");
     assert!(output.contains("1 passed, 4 errors"), "{output}");
     assert_eq!(output.matches("It was at hook_test.lua").count(), 4, "each is stopped where it is: {output}");
@@ -234,7 +233,7 @@ fn results_with_recordings_are_reported_as_they_come() {
     it('a', function() record('one') end)
     it('b', function() while true do end end)
     it('c', function() record('one') end)";
-    let (code, output) = run(&[("a_test.lua", suite)], &["--update-golden", "-v", "-j", "3", "--timeout", "2"]);
+    let (code, output) = run(&[("a_test.lua", suite)], &["--update-golden", "-v", "-j", "3", "--timeout", "3"]);
     let at = |text: &str| output.find(text).unwrap_or_else(|| panic!("{text} is missing:\n{output}"));
     assert_eq!(code, 1);
     assert!(at("PASS a_test.lua::a") < at("ERROR a_test.lua::b"), "a waits for nobody: {output}");

@@ -15,7 +15,7 @@ use tokio_tungstenite::tungstenite::http::HeaderValue;
 use tokio_tungstenite::tungstenite::http::header::HeaderName;
 use tokio_tungstenite::{WebSocketStream, client_async};
 
-use crate::served::Served;
+use super::served::Served;
 
 /// Longest wait for a message.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -45,14 +45,20 @@ pub fn request_at(port: u16, request: &str) -> Reply {
     Reply { status: status(&head), head, body: reply[end + 4..].to_vec() }
 }
 
-/// The status of the answer to any bytes, if there is one within a moment.
-pub fn raw(port: u16, request: &str) -> Option<u16> {
+/// A connection that has sent some bytes.
+pub fn send(port: u16, bytes: &str) -> TcpStream {
     let mut stream = TcpStream::connect(("127.0.0.1", port)).expect("the server is there");
-    stream.write_all(request.as_bytes()).expect("it listens");
-    stream.set_read_timeout(Some(Duration::from_secs(1))).expect("a time limit");
+    stream.write_all(bytes.as_bytes()).expect("it listens");
+    stream
+}
+
+/// The status of the answer to bytes that end like a request.
+pub fn raw(port: u16, request: &str) -> u16 {
+    let mut stream = send(port, request);
+    stream.set_read_timeout(Some(PATIENCE)).expect("a time limit");
     let mut head = [0; 12];
-    stream.read_exact(&mut head).ok()?;
-    Some(status(std::str::from_utf8(&head).ok()?))
+    stream.read_exact(&mut head).expect("it answers in time");
+    status(std::str::from_utf8(&head).expect("it is text"))
 }
 
 fn status(head: &str) -> u16 {

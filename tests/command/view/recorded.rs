@@ -5,10 +5,11 @@ use std::process::Command;
 
 use flate2::read::GzDecoder;
 use serde_json::{Value, json};
+use test_support::process::output_of;
 
-use crate::SCRIPT;
-use crate::page::{Page, get};
-use crate::served::Served;
+use super::SCRIPT;
+use super::page::{Page, get};
+use super::served::Served;
 
 /// Records two seconds and more of a script, and shows them.
 fn served() -> Served {
@@ -16,7 +17,7 @@ fn served() -> Served {
     std::fs::write(folder.path().join("scene.lua"), SCRIPT).expect("the scene is written");
     let mut run = Command::new(env!("CARGO_BIN_EXE_swanilda"));
     run.args(["run", "scene.lua", "--quiet", "--steps", "50", "--record", "run.swr"]).current_dir(folder.path());
-    assert!(run.output().expect("the command starts").status.success());
+    assert!(output_of(&mut run).status.success());
     Served::start_file("view", folder, "run.swr", &["--no-open"])
 }
 

@@ -4,7 +4,8 @@ use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, channel};
-use std::time::Duration;
+
+use test_support::process::{LIMIT, wait_within};
 
 /// A served scene. The process ends with it.
 pub struct Served {
@@ -63,7 +64,7 @@ impl Served {
     pub fn address_of(&self, words: &str) -> u16 {
         let lines = self.lines.lock().expect("nobody panics with it");
         loop {
-            let line = lines.recv_timeout(Duration::from_secs(60)).expect("the address is printed");
+            let line = lines.recv_timeout(LIMIT).expect("the address is printed");
             if let Some(address) = line.strip_prefix(words) {
                 return address.rsplit(':').next().expect("a port").parse().expect("a port");
             }
@@ -77,7 +78,7 @@ impl Served {
 
     /// Waits for the end; whether it was a good one.
     pub fn wait(&mut self) -> bool {
-        self.child.wait().expect("it ends").success()
+        wait_within(&mut self.child, LIMIT).expect("it ends").success()
     }
 }
 

@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::page::{Page, Reply, request_at};
-use crate::served::Served;
+use super::page::{Page, Reply, request_at};
+use super::served::Served;
 
 const SCRIPT: &str = "
 sim = require 'sim'

@@ -1,6 +1,6 @@
 //! What commands do: objects, joints, sensors, pictures, scripts.
 
-use crate::support::simx::{BLOCKING, Client, Server, command, floats, ints, read_floats, read_ints, text};
+use super::simx::{BLOCKING, Client, Server, command, floats, ints, read_floats, read_ints, text};
 
 const SCENE: &str = "
     sim = require 'sim'

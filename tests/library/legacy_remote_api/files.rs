@@ -1,6 +1,6 @@
 //! Files that clients send.
 
-use crate::support::simx::{BLOCKING, Server, command, ints, text};
+use super::simx::{BLOCKING, Server, command, ints, text};
 
 #[test]
 fn a_scene_that_was_sent_is_loaded_and_erased() {

@@ -1,9 +1,11 @@
 //! Servers that scripts start, and several clients.
 
 use std::net::{SocketAddr, TcpListener};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crate::support::simx::{BLOCKING, Client, Server, command, ints, read_ints, text};
+use test_support::process::wait_until;
+
+use super::simx::{BLOCKING, Client, Server, command, ints, read_ints, text};
 
 /// Starts a server at a port that is stored in an integer signal.
 const SCENE: &str = "
@@ -78,18 +80,16 @@ fn servers_of_simulation_scripts_end_with_the_simulation() {
     script(&mut client, "add", port);
     client.get(0x1007, &ints(&[0]), &[]);
     client.get(0x0001, &[], &[]);
-    let begun = Instant::now();
-    while std::net::TcpStream::connect(at(port)).is_err() {
+    wait_until("the server starts", || {
         client.call(command(0x0003, BLOCKING, &[], &[]));
-        assert!(begun.elapsed() < Duration::from_secs(10), "the server does not start");
-    }
+        std::net::TcpStream::connect(at(port)).is_ok()
+    });
     let mut theirs = Client::connect(at(port));
     theirs.exchange(&[]);
     assert!(theirs.fails(0x0001, &[], &[]), "the synchronous mode was not enabled");
     client.get(0x1007, &ints(&[2]), &[]);
-    while client.exchange(&[command(0x1021, BLOCKING, &ints(&[1]), &[])]).state != 0 {
-        assert!(begun.elapsed() < Duration::from_secs(20), "the simulation does not stop");
-    }
+    let asked = command(0x1021, BLOCKING, &ints(&[1]), &[]);
+    wait_until("the simulation stops", || client.exchange(std::slice::from_ref(&asked)).state == 0);
     assert!(std::net::TcpStream::connect(at(port)).is_err());
 }
 

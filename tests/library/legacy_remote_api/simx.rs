@@ -9,6 +9,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use swanilda::{Options, ScriptKind, Simulator};
+use test_support::process::LIMIT;
 
 pub const ONESHOT: u32 = 0;
 pub const BLOCKING: u32 = 1;
@@ -45,7 +46,7 @@ impl Server {
             }
         });
         let thread = thread.expect("a thread can be made");
-        let address = receiver.recv_timeout(Duration::from_secs(60)).expect("the server starts");
+        let address = receiver.recv_timeout(LIMIT).expect("the server starts");
         Self { address, stop, thread: Some(thread) }
     }
 
@@ -125,7 +126,7 @@ impl Client {
     pub fn connect(address: SocketAddr) -> Self {
         let stream = TcpStream::connect(address).expect("the server listens");
         stream.set_nodelay(true).expect("it is a socket");
-        stream.set_read_timeout(Some(Duration::from_secs(30))).expect("it is a socket");
+        stream.set_read_timeout(Some(LIMIT)).expect("it is a socket");
         Self { stream, last: -1 }
     }
 
@@ -164,7 +165,7 @@ impl Client {
                 let found = reply.commands.into_iter().find(|answer| (answer.id, &answer.key) == (sent.id, &sent.key));
                 return found.unwrap_or_else(|| panic!("no reply to {sent:?}"));
             }
-            assert!(begun.elapsed() < Duration::from_secs(10), "no reply to {sent:?}");
+            assert!(begun.elapsed() < LIMIT, "no reply to {sent:?}");
             reply = self.exchange(&[]);
         }
     }

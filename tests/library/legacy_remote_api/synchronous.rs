@@ -1,8 +1,10 @@
 //! Control of the simulation, and the synchronous mode.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crate::support::simx::{BLOCKING, Client, Server, command, ints, read_ints};
+use test_support::process::wait_until;
+
+use super::simx::{BLOCKING, Client, Server, command, ints, read_ints};
 
 const SCENE: &str = "sim = require 'sim'";
 
@@ -29,18 +31,13 @@ fn waits(client: &mut Client) -> bool {
 
 /// Until the state of the simulation is that: bit 0 not stopped, bit 1 paused.
 fn wait_for_state(client: &mut Client, state: u8) {
-    let begun = Instant::now();
-    while client.exchange(&[command(0x1021, BLOCKING, &ints(&[1]), &[])]).state != state {
-        assert!(begun.elapsed() < Duration::from_secs(10), "the state does not come");
-    }
+    let asked = command(0x1021, BLOCKING, &ints(&[1]), &[]);
+    wait_until("the state comes", || client.exchange(std::slice::from_ref(&asked)).state == state);
 }
 
 fn wait_until_steps_run_freely(client: &mut Client) {
-    let begun = Instant::now();
     let first = ping(client);
-    while ping(client) < first + 100 {
-        assert!(begun.elapsed() < Duration::from_secs(10), "the simulation stands still");
-    }
+    wait_until("the simulation goes on", || ping(client) >= first + 100);
 }
 
 #[test]
@@ -111,10 +108,7 @@ fn streams_go_on_over_stop_and_start() {
     control(&mut client, START);
     control(&mut client, STOP);
     wait_for_state(&mut client, 0);
-    let begun = Instant::now();
-    while client.exchange(&[]).commands.iter().all(|answer| answer.id != 0x200e) {
-        assert!(begun.elapsed() < Duration::from_secs(10), "the stream is over");
-    }
+    wait_until("the stream goes on", || client.exchange(&[]).commands.iter().any(|answer| answer.id == 0x200e));
 }
 
 #[test]

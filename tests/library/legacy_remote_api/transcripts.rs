@@ -1,6 +1,6 @@
 //! Messages of the original client, byte for byte, and the replies of the original server.
 
-use crate::support::simx::Server;
+use super::simx::Server;
 
 /// A blocking call as it was recorded.
 struct Exchange {
@@ -47,7 +47,7 @@ fn the_replies_are_those_of_the_original() {
         while reply.commands.is_empty() {
             reply = client.exchange_bytes(&empty(&sent)).expect("the server replies");
         }
-        let reply = crate::support::simx::packets(&reply.bytes);
+        let reply = super::simx::packets(&reply.bytes);
         assert_eq!(comparable(&reply), comparable(&expected), "{function}");
     }
 }

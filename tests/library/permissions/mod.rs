@@ -1,17 +1,17 @@
 //! What scripts may do to the world outside: every way there is refused where it is not allowed, and open where it is.
 
 mod routes;
-#[path = "../support/mod.rs"]
-mod support;
 
 use std::fs;
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 
 use routes::{ADDRESSES, CERTIFICATES, NATIVE, READS, RUNS, Route, WRITES};
-use support::lines::Lines;
 use swanilda::{Options, Permissions, ScriptKind, Simulator};
 use tempfile::TempDir;
+use test_support::parallel;
+
+use crate::lines::Lines;
 
 /// Files and folders: `in` is what a test allows, `out` is beside it and holds the same.
 struct World {
@@ -85,7 +85,7 @@ fn assert_works(route: &Route, outcome: &str, about: &str) {
 
 #[test]
 fn reading() {
-    for route in READS {
+    parallel::map(READS, |route| {
         let world = World::new();
         let (inside, outside) = (world.path("in"), world.path("out"));
         let refused = |permissions: Permissions, folder: &Path, about: &str| {
@@ -110,12 +110,12 @@ fn reading() {
             &world.attempt(Permissions::none().allow_read_everywhere(), &outside, route.code),
             "anywhere",
         );
-    }
+    });
 }
 
 #[test]
 fn writing() {
-    for route in WRITES {
+    parallel::map(WRITES, |route| {
         let world = World::new();
         let (inside, outside) = (world.path("in"), world.path("out"));
         let before = contents(&outside);
@@ -133,7 +133,7 @@ fn writing() {
         let allowed = allowed.allow_read(&inside);
         assert_works(route, &world.attempt(allowed, &inside.join("sub/.."), route.code), "in the folder");
         assert_works(route, &world.attempt(Permissions::all(), &outside, route.code), "with everything");
-    }
+    });
 }
 
 /// Every file with its bytes.
@@ -171,7 +171,7 @@ fn programs_and_native_code() {
 #[test]
 fn network() {
     let rule = |text: String| Permissions::none().allow_net(text.parse().expect("well-formed"));
-    for route in ADDRESSES {
+    parallel::map(ADDRESSES, |route| {
         let others = Permissions::none().allow_read_everywhere().allow_write_everywhere().allow_run().allow_native();
         let elsewhere =
             |port: u16| rule(format!("127.0.0.1:{}", port ^ 1)).allow_net("localhost".parse().expect("well-formed"));
@@ -187,7 +187,7 @@ fn network() {
         }
         let anywhere = |_| Permissions::none().allow_net_everywhere();
         assert_works(route, &attempt_until_it_works(route, anywhere), "everywhere");
-    }
+    });
 }
 
 /// Takes a route at a port that the system chose, with the permissions for it.

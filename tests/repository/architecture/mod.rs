@@ -37,7 +37,7 @@ fn imports_point_inwards() {
 fn rooms_use_what_they_may() {
     let wrong: Vec<String> =
         sources().iter().filter(|file| !is_test(file)).flat_map(|file| forbidden_rooms(file)).collect();
-    assert!(wrong.is_empty(), "see ROOMS in tests/architecture/rules.rs:\n{}", wrong.join("\n"));
+    assert!(wrong.is_empty(), "see ROOMS in tests/repository/architecture/rules.rs:\n{}", wrong.join("\n"));
 }
 
 /// The rooms that a file uses, though its own may not.
@@ -96,7 +96,7 @@ fn every_dependency_has_one_owner() {
 #[test]
 fn every_dependency_is_listed() {
     let unlisted: Vec<String> = dependencies().into_iter().filter(|name| !has_owner(name)).collect();
-    assert!(unlisted.is_empty(), "add them to OWNERS in tests/architecture/rules.rs: {unlisted:?}");
+    assert!(unlisted.is_empty(), "add them to OWNERS in tests/repository/architecture/rules.rs: {unlisted:?}");
     let unknown: Vec<&str> =
         OWNERS.iter().map(|(_, folder)| *folder).filter(|folder| !root().join(folder).exists()).collect();
     assert!(unknown.is_empty(), "OWNERS names what is not there: {unknown:?}");

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::imports::{read, relative, root};
+use super::imports::{read, relative, root};
 
 /// What would make HTML or code from text.
 const FORBIDDEN: &[&str] =

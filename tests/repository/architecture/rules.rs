@@ -159,6 +159,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("swanilda", "crates/python"),
     ("swanilda", "src/main.rs"),
     ("syn", "crates/api-macro"),
+    ("tempfile", "crates/test-support"),
     ("tempfile", "src/cli/isolated.rs"),
     ("tempfile", "src/cli/test"),
     ("tempfile", "src/format"),

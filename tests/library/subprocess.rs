@@ -1,13 +1,13 @@
 //! Programs that scripts start: what comes out of them, and that nothing of them is left.
 #![cfg(unix)]
-#![allow(clippy::disallowed_methods, reason = "every wait of a test is bounded by the clock")]
 
+use std::path::Path;
+use std::process::Command;
 use std::sync::atomic::Ordering;
-use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
 
 use swanilda::scene::Data;
 use swanilda::{Options, Permissions, ScriptKind, ScriptRef, Simulator};
+use test_support::process::{run_bounded, wait_until};
 
 /// A script that does what it is told.
 const SCRIPT: &[u8] = b"
@@ -18,8 +18,6 @@ const SCRIPT: &[u8] = b"
 struct Bench {
     sim: Simulator,
     script: ScriptRef,
-    /// Descriptors and children are counted by process, so that tests run one after the other.
-    _turn: MutexGuard<'static, ()>,
 }
 
 impl Bench {
@@ -28,11 +26,9 @@ impl Bench {
     }
 
     fn with(options: Options) -> Self {
-        static TURN: Mutex<()> = Mutex::new(());
-        let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
         let mut sim = Simulator::new(options);
         let script = sim.add_script(ScriptKind::Customization, "script", SCRIPT).expect("the script loads");
-        Self { sim, script, _turn: turn }
+        Self { sim, script }
     }
 
     fn run(&mut self, code: &str) -> Vec<Data> {
@@ -156,43 +152,75 @@ fn a_launched_program_goes_on_by_itself() {
     std::fs::write(&script, code).expect("our own folder is writable");
     let parameters = format!("{} {} {} \"{}\"", script.display(), started.display(), go.display(), done.display());
     bench.run(&format!("sim.launchExecutable('sh', [[{parameters}]])"));
-    until(|| started.exists());
+    wait_until("the program has started", || started.exists());
     drop(bench);
     std::fs::write(&go, "").expect("our own folder is writable");
-    until(|| done.exists());
+    wait_until("the program has gone on", || done.exists());
 }
 
 #[test]
 fn a_stop_ends_a_program_that_does_not() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let file = folder.path().join("pid");
     let options = Options::default();
     let stop = options.stop.clone();
     let mut bench = Bench::with(options);
-    let begun = Instant::now();
+    let started = file.clone();
     let thread = std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_millis(50));
+        wait_until("the program has started", || pid_in(&started).is_some());
         stop.store(true, Ordering::Relaxed);
     });
-    let error = bench.error("simSubprocess.exec('sleep', {'60'})");
+    let code = format!("simSubprocess.exec('sh', {{'-c', 'echo $$ > {}; exec sleep 1000'}})", file.display());
+    let error = bench.error(&code);
     assert!(error.contains("interrupted"), "{error}");
     thread.join().expect("the other thread ends");
-    assert!(begun.elapsed() < Duration::from_secs(50));
-    assert_eq!(children(), 0, "it was killed and reaped");
+    assert!(!is_running(pid_in(&file).expect("it was started")), "it was killed and reaped");
 }
 
+/// The number in the first line of a file, once the line is complete.
+fn pid_in(file: &Path) -> Option<i64> {
+    std::fs::read_to_string(file).ok()?.strip_suffix('\n')?.parse().ok()
+}
+
+/// Neither open files nor children, zombies included, of a process of its own, which counts them where the system tells.
 #[test]
 fn nothing_is_left() {
-    let mut bench = Bench::new();
-    let some = "simSubprocess.exec('sh', {'-c', 'cat'}, ('x'):rep(1000))
-        pcall(simSubprocess.exec, 'no-such-program', {})
-        pcall(simSubprocess.exec, 'sh', {'-c', 'kill -9 $$'})
-        simSubprocess.kill(simSubprocess.execAsync('sleep', {'60'}))";
-    bench.run(some);
-    let open = descriptors();
-    for _ in 0..20 {
-        bench.run(some);
-    }
-    until(|| descriptors() == open);
-    assert_eq!(children(), 0);
+    let code = "
+        local lfs, socket, simSubprocess = require 'lfs', require 'socket', require 'simSubprocess'
+        local function names(folder)
+            local all = {}
+            for name in lfs.dir(folder) do all[#all + 1] = name end
+            return all
+        end
+        local function children()
+            local count = 0
+            for _, task in ipairs(lfs.attributes('/proc/self/task') and names('/proc/self/task') or {}) do
+                local file = io.open('/proc/self/task/' .. task .. '/children')
+                for _ in (file and file:read('a') or ''):gmatch('%S+') do count = count + 1 end
+                if file then file:close() end
+            end
+            return count
+        end
+        local function some()
+            simSubprocess.exec('sh', {'-c', 'cat'}, ('x'):rep(1000))
+            pcall(simSubprocess.exec, 'no-such-program', {})
+            pcall(simSubprocess.exec, 'sh', {'-c', 'kill -9 $$'})
+            simSubprocess.kill(simSubprocess.execAsync('sleep', {'60'}))
+        end
+        some()
+        local open = #names('/dev/fd')
+        for _ = 1, 20 do some() end
+        for _ = 1, 2000 do
+            if #names('/dev/fd') == open then break end
+            socket.sleep(0.005)
+        end
+        print(#names('/dev/fd') - open, children())";
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let scene = folder.path().join("scene.lua");
+    std::fs::write(&scene, code).expect("our own folder is writable");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+    command.arg("run").arg(&scene).args(["--as", "sandbox", "--empty", "--no-start", "--loops", "1", "--quiet"]);
+    assert_eq!(run_bounded(&mut command).as_deref(), Ok("0, 0\n"));
 }
 
 #[test]
@@ -206,27 +234,7 @@ fn no_programs_without_permission() {
     }
 }
 
-/// Waits, but not for ever.
-fn until(mut holds: impl FnMut() -> bool) {
-    let deadline = Instant::now() + Duration::from_secs(10);
-    while !holds() {
-        assert!(Instant::now() < deadline, "it does not happen");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-}
-
 /// Whether there is a process of that number, if only as a zombie.
 fn is_running(pid: i64) -> bool {
-    std::process::Command::new("kill").args(["-0", &pid.to_string()]).output().expect("kill starts").status.success()
-}
-
-/// How many children this process has, zombies included; 0 where the system does not tell.
-fn children() -> usize {
-    let Ok(tasks) = std::fs::read_dir("/proc/self/task") else { return 0 };
-    let of = |task: std::fs::DirEntry| std::fs::read_to_string(task.path().join("children")).unwrap_or_default();
-    tasks.flatten().map(|task| of(task).split_whitespace().count()).sum()
-}
-
-fn descriptors() -> usize {
-    std::fs::read_dir("/dev/fd").expect("descriptors can be listed").count()
+    Command::new("kill").args(["-0", &pid.to_string()]).output().expect("kill starts").status.success()
 }
