@@ -1,5 +1,5 @@
 /*
- * Generated: UPDATE=1 cargo test --test generated.
+ * Generated: UPDATE=1 cargo test --test repository generated.
  *
  * The C interface of native plugins for CoppeliaSim, as far as Swanilda has it: types, constants and functions. A plugin that was compiled
  * with CoppeliaSim's own headers runs as well; this one needs nothing else.

@@ -1,7 +1,9 @@
-//! Every function answers the same, whether a script calls it or `Simulator::call_api` does.
+//! Every function answers the same, whether a script calls it or `Simulator::call_api` does. A program of its own, since the folder it works in
+//! is that of the whole process.
 
 use swanilda::scene::{Data, Key};
-use swanilda::{Options, ScriptKind, ScriptRef, Simulator, docs};
+use swanilda::{Options, ScriptKind, ScriptRef, Simulator};
+use test_support::parallel;
 
 /// These end the program, wait for somebody, or choose that errors are not raised.
 const NOT_CALLED: &[&str] =
@@ -129,16 +131,19 @@ fn both_doors_give_the_same_answers() {
     let names = known.iter().filter(|name| !NOT_CALLED.contains(&&***name) && !OTHER_ANSWERS.contains(&&***name));
     let names: Vec<&String> = names.collect();
     assert!(names.len() > 300, "the functions of sim are read: {}", names.len());
-    let mut differences = Vec::new();
-    for chunk in names.chunks(60) {
+    let chunks: Vec<&[&String]> = names.chunks(60).collect();
+    let differences = parallel::map(&chunks, |chunk| {
         let (mut first, mut second) = (Fixture::new(), Fixture::new());
         let objects: Vec<i64> = first.sim.scene().objects().map(|object| object.handle().raw()).collect();
-        for name in chunk {
+        let mut differences = Vec::new();
+        for name in *chunk {
             for args in argument_lists(&objects) {
                 differences.extend(difference(&mut first, &mut second, name, &args));
             }
         }
-    }
+        differences
+    });
+    let differences = differences.concat();
     assert!(differences.is_empty(), "{} differences:\n{}", differences.len(), differences.join("\n"));
 }
 

@@ -1,5 +1,5 @@
 --[[
-Comparing output with a recording: the rules of the READMEs below, as tests/support/compare.rs has them.
+Comparing output with a recording: the rules of the READMEs below, as crates/test-support/src/compare.rs has them.
 ]]
 
 local M = {}

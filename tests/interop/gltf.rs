@@ -5,9 +5,10 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use test_support::process::run_bounded;
+use test_support::skipped_outside_of_ci;
+
 use crate::server::folder;
-use crate::support::process::run_bounded;
-use crate::support::skipped_outside_of_ci;
 
 const VALIDATOR: &str = "gltf-validator@2.0.0-dev.3.10";
 

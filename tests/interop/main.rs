@@ -16,8 +16,6 @@ mod rust_client;
 mod server;
 mod simzmq;
 mod sockets;
-#[path = "../support/mod.rs"]
-mod support;
 mod view;
 mod web;
 mod zmq;

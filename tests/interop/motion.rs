@@ -2,8 +2,9 @@
 
 use std::process::Command;
 
+use test_support::process::run_bounded;
+
 use crate::server::{folder, python};
-use crate::support::process::run_bounded;
 
 #[test]
 fn ruckig_agrees_with_the_official_library() {

@@ -5,8 +5,9 @@ use std::process::Command;
 use std::sync::OnceLock;
 use std::time::Duration;
 
+use test_support::process::run_for_code;
+
 use crate::server::{Server, python};
-use crate::support::process::run_for_code;
 
 /// For the extension, which is built in the profile of tests.
 const BUILD: Duration = Duration::from_secs(1800);

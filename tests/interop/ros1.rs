@@ -3,9 +3,10 @@
 use std::process::Command;
 use std::time::Duration;
 
+use test_support::process::run_within;
+use test_support::skipped_outside_of_ci;
+
 use crate::server::folder;
-use crate::support::process::run_within;
-use crate::support::skipped_outside_of_ci;
 
 /// Where Debian's packages are; an environment of another Python does not have them.
 const PYTHON: &str = "/usr/bin/python3";

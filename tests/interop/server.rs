@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::OnceLock;
 
-use crate::support::process::run_bounded;
-use crate::support::skipped_outside_of_ci;
+use test_support::process::run_bounded;
+use test_support::skipped_outside_of_ci;
 
 /// `swanilda serve` at a port of the system's choice.
 pub struct Server {

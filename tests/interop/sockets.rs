@@ -2,8 +2,9 @@
 
 use std::process::Command;
 
+use test_support::process::run_bounded;
+
 use crate::server::{folder, python};
-use crate::support::process::run_bounded;
 
 /// Runs one file, which starts its servers and the command; it says nothing when all is well.
 fn check(file: &str) {

@@ -4,9 +4,10 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
+use test_support::process::run_within;
+use test_support::skipped_outside_of_ci;
+
 use crate::server::{folder, python};
-use crate::support::process::run_within;
-use crate::support::skipped_outside_of_ci;
 
 /// These files bound each of their waits; browsers take long to start on a busy machine.
 const LIMIT: Duration = Duration::from_secs(120);

@@ -1,5 +1,7 @@
 //! Clients of the ZeroMQ remote API: the files `zmq_*.py`.
 
+use test_support::process::{LIMIT, wait_within};
+
 use crate::server::{Server, check, python, run};
 
 #[test]
@@ -52,7 +54,7 @@ fn the_end_while_a_client_holds_up_the_simulation() {
     let mut server = Server::start();
     let id = server.child.id().to_string();
     run(python, "zmq_end.py", &server, &[&id]);
-    assert!(server.child.wait().expect("the child is ours").success(), "SIGTERM is a clean end");
+    assert!(wait_within(&mut server.child, LIMIT).expect("it ends").success(), "SIGTERM is a clean end");
 }
 
 #[test]

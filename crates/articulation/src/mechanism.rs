@@ -149,6 +149,7 @@ impl Mechanism {
 mod tests {
     use geometry::Pose;
     use nalgebra::Matrix3;
+    use test_support::random::Random;
 
     use super::*;
     use crate::{BodyMotion, JointKind, Motor};
@@ -216,13 +217,10 @@ mod tests {
 
     #[test]
     fn weak_motors_never_exceed_their_forces() {
-        for seed in 1..200_u32 {
+        for seed in 1..200 {
             let (mut mechanism, bodies) = chain(24);
-            let mut random = seed.wrapping_mul(2_654_435_761);
-            let mut next = || {
-                random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                f64::from(random >> 8) / f64::from(1 << 24)
-            };
+            let mut random = Random::new(seed);
+            let mut next = || random.unit();
             let joints: Vec<JointState> = (0..24)
                 .map(|_| {
                     let motor = Motor { velocity: 20.0 * next() - 10.0, max_force: 10.0 * next() * next() };

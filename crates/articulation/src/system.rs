@@ -43,6 +43,7 @@ pub(crate) fn system_of(bodies: &[LinkedBody], joints: &[Joint]) -> Box<dyn Syst
 mod tests {
     use geometry::Pose;
     use nalgebra::{Matrix3, UnitQuaternion, Vector3, Vector6};
+    use test_support::random;
 
     use super::*;
     use crate::{BodyMotion, BodyProperties, BodyState, JointKind, JointProperties, JointState, Mechanism, Motor};
@@ -50,21 +51,21 @@ mod tests {
     const BODIES: usize = 9;
     const KINDS: [JointKind; 4] = [JointKind::Revolute, JointKind::Prismatic, JointKind::Spherical, JointKind::Fixed];
 
-    /// Numbers between -1 and 1 (D. Knuth's linear congruential generator).
-    struct Random(u64);
+    /// What is drawn at random.
+    struct Random(random::Random);
 
     impl Random {
-        fn next(&mut self) -> f64 {
-            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        fn new(seed: u64) -> Self {
+            Self(random::Random::new(seed))
         }
 
-        fn below(&mut self, end: usize) -> usize {
-            ((self.next() + 1.0) / 2.0 * end as f64) as usize % end
+        /// A number between -1 and 1.
+        fn next(&mut self) -> f64 {
+            self.0.signed()
         }
 
         fn vector(&mut self) -> Vector3<f64> {
-            Vector3::from_fn(|_, _| self.next())
+            self.0.vector().into()
         }
 
         fn pose(&mut self) -> Pose {
@@ -90,11 +91,11 @@ mod tests {
 
         /// A joint from one of the bodies before to a body, in either direction.
         fn joint(&mut self, body: usize) -> JointProperties {
-            let mut bodies = [self.below(body), body];
+            let mut bodies = [self.0.below(body), body];
             if self.next() > 0.0 {
                 bodies.reverse();
             }
-            let kind = KINDS[self.below(4)];
+            let kind = KINDS[self.0.below(4)];
             let pitch = if kind == JointKind::Revolute && self.next() > 0.0 { 0.3 } else { 0.0 };
             JointProperties { kind, bodies, base: self.pose(), tip: self.pose(), pitch }
         }
@@ -109,7 +110,7 @@ mod tests {
 
     /// A solved tree, by its own system or by that for loops.
     fn solved(seed: u64, as_rows: bool) -> Mechanism {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let mut bodies: Vec<BodyProperties> = (0..BODIES).map(|_| random.body()).collect();
         if seed.is_multiple_of(2) {
             bodies[0] = BodyProperties::immovable(Vector3::zeros());
@@ -162,7 +163,7 @@ mod tests {
         for seed in 0..50 {
             let corrections = [false, true].map(|as_rows| {
                 let Mechanism { joints, mut bodies, mut system, .. } = solved(seed, as_rows);
-                let mut random = Random(seed);
+                let mut random = Random::new(seed);
                 let errors = joints.iter().map(|_| Segment::from_fn(|_, _| random.next() * 1e-3));
                 let mut errors: Vec<Segment> =
                     joints.iter().zip(errors).map(|(joint, e)| joint.locked_part(e)).collect();
@@ -177,9 +178,9 @@ mod tests {
 
     #[test]
     fn loops_are_no_trees() {
-        let mut random = Random(7);
+        let mut random = Random::new(7);
         let bodies: Vec<BodyProperties> = (0..3).map(|_| random.body()).collect();
-        let ends = |bodies| JointProperties { kind: JointKind::Revolute, bodies, ..Random(1).joint(1) };
+        let ends = |bodies| JointProperties { kind: JointKind::Revolute, bodies, ..Random::new(1).joint(1) };
         let linked = |joints: &[[usize; 2]]| {
             let mechanism = Mechanism::new(bodies.clone(), joints.iter().map(|&bodies| ends(bodies)).collect());
             Tree::new(&mechanism.bodies, &mechanism.joints).is_some()

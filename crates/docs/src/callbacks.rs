@@ -72,7 +72,7 @@ impl Callback {
 /// `docs/CALLBACKS.md`.
 pub(super) fn text() -> String {
     let mut out = String::from(
-        "# Callbacks\n\nGenerated from the sources: `UPDATE=1 cargo test --test generated`. A script is called by defining global functions with these \
+        "# Callbacks\n\nGenerated from the sources: `UPDATE=1 cargo test --test repository generated`. A script is called by defining global functions with these \
          names. Which it has is determined when its text has run; only `sysCall_actuation`, `sysCall_nonSimulation` and `sysCall_cleanup` may be defined \
          later. The result of a callback is a table with the listed fields, all optional; `cmd` is `'cleanup'`, which ends the script, or \
          `'restart'`. `swanilda init` sets up an editor that completes the names and shows the arguments. \

@@ -14,7 +14,7 @@ pub(super) fn text(functions: &[Function]) -> String {
     let rows: Vec<ReferenceRow> = reference().filter(|row| !row.name.starts_with('_')).collect();
     let counted: Vec<&ReferenceRow> = rows.iter().filter(|row| row.age != Age::Later).collect();
     let mut out = String::from(
-        "# Coverage of the `sim` reference\n\nGenerated from the sources: `UPDATE=1 cargo test --test generated`. A function that is \
+        "# Coverage of the `sim` reference\n\nGenerated from the sources: `UPDATE=1 cargo test --test repository generated`. A function that is \
          missing exists all the same: it raises `not implemented in Swanilda: sim.name`. An approximated one does less than in \
          CoppeliaSim, or takes the call without effect. Functions that came after 4.10 are not counted.\n\n",
     );

@@ -1,7 +1,7 @@
 //! The reference, generated from the rows of the functions: Markdown pages, editor stubs, coverage.
 //!
 //! Everything is read from `#[api]` rows, from the comments of the Lua library, and from the tables of `crate::api`; nothing runs.
-//! `tests/generated.rs` holds the committed files to what this module makes.
+//! `tests/repository/generated.rs` holds the committed files to what this module makes.
 
 mod approximated;
 mod callbacks;

@@ -23,7 +23,7 @@ pub(super) fn pages(functions: &[Function]) -> Vec<(String, String)> {
 fn index(categories: &BTreeMap<&str, Vec<&Function>>) -> String {
     let count: usize = categories.values().map(Vec::len).sum();
     let mut out = format!(
-        "# Functions for scripts\n\nGenerated from the sources: `UPDATE=1 cargo test --test generated`. {count} names in {} \
+        "# Functions for scripts\n\nGenerated from the sources: `UPDATE=1 cargo test --test repository generated`. {count} names in {} \
          categories. In a terminal: `swanilda api NAME`. Properties have \
          [a page of their own](../PROPERTIES.md).\n",
         categories.len()

@@ -28,7 +28,7 @@ pub(super) fn all() -> Vec<(ReferenceModule, State)> {
 /// `docs/PLUGINS.md`.
 pub(super) fn text() -> String {
     let mut out = String::from(
-        "# Plugins and Lua modules\n\nGenerated from the sources: `UPDATE=1 cargo test --test generated`. What `require` finds in CoppeliaSim 4.10, \
+        "# Plugins and Lua modules\n\nGenerated from the sources: `UPDATE=1 cargo test --test repository generated`. What `require` finds in CoppeliaSim 4.10, \
          and its state in Swanilda. `require` of a missing one raises an error that names this page; `swanilda doctor` finds such calls \
          before a scene runs. Plugins in C and C++ made for CoppeliaSim can be loaded ([NATIVE_PLUGINS](NATIVE_PLUGINS.md)), Lua modules in C as well, and programs \
          in Rust add modules of their own ([EMBEDDING](EMBEDDING.md)). [Functions of the modules that are here](api/modules.md).\n",

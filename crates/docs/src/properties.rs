@@ -40,7 +40,7 @@ pub(super) fn text() -> String {
     let lines = described();
     let count = |state: &str| lines.iter().filter(|line| line.state == state).count();
     let mut out = format!(
-        "# Properties\n\nGenerated from the sources: `UPDATE=1 cargo test --test generated`. The {} static properties: those of \
+        "# Properties\n\nGenerated from the sources: `UPDATE=1 cargo test --test repository generated`. The {} static properties: those of \
          CoppeliaSim 4.10, and `rapier.solver` of joints ([PHYSICS](PHYSICS.md)), read and written with `sim.getIntProperty` and its like. Names below `customData.` and `signal.` come with scripts.\n\n\
          | state | what it is | properties |\n|---|---|---|\n\
          | works | has its meaning | {} |\n\

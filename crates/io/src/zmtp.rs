@@ -280,6 +280,8 @@ fn property<'a>(mut data: &'a [u8], wanted: &[u8]) -> Result<Option<&'a [u8]>, V
 
 #[cfg(test)]
 mod tests {
+    use test_support::random::Random;
+
     use super::*;
 
     fn opening(socket_type: &[u8]) -> Vec<u8> {
@@ -372,22 +374,18 @@ mod tests {
 
     #[test]
     fn any_bytes_are_read_or_refused_however_they_are_cut() {
-        let mut seed = 1_u64;
-        let mut next = move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 33) as usize
-        };
+        let mut random = Random::new(1);
         let mut valid = opening(b"DEALER");
         valid.extend(request(b"abc"));
         valid.extend(command(b"PING", b"\0\0"));
         for _ in 0..20_000 {
             let mut bytes = valid.clone();
-            for _ in 0..next() % 4 + 1 {
-                let at = next() % bytes.len();
-                bytes[at] = next() as u8;
+            for _ in 0..=random.below(4) {
+                let at = random.below(bytes.len());
+                bytes[at] = random.byte();
             }
-            bytes.truncate(next() % (bytes.len() + 1));
-            let pieces = next() % 40 + 1;
+            bytes.truncate(random.below(bytes.len() + 1));
+            let pieces = random.below(40) + 1;
             assert_eq!(read_in_pieces(&bytes, bytes.len().max(1)), read_in_pieces(&bytes, pieces), "{bytes:?}");
         }
     }

@@ -150,15 +150,14 @@ fn divide(points: &[[f64; 3]], order: &mut [u32], axes: &mut [u8]) {
 
 #[cfg(test)]
 mod tests {
+    use test_support::random::Random;
+
     use super::*;
 
     #[test]
     fn finds_what_a_look_at_all_finds() {
-        let mut seed = 1_u64;
-        let mut next = || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 40) as f64 / f64::from(1 << 24)
-        };
+        let mut random = Random::new(1);
+        let mut next = || random.unit();
         // Some are equal, and some lie in a plane.
         let points: Vec<[f64; 3]> =
             (0..500).map(|k| [next(), (next() * 8.0).floor() / 8.0, if k % 3 == 0 { 0.5 } else { next() }]).collect();

@@ -251,6 +251,8 @@ fn timed(places: &[f64], squares: &[f64]) -> Option<Vec<[f64; 3]>> {
 
 #[cfg(test)]
 mod tests {
+    use test_support::random::Random;
+
     use super::*;
 
     fn timed_path(path: &[f64], lengths: &[f64], v: f64, a: f64, boundary: Boundary) -> TimedPath {
@@ -281,14 +283,10 @@ mod tests {
 
     #[test]
     fn limits_are_kept_everywhere() {
-        let mut seed = 1_u64;
-        let mut random = move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 33) as f64 / f64::from(1_u32 << 31)
-        };
+        let mut random = Random::new(1);
         for boundary in [Boundary::NotAKnot, Boundary::Natural, Boundary::Clamped] {
             for points in [3, 4, 10] {
-                let path: Vec<f64> = (0..3 * points).map(|_| random() * 2.0 - 1.0).collect();
+                let path: Vec<f64> = (0..3 * points).map(|_| random.signed()).collect();
                 let lengths: Vec<f64> = (0..points).map(f64::from).collect();
                 let timed = timed_path(&path, &lengths, 1.0, 2.0, boundary);
                 let h = timed.duration() / 5000.0;

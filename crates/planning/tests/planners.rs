@@ -4,13 +4,19 @@ use planning::space::{Bounds, Component, CompoundSpace};
 use planning::{
     Algorithm, Goal, Nearness, Problem, Projection, Random, Refusal, Solution, State, StateSpace, World, path,
 };
+use test_support::random;
 
-struct Numbers(u64);
+struct Numbers(random::Random);
+
+impl Numbers {
+    fn new(seed: u64) -> Self {
+        Self(random::Random::new(seed))
+    }
+}
 
 impl Random for Numbers {
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+        self.0.unit()
     }
 }
 
@@ -44,7 +50,7 @@ struct Task {
 impl Task {
     fn solve(&self, algorithm: Algorithm, seed: u64, iterations: u64) -> Result<Option<Solution>, Refusal> {
         let mut world = Asked { is_valid: self.is_valid, count: 0, limit: u64::MAX };
-        algorithm.planner().solve(&mut self.problem(&mut world, &mut Numbers(seed)), iterations)
+        algorithm.planner().solve(&mut self.problem(&mut world, &mut Numbers::new(seed)), iterations)
     }
 
     fn problem<'a>(&'a self, world: &'a mut dyn World, random: &'a mut dyn Random) -> Problem<'a> {
@@ -179,7 +185,7 @@ fn optimising_planners_come_near_the_shortest_path() {
 fn planning_again_goes_on() {
     let task = wall();
     let mut world = Asked { is_valid: task.is_valid, count: 0, limit: u64::MAX };
-    let mut numbers = Numbers(1);
+    let mut numbers = Numbers::new(1);
     let mut problem = task.problem(&mut world, &mut numbers);
     let mut planner = Algorithm::RrtStar.planner();
     let mut last = f64::INFINITY;
@@ -205,11 +211,11 @@ fn planners_end_when_the_world_has_enough() {
         let mut blocked = Asked { is_valid: blocked, count: 0, limit: 3000 };
         let found = algorithm
             .planner()
-            .solve(&mut task.problem(&mut blocked, &mut Numbers(1)), u64::MAX)
+            .solve(&mut task.problem(&mut blocked, &mut Numbers::new(1)), u64::MAX)
             .expect("a start and a goal");
         assert!(found.is_none_or(|found| !found.is_exact), "{algorithm:?}");
         assert!(blocked.count <= 3001, "{algorithm:?}: {}", blocked.count);
-        let _ = algorithm.planner().solve(&mut task.problem(&mut world, &mut Numbers(1)), 1_000_000);
+        let _ = algorithm.planner().solve(&mut task.problem(&mut world, &mut Numbers::new(1)), 1_000_000);
         assert!(world.count <= 201, "{algorithm:?}: {}", world.count);
     }
 }
@@ -219,7 +225,7 @@ fn a_region_is_reached_or_refused() {
     let task = wall();
     for algorithm in Algorithm::ALL {
         let mut world = Asked { is_valid: task.is_valid, count: 0, limit: u64::MAX };
-        let mut numbers = Numbers(1);
+        let mut numbers = Numbers::new(1);
         let mut problem = task.problem(&mut world, &mut numbers);
         let distance = |state: &[f64]| (0.7 - state[0]).max(0.0);
         problem.goal = Goal::Region(Box::new(move |state| Nearness {
@@ -237,7 +243,7 @@ fn a_region_is_reached_or_refused() {
     }
     let refuses = |algorithm: Algorithm| {
         let mut world = Asked { is_valid: task.is_valid, count: 0, limit: u64::MAX };
-        let mut numbers = Numbers(1);
+        let mut numbers = Numbers::new(1);
         let mut problem = task.problem(&mut world, &mut numbers);
         problem.goal = Goal::Region(Box::new(|_| Nearness { is_reached: true, distance: 0.0 }));
         algorithm.planner().solve(&mut problem, 10).is_err()
@@ -287,7 +293,7 @@ fn simplified_paths_are_shorter_and_valid() {
         let mut found = task.solve(Algorithm::RrtConnect, 4, 30_000).expect("a start and a goal").expect("a path");
         let before = path::length(&task.space, &found.states);
         let mut world = Asked { is_valid: task.is_valid, count: 0, limit: u64::MAX };
-        path::simplify(&mut task.problem(&mut world, &mut Numbers(1)), &mut found.states);
+        path::simplify(&mut task.problem(&mut world, &mut Numbers::new(1)), &mut found.states);
         let after = path::length(&task.space, &found.states);
         assert!(after < 0.95 * before, "{before} to {after}");
         task.check(&found, "simplified");

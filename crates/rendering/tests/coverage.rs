@@ -9,35 +9,20 @@ use parry3d_f64::math::Pose as ParryPose;
 use parry3d_f64::query::{Ray, RayCast};
 use parry3d_f64::shape::TriMesh;
 use rendering::{Camera, Channels, Instance, Material, Mesh, Picture, Projection, Renderer, World};
-
-/// Numbers between -1 and 1 (G. Marsaglia, *Xorshift RNGs*, 2003).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn vector(&mut self) -> [f64; 3] {
-        [self.next(), self.next(), self.next()]
-    }
-}
+use test_support::random::Random;
 
 /// A rectangle of `n * n` cells with corners that are moved at random, cut into triangles one way or the other.
 fn jittered_grid(n: usize, random: &mut Random) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let mut vertices = Vec::new();
     for (row, column) in (0..=n).flat_map(|row| (0..=n).map(move |column| (row, column))) {
         let inner = (1..n).contains(&row) && (1..n).contains(&column);
-        let [dx, dy] = if inner { [random.next() * 0.2, random.next() * 0.2] } else { [0.0; 2] };
+        let [dx, dy] = if inner { [random.signed() * 0.2, random.signed() * 0.2] } else { [0.0; 2] };
         vertices.push([2.0 * (column as f64 + dx) / n as f64 - 1.0, 2.0 * (row as f64 + dy) / n as f64 - 1.0, 0.0]);
     }
     let at = |row: usize, column: usize| (row * (n + 1) + column) as u32;
     let triangles = (0..n).flat_map(|row| (0..n).map(move |column| (row, column))).flat_map(|(r, c)| {
         let [a, b, d, e] = [at(r, c), at(r, c + 1), at(r + 1, c + 1), at(r + 1, c)];
-        if random.next() > 0.0 { [[a, d, b], [a, e, d]] } else { [[a, e, b], [b, e, d]] }
+        if random.signed() > 0.0 { [[a, d, b], [a, e, d]] } else { [[a, e, b], [b, e, d]] }
     });
     let triangles = triangles.collect();
     (vertices, triangles)
@@ -50,7 +35,7 @@ fn seen(instances: &[Instance], camera: &Camera) -> Picture {
 #[test]
 fn neighbours_leave_no_gap_and_share_no_pixel() {
     let grey = Material::new([0.5; 3]);
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     // From triangles that are larger than the picture to such that are smaller than a pixel.
     for (n, z, turn) in [(1, 0.05, 0.3), (2, 0.3, 0.0), (4, 0.7, 0.2), (9, 1.0, 1.1), (40, 1.5, 0.7), (60, 3.0, 0.1)] {
         let (vertices, triangles) = jittered_grid(n, &mut random);
@@ -80,7 +65,7 @@ fn neighbours_leave_no_gap_and_share_no_pixel() {
 
 #[test]
 fn rays_see_the_same() {
-    let mut random = Random(99);
+    let mut random = Random::new(99);
     let grey = Material::new([0.5; 3]);
     for round in 0..12 {
         let meshes: Vec<Soup> = (0..8).map(|_| soup(&mut random)).collect();

@@ -3,6 +3,7 @@
 use robot_description::mjcf::{self, Files, Triangles};
 use robot_description::sdf::{self, Included};
 use robot_description::{Robot, urdf};
+use test_support::random::Random;
 
 const ROUNDS: usize = 4000;
 
@@ -24,35 +25,25 @@ const MJCF: &str = r#"<mujoco model="m"><compiler angle="radian" eulerseq="XYZ" 
 <inertial mass="1" pos="0 0 0" fullinertia="1 2 3 0 0 0"/></body></worldbody><actuator><position joint="j"/><general joint="k" biastype="affine" biasprm="0 -1 -2"/></actuator>
 <equality><joint joint1="j" joint2="k"/><connect body1="a" anchor="1 2 3"/><weld site1="s" site2="s"/></equality></mujoco>"#;
 
-/// Numbers that are the same in every run.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, limit: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) as usize) % limit.max(1)
-    }
-
-    /// The text with pieces of it missing, twice, elsewhere, or replaced by what is odd.
-    fn damaged(&mut self, text: &str) -> Vec<u8> {
-        const ODD: [&str; 12] =
-            ["", "\"", "<", ">", "nan", "1e999", "-1e99", "0", "\u{0}", "/>", " 1 1 1 1 1 1 1", "world"];
-        let mut bytes = text.as_bytes().to_vec();
-        for _ in 0..=self.below(4) {
-            let from = self.below(bytes.len());
-            let to = (from + self.below(40)).min(bytes.len());
-            let piece: Vec<u8> = bytes[from..to].to_vec();
-            let at = self.below(bytes.len());
-            match self.below(4) {
-                0 => drop(bytes.drain(from..to)),
-                1 => drop(bytes.splice(at..at, piece)),
-                2 => drop(bytes.splice(from..to, ODD[at % ODD.len()].bytes())),
-                _ => bytes.truncate(from.max(10)),
-            }
-            bytes.push(b' ');
+/// The text with pieces of it missing, twice, elsewhere, or replaced by what is odd.
+fn damaged(random: &mut Random, text: &str) -> Vec<u8> {
+    const ODD: [&str; 12] =
+        ["", "\"", "<", ">", "nan", "1e999", "-1e99", "0", "\u{0}", "/>", " 1 1 1 1 1 1 1", "world"];
+    let mut bytes = text.as_bytes().to_vec();
+    for _ in 0..=random.below(4) {
+        let from = random.below(bytes.len());
+        let to = (from + random.below(40)).min(bytes.len());
+        let piece: Vec<u8> = bytes[from..to].to_vec();
+        let at = random.below(bytes.len());
+        match random.below(4) {
+            0 => drop(bytes.drain(from..to)),
+            1 => drop(bytes.splice(at..at, piece)),
+            2 => drop(bytes.splice(from..to, ODD[at % ODD.len()].bytes())),
+            _ => bytes.truncate(from.max(10)),
         }
-        bytes
+        bytes.push(b' ');
     }
+    bytes
 }
 
 fn check(robot: &Robot) {
@@ -62,9 +53,9 @@ fn check(robot: &Robot) {
 
 #[test]
 fn urdf() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for _ in 0..ROUNDS {
-        if let Ok(parsed) = urdf::read(&random.damaged(URDF)) {
+        if let Ok(parsed) = urdf::read(&damaged(&mut random, URDF)) {
             check(&parsed.value);
             let again = urdf::read(urdf::write(&parsed.value).as_bytes()).expect("what is written is read");
             assert_eq!(again.value.links.len(), parsed.value.links.len());
@@ -74,11 +65,11 @@ fn urdf() {
 
 #[test]
 fn sdf() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     for _ in 0..ROUNDS {
-        let included = random.damaged(SDF);
+        let included = damaged(&mut random, SDF);
         let mut include = |_: &str| Ok(Included { bytes: included.clone(), folder: String::new() });
-        if let Ok(parsed) = sdf::read(&random.damaged(SDF), &mut include) {
+        if let Ok(parsed) = sdf::read(&damaged(&mut random, SDF), &mut include) {
             parsed.value.models.iter().for_each(|model| check(&model.robot));
         }
     }
@@ -100,10 +91,10 @@ impl Files for Damaged {
 
 #[test]
 fn mjcf() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     for round in 0..ROUNDS {
-        let mut files = Damaged(random.damaged(MJCF), round % 2 == 0);
-        if let Ok(parsed) = mjcf::read(&random.damaged(MJCF), &mut files) {
+        let mut files = Damaged(damaged(&mut random, MJCF), round % 2 == 0);
+        if let Ok(parsed) = mjcf::read(&damaged(&mut random, MJCF), &mut files) {
             check(&parsed.value.robot);
         }
     }

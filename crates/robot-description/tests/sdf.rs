@@ -2,6 +2,7 @@
 
 use robot_description::sdf::{self, Included, World};
 use robot_description::{Geometry, JointKind, Parsed, ReadError};
+use test_support::random::Random;
 
 const ARM: &str = r#"<?xml version="1.0"?>
 <sdf version="1.9">
@@ -211,11 +212,8 @@ fn what_is_no_sdf_is_refused_and_files_cut_anywhere_do_no_harm() {
     for end in 0..ARM.len() {
         assert!(sdf::read(&ARM.as_bytes()[..end], &mut nothing).is_err(), "{end}");
     }
-    let mut random = 7_u64;
-    let mut below = |bound: usize| {
-        random = random.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (random >> 33) as usize % bound
-    };
+    let mut random = Random::new(7);
+    let mut below = |bound| random.below(bound);
     let mut read_ones = 0;
     for _ in 0..3000 {
         let mut bytes = ARM.as_bytes().to_vec();

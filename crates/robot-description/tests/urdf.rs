@@ -1,6 +1,7 @@
 //! URDF: what is read, what is corrected, what is refused, and what is written.
 
 use robot_description::{Geometry, JointKind, Parsed, ReadError, Robot, SensorKind, WarningKind, urdf};
+use test_support::random::Random;
 
 const ARM: &str = r#"<?xml version="1.0"?>
 <robot name="arm">
@@ -249,11 +250,8 @@ fn files_cut_anywhere_and_absurd_numbers_do_no_harm() {
 /// Bytes that are changed here and there: what is read has as many frames as links, and is written so that it is read again.
 #[test]
 fn changed_files_are_robots_or_errors() {
-    let mut random = 12345_u64;
-    let mut below = |bound: usize| {
-        random = random.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (random >> 33) as usize % bound
-    };
+    let mut random = Random::new(12345);
+    let mut below = |bound| random.below(bound);
     let mut read_ones = 0;
     for _ in 0..3000 {
         let mut bytes = ARM.as_bytes().to_vec();

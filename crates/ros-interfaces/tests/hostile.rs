@@ -4,6 +4,7 @@ use ros_interfaces::parse::parse;
 use ros_interfaces::{
     Catalogue, DecodeError, Generation, InterfaceError, InterfaceKind, Record, TypeName, Value, cdr, limits, ros1,
 };
+use test_support::random::Random;
 
 fn message(name: &str) -> TypeName {
     TypeName::parse(name, InterfaceKind::Message).expect("a name")
@@ -129,17 +130,10 @@ fn messages_that_are_cut_off_or_too_long_are_refused() {
     assert_eq!(ros1::decode(&layout, &[&bytes[..], b"x"].concat()), Err(DecodeError::Long { rest: 1 }));
 }
 
-/// The numbers of a linear congruential generator: the same on every machine.
-fn random_bytes(seed: u64) -> impl Iterator<Item = u8> {
-    let step =
-        |state: &u64| Some(state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407));
-    std::iter::successors(Some(seed), step).map(|state| (state >> 56) as u8)
-}
-
 #[test]
 fn damaged_messages_are_read_or_refused() {
     let mut catalogue = Catalogue::new(Generation::Ros1);
-    let mut random = random_bytes(1);
+    let mut random = Random::new(1);
     let mut read = 0;
     for name in
         ["nav_msgs/Path", "visualization_msgs/InteractiveMarkerUpdate", "sensor_msgs/PointCloud2", "rosgraph_msgs/Log"]
@@ -150,12 +144,11 @@ fn damaged_messages_are_read_or_refused() {
             let mut bytes = sound.clone();
             for _ in 0..3 {
                 // Mostly small numbers, which are lengths that could be.
-                let (place, value) = (random.next().map_or(0, usize::from), random.next().map_or(0, |byte| byte >> 5));
-                let length = bytes.len();
-                bytes[place % length] = value;
+                let place = random.below(bytes.len().min(256));
+                bytes[place] = random.below(8) as u8;
             }
-            let more = random.next().map_or(0, |byte| usize::from(byte >> 3));
-            bytes.extend(random.by_ref().take(more).map(|byte| byte >> 6));
+            let more = random.below(32);
+            bytes.extend((0..more).map(|_| random.below(4) as u8));
             if let Ok(record) = ros1::decode(&layout, &bytes) {
                 assert_eq!(ros1::encode(&record).len(), bytes.len());
                 read += 1;

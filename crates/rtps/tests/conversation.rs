@@ -4,25 +4,16 @@ use std::net::{Ipv4Addr, SocketAddrV4};
 use std::time::Duration;
 
 use rtps::{Core, Durability, EntityId, History, Limits, Qos, Reliability, Settings, Time, Written};
+use test_support::random::Random;
 
 const TYPE: &str = "std_msgs::msg::dds_::String_";
-
-/// Numbers that look random and are the same each time.
-struct Numbers(u64);
-
-impl Numbers {
-    fn below(&mut self, end: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % end
-    }
-}
 
 struct World {
     cores: Vec<Core>,
     now: Duration,
-    numbers: Numbers,
+    random: Random,
     /// Of a hundred datagrams, how many are lost.
-    lost: u64,
+    lost: usize,
 }
 
 fn address(index: usize) -> SocketAddrV4 {
@@ -30,7 +21,7 @@ fn address(index: usize) -> SocketAddrV4 {
 }
 
 impl World {
-    fn new(count: usize, lost: u64) -> Self {
+    fn new(count: usize, lost: usize) -> Self {
         let cores = (0..count).map(|index| {
             let mut prefix = [0; 12];
             prefix[11] = index as u8 + 1;
@@ -45,7 +36,7 @@ impl World {
                 limits: Limits { max_messages: 100, max_bytes: 1 << 20, ..Limits::default() },
             })
         });
-        Self { cores: cores.collect(), now: Duration::ZERO, numbers: Numbers(1), lost }
+        Self { cores: cores.collect(), now: Duration::ZERO, random: Random::new(1), lost }
     }
 
     /// Some time passes.
@@ -62,7 +53,7 @@ impl World {
     fn deliver(&mut self, sender: usize) {
         for datagram in self.cores[sender].take_outgoing() {
             let receiver = (0..self.cores.len()).find(|index| address(*index) == datagram.to);
-            if let Some(receiver) = receiver.filter(|_| self.numbers.below(100) >= self.lost) {
+            if let Some(receiver) = receiver.filter(|_| self.random.below(100) >= self.lost) {
                 self.cores[receiver].receive(&datagram.bytes, address(sender), self.now);
             }
         }
@@ -178,11 +169,11 @@ fn damaged_datagrams_do_no_harm() {
         world.cores[0].tick(world.now);
         for datagram in world.cores[0].take_outgoing() {
             let mut bytes = datagram.bytes.clone();
-            for _ in 0..=world.numbers.below(4) {
-                let at = 20 + world.numbers.below(bytes.len() as u64 - 20) as usize;
-                bytes[at] = world.numbers.below(256) as u8;
+            for _ in 0..=world.random.below(4) {
+                let at = 20 + world.random.below(bytes.len() - 20);
+                bytes[at] = world.random.byte();
             }
-            bytes.truncate(bytes.len() - world.numbers.below(3) as usize * 5);
+            bytes.truncate(bytes.len() - world.random.below(3) * 5);
             world.cores[1].receive(&bytes, address(0), world.now);
             world.cores[1].tick(world.now);
             world.cores[1].take_outgoing();

@@ -293,6 +293,8 @@ fn is_text(bytes: &[u8]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use test_support::random::Random;
+
     use super::*;
 
     fn encoded(value: &Data) -> Vec<u8> {
@@ -342,11 +344,8 @@ mod tests {
             Data::Nil,
         ]);
         let whole = encoded(&Data::map([("list", list), ("map", Data::map([("on", Data::Bool(true))]))]));
-        let mut random: u64 = 1;
-        let mut below = |end: usize| {
-            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (random >> 33) as usize % end
-        };
+        let mut random = Random::new(1);
+        let mut below = |end| random.below(end);
         let mut read = 0;
         for _ in 0..20_000 {
             let mut bytes = whole.clone();

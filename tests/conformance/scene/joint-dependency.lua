@@ -5,43 +5,8 @@
 -- tol: 1e-8
 -- topic: joints
 sim = require 'sim'
-local function str(v)
-    if type(v) == 'number' then
-        if math.type(v) == 'integer' then return string.format('%d', v) end
-        if v ~= v then return 'nan' end
-        if math.abs(v) < 5e-10 then v = 0.0 end
-        return string.format('%.9f', v)
-    elseif type(v) == 'table' then
-        local t = {}
-        if #v == 0 and next(v) ~= nil then
-            local k = {}
-            for x in pairs(v) do k[#k + 1] = tostring(x) end
-            table.sort(k)
-            for i, x in ipairs(k) do t[i] = x .. '=' .. str(v[x]) end
-        else
-            for i, x in ipairs(v) do t[i] = str(x) end
-        end
-        return '{' .. table.concat(t, ', ') .. '}'
-    end
-    return tostring(v)
-end
-local function P(label, ...) -- print values
-    local t = {}
-    for i = 1, select('#', ...) do t[i] = str((select(i, ...))) end
-    print(label .. ': ' .. table.concat(t, ' '))
-end
-local function Q(label, t) -- print a quaternion or pose, sign of the quaternion normalised
-    local o, s, r = #t - 4, 0, {}
-    for _, i in ipairs {4, 1, 2, 3} do if s == 0 and math.abs(t[o + i]) > 1e-9 then s = t[o + i] end end
-    for i = 1, #t do r[i] = (i > o and s < 0) and -t[i] or t[i] end
-    P(label, r)
-end
-local function X(label, f, ...) -- print the tail of the error raised by f(...)
-    local ok, e = pcall(f, ...)
-    e = tostring(e):gsub('\nstack traceback.*', '')
-    e = e:match("in sim[%w_%-]*%.[%w_]+: (.*)$") or e:match("in '[^']*': (.*)$") or e:match(':%d+: (.*)$') or e
-    print(label .. ': ' .. (ok and 'no error' or 'error, ' .. e))
-end
+local case = require 'lib.case'
+local P = case.P
 local K=sim.jointmode_kinematic local a,b=sim.createJoint(sim.joint_revolute,K,0),sim.createJoint(sim.joint_revolute,sim.jointmode_dependent,0)
 P('none', sim.getJointDependency(b)) sim.setJointDependency(b,a,0.1,2) sim.setJointPosition(a,0.3) P('q', sim.getJointPosition(b)) local m,o,c=sim.getJointDependency(b) P('dep', m==a, o, c)
 sim.setJointPosition(b,1) P('temporary', sim.getJointPosition(b)) sim.setJointPosition(a,0.3) P('again', sim.getJointPosition(b)) sim.setJointPosition(a,0.31) P('other', sim.getJointPosition(b))

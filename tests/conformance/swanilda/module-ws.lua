@@ -1,7 +1,7 @@
 -- topic: modules
 -- as: customization
 -- passes: 0
--- loops: 2000
+-- loops: 6000
 -- note: a WebSocket server and its client in one script: handlers by name and by value, what is wrong, the end
 sim = require 'sim'
 simWS = require 'simWS'
@@ -56,3 +56,7 @@ function sysCall_init()
         connect()
     end)
 end
+
+local socket = require 'socket'
+-- What comes from the network has half a minute: who receives the last of it ends the run.
+function sysCall_nonSimulation() socket.sleep(0.005) end

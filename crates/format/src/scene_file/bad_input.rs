@@ -1,5 +1,7 @@
 //! Damaged files yield an error with a position, or a scene; never a panic or excessive memory use.
 
+use test_support::random::Random;
+
 use super::SceneFile;
 use super::tests::own_files;
 use crate::ttt::{File, FileError, FileKind, Header, container};
@@ -49,12 +51,11 @@ fn every_shortened_file_is_an_error() {
 #[test]
 fn flipped_bits_do_no_harm() {
     let body = body();
-    let mut state = 1u64;
+    let mut random = Random::new(1);
     for _ in 0..1000 {
         let mut damaged = body.clone();
-        for _ in 0..1 + state % 3 {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            let at = (state >> 33) as usize % (8 * damaged.len());
+        for _ in 0..=random.below(3) {
+            let at = random.below(8 * damaged.len());
             damaged[at / 8] ^= 1 << (at % 8);
         }
         // Any result is right, as long as it ends.

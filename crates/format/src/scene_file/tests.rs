@@ -9,11 +9,13 @@ use geometry::PrimitiveKind;
 
 use super::{Loaded, SceneFile, save};
 use crate::ttt::File;
+use scene::joint::{Joint, JointMode, JointType};
+use scene::object::dummy::Dummy;
 use scene::parameters::engine::Engine;
 use scene::parameters::engine_blocks::EngineValues;
-use scene::pose::check_cached_poses;
 use scene::shape::Shape;
 use scene::{DynamicsSettings, Handle, InertValues, Kind, Object, Pose, Scene, Settings};
+use test_support::random::Random;
 
 /// The smaller ones of other people's scenes and models, in a folder beside the repository. Without that folder the terminal shows that a
 /// test has only our own files; the writer of standard error itself is used, since the output of tests that pass is hidden.
@@ -92,26 +94,58 @@ fn description(scene: &Scene, object: &Object) -> String {
 /// Models are saved and loaded again; now and then the whole scene is replaced by what its file contains.
 #[test]
 fn cached_poses_are_right_after_loading() {
-    let (mut models, mut scenes) = (0, 0);
-    check_cached_poses(4_000, |scene, random| {
-        let all: Vec<Handle> = scene.objects().map(Object::handle).collect();
-        let file = match random.below(40) {
-            0 if all.len() < 60 => save::model(scene, random.of(&all), &[]).unwrap(),
-            1 => save::scene(scene, &[]).unwrap(),
-            _ => return,
-        };
-        let file = SceneFile::read(&file.write()).unwrap();
-        if file.is_model() {
-            models += 1;
-            file.add_to(scene, false).unwrap();
-        } else {
-            scenes += 1;
-            let mut loaded = Scene::new();
-            file.add_to(&mut loaded, true).unwrap();
-            *scene = loaded;
+    let (mut scene, mut random, mut loads) = (Scene::new(), Random::new(1), 0);
+    for turn in 0..4_000 {
+        move_something(&mut scene, &mut random);
+        if random.below(20) == 0 {
+            scene = reloaded(scene, &mut random);
+            loads += 1;
         }
-    });
-    assert!(models > 20 && scenes > 20, "{models} models, {scenes} scenes");
+        // Changes accumulate for the objects that are not read now.
+        let all: Vec<Handle> = scene.objects().map(Object::handle).collect();
+        let read = if turn % 50 == 0 { all } else { vec![all[random.below(all.len())]] };
+        read.into_iter().for_each(|handle| check_pose(&scene, handle));
+    }
+    assert!(loads > 100, "{loads}");
+}
+
+/// Adds, moves or scales an object, or hangs it elsewhere.
+fn move_something(scene: &mut Scene, random: &mut Random) {
+    let all: Vec<Handle> = scene.objects().map(Object::handle).collect();
+    if all.is_empty() || all.len() < 40 && random.below(4) == 0 {
+        let joint = Joint::new(JointType::Revolute, JointMode::Kinematic);
+        let kind = if random.below(2) == 0 { Kind::Joint(Box::new(joint)) } else { Kind::Dummy(Dummy::new(0.01)) };
+        scene.add("o", kind).unwrap();
+        return;
+    }
+    let (handle, other) = (all[random.below(all.len())], all[random.below(all.len())]);
+    let pose = Pose::new(random.vector().into(), random.vector().into());
+    match random.below(5) {
+        0 => drop(scene.set_parent(handle, Some(other), true)),
+        1 => scene.set_local_pose(handle, pose).unwrap(),
+        2 => scene.set_world_pose(handle, pose).unwrap(),
+        3 => drop(scene.set_joint_position(handle, random.signed())),
+        _ => scene.scale_objects(&[handle], 1.1, true).unwrap(),
+    }
+}
+
+/// The scene as its file has it, or with one more copy of a model.
+fn reloaded(mut scene: Scene, random: &mut Random) -> Scene {
+    let all: Vec<Handle> = scene.objects().map(Object::handle).collect();
+    let is_model = all.len() < 60 && random.below(2) == 0;
+    let file = if is_model { save::model(&scene, all[random.below(all.len())], &[]) } else { save::scene(&scene, &[]) };
+    let file = SceneFile::read(&file.unwrap().write()).unwrap();
+    if !is_model {
+        scene = Scene::new();
+    }
+    file.add_to(&mut scene, !is_model).unwrap();
+    scene
+}
+
+#[track_caller]
+fn check_pose(scene: &Scene, handle: Handle) {
+    let composed = scene.composed_pose(scene.object(handle).unwrap()).unwrap();
+    assert_eq!(scene.world_pose(handle).unwrap(), composed, "{handle:?}");
 }
 
 fn descriptions(scene: &Scene) -> BTreeMap<String, String> {

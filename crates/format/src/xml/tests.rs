@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use test_support::random::Random;
+
 use super::{Variant, read, write};
 use crate::scene_file::tests::{assert_same, load, own_files, real_files};
 use crate::scene_file::{Loaded, SceneFile, save};
@@ -140,13 +142,12 @@ fn every_shortened_file_is_an_error_with_its_place() {
 #[test]
 fn changed_bytes_do_no_harm() {
     let bytes = kinds();
-    let mut state = 7u64;
+    let mut random = Random::new(7);
     for _ in 0..500 {
         let mut damaged = bytes.clone();
-        for _ in 0..1 + state % 4 {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            let at = (state >> 33) as usize % damaged.len();
-            damaged[at] = b"0123456789.-e<>&/ "[(state >> 20) as usize % 18];
+        for _ in 0..=random.below(4) {
+            let at = random.below(damaged.len());
+            damaged[at] = b"0123456789.-e<>&/ "[random.below(18)];
         }
         // Any result is right, as long as it ends.
         let _ = load_damaged(&damaged);

@@ -59,6 +59,8 @@ impl Dictionary {
 
 #[cfg(test)]
 mod tests {
+    use test_support::random::Random;
+
     use super::bits::Homography;
     use super::*;
     use crate::matrix::Format;
@@ -120,11 +122,10 @@ mod tests {
     fn any_image_is_searched() {
         let dictionary = Dictionary::aruco_original();
         for (size, channels) in [([1, 1], 1), ([3, 2], 3), ([64, 1], 4), ([30, 30], 1)] {
-            let mut state = 7u32;
+            let mut random = Random::new(7);
             let mut image = Matrix::new(size, Format::new(Depth::Byte, channels), 0.0).unwrap();
             for at in 0..size[0] * size[1] * channels {
-                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                image.set_value(at, f64::from(state >> 24));
+                image.set_value(at, f64::from(random.byte()));
             }
             assert!(dictionary.detect(&image).unwrap().markers.is_empty());
         }

@@ -78,6 +78,8 @@ impl Palette {
 
 #[cfg(test)]
 mod tests {
+    use test_support::random::Random;
+
     use super::*;
 
     /// The definition, without a grid.
@@ -99,11 +101,8 @@ mod tests {
     }
 
     fn noise(size: [usize; 2]) -> RgbImage {
-        let mut state = 1u32;
-        let mut next = || {
-            state = state.wrapping_mul(1664525).wrapping_add(1013904223);
-            f64::from(state >> 24) / 255.0
-        };
+        let mut random = Random::new(1);
+        let mut next = || f64::from(random.byte()) / 255.0;
         let mut image = RgbImage::uniform(size, [0.0; 3]);
         image.pixels_mut().iter_mut().for_each(|pixel| *pixel = [next(), next(), next()]);
         image

@@ -28,7 +28,7 @@ fn changed(random: &mut Random) -> (BoundsTree, BTreeMap<u32, Bounds>) {
 
 #[test]
 fn finds_what_a_list_finds() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for _ in 0..20 {
         let (tree, list) = changed(&mut random);
         assert_eq!(tree.len(), list.len());
@@ -45,7 +45,7 @@ fn finds_what_a_list_finds() {
 
 #[test]
 fn visits_by_ascending_distance_until_the_limit() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     for _ in 0..20 {
         let (tree, list) = changed(&mut random);
         let from = random.point(10.0);

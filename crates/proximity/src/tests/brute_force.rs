@@ -63,7 +63,7 @@ fn near(a: f64, b: f64, tolerance: f64) {
 
 #[test]
 fn distance_and_intersection_equal_loops() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     for round in 0..160 {
         let size = SIZES[round % 4];
         let (things, others) = (Things::new(&mut random, size), Things::new(&mut random, size));
@@ -94,7 +94,7 @@ fn distance_and_intersection_equal_loops() {
 
 #[test]
 fn thresholds_are_strict_and_do_not_change_the_answer() {
-    let mut random = Random(12);
+    let mut random = Random::new(12);
     for _ in 0..100 {
         let (things, others) = (Things::new(&mut random, 1.0), Things::new(&mut random, 1.0));
         let (pose, other) = (random.pose(2.0), random.pose(2.0));
@@ -128,7 +128,7 @@ fn minimum(f: impl Fn(f64) -> f64) -> f64 {
 
 #[test]
 fn triangles_are_as_far_apart_as_a_search_finds() {
-    let mut random = Random(13);
+    let mut random = Random::new(13);
     for round in 0..400 {
         let mut triangle = || [(); 3].map(|()| Vector3::from(random.point(1.0)));
         let (a, mut b) = (triangle(), triangle());
@@ -149,7 +149,7 @@ fn triangles_are_as_far_apart_as_a_search_finds() {
 
 #[test]
 fn boxes_are_as_far_from_triangles_and_boxes_as_their_faces() {
-    let mut random = Random(14);
+    let mut random = Random::new(14);
     for _ in 0..300 {
         let solid = SolidBox { centre: random.point(1.0).into(), half: Vector::from(random.point(0.4)).abs() };
         let triangle = [(); 3].map(|()| Vector3::from(random.point(2.0)));
@@ -180,7 +180,7 @@ fn cuboid(solid: &SolidBox) -> TriangleMesh {
 
 #[test]
 fn rays_hit_what_a_loop_hits() {
-    let mut random = Random(15);
+    let mut random = Random::new(15);
     for round in 0..400 {
         let size = SIZES[round % 4];
         let mesh = random.mesh(40, size);
@@ -223,7 +223,7 @@ fn plain_ray(t: &Triangle, on: &Placed, sensor: &Pose, way: [f64; 3], size: f64,
 #[test]
 fn no_ray_passes_through_a_closed_surface() {
     let ball = super::primitive(geometry::PrimitiveKind::Spheroid, 2.0);
-    let mut random = Random(16);
+    let mut random = Random::new(16);
     for round in 0..2000 {
         let pose = random.pose(3.0);
         let on = Placed { geometry: Geometry::Mesh(&ball), pose };
@@ -246,7 +246,7 @@ fn random_volume(random: &mut Random, size: f64) -> Volume {
 
 #[test]
 fn volumes_see_the_nearest_of_many_points_on_triangles() {
-    let mut random = Random(17);
+    let mut random = Random::new(17);
     for round in 0..120 {
         let size = SIZES[round % 4];
         let mesh = random.mesh(20, size);
@@ -289,7 +289,7 @@ fn is_inside(volume: &Volume, p: &Vector, tolerance: f64) -> bool {
 
 #[test]
 fn contours_are_on_both_meshes() {
-    let mut random = Random(18);
+    let mut random = Random::new(18);
     for _ in 0..40 {
         let (mesh, other) = (random.mesh(30, 1.0), random.mesh(30, 1.0));
         let a = Placed { geometry: Geometry::Mesh(&mesh), pose: random.pose(0.3) };
@@ -307,7 +307,7 @@ fn contours_are_on_both_meshes() {
 
 #[test]
 fn nearly_parallel_segments_are_compared_well() {
-    let mut random = Random(19);
+    let mut random = Random::new(19);
     for _ in 0..2000 {
         let (a, b) = (Vector::from(random.point(1.0)), Vector::from(random.point(1.0)));
         let small = 10.0_f64.powi(-(random.below(14) as i32));
@@ -323,7 +323,7 @@ fn nearly_parallel_segments_are_compared_well() {
 
 #[test]
 fn what_is_not_finite_finds_nothing() {
-    let mut random = Random(20);
+    let mut random = Random::new(20);
     let (things, others) = (Things::new(&mut random, 1.0), Things::new(&mut random, 1.0));
     let filter = Filter { max_angle: Some(f64::NAN), ..Filter::default() };
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {

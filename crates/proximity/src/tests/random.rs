@@ -2,30 +2,28 @@
 
 use geometry::Pose;
 use geometry::pose::pose_from_array;
+use test_support::random;
 
 use crate::TriangleMesh;
 
-/// A linear congruential generator with permuted output (M. O'Neill, *PCG*, 2014).
-pub struct Random(pub u64);
+pub struct Random(random::Random);
 
 impl Random {
-    pub fn bits(&mut self) -> u32 {
-        let state = self.0;
-        self.0 = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((((state >> 18) ^ state) >> 27) as u32).rotate_right((state >> 59) as u32)
+    pub fn new(seed: u64) -> Self {
+        Self(random::Random::new(seed))
     }
 
     pub fn below(&mut self, end: u32) -> u32 {
-        self.bits() % end
+        self.0.below(end as usize) as u32
     }
 
     /// Between -1 and 1.
     pub fn number(&mut self) -> f64 {
-        f64::from(self.bits()) / f64::from(u32::MAX) * 2.0 - 1.0
+        self.0.signed()
     }
 
     pub fn point(&mut self, size: f64) -> [f64; 3] {
-        [self.number() * size, self.number() * size, self.number() * size]
+        self.0.vector().map(|x| x * size)
     }
 
     pub fn pose(&mut self, size: f64) -> Pose {

@@ -35,7 +35,7 @@ fn same(a: Option<f64>, b: Option<f64>) {
 
 #[test]
 fn rays_see_the_faces_of_voxels() {
-    let mut random = Random(31);
+    let mut random = Random::new(31);
     for _ in 0..60 {
         let (grid, mesh) = cells(&mut random);
         let pose = random.pose(0.5);
@@ -52,7 +52,7 @@ fn rays_see_the_faces_of_voxels() {
 
 #[test]
 fn volumes_see_the_faces_of_voxels() {
-    let mut random = Random(32);
+    let mut random = Random::new(32);
     for _ in 0..60 {
         let (grid, mesh) = cells(&mut random);
         let pose = random.pose(0.5);

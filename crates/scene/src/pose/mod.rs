@@ -5,6 +5,5 @@ pub(crate) mod measure;
 pub mod placement;
 pub(crate) mod world;
 
-/// Random operations of layers above, and a check of all poses after each: for tests.
-#[cfg(any(test, feature = "test-support"))]
-pub use world::tests::check_cached_poses;
+#[cfg(test)]
+pub(crate) use world::tests::check_cached_poses;

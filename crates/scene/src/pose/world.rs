@@ -4,8 +4,8 @@
 //! pose is checked when it is asked for, by the largest number from the object up to its root. That walk ends at the first object
 //! that was looked at since the last change, so that reading all poses after a change looks at each object once.
 
-#[cfg(any(test, feature = "test-support"))]
-pub mod tests;
+#[cfg(test)]
+pub(crate) mod tests;
 
 use std::cell::{Cell, RefCell};
 
@@ -122,8 +122,12 @@ impl Scene {
         Ok(latest)
     }
 
-    /// The pose from the poses of the object and all above it, from the object upwards: rounding depends on the order.
-    fn composed_pose(&self, object: &Object) -> SceneResult<Pose> {
+    /// The pose from the poses of the object and all above it, from the object upwards: rounding depends on the order. What
+    /// [`Scene::world_pose`] keeps equals it bit for bit.
+    ///
+    /// # Errors
+    /// If one of them does not exist.
+    pub fn composed_pose(&self, object: &Object) -> SceneResult<Pose> {
         let mut pose = object.pose();
         let mut above = object.parent();
         while let Some(parent) = above {

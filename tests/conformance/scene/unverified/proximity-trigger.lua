@@ -5,25 +5,8 @@
 -- tol: 1e-6
 -- topic: sensors
 sim = require 'sim'
-local function str(v)
-    if math.type(v) == 'integer' then return string.format('%d', v) end
-    if type(v) == 'number' then return string.format('%.9f', math.abs(v) < 5e-10 and 0.0 or v) end
-    if type(v) ~= 'table' then return tostring(v) end
-    local t = {}
-    for i, x in ipairs(v) do t[i] = str(x) end
-    return '{' .. table.concat(t, ', ') .. '}'
-end
-local function P(label, ...) -- print values
-    local t = {}
-    for i = 1, select('#', ...) do t[i] = str((select(i, ...))) end
-    print(label .. ': ' .. table.concat(t, ' '))
-end
-local function X(label, f, ...) -- print the tail of the error raised by f(...)
-    local ok, e = pcall(f, ...)
-    e = tostring(e):gsub('\nstack traceback.*', '')
-    e = e:match("in sim[%w_%-]*%.[%w_]+: (.*)$") or e:match("in '[^']*': (.*)$") or e:match(':%d+: (.*)$') or e
-    print(label .. ': ' .. (ok and 'no error' or 'error, ' .. e))
-end
+local case = require 'lib.case'
+local P = case.P
 local function cube(size, ...)
     local h = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {size, size, size}, 0)
     sim.setObjectPosition(h, {...})

@@ -2,6 +2,7 @@
 
 use geometry::PrimitiveKind;
 use nalgebra::{UnitQuaternion, Vector3};
+use test_support::random;
 
 use super::bits;
 use crate::joint::{Joint, JointMode, JointType};
@@ -11,26 +12,16 @@ use crate::shape::{Shape, Velocity};
 use crate::simulation::dynamics_report::JointReport;
 use crate::{CopyOptions, DynamicFlags, Field, Handle, Kind, Measured, Pose, Scene};
 
-/// A generator of numbers, the same in every run.
-pub struct Random(u64);
+/// What is drawn at random.
+pub(crate) struct Random(random::Random);
 
 impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        self.0 >> 33
-    }
-
-    pub fn below(&mut self, end: usize) -> usize {
-        (self.next() % end as u64) as usize
-    }
-
-    /// From -1 to 1.
-    fn unit(&mut self) -> f64 {
-        self.next() as f64 / f64::from(1_u32 << 30) - 1.0
+    pub(crate) fn below(&mut self, end: usize) -> usize {
+        self.0.below(end)
     }
 
     fn pose(&mut self) -> Pose {
-        let mut vector = || Vector3::new(self.unit(), self.unit(), self.unit());
+        let mut vector = || Vector3::from(self.0.vector());
         Pose::new(vector(), vector() * 3.0)
     }
 
@@ -38,7 +29,7 @@ impl Random {
         self.pose().rotation
     }
 
-    pub fn of(&mut self, handles: &[Handle]) -> Handle {
+    pub(crate) fn of(&mut self, handles: &[Handle]) -> Handle {
         handles[self.below(handles.len())]
     }
 
@@ -105,7 +96,7 @@ impl Play {
     /// Changes of joints, and of what hangs on them.
     fn change_joint(&mut self, joints: &[Handle]) {
         let (joint, other) = (self.random.of(joints), self.random.of(joints));
-        let (value, rotation) = (self.random.unit(), self.random.rotation());
+        let (value, rotation) = (self.random.0.signed(), self.random.rotation());
         let scene = &mut self.scene;
         match self.random.below(8) {
             0 => drop(scene.set_joint_position(joint, value)),
@@ -123,7 +114,7 @@ impl Play {
     fn simulate(&mut self, all: &[Handle]) {
         let (handle, pose) = (self.random.of(all), self.random.pose());
         let report = JointReport {
-            position: self.random.unit(),
+            position: self.random.0.signed(),
             rotation: self.random.rotation(),
             velocity: 0.1,
             moving_side: self.random.pose(),
@@ -166,8 +157,8 @@ impl Play {
 }
 
 /// Checks cached poses during `turns` random operations. `other` is one more operation, for tests of the layers above.
-pub fn check_cached_poses(turns: usize, mut other: impl FnMut(&mut Scene, &mut Random)) {
-    let mut play = Play { scene: Scene::new(), random: Random(1) };
+pub(crate) fn check_cached_poses(turns: usize, mut other: impl FnMut(&mut Scene, &mut Random)) {
+    let mut play = Play { scene: Scene::new(), random: Random(random::Random::new(1)) };
     (0..15).for_each(|_| play.add());
     let mut most = 0;
     for turn in 0..turns {

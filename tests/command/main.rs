@@ -1,0 +1,15 @@
+//! The command as its users run it. Nothing here uses the library, so that this program is small and quickly linked.
+
+mod bad;
+mod batch;
+mod c_modules;
+mod cli;
+mod conformance;
+mod physics;
+mod plugins;
+mod python;
+mod scene_cli;
+mod scene_data;
+mod sockets;
+mod testing;
+mod view;

@@ -1,0 +1,4 @@
+//! Scripts in Python.
+
+mod interpreters;
+mod scripts;

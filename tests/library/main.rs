@@ -1,0 +1,14 @@
+//! The library as programs in Rust use it.
+
+mod determinism;
+mod legacy_remote_api;
+mod lines;
+mod old_scenes;
+mod own_module;
+mod permissions;
+mod real_scenes;
+mod saving;
+mod sensing;
+mod serial;
+mod subprocess;
+mod wrong_arguments;

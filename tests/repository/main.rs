@@ -1,0 +1,5 @@
+//! What must hold for the files of the repository: who imports what, pages that are generated, references of the documentation.
+
+mod architecture;
+mod generated;
+mod spec_references;
