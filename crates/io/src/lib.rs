@@ -13,6 +13,7 @@ mod serial;
 #[cfg(not(feature = "serial"))]
 #[path = "serial_left_out.rs"]
 mod serial;
+#[expect(unsafe_code, reason = "an edge to C")]
 pub mod signals;
 mod simx_server;
 pub mod socket;

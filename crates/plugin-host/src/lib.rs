@@ -9,6 +9,7 @@
 mod buffers;
 mod current;
 mod dispatch;
+#[expect(unsafe_code, reason = "an edge to C")]
 mod ffi;
 mod functions;
 mod own_library;

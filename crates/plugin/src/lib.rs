@@ -17,6 +17,7 @@
 //! # fn main() {}
 //! ```
 
+#[expect(unsafe_code, reason = "an edge to C")]
 mod interface;
 mod stack;
 

@@ -11,6 +11,7 @@ mod events;
 pub(crate) mod files;
 mod lifecycle;
 pub mod log;
+#[expect(unsafe_code, reason = "an edge to C")]
 mod lua;
 mod lua_runtime;
 mod person;

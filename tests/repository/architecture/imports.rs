@@ -15,18 +15,11 @@ pub fn read(file: &Path) -> String {
     fs::read_to_string(file).expect("sources are readable")
 }
 
-/// Every Rust file below `src`.
+/// Every Rust file of the command and of the crates.
 pub fn sources() -> Vec<PathBuf> {
-    rust_files(vec![root().join("src")])
-}
-
-/// Every Rust file of the crates below `crates`.
-pub fn sources_of_crates() -> Vec<PathBuf> {
-    rust_files(crates().iter().map(|folder| folder.join("src")).collect())
-}
-
-fn crates() -> Vec<PathBuf> {
-    fs::read_dir(root().join("crates")).expect("crates is readable").flatten().map(|entry| entry.path()).collect()
+    let crates = fs::read_dir(root().join("crates")).expect("crates is readable").flatten();
+    let folders = crates.map(|folder| folder.path().join("src")).filter(|folder| folder.is_dir());
+    rust_files(folders.chain([root().join("src")]).collect())
 }
 
 fn rust_files(mut pending: Vec<PathBuf>) -> Vec<PathBuf> {
@@ -44,22 +37,6 @@ fn rust_files(mut pending: Vec<PathBuf>) -> Vec<PathBuf> {
     files
 }
 
-/// The names of all dependencies, of the package and of the crates, as code writes them.
-pub fn dependencies() -> Vec<String> {
-    let manifests = crates().into_iter().chain([root().to_owned()]).map(|folder| folder.join("Cargo.toml"));
-    let mut names: Vec<String> = manifests.flat_map(|manifest| dependencies_of(&read(&manifest))).collect();
-    names.sort();
-    names.dedup();
-    names
-}
-
-fn dependencies_of(manifest: &str) -> Vec<String> {
-    let section = manifest.lines().skip_while(|line| *line != "[dependencies]").skip(1);
-    let lines = section.take_while(|line| !line.starts_with('['));
-    let name = |line: &str| line.split(['.', '=', ' ']).next().unwrap_or("").replace('-', "_");
-    lines.map(name).filter(|name| !name.is_empty() && !name.starts_with('#')).collect()
-}
-
 /// Whether a file consists of tests.
 pub fn is_test(file: &Path) -> bool {
     relative(file).components().any(|part| matches!(part.as_os_str().to_str(), Some("tests" | "tests.rs")))
@@ -70,19 +47,26 @@ pub fn without_tests(text: &str) -> String {
     text.split("#[cfg(test)]\nmod tests {").next().unwrap_or(text).to_owned()
 }
 
-/// The module a file is, as names from the layer on.
-pub fn module_path(file: &Path) -> Vec<String> {
-    let path = relative(file).with_extension("");
-    let names = path.components().skip(1).filter_map(|part| part.as_os_str().to_str().map(str::to_owned));
-    names.filter(|name| name != "mod").collect()
+/// The crate of a file below `crates`, by the name of its folder.
+pub fn crate_of(file: &Path) -> Option<String> {
+    let name = relative(file).strip_prefix("crates").ok()?.components().next()?;
+    name.as_os_str().to_str().map(str::to_owned)
 }
 
-/// The modules below `layer` that code in the module `path` names: by `crate::layer::room` and by `super::room`.
-pub fn rooms_used(text: &str, path: &[String], layer: &str) -> Vec<String> {
+/// The module a file is: its crate, and the names from the root of the crate on. Empty for the command.
+pub fn module_path(file: &Path) -> Vec<String> {
+    let Some(name) = crate_of(file) else { return Vec::new() };
+    let path = relative(file).with_extension("");
+    let below = path.components().skip_while(|part| part.as_os_str() != "src").skip(1);
+    let names = below.filter_map(|part| part.as_os_str().to_str().map(str::to_owned));
+    [name].into_iter().chain(names.filter(|name| name != "mod" && name != "lib")).collect()
+}
+
+/// The rooms of its crate that code in the module `path` names: by `crate::room` and by `super::room`.
+pub fn rooms_used(text: &str, path: &[String]) -> Vec<String> {
     let code: String = code_lines(text).collect::<Vec<_>>().join("\n");
-    let mut names = names_after(&code, &format!("crate::{layer}::"));
-    let to_layer = "super::".repeat(path.len() - 1);
-    names.extend(names_after(&code, &to_layer));
+    let mut names = names_after(&code, "crate::");
+    names.extend(names_after(&code, &"super::".repeat(path.len() - 1)));
     names
 }
 
@@ -100,18 +84,6 @@ fn names_after(code: &str, prefix: &str) -> Vec<String> {
         }
     }
     names
-}
-
-/// The top-level module a file belongs to; none for `lib.rs` and `main.rs`, which only put the layers together.
-pub fn module_of(file: &Path) -> Option<String> {
-    let first = relative(file).strip_prefix("src").ok()?.components().next()?;
-    let name = Path::new(first.as_os_str()).file_stem()?.to_str()?;
-    (!matches!(name, "lib" | "main")).then(|| name.to_owned())
-}
-
-/// What follows each `crate::` in the code: `crate::a::b` and `crate::{a, b::c}`.
-pub fn crate_paths(text: &str) -> Vec<String> {
-    names_after(&code_lines(text).collect::<Vec<_>>().join("\n"), "crate::")
 }
 
 /// The first names of a use group, up to its closing brace.
@@ -152,14 +124,4 @@ pub fn without_texts(line: &str) -> String {
 
 pub fn has_word(line: &str, word: &str) -> bool {
     line.split(|c: char| !c.is_alphanumeric() && c != '_').any(|part| part == word)
-}
-
-/// Whether a line names a crate: at the beginning of a path, as code does.
-pub fn names_crate(line: &str, name: &str) -> bool {
-    line.match_indices(name).any(|(at, _)| {
-        let (before, after) = (&line[..at], &line[at + name.len()..]);
-        let begins =
-            !before.ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':') || before.ends_with(" ::");
-        begins && (after.starts_with("::") || after.starts_with("_f64"))
-    })
 }

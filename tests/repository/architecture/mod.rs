@@ -1,4 +1,4 @@
-//! The wall between the layers, and between the rooms of a layer: imports point inwards only (docs/ARCHITECTURE.md).
+//! What Cargo does not hold: imports between the rooms of a crate, which point inwards only (docs/ARCHITECTURE.md), and who may do what.
 
 mod imports;
 mod page;
@@ -7,31 +7,10 @@ mod rules;
 use std::path::{Path, PathBuf};
 
 use imports::{
-    code_lines, crate_paths, dependencies, has_word, is_test, module_of, module_path, names_crate, read, relative,
-    rooms_used, root, sources, sources_of_crates, without_tests, without_texts,
+    code_lines, crate_of, has_word, is_test, module_path, read, relative, rooms_used, root, sources, without_tests,
+    without_texts,
 };
-use rules::{
-    FUNCTIONS_FOR_SCRIPTS, LAYERS, LUA_NAMES, LUA_ROOMS, NO_PERMISSION_NEEDED, OWNERS, ROOMS, Rooms, SYSTEM_CALLS,
-    UNSAFE,
-};
-
-#[test]
-fn imports_point_inwards() {
-    let mut wrong = Vec::new();
-    for file in sources() {
-        let Some(layer) = module_of(&file).and_then(|module| layer_of(&module).map(|layer| (module, layer))) else {
-            continue;
-        };
-        for target in crate_paths(&read(&file)) {
-            let target_layer = layer_of(&target).unwrap_or_else(|| panic!("`{target}` belongs to no layer"));
-            let is_sibling = target_layer == layer.1 && target != layer.0;
-            if target_layer > layer.1 || is_sibling {
-                wrong.push(format!("{}: {} must not know {target}", file.display(), layer.0));
-            }
-        }
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-}
+use rules::{FUNCTIONS_FOR_SCRIPTS, LUA_NAMES, LUA_ROOMS, NO_PERMISSION_NEEDED, ROOMS, Rooms, SYSTEM_CALLS};
 
 #[test]
 fn rooms_use_what_they_may() {
@@ -49,7 +28,7 @@ fn forbidden_rooms(file: &Path) -> Vec<String> {
         return vec![format!("{}: `{room}` is no room of `{layer}`", file.display())];
     };
     let is_forbidden = |used: &String| used != room && is_room(rooms, used) && !may_use.contains(&used.as_str());
-    let used = rooms_used(&without_tests(&read(file)), &path, layer);
+    let used = rooms_used(&without_tests(&read(file)), &path);
     used.into_iter()
         .filter(is_forbidden)
         .map(|used| format!("{}: {room} must not use {used}", file.display()))
@@ -77,41 +56,11 @@ fn the_script_host_knows_no_language() {
     assert!(wrong.is_empty(), "let the trait `Interpreter` do it:\n{}", wrong.join("\n"));
 }
 
-#[test]
-fn every_dependency_has_one_owner() {
-    let mut wrong = Vec::new();
-    for file in sources().iter().chain(&sources_of_crates()) {
-        let text = without_tests(&read(file));
-        let own_name = |name: &str| relative(file).starts_with(Path::new("crates").join(name.replace('_', "-")));
-        for (name, owner) in OWNERS.iter().filter(|(name, _)| !own_name(name)) {
-            let owned = OWNERS.iter().any(|(of, folder)| of == name && relative(file).starts_with(folder));
-            if code_lines(&text).any(|line| names_crate(line, name)) && !owned {
-                wrong.push(format!("{}: only {owner} may name {name}", file.display()));
-            }
-        }
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-}
-
-#[test]
-fn every_dependency_is_listed() {
-    let unlisted: Vec<String> = dependencies().into_iter().filter(|name| !has_owner(name)).collect();
-    assert!(unlisted.is_empty(), "add them to OWNERS in tests/repository/architecture/rules.rs: {unlisted:?}");
-    let unknown: Vec<&str> =
-        OWNERS.iter().map(|(_, folder)| *folder).filter(|folder| !root().join(folder).exists()).collect();
-    assert!(unknown.is_empty(), "OWNERS names what is not there: {unknown:?}");
-}
-
-fn has_owner(dependency: &str) -> bool {
-    OWNERS.iter().any(|(name, _)| dependency == *name || dependency == format!("{name}_f64"))
-}
-
 /// `Sim` is the whole simulator: who holds it may do anything, whatever the signature says.
 #[test]
 fn functions_for_scripts_reach_the_simulator_through_their_context() {
     let mut wrong = Vec::new();
-    let folders = |file: &PathBuf| FUNCTIONS_FOR_SCRIPTS.iter().any(|folder| relative(file).starts_with(folder));
-    for file in sources().into_iter().filter(folders) {
+    for file in sources().into_iter().filter(|file| has_functions_for_scripts(file)) {
         let text = read(&file);
         let hold = |line: &&str| line.contains(".sim()") || line.contains("sim.upgrade()") || has_word(line, "Sim");
         wrong.extend(code_lines(&text).filter(hold).map(|line| format!("{}: {}", file.display(), line.trim())));
@@ -119,12 +68,16 @@ fn functions_for_scripts_reach_the_simulator_through_their_context() {
     assert!(wrong.is_empty(), "add a narrow accessor to `Cx` instead:\n{}", wrong.join("\n"));
 }
 
+fn has_functions_for_scripts(file: &Path) -> bool {
+    crate_of(file).is_some_and(|name| FUNCTIONS_FOR_SCRIPTS.iter().any(|prefix| name.starts_with(prefix)))
+}
+
 /// Files, programs and sockets: code that reaches them for a script asks for permission in the same file (docs/PERMISSIONS.md).
 #[test]
 fn who_calls_the_operating_system_asks_for_permission() {
-    let layers = ["api", "modules", "script"];
     let mut wrong = Vec::new();
-    for file in sources().into_iter().filter(|file| module_of(file).is_some_and(|layer| layers.contains(&&*layer))) {
+    let for_scripts = |file: &PathBuf| has_functions_for_scripts(file) || crate_of(file).as_deref() == Some("script");
+    for file in sources().into_iter().filter(for_scripts) {
         let text = without_tests(&read(&file));
         let calls = SYSTEM_CALLS.iter().filter(|call| code_lines(&text).any(|line| line.contains(**call)));
         if !text.contains("ermissions") && !NO_PERMISSION_NEEDED.iter().any(|(name, _)| relative(&file).ends_with(name))
@@ -146,24 +99,7 @@ fn the_simulator_consists_of_few_parts() {
 }
 
 #[test]
-fn unsafe_code_stays_at_the_edges_to_c() {
-    let outside: Vec<_> = sources()
-        .into_iter()
-        .filter(|file| !UNSAFE.iter().any(|folder| relative(file).starts_with(folder)))
-        .filter(|file| code_lines(&read(file)).any(|line| line.split_whitespace().any(|word| word == "unsafe")))
-        .collect();
-    assert!(outside.is_empty(), "unsafe code outside {UNSAFE:?}: {outside:?}");
-}
-
-#[test]
 fn every_module_says_what_it_is_for() {
-    let silent: Vec<_> =
-        sources().into_iter().chain(sources_of_crates()).filter(|file| !read(file).starts_with("//!")).collect();
+    let silent: Vec<_> = sources().into_iter().filter(|file| !read(file).starts_with("//!")).collect();
     assert!(silent.is_empty(), "these begin without `//!`: {silent:?}");
-}
-
-/// A name re-exported at the root counts as the embedding API's.
-fn layer_of(module: &str) -> Option<usize> {
-    let name = if module.starts_with(char::is_uppercase) { "simulator" } else { module };
-    LAYERS.iter().position(|layer| layer.contains(&name))
 }

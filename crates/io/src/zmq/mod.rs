@@ -6,6 +6,7 @@
 
 #[forbid(unsafe_code)]
 mod context;
+#[expect(unsafe_code, reason = "an edge to C")]
 mod libzmq;
 #[forbid(unsafe_code)]
 mod message;
