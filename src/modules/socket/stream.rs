@@ -10,6 +10,7 @@ use super::results::{Created, Outcome, Received, Sent, done};
 use super::{AnySocket, Shared, Sockets, access, class, prefix, role_name, stop};
 use crate::api::{ApiFn, Args, Cx, FromScript, Result, functions};
 use crate::io::socket::{Pattern, Role, Stream, Wait};
+use crate::scene::Data;
 use crate::script::Source;
 use crate::script::{ApiError, LuaNumber, LuaString};
 
@@ -107,6 +108,16 @@ impl Pattern {
             [b'*', b'l', ..] => Some(Self::Line),
             [b'*', b'a', ..] => Some(Self::All),
             _ => None,
+        }
+    }
+}
+
+impl From<Pattern> for Data {
+    fn from(pattern: Pattern) -> Self {
+        match pattern {
+            Pattern::Line => Self::text("*l"),
+            Pattern::All => Self::text("*a"),
+            Pattern::Count(count) => Self::Int(count as i64),
         }
     }
 }

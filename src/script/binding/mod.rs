@@ -6,6 +6,7 @@ pub(in crate::script) mod cx;
 pub(in crate::script) mod data;
 pub(in crate::script) mod hooks;
 pub(in crate::script) mod module;
+pub(in crate::script) mod param;
 pub(in crate::script) mod registry;
 pub(in crate::script) mod returns;
 pub(in crate::script) mod sink;
@@ -18,16 +19,9 @@ use super::error::{ApiError, ApiResult};
 use super::lua::{Stack, push_callback};
 use crate::scene::Data;
 use args::Args;
+use param::Param;
 use registry::{Bound, FunctionId};
 use source::Values;
-
-/// One parameter of a scriptable function.
-#[derive(Debug)]
-pub struct Param {
-    pub name: &'static str,
-    pub ty: &'static str,
-    pub default: Option<&'static str>,
-}
 
 /// One scriptable function: its documentation and its code, declared together by `#[api]`.
 pub struct ApiFn {
