@@ -29,9 +29,9 @@ function getYieldAllowed() end
 function quitSimulator() end
 
 --- Accepted for scripts that describe themselves to the original's editor.
----@param ModuleName string
----@param ... any
-function registerCodeEditorInfos(ModuleName, ...) end
+---@param moduleName string ignored
+---@param ... any ignored
+function registerCodeEditorInfos(moduleName, ...) end
 
 --- Runs a function before or after a callback of this script, whether or not the script defines the callback. Registering the
 --- same pair again removes it. An empty function name removes all hooks of the callback, an empty callback name all hooks.
@@ -231,10 +231,10 @@ function sim.auxiliaryConsoleClose(consoleHandle) end
 ---@param mode? integer 1: it closes at the end of the simulation; other bits have no effect
 ---@param position? number[] of the window, pixels
 ---@param size? number[] of the window, pixels
----@param TextColor? number[]
----@param BackgroundColor? number[]
+---@param textColor? number[] the window's, without effect
+---@param backgroundColor? number[] the window's, without effect
 ---@return integer consoleHandle
-function sim.auxiliaryConsoleOpen(title, maxLines, mode, position, size, TextColor, BackgroundColor) end
+function sim.auxiliaryConsoleOpen(title, maxLines, mode, position, size, textColor, backgroundColor) end
 
 --- Prints to a console.
 ---@param consoleHandle integer from sim.auxiliaryConsoleOpen
@@ -520,7 +520,7 @@ function sim.convertPropertyValue(value, fromType, toType) end
 ---@deprecated the simConvex functionality
 ---@param shapeHandle integer the shape
 ---@param options integer 1: the shape itself changes, else a new one is made
----@param ...? any
+---@param ... any intParams and floatParams: not used
 ---@return integer shapeHandle the compound, or a simple shape when it is of one piece
 function sim.convexDecompose(shapeHandle, options, ...) end
 
@@ -692,14 +692,14 @@ function sim.createShape(options, shadingAngle, vertices, indices, normals, text
 ---@param fileName string PNG, JPEG, BMP or TGA; an empty text for a new image
 ---@param options integer 1: pixels are not interpolated, 2: applied as a decal, 4: repeated along u, 8: repeated along v
 ---@param planeSizes? number[] of the plane, metres; default: one metre wide, with the aspect ratio of the image
----@param scalingUv? number[]
----@param xyG? number[]
+---@param scalingUV? number[] size of the image, metres; nothing for that of the plane
+---@param xy_g? number[] placement of the image on the plane: x, y and optionally an angle, metres and radians
 ---@param fixedResolution? integer 1: the image of a file is brought to the resolution too
 ---@param resolution? number[] of a new image, pixels; 256 times 256 by default
 ---@return integer shapeHandle the plane
 ---@return integer textureId of the image
 ---@return integer[] resolution pixels
-function sim.createTexture(fileName, options, planeSizes, scalingUv, xyG, fixedResolution, resolution) end
+function sim.createTexture(fileName, options, planeSizes, scalingUV, xy_g, fixedResolution, resolution) end
 
 --- A new vision sensor at the world's origin; it looks along z.
 ---@param options? integer 1: explicit handling, 2: perspective
@@ -1396,15 +1396,15 @@ function sim.getObjectColor(objectHandle, index, colorComponent) end
 
 --- Parameter of an object that is a list of numbers. No object has one.
 ---@param objectHandle integer the object
----@param ParameterId integer
+---@param parameterID integer its number
 ---@return number[] params nothing
-function sim.getObjectFloatArrayParam(objectHandle, ParameterId) end
+function sim.getObjectFloatArrayParam(objectHandle, parameterID) end
 
 --- Float parameter of an object.
 ---@param objectHandle integer the object
----@param parameterId integer
+---@param parameterID integer sim.objfloatparam_*, sim.jointfloatparam_*, ...
 ---@return number parameter nothing if the object has no such parameter
-function sim.getObjectFloatParam(objectHandle, parameterId) end
+function sim.getObjectFloatParam(objectHandle, parameterID) end
 
 --- A floating-point parameter of an object.
 ---@deprecated properties
@@ -1439,9 +1439,9 @@ function sim.getObjectHierarchyOrder(objectHandle) end
 
 --- Integer parameter of an object.
 ---@param objectHandle integer the object
----@param parameterId integer
+---@param parameterID integer sim.objintparam_*, sim.shapeintparam_*, ...
 ---@return integer parameter nothing if the object has no such parameter
-function sim.getObjectInt32Param(objectHandle, parameterId) end
+function sim.getObjectInt32Param(objectHandle, parameterID) end
 
 --- An integer parameter of an object.
 ---@param objectHandle integer the object
@@ -1523,16 +1523,16 @@ function sim.getObjectSpecialProperty(objectHandle) end
 
 --- Text parameter of an object.
 ---@param objectHandle integer the object
----@param parameterId integer
+---@param parameterID integer sim.objstringparam_*, sim.dummystringparam_*, sim.shapestringparam_*
 ---@return string parameter nothing if the object has no such parameter
-function sim.getObjectStringParam(objectHandle, parameterId) end
+function sim.getObjectStringParam(objectHandle, parameterID) end
 
 --- Text parameter of an object.
 ---@deprecated properties
 ---@param objectHandle integer the object
----@param parameterId integer
+---@param parameterID integer sim.objstringparam_*, sim.dummystringparam_*, sim.shapestringparam_*
 ---@return string parameter nothing if the object has no such parameter
-function sim.getObjectStringParameter(objectHandle, parameterId) end
+function sim.getObjectStringParameter(objectHandle, parameterID) end
 
 --- Type of an object.
 ---@param objectHandle integer the object
@@ -1682,9 +1682,9 @@ function sim.getPropertyGetter(type, onlyName) end
 --- Type, flags and description of a property; nothing if unknown.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
 ---@param propertyName string its name
----@param Options? table
+---@param options? table accepted
 ---@return any type flags, description
-function sim.getPropertyInfo(target, propertyName, Options) end
+function sim.getPropertyInfo(target, propertyName, options) end
 
 --- Type, flags and description of one property, as a table.
 ---@param target integer object, sim.handle_scene, sim.handle_app, ...
@@ -1794,9 +1794,9 @@ function sim.getScriptAssociatedWithObject(objectHandle) end
 --- An attribute of a script.
 ---@deprecated properties
 ---@param scriptHandle integer the script
----@param attributeId integer
+---@param attributeID integer sim.scriptattribute_*
 ---@return any attribute
-function sim.getScriptAttribute(scriptHandle, attributeId) end
+function sim.getScriptAttribute(scriptHandle, attributeID) end
 
 --- Execution count of the calling script, as last set by sim.setScriptAttribute in old scenes.
 ---@return integer count 0 at first
@@ -1819,9 +1819,9 @@ function sim.getScriptHandle(scriptType, scriptName, objectHandle) end
 --- An integer parameter of a script.
 ---@deprecated properties
 ---@param scriptHandle integer the script
----@param parameterId integer
+---@param parameterID integer sim.scriptintparam_*
 ---@return integer parameter
-function sim.getScriptInt32Param(scriptHandle, parameterId) end
+function sim.getScriptInt32Param(scriptHandle, parameterID) end
 
 --- Name of a script.
 ---@deprecated sim.getScriptStringParam
@@ -1839,9 +1839,9 @@ function sim.getScriptSimulationParameter(scriptHandle, parameterName, forceStri
 --- A string parameter of a script.
 ---@deprecated properties
 ---@param scriptHandle integer the script
----@param parameterId integer
+---@param parameterID integer sim.scriptstringparam_*
 ---@return any parameter
-function sim.getScriptStringParam(scriptHandle, parameterId) end
+function sim.getScriptStringParam(scriptHandle, parameterID) end
 
 --- User setting as a boolean.
 ---@param key string of the setting
@@ -2427,8 +2427,8 @@ function sim.isScriptRunningInThread() end
 --- Starts a program that goes on by itself.
 ---@param filename string path of the program, or a name to be looked up where the system looks for programs
 ---@param parameters? string its arguments, with spaces between; double quotes hold one together
----@param ShowStatus? integer
-function sim.launchExecutable(filename, parameters, ShowStatus) end
+---@param showStatus? integer has no effect
+function sim.launchExecutable(filename, parameters, showStatus) end
 
 --- Does nothing: threads are coroutines, which their scripts resume.
 ---@return integer count 0
@@ -2761,9 +2761,9 @@ function sim.readVisionSensor(sensorHandle) end
 function sim.receiveData(dataHeader, dataName, ...) end
 
 --- Accepted for scripts that describe themselves to the original's editor.
----@param ModuleName string
----@param ... any
-function sim.registerCodeEditorInfos(ModuleName, ...) end
+---@param moduleName string ignored
+---@param ... any ignored
+function sim.registerCodeEditorInfos(moduleName, ...) end
 
 --- Runs a function before or after a callback of this script, whether or not the script defines the callback. Registering the
 --- same pair again removes it. An empty function name removes all hooks of the callback, an empty callback name all hooks.
@@ -2784,9 +2784,9 @@ function sim.relocateShapeFrame(shapeHandle, pose) end
 
 --- Removes a banner.
 ---@deprecated
----@param bannerId integer
+---@param bannerID integer from sim.addBanner, or sim.handle_all
 ---@return integer result 1
-function sim.removeBanner(bannerId) end
+function sim.removeBanner(bannerID) end
 
 --- Removes a collection, or all; their objects stay.
 ---@deprecated sim.destroyCollection
@@ -3074,8 +3074,8 @@ function sim.saveScene(filename) end
 ---@param xScale number at least 0.0001
 ---@param yScale number at least 0.0001; as x for round things
 ---@param zScale number at least 0.0001; as x for spheres
----@param Options? integer
-function sim.scaleObject(objectHandle, xScale, yScale, zScale, Options) end
+---@param options? integer ignored
+function sim.scaleObject(objectHandle, xScale, yScale, zScale, options) end
 
 --- Scales objects with their masses.
 ---@param objectHandles integer[] the objects
@@ -3501,24 +3501,24 @@ function sim.setObjectColor(objectHandle, index, colorComponent, rgbData) end
 
 --- Sets a parameter of an object that is a list of numbers. No object has one, so this does nothing.
 ---@param objectHandle integer the object
----@param ParameterId integer
----@param Params number[]
-function sim.setObjectFloatArrayParam(objectHandle, ParameterId, Params) end
+---@param parameterID integer its number
+---@param params number[] the values
+function sim.setObjectFloatArrayParam(objectHandle, parameterID, params) end
 
 --- Sets a float parameter of an object.
 ---@param objectHandle integer the object
----@param parameterId integer
+---@param parameterID integer sim.objfloatparam_*, sim.jointfloatparam_*, ...
 ---@param parameter number the value
 ---@return integer result 1, or 0 when the object has no such parameter
-function sim.setObjectFloatParam(objectHandle, parameterId, parameter) end
+function sim.setObjectFloatParam(objectHandle, parameterID, parameter) end
 
 --- Sets a float parameter of an object.
 ---@deprecated properties
 ---@param objectHandle integer the object
----@param parameterId integer
+---@param parameterID integer sim.objfloatparam_*, sim.jointfloatparam_*, ...
 ---@param parameter number the value
 ---@return integer result 1, or 0 when the object has no such parameter
-function sim.setObjectFloatParameter(objectHandle, parameterId, parameter) end
+function sim.setObjectFloatParameter(objectHandle, parameterID, parameter) end
 
 --- Moves an object among its siblings.
 ---@param objectHandle integer the object
@@ -3527,18 +3527,18 @@ function sim.setObjectHierarchyOrder(objectHandle, order) end
 
 --- Sets an integer parameter of an object.
 ---@param objectHandle integer the object
----@param parameterId integer
+---@param parameterID integer sim.objintparam_*, sim.shapeintparam_*, ...
 ---@param parameter integer the value
 ---@return integer result 1, or 0 when the object has no such parameter
-function sim.setObjectInt32Param(objectHandle, parameterId, parameter) end
+function sim.setObjectInt32Param(objectHandle, parameterID, parameter) end
 
 --- Sets an integer parameter of an object.
 ---@deprecated properties
 ---@param objectHandle integer the object
----@param parameterId integer
+---@param parameterID integer sim.objintparam_*, sim.shapeintparam_*, ...
 ---@param parameter integer the value
 ---@return integer result 1, or 0 when the object has no such parameter
-function sim.setObjectInt32Parameter(objectHandle, parameterId, parameter) end
+function sim.setObjectInt32Parameter(objectHandle, parameterID, parameter) end
 
 --- Places an object.
 ---@param objectHandle integer the object
@@ -3612,16 +3612,16 @@ function sim.setObjectSpecialProperty(objectHandle, property) end
 
 --- Sets a text parameter of an object. One it does not have, or that can only be read, is left alone.
 ---@param objectHandle integer the object
----@param parameterId integer
+---@param parameterID integer sim.dummystringparam_*, sim.shapestringparam_*
 ---@param parameter string|table the text
-function sim.setObjectStringParam(objectHandle, parameterId, parameter) end
+function sim.setObjectStringParam(objectHandle, parameterID, parameter) end
 
 --- Sets a text parameter of an object. One it does not have, or that can only be read, is left alone.
 ---@deprecated properties
 ---@param objectHandle integer the object
----@param parameterId integer
+---@param parameterID integer sim.dummystringparam_*, sim.shapestringparam_*
 ---@param parameter string|table the text
-function sim.setObjectStringParameter(objectHandle, parameterId, parameter) end
+function sim.setObjectStringParameter(objectHandle, parameterID, parameter) end
 
 --- Moves the position on a path of V-REP, and the dummies that move with it.
 ---@param pathHandle integer the path
@@ -3678,16 +3678,16 @@ function sim.setReferencedHandles(objectHandle, referencedHandles, tag) end
 --- Sets an attribute of a script.
 ---@deprecated properties
 ---@param scriptHandle integer the script
----@param attributeId integer
+---@param attributeID integer sim.scriptattribute_*
 ---@param attribute any the new value
-function sim.setScriptAttribute(scriptHandle, attributeId, attribute) end
+function sim.setScriptAttribute(scriptHandle, attributeID, attribute) end
 
 --- Sets an integer parameter of a script.
 ---@deprecated properties
 ---@param scriptHandle integer the script
----@param parameterId integer
+---@param parameterID integer sim.scriptintparam_*
 ---@param parameter integer the new value
-function sim.setScriptInt32Param(scriptHandle, parameterId, parameter) end
+function sim.setScriptInt32Param(scriptHandle, parameterID, parameter) end
 
 --- Sets a parameter of a script, or of the object the script is attached to if that has it.
 ---
@@ -3701,9 +3701,9 @@ function sim.setScriptSimulationParameter(scriptHandle, parameterName, parameter
 --- Sets a string parameter of a script.
 ---@deprecated properties
 ---@param scriptHandle integer the script
----@param parameterId integer
+---@param parameterID integer sim.scriptstringparam_*
 ---@param parameter string|table the new value
-function sim.setScriptStringParam(scriptHandle, parameterId, parameter) end
+function sim.setScriptStringParam(scriptHandle, parameterID, parameter) end
 
 --- Replaces the code of a script. A running script keeps executing the old one.
 ---@deprecated sim.createScript
@@ -4061,9 +4061,9 @@ function sim.unpackInt64Table(data, startIndex, count, additionalByteOffset) end
 
 --- Unpacks a table.
 ---@param data string|table what sim.packTable gave, here or in CoppeliaSim, or other CBOR
----@param Scheme? integer
+---@param scheme? integer the encoding is recognised without it
 ---@return any aTable
-function sim.unpackTable(data, Scheme) end
+function sim.unpackTable(data, scheme) end
 
 --- Unpacks numbers from bytes.
 ---@param data string|table the bytes

@@ -8,17 +8,17 @@ local module = {}
 --- Where an object must be for its points to lie on those of another (iterative closest points).
 ---
 --- The search begins where the objects are, and where their centres and principal axes are the same.
----@param modelHandle integer
----@param templateHandle integer
----@param outlierTreshold? number
+---@param model_handle integer a point cloud, an octree or a shape, which stays where it is
+---@param template_handle integer the object that is to be moved: its points, corners or vertices
+---@param outlier_treshold? number points farther than that from the model do not count, metres; -1: all do
 ---@return number[] m matrix of the template, for sim.setObjectMatrix
-function module.match(modelHandle, templateHandle, outlierTreshold) end
+function module.match(model_handle, template_handle, outlier_treshold) end
 
 --- Where an object must be for its points to lie on the surface of a shape.
----@param modelHandle integer
----@param templateHandle integer
----@param outlierTreshold? number
+---@param model_handle integer the shape, which stays where it is
+---@param template_handle integer the object that is to be moved: a point cloud, an octree or a shape
+---@param outlier_treshold? number points farther than that from the shape do not count, metres; -1: all do
 ---@return number[] m matrix of the template, for sim.setObjectMatrix
-function module.matchToShape(modelHandle, templateHandle, outlierTreshold) end
+function module.matchToShape(model_handle, template_handle, outlier_treshold) end
 
 return module

@@ -59,9 +59,9 @@ function module.getParamInt(name, defaultValue) end
 function module.getParamString(name, defaultValue) end
 
 --- The time of ROS: that of the topic `/clock` if the parameter `/use_sim_time` is true, else the system's.
----@param Flag? integer
+---@param flag? integer not used, as in CoppeliaSim
 ---@return number time seconds since 1970
-function module.getTime(Flag) end
+function module.getTime(flag) end
 
 --- Whether there is a parameter.
 ---@param name string as in simROS.getParamString
@@ -79,8 +79,8 @@ function module.imageTransportAdvertise(topicName, queueSize) end
 ---@param data string|table width * height * 3 bytes, RGB
 ---@param width integer pixels
 ---@param height integer pixels
----@param frameId string
-function module.imageTransportPublish(publisherHandle, data, width, height, frameId) end
+---@param frame_id string of the header
+function module.imageTransportPublish(publisherHandle, data, width, height, frame_id) end
 
 --- Ends a publisher of images.
 ---@param publisherHandle string the publisher

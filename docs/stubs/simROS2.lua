@@ -17,50 +17,50 @@ function simROS2.actionClientTreatUInt8ArrayAsString(actionClientHandle) end
 
 --- Ends a goal that failed.
 ---@param actionServerHandle string the server
----@param goalUuid string
+---@param goalUUID string the goal's identity
 ---@param result table a table with the fields of the result
-function simROS2.actionServerActionAbort(actionServerHandle, goalUuid, result) end
+function simROS2.actionServerActionAbort(actionServerHandle, goalUUID, result) end
 
 --- Ends a goal that is being cancelled.
 ---@param actionServerHandle string the server
----@param goalUuid string
+---@param goalUUID string the goal's identity
 ---@param result table a table with the fields of the result
-function simROS2.actionServerActionCanceled(actionServerHandle, goalUuid, result) end
+function simROS2.actionServerActionCanceled(actionServerHandle, goalUUID, result) end
 
 --- Begins a goal that was accepted with accept_and_defer.
 ---@param actionServerHandle string the server
----@param goalUuid string
-function simROS2.actionServerActionExecute(actionServerHandle, goalUuid) end
+---@param goalUUID string the goal's identity
+function simROS2.actionServerActionExecute(actionServerHandle, goalUUID) end
 
 --- Whether a goal is not finished.
 ---@param actionServerHandle string the server
----@param goalUuid string
+---@param goalUUID string the goal's identity
 ---@return boolean result
-function simROS2.actionServerActionIsActive(actionServerHandle, goalUuid) end
+function simROS2.actionServerActionIsActive(actionServerHandle, goalUUID) end
 
 --- Whether a goal is being cancelled.
 ---@param actionServerHandle string the server
----@param goalUuid string
+---@param goalUUID string the goal's identity
 ---@return boolean result
-function simROS2.actionServerActionIsCanceling(actionServerHandle, goalUuid) end
+function simROS2.actionServerActionIsCanceling(actionServerHandle, goalUUID) end
 
 --- Whether a goal has begun and is not being cancelled.
 ---@param actionServerHandle string the server
----@param goalUuid string
+---@param goalUUID string the goal's identity
 ---@return boolean result
-function simROS2.actionServerActionIsExecuting(actionServerHandle, goalUuid) end
+function simROS2.actionServerActionIsExecuting(actionServerHandle, goalUUID) end
 
 --- Ends a goal with success.
 ---@param actionServerHandle string the server
----@param goalUuid string
+---@param goalUUID string the goal's identity
 ---@param result table a table with the fields of the result
-function simROS2.actionServerActionSucceed(actionServerHandle, goalUuid, result) end
+function simROS2.actionServerActionSucceed(actionServerHandle, goalUUID, result) end
 
 --- Publishes feedback about a goal.
 ---@param actionServerHandle string the server
----@param goalUuid string
+---@param goalUUID string the goal's identity
 ---@param feedback table a table with the fields of the feedback
-function simROS2.actionServerPublishFeedback(actionServerHandle, goalUuid, feedback) end
+function simROS2.actionServerPublishFeedback(actionServerHandle, goalUUID, feedback) end
 
 --- From now on fields of type `uint8[]` are strings.
 ---@param actionServerHandle string the server
@@ -113,11 +113,11 @@ function simROS2.createInterface(type) end
 --- Creates a publisher.
 ---@param topicName string `/x`, `x` in the node's namespace, or `~/x` below the node
 ---@param topicType string `pkg/msg/Name`
----@param Unused? integer
----@param Unused2? boolean
+---@param unused? integer
+---@param unused2? boolean
 ---@param qos? any nil, or a table: history, depth, reliability, durability, deadline, lifespan, liveliness, liveliness_lease_duration, avoid_ros_namespace_conventions
 ---@return string publisherHandle it ends with the script
-function simROS2.createPublisher(topicName, topicType, Unused, Unused2, qos) end
+function simROS2.createPublisher(topicName, topicType, unused, unused2, qos) end
 
 --- Creates a server of a service. The callback gets the request as a table and returns the response.
 ---@param serviceName string `/x`, `x` in the node's namespace, or `~/x` below the node
@@ -130,10 +130,10 @@ function simROS2.createService(serviceName, serviceType, serviceCallback) end
 ---@param topicName string `/x`, `x` in the node's namespace, or `~/x` below the node
 ---@param topicType string `pkg/msg/Name`
 ---@param topicCallback function a function, or the name of a global one
----@param Unused? integer
+---@param unused? integer
 ---@param qos? any as in simROS2.createPublisher; the newest `depth` messages wait
 ---@return string subscriptionHandle it ends with the script
-function simROS2.createSubscription(topicName, topicType, topicCallback, Unused, qos) end
+function simROS2.createSubscription(topicName, topicType, topicCallback, unused, qos) end
 
 --- Removes a parameter.
 ---@param name string its name
@@ -146,31 +146,31 @@ function simROS2.getInterfaceConstants(type) end
 
 --- A parameter that is a truth value.
 ---@param name string its name
----@param DefaultValue? boolean
+---@param defaultValue? boolean not used, as in CoppeliaSim
 ---@return boolean exists
 ---@return boolean value false if it does not exist
-function simROS2.getParamBool(name, DefaultValue) end
+function simROS2.getParamBool(name, defaultValue) end
 
 --- A parameter that is a number.
 ---@param name string its name
----@param DefaultValue? number
+---@param defaultValue? number not used, as in CoppeliaSim
 ---@return boolean exists
 ---@return number value 0 if it does not exist
-function simROS2.getParamDouble(name, DefaultValue) end
+function simROS2.getParamDouble(name, defaultValue) end
 
 --- A parameter that is an integer.
 ---@param name string its name
----@param DefaultValue? integer
+---@param defaultValue? integer not used, as in CoppeliaSim
 ---@return boolean exists
 ---@return integer value 0 if it does not exist
-function simROS2.getParamInt(name, DefaultValue) end
+function simROS2.getParamInt(name, defaultValue) end
 
 --- A parameter that is a string.
 ---@param name string its name
----@param DefaultValue? string
+---@param defaultValue? string not used, as in CoppeliaSim
 ---@return boolean exists
 ---@return string value empty if it does not exist
-function simROS2.getParamString(name, DefaultValue) end
+function simROS2.getParamString(name, defaultValue) end
 
 --- The time of the simulation.
 ---@return table t {sec, nanosec}
@@ -181,9 +181,9 @@ function simROS2.getSimulationTime() end
 function simROS2.getSystemTime() end
 
 --- The time of a clock. The clock of ROS is the system's, as that of any node without simulated time.
----@param clockType? integer
+---@param clock_type? integer simROS2.clock_type.ros, system or steady
 ---@return any time {sec, nanosec}
-function simROS2.getTime(clockType) end
+function simROS2.getTime(clock_type) end
 
 --- Whether there is a parameter.
 ---@param name string its name
@@ -208,8 +208,8 @@ function simROS2.imageTransportCreateSubscription(topicName, topicCallback, queu
 ---@param data string|table width * height * 3 bytes, RGB
 ---@param width integer pixels
 ---@param height integer pixels
----@param frameId string
-function simROS2.imageTransportPublish(publisherHandle, data, width, height, frameId) end
+---@param frame_id string of the header
+function simROS2.imageTransportPublish(publisherHandle, data, width, height, frame_id) end
 
 --- Ends a publisher of images.
 ---@param publisherHandle string the publisher

@@ -13,8 +13,8 @@ local module = {}
 ---@param iterations? integer how often the points are made smoother, 0 to 100
 ---@param neighbors? integer how many neighbours a point has, 3 to 100
 ---@param samples? integer of how many points the distances to their neighbours are measured, for the radius of the ball
----@param squaredRadius? number
+---@param squared_radius? number square of the radius of the ball, square metres; -1: as measured
 ---@return integer shapeHandle
-function module.reconstruct_scale_space(pointCloudHandle, iterations, neighbors, samples, squaredRadius) end
+function module.reconstruct_scale_space(pointCloudHandle, iterations, neighbors, samples, squared_radius) end
 
 return module

@@ -90,11 +90,11 @@ function module.coordinatesFromWorkImg(visionSensorHandle, xyPointCount, evenlyS
 ---@param frequency number turns per second
 ---@param options? integer 4: results are angles and distance; other options are of the display
 ---@param pointSize? integer without effect
----@param coloringCloseFarDist? number[] without effect
+---@param coloring_closeFarDist? number[] without effect
 ---@param displayScalingFactor? number without effect
 ---@param pointCloud? integer -1: others are not supported
 ---@return integer velodyneHandle
-function module.createVelodyneHDL64E(visionSensorHandles, frequency, options, pointSize, coloringCloseFarDist, displayScalingFactor, pointCloud) end
+function module.createVelodyneHDL64E(visionSensorHandles, frequency, options, pointSize, coloring_closeFarDist, displayScalingFactor, pointCloud) end
 
 --- Creates a laser scanner of four vision sensors, whose scripts return the packets of simVision.velodyneDataFromWorkImg. Points
 --- are not displayed.
@@ -102,11 +102,11 @@ function module.createVelodyneHDL64E(visionSensorHandles, frequency, options, po
 ---@param frequency number turns per second
 ---@param options? integer 4: results are angles and distance; other options are of the display
 ---@param pointSize? integer without effect
----@param coloringCloseFarDist? number[] without effect
+---@param coloring_closeFarDist? number[] without effect
 ---@param displayScalingFactor? number without effect
 ---@param pointCloud? integer -1: others are not supported
 ---@return integer velodyneHandle
-function module.createVelodyneVPL16(visionSensorHandles, frequency, options, pointSize, coloringCloseFarDist, displayScalingFactor, pointCloud) end
+function module.createVelodyneVPL16(visionSensorHandles, frequency, options, pointSize, coloring_closeFarDist, displayScalingFactor, pointCloud) end
 
 --- Removes a laser scanner.
 ---@param velodyneHandle integer the scanner
@@ -139,13 +139,13 @@ function module.edgeDetectionOnWorkImg(visionSensorHandle, threshold) end
 function module.handleAnaglyphStereo(passiveVisionSensorHandle, activeVisionSensorHandles, leftAndRightColors) end
 
 --- Takes pictures in six directions, and composes a picture of all directions of them.
----@param passiveVisionSensorHandleForRgb integer
+---@param passiveVisionSensorHandleForRGB integer the sensor for the resulting image, or -1
 ---@param activeVisionSensorHandles integer[] front, top, back, bottom, left, right, which are square and see 90 degrees
 ---@param horizontalAngle number that the picture spans, rad
 ---@param verticalAngle number that the picture spans, rad
 ---@param passiveVisionSensorHandleForDepth? integer the sensor for the resulting depths, or -1
 ---@return integer result 1
-function module.handleSpherical(passiveVisionSensorHandleForRgb, activeVisionSensorHandles, horizontalAngle, verticalAngle, passiveVisionSensorHandleForDepth) end
+function module.handleSpherical(passiveVisionSensorHandleForRGB, activeVisionSensorHandles, horizontalAngle, verticalAngle, passiveVisionSensorHandleForDepth) end
 
 --- Turns a laser scanner and returns the points it sees meanwhile, in the frame of its front sensor; nothing at all when a sensor
 --- delivers no packet.

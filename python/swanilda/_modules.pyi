@@ -2220,13 +2220,15 @@ class _sim:
         """Closes a console.
         consoleHandle: from sim.auxiliaryConsoleOpen
         """
-    def auxiliaryConsoleOpen(self, title: str, maxLines: int | None = ..., mode: int | None = ..., position: Sequence[float] | None = ..., size: Sequence[float] | None = ..., TextColor: Sequence[float] | None = ..., BackgroundColor: Sequence[float] | None = ..., /) -> int:
+    def auxiliaryConsoleOpen(self, title: str, maxLines: int | None = ..., mode: int | None = ..., position: Sequence[float] | None = ..., size: Sequence[float] | None = ..., textColor: Sequence[float] | None = ..., backgroundColor: Sequence[float] | None = ..., /) -> int:
         """Opens a console. Pages show it; what is printed to it goes to the log too, under its title, at the level infos: `--verbosity infos` shows it.
         title: of the window
         maxLines: how many lines stay
         mode: 1: it closes at the end of the simulation; other bits have no effect
         position: of the window, pixels
         size: of the window, pixels
+        textColor: the window's, without effect
+        backgroundColor: the window's, without effect
         """
     def auxiliaryConsolePrint(self, consoleHandle: int, text: bytes | str | None = ..., /) -> int:
         """Prints to a console.
@@ -2451,6 +2453,7 @@ class _sim:
         Deprecated: use the simConvex functionality.
         shapeHandle: the shape
         options: 1: the shape itself changes, else a new one is made
+        ...: intParams and floatParams: not used
         """
     def copyMatrix(self, matrixIn: Sequence[float], /) -> list[float]:
         """Copy of a matrix.
@@ -2597,11 +2600,13 @@ class _sim:
         texture: red, green, blue of each pixel, the top row first
         textureResolution: width and height
         """
-    def createTexture(self, fileName: str, options: int, planeSizes: Sequence[float] | None = ..., scalingUv: Sequence[float] | None = ..., xyG: Sequence[float] | None = ..., fixedResolution: int | None = ..., resolution: Sequence[float] | None = ..., /) -> tuple[int, int, list[int]]:
+    def createTexture(self, fileName: str, options: int, planeSizes: Sequence[float] | None = ..., scalingUV: Sequence[float] | None = ..., xy_g: Sequence[float] | None = ..., fixedResolution: int | None = ..., resolution: Sequence[float] | None = ..., /) -> tuple[int, int, list[int]]:
         """A new plane with an image on it, from a file or white.
         fileName: PNG, JPEG, BMP or TGA; an empty text for a new image
         options: 1: pixels are not interpolated, 2: applied as a decal, 4: repeated along u, 8: repeated along v
         planeSizes: of the plane, metres; default: one metre wide, with the aspect ratio of the image
+        scalingUV: size of the image, metres; nothing for that of the plane
+        xy_g: placement of the image on the plane: x, y and optionally an angle, metres and radians
         fixedResolution: 1: the image of a file is brought to the resolution too
         resolution: of a new image, pixels; 256 times 256 by default
         """
@@ -3177,13 +3182,15 @@ class _sim:
         index: which mesh of a shape, from 0
         colorComponent: sim.colorcomponent_*
         """
-    def getObjectFloatArrayParam(self, objectHandle: int, ParameterId: int, /) -> list[float]:
+    def getObjectFloatArrayParam(self, objectHandle: int, parameterID: int, /) -> list[float]:
         """Parameter of an object that is a list of numbers. No object has one.
         objectHandle: the object
+        parameterID: its number
         """
-    def getObjectFloatParam(self, objectHandle: int, parameterId: int, /) -> float:
+    def getObjectFloatParam(self, objectHandle: int, parameterID: int, /) -> float:
         """Float parameter of an object.
         objectHandle: the object
+        parameterID: sim.objfloatparam_*, sim.jointfloatparam_*, ...
         """
     def getObjectFloatParameter(self, objectHandle: int, parameterID: int, /) -> tuple[int, float]:
         """A floating-point parameter of an object.
@@ -3209,9 +3216,10 @@ class _sim:
         """Position of an object among its siblings.
         objectHandle: the object
         """
-    def getObjectInt32Param(self, objectHandle: int, parameterId: int, /) -> int:
+    def getObjectInt32Param(self, objectHandle: int, parameterID: int, /) -> int:
         """Integer parameter of an object.
         objectHandle: the object
+        parameterID: sim.objintparam_*, sim.shapeintparam_*, ...
         """
     def getObjectInt32Parameter(self, objectHandle: int, parameterID: int, /) -> tuple[int, int]:
         """An integer parameter of an object.
@@ -3275,14 +3283,16 @@ class _sim:
         """Special properties of an object: collidable, measurable, detectable; its own flags, without those of models.
         objectHandle: the object
         """
-    def getObjectStringParam(self, objectHandle: int, parameterId: int, /) -> str:
+    def getObjectStringParam(self, objectHandle: int, parameterID: int, /) -> str:
         """Text parameter of an object.
         objectHandle: the object
+        parameterID: sim.objstringparam_*, sim.dummystringparam_*, sim.shapestringparam_*
         """
-    def getObjectStringParameter(self, objectHandle: int, parameterId: int, /) -> str:
+    def getObjectStringParameter(self, objectHandle: int, parameterID: int, /) -> str:
         """Text parameter of an object.
         Deprecated: use properties.
         objectHandle: the object
+        parameterID: sim.objstringparam_*, sim.dummystringparam_*, sim.shapestringparam_*
         """
     def getObjectType(self, objectHandle: int, /) -> int:
         """Type of an object.
@@ -3400,10 +3410,11 @@ class _sim:
         type: sim.propertytype_*
         onlyName: return the name instead
         """
-    def getPropertyInfo(self, target: int, propertyName: str, Options: Mapping[Any, Any] | None = ..., /) -> Any:
+    def getPropertyInfo(self, target: int, propertyName: str, options: Mapping[Any, Any] | None = ..., /) -> Any:
         """Type, flags and description of a property; nothing if unknown.
         target: object or script, sim.handle_app, sim.handle_scene, sim.handle_self
         propertyName: its name
+        options: accepted
         """
     def getPropertyInfos(self, target: int, name: str, options: Mapping[Any, Any] | None = ..., /) -> dict[Any, Any]:
         """Type, flags and description of one property, as a table.
@@ -3489,10 +3500,11 @@ class _sim:
         Deprecated: use sim.getObject.
         objectHandle: the object
         """
-    def getScriptAttribute(self, scriptHandle: int, attributeId: int, /) -> Any:
+    def getScriptAttribute(self, scriptHandle: int, attributeID: int, /) -> Any:
         """An attribute of a script.
         Deprecated: use properties.
         scriptHandle: the script
+        attributeID: sim.scriptattribute_*
         """
     def getScriptExecutionCount(self, /) -> int:
         """Execution count of the calling script, as last set by sim.setScriptAttribute in old scenes.
@@ -3509,10 +3521,11 @@ class _sim:
         scriptName: path, old-style name or handle of the object the script belongs to, or the display name of an add-on
         objectHandle: the object the script belongs to
         """
-    def getScriptInt32Param(self, scriptHandle: int, parameterId: int, /) -> int:
+    def getScriptInt32Param(self, scriptHandle: int, parameterID: int, /) -> int:
         """An integer parameter of a script.
         Deprecated: use properties.
         scriptHandle: the script
+        parameterID: sim.scriptintparam_*
         """
     def getScriptName(self, scriptHandle: int, /) -> Any:
         """Name of a script.
@@ -3525,10 +3538,11 @@ class _sim:
         parameterName: its name
         forceStringReturn: return a string; otherwise texts such as `true` and `12` are converted
         """
-    def getScriptStringParam(self, scriptHandle: int, parameterId: int, /) -> Any:
+    def getScriptStringParam(self, scriptHandle: int, parameterID: int, /) -> Any:
         """A string parameter of a script.
         Deprecated: use properties.
         scriptHandle: the script
+        parameterID: sim.scriptstringparam_*
         """
     def getSettingBool(self, key: str, /) -> bool:
         """User setting as a boolean.
@@ -3989,10 +4003,11 @@ class _sim:
     def isScriptRunningInThread(self, /) -> int:
         """Whether the code runs in a thread of V-REP.
         """
-    def launchExecutable(self, filename: str, parameters: str | None = ..., ShowStatus: int | None = ..., /) -> None:
+    def launchExecutable(self, filename: str, parameters: str | None = ..., showStatus: int | None = ..., /) -> None:
         """Starts a program that goes on by itself.
         filename: path of the program, or a name to be looked up where the system looks for programs
         parameters: its arguments, with spaces between; double quotes hold one together
+        showStatus: has no effect
         """
     def launchThreadedChildScripts(self, /) -> int:
         """Does nothing: threads are coroutines, which their scripts resume.
@@ -4262,8 +4277,10 @@ class _sim:
         dataHeader: as sent
         dataName: as sent
         """
-    def registerCodeEditorInfos(self, ModuleName: str, /, *args: Any) -> None:
+    def registerCodeEditorInfos(self, moduleName: str, /, *args: Any) -> None:
         """Accepted for scripts that describe themselves to the original's editor.
+        moduleName: ignored
+        ...: ignored
         """
     def registerScriptFuncHook(self, systemCallback: str, userFunction: Callable[..., Any] | str, execBefore: bool, /) -> int:
         """Runs a function before or after a callback of this script, whether or not the script defines the callback. Registering the
@@ -4280,8 +4297,9 @@ class _sim:
         shapeHandle: the shape
         pose: in the world; a quaternion of zeros means the frame of the bounding box
         """
-    def removeBanner(self, bannerId: int, /) -> int:
+    def removeBanner(self, bannerID: int, /) -> int:
         """Removes a banner.
+        bannerID: from sim.addBanner, or sim.handle_all
         """
     def removeCollection(self, collectionHandle: int, /) -> int:
         """Removes a collection, or all; their objects stay.
@@ -4524,12 +4542,13 @@ class _sim:
         """Writes the scene to a file, which becomes the scene's, or returns its bytes. CoppeliaSim reads them since 4.5.1.
         filename: a `.ttt` file, or a `.simscene.xml` file, with `@simpleXml` behind it for the simple variant; nothing for the bytes
         """
-    def scaleObject(self, objectHandle: int, xScale: float, yScale: float, zScale: float, Options: int | None = ..., /) -> None:
+    def scaleObject(self, objectHandle: int, xScale: float, yScale: float, zScale: float, options: int | None = ..., /) -> None:
         """Scales an object along its axes; mass and inertia stay.
         objectHandle: the object
         xScale: at least 0.0001
         yScale: at least 0.0001; as x for round things
         zScale: at least 0.0001; as x for spheres
+        options: ignored
         """
     def scaleObjects(self, objectHandles: Sequence[int], scalingFactor: float, scalePositionsToo: bool, /) -> None:
         """Scales objects with their masses.
@@ -4926,19 +4945,23 @@ class _sim:
         colorComponent: sim.colorcomponent_*
         rgbData: red, green, blue
         """
-    def setObjectFloatArrayParam(self, objectHandle: int, ParameterId: int, Params: Sequence[float], /) -> None:
+    def setObjectFloatArrayParam(self, objectHandle: int, parameterID: int, params: Sequence[float], /) -> None:
         """Sets a parameter of an object that is a list of numbers. No object has one, so this does nothing.
         objectHandle: the object
+        parameterID: its number
+        params: the values
         """
-    def setObjectFloatParam(self, objectHandle: int, parameterId: int, parameter: float, /) -> int:
+    def setObjectFloatParam(self, objectHandle: int, parameterID: int, parameter: float, /) -> int:
         """Sets a float parameter of an object.
         objectHandle: the object
+        parameterID: sim.objfloatparam_*, sim.jointfloatparam_*, ...
         parameter: the value
         """
-    def setObjectFloatParameter(self, objectHandle: int, parameterId: int, parameter: float, /) -> int:
+    def setObjectFloatParameter(self, objectHandle: int, parameterID: int, parameter: float, /) -> int:
         """Sets a float parameter of an object.
         Deprecated: use properties.
         objectHandle: the object
+        parameterID: sim.objfloatparam_*, sim.jointfloatparam_*, ...
         parameter: the value
         """
     def setObjectHierarchyOrder(self, objectHandle: int, order: int, /) -> None:
@@ -4946,15 +4969,17 @@ class _sim:
         objectHandle: the object
         order: from 0; negative positions count from the end
         """
-    def setObjectInt32Param(self, objectHandle: int, parameterId: int, parameter: int, /) -> int:
+    def setObjectInt32Param(self, objectHandle: int, parameterID: int, parameter: int, /) -> int:
         """Sets an integer parameter of an object.
         objectHandle: the object
+        parameterID: sim.objintparam_*, sim.shapeintparam_*, ...
         parameter: the value
         """
-    def setObjectInt32Parameter(self, objectHandle: int, parameterId: int, parameter: int, /) -> int:
+    def setObjectInt32Parameter(self, objectHandle: int, parameterID: int, parameter: int, /) -> int:
         """Sets an integer parameter of an object.
         Deprecated: use properties.
         objectHandle: the object
+        parameterID: sim.objintparam_*, sim.shapeintparam_*, ...
         parameter: the value
         """
     def setObjectMatrix(self, objectHandle: int, matrix: Sequence[float], relativeToObjectHandle: Sequence[float] | None = ..., /) -> None:
@@ -5023,15 +5048,17 @@ class _sim:
         objectHandle: the object
         property: sim.objectspecialproperty_* bits
         """
-    def setObjectStringParam(self, objectHandle: int, parameterId: int, parameter: bytes | str, /) -> None:
+    def setObjectStringParam(self, objectHandle: int, parameterID: int, parameter: bytes | str, /) -> None:
         """Sets a text parameter of an object. One it does not have, or that can only be read, is left alone.
         objectHandle: the object
+        parameterID: sim.dummystringparam_*, sim.shapestringparam_*
         parameter: the text
         """
-    def setObjectStringParameter(self, objectHandle: int, parameterId: int, parameter: bytes | str, /) -> None:
+    def setObjectStringParameter(self, objectHandle: int, parameterID: int, parameter: bytes | str, /) -> None:
         """Sets a text parameter of an object. One it does not have, or that can only be read, is left alone.
         Deprecated: use properties.
         objectHandle: the object
+        parameterID: sim.dummystringparam_*, sim.shapestringparam_*
         parameter: the text
         """
     def setPathPosition(self, pathHandle: int, position: float, /) -> int:
@@ -5084,16 +5111,18 @@ class _sim:
         referencedHandles: empty to remove the list
         tag: name of the list
         """
-    def setScriptAttribute(self, scriptHandle: int, attributeId: int, attribute: Any | None = ..., /) -> None:
+    def setScriptAttribute(self, scriptHandle: int, attributeID: int, attribute: Any | None = ..., /) -> None:
         """Sets an attribute of a script.
         Deprecated: use properties.
         scriptHandle: the script
+        attributeID: sim.scriptattribute_*
         attribute: the new value
         """
-    def setScriptInt32Param(self, scriptHandle: int, parameterId: int, parameter: int, /) -> None:
+    def setScriptInt32Param(self, scriptHandle: int, parameterID: int, parameter: int, /) -> None:
         """Sets an integer parameter of a script.
         Deprecated: use properties.
         scriptHandle: the script
+        parameterID: sim.scriptintparam_*
         parameter: the new value
         """
     def setScriptSimulationParameter(self, scriptHandle: int, parameterName: str, parameterValue: str, /) -> int:
@@ -5104,10 +5133,11 @@ class _sim:
         parameterName: its name
         parameterValue: its text
         """
-    def setScriptStringParam(self, scriptHandle: int, parameterId: int, parameter: bytes | str, /) -> None:
+    def setScriptStringParam(self, scriptHandle: int, parameterID: int, parameter: bytes | str, /) -> None:
         """Sets a string parameter of a script.
         Deprecated: use properties.
         scriptHandle: the script
+        parameterID: sim.scriptstringparam_*
         parameter: the new value
         """
     def setScriptText(self, scriptHandle: int, scriptText: bytes | str, /) -> None:
@@ -5425,9 +5455,10 @@ class _sim:
         count: how many; 0: all
         additionalByteOffset: bytes to skip first
         """
-    def unpackTable(self, data: bytes | str, Scheme: int | None = ..., /) -> Any:
+    def unpackTable(self, data: bytes | str, scheme: int | None = ..., /) -> Any:
         """Unpacks a table.
         data: what sim.packTable gave, here or in CoppeliaSim, or other CBOR
+        scheme: the encoding is recognised without it
         """
     def unpackUInt16Table(self, data: bytes | str, startIndex: int | None = ..., count: int | None = ..., additionalByteOffset: int | None = ..., /) -> list[int]:
         """Unpacks numbers from bytes.
@@ -6475,13 +6506,19 @@ class _simGeom:
         """
 
 class _simICP:
-    def match(self, modelHandle: int, templateHandle: int, outlierTreshold: float | None = ..., /) -> list[float]:
+    def match(self, model_handle: int, template_handle: int, outlier_treshold: float | None = ..., /) -> list[float]:
         """Where an object must be for its points to lie on those of another (iterative closest points).
 
         The search begins where the objects are, and where their centres and principal axes are the same.
+        model_handle: a point cloud, an octree or a shape, which stays where it is
+        template_handle: the object that is to be moved: its points, corners or vertices
+        outlier_treshold: points farther than that from the model do not count, metres; -1: all do
         """
-    def matchToShape(self, modelHandle: int, templateHandle: int, outlierTreshold: float | None = ..., /) -> list[float]:
+    def matchToShape(self, model_handle: int, template_handle: int, outlier_treshold: float | None = ..., /) -> list[float]:
         """Where an object must be for its points to lie on the surface of a shape.
+        model_handle: the shape, which stays where it is
+        template_handle: the object that is to be moved: a point cloud, an octree or a shape
+        outlier_treshold: points farther than that from the shape do not count, metres; -1: all do
         """
 
 class _simIK:
@@ -7974,8 +8011,9 @@ class _simROS:
         name: `/x`, `x` in the node's namespace, or `~x` below the node
         defaultValue: what is returned if there is none, or one of another type
         """
-    def getTime(self, Flag: int | None = ..., /) -> float:
+    def getTime(self, flag: int | None = ..., /) -> float:
         """The time of ROS: that of the topic `/clock` if the parameter `/use_sim_time` is true, else the system's.
+        flag: not used, as in CoppeliaSim
         """
     def hasParam(self, name: str, /) -> bool:
         """Whether there is a parameter.
@@ -7986,12 +8024,13 @@ class _simROS:
         topicName: as in simROS.advertise
         queueSize: images that wait for a slow subscriber; then the newest stay
         """
-    def imageTransportPublish(self, publisherHandle: str, data: bytes | str, width: int, height: int, frameId: str, /) -> None:
+    def imageTransportPublish(self, publisherHandle: str, data: bytes | str, width: int, height: int, frame_id: str, /) -> None:
         """Publishes an image with three bytes per pixel, the lowest row first, as vision sensors have it.
         publisherHandle: the publisher
         data: width * height * 3 bytes, RGB
         width: pixels
         height: pixels
+        frame_id: of the header
         """
     def imageTransportShutdownPublisher(self, publisherHandle: str, /) -> None:
         """Ends a publisher of images.
@@ -8103,40 +8142,48 @@ class _simROS2:
         """From now on fields of type `uint8[]` are strings.
         actionClientHandle: the client
         """
-    def actionServerActionAbort(self, actionServerHandle: str, goalUuid: str, result: Sequence[Any] | Mapping[Any, Any], /) -> None:
+    def actionServerActionAbort(self, actionServerHandle: str, goalUUID: str, result: Sequence[Any] | Mapping[Any, Any], /) -> None:
         """Ends a goal that failed.
         actionServerHandle: the server
+        goalUUID: the goal's identity
         result: a table with the fields of the result
         """
-    def actionServerActionCanceled(self, actionServerHandle: str, goalUuid: str, result: Sequence[Any] | Mapping[Any, Any], /) -> None:
+    def actionServerActionCanceled(self, actionServerHandle: str, goalUUID: str, result: Sequence[Any] | Mapping[Any, Any], /) -> None:
         """Ends a goal that is being cancelled.
         actionServerHandle: the server
+        goalUUID: the goal's identity
         result: a table with the fields of the result
         """
-    def actionServerActionExecute(self, actionServerHandle: str, goalUuid: str, /) -> None:
+    def actionServerActionExecute(self, actionServerHandle: str, goalUUID: str, /) -> None:
         """Begins a goal that was accepted with accept_and_defer.
         actionServerHandle: the server
+        goalUUID: the goal's identity
         """
-    def actionServerActionIsActive(self, actionServerHandle: str, goalUuid: str, /) -> bool:
+    def actionServerActionIsActive(self, actionServerHandle: str, goalUUID: str, /) -> bool:
         """Whether a goal is not finished.
         actionServerHandle: the server
+        goalUUID: the goal's identity
         """
-    def actionServerActionIsCanceling(self, actionServerHandle: str, goalUuid: str, /) -> bool:
+    def actionServerActionIsCanceling(self, actionServerHandle: str, goalUUID: str, /) -> bool:
         """Whether a goal is being cancelled.
         actionServerHandle: the server
+        goalUUID: the goal's identity
         """
-    def actionServerActionIsExecuting(self, actionServerHandle: str, goalUuid: str, /) -> bool:
+    def actionServerActionIsExecuting(self, actionServerHandle: str, goalUUID: str, /) -> bool:
         """Whether a goal has begun and is not being cancelled.
         actionServerHandle: the server
+        goalUUID: the goal's identity
         """
-    def actionServerActionSucceed(self, actionServerHandle: str, goalUuid: str, result: Sequence[Any] | Mapping[Any, Any], /) -> None:
+    def actionServerActionSucceed(self, actionServerHandle: str, goalUUID: str, result: Sequence[Any] | Mapping[Any, Any], /) -> None:
         """Ends a goal with success.
         actionServerHandle: the server
+        goalUUID: the goal's identity
         result: a table with the fields of the result
         """
-    def actionServerPublishFeedback(self, actionServerHandle: str, goalUuid: str, feedback: Sequence[Any] | Mapping[Any, Any], /) -> None:
+    def actionServerPublishFeedback(self, actionServerHandle: str, goalUUID: str, feedback: Sequence[Any] | Mapping[Any, Any], /) -> None:
         """Publishes feedback about a goal.
         actionServerHandle: the server
+        goalUUID: the goal's identity
         feedback: a table with the fields of the feedback
         """
     def actionServerTreatUInt8ArrayAsString(self, actionServerHandle: str, /) -> None:
@@ -8181,7 +8228,7 @@ class _simROS2:
         """A table of a type with all fields at their default values.
         type: `pkg/msg/Name`, `pkg/srv/NameRequest`, `pkg/srv/NameResponse`, `pkg/action/NameGoal`, `NameResult`, `NameFeedback`
         """
-    def createPublisher(self, topicName: str, topicType: str, Unused: int | None = ..., Unused2: bool | None = ..., qos: Any | None = ..., /) -> str:
+    def createPublisher(self, topicName: str, topicType: str, unused: int | None = ..., unused2: bool | None = ..., qos: Any | None = ..., /) -> str:
         """Creates a publisher.
         topicName: `/x`, `x` in the node's namespace, or `~/x` below the node
         topicType: `pkg/msg/Name`
@@ -8193,7 +8240,7 @@ class _simROS2:
         serviceType: `pkg/srv/Name`
         serviceCallback: a function, or the name of a global one
         """
-    def createSubscription(self, topicName: str, topicType: str, topicCallback: Callable[..., Any] | str, Unused: int | None = ..., qos: Any | None = ..., /) -> str:
+    def createSubscription(self, topicName: str, topicType: str, topicCallback: Callable[..., Any] | str, unused: int | None = ..., qos: Any | None = ..., /) -> str:
         """Creates a subscription. The callback gets the message as a table, at the start of an iteration of the loop.
         topicName: `/x`, `x` in the node's namespace, or `~/x` below the node
         topicType: `pkg/msg/Name`
@@ -8208,21 +8255,25 @@ class _simROS2:
         """The constants of a type.
         type: as in simROS2.createInterface
         """
-    def getParamBool(self, name: str, DefaultValue: bool | None = ..., /) -> tuple[bool, bool]:
+    def getParamBool(self, name: str, defaultValue: bool | None = ..., /) -> tuple[bool, bool]:
         """A parameter that is a truth value.
         name: its name
+        defaultValue: not used, as in CoppeliaSim
         """
-    def getParamDouble(self, name: str, DefaultValue: float | None = ..., /) -> tuple[bool, float]:
+    def getParamDouble(self, name: str, defaultValue: float | None = ..., /) -> tuple[bool, float]:
         """A parameter that is a number.
         name: its name
+        defaultValue: not used, as in CoppeliaSim
         """
-    def getParamInt(self, name: str, DefaultValue: int | None = ..., /) -> tuple[bool, int]:
+    def getParamInt(self, name: str, defaultValue: int | None = ..., /) -> tuple[bool, int]:
         """A parameter that is an integer.
         name: its name
+        defaultValue: not used, as in CoppeliaSim
         """
-    def getParamString(self, name: str, DefaultValue: str | None = ..., /) -> tuple[bool, str]:
+    def getParamString(self, name: str, defaultValue: str | None = ..., /) -> tuple[bool, str]:
         """A parameter that is a string.
         name: its name
+        defaultValue: not used, as in CoppeliaSim
         """
     def getSimulationTime(self, /) -> Any:
         """The time of the simulation.
@@ -8230,8 +8281,9 @@ class _simROS2:
     def getSystemTime(self, /) -> Any:
         """The time of the system.
         """
-    def getTime(self, clockType: int | None = ..., /) -> Any:
+    def getTime(self, clock_type: int | None = ..., /) -> Any:
         """The time of a clock. The clock of ROS is the system's, as that of any node without simulated time.
+        clock_type: simROS2.clock_type.ros, system or steady
         """
     def hasParam(self, name: str, /) -> bool:
         """Whether there is a parameter.
@@ -8248,12 +8300,13 @@ class _simROS2:
         topicCallback: a function, or the name of a global one
         queueSize: how many images wait
         """
-    def imageTransportPublish(self, publisherHandle: str, data: bytes | str, width: int, height: int, frameId: str, /) -> None:
+    def imageTransportPublish(self, publisherHandle: str, data: bytes | str, width: int, height: int, frame_id: str, /) -> None:
         """Publishes an image with three bytes per pixel, the lowest row first, as vision sensors have it.
         publisherHandle: the publisher
         data: width * height * 3 bytes, RGB
         width: pixels
         height: pixels
+        frame_id: of the header
         """
     def imageTransportShutdownPublisher(self, publisherHandle: str, /) -> None:
         """Ends a publisher of images.
@@ -8431,7 +8484,7 @@ class _simSubprocess:
         """
 
 class _simSurfRec:
-    def reconstruct_scale_space(self, pointCloudHandle: int, iterations: int | None = ..., neighbors: int | None = ..., samples: int | None = ..., squaredRadius: float | None = ..., /) -> int:
+    def reconstruct_scale_space(self, pointCloudHandle: int, iterations: int | None = ..., neighbors: int | None = ..., samples: int | None = ..., squared_radius: float | None = ..., /) -> int:
         """The surface of a point cloud as a new shape: points are moved onto the planes of their neighbours some times, a ball rolls over the smooth points, and
         the triangles where it rests are those of the shape, with the points as they were.
 
@@ -8440,6 +8493,7 @@ class _simSurfRec:
         iterations: how often the points are made smoother, 0 to 100
         neighbors: how many neighbours a point has, 3 to 100
         samples: of how many points the distances to their neighbours are measured, for the radius of the ball
+        squared_radius: square of the radius of the ball, square metres; -1: as measured
         """
 
 class _simUI:
@@ -9308,25 +9362,25 @@ class _simVision:
         evenlySpacedInAngularSpace: equal steps of the angle, else of the image
         returnColorData: returns the colours of the points in the first buffer, if something is there
         """
-    def createVelodyneHDL64E(self, visionSensorHandles: Sequence[int], frequency: float, options: int | None = ..., pointSize: int | None = ..., coloringCloseFarDist: Sequence[float] | None = ..., displayScalingFactor: float | None = ..., pointCloud: int | None = ..., /) -> int:
+    def createVelodyneHDL64E(self, visionSensorHandles: Sequence[int], frequency: float, options: int | None = ..., pointSize: int | None = ..., coloring_closeFarDist: Sequence[float] | None = ..., displayScalingFactor: float | None = ..., pointCloud: int | None = ..., /) -> int:
         """Creates a laser scanner of four vision sensors, whose scripts return the packets of simVision.velodyneDataFromWorkImg. Points
         are not displayed.
         visionSensorHandles: front, left, back, right; they are handled explicitly
         frequency: turns per second
         options: 4: results are angles and distance; other options are of the display
         pointSize: without effect
-        coloringCloseFarDist: without effect
+        coloring_closeFarDist: without effect
         displayScalingFactor: without effect
         pointCloud: -1: others are not supported
         """
-    def createVelodyneVPL16(self, visionSensorHandles: Sequence[int], frequency: float, options: int | None = ..., pointSize: int | None = ..., coloringCloseFarDist: Sequence[float] | None = ..., displayScalingFactor: float | None = ..., pointCloud: int | None = ..., /) -> int:
+    def createVelodyneVPL16(self, visionSensorHandles: Sequence[int], frequency: float, options: int | None = ..., pointSize: int | None = ..., coloring_closeFarDist: Sequence[float] | None = ..., displayScalingFactor: float | None = ..., pointCloud: int | None = ..., /) -> int:
         """Creates a laser scanner of four vision sensors, whose scripts return the packets of simVision.velodyneDataFromWorkImg. Points
         are not displayed.
         visionSensorHandles: front, left, back, right; they are handled explicitly
         frequency: turns per second
         options: 4: results are angles and distance; other options are of the display
         pointSize: without effect
-        coloringCloseFarDist: without effect
+        coloring_closeFarDist: without effect
         displayScalingFactor: without effect
         pointCloud: -1: others are not supported
         """
@@ -9355,8 +9409,9 @@ class _simVision:
         activeVisionSensorHandles: the left and the right sensor
         leftAndRightColors: red, green, blue of the left and of the right one; nothing for red and cyan
         """
-    def handleSpherical(self, passiveVisionSensorHandleForRgb: int, activeVisionSensorHandles: Sequence[int], horizontalAngle: float, verticalAngle: float, passiveVisionSensorHandleForDepth: int | None = ..., /) -> int:
+    def handleSpherical(self, passiveVisionSensorHandleForRGB: int, activeVisionSensorHandles: Sequence[int], horizontalAngle: float, verticalAngle: float, passiveVisionSensorHandleForDepth: int | None = ..., /) -> int:
         """Takes pictures in six directions, and composes a picture of all directions of them.
+        passiveVisionSensorHandleForRGB: the sensor for the resulting image, or -1
         activeVisionSensorHandles: front, top, back, bottom, left, right, which are square and see 90 degrees
         horizontalAngle: that the picture spans, rad
         verticalAngle: that the picture spans, rad

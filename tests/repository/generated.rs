@@ -56,6 +56,36 @@ fn documented_parameters_exist() {
     }
 }
 
+/// Defaults are what a script could write in the place of the argument: code that runs, and names that exist.
+#[test]
+fn defaults_are_values_in_lua() {
+    const CODE: &str = "function fault(default)
+        local module = default:match '^(sim%w*)%.'
+        local values = setmetatable({[module or false] = module and require(module)}, {__index = _G})
+        local get, fault = load('return ' .. default, default, 't', values)
+        if not get then return fault end
+        local ok, value = pcall(get)
+        if not ok then return value end
+        if value == nil and default ~= 'nil' then return 'there is no such value' end
+        return ''
+    end";
+    let mut sim = Simulator::new(Options::default());
+    let sandbox = sim.add_script(ScriptKind::Sandbox, "defaults", CODE.as_bytes()).expect("the chunk runs");
+    let mut faults = Vec::new();
+    for function in docs::functions().into_iter().chain(docs::module_functions()) {
+        let is_parameter = |word: &str| function.parameters.iter().any(|parameter| parameter.name == word);
+        let defaults = function.parameters.iter().filter_map(|parameter| parameter.default.as_deref());
+        // What depends on another parameter is no value by itself.
+        for default in defaults.filter(|default| !is_parameter(default.trim_start_matches('#'))) {
+            let fault = sim.call(&sandbox, "fault", &[Data::text(default)]).expect("it runs");
+            if fault != [Data::text("")] {
+                faults.push(format!("{}: {default}: {fault:?}", function.name));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
 /// Modules whose functions are described with types: what `require` returns is what the reference has.
 #[test]
 fn modules_have_the_functions_their_pages_describe() {

@@ -6,6 +6,7 @@
 mod approximated;
 mod callbacks;
 mod coverage;
+mod literal;
 mod lua_comments;
 mod lua_tokens;
 mod markdown;

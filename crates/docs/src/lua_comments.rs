@@ -29,18 +29,27 @@ pub(super) fn functions() -> Vec<Function> {
 /// The functions that the Lua part of a module describes: any comment with `@api module.name(...)`, and calls of `declare` with
 /// such a declaration. A class of the module may be named instead of the module.
 pub(super) fn in_module(module: &str, source: &str) -> Vec<Function> {
-    let mut comment: Vec<&str> = Vec::new();
     let mut found = Vec::new();
-    for line in source.lines().chain([""]) {
-        if line.starts_with("--") {
-            comment.push(line.trim_start_matches('-').trim());
-            continue;
-        }
+    for (comment, line) in comments(source) {
         let declarations = annotated(&comment).chain(declared(line));
         found.extend(declarations.filter_map(|declaration| described(module, module, declaration, &comment)));
-        comment.clear();
     }
     found
+}
+
+/// The comments of a source, each with the line below it.
+fn comments(source: &str) -> impl Iterator<Item = (Vec<&str>, &str)> {
+    let mut lines = source.lines().chain([""]);
+    std::iter::from_fn(move || {
+        let mut comment = Vec::new();
+        loop {
+            let line = lines.next()?;
+            if !line.starts_with("--") {
+                return Some((comment, line));
+            }
+            comment.push(line.trim_start_matches('-').trim());
+        }
+    })
 }
 
 /// The declarations in a comment.
@@ -55,21 +64,19 @@ fn declared(line: &str) -> Option<&str> {
 
 fn in_file(module: &str, source: &str) -> Vec<Function> {
     let category = CATEGORIES.iter().find(|(name, _)| *name == module).map_or("Other", |(_, category)| category);
-    let mut comment: Vec<&str> = Vec::new();
     let mut found = Vec::new();
-    for line in source.lines() {
-        if let Some(text) = line.strip_prefix("---").or_else(|| line.strip_prefix("--")) {
-            comment.push(text.trim());
-            continue;
-        }
-        if line.starts_with("function M.") {
-            found.extend(
-                annotated(&comment).filter_map(|declaration| described("sim", category, declaration, &comment)),
-            );
-        }
-        comment.clear();
+    for (comment, _) in comments(source).filter(|(_, line)| line.starts_with("function M.")) {
+        let declarations = annotated(&comment);
+        found.extend(declarations.filter_map(|declaration| described("sim", category, declaration, &comment)));
     }
     found
+}
+
+/// The parameters of a declaration, by name.
+#[cfg(test)]
+fn parameter_names(declaration: &str) -> impl Iterator<Item = &str> {
+    let parameters = declaration.split_once('(').map_or("", |(_, parameters)| parameters.trim_end_matches(')'));
+    split_list(parameters).into_iter().map(|text| parts(text).1)
 }
 
 /// `int result = module.name(int parameter)`, with the comment above it.
@@ -99,14 +106,24 @@ fn belongs(module: &str, name: &str) -> bool {
     is_class || name.strip_prefix(module).is_some_and(|rest| rest.starts_with(['.', ':']))
 }
 
-/// `int objectHandle = -1`, or `...`.
 fn parameter(text: &str, doc: &Doc) -> Parameter {
+    let (ty, name, default) = parts(text);
+    Parameter {
+        name: name.to_owned(),
+        ty: ty.to_owned(),
+        default: default.map(str::to_owned),
+        text: doc.of_parameter(name),
+    }
+}
+
+/// Type, name and default of `int objectHandle = -1`, or `...`.
+fn parts(text: &str) -> (&str, &str, Option<&str>) {
     let (declared, default) = match text.split_once('=') {
-        Some((declared, default)) => (declared.trim(), Some(default.trim().to_owned())),
+        Some((declared, default)) => (declared.trim(), Some(default.trim())),
         None => (text, None),
     };
     let (ty, name) = declared.rsplit_once(' ').unwrap_or(("any", declared));
-    Parameter { name: name.to_owned(), ty: ty.to_owned(), default, text: doc.of_parameter(name) }
+    (ty, name, default)
 }
 
 fn result(text: &str, doc: &Doc) -> Returned {
@@ -131,7 +148,7 @@ fn split_list(text: &str) -> Vec<&str> {
 
 #[cfg(test)]
 mod tests {
-    use super::in_file;
+    use super::{FILES, annotated, comments, declared, in_file, parameter_names};
 
     #[test]
     fn reads_a_comment() {
@@ -141,5 +158,41 @@ mod tests {
         assert_eq!(function.signature(), "float left = sim.wait(float dt, int[2] v = {1, 2}, ...)");
         assert_eq!((function.text.as_str(), function.category.as_str()), ("Waits.\nLong.", "Threads"));
         assert_eq!((function.parameters[0].text.as_str(), function.results[0].text.as_str()), ("seconds", "overshoot"));
+    }
+
+    /// What each `@param` names that is no parameter of the function below: what the declarations of a comment say, or else the code.
+    fn strays(source: &str) -> Vec<String> {
+        let source: String = source.lines().map(|line| line.trim_start().to_owned() + "\n").collect();
+        let mut strays = Vec::new();
+        for (comment, line) in comments(&source) {
+            let mut declarations: Vec<&str> = annotated(&comment).chain(declared(line)).collect();
+            if declarations.is_empty() {
+                let code = line.split_once("function").and_then(|(_, code)| code.split_once(')'));
+                declarations.extend(code.map(|(head, _)| head));
+            }
+            let known: Vec<&str> = declarations.into_iter().flat_map(parameter_names).collect();
+            let named = comment.iter().filter_map(|line| line.strip_prefix("@param")?.split_whitespace().next());
+            strays.extend(named.filter(|name| !known.contains(name)).map(str::to_owned));
+        }
+        strays
+    }
+
+    #[test]
+    fn descriptions_name_parameters() {
+        let mut described = 0;
+        for (file, source) in FILES {
+            described += source.matches("-- @param ").count();
+            assert_eq!(strays(source), [""; 0], "lua/{file}.lua describes what is no parameter");
+        }
+        assert!(described > 400, "{described} descriptions were read");
+    }
+
+    #[test]
+    fn a_description_of_no_parameter_is_found() {
+        let above = |line: &str| strays(&format!("--- Text.\n-- @param a one\n-- @param b, c two\n{line}"));
+        assert_eq!(above("-- @api sim.f(int a, int[] b = {1}, int c)\nfunction M.f(b) end"), ["b,"]);
+        assert_eq!(above("declare('simEigen.f(int a)', f)"), ["b,"]);
+        assert_eq!(above("    local function f(c, a)"), ["b,"]);
+        assert_eq!(above("local a = 1"), ["a", "b,"]);
     }
 }

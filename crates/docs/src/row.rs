@@ -1,6 +1,8 @@
 //! A function as described by its documentation.
 
+use super::literal::literal;
 use api::ApiFn;
+use script::DefaultValue;
 
 /// One documented function.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -43,7 +45,7 @@ impl Function {
         let parameters = function.params.iter().map(|param| Parameter {
             name: param.name.to_owned(),
             ty: param.ty.to_owned(),
-            default: param.default.map(lua_literal),
+            default: param.default.map(shown),
             text: doc.of_parameter(param.name),
         });
         Self {
@@ -168,34 +170,44 @@ impl Doc {
     }
 }
 
-/// A default value of Rust code in Lua's spelling.
-fn lua_literal(rust: &str) -> String {
-    match rust {
-        "None" | "Data::Nil" => "nil".to_owned(),
-        "Options::default()" | "Vec::new()" | "Data::Array(Vec::new())" | "Rest(Vec::new())" | "Table(Data::Nil)" => {
-            "{}".to_owned()
-        }
-        "String::new()" | "Bytes(Vec::new())" => "''".to_owned(),
-        "PI" => "math.pi".to_owned(),
-        "Frame::World" | "Frame::default()" => "sim.handle_world".to_owned(),
-        _ if rust.starts_with("Number(special::") => lua_literal(rust["Number(".len()..].trim_end_matches(')')),
-        _ if rust.starts_with("special::") => rust.replace("special::", "sim.handle_").to_lowercase(),
-        _ if rust.starts_with('[') => rust.replace('[', "{").replace(']', "}"),
-        _ => rust
-            .split_once('(')
-            .filter(|(name, _)| *name == "Number")
-            .map_or(rust, |(_, n)| n.trim_end_matches(')'))
-            .to_owned(),
-    }
+/// A default value as a script would write it.
+fn shown(default: DefaultValue) -> String {
+    default.constant.map_or_else(|| literal(&(default.value)()), str::to_owned)
 }
 
 #[cfg(test)]
 mod tests {
+    use std::collections::HashMap;
+
+    use super::literal;
+    use modules::ALL;
+    use script::pairs;
+
     #[test]
-    fn defaults_are_in_luas_spelling() {
-        for function in super::super::functions().into_iter().chain(super::super::module_functions()) {
-            for default in function.parameters.iter().filter_map(|parameter| parameter.default.as_ref()) {
-                assert!(!default.contains("::") && default != "None", "{}: {default}", function.name);
+    fn a_constant_has_the_value_of_the_default_it_is_shown_for() {
+        let constants =
+            ALL.iter().flat_map(|of| pairs(of.constants).map(|(name, value)| (format!("{}.{name}", of.name), value)));
+        let mut constants: HashMap<String, &str> = constants.collect();
+        constants.insert("math.pi".to_owned(), "3.141592653589793");
+        let mut checked = 0;
+        for function in ALL.iter().flat_map(|of| of.public_functions()) {
+            for default in function.params.iter().filter_map(|param| param.default) {
+                let Some(constant) = default.constant else { continue };
+                let value = literal(&(default.value)());
+                assert_eq!(constants.get(constant), Some(&value.as_str()), "{}: {constant}", function.name);
+                checked += 1;
+            }
+        }
+        assert!(checked > 30, "{checked} defaults are constants");
+    }
+
+    /// What an underscore or a capital means in Rust is of no concern to scripts.
+    #[test]
+    fn parameters_begin_with_a_small_letter() {
+        let functions = ALL.iter().flat_map(|of| of.public_functions().chain(of.inner.iter().copied().flatten()));
+        for function in functions {
+            for name in function.params.iter().map(|param| param.name).filter(|name| *name != "...") {
+                assert!(name.starts_with(|first: char| first.is_ascii_lowercase()), "{}: {name}", function.name);
             }
         }
     }

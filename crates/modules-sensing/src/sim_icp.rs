@@ -25,7 +25,7 @@ const FUNCTIONS: &[ApiFn] = functions![match_points, match_to_shape];
 /// @param template_handle the object that is to be moved: its points, corners or vertices
 /// @param outlier_treshold points farther than that from the model do not count, metres; -1: all do
 /// @return m matrix of the template, for sim.setObjectMatrix
-#[api("simICP.match")]
+#[api("simICP.match", snake_case)]
 fn match_points(
     cx: &Cx,
     model_handle: Handle,
@@ -44,7 +44,7 @@ fn match_points(
 /// @param template_handle the object that is to be moved: a point cloud, an octree or a shape
 /// @param outlier_treshold points farther than that from the shape do not count, metres; -1: all do
 /// @return m matrix of the template, for sim.setObjectMatrix
-#[api("simICP.matchToShape")]
+#[api("simICP.matchToShape", snake_case)]
 fn match_to_shape(
     cx: &Cx,
     model_handle: Handle,

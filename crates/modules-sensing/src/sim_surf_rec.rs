@@ -34,7 +34,9 @@ fn reconstruct_scale_space(
     #[default(4)] iterations: i64,
     #[default(12)] neighbors: i64,
     #[default(300)] samples: i64,
-    #[default(-1.0)] squared_radius: f64,
+    #[default(-1.0)]
+    #[name("squared_radius")]
+    squared_radius: f64,
 ) -> Result<Handle> {
     let options = SurfaceOptions {
         iterations: within("iterations", iterations, [0, 100])?,

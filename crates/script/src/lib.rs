@@ -26,17 +26,18 @@ pub mod step;
 pub mod test_bench;
 pub(crate) mod video;
 
+pub use binding::ApiFn;
 pub use binding::args::{
-    Args, Bytes, FromScript, Handles, LuaNumber, LuaString, Number, ObjectRef, Rest, ScriptFunction, Table,
+    Absence, Args, Bytes, FromScript, Handles, LuaNumber, LuaString, Number, ObjectRef, Rest, ScriptFunction, Table,
 };
 pub use binding::cx::Cx;
 pub use binding::hooks::{Hooks, Host, ModuleHook};
 pub use binding::module::Module;
+pub use binding::param::{DefaultValue, Param};
 pub use binding::returns::{IntoScript, Nil, Results};
 #[doc(hidden)]
 pub use binding::sink::Sink;
 pub use binding::source::{Source, Values};
-pub use binding::{ApiFn, Param};
 pub use calls::callback::SysCall;
 pub use error::{ApiError, ApiResult};
 pub use lifecycle::instance::Script;

@@ -46,7 +46,8 @@ end
 
 --- A box without a lid, of five cuboids in one shape.
 -- @param size outer lengths
--- @param inside, below thickness of walls and floor
+-- @param inside thickness of the walls
+-- @param below thickness of the floor
 function M.createOpenBox(size, inside, below, density, inertiaFactor, dynamic, respondable, colour)
     local x, y, z = table.unpack(size)
     local walls = {

@@ -3,7 +3,7 @@
 use api_macro::api;
 
 use crate::{ApiError, ApiFn, Args, Cx, FromScript, Result, functions};
-use scene::Data;
+use scene::{Data, Key};
 use script::Source;
 use script::{
     Bytes, Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Table, Text, Vector2, Vector3,
@@ -52,6 +52,14 @@ struct Options {
     no_error: bool,
     /// Only names that begin with it.
     prefix: String,
+}
+
+impl From<Options> for Data {
+    fn from(Options { no_error, prefix }: Options) -> Self {
+        let no_error = no_error.then(|| (Key::Text(b"noError".to_vec()), true.into()));
+        let prefix = (!prefix.is_empty()).then(|| (Key::Text(b"prefix".to_vec()), prefix.into()));
+        Self::Map(no_error.into_iter().chain(prefix).collect())
+    }
 }
 
 impl FromScript for Options {

@@ -28,7 +28,7 @@ struct Banners(RefCell<BTreeSet<i64>>);
 /// @param options bits
 /// @return bannerID the smallest free number from 1
 #[api("sim.addBanner")]
-fn add_banner(cx: &mut Cx, text: String, size: f64, options: Number, further: Rest) -> Result<i64> {
+fn add_banner(cx: &mut Cx, text: String, size: f64, options: Number, #[name("...")] further: Rest) -> Result<i64> {
     let _ = (text, size, options, further);
     let state = cx.module_state::<Banners>();
     let mut banners = state.0.borrow_mut();
@@ -42,7 +42,7 @@ fn add_banner(cx: &mut Cx, text: String, size: f64, options: Number, further: Re
 /// @param bannerID from sim.addBanner, or sim.handle_all
 /// @return result 1
 #[api("sim.removeBanner")]
-fn remove_banner(cx: &mut Cx, banner_id: Number) -> Result<i64> {
+fn remove_banner(cx: &mut Cx, #[name("bannerID")] banner_id: Number) -> Result<i64> {
     let state = cx.module_state::<Banners>();
     let mut banners = state.0.borrow_mut();
     if banner_id.0 == special::ALL {

@@ -61,7 +61,7 @@ fn add_graph_stream(
     unit: String,
     #[default(0)] options: Number,
     #[default([1.0, 0.0, 0.0])] color: [f64; 3],
-    #[default(PI)] cyclic_range: f64,
+    #[default(PI, "math.pi")] cyclic_range: f64,
 ) -> Result<i64> {
     let transformation = Transformation {
         cyclic_range: cyclic_range.finite().ok_or(SceneError::InvalidArgument)?,

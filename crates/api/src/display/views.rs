@@ -62,7 +62,7 @@ fn adjust_view(
     view_handle_or_index: Number,
     object_handle: Number,
     options: Number,
-    label: Rest,
+    #[name("...")] label: Rest,
 ) -> Result<i64> {
     let _ = options;
     if object_handle.0 >= 0 {
@@ -99,7 +99,7 @@ fn add_particle_object(
     params: Data,
     life_time: f64,
     max_item_count: Number,
-    colour: Rest,
+    #[name("...")] colour: Rest,
 ) -> Result<i64> {
     let _ = (object_type, size, density, params, life_time, max_item_count, colour);
     cx.env().warn_once("sim.addParticleObject", "particles are not simulated.");

@@ -7,7 +7,7 @@ use geometry::pose::euler;
 use geometry::pose::{self, Pose};
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
-use scene::{Frame, Handle, Placement, SceneError, flag, special};
+use scene::{Data, Frame, Handle, Placement, SceneError, flag, special};
 use script::Source;
 use script::{Args, FromScript, ObjectRef};
 
@@ -38,7 +38,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 fn get_object_position(
     cx: &Cx,
     object_handle: ObjectRef,
-    #[default(special::WORLD)] relative_to_object_handle: PositionFrame,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: PositionFrame,
 ) -> Result<[f64; 3]> {
     Ok(pose_in(cx, object_handle, relative_to_object_handle)?.translation.vector.into())
 }
@@ -53,7 +53,7 @@ fn set_object_position(
     cx: &mut Cx,
     object_handle: ObjectRef,
     position: Operand<3, LegacyFrame>,
-    #[default(special::WORLD)] relative_to_object_handle: Operand<3, PositionFrame>,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<3, PositionFrame>,
 ) -> Result<()> {
     let (position, frame) = arrange(position, relative_to_object_handle)?;
     if frame == Frame::Inverse {
@@ -71,7 +71,7 @@ fn set_object_position(
 fn get_object_quaternion(
     cx: &Cx,
     object_handle: ObjectRef,
-    #[default(special::WORLD)] relative_to_object_handle: StrictFrame,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: StrictFrame,
 ) -> Result<[f64; 4]> {
     let pose = pose_in(cx, object_handle, relative_to_object_handle)?;
     let mut quaternion = pose::quaternion_to_array(&pose.rotation);
@@ -91,7 +91,7 @@ fn set_object_quaternion(
     cx: &mut Cx,
     object_handle: ObjectRef,
     quaternion: Operand<4, LegacyFrame>,
-    #[default(special::WORLD)] relative_to_object_handle: Operand<4, StrictFrame>,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<4, StrictFrame>,
 ) -> Result<()> {
     let (mut quaternion, frame) = arrange(quaternion, relative_to_object_handle)?;
     if object_handle.has(flag::WXYZ_QUATERNION) {
@@ -109,7 +109,7 @@ fn set_object_quaternion(
 fn get_object_orientation(
     cx: &Cx,
     object_handle: ObjectRef,
-    #[default(special::WORLD)] relative_to_object_handle: StrictFrame,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: StrictFrame,
 ) -> Result<[f64; 3]> {
     Ok(euler::rotation_to_euler(&pose_in(cx, object_handle, relative_to_object_handle)?.rotation))
 }
@@ -124,7 +124,7 @@ fn set_object_orientation(
     cx: &mut Cx,
     object_handle: ObjectRef,
     euler_angles: Operand<3, LegacyFrame>,
-    #[default(special::WORLD)] relative_to_object_handle: Operand<3, StrictFrame>,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<3, StrictFrame>,
 ) -> Result<()> {
     let (euler, frame) = arrange(euler_angles, relative_to_object_handle)?;
     place(cx, object_handle, Placement::Rotation(euler::rotation_from_euler(&euler)), frame)
@@ -139,7 +139,7 @@ fn set_object_orientation(
 fn get_object_pose(
     cx: &Cx,
     object_handle: ObjectRef,
-    #[default(special::WORLD)] relative_to_object_handle: StrictFrame,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: StrictFrame,
 ) -> Result<[f64; 7]> {
     let mut pose = pose::pose_to_array(&pose_in(cx, object_handle, relative_to_object_handle)?);
     if object_handle.has(flag::WXYZ_QUATERNION) {
@@ -158,7 +158,7 @@ fn set_object_pose(
     cx: &mut Cx,
     object_handle: ObjectRef,
     pose: Operand<7, LegacyFrame>,
-    #[default(special::WORLD)] relative_to_object_handle: Operand<7, StrictFrame>,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<7, StrictFrame>,
 ) -> Result<()> {
     let (mut pose, frame) = arrange(pose, relative_to_object_handle)?;
     if object_handle.has(flag::WXYZ_QUATERNION) {
@@ -176,7 +176,7 @@ fn set_object_pose(
 fn get_object_matrix(
     cx: &Cx,
     object_handle: ObjectRef,
-    #[default(special::WORLD)] relative_to_object_handle: StrictFrame,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: StrictFrame,
 ) -> Result<[f64; 12]> {
     Ok(pose::pose_to_matrix(&pose_in(cx, object_handle, relative_to_object_handle)?))
 }
@@ -191,7 +191,7 @@ fn set_object_matrix(
     cx: &mut Cx,
     object_handle: ObjectRef,
     matrix: Operand<12, LegacyFrame>,
-    #[default(special::WORLD)] relative_to_object_handle: Operand<12, StrictFrame>,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<12, StrictFrame>,
 ) -> Result<()> {
     let (matrix, frame) = arrange(matrix, relative_to_object_handle)?;
     place(cx, object_handle, Placement::Pose(pose::pose_from_matrix(&matrix)), frame)
@@ -288,6 +288,15 @@ impl<const N: usize, F: From<i64>> From<i64> for Operand<N, F> {
     }
 }
 
+impl<const N: usize, F: Into<Data>> From<Operand<N, F>> for Data {
+    fn from(operand: Operand<N, F>) -> Self {
+        match operand {
+            Operand::Numbers(numbers) => numbers.into(),
+            Operand::Frame(frame) => frame.into(),
+        }
+    }
+}
+
 /// The numbers and the frame, whichever came first.
 fn arrange<const N: usize>(
     first: Operand<N, impl Into<Frame>>,
@@ -326,6 +335,12 @@ macro_rules! frames {
         impl From<$name> for Frame {
             fn from(frame: $name) -> Self {
                 frame.0
+            }
+        }
+
+        impl From<$name> for Data {
+            fn from(frame: $name) -> Self {
+                frame.0.into()
             }
         }
 

@@ -106,7 +106,7 @@ fn get_objects(cx: &Cx, index: i64, object_type: i64) -> Result<i64> {
 fn get_objects_in_tree(
     cx: &Cx,
     tree_base_handle: Number,
-    #[default(special::ALL)] object_type: i64,
+    #[default(special::ALL, "sim.handle_all")] object_type: i64,
     #[default(0)] options: i64,
 ) -> Result<Vec<Handle>> {
     let scene = cx.scene();
@@ -298,7 +298,7 @@ fn objects_of(cx: &Cx, what: &Data, handle: Number) -> Result<Vec<i64>> {
 fn add_object_to_selection(
     cx: &mut Cx,
     #[default(Data::Nil)] what: Data,
-    #[default(special::WORLD)] object_handle: Number,
+    #[default(special::WORLD, "sim.handle_world")] object_handle: Number,
 ) -> Result<i64> {
     let added = objects_of(cx, &what, object_handle)?;
     let added = added.into_iter().filter_map(Handle::from_raw);
@@ -316,7 +316,7 @@ fn add_object_to_selection(
 fn remove_object_from_selection(
     cx: &mut Cx,
     #[default(Data::Nil)] what: Data,
-    #[default(special::WORLD)] object_handle: Number,
+    #[default(special::WORLD, "sim.handle_world")] object_handle: Number,
 ) -> Result<i64> {
     let removed = objects_of(cx, &what, object_handle)?;
     if removed.iter().any(|&raw| Handle::from_raw(raw).is_none_or(|handle| !cx.scene().exists(handle))) {

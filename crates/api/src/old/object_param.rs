@@ -40,7 +40,11 @@ fn object(raw: i64) -> Result<Handle> {
 /// @param parameterID sim.objintparam_*, sim.shapeintparam_*, ...
 /// @return parameter nothing if the object has no such parameter
 #[api("sim.getObjectInt32Param")]
-fn get_object_int32_param(cx: &Cx, object_handle: Number, parameter_id: Number) -> Result<Option<i64>> {
+fn get_object_int32_param(
+    cx: &Cx,
+    object_handle: Number,
+    #[name("parameterID")] parameter_id: Number,
+) -> Result<Option<i64>> {
     match script(cx, object_handle.0, parameter_id.0) {
         Some(script) => script::int_param(cx, &script, parameter_id.0).map(Some),
         None => Ok(cx.scene().int_param(object(object_handle.0)?, parameter_id.0)?),
@@ -54,7 +58,12 @@ fn get_object_int32_param(cx: &Cx, object_handle: Number, parameter_id: Number) 
 /// @param parameter the value
 /// @return result 1, or 0 when the object has no such parameter
 #[api("sim.setObjectInt32Param")]
-fn set_object_int32_param(cx: &mut Cx, object_handle: Number, parameter_id: Number, parameter: Number) -> Result<i64> {
+fn set_object_int32_param(
+    cx: &mut Cx,
+    object_handle: Number,
+    #[name("parameterID")] parameter_id: Number,
+    parameter: Number,
+) -> Result<i64> {
     if let Some(script) = script(cx, object_handle.0, parameter_id.0) {
         script::set_param(cx, &script, parameter_id.0, Data::Int(parameter.0))?;
         return Ok(1);
@@ -69,7 +78,11 @@ fn set_object_int32_param(cx: &mut Cx, object_handle: Number, parameter_id: Numb
 /// @param parameterID sim.objfloatparam_*, sim.jointfloatparam_*, ...
 /// @return parameter nothing if the object has no such parameter
 #[api("sim.getObjectFloatParam")]
-fn get_object_float_param(cx: &Cx, object_handle: Handle, parameter_id: Number) -> Result<Option<f64>> {
+fn get_object_float_param(
+    cx: &Cx,
+    object_handle: Handle,
+    #[name("parameterID")] parameter_id: Number,
+) -> Result<Option<f64>> {
     Ok(cx.scene().float_param(object_handle, parameter_id.0)?)
 }
 
@@ -80,7 +93,12 @@ fn get_object_float_param(cx: &Cx, object_handle: Handle, parameter_id: Number) 
 /// @param parameter the value
 /// @return result 1, or 0 when the object has no such parameter
 #[api("sim.setObjectFloatParam")]
-fn set_object_float_param(cx: &mut Cx, object_handle: Handle, parameter_id: Number, parameter: f64) -> Result<i64> {
+fn set_object_float_param(
+    cx: &mut Cx,
+    object_handle: Handle,
+    #[name("parameterID")] parameter_id: Number,
+    parameter: f64,
+) -> Result<i64> {
     Ok(i64::from(cx.scene_mut().set_kind_float_param(object_handle, parameter_id.0, parameter)?))
 }
 
@@ -90,7 +108,11 @@ fn set_object_float_param(cx: &mut Cx, object_handle: Handle, parameter_id: Numb
 /// @param parameterID its number
 /// @return params nothing
 #[api("sim.getObjectFloatArrayParam")]
-fn get_object_float_array_param(cx: &Cx, object_handle: Handle, _parameter_id: Number) -> Result<Option<Vec<f64>>> {
+fn get_object_float_array_param(
+    cx: &Cx,
+    object_handle: Handle,
+    #[name("parameterID")] _parameter_id: Number,
+) -> Result<Option<Vec<f64>>> {
     cx.scene().object(object_handle)?;
     Ok(None)
 }
@@ -104,7 +126,7 @@ fn get_object_float_array_param(cx: &Cx, object_handle: Handle, _parameter_id: N
 fn set_object_float_array_param(
     cx: &mut Cx,
     object_handle: Handle,
-    _parameter_id: Number,
+    #[name("parameterID")] _parameter_id: Number,
     _params: Vec<f64>,
 ) -> Result<()> {
     cx.scene().object(object_handle)?;
@@ -117,7 +139,11 @@ fn set_object_float_array_param(
 /// @param parameterID sim.objstringparam_*, sim.dummystringparam_*, sim.shapestringparam_*
 /// @return parameter nothing if the object has no such parameter
 #[api("sim.getObjectStringParam")]
-fn get_object_string_param(cx: &Cx, object_handle: Number, parameter_id: Number) -> Result<Option<Text>> {
+fn get_object_string_param(
+    cx: &Cx,
+    object_handle: Number,
+    #[name("parameterID")] parameter_id: Number,
+) -> Result<Option<Text>> {
     match script(cx, object_handle.0, parameter_id.0) {
         Some(script) => script::string_param(cx, &script, parameter_id.0),
         None => Ok(cx.scene().string_param(object(object_handle.0)?, parameter_id.0)?.map(Text)),
@@ -130,7 +156,12 @@ fn get_object_string_param(cx: &Cx, object_handle: Number, parameter_id: Number)
 /// @param parameterID sim.dummystringparam_*, sim.shapestringparam_*
 /// @param parameter the text
 #[api("sim.setObjectStringParam")]
-fn set_object_string_param(cx: &mut Cx, object_handle: Number, parameter_id: Number, parameter: Bytes) -> Result<()> {
+fn set_object_string_param(
+    cx: &mut Cx,
+    object_handle: Number,
+    #[name("parameterID")] parameter_id: Number,
+    parameter: Bytes,
+) -> Result<()> {
     if let Some(script) = script(cx, object_handle.0, parameter_id.0) {
         return script::set_param(cx, &script, parameter_id.0, Data::Text(parameter.0));
     }

@@ -59,7 +59,11 @@ fn sim_initialize_path_search(
 /// @param temporaryPathSearchObject from simInitializePathSearch
 /// @return result
 #[api("simPerformPathSearchStep")]
-fn sim_perform_path_search_step(_cx: &Cx, temporary_path_search_object: Number, further: Rest) -> Result<i64> {
+fn sim_perform_path_search_step(
+    _cx: &Cx,
+    temporary_path_search_object: Number,
+    #[name("...")] further: Rest,
+) -> Result<i64> {
     let _ = (temporary_path_search_object, further);
     no_such_task()
 }

@@ -170,7 +170,7 @@ fn get_script_handle(
     cx: &Cx,
     #[default(Data::Nil)] script_type: Data,
     #[default(Data::Nil)] script_name: Data,
-    #[default(special::WORLD)] object_handle: Number,
+    #[default(special::WORLD, "sim.handle_world")] object_handle: Number,
 ) -> Result<i64> {
     let script_type = match script_type {
         Data::Nil | Data::Int(special::SELF) => return Ok(cx.script().id),
@@ -266,7 +266,7 @@ fn get_script_name(cx: &Cx, script_handle: Number) -> Result<Data> {
 /// @param attributeID sim.scriptattribute_*
 /// @return attribute
 #[api("sim.getScriptAttribute")]
-fn get_script_attribute(cx: &Cx, script_handle: Number, attribute_id: Number) -> Result<Data> {
+fn get_script_attribute(cx: &Cx, script_handle: Number, #[name("attributeID")] attribute_id: Number) -> Result<Data> {
     read(cx, &script_of(cx, script_handle.0)?, Attribute::from_number(attribute_id.0)?)
 }
 
@@ -284,7 +284,12 @@ fn get_script_execution_count(cx: &Cx) -> Result<i64> {
 /// @param attributeID sim.scriptattribute_*
 /// @param attribute the new value
 #[api("sim.setScriptAttribute")]
-fn set_script_attribute(cx: &mut Cx, script_handle: Number, attribute_id: Number, attribute: Data) -> Result<()> {
+fn set_script_attribute(
+    cx: &mut Cx,
+    script_handle: Number,
+    #[name("attributeID")] attribute_id: Number,
+    attribute: Data,
+) -> Result<()> {
     write(cx, &script_of(cx, script_handle.0)?, Attribute::from_number(attribute_id.0)?, attribute)
 }
 
@@ -294,7 +299,7 @@ fn set_script_attribute(cx: &mut Cx, script_handle: Number, attribute_id: Number
 /// @param parameterID sim.scriptintparam_*
 /// @return parameter
 #[api("sim.getScriptInt32Param")]
-fn get_script_int32_param(cx: &Cx, script_handle: Number, parameter_id: Number) -> Result<i64> {
+fn get_script_int32_param(cx: &Cx, script_handle: Number, #[name("parameterID")] parameter_id: Number) -> Result<i64> {
     int_param(cx, &script_of(cx, script_handle.0)?, parameter_id.0)
 }
 
@@ -322,7 +327,12 @@ pub(crate) fn set_param(cx: &mut Cx, script: &Rc<Script>, parameter: i64, value:
 /// @param parameterID sim.scriptintparam_*
 /// @param parameter the new value
 #[api("sim.setScriptInt32Param")]
-fn set_script_int32_param(cx: &mut Cx, script_handle: Number, parameter_id: Number, parameter: Number) -> Result<()> {
+fn set_script_int32_param(
+    cx: &mut Cx,
+    script_handle: Number,
+    #[name("parameterID")] parameter_id: Number,
+    parameter: Number,
+) -> Result<()> {
     let attribute = Attribute::from_number(parameter_id.0)?;
     write(cx, &script_of(cx, script_handle.0)?, attribute, Data::Int(parameter.0))
 }
@@ -333,7 +343,11 @@ fn set_script_int32_param(cx: &mut Cx, script_handle: Number, parameter_id: Numb
 /// @param parameterID sim.scriptstringparam_*
 /// @return parameter
 #[api("sim.getScriptStringParam")]
-fn get_script_string_param(cx: &Cx, script_handle: Number, parameter_id: Number) -> Result<Data> {
+fn get_script_string_param(
+    cx: &Cx,
+    script_handle: Number,
+    #[name("parameterID")] parameter_id: Number,
+) -> Result<Data> {
     read(cx, &script_of(cx, script_handle.0)?, Attribute::from_number(parameter_id.0)?)
 }
 
@@ -343,7 +357,12 @@ fn get_script_string_param(cx: &Cx, script_handle: Number, parameter_id: Number)
 /// @param parameterID sim.scriptstringparam_*
 /// @param parameter the new value
 #[api("sim.setScriptStringParam")]
-fn set_script_string_param(cx: &mut Cx, script_handle: Number, parameter_id: Number, parameter: Bytes) -> Result<()> {
+fn set_script_string_param(
+    cx: &mut Cx,
+    script_handle: Number,
+    #[name("parameterID")] parameter_id: Number,
+    parameter: Bytes,
+) -> Result<()> {
     let attribute = Attribute::from_number(parameter_id.0)?;
     write(cx, &script_of(cx, script_handle.0)?, attribute, Data::Text(parameter.0))
 }

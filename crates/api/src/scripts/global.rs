@@ -150,7 +150,7 @@ fn add_statusbar_message(cx: &Cx, #[default(None)] message: Option<String>) -> R
 /// @param cmd the service
 /// @return result its result
 #[api("auxFunc")]
-fn aux_func(cx: &Cx, cmd: String, _arguments: Rest) -> Result<Results> {
+fn aux_func(cx: &Cx, cmd: String, #[name("...")] _arguments: Rest) -> Result<Results> {
     let _ = cx;
     Ok(Results(match cmd.as_str() {
         "headless" | "useBuffers" => vec![Data::Bool(true)],
@@ -217,10 +217,10 @@ fn load_plugin(cx: &mut Cx, name: String) -> Result<Option<Data>> {
 ///
 /// @param plugin its name
 /// @param place of the function among those of the plugin, from 0
-/// @param values what the function gets
+/// @param ... what the function gets
 /// @return results what the function has left on its stack
 #[api("_callPlugin")]
-fn call_plugin(cx: &mut Cx, plugin: String, place: i64, values: Rest) -> Result<Results> {
+fn call_plugin(cx: &mut Cx, plugin: String, place: i64, #[name("...")] values: Rest) -> Result<Results> {
     // A place that is none is no function of the plugin.
     let place = usize::try_from(place).unwrap_or(usize::MAX);
     cx.call_plugin(&plugin, place, values.0).map(Results)
@@ -237,9 +237,10 @@ fn unload_plugin(cx: &mut Cx, name: String, #[default(false)] force: bool) -> Re
 
 /// Accepted for scripts that describe themselves to the original's editor.
 ///
-/// @param moduleName, infos ignored
+/// @param moduleName ignored
+/// @param ... ignored
 #[api("registerCodeEditorInfos")]
-fn register_code_editor_infos(cx: &Cx, _module_name: String, _infos: Rest) -> Result<()> {
+fn register_code_editor_infos(cx: &Cx, _module_name: String, #[name("...")] _infos: Rest) -> Result<()> {
     let _ = cx;
     Ok(())
 }

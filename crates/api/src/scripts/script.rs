@@ -89,7 +89,12 @@ fn init_script(cx: &mut Cx, script_handle: i64) -> Result<()> {
 /// @param scriptName the object the script belongs to, by path or handle; the display name of an add-on
 /// @return scriptHandle -1 if the object has no such script
 #[api("sim.getScript")]
-fn get_script(cx: &Cx, script_type: i64, #[default(Data::Nil)] script_name: Data, names: Rest) -> Result<i64> {
+fn get_script(
+    cx: &Cx,
+    script_type: i64,
+    #[default(Data::Nil)] script_name: Data,
+    #[name("...")] names: Rest,
+) -> Result<i64> {
     if script_type == special::SELF {
         return Ok(cx.script().id);
     }
@@ -116,7 +121,12 @@ fn get_script(cx: &Cx, script_type: i64, #[default(Data::Nil)] script_name: Data
 /// @param scriptHandle the script
 /// @return ... what the function returned
 #[api("sim.callScriptFunction")]
-fn call_script_function(cx: &mut Cx, function_name: Callee, script_handle: Callee, arguments: Rest) -> Result<Results> {
+fn call_script_function(
+    cx: &mut Cx,
+    function_name: Callee,
+    script_handle: Callee,
+    #[name("...")] arguments: Rest,
+) -> Result<Results> {
     let (name, raw) = match (function_name.0, script_handle.0) {
         (Data::Int(raw), Data::Text(name)) | (Data::Text(name) | Data::Buffer(name), Data::Int(raw)) => (name, raw),
         (Data::Text(_) | Data::Buffer(_), _) => return Err(ApiError::NotA { position: 2, expected: "integer" }),
@@ -166,7 +176,7 @@ fn execute_script_string(cx: &mut Cx, string_to_execute: Bytes, script_handle: i
 ///
 /// @param message a table; by convention with `id` and `data`
 #[api("sim.broadcastMsg")]
-fn broadcast_msg(cx: &mut Cx, message: Data, options: Rest) -> Result<()> {
+fn broadcast_msg(cx: &mut Cx, message: Data, #[name("...")] options: Rest) -> Result<()> {
     if !matches!(message, Data::Array(_) | Data::Map(_)) {
         return Err(ApiError::ArgumentType);
     }

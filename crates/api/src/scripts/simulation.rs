@@ -109,7 +109,7 @@ fn callback(number: i64) -> Result<SysCall> {
 /// @param callType sim.syscb_*
 /// @return count how many scripts ran it
 #[api("sim.handleEmbeddedScripts")]
-fn handle_embedded_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<i64> {
+fn handle_embedded_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<i64> {
     main_script_only(cx)?;
     let simulation = call_group(cx, Group::Simulation, call_type, &arguments)?;
     Ok(simulation + call_group(cx, Group::Customization, call_type, &arguments)?)
@@ -120,7 +120,7 @@ fn handle_embedded_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Resu
 /// @param callType sim.syscb_*
 /// @return count how many scripts ran it
 #[api("sim.handleSimulationScripts")]
-fn handle_simulation_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<i64> {
+fn handle_simulation_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<i64> {
     if main_script_only(cx).is_err() {
         return Ok(-1);
     }
@@ -132,7 +132,7 @@ fn handle_simulation_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Re
 /// @param callType sim.syscb_*
 /// @return count how many scripts ran it
 #[api("sim.handleCustomizationScripts")]
-fn handle_customization_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<i64> {
+fn handle_customization_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<i64> {
     main_script_only(cx)?;
     call_group(cx, Group::Customization, call_type, &arguments)
 }
@@ -142,7 +142,7 @@ fn handle_customization_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) ->
 /// @param callType sim.syscb_*
 /// @return count how many add-ons ran it
 #[api("sim.handleAddOnScripts")]
-fn handle_add_on_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<i64> {
+fn handle_add_on_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<i64> {
     main_script_only(cx)?;
     call_group(cx, Group::AddOn, call_type, &arguments)
 }
@@ -151,7 +151,7 @@ fn handle_add_on_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result
 ///
 /// @param callType sim.syscb_*
 #[api("sim.handleSandboxScript")]
-fn handle_sandbox_script(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<()> {
+fn handle_sandbox_script(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<()> {
     main_script_only(cx)?;
     call_group(cx, Group::Sandbox, call_type, &arguments).map(drop)
 }

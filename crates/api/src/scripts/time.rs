@@ -46,7 +46,7 @@ fn get_random(cx: &mut Cx, #[default(None)] seed: Option<Number>) -> Result<f64>
 /// @param scriptHandle the script
 /// @return stackTraceback
 #[api("sim.getStackTraceback")]
-fn get_stack_traceback(cx: &Cx, #[default(special::SELF)] script_handle: Number) -> Result<String> {
+fn get_stack_traceback(cx: &Cx, #[default(special::SELF, "sim.handle_self")] script_handle: Number) -> Result<String> {
     let script = script_of(cx, script_handle.0)?;
     cx.traceback(&script)
 }

@@ -59,14 +59,14 @@ fn get_decimated_mesh(
 ///
 /// @param shapeHandle the shape
 /// @param options 1: the shape itself changes, else a new one is made
-/// @param parameters intParams and floatParams: not used
+/// @param ... intParams and floatParams: not used
 /// @return shapeHandle the compound, or a simple shape when it is of one piece
 #[api("sim.convexDecompose")]
 fn convex_decompose(
     cx: &mut Cx,
     shape_handle: Handle,
     options: Number,
-    #[default(Rest(Vec::new()))] parameters: Rest,
+    #[name("...")] parameters: Rest,
 ) -> Result<Handle> {
     let _ = parameters;
     let (shape, pose) = cx.scene().convex_decomposition(shape_handle)?;

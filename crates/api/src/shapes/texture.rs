@@ -44,8 +44,12 @@ fn create_texture(
     file_name: String,
     options: Number,
     #[default(None)] plane_sizes: Option<[f64; 2]>,
-    #[default(None)] scaling_uv: Option<[f64; 2]>,
-    #[default(None)] xy_g: Option<Vec<f64>>,
+    #[default(None)]
+    #[name("scalingUV")]
+    scaling_uv: Option<[f64; 2]>,
+    #[default(None)]
+    #[name("xy_g")]
+    xy_g: Option<Vec<f64>>,
     #[default(0)] fixed_resolution: Number,
     #[default(None)] resolution: Option<[f64; 2]>,
 ) -> Result<(Handle, i64, IntPair)> {

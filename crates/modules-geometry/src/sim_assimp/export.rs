@@ -40,7 +40,7 @@ fn export_shapes(
     filename: String,
     format_id: String,
     #[default(1.0)] scaling: f64,
-    #[default(1)] up_vector: Number,
+    #[default(1, "simAssimp.upVector.z")] up_vector: Number,
     #[default(0)] options: Number,
 ) -> Result<()> {
     let format = export_format(&format_id)?;
@@ -89,7 +89,7 @@ fn export_meshes(
     filename: String,
     format_id: String,
     #[default(1.0)] scaling: f64,
-    #[default(1)] up_vector: Number,
+    #[default(1, "simAssimp.upVector.z")] up_vector: Number,
     #[default(0)] options: Number,
 ) -> Result<()> {
     let _ = options;

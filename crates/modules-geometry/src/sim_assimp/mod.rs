@@ -54,7 +54,7 @@ fn import_shapes(
     filenames: String,
     #[default(512)] max_texture_size: Number,
     #[default(0.0)] scaling: f64,
-    #[default(0)] up_vector: Number,
+    #[default(0, "simAssimp.upVector.auto")] up_vector: Number,
     #[default(0)] options: Number,
 ) -> Result<Vec<Handle>> {
     let has = |bit: i64| options.0 & bit != 0;
@@ -98,7 +98,7 @@ fn import_meshes(
     cx: &Cx,
     filenames: String,
     #[default(0.0)] scaling: f64,
-    #[default(0)] up_vector: Number,
+    #[default(0, "simAssimp.upVector.auto")] up_vector: Number,
     #[default(0)] options: Number,
 ) -> Result<(Data, Data)> {
     let import = import_options(scaling, up_vector.0, options.0, false)?;

@@ -23,10 +23,6 @@ const fn row(name: &'static str, doc: &'static str, params: &'static [Param], ca
     ApiFn { name, doc, params, returns: &[], mutates: false, call, call_data: needs_lua }
 }
 
-const fn required(name: &'static str, ty: &'static str) -> Param {
-    Param { name, ty, default: None }
-}
-
 pub static CBOR: Module = Module { inner: &[TREES], ..Module::new("org.conman.cbor") };
 pub static CBOR_HEADS: Module = Module {
     about: "The heads of CBOR items: low-level functions of org.conman.cbor.",
@@ -39,20 +35,25 @@ const TREES: &[ApiFn] = &[
     row(
         "org.conman.cbor.encode",
         "The value as CBOR; nothing when that needs Lua code; nil and a message when it cannot be.",
-        &[required("value", "any")],
+        &[Param::required("value", "any")],
         encode::encode,
     ),
     row(
         "org.conman.cbor.decode",
         "Type, next position and value; nothing when that needs Lua code; nil, a message and a position when the data are malformed. \
          Tags found in `tags` need Lua. With `rich`, byte strings become buffers and typed arrays tables.",
-        &[required("packet", "string"), required("pos", "int"), required("tags", "table"), required("rich", "bool")],
+        &[
+            Param::required("packet", "string"),
+            Param::required("pos", "int"),
+            Param::required("tags", "table"),
+            Param::required("rich", "bool"),
+        ],
         decode::decode,
     ),
     row(
         "org.conman.cbor.head",
         "What `org.conman.cbor_c.decode` tells, but nil and a message where there is no head.",
-        &[required("packet", "string"), required("pos", "int")],
+        &[Param::required("packet", "string"), Param::required("pos", "int")],
         low_level::head,
     ),
 ];
@@ -63,13 +64,13 @@ const HEADS: &[ApiFn] = &[
         "org.conman.cbor_c.encode",
         "A head of major type `type` with the number `n`, or of unknown length when `n` is nil. Type 0xE0 with a float `x`: that float, \
          in the precision `n` (25, 26, 27) or the shortest exact one.",
-        &[required("type", "int"), required("n", "int"), required("x", "float")],
+        &[Param::required("type", "int"), Param::required("n", "int"), Param::required("x", "float")],
         low_level::encode,
     ),
     row(
         "org.conman.cbor_c.decode",
         "Major type, info, number (the float of a float, infinity where the length is unknown) and next position of a head.",
-        &[required("packet", "string"), required("pos", "int")],
+        &[Param::required("packet", "string"), Param::required("pos", "int")],
         low_level::decode,
     ),
 ];

@@ -10,7 +10,7 @@ use script::{ApiError, ApiFn, ApiResult, Args, Param, needs_lua};
 pub(super) const FUNCTIONS: &[ApiFn] = &[ApiFn {
     name: "lfs.lock",
     doc: "Locks an open file (`r`: shared, `w`: alone) or releases it (`u`), without waiting.",
-    params: &[Param { name: "file", ty: "any", default: None }, Param { name: "mode", ty: "string", default: None }],
+    params: &[Param::required("file", "any"), Param::required("mode", "string")],
     returns: &[],
     mutates: false,
     call: lock,

@@ -144,7 +144,7 @@ fn send(
     server_or_client_handle: String,
     connection_handle: String,
     data: Bytes,
-    #[default(1)] opcode: i64,
+    #[default(1, "simWS.opcode.text")] opcode: i64,
 ) -> Result<()> {
     let endpoint = endpoint(cx, &server_or_client_handle)?;
     let connection = handle_number(&connection_handle, "Connection").ok_or_else(invalid_handle)?;

@@ -10,6 +10,7 @@ use super::results::{Created, Outcome, Received, Sent, done};
 use super::{AnySocket, Shared, Sockets, access, class, prefix, role_name, stop};
 use crate::{ApiFn, Args, Cx, FromScript, Result, functions};
 use io::socket::{Pattern, Role, Stream, Wait};
+use scene::Data;
 use script::Source;
 use script::{ApiError, LuaNumber, LuaString};
 
@@ -112,6 +113,16 @@ impl Amount {
             [b'*', b'l', ..] => Some(Self(Pattern::Line)),
             [b'*', b'a', ..] => Some(Self(Pattern::All)),
             _ => None,
+        }
+    }
+}
+
+impl From<Amount> for Data {
+    fn from(Amount(pattern): Amount) -> Self {
+        match pattern {
+            Pattern::Line => Self::text("*l"),
+            Pattern::All => Self::text("*a"),
+            Pattern::Count(count) => Self::Int(count as i64),
         }
     }
 }

@@ -287,7 +287,7 @@ fn set_joint_dependency(
     master_joint_handle: Number,
     #[default(0.0)] offset: f64,
     #[default(1.0)] mult: f64,
-    #[default(None)] callback: Option<ScriptFunction>,
+    callback: Option<ScriptFunction>,
 ) -> Result<()> {
     let law = match callback {
         Some(function) => by_function(ScriptCallback::new(cx, function), [environment_handle.0, joint_handle.0]),

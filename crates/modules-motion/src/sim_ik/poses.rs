@@ -51,7 +51,7 @@ fn get_object_pose(
     cx: &Cx,
     environment_handle: Number,
     object_handle: Number,
-    #[default(special::WORLD)] relative_to_object_handle: Number,
+    #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
 ) -> Result<[f64; 7]> {
     pose_of(cx, environment_handle, object_handle, relative_to_object_handle).map(|pose| pose_to_array(&pose))
 }
@@ -68,7 +68,7 @@ fn set_object_pose(
     environment_handle: Number,
     object_handle: Number,
     pose: [f64; 7],
-    #[default(special::WORLD)] relative_to_object_handle: Number,
+    #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
 ) -> Result<()> {
     let pose = pose_from_array(&finite(pose)?);
     place(cx, environment_handle, object_handle, pose, relative_to_object_handle)
@@ -85,7 +85,7 @@ fn get_object_matrix(
     cx: &Cx,
     environment_handle: Number,
     object_handle: Number,
-    #[default(special::WORLD)] relative_to_object_handle: Number,
+    #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
 ) -> Result<[f64; 12]> {
     pose_of(cx, environment_handle, object_handle, relative_to_object_handle).map(|pose| pose_to_matrix(&pose))
 }
@@ -102,7 +102,7 @@ fn set_object_matrix(
     environment_handle: Number,
     object_handle: Number,
     matrix: [f64; 12],
-    #[default(special::WORLD)] relative_to_object_handle: Number,
+    #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
 ) -> Result<()> {
     let pose = pose_from_matrix(&finite(matrix)?);
     place(cx, environment_handle, object_handle, pose, relative_to_object_handle)
@@ -121,7 +121,7 @@ fn get_object_transformation(
     cx: &Cx,
     environment_handle: Number,
     object_handle: Number,
-    #[default(special::WORLD)] relative_to_object_handle: Number,
+    #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
 ) -> Result<([f64; 3], [f64; 4], [f64; 3])> {
     pose_of(cx, environment_handle, object_handle, relative_to_object_handle).map(|pose| transformation(&pose))
 }
@@ -140,7 +140,7 @@ fn set_object_transformation(
     object_handle: Number,
     position: [f64; 3],
     euler_or_quaternion: Vec<f64>,
-    #[default(special::WORLD)] relative_to_object_handle: Number,
+    #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
 ) -> Result<()> {
     let pose = Pose::from_parts(finite(position)?.into(), rotation(&euler_or_quaternion)?);
     place(cx, environment_handle, object_handle, pose, relative_to_object_handle)

@@ -45,7 +45,7 @@ fn handle_groups(
     cx: &mut Cx,
     environment_handle: Number,
     ik_groups: Vec<i64>,
-    #[default(None)] callback: Option<ScriptFunction>,
+    callback: Option<ScriptFunction>,
 ) -> Result<(i64, i64, [f64; 2])> {
     let callback = callback.map(|function| ScriptCallback::new(cx, function));
     let outcome = with(cx, environment_handle.0, |held| {

@@ -130,7 +130,7 @@ fn set_goal(
     goal_dummy: Number,
     #[default(0.001)] tolerance: f64,
     #[default([1.0, 1.0, 1.0, 0.1])] metric: [f64; 4],
-    #[default(Number(special::WORLD))] ref_dummy: Number,
+    #[default(special::WORLD, "sim.handle_world")] ref_dummy: Number,
 ) -> Result<()> {
     let (robot, goal, reference) = (robot_dummy.0, goal_dummy.0, ref_dummy.0);
     task(cx, &task_handle)?.borrow_mut().goal =

@@ -170,7 +170,7 @@ fn create_state_space(
     bounds_high: Vec<f64>,
     use_for_projection: Number,
     #[default(1.0)] weight: f64,
-    #[default(Number(special::WORLD))] ref_object_handle: Number,
+    #[default(special::WORLD, "sim.handle_world")] ref_object_handle: Number,
 ) -> Result<String> {
     if bounds_low.len() != bounds_high.len() {
         return Err(refused("Lower and upper bounds must have the same length."));

@@ -61,7 +61,7 @@ fn image_transport_publish(
     data: Bytes,
     width: i64,
     height: i64,
-    frame_id: String,
+    #[name("frame_id")] frame_id: String,
 ) -> Result<()> {
     let publisher = get(cx, &publisher_handle, publisher)?;
     let stamp = Data::Float(node(cx).time());

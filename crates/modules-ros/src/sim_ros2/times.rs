@@ -17,8 +17,8 @@ const STEADY: i64 = 4874;
 ///
 /// @param clock_type simROS2.clock_type.ros, system or steady
 /// @return time {sec, nanosec}
-#[api("simROS2.getTime")]
-fn get_time(cx: &Cx, #[default(4872)] clock_type: i64) -> Result<Data> {
+#[api("simROS2.getTime", snake_case)]
+fn get_time(cx: &Cx, #[default(4872, "simROS2.clock_type.ros")] clock_type: i64) -> Result<Data> {
     match clock_type {
         ROS | SYSTEM => Ok(to_data(ros_time())),
         STEADY => Ok(to_data(cx.clock().wall_seconds())),

@@ -21,6 +21,12 @@ impl<const N: usize> From<[i64; N]> for Ints<N> {
     }
 }
 
+impl<const N: usize> From<Ints<N>> for Data {
+    fn from(Ints(numbers): Ints<N>) -> Self {
+        numbers.into()
+    }
+}
+
 impl<const N: usize> FromScript for Ints<N> {
     const TYPE: &'static str = match N {
         2 => "int[2]",

@@ -326,7 +326,7 @@ fn text(
     handle: String,
     str: String,
     pos: Ints<2>,
-    #[default(SIMPLEX)] font_face: Number,
+    #[default(SIMPLEX, "simIM.fontFace.simplex")] font_face: Number,
     #[default(false)] italic: bool,
     #[default(1.0)] font_scale: f64,
     #[default(WHITE)] color: Ints<3>,
@@ -360,7 +360,7 @@ fn text(
 fn text_size(
     _cx: &Cx,
     str: String,
-    #[default(SIMPLEX)] font_face: Number,
+    #[default(SIMPLEX, "simIM.fontFace.simplex")] font_face: Number,
     #[default(false)] italic: bool,
     #[default(1.0)] font_scale: f64,
     #[default(1)] thickness: Number,

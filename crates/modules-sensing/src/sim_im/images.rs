@@ -57,7 +57,7 @@ fn create(
     cx: &Cx,
     width: Number,
     height: Number,
-    #[default(USUAL)] format: Number,
+    #[default(USUAL, "simIM.format._8UC3")] format: Number,
     #[default(0)] initial_value: Number,
 ) -> Result<String> {
     let [width, height] = sides(width.0, height.0)?;
@@ -78,7 +78,7 @@ fn create_from_data(
     width: Number,
     height: Number,
     data: Bytes,
-    #[default(USUAL)] format: Number,
+    #[default(USUAL, "simIM.format._8UC3")] format: Number,
 ) -> Result<String> {
     let (size, format) = (sides(width.0, height.0)?, format_of(format.0)?);
     if format.channels == 1 {

@@ -40,7 +40,7 @@ fn resize(
     handle: String,
     width: Number,
     height: Number,
-    #[default(1201)] interpolation: Number,
+    #[default(1201, "simIM.interp.linear")] interpolation: Number,
     #[default(false)] in_place: bool,
 ) -> Result<String> {
     let interpolation = match interpolation.0 {

@@ -129,8 +129,8 @@ fn polar2cart(
 fn distance_transform(
     cx: &Cx,
     handle: String,
-    #[default(L2)] distance_type: Number,
-    #[default(PRECISE)] mask_size: Number,
+    #[default(L2, "simIM.dist.L2")] distance_type: Number,
+    #[default(PRECISE, "simIM.maskSize._precise")] mask_size: Number,
     #[default(false)] in_place: bool,
 ) -> Result<String> {
     let distance = match distance_type.0 {

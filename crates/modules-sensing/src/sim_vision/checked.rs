@@ -1,9 +1,10 @@
 //! Arguments whose errors have the words of CoppeliaSim's plugins.
 
 use crate::{ApiError, Args, FromScript, Result};
-use script::Source;
+use scene::Data;
+use script::{Absence, Source};
 
-/// An argument that must be there and be right. `#[api]` leaves it to this type to say that it is not there.
+/// An argument that must be there and be right.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Checked<T>(pub T);
 
@@ -13,8 +14,15 @@ impl<T> From<T> for Checked<T> {
     }
 }
 
+impl<T: Into<Data>> From<Checked<T>> for Data {
+    fn from(Checked(value): Checked<T>) -> Self {
+        value.into()
+    }
+}
+
 impl<T: FromScript> FromScript for Checked<T> {
     const TYPE: &'static str = T::TYPE;
+    const ABSENCE: Absence = Absence::Decoded;
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         T::from_script(args).map(Self).map_err(|error| worded(&error, i64::from(args.position())))

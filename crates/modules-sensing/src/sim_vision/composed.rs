@@ -99,7 +99,7 @@ fn picture(cx: &mut Cx, part: Part) -> Result<RgbImage> {
 #[api("simVision.handleSpherical")]
 fn handle_spherical(
     cx: &mut Cx,
-    passive_vision_sensor_handle_for_rgb: Checked<Number>,
+    #[name("passiveVisionSensorHandleForRGB")] passive_vision_sensor_handle_for_rgb: Checked<Number>,
     active_vision_sensor_handles: Checked<Vec<i64>>,
     horizontal_angle: Checked<f64>,
     vertical_angle: Checked<f64>,

@@ -200,7 +200,7 @@ macro_rules! scanner {
         /// @param frequency turns per second
         /// @param options 4: results are angles and distance; other options are of the display
         /// @param pointSize without effect
-        /// @param coloringCloseFarDist without effect
+        /// @param coloring_closeFarDist without effect
         /// @param displayScalingFactor without effect
         /// @param pointCloud -1: others are not supported
         /// @return velodyneHandle
@@ -212,7 +212,9 @@ macro_rules! scanner {
             frequency: Checked<f64>,
             #[default(0)] options: Number,
             #[default(2)] point_size: Number,
-            #[default([1.0, 5.0])] coloring_close_far_dist: [f64; 2],
+            #[default([1.0, 5.0])]
+            #[name("coloring_closeFarDist")]
+            coloring_close_far_dist: [f64; 2],
             #[default(1.0)] display_scaling_factor: f64,
             #[default(-1)] point_cloud: Number,
         ) -> Result<i64> {

@@ -52,7 +52,7 @@ fn clear_tree(cx: &mut Cx, handle: WindowHandle, id: i64, #[default(true)] suppr
 /// @param expanded whether the items below it are shown
 /// @param suppressEvents without effect
 #[api("simUI.addTreeItem", snake_case)]
-#[allow(clippy::too_many_arguments, non_snake_case, reason = "the reference's signature")]
+#[allow(clippy::too_many_arguments, reason = "the reference's signature")]
 fn add_tree_item(
     cx: &mut Cx,
     handle: WindowHandle,
@@ -61,9 +61,10 @@ fn add_tree_item(
     text: Texts,
     #[default(0)] parent_id: i64,
     #[default(false)] expanded: bool,
-    #[default(true)] suppressEvents: bool,
+    #[default(true)]
+    #[name("suppressEvents")]
+    _suppress_events: bool,
 ) -> Result<()> {
-    let _ = suppressEvents;
     change(cx, &handle, id, |tree| {
         if item_id > 0 {
             tree.add(item_id, parent_id, text.0, expanded);
@@ -94,16 +95,16 @@ fn update_tree_item_text(cx: &mut Cx, handle: WindowHandle, id: i64, item_id: i6
 /// @param parent_id 0 for the top
 /// @param suppressEvents without effect
 #[api("simUI.updateTreeItemParent", snake_case)]
-#[allow(non_snake_case, reason = "the reference's signature")]
 fn update_tree_item_parent(
     cx: &mut Cx,
     handle: WindowHandle,
     id: i64,
     item_id: i64,
     parent_id: i64,
-    #[default(true)] suppressEvents: bool,
+    #[default(true)]
+    #[name("suppressEvents")]
+    _suppress_events: bool,
 ) -> Result<()> {
-    let _ = suppressEvents;
     change(cx, &handle, id, |tree| tree.move_item(item_id, parent_id))
 }
 
@@ -114,15 +115,15 @@ fn update_tree_item_parent(
 /// @param item_id its number
 /// @param suppressEvents without effect
 #[api("simUI.removeTreeItem", snake_case)]
-#[allow(non_snake_case, reason = "the reference's signature")]
 fn remove_tree_item(
     cx: &mut Cx,
     handle: WindowHandle,
     id: i64,
     item_id: i64,
-    #[default(true)] suppressEvents: bool,
+    #[default(true)]
+    #[name("suppressEvents")]
+    _suppress_events: bool,
 ) -> Result<()> {
-    let _ = suppressEvents;
     change(cx, &handle, id, |tree| tree.remove(item_id))
 }
 
@@ -133,15 +134,16 @@ fn remove_tree_item(
 /// @param item_id its number
 /// @param suppressEvents false: a change is handled as one of a person
 #[api("simUI.setTreeSelection", snake_case)]
-#[allow(non_snake_case, reason = "the reference's signature")]
 fn set_tree_selection(
     cx: &mut Cx,
     handle: WindowHandle,
     id: i64,
     item_id: i64,
-    #[default(true)] suppressEvents: bool,
+    #[default(true)]
+    #[name("suppressEvents")]
+    suppress_events: bool,
 ) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.select_item(id, item_id, !suppressEvents))
+    cx.change_window(&handle.0, |window| window.select_item(id, item_id, !suppress_events))
 }
 
 /// Shows all items of a tree.

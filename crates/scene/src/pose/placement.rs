@@ -3,7 +3,7 @@
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use crate::joint::JointType;
-use crate::{DynamicFlags, Field, Handle, Kind, Pose, Scene, SceneError, SceneResult, special};
+use crate::{Data, DynamicFlags, Field, Handle, Kind, Pose, Scene, SceneError, SceneResult, special};
 
 /// The frame a pose is expressed in, as scripts name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,6 +24,18 @@ impl Frame {
             special::INVERSE => Ok(Self::Inverse),
             _ => Handle::from_raw(raw).map(Self::Object).ok_or(SceneError::NoSuchObject),
         }
+    }
+}
+
+impl From<Frame> for Data {
+    fn from(frame: Frame) -> Self {
+        let raw = match frame {
+            Frame::World => special::WORLD,
+            Frame::Parent => special::PARENT,
+            Frame::Inverse => special::INVERSE,
+            Frame::Object(object) => object.raw(),
+        };
+        raw.into()
     }
 }
 

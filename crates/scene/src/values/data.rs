@@ -95,6 +95,19 @@ impl From<f64> for Data {
     }
 }
 
+impl From<String> for Data {
+    fn from(value: String) -> Self {
+        Self::Text(value.into_bytes())
+    }
+}
+
+/// Nil without a value.
+impl<T: Into<Data>> From<Option<T>> for Data {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Self::Nil, Into::into)
+    }
+}
+
 impl<T: Into<Data>> From<Vec<T>> for Data {
     fn from(values: Vec<T>) -> Self {
         Self::Array(values.into_iter().map(Into::into).collect())

@@ -28,11 +28,25 @@ pub trait FromScript: Sized {
     /// The type in the words of the reference.
     const TYPE: &'static str;
 
+    /// What a missing argument is to this type, where the parameter has no default.
+    const ABSENCE: Absence = Absence::Refused;
+
     /// The value of argument `args.position()`.
     ///
     /// # Errors
     /// When the argument is of another type.
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self>;
+}
+
+/// What a missing argument is to a type.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Absence {
+    /// An error, which the call raises before it decodes any argument.
+    Refused,
+    /// The same as nil, which is one of the type's values.
+    Nil,
+    /// What decoding makes of it: an error in words of the type's own, or a list without elements.
+    Decoded,
 }
 
 impl<'a> Args<'a> {
@@ -238,7 +252,6 @@ scalars! {
         _ => Err(args.expected("string")),
     };
     LuaNumber, "float", |args| args.number().map(LuaNumber).map_err(|_| args.expected("number"));
-    Rest, "any...", |args| (args.position..=args.count).map(|at| args.source.data(at)).collect::<Result<_, _>>().map(Rest);
 }
 
 /// An element of a list of strings.
@@ -265,6 +278,7 @@ number_arrays!(2 "float[2]", 3 "float[3]", 4 "float[4]", 6 "float[6]", 7 "float[
 
 impl<T: FromScript> FromScript for Option<T> {
     const TYPE: &'static str = T::TYPE;
+    const ABSENCE: Absence = Absence::Nil;
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
         match args.kind() {
@@ -284,9 +298,21 @@ impl From<i64> for Number {
     }
 }
 
+impl From<Number> for Data {
+    fn from(Number(value): Number) -> Self {
+        Self::Int(value)
+    }
+}
+
 /// Bytes of a string, a buffer or a number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Bytes(pub Vec<u8>);
+
+impl From<Bytes> for Data {
+    fn from(Bytes(bytes): Bytes) -> Self {
+        Self::Buffer(bytes)
+    }
+}
 
 /// A string or a number, as Lua's own functions accept it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -306,6 +332,13 @@ pub struct LuaNumber(pub f64);
 /// A table by value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table(pub Data);
+
+/// Without a table, an empty one: functions find as little in either.
+impl From<Table> for Data {
+    fn from(Table(data): Table) -> Self {
+        if data == Self::Nil { Self::Array(Vec::new()) } else { data }
+    }
+}
 
 /// Object handles as passed: flags, special and unknown values included.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -340,6 +373,15 @@ pub enum ScriptFunction {
 /// All remaining arguments.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rest(pub Vec<Data>);
+
+impl FromScript for Rest {
+    const TYPE: &'static str = "any...";
+    const ABSENCE: Absence = Absence::Decoded;
+
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
+        (args.position..=args.count).map(|at| args.source.data(at)).collect::<Result<_, _>>().map(Self)
+    }
+}
 
 impl FromScript for crate::LevelChange {
     const TYPE: &'static str = "any";

@@ -6,6 +6,7 @@ pub(crate) mod cx;
 pub(crate) mod data;
 pub(crate) mod hooks;
 pub(crate) mod module;
+pub(crate) mod param;
 pub(crate) mod registry;
 pub(crate) mod returns;
 pub(crate) mod sink;
@@ -17,17 +18,10 @@ use std::ffi::c_int;
 use super::error::{ApiError, ApiResult};
 use super::lua::{Stack, push_callback};
 use args::Args;
+use param::Param;
 use registry::{Bound, FunctionId};
 use scene::Data;
 use source::Values;
-
-/// One parameter of a scriptable function.
-#[derive(Debug)]
-pub struct Param {
-    pub name: &'static str,
-    pub ty: &'static str,
-    pub default: Option<&'static str>,
-}
 
 /// One scriptable function: its documentation and its code, declared together by `#[api]`.
 pub struct ApiFn {

@@ -86,7 +86,7 @@ fn create_action_server(
 fn action_server_publish_feedback(
     cx: &mut Cx,
     action_server_handle: String,
-    goal_uuid: String,
+    #[name("goalUUID")] goal_uuid: String,
     feedback: Table,
 ) -> Result<()> {
     let (server, id, _) = goal(cx, &action_server_handle, &goal_uuid)?;
@@ -98,7 +98,11 @@ fn action_server_publish_feedback(
 /// @param actionServerHandle the server
 /// @param goalUUID the goal's identity
 #[api("simROS2.actionServerActionExecute")]
-fn action_server_action_execute(cx: &mut Cx, action_server_handle: String, goal_uuid: String) -> Result<()> {
+fn action_server_action_execute(
+    cx: &mut Cx,
+    action_server_handle: String,
+    #[name("goalUUID")] goal_uuid: String,
+) -> Result<()> {
     let (server, id, status) = goal(cx, &action_server_handle, &goal_uuid)?;
     if status != Status::Accepted {
         return Err(ApiError::Other(format!("goal '{goal_uuid}' is {status:?} and cannot become Executing")));
@@ -116,7 +120,7 @@ fn action_server_action_execute(cx: &mut Cx, action_server_handle: String, goal_
 fn action_server_action_succeed(
     cx: &mut Cx,
     action_server_handle: String,
-    goal_uuid: String,
+    #[name("goalUUID")] goal_uuid: String,
     result: Table,
 ) -> Result<()> {
     let from = [Status::Executing, Status::Canceling];
@@ -132,7 +136,7 @@ fn action_server_action_succeed(
 fn action_server_action_abort(
     cx: &mut Cx,
     action_server_handle: String,
-    goal_uuid: String,
+    #[name("goalUUID")] goal_uuid: String,
     result: Table,
 ) -> Result<()> {
     let from = [Status::Executing, Status::Canceling];
@@ -148,7 +152,7 @@ fn action_server_action_abort(
 fn action_server_action_canceled(
     cx: &mut Cx,
     action_server_handle: String,
-    goal_uuid: String,
+    #[name("goalUUID")] goal_uuid: String,
     result: Table,
 ) -> Result<()> {
     finish(cx, &action_server_handle, &goal_uuid, &result, &[Status::Canceling], Status::Canceled)
@@ -160,7 +164,11 @@ fn action_server_action_canceled(
 /// @param goalUUID the goal's identity
 /// @return result
 #[api("simROS2.actionServerActionIsActive")]
-fn action_server_action_is_active(cx: &Cx, action_server_handle: String, goal_uuid: String) -> Result<bool> {
+fn action_server_action_is_active(
+    cx: &Cx,
+    action_server_handle: String,
+    #[name("goalUUID")] goal_uuid: String,
+) -> Result<bool> {
     Ok(goal(cx, &action_server_handle, &goal_uuid)?.2.is_active())
 }
 
@@ -170,7 +178,11 @@ fn action_server_action_is_active(cx: &Cx, action_server_handle: String, goal_uu
 /// @param goalUUID the goal's identity
 /// @return result
 #[api("simROS2.actionServerActionIsExecuting")]
-fn action_server_action_is_executing(cx: &Cx, action_server_handle: String, goal_uuid: String) -> Result<bool> {
+fn action_server_action_is_executing(
+    cx: &Cx,
+    action_server_handle: String,
+    #[name("goalUUID")] goal_uuid: String,
+) -> Result<bool> {
     Ok(goal(cx, &action_server_handle, &goal_uuid)?.2 == Status::Executing)
 }
 
@@ -180,7 +192,11 @@ fn action_server_action_is_executing(cx: &Cx, action_server_handle: String, goal
 /// @param goalUUID the goal's identity
 /// @return result
 #[api("simROS2.actionServerActionIsCanceling")]
-fn action_server_action_is_canceling(cx: &Cx, action_server_handle: String, goal_uuid: String) -> Result<bool> {
+fn action_server_action_is_canceling(
+    cx: &Cx,
+    action_server_handle: String,
+    #[name("goalUUID")] goal_uuid: String,
+) -> Result<bool> {
     Ok(goal(cx, &action_server_handle, &goal_uuid)?.2 == Status::Canceling)
 }
 
