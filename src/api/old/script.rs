@@ -7,6 +7,7 @@ use api_macro::api;
 use crate::api::objects::alias::get_object_handle;
 use crate::api::objects::old_name::suffix_of_script;
 use crate::api::scripts::script::script_of;
+use crate::api::scripts::simulation::main_script_only;
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Data, Handle, SceneError, ValueType, special};
@@ -29,6 +30,8 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_script_string_param,
     set_script_string_param,
     set_script_text,
+    resume_threads,
+    launch_threaded_child_scripts,
 ];
 
 /// Meaning of a numbered attribute or parameter of scripts.
@@ -363,4 +366,21 @@ fn set_script_text(cx: &mut Cx, script_handle: Number, script_text: Bytes) -> Re
 #[api("sim.getLastError")]
 fn get_last_error(cx: &Cx) -> Result<String> {
     Ok(cx.env().last_error.take())
+}
+
+/// Does nothing: threads are coroutines, which their scripts resume. For the main script.
+///
+/// @param location sim.scriptthreadresume_*
+/// @return count 0
+#[api("sim.resumeThreads")]
+fn resume_threads(cx: &Cx, _location: i64) -> Result<i64> {
+    main_script_only(cx).map(|()| 0)
+}
+
+/// Does nothing: threads are coroutines, which their scripts resume. For the main script.
+///
+/// @return count 0
+#[api("sim.launchThreadedChildScripts")]
+fn launch_threaded_child_scripts(cx: &Cx) -> Result<i64> {
+    main_script_only(cx).map(|()| 0)
 }
