@@ -40,7 +40,8 @@ refused(sim.setPoseProperty, d, 'alias', {1, 2, 3, 0, 0, 0, 1})
 local function told(target, name)
     local info = sim.getPropertyInfos(target, name)
     if not info then return print('infos', name, info) end
-    print('infos', name, info.type, info.flags)
+    local is = info.flags
+    print('infos', name, info.type, is.value, is.readable, is.writable, is.removable, is.large)
 end
 told(d, 'alias')
 told(d, 'customData.pair')

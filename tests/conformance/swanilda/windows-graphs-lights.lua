@@ -10,6 +10,11 @@ sim.setIntProperty(sim.handle_app, 'consoleVerbosity', sim.verbosity_scripterror
 
 local function count(...) return select('#', ...) end
 
+local function lit(light)
+    local state, _, diffuse, specular = sim.getLightParameters(light)
+    print('light', state, diffuse, specular)
+end
+
 local function made(element)
     local xml = '<CoppeliaSim><filetype>simpleModel</filetype><xmlSerializationNb>2</xmlSerializationNb>' .. element .. '</CoppeliaSim>'
     return sim.loadModel(sim.packUInt8Table{xml:byte(1, -1)})
@@ -54,10 +59,10 @@ function sysCall_init()
 
     local light = made('<light><common><alias>light</alias><switches><modelBase>true</modelBase></switches></common><type>spot</type></light>')
     sim.setLightParameters(light, 0, nil, {0.25, 0.5, 0.75}, {1, 0, 0.5})
-    print('light', sim.getLightParameters(light))
+    lit(light)
     sim.setLightParameters(light, 1)
-    print('light', sim.getLightParameters(light))
+    lit(light)
     sim.setLightParameters(light, 1, nil, nil, {0, 0.25, 0})
-    print('light', sim.getLightParameters(light))
+    lit(light)
     print('no light', (pcall(sim.getLightParameters, graph)), (pcall(sim.setLightParameters, graph, 1)))
 end
