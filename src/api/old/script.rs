@@ -370,10 +370,11 @@ fn get_last_error(cx: &Cx) -> Result<String> {
 
 /// Does nothing: threads are coroutines, which their scripts resume. For the main script.
 ///
-/// @param location sim.scriptthreadresume_*
+/// @param location any: its constants are gone
 /// @return count 0
 #[api("sim.resumeThreads")]
-fn resume_threads(cx: &Cx, _location: i64) -> Result<i64> {
+fn resume_threads(cx: &Cx, #[default(Data::Nil)] location: Data) -> Result<i64> {
+    let _ = location;
     main_script_only(cx).map(|()| 0)
 }
 

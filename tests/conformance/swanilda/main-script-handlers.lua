@@ -26,7 +26,7 @@ function sysCall_sensing()
     refused(sim.handleSandboxScript, sim.syscb_sensing)
     refused(sim.handleSensingStart)
     refused(sim.launchThreadedChildScripts)
-    refused(sim.resumeThreads, sim.scriptthreadresume_default)
+    refused(sim.resumeThreads, 0)
     print('silent', sim.handleSimulationScripts(sim.syscb_sensing), sim.handleChildScripts(sim.syscb_sensing))
 end
 ]])
@@ -37,7 +37,7 @@ sim = require 'sim'
 function sysCall_init() print('start', sim.handleSimulationStart()) end
 function sysCall_actuation()
     if isDone then return end
-    print('launched', sim.launchThreadedChildScripts(), sim.resumeThreads(sim.scriptthreadresume_default))
+    print('launched', sim.launchThreadedChildScripts(), sim.resumeThreads(0))
     print('simulation', sim.handleSimulationScripts(sim.syscb_actuation, 'first'))
     print('child', sim.handleChildScripts(sim.syscb_actuation, 'second', 2))
     print('customization', sim.handleCustomizationScripts(sim.syscb_actuation, 'third'))
