@@ -39,8 +39,7 @@ fn get_script_simulation_parameter(
 
 /// Changes a parameter of a script, or of the object the script is attached to. Names they do not have are ignored.
 ///
-/// @param scriptHandle the script, its object, sim.handle_self, or all below this script's object (sim.handle_tree) or above it
-/// (sim.handle_chain)
+/// @param scriptHandle the script, its object, or sim.handle_self; sim.handle_tree, sim.handle_chain: all below or above the script's object
 /// @param parameterName its name
 /// @param parameterValue its text
 /// @return result 0
