@@ -10,7 +10,7 @@ sim = {}
 ---@param logMessage? string the line; nil clears a graphical log and does nothing here
 function addLog(verbosityLevel, logMessage) end
 
---- Small services of the host: `headless`, `useBuffers`. Other commands return nothing.
+--- Small services of the host: `headless`, `useBuffers`, `frexp`. Other commands return nothing.
 ---@param cmd string the service
 ---@param ... any
 ---@return any result its result
@@ -214,7 +214,7 @@ function sim.alphaBetaGammaToYawPitchRoll(alpha, beta, gamma) end
 ---@return integer result 1
 function sim.associateScriptWithObject(scriptHandle, objectHandle) end
 
---- Small services of the host: `headless`, `useBuffers`. Other commands return nothing.
+--- Small services of the host: `headless`, `useBuffers`, `frexp`. Other commands return nothing.
 ---@param cmd string the service
 ---@param ... any
 ---@return any result its result
@@ -513,7 +513,7 @@ function sim.computeMassAndInertia(shapeHandle, density) end
 ---@param value any in the first type
 ---@param fromType integer sim.propertytype_*
 ---@param toType integer sim.propertytype_*
----@return any value in the second type; error if there is no sensible one
+---@return any value in the second type; an error if there is no sensible one, such as a boolean's number
 function sim.convertPropertyValue(value, fromType, toType) end
 
 --- Divides a shape into convex pieces, which are one compound.
@@ -660,7 +660,7 @@ function sim.createProximitySensor(sensorType, subType, options, intParams, floa
 ---@deprecated sim.createPrimitiveShape
 ---@param primitiveType integer 0: cuboid, 1: sphere, 2: cylinder, 3: cone
 ---@param options integer 1: back faces culled, 2: edges visible, 4: smooth, 8: respondable, 16: static, 32: open ends
----@param sizes number[] full extents, metres
+---@param sizes number[] full extents, metres; of a sphere the first
 ---@param mass number kg
 ---@param precision? number[] not used
 ---@return integer objectHandle the shape
@@ -1286,7 +1286,7 @@ function sim.getLightParameters(lightHandle) end
 ---@return integer linkDummyHandle its partner, -1 if there is none
 function sim.getLinkDummy(dummyHandle) end
 
---- Names of the plugins this script has loaded.
+--- Names of the plugins this script has loaded, with the modules that are plugins in CoppeliaSim.
 ---@return string[] names sorted
 function sim.getLoadedPlugins() end
 
@@ -1690,7 +1690,7 @@ function sim.getPropertyInfo(target, propertyName, options) end
 ---@param target integer object, sim.handle_scene, sim.handle_app, ...
 ---@param name string of the property
 ---@param options? table as in sim.getPropertyInfo
----@return table info with type, flags, infoTxt and a field per flag; nil if there is no such property
+---@return table info with type, infoTxt and flags, a table of value, readable, writable, removable and large; nil without such a property
 function sim.getPropertyInfos(target, name, options) end
 
 --- The properties of a target one by one; nothing past the last one.
@@ -1830,10 +1830,10 @@ function sim.getScriptInt32Param(scriptHandle, parameterID) end
 function sim.getScriptName(scriptHandle) end
 
 --- A parameter of a script, or of the object the script is attached to.
----@param scriptHandle integer the script, or sim.handle_self
----@param parameterName string its name
+---@param scriptHandle integer the script, its object, or sim.handle_self
+---@param parameterName string its name; an unknown one is an error
 ---@param forceStringReturn? boolean return a string; otherwise texts such as `true` and `12` are converted
----@return any value nil when there is no such parameter
+---@return any value numbers are floats
 function sim.getScriptSimulationParameter(scriptHandle, parameterName, forceStringReturn) end
 
 --- A string parameter of a script.
@@ -2246,6 +2246,7 @@ function sim.handleSandboxScript(callType, ...) end
 ---
 --- script does
 ---@param calculationObjects? integer sim.handle_all_except_explicit: collision and distance objects of old scenes are handled too, as the usual main
+---@return integer result -1
 function sim.handleSensingStart(calculationObjects) end
 
 --- Calls a callback of all simulation scripts. For the main script; others get -1.
@@ -2255,6 +2256,7 @@ function sim.handleSensingStart(calculationObjects) end
 function sim.handleSimulationScripts(callType, ...) end
 
 --- Begins a run: primes the measurement of velocities. For the main script.
+---@return integer result -1
 function sim.handleSimulationStart() end
 
 --- Does nothing.
@@ -2289,8 +2291,9 @@ function sim.importShape(fileformat, pathAndFilename, options, identicalVerticeT
 
 --- Runs a file, given by its path relative to the folder of the scene. Where there is none, '/lua/name.lua' is the module of that name.
 ---@param path string of a Lua file
+---@param command? string Lua text to run before it
 ---@return any result of the file
-function sim.include(path) end
+function sim.include(path, command) end
 
 --- Runs a file, given by its absolute path.
 ---@param path string of a Lua file
@@ -2430,7 +2433,7 @@ function sim.isScriptRunningInThread() end
 ---@param showStatus? integer has no effect
 function sim.launchExecutable(filename, parameters, showStatus) end
 
---- Does nothing: threads are coroutines, which their scripts resume.
+--- Does nothing: threads are coroutines, which their scripts resume. For the main script.
 ---@return integer count 0
 function sim.launchThreadedChildScripts() end
 
@@ -2924,8 +2927,8 @@ function sim.resetVisionSensor(sensorHandle) end
 ---@param originalColors table[] from sim.changeEntityColor; objects that are gone are left out
 function sim.restoreEntityColor(originalColors) end
 
---- Does nothing: threads are coroutines, which their scripts resume.
----@param location integer sim.scriptthreadresume_*
+--- Does nothing: threads are coroutines, which their scripts resume. For the main script.
+---@param location? any any: its constants are gone
 ---@return integer count 0
 function sim.resumeThreads(location) end
 
@@ -3689,13 +3692,11 @@ function sim.setScriptAttribute(scriptHandle, attributeID, attribute) end
 ---@param parameter integer the new value
 function sim.setScriptInt32Param(scriptHandle, parameterID, parameter) end
 
---- Sets a parameter of a script, or of the object the script is attached to if that has it.
----
---- have the parameter
----@param scriptHandle integer the script, sim.handle_self, or all below this script's object (sim.handle_tree) or above it (sim.handle_chain) that
+--- Changes a parameter of a script, or of the object the script is attached to. Names they do not have are ignored.
+---@param scriptHandle integer the script, its object, or sim.handle_self; sim.handle_tree, sim.handle_chain: all below or above the script's object
 ---@param parameterName string its name
 ---@param parameterValue string its text
----@return integer result how many have it now
+---@return integer result 0
 function sim.setScriptSimulationParameter(scriptHandle, parameterName, parameterValue) end
 
 --- Sets a string parameter of a script.
@@ -3728,7 +3729,7 @@ function sim.setShapeAppearance(handle, appearance, options) end
 
 --- Scales a shape so that its box gets a size.
 ---@param shapeHandle integer the shape
----@param size number[] along the axes of its box; a side without extent keeps none
+---@param size number[] along the axes of its box
 function sim.setShapeBB(shapeHandle, size) end
 
 --- Colours a shape.
@@ -4006,7 +4007,7 @@ function sim.tubeOpen(dataHeader, dataName, readBufferSize) end
 
 --- Reads and removes the oldest packet of a tube.
 ---@param tubeHandle integer from sim.tubeOpen
----@return string|table data nothing if no packet waits
+---@return string data nothing if no packet waits
 function sim.tubeRead(tubeHandle) end
 
 --- The state of a tube.

@@ -2213,7 +2213,7 @@ class _sim:
         objectHandle: the object; -1 detaches it
         """
     def auxFunc(self, cmd: str, /, *args: Any) -> Any:
-        """Small services of the host: `headless`, `useBuffers`. Other commands return nothing.
+        """Small services of the host: `headless`, `useBuffers`, `frexp`. Other commands return nothing.
         cmd: the service
         """
     def auxiliaryConsoleClose(self, consoleHandle: int, /) -> int:
@@ -2576,7 +2576,7 @@ class _sim:
         Deprecated: use sim.createPrimitiveShape.
         primitiveType: 0: cuboid, 1: sphere, 2: cylinder, 3: cone
         options: 1: back faces culled, 2: edges visible, 4: smooth, 8: respondable, 16: static, 32: open ends
-        sizes: full extents, metres
+        sizes: full extents, metres; of a sphere the first
         mass: kg
         precision: not used
         """
@@ -3096,7 +3096,7 @@ class _sim:
         dummyHandle: the dummy
         """
     def getLoadedPlugins(self, /) -> list[str]:
-        """Names of the plugins this script has loaded.
+        """Names of the plugins this script has loaded, with the modules that are plugins in CoppeliaSim.
         """
     def getLongProperty(self, target: int, propertyName: str, options: Mapping[Any, Any] | None = ..., /) -> int:
         """Value of a property.
@@ -3534,8 +3534,8 @@ class _sim:
         """
     def getScriptSimulationParameter(self, scriptHandle: int, parameterName: str, forceStringReturn: bool | None = ..., /) -> Any:
         """A parameter of a script, or of the object the script is attached to.
-        scriptHandle: the script, or sim.handle_self
-        parameterName: its name
+        scriptHandle: the script, its object, or sim.handle_self
+        parameterName: its name; an unknown one is an error
         forceStringReturn: return a string; otherwise texts such as `true` and `12` are converted
         """
     def getScriptStringParam(self, scriptHandle: int, parameterID: int, /) -> Any:
@@ -3850,7 +3850,7 @@ class _sim:
         """Calls a callback of the sandbox. For the main script.
         callType: sim.syscb_*
         """
-    def handleSensingStart(self, calculationObjects: int | None = ..., /) -> None:
+    def handleSensingStart(self, calculationObjects: int | None = ..., /) -> int:
         """Begins the sensing part of a step: measures the velocities of objects. For the main script.
 
         script does
@@ -3860,7 +3860,7 @@ class _sim:
         """Calls a callback of all simulation scripts. For the main script; others get -1.
         callType: sim.syscb_*
         """
-    def handleSimulationStart(self, /) -> Any:
+    def handleSimulationStart(self, /) -> int:
         """Begins a run: primes the measurement of velocities. For the main script.
         """
     def handleVarious(self, /) -> int:
@@ -3888,9 +3888,10 @@ class _sim:
         identicalVerticeTolerance: not used: vertices of the same coordinates become one
         scalingFactor: of all coordinates, beside the unit of the file; 0 for 1
         """
-    def include(self, path: str, /) -> Any:
+    def include(self, path: str, command: str | None = ..., /) -> Any:
         """Runs a file, given by its path relative to the folder of the scene. Where there is none, '/lua/name.lua' is the module of that name.
         path: of a Lua file
+        command: Lua text to run before it
         """
     def includeAbs(self, path: str, /) -> Any:
         """Runs a file, given by its absolute path.
@@ -4010,7 +4011,7 @@ class _sim:
         showStatus: has no effect
         """
     def launchThreadedChildScripts(self, /) -> int:
-        """Does nothing: threads are coroutines, which their scripts resume.
+        """Does nothing: threads are coroutines, which their scripts resume. For the main script.
         """
     def loadImage(self, options: int, filename: bytes | str, /) -> tuple[bytes, list[int]]:
         """Reads an image: PNG, JPEG, BMP or TGA.
@@ -4423,9 +4424,9 @@ class _sim:
         """Undoes sim.changeEntityColor.
         originalColors: from sim.changeEntityColor; objects that are gone are left out
         """
-    def resumeThreads(self, location: int, /) -> int:
-        """Does nothing: threads are coroutines, which their scripts resume.
-        location: sim.scriptthreadresume_*
+    def resumeThreads(self, location: Any | None = ..., /) -> int:
+        """Does nothing: threads are coroutines, which their scripts resume. For the main script.
+        location: any: its constants are gone
         """
     def rmlMoveToJointPositions(self, joints: Sequence[int], flags: int, currentVel: Sequence[float], currentAccel: Sequence[float], maxVel: Sequence[float], maxAccel: Sequence[float], maxJerk: Sequence[float], targetPos: Sequence[float], targetVel: Sequence[float] | None = ..., direction: Sequence[float] | None = ..., /) -> tuple[int, list[float], list[float], list[float], float]:
         """Moves joints to positions, blocking.
@@ -5126,10 +5127,8 @@ class _sim:
         parameter: the new value
         """
     def setScriptSimulationParameter(self, scriptHandle: int, parameterName: str, parameterValue: str, /) -> int:
-        """Sets a parameter of a script, or of the object the script is attached to if that has it.
-
-        have the parameter
-        scriptHandle: the script, sim.handle_self, or all below this script's object (sim.handle_tree) or above it (sim.handle_chain) that
+        """Changes a parameter of a script, or of the object the script is attached to. Names they do not have are ignored.
+        scriptHandle: the script, its object, or sim.handle_self; sim.handle_tree, sim.handle_chain: all below or above the script's object
         parameterName: its name
         parameterValue: its text
         """
@@ -5160,7 +5159,7 @@ class _sim:
     def setShapeBB(self, shapeHandle: int, size: Sequence[float], /) -> None:
         """Scales a shape so that its box gets a size.
         shapeHandle: the shape
-        size: along the axes of its box; a side without extent keeps none
+        size: along the axes of its box
         """
     def setShapeColor(self, shapeHandle: Any | None = ..., colorName: str | None = ..., colorComponent: int | None = ..., rgbData: Sequence[float] | None = ..., /) -> int:
         """Colours a shape.
@@ -5410,7 +5409,7 @@ class _sim:
         dataName: a name of your own
         readBufferSize: packets that wait at most, the oldest one makes room; 0: any number
         """
-    def tubeRead(self, tubeHandle: int, /) -> bytes:
+    def tubeRead(self, tubeHandle: int, /) -> str:
         """Reads and removes the oldest packet of a tube.
         tubeHandle: from sim.tubeOpen
         """

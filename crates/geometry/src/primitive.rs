@@ -95,7 +95,7 @@ pub fn has_pure_size(kind: PrimitiveKind, size: [f64; 3]) -> bool {
 
 /// Mesh of a primitive of the given size (see [`clamp_size`]), with flat normals.
 ///
-/// `open_ends` leaves the lids of a cylinder away. `None` for height fields, which need heights, and for sizes
+/// `open_ends` leaves the lids of a cylinder and the base of a cone away. `None` for height fields, which need heights, and for sizes
 /// that are not finite.
 pub fn tessellate(kind: PrimitiveKind, size: [f64; 3], open_ends: bool) -> Option<Mesh> {
     let (vertices, triangles) = match kind {
@@ -105,6 +105,7 @@ pub fn tessellate(kind: PrimitiveKind, size: [f64; 3], open_ends: bool) -> Optio
         PrimitiveKind::Spheroid => revolve(Some(0.5), &sphere_rings(), Some(-0.5)),
         PrimitiveKind::Cylinder if open_ends => revolve(None, &[(0.5, 0.5), (0.5, -0.5)], None),
         PrimitiveKind::Cylinder => revolve(Some(0.5), &[(0.5, 0.5), (0.5, -0.5)], Some(-0.5)),
+        PrimitiveKind::Cone if open_ends => revolve(Some(0.5), &[(0.5, -0.5)], None),
         PrimitiveKind::Cone => revolve(Some(0.5), &[(0.5, -0.5)], Some(-0.5)),
         PrimitiveKind::Capsule => revolve(Some(0.5), &capsule_rings(size), Some(-0.5)),
         PrimitiveKind::Heightfield => return None,
@@ -242,6 +243,7 @@ mod tests {
             assert_eq!(counts(mesh(kind, [1., 1., 2.])), count, "{kind:?}");
         }
         assert_eq!(counts(tessellate(Cylinder, [1.; 3], true).expect("has a mesh")), (64, 64));
+        assert_eq!(counts(tessellate(Cone, [1.; 3], true).expect("has a mesh")), (33, 32));
     }
 
     #[test]

@@ -45,17 +45,6 @@ function M.enableWorkThreads(count) return 0 end
 -- @return result 0
 function M.waitForWorkThreads() return 0 end
 
---- Does nothing: threads are coroutines, which their scripts resume.
--- @api int count = sim.resumeThreads(int location)
--- @param location sim.scriptthreadresume_*
--- @return count 0
-function M.resumeThreads(location) return 0 end
-
---- Does nothing: threads are coroutines, which their scripts resume.
--- @api int count = sim.launchThreadedChildScripts()
--- @return count 0
-function M.launchThreadedChildScripts() return 0 end
-
 --- Does nothing: a thread never runs while the simulation does something else.
 -- @api int result = sim.setThreadIsFree(bool freeMode)
 -- @param freeMode any

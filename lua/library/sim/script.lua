@@ -84,12 +84,15 @@ function M.executeLuaCode(code)
     return pcall(chunk)
 end
 
---- Names of the plugins this script has loaded.
+--- Names of the plugins this script has loaded, with the modules that are plugins in CoppeliaSim.
 -- @api string[] names = sim.getLoadedPlugins()
 -- @return names sorted
 function M.getLoadedPlugins()
-    local names = {}
-    for name in pairs(sim_plugin_namespaces or {}) do names[#names + 1] = name end
+    local names, native = {}, sim_plugin_namespaces or {}
+    for name in pairs(native) do names[#names + 1] = name end
+    for name in pairs(package.loaded) do
+        if type(name) == 'string' and name:find '^sim%u%w*$' and not native[name] then names[#names + 1] = name end
+    end
     table.sort(names)
     return names
 end
@@ -152,10 +155,12 @@ local function exists(path)
 end
 
 --- Runs a file, given by its path relative to the folder of the scene. Where there is none, '/lua/name.lua' is the module of that name.
--- @api any result = sim.include(string path)
+-- @api any result = sim.include(string path, string command = nil)
 -- @param path of a Lua file
+-- @param command Lua text to run before it
 -- @return result of the file
-function M.include(path)
+function M.include(path, command)
+    if command then assert(load(command))() end
     local file = scenePath(path)
     local module = path:match('^[/\\]?lua[/\\](.+)%.lua$')
     if module and not exists(file) then return (require((module:gsub('[/\\]', '.')))) end

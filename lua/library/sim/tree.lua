@@ -172,10 +172,13 @@ end
 --- Scales a shape so that its box gets a size.
 -- @api sim.setShapeBB(int shapeHandle, float[3] size)
 -- @param shapeHandle the shape
--- @param size along the axes of its box; a side without extent keeps none
+-- @param size along the axes of its box
 function M.setShapeBB(shapeHandle, size)
     local now, factors = sim.getShapeBB(shapeHandle), {}
-    for i = 1, 3 do factors[i] = math.abs(now[i]) > 1e-9 and size[i] / now[i] or 1 end
+    for i = 1, 3 do
+        if now[i] < 1e-9 then error('sim.setShapeBB: a flat shape has no thickness to scale; use sim.scaleObject', 2) end
+        factors[i] = size[i] / now[i]
+    end
     sim.scaleObject(shapeHandle, factors[1], factors[2], factors[3], 0)
 end
 

@@ -122,8 +122,7 @@ end
 --- Runs a file of the simulator's or of the scene's folder.
 -- @param command Lua text to run before it
 function M.include(path, command)
-    if command then assert(load(command))() end
-    return sim.include(path)
+    return sim.include(path, command)
 end
 
 --- The bytes of a text.

@@ -32,6 +32,10 @@ local UNIT <const> = {}
 for i = 0, 7 do for axis = 0, 2 do UNIT[#UNIT + 1] = (i >> axis) & 1 end end
 
 try('points', function() local v, i = simConvex.qhull(UNIT) return #v // 3, #i // 3, (measure(v, i)) end)
+local simQHull = require 'simQHull'
+try('old module', function() local v, i = simQHull.compute(UNIT, true) return #v // 3, #i // 3, (measure(v, i)) end)
+try('corners only', function() local v, i = simQHull.compute(UNIT, false) return #v // 3, #i end)
+try('of shapes', function() return (measure(sim.getShapeMesh(simQHull.computeShape{cube(0), cube(1)}))) end)
 -- The faces go out by half a metre, edges and corners are cut off: 1 + 6/2 + 12/8 + 8/48.
 try('grown', function() return measure(simConvex.qhull(UNIT, 0.5)) end)
 try('inside does not count', function() return #(simConvex.qhull{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.1, 0.1, 0.1}) // 3 end)

@@ -17,4 +17,6 @@ function sysCall_init()
     print(pcall(simCmd.exec, 'Lua') == false, pcall(simCmd.exec, 'Lua', 'error()') == false)
     print(simCmd.setVisible(true), simCmd.clearHistory(), simCmd.toggleStatusbarHeight(), simCmd.helpClose())
     print(#simCmd.helpText() > 0)
+    -- Every line of the text is printed.
+    simCmd.help()
 end

@@ -17,6 +17,7 @@ simUI.create = function(...)
     return windows[#windows]
 end
 
+print('no Qt', simQML.qtVersion())
 handle = simQML.createEngine()
 simQML.setEventHandler(handle, 'received')
 simQML.loadData(handle, 'import QtQuick 2.7\nWindow { title: "Arm & leg"\n width: 200 }')

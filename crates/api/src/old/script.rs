@@ -7,6 +7,7 @@ use api_macro::api;
 use crate::objects::alias::get_object_handle;
 use crate::objects::old_name::suffix_of_script;
 use crate::scripts::script::script_of;
+use crate::scripts::simulation::main_script_only;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::object::script_object::ScriptType;
 use scene::{Data, Handle, SceneError, ValueType, special};
@@ -29,6 +30,8 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_script_string_param,
     set_script_string_param,
     set_script_text,
+    resume_threads,
+    launch_threaded_child_scripts,
 ];
 
 /// Meaning of a numbered attribute or parameter of scripts.
@@ -382,4 +385,22 @@ fn set_script_text(cx: &mut Cx, script_handle: Number, script_text: Bytes) -> Re
 #[api("sim.getLastError")]
 fn get_last_error(cx: &Cx) -> Result<String> {
     Ok(cx.env().last_error.take())
+}
+
+/// Does nothing: threads are coroutines, which their scripts resume. For the main script.
+///
+/// @param location any: its constants are gone
+/// @return count 0
+#[api("sim.resumeThreads")]
+fn resume_threads(cx: &Cx, #[default(Data::Nil)] location: Data) -> Result<i64> {
+    let _ = location;
+    main_script_only(cx).map(|()| 0)
+}
+
+/// Does nothing: threads are coroutines, which their scripts resume. For the main script.
+///
+/// @return count 0
+#[api("sim.launchThreadedChildScripts")]
+fn launch_threaded_child_scripts(cx: &Cx) -> Result<i64> {
+    main_script_only(cx).map(|()| 0)
 }

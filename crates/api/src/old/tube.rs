@@ -6,7 +6,7 @@ use std::rc::Rc;
 use api_macro::api;
 
 use crate::{ApiFn, Cx, Result, functions};
-use script::{Bytes, Number};
+use script::{Bytes, Number, Text};
 
 use super::tubes::Tubes;
 
@@ -61,8 +61,8 @@ fn tube_write(cx: &mut Cx, tube_handle: Number, data: Bytes) -> Result<i64> {
 /// @param tubeHandle from sim.tubeOpen
 /// @return data nothing if no packet waits
 #[api("sim.tubeRead")]
-fn tube_read(cx: &mut Cx, tube_handle: Number) -> Result<Option<Bytes>> {
-    Ok(cx.module_state::<SharedTubes>().0.borrow_mut().read(tube_handle.0).map(Bytes))
+fn tube_read(cx: &mut Cx, tube_handle: Number) -> Result<Option<Text>> {
+    Ok(cx.module_state::<SharedTubes>().0.borrow_mut().read(tube_handle.0).map(Text))
 }
 
 /// The state of a tube.

@@ -3,8 +3,8 @@
 use api_macro::api;
 
 use crate::scripts::script::script_of;
-use crate::{ApiError, ApiFn, Cx, Result, functions};
-use scene::{Data, Field, Handle, Scene, special};
+use crate::{ApiFn, Cx, Result, functions};
+use scene::{Data, Field, Handle, Scene, SceneError, special};
 use script::{Number, Results};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -16,10 +16,10 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 
 /// A parameter of a script, or of the object the script is attached to.
 ///
-/// @param scriptHandle the script, or sim.handle_self
-/// @param parameterName its name
+/// @param scriptHandle the script, its object, or sim.handle_self
+/// @param parameterName its name; an unknown one is an error
 /// @param forceStringReturn return a string; otherwise texts such as `true` and `12` are converted
-/// @return value nil when there is no such parameter
+/// @return value numbers are floats
 #[api("sim.getScriptSimulationParameter")]
 fn get_script_simulation_parameter(
     cx: &Cx,
@@ -27,19 +27,22 @@ fn get_script_simulation_parameter(
     parameter_name: String,
     #[default(false)] force_string_return: bool,
 ) -> Result<Results> {
+    if [special::TREE, special::CHAIN, special::ALL].contains(&script_handle.0) {
+        return Ok(Results(Vec::new()));
+    }
     let hosts = hosts(cx, script_handle)?;
     let scene = cx.scene();
     let text = hosts.into_iter().find_map(|object| find(&scene, object, &parameter_name));
-    Ok(Results(vec![value(text, force_string_return)]))
+    let text = text.ok_or(SceneError::InvalidHandle)?;
+    Ok(Results(vec![value(Some(text), force_string_return)]))
 }
 
-/// Sets a parameter of a script, or of the object the script is attached to if that has it.
+/// Changes a parameter of a script, or of the object the script is attached to. Names they do not have are ignored.
 ///
-/// @param scriptHandle the script, sim.handle_self, or all below this script's object (sim.handle_tree) or above it (sim.handle_chain) that
-/// have the parameter
+/// @param scriptHandle the script, its object, or sim.handle_self; sim.handle_tree, sim.handle_chain: all below or above the script's object
 /// @param parameterName its name
 /// @param parameterValue its text
-/// @return result how many have it now
+/// @return result 0
 #[api("sim.setScriptSimulationParameter")]
 fn set_script_simulation_parameter(
     cx: &mut Cx,
@@ -47,13 +50,17 @@ fn set_script_simulation_parameter(
     parameter_name: String,
     parameter_value: String,
 ) -> Result<i64> {
-    if [special::TREE, special::CHAIN].contains(&script_handle.0) {
-        return set_all(cx, script_handle.0 == special::TREE, &parameter_name, &parameter_value);
+    let near = match script_handle.0 {
+        special::TREE | special::CHAIN => around(cx, script_handle.0 == special::TREE)?,
+        special::ALL => Vec::new(),
+        _ => hosts(cx, script_handle)?,
+    };
+    for object in near {
+        if find(&cx.scene(), object, &parameter_name).is_some() {
+            set(cx, object, parameter_name.clone(), parameter_value.clone())?;
+        }
     }
-    let hosts = hosts(cx, script_handle)?;
-    let owner = hosts.iter().rev().find(|&&host| find(&cx.scene(), host, &parameter_name).is_some());
-    let owner = *owner.or(hosts.first()).ok_or(ApiError::NoSuchScript)?;
-    set(cx, owner, parameter_name, parameter_value)
+    Ok(0)
 }
 
 /// A parameter of an object.
@@ -84,30 +91,24 @@ fn set_user_parameter(
     set(cx, object_handle, parameter_name, parameter_value)
 }
 
-/// The objects that may hold the parameters of a script: its own, and the one it is attached to. At least one.
-fn hosts(cx: &Cx, script_handle: Number) -> Result<Vec<Handle>> {
-    let script = script_of(cx, script_handle.0)?;
+/// The objects that may hold the parameters of a script: its own, and the one it is attached to; or the object a number names.
+fn hosts(cx: &Cx, script_or_object: Number) -> Result<Vec<Handle>> {
+    let Ok(script) = script_of(cx, script_or_object.0) else {
+        let object = Handle::from_raw(script_or_object.0).filter(|&object| cx.scene().object(object).is_ok());
+        return Ok(vec![object.ok_or(SceneError::InvalidHandle)?]);
+    };
     let attached_to = match script.object {
         Some(object) => cx.scene().object(object)?.parent(),
         None => script.owner(),
     };
-    let hosts: Vec<Handle> = [script.object, attached_to].into_iter().flatten().collect();
-    if hosts.is_empty() { Err(ApiError::NoSuchScript) } else { Ok(hosts) }
+    Ok([script.object, attached_to].into_iter().flatten().collect())
 }
 
-/// Sets a parameter where it is, below or above the object of the calling script.
-fn set_all(cx: &mut Cx, below: bool, name: &str, text: &str) -> Result<i64> {
-    let own = *hosts(cx, Number(special::SELF))?.last().ok_or(ApiError::NoSuchScript)?;
-    let all = {
-        let scene = cx.scene();
-        let near: Vec<Handle> =
-            if below { scene.tree(Some(own), false)? } else { scene.ancestors(own).chain([own]).collect() };
-        near.into_iter().filter(|&object| find(&scene, object, name).is_some()).collect::<Vec<_>>()
-    };
-    for &object in &all {
-        set(cx, object, name.to_owned(), text.to_owned())?;
-    }
-    Ok(all.len() as i64)
+/// The object of the calling script with all below it, or with all above it.
+fn around(cx: &Cx, below: bool) -> Result<Vec<Handle>> {
+    let Some(&own) = hosts(cx, Number(special::SELF))?.last() else { return Ok(Vec::new()) };
+    let scene = cx.scene();
+    Ok(if below { scene.tree(Some(own), false)? } else { scene.ancestors(own).chain([own]).collect() })
 }
 
 fn find(scene: &Scene, object: Handle, name: &str) -> Option<String> {
@@ -133,8 +134,6 @@ fn value(text: Option<String>, as_text: bool) -> Data {
         "nil" => Data::Nil,
         "true" => Data::Bool(true),
         "false" => Data::Bool(false),
-        _ => {
-            text.parse().map(Data::Int).or_else(|_| text.parse().map(Data::Float)).unwrap_or_else(|_| Data::text(&text))
-        }
+        _ => text.parse().ok().filter(|number: &f64| number.is_finite()).map_or_else(|| Data::text(&text), Data::Float),
     }
 }

@@ -317,7 +317,6 @@ fn set_named_string_param(cx: &mut Cx, param_name: String, string_param: Text) -
 /// Calls the handlers of what came from outside: what persons did with windows (simUI). It happens at the end of each loop iteration anyway.
 #[api("sim.handleExtCalls")]
 fn handle_ext_calls(cx: &mut Cx) -> Result<()> {
-    crate::scripts::simulation::main_script_only(cx)?;
     cx.deliver_ui_events();
     Ok(())
 }

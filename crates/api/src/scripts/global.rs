@@ -145,17 +145,36 @@ fn add_statusbar_message(cx: &Cx, #[default(None)] message: Option<String>) -> R
     Ok(1)
 }
 
-/// Small services of the host: `headless`, `useBuffers`. Other commands return nothing.
+/// Small services of the host: `headless`, `useBuffers`, `frexp`. Other commands return nothing.
 ///
 /// @param cmd the service
 /// @return result its result
 #[api("auxFunc")]
-fn aux_func(cx: &Cx, cmd: String, #[name("...")] _arguments: Rest) -> Result<Results> {
+fn aux_func(cx: &Cx, cmd: String, #[name("...")] arguments: Rest) -> Result<Results> {
     let _ = cx;
-    Ok(Results(match cmd.as_str() {
-        "headless" | "useBuffers" => vec![Data::Bool(true)],
+    Ok(Results(match (cmd.as_str(), arguments.0.first().and_then(Data::as_f64)) {
+        ("headless" | "useBuffers", _) => vec![Data::Bool(true)],
+        ("frexp", Some(number)) => {
+            let (mantissa, exponent) = mantissa_and_exponent(number);
+            vec![Data::Float(mantissa), Data::Int(exponent)]
+        }
         _ => Vec::new(),
     }))
+}
+
+/// `number` = m 2^e, where m is between 0.5 and 1.
+fn mantissa_and_exponent(number: f64) -> (f64, i64) {
+    if number == 0.0 || !number.is_finite() {
+        return (number, 0);
+    }
+    // The logarithm may be rounded to the next whole number.
+    let exponent = number.abs().log2().floor() as i32 + 1;
+    let mantissa = number * 0.5_f64.powi(exponent / 2) * 0.5_f64.powi(exponent - exponent / 2);
+    match mantissa.abs() {
+        1.0.. => (mantissa / 2.0, i64::from(exponent) + 1),
+        ..0.5 => (mantissa * 2.0, i64::from(exponent) - 1),
+        _ => (mantissa, exponent.into()),
+    }
 }
 
 /// Ends the program after the current loop iteration.

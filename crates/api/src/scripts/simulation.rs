@@ -73,20 +73,26 @@ pub(crate) fn main_script_only(cx: &Cx) -> Result<()> {
     if cx.script().script_type == ScriptType::Main { Ok(()) } else { Err(ApiError::MainScriptOnly) }
 }
 
+/// Result of functions that have nothing to tell.
+const NOTHING: i64 = -1;
+
 /// Begins a run: primes the measurement of velocities. For the main script.
+///
+/// @return result -1
 #[api("sim.handleSimulationStart")]
-fn handle_simulation_start(cx: &mut Cx) -> Result<()> {
+fn handle_simulation_start(cx: &mut Cx) -> Result<i64> {
     main_script_only(cx)?;
     cx.scene_mut().measure_velocities(None);
-    Ok(())
+    Ok(NOTHING)
 }
 
 /// Begins the sensing part of a step: measures the velocities of objects. For the main script.
 ///
 /// @param calculationObjects sim.handle_all_except_explicit: collision and distance objects of old scenes are handled too, as the usual main
 /// script does
+/// @return result -1
 #[api("sim.handleSensingStart")]
-fn handle_sensing_start(cx: &mut Cx, #[default(Number(0))] calculation_objects: Number) -> Result<()> {
+fn handle_sensing_start(cx: &mut Cx, #[default(Number(0))] calculation_objects: Number) -> Result<i64> {
     main_script_only(cx)?;
     // No time has passed before the sensing part of the first step.
     let dt = (cx.clock().steps() > 0).then(|| cx.scene().settings().time_step);
@@ -95,7 +101,7 @@ fn handle_sensing_start(cx: &mut Cx, #[default(Number(0))] calculation_objects: 
         cx.handle_collision_objects(false);
         cx.handle_distance_objects(false);
     }
-    Ok(())
+    Ok(NOTHING)
 }
 
 /// The callback with that number, `sim.syscb_*`.

@@ -51,7 +51,7 @@ fn create_primitive_shape(
 ///
 /// @param primitiveType 0: cuboid, 1: sphere, 2: cylinder, 3: cone
 /// @param options 1: back faces culled, 2: edges visible, 4: smooth, 8: respondable, 16: static, 32: open ends
-/// @param sizes full extents, metres
+/// @param sizes full extents, metres; of a sphere the first
 /// @param mass kg
 /// @param precision not used
 /// @return objectHandle the shape
@@ -69,6 +69,7 @@ fn create_pure_shape(
     let kind = usize::try_from(primitive_type.0).ok().and_then(|i| kinds.get(i).copied());
     let kind = kind.ok_or(SceneError::InvalidArgument)?;
     let options = PureShapeOptions::from_bits_retain(options.0);
+    let sizes = if kind == PrimitiveKind::Spheroid { [sizes[0]; 3] } else { sizes };
     let mut shape = Shape::primitive(kind, sizes, options.primitive())?;
     shape.mass.set_mass(mass);
     shape.dynamics.respondable = options.contains(PureShapeOptions::RESPONDABLE);

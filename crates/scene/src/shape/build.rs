@@ -41,7 +41,8 @@ impl Shape {
     /// For height fields, which need heights.
     pub fn primitive(kind: PrimitiveKind, size: [f64; 3], options: PrimitiveOptions) -> SceneResult<Self> {
         let size = clamp_size(kind, size);
-        let open_ends = options.contains(PrimitiveOptions::OPEN_ENDS) && kind == PrimitiveKind::Cylinder;
+        let has_ends = matches!(kind, PrimitiveKind::Cylinder | PrimitiveKind::Cone);
+        let open_ends = has_ends && options.contains(PrimitiveOptions::OPEN_ENDS);
         let mut mesh = tessellate(kind, size, open_ends).ok_or(SceneError::InvalidArgument)?;
         let mut appearance = Appearance::new([1.0; 3]);
         appearance.culling = options.contains(PrimitiveOptions::CULLING);

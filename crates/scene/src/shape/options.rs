@@ -8,7 +8,7 @@ bitflags! {
     pub struct PrimitiveOptions: i64 {
         const CULLING = 0x1;
         const SHARP_EDGES = 0x2;
-        /// Cylinders only.
+        /// Cylinders and cones only.
         const OPEN_ENDS = 0x4;
         /// Only the mesh: for the physics it is no primitive.
         const PLAIN_MESH = 0x8;
