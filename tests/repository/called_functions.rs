@@ -7,8 +7,6 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-
-
 /// Folders whose programs the suite runs.
 const FOLDERS: [&str; 3] = ["tests", "scenes", "examples"];
 
