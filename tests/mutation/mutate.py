@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+"""Mutation tests of the Lua library: puts one small fault at a time into a file below lua/library and looks whether a conformance case fails.
+
+    cargo build --release
+    python3 tests/mutation/mutate.py sim/path.lua               # all mutants of a file
+    python3 tests/mutation/mutate.py --per-file 20 --seed 7     # a sample of each file of files.txt
+    python3 tests/mutation/mutate.py --report out.json          # ... and what became of each mutant
+    python3 tests/mutation/mutate.py --again out.json           # only those that survived then
+
+Nothing is built: the library lies in the command as text, and a mutant is a copy of the command with another text of the same length
+(embedded.py). Faults are those of operators.py; mutants that do not compile are left out. Of the cases, those run that reach the changed
+function (reach.py), the most special and quickest first, until one fails (cases.py compares as tests/conformance.rs does). A mutant that
+fails none has survived. equivalent.tsv lists mutants that no test can notice, with the reason; they do not count.
+
+Two processes at most work, at low priority. Files are those of the working tree; the command has to be built from them.
+"""
+
+import argparse
+import json
+import math
+import os
+import random
+import sys
+import tempfile
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+import cases
+from embedded import Command, fit
+from operators import mutants_of
+from reach import probed, reached
+
+HERE = Path(__file__).resolve().parent
+LIBRARY = HERE.parent.parent / 'lua' / 'library'
+COMMAND = HERE.parent.parent / 'target' / 'release' / 'swanilda'
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('files', nargs='*', help='below lua/library; default: those of files.txt')
+    parser.add_argument('--command', default=COMMAND, help='the swanilda to copy')
+    parser.add_argument('--per-file', type=int, help='mutants drawn from each file; default: all')
+    parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--jobs', type=int, default=2, choices=(1, 2))
+    parser.add_argument('--report', help='file to write the fate of each mutant to')
+    parser.add_argument('--again', help='file written with --report: only its survivors')
+    return parser.parse_args()
+
+
+def listed(name):
+    lines = (HERE / name).read_text().splitlines()
+    return [line for line in lines if line and not line.startswith('#')]
+
+
+class Bench:
+    """A worker's copy of the command, and the cases."""
+
+    def __init__(self, command, folder, texts):
+        os.nice(15)
+        self.texts = texts
+        self.command = Command(command, os.path.join(folder, f'swanilda-{os.getpid()}'))
+        self.cases = {case.name: case for case in cases.discover()}
+
+    def put(self, path, text):
+        self.command.replace(self.texts[path], text)
+
+    def trace(self, name):
+        """What a case reaches and how long it takes, in a command with probes."""
+        output, seconds = cases.measure(self.cases[name], self.command.path)
+        return name, reached(output), seconds
+
+    def judge(self, mutant, order):
+        """The first case that fails, `unfit` without room, or None: survived."""
+        text = self.texts[mutant.path]
+        changed = fit(mutant.apply(text), len(text.encode()))
+        if changed is None:
+            return 'unfit'
+        self.put(mutant.path, changed)
+        failing = next((n for n, limit in order if not self.cases[n].passes(self.command.path, limit)), None)
+        self.put(mutant.path, text)
+        return failing
+
+
+BENCH = None
+
+
+def set_up(*details):
+    global BENCH
+    BENCH = Bench(*details)
+
+
+def set_up_probes(*details):
+    set_up(*details)
+    for path, text in BENCH.texts.items():
+        BENCH.put(path, probed(path, text))
+
+
+def trace(name):
+    return BENCH.trace(name)
+
+
+def judge(task):
+    return BENCH.judge(*task)
+
+
+def reach_map(options, folder, texts):
+    """(path, function) -> cases, the quickest and those that reach little first, each with its limit of processor seconds."""
+    names = [case.name for case in cases.discover()]
+    with ProcessPoolExecutor(options.jobs, initializer=set_up_probes, initargs=(options.command, folder, texts)) as pool:
+        traced = list(pool.map(trace, names))
+    found = {}
+    for name, places, seconds in sorted(traced, key=lambda t: (t[2] * len(t[1]), t[0])):
+        for place in places:
+            found.setdefault(place, []).append((name, math.ceil(5 + 10 * seconds)))
+    return found
+
+
+def cases_of(found, mutant):
+    """A change outside of functions shows wherever the file is loaded."""
+    return found.get((mutant.path, mutant.function), [])
+
+
+def compiling(options, folder, texts, mutants):
+    """The mutants that are Lua: asked of the command, all at once."""
+    for number, mutant in enumerate(mutants):
+        Path(folder, f'{number}.lua').write_text(mutant.apply(texts[mutant.path]))
+    script = Path(folder, 'compile.lua')
+    script.write_text(f"for i = 0, {len(mutants) - 1} do print('@' .. i .. (loadfile('{folder}/' .. i .. '.lua') and ' ok' or ' no')) end")
+    output = os.popen(f"'{options.command}' run '{script}' --as sandbox --empty --no-start --loops 1 --quiet 2>&1").read()
+    assert output.count('@') == len(mutants), f'the command does not compile the mutants:\n{output[:500]}'
+    return [m for number, m in enumerate(mutants) if f'@{number} ok' in output]
+
+
+def chosen(options, texts):
+    """The mutants to judge, before those that do not compile are left out."""
+    equivalent = {tuple(line.split('\t')[:3]) for line in listed('equivalent.tsv')}
+    again = options.again and {tuple(row[:4]) for row in json.loads(Path(options.again).read_text()) if row[4] is None}
+    for path, text in texts.items():
+        mutants = [m for m in mutants_of(path, text) if (path, *m.lines(text)) not in equivalent]
+        if again:
+            mutants = [m for m in mutants if (path, *m.lines(text), m.replacement) in again]
+        if options.per_file and options.per_file < len(mutants):
+            generator = random.Random(f'{options.seed} {path}')
+            mutants = sorted(generator.sample(mutants, options.per_file), key=lambda m: m.start)
+        yield from mutants
+
+
+def check_method(options, folder, texts, found):
+    """An unchanged copy has to pass, and one with a syntax error to fail: else no verdict means anything."""
+    set_up(options.command, folder, texts)
+    path = next(p for p in texts if found.get((p, -1)))
+    name, limit = found[(path, -1)][0]
+    assert BENCH.cases[name].passes(BENCH.command.path, limit), f'{name} fails with an unchanged copy of the command'
+    BENCH.put(path, '=' + texts[path][1:])
+    assert not BENCH.cases[name].passes(BENCH.command.path, limit), f'{name} passes with a syntax error in {path}'
+
+
+def show(path, text, mutants, verdicts):
+    """Survivors and the share caught, of one file."""
+    survivors = [m for m, verdict in zip(mutants, verdicts) if verdict is None]
+    for mutant in survivors:
+        before, after = mutant.lines(text)
+        print(f'{path}:{mutant.line + 1}: survived\n  - {before}\n  + {after}')
+    count = len(mutants) - verdicts.count('unfit')
+    caught = count - len(survivors)
+    print(f'{path}: {caught} of {count} caught, {100 * caught / max(1, count):.0f} %', flush=True)
+
+
+def judge_all(options, folder, texts, mutants, found):
+    """Rows for the report: file, line before and after, replacement, verdict, line number."""
+    with ProcessPoolExecutor(options.jobs, initializer=set_up, initargs=(options.command, folder, texts)) as pool:
+        for path, text in texts.items():
+            mine = [m for m in mutants if m.path == path]
+            verdicts = list(pool.map(judge, [(m, cases_of(found, m)) for m in mine]))
+            show(path, text, mine, verdicts)
+            yield from ([path, *m.lines(text), m.replacement, v, m.line + 1] for m, v in zip(mine, verdicts))
+
+
+def main():
+    options = arguments()
+    texts = {path: (LIBRARY / path).read_text() for path in options.files or listed('files.txt')}
+    with tempfile.TemporaryDirectory(dir='/dev/shm' if os.path.isdir('/dev/shm') else None) as folder:
+        mutants = compiling(options, folder, texts, list(chosen(options, texts)))
+        found = reach_map(options, folder, texts)
+        check_method(options, folder, texts, found)
+        rows = list(judge_all(options, folder, texts, mutants, found))
+    if options.report:
+        Path(options.report).write_text(json.dumps(rows, indent=0))
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
