@@ -41,6 +41,7 @@ def arguments():
     parser.add_argument('--command', default=COMMAND, help='the swanilda to copy')
     parser.add_argument('--per-file', type=int, help='mutants drawn from each file; default: all')
     parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--cases', type=int, help='run at most so many cases against a mutant, the most special ones; default: all that reach it')
     parser.add_argument('--jobs', type=int, default=2, choices=(1, 2))
     parser.add_argument('--report', help='file to write the fate of each mutant to')
     parser.add_argument('--again', help='file written with --report: only its survivors')
@@ -115,9 +116,9 @@ def reach_map(options, folder, texts):
     return found
 
 
-def cases_of(found, mutant):
+def cases_of(options, found, mutant):
     """A change outside of functions shows wherever the file is loaded."""
-    return found.get((mutant.path, mutant.function), [])
+    return found.get((mutant.path, mutant.function), [])[:options.cases]
 
 
 def compiling(options, folder, texts, mutants):
@@ -171,7 +172,7 @@ def judge_all(options, folder, texts, mutants, found):
     with ProcessPoolExecutor(options.jobs, initializer=set_up, initargs=(options.command, folder, texts)) as pool:
         for path, text in texts.items():
             mine = [m for m in mutants if m.path == path]
-            verdicts = list(pool.map(judge, [(m, cases_of(found, m)) for m in mine]))
+            verdicts = list(pool.map(judge, [(m, cases_of(options, found, m)) for m in mine]))
             show(path, text, mine, verdicts)
             yield from ([path, *m.lines(text), m.replacement, v, m.line + 1] for m, v in zip(mine, verdicts))
 

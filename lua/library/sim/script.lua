@@ -18,9 +18,11 @@ function M.getObject(path, options)
     return handle
 end
 
+local FIRST_SCRIPT <const> = 1010000 -- handles from here on are scripts that are no scene objects
+
 local function scriptOf(target, scriptType)
     if type(target) == 'string' then target = M.getObject(target) end
-    if not sim.isHandle(target) then return target end -- a script that is no scene object
+    if not sim.isHandle(target) or target >= FIRST_SCRIPT then return target end
     if sim.getObjectType(target) == sim.sceneobject_script then return target end
     return sim.getScript(scriptType or sim.scripttype_customization, target)
 end
