@@ -6,7 +6,6 @@ import re
 import resource
 import subprocess
 import tempfile
-import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent / 'conformance'
@@ -111,7 +110,8 @@ def split(line):
 
 
 def measure(case, command):
-    """Output and seconds of an undisturbed run."""
-    start = time.monotonic()
+    """Output and processor seconds of an undisturbed run."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     output = case.run(command, WALL_LIMIT)
-    return output or '', time.monotonic() - start
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return output or '', after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

@@ -112,7 +112,7 @@ def reach_map(options, folder, texts):
     found = {}
     for name, places, seconds in sorted(traced, key=lambda t: (t[2] * len(t[1]), t[0])):
         for place in places:
-            found.setdefault(place, []).append((name, math.ceil(5 + 10 * seconds)))
+            found.setdefault(place, []).append((name, math.ceil(1 + 10 * seconds)))
     return found
 
 

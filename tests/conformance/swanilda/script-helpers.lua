@@ -1,5 +1,5 @@
 -- as: sandbox
--- passes: 0
+-- passes: 1
 -- spec: calls 2, scripts 9, addressing 2; functions of other scripts, variables and modules of this one, files that are run
 -- topic: scripts
 sim = require 'sim'
@@ -23,6 +23,10 @@ print(sim.getScriptFunctions(customization):who(1, 2))
 print(sim.getScriptFunctions(object):who(3))
 print(sim.getScriptFunctions('/robot'):who())
 print(sim.getScriptFunctions(object, sim.scripttype_customization):who())
+-- A script is meant itself, also where another one lies below it.
+local below = script(sim.scripttype_customization, 'below')
+sim.setObjectParent(below, customization, true)
+print(sim.getScriptFunctions(customization):who(4))
 sandboxFunction = function(x) return x + 1 end
 local own = sim.getScriptFunctions(sim.getScript(sim.scripttype_sandbox))
 print(tostring(own):gsub('%d+', 'N'), tostring(sim.getScriptFunctions(customization)) == 'functions of script ' .. customization)
@@ -47,6 +51,10 @@ print(sim.executeLuaCode("error('raised', 0)"))
 
 -- Plugins.
 print(table.concat(sim.getLoadedPlugins(), ' '), sim.isPluginLoaded('simIK'), sim.isPluginLoaded('nobody'))
+sim_plugin_namespaces = {simZ = 'simZ', simA = 'simA'}
+print(table.concat(sim.getLoadedPlugins(), ' '), sim.isPluginLoaded('simA'), sim.isPluginLoaded('simB'))
+sim_plugin_namespaces = {}
+print(#sim.getLoadedPlugins(), sim.isPluginLoaded('simA'))
 require 'simIK'
 print(sim.isPluginLoaded('simIK'))
 print(sim.loadPlugin('simIK'))
@@ -73,8 +81,31 @@ refused('no file', function() sim.includeAbs(path) end)
 print('module', sim.include('/lua/tablex.lua') == require 'tablex', sim.include('lua/socket/url.lua') == require 'socket.url')
 refused('no module', function() sim.include('/lua/nobody.lua') end)
 
+-- Files beside the scene; they go before modules.
+local folder = os.tmpname()
+os.remove(folder)
+local lfs = require 'lfs'
+lfs.mkdir(folder)
+lfs.mkdir(folder .. '/lua')
+sim.saveScene(folder .. '/scene.ttt')
+path = folder .. '/lua/tablex.lua'
+write("return 'beside the scene'")
+print(sim.includeRel('lua/tablex.lua'), sim.include('/lua/tablex.lua'))
+os.remove(path)
+print(sim.include('/lua/tablex.lua') == require 'tablex')
+os.remove(folder .. '/scene.ttt')
+lfs.rmdir(folder .. '/lua')
+lfs.rmdir(folder)
+
 -- Variables of others.
 print(sim.setScriptVariable('given', customization, {1, 2}))
 print(sim.callScriptFunction('getAsString', customization, 1), sim.executeScriptString('given[2]', customization))
 print(sim.setScriptVariable('given@/robot', sim.scripttype_customization, 'by path'))
 print(sim.executeScriptString('given', customization))
+
+-- Without an object, the type of the main script means the main script.
+registerScriptFuncHook('sysCall_sensing', function()
+    if sim.getSimulationTime() > 0 then return end
+    print('main', sim.setScriptVariable('given', sim.scripttype_main, 'by type'))
+    print(sim.executeScriptString('given', sim.getScript(sim.scripttype_main)))
+end, true)
