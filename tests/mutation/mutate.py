@@ -27,7 +27,7 @@ from pathlib import Path
 
 import cases
 from embedded import Command, fit
-from operators import mutants_of
+from operators import function_name, mutants_of
 from reach import probed, reached
 
 HERE = Path(__file__).resolve().parent
@@ -105,20 +105,28 @@ def judge(task):
 
 
 def reach_map(options, folder, texts):
-    """(path, function) -> cases, the quickest and those that reach little first, each with its limit of processor seconds."""
+    """Case -> what it reaches and its processor seconds."""
     names = [case.name for case in cases.discover()]
     with ProcessPoolExecutor(options.jobs, initializer=set_up_probes, initargs=(options.command, folder, texts)) as pool:
-        traced = list(pool.map(trace, names))
-    found = {}
-    for name, places, seconds in sorted(traced, key=lambda t: (t[2] * len(t[1]), t[0])):
-        for place in places:
-            found.setdefault(place, []).append((name, math.ceil(1 + 10 * seconds)))
-    return found
+        return {name: (places, seconds) for name, places, seconds in pool.map(trace, names)}
 
 
-def cases_of(options, found, mutant):
-    """A change outside of functions shows wherever the file is loaded."""
-    return found.get((mutant.path, mutant.function), [])[:options.cases]
+def cases_of(options, found, texts, mutant):
+    """Cases that reach a mutant, the likeliest first to notice, each with its limit of processor seconds.
+
+    Those that mention the function come first; for a change outside of functions, those that reach many functions of the file. Else the
+    quick ones that reach little.
+    """
+    name = function_name(texts[mutant.path], mutant.function)
+
+    def rank(case):
+        places, seconds = found[case]
+        in_file = sum(path == mutant.path for path, _ in places)
+        is_mentioned = name is not None and name in (cases.ROOT / f'{case}.lua').read_text(errors='replace')
+        return not is_mentioned, -in_file if mutant.function < 0 else 0, seconds * len(places), case
+
+    reaching = [case for case, (places, _) in found.items() if (mutant.path, mutant.function) in places]
+    return [(case, math.ceil(1 + 10 * found[case][1])) for case in sorted(reaching, key=rank)[:options.cases]]
 
 
 def compiling(options, folder, texts, mutants):
@@ -149,11 +157,10 @@ def chosen(options, texts):
 def check_method(options, folder, texts, found):
     """An unchanged copy has to pass, and one with a syntax error to fail: else no verdict means anything."""
     set_up(options.command, folder, texts)
-    path = next(p for p in texts if found.get((p, -1)))
-    name, limit = found[(path, -1)][0]
-    assert BENCH.cases[name].passes(BENCH.command.path, limit), f'{name} fails with an unchanged copy of the command'
+    path, name = next((p, case) for p in texts for case, (places, _) in found.items() if (p, -1) in places)
+    assert BENCH.cases[name].passes(BENCH.command.path), f'{name} fails with an unchanged copy of the command'
     BENCH.put(path, '=' + texts[path][1:])
-    assert not BENCH.cases[name].passes(BENCH.command.path, limit), f'{name} passes with a syntax error in {path}'
+    assert not BENCH.cases[name].passes(BENCH.command.path), f'{name} passes with a syntax error in {path}'
 
 
 def show(path, text, mutants, verdicts):
@@ -172,7 +179,7 @@ def judge_all(options, folder, texts, mutants, found):
     with ProcessPoolExecutor(options.jobs, initializer=set_up, initargs=(options.command, folder, texts)) as pool:
         for path, text in texts.items():
             mine = [m for m in mutants if m.path == path]
-            verdicts = list(pool.map(judge, [(m, cases_of(options, found, m)) for m in mine]))
+            verdicts = list(pool.map(judge, [(m, cases_of(options, found, texts, m)) for m in mine]))
             show(path, text, mine, verdicts)
             yield from ([path, *m.lines(text), m.replacement, v, m.line + 1] for m, v in zip(mine, verdicts))
 

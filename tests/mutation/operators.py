@@ -68,6 +68,15 @@ def function_at(functions, place):
     return inside[-1] if inside else -1
 
 
+def function_name(text, number):
+    """The last part of the name of a function, None for one without or for no function."""
+    if number < 0:
+        return None
+    start, _ = functions_of(code_of(text))[number]
+    name = re.search(r'function [\w.:]*?(\w+) *\([^()]*\)$', text[:start])
+    return name and name.group(1)
+
+
 def is_binary(tokens, i):
     previous = tokens[i - 1]
     return previous.kind in ('name', 'number', 'string') or previous.text in OPERAND_ENDS

@@ -1,5 +1,5 @@
 -- as: simulation
--- passes: 40
+-- passes: 45
 -- spec: joints 6, motion 1; kinematic motions: velocities to begin with, ends, limits, what is too small to move for
 -- tol: 1e-6
 -- topic: joints
@@ -40,9 +40,30 @@ function sysCall_init()
     sim.setJointTargetPosition(show('0.02 degrees', revolute(), 30), 0.00035, {1, 1, 1})
     sim.setJointTargetPosition(show('impossible', prismatic(), 1, 5), 1, {1, 0, 1})
     sim.setJointTargetVelocity(show('impossible velocity', prismatic(), 1, 5), 1, {0, 1})
+    local property = show('impossible by property', prismatic(), 1, 5)
+    sim.setFloatArrayProperty(property, 'maxVelAccelJerk', {1, 1, math.huge})
+    sim.setJointTargetPosition(property, 1)
+    property = show('impossible velocity by property', prismatic(), 1, 5)
+    sim.setFloatArrayProperty(property, 'maxVelAccelJerk', {1, 1, math.huge})
+    sim.setJointTargetVelocity(property, 1)
+    -- Cancelled after step 5 and begun anew: at rest again. From 0 to 0.2 m/s with 2 m/s^2 and 20 m/s^3: 0.2 s and 0.02 m, halfway 0.1 m/s.
+    cancelled = show('begun anew', prismatic(), 4, 5, 7, 9, 10)
+    sim.setJointTargetVelocity(cancelled, 0.2, {2, 20})
+    reached = show('a target on the way', prismatic(), 10, 44)
+    sim.setJointTargetPosition(reached, 1, {0.5, 1, 10})
 end
 
 local step = 0
+
+function sysCall_actuation()
+    if step == 5 then
+        sim.setJointMode(cancelled, sim.jointmode_dynamic, 0)
+        sim.setJointMode(cancelled, sim.jointmode_kinematic, 0)
+        sim.setJointTargetVelocity(cancelled, 0.2, {2, 20})
+    elseif step == 10 then
+        sim.setJointTargetPosition(reached, sim.getJointPosition(reached)) -- it has to come back
+    end
+end
 
 function sysCall_sensing()
     step = step + 1

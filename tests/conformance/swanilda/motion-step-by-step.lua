@@ -85,3 +85,5 @@ pos, vel, accel, left = sim.moveToConfig(0x200, {1}, nil, nil, {0.5, -0.25}, {1,
 print('only of the accelerations', text(pos), text(vel), text(accel), text{left})
 pos, vel, accel, left = sim.moveToConfig(0x100, {1}, nil, nil, {0.5, -0.25}, {1, -0.5}, {10}, {0}, nil, function() end, nil, nil, 0.25)
 print('only of the velocities', text(pos), text(vel), text(accel), text{left})
+pos, vel, accel, left = sim.moveToConfig(0x303, {1, 0}, nil, nil, {0.5, 0.5, -0.25, -0.5}, {1, 1, -0.5, -1}, {10, 10}, {0, 0.5}, nil, function() end, nil, nil, 0.25)
+print('minima of two', text(pos), text(vel), text(accel), text{left})

@@ -25,7 +25,7 @@ local function between(a, b, t)
     return sim.getPathInterpolatedConfig(path, {0, 1}, t, nil, TYPES)
 end
 
-local X <const>, Z <const>, D <const> = {1, 0, 0}, {0, 0, 1}, {0.6, 0, 0.8}
+local X <const>, Z <const>, D <const> = {1, 0, 0}, {0, 0, 1}, {0.48, 0.6, 0.64}
 for _, t in ipairs{0.1, 0.25, 0.5, 0.75} do
     show('0 to 1.2 about z, ' .. t, between(about(Z, 0), about(Z, 1.2), t))
     show('the same, other sign, ' .. t, between(about(Z, 0), about(Z, 1.2, -1), t))
