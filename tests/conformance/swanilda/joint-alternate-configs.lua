@@ -38,6 +38,7 @@ show('all', 5, {two, three, one, cyclic, slider}, {0.5, -0.25, 1, 2, 3})
 show('other limits', 2, {two, one}, {0.5, 0.5}, -1, {-1, -7}, {2, 14})
 show('limits for a cyclic one', 1, {cyclic}, {0.5}, -1, {-7}, {14})
 show('one turn exactly', 1, {two}, {0.5}, -1, {-math.pi}, {2 * math.pi})
+show('both ends of a turn', 1, {two}, {math.pi}, -1, {-math.pi}, {2 * math.pi})
 show('limits elsewhere', 1, {two}, {0.5}, -1, {20}, {7})
 show('no joints', 1, {}, {})
 local many, config = {}, {}

@@ -46,10 +46,11 @@ show('in place', sim.invertPose(pose))
 print(rounded(pose))
 
 -- Milliseconds.
+print('global', simGetSystemTimeInMilliseconds() <= math.ceil(sim.getSystemTime() * 1000))
 local now = sim.getSystemTime()
-local ms = simGetSystemTimeInMilliseconds()
+local ms = sim.getSystemTimeInMilliseconds()
 print('milliseconds', math.type(ms), ms >= math.floor(now * 1000), ms <= math.ceil(sim.getSystemTime() * 1000))
-local since = simGetSystemTimeInMilliseconds(ms)
+local since = sim.getSystemTimeInMilliseconds(ms)
 print('since then', math.type(since), since >= 0, since <= math.ceil(sim.getSystemTime() * 1000) - ms)
 
 -- Messages without wires.
@@ -74,3 +75,31 @@ sim.setSimilarName(first, 'arm#3', '_copy')
 print('again', sim.getObjectName(first))
 sim.setSimilarName(second, 'leg', '')
 print(sim.getObjectName(second))
+
+-- Warnings that name the line; one advice, once.
+show('tracing', simHandleTracing(), simResetTracing())
+show('child scripts', simHandleChildScript(sim.handle_all))
+show('child scripts', simHandleChildScript(sim.handle_all))
+
+-- Handles by name: the last number of the global allows that there is none.
+local function handle(what, ...)
+    local ok, result = pcall(...)
+    print(what, ok, ok and (result == first and 'the first' or result == third and 'the third' or result) or 'refused')
+end
+sim.setObjectAlias(third, 'twin')
+sim.setObjectAlias(first, 'twin')
+sim.setObjectName(first, 'named')
+handle('name', simGetObjectHandle, 'named')
+handle('no name', simGetObjectHandle, 'nobody')
+handle('no name, no error', simGetObjectHandle, 'nobody', -1, -1, 1)
+handle('no name, other option', simGetObjectHandle, 'nobody', -1, -1, 2)
+handle('no name, both options', simGetObjectHandle, 'nobody', -1, -1, 3)
+handle('path', simGetObjectHandle, '/twin', 0)
+handle('path, the second', simGetObjectHandle, '/twin', 1)
+handle('path, the third', simGetObjectHandle, '/twin', 2, -1, 1)
+handle('by name', sim.getObjectHandle_noErrorNoSuffixAdjustment, 'named')
+handle('by name, none', sim.getObjectHandle_noErrorNoSuffixAdjustment, 'nobody')
+print(sim.getNameSuffix('arm#12'))
+print(sim.getNameSuffix('arm12'))
+print(sim.getNameSuffix('arm#'))
+print(sim.getNameSuffix(), sim.setNameSuffix(4), sim.getNameSuffix())
