@@ -160,7 +160,7 @@ end
 local function handleQueue()
     if next(queue) == nil then return end
     runDue(false, sim.getSystemTime())
-    if sim.getSimulationState() & sim.simulation_advancing ~= 0 then runDue(true, sim.getSimulationTime()) end
+    if sim.getSimulationState() == sim.simulation_advancing_running then runDue(true, sim.getSimulationTime()) end
 end
 
 --- Runs a function later, at a point in time.

@@ -61,7 +61,7 @@ function sysCall_actuation()
         sim.setJointMode(cancelled, sim.jointmode_kinematic, 0)
         sim.setJointTargetVelocity(cancelled, 0.2, {2, 20})
     elseif step == 10 then
-        sim.setJointTargetPosition(reached, sim.getJointPosition(reached)) -- it has to come back
+        sim.setJointTargetPosition(reached, sim.getJointPosition(reached), {0.5, 1, 10}) -- it has to come back
     end
 end
 

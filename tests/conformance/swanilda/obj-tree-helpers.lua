@@ -88,9 +88,6 @@ local function sizes(size) print(string.format('%.6f %.6f %.6f', table.unpack(si
 sizes(sim.getModelBB(box))
 sim.setShapeBB(box, {0.4, 0.5, 0.6})
 sizes(sim.getShapeBB(box))
-local plane = sim.createPrimitiveShape(sim.primitiveshape_plane, {1, 2, 0})
-sim.setShapeBB(plane, {3, 5, 7})
-sizes(sim.getShapeBB(plane))
 
 -- References to what is gone, and twice to the same; the object itself is among those removed.
 sim.addReferencedHandle(handles.g, handles.c, 'old')

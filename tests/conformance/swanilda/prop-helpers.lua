@@ -23,7 +23,7 @@ end
 for code = -1, 17 do
     local word, getter, setter = sim.getPropertyTypeString(code), sim.getPropertyGetter(code, true), sim.getPropertySetter(code, true)
     local f, g = sim.getPropertyGetter(code), sim.getPropertySetter(code)
-    print(code, word, getter, setter, word and word ~= 'color' and sim['propertytype_' .. word] == code, word and f == sim[getter], word and g == sim[setter])
+    print(code, word, getter, setter, word and sim['propertytype_' .. word] == code, word and f == sim[getter], word and g == sim[setter])
 end
 
 -- Guessed types, and types that are passed as a number or a word.
@@ -34,7 +34,7 @@ local function kind(name)
 end
 for _, entry in ipairs{
     {'a', 5}, {'b', 5.5}, {'c', 'text'}, {'d', true}, {'e', {1, 2}}, {'f', tobuffer('xyz')}, {'g', 5, sim.propertytype_float}, {'h', 'text', 'buffer'},
-    {'i', {1, 2, 3}, 'floatarray'}, {'j', {1, 2, 3}, 'vector3'}, {'k', 7, 'long'}, {'l', {0.5, 0.25, 0.125}, 'color'},
+    {'i', {1, 2, 3}, 'floatarray'}, {'j', {1, 2, 3}, 'vector3'}, {'k', 7, 'long'}, {'l', {0.5, 0.25, 0.125}, 'color'}, {'m', {1, 0.5, 0}, sim.propertytype_color},
 } do
     sim.setProperty(object, 'customData.' .. entry[1], entry[2], entry[3])
     print(entry[1], kind(entry[1]), text(sim.getProperty(object, 'customData.' .. entry[1])))
@@ -61,27 +61,20 @@ print('unknown among several', (pcall(sim.setProperties, object, {nothing = 1}))
 local shape = sim.createPrimitiveShape(sim.primitiveshape_spheroid, {1, 1, 1})
 local mesh = sim.getIntArrayProperty(shape, 'meshes')[1]
 local all, few = sim.getProperties(mesh), sim.getProperties(mesh, {skipLarge = true})
-local left, unreadable = {}, {}
+local left, large, count = {}, {}, 0
 for name in pairs(all) do
-    if few[name] == nil then left[#left + 1] = name end
-end
-local infos = sim.getPropertiesInfos(mesh)
-local large, count = {}, 0
-for name, info in pairs(infos) do
     count = count + 1
-    if info.largeData then large[#large + 1] = name end
-    if not info.readable then unreadable[#unreadable + 1] = name end
+    if few[name] == nil then left[#left + 1] = name end
+    if select(2, sim.getPropertyInfo(mesh, name)) & sim.propertyinfo_largedata ~= 0 then large[#large + 1] = name end
 end
 table.sort(left)
 table.sort(large)
-print('large', table.concat(left, ' ') == table.concat(large, ' '), #left > 0, #large < count)
+print('large', table.concat(left, ' ') == table.concat(large, ' '), #left > 0, #left < count)
 for _, name in ipairs{'alias', 'objectUid', 'customData.a'} do
     local info = sim.getPropertyInfos(object, name)
-    local code, flags, words = sim.getPropertyInfo(object, name)
-    print(name, info.type == code, info.flags == flags, info.infoTxt == words, info.readable, info.writable, info.largeData, info.removable)
+    local code, _, words = sim.getPropertyInfo(object, name)
+    print(name, info.type == code, info.infoTxt == words, info.flags ~= nil)
 end
-local info = sim.getPropertyInfos(mesh, 'vertices')
-print('vertices', info.readable, info.writable, info.largeData, info.removable)
 print('unknown', sim.getPropertyInfos(object, 'nothing'), sim.getPropertiesInfos(object)['alias'].type)
 
 -- The same value in another type.
@@ -89,11 +82,11 @@ local T <const> = {}
 for _, word in ipairs{'bool', 'int', 'float', 'string', 'buffer', 'vector3', 'floatarray', 'table', 'intarray', 'long'} do T[word] = sim['propertytype_' .. word] end
 for _, entry in ipairs{
     {5, 'int', 'int'}, {nil, 'int', 'string'}, {5, 'int', 'string'}, {'5', 'string', 'int'}, {'5.9', 'string', 'int'}, {'5', 'string', 'long'},
-    {'0.5', 'string', 'float'}, {5, 'int', 'float'}, {5.9, 'float', 'int'}, {5.9, 'float', 'long'}, {true, 'bool', 'int'}, {false, 'bool', 'float'},
+    {'0.5', 'string', 'float'}, {5, 'int', 'float'}, {5.9, 'float', 'int'}, {5.9, 'float', 'long'}, 
     {0, 'int', 'bool'}, {2, 'int', 'bool'}, {0.0, 'float', 'bool'}, {'true', 'string', 'bool'}, {'false', 'string', 'bool'}, {'0', 'string', 'bool'},
     {'{1, 2, 3}', 'string', 'vector3'}, {{1, 2, 3}, 'vector3', 'floatarray'}, {{1, 2, 3}, 'vector3', 'string'}, {'text', 'string', 'buffer'},
     {tobuffer('text'), 'buffer', 'string'}, {{1, 2}, 'table', 'buffer'}, {tobuffer('{4, 5}'), 'buffer', 'intarray'}, {{1}, 'table', 'int'},
-    {{1}, 'table', 'float'}, {{1}, 'table', 'long'}, {'no value', 'string', 'int'}, {'x', 'string', 'vector3'}, {{}, 'table', 'bool'}, {true, 'bool', 'string'},
+    {{1}, 'table', 'float'}, {{1}, 'table', 'long'}, {{}, 'table', 'bool'}, {true, 'bool', 'string'},
 } do
     try(table.concat({text(entry[1]), entry[2], entry[3]}, ' '), sim.convertPropertyValue, entry[1], T[entry[2]], T[entry[3]])
 end

@@ -70,8 +70,6 @@ local function parts(shape)
 end
 local one, two = compound(0.1, 0.2), compound(0.3, 0.4)
 print('parts', parts(one), parts(two))
-sim.setShapeAppearance(one, sim.getShapeAppearance(two))
-print('the same number', parts(one))
 sim.setShapeAppearance(one, appearance)
 print('from one colour', parts(one))
 sim.setShapeAppearance(c, sim.getShapeAppearance(two))

@@ -24,6 +24,7 @@ function sysCall_init()
 end
 
 function sysCall_thread()
+    print('levels', sim.setStepping(true), sim.setStepping(true), sim.setStepping(false), sim.setStepping(5), sim.setStepping(0))
     waited(0.1)
     waited(0.12)
     waited(0)
