@@ -60,7 +60,7 @@ class Command:
                 found.append(place)
                 place = self.content.find(data, place + 1)
             if not found:
-                raise ValueError('a Lua file is not in the command as it is in the working tree: build it anew')
+                raise ValueError('a Lua file is not in the command as it is in the working tree: run cargo build --release first')
             self.places[text] = found
         return self.places[text]
 

@@ -16,10 +16,12 @@ Two processes at most work, at low priority. Files are those of the working tree
 """
 
 import argparse
+import functools
 import json
 import math
 import os
 import random
+import subprocess
 import sys
 import tempfile
 from concurrent.futures import ProcessPoolExecutor
@@ -58,7 +60,7 @@ class Bench:
 
     def __init__(self, command, folder, texts):
         os.nice(15)
-        self.texts = texts
+        self.texts, self.original = texts, command
         self.command = Command(command, os.path.join(folder, f'swanilda-{os.getpid()}'))
         self.cases = {case.name: case for case in cases.discover()}
 
@@ -66,9 +68,9 @@ class Bench:
         self.command.replace(self.texts[path], text)
 
     def trace(self, name):
-        """What a case reaches and how long it takes, in a command with probes."""
+        """What a case reaches and its processor seconds, in a command with probes; and whether it passes without."""
         output, seconds = cases.measure(self.cases[name], self.command.path)
-        return name, reached(output), seconds
+        return name, reached(output), seconds, self.cases[name].passes(self.original)
 
     def judge(self, mutant, order):
         """The first case that fails, `unfit` without room, or None: survived."""
@@ -105,10 +107,19 @@ def judge(task):
 
 
 def reach_map(options, folder, texts):
-    """Case -> what it reaches and its processor seconds."""
+    """Case -> what it reaches and its processor seconds. Without cases that fail already."""
     names = [case.name for case in cases.discover()]
     with ProcessPoolExecutor(options.jobs, initializer=set_up_probes, initargs=(options.command, folder, texts)) as pool:
-        return {name: (places, seconds) for name, places, seconds in pool.map(trace, names)}
+        traced = list(pool.map(trace, names))
+    failing = [name for name, _, _, is_passing in traced if not is_passing]
+    if failing:
+        print(f'these cases fail without a mutant and are left out: {" ".join(failing)}', file=sys.stderr)
+    return {name: (places, seconds) for name, places, seconds, is_passing in traced if is_passing}
+
+
+@functools.cache
+def text_of(case):
+    return (cases.ROOT / f'{case}.lua').read_text(errors='replace')
 
 
 def cases_of(options, found, texts, mutant):
@@ -122,7 +133,7 @@ def cases_of(options, found, texts, mutant):
     def rank(case):
         places, seconds = found[case]
         in_file = sum(path == mutant.path for path, _ in places)
-        is_mentioned = name is not None and name in (cases.ROOT / f'{case}.lua').read_text(errors='replace')
+        is_mentioned = name is not None and name in text_of(case)
         return not is_mentioned, -in_file if mutant.function < 0 else 0, seconds * len(places), case
 
     reaching = [case for case, (places, _) in found.items() if (mutant.path, mutant.function) in places]
@@ -134,9 +145,13 @@ def compiling(options, folder, texts, mutants):
     for number, mutant in enumerate(mutants):
         Path(folder, f'{number}.lua').write_text(mutant.apply(texts[mutant.path]))
     script = Path(folder, 'compile.lua')
-    script.write_text(f"for i = 0, {len(mutants) - 1} do print('@' .. i .. (loadfile('{folder}/' .. i .. '.lua') and ' ok' or ' no')) end")
-    output = os.popen(f"'{options.command}' run '{script}' --as sandbox --empty --no-start --loops 1 --quiet 2>&1").read()
-    assert output.count('@') == len(mutants), f'the command does not compile the mutants:\n{output[:500]}'
+    script.write_text(
+        f"for i = 0, {len(mutants) - 1} do print('@' .. i .. (loadfile('{folder}/' .. i .. '.lua') and ' ok' or ' no')) end"
+    )
+    arguments = [options.command, 'run', script, '--as', 'sandbox', '--empty', '--no-start', '--loops', '1', '--quiet']
+    output = subprocess.run(arguments, capture_output=True, text=True, timeout=60, check=False).stdout
+    if output.count('@') != len(mutants):
+        sys.exit(f'{options.command} does not compile the mutants: is it swanilda? It said:\n{output[:500]}')
     return [m for number, m in enumerate(mutants) if f'@{number} ok' in output]
 
 
@@ -158,9 +173,11 @@ def check_method(options, folder, texts, found):
     """An unchanged copy has to pass, and one with a syntax error to fail: else no verdict means anything."""
     set_up(options.command, folder, texts)
     path, name = next((p, case) for p in texts for case, (places, _) in found.items() if (p, -1) in places)
-    assert BENCH.cases[name].passes(BENCH.command.path), f'{name} fails with an unchanged copy of the command'
+    if not BENCH.cases[name].passes(BENCH.command.path):
+        sys.exit(f'{name} fails with an unchanged copy of the command: copies do not run here')
     BENCH.put(path, '=' + texts[path][1:])
-    assert not BENCH.cases[name].passes(BENCH.command.path), f'{name} passes with a syntax error in {path}'
+    if BENCH.cases[name].passes(BENCH.command.path):
+        sys.exit(f'{name} passes with a syntax error in {path}: its text is not where the command takes it from')
 
 
 def show(path, text, mutants, verdicts):
