@@ -15,7 +15,7 @@ local TYPES <const> = {
     [14] = {'vector2', 'Vector2'}, [15] = {'intarray2', 'IntArray2'}, [16] = {'long', 'Long'},
 }
 local getinfo <const> = debug.getinfo
-local NOT_READABLE <const>, LARGE_DATA <const>, NOT_WRITABLE <const> = 2, 0x100, 1
+local NOT_WRITABLE <const>, NOT_READABLE <const>, REMOVABLE <const>, LARGE_DATA <const> = 1, 2, 4, 0x100
 
 local function getter(code) return TYPES[code] and sim['get' .. TYPES[code][2] .. 'Property'] end
 local function setter(code) return TYPES[code] and sim['set' .. TYPES[code][2] .. 'Property'] end
@@ -135,15 +135,15 @@ end
 -- @param target object, sim.handle_scene, sim.handle_app, ...
 -- @param name of the property
 -- @param options as in sim.getPropertyInfo
--- @return info with type, flags, infoTxt and a field per flag; nil if there is no such property
+-- @return info with type, infoTxt and flags, a table of value, readable, writable, removable and large; nil without such a property
 function M.getPropertyInfos(target, name, options)
     local ptype, flags, text = sim.getPropertyInfo(target, name, options or {})
     if not ptype then return nil end
-    return {
-        type = ptype, flags = flags, infoTxt = text,
-        readable = flags & NOT_READABLE == 0, writable = flags & NOT_WRITABLE == 0, largeData = flags & LARGE_DATA ~= 0,
-        removable = flags & 4 ~= 0,
+    local is = {
+        value = flags, readable = flags & NOT_READABLE == 0, writable = flags & NOT_WRITABLE == 0,
+        removable = flags & REMOVABLE ~= 0, large = flags & LARGE_DATA ~= 0,
     }
+    return {type = ptype, flags = is, infoTxt = text}
 end
 
 --- Type, flags and description of all properties.
@@ -167,7 +167,7 @@ end
 -- @param value in the first type
 -- @param fromType sim.propertytype_*
 -- @param toType sim.propertytype_*
--- @return value in the second type; error if there is no sensible one
+-- @return value in the second type; an error if there is no sensible one, such as a boolean's number
 function M.convertPropertyValue(value, fromType, toType)
     local to = TYPES[toType] and TYPES[toType][1]
     if fromType == toType or value == nil then return value end
@@ -178,7 +178,7 @@ function M.convertPropertyValue(value, fromType, toType)
     if to == 'buffer' then return tobuffer(type(value) == 'string' and value or getAsString(value)) end
     if type(value) == 'string' or isbuffer(value) then value = evaluated(tostring(value)) end
     if to == 'bool' then return type(value) == 'number' and value ~= 0 or value == true end
-    if type(value) == 'boolean' then value = value and 1 or 0 end
+    if value == nil then return nil end -- a text without a value
     if type(value) == 'number' and (to == 'int' or to == 'long') then return math.floor(value) end
     if type(value) == 'number' and to == 'float' then return value + 0.0 end
     if type(value) == 'table' and not ({int = 1, long = 1, float = 1})[to] then return value end

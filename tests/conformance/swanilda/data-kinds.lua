@@ -51,6 +51,20 @@ sim.writeCustomDataBlockEx(a, '__info__', sim.packTable{blocks = {m = {type = 't
 print('told', sim.readCustomDataBlockEx(a, 'm'))
 print(select(2, sim.readCustomDataBlockEx(a, '__info__')), kinds(a))
 
+-- The same tag on several objects: each has its own kind.
+local c, d, e, f, g = sim.createDummy(0.01), sim.createDummy(0.01), sim.createDummy(0.01), sim.createDummy(0.01), sim.createDummy(0.01)
+sim.writeCustomDataBlockEx(c, 'k', 'x', {dataType = 'A'})
+sim.writeCustomDataBlockEx(d, 'k', 'x', {dataType = 'B'})
+sim.writeCustomDataBlockEx(e, 'k', 'x', {dataType = 'B'})
+sim.writeCustomDataBlockEx(f, 'l', 'x', {dataType = 'B'})
+sim.writeCustomDataBlockEx(f, 'k', 'x', {dataType = 'B'})
+sim.writeCustomDataBlockEx(g, 'k', 'x')
+print(kinds(c), kinds(d), kinds(e), kinds(f), table.concat(sim.readCustomDataTags(g), ' '))
+print('a byte', sim.readCustomDataBlockEx(c, 'k'), sim.readCustomDataBlock(g, 'k'), sim.readCustomDataBlockEx(g, 'k'))
+sim.writeCustomDataBlockEx(e, 'k', 'x')
+sim.writeCustomDataBlockEx(d, 'k', 'x', {dataType = 'C'})
+print(kinds(e) == '', kinds(d))
+
 -- Tables: what is written often is the same on each object as when it is written once.
 for round = 1, 3 do
     for i = 1, 18 do

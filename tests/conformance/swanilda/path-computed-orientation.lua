@@ -24,6 +24,7 @@ end
 local UP <const>, SIDE <const> = {0, 0, 1}, {0, 1, 0}
 for _, pair in ipairs{
     {{1, 0, 0}, UP}, {{-1, 0, 0}, UP}, {{0, 1, 0}, UP}, {{0, -1, 0}, UP}, {{0, 0, 1}, SIDE}, {{0, 0, -1}, SIDE}, {{-2, -2, -2}, {2, 1, -1}}, {{-2, -2, 2}, {1, 2, 2}},
+    {{1, 0, 0}, {0, -1, 0}}, {{-1, 0, 0}, {0, 1, 0}}, {{-1, 0, 0}, {0, -1, 0}}, -- half turns about x, y and z in mode 0
 } do
     print('direction', table.unpack(pair[1]))
     for mode = 0, 5 do show(pair[1], pair[2], mode) end

@@ -72,17 +72,28 @@ table.sort(large)
 print('large', table.concat(left, ' ') == table.concat(large, ' '), #left > 0, #left < count)
 for _, name in ipairs{'alias', 'objectUid', 'customData.a'} do
     local info = sim.getPropertyInfos(object, name)
-    local code, _, words = sim.getPropertyInfo(object, name)
-    print(name, info.type == code, info.infoTxt == words, info.flags ~= nil)
+    local code, flags, words = sim.getPropertyInfo(object, name)
+    local is = info.flags
+    print(name, info.type == code, info.infoTxt == words, is.value == flags, is.readable, is.writable, is.removable, is.large)
 end
+local is = sim.getPropertyInfos(mesh, 'vertices').flags
+print('vertices', is.readable, is.writable, is.removable, is.large)
 print('unknown', sim.getPropertyInfos(object, 'nothing'), sim.getPropertiesInfos(object)['alias'].type)
+
+local infos, index, missing = sim.getPropertiesInfos(mesh), 0, 0
+repeat
+    local name = sim.getPropertyName(mesh, index)
+    if name and not (infos[name] and all[name] ~= nil) then missing = missing + 1 end
+    index = index + 1
+until not name
+print('missing', missing, index > 5)
 
 -- The same value in another type.
 local T <const> = {}
 for _, word in ipairs{'bool', 'int', 'float', 'string', 'buffer', 'vector3', 'floatarray', 'table', 'intarray', 'long'} do T[word] = sim['propertytype_' .. word] end
 for _, entry in ipairs{
     {5, 'int', 'int'}, {nil, 'int', 'string'}, {5, 'int', 'string'}, {'5', 'string', 'int'}, {'5.9', 'string', 'int'}, {'5', 'string', 'long'},
-    {'0.5', 'string', 'float'}, {5, 'int', 'float'}, {5.9, 'float', 'int'}, {5.9, 'float', 'long'}, 
+    {'0.5', 'string', 'float'}, {5, 'int', 'float'}, {5.9, 'float', 'int'}, {5.9, 'float', 'long'}, {true, 'bool', 'int'}, {false, 'bool', 'float'}, {'no value', 'string', 'int'}, {'x', 'string', 'vector3'}, 
     {0, 'int', 'bool'}, {2, 'int', 'bool'}, {0.0, 'float', 'bool'}, {'true', 'string', 'bool'}, {'false', 'string', 'bool'}, {'0', 'string', 'bool'},
     {'{1, 2, 3}', 'string', 'vector3'}, {{1, 2, 3}, 'vector3', 'floatarray'}, {{1, 2, 3}, 'vector3', 'string'}, {'text', 'string', 'buffer'},
     {tobuffer('text'), 'buffer', 'string'}, {{1, 2}, 'table', 'buffer'}, {tobuffer('{4, 5}'), 'buffer', 'intarray'}, {{1}, 'table', 'int'},
