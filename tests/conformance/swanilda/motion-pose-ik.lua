@@ -41,6 +41,7 @@ local function move(what, x, y, changes, more)
     for field, value in pairs(more or {}) do params[field] = value end
     local ok, data = pcall(sim.moveToPose, params)
     local place = sim.getObjectPosition(ik.tip)
+    if what == 'off the circle' then return print(what, ok, text(sim.getJointPosition(joints[1])), sim.getJointPosition(joints[2]) < 1.5) end
     if x == 2.5 then -- how far it gets is up to the solver
         local shown = ok and text(data.pose[1], data.pose[2]) or data
         return print(what, shown, math.sqrt(place[1] ^ 2 + place[2] ^ 2) > 1.9, place[1] > 1.7)
@@ -55,6 +56,7 @@ move('back and forth', 1, 1)
 move('given joints', 1.2, 0.9, {joints = 'joints'})
 -- Along a circle about the first joint only that one is needed; the second alone moves on a circle about (1, 0).
 move('the second alone', 1 + math.cos(1.2), math.sin(1.2), {joints = 'second', precision = {0.05, 1}})
+move('off the circle', 1.2, 0.9, {joints = 'second', precision = {0.3, 1}})
 move('stops', 1.2, 0.9, nil, {callback = function(data) return data.pose[1] > 1.1 end})
 -- 2 m are all there is.
 move('too far', 2.5, 0.9)

@@ -22,6 +22,7 @@ local function config(what, params, shown)
         end
     until result ~= 0 or count > 200
     sim.moveToConfig_cleanup(data)
+    if data.ruckigObj then print('not over') end
     return data
 end
 
@@ -87,3 +88,10 @@ pos, vel, accel, left = sim.moveToConfig(0x100, {1}, nil, nil, {0.5, -0.25}, {1,
 print('only of the velocities', text(pos), text(vel), text(accel), text{left})
 pos, vel, accel, left = sim.moveToConfig(0x303, {1, 0}, nil, nil, {0.5, 0.5, -0.25, -0.5}, {1, 1, -0.5, -1}, {10, 10}, {0, 0.5}, nil, function() end, nil, nil, 0.25)
 print('minima of two', text(pos), text(vel), text(accel), text{left})
+
+-- Nothing happens where no motion is possible.
+local impossible = sim.moveToConfig_init{pos = {0}, targetPos = {1}, maxVel = {1}, maxAccel = {0}, maxJerk = {10}, callback = function() seen = 'called' end}
+seen = nil
+local result, same = sim.moveToConfig_step(impossible)
+print(result < 0, same == impossible, seen, text(impossible.pos))
+sim.moveToConfig_cleanup(impossible)
