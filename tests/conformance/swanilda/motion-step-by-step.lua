@@ -36,6 +36,9 @@ config('two, each for itself', {pos = {0, 0}, targetPos = {1, -0.5}, maxVel = {0
 config('under way already', {pos = {0}, vel = {0.5}, accel = {0}, targetPos = {1}, maxVel = {0.5}, maxAccel = {1}, maxJerk = {10}, timeStep = 0.25}, {[4] = true})
 config('goes on', {pos = {0}, targetPos = {1}, targetVel = {0.5}, maxVel = {0.5}, maxAccel = {1}, maxJerk = {10}, timeStep = 0.25}, {[4] = true})
 config('at once', {pos = {0, 1}, targetPos = {1, 5}})
+-- Without limits 9999 m/s, 99999 m/s^2, 9999999 m/s^3 and steps of 10 s: 1e6 / 9999 + 9999 / 99999 + 99999 / 9999999 = 100.11999 s.
+config('far', {pos = {0}, targetPos = {1e6}}, {})
+config('longer tables', {pos = {0}, vel = {0, 9}, accel = {0, 9}, targetVel = {0, 9}, targetPos = {1}, maxVel = {0.5}, maxAccel = {1}, maxJerk = {10}, timeStep = 0.25}, {[4] = true})
 config('default time step', {pos = {0}, targetPos = {1}, maxVel = {0.5}, maxAccel = {1}, maxJerk = {10}}, {[20] = true})
 config('no multiple of 0.1 ms', {pos = {0}, targetPos = {1}, maxVel = {0.5}, maxAccel = {1}, maxJerk = {10}, timeStep = 1 / 24}, {[24] = true})
 
@@ -52,6 +55,11 @@ print('its data', data.auxData == aux, aux.calls)
 function byName(state) aux.calls = aux.calls - state.vel[1] end
 config('by name', {pos = {0}, targetPos = {1}, maxVel = {0.5}, maxAccel = {1}, maxJerk = {10}, timeStep = 1, callback = 'byName'}, {})
 print('its data', text{aux.calls}) -- 4 - 0.5 at 1 s - 0.5 at 2 s - 0 at the end
+
+local object = setmetatable({}, {__call = function(_, state) return state.pos[1] > 0.3 end})
+config('an object as function', {pos = {0}, targetPos = {1}, maxVel = {0.5}, maxAccel = {1}, maxJerk = {10}, timeStep = 0.25, callback = object}, {})
+sim.moveToConfig{pos = {0}, targetPos = {1}, maxVel = {0.5}, maxAccel = {1}, maxJerk = {10}, timeStep = 1, callback = function() print('level', getAutoYield()) end}
+print('level', getAutoYield())
 
 local function joint(position)
     local handle = sim.createJoint(sim.joint_revolute, sim.jointmode_kinematic, 0)
@@ -88,6 +96,9 @@ pos, vel, accel, left = sim.moveToConfig(0x100, {1}, nil, nil, {0.5, -0.25}, {1,
 print('only of the velocities', text(pos), text(vel), text(accel), text{left})
 pos, vel, accel, left = sim.moveToConfig(0x303, {1, 0}, nil, nil, {0.5, 0.5, -0.25, -0.5}, {1, 1, -0.5, -1}, {10, 10}, {0, 0.5}, nil, function() end, nil, nil, 0.25)
 print('minima of two', text(pos), text(vel), text(accel), text{left})
+
+pos, vel, accel, left = sim.moveToConfig(0x303, {0, 0}, nil, nil, {0.5, 0.5}, {1, 1}, {10, 10}, {1, 0}, nil, function() end, nil, nil, 0.25)
+print('minima announced, not given', text(pos), text(vel), text(accel), text{left})
 
 -- Nothing happens where no motion is possible.
 local impossible = sim.moveToConfig_init{pos = {0}, targetPos = {1}, maxVel = {1}, maxAccel = {0}, maxJerk = {10}, callback = function() seen = 'called' end}

@@ -41,4 +41,7 @@ function sysCall_thread()
     sim.step()
     sim.yield()
     print(string.format('free, steps %.2f', sim.getSimulationTime() - start))
+    start = sim.getSimulationTime()
+    refused('an impossible motion', function() sim.moveToConfig{pos = {0}, targetPos = {1}, maxVel = {1}, maxAccel = {0}, maxJerk = {1}} end)
+    print('takes no step', sim.getSimulationTime() - start)
 end
