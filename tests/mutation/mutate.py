@@ -158,11 +158,11 @@ def compiling(options, folder, texts, mutants):
 def chosen(options, texts):
     """The mutants to judge, before those that do not compile are left out."""
     equivalent = {tuple(line.split('\t')[:3]) for line in listed('equivalent.tsv')}
-    again = options.again and {tuple(row[:4]) for row in json.loads(Path(options.again).read_text()) if row[4] is None}
+    again = options.again and {tuple(row[:3]) for row in json.loads(Path(options.again).read_text()) if row[3] is None}
     for path, text in texts.items():
         mutants = [m for m in mutants_of(path, text) if (path, *m.lines(text)) not in equivalent]
         if again:
-            mutants = [m for m in mutants if (path, *m.lines(text), m.replacement) in again]
+            mutants = [m for m in mutants if (path, *m.lines(text)) in again]
         if options.per_file and options.per_file < len(mutants):
             generator = random.Random(f'{options.seed} {path}')
             mutants = sorted(generator.sample(mutants, options.per_file), key=lambda m: m.start)
@@ -192,13 +192,13 @@ def show(path, text, mutants, verdicts):
 
 
 def judge_all(options, folder, texts, mutants, found):
-    """Rows for the report: file, line before and after, replacement, verdict, line number."""
+    """Rows for the report: file, line before and after, verdict, number of the line."""
     with ProcessPoolExecutor(options.jobs, initializer=set_up, initargs=(options.command, folder, texts)) as pool:
         for path, text in texts.items():
             mine = [m for m in mutants if m.path == path]
             verdicts = list(pool.map(judge, [(m, cases_of(options, found, texts, m)) for m in mine]))
             show(path, text, mine, verdicts)
-            yield from ([path, *m.lines(text), m.replacement, v, m.line + 1] for m, v in zip(mine, verdicts))
+            yield from ([path, *m.lines(text), v, m.line + 1] for m, v in zip(mine, verdicts))
 
 
 def main():
