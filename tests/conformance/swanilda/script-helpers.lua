@@ -103,7 +103,7 @@ print(sim.setScriptVariable('given', customization, {1, 2}))
 print(sim.callScriptFunction('getAsString', customization, 1), sim.executeScriptString('given[2]', customization))
 print(sim.setScriptVariable('given@/robot', sim.scripttype_customization, 'by path'))
 print(sim.executeScriptString('given', customization))
-print(sim.setScriptVariable('own', sim.getScript(sim.scripttype_sandbox), 7), own)
+print(sim.setScriptVariable('ownNumber', sim.getScript(sim.scripttype_sandbox), 7), ownNumber)
 
 -- Without an object, the type of the main script means the main script.
 registerScriptFuncHook('sysCall_sensing', function()
