@@ -37,6 +37,13 @@ function sysCall_init()
     sim.setObjectInt32Param(ball, sim.shapeintparam_static, 0)
     joint = sim.createJoint(sim.joint_prismatic, sim.jointmode_kinematic, 0)
     sim.setJointInterval(joint, false, {-5, 10})
+    sim.createScript(sim.scripttype_simulation, ([[
+        sim = require 'sim'
+        function sysCall_actuation() end
+        function sysCall_cleanup()
+            print('cleanup of a simulation script', sim.readProximitySensor(%d) == 1, sim.readVisionSensor(%d) >= 0)
+        end
+    ]]):format(proximity, vision), 0, 'lua')
     path = sim.createPath(0x20)
     sim.insertPathCtrlPoints(path, 0, 0, 2, {0, 0, 0, 0, 0, 0, 1, 0, 1, 0.5, 0.5, 9, 0, 0, 0, 0, 0, 1, 0, 1, 0.5, 0.5})
 end

@@ -23,7 +23,7 @@ local POSE <const> = {pose = {0, 0, 0, 0, 0, 0, 1}, targetPose = {1, 0, 0, 0, 0,
 local WRONG <const> = {
     {maxVel = 'none'}, {maxAccel = 'none'}, {maxJerk = 'none'}, {maxAccel = 'none', maxJerk = 'none'}, {maxVel = 'none', maxJerk = 'none'},
     {maxVel = {1}}, {maxAccel = {}}, {maxJerk = 'x'}, {minVel = {1}}, {minAccel = 'x'}, {vel = {0}}, {accel = {}}, {targetVel = 'x'},
-    {flags = 1.5}, {timeStep = -1}, {timeStep = 'x'}, {callback = 5}, {callback = {}}, {minVel = {1}, minAccel = 'x'},
+    {flags = 1.5}, {timeStep = -1}, {timeStep = 'x'}, {callback = 5}, {callback = {}}, {minVel = {1}, minAccel = 'x'}, {maxJerk = 'none', minVel = {1}},
 }
 for i, changes in ipairs(WRONG) do
     local config, pose = with(CONFIG, changes), with(POSE, changes)
