@@ -52,7 +52,7 @@ print(sim.executeLuaCode("error('raised', 0)"))
 -- Plugins.
 print(sim.isPluginLoaded('simIK'), sim.isPluginLoaded('nobody'))
 sim_plugin_namespaces = {simZ = 'simZ', simA = 'simA'}
-local function loaded() return table.concat(sim.getLoadedPlugins(), ' '):match('simA.*simZ') end
+local function loaded() return table.concat(sim.getLoadedPlugins(), ' '):find('simA.*simZ') ~= nil end
 print(loaded(), sim.isPluginLoaded('simA'), sim.isPluginLoaded('simB'))
 sim_plugin_namespaces = {}
 print(loaded(), sim.isPluginLoaded('simA'))
