@@ -50,9 +50,8 @@ local function solveIk(data)
     local ik = data.ik
     sim.setObjectPose(ik.target, data.pose)
     local options = {syncWorlds = true, allowError = ik.allowError}
-    local result, flags = require('simIK').handleGroup(ik.env, ik.group, options)
+    local _, flags = require('simIK').handleGroup(ik.env, ik.group, options)
     if flags & (ik.breakFlags or 0) ~= 0 then error('inverse kinematics failed, flags ' .. flags, 0) end
-    return result
 end
 
 ---------------------------------------------------------------- init, step, cleanup

@@ -18,10 +18,13 @@ function M.getObject(path, options)
     return handle
 end
 
+local FIRST_SCRIPT <const> = 1010000 -- handles from here on are scripts that are no scene objects
+
+local function isScriptObject(handle) return sim.isHandle(handle) and sim.getObjectType(handle) == sim.sceneobject_script end
+
 local function scriptOf(target, scriptType)
     if type(target) == 'string' then target = M.getObject(target) end
-    if not sim.isHandle(target) then return target end -- a script that is no scene object
-    if sim.getObjectType(target) == sim.sceneobject_script then return target end
+    if not sim.isHandle(target) or target >= FIRST_SCRIPT or isScriptObject(target) then return target end
     return sim.getScript(scriptType or sim.scripttype_customization, target)
 end
 
@@ -179,7 +182,7 @@ function M.setScriptVariable(variableNameAtScriptName, scriptHandleOrType, varia
     local script = scriptHandleOrType
     if object ~= '' then
         script = sim.getScript(scriptHandleOrType, sim._simGetObjectHandle(object))
-    elseif script == sim.scripttype_main and not sim.isHandle(script) then
+    elseif script == sim.scripttype_main and not isScriptObject(script) then
         script = sim.getScript(script)
     end
     sim.callScriptFunction('setvar', script, name, variable)

@@ -69,15 +69,16 @@ function M.wait(...)
     return simulationTime and elapsed - dt or 0
 end
 
-local function checkCanWait(name)
-    if not canYield() then error(name .. ': cannot wait here: not in a thread, or yielding is forbidden', 3) end
+local function checkCanWait(level)
+    if canYield() then return end
+    error('sim.waitForSignal: cannot wait here: not in a thread, or yielding is forbidden', level + 1)
 end
 
 local function waitForOldSignal(name)
     while true do
         local value = sim.getInt32Signal(name) or sim.getFloatSignal(name) or sim.getStringSignal(name)
         if value then return value end
-        checkCanWait('sim.waitForSignal')
+        checkCanWait(3)
         M.step()
     end
 end
@@ -96,7 +97,7 @@ function M.waitForSignal(target, signalName)
     while true do
         local value = sim.getProperty(target, 'signal.' .. signalName, {noError = true})
         if value then return value end
-        checkCanWait('sim.waitForSignal')
+        checkCanWait(2)
         M.step()
     end
 end
