@@ -1,7 +1,7 @@
 -- topic: scripts
 -- as: sandbox
 -- passes: 1
--- spec: callbacks 4, vrep-era 2.9
+-- spec: callbacks 4, vrep-era 2.11
 -- note: what main scripts call: how many scripts ran, and who may call it
 sim = require 'sim'
 sim.setIntProperty(sim.handle_app, 'consoleVerbosity', sim.verbosity_scripterrors)

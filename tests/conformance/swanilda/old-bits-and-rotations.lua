@@ -1,7 +1,7 @@
 -- topic: maths
 -- as: sandbox
 -- passes: 0
--- spec: poses 3, vrep-era 2.3, vrep-era 2.8
+-- spec: poses 3, vrep-era 2.3, vrep-era 2.12
 -- tol: 1e-6
 -- note: bits, matrices and rotations in old functions, by closed forms
 sim = require 'sim'

@@ -1,7 +1,7 @@
 -- topic: scripts
 -- as: sandbox
 -- passes: 0
--- spec: scripts 9, threads 2, vrep-era 2.3
+-- spec: scripts 9, threads 2, vrep-era 2.3, vrep-era 2.12
 -- note: yield levels, code and variables of a script, files it runs, and what there is no more
 sim = require 'sim'
 sim.setIntProperty(sim.handle_app, 'consoleVerbosity', sim.verbosity_scripterrors)
