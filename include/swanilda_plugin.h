@@ -1005,7 +1005,7 @@ enum {
     sim_propertytype_array = 19,
     sim_propertytype_bool = 0,
     sim_propertytype_buffer = 4,
-    sim_propertytype_color = 26,
+    sim_propertytype_color = 10,
     sim_propertytype_color3 = 10,
     sim_propertytype_enum = 25,
     sim_propertytype_float = 2,

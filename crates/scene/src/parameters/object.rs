@@ -117,7 +117,8 @@ impl Scene {
 }
 
 impl Object {
-    /// Bounding box in the object's frame: of the meshes of a shape, otherwise of its graphical representation.
+    /// Bounding box in the object's frame: of the meshes of a shape, of the voxels or points, otherwise of its graphical
+    /// representation.
     pub fn bounding_box(&self) -> BoundingBox {
         let size = match &self.kind {
             Kind::Shape(shape) => return shape.bounding_box,
@@ -133,8 +134,9 @@ impl Object {
             Kind::ForceSensor(sensor) => [sensor.size; 3],
             Kind::Light(light) => [light.size; 3],
             Kind::Script(script) => [script.size; 3],
-            // They are empty so far.
-            Kind::Path(_) | Kind::OcTree(_) | Kind::PointCloud(_) => [0.0; 3],
+            Kind::OcTree(octree) => return octree.bounding_box(),
+            Kind::PointCloud(cloud) => return cloud.bounding_box(),
+            Kind::Path(_) => [0.0; 3],
         };
         BoundingBox { size, pose: Pose::identity() }
     }

@@ -2,6 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use geometry::BoundingBox;
+
+use super::box_around;
+
 /// A grid of cubic cells along the axes of the object, with a boundary at its origin; some cells are voxels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OcTree {
@@ -85,6 +89,11 @@ impl OcTree {
     pub fn voxels(&self) -> impl Iterator<Item = ([f64; 3], Voxel)> {
         let middle = |at: i32| (f64::from(at) + 0.5) * self.voxel_size;
         self.voxels.iter().map(move |([z, y, x], voxel)| ([*x, *y, *z].map(middle), *voxel))
+    }
+
+    /// The box around all voxels, in the frame of the object.
+    pub fn bounding_box(&self) -> BoundingBox {
+        box_around(self.voxels().map(|(centre, _)| centre), self.voxel_size)
     }
 
     /// The centres of the voxels in the layers between two heights.

@@ -2,6 +2,10 @@
 
 use std::collections::HashMap;
 
+use geometry::BoundingBox;
+
+use super::box_around;
+
 /// Points with colours, in the frame of the object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointCloud {
@@ -47,6 +51,11 @@ impl PointCloud {
     pub fn intersect(&mut self, places: impl Iterator<Item = [f64; 3]>, tolerance: f64) {
         let near = Near::of(places, tolerance);
         self.points.retain(|point| near.finds(point.position));
+    }
+
+    /// The box around all points, in the frame of the object.
+    pub fn bounding_box(&self) -> BoundingBox {
+        box_around(self.points.iter().map(|point| point.position), 0.0)
     }
 
     /// Scales all lengths.

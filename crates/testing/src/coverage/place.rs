@@ -122,10 +122,10 @@ mod tests {
         assert_eq!(below(Path::new("./src/../src/lib.rs")), Some("src/lib.rs".into()));
         assert_eq!(below(Path::new("/")), None);
         assert_eq!(below(Path::new("nowhere.lua")), None);
-        let mut places = Places::new(Path::new("lcov.info"), &["lua/utilities/utils.lua".into()]);
+        let mut places = Places::new(Path::new("lcov.info"), &["src/coverage/place.rs".into()]);
         let mut place = |file: &str| places.of(&CountedText::File(file.into())).map(|place| place.path);
-        assert_eq!(place("./lua/./utilities/utils.lua"), None, "a test");
-        assert_eq!(place("./lua/utilities/uuid.lua"), Some("lua/utilities/uuid.lua".into()));
+        assert_eq!(place("./src/./coverage/place.rs"), None, "a test");
+        assert_eq!(place("./src/coverage/mod.rs"), Some("src/coverage/mod.rs".into()));
     }
 
     #[test]
