@@ -513,7 +513,7 @@ function sim.computeMassAndInertia(shapeHandle, density) end
 ---@param value any in the first type
 ---@param fromType integer sim.propertytype_*
 ---@param toType integer sim.propertytype_*
----@return any value in the second type; error if there is no sensible one
+---@return any value in the second type; an error if there is no sensible one, such as a boolean's number
 function sim.convertPropertyValue(value, fromType, toType) end
 
 --- Divides a shape into convex pieces, which are one compound.
@@ -1690,7 +1690,7 @@ function sim.getPropertyInfo(target, propertyName, Options) end
 ---@param target integer object, sim.handle_scene, sim.handle_app, ...
 ---@param name string of the property
 ---@param options? table as in sim.getPropertyInfo
----@return table info with type, flags, infoTxt and a field per flag; nil if there is no such property
+---@return table info with type, infoTxt and flags, a table of value, readable, writable, removable and large; nil without such a property
 function sim.getPropertyInfos(target, name, options) end
 
 --- The properties of a target one by one; nothing past the last one.

@@ -55,7 +55,7 @@ local function change_everything(target)
     local names = {}
     for name, info in pairs(sim.getPropertiesInfos(target)) do
         local plain = not name:find('^customData') and not name:find('^namedParam') and not name:find('erbosity')
-        if info.flags & 3 == 0 and info.type ~= sim.propertytype_buffer and plain and not kept[name] then names[#names + 1] = name end
+        if info.flags.value & 3 == 0 and info.type ~= sim.propertytype_buffer and plain and not kept[name] then names[#names + 1] = name end
     end
     table.sort(names)
     for _, name in ipairs(names) do pcall(function() sim.setProperty(target, name, other(sim.getProperty(target, name))) end) end
