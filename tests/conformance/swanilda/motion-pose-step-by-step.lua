@@ -29,8 +29,10 @@ local function pose(what, params, shown)
     until result ~= 0 or count > 100
     local same = true
     for i, x in ipairs(sim.poseToMatrix(data.pose)) do same = same and math.abs(x - data.matrix[i]) < 1e-12 end
+    local target, near = #params.targetPose == 7 and params.targetPose or data.pose, true
+    for i = 1, 3 do near = near and math.abs(data.pose[i] - target[i]) < 1e-9 end
     sim.moveToPose_cleanup(data)
-    print('matrix', same, 'over', data.ruckigObj == nil and data.startPose == nil)
+    print('matrix', same, 'arrived', near, 'over', data.ruckigObj == nil and data.startPose == nil)
     return data
 end
 
