@@ -18,6 +18,7 @@ fn box_around(centres: impl Iterator<Item = [f64; 3]>, edge: f64) -> BoundingBox
     if low.x > high.x {
         return BoundingBox { size: [0.0; 3], pose: Pose::identity() };
     }
-    let pose = Pose { position: (low + high) * 0.5, ..Pose::identity() };
+    let centre = (low + high) * 0.5;
+    let pose = Pose::translation(centre.x, centre.y, centre.z);
     BoundingBox { size: (high - low).add_scalar(edge).into(), pose }
 }
