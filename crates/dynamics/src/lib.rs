@@ -232,7 +232,7 @@ impl Dynamics {
                 dependent.push((handle, joint));
                 continue;
             }
-            if joint.control.asks() {
+            if joint.control.calls_script() {
                 requests.push(request(handle, joint, link));
             }
             let drive = link.motor.drive(joint, engine, link.motion, call.step);

@@ -12,7 +12,7 @@ use super::plan::LinkKind;
 use super::world::World;
 use super::{Dynamics, SubStep};
 use scene::joint::Joint;
-use scene::pose::placement::is_place;
+use scene::pose::placement::is_valid_pose;
 use scene::sensor::force_sensor::{Filter, ForceSensor};
 use scene::shape::Velocity;
 use scene::simulation::dynamics_report::JointReport;
@@ -152,7 +152,7 @@ fn state(body: &Body, world: &World) -> Option<(Pose, Velocity)> {
     let rigid = world.bodies.get(body.rigid).filter(|rigid| rigid.is_enabled())?;
     let velocity = Velocity { linear: from_vector(rigid.linvel()), angular: from_vector(rigid.angvel()) };
     let pose = from_pose(rigid.position());
-    (is_place(&pose) && rigid.vels().is_finite()).then_some((pose, velocity))
+    (is_valid_pose(&pose) && rigid.vels().is_finite()).then_some((pose, velocity))
 }
 
 fn report_link(scene: &mut Scene, handle: Handle, link: &Link, moving_side: Pose) {

@@ -30,7 +30,7 @@ pub use object::flags::{
 };
 pub use object::handle::{Handle, Uid, flag, special};
 pub use object::movement::Movement;
-pub use object::{Kind, Measured, Object};
+pub use object::{Kind, MeasuredVelocity, Object};
 pub use pose::placement::{Frame, Placement};
 pub use simulation::settings::{Calculations, DynamicsSettings, Settings};
 pub use store::{FIRST_MESH_UID, Scene};

@@ -147,16 +147,21 @@ impl Scene {
         Some(result)
     }
 
-    /// A fresh unique identifier; objects, meshes and scripts share the counter.
-    pub fn new_uid(&mut self) -> Uid {
+    /// A fresh unique identifier; objects and meshes share the counter.
+    pub(crate) fn new_uid(&mut self) -> Uid {
         self.last_uid += 1;
         self.last_uid
     }
 
+    /// The object with that handle.
+    ///
+    /// # Errors
+    /// [`SceneError::NoSuchObject`](crate::SceneError::NoSuchObject).
     pub fn object(&self, handle: Handle) -> SceneResult<&Object> {
         self.objects.get(handle)
     }
 
+    /// Whether there is an object with that handle.
     pub fn exists(&self, handle: Handle) -> bool {
         self.object(handle).is_ok()
     }
@@ -235,18 +240,22 @@ impl Scene {
         self.objects.len()
     }
 
+    /// Whether there are no objects.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
+    /// The object with that identifier.
     pub fn by_uid(&self, uid: Uid) -> Option<Handle> {
         self.objects.by_uid(uid)
     }
 
+    /// Settings of the simulation, the physics and the display.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
+    /// Changes settings, and notes that in the journal.
     pub fn modify_settings<R>(&mut self, change: impl FnOnce(&mut Settings) -> R) -> R {
         let result = change(&mut self.settings);
         self.note(Change::Settings);
@@ -258,6 +267,7 @@ impl Scene {
         &self.journal
     }
 
+    /// The journal, to note changes of data that the scene does not hold, and to take digests.
     pub fn journal_mut(&mut self) -> &mut Journal {
         &mut self.journal
     }

@@ -7,15 +7,15 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use geometry::Finite;
 use geometry::pose::euler::wrap_angle;
 
-use super::{Control, Joint, JointMode, JointType, Motion};
+use super::{Control, Joint, JointMode, JointMotion, JointType};
 use crate::{Field, Handle, Scene, SceneError, SceneResult};
 
-/// Farthest lower limits: rad of revolute, m of prismatic joints.
-const MIN_BOUNDS: (f64, f64) = (1e5, 1e3);
-/// Widest intervals: rad (1e7 degrees) and m.
-const RANGE_BOUNDS: (f64, f64) = (1e7 * PI / 180.0, 1e3);
-/// Narrowest interval of a revolute joint: 0.001 degrees, rad.
-const SMALLEST_TURN: f64 = 0.001 * PI / 180.0;
+/// Largest magnitude of the lower limit: rad of revolute, m of prismatic joints.
+const MAX_LOWER_LIMIT: (f64, f64) = (1e5, 1e3);
+/// Width of the widest interval: rad (1e7 degrees) and m.
+const MAX_RANGE: (f64, f64) = (1e7 * PI / 180.0, 1e3);
+/// Width of the narrowest interval of a revolute joint: 0.001 degrees, rad.
+const MIN_TURN: f64 = 0.001 * PI / 180.0;
 /// Velocity that makes force and spring control limited by the force alone.
 const UNREACHABLE_VELOCITY: f64 = 1000.0;
 /// Largest screw lead, m per turn.
@@ -57,15 +57,15 @@ impl Control {
         [Free, Force, Velocity, Position, Spring, Callback].into_iter().find(|c| *c as i64 == code)
     }
 
-    /// Whether scripts are asked what the joint is to do.
-    pub fn asks(self) -> bool {
+    /// Whether a script is called in each sub-step to decide what the joint does.
+    pub fn calls_script(self) -> bool {
         matches!(self, Self::Callback | Self::PositionOrCallback | Self::SpringOrCallback)
     }
 }
 
 impl Joint {
     /// The position that results from setting `position`: wrapped if cyclic, else limited to the interval.
-    pub fn limited(&self, position: f64) -> f64 {
+    pub(crate) fn limited(&self, position: f64) -> f64 {
         if self.cyclic { wrap_angle(position) } else { position.max(self.min).min(self.min + self.range) }
     }
 
@@ -92,13 +92,13 @@ impl Joint {
     pub fn set_interval(&mut self, cyclic: bool, min: f64, range: f64) {
         let revolute = self.is_revolute();
         let pick = |(turn, length): (f64, f64)| if revolute { turn } else { length };
-        let narrowest = if revolute { SMALLEST_TURN } else { 0.0 };
+        let narrowest = if revolute { MIN_TURN } else { 0.0 };
         if cyclic && revolute {
             self.screw_lead = 0.0;
         }
         self.cyclic = cyclic;
-        self.min = min.clamp(-pick(MIN_BOUNDS), pick(MIN_BOUNDS));
-        self.range = range.clamp(narrowest, pick(RANGE_BOUNDS));
+        self.min = min.clamp(-pick(MAX_LOWER_LIMIT), pick(MAX_LOWER_LIMIT));
+        self.range = range.clamp(narrowest, pick(MAX_RANGE));
     }
 
     /// Sets the screw lead (m per turn); ignored where it has no meaning.
@@ -167,14 +167,14 @@ impl Joint {
         }
     }
 
-    /// Puts the first of velocity, acceleration and jerk limits in place; a shorter list leaves the others.
-    pub fn set_limits(&mut self, limits: &[f64]) {
+    /// Sets the velocity, acceleration and jerk limits, in this order; a shorter list leaves the others.
+    fn set_limits(&mut self, limits: &[f64]) {
         let fields = [&mut self.max_vel, &mut self.max_accel, &mut self.max_jerk];
         fields.into_iter().zip(limits).for_each(|(field, limit)| *field = *limit);
     }
 
     /// Starts or redirects a kinematic motion, keeping the velocity of one in progress.
-    fn start(&mut self, motion: Motion) {
+    fn start(&mut self, motion: JointMotion) {
         if self.mode == JointMode::Kinematic {
             if self.motion.is_none() {
                 (self.velocity, self.accel) = (0.0, 0.0);
@@ -241,7 +241,7 @@ impl Scene {
         self.control_joint(handle, |joint| {
             joint.set_limits(limits);
             joint.target_position = if joint.cyclic { wrap_angle(target) } else { target };
-            joint.start(Motion::ToPosition);
+            joint.start(JointMotion::ToPosition);
         })
     }
 
@@ -266,7 +266,7 @@ impl Scene {
                 fields.into_iter().zip(limits).for_each(|(field, limit)| *field = *limit);
             }
             joint.set_target_velocity(target);
-            joint.start(Motion::AtVelocity { initial });
+            joint.start(JointMotion::AtVelocity { initial });
         })
     }
 

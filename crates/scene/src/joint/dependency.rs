@@ -2,32 +2,32 @@
 
 use std::collections::BTreeMap;
 
-use super::{Dependency, JointMode, JointType};
+use super::{JointDependency, JointMode, JointType};
 use crate::{Field, Handle, Mark, Scene, SceneResult, Topic, Topics};
 
-/// Largest offset and coefficient.
-const BOUND: f64 = 1e4;
-/// Changes that can make joints follow other ones, or by another law.
-const LAWS: Topics =
+/// Largest magnitude of offset and coefficient.
+const MAX_PARAMETER: f64 = 1e4;
+/// Changes after which joints may depend on other joints, or in another way.
+const DEPENDENCY_TOPICS: Topics =
     Topics::NONE.with(Topic::Added).with(Topic::Removed).with_fields(&[Field::Joint, Field::Geometry, Field::Other]);
 
 /// Who follows whom, kept until a joint changes.
 #[derive(Debug, Default)]
 pub(crate) struct DependentJoints {
     known: Option<Mark>,
-    by_master: BTreeMap<Handle, Vec<(Handle, Dependency)>>,
+    by_master: BTreeMap<Handle, Vec<(Handle, JointDependency)>>,
 }
 
 impl DependentJoints {
     /// Joints in dependent mode whose master is `master`.
-    fn of(&self, master: Handle) -> &[(Handle, Dependency)] {
+    fn of(&self, master: Handle) -> &[(Handle, JointDependency)] {
         self.by_master.get(&master).map_or(&[], Vec::as_slice)
     }
 }
 
 impl Scene {
     /// Makes `handle` follow `master` (None: independent). Ignored for spherical joints. A joint that would close
-    /// a circle loses its own master.
+    /// a cycle loses its own master.
     pub fn set_joint_dependency(
         &mut self,
         handle: Handle,
@@ -40,11 +40,11 @@ impl Scene {
             return Ok(());
         }
         if let Some(master) = master {
-            self.break_circle(handle, master)?;
+            self.break_dependency_cycle(handle, master)?;
         }
-        let limited = |value: f64| if value.is_nan() { 0.0 } else { value.clamp(-BOUND, BOUND) };
+        let limited = |value: f64| if value.is_nan() { 0.0 } else { value.clamp(-MAX_PARAMETER, MAX_PARAMETER) };
         let (offset, coefficient) = (limited(offset), limited(coefficient));
-        let dependency = master.map(|master| Dependency { master, offset, coefficient });
+        let dependency = master.map(|master| JointDependency { master, offset, coefficient });
         self.modify_joint(handle, |joint| joint.dependency = dependency)?;
         self.follow_master(handle)
     }
@@ -53,7 +53,7 @@ impl Scene {
     ///
     /// # Errors
     /// When one of them is no joint.
-    pub fn break_circle(&mut self, handle: Handle, master: Handle) -> SceneResult<()> {
+    pub fn break_dependency_cycle(&mut self, handle: Handle, master: Handle) -> SceneResult<()> {
         let mut follower = master;
         while let Some(dependency) = self.object(follower)?.joint()?.dependency {
             if dependency.master == handle {
@@ -101,10 +101,10 @@ impl Scene {
 
     /// Rebuilds the dependency graph when a joint may have changed it.
     fn refresh_dependent_joints(&mut self) {
-        if !self.journal.changed_since(self.dependent_joints.known.get_or_insert(Mark::new(LAWS))) {
+        if !self.journal.changed_since(self.dependent_joints.known.get_or_insert(Mark::new(DEPENDENCY_TOPICS))) {
             return;
         }
-        let mut by_master: BTreeMap<Handle, Vec<(Handle, Dependency)>> = BTreeMap::new();
+        let mut by_master: BTreeMap<Handle, Vec<(Handle, JointDependency)>> = BTreeMap::new();
         for object in self.objects() {
             let Ok(joint) = object.joint() else { continue };
             if let Some(law) = joint.dependency.filter(|_| joint.mode == JointMode::Dependent) {
@@ -139,7 +139,7 @@ impl Scene {
     }
 }
 
-impl Dependency {
+impl JointDependency {
     fn position(&self, master: f64) -> f64 {
         self.offset + self.coefficient * master
     }

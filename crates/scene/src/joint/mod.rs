@@ -10,36 +10,50 @@ use std::f64::consts::{PI, TAU};
 use super::parameters::engine::Engine;
 use super::{Handle, InertValues, Pose};
 
+/// Type of a joint; its number is `sim.joint_*`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointType {
+    /// Turns about z; with a screw lead it moves along z too.
     Revolute = 10,
+    /// Moves along z.
     Prismatic = 11,
+    /// Turns about any axis.
     Spherical = 12,
 }
 
+/// What moves a joint; its number is `sim.jointmode_*`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointMode {
+    /// Scripts set the position, or a target that it moves to.
     Kinematic = 0,
     /// As kinematic; only scenes of old releases have it.
     Motion = 1,
     /// As kinematic; joints of inverse kinematics in scenes before 4.2.
     InverseKinematics = 2,
+    /// The position follows that of another joint.
     Dependent = 4,
+    /// The physics moves the joint.
     Dynamic = 5,
 }
 
 /// How a dynamic joint is driven (`sim.jointdynctrl_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Control {
+    /// No motor.
     Free = 0,
+    /// The motor exerts the target force.
     Force = 1,
+    /// The motor seeks the target velocity.
     Velocity = 4,
+    /// The motor seeks the target position, by a PID controller.
     Position = 8,
     /// Position control, unless a script answers; only old scenes have it.
     PositionOrCallback = 9,
+    /// The motor is a spring and damper about the target position.
     Spring = 12,
     /// Spring control, unless a script answers; only old scenes have it.
     SpringOrCallback = 13,
+    /// A script decides in every sub-step.
     Callback = 16,
 }
 
@@ -62,6 +76,7 @@ impl JointSolver {
         }
     }
 
+    /// The solver that scripts call by `word`.
     pub fn from_word(word: &str) -> Option<Self> {
         [Self::Exact, Self::Impulse].into_iter().find(|solver| solver.word() == word)
     }
@@ -70,52 +85,71 @@ impl JointSolver {
 /// A joint: revolute values in rad, prismatic ones in m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
+    /// Revolute, prismatic or spherical.
     pub joint_type: JointType,
+    /// What moves it.
     pub mode: JointMode,
     /// Moved by the physics whatever its mode, as old scenes have it for inverse kinematics: its motor seeks the target position.
     pub hybrid: bool,
+    /// How its motor is driven in dynamic mode.
     pub control: Control,
+    /// It has no limits: angles are kept within half a turn of zero.
     pub cyclic: bool,
     /// Lower limit and width of the interval.
     pub min: f64,
+    /// Width of the interval of positions.
     pub range: f64,
+    /// Positions that the physics reports are limited to the interval.
     pub enforce_limits: bool,
+    /// Position of a revolute or prismatic joint.
     pub position: f64,
     /// Position of a spherical joint.
     pub spherical: UnitQuaternion<f64>,
     /// Last known velocity: of the profile, of the physics, or of the master.
     pub velocity: f64,
+    /// Last known acceleration of a kinematic motion, rad/s^2 or m/s^2.
     pub accel: f64,
+    /// Position that a motion or a motor seeks.
     pub target_position: f64,
+    /// Velocity that a motion or a motor seeks, rad/s or m/s.
     pub target_velocity: f64,
     /// Signed, N or N m.
     pub target_force: f64,
+    /// Largest velocity of motions, rad/s or m/s.
     pub max_vel: f64,
+    /// Largest acceleration of motions, rad/s^2 or m/s^2.
     pub max_accel: f64,
+    /// Largest jerk of motions, rad/s^3 or m/s^3.
     pub max_jerk: f64,
     /// Gains of position control, P, I, D, by the number of the engine they are meant for.
     pub gains: [[f64; 3]; Engine::ALL.len()],
     /// K and C of spring control.
     pub spring: [f64; 2],
+    /// Velocity control keeps to the limits of acceleration and jerk.
     pub velocity_profile: bool,
+    /// Position control keeps to the limits of velocity, acceleration and jerk.
     pub position_profile: bool,
+    /// Velocity control holds the position at target velocity 0.
     pub motor_lock: bool,
     /// Metres per turn; revolute joints only.
     pub screw_lead: f64,
-    pub dependency: Option<Dependency>,
+    /// The joint it follows in dependent mode, and how.
+    pub dependency: Option<JointDependency>,
+    /// How the physics solves it.
     pub solver: JointSolver,
     /// Tagged for explicit handling by a script.
     pub explicit: bool,
     /// What groups of inverse kinematics of V-REP know about it.
     pub ik: IkSettings,
     /// The kinematic motion in progress.
-    pub motion: Option<Motion>,
+    pub motion: Option<JointMotion>,
     /// Length and diameter, for display.
     pub size: [f64; 2],
     /// Deviation of the physics engine's result from the ideal joint.
     pub error: Option<Pose>,
     /// Effort of the last dynamics call: mean over its sub-steps, and of the last sub-step.
     pub force: Option<f64>,
+    /// Effort of the last sub-step of the physics, N m or N.
     pub raw_force: Option<f64>,
     /// Parameters of physics engines that have no field, as they were set.
     pub engine_values: InertValues,
@@ -132,17 +166,25 @@ pub struct IkSettings {
 
 /// q = offset + coefficient * position of the master.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dependency {
+pub struct JointDependency {
+    /// The joint that is followed.
     pub master: Handle,
+    /// Position at position 0 of the master, rad or m.
     pub offset: f64,
+    /// Change of position per change of the master's.
     pub coefficient: f64,
 }
 
 /// Target of a kinematic joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Motion {
+pub enum JointMotion {
+    /// It moves to the target position.
     ToPosition,
-    AtVelocity { initial: Option<f64> },
+    /// It reaches and keeps the target velocity.
+    AtVelocity {
+        /// Velocity to start from, rad/s or m/s; None for the present one.
+        initial: Option<f64>,
+    },
 }
 
 impl Joint {
@@ -215,6 +257,7 @@ impl Joint {
         self.gains[engine as usize]
     }
 
+    /// Whether its position is an angle about one axis.
     pub fn is_revolute(&self) -> bool {
         self.joint_type == JointType::Revolute
     }

@@ -2,7 +2,7 @@
 //!
 //! The steps themselves come from scripts (`sysCall_joint`).
 
-use super::{Joint, JointMode, Motion};
+use super::{Joint, JointMode, JointMotion};
 use crate::{Field, Handle, Scene, SceneResult};
 
 /// One step of a joint, as a script asks for it.
@@ -10,7 +10,9 @@ use crate::{Field, Handle, Scene, SceneResult};
 pub struct JointStep {
     /// None leaves the joint where it is.
     pub position: Option<f64>,
+    /// Velocity after the step, rad/s or m/s.
     pub velocity: f64,
+    /// Acceleration after the step, rad/s^2 or m/s^2.
     pub accel: f64,
     /// The motion is over, whatever the velocity.
     pub immobile: bool,
@@ -47,7 +49,7 @@ impl Scene {
             (joint.velocity, joint.accel) = (known(step.velocity), known(step.accel));
             let ends = step.immobile || (joint.velocity == 0.0 && joint.accel == 0.0);
             joint.motion = match joint.motion {
-                Some(Motion::AtVelocity { .. }) if !ends => Some(Motion::AtVelocity { initial: None }),
+                Some(JointMotion::AtVelocity { .. }) if !ends => Some(JointMotion::AtVelocity { initial: None }),
                 motion => motion.filter(|_| !ends),
             };
             Ok(())

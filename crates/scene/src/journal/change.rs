@@ -5,18 +5,28 @@ use crate::{Handle, Holder, Namespace, Uid};
 /// A changed aspect of an object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Field {
+    /// The name.
     Alias,
+    /// The parent, or the place among the siblings.
     Parent,
+    /// The pose in the parent's frame.
     Pose,
     /// Measured values and results of the physics: velocities, readings, flags. Measured velocities are noted only for those
     /// who follow them.
     Measured,
+    /// The visibility layers.
     Layer,
+    /// [`ObjectFlags`](crate::ObjectFlags).
     ObjectProperty,
+    /// [`SpecialFlags`](crate::SpecialFlags).
     SpecialProperty,
+    /// [`ModelFlags`](crate::ModelFlags).
     ModelProperty,
+    /// What the physics reads of shapes, sensors and dummies, except for their geometry.
     Dynamics,
+    /// Form and size.
     Geometry,
+    /// Colours and other properties of surfaces.
     Appearance,
     /// The image on a mesh.
     Texture,
@@ -24,12 +34,17 @@ pub enum Field {
     Joint,
     /// Motor of a joint: targets, gains, limits. The physics reads these in every sub-step.
     JointControl,
+    /// Position and velocity of a joint, or the deviation of a force sensor's sides.
     JointPosition,
+    /// Settings of a sensor or camera.
     Sensor,
+    /// Text and settings of a script.
     Script,
+    /// Execution priority.
     Priority,
     /// An inert value: stored for scripts, without an effect.
     Inert,
+    /// Anything else.
     Other,
 }
 
@@ -44,15 +59,23 @@ impl Field {
 /// One change, in the order it happened.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Change {
+    /// An object was added.
     Added(Handle),
+    /// An object was removed; its handle may be used again.
     Removed(Handle, Uid),
+    /// An aspect of an object changed.
     Modified(Handle, Field),
+    /// The selection changed.
     Selection,
+    /// Settings or inert values of the scene changed.
     Settings,
     /// Custom data or a signal was written or removed: which of the two, the holder tells. Its name is without the mark of its type.
     Stored {
+        /// Who holds the value.
         holder: Holder,
+        /// Whether it is custom data or a signal.
         namespace: Namespace,
+        /// Name of the value.
         name: String,
     },
 }
@@ -74,11 +97,17 @@ impl Change {
 /// Topic of a change, without its object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Topic {
+    /// [`Change::Added`].
     Added,
+    /// [`Change::Removed`].
     Removed,
+    /// [`Change::Modified`] of that aspect.
     Field(Field),
+    /// [`Change::Selection`].
     Selection,
+    /// [`Change::Settings`].
     Settings,
+    /// [`Change::Stored`].
     Stored,
 }
 
@@ -105,11 +134,14 @@ impl Topic {
 pub struct Topics(u32);
 
 impl Topics {
+    /// No topic.
     pub const NONE: Self = Self(0);
+    /// All topics.
     pub const ALL: Self = Self((1 << Topic::COUNT) - 1);
     /// Objects come, go, and get another parent or another place among their siblings.
     pub const TREE: Self = Self::NONE.with(Topic::Added).with(Topic::Removed).with_fields(&[Field::Parent]);
 
+    /// These topics and one more.
     pub const fn with(self, topic: Topic) -> Self {
         Self(self.0 | 1 << topic.index())
     }
@@ -124,14 +156,17 @@ impl Topics {
         self
     }
 
+    /// The topics of either set.
     pub const fn and(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
+    /// Whether `topic` is in the set.
     pub const fn contains(self, topic: Topic) -> bool {
         self.0 & 1 << topic.index() != 0
     }
 
+    /// Whether there is no topic in the set.
     pub const fn is_empty(self) -> bool {
         self.0 == 0
     }

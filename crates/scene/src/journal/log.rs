@@ -6,12 +6,12 @@ use std::rc::{Rc, Weak};
 
 use super::{Change, Topic, Topics};
 
-/// Changes that are stored at most: some ten megabytes.
-const LIMIT: usize = 1 << 18;
-/// No fewer changes are worth looking for those that everybody has read.
-const WORTH_TRIMMING: usize = 64;
-/// Where a cursor is that has not read yet.
-const NOWHERE: u64 = u64::MAX;
+/// So many changes are stored at most: some ten megabytes.
+const MAX_STORED: usize = 1 << 18;
+/// With fewer stored changes, dropping those that all readers have read is not worth the time.
+const MIN_TRIM_LENGTH: usize = 64;
+/// Position of a cursor that has not read yet.
+const NEVER_READ: u64 = u64::MAX;
 
 /// A reader's place in the journal of a scene.
 #[derive(Debug)]
@@ -27,6 +27,7 @@ pub struct Cursor {
 pub enum Unread<'a> {
     /// The reader is new or too far behind, or the scene is another one: all it knows may be wrong.
     Everything,
+    /// All changes since the last reading.
     Changes(Changes<'a>),
 }
 
@@ -74,7 +75,7 @@ pub(super) struct Log {
     first: u64,
     wanted: Cell<Topics>,
     readers: RefCell<Vec<Reader>>,
-    /// At this length it is looked for changes that everybody has read.
+    /// At this length, changes that all readers have read are dropped.
     trim_at: usize,
     limit: usize,
 }
@@ -87,8 +88,8 @@ impl Default for Log {
             first: 0,
             wanted: Cell::default(),
             readers: RefCell::default(),
-            trim_at: WORTH_TRIMMING,
-            limit: LIMIT,
+            trim_at: MIN_TRIM_LENGTH,
+            limit: MAX_STORED,
         }
     }
 }
@@ -113,7 +114,7 @@ impl Log {
     }
 
     pub(super) fn follow(&self, topics: Topics) -> Cursor {
-        let cursor = Cursor { journal: Rc::clone(&self.identity), topics, next: Rc::new(Cell::new(NOWHERE)) };
+        let cursor = Cursor { journal: Rc::clone(&self.identity), topics, next: Rc::new(Cell::new(NEVER_READ)) };
         self.readers.borrow_mut().push(Reader { next: Rc::downgrade(&cursor.next), topics });
         self.wanted.set(self.wanted.get().and(topics));
         cursor
@@ -124,7 +125,7 @@ impl Log {
             *cursor = self.follow(cursor.topics);
         }
         let next = cursor.next.replace(self.first + self.stored.len() as u64);
-        if next == NOWHERE || next < self.first {
+        if next == NEVER_READ || next < self.first {
             return Unread::Everything;
         }
         let stored = self.stored.range((next - self.first) as usize..);
@@ -143,7 +144,7 @@ impl Log {
         let read = (slowest - self.first) as usize;
         let unread = self.stored.len() - read;
         self.drop_oldest(if unread >= self.limit { read + unread.div_ceil(2) } else { read });
-        self.trim_at = (2 * self.stored.len()).clamp(WORTH_TRIMMING.min(self.limit), self.limit);
+        self.trim_at = (2 * self.stored.len()).clamp(MIN_TRIM_LENGTH.min(self.limit), self.limit);
     }
 
     fn drop_oldest(&mut self, count: usize) {
@@ -153,7 +154,7 @@ impl Log {
 
     #[cfg(test)]
     pub(super) fn with_limit(limit: usize) -> Self {
-        Self { limit, trim_at: WORTH_TRIMMING.min(limit), ..Self::default() }
+        Self { limit, trim_at: MIN_TRIM_LENGTH.min(limit), ..Self::default() }
     }
 
     #[cfg(test)]

@@ -39,7 +39,9 @@ pub struct Journal {
 /// How often the tree changed, ever.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counters {
+    /// Objects added.
     pub creations: i64,
+    /// Objects removed.
     pub destructions: i64,
     /// Objects that came, went, or got another parent or place.
     pub hierarchy: i64,
@@ -143,6 +145,7 @@ impl Journal {
         topics.indices().map(|index| self.totals[index]).sum()
     }
 
+    /// The numbers of changes of the tree so far.
     pub fn counters(&self) -> Counters {
         let total = |topics| self.total_of(topics) as i64;
         Counters {

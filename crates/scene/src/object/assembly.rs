@@ -2,6 +2,7 @@
 
 use crate::Pose;
 
+/// How an object connects to another one when models are assembled.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assembly {
     /// Where the object goes in its new parent.

@@ -6,18 +6,24 @@ use crate::{Field, Handle, InertValues, Scene, SceneResult};
 /// Type of the link between two dummies (`sim.dummytype_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LinkType {
+    /// The two dummies are kept together, which closes a kinematic loop.
     LoopClosure = 0,
+    /// The two dummies are the ends of a tendon.
     Tendon = 7,
+    /// A link without an effect on the physics.
     Default = 8,
+    /// The dummies find each other when models are assembled.
     Assembly = 9,
 }
 
+/// A dummy: a frame without a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dummy {
     /// Diameter, for display.
     pub size: f64,
     /// The partner; a link is always mutual.
     pub link: Option<Handle>,
+    /// What the link means.
     pub link_type: LinkType,
     /// Which dummies of other models this one takes when models are assembled; `*` for any.
     pub assembly_tag: String,
@@ -28,6 +34,7 @@ pub struct Dummy {
 }
 
 impl Dummy {
+    /// A dummy without a partner; `size` is its displayed diameter, metres.
     pub fn new(size: f64) -> Self {
         let assembly_tag = "*".to_owned();
         let path_following = PathFollowing::default();

@@ -6,17 +6,17 @@ use crate::Uid;
 
 /// The text that stays with one object when it is saved: 16 hexadecimal digits.
 pub(crate) fn persistent_uid(uid: Uid) -> String {
-    format!("{:016X}", scattered(uid as u64))
+    format!("{:016X}", splitmix64(uid as u64))
 }
 
 /// 16 bytes that an object shares with its copies.
 pub(crate) fn dna(uid: Uid) -> Vec<u8> {
-    let half = scattered(!(uid as u64));
-    [half, scattered(half)].iter().flat_map(|part| part.to_be_bytes()).collect()
+    let half = splitmix64(!(uid as u64));
+    [half, splitmix64(half)].iter().flat_map(|part| part.to_be_bytes()).collect()
 }
 
 /// The finaliser of SplitMix64 (Steele, Lea, Flood 2014): one to one, so that no two counts meet.
-fn scattered(count: u64) -> u64 {
+fn splitmix64(count: u64) -> u64 {
     let mut z = count.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -42,10 +42,13 @@ pub struct Object {
     /// In the parent's full frame (its moving side, for joints and force sensors).
     pub(crate) pose: Pose,
     pub(crate) place: PlaceInWorld,
+    /// Display and selection.
     pub object_property: ObjectFlags,
+    /// How sensors and calculations treat it.
     pub special_property: SpecialFlags,
     /// [`ModelFlags::NOT_MODEL`] for objects that are no model base.
     pub model_property: ModelFlags,
+    /// The visibility layers it is on.
     pub layer: Layers,
     /// Of the body; shapes have theirs in their meshes.
     pub colour: Colour,
@@ -61,16 +64,19 @@ pub struct Object {
     pub persistent_uid: String,
     /// Shared with its copies.
     pub dna: Vec<u8>,
+    /// Product of all factors it was scaled by.
     pub size_factor: f64,
     /// Numbers of scripts that are scaled with the object, for each axis.
     pub size_values: [f64; 3],
     /// Order among siblings, for scripts.
     pub priority: ExecutionPriority,
+    /// Lasting named values of scripts; they are saved.
     pub custom_data: CustomData,
     /// Named values that last as long as the scripts that set them; they are not saved.
     pub signals: CustomData,
     /// Values that have no effect here, as scripts set them.
     pub inert: InertValues,
+    /// How it connects to other models.
     pub assembly: Assembly,
     /// Settings of renderers and the like, such as `povray {...} openGL3 {...}`.
     pub extension_string: String,
@@ -80,22 +86,26 @@ pub struct Object {
     pub user_params: Vec<(String, String)>,
     /// Tagged lists of handles: `(tag, handles)`; -1 stands for an object that is gone.
     pub references: crate::ReferenceLists,
+    /// Lists that copies keep unchanged: they refer to the same objects.
     pub original_references: crate::ReferenceLists,
     /// Aspects of this object that the physics simulates.
     pub dynamic_flag: DynamicFlags,
     /// Requests that the physics rebuilds this object.
     pub dynamics_reset: bool,
     /// World poses at the last two sensing parts of a step, for the measured velocity.
-    pub measured: Measured,
+    pub measured: MeasuredVelocity,
     /// The state to restore when the simulation ends.
-    pub initial: Option<Box<InitialState>>,
+    pub(crate) initial: Option<Box<InitialState>>,
+    /// Type and data of that type.
     pub kind: Kind,
 }
 
 /// The result of `sim.getObjectVelocity`.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Measured {
+pub struct MeasuredVelocity {
+    /// World pose at the last measurement; None before the first one.
     pub previous: Option<Pose>,
+    /// Velocity of the origin, m/s, world axes.
     pub linear: [f64; 3],
     /// Euler triple of the increment in the object's previous frame, over the step.
     pub euler_rate: [f64; 3],
@@ -103,7 +113,7 @@ pub struct Measured {
     pub angular: [f64; 3],
 }
 
-impl Measured {
+impl MeasuredVelocity {
     /// Whether both have the same velocity, whatever the pose.
     pub(crate) fn same_velocity(&self, other: &Self) -> bool {
         self.linear == other.linear && self.angular == other.angular
@@ -113,19 +123,31 @@ impl Measured {
 /// The type of an object with the data of that type.
 #[derive(Debug, Clone)]
 pub enum Kind {
+    /// A rigid body with meshes.
     Shape(Box<Shape>),
+    /// A joint.
     Joint(Box<Joint>),
+    /// A recorder of data streams.
     Graph(Box<Graph>),
+    /// A camera.
     Camera(Box<Camera>),
+    /// A frame.
     Dummy(Dummy),
+    /// A sensor of the distance to what is in its volume.
     ProximitySensor(Box<ProximitySensor>),
     /// A path of V-REP.
     Path(Box<PathObject>),
+    /// A sensor of images and depths.
     VisionSensor(Box<VisionSensor>),
+    /// A rigid connection that measures force and torque.
     ForceSensor(Box<ForceSensor>),
+    /// A light.
     Light(Box<Light>),
+    /// A set of voxels.
     OcTree(Box<OcTree>),
+    /// A set of points.
     PointCloud(Box<PointCloud>),
+    /// A script.
     Script(Box<ScriptObject>),
 }
 
@@ -213,20 +235,23 @@ impl Object {
             original_references: Vec::new(),
             dynamic_flag: DynamicFlags::empty(),
             dynamics_reset: false,
-            measured: Measured::default(),
+            measured: MeasuredVelocity::default(),
             initial: None,
             kind,
         }
     }
 
+    /// How scripts and objects refer to it.
     pub fn handle(&self) -> Handle {
         self.handle
     }
 
+    /// Its identifier, never given to another object of the session.
     pub fn uid(&self) -> Uid {
         self.uid
     }
 
+    /// Its name, which other objects may share.
     pub fn alias(&self) -> &str {
         &self.alias
     }
@@ -236,10 +261,12 @@ impl Object {
         &self.old_name
     }
 
+    /// The object it is attached to; None for a root.
     pub fn parent(&self) -> Option<Handle> {
         self.parent
     }
 
+    /// The objects attached to it, in order.
     pub fn children(&self) -> &[Handle] {
         &self.children
     }
@@ -254,6 +281,7 @@ impl Object {
         object_type == crate::special::ALL || object_type == self.kind.type_number()
     }
 
+    /// Whether it is the base of a model.
     pub fn is_model(&self) -> bool {
         !self.model_property.contains(ModelFlags::NOT_MODEL)
     }

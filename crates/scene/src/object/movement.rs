@@ -5,11 +5,13 @@ use super::flags::{ForbiddenMovements, PreferredAxes};
 /// How a user may move an object in an interface, and in which steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Movement {
+    /// Movements that are not offered.
     pub forbidden: ForbiddenMovements,
     /// Steps along (m) and about (rad) an axis; 0 for those of the application.
     pub step: [f64; 2],
     /// The frames of translation and of rotation.
     pub relativity: [MovementFrame; 2],
+    /// Axes that are offered first.
     pub preferred_axes: PreferredAxes,
 }
 
@@ -18,8 +20,11 @@ pub struct Movement {
 pub struct MovementFrame(pub i64);
 
 impl MovementFrame {
+    /// The world frame.
     pub const WORLD: Self = Self(0);
+    /// The frame of the parent.
     pub const PARENT: Self = Self(1);
+    /// The object's own frame.
     pub const OWN: Self = Self(2);
 }
 

@@ -1,13 +1,19 @@
-//! Scripts as scene objects: text and flags. Running them is the business of `crate::script`.
+//! Scripts as scene objects: text and flags. The crate `script` runs them.
 
 /// `sim.scripttype_*`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ScriptType {
+    /// Runs the steps of a simulation.
     Main = 0,
+    /// Runs during a simulation.
     Simulation = 1,
+    /// Runs in the application, whatever the scene.
     AddOn = 2,
+    /// Runs as long as its scene is loaded.
     Customization = 6,
+    /// Executes what a user types in.
     Sandbox = 8,
+    /// Runs only when another script calls it.
     Passive = 9,
 }
 
@@ -17,7 +23,9 @@ pub enum ExecutionPriority {
     /// Also of scripts that are no objects, unless they say otherwise.
     #[default]
     First = 0,
+    /// Before the last and after the first ones; what objects have at first.
     Normal = 1,
+    /// After all others.
     Last = 2,
 }
 
@@ -41,6 +49,7 @@ impl ExecutionPriority {
         self.number() - Self::Normal.number()
     }
 
+    /// The number scripts use.
     pub fn number(self) -> i64 {
         self as i64
     }
@@ -58,13 +67,19 @@ impl ScriptType {
 /// The text of a script and how it is to be run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScriptObject {
+    /// When it runs.
     pub script_type: ScriptType,
+    /// The text of the script.
     pub code: Vec<u8>,
     /// The file the text is from, as stack traces name it; none for a text that only the scene has.
     pub source: Option<String>,
+    /// The language of the text, such as `lua`.
     pub language: String,
+    /// Does not run.
     pub disabled: bool,
+    /// Starts again after an error.
     pub restart_on_error: bool,
+    /// Starts again after a simulation in which it had an error.
     pub reset_after_sim_error: bool,
     /// `./x` and `.` start at the parent: set for scripts converted from the associated form.
     pub parent_is_proxy: bool,

@@ -7,9 +7,12 @@ use crate::{Handle, Scene};
 /// Those that see an object.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Viewers {
+    /// Every camera and vision sensor.
     #[default]
     All,
+    /// No camera or vision sensor.
     None,
+    /// This camera or vision sensor.
     One(Handle),
     /// The members of the collection with this handle.
     Collection(i64),
@@ -24,7 +27,7 @@ impl Viewers {
         }
     }
 
-    /// Whether a camera or vision sensor is among them; a view from nowhere in particular is only where all are.
+    /// Whether a camera or vision sensor is among them; a view without an object (None) only where all are.
     pub fn include(self, scene: &Scene, viewer: Option<Handle>) -> bool {
         match (self, viewer) {
             (Self::All, _) => true,

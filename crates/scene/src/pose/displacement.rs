@@ -1,22 +1,22 @@
-//! Objects that stand elsewhere for the length of a query, and go back to where they were.
+//! Objects that are moved for the length of a query, and then back to where they were.
 //!
-//! The journal learns nothing of it: whoever reads it finds the scene as it was. Who looks meanwhile must be told.
+//! The journal does not record it, so a cache that follows the journal is out of date for [`Displacement::moved`] until it ends.
 
-use super::placement::{Frame, Placement, is_place, normalized};
+use super::placement::{Frame, Placement, is_valid_pose, normalized};
 use crate::{Handle, Pose, Scene, SceneError, SceneResult};
 
-/// A scene some of whose objects stand elsewhere. They go back when this is dropped.
+/// A scene some of whose objects are displaced. They are moved back when this is dropped.
 #[derive(Debug)]
 pub struct Displacement<'a> {
     scene: &'a mut Scene,
-    before: Vec<(Handle, Place)>,
+    before: Vec<(Handle, Original)>,
 }
 
-/// The place of an object, or of what is attached to a joint.
+/// What an object had before it was displaced.
 #[derive(Debug, Clone, Copy)]
-enum Place {
+enum Original {
     Pose(Pose),
-    Joint(f64),
+    JointPosition(f64),
 }
 
 impl Scene {
@@ -40,14 +40,14 @@ impl Displacement<'_> {
     /// Places an object as [`Scene::place`] does; the physics learns nothing of it.
     ///
     /// # Errors
-    /// When there is no such object, or that is no place.
+    /// When there is no such object, or the resulting pose is not valid.
     pub fn place(&mut self, handle: Handle, placement: Placement, frame: Frame) -> SceneResult<()> {
         let pose = self.scene.local_pose_of(handle, placement, frame, false)?;
-        if !is_place(&pose) {
+        if !is_valid_pose(&pose) {
             return Err(SceneError::InvalidData);
         }
         let object = self.scene.object_mut(handle)?;
-        self.before.push((handle, Place::Pose(object.pose)));
+        self.before.push((handle, Original::Pose(object.pose)));
         object.pose = normalized(pose);
         Ok(())
     }
@@ -60,7 +60,7 @@ impl Displacement<'_> {
         let Some(position) = self.scene.accepted_position(handle, position)? else { return Ok(()) };
         for (handle, position) in self.scene.positions_with_followers(handle, position) {
             let joint = self.scene.object_mut(handle)?.joint_mut()?;
-            self.before.push((handle, Place::Joint(joint.position)));
+            self.before.push((handle, Original::JointPosition(joint.position)));
             joint.position = position;
         }
         Ok(())
@@ -69,11 +69,11 @@ impl Displacement<'_> {
 
 impl Drop for Displacement<'_> {
     fn drop(&mut self) {
-        for (handle, place) in self.before.drain(..).rev() {
+        for (handle, original) in self.before.drain(..).rev() {
             let Ok(object) = self.scene.object_mut(handle) else { continue };
-            match place {
-                Place::Pose(pose) => object.pose = pose,
-                Place::Joint(position) => drop(object.joint_mut().map(|joint| joint.position = position)),
+            match original {
+                Original::Pose(pose) => object.pose = pose,
+                Original::JointPosition(position) => drop(object.joint_mut().map(|joint| joint.position = position)),
             }
         }
     }

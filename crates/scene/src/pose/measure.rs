@@ -1,13 +1,13 @@
 //! Measured velocities: how fast objects moved in the world, from one measurement to the next (spec: poses 4).
 //!
-//! Only objects that moved, or did at the last measurement, are looked at: in most steps most objects rest.
+//! Only objects that moved since the last measurement, or were in motion at it, are measured: in most steps most objects rest.
 
 use geometry::pose::velocity;
 
-use crate::{Change, Field, Handle, Measured, Object, Pose, Scene, Topic, Uid};
+use crate::{Change, Field, Handle, MeasuredVelocity, Object, Pose, Scene, Topic, Uid};
 
-/// More objects are not listed: looking at all of them is as fast.
-const MOST: usize = 1 << 16;
+/// So many objects are listed at most; for more it is as fast to measure all of them.
+const MAX_LISTED: usize = 1 << 16;
 
 /// Which objects the next measurement concerns: those listed here, or all of them.
 #[derive(Debug, Default)]
@@ -29,7 +29,7 @@ impl Measurements {
     pub(crate) fn note_move(&mut self, handle: Handle, previous: u64) {
         if self.complete && previous <= self.last_move {
             self.moved.push(handle);
-            self.complete = self.moved.len() < MOST;
+            self.complete = self.moved.len() < MAX_LISTED;
         }
     }
 
@@ -101,20 +101,20 @@ impl Scene {
 }
 
 /// Velocity over one step (spec: poses 4).
-pub(super) fn measured(previous: Option<Pose>, now: Pose, dt: Option<f64>) -> Measured {
+pub(super) fn measured(previous: Option<Pose>, now: Pose, dt: Option<f64>) -> MeasuredVelocity {
     match (previous, dt) {
         (Some(before), Some(dt)) if before != now => {
             let turns = before.rotation != now.rotation;
             let angular = |velocity: fn(&Pose, &Pose, f64) -> [f64; 3]| {
                 if turns { velocity(&before, &now, dt) } else { [0.0; 3] }
             };
-            Measured {
+            MeasuredVelocity {
                 previous: Some(now),
                 linear: velocity::linear_velocity(&before, &now, dt),
                 euler_rate: angular(velocity::angular_velocity_euler),
                 angular: angular(velocity::angular_velocity_axis),
             }
         }
-        _ => Measured { previous: Some(now), ..Measured::default() },
+        _ => MeasuredVelocity { previous: Some(now), ..MeasuredVelocity::default() },
     }
 }

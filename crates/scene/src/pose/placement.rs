@@ -8,10 +8,13 @@ use crate::{Data, DynamicFlags, Field, Handle, Kind, Pose, Scene, SceneError, Sc
 /// The frame a pose is expressed in, as scripts name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Frame {
+    /// The world frame.
     World,
+    /// The frame the object lives in: that of its parent, at the moving side of a joint.
     Parent,
     /// The inverse of the absolute pose (`sim.handle_inverse`).
     Inverse,
+    /// The frame of an object; for a joint its moving side, unless its fixed side is asked for.
     Object(Handle),
 }
 
@@ -42,20 +45,23 @@ impl From<Frame> for Data {
 /// The part of a pose that a script sets; the rest stays as it is in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Placement {
+    /// Only the position, metres.
     Position(Vector3<f64>),
+    /// Only the orientation.
     Rotation(UnitQuaternion<f64>),
+    /// Position and orientation.
     Pose(Pose),
 }
 
 impl Scene {
     /// World pose of the frame the children of `handle` live in: the moving side of joints.
-    pub fn full_world_pose(&self, handle: Handle) -> SceneResult<Pose> {
+    pub(crate) fn full_world_pose(&self, handle: Handle) -> SceneResult<Pose> {
         let world = self.world_pose(handle)?;
         Ok(self.object(handle)?.intrinsic_pose().map_or(world, |intrinsic| world * intrinsic))
     }
 
     /// World pose of the frame `handle` itself lives in.
-    pub fn parent_frame(&self, handle: Handle) -> SceneResult<Pose> {
+    pub(crate) fn parent_frame(&self, handle: Handle) -> SceneResult<Pose> {
         self.object(handle)?.parent().map_or(Ok(Pose::identity()), |parent| self.full_world_pose(parent))
     }
 
@@ -83,7 +89,13 @@ impl Scene {
     }
 
     /// Puts `handle` at `pose` expressed in `frame`; its children move along.
-    pub fn set_pose_in(&mut self, handle: Handle, pose: Pose, frame: Frame, joint_base: bool) -> SceneResult<()> {
+    pub(crate) fn set_pose_in(
+        &mut self,
+        handle: Handle,
+        pose: Pose,
+        frame: Frame,
+        joint_base: bool,
+    ) -> SceneResult<()> {
         let pose = if frame == Frame::Inverse { pose.inverse() } else { pose };
         let local = self.frame_to_parent(handle, frame, joint_base)?.map_or(pose, |to_parent| to_parent * pose);
         self.set_local_pose(handle, local)
@@ -92,9 +104,9 @@ impl Scene {
     /// Puts `handle` at `pose` in its parent's frame.
     ///
     /// # Errors
-    /// When that is no place: see [`is_place`].
+    /// When the pose is not valid: see [`is_valid_pose`].
     pub fn set_local_pose(&mut self, handle: Handle, pose: Pose) -> SceneResult<()> {
-        if !is_place(&pose) {
+        if !is_valid_pose(&pose) {
             return Err(SceneError::InvalidData);
         }
         self.modify(handle, Field::Pose, |object| object.pose = normalized(pose))
@@ -159,7 +171,7 @@ impl Scene {
     }
 
     /// Requests that the physics rebuilds `handle` and all below it.
-    pub fn reset_dynamics_below(&mut self, handle: Handle) -> SceneResult<()> {
+    pub(crate) fn reset_dynamics_below(&mut self, handle: Handle) -> SceneResult<()> {
         for object in self.subtree(handle) {
             self.modify(object, Field::Dynamics, |object| object.dynamics_reset = true)?;
         }
@@ -179,16 +191,17 @@ impl Scene {
     }
 }
 
-/// Further away, metres, is nowhere: there poses of objects below others could no longer be composed of numbers.
-const FARTHEST: f64 = 1e100;
+/// Largest coordinate of a position, metres. Beyond it, composing the poses of a chain of objects could overflow.
+const MAX_TRANSLATION: f64 = 1e100;
 
-/// Whether a pose consists of numbers, and such that computing with them gives numbers.
-pub fn is_place(pose: &Pose) -> bool {
-    pose.translation.vector.iter().all(|x| x.abs() <= FARTHEST) && pose.rotation.coords.iter().all(|x| x.is_finite())
+/// Whether all numbers of a pose are finite, and small enough that composed poses are finite too.
+pub fn is_valid_pose(pose: &Pose) -> bool {
+    pose.translation.vector.iter().all(|x| x.abs() <= MAX_TRANSLATION)
+        && pose.rotation.coords.iter().all(|x| x.is_finite())
 }
 
-/// The pose with a rotation of length one. Composing poses lets the length drift, and each further composition doubles what is
-/// missing.
+/// The pose with a rotation of length one. Composing poses lets the length drift, and each further composition doubles the
+/// error.
 pub fn normalized(pose: Pose) -> Pose {
     const ROUNDING: f64 = 1e-13;
     let mut rotation = pose.rotation;

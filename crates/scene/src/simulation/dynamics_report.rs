@@ -13,6 +13,7 @@ pub struct JointReport {
     pub position: f64,
     /// Of a spherical joint.
     pub rotation: UnitQuaternion<f64>,
+    /// Velocity of a revolute or prismatic joint, rad/s or m/s.
     pub velocity: f64,
     /// The moving side as the engine has it, in the frame of the joint.
     pub moving_side: Pose,

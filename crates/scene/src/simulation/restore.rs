@@ -10,7 +10,7 @@ use crate::{
 
 /// The state of one object at simulation start.
 #[derive(Debug, Clone)]
-pub struct InitialState {
+pub(crate) struct InitialState {
     parent: Option<Uid>,
     local: Pose,
     world: Pose,
@@ -98,7 +98,7 @@ impl Scene {
         let mut restored = Vec::with_capacity(objects.len());
         for handle in objects {
             let Ok(object) = self.object_in_place(handle) else { continue };
-            object.measured = crate::Measured::default();
+            object.measured = crate::MeasuredVelocity::default();
             (object.dynamic_flag, object.dynamics_reset) = (DynamicFlags::empty(), false);
             end_suspension(object);
             match object.initial.take().filter(|_| !unrestored.contains(&handle)) {

@@ -9,30 +9,44 @@ use crate::{InertValues, Layers};
 pub struct Settings {
     /// Simulation step, 0.0001 to 10 s.
     pub time_step: f64,
+    /// The simulation is slowed down to real time.
     pub real_time: bool,
+    /// Simulated seconds per second of real time, where it is slowed down.
     pub real_time_factor: f64,
+    /// Objects that were made during a simulation are removed at its end.
     pub remove_new_objects_at_end: bool,
+    /// A script error pauses the simulation.
     pub pause_at_error: bool,
+    /// The simulation pauses at `time_to_pause`.
     pub pause_at_time: bool,
+    /// Simulation time at which it pauses, seconds.
     pub time_to_pause: f64,
+    /// Settings of the physics.
     pub dynamics: DynamicsSettings,
+    /// The layers that are shown.
     pub visibility_layers: Layers,
     /// Where the file of the scene is; empty without a file.
     pub path: String,
     /// Simulation steps per drawn image. Kept for scripts: nothing is drawn.
     pub steps_per_rendering: i64,
+    /// Authors and licence, as the scene states them.
     pub acknowledgment: String,
     /// The scene may not be saved.
     pub locked: bool,
+    /// Background, ambient light and fog.
     pub environment: Environment,
+    /// Which calculations are on.
     pub calculations: Calculations,
 }
 
 /// Which calculations are not switched off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Calculations {
+    /// Collision detection.
     pub collision: bool,
+    /// Distance measurement.
     pub distance: bool,
+    /// Proximity sensors.
     pub proximity_sensors: bool,
     /// Motion along paths of V-REP.
     pub paths: bool,
@@ -49,6 +63,7 @@ impl Default for Calculations {
 /// Settings of the physics.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DynamicsSettings {
+    /// The physics runs.
     pub enabled: bool,
     /// Wished length of a sub-step, seconds; the real one divides the simulation step.
     pub step: f64,
@@ -56,6 +71,7 @@ pub struct DynamicsSettings {
     pub gravity: [f32; 3],
     /// Rapier does the work; this decides which parameters it reads.
     pub engine: SelectedEngine,
+    /// Contact points are displayed.
     pub show_contact_points: bool,
     /// Parameters of physics engines, as they were set.
     pub engine_values: InertValues,

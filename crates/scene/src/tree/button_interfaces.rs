@@ -20,23 +20,37 @@ const EDIT_BOX: i32 = 3;
 
 /// Further bits of a button: `sim.buttonproperty_*`.
 pub mod button_property {
+    /// It stays down when it is pressed, until it is pressed again.
     pub const STAY_DOWN: i32 = 0x8;
+    /// It takes inputs.
     pub const ENABLED: i32 = 0x10;
+    /// It is drawn without a border.
     pub const BORDERLESS: i32 = 0x20;
+    /// Mouse clicks pass through it.
     pub const IGNORE_MOUSE: i32 = 0x80;
+    /// It is down.
     pub const IS_DOWN: i32 = 0x100;
+    /// What is behind it can be seen.
     pub const TRANSPARENT: i32 = 0x200;
+    /// It is drawn without a background colour.
     pub const NO_BACKGROUND_COLOR: i32 = 0x400;
+    /// It rolls the user interface up.
     pub const ROLL_UP_ACTION: i32 = 0x800;
+    /// It closes the user interface.
     pub const CLOSE_ACTION: i32 = 0x1000;
+    /// It has an event when it goes down too, not only when it goes up.
     pub const DOWN_UP_EVENT: i32 = 0x4000;
 }
 
 /// Bits of a user interface: `sim.ui_property_*`.
 pub mod ui_property {
+    /// It is shown.
     pub const VISIBLE: i32 = 0x1;
+    /// Only its title is shown.
     pub const ROLLED_UP: i32 = 0x80;
+    /// A click on it selects the object it belongs to.
     pub const SELECT_ASSOCIATED_OBJECT: i32 = 0x100;
+    /// It is shown only while the object it belongs to is selected.
     pub const VISIBLE_WHEN_OBJECT_SELECTED: i32 = 0x200;
 }
 /// Half of the range that scripts see, 0 to 1000.
@@ -45,11 +59,13 @@ const SLIDER_HALF: f64 = 500.0;
 /// A user interface. Sizes and positions are in pixels of the window unless they are counted in cells.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ButtonInterface {
+    /// Unique among the user interfaces of the scene.
     pub name: String,
     /// `sim.ui_property_*`.
     pub attributes: i32,
     /// Columns and rows.
     pub cells: [i32; 2],
+    /// Where it is in the window.
     pub position: [i32; 2],
     /// Width and height of a cell.
     pub cell_size: [i32; 2],
@@ -59,6 +75,7 @@ pub struct ButtonInterface {
     pub object: Option<Handle>,
     /// Where it was before it was rolled up.
     pub rollup: [i32; 4],
+    /// Buttons, labels, sliders and edit boxes.
     pub buttons: Vec<Button>,
 }
 
@@ -73,6 +90,7 @@ pub struct Button {
     pub cell: [i32; 2],
     /// Columns and rows it covers.
     pub span: [i32; 2],
+    /// Text on the button, or in the edit box.
     pub label: String,
     /// Shown while it is down.
     pub down_label: String,
@@ -85,13 +103,18 @@ pub struct Button {
 /// What a button is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ButtonKind {
+    /// Can be pressed.
     Button,
+    /// Only shows a text.
     Label,
+    /// Has a position that can be changed.
     Slider,
+    /// Contains a text that can be changed.
     EditBox,
 }
 
 impl Button {
+    /// What it is, by the lowest two bits of its attributes.
     pub fn kind(&self) -> ButtonKind {
         match self.attributes & TYPE_BITS {
             LABEL => ButtonKind::Label,
@@ -106,6 +129,7 @@ impl Button {
         self.attributes & property == property
     }
 
+    /// Whether it is a slider.
     pub fn is_slider(&self) -> bool {
         self.attributes & TYPE_BITS == SLIDER
     }
@@ -132,6 +156,8 @@ impl Button {
 }
 
 impl ButtonInterface {
+    /// The button with that number.
+    ///
     /// # Errors
     /// When no button has that number.
     pub fn button(&self, number: i64) -> SceneResult<&Button> {
@@ -139,6 +165,8 @@ impl ButtonInterface {
         found.ok_or(SceneError::NoSuchButton)
     }
 
+    /// The button with that number, to be changed.
+    ///
     /// # Errors
     /// When no button has that number.
     pub fn button_mut(&mut self, number: i64) -> SceneResult<&mut Button> {
@@ -184,12 +212,16 @@ impl ButtonInterfaces {
         self.by_handle.iter().find(|(_, interface)| interface.name == name).map(|(handle, _)| *handle)
     }
 
+    /// The user interface with that handle.
+    ///
     /// # Errors
     /// When there is no such user interface.
     pub fn get(&self, handle: i64) -> SceneResult<&ButtonInterface> {
         self.by_handle.get(&handle).ok_or(SceneError::NoSuchInterface)
     }
 
+    /// The user interface with that handle, to be changed.
+    ///
     /// # Errors
     /// When there is no such user interface.
     pub fn get_mut(&mut self, handle: i64) -> SceneResult<&mut ButtonInterface> {
@@ -207,6 +239,8 @@ impl ButtonInterfaces {
         self.revision
     }
 
+    /// Removes a user interface.
+    ///
     /// # Errors
     /// When there is no such user interface.
     pub fn remove(&mut self, handle: i64) -> SceneResult<()> {
@@ -215,6 +249,7 @@ impl ButtonInterfaces {
         self.by_handle.remove(&handle).map(|_| ()).ok_or(SceneError::NoSuchInterface)
     }
 
+    /// Removes all user interfaces.
     pub fn remove_all(&mut self) {
         self.revision += 1;
         self.events.clear();
@@ -234,10 +269,12 @@ impl ButtonInterfaces {
 }
 
 impl Scene {
+    /// The user interfaces of the scene.
     pub fn button_interfaces(&self) -> &ButtonInterfaces {
         &self.button_interfaces
     }
 
+    /// The user interfaces of the scene, to be changed.
     pub fn button_interfaces_mut(&mut self) -> &mut ButtonInterfaces {
         &mut self.button_interfaces
     }

@@ -13,7 +13,9 @@ pub type DistanceObjects = CalculationObjects<Option<f64>, 2_020_002>;
 /// A pair of entities with a name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CalculationObject<R> {
+    /// Unique among the objects of its kind.
     pub name: String,
+    /// Stays with it when the scene is saved.
     pub persistent_uid: String,
     /// Handles of objects or collections. The second is `sim.handle_all`'s -2 where everything else is meant.
     pub entities: [i64; 2],
@@ -45,6 +47,7 @@ impl<R, const FIRST: i64> CalculationObjects<R, FIRST> {
         handle
     }
 
+    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.by_handle.is_empty()
     }
@@ -54,10 +57,12 @@ impl<R, const FIRST: i64> CalculationObjects<R, FIRST> {
         self.by_handle.iter().find(|(_, object)| object.name == name).map(|(handle, _)| *handle)
     }
 
+    /// The one with that handle.
     pub fn get(&self, handle: i64) -> Option<&CalculationObject<R>> {
         self.by_handle.get(&handle)
     }
 
+    /// The one with that handle, to be changed.
     pub fn get_mut(&mut self, handle: i64) -> Option<&mut CalculationObject<R>> {
         self.by_handle.get_mut(&handle)
     }
@@ -86,18 +91,22 @@ impl<R, const FIRST: i64> CalculationObjects<R, FIRST> {
 }
 
 impl Scene {
+    /// The collision objects of the scene.
     pub fn collision_objects(&self) -> &CollisionObjects {
         &self.collision_objects
     }
 
+    /// The collision objects of the scene, to be changed.
     pub fn collision_objects_mut(&mut self) -> &mut CollisionObjects {
         &mut self.collision_objects
     }
 
+    /// The distance objects of the scene.
     pub fn distance_objects(&self) -> &DistanceObjects {
         &self.distance_objects
     }
 
+    /// The distance objects of the scene, to be changed.
     pub fn distance_objects_mut(&mut self) -> &mut DistanceObjects {
         &mut self.distance_objects
     }

@@ -23,7 +23,9 @@ bitflags! {
     /// Options of `sim.addItemToCollection`.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct ItemOptions: i64 {
+        /// The objects are taken out of the collection instead of added.
         const SUBTRACT = 0x1;
+        /// The base object itself is left out.
         const EXCLUDE_BASE = 0x2;
         const _ = !0;
     }
@@ -38,13 +40,16 @@ pub struct Collection {
     owner: Option<i64>,
     /// The name it had in scenes from before 4.2; empty without one.
     pub name: String,
+    /// What is added and subtracted, in this order.
     pub items: Vec<CollectionItem>,
 }
 
 /// The objects an item stands for: `sim.handle_all`, `_single`, `_tree` or `_chain`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Members {
+    /// All objects.
     All,
+    /// One object.
     Single(Handle),
     /// An object and everything below it.
     Tree(Handle),
@@ -53,6 +58,7 @@ pub enum Members {
 }
 
 impl CollectionItem {
+    /// An item that adds `members`, or as `options` say.
     pub fn new(members: Members, options: ItemOptions) -> Self {
         let [subtract, exclude_base] = [ItemOptions::SUBTRACT, ItemOptions::EXCLUDE_BASE].map(|o| options.contains(o));
         Self { members, subtract, exclude_base }
@@ -72,8 +78,11 @@ impl Members {
 /// One instruction of a collection: what to add or subtract.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CollectionItem {
+    /// The objects that are meant.
     pub members: Members,
+    /// They are taken out instead of added.
     pub subtract: bool,
+    /// The base itself is left out.
     pub exclude_base: bool,
 }
 
@@ -129,12 +138,16 @@ impl Collections {
         self.by_handle.remove(&handle).map(drop).ok_or(SceneError::NoSuchCollection)
     }
 
+    /// The collection with that handle.
+    ///
     /// # Errors
     /// When there is none with that handle.
     pub fn get(&self, handle: i64) -> SceneResult<&Collection> {
         self.by_handle.get(&handle).ok_or(SceneError::NoSuchCollection)
     }
 
+    /// The collection with that handle, to be changed.
+    ///
     /// # Errors
     /// When there is none with that handle.
     pub fn get_mut(&mut self, handle: i64) -> SceneResult<&mut Collection> {
@@ -153,10 +166,12 @@ impl Collections {
 }
 
 impl Scene {
+    /// The collections of the scene.
     pub fn collections(&self) -> &Collections {
         &self.collections
     }
 
+    /// The collections of the scene, to be changed.
     pub fn collections_mut(&mut self) -> &mut Collections {
         &mut self.collections
     }

@@ -10,7 +10,7 @@ use crate::object::viewers::Viewers;
 use crate::pose::placement::normalized;
 use crate::sensor::Entity;
 use crate::shape::Velocity;
-use crate::{CustomData, DynamicFlags, Handle, Kind, Measured, ModelFlags, Object, Scene, SceneResult};
+use crate::{CustomData, DynamicFlags, Handle, Kind, MeasuredVelocity, ModelFlags, Object, Scene, SceneResult};
 
 bitflags! {
     /// Options of `sim.copyPasteObjects`.
@@ -18,9 +18,13 @@ bitflags! {
     pub struct CopyOptions: i64 {
         /// Whole models.
         const MODELS = 0x1;
+        /// Scripts are not copied.
         const NO_SCRIPTS = 0x2;
+        /// The copies have no custom data.
         const NO_CUSTOM_DATA = 0x4;
+        /// The copies have no lists of references.
         const NO_REFERENCES = 0x8;
+        /// The copies have no textures.
         const NO_TEXTURES = 0x10;
         /// The copies are no models.
         const NO_MODEL_TAGS = 0x20;
@@ -115,7 +119,7 @@ impl Scene {
 
 /// Clears what a copy does not inherit: motions, measurements, the physics' results, and what the options strip.
 fn start_anew(object: &mut Object, options: CopyOptions) {
-    object.measured = Measured::default();
+    object.measured = MeasuredVelocity::default();
     object.initial = None;
     object.dynamic_flag = DynamicFlags::empty();
     object.dynamics_reset = false;
@@ -149,8 +153,9 @@ fn redirect(object: &mut Object, copies: &BTreeMap<Handle, Handle>) {
     let copy_of = |handle: Handle| copies.get(&handle).copied();
     match &mut object.kind {
         Kind::Joint(joint) => {
-            joint.dependency =
-                joint.dependency.and_then(|law| Some(crate::joint::Dependency { master: copy_of(law.master)?, ..law }));
+            joint.dependency = joint
+                .dependency
+                .and_then(|law| Some(crate::joint::JointDependency { master: copy_of(law.master)?, ..law }));
         }
         Kind::Shape(shape) => {
             for texture in shape.parts.iter_mut().filter_map(|part| part.texture.as_mut()) {

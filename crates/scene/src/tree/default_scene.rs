@@ -11,7 +11,7 @@ use crate::{Field, Handle, Kind, Layers, ModelFlags, Pose, Scene, SceneResult};
 
 /// Full extents of the floor, m. Its top is the plane z = 0.
 const FLOOR: [f64; 3] = [5.0, 5.0, 0.2];
-/// The layer the floor's body is on: not shown, as a look of its own would lie on top of it.
+/// The layer of the floor's body. It is not shown, as a separate visible shape would lie on top of it.
 const FLOOR_LAYER: Layers = Layers::from_bits_retain(0x8000);
 /// The last of the preset materials.
 const FLOOR_MATERIAL: i64 = Material::FIRST_PRESET + 8;

@@ -1,4 +1,4 @@
-//! The groups of inverse kinematics of V-REP. Files from before 4.2 contain them, and scripts create them; `crate::ik` solves them.
+//! The groups of inverse kinematics of V-REP. Files from before 4.2 contain them, and scripts create them; the crate `ik` solves them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,18 +9,25 @@ const FIRST_HANDLE: i64 = 2_030_003;
 /// A group of inverse kinematics with a name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IkGroup {
+    /// Unique among the groups.
     pub name: String,
+    /// Stays with it when the scene is saved.
     pub persistent_uid: String,
     /// Left out when all are handled.
     pub explicit: bool,
     /// Resolution method, bits, and what it is performed after, as in the file.
     pub method: i32,
+    /// Bits of the file whose meaning does not matter here.
     pub flags: u8,
+    /// The group that is solved before it, as in the file; -1 for none.
     pub performed_after: i32,
+    /// At most so many iterations for each call.
     pub max_iterations: i32,
+    /// Damping of the damped least squares method.
     pub damping: f64,
     /// What only scripts decide; files do not say.
     pub options: IkGroupOptions,
+    /// The tips that follow their targets.
     pub elements: Vec<IkElement>,
     /// Of the last calculation.
     pub jacobian: Option<Jacobian>,
@@ -29,6 +36,7 @@ pub struct IkGroup {
 /// How a group is handled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct IkGroupOptions {
+    /// It is solved.
     pub enabled: bool,
     /// Joints may move further in one iteration than their maximum.
     pub ignores_max_steps: bool,
@@ -47,7 +55,9 @@ impl Default for IkGroupOptions {
 /// How the errors of a group change with its joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Jacobian {
+    /// One for each joint of the group.
     pub columns: usize,
+    /// One for each constrained coordinate of the elements.
     pub rows: usize,
     /// Row by row; metres and radians per metre and radian.
     pub values: Vec<f64>,
@@ -75,14 +85,19 @@ impl IkGroup {
 /// A tip that follows its target.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IkElement {
+    /// The dummy that follows the one it is linked with.
     pub tip: Handle,
+    /// Where the chain of joints begins; None for the world.
     pub base: Option<Handle>,
+    /// The frame of the constraints; None for that of the base.
     pub constraint_base: Option<Handle>,
     /// Radians, metres.
     pub precisions: [f64; 2],
     /// Of position and orientation.
     pub weights: [f64; 2],
+    /// `sim.ik_*_constraint`: the coordinates that follow.
     pub constraints: i32,
+    /// Bits of the file whose meaning does not matter here.
     pub flags: u8,
     /// What only scripts decide; files do not say.
     pub enabled: bool,
@@ -126,18 +141,22 @@ impl IkGroups {
         self.by_handle.iter().find(|(_, group)| group.name == name).map(|(handle, _)| *handle)
     }
 
+    /// The group with that handle.
     pub fn get(&self, handle: i64) -> Option<&IkGroup> {
         self.by_handle.get(&handle)
     }
 
+    /// The group with that handle, to be changed.
     pub fn get_mut(&mut self, handle: i64) -> Option<&mut IkGroup> {
         self.by_handle.get_mut(&handle)
     }
 
+    /// Removes a group and returns it.
     pub fn remove(&mut self, handle: i64) -> Option<IkGroup> {
         self.by_handle.remove(&handle)
     }
 
+    /// Removes all groups.
     pub fn clear(&mut self) {
         self.by_handle.clear();
     }
@@ -162,10 +181,12 @@ impl IkGroups {
 }
 
 impl Scene {
+    /// The groups of inverse kinematics of the scene.
     pub fn ik_groups(&self) -> &IkGroups {
         &self.ik_groups
     }
 
+    /// The groups of inverse kinematics of the scene, to be changed.
     pub fn ik_groups_mut(&mut self) -> &mut IkGroups {
         &mut self.ik_groups
     }

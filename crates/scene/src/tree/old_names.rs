@@ -5,8 +5,8 @@ use std::fmt::Write;
 
 use crate::{Field, Handle, Scene, SceneError, SceneResult};
 
-/// Longest name that a script may choose, bytes.
-const LONGEST: usize = 127;
+/// Length of the longest name that a script may choose.
+const MAX_NAME_BYTES: usize = 127;
 
 /// The names of a scene.
 #[derive(Debug, Default)]
@@ -136,7 +136,7 @@ pub fn is_legal(name: &str) -> bool {
     let is_number = |text: &str| {
         !text.is_empty() && text.bytes().all(|c| c.is_ascii_digit()) && (text == "0" || !text.starts_with('0'))
     };
-    !stem.is_empty() && name.len() <= LONGEST && stem.chars().all(is_word) && number.is_none_or(is_number)
+    !stem.is_empty() && name.len() <= MAX_NAME_BYTES && stem.chars().all(is_word) && number.is_none_or(is_number)
 }
 
 /// The name with words for all signs that were illegal before V-REP 2.3.

@@ -75,7 +75,7 @@ impl Scene {
     }
 
     /// The nearest model base among `handle` and its ancestors.
-    pub fn model_from(&self, handle: Handle) -> Option<Handle> {
+    fn model_from(&self, handle: Handle) -> Option<Handle> {
         std::iter::once(handle).chain(self.ancestors(handle)).find(|&h| self.object(h).is_ok_and(Object::is_model))
     }
 

@@ -8,7 +8,7 @@ use geometry::PrimitiveKind;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use crate::joint::{Control, Joint, JointType};
-use crate::pose::placement::is_place;
+use crate::pose::placement::is_valid_pose;
 use crate::sensor::View;
 use crate::sensor::volume::Volume;
 use crate::shape::reshape::too_large;
@@ -16,7 +16,7 @@ use crate::shape::{Part, Shape};
 use crate::{Field, Handle, Kind, Object, Pose, Scene, SceneError, SceneResult};
 
 /// Smaller factors are refused.
-const SMALLEST_FACTOR: f64 = 0.0001;
+const MIN_FACTOR: f64 = 0.0001;
 
 impl Scene {
     /// Scales objects, their masses too, and with `positions` also where they are in their parents' frames.
@@ -33,7 +33,7 @@ impl Scene {
                 object.scale(factor);
                 if positions {
                     let scaled = Pose { translation: (object.pose.translation.vector * factor).into(), ..object.pose };
-                    if is_place(&scaled) {
+                    if is_valid_pose(&scaled) {
                         object.pose = scaled;
                     }
                 }
@@ -64,7 +64,7 @@ impl Scene {
 }
 
 fn check_factors(factors: &[f64]) -> SceneResult<()> {
-    let possible = |f: &f64| f.is_finite() && *f >= SMALLEST_FACTOR;
+    let possible = |f: &f64| f.is_finite() && *f >= MIN_FACTOR;
     if factors.iter().all(possible) { Ok(()) } else { Err(SceneError::InvalidInput) }
 }
 

@@ -19,9 +19,13 @@ pub enum Edit<'a> {
 /// Result of an edit; names have no marks.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Edited<'a> {
+    /// Nothing changed.
     Nothing,
+    /// The value of that name was set.
     Written(&'a str),
+    /// The value of that name was removed.
     Removed(&'a str),
+    /// The values of these names, which were all, were removed.
     Cleared(Vec<String>),
 }
 
@@ -137,7 +141,9 @@ pub enum Namespace {
 pub enum Holder {
     /// The application: its values are kept outside of the scene, and outlive it.
     App,
+    /// The scene.
     Scene,
+    /// An object of the scene.
     Object(Handle),
 }
 

@@ -3,24 +3,34 @@
 /// Any value a script can pass on. Tables with the keys `1..n` are arrays, all others are maps.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Data {
+    /// No value.
     Nil,
+    /// A truth value.
     Bool(bool),
+    /// A Lua integer.
     Int(i64),
+    /// A Lua float.
     Float(f64),
     /// A Lua string: any bytes, not necessarily UTF-8.
     Text(Vec<u8>),
     /// A CoppeliaSim buffer: bytes that stay distinguishable from text.
     Buffer(Vec<u8>),
+    /// A table with the keys `1..n`.
     Array(Vec<Data>),
+    /// Any other table: its entries, in no particular order.
     Map(Vec<(Key, Data)>),
 }
 
 /// A table key that can leave its Lua state.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Key {
+    /// A truth value.
     Bool(bool),
+    /// A Lua integer.
     Int(i64),
+    /// A Lua float.
     Float(f64),
+    /// A Lua string.
     Text(Vec<u8>),
 }
 

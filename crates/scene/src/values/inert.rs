@@ -11,6 +11,7 @@ pub struct InertValues {
 }
 
 impl InertValues {
+    /// The value of that name, if it was set.
     pub fn get(&self, name: &str) -> Option<&Data> {
         self.values.get(name)
     }

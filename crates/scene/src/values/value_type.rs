@@ -8,7 +8,12 @@ macro_rules! value_types {
     ($($variant:ident = $code:literal $word:literal $mark:literal;)*) => {
         /// Type of a property; its number is `sim.propertytype_*`.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-        pub enum ValueType { $($variant = $code),* }
+        pub enum ValueType {
+            $(
+                #[doc = concat!("`sim.propertytype_", $word, "`.")]
+                $variant = $code,
+            )*
+        }
 
         impl ValueType {
             const ALL: &'static [Self] = &[$(Self::$variant),*];

@@ -8,7 +8,7 @@ use motion::ruckig_plan::{position_step, velocity_step};
 use crate::calls::callback::SysCall;
 use crate::sim::Sim;
 use scene::joint::motion::JointStep;
-use scene::joint::{Joint, Motion};
+use scene::joint::{Joint, JointMotion};
 use scene::{Data, Handle, Key, SceneResult};
 
 impl Sim {
@@ -41,8 +41,8 @@ impl Sim {
         let joint = scene.object(handle)?.joint()?;
         let Some(motion) = joint.motion else { return Ok(()) };
         let step = match motion {
-            Motion::ToPosition => step_to_position(joint, dt),
-            Motion::AtVelocity { initial } => step_at_velocity(joint, initial.unwrap_or(joint.velocity), dt),
+            JointMotion::ToPosition => step_to_position(joint, dt),
+            JointMotion::AtVelocity { initial } => step_at_velocity(joint, initial.unwrap_or(joint.velocity), dt),
         };
         scene.step_joint(handle, step)
     }
@@ -55,13 +55,13 @@ impl Sim {
         let Data::Map(mut entries) = describe(handle, joint) else { return None };
         let mut add = |key: &str, value: f64| entries.push((Key::Text(key.as_bytes().to_vec()), value.into()));
         match motion {
-            Motion::ToPosition => {
+            JointMotion::ToPosition => {
                 let error = joint.position_error(joint.position);
                 add("targetPos", joint.target_position);
                 add("error", error);
                 add("errorValue", error);
             }
-            Motion::AtVelocity { initial } => {
+            JointMotion::AtVelocity { initial } => {
                 add("targetVel", joint.target_velocity);
                 initial.into_iter().for_each(|velocity| add("initVel", velocity));
             }

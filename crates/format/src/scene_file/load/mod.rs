@@ -29,7 +29,7 @@ use crate::ttt::{File, FileError, FileKind, FileResult, Header};
 use mesh::Meshes;
 use permissions::Permissions;
 use scene::object::dummy::{Dummy, LinkType};
-use scene::pose::placement::is_place;
+use scene::pose::placement::is_valid_pose;
 use scene::shape::Shape;
 use scene::{Handle, Kind, Scene, SceneResult};
 use texture::TextureMap;
@@ -185,7 +185,7 @@ fn kind_of(context: &mut Context<'_>, object: &FileObject) -> FileResult<Kind> {
 
 fn stands_somewhere(object: &FileObject) -> FileResult<()> {
     match object.common.pose.and_then(|pose| pose.pose()) {
-        Some(pose) if !is_place(&pose) => Err(damaged(object, "the pose of an object is no place".into())),
+        Some(pose) if !is_valid_pose(&pose) => Err(damaged(object, "the pose of an object is no place".into())),
         _ => Ok(()),
     }
 }

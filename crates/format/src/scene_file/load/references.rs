@@ -6,7 +6,7 @@ use super::HandleMap;
 use crate::ttt::chunks::{Collection as CollectionChunk, CollectionElement, Common, Joint as JointChunk};
 use crate::ttt::tree::{Class, Object as FileObject};
 use crate::ttt::{Counted, EngineBlock, File, Text};
-use scene::joint::{Dependency, JointMode};
+use scene::joint::{JointDependency, JointMode};
 use scene::object::viewers::Viewers;
 use scene::sensor::Entity;
 use scene::tree::calculation_objects::CalculationObject;
@@ -125,7 +125,7 @@ fn connect_one(scene: &mut Scene, object: &FileObject, handle: Handle, map: &Han
             let is_joint = |of: Handle| scene.object(of).is_ok_and(|object| object.joint().is_ok());
             let dependency = dependency(joint, map).filter(|law| law.master != handle && is_joint(law.master));
             if let Some(law) = dependency {
-                scene.break_circle(handle, law.master)?;
+                scene.break_dependency_cycle(handle, law.master)?;
             }
             scene.try_modify(handle, Field::Joint, |object| {
                 let joint = object.joint_mut()?;
@@ -152,17 +152,17 @@ fn connect_one(scene: &mut Scene, object: &FileObject, handle: Handle, map: &Han
 }
 
 /// The master of a joint; older files say it in the parameters of MuJoCo, Vortex or Newton.
-fn dependency(joint: &JointChunk, map: &HandleMap) -> Option<Dependency> {
+fn dependency(joint: &JointChunk, map: &HandleMap) -> Option<JointDependency> {
     if let Some((master, [coefficient, offset])) = joint.dependency
         && let Some(master) = map.get(&master)
     {
-        return Some(Dependency { master: *master, offset, coefficient });
+        return Some(JointDependency { master: *master, offset, coefficient });
     }
     let pair = |block: &Option<EngineBlock>, master: usize, coefficient: usize, offset: usize| {
         let block = block.as_ref()?;
         let real = |at: usize| block.reals.get(at).copied().unwrap_or(0.0);
         let master = *map.get(block.ints.get(master)?)?;
-        Some(Dependency { master, offset: real(offset), coefficient: real(coefficient) })
+        Some(JointDependency { master, offset: real(offset), coefficient: real(coefficient) })
     };
     // The polynomial of MuJoCo begins with the offset; Vortex and Newton have factor and offset.
     pair(&joint.mujoco, 1, 23, 22).or_else(|| pair(&joint.vortex, 5, 49, 50)).or_else(|| pair(&joint.newton, 1, 0, 1))

@@ -10,7 +10,7 @@ use crate::object::dummy::Dummy;
 use crate::pose::measure::measured;
 use crate::shape::{Shape, Velocity};
 use crate::simulation::dynamics_report::JointReport;
-use crate::{CopyOptions, DynamicFlags, Field, Handle, Kind, Measured, Pose, Scene};
+use crate::{CopyOptions, DynamicFlags, Field, Handle, Kind, MeasuredVelocity, Pose, Scene};
 
 /// What is drawn at random.
 pub(crate) struct Random(random::Random);
@@ -137,7 +137,7 @@ impl Play {
 
     /// Velocities are those that looking at every object finds.
     fn measure(&mut self, dt: Option<f64>) {
-        let expected: Vec<(Handle, Measured)> = (self.scene.objects())
+        let expected: Vec<(Handle, MeasuredVelocity)> = (self.scene.objects())
             .map(|object| {
                 let now = self.scene.world_pose(object.handle()).unwrap();
                 (object.handle(), measured(object.measured.previous, now, dt))

@@ -26,6 +26,7 @@ pub enum ButtonInput {
 pub struct ButtonEvent {
     /// Which scripts call the button by.
     pub number: i32,
+    /// Attributes of the button after the event, see [`Button::attributes`].
     pub attributes: i32,
     /// Of a slider its position, 0 to 1000; else 0.
     pub slider: i64,
