@@ -12,12 +12,16 @@ const MAX_SHOWN: usize = 100;
 /// Answers that may wait.
 const MAX_ANSWERS: usize = 1000;
 
-/// What a dialog asks for.
+/// The kind of a dialog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DialogKind {
+    /// A message with buttons.
     Message,
+    /// Names of files.
     File,
+    /// A colour.
     Color,
+    /// A line of text.
     Input,
 }
 
@@ -34,6 +38,7 @@ impl DialogKind {
         }
     }
 
+    /// The kind with the name of its function, e.g. `msgBox`.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
@@ -44,21 +49,28 @@ impl DialogKind {
 pub struct Shown {
     /// Counts from 1.
     pub number: u64,
+    /// Its kind.
     pub kind: DialogKind,
+    /// The title of its window.
     pub title: String,
+    /// What it says.
     pub text: String,
+    /// What was answered, as text for people.
     pub answer: String,
 }
 
 /// A line of text above all windows, with buttons.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Banner {
+    /// Number that scripts know it by, from 1.
     pub id: i64,
+    /// What it says.
     pub text: String,
-    /// Key and label.
+    /// Key and label of each button.
     pub buttons: Vec<[String; 2]>,
-    /// The function to call, and the handle of its script.
+    /// The function to call when a button is pressed; empty for none.
     pub callback: String,
+    /// Handle of the script whose function it is.
     pub owner: i64,
 }
 
@@ -113,11 +125,12 @@ impl Dialogs {
         self.last_banner
     }
 
+    /// Whether a banner with that id is shown.
     pub fn has_banner(&self, id: i64) -> bool {
         self.banners.iter().any(|banner| banner.id == id)
     }
 
-    /// Whether there was such a banner.
+    /// Removes a banner; whether there was one with that id.
     pub fn remove_banner(&mut self, id: i64) -> bool {
         let before = self.banners.len();
         self.banners.retain(|banner| banner.id != id);

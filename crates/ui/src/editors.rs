@@ -17,13 +17,17 @@ pub(super) struct Panes {
 /// What scripts learn of a text editor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EditorState {
+    /// The text in it.
     pub text: String,
+    /// Position of its upper left corner on the screen, pixels.
     pub position: [i64; 2],
+    /// Width and height, pixels.
     pub size: [i64; 2],
+    /// Whether it is shown.
     pub visible: bool,
 }
 
-/// The text of a console has no more bytes.
+/// Largest size of the text of a console, bytes.
 const MAX_CONSOLE: usize = 1 << 20;
 
 impl Ui {
@@ -68,7 +72,7 @@ impl Ui {
         Some(EditorState { text, position: window.position, size: window.size, visible: window.visible })
     }
 
-    /// Shows or hides an editor; whether there is one.
+    /// Shows or hides an editor; false if there is none with that number.
     pub fn show_editor(&mut self, number: i64, visible: bool) -> bool {
         let Some(handle) = self.panes.editors.get(&number).cloned() else { return false };
         self.set_visible(&handle, visible).is_ok()
@@ -119,6 +123,8 @@ impl Ui {
         })
     }
 
+    /// Shows or hides a window.
+    ///
     /// # Errors
     /// When the window is gone.
     pub fn set_visible(&mut self, handle: &str, visible: bool) -> UiResult<()> {

@@ -10,16 +10,22 @@ use scene::Data;
 /// A value as a person enters it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum InputValue {
+    /// A switch.
     Bool(bool),
+    /// A number, or an index.
     Number(f64),
+    /// A text.
     Text(String),
 }
 
-/// Keys that are held down meanwhile.
+/// Modifier keys that are held down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Modifiers {
+    /// Shift.
     pub shift: bool,
+    /// Ctrl.
     pub control: bool,
+    /// Alt.
     pub alt: bool,
 }
 
@@ -37,8 +43,11 @@ impl Modifiers {
 /// What the left mouse button does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mouse {
+    /// It is pressed.
     Down,
+    /// It is released.
     Up,
+    /// The pointer moves while it is held down.
     Move,
 }
 
@@ -56,15 +65,15 @@ impl Mouse {
 /// What a person does with a widget.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Input {
-    /// Of buttons, radio buttons and check boxes.
+    /// A click on a button, a radio button or a check box.
     Click,
     /// A new value, text or choice.
     Value(InputValue),
     /// The end of editing a text: return, or the focus is lost.
     Finish,
-    /// Of a table; -1 for both selects nothing.
+    /// A cell of a table is selected; -1 for both selects nothing.
     SelectCell([i64; 2]),
-    /// Of a tree: an item, 0 for none; of properties: a row, -1 for none.
+    /// A selection: of a tree an item, 0 for none; of properties a row, -1 for none.
     Select(i64),
     /// A cell was activated, or changed to a text.
     Cell([i64; 2], Option<String>),
@@ -72,32 +81,46 @@ pub enum Input {
     Expand(i64, bool),
     /// A key, by its number in Qt.
     Key {
+        /// Its number in Qt.
         key: i64,
+        /// The text it would enter.
         text: String,
+        /// Modifier keys that are held down.
         modifiers: Modifiers,
     },
-    /// Pixels from the left upper corner of the widget.
+    /// The mouse on an image or a drawing.
     Mouse {
+        /// What the left button does.
         mouse: Mouse,
+        /// Pixels from the upper left corner of the widget.
         at: [i64; 2],
+        /// Modifier keys that are held down.
         modifiers: Modifiers,
     },
+    /// A link of a label or a text is followed.
     Link(String),
-    /// A point of a curve.
+    /// A point of a curve is clicked.
     Point {
+        /// The name of the curve.
         curve: String,
+        /// Which point, from 0.
         index: i64,
+        /// Its x and y.
         at: [f64; 2],
     },
+    /// A curve is clicked in the legend of a plot.
     Legend(String),
-    /// A node of a scene.
+    /// A node of a scene is clicked.
     Node(i64),
-    /// An entry of the menu of properties.
+    /// An entry of the context menu of properties is chosen, by its key.
     Menu(String),
+    /// A double click on a cell of properties: row and column.
     DoubleClick([i64; 2]),
     /// A property gets another value.
     Property {
+        /// The name of the property.
         name: String,
+        /// The text that was entered.
         text: String,
     },
 }

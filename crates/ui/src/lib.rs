@@ -133,7 +133,9 @@ pub struct Ui {
     pub modifiers: Modifiers,
     /// What a script has put there.
     pub clipboard: String,
+    /// Dialogs and banners.
     pub dialogs: Dialogs,
+    /// Floating views of the scene.
     pub views: FloatingViews,
     /// Text editors and consoles.
     panes: Panes,
@@ -200,6 +202,8 @@ impl Ui {
         known.ok_or(UiError::NoSuchWindow)
     }
 
+    /// The window with that handle.
+    ///
     /// # Errors
     /// When there is no such window.
     pub fn window(&self, handle: &str) -> UiResult<&Window> {
@@ -226,6 +230,8 @@ impl Ui {
         outcome
     }
 
+    /// Closes a window for good.
+    ///
     /// # Errors
     /// When there is no such window.
     pub fn destroy(&mut self, handle: &str) -> UiResult<()> {

@@ -8,37 +8,49 @@ use scene::Data;
 /// A dialog that waits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Question {
+    /// The title of its window.
     pub title: String,
+    /// What it says.
     pub text: String,
+    /// What it asks for.
     pub details: Details,
 }
 
 /// What a dialog asks for.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Details {
-    /// One of the buttons; the usual one is pressed by Enter.
+    /// One of several buttons.
     Message {
+        /// Keys of the buttons, e.g. `yes`.
         buttons: Vec<&'static str>,
+        /// The button that Enter presses.
         usual: &'static str,
         /// `simUI.msgbox_type`.
         level: i64,
     },
+    /// Names of files or of a folder.
     Files {
         /// `simUI.filedialog_type`.
         selects: i64,
+        /// The folder to begin in.
         start_path: String,
+        /// A name to begin with.
         initial_name: String,
         /// What the extensions are called.
         extension_name: String,
         /// With semicolons between them.
         extensions: String,
     },
-    /// Red, green, blue, and opacity if `alpha` says so, 0 to 1.
+    /// A colour.
     Color {
+        /// Red, green, blue, 0 to 1, and opacity with `alpha`.
         initial: Vec<f64>,
+        /// Whether an opacity is asked for.
         alpha: bool,
     },
+    /// A line of text.
     Text {
+        /// The text to begin with.
         initial: String,
     },
 }
@@ -52,6 +64,7 @@ impl Details {
 }
 
 impl Question {
+    /// Its kind.
     pub fn kind(&self) -> DialogKind {
         match self.details {
             Details::Message { .. } => DialogKind::Message,

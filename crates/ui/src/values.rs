@@ -37,6 +37,8 @@ impl Window {
         }
     }
 
+    /// Sets a slider, within its limits; with `raise` a change calls its handler.
+    ///
     /// # Errors
     /// When it is no slider.
     pub fn set_slider(&mut self, id: i64, value: i64, raise: bool) -> UiResult<()> {
@@ -53,6 +55,8 @@ impl Window {
         }
     }
 
+    /// Sets the text of an edit; with `raise` a change calls its handler.
+    ///
     /// # Errors
     /// When it is no edit.
     pub fn set_edit(&mut self, id: i64, value: String, raise: bool) -> UiResult<()> {
@@ -81,6 +85,8 @@ impl Window {
         Ok(())
     }
 
+    /// Sets a spin box, within its limits; with `raise` a change calls its handler.
+    ///
     /// # Errors
     /// When it is no spin box.
     pub fn set_spinbox(&mut self, id: i64, value: f64, raise: bool) -> UiResult<()> {
@@ -92,6 +98,8 @@ impl Window {
         Ok(())
     }
 
+    /// Sets a check box: 0 unchecked, 1 partially, 2 checked; with `raise` a change calls its handler.
+    ///
     /// # Errors
     /// When it is no check box, or the value is none of 0, 1 and 2.
     pub fn set_checkbox(&mut self, id: i64, value: i64, raise: bool) -> UiResult<()> {
@@ -124,6 +132,8 @@ impl Window {
         Ok(())
     }
 
+    /// Sets the text of a label.
+    ///
     /// # Errors
     /// When it is no label.
     pub fn set_label(&mut self, id: i64, text: String) -> UiResult<()> {
@@ -169,6 +179,8 @@ impl Window {
         Ok(())
     }
 
+    /// Sets the text of a text browser; with `raise` a change calls its handler.
+    ///
     /// # Errors
     /// When it is no text browser.
     pub fn set_browser_text(&mut self, id: i64, text: String, raise: bool) -> UiResult<()> {
@@ -218,6 +230,8 @@ impl Window {
         Ok(())
     }
 
+    /// Selects a cell, row or column, as the mode of the table says; with `raise` a change calls its handler.
+    ///
     /// # Errors
     /// When it is no table.
     pub fn select_cell(&mut self, id: i64, row: i64, column: i64, raise: bool) -> UiResult<()> {

@@ -35,15 +35,17 @@ impl FloatingViews {
         self.last
     }
 
+    /// The view with that handle.
     pub fn get_mut(&mut self, handle: i64) -> Option<&mut FloatingView> {
         self.by_handle.get_mut(&handle)
     }
 
+    /// Whether there is a view with that handle.
     pub fn contains(&self, handle: i64) -> bool {
         self.by_handle.contains_key(&handle)
     }
 
-    /// Whether there was such a view.
+    /// Removes a view; whether there was one with that handle.
     pub fn remove(&mut self, handle: i64) -> bool {
         self.by_handle.remove(&handle).is_some()
     }

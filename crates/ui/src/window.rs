@@ -67,7 +67,9 @@ pub struct Event {
     pub widget: Option<i64>,
     /// The handle of the script whose function it is.
     pub script: i64,
+    /// The name of the function.
     pub handler: String,
+    /// Its arguments: the window, the widget, and what it is about.
     pub args: Vec<Data>,
     /// The text of an edit is to be evaluated before.
     pub evaluates: bool,
@@ -80,8 +82,11 @@ pub struct Window {
     /// The handle of the script it belongs to.
     pub(super) owner: i64,
     pub(super) source: Source,
+    /// The title.
     pub title: String,
+    /// Whether it takes inputs.
     pub enabled: bool,
+    /// Whether it is shown.
     pub visible: bool,
     pub(super) modal: bool,
     pub(super) style: String,
@@ -90,9 +95,9 @@ pub struct Window {
     pub(super) placement: Placement,
     pub(super) activate: bool,
     pub(super) on_close: String,
-    /// Of its left upper corner on the screen, pixels.
+    /// Position of its upper left corner on the screen, pixels.
     pub position: [i64; 2],
-    /// Pixels.
+    /// Width and height, pixels.
     pub size: [i64; 2],
     pub(super) root: Container,
     pub(super) widgets: BTreeMap<i64, Widget>,
@@ -129,24 +134,32 @@ impl Window {
         self.size = USUAL_SIZE;
     }
 
+    /// The widget with that id.
+    ///
     /// # Errors
     /// When there is no such widget.
     pub fn widget(&self, id: i64) -> UiResult<&Widget> {
         self.widgets.get(&id).ok_or(UiError::NoSuchWidget(id))
     }
 
+    /// The widget with that id, to change it.
+    ///
     /// # Errors
     /// When there is no such widget.
     pub fn widget_mut(&mut self, id: i64) -> UiResult<&mut Widget> {
         self.widgets.get_mut(&id).ok_or(UiError::NoSuchWidget(id))
     }
 
+    /// What is special about a widget of type `T`.
+    ///
     /// # Errors
     /// When there is no such widget, or it is of another kind.
     pub fn get<T: WidgetType>(&self, id: i64) -> UiResult<&T> {
         T::of(&self.widget(id)?.kind).ok_or(UiError::WidgetType(T::CLASS))
     }
 
+    /// What is special about a widget of type `T`, to change it.
+    ///
     /// # Errors
     /// When there is no such widget, or it is of another kind.
     pub fn get_mut<T: WidgetType>(&mut self, id: i64) -> UiResult<&mut T> {

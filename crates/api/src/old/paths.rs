@@ -86,7 +86,7 @@ fn create_path_object(
 ) -> Result<Handle> {
     let _ = color;
     let attributes = match attributes.0 {
-        -1 => PathAttributes::USUAL,
+        -1 => PathAttributes::DEFAULT,
         bits => PathAttributes::from_bits_retain(bits as i32),
     };
     let mut measures = Measures::default();

@@ -273,7 +273,7 @@ fn what_v_rep_had_is_kept() {
     use scene::tree::ik_groups::{IkElement, IkGroup};
 
     let mut scene = Scene::new();
-    let mut path = PathObject::new(PathAttributes::USUAL, Measures::default());
+    let mut path = PathObject::new(PathAttributes::DEFAULT, Measures::default());
     let at = |x: f64, y: f64| ControlPoint {
         pose: Pose::translation(x, y, 0.5),
         before: 0.3,

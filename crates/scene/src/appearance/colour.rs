@@ -3,12 +3,16 @@
 use crate::shape::{Appearance, Shape};
 use crate::{Field, Handle, Kind, Object, Scene, SceneError, SceneResult};
 
-/// A colour, in 32 bits as the original keeps it. Values are not limited.
+/// The colour of a surface or a light: red, green, blue of each component, usually 0 to 1. Single precision, as in scene files; values are not clamped.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Colour {
+    /// Reflected ambient and diffuse light.
     pub ambient_diffuse: [f32; 3],
+    /// Highlights.
     pub specular: [f32; 3],
+    /// Light that the surface emits itself.
     pub emission: [f32; 3],
+    /// Three values for other purposes: vision sensors can render them instead of the colour.
     pub auxiliary: [f32; 3],
     /// 1 is opaque.
     pub opacity: f32,
@@ -28,20 +32,26 @@ pub enum ColourSlot {
 /// A part of a colour (`sim.colorcomponent_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Component {
+    /// Reflected ambient and diffuse light.
     AmbientDiffuse,
+    /// Highlights.
     Specular,
+    /// Emitted light.
     Emission,
     /// One number, 1 for opaque.
     Transparency,
+    /// The auxiliary values.
     Auxiliary,
 }
 
 /// Which meshes of a shape are meant.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ColourName {
+    /// All meshes; the first one is read.
     All,
     /// One value per mesh, in order.
     Compound,
+    /// The meshes with that colour name.
     Named(String),
 }
 

@@ -7,6 +7,7 @@ use crate::{SceneError, SceneResult};
 /// An image. Its first row is the bottom one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Texture {
+    /// The name scripts and files give it.
     pub name: String,
     size: [u32; 2],
     has_alpha: bool,
@@ -55,6 +56,7 @@ impl Texture {
         self.has_alpha
     }
 
+    /// Red, green, blue and, with [`has_alpha`](Self::has_alpha), opacity of each pixel, one byte each; the bottom row first.
     pub fn pixels(&self) -> &[u8] {
         &self.pixels
     }

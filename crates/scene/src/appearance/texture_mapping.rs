@@ -16,15 +16,19 @@ const END: i64 = 2_280_009;
 /// Texture mapping on a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextureMapping {
+    /// The image.
     pub source: TextureSource,
+    /// The projection; unused where there are coordinates.
     pub mode: MappingMode,
     /// Size of the image, metres.
     pub scale: [f64; 2],
     /// Where it is projected from, in the frame of the vertices.
     pub frame: Pose,
+    /// Bilinear filtering instead of the nearest pixel.
     pub interpolate: bool,
-    /// Along u and v.
+    /// Whether the image repeats along u and v beyond its border.
     pub repeat: [bool; 2],
+    /// How the image is mixed with the colour of the mesh.
     pub apply_mode: ApplyMode,
     /// u and v of each corner of each triangle; empty where the image is projected. Shared between copies.
     pub coordinates: Rc<[f32]>,
@@ -35,9 +39,13 @@ pub struct TextureMapping {
 pub struct MappingMode(pub i32);
 
 impl MappingMode {
+    /// Onto the xy plane of the projection frame.
     pub const PLANE: Self = Self(0);
+    /// Around the z axis of the projection frame.
     pub const CYLINDER: Self = Self(1);
+    /// From the origin of the projection frame onto a sphere.
     pub const SPHERE: Self = Self(2);
+    /// From six sides of a cube.
     pub const CUBE: Self = Self(3);
 
     /// From a number of a script; None for an unknown one.
@@ -51,9 +59,12 @@ impl MappingMode {
 pub struct ApplyMode(pub i64);
 
 impl ApplyMode {
+    /// The image is multiplied with the colour.
     pub const MODULATE: Self = Self(0);
+    /// The image replaces the colour.
     pub const DECAL: Self = Self(1);
 
+    /// [`DECAL`](Self::DECAL) if `decal`, else [`MODULATE`](Self::MODULATE).
     pub fn decal_if(decal: bool) -> Self {
         if decal { Self::DECAL } else { Self::MODULATE }
     }
@@ -63,9 +74,13 @@ bitflags! {
     /// Options of `sim.createTexture` and `sim.setShapeTexture`.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct TextureOptions: i64 {
+        /// The nearest pixel instead of bilinear filtering.
         const NOT_INTERPOLATED = 0x1;
+        /// The image replaces the colour.
         const DECAL = 0x2;
+        /// The image repeats along u.
         const REPEAT_U = 0x4;
+        /// The image repeats along v.
         const REPEAT_V = 0x8;
         const _ = !0;
     }
@@ -89,6 +104,7 @@ impl TextureSource {
         }
     }
 
+    /// The number of the texture, or the handle of the sensor.
     pub fn raw(self) -> i64 {
         match self {
             Self::Texture(id) => id,
@@ -112,6 +128,7 @@ impl TextureMapping {
         }
     }
 
+    /// The same mapping with filtering, repetition and mixing as `options` say.
     pub fn with_options(self, options: TextureOptions) -> Self {
         Self {
             interpolate: !options.contains(TextureOptions::NOT_INTERPOLATED),
@@ -173,6 +190,8 @@ impl Textures {
         Ok(id)
     }
 
+    /// The texture with that number.
+    ///
     /// # Errors
     /// When there is no such texture.
     pub fn get(&self, id: i64) -> SceneResult<&Texture> {
@@ -195,6 +214,7 @@ impl Textures {
 }
 
 impl Scene {
+    /// The textures of the scene.
     pub fn textures(&self) -> &Textures {
         &self.textures
     }

@@ -20,6 +20,8 @@ impl Drawings {
         self.by_handle.iter().map(|(handle, drawing)| (*handle, drawing))
     }
 
+    /// The drawing object with that handle.
+    ///
     /// # Errors
     /// When there is none with that handle.
     pub fn get(&self, handle: i64) -> SceneResult<&DrawingObject> {
@@ -47,6 +49,8 @@ impl Drawings {
         self.get_mut(handle).map(DrawingObject::clear)
     }
 
+    /// Removes a drawing object.
+    ///
     /// # Errors
     /// When there is no drawing object with that handle.
     pub fn remove(&mut self, handle: i64) -> SceneResult<()> {
@@ -73,10 +77,12 @@ impl Drawings {
 }
 
 impl Scene {
+    /// The drawing objects of the scene.
     pub fn drawings(&self) -> &Drawings {
         &self.drawings
     }
 
+    /// The drawing objects, to clear or remove them.
     pub fn drawings_mut(&mut self) -> &mut Drawings {
         &mut self.drawings
     }

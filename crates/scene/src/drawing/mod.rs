@@ -18,7 +18,9 @@ pub use items::Item;
 /// Appearance and capacity of a drawing object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawingStyle {
+    /// What the items are.
     pub kind: DrawingKind,
+    /// How items are stored and drawn.
     pub flags: DrawingFlags,
     /// Width of points and lines in pixels, of other items in metres.
     pub size: f64,
@@ -26,13 +28,16 @@ pub struct DrawingStyle {
     pub duplicate_tolerance: f64,
     /// The object that the items move with; None for the world.
     pub parent: Option<Handle>,
+    /// Capacity; see [`DrawingFlags::CYCLIC`] for what a full object does.
     pub max_items: usize,
+    /// Colour of items without a colour of their own.
     pub colour: Colour,
 }
 
 /// Items of one kind that a script draws.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawingObject {
+    /// Appearance and capacity.
     pub style: DrawingStyle,
     /// The script whose end removes it.
     owner: Option<i64>,
@@ -41,11 +46,11 @@ pub struct DrawingObject {
 }
 
 impl DrawingObject {
-    /// Most items of one object, whatever a script asks for.
-    pub const MOST_ITEMS: usize = 10_000_000;
+    /// Largest capacity, whatever a script asks for.
+    const MAX_ITEMS: usize = 10_000_000;
 
     fn new(mut style: DrawingStyle, owner: Option<i64>) -> Self {
-        style.max_items = style.max_items.clamp(1, Self::MOST_ITEMS);
+        style.max_items = style.max_items.clamp(1, Self::MAX_ITEMS);
         let owner = owner.filter(|_| !style.flags.contains(DrawingFlags::PERSISTENT));
         Self { items: Items::new(style.kind, style.flags), style, owner, changed_at: 0 }
     }

@@ -5,16 +5,21 @@ use bitflags::bitflags;
 /// Kind of the items of a drawing object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DrawingKind {
+    /// Points of a fixed size in pixels.
     Points,
-    /// Two end points.
+    /// Lines between two end points.
     Lines,
-    /// Three corners.
+    /// Triangles of three corners.
     Triangles,
-    /// Small bodies at a point, with the direction they face.
+    /// Small triangles at a point, with the direction they face.
     TrianglePoints,
+    /// Small squares at a point, with the direction they face.
     QuadPoints,
+    /// Small discs at a point, with the direction they face.
     DiscPoints,
+    /// Small cubes at a point.
     CubePoints,
+    /// Small spheres at a point.
     SpherePoints,
     /// A line through all items.
     LineStrip,
@@ -67,15 +72,23 @@ bitflags! {
         const ITEM_COLOURS = 0x20;
         /// Each point of an item has a colour.
         const VERTEX_COLOURS = 0x40;
+        /// Each item has a size after its colours.
         const ITEM_SIZES = 0x80;
+        /// Faces are visible from the front only.
         const BACK_FACE_CULLING = 0x100;
+        /// Only the edges of triangles are drawn.
         const WIREFRAME = 0x200;
+        /// Drawn as paint (`sim.drawing_painttag`); stored, without effect.
         const PAINT_TAG = 0x400;
+        /// Visible only while the parent is.
         const WITH_PARENT_VISIBILITY = 0x800;
         /// A full object replaces its oldest item.
         const CYCLIC = 0x1000;
+        /// Adds a transparency of 0.5.
         const TRANSPARENT_50 = 0x2000;
+        /// Adds a transparency of 0.25.
         const TRANSPARENT_25 = 0x4000;
+        /// Adds a transparency of 0.125.
         const TRANSPARENT_12 = 0x8000;
         /// Colours of items are what they emit.
         const EMISSION_COLOUR = 0x1_0000;
@@ -83,6 +96,7 @@ bitflags! {
         const FACING_CAMERA = 0x2_0000;
         /// Drawn over everything else.
         const OVERLAY = 0x4_0000;
+        /// Each item has a transparency, 0 to 1, as its last number.
         const ITEM_TRANSPARENCY = 0x8_0000;
         /// Outlives the script that created it.
         const PERSISTENT = 0x10_0000;

@@ -11,17 +11,22 @@ use super::{Handle, SceneError, SceneResult};
 /// A graph: its streams have a slot for each time that was recorded since they are there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Graph {
+    /// Recorded only when a script handles the graph, not with all graphs at the end of a step.
     pub explicit: bool,
-    /// Most slots kept.
+    /// Capacity in slots.
     pub buffer_size: i64,
     /// New slots replace the oldest.
     pub cyclic: bool,
+    /// Edge of its symbol in the scene, metres.
     pub size: f64,
+    /// Colour of the plot area: red, green, blue, 0 to 1.
     pub background: [f32; 3],
+    /// Colour of axes and labels.
     pub foreground: [f32; 3],
     /// When the slots were recorded, seconds, the oldest first.
     pub(super) times: VecDeque<f64>,
     pub(super) streams: Vec<Stream>,
+    /// Curves through the values of its streams.
     pub curves: Vec<Curve>,
 }
 
@@ -29,21 +34,28 @@ bitflags! {
     /// Options of `sim.addGraphStream` and `sim.addGraphCurve`, where the first bit has a meaning of its own.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct GraphOptions: i64 {
+        /// The stream is recorded, but not shown.
         const HIDDEN_STREAM = 0x1;
         /// The points of a curve of three dimensions do not move with the graph.
         const CURVE_IN_WORLD = 0x1;
+        /// The name is not shown.
         const NO_LABEL = 0x2;
+        /// Points are not linked by lines.
         const NOT_LINKED = 0x4;
         const _ = !0;
     }
 }
 
-/// Name and look of a stream or curve.
+/// Name and appearance of a stream or curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Style {
+    /// Number, unique among the streams and curves of the graph.
     pub id: i64,
+    /// Name, unique among the streams, or the curves, of the graph.
     pub name: String,
+    /// Unit of the values, for labels.
     pub unit: String,
+    /// Red, green, blue, 0 to 1.
     pub colour: [f32; 3],
     /// The name is shown.
     pub label: bool,
@@ -51,11 +63,14 @@ pub struct Style {
     pub linked: bool,
 }
 
-/// Values over time.
+/// A stream: values over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stream {
+    /// Name and appearance.
     pub style: Style,
+    /// Shown in plots over time.
     pub visible: bool,
+    /// What is done to recorded values.
     pub transformation: Transformation,
     /// Value for the next slot.
     pub next: Option<f64>,
@@ -70,14 +85,18 @@ pub struct Stream {
 /// Source of a stream from before 4.2, stored for files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OldSource {
+    /// Number of the quantity, as old files have it.
     pub data_type: i32,
+    /// The object that is measured.
     pub object: Option<Handle>,
+    /// A further number that some quantities need.
     pub auxiliary: i32,
 }
 
 /// The content of one slot; empty in a gap.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Sample {
+    /// The recorded value.
     pub raw: Option<f64>,
     /// After the transformation, before it is multiplied and averaged.
     pub transformed: Option<f64>,
@@ -86,8 +105,11 @@ pub struct Sample {
 /// Transformation of the values of a stream.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transformation {
+    /// The operation on successive values.
     pub kind: TransformationKind,
+    /// Factor of transformed values.
     pub multiplier: f64,
+    /// Added to the product.
     pub offset: f64,
     /// Slots in the moving average.
     pub period: i64,
@@ -95,19 +117,25 @@ pub struct Transformation {
     pub cyclic_range: f64,
 }
 
+/// What a stream computes from the values it records (`sim.stream_transf_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TransformationKind {
+    /// The values themselves.
     Raw,
+    /// Change per second.
     Derivative,
+    /// Sum over time by the trapezoidal rule.
     Integral,
+    /// Running sum of the values.
     Cumulative,
 }
 
 /// A curve through the values of two or three streams.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
+    /// Name and appearance.
     pub style: Style,
-    /// Pixels.
+    /// Width of the line, pixels.
     pub width: i64,
     /// 2 or 3.
     pub dimensions: usize,
@@ -129,6 +157,7 @@ impl TransformationKind {
         [Self::Raw, Self::Derivative, Self::Integral, Self::Cumulative].into_iter().find(|kind| kind.code() == code)
     }
 
+    /// The number of `sim.stream_transf_*`.
     pub fn code(self) -> i64 {
         self as i64
     }
@@ -141,6 +170,7 @@ impl Default for Transformation {
 }
 
 impl Stream {
+    /// A visible stream without samples.
     pub fn new(style: Style) -> Self {
         let (samples, transformation) = Default::default();
         Self { style, visible: true, transformation, next: None, samples, fixed: None, source: None }
@@ -167,18 +197,23 @@ impl Graph {
     /// Largest number of slots kept.
     pub const MAX_BUFFER_SIZE: i64 = 1_000_000;
 
+    /// The streams in the order of their creation.
     pub fn streams(&self) -> &[Stream] {
         &self.streams
     }
 
+    /// The streams, to change their samples and settings.
     pub fn streams_mut(&mut self) -> &mut [Stream] {
         &mut self.streams
     }
 
+    /// When the slots were recorded, seconds of simulation time, the oldest first.
     pub fn times(&self) -> impl ExactSizeIterator<Item = f64> {
         self.times.iter().copied()
     }
 
+    /// The stream with that number.
+    ///
     /// # Errors
     /// When there is no such stream.
     pub fn stream_mut(&mut self, id: i64) -> SceneResult<&mut Stream> {
@@ -191,7 +226,7 @@ impl Graph {
         ids.max().map_or(0, |id| id.saturating_add(1))
     }
 
-    /// Adds a stream, or changes the looks of the one with that name. Its number.
+    /// Adds a stream, or changes the appearance of the one with that name. Returns its number.
     ///
     /// # Errors
     /// When there is no name, or the one with that name is fixed.
@@ -210,7 +245,7 @@ impl Graph {
         Ok(id)
     }
 
-    /// Adds a curve, or replaces the one with that name. Its number.
+    /// Adds a curve, or replaces the one with that name. Returns its number.
     ///
     /// # Errors
     /// As [`add_stream`](Self::add_stream); and when a stream of it does not exist.

@@ -20,21 +20,29 @@ const STEP_SIZES: [i64; 5] = [1, 9001, 18_001, 27_001, 37_001];
 /// A physics engine of CoppeliaSim (`sim.physics_*`). Scenes have parameters for each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Engine {
+    /// Bullet 2.78 or 2.83.
     #[default]
     Bullet = 0,
+    /// Open Dynamics Engine.
     Ode = 1,
+    /// CM Labs Vortex.
     Vortex = 2,
+    /// Newton Dynamics.
     Newton = 3,
+    /// MuJoCo.
     Mujoco = 4,
 }
 
 impl Engine {
+    /// All engines in the order of their numbers.
     pub const ALL: [Self; 5] = [Self::Bullet, Self::Ode, Self::Vortex, Self::Newton, Self::Mujoco];
 
+    /// The engine with the number of `sim.physics_*`.
     pub fn from_number(number: i64) -> Option<Self> {
         Self::ALL.into_iter().find(|engine| engine.number() == number)
     }
 
+    /// The number of `sim.physics_*`.
     pub fn number(self) -> i64 {
         self as i64
     }
@@ -54,7 +62,9 @@ impl Engine {
 /// The engine a scene selects, and its version (0: the first of Bullet). Both affect which of the parameters count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct SelectedEngine {
+    /// The engine.
     pub engine: Engine,
+    /// Its version, e.g. 283 for Bullet 2.83.
     pub version: i64,
 }
 
@@ -68,19 +78,24 @@ impl SelectedEngine {
 /// Owner of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum EngineOwner {
+    /// The scene: parameters of the simulation as a whole.
     Scene,
     /// The material of a shape.
     Material,
+    /// A joint.
     Joint,
+    /// A dummy.
     Dummy,
 }
 
 /// One parameter of one engine.
 #[derive(Debug)]
 pub struct EngineParam {
+    /// What it is a parameter of.
     pub owner: EngineOwner,
     /// With the engine in front, e.g. `bullet.friction`.
     pub name: &'static str,
+    /// Type of its values.
     pub ty: ValueType,
     /// The flags of the property.
     pub flags: i64,
@@ -88,6 +103,7 @@ pub struct EngineParam {
     pub works: bool,
     /// Whether scripts see it as a property.
     pub is_property: bool,
+    /// The value of what was never set.
     pub default: Data,
 }
 

@@ -49,7 +49,9 @@ const DUMMY: Rows = rows(46_001, 21, 47_001, 2);
 pub trait EngineValues {
     /// Those of one engine.
     fn rows(&self, engine: Engine) -> Option<Rows>;
+    /// The value of a parameter, or its default.
     fn value(&self, param: &EngineParam) -> Data;
+    /// Sets a parameter; `value` has its type.
     fn set(&mut self, param: &'static EngineParam, value: Data);
 
     /// Sets the parameters of one engine from the rows of a file.
@@ -74,6 +76,7 @@ pub trait EngineValues {
         ((0..reals).map(real).collect(), (0..ints).map(int).collect())
     }
 
+    /// The value behind a number of the old API (`sim.bullet_*` and so on); switches are 0 and 1, joined ones bits. None for an unknown number.
     fn number(&self, number: i64) -> Option<f64> {
         Some(match numbered(number)? {
             Numbered::Element(param, at) => element(&self.value(param), *at)?,
@@ -84,6 +87,7 @@ pub trait EngineValues {
         })
     }
 
+    /// Sets the value behind a number of the old API; an unknown number has no effect.
     fn set_number(&mut self, number: i64, value: f64) {
         match numbered(number) {
             Some(Numbered::Element(param, at)) => {

@@ -8,7 +8,7 @@ const BODY_PARAMS: [i64; 4] = [3003, 3004, 3005, 3030];
 
 impl Scene {
     /// The value of an integer parameter of the object's type; None when it has no such parameter.
-    pub fn kind_int_param(&self, handle: Handle, id: i64) -> SceneResult<Option<i64>> {
+    pub(crate) fn kind_int_param(&self, handle: Handle, id: i64) -> SceneResult<Option<i64>> {
         Ok(match &self.object(handle)?.kind {
             Kind::Joint(joint) => joint.int_param(id),
             Kind::Shape(shape) => shape.int_param(id),
@@ -18,7 +18,7 @@ impl Scene {
     }
 
     /// Sets an integer parameter of the object's type; false when it has no such parameter.
-    pub fn set_kind_int_param(&mut self, handle: Handle, id: i64, value: i64) -> SceneResult<bool> {
+    pub(crate) fn set_kind_int_param(&mut self, handle: Handle, id: i64, value: i64) -> SceneResult<bool> {
         match &self.object(handle)?.kind {
             Kind::Joint(_) => self.modify_joint(handle, |joint| joint.set_int_param(id, value)),
             Kind::Shape(_) => self.set_shape_param(handle, id, |shape| shape.set_int_param(id, value)),
@@ -31,7 +31,7 @@ impl Scene {
     }
 
     /// The value of a float parameter of the object's type (SI units); None when it has no such parameter.
-    pub fn kind_float_param(&self, handle: Handle, id: i64) -> SceneResult<Option<f64>> {
+    pub(crate) fn kind_float_param(&self, handle: Handle, id: i64) -> SceneResult<Option<f64>> {
         Ok(match &self.object(handle)?.kind {
             Kind::Joint(joint) if id == 2012 && joint.dependency.is_some() => Some(self.joint_velocity(handle)?),
             Kind::Joint(joint) => joint.float_param(id),

@@ -7,7 +7,7 @@ use crate::{Field, Frame, Handle, Placement, Pose, Scene, SceneError, SceneResul
 
 /// How a dummy moves with the path it belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Attachment {
+enum Attachment {
     /// At the position of its parent path, plus its offset.
     Fixed,
     /// On the point of its parent path that is closest to it.

@@ -17,16 +17,24 @@ const SMALLEST_TURN: f64 = 1.0 * std::f64::consts::PI / 180.0;
 /// How the length of a segment is measured (`sim.distcalcmethod_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LengthMethod {
+    /// Translation, metres.
     Distance = 0,
+    /// Rotation, converted to metres.
     Angle = 1,
+    /// The larger of both.
     Larger = 2,
+    /// Their sum.
     Sum = 3,
+    /// The square root of the sum of their squares.
     RootOfSquares = 4,
+    /// The translation, or the rotation of a segment without translation.
     DistanceElseAngle = 5,
+    /// The rotation, or the translation of a segment without rotation.
     AngleElseDistance = 6,
 }
 
 impl LengthMethod {
+    /// The method with the number of `sim.distcalcmethod_*`.
     pub fn from_number(number: i64) -> Option<Self> {
         let all = [
             Self::Distance,
@@ -62,17 +70,21 @@ impl LengthMethod {
 /// A control point, in the frame of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ControlPoint {
+    /// Position and orientation in the frame of the path.
     pub pose: Pose,
-    /// Parts of half the ways from and to its neighbours that are rounded.
+    /// Part of half the segment before it that is rounded, 0.1 to 0.99.
     pub before: f64,
+    /// Part of half the segment after it that is rounded, 0.1 to 0.99.
     pub after: f64,
-    /// Of how many points the rounding consists.
+    /// Number of points of the rounding, 1 to 100; 1 keeps the corner.
     pub count: usize,
-    /// 0 to 1.
+    /// Relative velocity, 0 to 1, that the nominal velocity is multiplied with.
     pub velocity: f64,
-    /// A length that is travelled in place.
+    /// Virtual distance, metres: a difference to the next point is travelled in addition, even without motion.
     pub on_spot: f64,
+    /// Bits for scripts.
     pub flags: u16,
+    /// Four values for scripts, interpolated along the path.
     pub channels: [f64; 4],
 }
 
@@ -105,13 +117,18 @@ impl ControlPoint {
     }
 }
 
-/// A point of the line.
+/// A point of the line that runs through the control points; its fields are those of [`ControlPoint`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinePoint {
+    /// Position and orientation in the frame of the path.
     pub pose: Pose,
+    /// Relative velocity, 0 to 1.
     pub velocity: f64,
+    /// Virtual distance, metres.
     pub on_spot: f64,
+    /// Bits for scripts, of the nearest control point.
     pub flags: u16,
+    /// Four values for scripts, interpolated.
     pub channels: [f64; 4],
 }
 

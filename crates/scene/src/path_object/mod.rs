@@ -9,7 +9,7 @@ mod orientation;
 mod travel;
 mod velocity;
 
-pub use attached::{Attachment, PathFollowing};
+pub use attached::PathFollowing;
 pub use line::{ControlPoint, LengthMethod, LinePoint};
 pub use travel::{Travel, TravelLimits};
 
@@ -18,27 +18,34 @@ use bitflags::bitflags;
 use crate::appearance::colour::Colour;
 use crate::{Pose, SceneError, SceneResult};
 
-/// More control points than that are a mistake of a script or file.
-const MOST_POINTS: usize = 100_000;
+/// Limit of control points: more of them are a mistake of a script or file.
+const MAX_POINTS: usize = 100_000;
 /// Limit of the target velocity, m/s.
-const LARGEST_VELOCITY: f64 = 1000.0;
+const MAX_VELOCITY: f64 = 1000.0;
 
 bitflags! {
     /// `sim.pathproperty_*`. Bits without a name concern the display.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct PathAttributes: i32 {
+        /// The line is displayed.
         const SHOW_LINE = 0x1;
+        /// The last control point is followed by the first.
         const CLOSED = 0x4;
+        /// Orientations follow from the direction of the path.
         const AUTOMATIC_ORIENTATION = 0x8;
         /// The velocity changes its sign at the ends.
         const INVERT_VELOCITY = 0x10;
+        /// The nominal velocity is the target velocity at once.
         const INFINITE_ACCELERATION = 0x20;
         /// All control points have z = 0.
         const FLAT = 0x40;
+        /// Bends limit the velocity.
         const TRANSLATION_PROFILE = 0x100;
+        /// Changes of the axis of rotation limit the velocity.
         const ROTATION_PROFILE = 0x200;
         /// At rest at the ends of an open path.
         const REST_AT_ENDS = 0x400;
+        /// With automatic orientation, the x axis points up as far as possible.
         const KEEP_X_UP = 0x800;
         const _ = !0;
     }
@@ -46,7 +53,7 @@ bitflags! {
 
 impl PathAttributes {
     /// Those of a new path.
-    pub const USUAL: Self = Self::from_bits_retain(0x4ab);
+    pub const DEFAULT: Self = Self::from_bits_retain(0x4ab);
 }
 
 /// Constants of the automatic velocity profile.
@@ -63,11 +70,15 @@ pub struct VelocityProfile {
 /// What a shape along the path would look like. Kept for files.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaping {
+    /// Bits as the file has them.
     pub flags: u8,
+    /// Scale of the cross-section.
     pub scale: f64,
-    /// Length of an element, and kind of the cross-section.
+    /// Length of an element (metres), and type of the cross-section.
     pub element: (f64, i32),
+    /// Coordinates of the cross-section, as the file has them.
     pub section: Vec<f64>,
+    /// Colour of the shape.
     pub colour: Colour,
 }
 
@@ -84,10 +95,11 @@ pub struct PathObject {
     velocities: Vec<f64>,
     /// Metres of length.
     position: f64,
-    /// m/s.
+    /// Velocity along the path where the relative velocity is 1, m/s.
     pub nominal_velocity: f64,
+    /// The velocity that the nominal velocity approaches, m/s.
     pub target_velocity: f64,
-    /// m/s^2.
+    /// Acceleration of the nominal velocity, m/s^2.
     pub max_acceleration: f64,
     /// Metres of length per radian of rotation.
     angle_coefficient: f64,
@@ -96,18 +108,24 @@ pub struct PathObject {
     profile: VelocityProfile,
     /// Left out when all paths are handled.
     pub explicit: bool,
-    /// Display: width of the line in pixels, size of the points in metres.
+    /// Displayed width of the line, pixels.
     pub line_size: i32,
+    /// Displayed size of control points, metres.
     pub point_size: f64,
+    /// The shape along the path, if the file describes one.
     pub shaping: Option<Shaping>,
 }
 
 /// What a path is measured by: of `sim.createPath`, and of files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measures {
+    /// How translation and rotation add to the length.
     pub length_method: LengthMethod,
+    /// Metres of length per radian of rotation.
     pub angle_coefficient: f64,
+    /// Metres of length per metre of virtual distance.
     pub on_spot_coefficient: f64,
+    /// The automatic velocity profile.
     pub profile: VelocityProfile,
 }
 
@@ -146,6 +164,7 @@ impl PathObject {
         }
     }
 
+    /// Its attributes.
     pub fn attributes(&self) -> PathAttributes {
         self.attributes
     }
@@ -161,10 +180,12 @@ impl PathObject {
         self.line.iter().chain(end).map(|point| point.pose.translation.vector)
     }
 
+    /// The control points in order, in the frame of the path.
     pub fn control_points(&self) -> &[ControlPoint] {
         &self.control_points
     }
 
+    /// How its length and velocity profile are computed.
     pub fn measures(&self) -> Measures {
         Measures {
             length_method: self.length_method,
@@ -179,8 +200,8 @@ impl PathObject {
     /// # Errors
     /// When there are too many.
     pub fn insert(&mut self, index: usize, points: Vec<ControlPoint>, closed: bool) -> SceneResult<()> {
-        if self.control_points.len() + points.len() > MOST_POINTS {
-            return Err(SceneError::Refused(format!("a path has at most {MOST_POINTS} control points.")));
+        if self.control_points.len() + points.len() > MAX_POINTS {
+            return Err(SceneError::Refused(format!("a path has at most {MAX_POINTS} control points.")));
         }
         let index = index.min(self.control_points.len());
         self.control_points.splice(index..index, points);
@@ -212,8 +233,9 @@ impl PathObject {
         self.position = self.on_path(position);
     }
 
+    /// Sets the target velocity, limited to 1000 m/s in both directions.
     pub fn set_target_velocity(&mut self, velocity: f64) {
-        self.target_velocity = velocity.clamp(-LARGEST_VELOCITY, LARGEST_VELOCITY);
+        self.target_velocity = velocity.clamp(-MAX_VELOCITY, MAX_VELOCITY);
     }
 
     /// A position on the path: wrapped if the path is closed, else limited to it.

@@ -2,18 +2,19 @@
 
 use super::{PathAttributes, PathObject};
 
-/// Slices of one call, each up to the next point of the line.
-const MOST_SLICES: usize = 100;
-/// Slower is at rest, m/s.
+/// Limit of segments that one call passes.
+const MAX_SLICES: usize = 100;
+/// Slower motion counts as rest, m/s.
 const AT_REST: f64 = 1e-6;
 
-/// Where a motion is, and its velocity.
+/// The state of a motion along a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Travel {
-    /// Metres of length.
+    /// Length from the start of the path, metres.
     pub position: f64,
     /// Where the relative velocity is 1, m/s.
     pub nominal_velocity: f64,
+    /// The velocity that the nominal one approaches, m/s.
     pub target_velocity: f64,
 }
 
@@ -65,7 +66,7 @@ impl PathObject {
             travel.nominal_velocity = 0.0;
         }
         let mut rest = dt;
-        for _ in 0..MOST_SLICES {
+        for _ in 0..MAX_SLICES {
             if rest <= 0.0 {
                 break;
             }

@@ -23,7 +23,7 @@ impl ProximitySensor {
     ) -> Self {
         let mut floats = floats.unwrap_or_else(|| usual_volume(volume_type));
         let sizes = [1, 2, 3, 4, 5, 12];
-        sizes.into_iter().for_each(|i| floats[i] = floats[i].max(Volume::SMALLEST));
+        sizes.into_iter().for_each(|i| floats[i] = floats[i].max(Volume::MIN_SIZE));
         let limit = |option: ProximityOptions, at: usize| {
             if options.contains(option) && floats[at].is_finite() { floats[at].max(0.0) } else { 0.0 }
         };

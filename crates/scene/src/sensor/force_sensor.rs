@@ -7,27 +7,38 @@ use crate::Pose;
 /// How samples are combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Filter {
+    /// The mean of the samples.
     Average = 0,
+    /// The median of each component.
     Median = 1,
 }
 
 /// A rigid link that measures the load its child applies to its parent, in the sensor's frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceSensor {
+    /// Size of its symbol, metres.
     pub size: f64,
+    /// How the samples become the filtered value.
     pub filter: Filter,
+    /// Number of samples that are combined, one per simulation step.
     pub sample_size: usize,
-    /// Newtons; None when switched off. The same for the torque in N m.
+    /// Force beyond which the link is overloaded, N.
     pub force_threshold: f64,
+    /// Whether the force threshold applies.
     pub force_threshold_enabled: bool,
+    /// Torque beyond which the link is overloaded, N m.
     pub torque_threshold: f64,
+    /// Whether the torque threshold applies.
     pub torque_threshold_enabled: bool,
+    /// Overloads in a row that call the trigger function of scripts.
     pub consecutive_violations: u32,
+    /// Overloads in a row so far.
     pub violations: u32,
-    /// `(force, torque)`, newest last, at most `sample_size`.
+    /// `(force, torque)` in N and N m, the newest last, at most `sample_size`.
     pub samples: VecDeque<([f64; 3], [f64; 3])>,
-    /// Latest value of one sub-step.
+    /// Force and torque of the last dynamics sub-step, N and N m.
     pub raw: Option<([f64; 3], [f64; 3])>,
+    /// Force and torque after the filter, N and N m; None before there are enough samples.
     pub filtered: Option<([f64; 3], [f64; 3])>,
     /// Deviation of the physics engine's result from the rigid link.
     pub error: Option<Pose>,
@@ -54,6 +65,6 @@ impl Default for ForceSensor {
 }
 
 impl ForceSensor {
-    /// More samples are not kept.
+    /// Largest number of samples kept.
     pub const MAX_SAMPLES: usize = 10_000;
 }

@@ -23,24 +23,33 @@ pub use vision::{Area, RenderMode, VisionReading, VisionSensor};
 /// A proximity sensor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProximitySensor {
+    /// Where it detects.
     pub volume: Volume,
+    /// Handled only when a script asks for this sensor, not with all others.
     pub explicit: bool,
-    /// Of the point that shows it, metres.
+    /// Size of the displayed symbol, metres.
     pub size: f64,
+    /// The volume is displayed.
     pub show_volume: bool,
+    /// Detects the outer side of surfaces.
     pub front_faces: bool,
+    /// Detects the inner side of surfaces.
     pub back_faces: bool,
+    /// Finds the closest point, not just any.
     pub exact: bool,
     /// Rays only: several random directions per reading.
     pub randomized: bool,
+    /// Number of random rays per reading.
     pub samples: i64,
     /// How many of the samples have to detect something.
     pub required_samples: i64,
-    /// Largest angle between ray and surface normal, rad; 0 for any.
+    /// Largest angle between ray and surface normal that is detected, radians; 0 for any.
     pub angle_threshold: f64,
+    /// What it detects.
     pub entity: Entity,
+    /// Colour of the displayed ray and detected point.
     pub ray_colour: Colour,
-    /// The faces of the volume that its file contains.
+    /// The faces of the volume that its file contains, if they differ from the computed ones.
     pub file_faces: Option<Box<FileFaces>>,
     /// Whether it was handled since it was reset.
     pub handled: bool,
@@ -60,12 +69,15 @@ impl ProximitySensor {
 pub struct Entity(i64);
 
 impl Entity {
+    /// All objects.
     pub const ALL: Self = Self(-1);
 
+    /// From the number of a script or file: -1 for all, or a handle of an object or a collection.
     pub fn from_raw(raw: i64) -> Self {
         Self(raw)
     }
 
+    /// The number scripts and files know: -1 for all, or a handle.
     pub fn raw(self) -> i64 {
         self.0
     }
@@ -85,13 +97,16 @@ impl From<Handle> for Entity {
 /// A detection of a proximity sensor, in its own frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Detection {
+    /// The detected shape, octree or other object.
     pub object: Handle,
+    /// The detected point, metres.
     pub point: [f64; 3],
+    /// Unit normal of the surface there.
     pub normal: [f64; 3],
 }
 
 impl Detection {
-    /// Of the point from the sensor (m).
+    /// Distance of the point from the origin of the sensor, metres.
     pub fn distance(&self) -> f64 {
         Vector3::from(self.point).norm()
     }
@@ -100,15 +115,17 @@ impl Detection {
 /// The projection of a camera or vision sensor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
+    /// Perspective projection instead of an orthographic one.
     pub perspective: bool,
-    /// Width, height in pixels.
+    /// Width and height, pixels.
     pub resolution: [u32; 2],
-    /// Near, far in metres.
+    /// Distances of the near and far clipping plane, metres.
     pub clipping: [f64; 2],
-    /// Along the larger side, radians.
+    /// Opening angle of a perspective view along its larger side, radians.
     pub angle: f64,
     /// Extent of an orthographic view along its larger side, metres.
     pub ortho_size: f64,
+    /// The view volume is displayed.
     pub show_frustum: bool,
 }
 
@@ -130,10 +147,14 @@ impl View {
     }
 }
 
+/// A camera: a viewpoint for display, along its z axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
+    /// Its projection.
     pub view: View,
+    /// Size of its symbol, metres.
     pub size: f64,
+    /// The object it follows.
     pub tracked: Option<Handle>,
 }
 
@@ -154,33 +175,44 @@ impl Default for Camera {
 /// `sim.light_*`: where a light shines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LightType {
+    /// In all directions from a point.
     Omnidirectional = 1,
+    /// Within a cone along z.
     Spot = 2,
+    /// Parallel rays along z.
     Directional = 3,
 }
 
 impl LightType {
+    /// The number of `sim.light_*`.
     pub fn code(self) -> i64 {
         self as i64
     }
 }
 
+/// A light source.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Light {
+    /// Where it shines.
     pub light_type: LightType,
+    /// Whether it is on.
     pub enabled: bool,
     /// The colour of its light.
     pub colour: Colour,
+    /// Size of its symbol, metres.
     pub size: f64,
+    /// How fast a spot fades away from its axis; 0 is even.
     pub spot_exponent: i64,
-    /// Half the opening of a spot, rad.
+    /// Half the opening angle of a spot, radians.
     pub spot_cutoff: f64,
-    /// Constant, linear, quadratic.
+    /// Constant, linear and quadratic factor of the attenuation with distance in metres.
     pub attenuation: [f64; 3],
+    /// Whether renderers with shadows draw them for this light.
     pub casts_shadows: bool,
 }
 
 impl Light {
+    /// A white light of that type with default settings.
     pub fn new(light_type: LightType) -> Self {
         Self {
             light_type,

@@ -5,20 +5,27 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// `sim.proximitysensor_*`: the shape of the volume.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VolumeType {
+    /// A truncated pyramid.
     Pyramid = 30,
+    /// A truncated cone along z, with polygons as its ends.
     Cylinder = 31,
+    /// A flat sector around z.
     Disc = 32,
+    /// A sector of a ball around z.
     Cone = 33,
+    /// A line along z.
     Ray = 34,
 }
 
 impl VolumeType {
     const ALL: [Self; 5] = [Self::Pyramid, Self::Cylinder, Self::Disc, Self::Cone, Self::Ray];
 
+    /// The type with the number of `sim.proximitysensor_*`.
     pub fn from_code(code: i64) -> Option<Self> {
         Self::ALL.into_iter().find(|volume_type| volume_type.code() == code)
     }
 
+    /// The number of `sim.proximitysensor_*`.
     pub fn code(self) -> i64 {
         self as i64
     }
@@ -32,21 +39,28 @@ impl VolumeType {
 /// Segments of a drawn arc of a whole turn.
 const ARC_STEPS: usize = 32;
 
-/// Where a sensor looks: the meaning of most numbers depends on the type. Lengths in metres; pairs are near and far.
+/// Where a sensor detects: which numbers count depends on the type. Lengths in metres; pairs are near and far end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Volume {
+    /// The shape of the volume.
     pub volume_type: VolumeType,
-    /// From the sensor to where the volume begins.
+    /// Distance from the sensor to where the volume begins.
     pub offset: f64,
+    /// Depth of the volume, from where it begins.
     pub range: f64,
+    /// Widths of a pyramid.
     pub x_size: [f64; 2],
+    /// Heights of a pyramid; the first is the thickness of a disc.
     pub y_size: [f64; 2],
+    /// Radii of a cylinder; the first is the inner radius of discs and cones.
     pub radius: [f64; 2],
-    /// Opening of discs and cones, rad.
+    /// Opening angle of discs and cones, radians.
     pub angle: f64,
-    /// How much of the inside is left out, 0 to 1.
+    /// Part of the width that is left out in the middle, 0 to 1.
     pub inside_gap: f64,
+    /// Number of facets of round surfaces.
     pub faces: [i64; 2],
+    /// Further divisions of the ends of a cone.
     pub subdivisions: [i64; 2],
     /// If an object is nearer than this, the sensor detects nothing; 0 for no such zone.
     pub close_threshold: f64,
@@ -55,8 +69,8 @@ pub struct Volume {
 type Point = [f64; 3];
 
 impl Volume {
-    /// Smallest sizes, m.
-    pub const SMALLEST: f64 = 1e-5;
+    /// Smallest size that scripts can set, metres.
+    pub const MIN_SIZE: f64 = 1e-5;
 
     /// End points of the edges of the volume in the sensor's frame.
     pub fn edges(&self) -> Vec<[Point; 2]> {
@@ -79,7 +93,7 @@ impl Volume {
         if self.close_threshold <= 0.0 || depth <= 0.0 {
             return Vec::new();
         }
-        let grown = |[near, far]: [f64; 2]| [near, near + (far - near) * depth / self.range.max(Self::SMALLEST)];
+        let grown = |[near, far]: [f64; 2]| [near, near + (far - near) * depth / self.range.max(Self::MIN_SIZE)];
         let mut near = self.clone();
         (near.range, near.x_size, near.y_size) = (depth, grown(self.x_size), grown(self.y_size));
         if self.volume_type == VolumeType::Cylinder {

@@ -7,9 +7,13 @@ use super::volume_planes::ConvexPiece;
 /// Lists of numbers as files have them: of planes the normal, which points outwards, and the distance of the origin behind them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct VolumeFaces {
+    /// Planes around the volume.
     pub planes_inside: Vec<f64>,
+    /// Planes around the part that is left out of it.
     pub planes_outside: Vec<f64>,
+    /// Normals around the volume, as files have them.
     pub normals_inside: Vec<f64>,
+    /// Normals around the part that is left out, as files have them.
     pub normals_outside: Vec<f64>,
     /// End points of the edges.
     pub edges: Vec<f64>,

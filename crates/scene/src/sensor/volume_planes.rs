@@ -17,6 +17,7 @@ type Vector = Vector3<f64>;
 /// A convex part of a volume.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ConvexPiece {
+    /// Planes around the piece: its points are inside of all of them.
     pub planes: Vec<Plane>,
     /// Holes: points inside all planes of a hole are outside the piece.
     pub holes: Vec<Vec<Plane>>,

@@ -14,8 +14,8 @@ pub fn decimated_mesh(mut mesh: Mesh, target: Target) -> Option<Mesh> {
 }
 
 impl Shape {
-    /// A shape with fewer triangles, of the same mass and looks, but without textures and with the frame of this one. Its meshes share what
-    /// remains as they share the triangles.
+    /// A shape with fewer triangles, of the same mass and appearance, but without textures and with the frame of this one. The triangles are
+    /// distributed among the meshes in proportion to what they had.
     ///
     /// # Errors
     /// When a mesh has no area.

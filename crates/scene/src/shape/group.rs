@@ -186,10 +186,10 @@ impl Scene {
     /// When the object is no shape or has no volume.
     pub fn convex_shapes(&self, handle: Handle, fineness: DecompositionParameters) -> SceneResult<(Vec<Shape>, Pose)> {
         let original = self.object(handle)?.shape()?;
-        let looks = original.parts.first().map_or_else(Shape::mesh_appearance, |part| part.appearance.clone());
+        let appearance = original.parts.first().map_or_else(Shape::mesh_appearance, |part| part.appearance.clone());
         let mut pieces = Vec::new();
         for mesh in original.mesh().convex_pieces(fineness) {
-            let mut piece = Shape::from_mesh(mesh, looks.clone())?;
+            let mut piece = Shape::from_mesh(mesh, appearance.clone())?;
             piece.parts.iter_mut().for_each(|part| part.convex = true);
             pieces.push(piece);
         }
@@ -254,7 +254,7 @@ fn grouped(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
     Ok(Shape { parts, mass, bounding_box, ..master.clone() })
 }
 
-/// One mesh in the master's frame, with the master's looks, texture and mass.
+/// One mesh in the master's frame, with the master's appearance, texture and mass.
 fn merged(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
     let mut mesh = Mesh::default();
     placed.iter().for_each(|(pose, shape)| mesh.append(&shape.mesh(), pose));

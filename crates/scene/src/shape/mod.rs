@@ -28,12 +28,15 @@ pub struct Shape {
     pub bounding_box: BoundingBox,
     /// In the shape frame.
     pub mass: MassProperties,
+    /// How physics treats it.
     pub dynamics: ShapeDynamics,
+    /// Friction, restitution and damping.
     pub material: Material,
     /// The last velocities of the physics, world axes, at the centre of mass.
     pub velocity: Velocity,
-    /// Force and torque applied by scripts since the last dynamics call, world axes, at the centre of mass.
+    /// Force applied by scripts since the last dynamics call, N, world axes, at the centre of mass.
     pub force: [f64; 3],
+    /// Torque applied by scripts since the last dynamics call, N m, world axes.
     pub torque: [f64; 3],
 }
 
@@ -48,34 +51,46 @@ pub struct Part {
     pub pose: Pose,
     /// Known when physics may use the analytic form ("pure"), which then lies centred in the part's frame.
     pub primitive: Option<Primitive>,
+    /// Whether the mesh is convex, so that physics needs no decomposition.
     pub convex: bool,
+    /// Mass, centre of mass and inertia in the part's frame.
     pub mass: MassProperties,
     /// Of a group of groups: the number of the member it is in, then of the member of that member, and so on.
     pub group: Vec<u32>,
+    /// Visual attributes.
     pub appearance: Appearance,
+    /// The image on the mesh.
     pub texture: Option<Box<TextureMapping>>,
 }
 
+/// The analytic form of a part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Primitive {
+    /// Which primitive it is.
     pub kind: PrimitiveKind,
-    /// Full extents.
+    /// Full extents along the axes, metres.
     pub size: [f64; 3],
-    /// Only of height fields.
+    /// The heights of a height field.
     pub heights: Option<Rc<HeightField>>,
 }
 
 /// Heights of a terrain, row by row (y grows with the row), metres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeightField {
+    /// Number of heights along x.
     pub columns: usize,
+    /// Number of heights along y.
     pub rows: usize,
+    /// The heights above the part's frame, metres.
     pub heights: Vec<f64>,
 }
 
+/// The velocity of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Velocity {
+    /// Linear velocity, m/s.
     pub linear: [f64; 3],
+    /// Angular velocity, rad/s.
     pub angular: [f64; 3],
 }
 
@@ -85,7 +100,9 @@ pub struct Velocity {
 pub struct RespondableMask(pub i64);
 
 impl RespondableMask {
+    /// Collides with all other shapes.
     pub const ALL: Self = Self(0xffff);
+    /// Collides with nothing.
     pub const NONE: Self = Self(0);
 
     /// The bits that have a meaning.
@@ -97,13 +114,21 @@ impl RespondableMask {
 /// Dynamic properties of a shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShapeDynamics {
+    /// Physics does not move it.
     pub is_static: bool,
+    /// Other respondable shapes collide with it.
     pub respondable: bool,
+    /// A static shape whose motion by scripts carries over to the bodies that touch it.
     pub kinematic: bool,
+    /// At rest until another body touches it.
     pub start_asleep: bool,
+    /// Becomes dynamic when it gets a parent.
     pub dynamic_when_parented: bool,
+    /// Which shapes it collides with.
     pub respondable_mask: RespondableMask,
+    /// Simulation steps for which collisions are suspended; 0 for none.
     pub respondable_suspend_count: i64,
+    /// Velocity at the start of the simulation, world axes.
     pub initial_velocity: Velocity,
 }
 
@@ -127,8 +152,11 @@ impl Default for ShapeDynamics {
 pub struct Material {
     /// Bullet 2.78's ("old") friction.
     pub friction: f64,
+    /// Coefficient of restitution, 0 to 1.
     pub restitution: f64,
+    /// Part of the linear velocity that is lost per second, 0 to 1.
     pub linear_damping: f64,
+    /// Part of the angular velocity that is lost per second, 0 to 1.
     pub angular_damping: f64,
     /// Parameters of physics engines that have no field.
     pub engine_values: InertValues,
@@ -136,7 +164,7 @@ pub struct Material {
 
 impl Material {
     /// Number of the first preset, `sim.dynmat_default`.
-    pub const FIRST_PRESET: i64 = 2_310_013;
+    pub(crate) const FIRST_PRESET: i64 = 2_310_013;
 
     /// A material with the frictions of Bullet 2.78, Bullet 2.83, ODE, and Newton's static and kinetic one.
     fn of_frictions([friction, others @ ..]: [f64; 5]) -> Self {
@@ -162,7 +190,7 @@ impl Material {
     }
 
     /// The material of new primitives.
-    pub fn rest_stack_grasp() -> Self {
+    pub(crate) fn rest_stack_grasp() -> Self {
         Self::of_frictions(GRIP)
     }
 }
@@ -177,21 +205,28 @@ impl Default for Material {
 /// Visual attributes of a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Appearance {
+    /// Name by which scripts address the colour; may be empty.
     pub colour_name: String,
     /// Settings of renderers.
     pub colour_extension: String,
+    /// Colour and opacity.
     pub colour: Colour,
+    /// Faces are visible from the front only.
     pub culling: bool,
+    /// Only the edges of triangles are drawn.
     pub wireframe: bool,
+    /// Edges are drawn on top of the faces.
     pub edges: bool,
     /// Of the edges, those that belong to one triangle only are not seen.
     pub edge_borders_hidden: bool,
-    /// Radians.
+    /// Faces at a smaller angle are shaded smoothly, radians.
     pub shading_angle: f64,
+    /// Edges between faces at a smaller angle are not drawn, radians.
     pub edge_angle: f64,
 }
 
 impl Appearance {
+    /// Default attributes with a colour: red, green, blue, 0 to 1.
     pub fn new(ambient_diffuse: [f32; 3]) -> Self {
         Self {
             colour_name: String::new(),
@@ -208,14 +243,17 @@ impl Appearance {
 }
 
 impl Shape {
+    /// Whether it has several parts.
     pub fn is_compound(&self) -> bool {
         self.parts.len() > 1
     }
 
+    /// Whether all parts are primitives for physics.
     pub fn is_pure(&self) -> bool {
         self.parts.iter().all(|part| part.primitive.is_some())
     }
 
+    /// Whether all parts are convex.
     pub fn is_convex(&self) -> bool {
         self.parts.iter().all(|part| part.convex)
     }

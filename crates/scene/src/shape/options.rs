@@ -6,7 +6,9 @@ bitflags! {
     /// Options of `sim.createPrimitiveShape`.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
     pub struct PrimitiveOptions: i64 {
+        /// Faces are visible from the front only.
         const CULLING = 0x1;
+        /// Faces are shaded flat.
         const SHARP_EDGES = 0x2;
         /// Cylinders and cones only.
         const OPEN_ENDS = 0x4;
@@ -20,10 +22,15 @@ bitflags! {
     /// Options of `sim.createPureShape`.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct PureShapeOptions: i64 {
+        /// Faces are visible from the front only.
         const CULLING = 0x1;
+        /// Faces are shaded smoothly.
         const SMOOTH = 0x4;
+        /// Collides with other respondable shapes.
         const RESPONDABLE = 0x8;
+        /// Physics does not move it.
         const STATIC = 0x10;
+        /// Cylinders and cones without their end faces.
         const OPEN_ENDS = 0x20;
         const _ = !0;
     }
@@ -44,14 +51,21 @@ bitflags! {
     /// Options of `sim.createShape`.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct MeshOptions: i64 {
+        /// Faces are visible from the front only.
         const CULLING = 0x1;
+        /// Edges are drawn.
         const EDGES = 0x2;
+        /// The nearest pixel of the texture instead of bilinear filtering.
         const TEXTURE_NOT_INTERPOLATED = 0x4;
+        /// The texture replaces the colour.
         const TEXTURE_AS_DECAL = 0x8;
+        /// Pixels of the texture have an opacity.
         const TEXTURE_HAS_ALPHA = 0x10;
+        /// Mirrors the image along x.
         const FLIP_TEXTURE_X = 0x20;
         /// The rows of the image begin at the bottom.
         const TEXTURE_FROM_BOTTOM = 0x40;
+        /// Vertices in the same place are not merged.
         const KEEP_DUPLICATE_VERTICES = 0x80;
         const _ = !0;
     }
@@ -61,10 +75,13 @@ bitflags! {
     /// Options of `sim.createHeightfieldShape`.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct HeightfieldOptions: i64 {
+        /// Faces are visible from the front only.
         const CULLING = 0x1;
+        /// Edges are drawn.
         const EDGES = 0x2;
         /// Only the mesh: for the physics it is no height field.
         const PLAIN_MESH = 0x4;
+        /// Other shapes do not collide with it.
         const NOT_RESPONDABLE = 0x8;
         const _ = !0;
     }

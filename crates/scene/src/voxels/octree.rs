@@ -10,10 +10,11 @@ use super::box_around;
 #[derive(Debug, Clone, PartialEq)]
 pub struct OcTree {
     voxel_size: f64,
-    /// Pixels.
+    /// Displayed size of a point, pixels.
     pub point_size: f64,
     /// Shown as points, not as cubes.
     pub shows_points: bool,
+    /// New voxels get random colours.
     pub random_colours: bool,
     voxels: BTreeMap<Cell, Voxel>,
 }
@@ -21,6 +22,7 @@ pub struct OcTree {
 /// How many cells from the origin: z, y, x, so that layers follow each other.
 type Cell = [i32; 3];
 
+/// The content of an occupied cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Voxel {
     /// Red, green, blue.
@@ -68,14 +70,17 @@ impl OcTree {
         }
     }
 
+    /// Empties all cells.
     pub fn clear(&mut self) {
         self.voxels.clear();
     }
 
+    /// Number of voxels.
     pub fn len(&self) -> usize {
         self.voxels.len()
     }
 
+    /// Whether there is no voxel.
     pub fn is_empty(&self) -> bool {
         self.voxels.is_empty()
     }

@@ -6,6 +6,7 @@ bitflags! {
     /// Options of the creation of octrees and point clouds.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct StorageOptions: i64 {
+        /// New voxels or points get random colours.
         const RANDOM_COLOURS = 0x2;
         /// The points of a point cloud are not stored in an octree.
         const WITHOUT_OCTREE = 0x8;

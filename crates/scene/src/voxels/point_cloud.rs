@@ -9,20 +9,26 @@ use super::box_around;
 /// Points with colours, in the frame of the object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointCloud {
+    /// Largest edge of a cell of its octree, metres.
     pub max_cell_size: f64,
+    /// Points in a cell beyond which it is divided.
     pub max_points_in_cell: i64,
-    /// Pixels.
+    /// Displayed size of a point, pixels.
     pub point_size: i64,
     /// Points are kept in a tree of cells.
     pub uses_octree: bool,
     /// How many of the points are shown, 0 to 1.
     pub display_fraction: f64,
+    /// New points get random colours.
     pub random_colours: bool,
+    /// The points in the order of insertion.
     pub points: Vec<CloudPoint>,
 }
 
+/// A point of a cloud.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CloudPoint {
+    /// Position in the frame of the object, metres.
     pub position: [f64; 3],
     /// Red, green, blue.
     pub colour: [u8; 3],

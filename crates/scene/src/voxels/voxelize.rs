@@ -18,10 +18,10 @@ type Point = [f64; 3];
 type Cell = [i32; 3];
 
 /// Limit of cells, and of tests to find them, per object: a mistake in a script should not exhaust the machine.
-const MOST_CELLS: usize = 2_000_000;
-const MOST_TESTS: usize = 40 * MOST_CELLS;
-/// Cells are nearer to the origin than this, by their edge.
-const FARTHEST: f64 = (1 << 30) as f64;
+const MAX_CELLS: usize = 2_000_000;
+const MAX_TESTS: usize = 40 * MAX_CELLS;
+/// Largest distance of a cell from the origin, in cells.
+const MAX_DISTANCE: f64 = (1 << 30) as f64;
 /// Relative enlargement of cells for tests: geometry on a boundary touches both sides.
 const MARGIN: f64 = 1e-9;
 /// Relative shrinkage of a voxel when it is inserted into a grid: it does not occupy cells that it only touches.
@@ -51,7 +51,7 @@ impl Grid {
 
     /// Adds the cells that `touches` says of, among those that a box from `low` to `high` touches.
     fn fill(&mut self, (low, high): (Point, Point), touches: impl Fn(&Aabb) -> bool) -> SceneResult<()> {
-        let within = |c: &f64| c.abs() < FARTHEST * self.edge;
+        let within = |c: &f64| c.abs() < MAX_DISTANCE * self.edge;
         if !low.iter().chain(&high).all(within) {
             return Err(SceneError::Refused("the object is too far away for the cells of the grid.".into()));
         }
@@ -60,8 +60,8 @@ impl Grid {
         let mut pending = vec![(first, last)];
         while let Some((low, high)) = pending.pop() {
             self.tests += 1;
-            if self.cells.len() > MOST_CELLS || self.tests > MOST_TESTS {
-                return Err(SceneError::Refused(format!("the object takes more than {MOST_CELLS} cells.")));
+            if self.cells.len() > MAX_CELLS || self.tests > MAX_TESTS {
+                return Err(SceneError::Refused(format!("the object takes more than {MAX_CELLS} cells.")));
             }
             if !touches(&self.around(low, high)) {
                 continue;

@@ -3,11 +3,14 @@
 /// A push button.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Button {
+    /// The text on it.
     pub text: String,
-    /// It stays down.
+    /// It stays down until it is pressed again.
     pub checkable: bool,
+    /// Whether it is down.
     pub checked: bool,
-    pub auto_exclusive: bool,
+    pub(crate) auto_exclusive: bool,
+    /// Its icon, as the text of the window names it; empty for none.
     pub icon: String,
     /// Milliseconds before it repeats, and between repetitions, while it is held down.
     pub repeat: Option<[i64; 2]>,
@@ -16,33 +19,42 @@ pub struct Button {
 /// A box with a tick.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Checkbox {
+    /// The text beside it.
     pub text: String,
     /// 0, 1 for partially, 2.
     pub value: i64,
+    /// Whether a person can change it.
     pub checkable: bool,
-    pub auto_exclusive: bool,
+    pub(crate) auto_exclusive: bool,
 }
 
 /// One choice of several.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Radiobutton {
+    /// The text beside it.
     pub text: String,
+    /// Whether it is the chosen one.
     pub checked: bool,
+    /// Whether a person can choose it.
     pub checkable: bool,
-    pub auto_exclusive: bool,
+    pub(crate) auto_exclusive: bool,
 }
 
 /// A list of texts of which one is selected.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Combobox {
+    /// The texts in order.
     pub items: Vec<String>,
+    /// Which is selected, from 0.
     pub selected: Option<usize>,
 }
 
-/// A line of text to change.
+/// A line of text that a person can edit.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Edit {
+    /// The text.
     pub value: String,
+    /// The characters are hidden.
     pub password: bool,
     /// What a person enters is an expression in Lua.
     pub evaluates: bool,
@@ -53,12 +65,17 @@ pub struct Edit {
 /// A slider of integers.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Slider {
+    /// From bottom to top instead of from left to right.
     pub vertical: bool,
+    /// The value, within the limits.
     pub value: i64,
+    /// Smallest value.
     pub minimum: i64,
+    /// Largest value.
     pub maximum: i64,
-    pub tick_interval: i64,
-    pub tick_position: &'static str,
+    pub(crate) tick_interval: i64,
+    pub(crate) tick_position: &'static str,
+    /// The largest value is at the left or at the bottom.
     pub inverted: bool,
 }
 
@@ -72,13 +89,19 @@ impl Slider {
 /// A number with steps.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Spinbox {
+    /// The value, within the limits.
     pub value: f64,
+    /// Smallest value.
     pub minimum: f64,
+    /// Largest value.
     pub maximum: f64,
+    /// Change per click.
     pub step: f64,
     /// Digits after the point; None for integers.
     pub decimals: Option<i32>,
+    /// Text before the number.
     pub prefix: String,
+    /// Text after the number.
     pub suffix: String,
 }
 
@@ -101,27 +124,36 @@ impl Spinbox {
 /// A text that only scripts change.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Label {
+    /// The text; may be HTML.
     pub text: String,
-    pub word_wrap: bool,
+    pub(crate) word_wrap: bool,
 }
 
-/// How far something has come.
+/// A bar that shows progress.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ProgressBar {
+    /// The value, within the limits.
     pub value: i64,
+    /// The value of an empty bar.
     pub minimum: i64,
+    /// The value of a full bar.
     pub maximum: i64,
+    /// From bottom to top instead of from left to right.
     pub vertical: bool,
+    /// It grows in the opposite direction.
     pub inverted: bool,
-    pub text_visible: bool,
+    pub(crate) text_visible: bool,
 }
 
-/// What the text of a browser is written in.
+/// The format of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum TextType {
+    /// Plain text.
     Plain,
+    /// HTML.
     #[default]
     Html,
+    /// Markdown.
     Markdown,
 }
 
@@ -144,10 +176,12 @@ impl TextType {
 /// A long text.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TextBrowser {
+    /// The text, in its format.
     pub text: String,
+    /// The format.
     pub text_type: TextType,
-    pub read_only: bool,
-    pub word_wrap: bool,
+    pub(crate) read_only: bool,
+    pub(crate) word_wrap: bool,
     /// Where its content comes from, if from elsewhere.
     pub url: String,
 }

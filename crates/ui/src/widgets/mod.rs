@@ -16,15 +16,18 @@ pub use inputs::{
 pub use picture::{Image, Svg};
 pub use plot::{Curve, CurveOptions, CurveType, Plot};
 pub use properties::{Properties, Property};
-pub use scene3d::{NODE_TYPES, Node, Scene3d};
+pub(crate) use scene3d::NODE_TYPES;
+pub use scene3d::{Node, Scene3d};
 pub use table::{Cell, SelectionMode, Table};
 pub use tree::Tree;
 
 /// How the widgets in a container are placed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Layout {
+    /// One below the other.
     #[default]
     VerticalBox,
+    /// Side by side.
     HorizontalBox,
     /// Cells from left to right; breaks begin the next row.
     Grid,
@@ -66,11 +69,13 @@ pub enum Item {
 /// Widgets with their layout.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Container {
+    /// How the widgets are placed.
     pub layout: Layout,
     /// Left, top, right, bottom, pixels.
     pub margins: [i64; 4],
-    /// Pixels; -1 for the usual.
+    /// Distance between widgets, pixels; -1 for the default.
     pub spacing: i64,
+    /// What is in it, in order.
     pub items: Vec<Item>,
 }
 
@@ -84,6 +89,7 @@ impl Container {
 /// A frame around widgets.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Group {
+    /// The widgets in it.
     pub container: Container,
     /// Without the frame.
     pub flat: bool,
@@ -96,13 +102,16 @@ pub struct Tabs {
     pub pages: Vec<i64>,
     /// Counts from 0.
     pub current: usize,
+    /// Where the titles are: `north`, `south`, `east`, `west`.
     pub position: &'static str,
 }
 
 /// A page of tabs.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tab {
+    /// The title.
     pub title: String,
+    /// The widgets in it.
     pub container: Container,
 }
 
@@ -110,7 +119,10 @@ macro_rules! kinds {
     ($($kind:ident $tag:literal $class:literal;)*) => {
         /// What a widget is.
         #[derive(Debug, Clone, PartialEq)]
-        pub enum Kind { $($kind($kind)),* }
+        pub enum Kind {$(
+            #[doc = concat!("The element `", $tag, "`.")]
+            $kind($kind),
+        )*}
 
         impl Kind {
             /// The name of its element.
@@ -125,10 +137,12 @@ macro_rules! kinds {
         $(impl WidgetType for $kind {
             const CLASS: &'static str = $class;
 
+            /// The widget as this type, if it is one.
             fn of(kind: &Kind) -> Option<&Self> {
                 if let Kind::$kind(widget) = kind { Some(widget) } else { None }
             }
 
+            /// The widget as this type, to change it, if it is one.
             fn of_mut(kind: &mut Kind) -> Option<&mut Self> {
                 if let Kind::$kind(widget) = kind { Some(widget) } else { None }
             }
@@ -175,7 +189,9 @@ pub struct Widget {
     pub id: i64,
     /// The widget around it; None directly in the window.
     pub parent: Option<i64>,
+    /// Whether it takes inputs.
     pub enabled: bool,
+    /// Whether it is shown.
     pub visible: bool,
     /// A style sheet of Qt.
     pub style: String,
@@ -185,6 +201,7 @@ pub struct Widget {
     pub geometry: Option<[i64; 4]>,
     /// Names of functions of the owner's, by the attribute.
     pub handlers: BTreeMap<&'static str, String>,
+    /// What it is.
     pub kind: Kind,
 }
 

@@ -5,17 +5,19 @@ use super::super::error::{UiError, UiResult};
 /// A picture of pixels.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Image {
+    /// Pixels in a row.
     pub width: usize,
+    /// Number of rows.
     pub height: usize,
     /// Red, green, blue, opacity of each pixel, the top row first; empty without a picture.
     pub pixels: Vec<u8>,
-    /// The file to load it from, and the size to give it.
+    /// The file to load it from; empty for none.
     pub file: String,
-    pub scaled_contents: bool,
-    pub keep_aspect_ratio: bool,
+    pub(crate) scaled_contents: bool,
+    pub(crate) keep_aspect_ratio: bool,
 }
 
-/// A transparent picture has no more pixels.
+/// Largest number of pixels of a transparent picture.
 pub(super) const MAX_PIXELS: usize = 1 << 24;
 
 impl Image {
@@ -55,10 +57,11 @@ pub(super) fn rgba_of(data: &[u8], width: i64, height: i64) -> UiResult<(usize, 
     Ok((columns, rows, pixels))
 }
 
-/// A drawing.
+/// A vector drawing.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Svg {
-    /// The file to load it from.
+    /// The file to load it from; empty for none.
     pub file: String,
+    /// The drawing in SVG.
     pub text: String,
 }

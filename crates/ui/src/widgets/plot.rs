@@ -34,13 +34,17 @@ impl CurveType {
 /// How a curve is drawn; numbers are those of simUI's constants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveOptions {
+    /// Shape of the points.
     pub scatter_shape: i64,
-    /// Pixels.
+    /// Size of the points, pixels.
     pub scatter_size: i64,
-    /// Pixels.
+    /// Width of the line, pixels.
     pub line_size: i64,
+    /// Style of the line: solid, dashed and so on.
     pub line_style: i64,
+    /// Listed in the legend.
     pub add_to_legend: bool,
+    /// A person can select it.
     pub selectable: bool,
     /// The axes move along with the newest point.
     pub track: bool,
@@ -63,11 +67,15 @@ impl Default for CurveOptions {
 /// A curve of a plot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
+    /// Name, unique in the plot.
     pub name: String,
+    /// What its points are sorted by.
     pub curve_type: CurveType,
     /// Red, green, blue, 0 to 255.
     pub color: [i64; 3],
+    /// How points are linked (simUI.curve_style).
     pub style: i64,
+    /// How it is drawn.
     pub options: CurveOptions,
     /// What it is sorted by, x, y of each point, in order.
     pub points: Vec<[f64; 3]>,
@@ -109,17 +117,21 @@ impl Curve {
 pub struct Plot {
     /// The colours that are not the usual ones, by attribute.
     pub colors: BTreeMap<&'static str, [i64; 3]>,
+    /// Both axes have the same scale.
     pub square: bool,
     /// Points of a curve; not positive for any number.
-    pub max_buffer_size: i64,
-    pub cyclic_buffer: bool,
-    /// Of x, then of y.
-    pub ticks: [bool; 2],
-    pub tick_labels: [bool; 2],
+    pub(crate) max_buffer_size: i64,
+    pub(crate) cyclic_buffer: bool,
+    /// Whether the axes of x and y have ticks.
+    pub(crate) ticks: [bool; 2],
+    pub(crate) tick_labels: [bool; 2],
+    /// The curves in the order of their creation.
     pub curves: Vec<Curve>,
     /// Smallest and largest x, then y.
     pub ranges: [[f64; 2]; 2],
+    /// The labels of the axes of x and y.
     pub labels: [String; 2],
+    /// Whether the legend is shown.
     pub legend_visible: bool,
     /// What the mouse does: moves x, moves y, scales x, scales y.
     pub mouse: [bool; 4],
@@ -147,6 +159,8 @@ impl Default for Plot {
 }
 
 impl Plot {
+    /// The curve with that name.
+    ///
     /// # Errors
     /// When there is no curve of that name.
     pub fn curve(&self, name: &str) -> UiResult<&Curve> {
@@ -157,6 +171,8 @@ impl Plot {
         self.curves.iter_mut().find(|curve| curve.name == name).ok_or_else(|| no_curve(name))
     }
 
+    /// Adds a curve.
+    ///
     /// # Errors
     /// When there is a curve of that name.
     pub fn add_curve(&mut self, curve: Curve) -> UiResult<()> {
@@ -167,6 +183,8 @@ impl Plot {
         Ok(())
     }
 
+    /// Adds points to a curve: the key they are sorted by, x, y. A full buffer drops the oldest or refuses the newest.
+    ///
     /// # Errors
     /// When there is no curve of that name and type.
     pub fn add_points(
@@ -184,6 +202,8 @@ impl Plot {
         Ok(())
     }
 
+    /// Removes the points of a curve.
+    ///
     /// # Errors
     /// When there is no curve of that name.
     pub fn clear_curve(&mut self, name: &str) -> UiResult<()> {
@@ -191,6 +211,8 @@ impl Plot {
         Ok(())
     }
 
+    /// Removes a curve.
+    ///
     /// # Errors
     /// When there is no curve of that name.
     pub fn remove_curve(&mut self, name: &str) -> UiResult<()> {

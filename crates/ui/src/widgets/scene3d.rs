@@ -6,7 +6,7 @@ use super::super::error::{UiError, UiResult};
 use scene::Data;
 
 /// The types of nodes; the first has the number 44100 (simUI.scene3d_node_type).
-pub const NODE_TYPES: [&str; 22] = [
+pub(crate) const NODE_TYPES: [&str; 22] = [
     "entity",
     "transform",
     "camera",
@@ -34,21 +34,26 @@ pub const NODE_TYPES: [&str; 22] = [
 /// A node.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Node {
-    pub node_type: &'static str,
+    pub(crate) node_type: &'static str,
     /// -1 for the root.
     pub parent: i64,
+    /// Whether it takes effect.
     pub enabled: bool,
+    /// Parameters by their names.
     pub params: BTreeMap<String, Data>,
 }
 
 /// A scene of its own.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scene3d {
+    /// The nodes by their ids.
     pub nodes: BTreeMap<i64, Node>,
-    pub clear_color: String,
+    pub(crate) clear_color: String,
 }
 
 impl Scene3d {
+    /// Adds a node below `parent` (-1: at the top).
+    ///
     /// # Errors
     /// When the id is in use, or parent or type are unknown.
     pub fn add(&mut self, id: i64, parent: i64, type_code: i64) -> UiResult<()> {
@@ -65,6 +70,8 @@ impl Scene3d {
         Ok(())
     }
 
+    /// The node with that id.
+    ///
     /// # Errors
     /// When there is no such node.
     pub fn node_mut(&mut self, id: i64) -> UiResult<&mut Node> {

@@ -7,9 +7,12 @@ use super::picture::Image;
 /// What a click selects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SelectionMode {
+    /// A single cell.
     #[default]
     Item,
+    /// A whole row.
     Row,
+    /// A whole column.
     Column,
 }
 
@@ -32,12 +35,16 @@ impl SelectionMode {
 /// A cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cell {
+    /// The text in it.
     pub text: String,
+    /// Whether a person can change it, in a table that can be edited.
     pub editable: bool,
+    /// The picture in it.
     pub image: Option<Image>,
 }
 
 impl Cell {
+    /// An editable cell with a text.
     pub fn of_text(text: String) -> Self {
         Self { text, editable: true, image: None }
     }
@@ -52,25 +59,34 @@ pub(crate) type Sizes = Option<[i64; 2]>;
 /// A table.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
+    /// Number of rows.
     pub row_count: i64,
+    /// Number of columns.
     pub column_count: i64,
+    /// The cells with content, by row and column.
     pub cells: BTreeMap<(i64, i64), Cell>,
+    /// Titles of rows by their index.
     pub row_headers: HeaderTexts,
+    /// Titles of columns by their index.
     pub column_headers: HeaderTexts,
+    /// Smallest and largest height of rows, pixels; None for the default.
     pub row_height: Sizes,
+    /// Smallest and largest width of columns, pixels; None for the default.
     pub column_width: Sizes,
-    /// Horizontal, then vertical.
-    pub show_header: [bool; 2],
-    pub autosize_header: [bool; 2],
-    pub show_grid: bool,
+    /// Whether the horizontal and the vertical header are shown.
+    pub(crate) show_header: [bool; 2],
+    pub(crate) autosize_header: [bool; 2],
+    pub(crate) show_grid: bool,
+    /// Whether a person can change cells.
     pub editable: bool,
-    pub sortable: bool,
-    pub selection_mode: SelectionMode,
+    pub(crate) sortable: bool,
+    pub(crate) selection_mode: SelectionMode,
     /// Row and column; -1 where the mode has none, or nothing is selected.
     pub selection: [i64; 2],
 }
 
 impl Table {
+    /// Whether there is a cell in that row and column, from 0.
     pub fn contains(&self, row: i64, column: i64) -> bool {
         (0..self.row_count).contains(&row) && (0..self.column_count).contains(&column)
     }
@@ -99,6 +115,7 @@ impl Table {
         self.selection = [-1; 2];
     }
 
+    /// Sets the number of rows and columns; cells outside of them are removed.
     pub fn resize(&mut self, rows: i64, columns: i64) {
         (self.row_count, self.column_count) = (rows.max(0), columns.max(0));
         let (rows, columns) = (self.row_count, self.column_count);
@@ -120,6 +137,7 @@ impl Table {
         self.copy(|(row, column)| (row == at + 1).then_some((at, column)));
     }
 
+    /// Inserts a column, which keeps the text of the one it moves to the right. Nothing happens outside of the table.
     pub fn insert_column(&mut self, at: i64) {
         if !(0..=self.column_count).contains(&at) {
             return;
@@ -129,6 +147,7 @@ impl Table {
         self.copy(|(row, column)| (column == at + 1).then_some((row, at)));
     }
 
+    /// Removes a row. Nothing happens outside of the table.
     pub fn remove_row(&mut self, at: i64) {
         if !(0..self.row_count).contains(&at) {
             return;
@@ -138,6 +157,7 @@ impl Table {
         self.resize(self.row_count - 1, self.column_count);
     }
 
+    /// Removes a column. Nothing happens outside of the table.
     pub fn remove_column(&mut self, at: i64) {
         if !(0..self.column_count).contains(&at) {
             return;

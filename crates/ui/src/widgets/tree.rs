@@ -7,9 +7,11 @@ use super::table::{HeaderTexts, Sizes};
 /// An item.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TreeItem {
-    /// 0 at the top.
+    /// The id of its parent; 0 at the top.
     pub parent: i64,
+    /// The text of each column.
     pub texts: Vec<String>,
+    /// Whether the items below it are shown.
     pub expanded: bool,
     /// Items of a parent are in the order of their creation.
     pub order: u64,
@@ -18,14 +20,18 @@ pub struct TreeItem {
 /// A tree.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tree {
+    /// The items by their ids.
     pub items: BTreeMap<i64, TreeItem>,
+    /// Number of columns.
     pub column_count: i64,
+    /// Titles of columns by their index.
     pub column_headers: HeaderTexts,
+    /// Smallest and largest width of columns, pixels; None for the default.
     pub column_width: Sizes,
-    pub show_header: bool,
-    pub autosize_header: bool,
-    pub sortable: bool,
-    /// 0 for none.
+    pub(crate) show_header: bool,
+    pub(crate) autosize_header: bool,
+    pub(crate) sortable: bool,
+    /// The id of the selected item; 0 for none.
     pub selected: i64,
     /// How many items were added so far.
     pub added: u64,

@@ -174,7 +174,7 @@ fn drawing_objects_are_sent_when_they_change() {
 fn lines_of_old_paths_are_sent_when_they_change() {
     use ::scene::path_object::{ControlPoint, Measures, PathAttributes, PathObject};
     let mut stage = Stage::new();
-    let path = PathObject::new(PathAttributes::USUAL, Measures::default());
+    let path = PathObject::new(PathAttributes::DEFAULT, Measures::default());
     let handle = stage.scene.add("Path", Kind::Path(path.into())).unwrap();
     assert_eq!(stage.update()["drawings"].as_array().map_or(0, Vec::len), 0);
     let point = |x| ControlPoint {

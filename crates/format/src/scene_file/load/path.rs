@@ -13,7 +13,7 @@ const SHAPING: u8 = 0xf;
 pub(super) fn path(chunk: &Path) -> PathObject {
     let usual = PathControl::default();
     let line = chunk.path.as_ref().unwrap_or(&usual);
-    let attributes = line.attributes.map_or(PathAttributes::USUAL, PathAttributes::from_bits_retain);
+    let attributes = line.attributes.map_or(PathAttributes::DEFAULT, PathAttributes::from_bits_retain);
     let mut path = PathObject::new(attributes, measures(line));
     let points = line.points.iter().filter_map(control_point).collect();
     // A path with too many points stays empty.

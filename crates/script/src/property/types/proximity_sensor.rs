@@ -67,7 +67,7 @@ fn flat(edges: Edges) -> Vec<f64> {
 }
 
 fn lengths(values: &[f64]) -> SceneResult<[f64; 2]> {
-    Ok(pair(values)?.map(|value| value.max(Volume::SMALLEST)))
+    Ok(pair(values)?.map(|value| value.max(Volume::MIN_SIZE)))
 }
 
 /// Near and far numbers of faces or parts, within what can be drawn.
