@@ -23,18 +23,24 @@ pub type Limits = Vec<[f64; 2]>;
 /// Why there is no trajectory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum TimeOptimalError {
+    /// A number is NaN or infinite.
     #[error("invalid data.")]
     NotFinite,
+    /// The lists do not belong together.
     #[error("Bad table size.")]
     Sizes,
     #[error(
         "path lengths must rise strictly: the path has repeated points, or its lengths are not those of its points."
     )]
+    /// Path lengths do not rise strictly.
     RepeatedPoints,
+    /// A lower limit is above zero, or an upper one below.
     #[error("limits must come in pairs of a minimum of at most 0 and a maximum of at least 0.")]
     Limits,
+    /// A periodic path does not end where it begins.
     #[error("with the 'periodic' boundary condition, the first and the last point must be equal.")]
     NotClosed,
+    /// The limits cannot be kept.
     #[error("no trajectory along the path keeps the limits.")]
     Infeasible,
 }
