@@ -7,6 +7,6 @@
 mod mesh_check;
 
 use libfuzzer_sys::fuzz_target;
-use mesh_files::Format;
+use mesh_files::MeshFormat;
 
-fuzz_target!(|bytes: &[u8]| mesh_check::check(bytes, Format::Gltf));
+fuzz_target!(|bytes: &[u8]| mesh_check::check(bytes, MeshFormat::Gltf));

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use super::{Outcome, files, unpack};
 use format::gltf_file::GltfFile;
-use format::robot_file::{ExportOptions, RobotFile, export};
+use format::robot_file::{RobotExportOptions, RobotFile, export};
 use format::scene_file::{SceneFile, write_whole};
 use format::scene_folder;
 use format::ttt::File;
@@ -50,7 +50,7 @@ fn write_robot(file: File, path: &Path) -> Result<(), String> {
         None => only_model(&scene).map_err(|error| reason(&error))?,
     };
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    for file in export(&scene, base, &stem, ExportOptions::default()).map_err(|error| reason(&error))? {
+    for file in export(&scene, base, &stem, RobotExportOptions::default()).map_err(|error| reason(&error))? {
         let path = path.with_file_name(&file.name);
         write_whole(&path, &file.bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     }

@@ -8,7 +8,7 @@ use super::doctor::uses_of;
 use super::{Outcome, files, say};
 use docs::Support;
 use format::scene_file::{SceneFile, ScriptCode};
-use format::scene_outline::{Item, Outline};
+use format::scene_outline::{Outline, OutlineItem};
 
 /// Exit code when a script uses something approximated or missing.
 const NOT_ALL_WORKS: u8 = 1;
@@ -110,7 +110,7 @@ fn what(file: &SceneFile) -> String {
     format!("{kind} of {} (format {})", header.version_text(), header.serialization)
 }
 
-fn line(item: &Item) -> String {
+fn line(item: &OutlineItem) -> String {
     let name = item.path.rsplit('/').next().unwrap_or_default();
     let triangles = if item.triangles > 0 { format!(", {} triangles", item.triangles) } else { String::new() };
     format!("{}{name} ({}{triangles})\n", "  ".repeat(item.depth + 1), item.kind)

@@ -39,25 +39,25 @@ pub struct Contact {
     pub impulse: [f64; 3],
 }
 
-/// The part of an overlap that is undone in a step.
-const RECOVERY: f64 = 0.2;
-/// Bodies are pushed out of each other no faster, m/s: they keep that velocity.
-const FASTEST_RECOVERY: f64 = 0.2;
-/// Neighbours at a joint push each other if its motion separates them at this part of its speed at least.
-const SEPARATING: f64 = 1e-3;
-/// Points of neighbours that are closer than this touch, metres.
-const TOUCHING: f64 = 2e-4;
-/// Visits of all points in the search for a motion that separates neighbours at all of them.
-const SEPARATION_SEARCH: usize = 8;
-/// Slower impacts do not rebound, m/s.
-const REBOUND: f64 = 0.05;
+/// Fraction of a penetration that is corrected in one step.
+const PENETRATION_CORRECTION: f64 = 0.2;
+/// Greatest velocity of penetration correction, m/s: bodies keep it after they have separated.
+const MAX_CORRECTION_VELOCITY: f64 = 0.2;
+/// Neighbours at a joint are in contact only if its motion separates them at this fraction of its speed or more.
+const MIN_SEPARATION_RATE: f64 = 1e-3;
+/// Distance below which points of neighbours count as touching, metres.
+const TOUCHING_DISTANCE: f64 = 2e-4;
+/// Passes of the perceptron that searches for a motion that separates neighbours at all of their points.
+const MAX_PERCEPTRON_PASSES: usize = 8;
+/// Approach velocity below which restitution is ignored, m/s.
+const RESTITUTION_THRESHOLD: f64 = 0.05;
 /// Compliance of a contact as a part of the response of its bodies without joints: shares the load between points where it is not determined,
 /// and bounds it where joints do not let bodies escape that overlap.
 const COMPLIANCE: f64 = 5e-6;
-/// Largest number of sweeps.
-const SWEEPS: usize = 200;
-/// Impulses that change by less than this part of the largest one are found.
-const FOUND: f64 = 1e-7;
+/// Largest number of iterations of the contact solver, each a sweep over all contacts.
+const MAX_ITERATIONS: usize = 200;
+/// The solver has converged when no impulse changes by more than this fraction of the largest one.
+const TOLERANCE: f64 = 1e-7;
 
 /// A contact as three rows: along the normal and two tangents.
 struct Row {
@@ -122,9 +122,9 @@ impl Row {
     fn target(&self, contact: &Contact, bodies: &[LinkedBody], step: f64) -> Vector3<f64> {
         let mut target = self.axes * Vector3::from(contact.velocity);
         let approach = self.velocity(|body| bodies[body].present_velocity())[0] - target[0];
-        let share = if contact.distance < 0.0 { RECOVERY } else { 1.0 };
-        let closing = (-contact.distance * share / step).min(FASTEST_RECOVERY);
-        let rebounds = contact.restitution > 0.0 && approach < -REBOUND && approach < closing;
+        let share = if contact.distance < 0.0 { PENETRATION_CORRECTION } else { 1.0 };
+        let closing = (-contact.distance * share / step).min(MAX_CORRECTION_VELOCITY);
+        let rebounds = contact.restitution > 0.0 && approach < -RESTITUTION_THRESHOLD && approach < closing;
         target[0] += if rebounds { -approach * contact.restitution } else { closing };
         target
     }
@@ -213,13 +213,13 @@ impl Mechanism {
         contacts.directions.clear();
         contacts.directions.resize(contacts.rows.len(), Vector3::zeros());
         let (mut changed, mut square) = (false, f64::INFINITY);
-        for sweep in 1..=SWEEPS {
+        for sweep in 1..=MAX_ITERATIONS {
             contacts.before.clear();
             contacts.before.extend(contacts.rows.iter().map(|row| row.impulse));
             let (change, largest) = contacts.sweep();
             changed |= change > 0.0;
             // What is found in the end lies within the friction cones, where only sweeps keep it.
-            if change <= FOUND * largest || sweep == SWEEPS {
+            if change <= TOLERANCE * largest || sweep == MAX_ITERATIONS {
                 break;
             }
             square = contacts.extrapolate(square);
@@ -231,9 +231,10 @@ impl Mechanism {
     fn can_separate(&self, contact: &Contact, all: &[Contact]) -> bool {
         let joins = |joint: &&Joint| joint.properties.bodies.into_iter().all(|body| contact.is_of(body));
         self.joints.iter().filter(joins).all(|joint| {
-            let touching = all.iter().filter(|other| other.distance < TOUCHING && other.has_bodies_of(contact));
+            let touching =
+                all.iter().filter(|other| other.distance < TOUCHING_DISTANCE && other.has_bodies_of(contact));
             let directions: Vec<Vector3<f64>> = touching.map(|contact| joint.separation(contact)).collect();
-            joint.separation(contact).norm() > SEPARATING && is_separable(&directions)
+            joint.separation(contact).norm() > MIN_SEPARATION_RATE && is_separable(&directions)
         })
     }
 }
@@ -241,9 +242,9 @@ impl Mechanism {
 /// Whether some motion has a positive part along all these directions: the perceptron finds it unless it hardly does (F. Rosenblatt, 1958).
 fn is_separable(directions: &[Vector3<f64>]) -> bool {
     let mut motion: Vector3<f64> = directions.iter().sum();
-    for _ in 0..SEPARATION_SEARCH {
+    for _ in 0..MAX_PERCEPTRON_PASSES {
         let mut is_found = true;
-        for direction in directions.iter().filter(|direction| direction.norm() > SEPARATING) {
+        for direction in directions.iter().filter(|direction| direction.norm() > MIN_SEPARATION_RATE) {
             if direction.dot(&motion) <= 0.0 {
                 motion += direction;
                 is_found = false;
@@ -296,7 +297,7 @@ impl Contacts {
     fn sweep(&mut self) -> (f64, f64) {
         let (mut change, mut largest) = (0.0, 0.0);
         for index in 0..self.rows.len() {
-            let changes = self.push(index).max(self.rub(index));
+            let changes = self.push(index).max(self.apply_friction(index));
             change = f64::max(change, changes);
             largest = f64::max(largest, self.rows[index].impulse[0].abs());
         }
@@ -351,7 +352,7 @@ impl Contacts {
     }
 
     /// Lets the friction of a contact slow down its tangential velocity; returns the change of its impulse.
-    fn rub(&mut self, index: usize) -> f64 {
+    fn apply_friction(&mut self, index: usize) -> f64 {
         let own = &self.own[index];
         // The same for all directions, so that friction opposes the motion.
         let response = own[(1, 1)].max(own[(2, 2)]) + own[(1, 2)].abs() + self.rows[index].compliance;

@@ -2,10 +2,10 @@
 
 use crate::joint::{JointKind, JointState};
 
-/// Velocities that differ by less are equal, rad/s and m/s.
-const SAME_VELOCITY: f64 = 1e-9;
-/// The part of its violation by which a joint beyond a limit returns in a step.
-const LIMIT_RECOVERY: f64 = 0.2;
+/// Velocities that differ by less count as equal, rad/s and m/s.
+const VELOCITY_TOLERANCE: f64 = 1e-9;
+/// Fraction of the violation of a limit that is corrected in one step.
+const LIMIT_CORRECTION: f64 = 0.2;
 
 /// The action along the free axis of a joint.
 #[derive(Clone, Copy)]
@@ -99,7 +99,9 @@ impl FreeAxis {
         }
         let motor = match self.motor {
             MotorState::Tracking if impulse.abs() > self.max_impulse => self.saturated(impulse),
-            MotorState::Saturated(all) if !is_cautious && (velocity - self.target) * all.signum() > SAME_VELOCITY => {
+            MotorState::Saturated(all)
+                if !is_cautious && (velocity - self.target) * all.signum() > VELOCITY_TOLERANCE =>
+            {
                 MotorState::Tracking
             }
             same => same,
@@ -119,7 +121,7 @@ impl FreeAxis {
 fn reached_limit(joint: &JointState, velocity: f64, step: f64) -> Option<ActiveLimit> {
     let sign = -velocity.signum();
     let limit = limit_at(joint, sign, step)?;
-    ((velocity - limit.velocity) * sign < -SAME_VELOCITY).then_some(limit)
+    ((velocity - limit.velocity) * sign < -VELOCITY_TOLERANCE).then_some(limit)
 }
 
 /// The upper limit, which pushes with a negative sign, or the lower one.
@@ -127,6 +129,6 @@ fn limit_at(joint: &JointState, sign: f64, step: f64) -> Option<ActiveLimit> {
     let [low, high] = joint.limits?;
     let distance = if sign < 0.0 { high - joint.position } else { low - joint.position };
     let is_beyond = distance * sign > 0.0;
-    let share = if is_beyond { LIMIT_RECOVERY } else { 1.0 };
+    let share = if is_beyond { LIMIT_CORRECTION } else { 1.0 };
     Some(ActiveLimit { velocity: distance * share / step, sign })
 }

@@ -13,10 +13,10 @@ use crate::joint::{Joint, JointKind, JointProperties};
 use crate::linked_body::LinkedBody;
 use crate::mechanism::Mechanism;
 
-/// Inertia is added until `k t^2` is this many times the inertia.
+/// Inertia is added until the ratio of `k t^2` to the inertia is this.
 const TARGET_RATIO: f64 = 2.0;
-/// Inertia is added during the solution where the forces turn out to make it more than this.
-const LARGEST_RATIO: f64 = 3.0;
+/// During the solution inertia is added where the forces make the ratio larger than this.
+const MAX_RATIO: f64 = 3.0;
 
 /// The geometric stiffness of a body under tension.
 #[derive(Default)]
@@ -51,7 +51,7 @@ impl Mechanism {
 
     /// Adds the inertia that the forces just found require; true when the system must be solved again.
     pub(crate) fn stabilize_again(&mut self) -> bool {
-        self.add_inertia(LARGEST_RATIO)
+        self.add_inertia(MAX_RATIO)
     }
 
     /// Finds how easily bodies turn about the free axes of their joints, for [`may_exceed`](Self::may_exceed).

@@ -16,15 +16,20 @@ use crate::spatial;
 /// The degrees of freedom a joint leaves; its axis is the z of its base.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointKind {
+    /// Turns about its axis.
     Revolute,
+    /// Moves along its axis.
     Prismatic,
+    /// Turns about all axes.
     Spherical,
+    /// Does not move.
     Fixed,
 }
 
 /// The constant properties of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointProperties {
+    /// The degrees of freedom.
     pub kind: JointKind,
     /// Indices of the body that carries the base and of the one that carries the tip.
     pub bodies: [usize; 2],
@@ -41,7 +46,9 @@ pub struct JointProperties {
 pub struct JointState {
     /// Coordinate along the free axis, whole turns included (rad or m).
     pub position: f64,
+    /// Velocity along the free axis at the begin of the step, rad/s or m/s.
     pub velocity: f64,
+    /// What drives the free axis, if anything does.
     pub motor: Option<Motor>,
     /// Lowest and highest position.
     pub limits: Option<[f64; 2]>,
@@ -50,7 +57,9 @@ pub struct JointState {
 /// A motor: it reaches `velocity` (rad/s or m/s) with at most `max_force` (N m or N).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motor {
+    /// Target velocity, rad/s or m/s.
     pub velocity: f64,
+    /// Largest torque or force, N m or N.
     pub max_force: f64,
 }
 

@@ -30,7 +30,7 @@
 //! 3. A motor beyond its largest force becomes a known force (saturated), a limit that would pull becomes inactive, one that is reached
 //!    active; the system is then solved again, at most eight times: an active-set method without guarantee of the optimum, which in
 //!    practice ends after one or two solutions since it begins with the set of the step before.
-//! 4. Contacts push, and rub within the friction cone. Their impulses are found by nonsmooth conjugate gradients (M. Silcowitz, S. Niebe and K.
+//! 4. Contacts push, with friction forces within the friction cone. Their impulses are found by nonsmooth conjugate gradients (M. Silcowitz, S. Niebe and K.
 //!    Erleben, 2010) of projected Gauss-Seidel sweeps over the response of the contacts with all joints holding, which follows from the same factor; then
 //!    the joints are solved again. Free bodies that touch the mechanism take part as guests.
 //! 5. Light bodies under heavy tension get additional inertia, so that explicit integration stays stable (S. Andrews, M. Teichmann and

@@ -25,6 +25,7 @@ pub struct BodyProperties {
 /// Position, orientation and velocities of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyMotion {
+    /// Pose of the body's frame in the world.
     pub pose: Pose,
     /// Of the centre of mass (m/s), then angular (rad/s), along the axes of the world.
     pub velocity: Vector6<f64>,
@@ -33,6 +34,7 @@ pub struct BodyMotion {
 /// The input of a body for a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyState {
+    /// Pose and velocities at the begin of the step.
     pub motion: BodyMotion,
     /// External force and torque about the centre of mass, world axes, without gravity and the gyroscopic torque (N, N m).
     pub force: Vector6<f64>,

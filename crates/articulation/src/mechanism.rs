@@ -12,10 +12,11 @@ use crate::linked_body::{BodyProperties, BodyState, LinkedBody};
 use crate::spatial;
 use crate::system::{System, system_of};
 
-/// Largest number of solutions in a step: with any other active sets, and then with sets in which motors stay saturated and limits active. Without the
-/// latter, many weak motors may leave and enter the set for ever, and what is applied then exceeds their forces.
-const ITERATIONS: usize = 8;
-const CAUTIOUS_ITERATIONS: usize = 24;
+/// Largest number of iterations of the active-set method in which motors and limits may enter and leave the active set.
+const MAX_ITERATIONS: usize = 8;
+/// Largest number of further iterations in which motors stay saturated and limits active: otherwise many weak motors may enter and leave the
+/// set for ever, and the impulses of the last iteration would exceed their forces.
+const MAX_CAUTIOUS_ITERATIONS: usize = 24;
 
 /// Bodies linked by joints, and the solver's state between steps.
 ///
@@ -94,7 +95,7 @@ impl Mechanism {
 
     /// Finds the impulses that satisfy all joints, motors and limits at once; false when there are none in finite numbers.
     pub fn solve(&mut self) -> bool {
-        let last = ITERATIONS + CAUTIOUS_ITERATIONS - 1;
+        let last = MAX_ITERATIONS + MAX_CAUTIOUS_ITERATIONS - 1;
         for iteration in 0..=last {
             if !self.system.factorize(&self.joints, &self.bodies) {
                 return false;
@@ -106,11 +107,11 @@ impl Mechanism {
                     self.find_impulses();
                 }
             }
-            let mut changed = iteration + 1 < ITERATIONS && self.stabilize_again();
+            let mut changed = iteration + 1 < MAX_ITERATIONS && self.stabilize_again();
             if iteration == last {
                 break;
             }
-            let is_cautious = iteration + 1 >= ITERATIONS;
+            let is_cautious = iteration + 1 >= MAX_ITERATIONS;
             for joint in &mut self.joints {
                 changed |= joint.update_active_set(&self.bodies, self.step, is_cautious);
             }

@@ -5,21 +5,22 @@ use nalgebra::{Vector3, Vector6};
 use crate::linked_body::{BodyMotion, LinkedBody, Placement};
 use crate::mechanism::Mechanism;
 
-/// Errors this small are none, metres and radians.
-const CLOSED: f64 = 1e-9;
-/// So much of the gap that a step left is none either, as long as it is small, but for loops: where they can fold two ways, they need all
-/// digits.
-const NEGLIGIBLE: f64 = 1e-3;
-const SMALL: f64 = 1e-6;
-/// Errors that should have been corrected at once, metres and radians.
-const WIDE: f64 = 1e-4;
+/// Position errors below this are never corrected, metres and radians.
+const MIN_TOLERANCE: f64 = 1e-9;
+/// Fraction of the error after a step that may stay, up to [`MAX_TOLERANCE`]. Not in mechanisms with loops, which may fold two ways and
+/// need all digits.
+const RELATIVE_TOLERANCE: f64 = 1e-3;
+/// Upper limit of the error that may stay, metres and radians.
+const MAX_TOLERANCE: f64 = 1e-6;
+/// Errors above this after the corrections show that they have failed, metres and radians.
+const LARGE_ERROR: f64 = 1e-4;
 /// Largest number of corrections in a step.
-const ITERATIONS: usize = 8;
-/// A correction that removes less than this part of the error was made along directions that lead nowhere.
-const PROGRESS: f64 = 0.75;
+const MAX_ITERATIONS: usize = 8;
+/// A correction that removes less than this fraction of the error was made along outdated directions: these are computed anew.
+const MIN_PROGRESS: f64 = 0.75;
 /// Where no correction removes wide errors, the motion is too fast for the step: bodies turn by no more than this in a step then (rad), lest
 /// the integration gains energy.
-const RESOLVED_TURN: f64 = 0.1;
+const MAX_TURN_PER_STEP: f64 = 0.1;
 
 impl Mechanism {
     /// Corrects the positions that the integration left off the joints by the curvature of their paths, and the velocities with them, which
@@ -36,7 +37,7 @@ impl Mechanism {
             body.turn_with_axis(spin, before, self.step);
         }
         let is_closed = self.close_gaps(turned);
-        let fastest = if is_closed { f64::MAX } else { RESOLVED_TURN / self.step };
+        let fastest = if is_closed { f64::MAX } else { MAX_TURN_PER_STEP / self.step };
         let corrects_velocity = is_closed || !self.has_loops();
         let step = self.step;
         let of_body =
@@ -48,10 +49,11 @@ impl Mechanism {
     /// are taken back and corrected along the joints as they are. False when wide errors remain.
     fn close_gaps(&mut self, turned: &[f64]) -> bool {
         let (mut largest, has_loops) = (self.find_errors(turned), self.has_loops());
-        let closed = if has_loops { CLOSED } else { (largest * NEGLIGIBLE).clamp(CLOSED, SMALL) };
+        let closed =
+            if has_loops { MIN_TOLERANCE } else { (largest * RELATIVE_TOLERANCE).clamp(MIN_TOLERANCE, MAX_TOLERANCE) };
         let (mut rate, mut is_current) = (f64::INFINITY, false);
-        let begin = (largest > WIDE && has_loops).then(|| (largest, self.placements()));
-        for _ in 0..ITERATIONS {
+        let begin = (largest > LARGE_ERROR && has_loops).then(|| (largest, self.placements()));
+        for _ in 0..MAX_ITERATIONS {
             if largest < closed || !largest.is_finite() || !self.system.is_factor() {
                 break;
             }
@@ -63,7 +65,7 @@ impl Mechanism {
                 break;
             }
             let now = self.find_errors(turned);
-            if now <= largest * (1.0 - PROGRESS) || is_current {
+            if now <= largest * (1.0 - MIN_PROGRESS) || is_current {
                 (rate, largest, is_current) = (now / largest, now, false);
                 continue;
             }
@@ -74,10 +76,10 @@ impl Mechanism {
             }
         }
         // Errors that cannot be closed, as in a loop that is too short, remain.
-        if let Some((_, placements)) = begin.filter(|(before, _)| largest > before * (1.0 - PROGRESS)) {
+        if let Some((_, placements)) = begin.filter(|(before, _)| largest > before * (1.0 - MIN_PROGRESS)) {
             self.restore(&placements);
         }
-        largest <= WIDE
+        largest <= LARGE_ERROR
     }
 
     fn placements(&self) -> Vec<Placement> {

@@ -16,6 +16,7 @@ pub const MAX_NAMESPACES: usize = 1000;
 /// What is done with a document type (`<!DOCTYPE ...>`), whose entities could grow without end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DocumentType {
+    /// A text with one has no tree.
     Refused,
     /// Accepted as long as it declares no entities.
     WithoutEntities,
@@ -24,18 +25,38 @@ pub enum DocumentType {
 /// Why a text has no tree. The messages do not name the [line](Error::line).
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
+    /// An element has more than [`MAX_ATTRIBUTES`].
     #[error("an element has more than {MAX_ATTRIBUTES} attributes")]
-    TooManyAttributes { line: u32 },
+    TooManyAttributes {
+        /// Its line, from 1.
+        line: u32,
+    },
+    /// There are more than [`MAX_NAMESPACES`].
     #[error("more than {MAX_NAMESPACES} namespaces are declared")]
     TooManyNamespaces,
+    /// There are more nodes than the caller allows.
     #[error("there are more elements, attributes and texts than are read")]
     TooManyNodes,
+    /// There is a document type, and the caller refuses it.
     #[error("it has a document type, which is not read")]
-    DocumentType { line: u32 },
+    DocumentType {
+        /// Its line, from 1.
+        line: u32,
+    },
+    /// A document type declares entities.
     #[error("it declares entities, which are not expanded")]
-    Entities { line: u32 },
+    Entities {
+        /// Its line, from 1.
+        line: u32,
+    },
+    /// The text is not well-formed XML.
     #[error("{message}")]
-    Syntax { line: u32, message: String },
+    Syntax {
+        /// The line where that shows, from 1.
+        line: u32,
+        /// What is wrong.
+        message: String,
+    },
 }
 
 impl Error {

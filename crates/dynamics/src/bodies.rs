@@ -17,12 +17,12 @@ use super::world::{ALL_HOOKS, World};
 use scene::shape::Velocity;
 use scene::{Field, Handle, Pose, Scene};
 
-/// A static body that moved less than this between two calls has not moved: metres and radians.
-const STILL: (f64, f64) = (1e-5, 0.05 * std::f64::consts::PI / 180.0);
-/// A body of which no point moves faster, metres per second, for so many seconds, falls asleep, with all that it touches.
-const RESTING: (f64, f64) = (1e-5, 0.5);
-/// The threshold of bodies that stay awake.
-const NEVER: f64 = -1.0;
+/// A static body counts as moved when it moved more than this between two calls, metres and radians.
+const STATIC_TOLERANCE: (f64, f64) = (1e-5, 0.05 * std::f64::consts::PI / 180.0);
+/// A body sleeps, with all that it touches, after no point of it has moved faster than this (m/s) for so many seconds.
+const SLEEP_THRESHOLD: (f64, f64) = (1e-5, 0.5);
+/// The threshold of speed for bodies that never sleep.
+const NEVER_SLEEPS: f64 = -1.0;
 
 /// The bodies by shape.
 #[derive(Default)]
@@ -245,7 +245,7 @@ impl Bodies {
     /// Lets bodies sleep when they rest, but for those that `stays_awake` names.
     pub(super) fn let_sleep(&self, world: &mut World, stays_awake: impl Fn(Handle) -> bool) {
         for (shape, body) in self.iter().filter(|(_, body)| body.build.dynamic) {
-            let threshold = if stays_awake(shape) { NEVER } else { RESTING.0 };
+            let threshold = if stays_awake(shape) { NEVER_SLEEPS } else { SLEEP_THRESHOLD.0 };
             let is_set = |rigid: &RigidBody| rigid.activation().normalized_linear_threshold == threshold;
             if world.bodies.get(body.rigid).is_some_and(is_set) {
                 continue;
@@ -253,8 +253,8 @@ impl Bodies {
             if let Some(rigid) = world.bodies.get_mut(body.rigid) {
                 let activation = rigid.activation_mut();
                 (activation.normalized_linear_threshold, activation.angular_threshold) = (threshold, threshold);
-                activation.time_until_sleep = RESTING.1;
-                if threshold == NEVER {
+                activation.time_until_sleep = SLEEP_THRESHOLD.1;
+                if threshold == NEVER_SLEEPS {
                     rigid.wake_up(true);
                 }
             }
@@ -371,5 +371,5 @@ fn is_free(rigid: &RigidBody) -> bool {
 
 fn has_moved(from: &Pose, to: &Pose) -> bool {
     let shift = (to.translation.vector - from.translation.vector).norm();
-    shift > STILL.0 || from.rotation.angle_to(&to.rotation) > STILL.1
+    shift > STATIC_TOLERANCE.0 || from.rotation.angle_to(&to.rotation) > STATIC_TOLERANCE.1
 }

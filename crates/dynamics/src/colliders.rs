@@ -13,10 +13,10 @@ use super::convert::{to_pose, to_vector};
 use super::plan::PartForm;
 use scene::shape::Primitive;
 
-/// The smallest thickness of anything, metres.
-const THIN: f64 = 0.0001;
-/// Meshes smaller or larger than these collide with nothing, metres.
-const SIZES: std::ops::Range<f64> = 1e-6..1e6;
+/// Smallest thickness of a collider, metres.
+const MIN_THICKNESS: f64 = 0.0001;
+/// Sizes of meshes that collide, metres; smaller and larger ones collide with nothing.
+const MESH_SIZES: std::ops::Range<f64> = 1e-6..1e6;
 
 /// Forms of one part, placed in the shape frame. Empty when the part has no volume and no surface.
 pub(super) fn forms(part: &PartForm, dynamic: bool) -> Vec<(EnginePose, SharedShape)> {
@@ -29,13 +29,13 @@ pub(super) fn forms(part: &PartForm, dynamic: bool) -> Vec<(EnginePose, SharedSh
 
 /// The exact form of a primitive, where rapier has one.
 fn analytic(primitive: &Primitive) -> Option<(EnginePose, SharedShape)> {
-    let [x, y, z] = primitive.size.map(|extent| extent.max(THIN) / 2.0);
+    let [x, y, z] = primitive.size.map(|extent| extent.max(MIN_THICKNESS) / 2.0);
     let round = (x + y) / 2.0;
     let upright = EnginePose::from_rotation(Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2));
     Some(match primitive.kind {
         PrimitiveKind::Cuboid => (EnginePose::IDENTITY, SharedShape::cuboid(x, y, z)),
-        PrimitiveKind::Plane => (EnginePose::IDENTITY, SharedShape::cuboid(x, y, THIN / 2.0)),
-        PrimitiveKind::Disc => (upright, SharedShape::cylinder(THIN / 2.0, round)),
+        PrimitiveKind::Plane => (EnginePose::IDENTITY, SharedShape::cuboid(x, y, MIN_THICKNESS / 2.0)),
+        PrimitiveKind::Disc => (upright, SharedShape::cylinder(MIN_THICKNESS / 2.0, round)),
         PrimitiveKind::Spheroid => (EnginePose::IDENTITY, SharedShape::ball(round)),
         PrimitiveKind::Cylinder => (upright, SharedShape::cylinder(z, round)),
         PrimitiveKind::Cone => (upright, SharedShape::cone(z, round)),
@@ -74,10 +74,10 @@ fn surface(points: Vec<Vector>, mesh: &Mesh) -> Option<SharedShape> {
 /// Whether the geometry of a mesh can be computed with.
 fn has_size(mesh: &Mesh) -> bool {
     let extent = |(low, high): ([f64; 3], [f64; 3])| (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
-    mesh.aabb().is_some_and(|aabb| SIZES.contains(&extent(aabb)))
+    mesh.aabb().is_some_and(|aabb| MESH_SIZES.contains(&extent(aabb)))
 }
 
 /// Flat meshes cannot be decomposed.
 fn has_volume(mesh: &Mesh) -> bool {
-    mesh.aabb().is_some_and(|(low, high)| (0..3).all(|axis| high[axis] - low[axis] > THIN))
+    mesh.aabb().is_some_and(|(low, high)| (0..3).all(|axis| high[axis] - low[axis] > MIN_THICKNESS))
 }

@@ -20,6 +20,7 @@ use scene::Handle;
 pub struct Contact {
     /// Index of the sub-step, from 0.
     pub sub_step: u32,
+    /// The shapes that touched.
     pub shapes: [Handle; 2],
     /// Metres.
     pub point: [f64; 3],

@@ -15,17 +15,21 @@ use super::flat_faces;
 use super::world::{ALL_HOOKS, Known, World, parts_of_impulse};
 use scene::Handle;
 
-/// A body of which a point moves faster, m/s, may touch what the sub-step before did not find near.
-const FAST: f64 = 1.0;
+/// Speed from which a body may touch what the previous sub-step did not find near it, m/s.
+const MIN_FAST_SPEED: f64 = 1.0;
 
 /// The answer of scripts for a pair of shapes that may touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ContactResponse {
     /// The shapes' own materials decide.
     Default,
+    /// The shapes do not touch.
     NoCollision,
+    /// The shapes touch, with the friction and restitution given here.
     Collide {
+        /// Coefficient of friction.
         friction: f64,
+        /// Coefficient of restitution.
         restitution: f64,
     },
 }
@@ -251,7 +255,7 @@ pub(super) fn friction(first: &Collider, second: &Collider) -> f64 {
 /// Whether a body may reach something that is farther away than contacts are prepared.
 fn is_fast(rigid: &RigidBody) -> bool {
     let reach = rigid.mass_properties().max_extent();
-    rigid.linvel().length() + rigid.angvel().length() * reach > FAST
+    rigid.linvel().length() + rigid.angvel().length() * reach > MIN_FAST_SPEED
 }
 
 /// An impulse between two shapes, world axes: what the second does to the first.

@@ -15,16 +15,17 @@ use rapier3d_f64::prelude::{CoefficientCombineRule, Collider, ColliderHandle, Ri
 use super::bodies::Tag;
 use super::contacts::{self, ColliderPair, ContactResponse, Verdicts, pair_of, tags};
 use super::convert::{from_vector, to_vector};
-use super::world::{PREDICTION, World};
+use super::world::{PREDICTION_DISTANCE, World};
 use scene::Handle;
 
-/// Points of one surface that are solved.
-const LARGEST_GROUP: usize = 4;
-/// Normals of points of one surface differ by less: cosine.
-const SAME_NORMAL: f64 = 0.99;
-/// Points that a mechanism solves at most, and its guests.
-const MOST_POINTS: usize = 128;
-const MOST_GUESTS: usize = 12;
+/// Largest number of contact points of one surface that are solved.
+const MAX_GROUP_POINTS: usize = 4;
+/// Cosine of the largest angle between the normals of points of one surface.
+const MIN_NORMAL_COSINE: f64 = 0.99;
+/// Largest number of contact points that a mechanism solves.
+const MAX_POINTS: usize = 128;
+/// Largest number of free bodies that are solved together with a mechanism.
+const MAX_GUESTS: usize = 12;
 
 type Manifold = ContactManifold<(), [f64; 3]>;
 
@@ -199,7 +200,7 @@ impl Search<'_> {
                     self.look_at(colliders, pairs)?;
                 }
             }
-            if self.points.len() > MOST_POINTS || self.guests.len() > MOST_GUESTS {
+            if self.points.len() > MAX_POINTS || self.guests.len() > MAX_GUESTS {
                 return None;
             }
         }
@@ -302,7 +303,7 @@ impl Pair {
             &apart,
             shapes.0,
             shapes.1,
-            PREDICTION,
+            PREDICTION_DISTANCE,
             &mut self.manifolds,
             &mut self.workspace,
         );
@@ -327,7 +328,7 @@ impl Pair {
 }
 
 fn is_near(found: &TrackedContact<[f64; 3]>) -> bool {
-    found.dist < PREDICTION
+    found.dist < PREDICTION_DISTANCE
 }
 
 impl Point {
@@ -355,12 +356,12 @@ impl Point {
 
 /// At most four points of each surface: the deepest, and those that span the largest area with it.
 fn reduced(points: Vec<Point>) -> Vec<Point> {
-    if points.len() <= LARGEST_GROUP {
+    if points.len() <= MAX_GROUP_POINTS {
         return points;
     }
     let mut groups: Vec<Vec<Point>> = Vec::new();
     for point in points {
-        let group = groups.iter_mut().find(|group| group[0].normal.dot(point.normal) > SAME_NORMAL);
+        let group = groups.iter_mut().find(|group| group[0].normal.dot(point.normal) > MIN_NORMAL_COSINE);
         match group {
             Some(group) => group.push(point),
             None => groups.push(vec![point]),
@@ -370,7 +371,7 @@ fn reduced(points: Vec<Point>) -> Vec<Point> {
 }
 
 fn corners(group: Vec<Point>) -> Vec<Point> {
-    if group.len() <= LARGEST_GROUP {
+    if group.len() <= MAX_GROUP_POINTS {
         return group;
     }
     let at = |index: usize| group[index].place();

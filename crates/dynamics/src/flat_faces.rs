@@ -8,8 +8,8 @@ use rapier3d_f64::math::{Pose as EnginePose, Vector};
 use rapier3d_f64::parry::shape::{PolygonalFeature, Shape};
 use rapier3d_f64::prelude::{Collider, ContactModificationContext, RigidBody};
 
-/// Faces and contacts that differ by less have one normal: cosine of 2 degrees.
-const SAME_FACE: f64 = 0.9994;
+/// Cosine of the largest angle, 2 degrees, between normals that count as equal.
+const MIN_NORMAL_COSINE: f64 = 0.9994;
 
 /// Turns the normal of a contact without friction to that of the face of what no force moves.
 pub(super) fn level(context: &mut ContactModificationContext<'_>) {
@@ -55,7 +55,7 @@ fn face_of(shape: &dyn Shape, pose: &EnginePose, direction: Vector) -> Option<Ve
     let [a, b, c, _] = face.vertices;
     let normal = (b - a).cross(c - a).try_normalize()?;
     let normal = normal * normal.dot(local).signum();
-    (normal.dot(local) > SAME_FACE).then(|| pose.rotation * normal)
+    (normal.dot(local) > MIN_NORMAL_COSINE).then(|| pose.rotation * normal)
 }
 
 #[cfg(test)]

@@ -84,7 +84,7 @@ pub struct Dynamics {
     far: Vec<Handle>,
     /// State of the scene for which the plan was made.
     known: Option<Mark>,
-    call: Option<Call>,
+    call: Option<DynamicsCall>,
     workers: Workers,
     /// Whether the engine has made a step since the plan was made: before it does not know new bodies.
     is_stepped: bool,
@@ -94,7 +94,8 @@ pub struct Dynamics {
 
 /// A dynamics call in progress.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Call {
+pub struct DynamicsCall {
+    /// Number of sub-steps of the call.
     pub sub_steps: u32,
     /// Length of a sub-step, seconds.
     pub step: f64,
@@ -107,10 +108,13 @@ pub struct Busy;
 /// A joint in callback control: what a script needs to know to answer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointRequest {
+    /// The joint.
     pub joint: Handle,
     /// No sub-step has run yet with this joint.
     pub first: bool,
+    /// Position, rad or m.
     pub position: f64,
+    /// Velocity, rad/s or m/s.
     pub velocity: f64,
     /// Target minus position, the shortest way.
     pub error: f64,
@@ -118,11 +122,11 @@ pub struct JointRequest {
     pub effort: f64,
 }
 
-/// Involvement of scripts in a sub-step.
+/// Whether scripts can reach the scene around a sub-step.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Attention {
-    /// Scripts run before, during or after the sub-step, so that they may read and change the scene.
-    pub watched: bool,
+pub struct ScriptAccess {
+    /// Scripts run before, during or after the sub-step and may read and change the scene.
+    pub possible: bool,
 }
 
 /// A sub-step ready to run. Holds the engine, so that a script called meanwhile finds no physics to disturb.
@@ -163,7 +167,7 @@ impl Dynamics {
     }
 
     /// Begins a call that advances `time_step` seconds; None when there is nothing to simulate.
-    pub fn begin(&mut self, scene: &mut Scene, time_step: f64) -> Result<Option<Call>, Busy> {
+    pub fn begin(&mut self, scene: &mut Scene, time_step: f64) -> Result<Option<DynamicsCall>, Busy> {
         if self.call.is_some() {
             return Err(Busy);
         }
@@ -183,7 +187,7 @@ impl Dynamics {
             link.efforts.clear();
             link.loads.clear();
         }
-        self.call = Some(Call { sub_steps, step: time_step / f64::from(sub_steps) });
+        self.call = Some(DynamicsCall { sub_steps, step: time_step / f64::from(sub_steps) });
         Ok(self.call)
     }
 
@@ -266,13 +270,13 @@ impl Dynamics {
         &mut self,
         scene: &Scene,
         sub_step: u32,
-        attention: Attention,
+        script_access: ScriptAccess,
         verdicts: Verdicts,
     ) -> Option<SubStep> {
         let mut world = self.world.take()?;
         let call = self.call?;
         // Nobody else can have changed the forces since the first sub-step.
-        if sub_step == 1 || attention.watched {
+        if sub_step == 1 || script_access.possible {
             self.bodies.apply_forces(&mut world, scene);
         }
         for link in self.links.values_mut() {
@@ -287,7 +291,7 @@ impl Dynamics {
             world.divide_touching(|collider| self.mechanisms.solves(collider));
             self.mechanisms.note_parts(&mut self.links, &mut world);
         }
-        let seen = attention.watched || sub_step == call.sub_steps;
+        let seen = script_access.possible || sub_step == call.sub_steps;
         let gravity = convert::to_vector(gravity);
         Some(SubStep { world, gravity, step: call.step, seen, verdicts, apart, is_integrated })
     }

@@ -18,9 +18,9 @@ use scene::Handle;
 
 /// Iterations of rapier's solver over linked bodies in each part of a sub-step, beside the usual ones: what a contact changes has to find
 /// its way along the chain.
-const SHARED_ITERATIONS: usize = 10;
+const CONTACT_ITERATIONS: usize = 10;
 /// The same where bodies touch nothing, and the sub-step is not divided.
-const UNDIVIDED_ITERATIONS: usize = 50;
+const FREE_ITERATIONS: usize = 50;
 
 /// A mechanism.
 pub(super) struct Linked {
@@ -86,8 +86,8 @@ pub(super) fn divide(
     places.iter().for_each(|&place| links.at_mut(place).parts = parts);
     let iterations = match (with_engine, parts) {
         (false, _) => 0,
-        (true, 1) => UNDIVIDED_ITERATIONS,
-        (true, _) => SHARED_ITERATIONS,
+        (true, 1) => FREE_ITERATIONS,
+        (true, _) => CONTACT_ITERATIONS,
     };
     for body in moving() {
         let differs = |rigid: &RigidBody| rigid.additional_pgs_iterations() != iterations;

@@ -27,8 +27,8 @@ use scene::{Field, Handle, Pose, Scene};
 const RIGID: f64 = 1e12;
 /// rapier corrects a fifth of the gaps it finds in a sub-step of 5 ms.
 const SOFTNESS: SpringCoefficients<f64> = SpringCoefficients { natural_frequency: 1.6e4, damping_ratio: 1000.0 };
-/// A revolute joint with a wider range has no stops, radians.
-const WIDEST_STOPS: f64 = 359.0 * std::f64::consts::PI / 180.0;
+/// A revolute joint whose range is this or more has no stops, radians.
+const MAX_STOP_RANGE: f64 = 359.0 * std::f64::consts::PI / 180.0;
 
 /// The links, in the order of the handles of their objects. Their places last until the next plan.
 #[derive(Default)]
@@ -197,7 +197,7 @@ impl Link {
 
     fn set_limits(&mut self, joint: &Joint, world: &mut World) {
         let (Some(axis), Some(link)) = (self.axis(), world.joints.get_mut(self.joint, false)) else { return };
-        let has_stops = !joint.cyclic && (self.plan.kind == LinkKind::Prismatic || joint.range < WIDEST_STOPS);
+        let has_stops = !joint.cyclic && (self.plan.kind == LinkKind::Prismatic || joint.range < MAX_STOP_RANGE);
         self.stops = has_stops.then_some([joint.min, joint.min + joint.range]);
         match self.stops {
             Some(stops) => drop(link.data.set_limits(axis, stops)),

@@ -24,8 +24,8 @@ use super::world::World;
 use scene::Handle;
 use scene::joint::JointSolver;
 
-/// Mechanisms are solved on several threads from so many joints on: for fewer it takes as long to wake these.
-const WORTH_THREADS: usize = 150;
+/// Number of joints from which on mechanisms are solved on several threads: with fewer, waking the threads takes as long as the work.
+const MIN_JOINTS_FOR_THREADS: usize = 150;
 
 /// The mechanisms of a scene.
 #[derive(Default)]
@@ -143,7 +143,7 @@ impl Mechanisms {
 
     /// Calls `work` for every mechanism.
     fn for_each(&mut self, workers: &mut Workers, work: fn(&mut Linked)) {
-        if self.joint_count < WORTH_THREADS {
+        if self.joint_count < MIN_JOINTS_FOR_THREADS {
             self.all.iter_mut().for_each(work);
         } else {
             self.all = workers.for_each(std::mem::take(&mut self.all), work);

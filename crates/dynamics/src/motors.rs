@@ -9,11 +9,11 @@ use scene::parameters::engine::Engine;
 
 /// The time in which position control closes the fraction P of its error, whatever the sub-step.
 const CONTROL_PERIOD: f64 = 0.005;
-/// The velocity of a motor that shall only push.
-const PUSH_VELOCITY: f64 = 10_000.0;
-/// The force of a motor that nothing holds up.
-const ANY_FORCE: f64 = 10_000.0;
-/// The force of a locked motor and of a joint that follows another.
+/// Target velocity of a motor in force control, which it never reaches, rad/s or m/s.
+const FORCE_CONTROL_VELOCITY: f64 = 10_000.0;
+/// Largest force where a joint callback gives a velocity only, N or N m.
+const MAX_FREE_FORCE: f64 = 10_000.0;
+/// Largest force of a locked motor and of a joint that follows another, N or N m.
 const RIGID_FORCE: f64 = 1e9;
 
 /// A motor's order for one sub-step: reach `velocity` with at most `force`.
@@ -122,7 +122,7 @@ pub(super) fn answered(velocity: Option<f64>, force: Option<f64>) -> Option<Driv
     match (velocity, force) {
         (None, None) => Some(Drive { velocity: 0.0, force: 0.0 }),
         (None, Some(force)) => Some(push(force)),
-        (Some(velocity), None) => Some(Drive { velocity, force: ANY_FORCE }),
+        (Some(velocity), None) => Some(Drive { velocity, force: MAX_FREE_FORCE }),
         (Some(velocity), Some(force)) => Some(Drive { velocity, force: force.abs() }),
     }
 }
@@ -135,7 +135,7 @@ pub(super) fn coupled_drive(joint: &Joint, now: Motion, master: Motion, step: f6
 }
 
 fn push(force: f64) -> Drive {
-    Drive { velocity: PUSH_VELOCITY.copysign(force), force: force.abs() }
+    Drive { velocity: FORCE_CONTROL_VELOCITY.copysign(force), force: force.abs() }
 }
 
 #[cfg(test)]

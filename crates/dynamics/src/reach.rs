@@ -3,8 +3,8 @@
 use nalgebra::Vector6;
 use rapier3d_f64::prelude::{ColliderHandle, ColliderSet, RigidBodyCcd};
 
-/// Speeds beyond are not those of bodies, m/s and rad/s: rapier stops what is no longer in range.
-const FASTEST: f64 = 1e9;
+/// Speed from which a body counts as out of range, m/s and rad/s: rapier stops such bodies.
+const MAX_SPEED: f64 = 1e9;
 
 /// The size of a body as far as it matters for fast motion.
 pub(super) struct Reach {
@@ -40,7 +40,7 @@ impl Reach {
     /// Whether the body moves so far in a sub-step of `step` seconds that rapier would look for what is in its way.
     pub(super) fn is_exceeded(&self, velocity: &Vector6<f64>, step: f64) -> bool {
         let [linear, angular] = [0, 3].map(|first| velocity.fixed_rows::<3>(first).norm());
-        let is_in_range = linear < FASTEST && angular < FASTEST;
+        let is_in_range = linear < MAX_SPEED && angular < MAX_SPEED;
         !is_in_range || (linear + angular * self.extent) * step > RigidBodyCcd::FAST_BODY_SAFETY_FACTOR * self.thickness
     }
 }

@@ -21,9 +21,11 @@ use scene::{DynamicFlags, Field, Handle, Kind, Pose, Scene};
 /// A force sensor whose threshold was exceeded often enough.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trigger {
+    /// The force sensor.
     pub sensor: Handle,
     /// Mean over the sub-steps of the last call: force and torque.
     pub raw: Load,
+    /// What the sensor's filter makes of the last readings: force and torque.
     pub filtered: Load,
 }
 

@@ -4,8 +4,8 @@
 use std::num::NonZero;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// How often a thread looks for work, or for its results, before it sleeps: waking up takes as long as the work of some mechanisms.
-const LOOKS: usize = 4000;
+/// How often a thread polls its channel before it blocks: waking up takes as long as the work of some mechanisms.
+const SPIN_ITERATIONS: usize = 4000;
 
 type Job = Box<dyn FnOnce() + Send>;
 
@@ -70,7 +70,7 @@ fn run(jobs: &Receiver<Job>) {
 
 /// Waits for a message; None when nobody can send one any more.
 fn receive<T>(messages: &Receiver<T>) -> Option<T> {
-    let ready = (0..LOOKS).find_map(|_| messages.try_recv().inspect_err(|_| std::thread::yield_now()).ok());
+    let ready = (0..SPIN_ITERATIONS).find_map(|_| messages.try_recv().inspect_err(|_| std::thread::yield_now()).ok());
     ready.or_else(|| messages.recv().ok())
 }
 

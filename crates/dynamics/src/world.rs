@@ -12,24 +12,24 @@ use rapier3d_f64::prelude::{
     SoftBodySet, SpringCoefficients,
 };
 
-/// Parts of a sub-step in which bodies in contact are solved.
-pub(super) const PARTS: usize = 4;
-/// Iterations of the constraint solver in each part.
+/// Number of solver steps into which a sub-step is divided for bodies in contact.
+pub(super) const CONTACT_SUBSTEPS: usize = 4;
+/// Iterations of the constraint solver in each solver step.
 const ITERATIONS: usize = 2;
-/// How stiffly contacts push bodies apart: as stiff as parts of 1.25 ms resolve.
+/// Stiffness and damping of contacts: as stiff as solver steps of 1.25 ms resolve.
 const CONTACT_SOFTNESS: SpringCoefficients<f64> = SpringCoefficients { natural_frequency: 240.0, damping_ratio: 5.0 };
-/// Penetration left alone, metres.
-const SLOP: f64 = 2e-4;
+/// Penetration that is not corrected, metres.
+const PENETRATION_SLOP: f64 = 2e-4;
 /// Distance at which contacts are prepared, metres.
-pub(super) const PREDICTION: f64 = 0.01;
-/// Bodies that move less against each other keep their contact points, metres: more, and wheels roll on corners.
-const SAME_CONTACT: f64 = 0.005;
+pub(super) const PREDICTION_DISTANCE: f64 = 0.01;
+/// Contact points are kept while bodies move less than this against each other, metres. With a larger distance wheels roll as polygons do.
+const CONTACT_RECYCLE_DISTANCE: f64 = 0.005;
 
-/// What rapier asks the rules about.
+/// The decisions that rapier leaves to [`Rules`](super::contacts::Rules).
 pub(super) const ALL_HOOKS: ActiveHooks = ActiveHooks::FILTER_CONTACT_PAIRS.union(ActiveHooks::MODIFY_SOLVER_CONTACTS);
 
-/// Turns in a sub-step that rapier makes exactly enough, radians: a thirty-thousandth is missing.
-const EXACT_TURN: f64 = 0.02;
+/// Rotation in a sub-step up to which rapier integrates accurately enough, radians: its relative error there is 1/30000.
+const MAX_ACCURATE_ROTATION: f64 = 0.02;
 
 /// Everything rapier needs for one scene.
 pub(super) struct World {
@@ -172,7 +172,7 @@ impl World {
         let touching = self.touching(exact);
         let extra = |handle: RigidBodyHandle| {
             let touches = touching.get(index_of(handle)).copied().unwrap_or(false);
-            if touches { PARTS - 1 } else { 0 }
+            if touches { CONTACT_SUBSTEPS - 1 } else { 0 }
         };
         let differs = |&handle: &RigidBodyHandle| {
             let rigid = self.bodies.get(handle).filter(|rigid| rigid.is_dynamic());
@@ -245,7 +245,7 @@ impl World {
 
 fn turns_fast(rigid: &RigidBody, step: f64) -> bool {
     let angle = rigid.angvel().length() * step;
-    rigid.is_dynamic() && angle >= EXACT_TURN && angle.is_finite()
+    rigid.is_dynamic() && angle >= MAX_ACCURATE_ROTATION && angle.is_finite()
 }
 
 /// rapier turns a body by the tangent of half the angle: what is missing is made up for, so that wheels turn as fast as they say.
@@ -285,10 +285,10 @@ fn parameters() -> IntegrationParameters {
     IntegrationParameters {
         num_solver_iterations: 1,
         num_internal_pgs_iterations: ITERATIONS,
-        normalized_allowed_linear_error: SLOP,
-        normalized_prediction_distance: PREDICTION,
+        normalized_allowed_linear_error: PENETRATION_SLOP,
+        normalized_prediction_distance: PREDICTION_DISTANCE,
         normalized_max_linear_velocity: f64::MAX,
-        normalized_contact_recycle_distance: SAME_CONTACT,
+        normalized_contact_recycle_distance: CONTACT_RECYCLE_DISTANCE,
         contact_softness: CONTACT_SOFTNESS,
         static_contact_softness: CONTACT_SOFTNESS,
         friction_model: FrictionModel::Simplified,

@@ -7,12 +7,15 @@ use scene::graph::{Graph, Style};
 /// The kind of a file, from its extension; None for others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GraphFile {
+    /// A table of the streams.
     Csv,
+    /// A chart.
     #[cfg(feature = "plots")]
     Svg,
 }
 
 impl GraphFile {
+    /// The kind of file of an extension in either case.
     pub fn of_extension(extension: &str) -> Option<Self> {
         match extension.to_ascii_lowercase().as_str() {
             "csv" => Some(Self::Csv),
@@ -28,33 +31,44 @@ impl GraphFile {
 pub struct GraphData {
     /// The path of the graph.
     pub title: String,
+    /// Colour behind the curves: red, green, blue, 0 to 1.
     pub background: [f32; 3],
+    /// Colour of axes and texts: red, green, blue, 0 to 1.
     pub foreground: [f32; 3],
     /// Seconds.
     pub times: Vec<f64>,
+    /// Values over time.
     pub streams: Vec<StreamData>,
+    /// Curves of two or three streams.
     pub curves: Vec<CurveData>,
 }
 
+/// Values of a graph over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StreamData {
+    /// Label, colour and line of the stream.
     pub style: Style,
+    /// Whether the graph shows it.
     pub visible: bool,
     /// Times and values.
     pub values: Vec<[f64; 2]>,
 }
 
+/// A curve of a graph in a plane or in space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveData {
+    /// Label, colour and line of the curve.
     pub style: Style,
     /// 2 or 3.
     pub dimensions: usize,
     /// No recording changes it.
     pub is_static: bool,
+    /// Its points; curves in a plane have their default as third coordinate.
     pub points: Vec<[f64; 3]>,
 }
 
 impl GraphData {
+    /// What a graph has recorded so far.
     pub fn new(graph: &Graph, title: &str) -> Self {
         let streams = graph.streams().iter().map(|stream| StreamData {
             style: stream.style.clone(),

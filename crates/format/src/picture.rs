@@ -17,17 +17,28 @@ const MAX_SIDE: u32 = 16_384;
 /// Why a picture cannot be had.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
+    /// The number of bytes does not belong to the resolution.
     #[error("the image has {found} bytes, but its resolution asks for {expected}.")]
-    Length { found: usize, expected: usize },
+    Length {
+        /// Bytes that were given.
+        found: usize,
+        /// Bytes that the resolution and the layout ask for.
+        expected: usize,
+    },
+    /// A side has no pixel or too many.
     #[error("the resolution of an image lies between 1 and {MAX_SIDE}.")]
     Resolution,
+    /// The extension of a file names no known kind.
     #[error("unknown kind of image: {0} (known: png, jpg, bmp, tga).")]
     Kind(String),
+    /// The kind is known, but only to builds with the feature `pictures`.
     #[cfg(not(feature = "pictures"))]
     #[error("this build knows no images but PNG ({0}): build Swanilda with the feature `pictures`.")]
     LeftOut(String),
+    /// The file is damaged, or cannot be written in this kind.
     #[error("{0}.")]
     Codec(ImageError),
+    /// The file cannot be read or written.
     #[error("{0}.")]
     Io(#[from] std::io::Error),
 }
@@ -45,8 +56,11 @@ impl From<ImageError> for PictureError {
 /// Bytes per pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Layout {
+    /// Brightness.
     Grey = 1,
+    /// Red, green, blue.
     Rgb = 3,
+    /// Red, green, blue, opacity.
     Rgba = 4,
 }
 
@@ -73,6 +87,8 @@ pub fn grey_16_bit_png(values: Vec<u16>, [width, height]: [u32; 2]) -> Result<Ve
 }
 
 impl Picture {
+    /// A picture of pixels in memory, row by row.
+    ///
     /// # Errors
     /// When the resolution is impossible, or the bytes do not fit it.
     pub fn new(bytes: Vec<u8>, [width, height]: [i64; 2], layout: Layout) -> Result<Self, PictureError> {
@@ -149,10 +165,12 @@ impl Picture {
         Self::from_dynamic(&picture, self.layout)
     }
 
+    /// Columns and rows.
     pub fn resolution(&self) -> [i64; 2] {
         [self.width.into(), self.height.into()]
     }
 
+    /// The pixels row by row, in the picture's layout.
     pub fn into_bytes(self) -> Vec<u8> {
         self.bytes
     }

@@ -15,6 +15,7 @@ use permissions::{Permissions, read_bounded};
 pub enum SceneInput {
     /// The text of a script.
     Script(Vec<u8>),
+    /// A scene or model.
     File(Box<InputFile>),
 }
 
@@ -33,6 +34,8 @@ impl InputFile {
         &self.messages
     }
 
+    /// A copy of the file with the texts of its scripts, from which a scene can be filled.
+    ///
     /// # Errors
     /// When geometry is damaged.
     pub fn scene(&self) -> FileResult<SceneFile> {
@@ -41,6 +44,8 @@ impl InputFile {
 }
 
 impl SceneInput {
+    /// Reads a scene, a model, the folder of an unpacked one, a robot's description or a script.
+    ///
     /// # Errors
     /// When it may not or cannot be read; in words, with the path.
     pub fn read(path: &Path, permissions: &Permissions) -> Result<Self, String> {

@@ -7,16 +7,22 @@ use std::path::Path;
 /// Why a file is no script.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NotAScript {
+    /// There is nothing in it.
     #[error("the file is empty")]
     Empty,
+    /// Its name ends as those of scenes and models do, but it is none.
     #[error("it is not a scene or model of CoppeliaSim, whatever its name says")]
     NotAScene,
+    /// A robot's description that has to be expanded.
     #[error("it is a xacro file. Expand it first: xacro FILE > robot.urdf (pip install xacro, or a ROS installation)")]
     Xacro,
+    /// Triangles in a format of meshes.
     #[error("it holds a mesh, and no scene")]
     Mesh,
+    /// A text of a scene that was unpacked into a folder.
     #[error("it is a part of an unpacked scene: name the folder instead")]
     PartOfFolder,
+    /// Bytes that are no text.
     #[error("it is neither a script in Lua or Python nor a scene or model of CoppeliaSim")]
     Binary,
 }

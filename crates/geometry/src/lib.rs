@@ -65,7 +65,7 @@ mod union_find;
 
 pub use finite::Finite;
 pub use mass::MassProperties;
-pub use mesh::{BoundingBox, DecompositionParameters, Extrusion, LARGEST_COORDINATE, Mesh, MeshError};
+pub use mesh::{BoundingBox, DecompositionParameters, Extrusion, MAX_COORDINATE, Mesh, MeshError};
 pub use pose::{Pose, PoseError};
 pub use primitive::PrimitiveKind;
 pub use union_find::partition;

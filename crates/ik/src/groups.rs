@@ -9,14 +9,17 @@ use super::{SceneElement, SceneLinks};
 use scene::tree::ik_groups::{IkElement, IkGroup, Jacobian};
 use scene::{Handle, Scene, SceneError, joint};
 
-/// More iterations would not end in a reasonable time.
-const MOST_ITERATIONS: i32 = 100_000;
+/// Largest number of iterations: more would not end in a reasonable time.
+const MAX_ITERATIONS: i32 = 100_000;
 
 /// What a calculation came to; scripts see the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IkResult {
+    /// No group was handled.
     NotPerformed = 0,
+    /// All errors are within the precisions.
     Success = 1,
+    /// An error exceeds a precision, or the equations cannot be solved.
     Failure = 2,
 }
 
@@ -57,6 +60,8 @@ impl GroupCopy {
         self.complete
     }
 
+    /// Solves the copy; the scene stays as it is.
+    ///
     /// # Errors
     /// When the environment lost an object.
     pub fn solve(&mut self) -> Result<IkResult> {
@@ -184,7 +189,7 @@ impl SceneLinks {
         let copy = env.group_mut(id)?;
         copy.method = Method::from_raw(group.method.into()).unwrap_or(Method::PseudoInverse);
         copy.damping = group.damping;
-        copy.iterations = group.max_iterations.clamp(1, MOST_ITERATIONS) as u32;
+        copy.iterations = group.max_iterations.clamp(1, MAX_ITERATIONS) as u32;
         copy.flags = flags(group);
         let mut complete = true;
         for element in &group.elements {

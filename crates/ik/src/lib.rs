@@ -35,8 +35,11 @@ struct Task {
 pub struct SceneElement {
     /// None: the world.
     pub base: Option<Handle>,
+    /// The dummy that has to reach the target.
     pub tip: Handle,
+    /// The dummy to be reached.
     pub target: Handle,
+    /// The axes in which it has to be reached.
     pub constraints: Constraints,
 }
 

@@ -12,6 +12,7 @@ use crate::random::Random;
 /// The frame of a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Frame {
+    /// The frame of the world.
     World,
     /// The moving side of the parent.
     Parent,
@@ -39,10 +40,12 @@ impl Environment {
 
     // ---------------------------------------------------------------- objects
 
+    /// Adds a dummy at the origin of the world, without parent and partner.
     pub fn create_dummy(&mut self, name: &str) -> ObjectId {
         self.add(Object::new(name, Kind::Dummy { partner: None }))
     }
 
+    /// Adds a joint at the origin of the world, without parent, in IK mode; a revolute one is cyclic.
     pub fn create_joint(&mut self, name: &str, joint_type: JointType) -> ObjectId {
         self.add(Object::new(name, Kind::Joint(Joint::new(joint_type))))
     }
@@ -58,6 +61,8 @@ impl Environment {
         numbered.filter_map(|(i, object)| Some((ObjectId(i), object.as_ref()?)))
     }
 
+    /// An object of the environment.
+    ///
     /// # Errors
     /// When there is no such object.
     pub fn object(&self, id: ObjectId) -> Result<&Object> {
@@ -121,6 +126,8 @@ impl Environment {
 
     // ---------------------------------------------------------------- poses
 
+    /// The pose of an object.
+    ///
     /// # Errors
     /// When one of the objects does not exist.
     pub fn pose(&self, id: ObjectId, frame: Frame) -> Result<Pose> {
@@ -153,6 +160,8 @@ impl Environment {
         Ok(side)
     }
 
+    /// Moves an object; what is attached to it moves with it.
+    ///
     /// # Errors
     /// When one of the objects does not exist, or the pose is not finite.
     pub fn set_pose(&mut self, id: ObjectId, pose: Pose, frame: Frame) -> Result<()> {
@@ -220,6 +229,8 @@ impl Environment {
 
     // ---------------------------------------------------------------- joints
 
+    /// A joint of the environment.
+    ///
     /// # Errors
     /// When there is no such joint.
     pub fn joint(&self, id: ObjectId) -> Result<&Joint> {
@@ -328,11 +339,13 @@ impl Environment {
 
     // ---------------------------------------------------------------- groups
 
+    /// Adds a group without elements: enabled, pseudo-inverse, three iterations.
     pub fn create_group(&mut self, name: &str) -> GroupId {
         self.groups.push(Group::new(name));
         GroupId(self.groups.len() - 1)
     }
 
+    /// All groups with their numbers, in the order in which they were created.
     pub fn groups(&self) -> impl Iterator<Item = (GroupId, &Group)> {
         self.groups.iter().enumerate().map(|(i, group)| (GroupId(i), group))
     }
@@ -342,12 +355,16 @@ impl Environment {
         self.groups().find(|(_, group)| group.name == name).map(|(id, _)| id)
     }
 
+    /// A group of the environment.
+    ///
     /// # Errors
     /// When there is no such group.
     pub fn group(&self, id: GroupId) -> Result<&Group> {
         self.groups.get(id.0).ok_or(KinematicsError::NoSuchGroup)
     }
 
+    /// A group of the environment, to be changed.
+    ///
     /// # Errors
     /// When there is no such group.
     pub fn group_mut(&mut self, id: GroupId) -> Result<&mut Group> {
@@ -367,6 +384,8 @@ impl Environment {
         Ok(id)
     }
 
+    /// An element of a group.
+    ///
     /// # Errors
     /// When there is no such element.
     pub fn element(&self, group: GroupId, element: ElementId) -> Result<&Element> {
@@ -374,6 +393,8 @@ impl Environment {
         element.ok_or(KinematicsError::NoSuchElement)
     }
 
+    /// An element of a group, to be changed.
+    ///
     /// # Errors
     /// When there is no such element.
     pub fn element_mut(&mut self, group: GroupId, element: ElementId) -> Result<&mut Element> {

@@ -16,22 +16,34 @@ use crate::rigid::Rigid;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Row {
     /// One constraint of an element.
-    Constraint { element: ElementId, constraint: Constraints },
+    Constraint {
+        /// The element.
+        element: ElementId,
+        /// One of its constraints; ALPHA_BETA has two rows.
+        constraint: Constraints,
+    },
     /// A joint is pushed away from a limit.
-    Limit { joint: ObjectId },
+    Limit {
+        /// The joint.
+        joint: ObjectId,
+    },
 }
 
 /// What a column of a Jacobian stands for: a joint, of a spherical one the rotation about axis `stage` of its frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Column {
+    /// The joint.
     pub joint: ObjectId,
+    /// Axis of the frame of a spherical joint, 0 to 2; 0 for other joints.
     pub stage: usize,
 }
 
 /// `jacobian * dq = errors`, to first order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Equations {
+    /// What the rows stand for.
     pub rows: Vec<Row>,
+    /// What the columns stand for.
     pub columns: Vec<Column>,
     /// Row by row; in metres and radians, per metre and radian.
     pub jacobian: Vec<f64>,

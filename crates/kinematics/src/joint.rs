@@ -9,26 +9,34 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use crate::object::ObjectId;
 
+/// The degrees of freedom of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointType {
     /// With a screw lead it moves along its axis as well.
     Revolute = 10,
+    /// Moves along its axis.
     Prismatic = 11,
+    /// Turns about any axis.
     Spherical = 12,
 }
 
+/// Who moves a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointMode {
     /// The solver leaves it where it is.
     Passive = 0,
+    /// The solver moves it.
     Ik = 2,
 }
 
 /// A joint: revolute values in rad, prismatic ones in m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
+    /// The degrees of freedom.
     pub joint_type: JointType,
+    /// Whether the solver moves it.
     pub mode: JointMode,
+    /// Coordinate along or about the axis; not used by spherical joints.
     pub position: f64,
     /// Position of a spherical joint.
     pub rotation: UnitQuaternion<f64>,
@@ -36,6 +44,7 @@ pub struct Joint {
     pub cyclic: bool,
     /// Lower limit and width of the interval.
     pub min: f64,
+    /// Width of the interval.
     pub range: f64,
     /// Metres per turn; revolute joints only.
     pub screw_lead: f64,
@@ -45,24 +54,35 @@ pub struct Joint {
     pub max_step: f64,
     /// Distance to a limit from which `avoid_limits` pushes it away.
     pub limit_margin: f64,
+    /// What decides its position, if that is another joint.
     pub dependency: Option<Dependency>,
 }
 
 /// The position of a joint is a function of that of its master.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dependency {
+    /// The joint it depends on.
     pub master: ObjectId,
+    /// How it depends on it.
     pub law: Law,
 }
 
 /// From the position of a master to that of a dependent joint.
 #[derive(Clone)]
 pub enum Law {
-    Linear { offset: f64, factor: f64 },
+    /// A linear function.
+    Linear {
+        /// Position where the master is at zero, rad or m.
+        offset: f64,
+        /// Change with that of the master.
+        factor: f64,
+    },
+    /// Any function of the master's position.
     Function(Rc<dyn Fn(f64) -> f64>),
 }
 
 impl Law {
+    /// The position of the dependent joint for that of its master.
     pub fn position(&self, master: f64) -> f64 {
         match self {
             Self::Linear { offset, factor } => offset + factor * master,
@@ -100,6 +120,7 @@ impl PartialEq for Law {
 }
 
 impl Joint {
+    /// A joint in IK mode at zero: revolute ones cyclic, prismatic ones from -0.5 m to 0.5 m.
     pub fn new(joint_type: JointType) -> Self {
         let (cyclic, min, range) = match joint_type {
             JointType::Prismatic => (false, -0.5, 1.0),

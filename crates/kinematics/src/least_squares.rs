@@ -6,7 +6,7 @@
 use nalgebra::{DMatrix, DVector, SVD};
 
 /// Ratio of pivots below which Cholesky is not exact enough.
-const EXACT: f64 = 1e-9;
+const MIN_PIVOT_RATIO: f64 = 1e-9;
 
 /// Buffers that are used again.
 #[derive(Debug, Default)]
@@ -126,12 +126,12 @@ fn factorise(matrix: &mut [f64], n: usize) -> bool {
         let pivot = row[i] - row[..i].iter().map(|x| x * x).sum::<f64>();
         (smallest, largest) = (smallest.min(pivot), largest.max(pivot));
         // Not `<=`: what is not a number is refused.
-        if !(pivot > largest * EXACT && pivot < f64::INFINITY) {
+        if !(pivot > largest * MIN_PIVOT_RATIO && pivot < f64::INFINITY) {
             return false;
         }
         row[i] = 1.0 / pivot.sqrt();
     }
-    smallest > largest * EXACT
+    smallest > largest * MIN_PIVOT_RATIO
 }
 
 fn substitute(factor: &[f64], right: &mut [f64]) {

@@ -77,7 +77,7 @@ pub use error::{KinematicsError, Result};
 pub use geometry::Pose;
 pub use group::{Constraints, Element, ElementId, Flags, Group, GroupFlags, GroupId, LimitHit, Method};
 pub use joint::{Dependency, Joint, JointMode, JointType, Law};
-pub use object::{Kind, Object, ObjectId};
+pub use object::{Object, ObjectId};
 pub use queries::Posture;
 pub use random::Random;
 pub use search::Start;

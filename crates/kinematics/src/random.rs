@@ -1,9 +1,11 @@
 //! Random numbers: xoshiro256++ (D. Blackman and S. Vigna, *Scrambled linear pseudorandom number generators*, 2021), seeded by SplitMix64.
 
+/// A generator of random numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Random([u64; 4]);
 
 impl Random {
+    /// A generator with a state derived from the seed.
     pub fn new(seed: u64) -> Self {
         let mut state = seed;
         Self(std::array::from_fn(|_| {

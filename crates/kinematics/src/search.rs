@@ -17,26 +17,27 @@ use crate::least_squares::{Problem, Scratch};
 use crate::object::Object;
 use crate::random::Random;
 
-/// Squared damping per squared error.
-const GAIN: f64 = 0.03;
-/// Squared damping where there is no error.
-const LEAST: f64 = 1e-9;
-/// Iterations of one attempt.
-const ATTEMPT: u32 = 60;
-/// Poor steps after which an attempt ends.
-const PATIENCE: u32 = 4;
-/// A step is poor when it leaves more than this share of the squared error.
-const POOR: f64 = 0.7;
-/// Share of the precision that is asked for: a last step costs little and gains several digits.
-const SHARE: f64 = 0.1;
-/// Longest step of a joint, radians or metres.
-const LONGEST: f64 = 1.2;
+/// Squared damping factor per squared error.
+const DAMPING_GAIN: f64 = 0.03;
+/// Squared damping factor where there is no error.
+const MIN_DAMPING: f64 = 1e-9;
+/// Largest number of iterations from one start.
+const ITERATIONS_PER_ATTEMPT: u32 = 60;
+/// Poor steps after which the search begins again from another start.
+const MAX_POOR_STEPS: u32 = 4;
+/// A step is poor when it leaves more than this fraction of the squared error.
+const POOR_STEP_RATIO: f64 = 0.7;
+/// Fraction of the required precision at which the search ends: a last step costs little and gains several digits.
+const PRECISION_RATIO: f64 = 0.1;
+/// Largest step of a joint, radians or metres.
+const MAX_STEP: f64 = 1.2;
 
 /// Where a search begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Start {
     /// The present posture, then random ones.
     Present,
+    /// A random posture.
     Random,
 }
 
@@ -144,7 +145,7 @@ impl Search {
             .iter()
             .map(|column| env.joint(column.joint).map(|joint| (column.joint, joint.position, joint.rotation)));
         let before: Vec<_> = before.collect::<Result<_>>()?;
-        self.equations.restart(SHARE);
+        self.equations.restart(PRECISION_RATIO);
         let mut draw = start == Start::Random;
         while *iterations > 0 {
             if draw {
@@ -164,14 +165,14 @@ impl Search {
         let mut poor = 0;
         // The evaluation of the start counts as well: an attempt may end at once.
         *iterations -= 1;
-        for _ in 0..ATTEMPT.min(*iterations) {
+        for _ in 0..ITERATIONS_PER_ATTEMPT.min(*iterations) {
             if self.equations.is_within() {
                 return Ok(true);
             }
             let problem = Problem {
                 jacobian: &self.equations.jacobian,
                 columns: self.chains.columns.len(),
-                damping: (GAIN * error + LEAST).sqrt(),
+                damping: (DAMPING_GAIN * error + MIN_DAMPING).sqrt(),
             };
             if !problem.solve(&self.equations.errors, &mut self.step, &mut self.scratch) {
                 return Ok(false);
@@ -179,8 +180,8 @@ impl Search {
             self.apply(env)?;
             *iterations -= 1;
             let next = self.evaluate(env)?;
-            poor += u32::from(exceeds(next, POOR * error));
-            if poor > PATIENCE {
+            poor += u32::from(exceeds(next, POOR_STEP_RATIO * error));
+            if poor > MAX_POOR_STEPS {
                 return Ok(self.equations.is_within());
             }
             error = next;
@@ -197,7 +198,7 @@ impl Search {
     /// Moves the joints within their limits.
     fn apply(&mut self, env: &mut Environment) -> Result<()> {
         let longest = self.step.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let scale = if longest > LONGEST { LONGEST / longest } else { 1.0 };
+        let scale = if longest > MAX_STEP { MAX_STEP / longest } else { 1.0 };
         let mut at = 0;
         while at < self.step.len() {
             let id = self.chains.columns[at].joint;

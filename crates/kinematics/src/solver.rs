@@ -12,12 +12,13 @@ use crate::least_squares::Scratch;
 use crate::object::{Object, ObjectId};
 use crate::step::{Solved, Step, too_big, weigh};
 
-/// Steps that are too big are reduced to a little less than what is allowed.
-const MARGIN: f64 = 1.1;
+/// Steps that are too big are reduced to the largest allowed one divided by this.
+const STEP_REDUCTION_MARGIN: f64 = 1.1;
 
 /// The result of a calculation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outcome {
+    /// What went wrong.
     pub flags: Flags,
     /// Largest linear (m) and angular (rad) error.
     pub precision: [f64; 2],
@@ -33,8 +34,11 @@ impl Outcome {
 /// What a callback puts in place of what was computed; row by row where it is a matrix.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Revision {
+    /// Of the group, rows by columns.
     pub jacobian: Option<Vec<f64>>,
+    /// A number per row.
     pub errors: Option<Vec<f64>>,
+    /// Changes of the joints, a number per column.
     pub step: Option<Vec<f64>>,
     /// The pseudo-inverse: columns by rows.
     pub inverse: Option<Vec<f64>>,
@@ -214,7 +218,7 @@ impl Calculation {
         if ratio > 1.0 {
             self.flags.insert(Flags::STEPS_TOO_BIG);
             if !task.flags.contains(GroupFlags::IGNORE_MAX_STEPS) {
-                solved.step.iter_mut().for_each(|dq| *dq /= MARGIN * ratio);
+                solved.step.iter_mut().for_each(|dq| *dq /= STEP_REDUCTION_MARGIN * ratio);
             }
         }
         Ok(Some(solved))

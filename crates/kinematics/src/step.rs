@@ -10,8 +10,8 @@ use crate::joint::{JointType, wrapped};
 use crate::least_squares::{Problem, Scratch};
 use crate::solver::Revision;
 
-/// Damping of the pseudo-inverse.
-const SLIGHT: f64 = 1e-6;
+/// Damping of [`Method::PseudoInverse`].
+const PSEUDO_INVERSE_DAMPING: f64 = 1e-6;
 
 pub(crate) struct Solved {
     pub step: Vec<f64>,
@@ -57,7 +57,7 @@ impl Step<'_> {
 
     fn damping(&self) -> f64 {
         match self.group.method {
-            Method::PseudoInverse => SLIGHT,
+            Method::PseudoInverse => PSEUDO_INVERSE_DAMPING,
             Method::DampedLeastSquares => self.group.damping,
             Method::JacobianTranspose | Method::UndampedPseudoInverse => 0.0,
         }

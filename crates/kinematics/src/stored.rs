@@ -9,14 +9,16 @@ use crate::group::{Constraints, Element, Group, GroupFlags, Method};
 use crate::joint::{Dependency, Joint, JointMode, JointType, Law};
 use crate::object::{Kind, Object, ObjectId};
 
-const WORD: &[u8; 4] = b"kin1";
+const MAGIC: &[u8; 4] = b"kin1";
 const NONE: u32 = u32::MAX;
 
 impl Environment {
+    /// The whole environment as bytes, which [`Environment::read_bytes`] reads.
+    ///
     /// # Errors
     /// When there are more than 2^32 objects.
     pub fn to_bytes(&self) -> Result<Vec<u8>> {
-        let mut out = Writer(WORD.to_vec());
+        let mut out = Writer(MAGIC.to_vec());
         out.count(self.objects.len())?;
         for object in &self.objects {
             out.flag(object.is_some());
@@ -33,7 +35,7 @@ impl Environment {
     /// When it did not.
     pub fn read_bytes(&mut self, bytes: &[u8]) -> Result<()> {
         let mut read = Environment::new(0);
-        let mut input = Reader(bytes.strip_prefix(WORD).ok_or(KinematicsError::Damaged)?);
+        let mut input = Reader(bytes.strip_prefix(MAGIC).ok_or(KinematicsError::Damaged)?);
         input.environment(&mut read).filter(|()| input.0.is_empty()).ok_or(KinematicsError::Damaged)?;
         read.is_consistent().ok_or(KinematicsError::Damaged)?;
         self.structure += 1;

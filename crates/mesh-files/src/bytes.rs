@@ -1,6 +1,6 @@
 //! Numbers of binary formats, with the bytes they are at.
 
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 
 /// Reads from a slice that begins at `start` of its file. Little endian.
 #[derive(Clone)]
@@ -15,8 +15,8 @@ impl<'a> Bytes<'a> {
     }
 
     /// The next byte of the file.
-    pub(crate) fn place(&self) -> Place {
-        Place::Byte(self.at)
+    pub(crate) fn place(&self) -> Location {
+        Location::Byte(self.at)
     }
 
     pub(crate) fn at(&self) -> usize {

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use crate::corners::{Corner, Lists, NONE, part, push_polygon};
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 use crate::limits::Limits;
 use crate::mesh_file::{Material, MeshFile};
 use crate::text::{name, number, quoted};
@@ -15,7 +15,7 @@ use crate::text::{name, number, quoted};
 struct Group<'a> {
     code: i32,
     value: &'a [u8],
-    place: Place,
+    place: Location,
 }
 
 #[derive(Default)]
@@ -34,7 +34,7 @@ struct Polyline {
     points: Vec<[f64; 3]>,
     /// Of a polyface mesh: vertices of the faces, from 1.
     faces: Vec<Vec<usize>>,
-    place: Option<Place>,
+    place: Option<Location>,
 }
 
 #[derive(Default)]
@@ -46,7 +46,7 @@ struct Reader {
 
 pub(crate) fn read(bytes: &[u8], mut limits: Limits) -> Result<MeshFile> {
     if bytes.starts_with(b"AutoCAD Binary DXF") {
-        return Err(ReadError::new(Place::Byte(0), "file", "a binary DXF; only its text form is read"));
+        return Err(ReadError::new(Location::Byte(0), "file", "a binary DXF; only its text form is read"));
     }
     let mut reader = Reader::default();
     for entity in entities(bytes)? {
@@ -70,7 +70,7 @@ fn entities(bytes: &[u8]) -> Result<Vec<Vec<Group<'_>>>> {
     let mut lines = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).zip(1..);
     let (mut entities, mut is_inside, mut is_section): (Vec<Vec<Group>>, _, _) = (Vec::new(), false, false);
     while let Some((code, line)) = lines.next() {
-        let place = Place::Line(line);
+        let place = Location::Line(line);
         let Some((value, _)) = lines.next() else { break };
         let code = std::str::from_utf8(code).ok().and_then(|code| code.parse().ok());
         let code = code.ok_or_else(|| ReadError::new(place, "group", "the code is not a number"))?;
@@ -84,7 +84,7 @@ fn entities(bytes: &[u8]) -> Result<Vec<Vec<Group<'_>>>> {
             _ => {}
         }
     }
-    Err(ReadError::new(Place::File, "file", "it ends before `EOF`"))
+    Err(ReadError::new(Location::File, "file", "it ends before `EOF`"))
 }
 
 trait ExtendLast<'a> {
@@ -161,7 +161,7 @@ impl Reader {
     fn nothing(&self) -> ReadError {
         let others: Vec<String> = self.others.iter().take(10).map(|(name, count)| format!("{count} {name}")).collect();
         let problem = format!("no 3DFACE and no POLYLINE mesh, but: {}", others.join(", "));
-        ReadError::new(Place::File, "file", if others.is_empty() { "no triangles".into() } else { problem })
+        ReadError::new(Location::File, "file", if others.is_empty() { "no triangles".into() } else { problem })
     }
 }
 
@@ -222,6 +222,6 @@ impl Polyline {
     }
 
     fn refused(&self, problem: &str) -> ReadError {
-        ReadError::new(self.place.unwrap_or(Place::File), "POLYLINE", problem)
+        ReadError::new(self.place.unwrap_or(Location::File), "POLYLINE", problem)
     }
 }

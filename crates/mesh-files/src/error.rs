@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Where in a file something was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
+pub enum Location {
     /// A line of a text, from 1.
     Line(usize),
     /// A byte of a binary file, from 0.
@@ -13,12 +13,12 @@ pub enum Place {
     File,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Place::Line(line) => write!(f, "line {line}: "),
-            Place::Byte(byte) => write!(f, "byte {byte}: "),
-            Place::File => Ok(()),
+            Location::Line(line) => write!(f, "line {line}: "),
+            Location::Byte(byte) => write!(f, "byte {byte}: "),
+            Location::File => Ok(()),
         }
     }
 }
@@ -28,7 +28,7 @@ impl fmt::Display for Place {
 #[error("{place}{element}: {problem}")]
 pub struct ReadError {
     /// Where it was found.
-    pub place: Place,
+    pub place: Location,
     /// What was being read: `face`, `accessor 3`.
     pub element: String,
     /// What is wrong with it.
@@ -36,7 +36,7 @@ pub struct ReadError {
 }
 
 impl ReadError {
-    pub(crate) fn new(place: Place, element: impl Into<String>, problem: impl Into<String>) -> Self {
+    pub(crate) fn new(place: Location, element: impl Into<String>, problem: impl Into<String>) -> Self {
         Self { place, element: element.into(), problem: problem.into() }
     }
 }

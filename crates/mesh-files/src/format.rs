@@ -1,35 +1,40 @@
 //! The formats, and the way in and out.
 
-use crate::error::{Place, ReadError, Result, WriteError};
+use crate::error::{Location, ReadError, Result, WriteError};
 use crate::limits::Limits;
 use crate::mesh_file::{MeshFile, Part};
 use crate::{Resolve, collada, dxf, gltf, obj, ply, stl, three_ds};
 
 /// A format that is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Format {
+pub enum MeshFormat {
+    /// Wavefront OBJ, with its MTL materials.
     Obj,
+    /// Stereolithography, text or binary.
     Stl,
+    /// Stanford polygon file, text or binary.
     Ply,
+    /// COLLADA 1.4 and 1.5.
     Collada,
     /// JSON or binary.
     Gltf,
+    /// 3D Studio.
     ThreeDs,
+    /// AutoCAD drawing exchange, text.
     Dxf,
 }
 
-impl Format {
+impl MeshFormat {
     /// All, with extension and description.
-    pub const ALL: [(Format, &'static str, &'static str); 8] = [
-        (Format::Obj, "obj", "Wavefront OBJ"),
-        (Format::Stl, "stl", "Stereolithography"),
-        (Format::Ply, "ply", "Stanford polygon file"),
-        (Format::Collada, "dae", "COLLADA"),
-        (Format::Gltf, "gltf", "glTF 2.0"),
-        (Format::Gltf, "glb", "glTF 2.0, binary"),
-        (Format::ThreeDs, "3ds", "3D Studio"),
-        (Format::Dxf, "dxf", "AutoCAD drawing exchange"),
+    pub const ALL: [(MeshFormat, &'static str, &'static str); 8] = [
+        (MeshFormat::Obj, "obj", "Wavefront OBJ"),
+        (MeshFormat::Stl, "stl", "Stereolithography"),
+        (MeshFormat::Ply, "ply", "Stanford polygon file"),
+        (MeshFormat::Collada, "dae", "COLLADA"),
+        (MeshFormat::Gltf, "gltf", "glTF 2.0"),
+        (MeshFormat::Gltf, "glb", "glTF 2.0, binary"),
+        (MeshFormat::ThreeDs, "3ds", "3D Studio"),
+        (MeshFormat::Dxf, "dxf", "AutoCAD drawing exchange"),
     ];
 
     /// The format of a file, by the extension of its name in either case.
@@ -41,14 +46,20 @@ impl Format {
 
 /// A format that is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum ExportFormat {
+    /// Wavefront OBJ.
     Obj,
+    /// Stereolithography, text.
     StlText,
+    /// Stereolithography, binary.
     StlBinary,
+    /// Stanford polygon file, text.
     PlyText,
+    /// Stanford polygon file, binary.
     PlyBinary,
+    /// COLLADA.
     Collada,
+    /// glTF 2.0 in one binary file.
     Glb,
 }
 
@@ -66,28 +77,28 @@ pub struct Written {
 /// # Errors
 ///
 /// Where the file is damaged, exceeds the limits, or has no triangles.
-pub fn read(bytes: &[u8], format: Format, limits: Limits, resolve: Resolve) -> Result<MeshFile> {
+pub fn read(bytes: &[u8], format: MeshFormat, limits: Limits, resolve: Resolve) -> Result<MeshFile> {
     let largest = largest_file(format);
     if bytes.len() > largest {
-        return Err(ReadError::new(Place::File, "file", format!("larger than {} MiB", largest >> 20)));
+        return Err(ReadError::new(Location::File, "file", format!("larger than {} MiB", largest >> 20)));
     }
     let file = match format {
-        Format::Obj => obj::read(bytes, limits, resolve)?,
-        Format::Stl => stl::read(bytes, limits)?,
-        Format::Ply => ply::read(bytes, limits, resolve)?,
-        Format::Collada => collada::read(bytes, limits, resolve)?,
-        Format::Gltf => gltf::read(bytes, limits, resolve)?,
-        Format::ThreeDs => three_ds::read(bytes, limits, resolve)?,
-        Format::Dxf => dxf::read(bytes, limits)?,
+        MeshFormat::Obj => obj::read(bytes, limits, resolve)?,
+        MeshFormat::Stl => stl::read(bytes, limits)?,
+        MeshFormat::Ply => ply::read(bytes, limits, resolve)?,
+        MeshFormat::Collada => collada::read(bytes, limits, resolve)?,
+        MeshFormat::Gltf => gltf::read(bytes, limits, resolve)?,
+        MeshFormat::ThreeDs => three_ds::read(bytes, limits, resolve)?,
+        MeshFormat::Dxf => dxf::read(bytes, limits)?,
     };
     file.checked()
 }
 
 /// Bytes of the largest file that is read: what has a structure of its own takes up to twenty times as much memory.
-fn largest_file(format: Format) -> usize {
+fn largest_file(format: MeshFormat) -> usize {
     match format {
-        Format::Collada | Format::Gltf | Format::Dxf => 256 << 20,
-        Format::Obj | Format::Stl | Format::Ply | Format::ThreeDs => 2 << 30,
+        MeshFormat::Collada | MeshFormat::Gltf | MeshFormat::Dxf => 256 << 20,
+        MeshFormat::Obj | MeshFormat::Stl | MeshFormat::Ply | MeshFormat::ThreeDs => 2 << 30,
     }
 }
 

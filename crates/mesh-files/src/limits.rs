@@ -1,6 +1,6 @@
 //! How much a file may become.
 
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 
 /// The largest mesh that is read. A file without instances stays far below: its own length bounds it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,7 +24,7 @@ impl Limits {
     /// Takes away what one more part needs.
     pub(crate) fn take(&mut self, vertices: usize, triangles: usize) -> Result<()> {
         let left = |have: usize, need: usize, what: &str| {
-            have.checked_sub(need).ok_or_else(|| ReadError::new(Place::File, what, "more than the limit"))
+            have.checked_sub(need).ok_or_else(|| ReadError::new(Location::File, what, "more than the limit"))
         };
         self.vertices = left(self.vertices, vertices, "vertices")?;
         self.triangles = left(self.triangles, triangles, "triangles")?;

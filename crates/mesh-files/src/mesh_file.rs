@@ -1,14 +1,16 @@
 //! What a mesh file contains.
 
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 use crate::weld::weld;
 
 /// Which axis points up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum UpAxis {
+    /// The x axis.
     X,
+    /// The y axis.
     Y,
+    /// The z axis.
     Z,
 }
 
@@ -171,11 +173,15 @@ impl MeshFile {
     pub(crate) fn checked(mut self) -> Result<Self> {
         self.parts.retain(|part| !part.triangles.is_empty());
         if self.parts.is_empty() {
-            return Err(ReadError::new(Place::File, "file", "no triangles"));
+            return Err(ReadError::new(Location::File, "file", "no triangles"));
         }
         for (number, part) in self.parts.iter().enumerate() {
             if !part.vertices.as_flattened().iter().all(|x| x.is_finite()) {
-                return Err(ReadError::new(Place::File, format!("part {number}"), "coordinates that are not finite"));
+                return Err(ReadError::new(
+                    Location::File,
+                    format!("part {number}"),
+                    "coordinates that are not finite",
+                ));
             }
         }
         Ok(self)

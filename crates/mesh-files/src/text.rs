@@ -1,6 +1,6 @@
 //! Words and numbers of text formats, with the lines they are on.
 
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 
 /// The words of a text, divided by white space.
 pub(crate) struct Words<'a> {
@@ -14,8 +14,8 @@ impl<'a> Words<'a> {
     }
 
     /// The line of the word that was read last.
-    pub(crate) fn place(&self) -> Place {
-        Place::Line(self.line)
+    pub(crate) fn place(&self) -> Location {
+        Location::Line(self.line)
     }
 
     /// What is left of this line, without spaces around it.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::Resolve;
 use crate::bytes::Bytes;
 use crate::corners::{Corner, Lists, NONE, part};
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 use crate::limits::Limits;
 use crate::mesh_file::{Material, MeshFile, Texture};
 use crate::text::file_name;
@@ -48,7 +48,7 @@ pub(crate) fn read(bytes: &[u8], mut limits: Limits, resolve: Resolve) -> Result
     match chunk(&mut file)? {
         (MAIN, content) => reader.main(content)?,
         (kind, _) => {
-            return Err(ReadError::new(Place::Byte(0), "chunk", format!("{kind:#06x} does not begin a 3DS file")));
+            return Err(ReadError::new(Location::Byte(0), "chunk", format!("{kind:#06x} does not begin a 3DS file")));
         }
     }
     let mut file = MeshFile::default();
@@ -256,7 +256,7 @@ impl Mesh {
     fn corners(&self, face: [u16; 3]) -> Result<[Corner; 3]> {
         if let Some(index) = face.iter().find(|index| **index as usize >= self.positions.len()) {
             let problem = format!("vertex {index} of {}", self.positions.len());
-            return Err(ReadError::new(Place::File, format!("face of {:?}", self.name), problem));
+            return Err(ReadError::new(Location::File, format!("face of {:?}", self.name), problem));
         }
         let uv = |index: u16| if (index as usize) < self.uv.len() { index.into() } else { NONE };
         Ok(face.map(|index| Corner { position: index.into(), normal: NONE, uv: uv(index) }))

@@ -1,6 +1,6 @@
 //! Damaged files are read or refused: cut at every length, and with each byte changed.
 
-use mesh_files::{ExportFormat, Format, Limits, MeshFile, Part, read, write};
+use mesh_files::{ExportFormat, Limits, MeshFile, MeshFormat, Part, read, write};
 
 fn sample(format: ExportFormat) -> Vec<u8> {
     let part = Part {
@@ -16,7 +16,7 @@ fn sample(format: ExportFormat) -> Vec<u8> {
 }
 
 /// What is read must be sound, whatever the bytes are.
-fn try_to_read(bytes: &[u8], format: Format) -> bool {
+fn try_to_read(bytes: &[u8], format: MeshFormat) -> bool {
     let limits = Limits { vertices: 1000, triangles: 1000, parts: 100 };
     let Ok(file) = read(bytes, format, limits, &mut |_| Err("nothing".into())) else { return false };
     for part in &file.parts {
@@ -28,7 +28,7 @@ fn try_to_read(bytes: &[u8], format: Format) -> bool {
     true
 }
 
-fn damage(sample: &[u8], format: Format) {
+fn damage(sample: &[u8], format: MeshFormat) {
     assert!(try_to_read(sample, format));
     for length in 0..sample.len() {
         try_to_read(&sample[..length], format);
@@ -44,21 +44,21 @@ fn damage(sample: &[u8], format: Format) {
 
 #[test]
 fn text_formats() {
-    damage(&sample(ExportFormat::Obj), Format::Obj);
-    damage(&sample(ExportFormat::StlText), Format::Stl);
-    damage(&sample(ExportFormat::PlyText), Format::Ply);
+    damage(&sample(ExportFormat::Obj), MeshFormat::Obj);
+    damage(&sample(ExportFormat::StlText), MeshFormat::Stl);
+    damage(&sample(ExportFormat::PlyText), MeshFormat::Ply);
 }
 
 #[test]
 fn binary_formats() {
-    damage(&sample(ExportFormat::StlBinary), Format::Stl);
-    damage(&sample(ExportFormat::PlyBinary), Format::Ply);
-    damage(&sample(ExportFormat::Glb), Format::Gltf);
+    damage(&sample(ExportFormat::StlBinary), MeshFormat::Stl);
+    damage(&sample(ExportFormat::PlyBinary), MeshFormat::Ply);
+    damage(&sample(ExportFormat::Glb), MeshFormat::Gltf);
 }
 
 #[test]
 fn collada() {
-    damage(&sample(ExportFormat::Collada), Format::Collada);
+    damage(&sample(ExportFormat::Collada), MeshFormat::Collada);
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn dxf() {
     let face =
         "0\nSECTION\n2\nENTITIES\n0\n3DFACE\n8\na\n10\n0\n20\n0\n30\n0\n11\n1\n21\n0\n31\n0\n12\n1\n22\n1\n32\n0\n";
     let mesh = "0\nPOLYLINE\n70\n64\n0\nVERTEX\n70\n192\n10\n1\n0\nVERTEX\n70\n192\n20\n1\n0\nVERTEX\n70\n192\n30\n1\n0\nVERTEX\n70\n128\n71\n1\n72\n-2\n73\n3\n0\nSEQEND\n";
-    damage(format!("{face}{mesh}0\nENDSEC\n0\nEOF\n").as_bytes(), Format::Dxf);
+    damage(format!("{face}{mesh}0\nENDSEC\n0\nEOF\n").as_bytes(), MeshFormat::Dxf);
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn three_ds() {
     let painted = chunk(0x4130, b"red\0\x01\0\0\0");
     let mesh = chunk(0x4100, &[chunk(0x4110, &vertices), chunk(0x4120, &[faces, painted].concat())].concat());
     let editor = [chunk(0xafff, &chunk(0xa000, b"red\0")), chunk(0x4000, &[&b"o\0"[..], &mesh].concat())].concat();
-    damage(&chunk(0x4d4d, &chunk(0x3d3d, &editor)), Format::ThreeDs);
+    damage(&chunk(0x4d4d, &chunk(0x3d3d, &editor)), MeshFormat::ThreeDs);
 }
 
 #[test]
@@ -93,10 +93,10 @@ fn gltf_with_members_of_other_types() {
             "sparse":{{"count":1,"indices":{{"bufferView":0,"componentType":5121}},"values":{values}}}}}]}}"#
         )
     };
-    assert!(try_to_read(file(r#"{"bufferView":0,"byteOffset":4}"#).as_bytes(), Format::Gltf));
+    assert!(try_to_read(file(r#"{"bufferView":0,"byteOffset":4}"#).as_bytes(), MeshFormat::Gltf));
     let limits = Limits { vertices: 1000, triangles: 1000, parts: 100 };
     for values in ["5", "\"a\"", "[1]", "true", "null"] {
-        let refused = read(file(values).as_bytes(), Format::Gltf, limits, &mut |_| Err("nothing".into()));
+        let refused = read(file(values).as_bytes(), MeshFormat::Gltf, limits, &mut |_| Err("nothing".into()));
         assert_eq!(refused.expect_err("no object").to_string(), "accessor 0: sparse without values", "{values}");
     }
 }
@@ -106,6 +106,6 @@ fn collada_with_very_many_attributes_is_refused_at_once() {
     let many: String = (0..100_000).map(|number| format!(" a{number}=''")).collect();
     let limits = Limits { vertices: 1000, triangles: 1000, parts: 100 };
     let file = format!("<COLLADA>\n<asset{many}/></COLLADA>");
-    let refused = read(file.as_bytes(), Format::Collada, limits, &mut |_| Err("nothing".into()));
+    let refused = read(file.as_bytes(), MeshFormat::Collada, limits, &mut |_| Err("nothing".into()));
     assert_eq!(refused.expect_err("too many").to_string(), "line 2: XML: an element has more than 200 attributes");
 }

@@ -1,15 +1,17 @@
 //! What is written is read again.
 
-use mesh_files::{ExportFormat, Format, Limits, Material, MeshFile, Part, Texture, UpAxis, WriteError, read, write};
+use mesh_files::{
+    ExportFormat, Limits, Material, MeshFile, MeshFormat, Part, Texture, UpAxis, WriteError, read, write,
+};
 
-const FORMATS: [(ExportFormat, Format); 7] = [
-    (ExportFormat::Obj, Format::Obj),
-    (ExportFormat::StlText, Format::Stl),
-    (ExportFormat::StlBinary, Format::Stl),
-    (ExportFormat::PlyText, Format::Ply),
-    (ExportFormat::PlyBinary, Format::Ply),
-    (ExportFormat::Collada, Format::Collada),
-    (ExportFormat::Glb, Format::Gltf),
+const FORMATS: [(ExportFormat, MeshFormat); 7] = [
+    (ExportFormat::Obj, MeshFormat::Obj),
+    (ExportFormat::StlText, MeshFormat::Stl),
+    (ExportFormat::StlBinary, MeshFormat::Stl),
+    (ExportFormat::PlyText, MeshFormat::Ply),
+    (ExportFormat::PlyBinary, MeshFormat::Ply),
+    (ExportFormat::Collada, MeshFormat::Collada),
+    (ExportFormat::Glb, MeshFormat::Gltf),
 ];
 
 fn tetrahedron() -> Part {
@@ -49,7 +51,7 @@ fn example() -> MeshFile {
     }
 }
 
-fn again(file: &MeshFile, format: ExportFormat, as_format: Format) -> MeshFile {
+fn again(file: &MeshFile, format: ExportFormat, as_format: MeshFormat) -> MeshFile {
     let written = write(file, format, "out/mesh.any").expect("the format can be written");
     assert_eq!(written[0].name, "out/mesh.any");
     let mut beside = |name: &str| {
@@ -121,7 +123,7 @@ fn looks_survive_the_formats_that_have_them() {
 fn every_up_axis_is_the_same_after_glb() {
     for up in [UpAxis::X, UpAxis::Y, UpAxis::Z] {
         let mut file = MeshFile { up: Some(up), ..example() };
-        let mut read_back = again(&file, ExportFormat::Glb, Format::Gltf);
+        let mut read_back = again(&file, ExportFormat::Glb, MeshFormat::Gltf);
         file.turn_up(up);
         let near = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
         let parts = read_back.parts.iter_mut().zip(&file.parts);

@@ -2,8 +2,8 @@
 
 use std::collections::BinaryHeap;
 
-/// Points in a leaf.
-const LEAF: usize = 8;
+/// Largest number of points in a leaf.
+const MAX_LEAF_SIZE: usize = 8;
 
 /// Points, ordered so that those near each other are found fast.
 #[derive(Debug, Clone)]
@@ -110,7 +110,7 @@ impl KdTree {
             let distance_squared = (0..3).map(|k| (point[k] - to[k]) * (point[k] - to[k])).sum();
             found(Neighbour { distance_squared, number: self.numbers[index] })
         };
-        if part.len() <= LEAF {
+        if part.len() <= MAX_LEAF_SIZE {
             return part.map(|index| show(index, found)).fold(f64::INFINITY, |_, limit| limit);
         }
         let middle = part.start + part.len() / 2;
@@ -129,7 +129,7 @@ impl KdTree {
 
 /// Puts the median of the widest axis into the middle, with smaller ones before and larger ones behind it.
 fn divide(points: &[[f64; 3]], order: &mut [u32], axes: &mut [u8]) {
-    if order.len() <= LEAF {
+    if order.len() <= MAX_LEAF_SIZE {
         return;
     }
     let extent = |axis: usize| {

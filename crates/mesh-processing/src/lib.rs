@@ -2,6 +2,12 @@
 //! makes a mesh of points, a [`KdTree`] finds points near
 //! others. Coordinates are in any one unit.
 //!
+//! # Why no library
+//!
+//! The well-known libraries for this (OpenMesh, small_gicp) are C++, which the build would have to compile on every platform. The algorithms are a
+//! few hundred lines each and need `nalgebra` only. `benches/compare/meshes.py` compares results and
+//! times with trimesh, Qhull, fast-simplification and small_gicp.
+//!
 //! ```
 //! use mesh_processing::{Target, decimate};
 //!

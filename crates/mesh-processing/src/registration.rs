@@ -6,9 +6,10 @@ use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaterni
 const MAX_ROUNDS: usize = 300;
 /// Most points that are looked at in each round: of more, every n-th.
 const MAX_POINTS: usize = 5000;
-/// The same while starts are compared, and most rounds of each.
-const FEW_POINTS: usize = 500;
-const FEW_ROUNDS: usize = 40;
+/// The same while starts are compared.
+const MAX_COARSE_POINTS: usize = 500;
+/// Most rounds from each start while starts are compared.
+const MAX_COARSE_ROUNDS: usize = 40;
 /// How much better another start must be: as a part of the first result's error.
 const MUCH_BETTER: f64 = 0.5;
 
@@ -35,8 +36,8 @@ pub fn register(
     if points.is_empty() || model.is_empty() {
         return None;
     }
-    let (many, few) = (thinned(points, MAX_POINTS), thinned(points, FEW_POINTS));
-    let coarse = |start| search(&few, start, FEW_ROUNDS, nearest, outliers);
+    let (many, few) = (thinned(points, MAX_POINTS), thinned(points, MAX_COARSE_POINTS));
+    let coarse = |start| search(&few, start, MAX_COARSE_ROUNDS, nearest, outliers);
     let first = coarse(Isometry3::identity())?;
     let others = starts(&many, &thinned(model, MAX_POINTS)).into_iter().filter_map(coarse);
     let best = others.fold(first, |best, other| if other.error < best.error { other } else { best });

@@ -5,7 +5,7 @@ use std::path::Path;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use format::robot_file::{Format, ImportOptions, RobotFile};
+use format::robot_file::{RobotFile, RobotFormat, RobotImportOptions};
 use scene::Data;
 use script::Table;
 use script::log::verbosity;
@@ -20,15 +20,15 @@ pub static MODULE: Module = Module {
 const FUNCTIONS: &[ApiFn] = functions![import, dump];
 
 /// The fields of the options, with what they are without being said, and the bit of `simURDF.import` that they set; and whether it is set by true.
-const FIELDS: [(&str, bool, ImportOptions, bool); 8] = [
-    ("hideCollisionLinks", true, ImportOptions::SHOW_COLLISIONS, false),
-    ("hideJoints", true, ImportOptions::SHOW_JOINTS, false),
-    ("convexDecompose", true, ImportOptions::DECOMPOSE_COLLISIONS, true),
-    ("createVisualIfNone", true, ImportOptions::CREATE_VISUALS, true),
-    ("centerModel", true, ImportOptions::KEEP_POSITION, false),
-    ("prepareModel", true, ImportOptions::NO_MODEL, false),
-    ("noSelfCollision", true, ImportOptions::ALTERNATE_MASKS, false),
-    ("positionCtrl", true, ImportOptions::FREE_JOINTS, false),
+const FIELDS: [(&str, bool, RobotImportOptions, bool); 8] = [
+    ("hideCollisionLinks", true, RobotImportOptions::SHOW_COLLISIONS, false),
+    ("hideJoints", true, RobotImportOptions::SHOW_JOINTS, false),
+    ("convexDecompose", true, RobotImportOptions::DECOMPOSE_COLLISIONS, true),
+    ("createVisualIfNone", true, RobotImportOptions::CREATE_VISUALS, true),
+    ("centerModel", true, RobotImportOptions::KEEP_POSITION, false),
+    ("prepareModel", true, RobotImportOptions::NO_MODEL, false),
+    ("noSelfCollision", true, RobotImportOptions::ALTERNATE_MASKS, false),
+    ("positionCtrl", true, RobotImportOptions::FREE_JOINTS, false),
 ];
 
 /// Adds the models of an SDF file to the scene: those of its world, or of the file itself, each as a model of its own. What is wrong in the file is logged,
@@ -44,7 +44,7 @@ const FIELDS: [(&str, bool, ImportOptions, bool); 8] = [
 fn import(cx: &mut Cx, file_name: String, #[default(Table(Data::Nil))] options: Table) -> Result<()> {
     let file = read(cx, &file_name)?;
     let mut bits = import_options(&options.0)?;
-    bits.set(ImportOptions::KEEP_POSITION, bits.contains(ImportOptions::KEEP_POSITION) || file.has_world());
+    bits.set(RobotImportOptions::KEEP_POSITION, bits.contains(RobotImportOptions::KEEP_POSITION) || file.has_world());
     let imported = file.add_to(&mut cx.scene_mut(), bits)?;
     for message in &imported.messages {
         cx.env().log(verbosity::SCRIPT_WARNINGS, &format!("{}: {message}", imported.name));
@@ -65,12 +65,12 @@ fn dump(cx: &mut Cx, file_name: String) -> Result<()> {
 }
 
 fn read(cx: &Cx, file_name: &str) -> Result<RobotFile> {
-    let file = RobotFile::read_as(Some(Format::Sdf), Path::new(file_name), None, cx.permissions());
+    let file = RobotFile::read_as(Some(RobotFormat::Sdf), Path::new(file_name), None, cx.permissions());
     file.map_err(|reason| ApiError::Other(format!("{file_name}: {reason}")))
 }
 
-fn import_options(fields: &Data) -> Result<ImportOptions> {
-    let mut options = ImportOptions::default();
+fn import_options(fields: &Data) -> Result<RobotImportOptions> {
+    let mut options = RobotImportOptions::default();
     for (name, usual, option, set_by) in FIELDS {
         let value = match fields.field(name) {
             None | Some(Data::Nil) => usual,

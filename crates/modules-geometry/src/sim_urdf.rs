@@ -5,7 +5,7 @@ use std::path::Path;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use format::robot_file::{ExportOptions, Format, ImportOptions, RobotFile, export};
+use format::robot_file::{RobotExportOptions, RobotFile, RobotFormat, RobotImportOptions, export};
 use scene::Handle;
 use script::Number;
 use script::log::verbosity;
@@ -41,13 +41,13 @@ fn import(
 ) -> Result<(String, Vec<Handle>)> {
     let file = if urdf.trim_start().starts_with("<?xml") {
         let beside = std::path::absolute("robot.urdf").unwrap_or_default();
-        RobotFile::parse(urdf.as_bytes(), Format::Urdf, &beside, package_str_replace, cx.permissions())
+        RobotFile::parse(urdf.as_bytes(), RobotFormat::Urdf, &beside, package_str_replace, cx.permissions())
     } else {
-        RobotFile::read_as(Some(Format::Urdf), Path::new(&urdf), package_str_replace, cx.permissions())
+        RobotFile::read_as(Some(RobotFormat::Urdf), Path::new(&urdf), package_str_replace, cx.permissions())
             .map_err(|reason| format!("{urdf}: {reason}"))
     };
     let file = file.map_err(ApiError::Other)?;
-    let imported = file.add_to(&mut cx.scene_mut(), ImportOptions::from_bits_retain(options.0))?;
+    let imported = file.add_to(&mut cx.scene_mut(), RobotImportOptions::from_bits_retain(options.0))?;
     for message in &imported.messages {
         cx.env().log(verbosity::SCRIPT_WARNINGS, &format!("{}: {message}", imported.name));
     }
@@ -67,7 +67,7 @@ fn import(
 fn export_model(cx: &mut Cx, model_handle: Handle, file_name: String, #[default(0)] options: Number) -> Result<()> {
     let path = Path::new(&file_name);
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let files = export(&cx.scene(), model_handle, &stem, ExportOptions::from_bits_retain(options.0))?;
+    let files = export(&cx.scene(), model_handle, &stem, RobotExportOptions::from_bits_retain(options.0))?;
     for file in files {
         let path = path.with_file_name(&file.name);
         cx.permissions().check_write(&path)?;

@@ -5,7 +5,7 @@ use rsruckig::prelude::{ControlInterface, InputParameter, Ruckig, RuckigErrorHan
 use super::ruckig::{INVALID_INPUT, RuckigError};
 
 /// Largest magnitude that is planned with, and the inverse of the smallest limit: beyond, powers overflow.
-const LARGEST: f64 = 1e12;
+const MAX_MAGNITUDE: f64 = 1e12;
 
 /// One joint, one step: plans from (`pos`, `vel`, `acc`) to rest at `target` within the limits and returns
 /// position, velocity, acceleration after `dt` seconds. Past the end it rests.
@@ -132,7 +132,7 @@ fn maxima<const N: usize>(input: &InputParameter<N>) -> impl Iterator<Item = &f6
 }
 
 fn plannable<const N: usize>(input: &InputParameter<N>) -> bool {
-    lists(input).all(|x| x.abs() <= LARGEST) && maxima(input).all(|x| *x >= 1.0 / LARGEST)
+    lists(input).all(|x| x.abs() <= MAX_MAGNITUDE) && maxima(input).all(|x| *x >= 1.0 / MAX_MAGNITUDE)
 }
 
 #[cfg(test)]

@@ -47,10 +47,12 @@ impl CubicSpline {
         Self { knots, axes }
     }
 
+    /// The parameters at which the spline passes its points, rising.
     pub fn knots(&self) -> &[f64] {
         &self.knots
     }
 
+    /// Number of axes.
     pub fn axes(&self) -> usize {
         self.axes.len()
     }

@@ -13,9 +13,9 @@ const INTERVALS: usize = 2000;
 /// Intervals of the grid per piece of the path, at least.
 const INTERVALS_PER_PIECE: usize = 4;
 /// Largest square of ds/dt: bounds what no limit bounds.
-const FASTEST: f64 = 1e10;
-/// Derivatives below this part of the largest count as zero.
-const NEGLIGIBLE: f64 = 1e-10;
+const MAX_SQUARED_SPEED: f64 = 1e10;
+/// Derivatives below this fraction of the largest one count as zero.
+const RELATIVE_TOLERANCE: f64 = 1e-10;
 
 /// Lowest and highest value per axis; infinity for none.
 pub type Limits = Vec<[f64; 2]>;
@@ -23,18 +23,24 @@ pub type Limits = Vec<[f64; 2]>;
 /// Why there is no trajectory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum TimeOptimalError {
+    /// A number is NaN or infinite.
     #[error("invalid data.")]
     NotFinite,
+    /// The lists do not belong together.
     #[error("Bad table size.")]
     Sizes,
     #[error(
         "path lengths must rise strictly: the path has repeated points, or its lengths are not those of its points."
     )]
+    /// Path lengths do not rise strictly.
     RepeatedPoints,
+    /// A lower limit is above zero, or an upper one below.
     #[error("limits must come in pairs of a minimum of at most 0 and a maximum of at least 0.")]
     Limits,
+    /// A periodic path does not end where it begins.
     #[error("with the 'periodic' boundary condition, the first and the last point must be equal.")]
     NotClosed,
+    /// The limits cannot be kept.
     #[error("no trajectory along the path keeps the limits.")]
     Infeasible,
 }
@@ -142,7 +148,7 @@ fn stages(spline: &CubicSpline, places: &[f64], velocity: &Limits, acceleration:
     let derivatives: Vec<Vec<[f64; 2]>> =
         places.iter().map(|s| spline.at(*s).map(|[_, d, dd]| [d, dd]).collect()).collect();
     let largest = derivatives.iter().flatten().flatten().fold(0.0_f64, |m, d| m.max(d.abs()));
-    let negligible = NEGLIGIBLE * largest;
+    let negligible = RELATIVE_TOLERANCE * largest;
     let stage = |i: usize| {
         let reach = 2.0 * (places[i + 1] - places[i]);
         let mut lines = Vec::new();
@@ -165,9 +171,9 @@ fn stages(spline: &CubicSpline, places: &[f64], velocity: &Limits, acceleration:
 fn fastest(derivatives: &[[f64; 2]], velocity: &Limits, negligible: f64) -> f64 {
     let bound = |([derivative, _], [low, high]): (&[f64; 2], &[f64; 2])| {
         let limit = if *derivative > 0.0 { high } else { low };
-        if derivative.abs() > negligible { (limit / derivative).powi(2) } else { FASTEST }
+        if derivative.abs() > negligible { (limit / derivative).powi(2) } else { MAX_SQUARED_SPEED }
     };
-    derivatives.iter().zip(velocity).map(bound).fold(FASTEST, f64::min)
+    derivatives.iter().zip(velocity).map(bound).fold(MAX_SQUARED_SPEED, f64::min)
 }
 
 impl Stage {

@@ -19,13 +19,14 @@ use scene::{Handle, Pose, Scene, SceneResult};
 
 /// How a sensor looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mode {
+pub struct DetectionMode {
+    /// Which surfaces count.
     pub filter: Filter,
     /// Nothing farther away is detected, metres.
     pub reach: f64,
 }
 
-impl Mode {
+impl DetectionMode {
     /// As the sensor is set.
     pub fn of(sensor: &ProximitySensor) -> Self {
         let filter = Filter {
@@ -57,16 +58,18 @@ impl Mode {
 /// A detected point, and the distance that was measured: of randomised sensors the mean, which is not that of the point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Detected {
+    /// The point, its object and its normal.
     pub detection: Detection,
+    /// Distance from the sensor, metres.
     pub distance: f64,
 }
 
 /// Where a sensor is, and what it looks for.
-struct Look<'a> {
+struct SensorQuery<'a> {
     scene: &'a Scene,
     group: &'a Group,
     pose: Pose,
-    mode: Mode,
+    mode: DetectionMode,
     /// If there is something nearer, nothing is detected.
     forbidden: f64,
 }
@@ -88,20 +91,20 @@ impl Perception {
         scene: &Scene,
         sensor: Handle,
         group: &Group,
-        mode: Mode,
+        mode: DetectionMode,
     ) -> SceneResult<Option<Detected>> {
         let data = scene.object(sensor)?.proximity_sensor()?;
         let pose = scene.world_pose(sensor)?;
-        let look = Look { scene, group, pose, mode, forbidden: data.volume.close_threshold };
+        let query = SensorQuery { scene, group, pose, mode, forbidden: data.volume.close_threshold };
         let search = match data.volume.volume_type {
             VolumeType::Ray if data.randomized => {
                 let rays = self.random_rays(data);
-                look.with_random_rays(self.index(scene), &rays, data)
+                query.with_random_rays(self.index(scene), &rays, data)
             }
-            VolumeType::Ray => look.along_ray(self.index(scene), &data.volume),
+            VolumeType::Ray => query.along_ray(self.index(scene), &data.volume),
             _ => {
                 let volume = self.search_volume(scene, sensor, &data.volume);
-                look.in_volume(self.index(scene), &volume)
+                query.in_volume(self.index(scene), &volume)
             }
         };
         Ok(search.nearest.filter(|_| !search.too_near))
@@ -119,7 +122,7 @@ impl Perception {
 
     /// Directions within the opening angle, equally likely.
     fn random_rays(&mut self, sensor: &ProximitySensor) -> Vec<[f64; 3]> {
-        const MOST: i64 = 10_000;
+        const MAX_RAYS: i64 = 10_000;
         let lowest = (0.5 * sensor.volume.angle).clamp(0.0, std::f64::consts::PI).cos();
         let ray = |_| {
             let z = 1.0 - self.random() * (1.0 - lowest);
@@ -127,7 +130,7 @@ impl Perception {
             let across = (1.0 - z * z).max(0.0).sqrt();
             [across * cos, across * sin, z]
         };
-        (0..sensor.samples.clamp(1, MOST)).map(ray).collect()
+        (0..sensor.samples.clamp(1, MAX_RAYS)).map(ray).collect()
     }
 }
 
@@ -136,7 +139,7 @@ pub(super) fn range(volume: &Volume, reach: f64) -> [f64; 2] {
     [volume.offset, (volume.offset + volume.range).min(reach)]
 }
 
-impl Look<'_> {
+impl SensorQuery<'_> {
     fn purpose(&self) -> (&Scene, Purpose) {
         (self.scene, Purpose::Detection)
     }

@@ -15,6 +15,7 @@ pub struct Shortest {
     pub objects: [Handle; 2],
     /// On their surfaces, in the world (m).
     pub points: [[f64; 3]; 2],
+    /// Between the points, metres.
     pub distance: f64,
 }
 

@@ -7,8 +7,11 @@ use scene::{Handle, Kind, ModelFlags, Object, Scene, SceneError, SceneResult, Sp
 /// Purpose of a query. Objects have a flag for each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
+    /// Collision detection.
     Collision,
+    /// Measurement of distances.
     Distance,
+    /// Detection by proximity sensors.
     Detection,
 }
 
@@ -46,7 +49,9 @@ pub(super) fn is_solid(kind: &Kind) -> bool {
 /// Entity named by a script.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Entity {
+    /// An object.
     Object(Handle),
+    /// A collection, by its handle.
     Collection(i64),
     /// All objects with the flag of the purpose.
     All,
@@ -125,7 +130,10 @@ pub enum Group {
     /// In the order of the scene.
     List(Vec<Handle>),
     /// All objects with the flag, except for some.
-    All { except: BTreeSet<Handle> },
+    All {
+        /// Objects that do not count.
+        except: BTreeSet<Handle>,
+    },
 }
 
 #[cfg(test)]

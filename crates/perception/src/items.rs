@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use proximity::{Geometry, Hit, Placed, PointSet, TriangleMesh, cast_ray};
 
 use super::Perception;
-use super::detection::{Mode, range};
+use super::detection::{DetectionMode, range};
 use scene::sensor::volume::VolumeType;
 use scene::{Handle, Pose, Scene, SceneError, SceneResult};
 
@@ -15,8 +15,11 @@ type Point = [f64; 3];
 pub enum Items {
     /// Items without extent or with numbers that are not finite are left out: nothing may be left.
     None,
+    /// Points.
     Points(PointSet),
+    /// Segments, by their two ends.
     Segments(Vec<[Point; 2]>),
+    /// Triangles.
     Triangles(TriangleMesh),
 }
 
@@ -53,7 +56,7 @@ impl Perception {
         scene: &Scene,
         sensor: Handle,
         items: &Items,
-        mode: Mode,
+        mode: DetectionMode,
     ) -> SceneResult<Option<Hit>> {
         let data = scene.object(sensor)?.proximity_sensor()?;
         let here = Pose::identity();

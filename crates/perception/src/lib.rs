@@ -28,6 +28,7 @@ use volume::SearchVolume;
 
 /// The state of all perception of one simulator.
 pub struct Perception {
+    /// What draws pictures.
     pub vision: vision::Vision,
     index: Index,
     /// The volumes of sensors that were asked.

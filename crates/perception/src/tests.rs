@@ -5,7 +5,7 @@ use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use rand_mt::Mt;
 
 use super::Perception;
-use super::detection::{Detected, Mode};
+use super::detection::{Detected, DetectionMode};
 use super::distance::Shortest;
 use super::entity::{Entity, Purpose};
 use scene::object::dummy::Dummy;
@@ -68,7 +68,7 @@ fn populate(scene: &mut Scene, dice: &mut Dice) -> Vec<Handle> {
 }
 
 fn detect(perception: &mut Perception, scene: &Scene, sensor: Handle, entity: Entity) -> Option<Detected> {
-    let mode = Mode::of(scene.object(sensor).unwrap().proximity_sensor().unwrap());
+    let mode = DetectionMode::of(scene.object(sensor).unwrap().proximity_sensor().unwrap());
     let group = entity.group(scene, Purpose::Detection);
     perception.detect(scene, sensor, &group, mode).unwrap()
 }

@@ -27,6 +27,7 @@ pub trait World {
 /// How near a state is to the goal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearness {
+    /// Whether the state lies in the goal.
     pub is_reached: bool,
     /// 0 in the goal; an estimate of any unit elsewhere.
     pub distance: f64,
@@ -52,6 +53,7 @@ pub struct Projection<'a> {
     pub size: usize,
     /// Length of a cell in each dimension.
     pub cell: f64,
+    /// Maps a state to [`size`](Self::size) numbers.
     pub project: Project<'a>,
 }
 
@@ -60,10 +62,15 @@ const ATTEMPTS: usize = 100;
 
 /// A task for planners.
 pub struct Problem<'a> {
+    /// The states of the robot.
     pub space: &'a dyn StateSpace,
+    /// What the caller knows of them.
     pub world: &'a mut dyn World,
+    /// The source of all random numbers.
     pub random: &'a mut dyn Random,
+    /// States where a path may begin.
     pub starts: Vec<State>,
+    /// Where a path may end.
     pub goal: Goal<'a>,
     /// Needed by planners with cells.
     pub projection: Option<Projection<'a>>,
@@ -74,10 +81,13 @@ pub struct Problem<'a> {
 /// Why there is no planning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {
+    /// No start is valid and within the bounds.
     #[error("There are no valid initial states!")]
     NoValidStart,
+    /// No state of the goal is valid and within the bounds.
     #[error("There are no valid goal states!")]
     NoValidGoal,
+    /// A state has not as many numbers as the space has dimensions.
     #[error("State is of incorrect size.")]
     StateSize,
     /// The planner needs states of the goal.
@@ -222,6 +232,7 @@ impl Problem<'_> {
 /// A path from a start to the goal, or near it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
+    /// The corners of the path, from the start.
     pub states: Vec<State>,
     /// Whether it ends in the goal.
     pub is_exact: bool,

@@ -16,7 +16,7 @@ use crate::points::ORIGIN;
 use crate::primitive::{Pair, Vector};
 
 /// From so many triangles on, a box that they are compared with is taken for a solid one.
-const MANY: usize = 64;
+const MIN_TRIANGLES_FOR_SOLID: usize = 64;
 
 /// The closest points of two geometries.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,7 +68,7 @@ fn closest(a: Geometry, b: Geometry, place: &Transform, below: f64) -> Option<Pa
 
 /// Meshes that are surfaces of boxes are compared with as solid ones, as long as nothing is inside.
 fn closest_meshes(a: &TriangleMesh, b: &TriangleMesh, place: &Transform, below: f64) -> Option<Pair> {
-    if let Some(solid) = b.solid().filter(|_| a.len() >= MANY) {
+    if let Some(solid) = b.solid().filter(|_| a.len() >= MIN_TRIANGLES_FOR_SOLID) {
         match closest_items(a, solid, place, below) {
             Some((.., squared)) if squared <= 0.0 => (),
             found => return found,

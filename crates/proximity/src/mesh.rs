@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use geometry::LARGEST_COORDINATE;
+use geometry::MAX_COORDINATE;
 
 use crate::bounds::Bounds;
 use crate::oriented::{OrientedBox, boxes_of};
@@ -104,7 +104,7 @@ fn has_area(triangle: &Triangle) -> bool {
 }
 
 fn is_within_range(triangle: &Triangle) -> bool {
-    triangle.iter().flatten().all(|x| x.abs() <= LARGEST_COORDINATE)
+    triangle.iter().flatten().all(|x| x.abs() <= MAX_COORDINATE)
 }
 
 fn bounds_of(triangle: &Triangle) -> Bounds {

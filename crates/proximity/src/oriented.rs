@@ -8,8 +8,8 @@ use crate::bounds::Bounds;
 use crate::primitive::{Triangle, Vector};
 use crate::tree::{Node, Tree};
 
-/// A surface whose normals cancel out more than this gets a box with the axes of the frame.
-const CURVED: f64 = 0.5;
+/// The length of the sum of a surface's normals as a fraction of the sum of their lengths: below it the box has the axes of the frame.
+const MIN_NORMAL_COHERENCE: f64 = 0.5;
 
 /// A box with axes of its own.
 #[derive(Debug, Clone, Copy)]
@@ -52,8 +52,8 @@ impl OrientedBox {
     }
 }
 
-/// Up to so many triangles get the smallest box with its axes; the boxes of nodes with more are around those of their children.
-const FEW: usize = 128;
+/// Nodes with up to so many triangles get the smallest box with its axes; boxes of larger nodes are around those of their children.
+const MAX_TRIANGLES_FOR_OWN_BOX: usize = 128;
 
 /// The triangles below a node.
 #[derive(Clone, Default)]
@@ -73,7 +73,7 @@ pub(crate) fn boxes_of(tree: &Tree, triangles: &[Triangle]) -> Vec<OrientedBox> 
     for (i, node) in tree.nodes.iter().enumerate().rev() {
         let Some(axes) = axes(node, &surfaces[i]) else { continue };
         let items = surfaces[i].items.clone();
-        let fitted = if items.len() <= FEW {
+        let fitted = if items.len() <= MAX_TRIANGLES_FOR_OWN_BOX {
             around_corners(&axes, &triangles[items])
         } else {
             around_boxes(&axes, tree.children(node).map(|child| boxes[child as usize]))
@@ -114,7 +114,7 @@ impl Surface {
 /// Axes along the mean normal, and along the longest side of the upright box as far as it is across the normal. `None` for what is curved too
 /// much for it.
 fn axes(node: &Node, Surface { normal, length, .. }: &Surface) -> Option<Matrix3<f64>> {
-    if normal.norm() <= CURVED * length {
+    if normal.norm() <= MIN_NORMAL_COHERENCE * length {
         return None;
     }
     let normal = normal.normalize();

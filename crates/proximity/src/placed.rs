@@ -1,6 +1,6 @@
 //! Geometry of queries, and its pose.
 
-use geometry::{Finite, LARGEST_COORDINATE, Pose};
+use geometry::{Finite, MAX_COORDINATE, Pose};
 use nalgebra::Matrix3;
 
 use crate::bounds::Bounds;
@@ -45,7 +45,7 @@ impl Placed<'_> {
 
     /// The world's pose of another frame, seen from this one; `None` where one cannot compute with a pose.
     pub(crate) fn relative(&self, other: &Pose) -> Option<Transform> {
-        let is_usable = |pose: &Pose| pose.is_finite() && pose.translation.vector.amax() <= LARGEST_COORDINATE;
+        let is_usable = |pose: &Pose| pose.is_finite() && pose.translation.vector.amax() <= MAX_COORDINATE;
         (is_usable(&self.pose) && is_usable(other)).then(|| Transform::of(&self.pose.inv_mul(other)))
     }
 }

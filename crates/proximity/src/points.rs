@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use geometry::LARGEST_COORDINATE;
+use geometry::MAX_COORDINATE;
 
 use crate::bounds::Bounds;
 use crate::primitive::Vector;
@@ -22,7 +22,7 @@ pub struct PointSet {
 impl PointSet {
     /// A set of points (m). Points that are not finite or beyond 1e30 are left out; `None` when none is left.
     pub fn new(points: &[[f64; 3]]) -> Option<Self> {
-        let within_range = |p: &&[f64; 3]| p.iter().all(|x| x.abs() <= LARGEST_COORDINATE);
+        let within_range = |p: &&[f64; 3]| p.iter().all(|x| x.abs() <= MAX_COORDINATE);
         let points: Vec<[f64; 3]> = points.iter().filter(within_range).copied().collect();
         if points.is_empty() {
             return None;

@@ -5,8 +5,8 @@
 
 use crate::bounds::Bounds;
 
-/// Most things in a leaf.
-const LEAF: usize = 4;
+/// Largest number of items in a leaf.
+const MAX_LEAF_SIZE: usize = 4;
 /// Bins along an axis.
 const BINS: usize = 16;
 /// From here on nodes are halved, so that the depth is bounded whatever the input.
@@ -101,7 +101,7 @@ fn merged(entries: &[Entry]) -> Bounds {
 
 /// Divides the things of a node into two groups: their boxes and how many are in the first. `None` for a leaf.
 fn divide(entries: &mut [Entry], depth: usize) -> Option<(Bounds, usize, Bounds)> {
-    if entries.len() <= LEAF {
+    if entries.len() <= MAX_LEAF_SIZE {
         return None;
     }
     let centres = entries.iter().fold(Bounds::EMPTY, |bounds, entry| {

@@ -1,6 +1,6 @@
 //! Voxel grids: solid cells of one size.
 
-use geometry::LARGEST_COORDINATE;
+use geometry::MAX_COORDINATE;
 
 use crate::bounds::Bounds;
 use crate::primitive::{SolidBox, Vector};
@@ -18,8 +18,8 @@ impl VoxelGrid {
     /// Cubes with edges of length `cell` (m) around the centres, along the axes of the frame. Centres that are not finite or beyond 1e30
     /// are left out. `None` without any, and where `cell` is not positive and finite.
     pub fn new(cell: f64, cells: impl Iterator<Item = [f64; 3]>) -> Option<Self> {
-        let is_possible = cell > 0.0 && cell <= LARGEST_COORDINATE;
-        let within_range = |centre: &Vector| centre.iter().all(|x| x.abs() <= LARGEST_COORDINATE);
+        let is_possible = cell > 0.0 && cell <= MAX_COORDINATE;
+        let within_range = |centre: &Vector| centre.iter().all(|x| x.abs() <= MAX_COORDINATE);
         let centres: Vec<Vector> = cells.map(Vector::from).filter(within_range).collect();
         if centres.is_empty() || !is_possible {
             return None;

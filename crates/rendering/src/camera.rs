@@ -22,6 +22,7 @@ pub enum Projection {
 pub struct Camera {
     /// From the camera's frame to the world.
     pub pose: Pose,
+    /// How rays leave the camera.
     pub projection: Projection,
     /// Depth where things begin to be visible, metres; above 0 in perspective.
     pub near: f64,

@@ -5,10 +5,13 @@ use crate::texture::Texture;
 /// The appearance of a mesh, in the terms of OpenGL's fixed functions. Colours are red, green, blue, 0 to 1.
 #[derive(Debug, Clone)]
 pub struct Material {
+    /// Colour under ambient and diffuse light.
     pub ambient_diffuse: [f32; 3],
+    /// Colour of highlights.
     pub specular: [f32; 3],
     /// How sharp highlights are: the exponent of the specular term.
     pub shininess: u32,
+    /// Colour of the light that the surface emits.
     pub emission: [f32; 3],
     /// 1 is opaque; below, what is behind shows through.
     pub opacity: f32,
@@ -18,6 +21,7 @@ pub struct Material {
     pub wireframe: bool,
     /// Sharp edges drawn over the surface.
     pub edges: Option<Edges>,
+    /// An image on the surface, if there is one.
     pub texture: Option<Texture>,
 }
 
@@ -28,6 +32,7 @@ pub struct Edges {
     pub angle: f64,
     /// Whether the borders of open meshes are drawn too.
     pub borders: bool,
+    /// Red, green, blue, 0 to 1.
     pub colour: [f32; 3],
     /// Pixels.
     pub width: f32,

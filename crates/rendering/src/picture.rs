@@ -5,8 +5,11 @@ use crate::Background;
 /// Which parts of a picture are computed. What is not asked for costs nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Channels {
+    /// The colour of each pixel.
     pub colour: bool,
+    /// The depth of each pixel.
     pub depth: bool,
+    /// The id of what is seen in each pixel.
     pub ids: bool,
 }
 
@@ -24,9 +27,13 @@ pub struct Picture {
 }
 
 impl Channels {
+    /// All channels.
     pub const ALL: Self = Self { colour: true, depth: true, ids: true };
+    /// Only colours.
     pub const COLOUR: Self = Self { colour: true, depth: false, ids: false };
+    /// Only depths.
     pub const DEPTH: Self = Self { colour: false, depth: true, ids: false };
+    /// Only ids.
     pub const IDS: Self = Self { colour: false, depth: false, ids: true };
 }
 

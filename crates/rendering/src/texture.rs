@@ -5,11 +5,13 @@ use std::sync::Arc;
 /// An image on a mesh, at the mesh's texture coordinates.
 #[derive(Debug, Clone)]
 pub struct Texture {
+    /// The pixels.
     pub image: Arc<Image>,
     /// Whether the image repeats beyond 0 and 1 along u and v; otherwise its border pixels continue.
     pub repeat: [bool; 2],
     /// Whether colours between the pixels of the image are interpolated.
     pub interpolate: bool,
+    /// How the image is combined with the lit surface.
     pub mode: TextureMode,
 }
 

@@ -7,13 +7,19 @@ use crate::{Material, Mesh};
 /// Everything that can be seen, and what lights it. Colours are red, green, blue, 0 to 1.
 #[derive(Debug, Clone, Copy)]
 pub struct World<'a> {
+    /// Meshes at their places.
     pub instances: &'a [Instance<'a>],
+    /// Sets of points.
     pub points: &'a [Points<'a>],
+    /// Sets of line segments.
     pub lines: &'a [Lines<'a>],
+    /// Light sources.
     pub lights: &'a [Light],
     /// Light that comes from everywhere.
     pub ambient: [f32; 3],
+    /// Fog, if there is any.
     pub fog: Option<Fog>,
+    /// What is seen where nothing else is.
     pub background: Background,
     /// Whether lights that cast shadows do, by rays: several times slower. Transparent surfaces, wire frames, points and lines cast none.
     pub shadows: bool,
@@ -22,9 +28,11 @@ pub struct World<'a> {
 /// A mesh at a place.
 #[derive(Debug, Clone, Copy)]
 pub struct Instance<'a> {
+    /// The geometry.
     pub mesh: &'a Mesh,
     /// From the mesh's frame to the world. An instance whose pose is not finite is not drawn.
     pub pose: Pose,
+    /// The appearance.
     pub material: &'a Material,
     /// Value in [`Picture::ids`](crate::Picture) where the instance is seen.
     pub id: u32,
@@ -33,6 +41,7 @@ pub struct Instance<'a> {
 /// Square points of a fixed size on the picture, not lit.
 #[derive(Debug, Clone, Copy)]
 pub struct Points<'a> {
+    /// Positions in the points' frame, metres.
     pub positions: &'a [[f64; 3]],
     /// One for each point, or one for all.
     pub colours: &'a [[f32; 3]],
@@ -40,6 +49,7 @@ pub struct Points<'a> {
     pub pose: Pose,
     /// Side of the squares, pixels.
     pub size: f32,
+    /// Value in [`Picture::ids`](crate::Picture) where a point is seen.
     pub id: u32,
     /// Whether they are drawn over everything else.
     pub overlay: bool,
@@ -48,6 +58,7 @@ pub struct Points<'a> {
 /// Line segments of a fixed width on the picture, not lit.
 #[derive(Debug, Clone, Copy)]
 pub struct Lines<'a> {
+    /// Ends of the segments in the lines' frame, metres.
     pub segments: &'a [[[f64; 3]; 2]],
     /// One for each segment, or one for all.
     pub colours: &'a [[f32; 3]],
@@ -55,6 +66,7 @@ pub struct Lines<'a> {
     pub pose: Pose,
     /// Pixels, measured along the axis of the picture that is more perpendicular to the line.
     pub width: f32,
+    /// Value in [`Picture::ids`](crate::Picture) where a line is seen.
     pub id: u32,
     /// Whether they are drawn over everything else.
     pub overlay: bool,
@@ -79,20 +91,26 @@ pub enum LightKind {
 /// A light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Light {
+    /// Where it shines.
     pub kind: LightKind,
     /// From the light's frame to the world.
     pub pose: Pose,
+    /// Colour of its diffuse light.
     pub diffuse: [f32; 3],
+    /// Colour of its light in highlights.
     pub specular: [f32; 3],
     /// The light is divided by `a + b d + c d^2` at the distance d (m). Ignored by directional lights.
     pub attenuation: [f32; 3],
+    /// Whether surfaces keep its light from others, where [`World::shadows`] says so.
     pub casts_shadows: bool,
 }
 
 /// Colour that replaces that of surfaces with growing depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fog {
+    /// How the fog grows with depth.
     pub density: FogDensity,
+    /// The colour that replaces that of surfaces.
     pub colour: [f32; 3],
 }
 
@@ -100,7 +118,12 @@ pub struct Fog {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FogDensity {
     /// `(end - z) / (end - start)`.
-    Linear { start: f64, end: f64 },
+    Linear {
+        /// Depth where the fog begins, metres.
+        start: f64,
+        /// Depth where nothing else is left, metres.
+        end: f64,
+    },
     /// `exp(-density z)`.
     Exponential(f64),
     /// `exp(-(density z)^2)`.
@@ -110,11 +133,14 @@ pub enum FogDensity {
 /// The colour where nothing is: a vertical gradient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Background {
+    /// Below the lowest row.
     pub bottom: [f32; 3],
+    /// Above the highest row.
     pub top: [f32; 3],
 }
 
 impl Background {
+    /// A background of one colour.
     pub fn plain(colour: [f32; 3]) -> Self {
         Self { bottom: colour, top: colour }
     }

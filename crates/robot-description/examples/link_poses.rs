@@ -6,7 +6,7 @@
 use std::io::BufRead;
 use std::path::{Path, PathBuf};
 
-use mesh_files::Format;
+use mesh_files::MeshFormat;
 use robot_description::mjcf::{self, Files, Triangles};
 use robot_description::{Parsed, Robot, sdf, urdf};
 
@@ -34,7 +34,7 @@ impl Files for Beside {
     fn triangles(&mut self, file: &str) -> Result<Triangles, String> {
         let path = self.0.join(file);
         let bytes = std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-        let format = Format::of_name(file).ok_or("a format that is not known")?;
+        let format = MeshFormat::of_name(file).ok_or("a format that is not known")?;
         let mut nothing = |_: &str| Err("not looked for".to_owned());
         let file = mesh_files::read(&bytes, format, mesh_files::Limits::default(), &mut nothing)
             .map_err(|error| error.to_string())?;

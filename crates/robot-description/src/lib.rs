@@ -16,6 +16,11 @@
 //! Files of users have errors that other programs do not mind. What can be read is read; each guess, and each element that is not understood, is a
 //! warning with its line. Only text that is no XML, has no robot, or exceeds a [limit](limits) is refused ([`ReadError`]).
 //!
+//! # Why no library
+//!
+//! `urdf-rs` refuses a tenth of the files that users have, and says no line; here such a file is read, with a warning and its line. SDF and MJCF
+//! become the same [`Robot`], with limits that keep time and memory in proportion to the size of a file. XML itself is parsed by `roxmltree`.
+//!
 //! # Units
 //!
 //! Metres, radians, kilograms, seconds, newtons; poses are frames in the frame of their parent.

@@ -9,8 +9,11 @@ use crate::model::{Joint, JointKind, Mimic, Pose, Robot};
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("the joints of '{robot}' have {expected} positions, not {found}")]
 pub struct PositionError {
+    /// Name of the robot.
     pub robot: String,
+    /// Numbers of the positions of all its joints.
     pub expected: usize,
+    /// Numbers that were given.
     pub found: usize,
 }
 

@@ -19,7 +19,9 @@ pub struct Search {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("file '{uri}' not found{}", places(.tried))]
 pub struct Unresolved {
+    /// The file as the description names it.
     pub uri: String,
+    /// Paths at which there is none.
     pub tried: Vec<PathBuf>,
 }
 
@@ -32,8 +34,8 @@ fn places(tried: &[PathBuf]) -> String {
     }
 }
 
-/// More places are not tried: folders above the file have a depth that its author chose.
-const MOST_TRIED: usize = 200;
+/// Places at which a file is looked for: the author of a description may choose how many folders are above it.
+const MAX_CANDIDATES: usize = 200;
 
 impl Search {
     /// Looks beside a file.
@@ -59,7 +61,7 @@ impl Search {
     pub fn find(&self, uri: &str, exists: &dyn Fn(&Path) -> bool) -> Result<PathBuf, Unresolved> {
         let mut tried = Vec::new();
         for place in self.places(uri) {
-            if tried.len() >= MOST_TRIED {
+            if tried.len() >= MAX_CANDIDATES {
                 break;
             }
             if tried.contains(&place) {

@@ -6,7 +6,7 @@ use crate::limits;
 use crate::report::{Parsed, ReadError, Warning, WarningKind};
 
 /// Numbers beyond are taken for errors: what is computed from them would not be finite.
-const LARGEST: f64 = 1e100;
+const MAX_NUMBER: f64 = 1e100;
 
 /// The text of a file, without blanks and zero bytes around it. Bytes that are no UTF-8 are replaced.
 pub fn text_of(bytes: &[u8]) -> Result<String, ReadError> {
@@ -139,7 +139,7 @@ impl Source {
         // Longer lists are no list of a robot; the rest is only counted as one too many.
         for word in text.split(separator).filter(|word| !word.is_empty()).take(64) {
             match word.parse::<f64>() {
-                Ok(number) if number.abs() <= LARGEST => numbers.push(number),
+                Ok(number) if number.abs() <= MAX_NUMBER => numbers.push(number),
                 _ => {
                     self.warn(node, format!("{what} has '{}', which is no number", short(word)));
                     return numbers;

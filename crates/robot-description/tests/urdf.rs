@@ -47,7 +47,7 @@ fn a_robot_is_read_whole() {
         base.visuals[0].geometry,
         Geometry::Mesh { file: "package://arm/base.stl".into(), scale: [1.0, -1.0, 0.5] }
     );
-    assert_eq!(robot.look(&base.visuals[0]).and_then(|look| look.color), Some([0.0, 0.0, 1.0, 0.5]));
+    assert_eq!(robot.material_of(&base.visuals[0]).and_then(|material| material.color), Some([0.0, 0.0, 1.0, 0.5]));
     let shoulder = &robot.joints[0];
     assert_eq!(
         (shoulder.kind, shoulder.limits.lower, shoulder.limits.upper),

@@ -6,6 +6,12 @@
 //! Each connection has a thread. What arrives waits in bounded inboxes, where the newest stay, until the owner takes it; what is published
 //! waits in bounded queues, so that a slow subscriber costs the publisher nothing. Nothing is bound to, and no connection made to, an address
 //! outside of this machine unless [`Network::Address`] allows it.
+//!
+//! # Why no library
+//!
+//! `rosrust` 0.9 has its messages compiled in, while scripts choose types at run time; it keeps the node in global state, while a process may
+//! hold several simulators; and it stands on crates that are no longer maintained (`error-chain`, `hyper` 0.10). This crate needs only packages
+//! that were there before: `httparse`, `roxmltree` and `base64`.
 
 mod clock;
 mod error;

@@ -5,10 +5,12 @@
 pub struct Random(u64);
 
 impl Random {
+    /// A generator that begins with a seed.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
+    /// 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -24,6 +26,7 @@ impl Random {
         (self.bits() % end as u64) as usize
     }
 
+    /// A random byte.
     pub fn byte(&mut self) -> u8 {
         self.bits() as u8
     }

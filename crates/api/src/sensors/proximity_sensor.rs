@@ -6,7 +6,7 @@
 use api_macro::api;
 
 use crate::{ApiFn, Cx, Result, functions};
-use perception::detection::{Detected, Mode};
+use perception::detection::{Detected, DetectionMode};
 use perception::entity::{Entity, Purpose};
 use perception::items::Items;
 use scene::sensor::Detection;
@@ -162,12 +162,18 @@ fn check_proximity_sensor_ex2(
 }
 
 /// The sensor, and how it is to look.
-fn sensor_and_mode(cx: &Cx, raw: Number, mode: Number, threshold: f64, max_angle: f64) -> Result<(Handle, Mode)> {
+fn sensor_and_mode(
+    cx: &Cx,
+    raw: Number,
+    mode: Number,
+    threshold: f64,
+    max_angle: f64,
+) -> Result<(Handle, DetectionMode)> {
     let scene = cx.scene();
     let sensor = sensor(&scene, raw.0).ok_or(SceneError::InvalidProximitySensor)?;
     let mode = match mode.0 {
-        ..0 => Mode::of(scene.object(sensor)?.proximity_sensor()?),
-        options => Mode::from_options(options, max_angle),
+        ..0 => DetectionMode::of(scene.object(sensor)?.proximity_sensor()?),
+        options => DetectionMode::from_options(options, max_angle),
     };
     Ok((sensor, mode.within(threshold)))
 }

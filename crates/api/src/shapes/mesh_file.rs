@@ -4,7 +4,9 @@ use api_macro::api;
 use mesh_files::{ExportFormat, MeshFile};
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
-use format::mesh_file::{self, ImportOptions, Looks, MeshFileError, Up, load, store, to_lists, to_parts, to_shapes};
+use format::mesh_file::{
+    self, ImportedAppearance, MeshFileError, MeshImportOptions, Up, load, store, to_lists, to_parts, to_shapes,
+};
 use scene::shape::Shape;
 use scene::{Data, Handle, Kind};
 use script::{Number, Table};
@@ -45,12 +47,12 @@ fn import_shape(
     let has = |bit: i64| options.0 & bit != 0;
     let import = import_options(options.0, scaling_factor, has(option::KEEP_TEXTURES))?;
     let mut file = load(&path_and_filename, import, cx.permissions())?;
-    let looks = Looks {
+    let imported = ImportedAppearance {
         colours: !has(option::DROP_COLOURS),
         transparency: !has(option::DROP_COLOURS),
         textures: has(option::KEEP_TEXTURES).then_some(LARGEST_TEXTURE),
     };
-    let shapes = to_shapes(&mut file, looks, &mut cx.scene_mut())?;
+    let shapes = to_shapes(&mut file, imported, &mut cx.scene_mut())?;
     let mut shape = Shape::compound(shapes)?;
     if has(option::ALIGN_BOX) {
         shape.fit_box(Some(nalgebra::UnitQuaternion::identity()));
@@ -117,8 +119,8 @@ fn export_mesh(
     Ok(store(&file, format, &path_and_filename, cx.permissions())?)
 }
 
-fn import_options(options: i64, scaling: f64, textures: bool) -> Result<ImportOptions> {
-    Ok(ImportOptions {
+fn import_options(options: i64, scaling: f64, textures: bool) -> Result<MeshImportOptions> {
+    Ok(MeshImportOptions {
         scaling: mesh_file::scaling_factor(scaling)?,
         up: if options & option::IGNORE_UP_AXIS != 0 { Up::Z } else { Up::OfFile },
         keep_identical: options & option::KEEP_IDENTICAL != 0,

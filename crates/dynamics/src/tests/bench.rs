@@ -68,8 +68,8 @@ impl Bench {
             for number in 1..=call.sub_steps {
                 self.dynamics.prepare(&self.scene, number);
                 let verdicts = callback.map_or_else(Verdicts::default, |asked| ask(self.dynamics.pairs_near(), asked));
-                let attention = Attention { watched: callback.is_some() };
-                let started = self.dynamics.start_sub_step(&self.scene, number, attention, verdicts);
+                let script_access = ScriptAccess { possible: callback.is_some() };
+                let started = self.dynamics.start_sub_step(&self.scene, number, script_access, verdicts);
                 let mut sub_step = started.expect("there is a world");
                 sub_step.run(callback);
                 self.dynamics.finish_sub_step(sub_step, &mut self.scene);

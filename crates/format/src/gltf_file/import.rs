@@ -6,7 +6,7 @@ use mesh_files::gltf::Node;
 
 use super::viewers::{camera_object, light_object};
 use super::{GltfFile, Placed, is_turned, pose_of, upright};
-use crate::mesh_file::{Looks, to_shapes};
+use crate::mesh_file::{ImportedAppearance, to_shapes};
 use scene::object::dummy::Dummy;
 use scene::shape::Shape;
 use scene::{Handle, Kind, Scene, SceneResult, clean_alias};
@@ -14,7 +14,7 @@ use scene::{Handle, Kind, Scene, SceneResult, clean_alias};
 /// Of a frame that holds nothing, metres.
 const DUMMY: f64 = 0.01;
 /// Pixels on a side of a texture; larger ones are made smaller.
-const LARGEST_TEXTURE: u32 = 2048;
+const MAX_TEXTURE_SIDE: u32 = 2048;
 
 impl GltfFile {
     /// Adds the objects of the file to a scene, parents before children; nodes without a name and without anything in them are none. Also what could
@@ -52,8 +52,8 @@ impl GltfFile {
             ..MeshFile::default()
         };
         file.merge_identical();
-        let looks = Looks { colours: true, transparency: true, textures: Some(LARGEST_TEXTURE) };
-        let mut parts = to_shapes(&mut file, looks, scene)?.into_iter();
+        let imported = ImportedAppearance { colours: true, transparency: true, textures: Some(MAX_TEXTURE_SIDE) };
+        let mut parts = to_shapes(&mut file, imported, scene)?.into_iter();
         let mut shapes = Vec::new();
         for mesh in &self.asset.meshes {
             let shape = Shape::compound(parts.by_ref().take(mesh.len()).collect())?;

@@ -76,6 +76,7 @@ impl GltfFile {
         })
     }
 
+    /// Nodes, meshes and materials as the file has them.
     pub fn asset(&self) -> &Asset {
         &self.asset
     }

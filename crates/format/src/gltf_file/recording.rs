@@ -29,14 +29,17 @@ impl Recording {
         *self = Self { is_on: true, ..Self::default() };
     }
 
+    /// Ends the recording; its frames stay.
     pub fn stop(&mut self) {
         self.is_on = false;
     }
 
+    /// Whether frames are being recorded.
     pub fn is_on(&self) -> bool {
         self.is_on
     }
 
+    /// Number of recorded frames.
     pub fn frames(&self) -> usize {
         self.times.len()
     }

@@ -8,8 +8,8 @@ mod shapes;
 use std::path::{Path, PathBuf};
 
 pub use lists::{to_lists, to_parts};
-use mesh_files::{ExportFormat, Format, Limits, MeshFile, UpAxis};
-pub use shapes::{Looks, ShapeParts, to_shapes};
+use mesh_files::{ExportFormat, Limits, MeshFile, MeshFormat, UpAxis};
+pub use shapes::{ImportedAppearance, ShapeParts, to_shapes};
 
 use super::scene_file::write_whole;
 use permissions::Permissions;
@@ -20,18 +20,25 @@ const LIMITS: Limits = Limits { vertices: 12_000_000, triangles: 4_000_000, part
 /// Why a mesh file is not read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshFileError {
+    /// There is no such file.
     #[error("file does not exist.")]
     NotFound,
+    /// The extension names no format of meshes.
     #[error("invalid file format.")]
     UnknownFormat,
+    /// The file, and why it cannot be read.
     #[error("cannot read {0}: {1}.")]
     Read(String, std::io::Error),
+    /// The file, and why it cannot be written.
     #[error("cannot write {0}: {1}.")]
     Write(String, std::io::Error),
+    /// The file, and what is wrong in it.
     #[error("{0}: {1}.")]
     Damaged(String, mesh_files::ReadError),
+    /// The file, and why its format cannot hold the meshes.
     #[error("{0}: {1}.")]
     NotWritable(String, mesh_files::WriteError),
+    /// The factor of the coordinates is negative or not finite.
     #[error("the scaling factor must be positive, or 0.")]
     Scaling,
 }
@@ -53,25 +60,30 @@ pub fn scaling_factor(scaling: f64) -> Result<f64, MeshFileError> {
 pub enum Up {
     /// What the file or its format says; z if it says nothing.
     OfFile,
+    /// The y axis.
     Y,
+    /// The z axis.
     Z,
 }
 
 /// How a file is read.
 #[derive(Debug, Clone, Copy)]
-pub struct ImportOptions {
+pub struct MeshImportOptions {
     /// Factor of all coordinates, beside the unit of the file.
     pub scaling: f64,
+    /// The axis that becomes z.
     pub up: Up,
+    /// Whether vertices of the same coordinates stay apart.
     pub keep_identical: bool,
     /// Joins parts that look the same.
     pub merge_parts: bool,
+    /// Whether textures are read.
     pub textures: bool,
 }
 
 /// Reads a mesh file and what it refers to, as far as permitted: metres, z up.
-pub fn load(name: &str, options: ImportOptions, permissions: &Permissions) -> Result<MeshFile, MeshFileError> {
-    let format = Format::of_name(name).ok_or(MeshFileError::UnknownFormat)?;
+pub fn load(name: &str, options: MeshImportOptions, permissions: &Permissions) -> Result<MeshFile, MeshFileError> {
+    let format = MeshFormat::of_name(name).ok_or(MeshFileError::UnknownFormat)?;
     let path = Path::new(name);
     let bytes = permissions.read_file(path).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => MeshFileError::NotFound,

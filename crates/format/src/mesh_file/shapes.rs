@@ -12,10 +12,12 @@ use scene::appearance::texture_mapping::{TextureMapping, TextureSource};
 use scene::shape::{Appearance, Shape};
 use scene::{Pose, Scene, SceneError, SceneResult};
 
-/// What of the looks of a file is used.
+/// Which parts of the appearance of a mesh file are taken over.
 #[derive(Debug, Clone, Copy)]
-pub struct Looks {
+pub struct ImportedAppearance {
+    /// Diffuse, specular and emissive colours.
     pub colours: bool,
+    /// The opacity.
     pub transparency: bool,
     /// The longest side of a texture in pixels; larger ones are made smaller. None: no textures.
     pub textures: Option<u32>,
@@ -25,9 +27,9 @@ pub struct Looks {
 ///
 /// # Errors
 /// Where a part is too large for a scene.
-pub fn to_shapes(file: &mut MeshFile, looks: Looks, scene: &mut Scene) -> SceneResult<Vec<Shape>> {
+pub fn to_shapes(file: &mut MeshFile, imported: ImportedAppearance, scene: &mut Scene) -> SceneResult<Vec<Shape>> {
     let mut numbers = vec![None; file.textures.len()];
-    if let Some(longest) = looks.textures {
+    if let Some(longest) = imported.textures {
         for (number, texture) in numbers.iter_mut().zip(&file.textures) {
             match picture(texture, longest) {
                 Ok(texture) => *number = Some(scene.textures_mut().add(texture)?),
@@ -37,7 +39,7 @@ pub fn to_shapes(file: &mut MeshFile, looks: Looks, scene: &mut Scene) -> SceneR
     }
     file.parts
         .iter()
-        .map(|part| shape(part, looks, part.material.texture.and_then(|texture| numbers[texture])))
+        .map(|part| shape(part, imported, part.material.texture.and_then(|texture| numbers[texture])))
         .collect()
 }
 
@@ -55,8 +57,8 @@ fn picture(texture: &mesh_files::Texture, longest: u32) -> Result<Texture, Strin
     Texture::new(stem, size, true, &pixels).ok_or_else(|| "its size is not supported".into())
 }
 
-fn shape(part: &Part, looks: Looks, texture: Option<i64>) -> SceneResult<Shape> {
-    let appearance = appearance(&part.material, looks);
+fn shape(part: &Part, imported: ImportedAppearance, texture: Option<i64>) -> SceneResult<Shape> {
+    let appearance = appearance(&part.material, imported);
     let mesh = mesh(part, appearance.shading_angle)?;
     let mut shape = Shape::from_mesh(mesh, appearance)?;
     let coordinates: Rc<[f32]> = part.uv.as_flattened().as_flattened().iter().map(|x| *x as f32).collect();
@@ -85,10 +87,10 @@ fn mesh(part: &Part, shading_angle: f64) -> SceneResult<Mesh> {
     Ok(mesh)
 }
 
-fn appearance(material: &Material, looks: Looks) -> Appearance {
+fn appearance(material: &Material, imported: ImportedAppearance) -> Appearance {
     let mut appearance = Shape::mesh_appearance();
     let single = |colour: [f64; 3]| colour.map(|x| x as f32);
-    if looks.colours {
+    if imported.colours {
         let colour = &mut appearance.colour;
         *colour = Colour {
             ambient_diffuse: material.diffuse.map_or(colour.ambient_diffuse, single),
@@ -97,7 +99,7 @@ fn appearance(material: &Material, looks: Looks) -> Appearance {
             ..*colour
         };
     }
-    if looks.transparency {
+    if imported.transparency {
         appearance.colour.opacity = (1.0 - material.transparency) as f32;
     }
     appearance
@@ -105,10 +107,13 @@ fn appearance(material: &Material, looks: Looks) -> Appearance {
 
 /// The meshes of shapes as parts of a file.
 pub struct ShapeParts {
+    /// The file under construction.
     pub file: MeshFile,
     /// The kind of textures, an extension such as `png`. None: without.
     pub textures: Option<&'static str>,
+    /// Whether parts have the colours of the shapes.
     pub colours: bool,
+    /// Whether parts have normals.
     pub normals: bool,
 }
 

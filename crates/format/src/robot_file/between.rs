@@ -3,15 +3,16 @@
 use geometry::MassProperties;
 use robot_description::{Inertial, JointKind};
 
-use super::{Format, Import};
+use super::{Import, RobotFormat};
 use scene::shape::Shape;
 use scene::{Pose, SceneResult};
 
 /// Diameter of what carries a joint and has no geometry, metres.
 const CARRIER: f64 = 0.05;
-/// The part of the mass and the inertia of the next body that a body between two joints has; its least mass and inertia.
-const SHARE: f64 = 0.01;
-const LEAST: (f64, f64) = (1e-4, 1e-7);
+/// Mass and inertia of a body between two joints, as a fraction of those of the next body.
+const MASS_RATIO: f64 = 0.01;
+/// Smallest mass (kg) and moment of inertia (kg m²) of a body between two joints.
+const MIN_MASS_AND_INERTIA: (f64, f64) = (1e-4, 1e-7);
 /// What a link of SDF has that says nothing of mass: kg, kg m².
 const UNIT: (f64, f64) = (1.0, 1.0);
 
@@ -28,7 +29,7 @@ impl Import<'_> {
 
     /// A body for a link that has nothing to touch and no mass, where joints need one. URDF's links stay as they are: scripts know them so.
     pub(super) fn body_between(&mut self, index: usize) -> SceneResult<Option<(Pose, Shape)>> {
-        if self.format == Format::Urdf || !self.carries_motion(index) {
+        if self.format == RobotFormat::Urdf || !self.carries_motion(index) {
             return Ok(None);
         }
         let mut shape = super::shapes::ball(CARRIER)?;
@@ -60,7 +61,7 @@ impl Import<'_> {
     pub(super) fn usual_inertial(&self, index: usize) -> Option<Inertial> {
         let is_written = self.robot.links[index].line > 0;
         let (mass, moment) = UNIT;
-        (self.format == Format::Sdf && is_written && !self.is_fixed(index)).then(|| Inertial {
+        (self.format == RobotFormat::Sdf && is_written && !self.is_fixed(index)).then(|| Inertial {
             pose: Pose::identity(),
             mass,
             inertia: [moment, 0.0, 0.0, moment, 0.0, moment],
@@ -71,8 +72,8 @@ impl Import<'_> {
 fn light(next: Option<Inertial>) -> MassProperties {
     let (mass, moment) = next.map_or((0.0, 0.0), |next| {
         let [xx, _, _, yy, _, zz] = next.inertia;
-        (next.mass * SHARE, (xx + yy + zz) / 3.0 * SHARE)
+        (next.mass * MASS_RATIO, (xx + yy + zz) / 3.0 * MASS_RATIO)
     });
-    let (mass, moment) = (mass.max(LEAST.0), moment.max(LEAST.1));
+    let (mass, moment) = (mass.max(MIN_MASS_AND_INERTIA.0), moment.max(MIN_MASS_AND_INERTIA.1));
     MassProperties::diagonal(mass, [moment / mass; 3])
 }

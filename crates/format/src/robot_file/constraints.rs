@@ -3,7 +3,7 @@
 use robot_description::mjcf::Equality;
 use robot_description::{Joint as JointDescription, Mimic};
 
-use super::{Format, Import, joints};
+use super::{Import, RobotFormat, joints};
 use scene::joint::{Joint, JointMode, JointType};
 use scene::object::dummy::{Dummy, LinkType};
 use scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
@@ -24,7 +24,7 @@ impl Import<'_> {
 
     /// Joints that others lead, and loops. URDF's `mimic` is not looked at, as simURDF does not.
     pub(super) fn add_constraints(&mut self) -> SceneResult<()> {
-        if self.format != Format::Urdf {
+        if self.format != RobotFormat::Urdf {
             for (index, joint) in self.robot.joints.iter().enumerate() {
                 if let Some(Mimic { joint: master, multiplier, offset }) = joint.mimic {
                     self.lead(index, master, offset, multiplier)?;

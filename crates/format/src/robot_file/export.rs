@@ -14,10 +14,14 @@ use scene::{Handle, Kind, Layers, Object, Pose, Scene, SceneError, SceneResult};
 bitflags! {
     /// The options of `simURDF.export`.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-    pub struct ExportOptions: i64 {
+    pub struct RobotExportOptions: i64 {
+        /// Dummies become small red cubes.
         const SHOW_DUMMIES = 0x1;
+        /// Meshes have the frames of their joints.
         const MESHES_AT_JOINTS = 0x2;
+        /// The present positions of joints become their zero.
         const KEEP_POSITIONS = 0x4;
+        /// Bits of scripts that mean nothing are kept.
         const _ = !0;
     }
 }
@@ -29,7 +33,7 @@ const MARK: (f64, [f64; 4]) = (0.01, [1.0, 0.0, 0.0, 1.0]);
 ///
 /// # Errors
 /// When a mesh cannot be written.
-pub fn export(scene: &Scene, base: Handle, stem: &str, options: ExportOptions) -> SceneResult<Vec<Written>> {
+pub fn export(scene: &Scene, base: Handle, stem: &str, options: RobotExportOptions) -> SceneResult<Vec<Written>> {
     let robot = Robot { name: scene.object(base)?.alias().to_owned(), ..Robot::default() };
     let mut export = Export { scene, options, stem, robot, meshes: Vec::new() };
     export.add_all(base)?;
@@ -39,7 +43,7 @@ pub fn export(scene: &Scene, base: Handle, stem: &str, options: ExportOptions) -
 
 struct Export<'a> {
     scene: &'a Scene,
-    options: ExportOptions,
+    options: RobotExportOptions,
     stem: &'a str,
     robot: Robot,
     meshes: Vec<Written>,
@@ -75,7 +79,7 @@ impl Export<'_> {
             Kind::Shape(shape) => self.add_shape(object, shape, link, pose),
             Kind::Joint(joint) => Ok(self.add_joint(object, joint, link, pose)),
             Kind::ForceSensor(_) => Ok((self.fix(object.alias(), link, pose), Pose::identity())),
-            Kind::Dummy(_) if self.options.contains(ExportOptions::SHOW_DUMMIES) => {
+            Kind::Dummy(_) if self.options.contains(RobotExportOptions::SHOW_DUMMIES) => {
                 let link = self.fix(object.alias(), link, pose);
                 self.robot.links[link].visuals.push(mark(object.alias()));
                 Ok((link, Pose::identity()))
@@ -104,7 +108,7 @@ impl Export<'_> {
             JointType::Spherical => JointKind::Spherical,
         };
         let child = self.add_link(String::new());
-        let is_kept = self.options.contains(ExportOptions::KEEP_POSITIONS);
+        let is_kept = self.options.contains(RobotExportOptions::KEEP_POSITIONS);
         let origin = if is_kept { pose * joint.ideal_pose() } else { pose };
         let zero = if is_kept { joint.position } else { 0.0 };
         let mut described = joint_of(object.alias(), kind, [link, child], origin);
@@ -150,7 +154,7 @@ impl Export<'_> {
         if let Some(geometry) = primitive(part) {
             return Ok((placed, geometry));
         }
-        let (origin, in_file) = match self.options.contains(ExportOptions::MESHES_AT_JOINTS) {
+        let (origin, in_file) = match self.options.contains(RobotExportOptions::MESHES_AT_JOINTS) {
             true => (Pose::identity(), placed),
             false => (placed, Pose::identity()),
         };

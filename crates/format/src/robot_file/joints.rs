@@ -4,7 +4,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use robot_description::mjcf::{Actuator, Drive};
 use robot_description::{Dynamics, Joint as Description, JointKind, Limits, Robot};
 
-use super::{Import, ImportOptions};
+use super::{Import, RobotImportOptions};
 use scene::joint::{Control, Joint, JointMode, JointType};
 use scene::object::dummy::Dummy;
 use scene::sensor::force_sensor::{Filter, ForceSensor};
@@ -50,7 +50,7 @@ impl Import<'_> {
         if joint_type != JointType::Spherical {
             set_limits(&mut joint, description);
             match &self.model.actuators {
-                _ if self.options.contains(ImportOptions::FREE_JOINTS) => joint.set_control(Control::Free),
+                _ if self.options.contains(RobotImportOptions::FREE_JOINTS) => joint.set_control(Control::Free),
                 None => joint.set_control(Control::Position),
                 Some(actuators) => {
                     let actuator = actuators.iter().find(|actuator| actuator.joint == index);
@@ -60,7 +60,7 @@ impl Import<'_> {
         }
         let pose = origin * along_axis(description);
         let handle = self.add(&description.name, Kind::Joint(Box::new(joint)), pose, parent)?;
-        if !self.options.contains(ImportOptions::SHOW_JOINTS) {
+        if !self.options.contains(RobotImportOptions::SHOW_JOINTS) {
             self.scene.modify(handle, Field::Layer, |object| object.layer = Layers::JOINTS.hidden())?;
         }
         Ok(handle)

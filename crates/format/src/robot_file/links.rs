@@ -3,7 +3,7 @@
 use geometry::MassProperties;
 use robot_description::{Geometry, Inertial, Link};
 
-use super::{Format, Import, ImportOptions, Node};
+use super::{Import, Node, RobotFormat, RobotImportOptions};
 use scene::shape::{RespondableMask, Shape};
 use scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
 
@@ -70,7 +70,7 @@ impl Import<'_> {
                 None => None,
             },
         };
-        if seen.is_none() && body.is_none() && self.options.contains(ImportOptions::CREATE_VISUALS) {
+        if seen.is_none() && body.is_none() && self.options.contains(RobotImportOptions::CREATE_VISUALS) {
             let mut speck = super::shapes::cube(SPECK.0)?;
             speck.mass.set_mass(SPECK.1);
             seen = Some((Pose::identity(), speck));
@@ -84,15 +84,15 @@ impl Import<'_> {
     /// What is seen of a link: its visuals, or a copy of what is touched.
     fn visual(&mut self, link: &Link, touched: Option<&(Pose, Shape)>) -> SceneResult<Option<(Pose, Shape)>> {
         let robot = self.robot;
-        let looks = link.visuals.iter().map(|part| (part.pose, &part.geometry, robot.look(part), part.line));
-        let shapes = self.shapes_of(link, looks, super::shapes::Form::AsItIs, true);
+        let visuals = link.visuals.iter().map(|part| (part.pose, &part.geometry, robot.material_of(part), part.line));
+        let shapes = self.shapes_of(link, visuals, super::shapes::Form::AsItIs, true);
         let own = self.joined(shapes);
-        let copies = self.options.contains(ImportOptions::CREATE_VISUALS);
+        let copies = self.options.contains(RobotImportOptions::CREATE_VISUALS);
         Ok(own.or_else(|| touched.filter(|_| copies).cloned()))
     }
 
     fn carrier_pose(&self, inertial: &Inertial) -> Pose {
-        if self.options.contains(ImportOptions::FRAMES_AT_JOINTS) {
+        if self.options.contains(RobotImportOptions::FRAMES_AT_JOINTS) {
             return Pose::identity();
         }
         inertial.pose.translation.into()
@@ -101,14 +101,14 @@ impl Import<'_> {
     /// Adds the shape that has the mass of a link.
     fn add_body(&mut self, link: &str, pose: Pose, shape: Shape, joint: Option<Handle>) -> SceneResult<Handle> {
         let body = self.add(&format!("{link}_respondable"), Kind::Shape(Box::new(shape)), pose, joint)?;
-        if !self.options.contains(ImportOptions::SHOW_COLLISIONS) {
+        if !self.options.contains(RobotImportOptions::SHOW_COLLISIONS) {
             self.scene.modify(body, Field::Layer, |object| object.layer = Layers::SHAPES.hidden())?;
         }
         Ok(body)
     }
 
     fn local_mask(&self, depth: usize) -> i64 {
-        match (self.options.contains(ImportOptions::ALTERNATE_MASKS), depth % 2) {
+        match (self.options.contains(RobotImportOptions::ALTERNATE_MASKS), depth % 2) {
             (false, _) => 0,
             (true, 0) => 1,
             (true, _) => 2,
@@ -119,7 +119,7 @@ impl Import<'_> {
     fn set_inertia(&mut self, index: usize, inertial: Option<&Inertial>, pose: Pose, shape: &mut Shape) {
         let link = &self.robot.links[index];
         let is_fixed = self.is_fixed(index);
-        shape.dynamics.is_static = is_fixed || inertial.is_none() && self.format != Format::Mjcf;
+        shape.dynamics.is_static = is_fixed || inertial.is_none() && self.format != RobotFormat::Mjcf;
         match inertial {
             Some(inertial) => self.set_mass(link, inertial, pose.inverse() * inertial.pose, &mut shape.mass),
             None if is_fixed => {}
@@ -149,9 +149,9 @@ impl Import<'_> {
     fn collision_form(&self) -> super::shapes::Form {
         use super::shapes::Form;
         // MuJoCo lets the hulls of meshes touch.
-        if self.format == Format::Mjcf || self.options.contains(ImportOptions::HULLS_OF_COLLISIONS) {
+        if self.format == RobotFormat::Mjcf || self.options.contains(RobotImportOptions::HULLS_OF_COLLISIONS) {
             Form::Hull
-        } else if self.options.contains(ImportOptions::DECOMPOSE_COLLISIONS) {
+        } else if self.options.contains(RobotImportOptions::DECOMPOSE_COLLISIONS) {
             Form::Pieces
         } else {
             Form::AsItIs

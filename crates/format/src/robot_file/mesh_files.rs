@@ -3,16 +3,16 @@
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use mesh_files::{Format, Limits, MeshFile};
+use mesh_files::{Limits, MeshFile, MeshFormat};
 use robot_description::Search;
 
-use crate::mesh_file::{Looks, to_shapes};
+use crate::mesh_file::{ImportedAppearance, to_shapes};
 use permissions::Permissions;
 use scene::shape::Shape;
 use scene::{Pose, Scene};
 
 /// The longest side of a texture, pixels: larger ones are made smaller, as sim.importShape does.
-const LONGEST_TEXTURE: u32 = 512;
+const MAX_TEXTURE_SIDE: u32 = 512;
 
 /// Finds and reads mesh files.
 #[derive(Debug)]
@@ -54,8 +54,12 @@ impl MeshFiles {
         let file = self.read(&path).map_err(failed)?;
         let unit = file.unit.unwrap_or(1.0);
         let mut stretched = stretched(&file, scale.map(|factor| factor * unit));
-        let looks = Looks { colours: true, transparency: false, textures: with_textures.then_some(LONGEST_TEXTURE) };
-        let shapes = to_shapes(&mut stretched, looks, scene).map_err(|error| failed(error.to_string()))?;
+        let imported = ImportedAppearance {
+            colours: true,
+            transparency: false,
+            textures: with_textures.then_some(MAX_TEXTURE_SIDE),
+        };
+        let shapes = to_shapes(&mut stretched, imported, scene).map_err(|error| failed(error.to_string()))?;
         self.warnings.extend(stretched.warnings.iter().map(|warning| failed(warning.to_string())));
         joined(shapes).map_err(failed)
     }
@@ -80,7 +84,7 @@ impl MeshFiles {
         {
             return Ok(file.clone());
         }
-        let format = Format::of_name(&path.to_string_lossy()).ok_or("its format is not known")?;
+        let format = MeshFormat::of_name(&path.to_string_lossy()).ok_or("its format is not known")?;
         let bytes = self.permissions.read_file(path).map_err(|error| error.to_string())?;
         let mut beside = |name: &str| self.read_beside(path, name);
         let file =

@@ -20,7 +20,7 @@ use robot_description::mjcf::{Actuator, Equality, Site};
 
 use super::scene_file::save;
 use super::ttt::File;
-pub use export::{ExportOptions, export};
+pub use export::{RobotExportOptions, export};
 use mesh_files::MeshFiles;
 use place::lift_to_ground;
 use scene::object::dummy::Dummy;
@@ -29,17 +29,28 @@ use scene::{Field, Handle, Kind, ModelFlags, ObjectFlags, Pose, Scene, SceneResu
 bitflags! {
     /// The options of `simURDF.import`.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-    pub struct ImportOptions: i64 {
+    pub struct RobotImportOptions: i64 {
+        /// Collision shapes are visible.
         const SHOW_COLLISIONS = 0x1;
+        /// Joints are visible.
         const SHOW_JOINTS = 0x2;
+        /// Collision meshes that are not convex are decomposed into convex parts.
         const DECOMPOSE_COLLISIONS = 0x4;
+        /// Links without visuals get copies of their collision shapes as visuals.
         const CREATE_VISUALS = 0x8;
+        /// The robot stays where the file has it; else it is lifted to the ground.
         const KEEP_POSITION = 0x20;
+        /// The robot does not become a model.
         const NO_MODEL = 0x40;
+        /// Links collide with others of their robot but for their neighbours in the tree: local respondable masks alternate. Else none does.
         const ALTERNATE_MASKS = 0x80;
+        /// Joints have no motor.
         const FREE_JOINTS = 0x100;
+        /// Collision meshes become their convex hulls.
         const HULLS_OF_COLLISIONS = 0x200;
+        /// Shapes have the frames of their joints.
         const FRAMES_AT_JOINTS = 0x400;
+        /// Bits of scripts that mean nothing are kept.
         const _ = !0;
     }
 }
@@ -47,7 +58,7 @@ bitflags! {
 /// A file that has been read, with what its meshes are looked for by.
 #[derive(Debug)]
 pub struct RobotFile {
-    format: Format,
+    format: RobotFormat,
     /// Of the robot, or of the world.
     name: String,
     models: Vec<Description>,
@@ -60,9 +71,12 @@ pub struct RobotFile {
 
 /// A format of descriptions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
+pub enum RobotFormat {
+    /// Unified Robot Description Format.
     Urdf,
+    /// Simulation Description Format.
     Sdf,
+    /// The format of MuJoCo.
     Mjcf,
 }
 
@@ -83,6 +97,7 @@ struct Description {
 /// What an import added.
 #[derive(Debug)]
 pub struct Imported {
+    /// Name of the robot or the world.
     pub name: String,
     /// The objects without a parent.
     pub roots: Vec<Handle>,
@@ -100,8 +115,8 @@ impl RobotFile {
     pub fn model(self) -> Result<(File, Vec<String>), String> {
         let mut scene = Scene::new();
         let options = match self.format {
-            Format::Urdf => ImportOptions::default(),
-            Format::Sdf | Format::Mjcf => ImportOptions::KEEP_POSITION,
+            RobotFormat::Urdf => RobotImportOptions::default(),
+            RobotFormat::Sdf | RobotFormat::Mjcf => RobotImportOptions::KEEP_POSITION,
         };
         let gravity =
             self.gravity.filter(|gravity| gravity.map(|part| part as f32) != scene.settings().dynamics.gravity);
@@ -122,7 +137,7 @@ impl RobotFile {
     ///
     /// # Errors
     /// When all handles are in use.
-    pub fn add_to(mut self, scene: &mut Scene, options: ImportOptions) -> SceneResult<Imported> {
+    pub fn add_to(mut self, scene: &mut Scene, options: RobotImportOptions) -> SceneResult<Imported> {
         let mut all = Imported { name: self.name, roots: Vec::new(), objects: Vec::new(), messages: self.warnings };
         for model in &self.models {
             let mut import = Import::new(scene, self.format, model, &mut self.meshes, options, &mut all.messages);
@@ -151,11 +166,11 @@ fn gathered(scene: &mut Scene, roots: &[Handle], name: &str) -> SceneResult<Hand
 /// An import in progress.
 struct Import<'a> {
     scene: &'a mut Scene,
-    format: Format,
+    format: RobotFormat,
     model: &'a Description,
     robot: &'a Robot,
     meshes: &'a mut MeshFiles,
-    options: ImportOptions,
+    options: RobotImportOptions,
     /// The frames of the links, with all joints where they are at first, or as near to it as their limits allow.
     placed: Vec<Pose>,
     nodes: Vec<Node>,
@@ -177,10 +192,10 @@ struct Node {
 impl<'a> Import<'a> {
     fn new(
         scene: &'a mut Scene,
-        format: Format,
+        format: RobotFormat,
         model: &'a Description,
         meshes: &'a mut MeshFiles,
-        options: ImportOptions,
+        options: RobotImportOptions,
         messages: &'a mut Vec<String>,
     ) -> Self {
         let robot = &model.robot;
@@ -216,10 +231,10 @@ impl<'a> Import<'a> {
     fn finish(mut self) -> SceneResult<(Vec<Handle>, Vec<Handle>)> {
         let is_root = |handle: &Handle| self.scene.object(*handle).is_ok_and(|object| object.parent().is_none());
         let roots: Vec<Handle> = self.objects.iter().copied().filter(is_root).collect();
-        if !self.options.contains(ImportOptions::KEEP_POSITION) {
+        if !self.options.contains(RobotImportOptions::KEEP_POSITION) {
             lift_to_ground(self.scene, &self.objects, &roots)?;
         }
-        if let ([base], false) = (roots.as_slice(), self.options.contains(ImportOptions::NO_MODEL)) {
+        if let ([base], false) = (roots.as_slice(), self.options.contains(RobotImportOptions::NO_MODEL)) {
             self.make_model(*base)?;
         }
         Ok((roots, self.objects))

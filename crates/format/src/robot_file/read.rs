@@ -7,10 +7,10 @@ use robot_description::sdf::{self, Included};
 use robot_description::{JointKind, Parsed, ReadError, Search, urdf};
 
 use super::mesh_files::{MeshFiles, variable};
-use super::{Description, Format, RobotFile};
+use super::{Description, RobotFile, RobotFormat};
 use permissions::Permissions;
 
-impl Format {
+impl RobotFormat {
     /// The format that a file's name says, or its beginning.
     fn of(path: &Path, start: &[u8]) -> Option<Self> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
@@ -30,12 +30,12 @@ impl RobotFile {
         let is_xml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xml"));
         // What cannot be read is no robot; whoever reads it then says why.
         let start = if is_xml && path.is_file() { permissions.read_file(path).unwrap_or_default() } else { Vec::new() };
-        Format::of(path, &start).is_some()
+        RobotFormat::of(path, &start).is_some()
     }
 
     /// Whether a file's name is that of a robot that can be exported.
     pub fn has_name_of_urdf(path: &Path) -> bool {
-        Format::of(path, &[]) == Some(Format::Urdf)
+        RobotFormat::of(path, &[]) == Some(RobotFormat::Urdf)
     }
 
     /// Reads a file of the format that its name, or its beginning, says.
@@ -51,15 +51,15 @@ impl RobotFile {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn read_as(
-        format: Option<Format>,
+        format: Option<RobotFormat>,
         path: &Path,
         replacement: Option<String>,
         permissions: &Permissions,
     ) -> Result<Self, String> {
         let bytes = permissions.read_file(path).map_err(|error| error.to_string())?;
         let path = std::path::absolute(path).map_err(|error| error.to_string())?;
-        let said = format.or_else(|| Format::of(&path, &bytes));
-        Self::parse(&bytes, said.unwrap_or(Format::Urdf), &path, replacement, permissions)
+        let said = format.or_else(|| RobotFormat::of(&path, &bytes));
+        Self::parse(&bytes, said.unwrap_or(RobotFormat::Urdf), &path, replacement, permissions)
     }
 
     /// Reads the text of a file. Relative names in it mean files beside `path`.
@@ -68,16 +68,16 @@ impl RobotFile {
     /// When it is no robot; in words.
     pub fn parse(
         text: &[u8],
-        format: Format,
+        format: RobotFormat,
         path: &Path,
         replacement: Option<String>,
         permissions: &Permissions,
     ) -> Result<Self, String> {
         let mut meshes = MeshFiles::new(path, replacement, permissions);
         let read = match format {
-            Format::Urdf => read_urdf(text),
-            Format::Sdf => read_sdf(text, path, permissions),
-            Format::Mjcf => read_mjcf(text, path, &mut meshes, permissions),
+            RobotFormat::Urdf => read_urdf(text),
+            RobotFormat::Sdf => read_sdf(text, path, permissions),
+            RobotFormat::Mjcf => read_mjcf(text, path, &mut meshes, permissions),
         };
         let Parsed { value: contents, warnings, further_warnings } = read.map_err(|error| error.to_string())?;
         let mut warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();

@@ -5,7 +5,7 @@ use geometry::{DecompositionParameters, Mesh};
 use robot_description::{Geometry, Link, Material};
 
 use super::links::Part;
-use super::{Format, Import, ImportOptions};
+use super::{Import, RobotFormat, RobotImportOptions};
 use scene::shape::Shape;
 use scene::{Pose, SceneError, SceneResult};
 
@@ -68,7 +68,7 @@ impl Import<'_> {
             Geometry::Ellipsoid { radii } => (PrimitiveKind::Spheroid, radii.map(|radius| 2.0 * radius)),
             Geometry::Plane { normal } => return plane(*normal).map_err(|error| error.to_string()),
             Geometry::Mesh { file, scale } => {
-                let scale = if self.format == Format::Urdf { usual_scale(*scale) } else { *scale };
+                let scale = if self.format == RobotFormat::Urdf { usual_scale(*scale) } else { *scale };
                 let shape = self.meshes.shape(file, scale, self.scene, with_textures)?;
                 self.messages.append(&mut self.meshes.take_warnings());
                 return formed(shape, form)
@@ -82,7 +82,7 @@ impl Import<'_> {
 
     /// One shape of several, in the frame of the first; or in that of the link, if the options say so.
     pub(super) fn joined(&mut self, shapes: Vec<(Pose, Shape)>) -> Option<(Pose, Shape)> {
-        let at_joint = self.options.contains(ImportOptions::FRAMES_AT_JOINTS);
+        let at_joint = self.options.contains(RobotImportOptions::FRAMES_AT_JOINTS);
         let (first_pose, first) = shapes.first()?;
         let frame = if at_joint { Pose::identity() } else { *first_pose };
         if shapes.len() == 1 {

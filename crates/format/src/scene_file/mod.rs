@@ -59,20 +59,26 @@ pub struct Loaded {
 pub struct ScriptCode {
     /// The path of its object, and what kind it is where it is none itself: `/Robot@simulationScript`.
     pub name: String,
+    /// The text, as its bytes are in the file.
     pub code: Vec<u8>,
+    /// Such as `lua` or `python`.
     pub language: String,
 }
 
 /// A script outside of the tree of objects.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadedScript {
+    /// Whether it is a main script, simulation script or another one.
     pub script_type: ScriptType,
     /// The object it is attached to; none for the main script.
     pub owner: Option<Handle>,
+    /// The text, as its bytes are in the file.
     pub code: Vec<u8>,
     /// The file the text is from, as stack traces name it.
     pub source: Option<String>,
+    /// Such as `lua` or `python`.
     pub language: String,
+    /// Whether it does not run.
     pub disabled: bool,
     /// -1 before, 0 with, 1 after the others.
     pub exec_order: i64,
@@ -81,6 +87,8 @@ pub struct LoadedScript {
 /// The files that the texts of scripts are from, by the places of objects and of scripts outside of the tree in the file.
 #[derive(Debug, Clone, Default)]
 pub struct ScriptSources {
+    /// For each object that is a script.
     pub objects: Vec<Option<String>>,
+    /// For each script outside of the tree.
     pub attached: Vec<Option<String>>,
 }

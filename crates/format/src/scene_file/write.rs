@@ -39,6 +39,8 @@ pub struct WholeFile {
 }
 
 impl WholeFile {
+    /// Begins a file; until it is complete it has another name in the same folder.
+    ///
     /// # Errors
     /// When the folder is not there or cannot be written.
     pub fn create(path: &Path) -> std::io::Result<Self> {

@@ -6,10 +6,10 @@ use crate::ttt::File;
 use crate::ttt::tree::Object;
 use scene::clean_alias;
 
-/// Longer aliases are cut, since systems limit the names of files.
-const LONGEST: usize = 60;
-/// More levels are left out.
-const DEEPEST: usize = 20;
+/// Bytes of a name; longer aliases are cut, since systems limit the names of files.
+const MAX_NAME_LENGTH: usize = 60;
+/// Levels of folders; more are left out.
+const MAX_DEPTH: usize = 20;
 
 /// Names that have been given.
 #[derive(Default)]
@@ -58,7 +58,7 @@ fn path(object: &Object, by_handle: &BTreeMap<i32, &Object>) -> String {
     let mut names = vec![alias(object)];
     let mut above = object;
     while let Some(parent) =
-        above.common.handles.and_then(|[_, parent]| by_handle.get(&parent)).filter(|_| names.len() < DEEPEST)
+        above.common.handles.and_then(|[_, parent]| by_handle.get(&parent)).filter(|_| names.len() < MAX_DEPTH)
     {
         names.push(alias(parent));
         above = parent;
@@ -71,6 +71,6 @@ fn alias(object: &Object) -> String {
     let common = &object.common;
     let name = common.alias.as_ref().or(common.name.as_ref()).map(|name| name.decode()).unwrap_or_default();
     let mut name = clean_alias(name.split('#').next().unwrap_or_default().as_bytes());
-    name.truncate(LONGEST);
+    name.truncate(MAX_NAME_LENGTH);
     name
 }

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Item, Mesh, Outline, lines};
+use super::{Mesh, Outline, OutlineItem, lines};
 
 /// Numbers that differ by less, relative to their size, are the same: saving rounds.
 const SAME: f64 = 1e-6;
@@ -39,12 +39,12 @@ pub fn differences(a: &Outline, b: &Outline) -> String {
 }
 
 /// The same object in both: of the same path, or else of the same identity.
-fn pairs<'a>(a: &'a Outline, b: &'a Outline) -> Vec<(&'a Item, &'a Item)> {
-    let new: BTreeMap<&str, &Item> = b.objects.iter().map(|item| (item.path.as_str(), item)).collect();
+fn pairs<'a>(a: &'a Outline, b: &'a Outline) -> Vec<(&'a OutlineItem, &'a OutlineItem)> {
+    let new: BTreeMap<&str, &OutlineItem> = b.objects.iter().map(|item| (item.path.as_str(), item)).collect();
     let old: BTreeSet<&str> = a.objects.iter().map(|item| item.path.as_str()).collect();
     let strays = b.objects.iter().filter(|item| !old.contains(item.path.as_str()));
-    let mut strays: BTreeMap<&str, &Item> = strays.map(|item| (item.persistent_id.as_str(), item)).collect();
-    let pair = |item: &'a Item| {
+    let mut strays: BTreeMap<&str, &OutlineItem> = strays.map(|item| (item.persistent_id.as_str(), item)).collect();
+    let pair = |item: &'a OutlineItem| {
         let other = new.get(item.path.as_str()).copied().or_else(|| strays.remove(item.persistent_id.as_str()))?;
         Some((item, other))
     };

@@ -45,16 +45,18 @@ const HANDLES: [&str; 5] = ["dependency", "linked_dummy", "tracked_and_size", "d
 /// A scene or model in words.
 pub struct Outline {
     /// In the order of the tree.
-    pub objects: Vec<Item>,
+    pub objects: Vec<OutlineItem>,
     /// Simulation, physics, environment.
     pub settings: Vec<(String, String)>,
 }
 
 /// An object in words.
-pub struct Item {
+pub struct OutlineItem {
+    /// Path in the tree, such as `/Robot/link`.
     pub path: String,
     /// How far below the top of the tree it is.
     pub depth: usize,
+    /// What it is: the type of an object, of a script.
     pub kind: String,
     persistent_id: String,
     /// Fields as JSON, by the names that lead there.
@@ -74,6 +76,8 @@ struct Mesh {
 }
 
 impl Outline {
+    /// Describes the objects and settings of a file.
+    ///
     /// # Errors
     /// When the scene is too large.
     pub fn new(file: SceneFile) -> NodeResult<Self> {
@@ -83,7 +87,7 @@ impl Outline {
         let saved = save::scene(&scene, &loaded.scripts).map_err(|error| error.to_string())?;
         let paths: BTreeMap<i64, String> =
             scene.objects().map(|object| object.handle()).map(|h| (h.raw(), path(&scene, h))).collect();
-        let mut objects: Vec<Item> = saved
+        let mut objects: Vec<OutlineItem> = saved
             .contents
             .objects
             .iter()
@@ -122,7 +126,7 @@ fn item(
     raw: i64,
     file: &File,
     object: &super::ttt::tree::Object,
-) -> Item {
+) -> OutlineItem {
     let tree = super::ttt::object_node(object);
     let Node::Table(entries) = &tree else { unreachable!("objects are tables") };
     let kind = entries.iter().map(|(name, _)| name.as_str()).find(|name| *name != "Object").unwrap_or("Object");
@@ -136,7 +140,7 @@ fn item(
     // Common attributes have no prefix, those of the type have its name.
     entries.iter().for_each(|(name, node)| walk.visit(if name == "Object" { "" } else { name }, node));
     let id = object.common.persistent_id.as_ref().map(|id| id.decode()).unwrap_or_default();
-    Item {
+    OutlineItem {
         path: paths.get(&raw).cloned().unwrap_or_default(),
         depth: Handle::from_raw(raw).map_or(0, |handle| scene.ancestors(handle).count()),
         kind: kind.to_owned(),
@@ -224,7 +228,7 @@ fn without_mark(text: &[u8]) -> &[u8] {
 }
 
 /// Scripts outside of the tree belong to their objects; the main script to the first.
-fn attach(objects: &mut [Item], paths: &BTreeMap<i64, String>, scripts: &[LoadedScript]) {
+fn attach(objects: &mut [OutlineItem], paths: &BTreeMap<i64, String>, scripts: &[LoadedScript]) {
     for script in scripts {
         let owner = script.owner.and_then(|owner| paths.get(&owner.raw()));
         let at = owner.map_or(Some(0), |path| objects.iter().position(|item| item.path == *path));

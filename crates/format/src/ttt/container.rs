@@ -33,6 +33,7 @@ pub struct Header {
     pub serialization: i32,
     /// The program that wrote it: 40100 is 4.1.0, 30303 is 3.3.3. Zero where the header does not tell.
     pub version: u16,
+    /// Revision of the program that wrote it.
     pub revision: i8,
     /// The file type as stored; not reliable in files up to 3.x.
     pub kind: u8,

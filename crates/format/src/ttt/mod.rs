@@ -3,29 +3,30 @@
 //! [`container`] is the header and the compression, [`chunks`] the streams of chunks as types, [`tree`] what a file holds. Nothing
 //! here knows what a scene is; that is `crate::scene_file`.
 
-pub mod chunks;
-pub mod container;
+pub(crate) mod chunks;
+pub(crate) mod container;
 mod error;
 mod huffman;
-pub mod mesh_arrays;
-pub mod node;
+pub(crate) mod mesh_arrays;
+pub(crate) mod node;
 mod read;
 mod stream;
-pub mod tree;
+pub(crate) mod tree;
 mod value;
 mod write;
 
 use std::cell::RefCell;
 
-pub use container::{FileKind, Header, is_binary};
+pub use container::Header;
+pub(crate) use container::{FileKind, is_binary};
 pub use error::{FileError, FileResult};
 pub use read::Skipped;
-pub use value::{
+pub(crate) use value::{
     Counted, EngineBlock, Heights, Indices, Normals, OriginalReference, PositionFirst, Rest, ScriptText, Text, decode,
     unit_quaternion,
 };
 
-pub use node::{Node, NodeResult};
+pub(crate) use node::{Node, NodeResult};
 use read::{Reader, Real};
 use stream::Stream;
 use tree::Contents;
@@ -35,13 +36,16 @@ use write::Writer;
 /// The content of a scene or model file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct File {
+    /// Format and program that wrote it.
     pub header: Header,
-    pub contents: Contents,
+    pub(crate) contents: Contents,
     /// Unknown chunks; they are not written again.
     pub skipped: Vec<Skipped>,
 }
 
 impl File {
+    /// Reads the bytes of a binary file.
+    ///
     /// # Errors
     ///
     /// Describes the fault, with the offset in the uncompressed body and the path of chunks. Memory stays in
@@ -63,7 +67,7 @@ impl File {
 
 impl File {
     /// The file as a tree of names and values.
-    pub fn to_node(&self) -> Node {
+    pub(crate) fn to_node(&self) -> Node {
         let header = &self.header;
         let header = Node::table([
             ("serialization", Node::Int(header.serialization.into())),
@@ -76,7 +80,7 @@ impl File {
 
     /// # Errors
     /// When the tree is not that of a file; in words, with the names that lead there.
-    pub fn from_node(node: &Node) -> NodeResult<Self> {
+    pub(crate) fn from_node(node: &Node) -> NodeResult<Self> {
         let header = node.need("header")?;
         let range = |_| "header: a number is out of range".to_owned();
         let number = |name| header.need(name)?.int();
@@ -91,13 +95,13 @@ impl File {
 }
 
 /// One object as a tree.
-pub fn object_node(object: &tree::Object) -> Node {
+pub(crate) fn object_node(object: &tree::Object) -> Node {
     object.to_node()
 }
 
 /// # Errors
 /// When the tree is not that of an object; in words.
-pub fn object_of_node(node: &Node) -> NodeResult<tree::Object> {
+pub(crate) fn object_of_node(node: &Node) -> NodeResult<tree::Object> {
     Value::from_node(node)
 }
 

@@ -22,7 +22,9 @@ pub enum Real {
 pub struct Skipped {
     /// Bytes from the beginning of the uncompressed body.
     pub offset: usize,
+    /// The tags on the way to it, such as `SHP/Ge2/Gst`.
     pub path: String,
+    /// Bytes of its payload.
     pub size: usize,
 }
 

@@ -11,8 +11,8 @@ use crate::scene_file::WholeFile;
 
 /// From 1, slow and with the best colours, to 30.
 const SPEED: i32 = 10;
-/// Seconds; 65535 hundredths are the most that a frame can be shown.
-const LONGEST: f64 = 600.0;
+/// Longest time that a frame is shown, seconds; the file has 16 bits for its hundredths.
+const MAX_FRAME_DURATION: f64 = 600.0;
 
 pub(super) struct Gif {
     encoder: Encoder<BufWriter<WholeFile>>,
@@ -26,7 +26,7 @@ impl Gif {
         let (width, height) = (side(size[0])?, side(size[1])?);
         let mut encoder = Encoder::new(BufWriter::new(WholeFile::create(path)?), width, height, &[])?;
         encoder.set_repeat(Repeat::Infinite)?;
-        Ok(Self { encoder, frames: Frames::new(size[0], rate, LONGEST), rate })
+        Ok(Self { encoder, frames: Frames::new(size[0], rate, MAX_FRAME_DURATION), rate })
     }
 
     fn write(&mut self, frame: &Frame) -> Result<(), VideoError> {

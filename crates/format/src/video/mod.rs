@@ -27,32 +27,43 @@ pub enum VideoError {
         "unknown kind of video: {0} (known: webp, gif, a series of png files such as out-%05d.png, and with ffmpeg: {known})",
         known = ffmpeg::KINDS.map(|(kind, _)| kind).join(", ")
     )]
+    /// The extension names no known kind.
     Kind(String),
     #[error(
         "{0} files are made by ffmpeg, which is not there ({1}): install it (apt install ffmpeg, brew install ffmpeg, \
          winget install ffmpeg), build with the feature `video` for .mp4, or write a .webp or .gif"
     )]
+    /// The kind of file, and why ffmpeg could not be started.
     NoFfmpeg(String, std::io::Error),
+    /// ffmpeg ended with an error, in its words.
     #[error("ffmpeg failed: {0}")]
     Ffmpeg(String),
+    /// The name of a series of pictures has no place for the number, or several.
     #[error("the name of a series has one place for the number, such as out-%05d.png")]
     Series,
+    /// A file cannot be written.
     #[error("{0}")]
     Io(#[from] std::io::Error),
+    /// A picture of a series cannot be written.
     #[error("{0}")]
     Picture(#[from] super::picture::PictureError),
+    /// The kind is known, but only to builds with the feature `pictures`.
     #[cfg(not(feature = "pictures"))]
     #[error("this build makes no {0} files: build Swanilda with the feature `pictures`")]
     LeftOut(String),
+    /// A GIF cannot be encoded.
     #[cfg(feature = "pictures")]
     #[error("{0}")]
     Gif(#[from] ::gif::EncodingError),
+    /// A WebP animation cannot be encoded.
     #[cfg(feature = "pictures")]
     #[error("{0}")]
     WebP(#[from] image_webp::EncodingError),
+    /// H.264 cannot be encoded.
     #[cfg(feature = "video")]
     #[error("{0}")]
     H264(#[from] openh264::Error),
+    /// An MP4 container cannot be written.
     #[cfg(feature = "video")]
     #[error("{0}")]
     Mp4(#[from] ::mp4::Error),
@@ -61,7 +72,9 @@ pub enum VideoError {
 /// Width and height in pixels, and pictures per second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VideoFormat {
+    /// Width and height, pixels.
     pub size: [u32; 2],
+    /// Pictures per second.
     pub rate: f64,
 }
 

@@ -20,8 +20,8 @@ const INTRA_PERIOD: u32 = 100;
 const TYPE_BITS: u8 = 0x1f;
 const SEQUENCE_PARAMETERS: u8 = 7;
 const PICTURE_PARAMETERS: u8 = 8;
-/// Pixels of a side; the encoder refuses smaller pictures.
-const LEAST: u32 = 16;
+/// Shortest side, pixels; the encoder refuses smaller pictures.
+const MIN_SIDE: u32 = 16;
 /// The track of the video.
 const TRACK: u32 = 1;
 
@@ -84,7 +84,7 @@ impl VideoFile for Mp4 {
 
 /// The picture with even sides, as H.264 halves the colours, that the encoder takes: black pixels are added.
 fn even(picture: &[u8], [width, height]: [u32; 2]) -> (Vec<u8>, [usize; 2]) {
-    let [wide, high] = [width, height].map(|side| side.next_multiple_of(2).max(LEAST) as usize);
+    let [wide, high] = [width, height].map(|side| side.next_multiple_of(2).max(MIN_SIDE) as usize);
     let mut pixels = vec![0; wide * high * 3];
     for (from, to) in picture.chunks_exact(width as usize * 3).zip(pixels.chunks_exact_mut(wide * 3)) {
         to[..from.len()].copy_from_slice(from);

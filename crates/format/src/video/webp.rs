@@ -9,8 +9,8 @@ use super::frames::{Frame, Frames};
 use super::{VideoError, VideoFile, VideoFormat};
 use crate::scene_file::WholeFile;
 
-/// Seconds; a frame has 24 bits for its milliseconds.
-const LONGEST: f64 = 3600.0;
+/// Longest time that a frame is shown, seconds; the file has 24 bits for its milliseconds.
+const MAX_FRAME_DURATION: f64 = 3600.0;
 /// Flag of the header: this is an animation.
 const ANIMATION: u8 = 1 << 1;
 /// Flag of a frame: it replaces what was there, also where it is transparent.
@@ -29,7 +29,7 @@ pub(super) struct WebP {
 impl WebP {
     pub(super) fn create(path: &Path, VideoFormat { size, rate }: VideoFormat) -> Result<Self, VideoError> {
         let file = BufWriter::new(WholeFile::create(path)?);
-        let mut video = Self { file, frames: Frames::new(size[0], rate, LONGEST), rate, length: 4 };
+        let mut video = Self { file, frames: Frames::new(size[0], rate, MAX_FRAME_DURATION), rate, length: 4 };
         // The length comes at the end.
         video.file.write_all(b"RIFF\0\0\0\0WEBP")?;
         let mut header = vec![ANIMATION, 0, 0, 0];

@@ -25,7 +25,9 @@ use side_files::SideFiles;
 /// Which of the two XML formats is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variant {
+    /// All fields of the file.
     Exhaustive,
+    /// Fields that people edit.
     Simple,
 }
 

@@ -5,9 +5,10 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use super::Mesh;
 use crate::Pose;
 
-/// Most face normals that the search for the tightest box tries, and the points it may look at in all.
-const BOX_DIRECTIONS: usize = 200;
-const BOX_POINTS: usize = 60_000;
+/// Largest number of face normals that the search for the tightest box tries.
+const MAX_DIRECTIONS: usize = 200;
+/// Largest number of points that the search visits, over all directions.
+const MAX_VISITED_POINTS: usize = 60_000;
 
 /// A box around a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +45,7 @@ impl Mesh {
     fn face_directions(&self) -> Vec<Vector3<f64>> {
         let mut areas: Vec<_> = self.triangles.iter().map(|t| self.area_vector(t)).collect();
         areas.sort_by(|a, b| b.norm_squared().total_cmp(&a.norm_squared()));
-        let most = (BOX_POINTS / self.vertices.len().max(1)).clamp(10, BOX_DIRECTIONS);
+        let most = (MAX_VISITED_POINTS / self.vertices.len().max(1)).clamp(10, MAX_DIRECTIONS);
         let mut found: Vec<Vector3<f64>> = Vec::new();
         for direction in areas.iter().filter_map(|a| a.try_normalize(0.0)) {
             if found.len() < most && found.iter().all(|f| f.dot(&direction).abs() < 1.0 - 1e-9) {

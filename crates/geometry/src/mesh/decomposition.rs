@@ -6,13 +6,13 @@ use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 
 use super::Mesh;
 
-/// Meshes thinner than this part of their length have no inside to divide.
-const FLATTEST: f64 = 1e-4;
+/// Meshes thinner than this fraction of their length have no inside to divide.
+const MIN_RELATIVE_THICKNESS: f64 = 1e-4;
 /// Minimum and maximum number of voxels along the longest side: memory is proportional to its cube.
 const SIDES: [f64; 2] = [8.0, 256.0];
 
-/// Most voxels to step over.
-const COARSEST: u32 = 16;
+/// Largest step between the voxels that are examined.
+const MAX_DOWNSAMPLING: u32 = 16;
 
 /// Parameters of a convex decomposition.
 #[derive(Debug, Clone, Copy)]
@@ -50,8 +50,8 @@ impl DecompositionParameters {
         VHACDParameters {
             resolution: self.voxels.cbrt().round().clamp(SIDES[0], SIDES[1]) as u32,
             concavity: self.concavity,
-            plane_downsampling: self.plane_downsampling.clamp(1, COARSEST),
-            convex_hull_downsampling: self.hull_downsampling.clamp(1, COARSEST),
+            plane_downsampling: self.plane_downsampling.clamp(1, MAX_DOWNSAMPLING),
+            convex_hull_downsampling: self.hull_downsampling.clamp(1, MAX_DOWNSAMPLING),
             alpha: self.alpha,
             beta: self.beta,
             ..VHACDParameters::default()
@@ -67,7 +67,7 @@ impl Mesh {
         }
         let Some((low, high)) = self.aabb() else { return Vec::new() };
         let (low, size) = (Vector3::from(low), Vector3::from(high) - Vector3::from(low));
-        if !size.max().is_finite() || size.min() <= FLATTEST * size.max() {
+        if !size.max().is_finite() || size.min() <= MIN_RELATIVE_THICKNESS * size.max() {
             return Vec::new();
         }
         // parry's tolerances are absolute: it gets a mesh of unit size.

@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use super::Mesh;
 use super::half_edges::HalfEdges;
 
-/// Most neighbours that are looked at where faces lie in one plane.
-const LONGEST_DETOUR: usize = 64;
+/// Largest number of neighbours that are visited where faces lie in one plane.
+const MAX_DETOUR: usize = 64;
 
 /// The faces of a convex mesh, and which of them are beside each other.
 pub(super) struct Enclosure {
@@ -60,7 +60,7 @@ impl Enclosure {
 
     /// A face with a larger share: a neighbour, or a neighbour of those in the same plane.
     fn better(&self, face: u32, share: f64, offset: &Vector3<f64>) -> Option<(u32, f64)> {
-        let mut seen = [face; LONGEST_DETOUR];
+        let mut seen = [face; MAX_DETOUR];
         let (mut next, mut count) = (0, 1);
         while next < count {
             for neighbour in self.neighbours[seen[next] as usize] {
@@ -69,7 +69,7 @@ impl Enclosure {
                     return Some((neighbour, other));
                 }
                 let is_level = other >= share - 1e-12 * share.abs() || other == f64::MIN;
-                if is_level && count < LONGEST_DETOUR && !seen[..count].contains(&neighbour) {
+                if is_level && count < MAX_DETOUR && !seen[..count].contains(&neighbour) {
                     seen[count] = neighbour;
                     count += 1;
                 }

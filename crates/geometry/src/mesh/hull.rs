@@ -7,11 +7,11 @@ use super::Mesh;
 use super::enclosure::Enclosure;
 use super::fast_hash::{FastMap, FastSet};
 
-/// Points whose thickness is less than this part of their length count as flat.
-const FLATTEST: f64 = 1e-7;
+/// Points whose thickness is less than this fraction of their length count as flat.
+const MIN_RELATIVE_THICKNESS: f64 = 1e-7;
 
 /// Of more points than this, those inside of the hull of a sample are left out first.
-const MANY: usize = 5000;
+const MAX_POINTS_WITHOUT_SAMPLE: usize = 5000;
 const SAMPLE: usize = 2000;
 
 impl Mesh {
@@ -57,7 +57,7 @@ impl Mesh {
 
 /// Of many points, those that are not clearly inside of the hull of a few of them.
 fn outer(cloud: Vec<[f64; 3]>, numbers: Vec<usize>) -> (Vec<[f64; 3]>, Vec<usize>) {
-    if cloud.len() <= MANY {
+    if cloud.len() <= MAX_POINTS_WITHOUT_SAMPLE {
         return (cloud, numbers);
     }
     let stride = cloud.len().div_ceil(SAMPLE);
@@ -82,7 +82,7 @@ fn spread(points: &[[f64; 3]]) -> Option<Vec<[f64; 3]>> {
     let (y, width) = farthest(&|d| d - x * x.dot(&d))?;
     let z = x.cross(&y);
     let thickness = points.iter().map(|p| z.dot(&offset(p)).abs()).fold(0.0, f64::max);
-    let spatial = length.is_finite() && width.min(thickness) > FLATTEST * length;
+    let spatial = length.is_finite() && width.min(thickness) > MIN_RELATIVE_THICKNESS * length;
     let scaled = |d: Vector3<f64>| [x.dot(&d) / length, y.dot(&d) / width, z.dot(&d) / thickness];
     spatial.then(|| points.iter().map(|p| scaled(offset(p))).collect())
 }

@@ -67,14 +67,14 @@ pub enum MeshError {
     /// A coordinate is NaN or infinite.
     #[error("invalid data.")]
     NotFinite,
-    /// A coordinate is beyond [`LARGEST_COORDINATE`].
-    #[error("invalid data: a coordinate is beyond {LARGEST_COORDINATE:e}, which scene files cannot hold.")]
+    /// A coordinate is beyond [`MAX_COORDINATE`].
+    #[error("invalid data: a coordinate is beyond {MAX_COORDINATE:e}, which scene files cannot hold.")]
     TooLarge,
 }
 
 /// The largest coordinate of a mesh, metres. Scene files hold 32-bit numbers, which end at 3e38; products of a few coordinates must
 /// fit into 64 bits.
-pub const LARGEST_COORDINATE: f64 = 1e30;
+pub const MAX_COORDINATE: f64 = 1e30;
 
 /// How many faces of a mesh are compared with all vertices before the edges are looked at.
 const SAMPLED_FACES: usize = 8;
@@ -83,7 +83,7 @@ fn check_coordinates(coordinates: &[f64]) -> Result<(), MeshError> {
     if !coordinates.iter().all(|c| c.is_finite()) {
         return Err(MeshError::NotFinite);
     }
-    if coordinates.iter().all(|c| c.abs() <= LARGEST_COORDINATE) { Ok(()) } else { Err(MeshError::TooLarge) }
+    if coordinates.iter().all(|c| c.abs() <= MAX_COORDINATE) { Ok(()) } else { Err(MeshError::TooLarge) }
 }
 
 impl Mesh {

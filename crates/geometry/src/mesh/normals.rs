@@ -4,10 +4,10 @@ use nalgebra::Vector3;
 
 use super::Mesh;
 
-/// Of vertices with more triangles than this, normals are looked for in a tree.
-const MANY: usize = 32;
-/// Normals in a leaf.
-const LEAF: usize = 8;
+/// Normals of vertices with more triangles than this are found with a tree.
+const MAX_LINEAR_SEARCH: usize = 32;
+/// Largest number of normals in a leaf of the tree.
+const MAX_LEAF_SIZE: usize = 8;
 
 impl Mesh {
     /// Recomputes the normals. Corners of triangles that share a vertex and differ by less than
@@ -25,7 +25,7 @@ impl Mesh {
         let (starts, corners) = self.corners_of_vertices();
         for range in starts.windows(2) {
             let around = &corners[range[0] as usize..range[1] as usize];
-            let tree = (around.len() > MANY).then(|| NormalTree::new(around, areas, faces));
+            let tree = (around.len() > MAX_LINEAR_SEARCH).then(|| NormalTree::new(around, areas, faces));
             for corner in around {
                 let own = faces[*corner as usize / 3];
                 let near = |other: &&u32| own.dot(&faces[**other as usize / 3]) > least;
@@ -88,7 +88,7 @@ impl NormalTree {
         let sum = faces.iter().map(|(_, area)| area).sum();
         let number = self.nodes.len();
         let axis = (high - low).imax();
-        let is_leaf = faces.len() <= LEAF || low == high;
+        let is_leaf = faces.len() <= MAX_LEAF_SIZE || low == high;
         let middle = faces.len() / 2;
         if !is_leaf {
             faces.select_nth_unstable_by(middle, |a, b| {

@@ -1,13 +1,15 @@
 //! Circles and ellipses.
 
 use super::mask::Mask;
-use super::{LineType, Pen, Place, Stroke};
+use super::{LineType, Pen, PixelPosition, Stroke};
 use crate::matrix::{Matrix, MatrixError, MatrixResult};
 
 impl Matrix {
+    /// Draws or fills a circle.
+    ///
     /// # Errors
     /// When the radius is negative.
-    pub fn draw_circle(&mut self, centre: Place, radius: f64, pen: &Pen, stroke: Stroke) -> MatrixResult<()> {
+    pub fn draw_circle(&mut self, centre: PixelPosition, radius: f64, pen: &Pen, stroke: Stroke) -> MatrixResult<()> {
         if radius.is_nan() || radius < 0.0 {
             return Err(MatrixError::Range("the radius"));
         }
@@ -25,7 +27,7 @@ impl Matrix {
     }
 
     /// The pixels nearest to a circle, one for each row where it is steep and one for each column where it is flat.
-    fn draw_thin_circle(&mut self, [x, y]: Place, radius: f64, pen: &Pen, is_filled: bool) {
+    fn draw_thin_circle(&mut self, [x, y]: PixelPosition, radius: f64, pen: &Pen, is_filled: bool) {
         let across = |along: f64| (radius * radius - along * along).sqrt().round();
         let [width, height] = self.size().map(|size| size as f64);
         let visible = |centre: f64, size: f64| ((-centre).max(-radius), (size - 1.0 - centre).min(radius));
@@ -50,7 +52,15 @@ impl Matrix {
     }
 
     /// An ellipse, or a part of it: `angle` turns it, `arc` are the first and last angle in the ellipse; degrees, clockwise in the image.
-    pub fn draw_ellipse(&mut self, centre: Place, radii: Place, angle: f64, arc: [f64; 2], pen: &Pen, stroke: Stroke) {
+    pub fn draw_ellipse(
+        &mut self,
+        centre: PixelPosition,
+        radii: PixelPosition,
+        angle: f64,
+        arc: [f64; 2],
+        pen: &Pen,
+        stroke: Stroke,
+    ) {
         let mut places = arc_places(centre, radii, angle, arc);
         let is_whole = (arc[1] - arc[0]).abs() >= 360.0;
         match stroke {
@@ -72,7 +82,7 @@ fn whole_numbers(low: f64, high: f64) -> impl Iterator<Item = f64> {
 }
 
 /// Places on an ellipse, a degree from each other.
-fn arc_places(centre: Place, radii: Place, angle: f64, arc: [f64; 2]) -> Vec<Place> {
+fn arc_places(centre: PixelPosition, radii: PixelPosition, angle: f64, arc: [f64; 2]) -> Vec<PixelPosition> {
     if !arc.iter().chain([&angle]).all(|degrees| degrees.is_finite()) {
         return Vec::new();
     }

@@ -1,16 +1,17 @@
 //! Lines, arrows, polylines and rectangles.
 
 use super::mask::Mask;
-use super::{LineType, Pen, Place, Stroke};
+use super::{LineType, Pen, PixelPosition, Stroke};
 use crate::matrix::Matrix;
 
 impl Matrix {
-    pub fn draw_line(&mut self, from: Place, to: Place, pen: &Pen, thickness: u32) {
+    /// Draws a line of `thickness` pixels.
+    pub fn draw_line(&mut self, from: PixelPosition, to: PixelPosition, pen: &Pen, thickness: u32) {
         self.draw_lines(&[from, to], false, pen, thickness);
     }
 
     /// A line with a tip of two lines at its end, `tip_length` of the line's length.
-    pub fn draw_arrow(&mut self, from: Place, to: Place, pen: &Pen, thickness: u32, tip_length: f64) {
+    pub fn draw_arrow(&mut self, from: PixelPosition, to: PixelPosition, pen: &Pen, thickness: u32, tip_length: f64) {
         let back = [from[0] - to[0], from[1] - to[1]];
         let length = back[0].hypot(back[1]) * tip_length;
         let angle = back[1].atan2(back[0]);
@@ -23,7 +24,7 @@ impl Matrix {
     }
 
     /// Lines from place to place, and back to the first if `is_closed`.
-    pub fn draw_lines(&mut self, places: &[Place], is_closed: bool, pen: &Pen, thickness: u32) {
+    pub fn draw_lines(&mut self, places: &[PixelPosition], is_closed: bool, pen: &Pen, thickness: u32) {
         let Some((&first, &last)) = places.first().zip(places.last()) else { return };
         let closing = (is_closed || places.len() == 1).then_some([last, first]);
         let lines = places.windows(2).map(|pair| [pair[0], pair[1]]).chain(closing);
@@ -37,7 +38,8 @@ impl Matrix {
         mask.paint(self, pen);
     }
 
-    pub fn draw_rectangle(&mut self, from: Place, to: Place, pen: &Pen, stroke: Stroke) {
+    /// Draws or fills the rectangle between two opposite corners.
+    pub fn draw_rectangle(&mut self, from: PixelPosition, to: PixelPosition, pen: &Pen, stroke: Stroke) {
         let corners = [from, [to[0], from[1]], to, [from[0], to[1]]];
         match stroke {
             Stroke::Fill => self.fill_polygons(&[corners.to_vec()], pen),
@@ -46,7 +48,7 @@ impl Matrix {
     }
 
     /// Bresenham's line between the nearest pixels, of what is inside.
-    pub(super) fn draw_thin_line(&mut self, from: Place, to: Place, pen: &Pen) {
+    pub(super) fn draw_thin_line(&mut self, from: PixelPosition, to: PixelPosition, pen: &Pen) {
         let Some([from, to]) = clip_line(self.size(), from.map(f64::round), to.map(f64::round)) else { return };
         let [from, to] = [from, to].map(|place| place.map(|x| x.round() as i64));
         let step = [0, 1].map(|i| (to[i] - from[i]).signum());
@@ -76,7 +78,7 @@ impl Matrix {
 }
 
 /// The part of a line that is inside of an image (Liang and Barsky, 1984); None without one. Ends that are inside stay as they are.
-pub fn clip_line([width, height]: [usize; 2], from: Place, to: Place) -> Option<[Place; 2]> {
+pub fn clip_line([width, height]: [usize; 2], from: PixelPosition, to: PixelPosition) -> Option<[PixelPosition; 2]> {
     let last = [width as f64 - 1.0, height as f64 - 1.0];
     let direction = [to[0] - from[0], to[1] - from[1]];
     let (mut begin, mut end) = (0f64, 1f64);

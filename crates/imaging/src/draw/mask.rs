@@ -1,6 +1,6 @@
 //! How much of each pixel a thick or antialiased figure covers. Overlapping parts of it count once.
 
-use super::{LineType, Pen, Place};
+use super::{LineType, Pen, PixelPosition};
 use crate::matrix::Matrix;
 
 /// Coverage, 0 to 1, of the pixels of a part of an image.
@@ -13,7 +13,7 @@ pub(super) struct Mask {
 
 impl Mask {
     /// Nothing is covered yet. None when the region between two places is outside of the image.
-    pub(super) fn new(image: &Matrix, low: Place, high: Place) -> Option<Self> {
+    pub(super) fn new(image: &Matrix, low: PixelPosition, high: PixelPosition) -> Option<Self> {
         let size = image.size();
         let first = [0, 1].map(|i| (low[i].floor() - 1.0).max(0.0));
         let last = [0, 1].map(|i| (high[i].ceil() + 1.0).min(size[i] as f64 - 1.0));
@@ -25,14 +25,14 @@ impl Mask {
     }
 
     /// The region around places, with a margin.
-    pub(super) fn around(image: &Matrix, places: &[Place], margin: f64) -> Option<Self> {
+    pub(super) fn around(image: &Matrix, places: &[PixelPosition], margin: f64) -> Option<Self> {
         let low = [0, 1].map(|i| places.iter().map(|place| place[i]).fold(f64::INFINITY, f64::min) - margin);
         let high = [0, 1].map(|i| places.iter().map(|place| place[i]).fold(f64::NEG_INFINITY, f64::max) + margin);
         Self::new(image, low, high)
     }
 
     /// Covers what is at most `radius` from the line between two places.
-    pub(super) fn add_line(&mut self, from: Place, to: Place, radius: f64, line_type: LineType) {
+    pub(super) fn add_line(&mut self, from: PixelPosition, to: PixelPosition, radius: f64, line_type: LineType) {
         let reach = radius + 1.0;
         let direction = [to[0] - from[0], to[1] - from[1]];
         let squared = direction[0] * direction[0] + direction[1] * direction[1];
@@ -55,7 +55,14 @@ impl Mask {
     }
 
     /// Covers what is at most `radius` from a ring, or within it for a disc.
-    pub(super) fn add_circle(&mut self, centre: Place, ring: f64, radius: f64, is_disc: bool, line_type: LineType) {
+    pub(super) fn add_circle(
+        &mut self,
+        centre: PixelPosition,
+        ring: f64,
+        radius: f64,
+        is_disc: bool,
+        line_type: LineType,
+    ) {
         for row in 0..self.height {
             let y = (row as i64 + self.corner[1]) as f64;
             self.add_row(row, f64::NEG_INFINITY, f64::INFINITY, |x| {
@@ -113,7 +120,7 @@ pub(super) fn coverage(depth: f64, line_type: LineType) -> f64 {
 }
 
 /// The columns of a row that may be nearer to a line than `reach`.
-fn columns_near(from: Place, direction: Place, y: f64, reach: f64) -> [f64; 2] {
+fn columns_near(from: PixelPosition, direction: PixelPosition, y: f64, reach: f64) -> [f64; 2] {
     let parts = match direction[1] {
         0.0 => [0.0, 1.0],
         dy => [y - reach, y + reach].map(|y| ((y - from[1]) / dy).clamp(0.0, 1.0)),

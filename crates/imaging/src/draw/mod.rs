@@ -15,7 +15,7 @@ pub use text::{FontFace, Text, TextSize, text_size};
 use crate::matrix::{Matrix, MatrixError, MatrixResult};
 
 /// A place, in pixels.
-pub type Place = [f64; 2];
+pub type PixelPosition = [f64; 2];
 
 /// How the pixels of a line touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,6 +24,7 @@ pub enum LineType {
     FourConnected,
     /// Over sides and corners.
     EightConnected,
+    /// The edges are mixed with what is below them.
     Antialiased,
 }
 
@@ -32,18 +33,21 @@ pub enum LineType {
 pub struct Pen {
     /// A value for each channel, in the order they are stored.
     pub colour: [f64; 4],
+    /// How the pixels of strokes touch.
     pub line_type: LineType,
 }
 
 /// The width of an outline, in pixels, or the inside.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stroke {
+    /// An outline of so many pixels.
     Outline(u32),
+    /// The inside is filled.
     Fill,
 }
 
 impl Stroke {
-    const THICKEST: i64 = 32_767;
+    const MAX_THICKNESS: i64 = 32_767;
 
     /// Negative numbers fill.
     ///
@@ -52,7 +56,7 @@ impl Stroke {
     pub fn from_thickness(thickness: i64) -> MatrixResult<Self> {
         match thickness {
             ..0 => Ok(Self::Fill),
-            0..=Self::THICKEST => Ok(Self::Outline(thickness.max(1) as u32)),
+            0..=Self::MAX_THICKNESS => Ok(Self::Outline(thickness.max(1) as u32)),
             _ => Err(MatrixError::Range("the thickness")),
         }
     }
@@ -88,12 +92,12 @@ impl Matrix {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::matrix::{Depth, Format};
+    use crate::matrix::{Depth, PixelFormat};
 
     pub(super) const WHITE: Pen = Pen { colour: [255.0; 4], line_type: LineType::EightConnected };
 
     pub(super) fn blank(width: usize, height: usize) -> Matrix {
-        Matrix::new([width, height], Format::new(Depth::Byte, 1), 0.0).unwrap()
+        Matrix::new([width, height], PixelFormat::new(Depth::Byte, 1), 0.0).unwrap()
     }
 
     /// The image as text, a line for each row.

@@ -1,6 +1,6 @@
 //! Filled polygons. A place is inside when a ray from it crosses the outlines an odd number of times.
 
-use super::{LineType, Pen, Place};
+use super::{LineType, Pen, PixelPosition};
 use crate::matrix::Matrix;
 
 /// Rows and columns of a pixel that are looked at when it is antialiased.
@@ -8,7 +8,7 @@ const FINE: usize = 4;
 
 impl Matrix {
     /// Fills what polygons enclose; where two overlap, nothing. Without antialiasing their outlines belong to it.
-    pub fn fill_polygons(&mut self, polygons: &[Vec<Place>], pen: &Pen) {
+    pub fn fill_polygons(&mut self, polygons: &[Vec<PixelPosition>], pen: &Pen) {
         if pen.line_type == LineType::Antialiased {
             return self.fill_softly(polygons, pen);
         }
@@ -20,7 +20,7 @@ impl Matrix {
         polygons.iter().for_each(|polygon| self.draw_lines(polygon, true, pen, 1));
     }
 
-    fn fill_softly(&mut self, polygons: &[Vec<Place>], pen: &Pen) {
+    fn fill_softly(&mut self, polygons: &[Vec<PixelPosition>], pen: &Pen) {
         let width = self.size()[0];
         let fine_rows = self.crossings(polygons, FINE);
         let mut covered = vec![0.0; width];
@@ -39,7 +39,7 @@ impl Matrix {
     }
 
     /// Where the outlines cross the rows, in order; with `fine` several times per row.
-    fn crossings(&self, polygons: &[Vec<Place>], fine: usize) -> Vec<Vec<f64>> {
+    fn crossings(&self, polygons: &[Vec<PixelPosition>], fine: usize) -> Vec<Vec<f64>> {
         let height = self.size()[1];
         let mut rows = vec![Vec::new(); height * fine];
         // The place of a fine row, and the first one from a place on.

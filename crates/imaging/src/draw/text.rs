@@ -3,26 +3,34 @@
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
 
 use super::mask::{Mask, coverage};
-use super::{LineType, Pen, Place};
+use super::{LineType, Pen, PixelPosition};
 use crate::matrix::{DistanceType, MaskSize, Matrix, MatrixError, MatrixResult};
 
 /// Height of capitals of DejaVu Sans, by that of its lines.
 const CAPITALS: f64 = 0.729 / 1.164;
 /// Columns an italic letter leans by, for each row.
 const SLANT: f64 = 0.2;
-/// Pixels of a line of text.
-const TALLEST: f64 = 4096.0;
+/// Largest height of a line of text, pixels.
+const MAX_LINE_HEIGHT: f64 = 4096.0;
 
 /// A font of OpenCV, of which the size counts here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FontFace {
+    /// Sans serif.
     Simplex,
+    /// Sans serif, small.
     Plain,
+    /// Sans serif with double strokes.
     Duplex,
+    /// Serif.
     Complex,
+    /// Serif with triple strokes.
     Triplex,
+    /// Serif, small.
     ComplexSmall,
+    /// Handwriting.
     ScriptSimplex,
+    /// Handwriting with double strokes.
     ScriptComplex,
 }
 
@@ -40,12 +48,16 @@ impl FontFace {
 /// The size of a text, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TextSize {
+    /// From the first letter to the last.
     pub width: i64,
+    /// Height above the baseline, pixels.
     pub height: i64,
     /// Height below the baseline, pixels.
     pub baseline: i64,
 }
 
+/// The size of a text with letters of `scale` times the font's size and strokes of `thickness` pixels.
+///
 /// # Errors
 /// When the letters are too large.
 pub fn text_size(text: &str, face: FontFace, scale: f64, thickness: u32) -> MatrixResult<TextSize> {
@@ -62,10 +74,15 @@ pub fn text_size(text: &str, face: FontFace, scale: f64, thickness: u32) -> Matr
 /// A text and how it looks.
 #[derive(Debug, Clone, Copy)]
 pub struct Text<'a> {
+    /// What is written.
     pub text: &'a str,
+    /// The font.
     pub face: FontFace,
+    /// Size of the letters as a factor of the font's.
     pub scale: f64,
+    /// Pixels of a stroke.
     pub thickness: u32,
+    /// Whether letters lean.
     pub is_italic: bool,
     /// Rows go up from the bottom of the image, so that letters stand on their heads in the order of rows.
     pub is_from_bottom: bool,
@@ -76,7 +93,7 @@ impl Matrix {
     ///
     /// # Errors
     /// When the letters are too large.
-    pub fn draw_text(&mut self, at: Place, text: &Text<'_>, pen: &Pen) -> MatrixResult<()> {
+    pub fn draw_text(&mut self, at: PixelPosition, text: &Text<'_>, pen: &Pen) -> MatrixResult<()> {
         let font = font();
         let scale = pixel_scale(text.face, text.scale)?;
         let height = f64::from(scale.y);
@@ -105,7 +122,7 @@ fn font() -> FontRef<'static> {
 
 fn pixel_scale(face: FontFace, scale: f64) -> MatrixResult<PxScale> {
     let height = face.heights()[0] * scale / CAPITALS;
-    let is_possible = (0.0..=TALLEST).contains(&height);
+    let is_possible = (0.0..=MAX_LINE_HEIGHT).contains(&height);
     if is_possible { Ok(PxScale::from(height as f32)) } else { Err(MatrixError::Range("the font scale")) }
 }
 

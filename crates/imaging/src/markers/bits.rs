@@ -10,7 +10,7 @@ const SAMPLES: usize = 4;
 /// The part of a cell that is left out along its edges.
 const MARGIN: f64 = 0.15;
 /// The least difference between bright and dark.
-const CONTRAST: f64 = 10.0;
+const MIN_CONTRAST: f64 = 10.0;
 
 /// A projective map of the plane.
 pub(super) struct Homography([f64; 9]);
@@ -95,6 +95,6 @@ fn threshold(values: &[f64]) -> Option<f64> {
     };
     let best = (1..sorted.len()).max_by(|a, b| spread(*a).total_cmp(&spread(*b)))?;
     let (dark, bright) = sorted.split_at(best);
-    let has_contrast = mean(bright) - mean(dark) >= CONTRAST;
+    let has_contrast = mean(bright) - mean(dark) >= MIN_CONTRAST;
     has_contrast.then(|| (mean(bright) + mean(dark)) / 2.0)
 }

@@ -7,19 +7,20 @@ use crate::matrix::Matrix;
 /// Sides of the windows of the adaptive threshold.
 const WINDOWS: [usize; 3] = [3, 13, 23];
 /// The least and the largest perimeter, as parts of the larger side of the image.
-const PERIMETERS: [f64; 2] = [0.03, 4.0];
-/// Distance of an outline from the sides of its quadrilateral, and between two corners, as parts of the perimeter.
-const DEVIATION: f64 = 0.03;
-const NEAREST_CORNERS: f64 = 0.05;
-/// Corners of two quadrilaterals that are the same, as a part of the perimeter.
-const SAME: f64 = 0.05;
-/// Parts of a side, at its ends, where the outline is bent.
-const BENT: f64 = 0.15;
+const PERIMETER_LIMITS: [f64; 2] = [0.03, 4.0];
+/// Largest distance of an outline from the sides of its quadrilateral, as a fraction of the perimeter.
+const MAX_DEVIATION: f64 = 0.03;
+/// Smallest distance between two corners, as a fraction of the perimeter.
+const MIN_CORNER_DISTANCE: f64 = 0.05;
+/// Largest distance between the corners of two quadrilaterals that are duplicates, as a fraction of the perimeter.
+const MAX_DUPLICATE_DISTANCE: f64 = 0.05;
+/// Fraction of a side at each end that is ignored, since the outline is rounded at the corners.
+const CORNER_MARGIN: f64 = 0.15;
 
 /// Quadrilaterals around dark regions, without those that occur twice.
 pub(super) fn candidates(grey: &Matrix) -> Vec<Quad> {
     let [width, height] = grey.size();
-    let limits = PERIMETERS.map(|part| part * width.max(height) as f64);
+    let limits = PERIMETER_LIMITS.map(|part| part * width.max(height) as f64);
     let mut found: Vec<Quad> = Vec::new();
     for window in WINDOWS {
         let dark = dark_pixels(grey, window);
@@ -38,7 +39,7 @@ pub(super) fn candidates(grey: &Matrix) -> Vec<Quad> {
 /// Adds a quadrilateral unless it is there; of two that are nearly the same the larger one stays.
 fn add(found: &mut Vec<Quad>, quad: Quad) {
     let is_same = |other: &Quad| {
-        let limit = SAME * perimeter(&quad).min(perimeter(other));
+        let limit = MAX_DUPLICATE_DISTANCE * perimeter(&quad).min(perimeter(other));
         (0..4).any(|turns| (0..4).all(|i| distance(quad[i], other[(i + turns) % 4]) < limit))
     };
     match found.iter().position(is_same) {
@@ -59,15 +60,15 @@ fn perimeter(quad: &Quad) -> f64 {
 /// The convex quadrilateral of an outline, its corners where the lines along its sides meet. None when it has another shape.
 fn quadrilateral(outline: &[Pixel]) -> Option<Quad> {
     let length = outline.len() as f64;
-    let corners: [usize; 4] = corners(outline, DEVIATION * length).try_into().ok()?;
+    let corners: [usize; 4] = corners(outline, MAX_DEVIATION * length).try_into().ok()?;
     let rough = corners.map(|at| place(outline[at]));
-    let is_wide = (0..4).all(|i| distance(rough[i], rough[(i + 1) % 4]) >= NEAREST_CORNERS * length);
+    let is_wide = (0..4).all(|i| distance(rough[i], rough[(i + 1) % 4]) >= MIN_CORNER_DISTANCE * length);
     if !is_wide || !is_convex(&rough) {
         return None;
     }
     Some(
         refined(outline, corners)
-            .filter(|quad| (0..4).all(|i| distance(quad[i], rough[i]) < SAME * length))
+            .filter(|quad| (0..4).all(|i| distance(quad[i], rough[i]) < MAX_DUPLICATE_DISTANCE * length))
             .unwrap_or(rough),
     )
 }
@@ -120,7 +121,7 @@ fn refined(outline: &[Pixel], corners: [usize; 4]) -> Option<Quad> {
     let line = |i: usize| {
         let (from, to) = (corners[i], corners[(i + 1) % 4]);
         let length = (to + count - from) % count;
-        let bent = (length as f64 * BENT) as usize + 1;
+        let bent = (length as f64 * CORNER_MARGIN) as usize + 1;
         let places: Vec<[f64; 2]> =
             (bent..length.saturating_sub(bent)).map(|n| place(outline[(from + n) % count])).collect();
         fitted_line(&places)

@@ -3,7 +3,7 @@
 use crate::matrix::Matrix;
 
 /// How much darker than its surroundings a dark pixel is.
-const DARKER: f64 = 7.0;
+const THRESHOLD_OFFSET: f64 = 7.0;
 
 /// A place in the image.
 pub(super) type Pixel = [i64; 2];
@@ -28,7 +28,7 @@ pub(super) fn dark_pixels(grey: &Matrix, window: usize) -> Vec<bool> {
         let inside = sums[bottom * stride + right] + sums[top * stride + left];
         let sum = inside - sums[top * stride + right] - sums[bottom * stride + left];
         let mean = sum as f64 / ((right - left) * (bottom - top)) as f64;
-        f64::from(bytes[at]) <= mean - DARKER
+        f64::from(bytes[at]) <= mean - THRESHOLD_OFFSET
     };
     (0..width * height).map(is_dark).collect()
 }

@@ -1,6 +1,6 @@
 //! The markers of the original ArUco library: 1024 numbers in five rows of five bits.
 
-use crate::matrix::{Depth, Format, Matrix, MatrixError, MatrixResult};
+use crate::matrix::{Depth, Matrix, MatrixError, MatrixResult, PixelFormat};
 
 /// Two bits of the number as a row of the marker, a Hamming code (Munoz-Salinas, ArUco).
 const ROWS: [u32; 4] = [0b10000, 0b10111, 0b01001, 0b01110];
@@ -13,6 +13,7 @@ pub struct Dictionary {
 }
 
 impl Dictionary {
+    /// The dictionary of the original ArUco library.
     pub fn aruco_original() -> Self {
         let row = |id: u32, n: u32| u64::from(ROWS[(id >> (8 - 2 * n) & 3) as usize]);
         let marker = |id: u32| (0..5).fold(0, |bits, n| bits << 5 | row(id, n));
@@ -52,7 +53,7 @@ impl Dictionary {
         let cells = border.checked_mul(2).and_then(|both| both.checked_add(self.side));
         let cells =
             cells.filter(|cells| border > 0 && *cells <= size).ok_or(MatrixError::Range("the size of a marker"))?;
-        let mut image = Matrix::new([size, size], Format::new(Depth::Byte, 1), 0.0)?;
+        let mut image = Matrix::new([size, size], PixelFormat::new(Depth::Byte, 1), 0.0)?;
         let cell = |at: usize| (at * cells / size).checked_sub(border).filter(|cell| *cell < self.side);
         for at in 0..size * size {
             let place = cell(at % size).zip(cell(at / size));

@@ -19,13 +19,16 @@ pub type Quad = [[f64; 2]; 4];
 /// A marker in an image. The corners begin with its upper left one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Marker {
+    /// Number in the dictionary.
     pub id: usize,
+    /// Corners in the image.
     pub corners: Quad,
 }
 
 /// Markers found in an image.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Detection {
+    /// The markers of the dictionary.
     pub markers: Vec<Marker>,
     /// Quadrilaterals that are no markers of the dictionary.
     pub rejected: Vec<Quad>,
@@ -63,13 +66,13 @@ mod tests {
 
     use super::bits::Homography;
     use super::*;
-    use crate::matrix::Format;
+    use crate::matrix::PixelFormat;
 
     /// A picture of a marker on grey paper with a white margin; corners are those of its black border.
     fn scene(id: usize, corners: &Quad, size: [usize; 2]) -> Matrix {
         let marker = Dictionary::aruco_original().draw(id, 280, 1).unwrap();
         let to_marker = Homography::onto_unit_square(corners).unwrap();
-        let mut image = Matrix::new(size, Format::new(Depth::Byte, 1), 150.0).unwrap();
+        let mut image = Matrix::new(size, PixelFormat::new(Depth::Byte, 1), 150.0).unwrap();
         let brightness = |x: f64, y: f64| {
             let [u, v] = to_marker.apply([x, y]);
             if (0.0..1.0).contains(&u) && (0.0..1.0).contains(&v) {
@@ -123,13 +126,13 @@ mod tests {
         let dictionary = Dictionary::aruco_original();
         for (size, channels) in [([1, 1], 1), ([3, 2], 3), ([64, 1], 4), ([30, 30], 1)] {
             let mut random = Random::new(7);
-            let mut image = Matrix::new(size, Format::new(Depth::Byte, channels), 0.0).unwrap();
+            let mut image = Matrix::new(size, PixelFormat::new(Depth::Byte, channels), 0.0).unwrap();
             for at in 0..size[0] * size[1] * channels {
                 image.set_value(at, f64::from(random.byte()));
             }
             assert!(dictionary.detect(&image).unwrap().markers.is_empty());
         }
-        let floats = Matrix::new([9, 9], Format::new(Depth::Float, 1), 0.0).unwrap();
+        let floats = Matrix::new([9, 9], PixelFormat::new(Depth::Float, 1), 0.0).unwrap();
         assert!(dictionary.detect(&floats).is_err());
     }
 }

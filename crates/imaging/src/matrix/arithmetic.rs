@@ -1,17 +1,24 @@
 //! Operations on each value, of one image, of two, or of an image and a number for each channel.
 
-use super::{Depth, Format, Matrix, MatrixError, MatrixResult, Value, Values, with_values};
+use super::{Depth, Matrix, MatrixError, MatrixResult, PixelFormat, Value, Values, with_values};
 
 /// The numbers of an operation, one for each channel; those that are not there are 0.
 const SCALAR: usize = 4;
 
+/// A comparison of the values of two images.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Comparison {
+    /// a = b.
     Equal,
+    /// a > b.
     Greater,
+    /// a ≥ b.
     GreaterOrEqual,
+    /// a < b.
     Less,
+    /// a ≤ b.
     LessOrEqual,
+    /// a ≠ b.
     NotEqual,
 }
 
@@ -28,10 +35,14 @@ impl Comparison {
     }
 }
 
+/// An operation on the bits of two values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bitwise {
+    /// Bits that are set in both.
     And,
+    /// Bits that are set in either.
     Or,
+    /// Bits that are set in exactly one.
     Xor,
 }
 
@@ -46,14 +57,17 @@ impl Bitwise {
 }
 
 impl Matrix {
+    /// The sum of two images, value by value.
     pub fn add(&self, other: &Self) -> MatrixResult<Self> {
         self.zip(other, |a, b| a + b)
     }
 
+    /// This image less another, value by value.
     pub fn subtract(&self, other: &Self) -> MatrixResult<Self> {
         self.zip(other, |a, b| a - b)
     }
 
+    /// The product of two images, value by value.
     pub fn multiply(&self, other: &Self) -> MatrixResult<Self> {
         self.zip(other, |a, b| a * b)
     }
@@ -64,6 +78,7 @@ impl Matrix {
         self.zip(other, divide)
     }
 
+    /// The absolute difference of two images, value by value.
     pub fn difference(&self, other: &Self) -> MatrixResult<Self> {
         self.zip(other, |a, b| (a - b).abs())
     }
@@ -79,6 +94,7 @@ impl Matrix {
         Ok(self.with(Values::Bytes(holds)))
     }
 
+    /// An operation on the bits of two images; of floats, on the bits that represent them.
     pub fn bitwise(&self, other: &Self, operation: Bitwise) -> MatrixResult<Self> {
         self.require_same(other)?;
         let values = match (&self.values, &other.values) {
@@ -93,6 +109,7 @@ impl Matrix {
         Ok(self.with(values))
     }
 
+    /// All bits inverted; of floats, those that represent them.
     pub fn bitwise_not(&self) -> Self {
         self.with(match &self.values {
             Values::Bytes(values) => Values::Bytes(values.iter().map(|value| !value).collect()),
@@ -102,18 +119,22 @@ impl Matrix {
         })
     }
 
+    /// Absolute values.
     pub fn abs(&self) -> Self {
         self.map(f64::abs)
     }
 
+    /// e to the power of each value; floats only.
     pub fn exp(&self) -> MatrixResult<Self> {
         self.map_floats("exp", f64::exp)
     }
 
+    /// Natural logarithms; floats only.
     pub fn log(&self) -> MatrixResult<Self> {
         self.map_floats("log", f64::ln)
     }
 
+    /// Square roots; floats only.
     pub fn sqrt(&self) -> MatrixResult<Self> {
         self.map_floats("sqrt", f64::sqrt)
     }
@@ -158,14 +179,17 @@ impl Matrix {
         Ok(self.with(values))
     }
 
+    /// Adds to each channel its number; missing ones are 0.
     pub fn add_numbers(&self, numbers: &[f64]) -> MatrixResult<Self> {
         self.zip_numbers(numbers, |a, b| a + b)
     }
 
+    /// Subtracts from each channel its number; missing ones are 0.
     pub fn subtract_numbers(&self, numbers: &[f64]) -> MatrixResult<Self> {
         self.zip_numbers(numbers, |a, b| a - b)
     }
 
+    /// The absolute difference of each channel and its number; missing ones are 0.
     pub fn difference_to_numbers(&self, numbers: &[f64]) -> MatrixResult<Self> {
         self.zip_numbers(numbers, |a, b| (a - b).abs())
     }
@@ -215,7 +239,7 @@ impl Matrix {
 
     /// # Errors
     /// Unless another image has the same size and format.
-    pub(super) fn require_same(&self, other: &Self) -> MatrixResult<Format> {
+    pub(super) fn require_same(&self, other: &Self) -> MatrixResult<PixelFormat> {
         let is_same = self.size() == other.size() && self.format() == other.format();
         if is_same { Ok(self.format()) } else { Err(MatrixError::Mismatch) }
     }

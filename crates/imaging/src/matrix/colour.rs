@@ -9,6 +9,7 @@ const GREY: [f64; 3] = [0.299, 0.587, 0.114];
 const GREY_PARTS: [u32; 3] = [9798, 19235, 3735];
 
 impl Matrix {
+    /// The brightness of an image of three or four channels, as one channel.
     pub fn grey_from_rgb(&self) -> MatrixResult<Self> {
         self.require(self.channels == 3 || self.channels == 4, "conversion to grey")?;
         let values = match &self.values {
@@ -29,6 +30,7 @@ impl Matrix {
         Ok(swapped)
     }
 
+    /// Three equal channels from one.
     pub fn rgb_from_grey(&self) -> MatrixResult<Self> {
         self.require(self.channels == 1, "conversion from grey")?;
         let values = match &self.values {
@@ -38,18 +40,22 @@ impl Matrix {
         Ok(Self { channels: 3, values, ..self.shape() })
     }
 
+    /// Hue, saturation and value from red, green and blue.
     pub fn hsv_from_rgb(&self) -> MatrixResult<Self> {
         self.convert_colours(hsv_from_rgb, [1.0; 3], hue_scale(self.format().depth))
     }
 
+    /// Red, green and blue from hue, saturation and value.
     pub fn rgb_from_hsv(&self) -> MatrixResult<Self> {
         self.convert_colours(rgb_from_hsv, hue_scale(self.format().depth), [1.0; 3])
     }
 
+    /// Hue, lightness and saturation from red, green and blue.
     pub fn hls_from_rgb(&self) -> MatrixResult<Self> {
         self.convert_colours(hls_from_rgb, [1.0; 3], hue_scale(self.format().depth))
     }
 
+    /// Red, green and blue from hue, lightness and saturation.
     pub fn rgb_from_hls(&self) -> MatrixResult<Self> {
         self.convert_colours(rgb_from_hls, hue_scale(self.format().depth), [1.0; 3])
     }

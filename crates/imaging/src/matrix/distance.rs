@@ -2,10 +2,12 @@
 
 use super::{Depth, Matrix, MatrixResult, Values};
 
+/// How distances are measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DistanceType {
     /// |dx| + |dy|.
     Manhattan,
+    /// The length of the straight line.
     Euclidean,
     /// The larger of |dx| and |dy|.
     Chessboard,
@@ -14,8 +16,11 @@ pub enum DistanceType {
 /// How Euclidean distances are found: as sums of steps to neighbours, or exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MaskSize {
+    /// Steps to the eight neighbours.
     Three,
+    /// Steps to neighbours within two rows and columns.
     Five,
+    /// Exact.
     Precise,
 }
 
@@ -26,6 +31,8 @@ const FAR: f64 = 1e9;
 type Steps = Vec<(i64, i64, f64)>;
 
 impl Matrix {
+    /// The distance of each pixel of a single channel to the nearest pixel of value 0, as floats.
+    ///
     /// # Errors
     /// Unless the image has one channel of bytes.
     pub fn distance_transform(&self, distance: DistanceType, mask: MaskSize) -> MatrixResult<Self> {

@@ -21,35 +21,46 @@ const MAX_VALUES: usize = 1 << 28;
 /// Why an operation is not possible. The texts begin as those of OpenCV's own exceptions do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum MatrixError {
+    /// Two images differ in size or format.
     #[error("OpenCV(core): the sizes or formats of the images do not match.")]
     Mismatch,
+    /// The operation, which is named, is not defined for the format.
     #[error("OpenCV(core): {0} is not possible with images of this format.")]
     Format(&'static str),
+    /// A region reaches beyond the image.
     #[error("OpenCV(core): the region is not inside of the image.")]
     Region,
+    /// An image is empty or too large.
     #[error("OpenCV(core): an image has at least one pixel, and {MAX_VALUES} values at most.")]
     Size,
+    /// A parameter, which is named, is out of range.
     #[error("OpenCV(core): {0} is out of range.")]
     Range(&'static str),
 }
 
+/// The result of an operation on images.
 pub type MatrixResult<T> = Result<T, MatrixError>;
 
 /// The type of one value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
+    /// An unsigned byte.
     Byte,
+    /// A float of 32 bits.
     Float,
 }
 
 /// Type and number of the values of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Format {
+pub struct PixelFormat {
+    /// The type of a value.
     pub depth: Depth,
+    /// Values of a pixel.
     pub channels: usize,
 }
 
-impl Format {
+impl PixelFormat {
+    /// A format of so many channels of a type.
     pub const fn new(depth: Depth, channels: usize) -> Self {
         Self { depth, channels }
     }
@@ -64,7 +75,9 @@ impl Format {
 /// The values of all pixels, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
+    /// Bytes.
     Bytes(Vec<u8>),
+    /// Floats.
     Floats(Vec<f32>),
 }
 
@@ -125,7 +138,7 @@ impl Matrix {
     ///
     /// # Errors
     /// When it has no pixel or too many.
-    pub fn new([width, height]: [usize; 2], format: Format, first: f64) -> MatrixResult<Self> {
+    pub fn new([width, height]: [usize; 2], format: PixelFormat, first: f64) -> MatrixResult<Self> {
         let count = value_count([width, height], format.channels)?;
         let values = match format.depth {
             Depth::Byte => Values::Bytes(with_first(count, format.channels, first)),
@@ -161,14 +174,16 @@ impl Matrix {
         [self.width, self.height]
     }
 
-    pub fn format(&self) -> Format {
+    /// Type and number of the values of a pixel.
+    pub fn format(&self) -> PixelFormat {
         let depth = match self.values {
             Values::Bytes(_) => Depth::Byte,
             Values::Floats(_) => Depth::Float,
         };
-        Format { depth, channels: self.channels }
+        PixelFormat { depth, channels: self.channels }
     }
 
+    /// All values, row by row.
     pub fn values(&self) -> &Values {
         &self.values
     }
@@ -248,16 +263,16 @@ mod tests {
 
     #[test]
     fn the_first_channel_is_set() {
-        let image = Matrix::new([2, 1], Format::new(Depth::Byte, 3), 7.0).unwrap();
+        let image = Matrix::new([2, 1], PixelFormat::new(Depth::Byte, 3), 7.0).unwrap();
         assert_eq!(image.bytes(), Some(&[7, 0, 0, 7, 0, 0][..]));
         assert_eq!(image.format().opencv_type(), 16);
-        assert_eq!(Format::new(Depth::Float, 2).opencv_type(), 13);
+        assert_eq!(PixelFormat::new(Depth::Float, 2).opencv_type(), 13);
     }
 
     #[test]
     fn impossible_sizes_are_refused() {
         for size in [[0, 3], [usize::MAX, 2], [1 << 20, 1 << 20]] {
-            assert_eq!(Matrix::new(size, Format::new(Depth::Byte, 3), 0.0), Err(MatrixError::Size));
+            assert_eq!(Matrix::new(size, PixelFormat::new(Depth::Byte, 3), 0.0), Err(MatrixError::Size));
         }
         assert!(Matrix::from_bytes([2, 2], 1, vec![0; 5]).is_err());
     }

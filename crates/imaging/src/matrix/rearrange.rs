@@ -2,22 +2,32 @@
 
 use super::{Depth, Matrix, MatrixError, MatrixResult, Value, Values, value_count, with_values};
 
+/// What is mirrored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flip {
+    /// Left and right change places.
     Columns,
+    /// The first and the last rows change places.
     Rows,
+    /// Both.
     Both,
 }
 
+/// How the values of a row or a column become one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reduction {
+    /// Their sum.
     Sum,
+    /// Their mean.
     Average,
+    /// The largest one.
     Largest,
+    /// The smallest one.
     Smallest,
 }
 
 impl Matrix {
+    /// The mirrored image.
     pub fn flipped(&self, flip: Flip) -> Self {
         let from = |at: usize, size: usize, turned: bool| if turned { size - 1 - at } else { at };
         self.rearranged(self.size(), |column, row| {

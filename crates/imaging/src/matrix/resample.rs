@@ -2,9 +2,12 @@
 
 use super::{Matrix, MatrixResult, Value, value_count, with_values};
 
+/// How pixels of a resized image are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
+    /// The nearest pixel.
     Nearest,
+    /// The two nearest pixels, weighted by their distance.
     Linear,
     /// The average of what a pixel covers.
     Area,
@@ -21,6 +24,8 @@ struct Sources {
 }
 
 impl Matrix {
+    /// The image in another size: columns and rows.
+    ///
     /// # Errors
     /// When the size is none an image can have.
     pub fn resized(&self, size: [usize; 2], interpolation: Interpolation) -> MatrixResult<Self> {

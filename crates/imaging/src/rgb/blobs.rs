@@ -5,6 +5,7 @@ use super::{BLACK, Rgb, RgbImage, mean};
 /// A connected region, in pixels; places are indices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blob {
+    /// Number of pixels.
     pub count: usize,
     /// Angle of the box, rad.
     pub orientation: f64,

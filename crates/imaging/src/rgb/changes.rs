@@ -5,8 +5,11 @@ use super::{RgbImage, mean};
 /// A pixel that changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Change {
+    /// Whether the brightness rose; else it fell.
     pub is_brighter: bool,
+    /// Column of the pixel, from the left.
     pub column: usize,
+    /// Row of the pixel, from the bottom.
     pub row: usize,
 }
 

@@ -5,6 +5,7 @@ use super::{BLACK, Rgb, RgbImage, mean};
 /// The components that a colour filter looks at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Component {
+    /// Red, green and blue.
     Rgb,
     /// Hue, saturation and lightness, each 0 to 1.
     Hsl,

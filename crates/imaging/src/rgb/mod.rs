@@ -20,6 +20,7 @@ pub use kernel::Kernel;
 /// Red, green, blue.
 pub type Rgb = [f64; 3];
 
+/// Black.
 pub const BLACK: Rgb = [0.0; 3];
 
 /// An image, row by row from the bottom.
@@ -68,10 +69,12 @@ impl RgbImage {
         [self.width, self.height]
     }
 
+    /// All pixels, row by row from the bottom.
     pub fn pixels(&self) -> &[Rgb] {
         &self.pixels
     }
 
+    /// All pixels, row by row from the bottom, to be changed.
     pub fn pixels_mut(&mut self) -> &mut [Rgb] {
         &mut self.pixels
     }

@@ -18,9 +18,13 @@ pub struct Moments {
 /// Expected moments. A tolerance is the first difference that is too large.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expected {
+    /// The moments; the roundness is the largest one allowed.
     pub moments: Moments,
+    /// Of the proportion.
     pub proportion_tolerance: f64,
+    /// Of the centre's two coordinates.
     pub centre_tolerance: [f64; 2],
+    /// Of the orientation, rad.
     pub orientation_tolerance: f64,
 }
 

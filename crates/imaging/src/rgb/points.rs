@@ -5,8 +5,11 @@ use super::{Rgb, RgbImage, byte, mean};
 /// How a sensor sees: along +z, columns towards -x, rows towards +y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Optics {
+    /// Distance along z of depth 0, metres.
     pub near: f64,
+    /// Distance along z of depth 1, metres.
     pub far: f64,
+    /// Extent of the view.
     pub opening: Opening,
 }
 
@@ -31,8 +34,11 @@ pub enum Grid {
 /// A point in the sensor's frame and its distance, metres; and the pixel it comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
+    /// In the sensor's frame, metres.
     pub position: [f64; 3],
+    /// From the sensor's origin, metres.
     pub distance: f64,
+    /// Index of the pixel in the depth image.
     pub pixel: usize,
 }
 

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::{Rgb, RgbImage};
 
 /// Up to this size a palette is searched from its beginning, which is faster than a grid.
-const SMALL: usize = 64;
+const MAX_LINEAR_SEARCH: usize = 64;
 
 impl RgbImage {
     /// Pixels in index order take the first colour of the palette nearer than `distance`, else they extend the palette.
@@ -43,7 +43,7 @@ impl Palette {
             return colour;
         }
         let found = match self.colours.len() {
-            ..=SMALL => (0..self.colours.len()).find(|&at| self.is_near(at, colour)),
+            ..=MAX_LINEAR_SEARCH => (0..self.colours.len()).find(|&at| self.is_near(at, colour)),
             _ => self.find_in_grid(colour),
         };
         match found {

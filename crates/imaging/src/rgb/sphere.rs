@@ -6,12 +6,13 @@ use std::f64::consts::{PI, TAU};
 pub const FACES: usize = 6;
 
 /// The limits of the horizontal and the vertical angle, rad.
-const SMALLEST: f64 = 5.0 / 180.0 * PI;
-const LARGEST: [f64; 2] = [TAU, PI];
+const MIN_ANGLE: f64 = 5.0 / 180.0 * PI;
+const MAX_ANGLES: [f64; 2] = [TAU, PI];
 
 /// Where a pixel of the sphere comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Source {
+    /// Index of the face of the cube, below [`FACES`].
     pub face: usize,
     /// Index in the face's picture.
     pub pixel: usize,
@@ -21,7 +22,7 @@ pub struct Source {
 
 /// The sources of all pixels of a picture of `size`, which spans `angles`, from square pictures of `resolution`.
 pub fn sources(size: [usize; 2], angles: [f64; 2], resolution: usize) -> Vec<Source> {
-    let angles = [0, 1].map(|i| angles[i].max(SMALLEST).min(LARGEST[i]));
+    let angles = [0, 1].map(|i| angles[i].max(MIN_ANGLE).min(MAX_ANGLES[i]));
     let angle =
         |at: usize, i: usize| -angles[i] / 2.0 + at as f64 * angles[i] / size[i].saturating_sub(1).max(1) as f64;
     let places = (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| (column, row)));

@@ -14,7 +14,7 @@ use bounded_xml::{Document, DocumentType, Error, Node};
 pub(crate) use write::write;
 
 use crate::Resolve;
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 use crate::limits::Limits;
 use crate::mesh_file::{MeshFile, UpAxis};
 use crate::text::number;
@@ -88,13 +88,13 @@ impl<'a> Elements<'a> for Node<'a, 'a> {
 
 /// A damaged text.
 fn refused(error: Error) -> ReadError {
-    let place = error.line().map_or(Place::File, |line| Place::Line(line as usize));
+    let place = error.line().map_or(Location::File, |line| Location::Line(line as usize));
     ReadError::new(place, "XML", error.to_string())
 }
 
 fn at(document: &Document, node: Node, problem: impl Into<String>) -> ReadError {
     let line = document.text_pos_at(node.range().start).row as usize;
-    ReadError::new(Place::Line(line), node.tag_name().name(), problem)
+    ReadError::new(Location::Line(line), node.tag_name().name(), problem)
 }
 
 impl<'a> Reader<'a, '_> {

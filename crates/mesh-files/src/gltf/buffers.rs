@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::{integer, item, list, refused, string};
 use crate::Resolve;
 use crate::bytes::Bytes;
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 use crate::text::percent_decoded;
 
 const JSON: u32 = 0x4e4f_534a;
@@ -22,12 +22,12 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
     let mut reader = Bytes::new(&bytes[4..], 4);
     let version = reader.u32("version")?;
     if version != 2 {
-        return Err(ReadError::new(Place::Byte(4), "version", format!("{version} instead of 2")));
+        return Err(ReadError::new(Location::Byte(4), "version", format!("{version} instead of 2")));
     }
     let length = reader.u32("length")? as usize;
     if length > bytes.len() {
         return Err(ReadError::new(
-            Place::Byte(8),
+            Location::Byte(8),
             "length",
             format!("{length} bytes are announced, the file has {}", bytes.len()),
         ));
@@ -42,7 +42,7 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
             _ => {}
         }
     }
-    let json = json.ok_or_else(|| ReadError::new(Place::Byte(12), "chunk", "no JSON"))?;
+    let json = json.ok_or_else(|| ReadError::new(Location::Byte(12), "chunk", "no JSON"))?;
     Ok((json, binary))
 }
 

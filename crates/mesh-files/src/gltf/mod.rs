@@ -18,7 +18,7 @@ use serde_json::Value;
 pub(crate) use write::write;
 
 use crate::Resolve;
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 use crate::limits::Limits;
 use crate::mesh_file::{MeshFile, Part, UpAxis};
 use buffers::Buffers;
@@ -69,7 +69,7 @@ fn with_reader<T>(
     let root: Value = serde_json::from_slice(json).map_err(not_json)?;
     let version = string(&root["asset"], "version").unwrap_or("");
     if !version.starts_with("2.") {
-        return Err(ReadError::new(Place::File, "asset", format!("version {version:?} instead of 2.0")));
+        return Err(ReadError::new(Location::File, "asset", format!("version {version:?} instead of 2.0")));
     }
     check_extensions(&root)?;
     use_it(Reader {
@@ -84,14 +84,14 @@ fn with_reader<T>(
 }
 
 fn not_json(error: serde_json::Error) -> ReadError {
-    ReadError::new(Place::Line(error.line()), "JSON", error.to_string())
+    ReadError::new(Location::Line(error.line()), "JSON", error.to_string())
 }
 
 fn check_extensions(root: &Value) -> Result<()> {
     let required = list(root, "extensionsRequired").iter().filter_map(Value::as_str);
     match required.into_iter().find(|name| !KNOWN_EXTENSIONS.contains(name)) {
         None => Ok(()),
-        Some(name) => Err(ReadError::new(Place::File, "extensionsRequired", format!("{name} is not supported"))),
+        Some(name) => Err(ReadError::new(Location::File, "extensionsRequired", format!("{name} is not supported"))),
     }
 }
 
@@ -127,5 +127,5 @@ fn item<'a>(root: &'a Value, array: &str, index: usize) -> Result<&'a Value> {
 }
 
 fn refused(element: impl Into<String>, problem: impl Into<String>) -> ReadError {
-    ReadError::new(Place::File, element, problem)
+    ReadError::new(Location::File, element, problem)
 }

@@ -3,7 +3,7 @@
 use super::scene::Placed;
 use super::{Asset, Node, Reader, integer, list, string, with_reader};
 use crate::Resolve;
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 use crate::limits::Limits;
 use crate::mesh_file::Part;
 use crate::transform::Transform;
@@ -19,7 +19,7 @@ impl Asset {
     /// Where the file is damaged, requires an extension that is not known, or exceeds the limits.
     pub fn read(bytes: &[u8], limits: Limits, resolve: Resolve) -> Result<Self> {
         if bytes.len() > MAX_BYTES {
-            return Err(ReadError::new(Place::File, "file", format!("larger than {} MiB", MAX_BYTES >> 20)));
+            return Err(ReadError::new(Location::File, "file", format!("larger than {} MiB", MAX_BYTES >> 20)));
         }
         with_reader(bytes, limits, resolve, |mut reader| {
             let placed = reader.scene()?;
@@ -44,7 +44,7 @@ impl Asset {
                 .flat_map(|part| part.vertices.as_flattened());
             if !node.translation.iter().chain(&node.rotation).chain(coordinates).all(|x| x.is_finite()) {
                 let problem = "a place that is not finite";
-                return Err(ReadError::new(Place::File, format!("node {number} of the scene"), problem));
+                return Err(ReadError::new(Location::File, format!("node {number} of the scene"), problem));
             }
         }
         Ok(())

@@ -9,7 +9,7 @@ pub(crate) use write::write;
 
 use crate::Resolve;
 use crate::corners::{Corner, Lists, NONE, part, push_polygon};
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 use crate::limits::Limits;
 use crate::mesh_file::MeshFile;
 use crate::text::{name, no_number, number, number_or_zero, quoted, words};
@@ -35,7 +35,7 @@ struct Reader {
 pub(crate) fn read(bytes: &[u8], mut limits: Limits, resolve: Resolve) -> Result<MeshFile> {
     let (mut reader, mut library) = (Reader::default(), Library::default());
     for (line, content) in logical_lines(bytes) {
-        reader.line(&content, Place::Line(line), &mut library, resolve)?;
+        reader.line(&content, Location::Line(line), &mut library, resolve)?;
     }
     let lists = Lists { positions: &reader.positions, normals: &reader.normals, uv: &reader.uv };
     let mut names: Vec<_> = reader.groups.iter().collect();
@@ -72,7 +72,7 @@ fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, std::borrow::Cow<
 }
 
 impl Reader {
-    fn line(&mut self, line: &[u8], place: Place, library: &mut Library, resolve: Resolve) -> Result<()> {
+    fn line(&mut self, line: &[u8], place: Location, library: &mut Library, resolve: Resolve) -> Result<()> {
         let line = line.trim_ascii_start();
         let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
         let (keyword, rest) = (&line[..end], line[end..].trim_ascii());
@@ -89,7 +89,7 @@ impl Reader {
         Ok(())
     }
 
-    fn face(&mut self, rest: &[u8], place: Place) -> Result<()> {
+    fn face(&mut self, rest: &[u8], place: Location) -> Result<()> {
         self.polygon.clear();
         for word in words(rest) {
             self.polygon.push(self.corner(word, place)?);
@@ -117,7 +117,7 @@ impl Reader {
     }
 
     /// `position`, `position/uv`, `position//normal` or `position/uv/normal`.
-    fn corner(&self, word: &[u8], place: Place) -> Result<Corner> {
+    fn corner(&self, word: &[u8], place: Location) -> Result<Corner> {
         let mut indices = word.split(|&byte| byte == b'/');
         let refused =
             || ReadError::new(place, "face", format!("{} names nothing that was defined before", quoted(word)));
@@ -141,7 +141,7 @@ fn relative(word: &[u8], length: usize) -> Option<u32> {
     usize::try_from(index).ok().filter(|index| *index < length).map(|index| index as u32)
 }
 
-fn vector(rest: &[u8], place: Place) -> Result<[f64; 3]> {
+fn vector(rest: &[u8], place: Location) -> Result<[f64; 3]> {
     let mut words = words(rest);
     let mut next = || {
         let word = words.next();

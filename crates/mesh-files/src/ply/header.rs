@@ -1,6 +1,6 @@
 //! The header: which elements there are, with which properties.
 
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 use crate::text::{name, quoted, words};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,7 +112,7 @@ impl Header {
     }
 
     fn refused(&self, problem: &str) -> ReadError {
-        ReadError::new(Place::Line(self.lines), "header", problem)
+        ReadError::new(Location::Line(self.lines), "header", problem)
     }
 
     fn encoding(&self, kind: &[u8]) -> Result<Encoding> {

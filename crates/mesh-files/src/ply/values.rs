@@ -2,7 +2,7 @@
 
 use super::header::{Element, Encoding, Header, Kind, Scalar};
 use crate::bytes::Bytes;
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 use crate::text::{Words, no_number};
 
 pub(super) enum Values<'a> {
@@ -20,10 +20,10 @@ impl<'a> Values<'a> {
         }
     }
 
-    pub(super) fn place(&self) -> Place {
+    pub(super) fn place(&self) -> Location {
         match self {
             Self::Text(words, lines, _) => match words.place() {
-                Place::Line(line) => Place::Line(line + lines),
+                Location::Line(line) => Location::Line(line + lines),
                 other => other,
             },
             Self::Binary(bytes, _) => bytes.place(),

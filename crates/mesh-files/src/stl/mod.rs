@@ -6,7 +6,7 @@ mod write;
 pub(crate) use write::{write_binary, write_text};
 
 use crate::bytes::Bytes;
-use crate::error::{Place, ReadError, Result};
+use crate::error::{Location, ReadError, Result};
 use crate::limits::Limits;
 use crate::mesh_file::{Material, MeshFile, Part};
 
@@ -44,7 +44,7 @@ fn binary(bytes: &[u8], mut limits: Limits) -> Result<MeshFile> {
     for (number, triangle) in triangles.iter().enumerate() {
         let corners = vertices(triangle);
         if !corners.as_flattened().iter().all(|x| x.is_finite()) {
-            let place = Place::Byte(HEADER + 4 + number * TRIANGLE);
+            let place = Location::Byte(HEADER + 4 + number * TRIANGLE);
             return Err(ReadError::new(place, format!("triangle {number}"), "a coordinate that is not finite"));
         }
         part.vertices.extend(corners.map(|corner| corner.map(f64::from)));

@@ -8,7 +8,7 @@ use super::quadric::Quadric;
 /// How much more a border counts than the triangle beside it: it stays where it is, nearly.
 const BORDER_WEIGHT: f64 = 100.0;
 /// The cosine of the largest angle by which a collapse may turn a triangle.
-const LARGEST_TURN: f64 = 0.2;
+const MIN_TURN_COSINE: f64 = 0.2;
 
 pub(super) struct Surface {
     points: Vec<Vector3<f64>>,
@@ -163,7 +163,7 @@ impl Surface {
             let before = self.area_vector(triangle);
             let [a, b, c] = triangle.map(|corner| if corner == vertex { *place } else { self.points[corner as usize] });
             let after = (b - a).cross(&(c - a));
-            before.norm() == 0.0 || after.dot(&before) > LARGEST_TURN * after.norm() * before.norm()
+            before.norm() == 0.0 || after.dot(&before) > MIN_TURN_COSINE * after.norm() * before.norm()
         })
     }
 

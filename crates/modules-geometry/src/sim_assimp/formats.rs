@@ -1,7 +1,7 @@
 //! The formats.
 
 use api_macro::api;
-use mesh_files::{ExportFormat, Format};
+use mesh_files::{ExportFormat, MeshFormat};
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 
@@ -25,7 +25,7 @@ const EXPORT: [(&str, &str, &str, ExportFormat); 7] = [
 /// @return formatExtension without a dot
 #[api("simAssimp.getImportFormat")]
 fn get_import_format(_cx: &Cx, index: i64) -> Result<(String, String)> {
-    let format = usize::try_from(index).ok().and_then(|index| Format::ALL.get(index));
+    let format = usize::try_from(index).ok().and_then(|index| MeshFormat::ALL.get(index));
     Ok(format.map_or_else(Default::default, |(_, extension, description)| ((*description).into(), (*extension).into())))
 }
 

@@ -1,4 +1,4 @@
-//! `simAssimp`: shapes and meshes from files, and to files, with their looks.
+//! `simAssimp`: shapes and meshes from files, and to files, with their appearance.
 //!
 //! The dialogs of CoppeliaSim's module are missing: there is no window to ask in.
 
@@ -9,7 +9,7 @@ use api_macro::api;
 use mesh_files::MeshFile;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use format::mesh_file::{ImportOptions, Looks, Up, load, scaling_factor, to_lists, to_shapes};
+use format::mesh_file::{ImportedAppearance, MeshImportOptions, Up, load, scaling_factor, to_lists, to_shapes};
 use scene::shape::Shape;
 use scene::{Data, Handle, Kind};
 use script::Number;
@@ -59,17 +59,17 @@ fn import_shapes(
 ) -> Result<Vec<Handle>> {
     let has = |bit: i64| options.0 & bit != 0;
     let longest = u32::try_from(max_texture_size.0).ok().filter(|longest| *longest > 0);
-    let looks = Looks {
+    let imported = ImportedAppearance {
         colours: !has(option::DROP_COLOURS),
         transparency: !has(option::DROP_TRANSPARENCY),
         textures: longest.filter(|_| !has(option::DROP_TEXTURES)),
     };
-    let import = import_options(scaling, up_vector.0, options.0, looks.textures.is_some())?;
+    let import = import_options(scaling, up_vector.0, options.0, imported.textures.is_some())?;
     // All are read before the first shape is made: a file that is refused leaves the scene as it is.
     let mut shapes = Vec::new();
     for name in names(&filenames) {
         let mut file = load(name, import, cx.permissions())?;
-        let own = to_shapes(&mut file, looks, &mut cx.scene_mut())?;
+        let own = to_shapes(&mut file, imported, &mut cx.scene_mut())?;
         warn(cx, name, &file, options.0);
         if has(option::ONE_PER_FILE) { shapes.push(Shape::compound(own)?) } else { shapes.extend(own) }
     }
@@ -118,9 +118,9 @@ fn names(filenames: &str) -> impl Iterator<Item = &str> {
     filenames.split(';').map(str::trim).filter(|name| !name.is_empty())
 }
 
-fn import_options(scaling: f64, up: i64, options: i64, textures: bool) -> Result<ImportOptions> {
+fn import_options(scaling: f64, up: i64, options: i64, textures: bool) -> Result<MeshImportOptions> {
     let has = |bit: i64| options & bit != 0;
-    Ok(ImportOptions {
+    Ok(MeshImportOptions {
         scaling: scaling_factor(scaling)?,
         up: match up_axis(up)? {
             Up::OfFile if has(option::IGNORE_UP_AXIS) => Up::Z,

@@ -1,7 +1,7 @@
 //! `simIM.*`: drawing. Places are columns and rows; with `shift` they have that many binary digits behind the point.
 
 use api_macro::api;
-use imaging::draw::{FontFace, LineType, Pen, Place, Stroke, Text, clip_line as clip, text_size as measure};
+use imaging::draw::{FontFace, LineType, Pen, PixelPosition, Stroke, Text, clip_line as clip, text_size as measure};
 use imaging::matrix::{Matrix, MatrixError};
 
 use super::arguments::Ints;
@@ -47,7 +47,7 @@ fn divisor(shift: Number) -> Result<f64> {
     if is_possible { Ok(f64::from(1u32 << shift.0)) } else { Err(MatrixError::Range("the shift").into()) }
 }
 
-fn place(Ints(numbers): Ints<2>, divisor: f64) -> Place {
+fn place(Ints(numbers): Ints<2>, divisor: f64) -> PixelPosition {
     numbers.map(|number| number as f64 / divisor)
 }
 
@@ -117,7 +117,7 @@ fn arrowed_line(
 }
 
 /// Places of several polygons, from lists of their coordinates and counts.
-fn polygons(points: &[i64], counts: &[i64], divisor: f64, offset: [f64; 2]) -> Result<Vec<Vec<Place>>> {
+fn polygons(points: &[i64], counts: &[i64], divisor: f64, offset: [f64; 2]) -> Result<Vec<Vec<PixelPosition>>> {
     let wrong = || refused("invalid number of points or invalid elements in numPoints");
     let (pairs, rest) = points.as_chunks::<2>();
     let mut left = if rest.is_empty() { pairs } else { return Err(wrong()) };
@@ -381,7 +381,7 @@ fn text_size(
 #[api("simIM.clipLine")]
 fn clip_line(cx: &Cx, handle: String, p1: Ints<2>, p2: Ints<2>) -> Result<(bool, IntPair, IntPair)> {
     let image = images(cx).get(&handle)?;
-    let whole = |place: Place| IntPair(place.map(|at| at.round() as i64));
+    let whole = |place: PixelPosition| IntPair(place.map(|at| at.round() as i64));
     Ok(match clip(image.size(), p1.floats(), p2.floats()) {
         Some([from, to]) => (true, whole(from), whole(to)),
         None => (false, IntPair(p1.0), IntPair(p2.0)),

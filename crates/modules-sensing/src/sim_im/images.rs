@@ -1,7 +1,7 @@
 //! `simIM.*`: creation of images, their formats and single pixels.
 
 use api_macro::api;
-use imaging::matrix::{Depth, Format, Matrix, MatrixError};
+use imaging::matrix::{Depth, Matrix, MatrixError, PixelFormat};
 
 use super::arguments::Ints;
 use super::objects::{images, unary};
@@ -12,19 +12,19 @@ pub(super) const FUNCTIONS: &[ApiFn] =
     functions![create, create_from_data, destroy, size, get_format, convert, get, set];
 
 /// The formats that have names, `simIM.format._8UC1` first.
-const FORMATS: [Format; 6] = [
-    Format::new(Depth::Byte, 1),
-    Format::new(Depth::Byte, 3),
-    Format::new(Depth::Byte, 4),
-    Format::new(Depth::Float, 1),
-    Format::new(Depth::Float, 3),
-    Format::new(Depth::Float, 4),
+const FORMATS: [PixelFormat; 6] = [
+    PixelFormat::new(Depth::Byte, 1),
+    PixelFormat::new(Depth::Byte, 3),
+    PixelFormat::new(Depth::Byte, 4),
+    PixelFormat::new(Depth::Float, 1),
+    PixelFormat::new(Depth::Float, 3),
+    PixelFormat::new(Depth::Float, 4),
 ];
 const FIRST_FORMAT: i64 = 3600;
 /// `simIM.format._8UC3`.
 const USUAL: i64 = 3601;
 
-fn format_of(number: i64) -> Result<Format> {
+fn format_of(number: i64) -> Result<PixelFormat> {
     let at = number.checked_sub(FIRST_FORMAT).and_then(|at| usize::try_from(at).ok());
     let format = at.and_then(|at| FORMATS.get(at)).copied();
     format.ok_or_else(|| refused(&format!("invalid format: {number}")))

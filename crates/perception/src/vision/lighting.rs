@@ -2,7 +2,7 @@
 
 use rendering::{Background, Fog, FogDensity, Light, LightKind};
 
-use super::{Look, Shot};
+use super::{ColourMode, Shot};
 use scene::appearance::environment::{Fog as SceneFog, FogType};
 use scene::sensor::{Light as SceneLight, LightType};
 use scene::{Handle, Kind, Object, Scene};
@@ -15,6 +15,7 @@ const USUAL_FOG_END: f64 = 5.0;
 /// Background behind all objects.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Backdrop {
+    /// One colour: red, green, blue, 0 to 1.
     Colour([f32; 3]),
     /// The colour of the fog of the scene, for sensors.
     Fog,
@@ -43,7 +44,7 @@ pub fn views_background(scene: &Scene) -> [[f32; 3]; 2] {
 
 /// The lights that are on.
 pub(super) fn lights(scene: &Scene, shot: &Shot) -> Vec<Light> {
-    if shot.look == Look::Auxiliary {
+    if shot.colour_mode == ColourMode::Auxiliary {
         return Vec::new();
     }
     let counts = |object: &&Object| shot.lit_by.is_none_or(|above| is_below(scene, object.handle(), above));
@@ -78,8 +79,8 @@ fn placed(scene: &Scene, handle: Handle, light: &SceneLight) -> Option<Light> {
 }
 
 /// The light that comes from everywhere.
-pub(super) fn ambient(scene: &Scene, look: Look) -> [f32; 3] {
-    if look == Look::Auxiliary {
+pub(super) fn ambient(scene: &Scene, colour_mode: ColourMode) -> [f32; 3] {
+    if colour_mode == ColourMode::Auxiliary {
         return [0.0; 3];
     }
     scene.settings().environment.ambient_light

@@ -47,11 +47,17 @@ pub struct Shot {
     pub viewer: Option<Handle>,
     /// In the world.
     pub pose: Pose,
+    /// Projection, clipping planes and resolution.
     pub view: View,
+    /// The objects that can be seen.
     pub subjects: Subjects,
-    pub look: Look,
+    /// What the colours of the picture mean.
+    pub colour_mode: ColourMode,
+    /// What is seen where no object is.
     pub backdrop: Backdrop,
+    /// Whether the fog of the scene is drawn.
     pub has_fog: bool,
+    /// Whether surfaces have highlights.
     pub has_specular: bool,
     /// Only lights below this object shine.
     pub lit_by: Option<Handle>,
@@ -59,9 +65,12 @@ pub struct Shot {
 
 /// Meaning of the colours of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Look {
+pub enum ColourMode {
     /// Surfaces as the lights show them.
-    Lit { shadows: bool },
+    Lit {
+        /// Whether lights that cast shadows do.
+        shadows: bool,
+    },
     /// The auxiliary colours of the objects, unlit.
     Auxiliary,
 }
@@ -95,10 +104,10 @@ impl Vision {
         let mut stage = Stage::default();
         for &handle in objects {
             if let (Some(model), Ok(pose)) = (self.models.get(handle), scene.world_pose(handle)) {
-                stage.add(model, handle.0, pose, shot.look);
+                stage.add(model, handle.0, pose, shot.colour_mode);
             }
         }
-        drawings.iter().for_each(|drawing| stage.add(&drawing.model, drawing.id, drawing.pose, shot.look));
+        drawings.iter().for_each(|drawing| stage.add(&drawing.model, drawing.id, drawing.pose, shot.colour_mode));
         let lights = lighting::lights(scene, shot);
         let (points, lines) = (&stage.points[..], &stage.lines[..]);
         let world = World {
@@ -106,10 +115,10 @@ impl Vision {
             points,
             lines,
             lights: &lights,
-            ambient: lighting::ambient(scene, shot.look),
+            ambient: lighting::ambient(scene, shot.colour_mode),
             fog: fog(scene, shot),
             background: shot.backdrop.colours(scene),
-            shadows: shot.look == Look::Lit { shadows: true },
+            shadows: shot.colour_mode == ColourMode::Lit { shadows: true },
         };
         let renderer = self.renderer.get_or_insert_with(|| Renderer::new(threads(self.threads)));
         renderer.render(&world, &camera(shot), channels)
@@ -121,7 +130,7 @@ fn threads(wanted: Option<NonZero<usize>>) -> usize {
 }
 
 fn fog(scene: &Scene, shot: &Shot) -> Option<Fog> {
-    let lit = matches!(shot.look, Look::Lit { .. });
+    let lit = matches!(shot.colour_mode, ColourMode::Lit { .. });
     (lit && shot.has_fog).then(|| lighting::fog(&scene.settings().environment.fog)).flatten()
 }
 
@@ -143,9 +152,9 @@ struct Stage<'a> {
 }
 
 impl<'a> Stage<'a> {
-    fn add(&mut self, model: &'a Model, id: u32, pose: Pose, look: Look) {
+    fn add(&mut self, model: &'a Model, id: u32, pose: Pose, colour_mode: ColourMode) {
         let material = |part: &'a models::ModelPart| -> &'a Material {
-            if look == Look::Auxiliary { &part.auxiliary } else { &part.material }
+            if colour_mode == ColourMode::Auxiliary { &part.auxiliary } else { &part.material }
         };
         self.instances.extend(model.parts.iter().map(|part| Instance {
             mesh: &part.mesh,
@@ -155,7 +164,7 @@ impl<'a> Stage<'a> {
         }));
         self.points.extend(model.points.iter().map(|points| Points {
             positions: &points.positions,
-            colours: if look == Look::Auxiliary { &points.auxiliary } else { &points.colours },
+            colours: if colour_mode == ColourMode::Auxiliary { &points.auxiliary } else { &points.colours },
             pose,
             size: points.size,
             id,
@@ -163,7 +172,7 @@ impl<'a> Stage<'a> {
         }));
         self.lines.extend(model.lines.iter().map(|lines| Lines {
             segments: &lines.segments,
-            colours: if look == Look::Auxiliary { &lines.auxiliary } else { &lines.colours },
+            colours: if colour_mode == ColourMode::Auxiliary { &lines.auxiliary } else { &lines.colours },
             pose,
             width: lines.width,
             id,

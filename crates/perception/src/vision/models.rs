@@ -11,7 +11,7 @@ use scene::appearance::texture_mapping::TextureSource;
 use scene::{Change, Cursor, Field, Handle, Kind, Object, Pose, Scene, Topic, Topics, Unread};
 
 /// Changes of what an object looks like.
-const LOOKS: Topics = Topics::NONE.with(Topic::Added).with(Topic::Removed).with_fields(&[
+const APPEARANCE_TOPICS: Topics = Topics::NONE.with(Topic::Added).with(Topic::Removed).with_fields(&[
     Field::Geometry,
     Field::Appearance,
     Field::Texture,
@@ -72,7 +72,7 @@ pub(super) struct Models {
 impl Models {
     /// Forgets what has changed since the last call.
     pub(super) fn follow(&mut self, scene: &Scene) {
-        let cursor = self.cursor.get_or_insert_with(|| scene.journal().follow(LOOKS));
+        let cursor = self.cursor.get_or_insert_with(|| scene.journal().follow(APPEARANCE_TOPICS));
         match scene.journal().read(cursor) {
             Unread::Everything => {
                 self.by_object.clear();

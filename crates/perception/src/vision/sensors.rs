@@ -2,7 +2,7 @@
 
 use rendering::{Channels, Picture};
 
-use super::{Backdrop, Look, Shot, Subjects, Vision};
+use super::{Backdrop, ColourMode, Shot, Subjects, Vision};
 use scene::sensor::{Entity, RenderMode, VisionSensor};
 use scene::{Handle, Scene, SceneResult};
 
@@ -52,9 +52,9 @@ pub(super) fn sensor_shot(
         pose: scene.world_pose(handle)?,
         view: sensor.view.clone(),
         subjects: Subjects::from(entity.unwrap_or(sensor.entity)),
-        look: match sensor.render_mode {
-            RenderMode::AUXILIARY => Look::Auxiliary,
-            mode => Look::Lit { shadows: mode.has_shadows() },
+        colour_mode: match sensor.render_mode {
+            RenderMode::AUXILIARY => ColourMode::Auxiliary,
+            mode => ColourMode::Lit { shadows: mode.has_shadows() },
         },
         backdrop: if sensor.background_from_environment { Backdrop::Fog } else { Backdrop::Colour(sensor.background) },
         has_fog: !sensor.ignore_fog,

@@ -4,7 +4,7 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 use rendering::{Channels, Picture};
 
 use super::sensors::sensor_shot;
-use super::{Backdrop, Look, Shot, Subjects, Vision};
+use super::{Backdrop, ColourMode, Shot, Subjects, Vision};
 use scene::sensor::{Camera, View};
 use scene::{Handle, Kind, Object, ObjectFlags, Pose, Scene, SceneError, SceneResult};
 
@@ -107,7 +107,7 @@ fn camera_shot(viewer: Option<Handle>, pose: Pose, view: View) -> Shot {
         pose,
         view,
         subjects: Subjects::Visible,
-        look: Look::Lit { shadows: false },
+        colour_mode: ColourMode::Lit { shadows: false },
         backdrop: Backdrop::Views,
         has_fog: true,
         has_specular: true,

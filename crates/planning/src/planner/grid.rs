@@ -13,9 +13,10 @@ use crate::{Problem, Refusal, Solution, State};
 const BORDER: f64 = 0.9;
 /// How much less a cell counts after a motion that failed.
 const FAILED: f64 = 0.5;
-/// Part of a motion that must be valid for it to be kept.
-const LEAST_VALID: f64 = 0.2;
-const LEAST_VALID_OF_DOUBLE: f64 = 0.5;
+/// Fraction of a motion that must be valid for it to be kept.
+const MIN_VALID_FRACTION: f64 = 0.2;
+/// The same for a planner with two trees.
+const MIN_VALID_FRACTION_BIDIRECTIONAL: f64 = 0.5;
 
 /// A tree with its cells.
 #[derive(Default)]
@@ -155,7 +156,7 @@ impl Single {
             }
         };
         let (state, part) = problem.last_valid(&from, &aim);
-        if part < LEAST_VALID {
+        if part < MIN_VALID_FRACTION {
             self.cells.note_failure(&key);
             return None;
         }
@@ -244,7 +245,7 @@ impl Double {
             true => problem.is_valid(&aim).then_some(aim),
             false if problem.space.is_symmetric() => {
                 let (state, part) = problem.last_valid(&from, &aim);
-                (part >= LEAST_VALID_OF_DOUBLE).then_some(state)
+                (part >= MIN_VALID_FRACTION_BIDIRECTIONAL).then_some(state)
             }
             false => Self::is_motion_valid(problem, side, &from, &aim).then_some(aim),
         };

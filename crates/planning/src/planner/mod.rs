@@ -15,12 +15,15 @@ use crate::{Problem, Refusal, Solution, State};
 /// What a planner has found out so far.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PlannerData {
+    /// All states that were reached.
     pub states: Vec<State>,
     /// Of each state: 1 for a tree from the starts, 2 for one from the goals, where there are both; else 0.
     pub tags: Vec<u32>,
     /// Pairs of places.
     pub edges: Vec<(usize, usize)>,
+    /// Places of starts in `states`.
     pub starts: Vec<usize>,
+    /// Places of goals in `states`.
     pub goals: Vec<usize>,
 }
 
@@ -42,32 +45,56 @@ pub trait Planner {
 /// The names of planners, with the numbers they have in simOMPL.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Algorithm {
+    /// Bidirectional transition-based RRT.
     BiTrrt = 30001,
+    /// Batch informed trees.
     BitStar = 30002,
+    /// KPIECE with a tree from each end and one level of cells.
     Bkpiece1 = 30003,
+    /// Coupled forests of RRT*.
     CForest = 30004,
+    /// Expansive space trees.
     Est = 30005,
+    /// Fast marching trees.
     Fmt = 30006,
+    /// Kinodynamic planning by interior-exterior cell exploration, with one level of cells.
     Kpiece1 = 30007,
+    /// PRM that checks motions only when a path uses them.
     LazyPrm = 30008,
+    /// PRM* that checks motions only when a path uses them.
     LazyPrmStar = 30009,
+    /// RRT that checks motions only when a path uses them.
     LazyRrt = 30010,
+    /// BKPIECE1 that checks motions only when a path uses them.
     Lbkpiece1 = 30011,
+    /// Lower bound tree RRT.
     LbtRrt = 30012,
+    /// Path-directed subdivision trees.
     Pdst = 30013,
+    /// Probabilistic roadmap.
     Prm = 30014,
+    /// Asymptotically optimal PRM.
     PrmStar = 30015,
+    /// Rapidly exploring random tree.
     Rrt = 30016,
+    /// RRT with a tree from each end that are grown towards each other.
     RrtConnect = 30017,
+    /// Asymptotically optimal RRT.
     RrtStar = 30018,
+    /// Single-query bidirectional lazy planning.
     Sbl = 30019,
+    /// Sparse roadmap spanner.
     Spars = 30020,
+    /// Sparse roadmap spanner that keeps no dense roadmap.
     SparsTwo = 30021,
+    /// Search tree with resolution independent density estimation.
     Stride = 30022,
+    /// Transition-based RRT.
     Trrt = 30023,
 }
 
 impl Algorithm {
+    /// All algorithms, in the order of their numbers.
     pub const ALL: [Self; 23] = [
         Self::BiTrrt,
         Self::BitStar,

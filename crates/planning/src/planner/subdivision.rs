@@ -8,8 +8,8 @@ use crate::{Problem, Refusal, Solution, State};
 /// States that show how far projections reach.
 const SURVEY: usize = 100;
 
-/// Cells are not cut below this part of the whole.
-const SMALLEST: f64 = 1e-12;
+/// Cells smaller than this fraction of the whole are not divided.
+const MIN_VOLUME: f64 = 1e-12;
 
 /// A motion, within one cell.
 struct Motion {
@@ -154,7 +154,7 @@ impl Subdivision {
         let Cell { low, high, volume, cut } = &self.cells[at];
         let sides = low.iter().zip(high).map(|(low, high)| high - low);
         let Some((dimension, side)) = sides.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b)) else { return };
-        if cut.is_some() || side.is_nan() || side <= 0.0 || *volume < SMALLEST {
+        if cut.is_some() || side.is_nan() || side <= 0.0 || *volume < MIN_VOLUME {
             return;
         }
         let value = low[dimension] + 0.5 * side;

@@ -8,11 +8,14 @@ use crate::Random;
 /// The least and the largest value of each coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bounds {
+    /// The least values.
     pub low: Vec<f64>,
+    /// The largest values.
     pub high: Vec<f64>,
 }
 
 impl Bounds {
+    /// The bounds of coordinates of which each has a least and a largest value.
     pub fn new(low: Vec<f64>, high: Vec<f64>) -> Self {
         Self { low, high }
     }
@@ -41,7 +44,14 @@ pub enum Component {
     Space(Bounds),
     /// A car that drives forwards and turns with a least radius. The distance is the length of the shortest curve; if it is `symmetric`, also
     /// of the way back.
-    Dubins { bounds: Bounds, radius: f64, symmetric: bool },
+    Dubins {
+        /// Of the position.
+        bounds: Bounds,
+        /// Radius of the tightest turn.
+        radius: f64,
+        /// Whether the way back may be taken as well.
+        symmetric: bool,
+    },
 }
 
 /// How much an angle counts beside a position.
@@ -144,6 +154,7 @@ impl Component {
         }
     }
 
+    /// Whether a state lies within the bounds, angles from -π to below π, and quaternions have length 1.
     pub fn is_within_bounds(&self, state: &[f64]) -> bool {
         let is_inside = |bounds: &Bounds| bounds.pairs().zip(state).all(|((low, high), x)| (low..=high).contains(x));
         let is_angle = |angle: f64| (-PI..PI).contains(&angle);

@@ -3,8 +3,8 @@
 use super::{Component, State, StateSpace};
 use crate::Random;
 
-/// Parts of a motion at most: more would not end.
-const MOST_PARTS: f64 = 1e5;
+/// Largest number of segments at which a motion is checked: more would take too long.
+const MAX_SEGMENTS: f64 = 1e5;
 
 /// Components one after the other, each with a weight: distances are the weighted sums of theirs.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -13,6 +13,7 @@ pub struct CompoundSpace {
 }
 
 impl CompoundSpace {
+    /// A space of components with their weights.
     pub fn new(components: Vec<(Component, f64)>) -> Self {
         Self { components }
     }
@@ -86,7 +87,7 @@ impl StateSpace for CompoundSpace {
     fn parts(&self, from: &[f64], to: &[f64], fraction: f64) -> usize {
         let parts = self.each(from, to).map(|(component, _, from, to)| {
             let longest = fraction * component.extent();
-            if longest > 0.0 { (component.distance(from, to) / longest).ceil().min(MOST_PARTS) as usize } else { 1 }
+            if longest > 0.0 { (component.distance(from, to) / longest).ceil().min(MAX_SEGMENTS) as usize } else { 1 }
         });
         parts.max().unwrap_or(1).max(1)
     }

@@ -32,6 +32,7 @@ pub trait StateSpace {
     /// A state within the bounds and at most about `distance` from another.
     fn sample_near(&self, random: &mut dyn Random, near: &[f64], distance: f64) -> State;
 
+    /// Whether a state lies within the bounds of all components.
     fn is_within_bounds(&self, state: &[f64]) -> bool;
 
     /// Moves a state to the nearest one within the bounds.

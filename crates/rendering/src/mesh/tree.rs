@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use crate::Mesh;
 
 /// Items of a leaf, at most.
-const LEAF: usize = 4;
+const MAX_LEAF_SIZE: usize = 4;
 
 /// A part of a line: from the origin to the point where the direction is added `limit` times.
 #[derive(Debug, Clone, Copy)]
@@ -89,7 +89,7 @@ impl Tree {
         let whole = whole.expect("a node has items");
         let at = self.nodes.len();
         self.nodes.push(Node { bounds: whole, next: first as u32, count: items.len() as u32 });
-        if items.len() <= LEAF {
+        if items.len() <= MAX_LEAF_SIZE {
             return;
         }
         let axis = (whole.high - whole.low).imax();

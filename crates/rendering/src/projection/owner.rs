@@ -10,7 +10,7 @@ use crate::projection::view::View;
 use crate::{Channels, Edges, Instance, Lines, Material, Mesh, Points, World};
 
 /// Elements of a list that are projected together.
-const PIECE: usize = 512;
+const BATCH_SIZE: usize = 512;
 
 /// Owner of faces.
 #[derive(Debug)]
@@ -122,12 +122,12 @@ impl<'a> Content<'a> {
             Self::Lines(lines) => (&[][..], lines.content.segments.len()),
         };
         let sizes = clusters.iter().map(|cluster| cluster.triangles.len());
-        sizes.chain((0..elements).step_by(PIECE).map(move |first| PIECE.min(elements - first)))
+        sizes.chain((0..elements).step_by(BATCH_SIZE).map(move |first| BATCH_SIZE.min(elements - first)))
     }
 
     /// Adds the faces of a piece.
     pub fn project(&self, view: &View, piece: usize, setup: &mut Setup) {
-        let range = |elements: usize| -> Range<usize> { piece * PIECE..elements.min((piece + 1) * PIECE) };
+        let range = |elements: usize| -> Range<usize> { piece * BATCH_SIZE..elements.min((piece + 1) * BATCH_SIZE) };
         let faces = &mut setup.faces;
         match self {
             Self::Surface(surface, _) => setup.add_cluster(view, surface, &surface.mesh.clusters[piece]),

@@ -13,7 +13,7 @@ use crate::projection::view::{ClipPlane, Transform, View};
 use crate::{Edges, Lines, Mesh, Points};
 
 /// How far behind a surface edges are still seen, in pixels.
-const HIDDEN_BEYOND: f64 = 4.0;
+const EDGE_DEPTH_TOLERANCE: f64 = 4.0;
 
 /// Something at its place in view coordinates.
 #[derive(Debug)]
@@ -119,7 +119,7 @@ fn edge_lift(view: &View, transform: &Transform, edge: &MeshEdge, [end, _]: &[Ve
         plane[0].abs() + plane[1].abs()
     };
     // Faces that are seen edge-on have no limit. What is hidden by more than a few pixels of depth stays hidden.
-    let most = HIDDEN_BEYOND * view.closeness_of_pixel(end.z);
+    let most = EDGE_DEPTH_TOLERANCE * view.closeness_of_pixel(end.z);
     let steepest = edge.normals.iter().flatten().map(slope).fold(0.0, f64::max);
     // Faces that are seen from the front have no slope: edges lie in their plane.
     let least = 4.0 * f64::from(COPLANAR) * view.closeness(end.z.max(view.near));

@@ -19,8 +19,8 @@ use crate::shading::lighting::Vectors;
 use crate::shading::visible::{Shading, runs};
 use crate::three::three;
 
-/// How many faces are remembered from row to row.
-const REMEMBERED: usize = 512;
+/// Number of faces whose attributes are kept from row to row.
+const MAX_CACHED_FACES: usize = 512;
 
 /// The pixels of a row while they are shaded, with room for eight more.
 #[derive(Debug, Default)]
@@ -56,7 +56,7 @@ impl Row {
         let lists = self.colour.iter_mut().chain(&mut self.normal).chain(&mut self.uv).chain([&mut self.depth]);
         lists.for_each(|list| list.resize(width + 8, 0.0));
         self.remembered.clear();
-        self.remembered.resize(REMEMBERED, Remembered::default());
+        self.remembered.resize(MAX_CACHED_FACES, Remembered::default());
     }
 
     /// Computes the colours of a row from the numbers of its faces.
@@ -108,7 +108,7 @@ impl Row {
     /// The colour of a face where it is the same everywhere.
     fn known_colour(&mut self, shading: &Shading, owner: &Owner, face: &Face, number: u32) -> Option<[f32; 3]> {
         let Content::Surface(surface, material) = &owner.content else { return Some(unpacked(face.detail)) };
-        let entry = &mut self.remembered[number as usize % REMEMBERED];
+        let entry = &mut self.remembered[number as usize % MAX_CACHED_FACES];
         if entry.face != Some(number) {
             let attributes = Attributes::new(shading.view, surface, face, material.texture.is_some());
             let is_uniform = attributes.is_flat && shading.lighting.is_uniform && material.texture.is_none();
@@ -122,7 +122,7 @@ impl Row {
     }
 
     fn interpolate(&mut self, number: u32, is_textured: bool, run: Range<usize>) {
-        let attributes = &self.remembered[number as usize % REMEMBERED].attributes;
+        let attributes = &self.remembered[number as usize % MAX_CACHED_FACES].attributes;
         for x in run.clone().step_by(8) {
             let normals = attributes.normals(x, self.y);
             self.normal.iter_mut().zip(normals).for_each(|(list, part)| store(list, x, part));

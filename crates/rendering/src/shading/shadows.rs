@@ -10,7 +10,7 @@ use crate::shading::lighting::Vectors;
 use crate::{Instance, Mesh, World};
 
 /// How far from a surface its rays begin, metres, and how much more for each metre of depth: more than positions are rounded by.
-const OFFSET: [f32; 2] = [1e-4, 2e-4];
+const RAY_OFFSET: [f32; 2] = [1e-4, 2e-4];
 
 /// The opaque meshes of a world, in the camera's axes.
 #[derive(Debug)]
@@ -56,7 +56,7 @@ impl<'a> Shadows<'a> {
         for (lane, reached) in reached.iter_mut().enumerate().take(count) {
             let at = |parts: &[[f32; 8]; 3]| Vector3::new(parts[0][lane], parts[1][lane], parts[2][lane]);
             let (point, normal) = (at(&points), at(&normals));
-            let origin = point + normal * (OFFSET[0] + OFFSET[1] * point.z);
+            let origin = point + normal * (RAY_OFFSET[0] + RAY_OFFSET[1] * point.z);
             let (direction, limit) = match source {
                 Source::Direction(direction) => (Vector3::from(direction), f32::INFINITY),
                 Source::Point(light) => (Vector3::from(light) - origin, 1.0),

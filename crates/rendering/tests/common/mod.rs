@@ -1,6 +1,6 @@
 //! Meshes and cameras for tests.
 
-#![allow(dead_code)]
+#![allow(dead_code, reason = "each test program uses a part")]
 
 pub mod showcase;
 

@@ -217,8 +217,8 @@ impl Document {
         orientation::pose(attributes, &self.settings, report)
     }
 
-    /// How something looks that names a material, or a colour.
-    pub fn look(&self, attributes: &super::attributes::Attributes, report: &mut Report) -> Option<Material> {
+    /// The appearance that the attributes name: a material, or a colour.
+    pub fn material(&self, attributes: &super::attributes::Attributes, report: &mut Report) -> Option<Material> {
         let named = attributes.get("material").and_then(|name| self.materials.get(name)).cloned();
         let color = attributes.get("rgba").map(|_| attributes.numbers(report, "rgba", [0.5, 0.5, 0.5, 1.0]));
         match (named, color) {

@@ -9,15 +9,16 @@ use crate::limits;
 use crate::report::{Parsed, ReadError, Warning, WarningKind};
 use crate::xml::{self, Source, short};
 
-/// Elements inside of each other; bodies are.
-const DEEPEST: usize = 128;
-/// Bytes of an attribute: names and numbers are taken over by very many parts.
-const LONGEST: usize = 2000;
-/// Files inside of each other, and all together.
-const DEEPEST_FILE: usize = 8;
-const MOST_FILES: usize = 500;
+/// Levels of elements within elements, such as bodies.
+const MAX_DEPTH: usize = 128;
+/// Bytes of an attribute: very many parts of the model may get a copy of its value.
+const MAX_ATTRIBUTE_BYTES: usize = 2000;
+/// Levels of files that include files.
+const MAX_INCLUDE_DEPTH: usize = 8;
+/// Included files in all.
+const MAX_INCLUDES: usize = 500;
 /// Numbers beyond are taken for errors: what is computed from them would not be finite.
-pub const LARGEST: f64 = 1e30;
+pub const MAX_NUMBER: f64 = 1e30;
 
 /// An element, wherever it was written.
 #[derive(Debug, Clone, Default)]
@@ -79,7 +80,7 @@ impl Report {
         let mut numbers = Vec::new();
         for word in text.split_whitespace().take(64) {
             match word.parse::<f64>() {
-                Ok(number) if number.abs() <= LARGEST => numbers.push(number),
+                Ok(number) if number.abs() <= MAX_NUMBER => numbers.push(number),
                 _ => {
                     self.warn(element, format!("{what} has '{}', which is no number", short(word)));
                     break;
@@ -144,7 +145,7 @@ impl Reader<'_> {
             return Err(ReadError::TooManyNodes);
         }
         let (attributes, long): (Vec<_>, Vec<_>) =
-            node.attributes().partition(|attribute| attribute.value().len() <= LONGEST);
+            node.attributes().partition(|attribute| attribute.value().len() <= MAX_ATTRIBUTE_BYTES);
         let owned = |attribute: Attribute| (attribute.name().to_owned(), attribute.value().trim().to_owned());
         let mut element = Element {
             name: node.tag_name().name().to_owned(),
@@ -155,11 +156,14 @@ impl Reader<'_> {
         };
         for attribute in long {
             let (name, length) = (short(attribute.name()), attribute.value().len());
-            self.report
-                .leave_out(&element, format!("{name} has {length} bytes, more than the {LONGEST} that are read"));
+            self.report.leave_out(
+                &element,
+                format!("{name} has {length} bytes, more than the {MAX_ATTRIBUTE_BYTES} that are read"),
+            );
         }
-        if depth >= DEEPEST && node.first_element_child().is_some() {
-            self.report.leave_out(&element, format!("more than {DEEPEST} elements inside of each other are not read"));
+        if depth >= MAX_DEPTH && node.first_element_child().is_some() {
+            self.report
+                .leave_out(&element, format!("more than {MAX_DEPTH} elements inside of each other are not read"));
             return Ok(element);
         }
         let mut children = Vec::new();
@@ -178,7 +182,7 @@ impl Reader<'_> {
     ) -> Result<(), ReadError> {
         for child in xml::elements(node) {
             let is_include = child.tag_name().name() == "include";
-            if depth > DEEPEST {
+            if depth > MAX_DEPTH {
                 break;
             }
             let element = self.element(child, source, file.clone(), depth)?;
@@ -211,9 +215,9 @@ impl Reader<'_> {
         if self.open.iter().any(|open| open == name) {
             return Err("it includes itself".into());
         }
-        if self.open.len() >= DEEPEST_FILE || self.count >= MOST_FILES {
+        if self.open.len() >= MAX_INCLUDE_DEPTH || self.count >= MAX_INCLUDES {
             return Err(format!(
-                "more than {DEEPEST_FILE} files inside of each other, or {MOST_FILES} in all, are not read"
+                "more than {MAX_INCLUDE_DEPTH} files inside of each other, or {MAX_INCLUDES} in all, are not read"
             ));
         }
         let bytes = self.files.include(name)?;

@@ -26,7 +26,7 @@ impl Builder<'_> {
         let touches = number("contype", 1.0) != 0.0 || number("conaffinity", 1.0) != 0.0;
         let density = number("density", DENSITY);
         let mass = attributes.number(&mut self.report, "mass");
-        let material = self.document.look(attributes, &mut self.report);
+        let material = self.document.material(attributes, &mut self.report);
         let link = &mut self.model.robot.links[place.link];
         if touches {
             link.collisions.push(Collision { name: name.clone(), pose, geometry: geometry.clone(), line });

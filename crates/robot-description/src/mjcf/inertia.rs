@@ -8,7 +8,7 @@ use super::Files;
 use super::attributes::Attributes;
 use super::body::Builder;
 use super::document::FromGeoms;
-use super::element::{Element, LARGEST};
+use super::element::{Element, MAX_NUMBER};
 use super::mesh_solid::{self, Solid, Volume};
 use crate::model::{Geometry, Inertial, Pose};
 use crate::xml::short;
@@ -88,7 +88,7 @@ impl Builder<'_> {
         let settings = &self.document.settings;
         let total = self.model.robot.mass();
         let mut factor = settings.total_mass.filter(|_| total > 0.0).map_or(1.0, |wanted| wanted / total);
-        if factor > LARGEST {
+        if factor > MAX_NUMBER {
             self.report.warn(root, format!("the bodies weigh {total:e} kg, too little to be scaled to the total mass"));
             factor = 1.0;
         }

@@ -29,20 +29,26 @@ pub struct Model {
     pub gravity: Option<[f64; 3]>,
     /// The links that never move, in increasing order: the world, and what is fixed to it.
     pub fixed: Vec<usize>,
+    /// The motors.
     pub actuators: Vec<Actuator>,
+    /// The marked places.
     pub sites: Vec<Site>,
+    /// What holds joints or links together beside the tree.
     pub equalities: Vec<Equality>,
 }
 
 /// A motor of a joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Actuator {
+    /// Its name.
     pub name: String,
     /// The index of its joint.
     pub joint: usize,
+    /// What it does.
     pub drive: Drive,
     /// The greatest force or torque on the joint, N or N m, if it has one.
     pub effort: Option<f64>,
+    /// Its line in the file, from 1.
     pub line: u32,
 }
 
@@ -50,9 +56,17 @@ pub struct Actuator {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drive {
     /// Moves the joint to a position: force per error, and per speed.
-    Position { stiffness: f64, damping: f64 },
+    Position {
+        /// N/m or N m/rad.
+        stiffness: f64,
+        /// N s/m or N m s/rad.
+        damping: f64,
+    },
     /// Moves the joint at a speed: force per error of it.
-    Velocity { damping: f64 },
+    Velocity {
+        /// N s/m or N m s/rad.
+        damping: f64,
+    },
     /// Exerts a force.
     Force,
 }
@@ -60,6 +74,7 @@ pub enum Drive {
 /// A marked place on a link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Site {
+    /// Its name.
     pub name: String,
     /// The index of its link.
     pub link: usize,
@@ -71,16 +86,40 @@ pub struct Site {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Equality {
     /// The position of a joint is a polynomial of that of another one, both counted from where they are at first; of no other one: a constant.
-    Joint { joint: usize, master: Option<usize>, polynomial: [f64; 5], line: u32 },
+    Joint {
+        /// Index of the joint.
+        joint: usize,
+        /// Index of the joint that it follows, if any.
+        master: Option<usize>,
+        /// Coefficients, the constant first.
+        polynomial: [f64; 5],
+        /// Its line in the file, from 1.
+        line: u32,
+    },
     /// A point of a link, in the frames of both, stays at that of the other one.
-    Connect { links: [usize; 2], points: [[f64; 3]; 2], line: u32 },
+    Connect {
+        /// Indices of the two links.
+        links: [usize; 2],
+        /// The point in the frame of each link, metres.
+        points: [[f64; 3]; 2],
+        /// Its line in the file, from 1.
+        line: u32,
+    },
     /// A frame of a link, in the frames of both, stays at that of the other one.
-    Weld { links: [usize; 2], frames: [Pose; 2], line: u32 },
+    Weld {
+        /// Indices of the two links.
+        links: [usize; 2],
+        /// The frame in the frame of each link.
+        frames: [Pose; 2],
+        /// Its line in the file, from 1.
+        line: u32,
+    },
 }
 
 /// The triangles of a mesh file, metres.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Triangles {
+    /// Positions of the vertices.
     pub vertices: Vec<[f64; 3]>,
     /// Indices of vertices; those that are not there are not looked at.
     pub corners: Vec<[u32; 3]>,

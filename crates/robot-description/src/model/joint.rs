@@ -5,7 +5,9 @@ use super::Pose;
 /// What connects two links.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
+    /// Its name, unique in the robot.
     pub name: String,
+    /// How it moves.
     pub kind: JointKind,
     /// The index of the link that carries the joint.
     pub parent: usize,
@@ -17,17 +19,22 @@ pub struct Joint {
     pub child_pose: Pose,
     /// As written, in the joint's frame: not necessarily of length 1.
     pub axis: [f64; 3],
+    /// Where and how fast it may move.
     pub limits: Limits,
+    /// What resists its motion.
     pub dynamics: Dynamics,
+    /// The joint whose position decides its own, if there is one.
     pub mimic: Option<Mimic>,
     /// Where it is at first.
     pub reference: f64,
+    /// Its line in the file, from 1; 0 if it is in none.
     pub line: u32,
 }
 
 /// How a joint moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointKind {
+    /// Does not move.
     Fixed,
     /// Turns about the axis within limits.
     Revolute,
@@ -62,6 +69,7 @@ impl JointKind {
 pub struct Limits {
     /// Radians or metres.
     pub lower: Option<f64>,
+    /// Radians or metres.
     pub upper: Option<f64>,
     /// Greatest torque or force of its motor.
     pub effort: Option<f64>,
@@ -78,6 +86,7 @@ pub struct Dynamics {
     pub friction: f64,
     /// Torque or force per distance from `rest`.
     pub stiffness: f64,
+    /// Position where the spring exerts no force, radians or metres.
     pub rest: f64,
 }
 
@@ -86,6 +95,8 @@ pub struct Dynamics {
 pub struct Mimic {
     /// The index of the other joint.
     pub joint: usize,
+    /// Change of position with that of the other joint.
     pub multiplier: f64,
+    /// Position where that of the other joint is 0, radians or metres.
     pub offset: f64,
 }

@@ -14,12 +14,15 @@ pub type Pose = nalgebra::Isometry3<f64>;
 /// Links and the joints between them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Robot {
+    /// Its name.
     pub name: String,
+    /// The bodies.
     pub links: Vec<Link>,
     /// They refer to links by index. [`Robot::parent_joints`] says which of them make the tree.
     pub joints: Vec<Joint>,
     /// Materials that visuals name without saying how they look.
     pub materials: Vec<Material>,
+    /// What measures, on any of the links.
     pub sensors: Vec<Sensor>,
 }
 
@@ -34,8 +37,8 @@ impl Robot {
         self.joints.iter().position(|joint| joint.name == name)
     }
 
-    /// How a visual looks: what it says itself, else what the robot's material of that name says.
-    pub fn look<'a>(&'a self, visual: &'a Visual) -> Option<&'a Material> {
+    /// The appearance of a visual: what it says itself, else what the robot's material of that name says.
+    pub fn material_of<'a>(&'a self, visual: &'a Visual) -> Option<&'a Material> {
         let own = visual.material.as_ref()?;
         if own.color.is_some() || own.texture.is_some() {
             return Some(own);

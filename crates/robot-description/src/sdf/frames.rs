@@ -9,8 +9,8 @@ use crate::model::Pose;
 pub const MODEL: &str = "__model__";
 /// What all frames are in at last.
 pub const WORLD: &str = "world";
-/// Frames that are defined in one that is defined in another one, and so on.
-const MOST_STEPS: usize = 1000;
+/// Length of a chain of frames of which each is defined in the next one.
+const MAX_FRAME_CHAIN: usize = 1000;
 
 /// Frames by their full names (`outer::inner::name`).
 #[derive(Debug, Default)]
@@ -92,7 +92,7 @@ impl Frames {
     /// The pose of a frame in one of those that it is defined in.
     pub fn pose_in(&self, name: &str, outer: &str) -> Option<Pose> {
         let (mut pose, mut at) = (Pose::identity(), name);
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_FRAME_CHAIN {
             if at == outer {
                 return Some(pose);
             }
@@ -106,7 +106,7 @@ impl Frames {
     /// The link that a frame moves with.
     pub fn link_of(&self, name: &str) -> Option<String> {
         let mut at = name;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_FRAME_CHAIN {
             if at == WORLD {
                 return Some(WORLD.to_owned());
             }

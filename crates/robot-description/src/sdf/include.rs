@@ -7,14 +7,16 @@ use crate::sdf::Include;
 /// A file that an `<include>` names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Included {
+    /// The contents of the file.
     pub bytes: Vec<u8>,
     /// The folder that relative names in it are in.
     pub folder: String,
 }
 
-/// Files inside of each other, and all together.
-const DEEPEST: usize = 8;
-const MOST: usize = 1000;
+/// Levels of files that include files.
+const MAX_DEPTH: usize = 8;
+/// Included files in all.
+const MAX_INCLUDES: usize = 1000;
 
 /// Looks up files within limits, and collects their warnings.
 pub struct Reader<'a> {
@@ -36,8 +38,10 @@ impl<'a> Reader<'a> {
         if self.open.iter().any(|open| open == uri) {
             return Err("it includes itself".into());
         }
-        if self.open.len() >= DEEPEST || self.count >= MOST {
-            return Err(format!("more than {DEEPEST} files inside of each other, or {MOST} in all, are not read"));
+        if self.open.len() >= MAX_DEPTH || self.count >= MAX_INCLUDES {
+            return Err(format!(
+                "more than {MAX_DEPTH} files inside of each other, or {MAX_INCLUDES} in all, are not read"
+            ));
         }
         let file = (self.include)(uri)?;
         (self.count, self.bytes) = (self.count + 1, self.bytes + file.bytes.len());

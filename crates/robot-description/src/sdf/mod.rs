@@ -25,15 +25,18 @@ pub struct World {
     pub name: String,
     /// m/s², if the file says it.
     pub gravity: Option<[f64; 3]>,
+    /// The models, those without a world as well.
     pub models: Vec<Model>,
 }
 
 /// A model of a world.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
+    /// Its links and joints.
     pub robot: Robot,
     /// In the world.
     pub pose: Pose,
+    /// Whether it does not move.
     pub is_static: bool,
 }
 

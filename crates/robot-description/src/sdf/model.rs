@@ -13,10 +13,10 @@ use super::value::{PoseText, is_true, pose, text};
 use crate::model::{Joint, JointKind, Link, Mimic, Pose, Robot, Sensor};
 use crate::xml::{self, Source, elements, named, short};
 
-/// Models inside of models.
-const DEEPEST: usize = 32;
-/// Bytes of the names of models inside of each other: all their parts have them.
-const LONGEST_SCOPE: usize = 1000;
+/// Levels of models within models.
+const MAX_DEPTH: usize = 32;
+/// Bytes of the joined names of models within models: each of their parts has them before its own.
+const MAX_SCOPE_BYTES: usize = 1000;
 
 /// Reads the models, and the files, inside of a world or a file.
 pub fn read_models(reader: &mut Reader, source: &mut Source, node: Node, version: f64) -> Vec<Model> {
@@ -141,15 +141,15 @@ impl Collection<'_, '_> {
         draft: &mut Draft,
         overrides: Overrides,
     ) -> bool {
-        if place.depth >= DEEPEST {
-            source.leave_out(node, format!("more than {DEEPEST} models inside of each other are not read"));
+        if place.depth >= MAX_DEPTH {
+            source.leave_out(node, format!("more than {MAX_DEPTH} models inside of each other are not read"));
             return false;
         }
         let name = overrides.name.unwrap_or_else(|| source.required(node, "name"));
         let scope = format!("{}{name}::", place.scope);
-        if scope.len() > LONGEST_SCOPE {
+        if scope.len() > MAX_SCOPE_BYTES {
             let problem = format!(
-                "its name is too long: models whose names have more than {LONGEST_SCOPE} bytes, together with those that they are in, are not read"
+                "its name is too long: models whose names have more than {MAX_SCOPE_BYTES} bytes, together with those that they are in, are not read"
             );
             source.leave_out(node, problem);
             return false;

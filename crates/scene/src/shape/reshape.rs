@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use geometry::BoundingBox;
-use geometry::LARGEST_COORDINATE;
+use geometry::MAX_COORDINATE;
 use geometry::Mesh;
 use geometry::PrimitiveKind;
 use geometry::mass::compute_mass_and_inertia;
@@ -38,7 +38,7 @@ impl Shape {
         let centre = self.bounding_box.pose.translation.vector;
         let lengths = self.bounding_box.size.iter().chain(centre.as_slice());
         let places = self.parts.iter().flat_map(|part| part.pose.translation.vector.as_slice());
-        let fits = lengths.chain(places).all(|length| (length * factor).abs() <= LARGEST_COORDINATE);
+        let fits = lengths.chain(places).all(|length| (length * factor).abs() <= MAX_COORDINATE);
         if fits { Ok(()) } else { Err(too_large()) }
     }
 
@@ -147,9 +147,7 @@ fn stretch_part(part: &mut Part, box_frame: &Pose, factors: [f64; 3]) {
 }
 
 pub(crate) fn too_large() -> SceneError {
-    SceneError::Refused(format!(
-        "the object would be larger than {LARGEST_COORDINATE:e} m, which scene files cannot hold."
-    ))
+    SceneError::Refused(format!("the object would be larger than {MAX_COORDINATE:e} m, which scene files cannot hold."))
 }
 
 impl Scene {

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use geometry::LARGEST_COORDINATE;
+use geometry::MAX_COORDINATE;
 use geometry::Mesh;
 use geometry::PrimitiveKind;
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -71,7 +71,7 @@ fn check_factors(factors: &[f64]) -> SceneResult<()> {
 impl Object {
     /// Whether the object can be scaled, and a file still hold it.
     fn check_scaling(&self, factor: f64) -> SceneResult<()> {
-        if self.size_factor * factor > LARGEST_COORDINATE {
+        if self.size_factor * factor > MAX_COORDINATE {
             return Err(too_large());
         }
         self.shape().map_or(Ok(()), |shape| shape.check_extent(factor))

@@ -8,7 +8,7 @@ use crate::error::{ApiError, ApiResult};
 use crate::lifecycle::contacts::CONTACT;
 use crate::log::verbosity;
 use crate::sim::Sim;
-use dynamics::{Attention, Call, Dynamics, JointRequest, Trigger, Verdicts};
+use dynamics::{Dynamics, DynamicsCall, JointRequest, ScriptAccess, Trigger, Verdicts};
 use scene::joint::Joint;
 use scene::{Data, Handle, Scene};
 
@@ -40,7 +40,7 @@ impl Sim {
         dynamics.as_mut().map(|dynamics| work(dynamics, &mut self.scene.borrow_mut()))
     }
 
-    fn dynamics_callback(self: &Rc<Self>, call: Call, number: u32, after_step: bool) {
+    fn dynamics_callback(self: &Rc<Self>, call: DynamicsCall, number: u32, after_step: bool) {
         if !self.scripts.may_respond_to_any(&DYN) {
             return;
         }
@@ -57,7 +57,7 @@ impl Sim {
     }
 
     /// Sets the motors; a script's answer drives a joint in callback control. Returns whether there are such joints.
-    fn drive_joints(self: &Rc<Self>, call: Call, number: u32) -> bool {
+    fn drive_joints(self: &Rc<Self>, call: DynamicsCall, number: u32) -> bool {
         let requests = self.with_dynamics(|dynamics, scene| dynamics.prepare(scene, number)).unwrap_or_default();
         for request in &requests {
             let Some(data) = self.joint_data(request, call, number) else { continue };
@@ -81,7 +81,7 @@ impl Sim {
         self.first_answer(&self.joint_chain(joint), SysCall::Joint, data)
     }
 
-    fn joint_data(&self, request: &JointRequest, call: Call, number: u32) -> Option<Data> {
+    fn joint_data(&self, request: &JointRequest, call: DynamicsCall, number: u32) -> Option<Data> {
         let scene = self.scene.borrow();
         let joint = scene.object(request.joint).and_then(|object| object.joint()).ok()?;
         Some(joint_data(joint, request, call, number))
@@ -90,13 +90,15 @@ impl Sim {
     /// One sub-step. Nothing is borrowed while the engine works, because scripts may filter contacts. `driven`: scripts drive joints.
     fn run_sub_step(self: &Rc<Self>, number: u32, driven: bool) {
         let contact_callbacks = self.scripts.may_respond_to_any(&CONTACT);
-        let attention = Attention { watched: driven || contact_callbacks || self.scripts.may_respond_to_any(&DYN) };
+        let script_access =
+            ScriptAccess { possible: driven || contact_callbacks || self.scripts.may_respond_to_any(&DYN) };
         let filter = |first: Handle, second: Handle| self.ask_about_contact(first, second);
         let pairs = |dynamics: &mut Dynamics, _: &mut Scene| dynamics.pairs_near();
         let near = if contact_callbacks { self.with_dynamics(pairs).unwrap_or_default() } else { Vec::new() };
         let responses = self.ask_about_contacts(&near);
         let verdicts = Verdicts::new(near, responses);
-        let started = self.with_dynamics(|dynamics, scene| dynamics.start_sub_step(scene, number, attention, verdicts));
+        let started =
+            self.with_dynamics(|dynamics, scene| dynamics.start_sub_step(scene, number, script_access, verdicts));
         let Some(mut sub_step) = started.flatten() else { return };
         sub_step.run(contact_callbacks.then_some(&filter));
         let stopped = self.with_dynamics(|dynamics, scene| {
@@ -129,7 +131,7 @@ impl Sim {
 }
 
 /// The keys of `sysCall_joint` in callback control, as Bullet's.
-fn joint_data(joint: &Joint, request: &JointRequest, call: Call, number: u32) -> Data {
+fn joint_data(joint: &Joint, request: &JointRequest, call: DynamicsCall, number: u32) -> Data {
     let limits = (joint.min, joint.min + joint.range);
     Data::map([
         ("mode", (joint.mode as i64).into()),

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use crate::calls::callback::SysCall;
 use crate::sim::Sim;
-use perception::detection::{Detected, Mode};
+use perception::detection::{Detected, DetectionMode};
 use perception::entity::{Entity, Group, Purpose};
 use scene::sensor::Detection;
 use scene::{Data, Field, Handle, Object, Scene, SceneError, SceneResult};
@@ -85,7 +85,7 @@ impl Sim {
                 Err(_) => return Ok(None),
             },
         };
-        self.perception.borrow_mut().detect(&scene, sensor, &group, Mode::of(data))
+        self.perception.borrow_mut().detect(&scene, sensor, &group, DetectionMode::of(data))
     }
 
     /// Calls the scripts of a sensor in turn until one says whether this is a detection; without an answer it is.

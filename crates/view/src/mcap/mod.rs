@@ -1,4 +1,7 @@
 //! Recordings as MCAP files with the messages of Foxglove, which Foxglove and Rerun open.
+//!
+//! The container is written by our own code: the crate `mcap` would bring thirty packages and features of `serde` with which everything else is
+//! built anew, for a format of which only writing, and few kinds of records, are needed here.
 
 mod container;
 mod objects;

@@ -5,8 +5,8 @@ use crate::ttt::chunks as file;
 use scene::voxels::octree::{OcTree, Voxel};
 use scene::voxels::point_cloud::{CloudPoint, PointCloud};
 
-/// Cells within cells; a metre of cells of a thousandth needs ten.
-const DEEPEST_CELL: usize = 60;
+/// Levels of cells within cells; a tree of a metre with cells of a millimetre needs ten.
+const MAX_DEPTH: usize = 60;
 /// Since this version of a tree colours have a fourth byte.
 const OPACITY_SINCE: u8 = 3;
 
@@ -141,7 +141,7 @@ impl<'a> Blob<'a> {
         while let Some(cell) = pending.pop() {
             visit(self, &cell)?;
             if self.byte()? != 0 {
-                if cell.depth == DEEPEST_CELL {
+                if cell.depth == MAX_DEPTH {
                     return Err("cells are nested too deeply".into());
                 }
                 pending.extend(cell.children());

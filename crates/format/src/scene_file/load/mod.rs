@@ -60,6 +60,8 @@ impl SceneFile {
         Self::new(read_file(bytes, None, &Permissions::none())?)
     }
 
+    /// Takes the objects and scripts out of a file.
+    ///
     /// # Errors
     /// When geometry, a tree of cells or a pose is damaged.
     pub fn new(file: File) -> FileResult<Self> {

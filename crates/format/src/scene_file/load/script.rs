@@ -92,7 +92,7 @@ pub(super) fn texts(context: &Context<'_>) -> Vec<ScriptCode> {
 type ByHandle<'a> = BTreeMap<i32, &'a FileObject>;
 
 /// Deeper objects than that are named by the lower part of their path: no scene is so deep, unless a mistake of the file leads in a circle.
-const DEEPEST: usize = 100;
+const MAX_DEPTH: usize = 100;
 
 /// The path of an object of the file.
 fn path(objects: &ByHandle<'_>, handle: i32) -> String {
@@ -100,7 +100,7 @@ fn path(objects: &ByHandle<'_>, handle: i32) -> String {
         let [_, parent] = object.common.handles?;
         objects.get(&parent).copied()
     };
-    let chain = std::iter::successors(objects.get(&handle).copied(), parent).take(DEEPEST);
+    let chain = std::iter::successors(objects.get(&handle).copied(), parent).take(MAX_DEPTH);
     let names: Vec<String> = chain.map(|object| alias(&object.common)).collect();
     names.iter().rev().fold(String::new(), |path, name| path + "/" + name)
 }

@@ -19,7 +19,7 @@ use scene::appearance::texture_mapping::TextureMapping;
 use scene::shape::{Appearance, HeightField, Part, Primitive, RespondableMask, Shape, ShapeDynamics, Velocity};
 
 /// Smallest moment of inertia per kilogram (m2) that counts.
-const SMALLEST_MOMENT: f64 = 1e-8;
+const MIN_MOMENT: f64 = 1e-8;
 /// The flag of a node whose meshes were found convex, before 4.5.1.
 const CONVEX: u8 = 0x4;
 
@@ -152,7 +152,7 @@ fn mass(node: &MeshNode, frame: &Pose) -> MassProperties {
 /// Symmetric, and no moment below the smallest.
 fn lifted(inertia: Matrix3<f64>) -> Matrix3<f64> {
     let mut inertia = 0.5 * (inertia + inertia.transpose());
-    (0..3).for_each(|i| inertia[(i, i)] = inertia[(i, i)].max(SMALLEST_MOMENT));
+    (0..3).for_each(|i| inertia[(i, i)] = inertia[(i, i)].max(MIN_MOMENT));
     inertia
 }
 

@@ -16,7 +16,7 @@ use scene::shape::{Appearance, Material, Part, Primitive, Shape, ShapeDynamics};
 const CONVEX: u8 = 0x4;
 const CONVEXITY_KNOWN: u8 = 0x20;
 /// Groups within groups; readers have an end somewhere, so deeper ones are written as one.
-const DEEPEST_GROUP: usize = 50;
+const MAX_GROUP_DEPTH: usize = 50;
 
 /// A mesh or group in a shape: which node it is, and where its vertices are.
 struct Place {
@@ -72,7 +72,7 @@ fn group(context: &mut Context<'_>, shape: &Shape, parts: &[Part]) -> MeshNode {
 /// `named` counts the nodes that have a name.
 fn children(context: &mut Context<'_>, parts: &[Part], depth: usize, frame: &Pose, named: &mut usize) -> Vec<MeshTree> {
     let together = |a: &Part, b: &Part| {
-        depth < DEEPEST_GROUP && a.group.get(depth).is_some_and(|group| b.group.get(depth) == Some(group))
+        depth < MAX_GROUP_DEPTH && a.group.get(depth).is_some_and(|group| b.group.get(depth) == Some(group))
     };
     let members = parts.chunk_by(together).map(|member| {
         *named += 1;
