@@ -1,4 +1,4 @@
-//! `simAssimp`: shapes and meshes from files, and to files, with their looks.
+//! `simAssimp`: shapes and meshes from files, and to files, with their appearance.
 //!
 //! The dialogs of CoppeliaSim's module are missing: there is no window to ask in.
 
@@ -15,6 +15,7 @@ use scene::{Data, Handle, Kind};
 use script::Number;
 use script::log::verbosity;
 
+/// The module `simAssimp`.
 pub static MODULE: Module = Module {
     about: "Shapes and meshes from files (OBJ, STL, PLY, COLLADA, glTF, 3DS, DXF), and to files.",
     functions: &[("Import", IMPORT), ("Export", export::FUNCTIONS), ("Formats", formats::FUNCTIONS)],
