@@ -9,7 +9,7 @@ use std::net::{Ipv4Addr, SocketAddrV4};
 use std::time::Duration;
 
 use libfuzzer_sys::fuzz_target;
-use rtps::{Core, Limits, Qos, Settings, Time, Written};
+use rtps::{Core, CoreSettings, Limits, Qos, Time, Written};
 
 fn datagrams(mut input: &[u8]) -> impl Iterator<Item = Vec<u8>> {
     std::iter::from_fn(move || {
@@ -24,7 +24,7 @@ fn datagrams(mut input: &[u8]) -> impl Iterator<Item = Vec<u8>> {
 
 fuzz_target!(|input: &[u8]| {
     let place = SocketAddrV4::new(Ipv4Addr::LOCALHOST, 7410);
-    let mut core = Core::new(Settings {
+    let mut core = Core::new(CoreSettings {
         prefix: [1; 12],
         domain: 0,
         unicast: place,

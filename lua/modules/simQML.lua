@@ -13,7 +13,7 @@ local engines, count, byWindow = {}, 0, {}
 
 local SOURCE <const>, SENT <const>, NAME <const>, DATA <const> = 2, 3, 4, 5
 local NOTICE <const> = 'QML is not drawn here. This is its source. Events that it would send can be sent below.'
-local MOST_EVENTS <const> = 100 -- that are shown
+local MAX_EVENTS <const> = 100 -- that are shown
 
 -- The numbers are ours.
 simQML.image_data_format = {gray8 = 0, rgb888 = 1, bgr888 = 2, rgbx8888 = 3, rgb32 = 4, argb32 = 5}
@@ -117,7 +117,7 @@ function simQML.loadData(engineHandle, data, _) show(engineOf(engineHandle), tos
 function simQML.sendEventRaw(engineHandle, eventName, eventData)
     local engine = engineOf(engineHandle)
     local sent = engine.sent
-    if #sent == MOST_EVENTS then table.remove(sent, 1) end
+    if #sent == MAX_EVENTS then table.remove(sent, 1) end
     sent[#sent + 1] = eventName .. ' ' .. tostring(eventData)
     if engine.window then simUI.setText(engine.window, SENT, table.concat(sent, '\n')) end
 end

@@ -136,10 +136,10 @@ end
 
 local hasWarned = false
 
--- How long to wait for what may take `patience`: a wait that holds the simulation has an end. And whether this is less than was asked.
-local function bounded(patience)
+-- How long to wait for what may take `timeout`: a wait that holds the simulation has an end. And whether this is less than was asked.
+local function bounded(timeout)
     local most = math.ceil(math.min(simZMQ.__patience, 1e6) * 1000)
-    if (patience >= 0 and patience <= most) or canYield() then return patience, false end
+    if (timeout >= 0 and timeout <= most) or canYield() then return timeout, false end
     return most, true
 end
 
@@ -154,7 +154,7 @@ end
 local function blame(message) error((message:gsub('^%-?%d+: ', '')), 3) end
 
 -- Tries again until there is a result.
-local function persist(attempt, socket, event, patience, ...)
+local function persist(attempt, socket, event, timeout, ...)
     local sockets, events, deadline, isCut = {socket}, {event}, nil, false
     while true do
         local ok, result, data = pcall(attempt, ...)
@@ -165,8 +165,8 @@ local function persist(attempt, socket, event, patience, ...)
         end
         if errnum() ~= EAGAIN then return -1, nil end
         if not deadline then
-            patience, isCut = bounded(patience)
-            deadline = clock(patience)
+            timeout, isCut = bounded(timeout)
+            deadline = clock(timeout)
         end
         local left = milliseconds(deadline)
         if left == 0 then
@@ -206,19 +206,19 @@ defineWaiting('msg_recv', 2, 3, POLLIN, simZMQ.RCVTIMEO)
 ---------------------------------------------------------------- other functions
 
 -- How long the end of a context is waited for, milliseconds: in a thread, where it is tried again, and elsewhere.
-local SHORTLY <const>, PATIENTLY <const> = 10, 2000
+local THREAD_TIMEOUT <const>, BLOCKING_TIMEOUT <const> = 10, 2000
 
 --- Ends a context. In a thread the simulation goes on meanwhile.
 -- @return result 0, or -1: try again with EINTR
 declare('int result = simZMQ.ctx_term(string context)', function(context)
-    local patience = SHORTLY
+    local timeout = THREAD_TIMEOUT
     while true do
         local waits = canYield()
-        local ok, result = pcall(native.ctx_term, context, waits and patience or PATIENTLY)
+        local ok, result = pcall(native.ctx_term, context, waits and timeout or BLOCKING_TIMEOUT)
         if not ok then blame(result) end
         if result == 0 or errnum() ~= EINTR or not waits then return result end
         sim.yield()
-        patience = 0
+        timeout = 0
     end
 end)
 

@@ -1,6 +1,6 @@
 //! The reference, generated from the rows of the functions: Markdown pages, editor stubs, coverage.
 //!
-//! Everything is read from `#[api]` rows, from the comments of the Lua library, and from the tables of `crate::api`; nothing runs.
+//! Everything is read from `#[api]` rows, from the comments of the Lua library, and from the tables of the crate `api`; nothing runs.
 //! `tests/repository/generated.rs` holds the committed files to what this module makes.
 
 mod approximated;

@@ -9,10 +9,13 @@ use script::DefaultValue;
 pub struct Function {
     /// `sim.name`, or a bare name for globals.
     pub name: String,
+    /// The heading it is listed under.
     pub category: String,
     /// Its description, in one or several lines.
     pub text: String,
+    /// Its parameters in the order of the call.
     pub parameters: Vec<Parameter>,
+    /// Its results in their order.
     pub results: Vec<Returned>,
     /// The name this one is another word for.
     pub alias_of: Option<String>,
@@ -23,18 +26,24 @@ pub struct Function {
 /// A parameter; `...` takes all that follow.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Parameter {
+    /// Its name, as scripts know it.
     pub name: String,
+    /// Its type, in the notation of the reference.
     pub ty: String,
     /// The value when left out; None when it must be given.
     pub default: Option<String>,
+    /// Its description; empty without one.
     pub text: String,
 }
 
 /// A result.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Returned {
+    /// Its name.
     pub name: String,
+    /// Its type, in the notation of the reference.
     pub ty: String,
+    /// Its description; empty without one.
     pub text: String,
 }
 

@@ -13,13 +13,14 @@ use format::scene_file::old_names;
 use script::{Member, ReferenceModule, member_by_rule};
 
 /// Scripts in strings of scripts in strings are read up to here.
-const DEEPEST_SCRIPT: usize = 4;
-/// So many tokens after the name of a function its arguments end.
-const FURTHEST_ARGUMENT: usize = 100;
+const MAX_SCRIPT_DEPTH: usize = 4;
+/// An argument is looked for up to so many tokens after the name of the function.
+const MAX_ARGUMENT_TOKENS: usize = 100;
 
 /// Support for a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Support {
+    /// It works as in CoppeliaSim.
     Works,
     /// It does less than in CoppeliaSim: what is different.
     Approximated(&'static str),
@@ -34,7 +35,9 @@ pub struct Use {
     pub name: String,
     /// The old name used in the code, if different.
     pub written: Option<String>,
+    /// The line, from 1.
     pub line: usize,
+    /// How far it is supported.
     pub support: Support,
 }
 
@@ -62,7 +65,7 @@ fn uses_within(code: &[u8], depth: usize) -> Vec<Use> {
             Kind::Text(text) if required_at(&tokens, at) => {
                 found.extend(required(&String::from_utf8_lossy(text), token.line));
             }
-            Kind::Text(text) if depth < DEEPEST_SCRIPT && is_code(&tokens, at) => {
+            Kind::Text(text) if depth < MAX_SCRIPT_DEPTH && is_code(&tokens, at) => {
                 found.extend(uses_of_text(text, token.line, depth));
             }
             _ => {}
@@ -98,7 +101,7 @@ fn unescaped(text: &[u8]) -> Vec<u8> {
 /// Whether a string is an argument of a function that runs code.
 fn is_code(tokens: &[Token<'_>], at: usize) -> bool {
     let mut open = 0_usize;
-    for place in (at.saturating_sub(FURTHEST_ARGUMENT)..at).rev() {
+    for place in (at.saturating_sub(MAX_ARGUMENT_TOKENS)..at).rev() {
         match tokens[place].kind {
             Kind::Sign(b')' | b'}' | b']') => open += 1,
             Kind::Sign(b'(' | b'{' | b'[') if open > 0 => open -= 1,

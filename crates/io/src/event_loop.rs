@@ -14,11 +14,11 @@ use tokio::sync::{Notify, mpsc};
 use tokio::task::AbortHandle;
 
 /// How many tasks run before the system's sockets are looked at again.
-const TASKS_PER_LOOK: u32 = 1024;
+const TASKS_PER_POLL: u32 = 1024;
 
 /// How often the sockets are looked at before the thread goes to sleep: a client that calls again and again sends its next request
 /// within that time, and waking up takes longer than most requests.
-const LOOKS: usize = 40;
+const POLLS: usize = 40;
 
 /// The event loop of one simulator.
 pub struct EventLoop {
@@ -39,7 +39,7 @@ impl EventLoop {
     /// When the system has no event queue.
     pub fn new() -> io::Result<Self> {
         let mut builder = tokio::runtime::Builder::new_current_thread();
-        let runtime = builder.enable_io().enable_time().event_interval(TASKS_PER_LOOK).build()?;
+        let runtime = builder.enable_io().enable_time().event_interval(TASKS_PER_POLL).build()?;
         Ok(Self { runtime: Some(runtime), waiting: Arc::default() })
     }
 
@@ -57,14 +57,14 @@ impl EventLoop {
     }
 
     /// Moves the sockets until there is something to fetch, at most that long.
-    pub fn wait(&self, patience: Duration) {
+    pub fn wait(&self, timeout: Duration) {
         let something = async {
             while self.waiting.count.load(Ordering::Relaxed) == 0 {
                 self.waiting.more.notified().await;
             }
         };
-        // When time is up the caller looks after everything else.
-        let _ = self.block_on(async { tokio::time::timeout(patience, something).await });
+        // After a timeout the caller continues with its other work.
+        let _ = self.block_on(async { tokio::time::timeout(timeout, something).await });
     }
 
     /// The amount of data that has not been fetched yet.
@@ -73,21 +73,21 @@ impl EventLoop {
     }
 
     /// The next item of an inbox; waits for it up to a time limit.
-    pub(super) fn fetch<T>(&self, inbox: &mut Inbox<T>, patience: Duration) -> Option<T> {
+    pub(super) fn fetch<T>(&self, inbox: &mut Inbox<T>, timeout: Duration) -> Option<T> {
         let there = inbox.fetch();
         if there.is_some() {
             return there;
         }
         // A timer would take up to a millisecond.
-        let looks = if patience.is_zero() { 1 } else { LOOKS };
-        for _ in 0..looks {
+        let polls = if timeout.is_zero() { 1 } else { POLLS };
+        for _ in 0..polls {
             self.turn();
             let there = inbox.fetch();
-            if there.is_some() || patience.is_zero() {
+            if there.is_some() || timeout.is_zero() {
                 return there;
             }
         }
-        self.block_on(async { tokio::time::timeout(patience, inbox.next()).await.ok().flatten() })
+        self.block_on(async { tokio::time::timeout(timeout, inbox.next()).await.ok().flatten() })
     }
 
     /// Moves the sockets until `future` is done.
@@ -95,9 +95,9 @@ impl EventLoop {
         self.runtime().block_on(future)
     }
 
-    /// A bell for another thread, which ends waits.
-    pub(super) fn bell(&self) -> Bell {
-        Bell { waiting: self.waiting.clone(), has_rung: AtomicBool::new(false) }
+    /// A [`Waker`] for another thread, which ends waits.
+    pub(super) fn waker(&self) -> Waker {
+        Waker { waiting: self.waiting.clone(), is_set: AtomicBool::new(false) }
     }
 
     /// Runs a task until it ends or what is returned is dropped.
@@ -131,31 +131,31 @@ impl Drop for Task {
 }
 
 /// Ends waits of an event loop from another thread, until the simulator has looked at what there is.
-pub(super) struct Bell {
+pub(super) struct Waker {
     waiting: Arc<Waiting>,
-    has_rung: AtomicBool,
+    is_set: AtomicBool,
 }
 
-impl Bell {
+impl Waker {
     /// There is something to look at.
-    pub(super) fn ring(&self) {
-        if !self.has_rung.swap(true, Ordering::AcqRel) {
+    pub(super) fn wake(&self) {
+        if !self.is_set.swap(true, Ordering::AcqRel) {
             self.waiting.count.fetch_add(1, Ordering::Relaxed);
             self.waiting.more.notify_one();
         }
     }
 
-    /// The simulator looks.
-    pub(super) fn answer(&self) {
-        if self.has_rung.swap(false, Ordering::AcqRel) {
+    /// The simulator has looked at everything: the next [`wake`](Self::wake) ends a wait again.
+    pub(super) fn reset(&self) {
+        if self.is_set.swap(false, Ordering::AcqRel) {
             self.waiting.count.fetch_sub(1, Ordering::Relaxed);
         }
     }
 }
 
-impl Drop for Bell {
+impl Drop for Waker {
     fn drop(&mut self) {
-        self.answer();
+        self.reset();
     }
 }
 
@@ -237,16 +237,16 @@ mod tests {
     }
 
     #[test]
-    fn a_bell_of_another_thread_ends_a_wait() {
+    fn a_waker_of_another_thread_ends_a_wait() {
         let event_loop = EventLoop::new().expect("an event loop");
-        let bell = Arc::new(event_loop.bell());
-        let ringing = bell.clone();
-        let thread = std::thread::spawn(move || ringing.ring());
+        let waker = Arc::new(event_loop.waker());
+        let waking = waker.clone();
+        let thread = std::thread::spawn(move || waking.wake());
         event_loop.wait(Duration::from_secs(10));
         thread.join().expect("it does not panic");
-        bell.ring();
+        waker.wake();
         assert_eq!(event_loop.waiting.count.load(Ordering::Relaxed), 1);
-        bell.answer();
+        waker.reset();
         assert_eq!(event_loop.waiting.count.load(Ordering::Relaxed), 0);
     }
 

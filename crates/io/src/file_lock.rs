@@ -7,8 +7,11 @@ use std::os::fd::BorrowedFd;
 /// Operation on the lock of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileLock {
+    /// Held together with other shared locks: nobody has an exclusive one.
     Shared,
+    /// Held alone.
     Exclusive,
+    /// Not held.
     Released,
 }
 

@@ -30,6 +30,6 @@ pub use peer_process::{PeerError, PeerProcess};
 pub use process::{Process, ProcessError, Program};
 pub use serial::SerialPort;
 pub use simx_server::SimxServer;
-pub use ws::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent, WsPages, WsRequest};
+pub use ws::{HttpReply, IdCounter, SendError, WsEndpoint, WsEvent, WsPages, WsRequest};
 pub use ws::{Site, SiteMessage, SiteReply, SiteServer, SiteWaker, Visitor};
 pub use zmq_server::{Incoming, ZmqServer};

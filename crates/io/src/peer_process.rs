@@ -25,12 +25,12 @@ const MAX_FRAME: usize = 256 << 20;
 const MAX_OUTPUT: usize = 64 << 10;
 /// A program that reads nothing for so long has failed.
 const WRITE_LIMIT: Duration = Duration::from_secs(10);
-/// How long a read waits. A wait that is not shorter needs no look before it reads.
+/// How long a read waits. A wait that is not shorter needs no poll before it reads.
 const READ_TIME: Duration = Duration::from_millis(20);
 /// A program whose connection was closed has this time to end by itself: to write its files, for instance.
 const GRACE: Duration = Duration::from_millis(300);
-/// Looks for a frame before a wait that sleeps: to be woken takes longer than most answers.
-const LOOKS: usize = 60;
+/// How often a read polls before it sleeps: waking up takes longer than most answers.
+const POLLS: usize = 60;
 /// The guardian has this time to end everything.
 const GUARDIAN_LIMIT: Duration = Duration::from_secs(2);
 const PAUSE: Duration = Duration::from_millis(2);
@@ -38,10 +38,13 @@ const PAUSE: Duration = Duration::from_millis(2);
 /// Why the connection has ended.
 #[derive(Debug, thiserror::Error)]
 pub enum PeerError {
+    /// The program has closed its side, or has ended.
     #[error("the connection is closed")]
     Closed,
+    /// A frame of more than 256 MiB was announced.
     #[error("a message is longer than 256 MiB")]
     TooLong,
+    /// An error of the system.
     #[error("{0}")]
     Io(#[from] io::Error),
 }
@@ -109,7 +112,7 @@ impl PeerProcess {
             if let Some(frame) = self.next_frame()? {
                 return Ok(Some(frame));
             }
-            if self.read_what_is_there(if limit < READ_TIME { 1 } else { LOOKS })? {
+            if self.read_what_is_there(if limit < READ_TIME { 1 } else { POLLS })? {
                 continue;
             }
             if limit < READ_TIME && !self.is_readable(limit)? {
@@ -125,9 +128,9 @@ impl PeerProcess {
         }
     }
 
-    /// Reads without sleeping, after so many looks at most; false when there is nothing.
-    fn read_what_is_there(&mut self, looks: usize) -> Result<bool, PeerError> {
-        for _ in 0..looks {
+    /// Reads without sleeping, polling at most that often; false when there is nothing.
+    fn read_what_is_there(&mut self, polls: usize) -> Result<bool, PeerError> {
+        for _ in 0..polls {
             match recv(&self.socket, &mut self.part[..], RecvFlags::DONTWAIT) {
                 Ok((0, _)) => return Err(PeerError::Closed),
                 Ok((count, _)) => {
@@ -201,7 +204,7 @@ impl PeerProcess {
     pub fn kill(&mut self) {
         self.lifeline = None;
         if self.wait_for_end(GUARDIAN_LIMIT).is_none() {
-            // Not even its guardian works.
+            // The guardian process does not respond either.
             let _ = self.child.kill();
             let _ = self.child.wait();
         }
@@ -210,7 +213,7 @@ impl PeerProcess {
 
 impl Drop for PeerProcess {
     fn drop(&mut self) {
-        // A connection that is closed already cannot be closed.
+        // Shutting down fails only if the connection is closed already.
         let _ = self.socket.shutdown(Shutdown::Both);
         let _ = self.wait_for_end(GRACE);
         self.kill();

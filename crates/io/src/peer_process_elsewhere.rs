@@ -9,6 +9,7 @@ use std::time::Duration;
 /// Why the connection has ended.
 #[derive(Debug, thiserror::Error)]
 pub enum PeerError {
+    /// The program has ended.
     #[error("the connection is closed")]
     Closed,
 }

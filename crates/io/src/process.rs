@@ -12,10 +12,13 @@ pub(crate) const MAX_OUTPUT: usize = 256 << 20;
 /// Why a program gave no result. In the words of CoppeliaSim.
 #[derive(Debug, thiserror::Error)]
 pub enum ProcessError {
+    /// The system could not start the program.
     #[error("waitForStarted timed out: {0}")]
     NotStarted(#[from] io::Error),
+    /// The program ended without an exit code: a signal ended it.
     #[error("the process crashed")]
     Crashed,
+    /// One of the outputs is too large.
     #[error("the process wrote more than 256 MiB")]
     TooMuchOutput,
 }
@@ -23,10 +26,13 @@ pub enum ProcessError {
 /// A program to run, with its options.
 #[derive(Debug, Default)]
 pub struct Program {
+    /// The file of the program, relative to the working directory of the simulator, or a bare name.
     pub path: String,
+    /// The arguments, without the name of the program.
     pub args: Vec<String>,
     /// Whether a bare name is looked up in the folders of the system.
     pub search_path: bool,
+    /// The working directory; None for that of the simulator.
     pub working_dir: Option<String>,
     /// On Windows: in a window of its own.
     pub new_console: bool,
@@ -79,6 +85,7 @@ impl Program {
 pub struct Process(Child);
 
 impl Process {
+    /// The system's identifier of the process.
     pub fn id(&self) -> u32 {
         self.0.id()
     }

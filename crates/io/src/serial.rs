@@ -25,7 +25,7 @@ pub struct SerialPort {
     path: String,
     device: Box<dyn serialport::SerialPort>,
     /// Slices without progress after which a write ends.
-    patience: u32,
+    max_idle_slices: u32,
 }
 
 impl SerialPort {
@@ -44,9 +44,9 @@ impl SerialPort {
         #[cfg(unix)]
         let builder = builder.exclusive(false);
         let device = builder.open().ok()?;
-        // A device that cannot be emptied is new.
+        // If clearing fails, the device has received nothing yet.
         let _ = device.clear(ClearBuffer::Input);
-        Some(Self { path: path.to_owned(), device, patience: patience(baud_rate) })
+        Some(Self { path: path.to_owned(), device, max_idle_slices: max_idle_slices(baud_rate) })
     }
 
     /// The file of a device.
@@ -77,7 +77,7 @@ impl SerialPort {
     /// explains, or when `stop` returns true.
     pub fn write(&mut self, bytes: &[u8], stop: impl Fn() -> bool) -> usize {
         let (mut written, mut idle) = (0, 0);
-        while written < bytes.len() && idle < self.patience && !stop() {
+        while written < bytes.len() && idle < self.max_idle_slices && !stop() {
             let end = bytes.len().min(written + CHUNK);
             match self.device.write(&bytes[written..end]) {
                 Ok(count) => {
@@ -93,17 +93,17 @@ impl SerialPort {
 }
 
 /// A second, and the time two chunks take.
-fn patience(baud_rate: u32) -> u32 {
+fn max_idle_slices(baud_rate: u32) -> u32 {
     SLICES_PER_SECOND + SLICES_PER_SECOND * BITS_PER_BYTE * 2 * CHUNK as u32 / baud_rate
 }
 
 #[cfg(test)]
 mod tests {
-    use super::patience;
+    use super::max_idle_slices;
 
     #[test]
     fn slow_devices_are_given_time() {
-        assert_eq!(patience(230_400), 20);
-        assert!(patience(50) > 100 * 20, "256 bytes at 50 baud take 51 seconds");
+        assert_eq!(max_idle_slices(230_400), 20);
+        assert!(max_idle_slices(50) > 100 * 20, "256 bytes at 50 baud take 51 seconds");
     }
 }

@@ -123,13 +123,13 @@ mod unix {
 
     static SUCCESSOR: OnceLock<Successor> = OnceLock::new();
     /// The most arguments that can be passed on: a handler cannot allocate.
-    const MOST_ARGS: usize = 256;
+    const MAX_ARGS: usize = 256;
 
     /// When native code crashes, prints `message` and replaces this process by the program `args[0]`, which has no crash handler then. Does
     /// nothing where the arguments are too many, or cannot be passed on.
     pub fn run_on_crash(message: String, args: Vec<OsString>) {
         let args: Result<Vec<_>, _> = args.into_iter().map(|arg| CString::new(arg.into_vec())).collect();
-        let Some(args) = args.ok().filter(|args| (1..MOST_ARGS).contains(&args.len())) else { return };
+        let Some(args) = args.ok().filter(|args| (1..MAX_ARGS).contains(&args.len())) else { return };
         SUCCESSOR.get_or_init(|| Successor { message, args });
         for signal in CRASHES {
             // A fault may be a stack that is full: the handler has one of its own, which Rust gives to each thread.
@@ -140,7 +140,7 @@ mod unix {
     /// Only calls that are allowed in a handler.
     extern "C" fn succeed(signal: c_int) {
         if let Some(Successor { message, args }) = SUCCESSOR.get() {
-            let mut pointers = [ptr::null(); MOST_ARGS];
+            let mut pointers = [ptr::null(); MAX_ARGS];
             for (pointer, arg) in pointers.iter_mut().zip(args) {
                 *pointer = arg.as_ptr();
             }
@@ -181,18 +181,23 @@ mod unix {
 mod elsewhere {
     use std::fs::File;
 
+    /// Does nothing: there are no signals.
     pub fn note_requests() {}
 
+    /// The number of the signal that ctrl-c would be.
     pub fn last_request() -> i32 {
         super::INTERRUPT
     }
 
+    /// Does nothing: crashes are not noticed.
     pub fn run_on_crash(_: String, _: Vec<std::ffi::OsString>) {}
 
+    /// Reserves nothing.
     pub fn reserve_standard_output() -> Option<&'static File> {
         None
     }
 
+    /// Whether nobody reads standard output any more: unknown, so false.
     pub fn standard_output_is_closed(_: Option<&File>) -> bool {
         false
     }

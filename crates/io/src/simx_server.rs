@@ -15,17 +15,17 @@ use tokio::net::TcpStream;
 use tokio::sync::Notify;
 use tokio::time::{Instant, timeout};
 
-use super::event_loop::{Bell, EventLoop};
+use super::event_loop::{EventLoop, Waker};
 use wire::simx::{Packets, Received, Session, cut};
 
 /// A client that is silent for so long is gone.
-const SILENCE: Duration = Duration::from_secs(10);
+const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// How long an answer waits for the results of the commands it answers.
-const PATIENCE: Duration = Duration::from_millis(20);
+const RESULT_TIMEOUT: Duration = Duration::from_millis(20);
 
-/// Rest after a connection that could not be accepted.
-const REST: Duration = Duration::from_millis(50);
+/// Pause after a connection that could not be accepted.
+const RETRY_DELAY: Duration = Duration::from_millis(50);
 
 /// Bytes read at once.
 const CHUNK: usize = 64 << 10;
@@ -41,7 +41,7 @@ pub struct SimxServer {
 struct Shared {
     session: Mutex<Session>,
     /// Commands wait for the simulator.
-    bell: Bell,
+    waker: Waker,
     /// The simulator has executed commands.
     executed: Notify,
     /// The server is to end.
@@ -67,7 +67,7 @@ impl SimxServer {
         let now = Instant::now();
         let shared = Arc::new(Shared {
             session: session.into(),
-            bell: event_loop.bell(),
+            waker: event_loop.waker(),
             executed: Notify::new(),
             end: Notify::new(),
             max_packet,
@@ -91,9 +91,9 @@ impl SimxServer {
         self.shared.session()
     }
 
-    /// The simulator looks for commands.
-    pub fn note_look(&self) {
-        self.shared.bell.answer();
+    /// The simulator is about to take the commands that wait.
+    pub fn acknowledge(&self) {
+        self.shared.waker.reset();
     }
 
     /// The results of commands are there.
@@ -118,20 +118,20 @@ impl Shared {
     }
 
     fn now(&self) -> i64 {
-        // Milliseconds fit for ages.
+        // 64 bits of milliseconds do not overflow.
         self.begun.elapsed().as_millis() as i64
     }
 
     /// Waits for the results of what has just come.
     async fn wait_for_results(&self) {
-        self.bell.ring();
+        self.waker.wake();
         let executed = async {
             while self.session().is_waiting() {
                 self.executed.notified().await;
             }
         };
         // The client gets its results later if they are not there in time.
-        let _ = timeout(PATIENCE, executed).await;
+        let _ = timeout(RESULT_TIMEOUT, executed).await;
     }
 
     /// The packets of the reply to the last message.
@@ -139,7 +139,7 @@ impl Shared {
         let mut session = self.session();
         let message = session.reply(self.now());
         if session.is_ready() {
-            self.bell.ring();
+            self.waker.wake();
         }
         drop(session);
         cut(&message, self.max_packet, packets.order())
@@ -148,20 +148,20 @@ impl Shared {
 
 /// Serves one connection after the other.
 async fn serve_all(listener: TcpListener, shared: &Shared) {
-    // The event queue of this thread is there, and the listener is in order.
+    // This does not fail: the thread has a runtime, and the listener is valid.
     let Ok(listener) = tokio::net::TcpListener::from_std(listener) else { return };
     loop {
         match listener.accept().await {
             Ok((stream, from)) => {
                 shared.session().connect(text_of(from.ip()));
-                // Whatever the reason, the client is gone.
+                // The client is gone, whether the connection was closed or failed.
                 let _ = serve(stream, shared).await;
                 shared.session().disconnect();
-                // A simulation that waits for this client goes on.
-                shared.bell.ring();
+                // A simulation that waits for this client must continue.
+                shared.waker.wake();
             }
             // Out of file descriptors, for instance.
-            Err(_) => tokio::time::sleep(REST).await,
+            Err(_) => tokio::time::sleep(RETRY_DELAY).await,
         }
     }
 }
@@ -177,12 +177,12 @@ async fn serve(mut stream: TcpStream, shared: &Shared) -> io::Result<()> {
             if is_waiting {
                 shared.wait_for_results().await;
             }
-            timeout(SILENCE, stream.write_all(&shared.reply(&packets))).await??;
+            timeout(SILENCE_TIMEOUT, stream.write_all(&shared.reply(&packets))).await??;
             if ends {
                 return Ok(());
             }
         }
-        let count = timeout(SILENCE, stream.read(&mut chunk)).await??;
+        let count = timeout(SILENCE_TIMEOUT, stream.read(&mut chunk)).await??;
         if count == 0 {
             return Ok(());
         }

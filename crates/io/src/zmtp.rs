@@ -38,7 +38,7 @@ pub(super) enum Violation {
 
 /// A message or command from a peer.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum Said {
+pub(super) enum PeerMessage {
     Request(Request),
     /// Is the other side alive? Answered with the same context.
     Ping(Vec<u8>),
@@ -152,7 +152,7 @@ impl Decoder {
     ///
     /// # Errors
     /// When this cannot become a message any more.
-    pub(super) fn next(&mut self) -> Result<Option<Said>, Violation> {
+    pub(super) fn next(&mut self) -> Result<Option<PeerMessage>, Violation> {
         self.shake_hands()?;
         while self.stage == Stage::Traffic {
             match self.traffic()? {
@@ -197,12 +197,12 @@ impl Decoder {
     }
 
     /// The next request or command; Some(None) for one that is ignored.
-    fn traffic(&mut self) -> Result<Option<Option<Said>>, Violation> {
+    fn traffic(&mut self) -> Result<Option<Option<PeerMessage>>, Violation> {
         let Some(first) = self.frame(self.used)? else { return Ok(None) };
         if first.flags & flag::COMMAND != 0 {
             let body = &self.bytes[first.body.clone()];
             let ping = body.strip_prefix(b"\x04PING").and_then(|ping| ping.get(2..));
-            let said = ping.map(|context| Said::Ping(context[..context.len().min(MAX_CONTEXT)].to_vec()));
+            let said = ping.map(|context| PeerMessage::Ping(context[..context.len().min(MAX_CONTEXT)].to_vec()));
             self.used = first.body.end;
             return Ok(Some(said));
         }
@@ -210,7 +210,7 @@ impl Decoder {
         let end = parts.last().map_or(self.used, |part| part.end);
         let request = self.request(&parts);
         self.used = end;
-        Ok(Some(request.map(Said::Request)))
+        Ok(Some(request.map(PeerMessage::Request)))
     }
 
     /// All frames of a message; None while some are missing.
@@ -298,14 +298,14 @@ mod tests {
         answer(&[flag::MORE, 0], content)
     }
 
-    fn said_at_once(bytes: &[u8]) -> Result<Option<Said>, Violation> {
+    fn said_at_once(bytes: &[u8]) -> Result<Option<PeerMessage>, Violation> {
         let mut decoder = Decoder::new();
         decoder.feed(bytes);
         decoder.next()
     }
 
     /// All that is read of bytes that come in pieces, and what went wrong.
-    fn read_in_pieces(bytes: &[u8], size: usize) -> (Vec<Said>, Option<Violation>) {
+    fn read_in_pieces(bytes: &[u8], size: usize) -> (Vec<PeerMessage>, Option<Violation>) {
         let (mut decoder, mut read) = (Decoder::new(), Vec::new());
         for piece in bytes.chunks(size) {
             decoder.feed(piece);
@@ -335,15 +335,15 @@ mod tests {
                 said.push(one);
             }
         }
-        let expect = |content: &[u8]| Said::Request(Request { envelope: vec![1, 0], content: content.to_vec() });
-        assert_eq!(said, [expect(b"short"), Said::Ping(b"ctx".to_vec()), expect(&[7; 300])]);
+        let expect = |content: &[u8]| PeerMessage::Request(Request { envelope: vec![1, 0], content: content.to_vec() });
+        assert_eq!(said, [expect(b"short"), PeerMessage::Ping(b"ctx".to_vec()), expect(&[7; 300])]);
     }
 
     #[test]
     fn the_whole_envelope_comes_back() {
         let mut bytes = opening(b"REQ");
         bytes.extend([flag::MORE, 2, 8, 9, flag::MORE, 0, 0, 1, b'x']);
-        let Ok(Some(Said::Request(request))) = said_at_once(&bytes) else { panic!("a request") };
+        let Ok(Some(PeerMessage::Request(request))) = said_at_once(&bytes) else { panic!("a request") };
         assert_eq!(answer(&request.envelope, b"y"), [flag::MORE, 2, 8, 9, flag::MORE, 0, 0, 1, b'y']);
     }
 

@@ -11,6 +11,7 @@ use scene::shape::Shape;
 use scene::{Data, Handle, Kind, SceneError};
 use script::{Handles, Table};
 
+/// The module `simConvex`.
 pub static MODULE: Module = Module {
     about: "Convex hulls and convex decomposition of shapes.",
     functions: &[("Convex shapes", FUNCTIONS)],

@@ -12,6 +12,7 @@ use scene::{Handle, SceneError};
 use script::log::verbosity;
 use script::{Handles, Hooks, Host};
 
+/// The module `simGLTF`.
 pub static MODULE: Module = Module {
     about: "glTF files: scenes with colours, textures, cameras, lights and recorded movements.",
     functions: &[("Contents", CONTENTS), ("Files", FILES), ("Animation", ANIMATION)],

@@ -8,6 +8,7 @@ use scene::shape::Shape;
 use scene::{Data, Handle, Key, Kind, SceneError};
 use script::Table;
 
+/// The module `simOpenMesh`.
 pub static MODULE: Module = Module {
     about: "Shapes with fewer triangles.",
     functions: &[("Decimation", FUNCTIONS)],
@@ -36,7 +37,7 @@ fn decimate(cx: &mut Cx, input_shape: Handle, #[default(Table(Data::Nil))] param
     let (most_triangles, most_vertices) = (number(&params.0, "triangles")?, number(&params.0, "vertices")?);
     let share = match number(&params.0, "percentage")? {
         Some(share) => share_of(triangles, share)?,
-        // As far as the error allows, or half of them.
+        // Without a percentage, the other limits decide; without any, half of the triangles stay.
         None if most_triangles.or(most_vertices).is_some() => usize::MAX,
         None if error.is_some() => 0,
         None => share_of(triangles, 0.5)?,

@@ -10,6 +10,7 @@ use scene::Data;
 use script::Table;
 use script::log::verbosity;
 
+/// The module `simSDF`.
 pub static MODULE: Module = Module {
     about: "Robots and worlds from SDF files.",
     functions: &[("Robots and worlds", FUNCTIONS)],

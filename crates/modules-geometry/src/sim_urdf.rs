@@ -10,6 +10,7 @@ use scene::Handle;
 use script::Number;
 use script::log::verbosity;
 
+/// The module `simURDF`.
 pub static MODULE: Module = Module {
     about: "Robots from URDF files, and models as URDF files.",
     functions: &[("Robots", FUNCTIONS)],

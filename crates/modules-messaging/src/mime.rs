@@ -12,6 +12,7 @@ use wire::mime::{
     wrap_quoted_printable, wrap_text,
 };
 
+/// The module `mime.core`.
 pub static MODULE: Module = Module {
     about: "The low-level filters of mime.",
     functions: &[("Filters", FUNCTIONS)],

@@ -11,10 +11,13 @@ use super::{ApiFn, Cx, Module, Result, functions, sim_ws};
 use io::{Incoming, ZmqServer};
 use script::{Bytes, States, Text};
 
+/// The module `remote.zmq`.
 pub static ZMQ: Module = Module { inner: &[FUNCTIONS, TYPES, NAMES], ..Module::new("remote.zmq") };
 /// What the library of scripts in Python needs.
 pub static PYTHON: Module = Module { inner: &[TYPES, NAMES], ..Module::new("swanilda.python") };
+/// The module `remote.ws`.
 pub static WS: Module = Module { inner: &[sim_ws::REMOTE, NAMES], ..Module::new("remote.ws") };
+/// The module `remote.visualization`.
 pub static VISUALIZATION: Module = Module { inner: &[sim_ws::STREAM], ..Module::new("remote.visualization") };
 
 const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, others];
@@ -61,17 +64,17 @@ pub(super) fn visualization_listener(cx: &Cx) -> Option<std::io::Result<TcpListe
 }
 
 /// Longest wait, seconds: the simulator must look after itself from time to time.
-const LONGEST_WAIT: f64 = 1.0;
+const MAX_WAIT: f64 = 1.0;
 
 /// The next message, or news that a connection is gone.
 ///
-/// @param patience seconds to wait for one
+/// @param timeout seconds to wait for one
 /// @return peer, message nothing when none came; no message when the connection is gone
 #[api("remote.zmq.receive")]
-fn receive(cx: &mut Cx, patience: f64) -> Result<Option<(i64, Option<Text>)>> {
-    let patience = Duration::from_secs_f64(patience.clamp(0.0, LONGEST_WAIT));
+fn receive(cx: &mut Cx, timeout: f64) -> Result<Option<(i64, Option<Text>)>> {
+    let timeout = Duration::from_secs_f64(timeout.clamp(0.0, MAX_WAIT));
     let server = zmq_server(cx);
-    Ok(server.and_then(|server| server.receive(patience)).map(|incoming| match incoming {
+    Ok(server.and_then(|server| server.receive(timeout)).map(|incoming| match incoming {
         Incoming::Request(peer, message) => (peer as i64, Some(Text(message))),
         Incoming::Gone(peer) => (peer as i64, None),
     }))

@@ -14,6 +14,7 @@ use io::{Process, ProcessError, Program};
 use scene::Data;
 use script::{Bytes, Nil, Results, Table};
 
+/// The module `simSubprocess`.
 pub static MODULE: Module = Module {
     about: "Starts programs, where that is allowed (`--allow-run`).",
     functions: &[("Programs", FUNCTIONS)],
@@ -23,7 +24,7 @@ pub static MODULE: Module = Module {
 const FUNCTIONS: &[ApiFn] = functions![exec, exec_async, is_running, wait, kill, getpid];
 
 /// How long the outputs of a program that has ended may stay open: another program may hold them.
-const PATIENCE: Duration = Duration::from_secs(1);
+const OUTPUT_TIMEOUT: Duration = Duration::from_secs(1);
 
 /// The programs a script has started.
 #[derive(Default)]
@@ -78,7 +79,7 @@ fn exec(
     let mut run = program.run(input.0).map_err(failure)?;
     let exit_code = cx.wait_for(None, || run.exit_code())?;
     let exit_code = exit_code.ok_or(ApiError::Interrupted)?.map_err(failure)?;
-    cx.wait_for(Some(PATIENCE), || run.outputs_are_complete().then_some(()))?;
+    cx.wait_for(Some(OUTPUT_TIMEOUT), || run.outputs_are_complete().then_some(()))?;
     let (out, err) = run.outputs().map_err(failure)?;
     Ok((exit_code.into(), Bytes(out), Bytes(err)))
 }

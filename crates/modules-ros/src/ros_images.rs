@@ -8,14 +8,14 @@ use super::{ApiError, Result};
 use scene::{Data, Key};
 
 /// The most pixels of a row or column.
-const SIDE: i64 = 1 << 16;
+const MAX_SIDE: i64 = 1 << 16;
 
 /// A message of an image with three bytes per pixel, the lowest row first.
 ///
 /// # Errors
 /// When the data do not fit the size.
 pub(super) fn message(data: &[u8], width: i64, height: i64, stamp: Data, frame_id: &str) -> Result<Data> {
-    if !(1..=SIDE).contains(&width) || !(1..=SIDE).contains(&height) {
+    if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
         return Err(ApiError::Other(format!("invalid size of an image: {width} x {height}")));
     }
     let row = width as usize * 3;
@@ -24,7 +24,7 @@ pub(super) fn message(data: &[u8], width: i64, height: i64, stamp: Data, frame_i
         return Err(ApiError::Other(format!("the image has {} bytes, expected {needed}", data.len())));
     }
     let flipped: Vec<u8> = data.chunks_exact(row).rev().flatten().copied().collect();
-    // Empty strings are none.
+    // Empty strings mean that none was given.
     let frame = (!frame_id.is_empty()).then(|| ("frame_id", Data::text(frame_id)));
     let header = [("stamp", stamp)].into_iter().chain(frame);
     let key = |name: &str| Key::Text(name.as_bytes().to_vec());

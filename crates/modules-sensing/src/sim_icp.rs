@@ -9,6 +9,7 @@ use proximity::{Geometry, Placed, TriangleMesh, distance};
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 use scene::{Handle, SceneError};
 
+/// The module `simICP`.
 pub static MODULE: Module = Module {
     about: "Registration: moves points onto others, or onto a shape.",
     functions: &[("Registration", FUNCTIONS)],

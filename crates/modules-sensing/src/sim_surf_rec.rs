@@ -8,6 +8,7 @@ use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 use scene::shape::Shape;
 use scene::{Handle, Kind, SceneError};
 
+/// The module `simSurfRec`.
 pub static MODULE: Module = Module {
     about: "Shapes of point clouds.",
     functions: &[("Reconstruction", FUNCTIONS)],

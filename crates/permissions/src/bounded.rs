@@ -5,9 +5,9 @@ use std::io::{Error, Read, Result};
 use std::path::Path;
 
 /// Bytes of the largest file that is read.
-const LARGEST_FILE: u64 = 2 << 30;
+const MAX_FILE_SIZE: u64 = 2 << 30;
 /// Bytes that are read from a device or a pipe, which do not say how many they have.
-const LARGEST_STREAM: u64 = 64 << 20;
+const MAX_STREAM_SIZE: u64 = 64 << 20;
 
 /// The bytes of a file.
 ///
@@ -17,9 +17,9 @@ pub fn read_bounded(path: &Path) -> Result<Vec<u8>> {
     let file = File::open(path)?;
     let metadata = file.metadata()?;
     let (limit, what) = if metadata.is_file() {
-        (LARGEST_FILE, "it is larger than")
+        (MAX_FILE_SIZE, "it is larger than")
     } else {
-        (LARGEST_STREAM, "this device or pipe has more than")
+        (MAX_STREAM_SIZE, "this device or pipe has more than")
     };
     let too_large = || Error::other(format!("{what} {} MiB", limit >> 20));
     if metadata.len() > limit {

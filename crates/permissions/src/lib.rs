@@ -335,7 +335,7 @@ impl Access {
             return Ok(());
         }
         let absolute = without_dots(std::path::absolute(path).unwrap_or_else(|_| path.to_owned()));
-        // A link in a folder that is allowed: what it leads to is missing.
+        // The link lies in an allowed folder, but its target does not exist.
         let folder = suggested(&absolute).filter(|folder| !resolve(folder).is_ok_and(is_allowed));
         Err(self.denied(path, folder.unwrap_or(&absolute)))
     }

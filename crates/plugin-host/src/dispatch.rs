@@ -13,7 +13,7 @@ use scene::Data;
 const SYMBOLS: &str = include_str!("symbols.tsv");
 
 /// Longest list a plugin may pass; a larger count is a mistake.
-const LONGEST: usize = Data::MAX_ITEMS;
+const MAX_ITEMS: usize = Data::MAX_ITEMS;
 
 /// A symbol with the function behind it.
 struct Bound {
@@ -54,7 +54,7 @@ pub(super) struct Call<'a> {
 pub(super) fn perform(number: u32, values: &mut [Value]) -> i64 {
     let Some(bound) = BOUND.get(number as usize) else { return -1 };
     let Some(frame) = current() else {
-        complain_of_thread(bound.row.symbol);
+        warn_of_thread(bound.row.symbol);
         return failure(number);
     };
     answer(&frame, bound, values).unwrap_or_else(|reason| {
@@ -70,9 +70,9 @@ pub(super) fn failure(number: u32) -> i64 {
 }
 
 /// Calls from threads of the plugin's own, or after the simulator has ended.
-fn complain_of_thread(symbol: &str) {
-    static SAID: AtomicBool = AtomicBool::new(false);
-    if !SAID.swap(true, Ordering::Relaxed) {
+fn warn_of_thread(symbol: &str) {
+    static HAS_WARNED: AtomicBool = AtomicBool::new(false);
+    if !HAS_WARNED.swap(true, Ordering::Relaxed) {
         eprintln!(
             "swanilda: a plugin called {symbol} outside of a call by the simulator, for instance from a thread of its own. Such calls fail."
         );
@@ -115,7 +115,7 @@ fn count_of(param: Param, value: &Value) -> Result<usize, String> {
         Size::One => Ok(1),
         Size::Fixed(count) => Ok(count),
         Size::Counted => {
-            let count = usize::try_from(value.integer).ok().filter(|&count| count <= LONGEST);
+            let count = usize::try_from(value.integer).ok().filter(|&count| count <= MAX_ITEMS);
             count.ok_or_else(|| format!("{} is no number of values", value.integer))
         }
     }
@@ -132,7 +132,7 @@ fn argument(param: Param, value: &Value) -> Result<Data, String> {
         ('i' | 'l', Size::One) => Data::Int(value.integer),
         ('b' | 'B', Size::One) => Data::Bool(value.integer != 0),
         ('d' | 'f', Size::One) => Data::Float(value.number),
-        // What has a fixed size is optional.
+        // Arrays of a fixed size are optional.
         (_, Size::Fixed(_)) if value.address.is_null() => Data::Nil,
         ('u', _) => Data::Buffer(list::<u8>(value, count)?),
         ('i', _) => list::<i32>(value, count)?.into_iter().map(i64::from).collect::<Vec<_>>().into(),
@@ -185,7 +185,7 @@ fn fill(
             let address = frame.keep(param.ty, results.next(), length);
             value.address.write(&[address as usize]);
         }
-        // What there is no result for stays as it is.
+        // Output arguments without a result keep their values.
         _ => return results.next().map_or(Ok(()), |result| fill_numbers(param, value, &result)),
     }
     Ok(())

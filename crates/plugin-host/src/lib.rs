@@ -49,6 +49,7 @@ pub trait Host {
     /// When there is no such script, or the text fails.
     fn execute(&self, script: i64, text: &[u8]) -> Result<Vec<Data>, String>;
 
+    /// Writes a line to the log, in the name of `origin`, with a verbosity of `sim.verbosity_*`.
     fn log(&self, origin: &str, level: i64, text: &str);
 }
 
@@ -77,6 +78,7 @@ struct Registered {
 pub enum Variable {
     /// In Lua.
     Expression(String),
+    /// By its value.
     Value(Data),
 }
 
@@ -111,7 +113,7 @@ impl Note {
 
     fn write(&self) {
         if let Some(file) = &*self.file.borrow() {
-            // Without the note a crash is only told less exactly.
+            // If writing fails, a report of a crash lacks the names of plugin and function.
             let _ = std::fs::write(file, self.running.borrow().last().map_or("", String::as_str));
         }
     }
@@ -120,18 +122,31 @@ impl Note {
 /// Moments of which plugins are told. The numbers are those of the interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Moment {
+    /// A scene was saved.
     SceneSaved = 260,
+    /// A model was saved.
     ModelSaved = 261,
+    /// A pass of the main loop, also while nothing is simulated.
     Pass = 269,
+    /// A simulation is about to start.
     SimulationAboutToStart = 285,
+    /// A simulation has ended, and the scene is as it was before.
     SimulationEnded = 286,
+    /// A scene was loaded.
     SceneLoaded = 294,
+    /// A model was loaded.
     ModelLoaded = 295,
+    /// A simulation is about to end.
     SimulationAboutToEnd = 334,
+    /// The Lua state of a script is about to be closed.
     ScriptStateAboutToBeDestroyed = 338,
+    /// The main script initialises a simulation.
     SimulationInit = 340,
+    /// The actuation phase of a step.
     SimulationActuation = 341,
+    /// The sensing phase of a step.
     SimulationSensing = 342,
+    /// The main script cleans up after a simulation.
     SimulationCleanup = 343,
 }
 

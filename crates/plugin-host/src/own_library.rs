@@ -53,7 +53,7 @@ fn unpack_into(folder: &Path) -> io::Result<PathBuf> {
     let written =
         create.open(&mine).and_then(|mut file| file.write_all(LIBRARY)).and_then(|()| fs::rename(&mine, &path));
     if written.is_err() {
-        // The file that is left over hinders nobody.
+        // A file that is left over is harmless.
         let _ = fs::remove_file(&mine);
     }
     written.map(|()| path)

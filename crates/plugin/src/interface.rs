@@ -111,7 +111,7 @@ impl Interface {
     }
 
     pub fn set_error(&self, text: &str) {
-        // What is behind a NUL is lost.
+        // The text is cut at the first NUL.
         let text = CString::new(text.split('\0').next().unwrap_or_default()).unwrap_or_default();
         (self.set_last_error)(std::ptr::null(), text.as_ptr());
     }

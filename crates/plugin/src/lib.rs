@@ -30,9 +30,13 @@ pub use interface::{CallInfo, Callback, InitInfo};
 /// A value of a script.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
+    /// `nil`.
     Nil,
+    /// A boolean.
     Bool(bool),
+    /// An integer.
     Int(i64),
+    /// A number that is no integer by its type.
     Float(f64),
     /// A string or a buffer of Lua: any bytes.
     Text(Vec<u8>),

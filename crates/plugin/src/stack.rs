@@ -4,7 +4,7 @@ use super::Value;
 use super::interface::Interface;
 
 /// Deepest table that is read.
-const DEEPEST: usize = 100;
+const MAX_DEPTH: usize = 100;
 
 /// Types of items, as the interface numbers them.
 const DOUBLE: i32 = 1;
@@ -39,7 +39,7 @@ fn pop(interface: &Interface, stack: i32, depth: usize) -> Value {
             Value::Float(value)
         }
         STRING => Value::Text(interface.text(stack)),
-        TABLE if depth < DEEPEST => return pop_table(interface, stack, depth),
+        TABLE if depth < MAX_DEPTH => return pop_table(interface, stack, depth),
         _ => Value::Nil,
     };
     (interface.pop)(stack, 1);

@@ -13,7 +13,6 @@ macro_rules! numbers {
     ($($name:ident $word:literal $type:ty),* $(,)?) => {
         /// The primitive types of fixed size, truth values among them.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        #[allow(missing_docs)]
         pub enum NumberType {
             /// One byte; 0 and 1.
             Bool,
@@ -21,23 +20,23 @@ macro_rules! numbers {
             Byte,
             /// A character of one byte; its value is a [`Number::UInt8`].
             Char,
-            $($name),*
+            $(#[doc = concat!("`", $word, "`.")] $name),*
         }
 
         /// A number of one of the primitive types.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        #[allow(missing_docs)]
         pub enum Number {
+            /// A truth value.
             Bool(bool),
-            $($name($type)),*
+            $(#[doc = concat!("A number of type `", $word, "`.")] $name($type)),*
         }
 
         /// Numbers of one of the primitive types.
         #[derive(Clone, Debug, PartialEq)]
-        #[allow(missing_docs)]
         pub enum Numbers {
+            /// Truth values.
             Bool(Vec<bool>),
-            $($name(Vec<$type>)),*
+            $(#[doc = concat!("Numbers of type `", $word, "`.")] $name(Vec<$type>)),*
         }
 
         impl NumberType {

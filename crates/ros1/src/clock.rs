@@ -8,8 +8,8 @@ pub(crate) struct Deadline(Instant);
 
 #[allow(clippy::disallowed_methods, reason = "time limits of connections are times of the wall clock")]
 impl Deadline {
-    pub(crate) fn after(patience: Duration) -> Self {
-        Self(Instant::now() + patience)
+    pub(crate) fn after(timeout: Duration) -> Self {
+        Self(Instant::now() + timeout)
     }
 
     /// What is left. None if it is over.

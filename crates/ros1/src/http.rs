@@ -15,8 +15,8 @@ const HEAD: usize = 16 << 10;
 const HEADERS: usize = 64;
 
 /// Sends a text and reads the answer, all within a time limit.
-pub(crate) fn post(network: Network, place: &Place, body: &str, patience: Duration) -> Result<Vec<u8>> {
-    let deadline = Deadline::after(patience);
+pub(crate) fn post(network: Network, place: &Place, body: &str, timeout: Duration) -> Result<Vec<u8>> {
+    let deadline = Deadline::after(timeout);
     let mut stream = network.connect(place, deadline)?;
     stream.set_write_timeout(Some(deadline.left().ok_or_else(timed_out)?))?;
     let head = format!(
@@ -26,7 +26,7 @@ pub(crate) fn post(network: Network, place: &Place, body: &str, patience: Durati
         body.len()
     );
     stream.write_all((head + body).as_bytes())?;
-    let mut reader = Reader { stream: &mut stream, buffer: Vec::new(), patience: Patience::Until(deadline) };
+    let mut reader = Reader { stream: &mut stream, buffer: Vec::new(), timeout: ReadTimeout::Until(deadline) };
     let (length, status) = reader.head(answer_head)?.ok_or_else(|| Error::protocol("no answer"))?;
     let body = reader.body(length)?;
     if status == 200 { Ok(body) } else { Err(Error::protocol(format!("HTTP status {status}"))) }
@@ -37,10 +37,10 @@ pub(crate) fn post(network: Network, place: &Place, body: &str, patience: Durati
 /// # Errors
 /// When it says something else, or nothing for too long.
 pub(crate) fn serve(stream: &mut TcpStream, answer: impl Fn(&[u8]) -> String) -> Result<()> {
-    stream.set_write_timeout(Some(limits::SILENCE))?;
+    stream.set_write_timeout(Some(limits::SILENCE_TIMEOUT))?;
     let mut left_over = Vec::new();
     loop {
-        let mut reader = Reader { stream, buffer: left_over, patience: Patience::Each(limits::SILENCE) };
+        let mut reader = Reader { stream, buffer: left_over, timeout: ReadTimeout::Each(limits::SILENCE_TIMEOUT) };
         let Some((length, ())) = reader.head(request_head)? else { return Ok(()) };
         let length = length.ok_or_else(|| Error::protocol("a request without Content-Length"))?;
         let body = reader.body(Some(length))?;
@@ -92,7 +92,7 @@ fn content_length(headers: &[httparse::Header]) -> Result<Option<usize>> {
 
 /// How long to wait for bytes.
 #[derive(Clone, Copy)]
-enum Patience {
+enum ReadTimeout {
     Until(Deadline),
     Each(Duration),
 }
@@ -101,7 +101,7 @@ struct Reader<'a> {
     stream: &'a mut TcpStream,
     /// What was read and not used.
     buffer: Vec<u8>,
-    patience: Patience,
+    timeout: ReadTimeout,
 }
 
 impl Reader<'_> {
@@ -142,11 +142,11 @@ impl Reader<'_> {
 
     /// False at the end.
     fn more(&mut self) -> Result<bool> {
-        let patience = match self.patience {
-            Patience::Until(deadline) => deadline.left().ok_or_else(timed_out)?,
-            Patience::Each(patience) => patience,
+        let timeout = match self.timeout {
+            ReadTimeout::Until(deadline) => deadline.left().ok_or_else(timed_out)?,
+            ReadTimeout::Each(timeout) => timeout,
         };
-        self.stream.set_read_timeout(Some(patience))?;
+        self.stream.set_read_timeout(Some(timeout))?;
         let mut chunk = [0; 8 << 10];
         let count = self.stream.read(&mut chunk).map_err(|error| match error.kind() {
             std::io::ErrorKind::WouldBlock | std::io::ErrorKind::TimedOut => timed_out(),

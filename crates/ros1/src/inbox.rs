@@ -74,9 +74,9 @@ impl<M: AsRef<[u8]>> Inbox<M> {
     }
 
     /// The oldest message, as soon as there is one.
-    pub(crate) fn wait(&self, patience: Duration) -> Arrival<M> {
+    pub(crate) fn wait(&self, timeout: Duration) -> Arrival<M> {
         let is_idle = |waiting: &mut Waiting<M>| waiting.messages.is_empty() && !waiting.is_closed;
-        let waited = self.changed.wait_timeout_while(self.waiting(), patience, is_idle);
+        let waited = self.changed.wait_timeout_while(self.waiting(), timeout, is_idle);
         let (mut waiting, _) = waited.unwrap_or_else(PoisonError::into_inner);
         match waiting.pop() {
             Some(message) => Arrival::Message(message),

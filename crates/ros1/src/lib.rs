@@ -33,7 +33,7 @@ mod xmlrpc;
 
 pub use error::{Error, Result};
 pub use network::Network;
-pub use node::{Node, Settings};
+pub use node::{Node, NodeSettings};
 pub use publisher::Publisher;
 pub use service::{Call, Request, ServiceServer, ServiceType};
 pub use subscriber::Subscriber;

@@ -30,10 +30,10 @@ pub(crate) const CONNECTIONS: usize = 256;
 pub(crate) const PUBLISHERS: usize = 256;
 
 /// How long the master, or another node, has for an answer.
-pub(crate) const PATIENCE: Duration = Duration::from_secs(3);
+pub(crate) const TIMEOUT: Duration = Duration::from_secs(3);
 
 /// How long a connection of another node may say nothing before its head or request is complete.
-pub(crate) const SILENCE: Duration = Duration::from_secs(30);
+pub(crate) const SILENCE_TIMEOUT: Duration = Duration::from_secs(30);
 
-/// The shortest and the longest rest before a publisher that was not reached is tried again.
-pub(crate) const REST: [Duration; 2] = [Duration::from_millis(100), Duration::from_secs(5)];
+/// The shortest and the longest pause before a publisher that was not reached is tried again.
+pub(crate) const RETRY_DELAY: [Duration; 2] = [Duration::from_millis(100), Duration::from_secs(5)];

@@ -29,7 +29,7 @@ impl Master {
 
     pub(crate) fn call_with(&self, method: &str, mut arguments: Vec<Parameter>) -> Result<Parameter> {
         arguments.insert(0, Parameter::text(&self.caller));
-        let answer = http::post(self.network, &self.place, &call_text(method, &arguments), limits::PATIENCE)
+        let answer = http::post(self.network, &self.place, &call_text(method, &arguments), limits::TIMEOUT)
             .map_err(|error| Error::Master { uri: self.uri.clone(), problem: error.to_string() })?;
         value_of(read_response(&answer)?).map_err(|reason| Error::Refused { method: method.into(), reason })
     }

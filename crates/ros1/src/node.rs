@@ -16,7 +16,7 @@ use crate::{Error, MessageType, Parameter, Result, http, limits, slave};
 
 /// How a node takes part.
 #[derive(Clone, Debug)]
-pub struct Settings {
+pub struct NodeSettings {
     /// The address of the master, `http://localhost:11311`.
     pub master: String,
     /// Which addresses are bound and reached.
@@ -58,7 +58,7 @@ impl Node {
     ///
     /// # Errors
     /// When a name or an address is none, no socket can be had, or no master answers within a few seconds.
-    pub fn new(settings: &Settings) -> Result<Self> {
+    pub fn new(settings: &NodeSettings) -> Result<Self> {
         let place = Place::new(&settings.namespace, &settings.name)?;
         let master = Master::new(&settings.master, settings.network, &place.node)?;
         let host = settings.network.own_host(master.place()).map_err(|error| no_master(&master, &error))?;
@@ -215,7 +215,7 @@ fn serve_messages(node: &Weak<Shared>, stream: TcpStream) {
 }
 
 fn serve_connection(node: &Weak<Shared>, mut stream: TcpStream) -> Result<()> {
-    stream.set_read_timeout(Some(limits::SILENCE))?;
+    stream.set_read_timeout(Some(limits::SILENCE_TIMEOUT))?;
     let head = read_head(&mut stream)?;
     let Some(node) = node.upgrade() else { return Ok(()) };
     let caller = node.master.caller.clone();

@@ -11,7 +11,7 @@ use crate::tcpros::{Connection, Head, field, write_frame, write_head};
 use crate::{MessageType, Result, limits};
 
 /// How often a connection on which nothing is sent is looked at.
-const LOOK: Duration = Duration::from_secs(1);
+const POLL_INTERVAL: Duration = Duration::from_secs(1);
 
 /// Publishes messages of a topic. The topic ends with the last of its publishers.
 pub struct Publisher {
@@ -142,10 +142,10 @@ impl Topic {
 }
 
 fn send(stream: &mut TcpStream, queue: &Inbox<Message>) -> Result<()> {
-    // For looks only: a subscriber says nothing.
+    // This only detects the end of the connection: a subscriber sends nothing.
     stream.set_read_timeout(Some(Duration::from_millis(1)))?;
     loop {
-        match queue.wait(LOOK) {
+        match queue.wait(POLL_INTERVAL) {
             Arrival::Message(message) => write_frame(stream, &message)?,
             Arrival::Nothing if has_ended(stream) => return Ok(()),
             Arrival::Nothing => {}
@@ -166,7 +166,7 @@ impl Drop for Topic {
         self.node.forget_topic(&self.name);
         for subscriber in &self.state().subscribers {
             subscriber.queue.close();
-            // One that has ended already needs no end.
+            // Shutting down fails only if the connection is closed already.
             let _ = subscriber.stream.shutdown(Shutdown::Both);
         }
     }

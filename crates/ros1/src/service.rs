@@ -44,7 +44,7 @@ pub struct Request {
 impl Request {
     /// Answers it: with a message, or with the reason why there is none.
     pub fn answer(self, answer: std::result::Result<Vec<u8>, String>) {
-        // Who has gone needs no answer.
+        // If the caller has closed the connection, there is nobody to answer.
         let _ = self.answer.send(answer);
     }
 }
@@ -124,7 +124,7 @@ impl Call {
         let (theirs, node, name, service_type) = (stream.clone(), node.clone(), name.to_string(), service_type.clone());
         thread::Builder::new().name(format!("ROS {name}")).spawn(move || {
             let answer = perform(&node, &name, &service_type, &request, &theirs);
-            // Who has gone needs no answer.
+            // If the caller has closed the connection, there is nobody to answer.
             let _ = sender.send(answer);
         })?;
         Ok(Self { answer, stream })
@@ -144,7 +144,7 @@ impl Call {
 impl Drop for Call {
     fn drop(&mut self) {
         if let Some(stream) = self.stream.lock().unwrap_or_else(PoisonError::into_inner).take() {
-            // One that has ended already needs no end.
+            // Shutting down fails only if the connection is closed already.
             let _ = stream.shutdown(Shutdown::Both);
         }
     }
@@ -162,9 +162,9 @@ fn perform(
         other => other?,
     };
     let place = Place::parse(uri.as_text().unwrap_or_default(), "rosrpc")?;
-    let mut stream = node.network.connect(&place, Deadline::after(limits::PATIENCE))?;
+    let mut stream = node.network.connect(&place, Deadline::after(limits::TIMEOUT))?;
     *shared.lock().unwrap_or_else(PoisonError::into_inner) = Some(stream.try_clone()?);
-    stream.set_read_timeout(Some(limits::PATIENCE))?;
+    stream.set_read_timeout(Some(limits::TIMEOUT))?;
     let caller = node.master.caller.as_str();
     let fields = [("callerid", caller), ("service", name), ("md5sum", &service_type.md5), ("type", &service_type.name)];
     write_head(&mut stream, &fields)?;
@@ -173,7 +173,7 @@ fn perform(
         return Err(Error::Peer(problem.clone()));
     }
     write_frame(&mut stream, request)?;
-    // A service takes as long as it takes; who called may end the call.
+    // No read timeout from here on: the caller decides how long to wait for the service.
     stream.set_read_timeout(None)?;
     let mut ok = [0];
     std::io::Read::read_exact(&mut stream, &mut ok)?;

@@ -125,7 +125,7 @@ impl Subscription {
     }
 
     fn read_from(&self, uri: &str, link: &Link) {
-        let [mut rest, longest] = limits::REST;
+        let [mut delay, longest] = limits::RETRY_DELAY;
         loop {
             let was_connected = match self.read_once(uri, link) {
                 Ok(()) => true,
@@ -135,8 +135,8 @@ impl Subscription {
                     false
                 }
             };
-            rest = if was_connected { limits::REST[0] } else { (rest * 2).min(longest) };
-            if link.wait(rest) {
+            delay = if was_connected { limits::RETRY_DELAY[0] } else { (delay * 2).min(longest) };
+            if link.wait(delay) {
                 return;
             }
         }
@@ -145,9 +145,9 @@ impl Subscription {
     /// Connects and reads until the connection ends.
     fn read_once(&self, uri: &str, link: &Link) -> Result<()> {
         let place = self.request(uri)?;
-        let mut stream = self.network.connect(&place, Deadline::after(limits::PATIENCE))?;
+        let mut stream = self.network.connect(&place, Deadline::after(limits::TIMEOUT))?;
         link.set_stream(&stream)?;
-        stream.set_read_timeout(Some(limits::PATIENCE))?;
+        stream.set_read_timeout(Some(limits::TIMEOUT))?;
         let own = &self.message_type;
         let fields = [
             ("callerid", self.caller.as_str()),
@@ -171,7 +171,7 @@ impl Subscription {
                 own.md5
             )));
         }
-        // Nobody needs to publish often.
+        // No read timeout from here on: topics may be published rarely.
         stream.set_read_timeout(None)?;
         while let Ok(Some(message)) = read_frame(&mut stream, limits::MESSAGE) {
             self.inbox.push(message);
@@ -184,7 +184,7 @@ impl Subscription {
         let protocols = Parameter::Array(vec![Parameter::Array(vec![Parameter::text("TCPROS")])]);
         let arguments = [Parameter::text(&self.caller), Parameter::text(&self.topic), protocols];
         let node = Place::parse(uri, "http")?;
-        let answer = http::post(self.network, &node, &call_text("requestTopic", &arguments), limits::PATIENCE)?;
+        let answer = http::post(self.network, &node, &call_text("requestTopic", &arguments), limits::TIMEOUT)?;
         let value = value_of(read_response(&answer)?).map_err(Error::Peer)?;
         match value.as_array() {
             Some([Parameter::String(protocol), Parameter::String(host), Parameter::Int(port)])
@@ -206,7 +206,7 @@ impl Link {
         let mut state = self.state();
         state.has_ended = true;
         if let Some(stream) = state.stream.take() {
-            // One that has ended already needs no end.
+            // Shutting down fails only if the connection is closed already.
             let _ = stream.shutdown(Shutdown::Both);
         }
         self.ended.notify_all();
@@ -223,8 +223,8 @@ impl Link {
     }
 
     /// Whether it has ended, after that time at the latest.
-    fn wait(&self, patience: Duration) -> bool {
-        let waited = self.ended.wait_timeout_while(self.state(), patience, |state| !state.has_ended);
+    fn wait(&self, timeout: Duration) -> bool {
+        let waited = self.ended.wait_timeout_while(self.state(), timeout, |state| !state.has_ended);
         waited.unwrap_or_else(PoisonError::into_inner).0.has_ended
     }
 }

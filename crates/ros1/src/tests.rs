@@ -8,7 +8,7 @@ use std::time::Duration;
 use crate::network::{Network, Place};
 use crate::tcpros::Server;
 use crate::xmlrpc::{call_text, read_call, response_text};
-use crate::{Error, MessageType, Node, Parameter, ServiceType, Settings, http};
+use crate::{Error, MessageType, Node, NodeSettings, Parameter, ServiceType, http};
 
 #[derive(Default)]
 struct Graph {
@@ -34,7 +34,7 @@ impl Master {
 
     fn node(&self, name: &str) -> Node {
         let master = format!("http://127.0.0.1:{}", self.server.port());
-        let settings = Settings { master, network: Network::Loopback, namespace: String::new(), name: name.into() };
+        let settings = NodeSettings { master, network: Network::Loopback, namespace: String::new(), name: name.into() };
         Node::new(&settings).expect("a node")
     }
 
@@ -207,14 +207,14 @@ fn parameters_and_masters_that_are_not_there() {
     node.set_parameter("~gain", value.clone()).expect("a parameter");
     assert_eq!(node.parameter("/a/gain").expect("an answer"), Some(value));
     assert_eq!(node.parameter("/none").expect("an answer"), None);
-    let nobody = Settings {
+    let nobody = NodeSettings {
         master: "http://127.0.0.1:1".into(),
         network: Network::Loopback,
         namespace: String::new(),
         name: "a".into(),
     };
     assert!(matches!(Node::new(&nobody), Err(Error::Master { .. })));
-    let elsewhere = Settings { master: "http://192.0.2.1:11311".into(), ..nobody };
+    let elsewhere = NodeSettings { master: "http://192.0.2.1:11311".into(), ..nobody };
     let error = Node::new(&elsewhere).err().expect("no node").to_string();
     assert!(error.contains("outside of this machine"), "{error}");
 }

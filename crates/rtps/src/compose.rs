@@ -91,7 +91,7 @@ impl Composer {
         let mut body = entities(ends);
         push_set(&mut body, base, missing);
         body.extend_from_slice(&count.to_le_bytes());
-        // Final: an answer is wanted only for what is missing, and at the beginning.
+        // The final flag: an answer is required only if something is missing, and at the beginning.
         let is_final = missing.is_empty() && base > 1;
         self.submessage(0x06, u8::from(is_final) << 1, &[&body]);
     }

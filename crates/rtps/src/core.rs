@@ -25,7 +25,7 @@ pub(crate) const MULTICAST: Ipv4Addr = Ipv4Addr::new(239, 255, 0, 1);
 
 /// Who a participant is.
 #[derive(Debug, Clone)]
-pub struct Settings {
+pub struct CoreSettings {
     /// Its name in the domain, different from all others.
     pub prefix: Prefix,
     /// Participants of one domain find each other.
@@ -58,7 +58,7 @@ pub struct Written {
 /// A participant without sockets.
 #[derive(Debug)]
 pub struct Core {
-    pub(crate) settings: Settings,
+    pub(crate) settings: CoreSettings,
     pub(crate) writers: BTreeMap<EntityId, Writer>,
     pub(crate) readers: BTreeMap<EntityId, Reader>,
     pub(crate) peers: BTreeMap<Prefix, Peer>,
@@ -84,7 +84,7 @@ pub(crate) fn unicast_port(domain: u32, participant: u32) -> u32 {
 
 impl Core {
     /// A participant that knows nobody.
-    pub fn new(settings: Settings) -> Self {
+    pub fn new(settings: CoreSettings) -> Self {
         let mut core = Self {
             settings,
             writers: BTreeMap::new(),

@@ -82,7 +82,7 @@ impl ParticipantData {
             builtin_endpoints: list.input(pid::BUILTIN_ENDPOINT_SET).and_then(|mut input| input.u32()).unwrap_or(0),
             metatraffic: addresses(pid::METATRAFFIC_UNICAST_LOCATOR),
             unicast: addresses(pid::DEFAULT_UNICAST_LOCATOR),
-            // The protocol's default is 100 s; without end would keep what is gone.
+            // The protocol's default is 100 s; with an infinite lease, participants that are gone would stay.
             lease: parse_duration(list.input(pid::LEASE_DURATION)).flatten().unwrap_or(Duration::from_secs(100)),
         })
     }

@@ -23,7 +23,7 @@ mod writer;
 
 use std::net::SocketAddrV4;
 
-pub use self::core::{Core, Settings, Written};
+pub use self::core::{Core, CoreSettings, Written};
 pub use discovery::Endpoint;
 pub use guid::{EntityId, Guid, Prefix, SampleIdentity};
 pub use message::Time;

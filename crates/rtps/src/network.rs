@@ -96,7 +96,7 @@ impl Sockets {
                     return Some((length, from));
                 }
                 Ok(_) => {}
-                // An earlier datagram met a closed port.
+                // An earlier datagram was sent to a closed port, which the system reports here.
                 Err(error) if error.kind() == io::ErrorKind::ConnectionRefused => {}
                 Err(_) => return None,
             }
@@ -132,14 +132,14 @@ fn multicast(domain: u32, address: Ipv4Addr) -> io::Result<UdpSocket> {
     let bound = if cfg!(windows) { address } else { MULTICAST };
     socket.bind(&SocketAddrV4::new(bound, port).into())?;
     socket.join_multicast_v4(&MULTICAST, &address)?;
-    // Otherwise Linux delivers what any other program on this machine has joined.
+    // Otherwise Linux delivers datagrams of all groups that any program on this machine has joined.
     #[cfg(target_os = "linux")]
     socket.set_multicast_all_v4(false)?;
     ready(socket)
 }
 
 fn ready(socket: Socket) -> io::Result<UdpSocket> {
-    // The system may keep less; then more is sent twice.
+    // The system may use a smaller buffer; then more datagrams are lost and sent again.
     socket.set_recv_buffer_size(BUFFER).ok();
     socket.set_send_buffer_size(BUFFER).ok();
     socket.set_nonblocking(true)?;

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
 use crate::Limits;
-use crate::core::{Core, Settings};
+use crate::core::{Core, CoreSettings};
 use crate::guid::Prefix;
 use crate::network::{Network, OpenError, Sockets};
 
@@ -40,7 +40,7 @@ impl Participant {
     /// There is no such domain, or the system has no socket for it.
     pub fn new(domain: u32, network: Network, name: &str, user_data: &[u8]) -> Result<Self, OpenError> {
         let sockets = Sockets::open(domain, network)?;
-        let settings = Settings {
+        let settings = CoreSettings {
             prefix: new_prefix(),
             domain,
             unicast: sockets.address,
@@ -78,7 +78,7 @@ impl Drop for Participant {
         self.with(Core::leave);
         self.shared.is_ended.store(true, Ordering::Relaxed);
         if let Some(thread) = self.thread.take() {
-            // It has nothing to say; a panic in it would have ended the participant only.
+            // The thread returns nothing; a panic in it would have ended only the participant.
             thread.join().ok();
         }
     }
@@ -118,7 +118,7 @@ impl Shared {
         let mut sockets =
             [PollFd::new(&self.sockets.unicast, PollFlags::IN), PollFd::new(&self.sockets.multicast, PollFlags::IN)];
         let timeout = Timespec { tv_sec: time.as_secs() as i64, tv_nsec: i64::from(time.subsec_nanos()) };
-        // An interruption is as good as the end of the time.
+        // An interrupted wait is treated as one that has timed out.
         poll(&mut sockets, Some(&timeout)).ok();
     }
 
@@ -138,8 +138,10 @@ impl Shared {
     }
 }
 
-/// The protocol is about time; no result of a simulation comes from here but what peers send.
-#[allow(clippy::disallowed_methods)]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the protocol is about time; no result of a simulation comes from here but what peers send"
+)]
 fn now() -> Instant {
     Instant::now()
 }
@@ -150,7 +152,7 @@ fn new_prefix() -> Prefix {
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
     let random = RandomState::new().hash_one((std::process::id(), count));
     let mut prefix = [0; 12];
-    // The vendor's number comes first; there is none.
+    // The first two bytes are the vendor identifier, 0 for an unknown vendor.
     prefix[2..10].copy_from_slice(&random.to_be_bytes());
     prefix[10..].copy_from_slice(&(count as u16).to_be_bytes());
     prefix

@@ -164,7 +164,7 @@ impl Reader {
     pub(crate) fn heartbeat(&mut self, writer: Guid, first: i64, last: i64, is_final: bool, out: &mut Vec<Datagram>) {
         let Some(proxy) = self.writers.get_mut(&writer).filter(|proxy| proxy.is_reliable) else { return };
         let start = if proxy.wants_history { first } else { last + 1 };
-        // What the writer no longer has will not come.
+        // Samples that the writer no longer has are not waited for.
         let before = proxy.skip_to(proxy.next.map_or(start, |next| next.max(first)));
         let is_first = proxy.acknacks <= 1;
         before.into_iter().for_each(|sample| self.enqueue(sample));

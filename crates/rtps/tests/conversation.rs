@@ -3,7 +3,7 @@
 use std::net::{Ipv4Addr, SocketAddrV4};
 use std::time::Duration;
 
-use rtps::{Core, Durability, EntityId, History, Limits, Qos, Reliability, Settings, Time, Written};
+use rtps::{Core, CoreSettings, Durability, EntityId, History, Limits, Qos, Reliability, Time, Written};
 use test_support::random::Random;
 
 const TYPE: &str = "std_msgs::msg::dds_::String_";
@@ -25,7 +25,7 @@ impl World {
         let cores = (0..count).map(|index| {
             let mut prefix = [0; 12];
             prefix[11] = index as u8 + 1;
-            Core::new(Settings {
+            Core::new(CoreSettings {
                 prefix,
                 domain: 0,
                 unicast: address(index),

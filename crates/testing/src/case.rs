@@ -13,6 +13,7 @@ use script::test_bench::{ConsoleLine, Golden};
 /// One test of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TestCase {
+    /// The file of the test, as the user named it or as it was found.
     pub file: PathBuf,
     /// Its number in the file, from 1; 0 for the file itself.
     pub index: usize,
@@ -52,6 +53,7 @@ impl TestCase {
 /// How a test ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
+    /// All its assertions held.
     Passed,
     /// An assertion did not hold.
     Failed,
@@ -64,7 +66,9 @@ pub enum Status {
 /// A test that is over.
 #[derive(Debug, Clone)]
 pub struct Outcome {
+    /// The test.
     pub test: Arc<TestCase>,
+    /// How it ended.
     pub status: Status,
     /// Description of the failure, or why it is pending.
     pub message: String,
@@ -82,11 +86,15 @@ pub struct Outcome {
     pub excerpts: Vec<Excerpt>,
     /// Simulated time when it ended, seconds.
     pub time: f64,
+    /// Simulation steps of its simulator.
     pub steps: u64,
+    /// How long it took by the wall clock.
     pub wall: Duration,
+    /// What it and its scripts printed.
     pub console: Vec<ConsoleLine>,
     /// Recordings of the test, until they are compared.
     pub(super) goldens: Vec<Golden>,
+    /// Its recordings, compared with their golden files.
     pub comparisons: Vec<Comparison>,
     /// The page that plays what happened, where failures are recorded.
     pub recording: Option<PathBuf>,

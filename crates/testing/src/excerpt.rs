@@ -16,6 +16,7 @@ pub struct Excerpt {
     pub line: u32,
     /// Number of the first of `lines`.
     pub first: u32,
+    /// The lines, without their ends; long ones are cut.
     pub lines: Vec<String>,
 }
 

@@ -25,7 +25,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 pub use case::{Outcome, Status, TestCase};
-pub use coverage::{Coverage, Record};
+pub use coverage::{Coverage, FileCoverage};
 pub use discover::find_files;
 pub use excerpt::Excerpt;
 pub use golden::{Comparison, ComparisonResult, Difference, Divergence, ImageDifference, RecordedImage, Recordings};
@@ -51,6 +51,7 @@ pub struct Config {
     pub shard: Option<(usize, usize)>,
     /// How often each test runs; the seed rises by one each time.
     pub repeat: u32,
+    /// Seed of the first repetition.
     pub seed: u32,
     /// No further tests after one has failed.
     pub fail_fast: bool,
@@ -146,6 +147,7 @@ pub struct Summary {
     pub deselected: usize,
     /// Whether the user wanted an end before all tests had run.
     pub interrupted: bool,
+    /// How long all of it took by the wall clock.
     pub wall: Duration,
     /// Line coverage of the tested scripts, if requested.
     pub coverage: Option<Coverage>,

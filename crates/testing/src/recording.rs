@@ -58,9 +58,9 @@ fn keep(file: &NamedTempFile, test: &TestCase, folder: &Path) -> std::io::Result
 
 /// Names the file of the test, its number and its title; without what file systems or addresses treat in a special way. The extension is to be set.
 fn file_name(test: &TestCase) -> String {
-    const LONGEST: usize = 80;
+    const MAX_LENGTH: usize = 80;
     let stem = test.file.file_stem().unwrap_or_default().to_string_lossy();
     let text = format!("{stem}-{}-{}-{}", test.index, test.repetition, test.name.join("-"));
     let plain = text.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' });
-    plain.take(LONGEST).collect::<String>() + ".swr"
+    plain.take(MAX_LENGTH).collect::<String>() + ".swr"
 }

@@ -46,7 +46,7 @@ pub(super) enum Message {
     Finished(Box<Outcome>),
 }
 
-enum News {
+enum WorkerEvent {
     /// A worker begins with something that takes time, and can be asked to stop it.
     Started(Running),
     Ready(Message),
@@ -98,8 +98,8 @@ struct Watch<'a> {
     shared: Arc<Shared>,
     workers: HashMap<usize, Option<Running>>,
     next: usize,
-    sender: Sender<(usize, News)>,
-    news: Receiver<(usize, News)>,
+    sender: Sender<(usize, WorkerEvent)>,
+    events: Receiver<(usize, WorkerEvent)>,
     receive: &'a mut dyn FnMut(Message) -> bool,
     /// When the user wanted an end.
     interrupted: Option<Instant>,
@@ -110,14 +110,14 @@ pub(super) fn work(config: &Config, tasks: Vec<Task>, receive: &mut dyn FnMut(Me
     let count = config.jobs.clamp(1, tasks.len().max(1));
     let queue = Mutex::new(Queue { tasks: tasks.into(), abandoned: HashSet::new() });
     let shared = Arc::new(Shared { config: config.clone(), queue, cancelled: AtomicBool::new(false) });
-    let (sender, news) = mpsc::channel();
-    let mut watch = Watch { shared, workers: HashMap::new(), next: 0, sender, news, receive, interrupted: None };
+    let (sender, events) = mpsc::channel();
+    let mut watch = Watch { shared, workers: HashMap::new(), next: 0, sender, events, receive, interrupted: None };
     for _ in 0..count {
         watch.spawn();
     }
     while !watch.workers.is_empty() {
-        if let Ok((worker, news)) = watch.news.recv_timeout(TICK) {
-            watch.receive(worker, news);
+        if let Ok((worker, event)) = watch.events.recv_timeout(TICK) {
+            watch.receive(worker, event);
         }
         watch.look_after();
     }
@@ -133,16 +133,16 @@ impl Watch<'_> {
         self.workers.insert(id, None);
     }
 
-    fn receive(&mut self, worker: usize, news: News) {
-        // Those that were given up may say what they like.
+    fn receive(&mut self, worker: usize, event: WorkerEvent) {
+        // Messages of workers that were given up are ignored.
         let Some(running) = self.workers.get_mut(&worker) else { return };
-        match news {
-            News::Started(started) => *running = Some(started),
-            News::Ready(message) => {
+        match event {
+            WorkerEvent::Started(started) => *running = Some(started),
+            WorkerEvent::Ready(message) => {
                 let running = running.take();
                 self.take(message, running);
             }
-            News::Gone => drop(self.workers.remove(&worker)),
+            WorkerEvent::Gone => drop(self.workers.remove(&worker)),
         }
     }
 
@@ -173,7 +173,7 @@ impl Watch<'_> {
         if interrupted {
             self.shared.cancel();
             if self.interrupted.get_or_insert_with(Instant::now).elapsed() > STOP_TIME_OF_USER {
-                // The process ends without those that are left.
+                // Workers that are still running end with the process.
                 return self.workers.clear();
             }
         }
@@ -195,10 +195,10 @@ impl Watch<'_> {
 
     fn abandon(&mut self, worker: usize) {
         let mut queue = self.shared.queue();
-        // A worker reports a test before it takes the next: with the queue locked and no news, it is still at this one.
-        if let Ok((sender, news)) = self.news.try_recv() {
+        // A worker reports a test before it takes the next: with the queue locked and no event waiting, it is still at this one.
+        if let Ok((sender, event)) = self.events.try_recv() {
             drop(queue);
-            return self.receive(sender, news);
+            return self.receive(sender, event);
         }
         queue.abandoned.insert(worker);
         drop(queue);
@@ -234,7 +234,7 @@ fn too_long(limit: Duration) -> String {
 struct Worker {
     id: usize,
     shared: Arc<Shared>,
-    sender: Sender<(usize, News)>,
+    sender: Sender<(usize, WorkerEvent)>,
 }
 
 impl Worker {
@@ -249,12 +249,12 @@ impl Worker {
                 Task::Simulate(job) => self.simulate(&job),
             }
         }
-        self.send(News::Gone);
+        self.send(WorkerEvent::Gone);
     }
 
     /// Without a receiver the run is over, and so is this thread's work.
-    fn send(&self, news: News) {
-        let _ = self.sender.send((self.id, news));
+    fn send(&self, event: WorkerEvent) {
+        let _ = self.sender.send((self.id, event));
     }
 
     /// The rest of a job is left to other workers, or dropped.
@@ -264,7 +264,7 @@ impl Worker {
 
     fn begin(&self, test: &Arc<TestCase>, rest: Job, stop: &Arc<AtomicBool>) {
         let (test, stop) = (Arc::clone(test), Arc::clone(stop));
-        self.send(News::Started(Running { test, rest, stop, started: Instant::now() }));
+        self.send(WorkerEvent::Started(Running { test, rest, stop, started: Instant::now() }));
     }
 
     fn collect(&self, file: &Path) {
@@ -274,7 +274,7 @@ impl Worker {
         let collect = || Session::new(&self.shared.config, file, self.shared.config.seed, stop).collect(file);
         let collection = catch_unwind(AssertUnwindSafe(collect))
             .unwrap_or_else(|_| Collection::broken(Outcome::new(test, Status::Error, CRASHED)));
-        self.send(News::Ready(Message::Collected(Box::new(collection))));
+        self.send(WorkerEvent::Ready(Message::Collected(Box::new(collection))));
     }
 
     /// Runs tests in one simulator; those after one that had to be stopped get another.
@@ -326,7 +326,7 @@ impl Worker {
             }
             session.take_line_counts(&mut outcome);
             if is_last || stop.load(Ordering::Relaxed) {
-                // A hang or crash while the simulator is closed is the test's as well.
+                // A hang or crash while the simulator is closed counts as a failure of the test.
                 drop(session);
                 self.finished(outcome);
                 return job;
@@ -344,7 +344,7 @@ impl Worker {
     }
 
     fn finished(&self, outcome: Outcome) {
-        self.send(News::Ready(Message::Finished(Box::new(outcome))));
+        self.send(WorkerEvent::Ready(Message::Finished(Box::new(outcome))));
     }
 }
 

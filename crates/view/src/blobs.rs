@@ -35,7 +35,7 @@ impl Blob {
         let mesh = &*part.mesh;
         let (vertices, triangles) = (&mesh.vertices, &mesh.triangles);
         let coordinates = texture_coordinates(part);
-        // What scripts set may be too short: a mesh is drawn all the same.
+        // Scripts may set too few texture coordinates: the mesh is then drawn without them.
         let has_coordinates = coordinates.len() == 3 * triangles.len() && !coordinates.is_empty();
         let edges = edge_angle.map_or_else(Vec::new, |angle| mesh.sharp_edges(angle));
         let mut bytes = Vec::with_capacity(20 + 12 * vertices.len() + 72 * triangles.len() + 8 * edges.len());

@@ -10,8 +10,8 @@ use io::SiteWaker;
 use scene::Data;
 use ui::{Question, answer_of_page};
 
-/// How often it is looked whether anybody is still there.
-const NAP: Duration = Duration::from_millis(100);
+/// How often the wait for an answer checks whether any page is still connected.
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Shows a question to all pages until one answers. None when it is cancelled, and when there are no pages that may answer, or no longer.
 pub(super) fn ask(
@@ -34,7 +34,7 @@ pub(super) fn ask(
 
 fn wait(shared: &Shared, waker: &SiteWaker, number: u64, is_ending: &dyn Fn() -> bool) -> Option<Data> {
     while shared.has_persons() && !is_ending() {
-        let Some(pending) = shared.next_request(NAP) else { continue };
+        let Some(pending) = shared.next_request(POLL_INTERVAL) else { continue };
         let answered = answer_to(&pending, number);
         let waits = || "a script waits for the answer to its dialog".to_owned();
         pending.answer(answered.map(|_| json!(true)).ok_or_else(waits));

@@ -3,11 +3,11 @@
 use serde_json::{Map, Value};
 
 /// Code and texts of a page, bytes.
-const LONGEST_TEXT: usize = 100_000;
+const MAX_TEXT_LENGTH: usize = 100_000;
 /// Handles in one request.
-const MOST_HANDLES: usize = 100_000;
+const MAX_HANDLES: usize = 100_000;
 /// Steps of one request.
-const MOST_STEPS: u64 = 1_000_000;
+const MAX_STEPS: u64 = 1_000_000;
 
 /// What a page asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,8 +131,8 @@ fn count(members: &Members) -> Result<u64, String> {
     match members.get("count") {
         None => Ok(1),
         Some(count) => {
-            let count = count.as_u64().filter(|count| (1..=MOST_STEPS).contains(count));
-            count.ok_or_else(|| format!("`count` is a whole number, 1 to {MOST_STEPS}"))
+            let count = count.as_u64().filter(|count| (1..=MAX_STEPS).contains(count));
+            count.ok_or_else(|| format!("`count` is a whole number, 1 to {MAX_STEPS}"))
         }
     }
 }
@@ -150,15 +150,15 @@ fn handle(members: &Members) -> Result<i64, String> {
 fn handles(members: &Members) -> Result<Vec<i64>, String> {
     let wrong = || "`handles` is a list of whole numbers".to_owned();
     let list = members.get("handles").and_then(Value::as_array).ok_or_else(wrong)?;
-    if list.len() > MOST_HANDLES {
-        return Err(format!("`handles` has at most {MOST_HANDLES} items"));
+    if list.len() > MAX_HANDLES {
+        return Err(format!("`handles` has at most {MAX_HANDLES} items"));
     }
     list.iter().map(Value::as_i64).collect::<Option<_>>().ok_or_else(wrong)
 }
 
 fn text(members: &Members, name: &str) -> Result<String, String> {
     let text = members.get(name).and_then(Value::as_str).ok_or_else(|| format!("`{name}` is a text"))?;
-    if text.len() > LONGEST_TEXT {
+    if text.len() > MAX_TEXT_LENGTH {
         return Err(format!("`{name}` is too long"));
     }
     Ok(text.to_owned())

@@ -90,16 +90,16 @@ impl Viewer {
         url(self.server.address(), &self.token)
     }
 
-    /// Answers requests, waiting up to `patience` for the first, and shows what changed if it is time for that.
-    pub fn attend(&mut self, sim: &mut Simulator, patience: Duration) {
-        let mut patience = patience;
+    /// Answers requests, waiting up to `timeout` for the first, and shows what changed if it is time for that.
+    pub fn attend(&mut self, sim: &mut Simulator, timeout: Duration) {
+        let mut timeout = timeout;
         let mut answered = false;
-        while let Some(pending) = self.shared.next_request(patience) {
-            patience = Duration::ZERO;
+        while let Some(pending) = self.shared.next_request(timeout) {
+            timeout = Duration::ZERO;
             answered = true;
             let result = perform(sim, &pending.action, &mut self.lines);
             pending.answer(result);
-            // Code may run for long; what it did is shown before the next request.
+            // Code may run for a long time: its effects are shown before the next request.
             if matches!(pending.action, Action::Run(_)) {
                 break;
             }

@@ -4,13 +4,21 @@ use ciborium_ll::{Encoder, Header};
 
 /// Major types, as the first byte of an item has them.
 pub mod major {
+    /// An integer from 0 up.
     pub const UNSIGNED: u8 = 0x00;
+    /// A negative integer: -1 minus the argument.
     pub const NEGATIVE: u8 = 0x20;
+    /// A string of bytes.
     pub const BYTES: u8 = 0x40;
+    /// A string of UTF-8 text.
     pub const TEXT: u8 = 0x60;
+    /// A list; the argument counts its items.
     pub const ARRAY: u8 = 0x80;
+    /// Pairs of key and value; the argument counts the pairs.
     pub const MAP: u8 = 0xa0;
+    /// A number that says what the item after it means.
     pub const TAG: u8 = 0xc0;
+    /// Floats, booleans, null, and the break.
     pub const SIMPLE: u8 = 0xe0;
 }
 
@@ -19,7 +27,9 @@ pub const INDEFINITE: u8 = 31;
 
 /// Items of one byte.
 pub const FALSE: u8 = major::SIMPLE | 20;
+/// The item `true`.
 pub const TRUE: u8 = major::SIMPLE | 21;
+/// The item `null`.
 pub const NULL: u8 = major::SIMPLE | 22;
 /// Byte that ends an item without a length.
 pub const BREAK: u8 = major::SIMPLE | INDEFINITE;
@@ -38,6 +48,7 @@ pub struct Head {
 /// Why there is no head.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum HeadError {
+    /// The bytes end before the head does.
     #[error("no more input")]
     NoMoreInput,
     /// The byte is reserved by RFC 8949, or has no meaning.
@@ -66,6 +77,7 @@ impl Head {
         Ok((Self { major, info, argument }, end))
     }
 
+    /// Whether this is the break that ends an item of indefinite length.
     pub fn is_break(self) -> bool {
         self.major == major::SIMPLE && self.info == INDEFINITE
     }

@@ -16,6 +16,7 @@ pub enum Unreadable {
     /// Not of the format, or nested too deeply.
     #[error("invalid data.")]
     Malformed,
+    /// More elements than a script's value may have.
     #[error("the data has more than {} elements.", Data::MAX_ITEMS)]
     TooMany,
 }

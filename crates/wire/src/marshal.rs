@@ -17,20 +17,28 @@ const MAX_HINT: usize = 1 << 10;
 /// Why bytes are no value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum MarshalError {
+    /// The bytes end within the value.
     #[error("the value ends too early")]
     Truncated,
+    /// More bytes follow the value.
     #[error("there are bytes after the value")]
     Trailing,
+    /// A type byte that is none of the known ones.
     #[error("values of type {0:#04x} are unknown")]
     UnknownType(u8),
+    /// A length below 0.
     #[error("a length is negative")]
     NegativeLength,
+    /// A digit of a long integer is not below 2^15.
     #[error("a digit of an integer is too large")]
     Digit,
+    /// A key of a dictionary is neither text, a number nor a boolean.
     #[error("this cannot be the key of a table")]
     Key,
+    /// Lists or dictionaries are nested too deeply.
     #[error("lists are nested too deeply")]
     TooNested,
+    /// More elements than a script's value may have.
     #[error("there are too many values")]
     TooManyItems,
 }

@@ -3,18 +3,29 @@
 /// Format of one item of a buffer; its number is `sim.buffer_*`. Little-endian.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
+    /// Unsigned, 8 bits.
     U8,
+    /// Signed, 8 bits.
     I8,
+    /// Unsigned, 16 bits.
     U16,
+    /// Signed, 16 bits.
     I16,
+    /// Unsigned, 32 bits.
     U32,
+    /// Signed, 32 bits.
     I32,
+    /// Float, 32 bits.
     F32,
+    /// Float, 64 bits.
     F64,
     /// Pixels: where red, green, blue and alpha stand.
     Rgb,
+    /// Pixels of 3 bytes: blue, green, red.
     Bgr,
+    /// Pixels of 4 bytes, alpha last.
     Rgba,
+    /// Pixels of 4 bytes, alpha first.
     Argb,
 }
 
@@ -103,7 +114,9 @@ impl Format {
 /// `number * multiplier + offset` for every number of a buffer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mapping {
+    /// Factor of every number.
     pub multiplier: f64,
+    /// Added after the multiplication.
     pub offset: f64,
     /// Results outside of the range of their format become its ends.
     pub clamp: bool,

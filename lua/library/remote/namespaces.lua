@@ -6,7 +6,7 @@ Returns a function that defines both in its Lua state; its argument is the list 
 
 local sim = require('sim')
 
-local DEEPEST <const> = 8 -- tables within each other: some lead everywhere
+local MAX_DEPTH <const> = 8 -- tables within each other: some lead everywhere
 
 -- The table sim is filled name by name when they are used.
 local function membersOf(value, simMembers)
@@ -29,7 +29,7 @@ local function describe(value, simMembers, objects, above)
             out[name] = {func = {}}
         elseif kind ~= 'table' then
             out[name] = {const = member}
-        elseif kind == 'table' and (objects or not getmetatable(member)) and not above[member] and above.n < DEEPEST then
+        elseif kind == 'table' and (objects or not getmetatable(member)) and not above[member] and above.n < MAX_DEPTH then
             out[name] = describe(member, simMembers, objects, above)
         end
     end
@@ -37,15 +37,15 @@ local function describe(value, simMembers, objects, above)
     return out
 end
 
-local MOST_PATHS <const>, LONGEST_PATH <const> = 10000, 200 -- remembered
+local MAX_PATHS <const>, MAX_PATH_LENGTH <const> = 10000, 200 -- remembered
 local paths, pathCount = {}, 0
 
 -- The words of a path, which many requests have in common.
 local function wordsOf(path)
     local words = {}
     for word in path:gmatch('[%w_]+') do words[#words + 1] = word end
-    if #path > LONGEST_PATH then return words end
-    if pathCount >= MOST_PATHS then paths, pathCount = {}, 0 end
+    if #path > MAX_PATH_LENGTH then return words end
+    if pathCount >= MAX_PATHS then paths, pathCount = {}, 0 end
     paths[path], pathCount = words, pathCount + 1
     return words
 end

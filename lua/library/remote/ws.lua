@@ -21,8 +21,8 @@ local namespaces = require('remote.namespaces')
 local load = load -- for expressions of clients, whatever one of them puts in its place
 local pack, unpack = table.pack, table.unpack
 
-local MOST_WAITING <const> = 10000 -- requests
-local MOST_ARGUMENTS <const> = 100000
+local MAX_WAITING <const> = 10000 -- requests
+local MAX_ARGUMENTS <const> = 100000
 local ADVANCING <const> = sim.simulation_advancing
 
 local waiting = {} -- requests that wait for a step, in the order they came
@@ -42,7 +42,7 @@ local function countArguments(args)
     for key in pairs(args) do
         if math.type(key) == 'integer' and key > n then n = key end
     end
-    if n > MOST_ARGUMENTS then error('too many arguments', 0) end
+    if n > MAX_ARGUMENTS then error('too many arguments', 0) end
     return n
 end
 
@@ -74,7 +74,7 @@ end
 local function run(task, ...)
     local ok, outcome = coroutine.resume(task.coroutine, ...)
     if coroutine.status(task.coroutine) == 'dead' then return reply(task, ok, outcome) end
-    if #waiting >= MOST_WAITING then return reply(task, false, 'too many requests are waiting') end
+    if #waiting >= MAX_WAITING then return reply(task, false, 'too many requests are waiting') end
     task.step = currentStep
     waiting[#waiting + 1] = task
 end

@@ -24,12 +24,12 @@ local resume, yield, status = coroutine.resume, coroutine.yield, coroutine.statu
 local pack, unpack = table.pack, table.unpack
 
 local EXECUTED <const>, END <const> = '_*executed*_', '_*end*_'
-local PATIENCE <const> = 0.5 -- seconds a client waits without a word
-local QUIET <const> = 0.002 -- seconds without a request after which an idle simulator looks after everything else
-local NAP <const> = 0.05 -- the same while a client holds it up
-local MOST_QUEUED <const> = 1000 -- callbacks nobody waits for, by client
-local MOST_HELD <const> = 1000 -- requests put off
-local MOST_AT_ONCE <const> = 10000 -- requests between two looks at everything else
+local ANSWER_TIMEOUT <const> = 0.5 -- seconds after which a client that waits is told to wait on or to repeat
+local IDLE_TIMEOUT <const> = 0.002 -- seconds without a request after which an idle simulator goes on
+local POLL_TIMEOUT <const> = 0.05 -- the same while a client holds it up
+local MAX_QUEUED <const> = 1000 -- callbacks nobody waits for, by client
+local MAX_HELD <const> = 1000 -- requests put off
+local MAX_PER_WINDOW <const> = 10000 -- requests served in one window
 local ADVANCING <const> = sim.simulation_advancing
 
 local current -- the client whose request is running
@@ -88,7 +88,7 @@ local function resumeClient(client, now)
         if task.waits == 'step' and task.peer then
             if isDue(task) then
                 run(client, task)
-            elseif now - task.since > PATIENCE then
+            elseif now - task.since > ANSWER_TIMEOUT then
                 answer(task, answers.WAIT)
             end
         end
@@ -219,7 +219,7 @@ end
 local function handle(peer, request)
     local client = clients.of(request, peer, sim.getSystemTime())
     if asking and asking ~= client then
-        if #held >= MOST_HELD then return native.reply(peer, answers.REPEAT) end
+        if #held >= MAX_HELD then return native.reply(peer, answers.REPEAT) end
         held[#held + 1] = {peer = peer, request = request, since = client.seen}
         return
     end
@@ -260,14 +260,14 @@ local function forgetPeer(peer)
     end
 end
 
--- The next of what has arrived; waits up to `patience` seconds. Tells whether there was anything.
-local function serveOne(patience)
+-- The next of what has arrived; waits up to `timeout` seconds. Tells whether there was anything.
+local function serveOne(timeout)
     if held[1] and not asking then
         local first = table.remove(held, 1)
         handleSafely(first.peer, first.request)
         return true
     end
-    local peer, bytes = native.receive(patience)
+    local peer, bytes = native.receive(timeout)
     if not peer then return false end
     if bytes then receive(peer, bytes) else forgetPeer(peer) end
     return true
@@ -275,9 +275,9 @@ end
 
 -- While everything waits for one client, the others wait a little, then they have to repeat their request.
 function serveAsked()
-    serveOne(NAP)
+    serveOne(POLL_TIMEOUT)
     local now = sim.getSystemTime()
-    while held[1] and now - held[1].since > PATIENCE do native.reply(table.remove(held, 1).peer, answers.REPEAT) end
+    while held[1] and now - held[1].since > ANSWER_TIMEOUT do native.reply(table.remove(held, 1).peer, answers.REPEAT) end
     clients.forgetExpired(now)
 end
 
@@ -316,7 +316,7 @@ function sysCall_ext(name, ...)
     if f then return callLocally(f, ...) end
     local bytes = answers.call(name, pack(...))
     for _, client in ipairs(clients.all) do
-        if #client.queue >= MOST_QUEUED then table.remove(client.queue, 1) end
+        if #client.queue >= MAX_QUEUED then table.remove(client.queue, 1) end
         client.queue[#client.queue + 1] = bytes
     end
 end
@@ -326,7 +326,7 @@ local function serveWindow(kind, quiet)
     served, servedCount = {}, 0
     if not serveOne(0) then return end
     local begun, state, count = sim.getSystemTime(), sim.getSimulationState(), 1
-    while count < MOST_AT_ONCE and not mustLeave() and not native.others() and sim.getSimulationState() == state do
+    while count < MAX_PER_WINDOW and not mustLeave() and not native.others() and sim.getSimulationState() == state do
         local window = windows[kind] * (kind == 'running' and servedCount or 1)
         local left = begun + window - sim.getSystemTime()
         if kind == 'running' and clients.allAwaitStep(served) then left = 0 end
@@ -338,8 +338,8 @@ end
 local function serveIdle()
     clients.forgetExpired(sim.getSystemTime())
     resumeDue()
-    serveWindow('idle', QUIET)
-    while clients.anyLock() and not mustLeave() do serveOne(NAP) end
+    serveWindow('idle', IDLE_TIMEOUT)
+    while clients.anyLock() and not mustLeave() do serveOne(POLL_TIMEOUT) end
     if restarting then return {cmd = 'restart'} end
 end
 
@@ -347,9 +347,9 @@ sysCall_nonSimulation, sysCall_suspended = serveIdle, serveIdle
 
 function sysCall_actuation()
     resumeDue()
-    serveWindow('running', NAP)
+    serveWindow('running', POLL_TIMEOUT)
     while clients.anyHoldsUp(currentStep) and not mustLeave() do
-        serveOne(NAP)
+        serveOne(POLL_TIMEOUT)
         clients.forgetExpired(sim.getSystemTime())
         resumeDue()
     end
@@ -358,7 +358,7 @@ function sysCall_actuation()
 end
 
 -- Between two steps in real-time mode.
-function sysCall_realTimeIdle() serveWindow('running', QUIET) end
+function sysCall_realTimeIdle() serveWindow('running', IDLE_TIMEOUT) end
 
 function sysCall_afterSimulation()
     currentStep = 0

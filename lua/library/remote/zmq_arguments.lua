@@ -4,8 +4,8 @@ Decodes the arguments of a request of the ZeroMQ remote API, including control w
 
 local NIL <const> = '_*NIL*_'
 local CALLBACK <const> = '^(.*)@func$'
-local SEARCHED <const> = 16 -- entries of a table that are looked through for callbacks
-local MOST_ARGUMENTS <const> = 100000
+local MAX_SEARCHED <const> = 16 -- entries of a table that are looked through for callbacks
+local MAX_ARGUMENTS <const> = 100000
 
 local M = {}
 
@@ -13,7 +13,7 @@ local M = {}
 function M.given(request)
     local args = type(request.args) == 'table' and request.args or {}
     local n = math.tointeger(request.argsL) or #args
-    if n > MOST_ARGUMENTS then error('too many arguments', 0) end
+    if n > MAX_ARGUMENTS then error('too many arguments', 0) end
     return args, math.max(0, n)
 end
 
@@ -26,7 +26,7 @@ local function withCallbacks(client, value, callbackOf, depth)
         local looked = 0
         for key, entry in pairs(value) do
             looked = looked + 1
-            if looked > SEARCHED then break end
+            if looked > MAX_SEARCHED then break end
             value[key] = withCallbacks(client, entry, callbackOf, 1)
         end
     end

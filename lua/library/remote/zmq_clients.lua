@@ -12,10 +12,10 @@ A client is known by its uuid and has one or more connections. Each of its reque
 local M = {}
 
 local LIFE <const> = 600 -- seconds a silent client is remembered
-local MOST_CLIENTS <const> = 10000
-local MOST_OF_PEER <const> = 16 -- clients by one connection, which may be a proxy
-local MOST_TASKS <const> = 200
-local LONGEST_NAME <const> = 1000
+local MAX_CLIENTS <const> = 10000
+local MAX_PER_PEER <const> = 16 -- clients by one connection, which may be a proxy
+local MAX_TASKS <const> = 200
+local MAX_NAME_LENGTH <const> = 1000
 
 local clients = {} -- in the order they came
 local byUuid = {}
@@ -32,7 +32,7 @@ end
 -- A connection that names itself anew all the time takes the places of its own names only.
 local function makeRoom(peer)
     local known = ofPeer[peer]
-    if not known or #known < MOST_OF_PEER then return end
+    if not known or #known < MAX_PER_PEER then return end
     local oldest
     for _, client in ipairs(known) do
         local isIdle = #client.tasks == 0 and #client.asks == 0 and next(client.peers, next(client.peers)) == nil
@@ -43,9 +43,9 @@ local function makeRoom(peer)
 end
 
 local function newClient(request, peer)
-    if #request.uuid > LONGEST_NAME then error('the uuid is too long', 0) end
+    if #request.uuid > MAX_NAME_LENGTH then error('the uuid is too long', 0) end
     makeRoom(peer)
-    if #clients >= MOST_CLIENTS then error('too many clients', 0) end
+    if #clients >= MAX_CLIENTS then error('too many clients', 0) end
     local client = {
         uuid = request.uuid,
         peers = {},
@@ -103,7 +103,7 @@ end
 ---------------------------------------------------------------- tasks
 
 function M.newTask(client, peer, code)
-    if #client.tasks >= MOST_TASKS then error('too many requests without an answer', 0) end
+    if #client.tasks >= MAX_TASKS then error('too many requests without an answer', 0) end
     local task = {peer = peer, owner = peer, coroutine = coroutine.create(code)}
     client.tasks[#client.tasks + 1] = task
     return task

@@ -8,11 +8,11 @@ local sim = require('sim')
 local answers = require('remote.zmq_answers')
 local clients = require('remote.zmq_clients')
 
-local MOST_CALLS <const> = 10000 -- of a batch
+local MAX_CALLS <const> = 10000 -- of a batch
 local FOR_EVER <const> = 999999999
 
 local function checkBatch(calls)
-    if type(calls) ~= 'table' or #calls > MOST_CALLS then error('swanilda.batch: a list of up to 10000 calls is needed', 3) end
+    if type(calls) ~= 'table' or #calls > MAX_CALLS then error('swanilda.batch: a list of up to 10000 calls is needed', 3) end
     for i, call in ipairs(calls) do
         if type(call) ~= 'table' then error(('swanilda.batch: call %d is no map'):format(i), 3) end
     end

@@ -61,11 +61,11 @@ end
 
 -- What the last change of a tag made of the companion data: programs write the same few tags again and again.
 local changed, changedCount = {}, 0 -- tag -> {dataType, before, after}
-local MOST_CHANGED <const> = 16
+local MAX_CHANGED <const> = 16
 
 local function noteChange(tag, dataType, before, after)
     if not changed[tag] then
-        if changedCount == MOST_CHANGED then changed, changedCount = {}, 0 end
+        if changedCount == MAX_CHANGED then changed, changedCount = {}, 0 end
         changedCount = changedCount + 1
     end
     changed[tag] = {dataType, before, after}

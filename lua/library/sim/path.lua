@@ -239,7 +239,7 @@ function M.getPathInterpolatedConfig(...)
     return point
 end
 
-local MOST_POINTS <const> = 1000000 -- beyond, a mistyped number would keep the script busy for minutes
+local MAX_POINTS <const> = 1000000 -- beyond, a mistyped number would keep the script busy for minutes
 local RESAMPLE_ARGS = {
     {type = 'table', item_type = 'float', size = '2..*'}, {type = 'table', item_type = 'float', size = '2..*'}, {type = 'int'},
     {type = 'table', nullable = true}, {type = 'table', item_type = 'int', nullable = true, size = '1..*'},
@@ -255,7 +255,7 @@ local RESAMPLE_ARGS = {
 -- @return path flat table of count points, both ends included
 function M.resamplePath(...)
     local path, lengths, count, method, types = check(RESAMPLE_ARGS, ...)
-    if count > MOST_POINTS then error('sim.resamplePath: at most ' .. MOST_POINTS .. ' points can be made', 2) end
+    if count > MAX_POINTS then error('sim.resamplePath: at most ' .. MAX_POINTS .. ' points can be made', 2) end
     local self, result = curve(path, lengths, method, types, 3), {}
     local total = self.lengths[#self.lengths]
     for i = 1, count do

@@ -7,7 +7,7 @@ Path objects are defined in swanilda/pathmodel.lua.
 local sim = ...
 local M = {}
 local MAX_ALTERNATIVES <const> = 10000
-local MOST_POINTS <const> = 100000 -- beyond, a mistyped number would keep the script busy for minutes
+local MAX_POINTS <const> = 100000 -- beyond, a mistyped number would keep the script busy for minutes
 
 -- A tail call: its own frame is gone when checkargs looks for the checked function.
 local function check(types, ...) return require('checkargs').checkargsEx({level = 0}, types, ...) end
@@ -33,7 +33,7 @@ function M.createPath(...)
     if type((...)) == 'number' then return sim._createPathObject(...) end
     local ctrlPts, options, subdiv, smoothness, mode, up = check(CREATE_ARGS, ...)
     if subdiv < 2 then error('subdiv has to be 2 at least.', 2) end
-    if subdiv > MOST_POINTS then error('subdiv has to be ' .. MOST_POINTS .. ' at most.', 2) end
+    if subdiv > MAX_POINTS then error('subdiv has to be ' .. MAX_POINTS .. ' at most.', 2) end
     local model = require 'swanilda.pathmodel'
     local path = model.create(ctrlPts, {
         bitCoded = options, pointCnt = subdiv, smoothing = smoothness, autoOrientation = mode, upVector = up,

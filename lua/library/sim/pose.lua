@@ -10,8 +10,8 @@ local motion = require 'swanilda.trajectory'
 local quaternion = require 'swanilda.quaternion'
 
 local ARRIVED <const>, ABORTED <const> = 1, 2
-local NO_ROTATION <const> = 1e-5 * math.pi -- below, the angle between the poses has no axis worth following
-local NO_DISTANCE <const> = 1e-6
+local MIN_ANGLE <const> = 1e-5 * math.pi -- below, the angle between the poses has no axis worth following
+local MIN_DISTANCE <const> = 1e-6
 
 local function orientation(pose) return table.move(pose, 4, 7, 1, {}) end
 
@@ -118,7 +118,7 @@ local function init(params, level)
     motion.completeParams(data, n, level + 1)
     findStart(data, level + 1)
     local from, to = coordinates(data)
-    if not data.metric or data.distance > NO_DISTANCE then
+    if not data.metric or data.distance > MIN_DISTANCE then
         data.ruckigObj = motion.start(data, n, {from, data.vel, data.accel}, to, data.targetVel)
     end
     return data
@@ -130,7 +130,7 @@ local function poseAt(data, position)
         t = position[1] / data.distance
         for i = 1, 3 do pose[i] = data.startPose[i] + (data.targetPose[i] - data.startPose[i]) * t end
     else
-        t = data.angle > NO_ROTATION and position[4] / data.angle or 0
+        t = data.angle > MIN_ANGLE and position[4] / data.angle or 0
         table.move(position, 1, 3, 1, pose)
     end
     local turned = quaternion.slerp(orientation(data.startPose), orientation(data.targetPose), t)

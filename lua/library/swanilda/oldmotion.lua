@@ -7,7 +7,7 @@ Moves along jerk-limited trajectories are in trajectory.lua.
 local sim = package.loaded.sim or require 'sim'
 local M = {}
 
-local ARRIVED <const> = 1e-5
+local TOLERANCE <const> = 1e-5 -- distance to the end of a path at which it is reached
 local POSITION <const>, ORIENTATION <const> = 1, 2
 local USUAL_DISTANCE <const> = {5, 0.1 / (math.pi / 2)} -- sim.distcalcmethod_dl_if_nonzero, metres per radian
 
@@ -53,7 +53,7 @@ local function blocking(distance, velocity, acceleration, place)
     run(function(dt)
         time = time + dt
         local s = travel.at(time)
-        return place(s) or distance - s <= ARRIVED
+        return place(s) or distance - s <= TOLERANCE
     end)
     return math.max(0.0, time - travel.duration)
 end
@@ -162,7 +162,7 @@ function M.joints(joints, targets, velocity, acceleration, angleCoefficient)
         for _, one in ipairs(moving) do
             local s = one.travel.at(time)
             if one.total > 0 and sim.isHandle(one.joint) then setJoint(one.joint, one.start + one.way * (s / one.total)) end
-            isDone = isDone and one.total - s <= ARRIVED
+            isDone = isDone and one.total - s <= TOLERANCE
         end
         return isDone
     end)

@@ -17,7 +17,7 @@ local INFO <const>, CREATION <const> = 'customData.ABC_PATH_INFO', 'customData.A
 local SHAPE <const>, EARLIER_SHAPE <const> = 'customData.ABC_PATHSHAPE_INFO', 'customData.ABC_PATHSHAPE'
 local COLOUR <const> = {0.85, 0.85, 0.85}
 local FINGERPRINT <const> = '__pathFingerPrint__'
-local MOVED <const> = 1e-4 -- m, and parts of a quaternion
+local TOLERANCE <const> = 1e-4 -- m, and parts of a quaternion
 local BLOCKS <const> = {'PATHCTRLPTS', 'PATH', 'PATHCTRLPTS_X', 'PATH_X'}
 
 ---------------------------------------------------------------- settings
@@ -117,7 +117,7 @@ local function isSame(path, poses, info)
     local old = sim.unpackFloatTable(before[1])
     if #old ~= #poses then return false end
     for i = 1, #poses do
-        if math.abs(poses[i] - old[i]) > MOVED then return false end
+        if math.abs(poses[i] - old[i]) > TOLERANCE then return false end
     end
     return true
 end

@@ -14,7 +14,7 @@ _G.sim = sim
 
 local pack, unpack, yield = table.pack, table.unpack, coroutine.yield
 local CALLBACK <const> = '^(.*)@func$'
-local SEARCHED <const> = 16 -- entries of a table that are looked through for functions
+local MAX_SEARCHED <const> = 16 -- entries of a table that are looked through for functions
 
 local M = {}
 
@@ -40,7 +40,7 @@ local function withFunctions(value, depth)
         local looked = 0
         for key, entry in pairs(value) do
             looked = looked + 1
-            if looked > SEARCHED then break end
+            if looked > MAX_SEARCHED then break end
             value[key] = withFunctions(entry, 1)
         end
     end

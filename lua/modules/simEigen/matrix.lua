@@ -6,13 +6,13 @@ return function(simEigen)
     local Matrix = {}
     simEigen.Matrix = Matrix
 
-    local MOST_LEFT <const> = 'the matrices of a script take'
+    local OUT_OF_MEMORY <const> = 'the matrices of a script take'
 
     local function isMatrix(value) return type(value) == 'table' and getmetatable(value) == Matrix end
 
     local function retried(f, ok, result, ...)
         if ok then return result, ... end
-        if not tostring(result):find(MOST_LEFT, 1, true) then error(result, 0) end
+        if not tostring(result):find(OUT_OF_MEMORY, 1, true) then error(result, 0) end
         -- Matrices that nobody has any more still take memory until they are collected.
         collectgarbage()
         return f()

@@ -12,10 +12,10 @@ local configs = {}
 local ITERATIONS_PER_SECOND <const> = 100000
 local PORTION <const> = 2000
 -- How many times as long as allowed a search with a callback may take by the clock.
-local PATIENCE <const> = 10
-local MOST_ALTERNATIVES <const> = 1000
+local CLOCK_FACTOR <const> = 10
+local MAX_ALTERNATIVES <const> = 1000
 -- Postures whose distances from the present one differ less, and whose joints differ less, are the same.
-local SAME <const> = 1e-3
+local TOLERANCE <const> = 1e-3
 
 local INTS <const> = {type = 'table', item_type = 'int'}
 local FLOATS <const> = {type = 'table', item_type = 'float', nullable = true}
@@ -53,7 +53,7 @@ local function turns(simIK, env, joint, position, low, range)
     end
     local values = {}
     local value = position - math.floor((position - low) / (2 * math.pi)) * 2 * math.pi
-    while value <= low + range and #values < MOST_ALTERNATIVES do
+    while value <= low + range and #values < MAX_ALTERNATIVES do
         values[#values + 1] = value
         value = value + 2 * math.pi
     end
@@ -68,7 +68,7 @@ function configs.alternatives(simIK, env, joints, config, lowLimits, ranges)
         local longer = {}
         for _, part in ipairs(all) do
             for _, value in ipairs(values) do
-                if #longer == MOST_ALTERNATIVES then break end
+                if #longer == MAX_ALTERNATIVES then break end
                 local one = table.move(part, 1, i - 1, 1, {})
                 one[i] = value
                 longer[#longer + 1] = one
@@ -84,7 +84,7 @@ end
 -- Calls `found` with each posture until it returns true, or the time is over; by the clock too if it is `slow`.
 local function search(simIK, task, maxTime, slow, found)
     local left = math.max(1, math.min(maxTime * ITERATIONS_PER_SECOND, 1 << 31) // 1 | 0)
-    local ending = slow and sim.getSystemTime() + PATIENCE * maxTime or math.huge
+    local ending = slow and sim.getSystemTime() + CLOCK_FACTOR * maxTime or math.huge
     local fromPresent = true
     while left > 0 do
         local portion = math.min(left, PORTION)
@@ -113,7 +113,7 @@ end
 
 local function isSame(a, b)
     for i, position in ipairs(a) do
-        if math.abs(position - b[i]) > SAME then return false end
+        if math.abs(position - b[i]) > TOLERANCE then return false end
     end
     return true
 end
@@ -130,7 +130,7 @@ local function sorted(all, distanceOf)
     for _, entry in ipairs(entries) do
         local known = false
         for j = #kept, 1, -1 do
-            if entry.distance - kept[j].distance > SAME then break end
+            if entry.distance - kept[j].distance > TOLERANCE then break end
             known = known or isSame(entry.config, kept[j].config)
         end
         if not known then

@@ -8,7 +8,7 @@ local configs = require 'simIK.configs'
 local paths = {}
 
 local INTS <const> = {type = 'table', item_type = 'int'}
-local MOST_POINTS <const> = 100000
+local MAX_POINTS <const> = 100000
 
 paths.LINE_ARGS = {
     {type = 'int'}, {type = 'int'}, INTS, {type = 'int'}, {type = 'int'}, {type = 'any', nullable = true},
@@ -27,7 +27,7 @@ end
 function paths.line(simIK, task, tip, count, callback, aux)
     local target = simIK.getTargetDummy(task.env, tip)
     if target == -1 then error('the tip has no target.', 3) end
-    if count < 1 or count > MOST_POINTS then error('the number of points must be from 1 to 100000.', 3) end
+    if count < 1 or count > MAX_POINTS then error('the number of points must be from 1 to 100000.', 3) end
     local accept = configs.callable(callback)
     local from, to = simIK.getObjectPose(task.env, tip), simIK.getObjectPose(task.env, target)
     local path = {}
@@ -51,7 +51,7 @@ local function posesOf(simPath, delta)
     local positions = {}
     for i = 1, #poses, 7 do table.move(poses, i, i + 2, #positions + 1, positions) end
     local lengths, total = sim.getPathLengths(positions, 3)
-    local count = math.max(2, math.min(MOST_POINTS, math.ceil(total / delta) + 1))
+    local count = math.max(2, math.min(MAX_POINTS, math.ceil(total / delta) + 1))
     local types = {0, 0, 0, 2, 2, 2, 2}
     return sim.resamplePath(poses, lengths, count, nil, types), count
 end

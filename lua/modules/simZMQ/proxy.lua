@@ -7,7 +7,7 @@ Written here and not left to libzmq, whose proxy takes its thread for ever, and 
 -- Messages passed on in one direction before the other has its turn.
 local BURST <const> = 1000
 -- How long to wait for room where nothing can yield, milliseconds, before messages from elsewhere have their turn.
-local PATIENCE <const> = 10
+local POLL_TIMEOUT <const> = 10
 local POLLIN <const>, POLLOUT <const>, SNDMORE <const>, RCVMORE <const> = 1, 2, 2, 13
 
 local native, poll, pause, send -- what simZMQ gives
@@ -84,7 +84,7 @@ local function turn(state)
     if front ~= back then went = forward(state, back, front, state.fromBack, state.toFront) or went end
     if state.failed then return false end
     -- What cannot go now waits until there is room.
-    pause({front, back}, {POLLOUT, POLLOUT}, went and 0 or PATIENCE)
+    pause({front, back}, {POLLOUT, POLLOUT}, went and 0 or POLL_TIMEOUT)
     return true
 end
 

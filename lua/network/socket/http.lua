@@ -18,9 +18,9 @@ local canonic = require('socket.headers').canonic
 
 local http = {TIMEOUT = 60, USERAGENT = socket._VERSION}
 
-local MOST_HEADERS <const> = 1000
-local LONGEST_LINE <const> = 65536
-local MOST_REDIRECTS <const> = 5
+local MAX_HEADERS <const> = 1000
+local MAX_LINE_LENGTH <const> = 65536
+local MAX_REDIRECTS <const> = 5
 
 -- What makes a connection for a scheme.
 http.SCHEMES = {
@@ -34,14 +34,14 @@ http.schemes = http.SCHEMES
 -- A line, unless it does not end in time.
 local function receiveLine(c)
     local line, message = c:receive()
-    if line and #line > LONGEST_LINE then return nil, 'line too long' end
+    if line and #line > MAX_LINE_LENGTH then return nil, 'line too long' end
     return line, message
 end
 
 local function receiveHeaders(c, headers)
     headers = headers or {}
     local last
-    for _ = 1, MOST_HEADERS do
+    for _ = 1, MAX_HEADERS do
         local line, message = receiveLine(c)
         if not line then return nil, message end
         if line == '' then return headers end
@@ -234,7 +234,7 @@ local function isRedirected(request, code, headers)
     if scheme and not http.SCHEMES[scheme:lower()] then return false end
     return request.redirect ~= false and REDIRECTS[code]
         and (not request.method or request.method == 'GET' or request.method == 'HEAD')
-        and (request.redirects or 0) < (request.maxredirects or MOST_REDIRECTS)
+        and (request.redirects or 0) < (request.maxredirects or MAX_REDIRECTS)
 end
 
 local function hasBody(request, code)

@@ -9,7 +9,7 @@ local ltn12 = require('ltn12')
 
 local tp = {TIMEOUT = 60}
 
-local MOST_LINES <const> = 10000
+local MAX_LINES <const> = 10000
 
 -- A reply: its code, and its lines as they came. Lines of a longer one carry a hyphen until the last.
 local function reply(c)
@@ -22,7 +22,7 @@ local function reply(c)
         line, message = c:receive()
         if not line then return nil, message end
         lines[#lines + 1] = line
-        if #lines > MOST_LINES then return nil, 'invalid server reply' end
+        if #lines > MAX_LINES then return nil, 'invalid server reply' end
         if line:sub(1, 4) == code .. ' ' then break end
     end
     return code, table.concat(lines, '\n')

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use testing::{Coverage, Record};
+use testing::{Coverage, FileCoverage};
 
 /// Ranges of missed lines that are shown of a script.
 const RANGES: usize = 12;
@@ -34,7 +34,7 @@ fn row(name: &str, width: usize, lines: usize, hit: usize, missed: &str) -> Stri
     format!("{}\n", row.trim_end())
 }
 
-fn missed(record: &Record) -> String {
+fn missed(record: &FileCoverage) -> String {
     let ranges = record.missed();
     let shown = ranges.iter().take(RANGES);
     let mut words: Vec<_> = shown.map(|(a, b)| if a == b { a.to_string() } else { format!("{a}-{b}") }).collect();

@@ -11,7 +11,9 @@ use socket2::{Domain, SockAddr};
 pub enum Family {
     /// Whatever the first address is.
     Any,
+    /// IPv4.
     Inet,
+    /// IPv6.
     Inet6,
     /// Paths on this machine.
     Unix,
@@ -48,13 +50,14 @@ impl Family {
 
 /// The address of a socket or of its peer.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Place {
+pub enum SocketAddress {
+    /// An IP address with a port.
     Net(SocketAddr),
     /// A path; empty for a socket without a name.
     Path(Vec<u8>),
 }
 
-impl Place {
+impl SocketAddress {
     pub(super) fn of(address: &SockAddr) -> Self {
         match address.as_socket() {
             Some(address) => Self::Net(address),

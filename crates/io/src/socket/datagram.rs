@@ -6,26 +6,30 @@ use rustix::net::RecvFlags;
 use socket2::Type;
 
 use super::failure::is_pending;
-use super::{Failure, Family, Place, Socket, Timeout, Wait, open};
+use super::{Failure, Family, Socket, SocketAddress, Timeout, Wait, open};
 
 /// The most a datagram can hold.
-const LONGEST_DATAGRAM: usize = 65_536;
+const MAX_DATAGRAM: usize = 65_536;
 
 /// A datagram socket, or the place for one.
 pub struct Datagram {
     /// Whether it is connected to one peer.
     pub connected: bool,
+    /// The time limits of its calls.
     pub timeout: Timeout,
+    /// The addresses it is for.
     pub family: Family,
     socket: Option<Socket>,
 }
 
 impl Datagram {
+    /// A datagram socket for addresses of a family; opened at once unless the first address decides on the family.
     pub fn new(family: Family) -> Result<Self, Failure> {
         let socket = family.domain().map(|domain| open(domain, Type::DGRAM)).transpose()?;
         Ok(Self { connected: false, timeout: Timeout::default(), family, socket })
     }
 
+    /// The socket of the system; None before it is opened and after it was closed.
     pub fn socket(&self) -> Option<&Socket> {
         self.socket.as_ref()
     }
@@ -39,17 +43,18 @@ impl Datagram {
         self.socket.as_ref().ok_or_else(Failure::not_open)
     }
 
+    /// Closes the socket.
     pub fn close(&mut self) {
         self.socket = None;
     }
 
     /// Binds to the first of these addresses that is free.
-    pub fn bind(&mut self, places: &[Place]) -> Result<(), Failure> {
+    pub fn bind(&mut self, places: &[SocketAddress]) -> Result<(), Failure> {
         self.try_each(places, |socket, place| Ok(socket.bind(&place.address()?)?))
     }
 
     /// Speaks to the first of these places only.
-    pub fn connect(&mut self, places: &[Place]) -> Result<(), Failure> {
+    pub fn connect(&mut self, places: &[SocketAddress]) -> Result<(), Failure> {
         self.try_each(places, |socket, place| Ok(socket.connect(&place.address()?)?))?;
         self.connected = true;
         Ok(())
@@ -57,8 +62,8 @@ impl Datagram {
 
     fn try_each(
         &mut self,
-        places: &[Place],
-        attempt: impl Fn(&Socket, &Place) -> Result<(), Failure>,
+        places: &[SocketAddress],
+        attempt: impl Fn(&Socket, &SocketAddress) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let is_open = self.socket.is_some();
         let mut result = Err(Failure::not_open());
@@ -74,7 +79,7 @@ impl Datagram {
         result
     }
 
-    fn open_for(&mut self, place: &Place) -> Result<(), Failure> {
+    fn open_for(&mut self, place: &SocketAddress) -> Result<(), Failure> {
         if self.socket.is_none() {
             let domain = place.address()?.domain();
             self.socket = Some(open(domain, Type::DGRAM)?);
@@ -91,8 +96,8 @@ impl Datagram {
     }
 
     /// Sends to the peer, or to `place`.
-    pub fn send(&mut self, data: &[u8], place: Option<&Place>, wait: &Wait<'_>) -> Result<usize, Failure> {
-        let address = place.map(Place::address).transpose()?;
+    pub fn send(&mut self, data: &[u8], place: Option<&SocketAddress>, wait: &Wait<'_>) -> Result<usize, Failure> {
+        let address = place.map(SocketAddress::address).transpose()?;
         if let Some(place) = place {
             self.open_for(place)?;
         }
@@ -111,14 +116,14 @@ impl Datagram {
     }
 
     /// The next datagram and where it came from. What is longer than `size` is lost.
-    pub fn receive(&self, size: usize, wait: &Wait<'_>) -> Result<(Vec<u8>, Place), Failure> {
+    pub fn receive(&self, size: usize, wait: &Wait<'_>) -> Result<(Vec<u8>, SocketAddress), Failure> {
         let socket = self.socket.as_ref().ok_or(Failure::Closed)?;
-        let mut data = vec![0; size.min(LONGEST_DATAGRAM)];
+        let mut data = vec![0; size.min(MAX_DATAGRAM)];
         loop {
             match rustix::net::recvfrom(&**socket, &mut data[..], RecvFlags::empty()) {
                 Ok((count, _, from)) => {
                     data.truncate(count);
-                    return Ok((data, Place::of_any(from)));
+                    return Ok((data, SocketAddress::of_any(from)));
                 }
                 Err(error) if is_pending(&io::Error::from(error)) => wait.readable(socket)?,
                 Err(error) => return Err(error.into()),
@@ -126,11 +131,13 @@ impl Datagram {
         }
     }
 
-    pub fn local(&self) -> Result<Place, Failure> {
-        Ok(Place::of(&self.opened()?.local_addr()?))
+    /// The own address.
+    pub fn local(&self) -> Result<SocketAddress, Failure> {
+        Ok(SocketAddress::of(&self.opened()?.local_addr()?))
     }
 
-    pub fn peer(&self) -> Result<Place, Failure> {
-        Ok(Place::of(&self.opened()?.peer_addr()?))
+    /// The address of the peer it is connected to.
+    pub fn peer(&self) -> Result<SocketAddress, Failure> {
+        Ok(SocketAddress::of(&self.opened()?.peer_addr()?))
     }
 }

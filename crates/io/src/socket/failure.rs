@@ -7,16 +7,20 @@ use rustix::io::Errno;
 /// A failure scripts see as nil and its text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Failure {
+    /// The time limit has passed.
     Timeout,
+    /// The connection is closed.
     Closed,
     /// The simulator is being stopped: an error in the script, so that loops end.
     Interrupted,
     /// More data than a Lua string takes.
     TooLong,
+    /// Any other failure, by its text.
     Words(String),
 }
 
 impl Failure {
+    /// A failure with that text.
     pub fn words(text: &str) -> Self {
         Self::Words(text.to_owned())
     }

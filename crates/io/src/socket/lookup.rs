@@ -16,6 +16,7 @@ use super::{Failure, Family};
 /// Name resolution for sockets of one sort.
 #[derive(Clone, Copy)]
 pub struct Lookup<'a> {
+    /// The addresses that are wanted.
     pub family: Family,
     /// Datagrams; otherwise streams.
     pub datagrams: bool,
@@ -91,7 +92,7 @@ fn on_thread<T: Send + 'static>(
     question: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Failure> {
     let (sender, answer) = mpsc::sync_channel(1);
-    // A late answer is dropped.
+    // An answer that arrives after the wait has ended is dropped.
     std::thread::Builder::new().name("lookup".into()).spawn(move || drop(sender.send(question())))?;
     loop {
         match answer.recv_timeout(SLICE) {

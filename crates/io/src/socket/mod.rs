@@ -17,7 +17,7 @@ mod tls;
 mod tls_settings;
 mod wait;
 
-pub use address::{Family, Place};
+pub use address::{Family, SocketAddress};
 pub use datagram::Datagram;
 pub use failure::Failure;
 pub use lookup::{Lookup, host_name, name_of, numeric, port};

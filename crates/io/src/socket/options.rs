@@ -10,16 +10,24 @@ use socket2::Socket;
 /// The value of an option.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OptionValue {
+    /// On or off.
     Bool(bool),
+    /// A count, a size in bytes, or a time in seconds.
     Number(f64),
+    /// An address, or the name of an interface.
     Text(String),
+    /// How long closing may wait for unsent data.
     Linger {
+        /// Whether it waits.
         on: bool,
+        /// Seconds, at most.
         timeout: f64,
     },
     /// A group, by its address, and the interface: an address, or the number of one.
     Membership {
+        /// The address of the group.
         group: String,
+        /// The interface's address, or its number.
         interface: String,
     },
     /// A pending error, or none.

@@ -7,7 +7,7 @@ use super::Failure;
 /// Size of the blocks that are read from the system.
 const BUFFER_SIZE: usize = 8192;
 /// The most one call receives: what a Lua string may hold. LuaSocket's limit is the memory.
-const LONGEST: usize = 1 << 29;
+const MAX_TEXT: usize = 1 << 29;
 
 /// The pattern of `receive`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,7 +132,7 @@ impl Reader {
 }
 
 fn within_bounds(out: &[u8]) -> Result<(), Failure> {
-    if out.len() > LONGEST { Err(Failure::TooLong) } else { Ok(()) }
+    if out.len() > MAX_TEXT { Err(Failure::TooLong) } else { Ok(()) }
 }
 
 fn push_without_cr(bytes: &[u8], out: &mut Vec<u8>) {

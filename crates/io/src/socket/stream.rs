@@ -9,20 +9,26 @@ use super::failure::is_pending;
 use super::reader::{Pattern, Reader};
 use super::tls::Tls;
 use super::wait::now;
-use super::{Failure, Family, Place, Socket, Timeout, Wait, open};
+use super::{Failure, Family, Socket, SocketAddress, Timeout, Wait, open};
 
 /// The state of a stream object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
+    /// Neither connected nor listening.
     Master,
+    /// Connected, or about to be.
     Client,
+    /// Listening for connections.
     Server,
 }
 
 /// A stream socket, or the place for one.
 pub struct Stream {
+    /// What it is used for.
     pub role: Role,
+    /// The time limits of its calls.
     pub timeout: Timeout,
+    /// The addresses it is for.
     pub family: Family,
     /// Bytes sent so far, for `getstats`.
     pub sent: f64,
@@ -62,6 +68,7 @@ impl Stream {
         Ok(stream)
     }
 
+    /// The socket of the system; None before it is opened and after it was closed.
     pub fn socket(&self) -> Option<&Socket> {
         self.socket.as_ref()
     }
@@ -77,6 +84,7 @@ impl Stream {
         std::mem::replace(self, empty)
     }
 
+    /// Whether the connection is encrypted.
     pub fn is_tls(&self) -> bool {
         self.tls.is_some()
     }
@@ -90,6 +98,7 @@ impl Stream {
         !self.reader.is_empty() || self.tls.as_ref().is_some_and(|tls| tls.has_plaintext())
     }
 
+    /// Ends TLS, closes the socket, and forgets what was not read.
     pub fn close(&mut self) {
         if let (Some(tls), Some(socket)) = (&mut self.tls, &self.socket) {
             tls.say_goodbye(socket);
@@ -100,13 +109,13 @@ impl Stream {
     }
 
     /// Binds to the first address that lets it.
-    pub fn bind(&mut self, places: &[Place]) -> Result<(), Failure> {
+    pub fn bind(&mut self, places: &[SocketAddress]) -> Result<(), Failure> {
         self.try_each(places, false, |stream, address| Ok(stream.opened()?.bind(address)?))
     }
 
     /// Connects to the first address that answers.
-    pub fn connect(&mut self, places: &[Place], wait: &Wait<'_>) -> Result<(), Failure> {
-        // Even if it fails: a connection that takes longer goes on.
+    pub fn connect(&mut self, places: &[SocketAddress], wait: &Wait<'_>) -> Result<(), Failure> {
+        // Set even when connecting times out: the system continues to establish the connection.
         self.role = Role::Client;
         self.try_each(places, wait.is_zero(), |stream, address| stream.connect_to(address, wait))
     }
@@ -114,7 +123,7 @@ impl Stream {
     /// Tries one place after the other, each with a socket of its own if there was none. A time-out may be the last word.
     fn try_each(
         &mut self,
-        places: &[Place],
+        places: &[SocketAddress],
         is_hasty: bool,
         attempt: impl Fn(&Self, &SockAddr) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
@@ -156,6 +165,7 @@ impl Stream {
         }
     }
 
+    /// Becomes a server; `backlog` connections may wait to be accepted.
     pub fn listen(&mut self, backlog: i32) -> Result<(), Failure> {
         self.opened()?.listen(backlog)?;
         self.role = Role::Server;
@@ -175,7 +185,7 @@ impl Stream {
                     return Ok(client);
                 }
                 Err(error) if is_pending(&error) => wait.readable(socket)?,
-                // Whoever wanted to connect is gone already.
+                // The client has closed the connection before it was accepted.
                 Err(error) if error.kind() == ErrorKind::ConnectionAborted => {}
                 Err(error) => return Err(error.into()),
             }
@@ -211,6 +221,7 @@ impl Stream {
         (count, result)
     }
 
+    /// Ends one direction of the connection, or both.
     pub fn shutdown(&self, how: std::net::Shutdown) {
         if let Some(socket) = &self.socket {
             // As in LuaSocket, it is no error if the connection was already closed.
@@ -220,15 +231,17 @@ impl Stream {
 
     /// Whether it has no address yet; the system chooses one when it becomes a server.
     pub fn is_unbound(&self) -> bool {
-        self.local().is_ok_and(|place| matches!(place, Place::Net(address) if address.port() == 0))
+        self.local().is_ok_and(|place| matches!(place, SocketAddress::Net(address) if address.port() == 0))
     }
 
-    pub fn local(&self) -> Result<Place, Failure> {
-        Ok(Place::of(&self.opened()?.local_addr()?))
+    /// The own address.
+    pub fn local(&self) -> Result<SocketAddress, Failure> {
+        Ok(SocketAddress::of(&self.opened()?.local_addr()?))
     }
 
-    pub fn peer(&self) -> Result<Place, Failure> {
-        Ok(Place::of(&self.opened()?.peer_addr()?))
+    /// The address of the peer.
+    pub fn peer(&self) -> Result<SocketAddress, Failure> {
+        Ok(SocketAddress::of(&self.opened()?.peer_addr()?))
     }
 
     /// Bytes received and sent, and seconds since the object was made.

@@ -40,7 +40,7 @@ impl Tls {
                     return Ok(count);
                 }
                 Err(error) if error.kind() == io::ErrorKind::WouldBlock => {}
-                // Many servers close without a word.
+                // Many servers close the connection without a TLS close_notify.
                 Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Err(Failure::Closed),
                 Err(error) => return Err(error.into()),
             }
@@ -167,7 +167,9 @@ fn client_config(settings: &TlsSettings, provider: Arc<CryptoProvider>) -> Resul
     let builder = builder.with_safe_default_protocol_versions().map_err(tls_failure)?;
     let builder = match settings.verify {
         Verify::Peer => builder.with_root_certificates(trusted(settings.ca_file.as_deref())?),
-        Verify::Nobody => builder.dangerous().with_custom_certificate_verifier(Arc::new(Anybody(provider))),
+        Verify::Nobody => {
+            builder.dangerous().with_custom_certificate_verifier(Arc::new(AcceptAnyCertificate(provider)))
+        }
     };
     match own_certificate(settings)? {
         Some((chain, key)) => builder.with_client_auth_cert(chain, key).map_err(tls_failure),
@@ -219,9 +221,9 @@ fn tls_failure(error: rustls::Error) -> Failure {
 
 /// Accepts every certificate, for scripts with `verify = 'none'`. Signatures of the handshake are still checked.
 #[derive(Debug)]
-struct Anybody(Arc<CryptoProvider>);
+struct AcceptAnyCertificate(Arc<CryptoProvider>);
 
-impl ServerCertVerifier for Anybody {
+impl ServerCertVerifier for AcceptAnyCertificate {
     fn verify_server_cert(
         &self,
         _: &CertificateDer<'_>,

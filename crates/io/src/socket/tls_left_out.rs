@@ -24,14 +24,17 @@ impl Tls {
 }
 
 impl Stream {
+    /// Always a failure: this build has no TLS.
     pub fn wrap(&mut self, _: &TlsSettings) -> Result<(), Failure> {
         Err(left_out())
     }
 
+    /// Always a failure: this build has no TLS.
     pub fn shake_hands(&mut self, _: &Wait<'_>) -> Result<(), Failure> {
         Err(left_out())
     }
 
+    /// None: there is no TLS.
     pub fn tls_info(&self) -> Option<(String, String)> {
         None
     }

@@ -3,8 +3,8 @@
 use httparse::Status;
 use tokio_tungstenite::tungstenite::http::StatusCode;
 
-use super::LARGEST_MESSAGE;
-use super::http::LARGEST_HEAD;
+use super::MAX_MESSAGE;
+use super::http::MAX_HEAD;
 
 /// Separator after the bytes of a chunk.
 const LINE_END: &[u8] = b"\r\n";
@@ -46,14 +46,14 @@ impl Chunks {
     fn chunk(&mut self, bytes: &[u8]) -> Result<Option<usize>, StatusCode> {
         let (head, size) = match httparse::parse_chunk_size(bytes) {
             Ok(Status::Complete(parsed)) => parsed,
-            Ok(Status::Partial) if bytes.len() < LARGEST_HEAD => return Ok(None),
+            Ok(Status::Partial) if bytes.len() < MAX_HEAD => return Ok(None),
             _ => return Err(StatusCode::BAD_REQUEST),
         };
         if size == 0 {
             self.has_ended = true;
             return Ok(Some(head));
         }
-        let room = (LARGEST_MESSAGE - self.body.len()) as u64;
+        let room = (MAX_MESSAGE - self.body.len()) as u64;
         let size = usize::try_from(size).ok().filter(|&size| size as u64 <= room);
         let end = head + size.ok_or(StatusCode::PAYLOAD_TOO_LARGE)?;
         let Some(behind) = bytes.get(end..end + LINE_END.len()) else { return Ok(None) };
@@ -70,7 +70,7 @@ fn trailer(bytes: &[u8]) -> Result<Option<usize>, StatusCode> {
     let end = bytes.windows(LINE_END.len()).position(|pair| pair == LINE_END);
     match end {
         Some(end) => Ok(Some(end + LINE_END.len())),
-        None if bytes.len() < LARGEST_HEAD => Ok(None),
+        None if bytes.len() < MAX_HEAD => Ok(None),
         None => Err(StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE),
     }
 }
@@ -122,9 +122,9 @@ mod tests {
         ] {
             assert_eq!(read(text, text.len()), Err(status), "{text:?}");
         }
-        let endless = format!("1;{}", "x".repeat(LARGEST_HEAD));
+        let endless = format!("1;{}", "x".repeat(MAX_HEAD));
         assert_eq!(read(&endless, endless.len()), Err(400));
-        let endless = format!("0\r\n{}", "x".repeat(LARGEST_HEAD));
+        let endless = format!("0\r\n{}", "x".repeat(MAX_HEAD));
         assert_eq!(read(&endless, endless.len()), Err(431));
     }
 }

@@ -8,7 +8,7 @@ use tokio_tungstenite::tungstenite::http::header::USER_AGENT;
 use tokio_tungstenite::tungstenite::stream::Mode;
 use tokio_tungstenite::{WebSocketStream, client_async_with_config};
 
-use super::{Connection, HANDSHAKE, Reports, WsEvent, config, connection};
+use super::{Connection, HANDSHAKE_TIMEOUT, Reports, WsEvent, config, connection};
 
 /// The address to connect to, and the request.
 pub struct Request {
@@ -50,7 +50,7 @@ impl Request {
 /// Connects, and converses until the connection ends.
 pub(super) async fn connect(request: Request, reports: Reports) {
     let connection = request.connection;
-    let event = match timeout(HANDSHAKE, open(request)).await {
+    let event = match timeout(HANDSHAKE_TIMEOUT, open(request)).await {
         Ok(Ok(socket)) => return connection::converse(socket, connection, &reports).await,
         Ok(Err(event)) => event,
         Err(_) => WsEvent::Fail(connection, "no answer in time".to_owned()),

@@ -15,26 +15,30 @@ use tokio_tungstenite::tungstenite::protocol::frame::coding::{CloseCode, Data, O
 use tokio_tungstenite::tungstenite::protocol::frame::{CloseFrame, Frame};
 use tokio_tungstenite::tungstenite::{Error, Message, Utf8Bytes};
 
-use super::{Connection, HANDSHAKE, LARGEST_MESSAGE, Reports, WsEvent};
+use super::{Connection, HANDSHAKE_TIMEOUT, MAX_MESSAGE, Reports, WsEvent};
 
 /// Maximum size of the queue for a slow peer, bytes.
-const MOST_QUEUED: usize = 2 * LARGEST_MESSAGE;
+const MAX_QUEUED: usize = 2 * MAX_MESSAGE;
 /// Overhead of a queued message, bytes.
 const OVERHEAD: usize = 64;
 
 /// Why a message cannot be sent; the words are CoppeliaSim's.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SendError {
+    /// An opcode other than continuation, text or binary.
     #[error("invalid opcode: {0}")]
     Opcode(i64),
+    /// A text that is not UTF-8.
     #[error("invalid payload: text must be valid UTF-8")]
     Text,
+    /// There is no such connection, or no longer.
     #[error("connection_hdl weak_ptr expired")]
     Expired,
     /// It is about to be closed.
     #[error("invalid state")]
     State,
-    #[error("the peer is too slow: {MOST_QUEUED} bytes are waiting to be sent")]
+    /// Too many bytes wait to be sent.
+    #[error("the peer is too slow: {MAX_QUEUED} bytes are waiting to be sent")]
     Full,
 }
 
@@ -58,7 +62,7 @@ pub struct Outgoing {
 impl Outgoing {
     pub(super) fn send(&self, message: Message) -> Result<(), SendError> {
         let size = size(&message);
-        if self.bytes.load(Ordering::Relaxed) + size > MOST_QUEUED {
+        if self.bytes.load(Ordering::Relaxed) + size > MAX_QUEUED {
             return Err(SendError::Full);
         }
         self.queue.send(message).map_err(|_| SendError::State)?;
@@ -96,8 +100,8 @@ pub(super) async fn converse(socket: Socket, connection: Connection, reports: &R
     };
     let farewell = async {
         if let (Some(refusal), Ok(socket)) = (refusal, sink.reunite(source)) {
-            // A peer that does not listen any more is not waited for.
-            let _ = timeout(HANDSHAKE, refuse(socket, refusal)).await;
+            // The peer may not read any more, so the time is limited.
+            let _ = timeout(HANDSHAKE_TIMEOUT, refuse(socket, refusal)).await;
         }
     };
     tokio::join!(reports.report(WsEvent::Close(connection)), farewell);
@@ -110,8 +114,8 @@ async fn read_all(source: &mut SplitStream<Socket>, connection: Connection, repo
             Ok(Message::Text(text)) => reports.report(WsEvent::Message(connection, text.as_bytes().to_vec())).await,
             Ok(Message::Binary(bytes)) => reports.report(WsEvent::Message(connection, bytes.into())).await,
             Ok(Message::Close(_)) => {
-                // The reply goes out while one waits for the end.
-                let _ = timeout(HANDSHAKE, async { while source.next().await.is_some() {} }).await;
+                // The reply to a close is sent while the end of the stream is awaited.
+                let _ = timeout(HANDSHAKE_TIMEOUT, async { while source.next().await.is_some() {} }).await;
                 return None;
             }
             // Pings are answered by the library.
@@ -146,8 +150,8 @@ pub(super) async fn linger(stream: &mut TcpStream) {
         while stream.read(&mut rest).await? > 0 {}
         std::io::Result::Ok(())
     };
-    // Whether the peer has listened does not matter any more.
-    let _ = timeout(HANDSHAKE, ended).await;
+    // The connection ends whether or not the peer has read this.
+    let _ = timeout(HANDSHAKE_TIMEOUT, ended).await;
 }
 
 /// Sends what is queued. When that fails, the reading side notices the end.
@@ -190,7 +194,7 @@ mod tests {
     #[test]
     fn a_queue_takes_so_much_and_no_more() {
         let (outgoing, queue) = queue();
-        let large = || Message::Binary(vec![0; LARGEST_MESSAGE].into());
+        let large = || Message::Binary(vec![0; MAX_MESSAGE].into());
         assert_eq!(outgoing.send(large()), Ok(()));
         assert_eq!(outgoing.send(large()), Err(SendError::Full));
         drop(queue);

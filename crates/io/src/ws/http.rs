@@ -4,16 +4,18 @@ use tokio::sync::oneshot;
 use tokio_tungstenite::tungstenite::http::header::{CONTENT_LENGTH, TRANSFER_ENCODING, UPGRADE};
 use tokio_tungstenite::tungstenite::http::{HeaderMap, HeaderName, HeaderValue, Request, StatusCode};
 
-use super::LARGEST_MESSAGE;
+use super::MAX_MESSAGE;
 
 /// The largest head of a request.
-pub(super) const LARGEST_HEAD: usize = 1 << 16;
-const MOST_HEADERS: usize = 100;
+pub(super) const MAX_HEAD: usize = 1 << 16;
+const MAX_HEADERS: usize = 100;
 
 /// The answer to an HTTP request.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reply {
+    /// The status code.
     pub status: u16,
+    /// The body.
     pub data: Vec<u8>,
 }
 
@@ -28,6 +30,7 @@ impl Reply {
 pub struct Requester(pub(super) oneshot::Sender<Reply>);
 
 impl Requester {
+    /// Sends the answer.
     pub fn answer(self, reply: Reply) {
         // A client that is gone needs no response.
         let _ = self.0.send(reply);
@@ -51,11 +54,11 @@ impl Head {
     /// # Errors
     /// The status to answer with.
     pub(super) fn parse(bytes: &[u8]) -> Result<Option<(Self, usize)>, StatusCode> {
-        let mut headers = [httparse::EMPTY_HEADER; MOST_HEADERS];
+        let mut headers = [httparse::EMPTY_HEADER; MAX_HEADERS];
         let mut request = httparse::Request::new(&mut headers);
         match request.parse(bytes) {
             Ok(httparse::Status::Complete(length)) => Ok(Some((Self::new(&request)?, length))),
-            Ok(httparse::Status::Partial) if bytes.len() < LARGEST_HEAD => Ok(None),
+            Ok(httparse::Status::Partial) if bytes.len() < MAX_HEAD => Ok(None),
             Ok(httparse::Status::Partial) | Err(httparse::Error::TooManyHeaders) => {
                 Err(StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE)
             }
@@ -124,7 +127,7 @@ impl Head {
         let digits =
             value.to_str().ok().filter(|text| text.bytes().all(|byte| byte.is_ascii_digit()) && !text.is_empty());
         match digits.ok_or(StatusCode::BAD_REQUEST)?.parse() {
-            Ok(length) if length <= LARGEST_MESSAGE => Ok(length),
+            Ok(length) if length <= MAX_MESSAGE => Ok(length),
             _ => Err(StatusCode::PAYLOAD_TOO_LARGE),
         }
     }
@@ -190,7 +193,7 @@ mod tests {
         assert_eq!(head("POST / HTTP/1.0\r\ncontent-length: 3\r\n\r\n").body_length(), Ok(3));
         assert!(Head::parse(b"GET / HT").expect("so far it is good").is_none());
         assert_eq!(Head::parse(b"\x16\x03\x01\x02\x00").err(), Some(StatusCode::BAD_REQUEST));
-        let endless = vec![b'a'; LARGEST_HEAD];
+        let endless = vec![b'a'; MAX_HEAD];
         assert_eq!(Head::parse(&endless).err(), Some(StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE));
     }
 

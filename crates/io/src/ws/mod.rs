@@ -31,12 +31,12 @@ pub use pages::Pages as WsPages;
 pub use site::{Site, SiteMessage, SiteReply, SiteServer, SiteWaker, Visitor};
 
 /// The largest message and the largest body of an HTTP request, bytes.
-const LARGEST_MESSAGE: usize = 32_000_000;
+const MAX_MESSAGE: usize = 32_000_000;
 /// Maximum size of an endpoint's inbox: events, and bytes in them.
-const MOST_EVENTS: usize = 4096;
-const MOST_BYTES: usize = 2 * LARGEST_MESSAGE;
+const MAX_EVENTS: usize = 4096;
+const MAX_BYTES: usize = 2 * MAX_MESSAGE;
 /// Time limit of the opening and closing handshakes.
-const HANDSHAKE: Duration = Duration::from_secs(5);
+const HANDSHAKE_TIMEOUT: Duration = Duration::from_secs(5);
 /// Size of a read from a socket.
 const READ_BUFFER: usize = 1 << 14;
 
@@ -45,9 +45,10 @@ pub(crate) type Connection = u64;
 
 /// Counts endpoints and connections.
 #[derive(Clone, Default)]
-pub struct Numbers(Arc<AtomicU64>);
+pub struct IdCounter(Arc<AtomicU64>);
 
-impl Numbers {
+impl IdCounter {
+    /// The next number, from 1.
     pub fn next(&self) -> u64 {
         self.0.fetch_add(1, Ordering::Relaxed) + 1
     }
@@ -60,6 +61,7 @@ impl Numbers {
 
 /// An event of an endpoint.
 pub enum WsEvent {
+    /// A connection is established.
     Open(Connection),
     /// There will be no connection, and why.
     Fail(Connection, String),
@@ -67,13 +69,19 @@ pub enum WsEvent {
     Unreachable(Connection, std::io::Error),
     /// A page of this origin was refused.
     Refused(Connection, String),
+    /// A connection has ended.
     Close(Connection),
+    /// A message, text or binary.
     Message(Connection, Vec<u8>),
     /// A plain HTTP request, to be answered; without an answer its connection just ends.
     Http {
+        /// The connection of the request.
         connection: Connection,
+        /// The target as sent, with its query.
         resource: String,
+        /// The body of the request; empty without one.
         body: Vec<u8>,
+        /// Where the answer goes.
         requester: Requester,
     },
 }
@@ -92,7 +100,7 @@ struct Arrival {
 struct Reports {
     deliver: Deliver<Arrival>,
     room: Arc<Semaphore>,
-    numbers: Numbers,
+    numbers: IdCounter,
 }
 
 impl Reports {
@@ -109,7 +117,7 @@ impl Reports {
     }
 
     async fn put(&self, event: WsEvent, outgoing: Option<Outgoing>, size: usize) {
-        let permits = u32::try_from(size.min(MOST_BYTES)).expect("the bound is small");
+        let permits = u32::try_from(size.min(MAX_BYTES)).expect("the bound is small");
         let room = self.room.clone().acquire_many_owned(permits).await.ok();
         self.deliver.deliver(Arrival { event, outgoing, _room: room }).await;
     }
@@ -134,7 +142,7 @@ impl WsEndpoint {
         event_loop: Rc<EventLoop>,
         listener: TcpListener,
         pages: WsPages,
-        numbers: Numbers,
+        numbers: IdCounter,
     ) -> std::io::Result<Self> {
         listener.set_nonblocking(true)?;
         let port = listener.local_addr()?.port();
@@ -145,21 +153,22 @@ impl WsEndpoint {
     }
 
     /// Connects to a server; how that ends is an event.
-    pub fn connect(event_loop: Rc<EventLoop>, request: WsRequest, numbers: Numbers) -> Self {
+    pub fn connect(event_loop: Rc<EventLoop>, request: WsRequest, numbers: IdCounter) -> Self {
         Self::new(event_loop, numbers, |reports| client::connect(request, reports))
     }
 
     fn new<T: Future<Output = ()> + Send + 'static>(
         event_loop: Rc<EventLoop>,
-        numbers: Numbers,
+        numbers: IdCounter,
         task: impl FnOnce(Reports) -> T,
     ) -> Self {
-        let (deliver, inbox) = event_loop.inbox(MOST_EVENTS);
-        let reports = Reports { deliver, room: Arc::new(Semaphore::new(MOST_BYTES)), numbers };
+        let (deliver, inbox) = event_loop.inbox(MAX_EVENTS);
+        let reports = Reports { deliver, room: Arc::new(Semaphore::new(MAX_BYTES)), numbers };
         let task = Some(event_loop.spawn(task(reports)));
         Self { event_loop, inbox: RefCell::new(inbox), open: RefCell::default(), port: None, task }
     }
 
+    /// The port of a server; None for a client.
     pub fn port(&self) -> Option<u16> {
         self.port
     }
@@ -197,7 +206,7 @@ impl WsEndpoint {
 impl Drop for WsEndpoint {
     fn drop(&mut self) {
         self.task = None;
-        // The sockets are the tasks': they close when those have noticed.
+        // The tasks own the sockets, which close once the tasks have been cancelled.
         self.event_loop.turn();
     }
 }
@@ -205,6 +214,6 @@ impl Drop for WsEndpoint {
 fn config() -> WebSocketConfig {
     WebSocketConfig::default()
         .read_buffer_size(READ_BUFFER)
-        .max_message_size(Some(LARGEST_MESSAGE))
-        .max_frame_size(Some(LARGEST_MESSAGE))
+        .max_message_size(Some(MAX_MESSAGE))
+        .max_frame_size(Some(MAX_MESSAGE))
 }

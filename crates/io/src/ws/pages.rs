@@ -5,6 +5,7 @@ use std::net::IpAddr;
 /// The pages a server admits, by their origin.
 #[derive(Debug, Clone)]
 pub enum Pages {
+    /// Pages of any origin.
     All,
     /// Those of this machine, and these.
     Own(Vec<String>),

@@ -17,24 +17,24 @@ use tokio_tungstenite::tungstenite::protocol::Role;
 use super::chunks::Chunks;
 use super::http::{Head, Reply, Requester, response};
 use super::pages::Pages;
-use super::{Connection, HANDSHAKE, READ_BUFFER, Reports, WsEvent, config, connection};
+use super::{Connection, HANDSHAKE_TIMEOUT, READ_BUFFER, Reports, WsEvent, config, connection};
 
 /// Connections of one server; more wait until one ends.
-pub(super) const MOST_CONNECTIONS: usize = 1000;
+pub(super) const MAX_CONNECTIONS: usize = 1000;
 /// Pause when the system has no more sockets.
-pub(super) const REST: Duration = Duration::from_millis(100);
+pub(super) const RETRY_DELAY: Duration = Duration::from_millis(100);
 /// Time limit for a client to read an HTTP response.
-const READING: Duration = Duration::from_secs(60);
+const READ_TIMEOUT: Duration = Duration::from_secs(60);
 
 /// Serves everyone who connects.
 pub(super) async fn accept_all(listener: TcpListener, pages: Pages, reports: Reports) {
     let pages = Arc::new(pages);
-    let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    let places = Arc::new(Semaphore::new(MAX_CONNECTIONS));
     let mut tasks = JoinSet::new();
     while let Ok(place) = places.clone().acquire_owned().await {
         while tasks.try_join_next().is_some() {}
         let Ok((stream, _)) = listener.accept().await else {
-            sleep(REST).await;
+            sleep(RETRY_DELAY).await;
             continue;
         };
         let (reports, pages) = (reports.clone(), pages.clone());
@@ -47,10 +47,10 @@ pub(super) async fn accept_all(listener: TcpListener, pages: Pages, reports: Rep
 
 async fn serve(mut stream: TcpStream, pages: &Pages, reports: &Reports) {
     let connection = reports.numbers.next();
-    // Small messages go at once; without that they go all the same.
+    // Small messages are sent at once; if this cannot be set, they are sent later.
     let _ = stream.set_nodelay(true);
     let mut received = Vec::new();
-    let refused = match timeout(HANDSHAKE, read_head(&mut stream, &mut received)).await {
+    let refused = match timeout(HANDSHAKE_TIMEOUT, read_head(&mut stream, &mut received)).await {
         Ok(Ok(head)) if head.is_upgrade() && !pages.admit(head.header(ORIGIN)) => {
             let origin = head.header(ORIGIN).unwrap_or_default().to_owned();
             reports.report(WsEvent::Refused(connection, origin)).await;
@@ -112,7 +112,7 @@ pub(super) async fn upgrade(stream: &mut TcpStream, head: &Head) -> Result<(), S
     }
     let mut bytes = Vec::new();
     write_response(&mut bytes, &answer).map_err(|_| StatusCode::BAD_REQUEST)?;
-    // A peer that is gone is noticed by who reads next.
+    // If the peer is gone, the next read fails.
     let _ = stream.write_all(&bytes).await;
     Ok(())
 }
@@ -163,13 +163,13 @@ async fn read_chunks(stream: &mut TcpStream, mut received: Vec<u8>) -> Result<Ve
 
 /// Appends what comes next of a body.
 async fn read_more(stream: &mut TcpStream, received: &mut Vec<u8>) -> Result<(), Option<StatusCode>> {
-    let more = timeout(HANDSHAKE, read_some(stream, received)).await;
+    let more = timeout(HANDSHAKE_TIMEOUT, read_some(stream, received)).await;
     more.map_err(|_| StatusCode::REQUEST_TIMEOUT)?.ok_or(None)
 }
 
 async fn respond(stream: &mut TcpStream, reply: &Reply, target: &str, with_body: bool) {
     let bytes = response(reply, target, with_body);
-    if let Ok(Ok(())) = timeout(READING, stream.write_all(&bytes)).await {
+    if let Ok(Ok(())) = timeout(READ_TIMEOUT, stream.write_all(&bytes)).await {
         connection::linger(stream).await;
     }
 }

@@ -25,15 +25,15 @@ use tokio_tungstenite::tungstenite::protocol::{Role, WebSocketConfig};
 use tokio_tungstenite::tungstenite::{Message, Utf8Bytes};
 
 use super::http::Head;
-use super::server::{MOST_CONNECTIONS, REST, read_head, upgrade};
-use super::{HANDSHAKE, READ_BUFFER, connection};
+use super::server::{MAX_CONNECTIONS, RETRY_DELAY, read_head, upgrade};
+use super::{HANDSHAKE_TIMEOUT, READ_BUFFER, connection};
 
 /// The largest message of a page, bytes.
-const LARGEST_REQUEST: usize = 1 << 20;
+const MAX_REQUEST: usize = 1 << 20;
 /// How long a page may take to read what it was sent, and a connection may be silent between two requests.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PAGE_TIMEOUT: Duration = Duration::from_secs(60);
 /// How long open pages are waited for at the end.
-const FAREWELL: Duration = Duration::from_millis(500);
+const CLOSE_TIMEOUT: Duration = Duration::from_millis(500);
 
 /// What a server shows.
 pub trait Site: Send + Sync + 'static {
@@ -56,15 +56,19 @@ pub trait Visitor: Send {
 /// A message to a page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SiteMessage {
+    /// A text message.
     Text(String),
+    /// A binary message.
     Binary(Vec<u8>),
 }
 
 /// The answer to a GET.
 pub struct SiteReply {
+    /// The status code.
     pub status: u16,
     /// Besides the length and the connection.
     pub headers: Vec<(&'static str, String)>,
+    /// The body, which answers may share.
     pub body: Arc<dyn AsRef<[u8]> + Send + Sync>,
 }
 
@@ -117,10 +121,12 @@ impl SiteServer {
         Ok(Self { address, wake, thread: Some(thread) })
     }
 
+    /// The address it listens at.
     pub fn address(&self) -> SocketAddr {
         self.address
     }
 
+    /// What wakes the connections of this server.
     pub fn waker(&self) -> SiteWaker {
         SiteWaker(Arc::clone(&self.wake))
     }
@@ -131,14 +137,14 @@ impl Drop for SiteServer {
     fn drop(&mut self) {
         self.wake.send_modify(|signal| signal.ends = true);
         if let Some(thread) = self.thread.take() {
-            // A server that has panicked serves nobody; there is nothing to add.
+            // If the server's thread has panicked, it has ended as well.
             let _ = thread.join();
         }
     }
 }
 
 async fn accept_all<S: Site>(listener: tokio::net::TcpListener, site: Arc<S>, mut signals: watch::Receiver<Signal>) {
-    let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    let places = Arc::new(Semaphore::new(MAX_CONNECTIONS));
     let mut tasks = JoinSet::new();
     loop {
         let accepted = async {
@@ -158,10 +164,10 @@ async fn accept_all<S: Site>(listener: tokio::net::TcpListener, site: Arc<S>, mu
                     drop(place);
                 });
             }
-            _ => sleep(REST).await,
+            _ => sleep(RETRY_DELAY).await,
         }
     }
-    let _ = timeout(FAREWELL, async { while tasks.join_next().await.is_some() {} }).await;
+    let _ = timeout(CLOSE_TIMEOUT, async { while tasks.join_next().await.is_some() {} }).await;
 }
 
 /// The requests of one connection, one after the other.
@@ -171,7 +177,7 @@ async fn serve<S: Site>(mut stream: TcpStream, site: &S, mut signals: watch::Rec
     let mut received = Vec::new();
     loop {
         let head = tokio::select! {
-            head = timeout(PATIENCE, read_head(&mut stream, &mut received)) => head,
+            head = timeout(PAGE_TIMEOUT, read_head(&mut stream, &mut received)) => head,
             _ = signals.wait_for(|signal| signal.ends) => return,
         };
         let Ok(Ok(head)) = head else {
@@ -252,7 +258,7 @@ async fn respond(stream: &mut TcpStream, reply: &SiteReply, method: &str, goes_o
         }
         stream.flush().await
     };
-    matches!(timeout(PATIENCE, sent).await, Ok(Ok(())))
+    matches!(timeout(PAGE_TIMEOUT, sent).await, Ok(Ok(())))
 }
 
 /// A WebSocket connection, until it ends.
@@ -271,8 +277,8 @@ async fn open<S: Site>(
     }
     let config = WebSocketConfig::default()
         .read_buffer_size(READ_BUFFER)
-        .max_message_size(Some(LARGEST_REQUEST))
-        .max_frame_size(Some(LARGEST_REQUEST));
+        .max_message_size(Some(MAX_REQUEST))
+        .max_frame_size(Some(MAX_REQUEST));
     let socket = WebSocketStream::from_partially_read(stream, received, Role::Server, Some(config)).await;
     let (sink, source) = socket.split();
     converse(sink, source, visitor, signals).await;
@@ -286,10 +292,10 @@ async fn converse(
 ) {
     loop {
         let ends = signals.borrow_and_update().ends;
-        // A page that is not there any more is noticed here at the latest.
-        let Ok(Ok(())) = timeout(PATIENCE, send_all(&mut sink, visitor.messages())).await else { return };
+        // A closed page is detected here at the latest.
+        let Ok(Ok(())) = timeout(PAGE_TIMEOUT, send_all(&mut sink, visitor.messages())).await else { return };
         if ends {
-            let _ = timeout(HANDSHAKE, sink.close()).await;
+            let _ = timeout(HANDSHAKE_TIMEOUT, sink.close()).await;
             return;
         }
         tokio::select! {

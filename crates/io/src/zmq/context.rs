@@ -38,6 +38,7 @@ impl Context {
         self.raw().socket(kind)
     }
 
+    /// An option of the context, by its number `ZMQ_*`.
     pub fn get(&self, option: c_int) -> ZmqResult<c_int> {
         self.raw().get(option)
     }
@@ -86,7 +87,7 @@ impl Termination {
             if let Some(context) = context {
                 context.terminate();
             }
-            // Nobody may be waiting any more.
+            // The caller may have stopped waiting for the result.
             let _ = sender.send(());
         });
         // Without a thread the context stays: its sockets are closed all the same.

@@ -58,10 +58,12 @@ impl Message {
         if self.is_open { Ok(()) } else { Err(Errno::NO_MESSAGE) }
     }
 
+    /// The content; empty when it is closed.
     pub fn bytes(&self) -> &[u8] {
         self.raw.bytes()
     }
 
+    /// Bytes of the content.
     pub fn size(&self) -> usize {
         self.raw.size()
     }
@@ -71,11 +73,13 @@ impl Message {
         self.raw.has_more()
     }
 
+    /// A property of the message, by its number `ZMQ_*`.
     pub fn get(&self, property: c_int) -> ZmqResult<c_int> {
         self.require_open()?;
         self.raw.get(property)
     }
 
+    /// Sets a property of the message.
     pub fn set(&mut self, property: c_int, value: c_int) -> ZmqResult<()> {
         self.require_open()?;
         self.raw.set(property, value)

@@ -28,9 +28,11 @@ pub use socket::{Socket, poll};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Errno(pub c_int);
 
+/// The result of a call to libzmq.
 pub type ZmqResult<T> = Result<T, Errno>;
 
 impl Errno {
+    /// A signal or the end of the simulator interrupted the call.
     pub const INTERRUPTED: Self = Self(ffi::errno::EINTR);
     const INVALID: Self = Self(ffi::errno::EINVAL);
     const NO_MEMORY: Self = Self(ffi::errno::ENOMEM);

@@ -35,6 +35,7 @@ pub struct Socket {
 }
 
 impl Socket {
+    /// A socket of a type, by its number `ZMQ_*`.
     pub fn new(context: &Rc<Context>, kind: c_int) -> ZmqResult<Self> {
         if kind > LAST_TYPE {
             return Err(Errno::INVALID);
@@ -52,6 +53,7 @@ impl Socket {
         &self.raw
     }
 
+    /// Whether it belongs to that context.
     pub fn is_in(&self, context: &Rc<Context>) -> bool {
         Rc::ptr_eq(&self.context, context)
     }
@@ -75,18 +77,22 @@ impl Socket {
         let _ = self.set(LINGER, &milliseconds.to_ne_bytes());
     }
 
+    /// Accepts connections at an endpoint.
     pub fn bind(&self, endpoint: &str) -> ZmqResult<()> {
         self.raw.bind(&c_text(endpoint)?)
     }
 
+    /// Accepts no further connections at an endpoint.
     pub fn unbind(&self, endpoint: &str) -> ZmqResult<()> {
         self.raw.unbind(&c_text(endpoint)?)
     }
 
+    /// Connects to an endpoint, now or as soon as there is a peer.
     pub fn connect(&self, endpoint: &str) -> ZmqResult<()> {
         self.raw.connect(&c_text(endpoint)?)
     }
 
+    /// Ends the connection to an endpoint.
     pub fn disconnect(&self, endpoint: &str) -> ZmqResult<()> {
         self.raw.disconnect(&c_text(endpoint)?)
     }

@@ -10,7 +10,7 @@ use tokio::time::Instant;
 use super::super::zmtp;
 
 /// Bytes that may wait for a client to read them, beyond the answer that made it so many.
-const MOST_UNREAD: usize = 64 << 20;
+const MAX_UNREAD: usize = 64 << 20;
 
 /// The sending side of a connection.
 pub(super) struct Connection {
@@ -98,7 +98,7 @@ impl Connection {
 
     /// Writes bytes; what the system does not accept at once is stored.
     pub(super) fn send(&self, outgoing: &mut Outgoing, bytes: &[u8]) -> io::Result<()> {
-        if outgoing.unsent.len() > MOST_UNREAD {
+        if outgoing.unsent.len() > MAX_UNREAD {
             return Err(ErrorKind::OutOfMemory.into());
         }
         let sent = if outgoing.unsent.is_empty() { self.write(bytes)? } else { 0 };

@@ -23,13 +23,13 @@ use connection::Connection;
 use receiver::Receiver;
 
 /// Maximum number of entries that wait for the simulator: for each connection a request and its end.
-const MOST_ARRIVALS: usize = 2 * LIMITS.connections + 1;
+const MAX_ARRIVALS: usize = 2 * LIMITS.connections + 1;
 /// The limits of a server.
 const LIMITS: Limits = Limits { connections: 512, silence: Duration::from_secs(10) };
 /// Time limit of the handshake.
-const HANDSHAKE: Duration = Duration::from_secs(10);
-/// Rest after a connection that could not be accepted.
-const REST: Duration = Duration::from_millis(50);
+const HANDSHAKE_TIMEOUT: Duration = Duration::from_secs(10);
+/// Pause after a connection that could not be accepted.
+const RETRY_DELAY: Duration = Duration::from_millis(50);
 
 /// A connection, as long as it lasts.
 pub(crate) type Peer = u64;
@@ -45,6 +45,7 @@ struct Limits {
 /// Something that has arrived.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Incoming {
+    /// A request, without its envelope.
     Request(Peer, Vec<u8>),
     /// The connection is gone.
     Gone(Peer),
@@ -80,16 +81,16 @@ impl ZmqServer {
     ) -> io::Result<Self> {
         listener.set_nonblocking(true)?;
         let listener = event_loop.block_on(async { tokio::net::TcpListener::from_std(listener) })?;
-        let (deliver, inbox) = event_loop.inbox(MOST_ARRIVALS);
+        let (deliver, inbox) = event_loop.inbox(MAX_ARRIVALS);
         let connections = Arc::<Connections>::default();
         let accepting = event_loop.spawn(accept_all(listener, connections.clone(), deliver, limits));
         Ok(Self { event_loop, inbox: inbox.into(), connections, stop, _accepting: accepting })
     }
 
     /// The next of what came in; waits for it at most that long. Requests of connections that are gone are dropped.
-    pub fn receive(&self, patience: Duration) -> Option<Incoming> {
+    pub fn receive(&self, timeout: Duration) -> Option<Incoming> {
         loop {
-            let incoming = self.event_loop.fetch(&mut self.inbox.borrow_mut(), patience)?;
+            let incoming = self.event_loop.fetch(&mut self.inbox.borrow_mut(), timeout)?;
             let Incoming::Request(peer, _) = &incoming else { return Some(incoming) };
             if let Some(connection) = self.connections.lock().get(peer) {
                 connection.leave_queue();
@@ -153,7 +154,7 @@ async fn accept_all(
                 }
                 Ok(_) => {}
                 // Out of file descriptors, for instance.
-                Err(_) => tokio::time::sleep(REST).await,
+                Err(_) => tokio::time::sleep(RETRY_DELAY).await,
             },
             Some(_) = tasks.join_next() => {}
         }
@@ -167,7 +168,7 @@ async fn serve(stream: TcpStream, peer: Peer, connections: Arc<Connections>, del
     let (reading, writing) = stream.into_split();
     let connection = Arc::new(Connection::new(writing));
     let mut receiver = Receiver::new(reading);
-    let introduced = tokio::time::timeout(HANDSHAKE, receiver.shake_hands(&connection)).await;
+    let introduced = tokio::time::timeout(HANDSHAKE_TIMEOUT, receiver.shake_hands(&connection)).await;
     if !matches!(introduced, Ok(Ok(()))) {
         return;
     }

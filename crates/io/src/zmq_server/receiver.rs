@@ -8,11 +8,11 @@ use std::task::{Context, Poll, ready};
 use tokio::io::{AsyncRead, ReadBuf};
 use tokio::net::tcp::OwnedReadHalf;
 
-use super::super::zmtp::{self, Decoder, Said};
+use super::super::zmtp::{self, Decoder, PeerMessage};
 use super::connection::Connection;
 
 /// Bytes read of a connection whose request waits for its turn: the end of the connection shows behind them.
-const MOST_AHEAD: usize = 1 << 20;
+const MAX_AHEAD: usize = 1 << 20;
 /// Size of a read.
 const CHUNK: usize = 64 << 10;
 
@@ -64,7 +64,7 @@ impl Receiver {
             if !connection.state().is_queued {
                 return Ok(());
             }
-            if self.decoder.stored() < MOST_AHEAD {
+            if self.decoder.stored() < MAX_AHEAD {
                 self.read_or_send(connection).await?;
             } else {
                 connection.wait_to_send().await?;
@@ -76,8 +76,10 @@ impl Receiver {
     pub(super) async fn next_request(&mut self, connection: &Connection) -> io::Result<zmtp::Request> {
         loop {
             match self.decoder.next().map_err(io::Error::other)? {
-                Some(Said::Request(request)) => return Ok(request),
-                Some(Said::Ping(context)) => connection.send(&mut connection.outgoing(), &zmtp::pong(&context))?,
+                Some(PeerMessage::Request(request)) => return Ok(request),
+                Some(PeerMessage::Ping(context)) => {
+                    connection.send(&mut connection.outgoing(), &zmtp::pong(&context))?
+                }
                 None => self.read_or_send(connection).await?,
             }
         }

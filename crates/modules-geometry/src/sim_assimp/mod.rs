@@ -15,6 +15,7 @@ use scene::{Data, Handle, Kind};
 use script::Number;
 use script::log::verbosity;
 
+/// The module `simAssimp`.
 pub static MODULE: Module = Module {
     about: "Shapes and meshes from files (OBJ, STL, PLY, COLLADA, glTF, 3DS, DXF), and to files.",
     functions: &[("Import", IMPORT), ("Export", export::FUNCTIONS), ("Formats", formats::FUNCTIONS)],

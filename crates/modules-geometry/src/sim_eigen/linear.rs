@@ -14,7 +14,7 @@ pub(super) const FUNCTIONS: &[ApiFn] =
 type Matrix = DMatrix<f64>;
 
 /// A method that does not converge by then never will.
-const MOST_ITERATIONS: usize = 10_000;
+const MAX_ITERATIONS: usize = 10_000;
 
 fn misfit() -> crate::ApiError {
     refused("the sizes of the matrices do not fit")
@@ -121,7 +121,7 @@ impl Singular {
         if matrix.is_empty() || !matrix.iter().all(|x| x.is_finite()) {
             return Err(refused("the matrix is empty, or a number in it is not finite"));
         }
-        let svd = SVD::try_new(matrix.clone(), true, true, f64::EPSILON, MOST_ITERATIONS);
+        let svd = SVD::try_new(matrix.clone(), true, true, f64::EPSILON, MAX_ITERATIONS);
         let parts = svd.and_then(|svd| Some((svd.u?, svd.singular_values, svd.v_t?)));
         let (u, values, v_t) = parts.ok_or_else(|| refused("the singular values were not found"))?;
         Ok(Self { u, values: values.iter().copied().collect(), v_t })

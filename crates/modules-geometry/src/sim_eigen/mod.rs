@@ -9,6 +9,7 @@ mod store;
 
 use super::Module;
 
+/// The module `simEigen`.
 pub static MODULE: Module = Module {
     functions: &[
         ("Matrices", matrices::FUNCTIONS),

@@ -28,15 +28,15 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
     quat_from_two_vectors,
 ];
 
-/// Below it a vector has no direction.
-const NO_LENGTH: f64 = 1e-12;
+/// A vector or quaternion with a smaller norm has no direction.
+const MIN_NORM: f64 = 1e-12;
 
 fn quaternion(cx: &Cx, handle: &str) -> Result<Quaternion<f64>> {
     Ok(*get(cx, handle)?)
 }
 
 fn rotation(cx: &Cx, handle: &str) -> Result<UnitQuaternion<f64>> {
-    let rotation = UnitQuaternion::try_new(quaternion(cx, handle)?, NO_LENGTH);
+    let rotation = UnitQuaternion::try_new(quaternion(cx, handle)?, MIN_NORM);
     rotation.filter(|q| q.coords.iter().all(|c| c.is_finite())).ok_or_else(|| refused("the quaternion is no rotation"))
 }
 
@@ -136,8 +136,8 @@ fn quat_mul_vec(cx: &Cx, handle: String, vector_handle: String) -> Result<String
 #[api("simEigen.quatSLERP")]
 fn quat_slerp(cx: &Cx, handle: String, handle2: String, t: f64) -> Result<String> {
     let (a, b) = (rotation(cx, &handle)?, rotation(cx, &handle2)?);
-    // Without a shortest way, the first.
-    add(cx, a.try_slerp(&b, t, NO_LENGTH).unwrap_or(a).into_inner())
+    // Opposite rotations have no shortest path between them: the result is the first.
+    add(cx, a.try_slerp(&b, t, MIN_NORM).unwrap_or(a).into_inner())
 }
 
 /// A rotation around an axis.
@@ -147,7 +147,7 @@ fn quat_slerp(cx: &Cx, handle: String, handle2: String, t: f64) -> Result<String
 /// @return handle
 #[api("simEigen.quatFromAxisAngle")]
 fn quat_from_axis_angle(cx: &Cx, axis_handle: String, angle: f64) -> Result<String> {
-    let axis = Unit::try_new(vector(cx, &axis_handle)?, NO_LENGTH).ok_or_else(|| refused("the axis has no length"))?;
+    let axis = Unit::try_new(vector(cx, &axis_handle)?, MIN_NORM).ok_or_else(|| refused("the axis has no length"))?;
     add(cx, UnitQuaternion::from_axis_angle(&axis, angle).into_inner())
 }
 
@@ -237,7 +237,7 @@ fn quat_to_rotation(cx: &Cx, handle: String) -> Result<String> {
 #[api("simEigen.quatFromTwoVectors")]
 fn quat_from_two_vectors(cx: &Cx, handle: String, handle2: String) -> Result<String> {
     let (a, b) = (vector(cx, &handle)?, vector(cx, &handle2)?);
-    if a.norm() < NO_LENGTH || b.norm() < NO_LENGTH {
+    if a.norm() < MIN_NORM || b.norm() < MIN_NORM {
         return Err(refused("a vector has no length"));
     }
     // Of opposite directions there are many: half a turn around some axis across.

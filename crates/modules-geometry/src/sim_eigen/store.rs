@@ -15,7 +15,7 @@ use script::{Source, Table};
 /// Handles of one script.
 const NUMBERS_PER_SCRIPT: u64 = 1 << 32;
 /// Numbers in all matrices of a script: 512 MiB.
-const MOST_NUMBERS: usize = 1 << 26;
+const MAX_NUMBERS: usize = 1 << 26;
 
 /// A kind of things with handles.
 pub(super) trait Stored: Clone {
@@ -86,7 +86,7 @@ pub(super) fn get<T: Stored>(cx: &Cx, handle: &str) -> Result<Rc<T>> {
 /// When the matrices of the script take too much memory.
 pub(super) fn check_size(cx: &Cx, numbers: usize) -> Result<()> {
     let all = store(cx).numbers.get().saturating_add(numbers);
-    if all > MOST_NUMBERS {
+    if all > MAX_NUMBERS {
         Err(refused("the matrices of a script take 512 MiB at most: destroy some."))
     } else {
         Ok(())

@@ -22,6 +22,7 @@ use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 use scene::SceneError;
 use structures::Structures;
 
+/// The module `simGeom`.
 pub static MODULE: Module = Module {
     about: "Distances and collisions between meshes, octrees, point clouds and primitives that belong to no scene.",
     functions: &[

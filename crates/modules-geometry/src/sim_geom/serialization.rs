@@ -108,7 +108,7 @@ pub(super) fn to_octree(bytes: &[u8]) -> Result<OcTree> {
     let read = || {
         let mut reader = Reader::new(bytes, OCTREE)?;
         let size = reader.number().filter(|size| *size > 0.0)?;
-        // An octree that was scaled has a size that a new one cannot have.
+        // A scaled octree may have a voxel size that is not allowed for a new one.
         let mut tree = OcTree::new(1.0, 1.0);
         tree.scale(size);
         for _ in 0..reader.count(31)? {

@@ -23,12 +23,15 @@ const fn row(name: &'static str, doc: &'static str, params: &'static [Param], ca
     ApiFn { name, doc, params, returns: &[], mutates: false, call, call_data: needs_lua }
 }
 
+/// The module `org.conman.cbor`.
 pub static CBOR: Module = Module { inner: &[TREES], ..Module::new("org.conman.cbor") };
+/// The module `org.conman.cbor_c`.
 pub static CBOR_HEADS: Module = Module {
     about: "The heads of CBOR items: low-level functions of org.conman.cbor.",
     functions: &[("CBOR", HEADS)],
     ..Module::new("org.conman.cbor_c")
 };
+/// The module `simCBOR`.
 pub static SIM_CBOR: Module = Module { inner: &[TREES], ..Module::new("simCBOR") };
 
 const TREES: &[ApiFn] = &[

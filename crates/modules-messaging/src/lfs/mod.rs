@@ -18,6 +18,7 @@ use permissions::Denied;
 use scene::{Data, Key};
 use script::Results;
 
+/// The module `lfs`.
 pub static LFS: Module = Module {
     about: "Files and folders, with the interface of LuaFileSystem.",
     functions: &[("Files", FUNCTIONS), ("Files", lock::FUNCTIONS)],
@@ -25,6 +26,7 @@ pub static LFS: Module = Module {
     ..Module::new("lfs")
 };
 
+/// The module `lfsx`.
 pub static LFSX: Module = Module {
     about: "lfs with functions on paths and folder trees: `require 'lfsx'` adds them to lfs.",
     functions: &[("Paths", PATHS)],

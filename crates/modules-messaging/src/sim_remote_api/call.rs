@@ -4,7 +4,7 @@ use super::service::Service;
 use permissions::Denied;
 use scene::{Data, SceneError};
 use script::{ApiError, Host};
-use wire::simx::{Reader, Violation, Writer};
+use wire::simx::{FieldReader, FieldWriter, Violation};
 
 /// Why a command fails.
 #[derive(Debug)]
@@ -39,10 +39,10 @@ impl From<Denied> for Failure {
 pub(super) struct Call<'a> {
     pub host: &'a Host<'a>,
     pub service: &'a Service,
-    pub key: Reader<'a>,
-    pub data: Reader<'a>,
+    pub key: FieldReader<'a>,
+    pub data: FieldReader<'a>,
     /// The data of the answer.
-    pub out: Writer,
+    pub out: FieldWriter,
     /// A stream ends with this answer.
     pub ends_stream: bool,
 }

@@ -6,7 +6,7 @@ use super::service::Service;
 use super::services::update_waiting;
 use super::{files, group_data, objects, script_call, sensors, signals};
 use script::Host;
-use wire::simx::{Answer, Command, Order, Reader, Writer};
+use wire::simx::{Answer, ByteOrder, Command, FieldReader, FieldWriter};
 
 type Special = (u16, fn(&mut Call<'_>) -> Outcome);
 
@@ -53,9 +53,9 @@ static SPECIAL: &[Special] = &[
 ];
 
 /// Executes a command of a client.
-pub(super) fn execute(host: &Host<'_>, service: &Service, command: &Command, order: Order) -> Answer {
-    let (key, data) = (Reader::new(&command.key, order), Reader::new(&command.data, order));
-    let mut call = Call { host, service, key, data, out: Writer::new(order), ends_stream: false };
+pub(super) fn execute(host: &Host<'_>, service: &Service, command: &Command, order: ByteOrder) -> Answer {
+    let (key, data) = (FieldReader::new(&command.key, order), FieldReader::new(&command.data, order));
+    let mut call = Call { host, service, key, data, out: FieldWriter::new(order), ends_stream: false };
     match perform(command.id, &mut call) {
         Some(Ok(())) => Answer { failed: false, ends_stream: call.ends_stream, data: call.out.into_bytes() },
         Some(Err(Failure::Text(text))) => {

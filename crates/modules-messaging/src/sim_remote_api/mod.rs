@@ -30,6 +30,7 @@ use service::{Lifetime, Service, Settings};
 use services::Services;
 use wire::simx::VERSION;
 
+/// The module `simRemoteApi`.
 pub static MODULE: Module = Module {
     about: "Servers of the legacy remote API, for programs with `simxStart`.",
     functions: &[("Servers", FUNCTIONS)],
@@ -45,7 +46,7 @@ pub static MODULE: Module = Module {
 const FUNCTIONS: &[ApiFn] = functions![start, stop, reset, status];
 
 /// Bytes of a packet that servers may use.
-const PACKETS: std::ops::RangeInclusive<i64> = 200..=30_000;
+const PACKET_SIZES: std::ops::RangeInclusive<i64> = 200..=30_000;
 
 /// Serves a client by the legacy remote API as long as the simulator lives. Returns where it listens.
 ///
@@ -90,7 +91,7 @@ fn start(
     };
     let address = cx.options().listen_address;
     cx.permissions().check_net(&address.to_string(), Some(port))?;
-    let max_packet = max_packet_size.clamp(*PACKETS.start(), *PACKETS.end()) as usize;
+    let max_packet = max_packet_size.clamp(*PACKET_SIZES.start(), *PACKET_SIZES.end()) as usize;
     let settings = Settings { max_packet, is_monitored: debug, may_synchronize: pre_enable_trigger };
     let lifetime = match cx.script().script_type {
         ScriptType::Main | ScriptType::Simulation => Lifetime::Simulation,

@@ -3,12 +3,12 @@
 use super::call::{Call, Failure, Outcome, bytes, described, floats, integer};
 use scene::Data;
 use scene::object::script_object::ScriptType;
-use wire::simx::{Reader, Violation};
+use wire::simx::{FieldReader, Violation};
 
 /// The arguments as the function receives them.
-fn arguments(data: &mut Reader<'_>) -> Result<[Data; 4], Violation> {
+fn arguments(data: &mut FieldReader<'_>) -> Result<[Data; 4], Violation> {
     let (ints, floats, strings, length) = (data.size()?, data.size()?, data.size()?, data.size()?);
-    // Nothing is allocated for sizes that the data does not have.
+    // Sizes are checked against the data before anything is allocated.
     let ints = (0..ints).map(|_| Ok(Data::Int(data.int()?.into()))).collect::<Result<Vec<_>, _>>()?;
     let floats = (0..floats).map(|_| Ok(Data::Float(data.float()?.into()))).collect::<Result<Vec<_>, _>>()?;
     let strings = (0..strings).map(|_| Ok(Data::Text(data.text()?.to_vec()))).collect::<Result<Vec<_>, _>>()?;

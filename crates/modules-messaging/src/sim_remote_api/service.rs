@@ -123,9 +123,9 @@ impl Service {
         look(&mut self.server.borrow().session())
     }
 
-    /// The simulator looks for commands.
-    pub(super) fn note_look(&self) {
-        self.server.borrow().note_look();
+    /// The simulator is about to take the commands that wait.
+    pub(super) fn acknowledge(&self) {
+        self.server.borrow().acknowledge();
     }
 
     /// Results are there.

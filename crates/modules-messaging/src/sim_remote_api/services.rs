@@ -93,7 +93,7 @@ fn execute_all(host: &Host<'_>, services: &[Rc<Service>]) {
 
 /// Executes what is due of one server.
 fn execute(host: &Host<'_>, service: &Service) {
-    service.note_look();
+    service.acknowledge();
     if service.is_monitored() {
         show_monitor(host, service);
     }

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::{Rc, Weak};
 
-use io::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent};
+use io::{HttpReply, IdCounter, SendError, WsEndpoint, WsEvent};
 use scene::Data;
 use script::{Cx, Handler, Host, Script};
 
@@ -14,7 +14,7 @@ use super::log;
 #[derive(Default)]
 pub(super) struct WebSockets {
     /// The numbers of endpoints and connections.
-    pub(super) numbers: Numbers,
+    pub(super) numbers: IdCounter,
     endpoints: RefCell<BTreeMap<u64, Rc<Endpoint>>>,
 }
 

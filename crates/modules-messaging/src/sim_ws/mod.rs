@@ -10,9 +10,10 @@ use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions, remote};
 use endpoints::{Endpoint, HandlerKind, Role, WebSockets, handle_number};
-use io::{Numbers, SendError, WsEndpoint, WsPages, WsRequest};
+use io::{IdCounter, SendError, WsEndpoint, WsPages, WsRequest};
 use script::{Bytes, Handler, Hooks, ScriptFunction};
 
+/// The module `simWS`.
 pub static MODULE: Module = Module {
     about: "WebSocket servers and clients.",
     functions: &[("WebSocket", FUNCTIONS)],
@@ -216,7 +217,7 @@ fn endpoint(cx: &Cx, handle: &str) -> Result<Rc<Endpoint>> {
 }
 
 /// The numbers of endpoints and connections.
-fn numbers(cx: &Cx) -> Numbers {
+fn numbers(cx: &Cx) -> IdCounter {
     cx.module_state::<WebSockets>().numbers.clone()
 }
 

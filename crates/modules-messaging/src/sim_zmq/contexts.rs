@@ -16,7 +16,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![ctx_new, ctx_singleton, ctx_ge
 pub(crate) const INNER: &[ApiFn] = functions![ctx_term];
 
 /// Longest wait for the end of a context, milliseconds.
-const LONGEST_WAIT: i64 = 10_000;
+const MAX_WAIT: i64 = 10_000;
 
 /// Makes a context.
 ///
@@ -81,14 +81,14 @@ fn ctx_shutdown(cx: &Cx, context: String) -> Result<i64> {
 /// Ends a context.
 ///
 /// @param context the context
-/// @param patience milliseconds to wait for messages on their way
+/// @param timeout milliseconds to wait for messages on their way
 /// @return result 0, or -1 with EINTR: it has not ended yet
 #[api("simZMQ.ctx_term")]
-fn ctx_term(cx: &Cx, context: String, patience: Number) -> Result<i64> {
+fn ctx_term(cx: &Cx, context: String, timeout: Number) -> Result<i64> {
     forbid_singleton(&context, "terminated")?;
     let objects = objects(cx);
-    let patience = Duration::from_millis(patience.0.clamp(0, LONGEST_WAIT).unsigned_abs());
-    let outcome = objects.end_context(&context, |termination| termination.wait(patience))?;
+    let timeout = Duration::from_millis(timeout.0.clamp(0, MAX_WAIT).unsigned_abs());
+    let outcome = objects.end_context(&context, |termination| termination.wait(timeout))?;
     Ok(objects.done(outcome))
 }
 

@@ -20,6 +20,7 @@ use script::{Bytes, Number, Param, Table, Text};
 
 pub use objects::has_sockets;
 
+/// The module `simZMQ`.
 pub static MODULE: Module = Module {
     about: "ZeroMQ: sockets that carry whole messages between programs.",
     functions: &[

@@ -195,7 +195,7 @@ fn wait(cx: &Cx, items: &[(Rc<Socket>, i16)], timeout: i64) -> Result<zmq::ZmqRe
     loop {
         let slice = if left < 0 { SLICE } else { left.min(SLICE) };
         let ready = match zmq::poll(items, slice as _) {
-            // A signal: if it means the end, that is seen below.
+            // Interrupted by a signal: whether the simulator is to end is checked below.
             Err(Errno::INTERRUPTED) => vec![0; items.len()],
             Err(errno) => return Ok(Err(errno)),
             Ok(ready) => ready,

@@ -13,7 +13,7 @@ pub(super) fn check_place(cx: &Cx, family: Family, host: &str, service: &str) ->
     };
     match port(service) {
         Ok(Some(port)) => Ok(cx.permissions().check_net(host, Some(port))?),
-        // Which port that is, only the system knows.
+        // Only the system's resolver knows the port of a service.
         _ => Ok(cx.permissions().check_net_everywhere(&format!("the service '{service}' of '{host}'"))?),
     }
 }

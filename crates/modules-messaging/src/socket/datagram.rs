@@ -6,7 +6,7 @@ use super::methods::{Done, places, with_places};
 use super::results::{Outcome, done};
 use super::{AnySocket, Shared, access, class, prefix, stop};
 use crate::{ApiFn, Args, Cx, FromScript, Result, functions};
-use io::socket::{Datagram, Failure, Family, Place, Wait, numeric};
+use io::socket::{Datagram, Failure, Family, SocketAddress, Wait, numeric};
 use scene::Data;
 use script::Source;
 use script::{ApiError, LuaNumber, LuaString, Results, Text};
@@ -72,13 +72,13 @@ fn receivefrom(cx: &Cx, object: Unconnected, size: Option<LuaNumber>) -> Result<
     Ok(Outcome(received(cx, &object.0, size).map(|(data, from)| {
         let data = Data::Text(data);
         Results(match from {
-            Place::Net(from) => vec![data, Data::text(&from.ip().to_string()), Data::Int(from.port().into())],
-            Place::Path(path) => vec![data, Data::Text(path)],
+            SocketAddress::Net(from) => vec![data, Data::text(&from.ip().to_string()), Data::Int(from.port().into())],
+            SocketAddress::Path(path) => vec![data, Data::Text(path)],
         })
     })))
 }
 
-type Arrived = std::result::Result<(Vec<u8>, Place), Failure>;
+type Arrived = std::result::Result<(Vec<u8>, SocketAddress), Failure>;
 
 fn received(cx: &Cx, datagram: &Shared<Datagram>, size: Option<LuaNumber>) -> Arrived {
     let size = size.map_or(SIZE, |size| size.0).max(0.0) as usize;
@@ -106,13 +106,13 @@ fn sendto(
     let mut datagram = object.0.borrow_mut();
     let place = if datagram.family == Family::Unix {
         access::check_local(cx, &host.0)?;
-        Place::Path(host.0)
+        SocketAddress::Path(host.0)
     } else {
         let missing = || ApiError::BadArgument { position: 4, reason: "string expected, got no value".into() };
         let port = port.ok_or_else(missing)?;
         access::check_place(cx, datagram.family, &host.text(), &port.text())?;
         match numeric(&host.text(), &port.text(), datagram.family) {
-            Ok(address) => Place::Net(address),
+            Ok(address) => SocketAddress::Net(address),
             Err(failure) => return Ok(Outcome(Err(failure))),
         }
     };

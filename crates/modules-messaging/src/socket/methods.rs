@@ -5,7 +5,7 @@ use api_macro::api;
 use super::results::{Outcome, done};
 use super::{AnySocket, Sockets, access, descriptor};
 use crate::{ApiFn, Cx, Result, functions};
-use io::socket::{Failure, Family, Place, Socket, Timeout};
+use io::socket::{Failure, Family, Socket, SocketAddress, Timeout};
 use scene::Data;
 use script::{ApiError, LuaNumber, LuaString, Results};
 
@@ -74,7 +74,7 @@ fn setfd(cx: &Cx, object: AnySocket, number: LuaNumber) -> Result<()> {
     };
     let mut detached = sockets.detached.borrow_mut();
     detached.remove(&number);
-    // One that another object holds needs no keeping.
+    // A socket that another object holds stays open anyway.
     let left = before.filter(|socket| Socket::strong_count(socket) == 1);
     detached.extend(left.map(|socket| (descriptor(&socket), socket)));
     Ok(())
@@ -154,13 +154,13 @@ fn getpeername(_cx: &Cx, object: AnySocket) -> Result<Outcome<Results>> {
     Ok(described(place, |port| Data::Int(port.into())))
 }
 
-fn described(place: std::result::Result<Place, Failure>, port: impl Fn(u16) -> Data) -> Outcome<Results> {
+fn described(place: std::result::Result<SocketAddress, Failure>, port: impl Fn(u16) -> Data) -> Outcome<Results> {
     Outcome(place.map(|place| match place {
-        Place::Net(address) => {
+        SocketAddress::Net(address) => {
             let family = if address.is_ipv6() { "inet6" } else { "inet" };
             Results(vec![Data::text(&address.ip().to_string()), port(address.port()), Data::text(family)])
         }
-        Place::Path(path) => Results(vec![Data::Text(path)]),
+        SocketAddress::Path(path) => Results(vec![Data::Text(path)]),
     }))
 }
 
@@ -171,17 +171,17 @@ pub(super) fn places(
     datagrams: bool,
     host: &LuaString,
     service: Option<&LuaString>,
-) -> Result<std::result::Result<Vec<Place>, Failure>> {
+) -> Result<std::result::Result<Vec<SocketAddress>, Failure>> {
     if family == Family::Unix {
         access::check_local(cx, &host.0)?;
-        return Ok(Ok(vec![Place::Path(host.0.clone())]));
+        return Ok(Ok(vec![SocketAddress::Path(host.0.clone())]));
     }
     let missing = || ApiError::BadArgument { position: 3, reason: "string expected, got no value".into() };
     let service = service.ok_or_else(missing)?;
     access::check_place(cx, family, &host.text(), &service.text())?;
     let lookup = ::io::socket::Lookup { family, datagrams, stop: super::stop(cx) };
     let found = lookup.resolve(&host.text(), &service.text());
-    Ok(found.map(|found| found.into_iter().map(Place::Net).collect()))
+    Ok(found.map(|found| found.into_iter().map(SocketAddress::Net).collect()))
 }
 
 /// For methods whose only result is that all is well.
@@ -189,8 +189,8 @@ pub(super) type Done = Outcome<f64>;
 
 /// Runs `action` with the places, if there are any.
 pub(super) fn with_places(
-    places: std::result::Result<Vec<Place>, Failure>,
-    action: impl FnOnce(&[Place]) -> std::result::Result<(), Failure>,
+    places: std::result::Result<Vec<SocketAddress>, Failure>,
+    action: impl FnOnce(&[SocketAddress]) -> std::result::Result<(), Failure>,
 ) -> Done {
     done(places.and_then(|places| action(&places)))
 }

@@ -42,7 +42,9 @@ pub static CORE: Module = Module {
     ],
     ..Module::new("socket.core")
 };
+/// The module `socket.unix`.
 pub static UNIX: Module = Module { inner: &[FUNCTIONS], ..Module::new("socket.unix") };
+/// The module `ssl`.
 pub static SSL: Module =
     Module { inner: &[tls::FUNCTIONS, OBJECTS, methods::FUNCTIONS, stream::FUNCTIONS], ..Module::new("ssl") };
 

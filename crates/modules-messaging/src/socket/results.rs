@@ -9,7 +9,7 @@ use script::IntoScript;
 use script::{ApiError, Object, Sink};
 
 /// The most memory that is kept for the next call.
-const KEPT: usize = 1 << 16;
+const MAX_KEPT_CAPACITY: usize = 1 << 16;
 
 /// A value, or nil and why there is none.
 pub(super) struct Outcome<T>(pub std::result::Result<T, Failure>);
@@ -66,7 +66,7 @@ impl IntoScript for Received {
 
     fn into_script<S: Sink>(self, sink: &mut S) -> Result<()> {
         push_progress(sink, self.result, |sink| sink.text(&self.data))?;
-        if self.data.capacity() <= KEPT {
+        if self.data.capacity() <= MAX_KEPT_CAPACITY {
             self.sockets.space.set(self.data);
         }
         Ok(())

@@ -19,9 +19,9 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 ];
 
 /// Iterations of one call: more would not end in a reasonable time.
-const MOST_ITERATIONS: i64 = 100_000;
+const MAX_ITERATIONS: i64 = 100_000;
 /// Smaller changes of the damping are ignored (spec: kinematics 2).
-const SMALLEST_CHANGE: f64 = 1e-4;
+const MIN_CHANGE: f64 = 1e-4;
 
 pub(super) fn group(raw: i64) -> kinematics::Result<GroupId> {
     GroupId::from_raw(raw).ok_or(KinematicsError::NoSuchGroup)
@@ -103,10 +103,10 @@ fn set_group_calculation(
     let damping = finite(damping)?;
     change(cx, environment_handle, ik_group_handle, |group| {
         group.method = method;
-        if (group.damping - damping).abs() >= SMALLEST_CHANGE {
+        if (group.damping - damping).abs() >= MIN_CHANGE {
             group.damping = damping;
         }
-        group.iterations = max_iterations.0.clamp(0, MOST_ITERATIONS) as u32;
+        group.iterations = max_iterations.0.clamp(0, MAX_ITERATIONS) as u32;
     })
 }
 

@@ -1,6 +1,6 @@
 //! `simIK`: forward and inverse kinematics of mechanisms that are modelled in environments of their own (spec: kinematics).
 //!
-//! The solver is that of `kinematics`; `crate::ik` copies chains of the scene. What calls scripts again and again or needs other modules (options, postures that a callback
+//! The solver is that of `kinematics`; the crate `ik` copies chains of the scene. What calls scripts again and again or needs other modules (options, postures that a callback
 //! accepts, paths, overlays) is in `lua/modules/simIK.lua`.
 
 mod elements;
@@ -21,6 +21,7 @@ use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 use ::scene::{SceneError, special};
 use environments::{Held, environment};
 
+/// The module `simIK`.
 pub static MODULE: Module = Module {
     about: "Forward and inverse kinematics of mechanisms.",
     functions: &[

@@ -18,6 +18,7 @@ mod tasks;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 
+/// The module `simOMPL`.
 pub static MODULE: Module = Module {
     about: "Motion planning by sampling.",
     functions: &[

@@ -16,7 +16,7 @@ use script::Number;
 pub(super) const FUNCTIONS: &[ApiFn] = functions![get_path, simplify_path, interpolate_path];
 
 /// Numbers of a path at most: more would not fit into the memory of a script.
-const MOST_NUMBERS: usize = 1 << 24;
+const MAX_NUMBERS: usize = 1 << 24;
 
 /// States one after the other.
 pub(super) fn flat(states: &[State]) -> Vec<f64> {
@@ -81,7 +81,7 @@ pub(super) fn interpolate(cx: &Cx, task: &Rc<RefCell<Task>>, count: i64) -> Resu
             found.states.windows(2).map(parts).fold(1, usize::saturating_add)
         }
     };
-    if needed.saturating_mul(setup.space.dimension()) > MOST_NUMBERS {
+    if needed.saturating_mul(setup.space.dimension()) > MAX_NUMBERS {
         return Err(refused(format!("a path of {needed} states is too long.")));
     }
     found.states = match count {

@@ -21,10 +21,10 @@ use script::step::wall_clock;
 
 /// Checks and iterations that a second stands for.
 const STEPS_PER_SECOND: f64 = 20_000.0;
-/// Steps of the shortest time.
-const LEAST_STEPS: u64 = 100;
+/// Steps of a search, however short its time limit.
+const MIN_STEPS: u64 = 100;
 /// Length of a cell of projected states.
-const CELL: f64 = 0.05;
+const CELL_SIZE: f64 = 0.05;
 
 /// How long planning may take.
 #[derive(Debug, Clone, Copy)]
@@ -39,7 +39,7 @@ impl Limit {
     /// So many seconds; none for what is no number.
     pub(super) fn seconds(seconds: f64) -> Self {
         let time = Duration::try_from_secs_f64(seconds.max(0.0)).unwrap_or(Duration::MAX);
-        Self { steps: ((seconds * STEPS_PER_SECOND) as u64).max(LEAST_STEPS), time }
+        Self { steps: ((seconds * STEPS_PER_SECOND) as u64).max(MIN_STEPS), time }
     }
 }
 
@@ -89,7 +89,7 @@ impl<'a, 'cx> Session<'a, 'cx> {
             },
             projection: Some(Projection {
                 size,
-                cell: CELL,
+                cell: CELL_SIZE,
                 project: Box::new(move |state| self.or_end(self.project(state), vec![0.0; size])),
             }),
             resolution: self.setup.resolution,
@@ -162,7 +162,7 @@ impl<'a, 'cx> Session<'a, 'cx> {
                 dummies.nearness(Mover::scene(&displaced))
             })?,
         };
-        // What is no number is no estimate.
+        // NaN is not an estimate.
         let distance = if nearness.distance.is_nan() { f64::INFINITY } else { nearness.distance };
         Ok(Nearness { distance, ..nearness })
     }
@@ -219,7 +219,7 @@ impl World for &Session<'_, '_> {
         if self.cx.borrow().is_interrupted() {
             self.or_end(Err(ApiError::Interrupted), ());
         }
-        let is_late = || steps >= LEAST_STEPS && self.begun.elapsed() > self.limit.time;
+        let is_late = || steps >= MIN_STEPS && self.begun.elapsed() > self.limit.time;
         self.failure.borrow().is_some() || steps >= self.limit.steps || is_late()
     }
 

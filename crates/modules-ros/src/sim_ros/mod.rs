@@ -12,6 +12,7 @@ mod topics;
 use super::{ApiError, ApiFn, Cx, Module, Result, functions, ros_values};
 use script::Hooks;
 
+/// The module `simROS`.
 pub static MODULE: Module = Module {
     about: "A node of ROS 1: topics, services, parameters, transforms, images. A master is needed, but no installation of ROS.",
     functions: &[

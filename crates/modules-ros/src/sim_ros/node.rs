@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use api_macro::api;
 use ros_interfaces::{Catalogue, Generation, InterfaceError, InterfaceKind, Layout, TypeName, Value};
-use ros1::{MessageType, Network, Parameter, ServiceType, Settings, Subscriber};
+use ros1::{MessageType, Network, NodeSettings, Parameter, ServiceType, Subscriber};
 
 use super::services::{Client, Service};
 use super::topics::{Publisher, Subscription};
@@ -130,7 +130,7 @@ pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
     Ok(running)
 }
 
-fn settings(cx: &Cx) -> Result<Settings> {
+fn settings(cx: &Cx) -> Result<NodeSettings> {
     let options = &cx.options().ros;
     let name =
         cx.app().named_params.get("ROSInterface.nodeName").map(|name| String::from_utf8_lossy(name).into_owned());
@@ -144,7 +144,7 @@ fn settings(cx: &Cx) -> Result<Settings> {
             Network::Address(address)
         }
     };
-    Ok(Settings {
+    Ok(NodeSettings {
         master: options.master_uri().into(),
         network,
         namespace: options.namespace.clone(),

@@ -19,6 +19,7 @@ use super::ros_values;
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 use script::Hooks;
 
+/// The module `simROS2`.
 pub static MODULE: Module = Module {
     about: "A node of ROS 2: topics, services, actions, parameters, transforms, images. No installation of ROS is needed.",
     functions: &[

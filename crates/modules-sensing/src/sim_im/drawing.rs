@@ -42,8 +42,8 @@ fn pen(Ints([red, green, blue]): Ints<3>, line_type: Number) -> Result<Pen> {
 
 /// Divisor of a fixed-point number with `shift` binary digits after the point.
 fn divisor(shift: Number) -> Result<f64> {
-    const MOST: i64 = 16;
-    let is_possible = (0..=MOST).contains(&shift.0);
+    const MAX_SHIFT: i64 = 16;
+    let is_possible = (0..=MAX_SHIFT).contains(&shift.0);
     if is_possible { Ok(f64::from(1u32 << shift.0)) } else { Err(MatrixError::Range("the shift").into()) }
 }
 

@@ -22,7 +22,7 @@ const FORMATS: [PixelFormat; 6] = [
 ];
 const FIRST_FORMAT: i64 = 3600;
 /// `simIM.format._8UC3`.
-const USUAL: i64 = 3601;
+const DEFAULT_FORMAT: i64 = 3601;
 
 fn format_of(number: i64) -> Result<PixelFormat> {
     let at = number.checked_sub(FIRST_FORMAT).and_then(|at| usize::try_from(at).ok());
@@ -57,7 +57,7 @@ fn create(
     cx: &Cx,
     width: Number,
     height: Number,
-    #[default(USUAL, "simIM.format._8UC3")] format: Number,
+    #[default(DEFAULT_FORMAT, "simIM.format._8UC3")] format: Number,
     #[default(0)] initial_value: Number,
 ) -> Result<String> {
     let [width, height] = sides(width.0, height.0)?;
@@ -78,7 +78,7 @@ fn create_from_data(
     width: Number,
     height: Number,
     data: Bytes,
-    #[default(USUAL, "simIM.format._8UC3")] format: Number,
+    #[default(DEFAULT_FORMAT, "simIM.format._8UC3")] format: Number,
 ) -> Result<String> {
     let (size, format) = (sides(width.0, height.0)?, format_of(format.0)?);
     if format.channels == 1 {

@@ -16,6 +16,7 @@ mod vectors;
 
 use super::Module;
 
+/// The module `simIM`.
 pub static MODULE: Module = Module {
     about: "Image processing as OpenCV does it.",
     functions: &[

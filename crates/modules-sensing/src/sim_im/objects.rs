@@ -15,7 +15,7 @@ const KIND: &str = "cv.Mat";
 /// Handles of one script.
 const NUMBERS_PER_SCRIPT: u64 = 1 << 32;
 /// Bytes of all images of a script.
-const MOST_BYTES: usize = 2 << 30;
+const MAX_BYTES: usize = 2 << 30;
 
 /// Images of a script. They are dropped with the script's state.
 #[derive(Default)]
@@ -72,7 +72,7 @@ impl Images {
         let mut images = self.images.borrow_mut();
         let old = images.get(&number).map_or(0, |image| byte_count(image));
         let bytes = self.bytes.get() - old + byte_count(&image);
-        if bytes > MOST_BYTES {
+        if bytes > MAX_BYTES {
             return Err(ApiError::Other("the images of a script take 2 GiB at most: destroy some.".into()));
         }
         self.bytes.set(bytes);

@@ -23,7 +23,7 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 /// `sim.handleflag_abscoords`.
 const IN_WORLD: i64 = 0x80_0000;
 /// Points of one packet.
-const MOST_POINTS: i64 = 1 << 24;
+const MAX_POINTS: i64 = 1 << 24;
 
 /// 32-bit floats as bytes.
 pub(super) fn packet(values: impl IntoIterator<Item = f64>) -> Bytes {
@@ -209,7 +209,7 @@ fn points(
     take: impl FnOnce(&RgbImage, &Optics, [usize; 2]) -> Vec<Point>,
 ) -> Result<(bool, Bytes, Option<Bytes>)> {
     let &[columns, rows, ..] = counts else { return Err(wrong_size(2)) };
-    if columns < 1 || rows < 1 || columns.checked_mul(rows).is_none_or(|count| count > MOST_POINTS) {
+    if columns < 1 || rows < 1 || columns.checked_mul(rows).is_none_or(|count| count > MAX_POINTS) {
         return Err(wrong(2));
     }
     let seen = of_sensor(cx, sensor, |sensor| Some(optics(&sensor.view)));

@@ -232,7 +232,7 @@ fn convolve(cx: &Cx, sensor: SensorArgument, passes: i64, kernel: &Kernel) -> Re
             let next = set.work.convolved(kernel);
             std::mem::replace(&mut set.work, next)
         })?;
-        // Further passes change nothing.
+        // Further passes would change nothing.
         if with_images(cx, sensor, |set| set.work == before)? {
             break;
         }

@@ -13,6 +13,7 @@ mod velodyne;
 
 use super::Module;
 
+/// The module `simVision`.
 pub static MODULE: Module = Module {
     about: "Image processing of vision sensors.",
     functions: &[

@@ -1,4 +1,4 @@
-//! The native part of `simUI` (`lua/modules/simUI.lua`): windows of scripts. Windows and widgets are in `crate::ui`; nothing is drawn here.
+//! The native part of `simUI` (`lua/modules/simUI.lua`): windows of scripts. Windows and widgets are in the crate `ui`; nothing is drawn here.
 
 mod arguments;
 mod boxes;
@@ -15,6 +15,7 @@ mod windows;
 
 use super::Module;
 
+/// The module `simUI`.
 pub static MODULE: Module = Module {
     about: "Windows with buttons, sliders, tables and plots.",
     functions: &[

@@ -98,7 +98,7 @@ fn read_text(path: &Path) -> Result<(String, String), InterfaceError> {
     };
     let mut text = String::new();
     let file = fs::File::open(path).map_err(error)?;
-    // One byte more than allowed: the parser says so.
+    // One byte more than allowed is read, so that the parser reports the size.
     file.take(limits::TEXT as u64 + 1).read_to_string(&mut text).map_err(error)?;
     Ok((path.display().to_string(), text))
 }

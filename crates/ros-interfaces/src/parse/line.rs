@@ -137,7 +137,7 @@ fn without_comment(text: &str) -> &str {
             Some(_) if c == '\\' => escaped = true,
             Some(open) if c == open => quote = None,
             None if c == '#' => return text[..index].trim_end(),
-            // An apostrophe within a word opens nothing.
+            // An apostrophe within a word does not begin a quoted text.
             None if matches!(c, '"' | '\'') && opens(&text[..index]) => quote = Some(c),
             _ => {}
         }

@@ -97,15 +97,15 @@ impl Drop for Server {
         self.shared.is_closing.store(true, Ordering::Release);
         // Ends the wait for connections.
         let loopback = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), self.address.port());
-        let woken = TcpStream::connect_timeout(&loopback, limits::PATIENCE);
+        let woken = TcpStream::connect_timeout(&loopback, limits::TIMEOUT);
         if let Some(thread) = self.thread.take()
             && woken.is_ok()
         {
-            // It accepts and looks at what has just been set; if it has panicked, it has ended.
+            // The thread wakes up from `accept` and sees that it is to end; if it has panicked, it has ended.
             let _ = thread.join();
         }
         for stream in self.shared.connections().open.values() {
-            // One that has ended already needs no end.
+            // Shutting down fails only if the connection is closed already.
             let _ = stream.shutdown(Shutdown::Both);
         }
     }

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 pub(super) use simulate::{Job, simulate};
-pub use store::{Error, Store};
+pub use store::{Store, StoreError};
 
 use super::Config;
 use super::case::{Outcome, Status, TestCase};
@@ -22,6 +22,7 @@ use super::workers::{Message, Task, work};
 pub struct Batch {
     /// A scene, as for `swanilda run`.
     pub scene: PathBuf,
+    /// The seeds of the simulator; every combination is run with each.
     pub seeds: Vec<u32>,
     /// Parameters with the values each takes; every combination is run.
     pub sweeps: Vec<(String, Vec<String>)>,
@@ -36,6 +37,7 @@ pub struct Batch {
 pub struct Run {
     /// From 1, in the order of the combinations.
     pub number: usize,
+    /// The seed of the simulator.
     pub seed: u32,
     /// The swept parameters.
     pub params: Vec<(String, String)>,
@@ -44,12 +46,15 @@ pub struct Run {
 /// Result of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
+    /// The run.
     pub run: Run,
     /// Description of the failure.
     pub error: Option<String>,
+    /// Simulation steps.
     pub steps: u64,
     /// Simulated seconds.
     pub time: f64,
+    /// The results by their names, without `result.`.
     pub results: BTreeMap<String, String>,
 }
 

@@ -39,7 +39,7 @@ impl Scene {
     pub(super) fn read(path: &Path) -> Result<Self, String> {
         let input = SceneInput::read(path, &Permissions::all())?;
         if let SceneInput::File(file) = &input {
-            // Told before anything runs.
+            // A damaged file is reported before anything runs.
             file.scene().map_err(|error| format!("cannot read {}: {error}", path.display()))?;
         }
         Ok(Self { path: std::path::absolute(path).map_err(|error| error.to_string())?, input })

@@ -16,11 +16,14 @@ use permissions::Permissions;
 
 /// Why a folder is of no use.
 #[derive(Debug, thiserror::Error)]
-pub enum Error {
+pub enum StoreError {
+    /// The folder belongs to a batch of another scene or other runs.
     #[error("{0} holds the results of another batch: choose another folder, or begin anew with --force.")]
     Other(PathBuf),
+    /// The scene cannot be read.
     #[error("{0}")]
     Scene(String),
+    /// A file cannot be read or written.
     #[error("{0}: {1}")]
     Io(PathBuf, io::Error),
 }
@@ -37,14 +40,14 @@ impl Store {
     ///
     /// # Errors
     /// When it cannot be written, or holds another batch.
-    pub fn open(folder: &Path, batch: &Batch, anew: bool) -> Result<Self, Error> {
-        let about = |error| Error::Io(folder.to_owned(), error);
-        let description = describe(batch).map_err(Error::Scene)?;
+    pub fn open(folder: &Path, batch: &Batch, anew: bool) -> Result<Self, StoreError> {
+        let about = |error| StoreError::Io(folder.to_owned(), error);
+        let description = describe(batch).map_err(StoreError::Scene)?;
         fs::create_dir_all(folder).map_err(about)?;
         let (manifest, log) = (folder.join("batch.json"), folder.join("runs.jsonl"));
         let known = fs::read_to_string(&manifest).ok();
         if known.is_some() && known.as_deref() != Some(&description) && !anew {
-            return Err(Error::Other(folder.to_owned()));
+            return Err(StoreError::Other(folder.to_owned()));
         }
         fs::write(&manifest, description).map_err(about)?;
         let text = if anew { String::new() } else { fs::read_to_string(&log).unwrap_or_default() };
@@ -65,8 +68,8 @@ impl Store {
     ///
     /// # Errors
     /// When it cannot be written.
-    pub fn add(&mut self, row: Row) -> Result<(), Error> {
-        writeln!(self.log, "{}", line(&row)).map_err(|error| Error::Io(self.folder.clone(), error))?;
+    pub fn add(&mut self, row: Row) -> Result<(), StoreError> {
+        writeln!(self.log, "{}", line(&row)).map_err(|error| StoreError::Io(self.folder.clone(), error))?;
         self.rows.insert(row.run.number, row);
         Ok(())
     }
@@ -75,7 +78,7 @@ impl Store {
     ///
     /// # Errors
     /// When it cannot be written.
-    pub fn add_line(&mut self, text: &str, runs: &[Run]) -> Result<bool, Error> {
+    pub fn add_line(&mut self, text: &str, runs: &[Run]) -> Result<bool, StoreError> {
         let Some(row) = rows(text, runs).into_values().next() else { return Ok(false) };
         let is_new = !self.rows.contains_key(&row.run.number);
         if is_new {
@@ -98,8 +101,8 @@ impl Store {
     ///
     /// # Errors
     /// When a file cannot be written.
-    pub fn finish(&self) -> Result<PathBuf, Error> {
-        let about = |error| Error::Io(self.folder.clone(), error);
+    pub fn finish(&self) -> Result<PathBuf, StoreError> {
+        let about = |error| StoreError::Io(self.folder.clone(), error);
         let lines: String = self.rows.values().map(|row| line(row) + "\n").collect();
         replace(&self.folder.join("runs.jsonl"), &lines).map_err(about)?;
         let table = self.folder.join("results.csv");

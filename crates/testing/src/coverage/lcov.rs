@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use super::Record;
+use super::FileCoverage;
 
 /// All records, in the order of their names.
-pub(super) fn text(records: &BTreeMap<PathBuf, Record>) -> String {
+pub(super) fn text(records: &BTreeMap<PathBuf, FileCoverage>) -> String {
     let mut text = String::new();
     for (path, record) in records {
         // Writing to a string does not fail.
@@ -16,7 +16,7 @@ pub(super) fn text(records: &BTreeMap<PathBuf, Record>) -> String {
     text
 }
 
-fn write_record(text: &mut String, path: &Path, record: &Record) -> std::fmt::Result {
+fn write_record(text: &mut String, path: &Path, record: &FileCoverage) -> std::fmt::Result {
     writeln!(text, "TN:\nSF:{}", one_line(path))?;
     write_functions(text, record)?;
     for (line, count) in &record.lines {
@@ -30,7 +30,7 @@ fn one_line(path: &Path) -> String {
     path.display().to_string().replace(|c: char| c.is_control(), "_")
 }
 
-fn write_functions(text: &mut String, record: &Record) -> std::fmt::Result {
+fn write_functions(text: &mut String, record: &FileCoverage) -> std::fmt::Result {
     let names = names(record);
     for (function, name) in record.functions.iter().zip(&names) {
         writeln!(text, "FN:{},{name}", function.line)?;
@@ -43,7 +43,7 @@ fn write_functions(text: &mut String, record: &Record) -> std::fmt::Result {
 }
 
 /// LCOV knows functions by their names, so each must have one of its own.
-fn names(record: &Record) -> Vec<String> {
+fn names(record: &FileCoverage) -> Vec<String> {
     let mut known = HashSet::new();
     let name = |function: &script::coverage::Function| {
         let name = function.name.clone().unwrap_or_else(|| format!("anonymous@{}", function.line));
@@ -54,14 +54,14 @@ fn names(record: &Record) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Record;
+    use super::super::FileCoverage;
     use super::text;
     use script::executable;
 
     #[test]
     fn the_format_is_that_of_lcov() {
         let source = b"function f(x)\n  if x then\n    x = 1\n  end\nend\nf()\nlocal f = function()\n  f()\nend\n";
-        let mut record = Record::new(executable(source).expect("it compiles"));
+        let mut record = FileCoverage::new(executable(source).expect("it compiles"));
         record.add(&[1, 1, 0, 0, 0, 1]);
         let expected = "TN:\nSF:a/b.lua\nFN:1,f\nFN:7,f@7\nFNDA:1,f\nFNDA:0,f@7\nFNF:2\nFNH:1\n\
             DA:1,1\nDA:2,1\nDA:3,0\nDA:6,1\nDA:8,0\nLF:5\nLH:3\nend_of_record\n";
@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn a_file_name_is_one_line() {
-        let record = Record::new(executable(b"x = 1").expect("it compiles"));
+        let record = FileCoverage::new(executable(b"x = 1").expect("it compiles"));
         let text = text(&[("a\nend_of_record\r.lua".into(), record)].into());
         assert!(text.starts_with("TN:\nSF:a_end_of_record_.lua\nFN"), "{text}");
     }

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-pub use record::Record;
+pub use record::FileCoverage;
 
 use place::Places;
 use script::coverage::{CountedText, Function, LineCounts};
@@ -22,7 +22,7 @@ use script::executable;
 #[derive(Debug, Default)]
 pub struct Coverage {
     /// By the name of the file.
-    pub records: BTreeMap<PathBuf, Record>,
+    pub records: BTreeMap<PathBuf, FileCoverage>,
     /// Copies to write of the texts that have no file.
     copies: BTreeMap<PathBuf, Vec<u8>>,
     /// How many times longer short lines of Lua take that are counted, if that could be measured.
@@ -52,7 +52,7 @@ impl Coverage {
         let Some(place) = places.of(text) else { return };
         let functions = functions.or_else(|| executable(&place.text));
         let Some(functions) = functions.filter(|functions| !functions.is_empty()) else { return };
-        let record = self.records.entry(place.path.clone()).or_insert_with(|| Record::new(functions));
+        let record = self.records.entry(place.path.clone()).or_insert_with(|| FileCoverage::new(functions));
         record.add(counts);
         if place.is_copy {
             self.copies.insert(place.path, place.text);

@@ -9,14 +9,14 @@ pub type Line = u32;
 
 /// Counts of the lines of a text.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Record {
+pub struct FileCoverage {
     /// All lines that can run.
     pub lines: BTreeMap<Line, u64>,
     /// The functions of more than one line.
     pub functions: Vec<Function>,
 }
 
-impl Record {
+impl FileCoverage {
     pub(super) fn new(mut functions: Vec<Function>) -> Self {
         let lines = functions.iter().flat_map(|function| &function.lines).map(|&line| (line, 0)).collect();
         // For a function in one line it is unknown whether it was called or only created.
@@ -59,19 +59,19 @@ impl Record {
 
 #[cfg(test)]
 mod tests {
-    use super::Record;
+    use super::FileCoverage;
 
     #[test]
     fn missed_lines_are_listed_as_ranges() {
         let counts = [(1, 1), (2, 0), (4, 0), (5, 3), (9, 0)];
-        let record = Record { lines: counts.into(), functions: Vec::new() };
+        let record = FileCoverage { lines: counts.into(), functions: Vec::new() };
         assert_eq!(record.missed(), [(2, 4), (9, 9)]);
         assert_eq!(record.hit(), 2);
     }
 
     #[test]
     fn counts_are_summed_over_the_lines_that_can_run() {
-        let mut record = Record { lines: [(2, 1), (3, 0)].into(), functions: Vec::new() };
+        let mut record = FileCoverage { lines: [(2, 1), (3, 0)].into(), functions: Vec::new() };
         record.add(&[7, 2]);
         assert_eq!(record.lines, [(2, 3), (3, 0)].into());
     }

@@ -9,19 +9,29 @@ use script::test_bench::{Tolerances, Trace};
 pub enum Difference {
     /// They are not of the same quantities.
     Columns {
+        /// Columns of the file that the test has not recorded.
         missing: Vec<String>,
+        /// Columns of the test that are not in the file.
         new: Vec<String>,
     },
     /// They do not last equally long: the last times, seconds.
     Length {
+        /// Of the file.
         expected: f64,
+        /// Of the test.
         actual: f64,
     },
+    /// Values are off by more than their tolerances.
     Values {
+        /// The earliest of them.
         first: Divergence,
+        /// The largest in units of its tolerance.
         worst: Divergence,
+        /// Times that were compared.
         samples: usize,
+        /// Times at which a value is off.
         off: usize,
+        /// The columns that are off.
         columns: Vec<String>,
     },
 }
@@ -31,9 +41,13 @@ pub enum Difference {
 pub struct Divergence {
     /// Seconds.
     pub time: f64,
+    /// The name of the quantity.
     pub column: String,
+    /// The value of the file.
     pub expected: f64,
+    /// The value of the test.
     pub actual: f64,
+    /// The deviation that is allowed.
     pub tolerance: f64,
 }
 
@@ -105,9 +119,9 @@ fn interval(trace: &Trace) -> f64 {
 
 /// The shifts to try, the smallest first: quarters of the interval of samples.
 fn shifts(expected: &Trace, time: f64) -> impl Iterator<Item = f64> {
-    const MOST: f64 = 200.0;
-    let step = (interval(expected) / 4.0).max(time / MOST);
-    let count = if step > 0.0 { (time / step).floor().min(MOST) as i32 } else { 0 };
+    const MAX_SHIFTS: f64 = 200.0;
+    let step = (interval(expected) / 4.0).max(time / MAX_SHIFTS);
+    let count = if step > 0.0 { (time / step).floor().min(MAX_SHIFTS) as i32 } else { 0 };
     (0..=count).flat_map(move |i| [f64::from(i) * step, f64::from(-i) * step]).skip(1)
 }
 

@@ -25,25 +25,43 @@ const IF_RIGHT: &str = "If that is right, record it with --update-golden.";
 /// A recording of a test and its golden file.
 #[derive(Debug, Clone)]
 pub struct Comparison {
+    /// The name that the test has given it.
     pub name: String,
+    /// The golden file.
     pub path: PathBuf,
+    /// What was recorded now and before.
     pub recordings: Recordings,
+    /// How they compare.
     pub result: ComparisonResult,
 }
 
 /// Recordings of a test, and the content of the file.
 #[derive(Debug, Clone)]
 pub enum Recordings {
-    Traces { actual: Trace, expected: Option<Trace> },
-
-    Images { actual: Snapshot, expected: Option<RecordedImage> },
+    /// Samples of quantities over time.
+    Traces {
+        /// Of the test.
+        actual: Trace,
+        /// Of the file; None where there is none that can be read.
+        expected: Option<Trace>,
+    },
+    /// Images of a vision sensor.
+    Images {
+        /// Of the test.
+        actual: Snapshot,
+        /// Of the file; None where there is none that can be read.
+        expected: Option<RecordedImage>,
+    },
 }
 
 /// The result of a comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ComparisonResult {
+    /// All values are within their tolerances.
     Equal,
+    /// Traces that differ.
     Different(Difference),
+    /// Images that differ.
     DifferentImage(ImageDifference),
     /// There is no file.
     Missing,

@@ -15,7 +15,7 @@ use script::test_bench::Trace;
 const WIDTH: u32 = 900;
 const HEIGHT: u32 = 220;
 /// Quantities in one picture; more would not be looked at.
-const MOST: usize = 8;
+const MAX_CURVES: usize = 8;
 
 const EXPECTED: RGBColor = RGBColor(120, 120, 120);
 const ACTUAL: RGBColor = RGBColor(200, 60, 30);
@@ -58,7 +58,7 @@ fn shown(comparison: &Comparison) -> Option<Shown<'_>> {
     };
     let place = |name: &String| actual.columns.iter().position(|other| other == name);
     let columns = expected.columns.iter().enumerate().filter(|(_, name)| differs(name));
-    let columns: Vec<_> = columns.filter_map(|(i, name)| Some((i, place(name)?))).take(MOST).collect();
+    let columns: Vec<_> = columns.filter_map(|(i, name)| Some((i, place(name)?))).take(MAX_CURVES).collect();
     (!columns.is_empty()).then_some(Shown { expected, actual, columns })
 }
 

@@ -30,14 +30,23 @@ pub struct RecordedImage {
 #[derive(Debug, Clone, PartialEq)]
 pub enum ImageDifference {
     /// Width and height, pixels.
-    Size { expected: [u32; 2], actual: [u32; 2] },
+    Size {
+        /// Of the file.
+        expected: [u32; 2],
+        /// Of the test.
+        actual: [u32; 2],
+    },
     /// Pixels of which a colour is off by more than the tolerance.
     Pixels {
+        /// How many there are.
         off: usize,
+        /// Of how many.
         of: usize,
-        /// The largest difference of a colour, 1 to 255, and the column and row (from the top) where it is.
+        /// The largest difference of a colour, 1 to 255.
         worst: u8,
+        /// Where that is: column and row, from the upper left corner.
         at: [usize; 2],
+        /// The difference of a colour that is allowed.
         tolerance: u8,
     },
 }

@@ -9,7 +9,7 @@ use super::{WORLD, timestamp};
 use crate::blobs::Hash;
 
 /// Frames are named by paths of at most so many objects: a recording may be damaged.
-const DEEPEST: usize = 100;
+const MAX_DEPTH: usize = 100;
 
 /// What is known of objects.
 #[derive(Default)]
@@ -75,7 +75,7 @@ impl Objects {
     pub(super) fn frame(&self, handle: i64) -> String {
         let mut names = Vec::new();
         let mut next = handle;
-        while let Some(object) = self.objects.get(&next).filter(|_| names.len() < DEEPEST) {
+        while let Some(object) = self.objects.get(&next).filter(|_| names.len() < MAX_DEPTH) {
             let alias = object["alias"].as_str().unwrap_or("object");
             let order = object["childOrder"].as_i64().filter(|order| *order >= 0);
             names.push(order.map_or_else(|| format!("/{alias}"), |order| format!("/{alias}[{order}]")));

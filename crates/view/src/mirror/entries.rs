@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::Revision;
 
 /// Keys of entries that are gone which are kept; a reader that has not heard of an older one begins anew.
-const MOST_REMOVED: usize = 10_000;
+const MAX_REMOVED: usize = 10_000;
 
 /// Entries by handle or name.
 pub(super) struct Entries<K, T> {
@@ -53,7 +53,7 @@ impl<K: Ord + Clone, T: PartialEq> Entries<K, T> {
         let (_, entry) = self.present.remove(&key)?;
         self.removed.insert(key, revision);
         self.last_change = revision;
-        if self.removed.len() > MOST_REMOVED {
+        if self.removed.len() > MAX_REMOVED {
             self.forget_removals();
         }
         Some(entry)

@@ -29,7 +29,6 @@ struct UsedBlob {
     blob: Arc<Blob>,
     users: usize,
     /// When it was first shown.
-    #[allow(dead_code, reason = "recordings contain blobs before their first use")]
     revision: Revision,
 }
 
@@ -178,7 +177,6 @@ impl Mirror {
     }
 
     /// Blobs that came after a revision, in the order of their names.
-    #[allow(dead_code, reason = "recordings contain blobs before their first use")]
     pub(crate) fn blobs_since(&self, seen: Revision) -> impl Iterator<Item = &Arc<Blob>> {
         self.blobs.values().filter(move |used| used.revision > seen).map(|used| &used.blob)
     }
@@ -217,7 +215,6 @@ impl Mirror {
     }
 
     /// The messages that bring a reader from a state up to the present one, and the number of that.
-    #[allow(dead_code, reason = "recordings read the mirror on the simulation's thread")]
     pub(crate) fn update_since(&self, seen: Revision) -> (Revision, Vec<Message>) {
         self.changes_since(seen).map_or((self.revision, Vec::new()), |changes| (changes.revision, changes.messages()))
     }

@@ -10,7 +10,7 @@ use scene::tree::button_interfaces::{Button, ButtonInterface, ButtonKind, button
 /// Buttons are at least as high on a page, pixels.
 const LEAST_HEIGHT: i32 = 24;
 /// Cells of a user interface and their pixels: more is a mistake of the file.
-const MOST_CELLS: i32 = 1000;
+const MAX_CELLS: i32 = 1000;
 const PREFIX: &str = "2DElement-";
 
 /// The user interfaces that pages were shown.
@@ -82,11 +82,11 @@ fn scale(interface: &ButtonInterface) -> f64 {
 }
 
 fn cells(count: i32) -> i32 {
-    count.clamp(0, MOST_CELLS)
+    count.clamp(0, MAX_CELLS)
 }
 
 fn pixels(size: i32) -> i32 {
-    size.clamp(0, MOST_CELLS)
+    size.clamp(0, MAX_CELLS)
 }
 
 /// Left, top, width, height.

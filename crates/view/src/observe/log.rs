@@ -5,7 +5,7 @@ use serde_json::json;
 use script::log::RecentLine;
 
 /// Characters of a line that pages get; the rest is cut off.
-const LONGEST: usize = 20_000;
+const MAX_CHARACTERS: usize = 20_000;
 
 /// A line as JSON.
 pub(super) fn describe(line: &RecentLine) -> String {
@@ -22,7 +22,7 @@ pub(super) fn describe(line: &RecentLine) -> String {
 }
 
 fn shortened(text: &str) -> &str {
-    text.char_indices().nth(LONGEST).map_or(text, |(end, _)| &text[..end])
+    text.char_indices().nth(MAX_CHARACTERS).map_or(text, |(end, _)| &text[..end])
 }
 
 /// The line in a message such as `[string "/Robot/Script"]:12: attempt ...`, or `12: attempt ...`.

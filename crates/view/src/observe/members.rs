@@ -67,16 +67,16 @@ fn colours(colour: &Colour) -> Value {
 
 fn mesh(scene: &Scene, part: &Part, meshes: &mut Meshes, blobs: &mut Blobs) -> Value {
     let blob = meshes.mesh(part);
-    let looks = &part.appearance;
+    let appearance = &part.appearance;
     let texture = part.texture.as_deref().and_then(|mapping| texture(scene, mapping, meshes, blobs));
     let value = json!({
         "blob": blob.hash.to_string(),
-        "color": colours(&looks.colour),
-        "transparency": 1.0 - looks.colour.opacity.clamp(0.0, 1.0),
-        "showEdges": looks.edges,
+        "color": colours(&appearance.colour),
+        "transparency": 1.0 - appearance.colour.opacity.clamp(0.0, 1.0),
+        "showEdges": appearance.edges,
         "edgeColor": [0.0, 0.0, 0.0],
-        "culling": looks.culling,
-        "wireframe": looks.wireframe,
+        "culling": appearance.culling,
+        "wireframe": appearance.wireframe,
         "texture": texture,
     });
     blobs.push(blob);

@@ -101,7 +101,7 @@ pub(crate) struct Observer {
     scene_uid: Option<i64>,
     /// Places of objects among their siblings.
     places: BTreeMap<Handle, usize>,
-    /// Objects whose looks change without the journal saying so: proximity sensors, and shapes that show what a vision sensor sees.
+    /// Objects whose appearance changes without the journal saying so: proximity sensors, and shapes that show what a vision sensor sees.
     restless: BTreeSet<Handle>,
     meshes: Meshes,
     moved: Moved,
@@ -241,7 +241,7 @@ impl Observer {
     }
 }
 
-/// Whether the looks of such an object change without the journal saying so.
+/// Whether the appearance of such an object changes without the journal saying so.
 fn is_restless(kind: &Kind) -> bool {
     match kind {
         Kind::ProximitySensor(_) => true,

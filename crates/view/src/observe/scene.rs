@@ -38,7 +38,7 @@ impl<'a> Source<'a> {
     pub(super) fn describe(&self) -> String {
         let settings = self.now.scene.settings();
         let name = self.name();
-        // A recording is for others: where the file was is nobody's business.
+        // Recordings are passed on, so they do not contain the path of the scene file.
         let path = if self.mode == RECORDING { &name } else { &settings.path };
         json!({
             "name": name,

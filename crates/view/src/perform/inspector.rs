@@ -30,7 +30,7 @@ fn describe(row: &PropertyRow) -> Value {
     })
 }
 
-/// The headings of the reference: pose and place, looks, physics, and the type's own.
+/// The headings of the reference: pose and place, appearance, physics, and the type's own.
 fn group(row: &PropertyRow) -> &'static str {
     let name = row.name.as_str();
     let begins = |words: &[&str]| words.iter().any(|word| name.starts_with(word));

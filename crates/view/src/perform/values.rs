@@ -5,11 +5,11 @@ use serde_json::{Value, json};
 use scene::{Data, Key, ValueType};
 
 /// Bytes of a text or list that pages get; longer ones are only counted.
-const LONGEST: usize = 2000;
+const MAX_SIZE: usize = 2000;
 
 /// A value as JSON: strings that are no UTF-8, and what is long, as `{"bytes": length}`.
 pub(super) fn to_json(value: &Data) -> Value {
-    if value.size() > LONGEST {
+    if value.size() > MAX_SIZE {
         return json!({ "bytes": value.size() });
     }
     match value {

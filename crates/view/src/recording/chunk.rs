@@ -19,8 +19,11 @@ pub enum Content<'a> {
     Text(&'a str),
     /// Begins with its kind.
     Binary(&'a [u8]),
+    /// A mesh, a texture or points, which other messages name by its hash.
     Blob {
+        /// The first bytes of the SHA-256 of `bytes`.
         hash: [u8; 16],
+        /// The content; its layout depends on its use.
         bytes: &'a [u8],
     },
 }
@@ -30,6 +33,7 @@ pub enum Content<'a> {
 pub struct TimedMessage<'a> {
     /// Seconds.
     pub time: f64,
+    /// What it contains.
     pub content: Content<'a>,
 }
 

@@ -8,7 +8,7 @@ use super::{CHUNK_HEAD, FILE_HEAD, RecordingError};
 use crate::blobs::Hash;
 
 /// Marks that are kept of each kind: nobody looks at more, and a script may fail at every step.
-const MOST_MARKS: usize = 10_000;
+const MAX_MARKS: usize = 10_000;
 
 /// Where a chunk is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,17 +26,24 @@ pub struct ChunkPlace {
 pub struct Mark {
     /// Seconds.
     pub time: f64,
+    /// What happened.
     pub kind: MarkKind,
+    /// What is shown of it.
     pub text: String,
     /// Of the object it is about.
     pub handle: Option<i64>,
 }
 
+/// What a mark stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MarkKind {
+    /// An error of a script.
     Error,
+    /// A signal was set or cleared.
     Signal,
+    /// A script sent a message to all others.
     Broadcast,
+    /// Two objects touched.
     Contact,
     /// Of a test.
     Failure,
@@ -63,19 +70,22 @@ pub struct Index {
     pub name: String,
     /// Times of the first and the last message, seconds.
     pub start: f64,
+    /// Time of the last message, seconds.
     pub end: f64,
     /// Seconds.
     pub time_step: f64,
+    /// The chunks, in the order of time.
     pub chunks: Vec<ChunkPlace>,
     /// In which chunk each blob is.
     pub blobs: BTreeMap<Hash, usize>,
+    /// What happened, in the order of time.
     pub marks: Vec<Mark>,
 }
 
 impl Index {
     /// Adds a mark, unless there are very many of its kind.
     pub(crate) fn mark(&mut self, mark: Mark) {
-        if self.marks.iter().filter(|other| other.kind == mark.kind).count() < MOST_MARKS {
+        if self.marks.iter().filter(|other| other.kind == mark.kind).count() < MAX_MARKS {
             self.marks.push(mark);
         }
     }

@@ -17,7 +17,7 @@ mod writer;
 
 pub use chunk::{Content, messages};
 pub use format::RecordingError;
-use format::{CHUNK_HEAD, END, FILE_END, FILE_HEAD, LARGEST_CHUNK, MAGIC, VERSION};
+use format::{CHUNK_HEAD, END, FILE_END, FILE_HEAD, MAGIC, MAX_CHUNK, VERSION};
 pub use graphs::read as graphs;
 use index::ChunkPlace;
 pub(crate) use index::{Index, Mark, MarkKind};

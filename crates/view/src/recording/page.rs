@@ -35,7 +35,7 @@ pub fn html<R: Read + Seek>(
         let chunk = STANDARD.encode(gzip(&recording.chunk(number)?)?);
         writeln!(out, "<script type=\"application/octet-stream\" data-chunk=\"{number}\">{chunk}</script>")?;
     }
-    // In a script, this would end it.
+    // Within a script element, `</` could end it.
     let program = program.replace("</script", "<\\/script");
     write!(out, "<script type=\"module\">\n{program}</script>{end}")?;
     Ok(out.flush()?)

@@ -7,8 +7,7 @@ use serde_json::Value;
 
 use super::chunk::{self, Content};
 use super::{
-    CHUNK_HEAD, ChunkPlace, END, FILE_END, FILE_HEAD, Index, LARGEST_CHUNK, MAGIC, Mark, MarkKind, RecordingError,
-    VERSION,
+    CHUNK_HEAD, ChunkPlace, END, FILE_END, FILE_HEAD, Index, MAGIC, MAX_CHUNK, Mark, MarkKind, RecordingError, VERSION,
 };
 use crate::blobs::Hash;
 
@@ -43,6 +42,7 @@ impl<R: Read + Seek> Recording<R> {
         Ok(Self { file, index })
     }
 
+    /// What the recording contains.
     pub fn index(&self) -> &Index {
         &self.index
     }
@@ -114,7 +114,7 @@ fn read_at(file: &mut (impl Read + Seek), place: u64, end: u64) -> Result<(Head,
         time: f64::from_le_bytes(time),
     };
     let length = u64::from(head.length);
-    if length > LARGEST_CHUNK || end.saturating_sub(place + CHUNK_HEAD) < length {
+    if length > MAX_CHUNK || end.saturating_sub(place + CHUNK_HEAD) < length {
         return Err(RecordingError::Damaged("it is cut off"));
     }
     let mut bytes = vec![0; head.length as usize];
@@ -122,7 +122,7 @@ fn read_at(file: &mut (impl Read + Seek), place: u64, end: u64) -> Result<(Head,
     if crc32fast::hash(&bytes) != head.sum {
         return Err(RecordingError::Damaged("a sum is wrong"));
     }
-    Ok((head, chunk::decompress(&bytes, LARGEST_CHUNK)?))
+    Ok((head, chunk::decompress(&bytes, MAX_CHUNK)?))
 }
 
 /// The index of a file that has none: of all chunks up to the first that is not whole.

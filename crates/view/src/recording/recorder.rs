@@ -28,8 +28,10 @@ pub(crate) struct Recorder<W> {
 /// What is recorded of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Recorded {
+    /// Objects, windows, graphs and the log.
     #[default]
     Scene,
+    /// Also the images of vision sensors.
     SceneAndImages,
 }
 

@@ -37,7 +37,7 @@ impl<W: Write> Writer<W> {
 
     /// Whether the next message shall be in another chunk.
     pub(crate) fn chunk_is_full(&self, time: f64) -> bool {
-        // Times are sums of steps: a millionth of a second is none.
+        // Times are sums of steps: differences below a microsecond are rounding errors.
         self.chunk.is_empty() || self.chunk.len() >= CHUNK_SIZE || time - self.begun > CHUNK_DURATION - 1e-6
     }
 
@@ -64,7 +64,7 @@ impl<W: Write> Writer<W> {
         all.extend(crc32fast::hash(&compressed).to_le_bytes());
         all.extend(time.to_le_bytes());
         all.extend(compressed);
-        // All at once: a run that is killed leaves whole chunks.
+        // A chunk is written in one call, so that a run that is killed leaves only complete chunks.
         self.file.write_all(&all)?;
         self.file.flush()?;
         Ok(length)

@@ -19,7 +19,7 @@ pub(crate) use recorded::RecordedSite;
 pub(crate) use site::ViewSite;
 
 /// Requests that wait for the simulation; more are refused.
-const MOST_REQUESTS: usize = 1000;
+const MAX_REQUESTS: usize = 1000;
 
 /// Number of a page, as long as it is connected.
 pub(crate) type PageId = u64;
@@ -118,10 +118,10 @@ impl Shared {
     }
 
     /// The next request; waits for one up to a time limit.
-    pub(crate) fn next_request(&self, patience: Duration) -> Option<Pending> {
+    pub(crate) fn next_request(&self, timeout: Duration) -> Option<Pending> {
         let mut requests = lock(&self.requests);
-        if requests.is_empty() && !patience.is_zero() {
-            let waited = self.arrived.wait_timeout(requests, patience);
+        if requests.is_empty() && !timeout.is_zero() {
+            let waited = self.arrived.wait_timeout(requests, timeout);
             requests = waited.unwrap_or_else(PoisonError::into_inner).0;
         }
         requests.pop_front()
@@ -130,7 +130,7 @@ impl Shared {
     /// A request waits for the simulation; false when there is no room.
     fn submit(&self, pending: Pending) -> bool {
         let mut requests = lock(&self.requests);
-        let has_room = requests.len() < MOST_REQUESTS;
+        let has_room = requests.len() < MAX_REQUESTS;
         if has_room {
             requests.push_back(pending);
             self.arrived.notify_one();

@@ -4,6 +4,7 @@
 pub struct QuotedPrintable<'a> {
     /// The representation of a line end.
     pub marker: &'a [u8],
+    /// Bytes that are not encoded yet, because what follows decides how.
     pub pending: Vec<u8>,
 }
 

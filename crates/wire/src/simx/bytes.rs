@@ -4,20 +4,23 @@ use super::Violation;
 
 /// The byte order of a client.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Order {
+pub enum ByteOrder {
+    /// Least significant byte first.
     #[default]
     Little,
+    /// Most significant byte first.
     Big,
 }
 
 /// Reads fields one after the other.
-pub struct Reader<'a> {
+pub struct FieldReader<'a> {
     bytes: &'a [u8],
-    order: Order,
+    order: ByteOrder,
 }
 
-impl<'a> Reader<'a> {
-    pub fn new(bytes: &'a [u8], order: Order) -> Self {
+impl<'a> FieldReader<'a> {
+    /// Reads `bytes`, whose numbers are in that order.
+    pub fn new(bytes: &'a [u8], order: ByteOrder) -> Self {
         Self { bytes, order }
     }
 
@@ -36,20 +39,23 @@ impl<'a> Reader<'a> {
         std::mem::take(&mut self.bytes)
     }
 
+    /// Whether nothing is left to read.
     pub fn is_empty(&self) -> bool {
         self.bytes.is_empty()
     }
 
     fn array<const N: usize>(&mut self) -> Result<[u8; N], Violation> {
         let mut array: [u8; N] = self.take(N)?.try_into().map_err(|_| Violation::Malformed)?;
-        if self.order == Order::Big {
+        if self.order == ByteOrder::Big {
             array.reverse();
         }
         Ok(array)
     }
 
+    /// The next byte.
+    ///
     /// # Errors
-    /// As all readers of numbers: when there are not enough bytes.
+    /// When there are not enough bytes.
     pub fn byte(&mut self) -> Result<u8, Violation> {
         self.array().map(u8::from_le_bytes)
     }
@@ -60,18 +66,24 @@ impl<'a> Reader<'a> {
         self.array().map(u16::from_le_bytes)
     }
 
+    /// The next integer of 32 bits.
+    ///
     /// # Errors
     /// When there are not enough bytes.
     pub fn int(&mut self) -> Result<i32, Violation> {
         self.array().map(i32::from_le_bytes)
     }
 
+    /// The next size or count, an integer of 32 bits.
+    ///
     /// # Errors
     /// When there are not enough bytes, or the number is negative.
     pub fn size(&mut self) -> Result<usize, Violation> {
         usize::try_from(self.int()?).map_err(|_| Violation::Malformed)
     }
 
+    /// The next float of 32 bits.
+    ///
     /// # Errors
     /// When there are not enough bytes.
     pub fn float(&mut self) -> Result<f32, Violation> {
@@ -92,31 +104,35 @@ impl<'a> Reader<'a> {
 
 /// Writes fields one after the other.
 #[derive(Default)]
-pub struct Writer {
+pub struct FieldWriter {
     bytes: Vec<u8>,
-    order: Order,
+    order: ByteOrder,
 }
 
-impl Writer {
-    pub fn new(order: Order) -> Self {
+impl FieldWriter {
+    /// An empty message, whose numbers are going to be in that order.
+    pub fn new(order: ByteOrder) -> Self {
         Self { bytes: Vec::new(), order }
     }
 
+    /// What was written.
     pub fn into_bytes(self) -> Vec<u8> {
         self.bytes
     }
 
+    /// Appends bytes as they are.
     pub fn bytes(&mut self, bytes: &[u8]) {
         self.bytes.extend_from_slice(bytes);
     }
 
     fn array<const N: usize>(&mut self, mut array: [u8; N]) {
-        if self.order == Order::Big {
+        if self.order == ByteOrder::Big {
             array.reverse();
         }
         self.bytes(&array);
     }
 
+    /// Appends one byte.
     pub fn byte(&mut self, value: u8) {
         self.bytes.push(value);
     }
@@ -125,6 +141,7 @@ impl Writer {
         self.array(value.to_le_bytes());
     }
 
+    /// Appends an integer of 32 bits.
     pub fn int(&mut self, value: i32) {
         self.array(value.to_le_bytes());
     }
@@ -134,6 +151,7 @@ impl Writer {
         self.int(i32::try_from(value).unwrap_or(i32::MAX));
     }
 
+    /// Appends a float of 32 bits.
     pub fn float(&mut self, value: f32) {
         self.array(value.to_le_bytes());
     }
@@ -151,8 +169,8 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_in_both_orders() {
-        for order in [Order::Little, Order::Big] {
-            let mut writer = Writer::new(order);
+        for order in [ByteOrder::Little, ByteOrder::Big] {
+            let mut writer = FieldWriter::new(order);
             writer.byte(7);
             writer.short(0x1234);
             writer.int(-2);
@@ -160,7 +178,7 @@ mod tests {
             writer.text(b"ab\0c");
             writer.bytes(b"rest");
             let bytes = writer.into_bytes();
-            let mut reader = Reader::new(&bytes, order);
+            let mut reader = FieldReader::new(&bytes, order);
             assert_eq!((reader.byte(), reader.short(), reader.int()), (Ok(7), Ok(0x1234), Ok(-2)));
             assert_eq!((reader.float(), reader.text()), (Ok(0.5), Ok(&b"ab"[..])));
             assert_eq!((reader.rest(), reader.is_empty()), (&b"rest"[..], true));
@@ -169,15 +187,15 @@ mod tests {
 
     #[test]
     fn the_order_is_that_of_the_bytes() {
-        let mut writer = Writer::new(Order::Big);
+        let mut writer = FieldWriter::new(ByteOrder::Big);
         writer.int(5);
         assert_eq!(writer.into_bytes(), [0, 0, 0, 5]);
     }
 
     #[test]
     fn what_is_not_there_is_an_error() {
-        assert_eq!(Reader::new(&[1, 2, 3], Order::Little).int(), Err(Violation::Malformed));
-        assert_eq!(Reader::new(b"no end", Order::Little).text(), Err(Violation::Malformed));
-        assert_eq!(Reader::new(&[0xff; 4], Order::Little).size(), Err(Violation::Malformed));
+        assert_eq!(FieldReader::new(&[1, 2, 3], ByteOrder::Little).int(), Err(Violation::Malformed));
+        assert_eq!(FieldReader::new(b"no end", ByteOrder::Little).text(), Err(Violation::Malformed));
+        assert_eq!(FieldReader::new(&[0xff; 4], ByteOrder::Little).size(), Err(Violation::Malformed));
     }
 }

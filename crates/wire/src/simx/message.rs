@@ -1,6 +1,6 @@
 //! Messages and commands (spec: legacy-remote-api 1.2, 1.3).
 
-use super::bytes::{Order, Reader, Writer};
+use super::bytes::{ByteOrder, FieldReader, FieldWriter};
 use super::{MAX_COMMANDS, MAX_SIZE, VERSION, Violation};
 
 /// Bytes before the key of a command.
@@ -58,10 +58,12 @@ impl Mode {
 /// A command of a client, complete.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Command {
+    /// The number of the function; the upper bits of it decide on the layout of the key.
     pub id: u16,
     pub(crate) mode: Mode,
     /// What distinguishes it from others of the same id: handles, names.
     pub key: Vec<u8>,
+    /// The arguments that are not part of the key.
     pub data: Vec<u8>,
     /// Streaming: milliseconds between two executions; split: bytes of a piece.
     pub(super) delay: u16,
@@ -100,6 +102,7 @@ pub struct Stamp {
     pub system_time: i32,
     /// Milliseconds of simulation; 0 while stopped.
     pub simulation_time: i32,
+    /// Number of the scene, which changes when another is opened.
     pub scene: u16,
     /// Bit 0: not stopped; 1: paused; 2: real time.
     pub state: u8,
@@ -109,8 +112,8 @@ pub struct Stamp {
 ///
 /// # Errors
 /// When a size leads out of the message, or there are too many commands.
-pub(super) fn parse(message: &[u8], order: Order) -> Result<(Head, Vec<Piece>), Violation> {
-    let mut reader = Reader::new(message, order);
+pub(super) fn parse(message: &[u8], order: ByteOrder) -> Result<(Head, Vec<Piece>), Violation> {
+    let mut reader = FieldReader::new(message, order);
     let has_checksum = reader.short()? != 0;
     let head = Head { has_checksum, version: reader.byte()?, id: reader.int()?, time: reader.int()? };
     // Server time, scene and state: for replies only.
@@ -125,7 +128,7 @@ pub(super) fn parse(message: &[u8], order: Order) -> Result<(Head, Vec<Piece>), 
     Ok((head, pieces))
 }
 
-fn parse_piece(reader: &mut Reader<'_>, order: Order) -> Result<Piece, Violation> {
+fn parse_piece(reader: &mut FieldReader<'_>, order: ByteOrder) -> Result<Piece, Violation> {
     let (size, full) = (reader.size()?, reader.size()?);
     let key_size = usize::from(reader.short()?);
     let offset = reader.size()?;
@@ -153,8 +156,8 @@ fn parse_piece(reader: &mut Reader<'_>, order: Order) -> Result<Piece, Violation
 }
 
 /// The layout of a key belongs to the range of the command's number.
-fn check_key(id: u16, key: &[u8], order: Order) -> Result<(), Violation> {
-    let mut reader = Reader::new(key, order);
+fn check_key(id: u16, key: &[u8], order: ByteOrder) -> Result<(), Violation> {
+    let mut reader = FieldReader::new(key, order);
     match id {
         0x0001..=0x0fff => {}
         0x1001..=0x1fff => drop(reader.int()?),
@@ -177,8 +180,8 @@ pub(super) struct ReplyHead {
 }
 
 /// A reply as a message: with a checksum for the old clients that send one.
-pub(super) fn reply(head: ReplyHead, commands: &[u8], with_checksum: bool, order: Order) -> Vec<u8> {
-    let mut writer = Writer::new(order);
+pub(super) fn reply(head: ReplyHead, commands: &[u8], with_checksum: bool, order: ByteOrder) -> Vec<u8> {
+    let mut writer = FieldWriter::new(order);
     writer.byte(VERSION);
     writer.int(head.id);
     writer.int(head.client_time);
@@ -187,7 +190,7 @@ pub(super) fn reply(head: ReplyHead, commands: &[u8], with_checksum: bool, order
     writer.byte(head.stamp.state);
     writer.bytes(commands);
     let content = writer.into_bytes();
-    let mut message = Writer::new(order);
+    let mut message = FieldWriter::new(order);
     message.short(if with_checksum { checksum(&content) } else { 0 });
     message.bytes(&content);
     message.into_bytes()
@@ -218,12 +221,12 @@ pub(super) struct ReplyPiece<'a> {
 }
 
 impl ReplyPiece<'_> {
-    pub(super) fn write(&self, writer: &mut Writer) {
+    pub(super) fn write(&self, writer: &mut FieldWriter) {
         let Command { id, mode, key, .. } = self.command;
         let before_data = COMMAND_HEADER + key.len();
         writer.size(before_data + self.data.len());
         writer.size(before_data + self.full);
-        // Keys come from clients, whose sizes are as short.
+        // The key came from a client with a length of 16 bits, so its length fits.
         writer.short(key.len() as u16);
         writer.size(self.offset);
         writer.int((u32::from(mode.number()) << 16 | u32::from(*id)) as i32);
@@ -247,7 +250,7 @@ mod tests {
 
     #[test]
     fn keys_have_the_layout_of_their_range() {
-        let check = |id, key: &[u8]| check_key(id, key, Order::Little).is_ok();
+        let check = |id, key: &[u8]| check_key(id, key, ByteOrder::Little).is_ok();
         assert!(check(4, b"") && !check(4, b"1"));
         assert!(check(0x1001, b"1234") && !check(0x1001, b"123"));
         assert!(check(0x200e, b"12345678") && !check(0x200e, b"123456789"));

@@ -8,7 +8,7 @@ mod pending;
 mod session;
 mod splits;
 
-pub use bytes::{Order, Reader, Writer};
+pub use bytes::{ByteOrder, FieldReader, FieldWriter};
 pub use message::{Command, Stamp};
 pub use packets::{Packets, cut};
 pub use session::{Answer, Received, Session};
@@ -25,10 +25,13 @@ pub(crate) const MAX_COMMANDS: usize = 10_000;
 /// Why a connection is closed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Violation {
+    /// Bytes that are no message of this protocol.
     #[error("the data is not of the legacy remote API.")]
     Malformed,
+    /// A message or a command that is too large.
     #[error("the data is larger than {MAX_SIZE} bytes.")]
     TooLarge,
+    /// Too many commands in a message, or waiting.
     #[error("there are more than {MAX_COMMANDS} commands.")]
     TooMany,
 }

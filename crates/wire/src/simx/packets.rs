@@ -1,6 +1,6 @@
 //! Messages cut into packets, and put together again (spec: legacy-remote-api 1).
 
-use super::bytes::{Order, Reader, Writer};
+use super::bytes::{ByteOrder, FieldReader, FieldWriter};
 use super::{MAX_SIZE, Violation};
 
 /// Bytes before the content of a packet.
@@ -24,7 +24,7 @@ pub struct Packets {
     message: Vec<u8>,
     /// How many packets it still needs; None between messages.
     missing: Option<u16>,
-    order: Order,
+    order: ByteOrder,
 }
 
 impl Packets {
@@ -34,7 +34,7 @@ impl Packets {
     }
 
     /// The byte order of the last message.
-    pub fn order(&self) -> Order {
+    pub fn order(&self) -> ByteOrder {
         self.order
     }
 
@@ -61,12 +61,12 @@ impl Packets {
         let bytes = &self.arrived[start..];
         let order = match bytes.first_chunk::<2>() {
             None => return Ok(None),
-            Some(&SAME_ORDER) => Order::Little,
-            Some(&OTHER_ORDER) => Order::Big,
+            Some(&SAME_ORDER) => ByteOrder::Little,
+            Some(&OTHER_ORDER) => ByteOrder::Big,
             Some(_) => return Err(Violation::Malformed),
         };
         let Some(header) = bytes.get(2..HEADER) else { return Ok(None) };
-        let mut header = Reader::new(header, order);
+        let mut header = FieldReader::new(header, order);
         let (length, missing) = (usize::from(header.short()?), header.short()?);
         if self.missing.is_some_and(|before| before != missing.wrapping_add(1)) {
             return Err(Violation::Malformed);
@@ -83,14 +83,14 @@ impl Packets {
 }
 
 /// A message as packets of at most `max_packet` bytes; of more, where it would be too many for clients.
-pub fn cut(message: &[u8], max_packet: usize, order: Order) -> Vec<u8> {
+pub fn cut(message: &[u8], max_packet: usize, order: ByteOrder) -> Vec<u8> {
     let usual = max_packet.saturating_sub(HEADER).clamp(1, MAX_CONTENT);
     let size = if message.len().div_ceil(usual) <= MAX_PACKETS { usual } else { MAX_CONTENT };
     let count = message.len().div_ceil(size);
-    let mut writer = Writer::new(order);
+    let mut writer = FieldWriter::new(order);
     for (place, content) in message.chunks(size).enumerate() {
         writer.bytes(&SAME_ORDER);
-        // Both fit: contents are short, and more packets than this no client accepts.
+        // Both fit into 16 bits: packets are short, and clients accept no more packets than that.
         writer.short(content.len() as u16);
         writer.short((count - 1 - place) as u16);
         writer.bytes(content);
@@ -116,7 +116,7 @@ mod tests {
     #[test]
     fn messages_are_the_same_in_pieces_of_any_length() {
         let message: Vec<u8> = (0..3046).map(|i| i as u8).collect();
-        let bytes = [cut(&message, 1300, Order::Little), cut(b"x", 1300, Order::Little)].concat();
+        let bytes = [cut(&message, 1300, ByteOrder::Little), cut(b"x", 1300, ByteOrder::Little)].concat();
         for piece in [1, 7, 1300, usize::MAX] {
             assert_eq!(read(&bytes, piece), Ok(vec![message.clone(), b"x".to_vec()]));
         }
@@ -124,16 +124,16 @@ mod tests {
 
     #[test]
     fn lengths_are_those_of_the_original() {
-        let bytes = cut(&[0; 3046], 1300, Order::Little);
+        let bytes = cut(&[0; 3046], 1300, ByteOrder::Little);
         assert_eq!(bytes[..6], [1, 0, 0x0e, 5, 2, 0]);
         assert_eq!(bytes[1300..1306], [1, 0, 0x0e, 5, 1, 0]);
         assert_eq!(bytes[2600..2606], [1, 0, 0xca, 1, 0, 0]);
-        assert_eq!(cut(&[0; 55], 1300, Order::Big)[..6], [1, 0, 0, 0x37, 0, 0]);
+        assert_eq!(cut(&[0; 55], 1300, ByteOrder::Big)[..6], [1, 0, 0, 0x37, 0, 0]);
     }
 
     #[test]
     fn large_messages_have_larger_packets() {
-        let bytes = cut(&vec![0; 50_000_000], 1300, Order::Little);
+        let bytes = cut(&vec![0; 50_000_000], 1300, ByteOrder::Little);
         let left = u16::from_le_bytes([bytes[4], bytes[5]]);
         assert_eq!((u16::from_le_bytes([bytes[2], bytes[3]]), left), (29_994, 1667));
     }

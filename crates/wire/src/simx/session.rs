@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::bytes::{Order, Writer};
+use super::bytes::{ByteOrder, FieldWriter};
 use super::message::{self, Command, Mode, ReplyHead, ReplyPiece, Stamp};
 use super::pending::{Job, Pending};
 use super::splits::{Split, size_of_piece};
@@ -31,7 +31,7 @@ pub struct Session {
 /// What ends with the connection.
 #[derive(Default)]
 struct Client {
-    order: Order,
+    order: ByteOrder,
     has_checksum: bool,
     version: Option<u8>,
     /// Id and time of the last message.
@@ -56,10 +56,15 @@ impl Default for ReplyHead {
 /// What `simRemoteApi.status` reports, times in milliseconds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Traffic {
+    /// When the last message arrived.
     pub last_request: i64,
+    /// When the last reply was made.
     pub last_reply: i64,
+    /// Time between the last two messages.
     pub between_requests: i64,
+    /// Commands in the last message.
     pub commands_in_request: usize,
+    /// Results in the last reply.
     pub commands_in_reply: usize,
 }
 
@@ -77,7 +82,8 @@ pub struct Batch {
     connection: u64,
     /// Of the reply that fetches the results.
     head: ReplyHead,
-    pub order: Order,
+    /// The byte order of the client.
+    pub order: ByteOrder,
     jobs: VecDeque<Job>,
     answers: Vec<(Job, Answer)>,
     size: usize,
@@ -86,13 +92,16 @@ pub struct Batch {
 /// The result of a command.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Answer {
+    /// The command was not executed, or failed.
     pub failed: bool,
+    /// What the command returns, in the byte order of the client.
     pub data: Vec<u8>,
     /// A stream is over.
     pub ends_stream: bool,
 }
 
 impl Answer {
+    /// The result of a command that failed: no data.
     pub fn failure() -> Self {
         Self { failed: true, ..Self::default() }
     }
@@ -125,6 +134,7 @@ impl Batch {
 }
 
 impl Session {
+    /// A server without a client; `is_monitored` keeps lines about what happens, see [`take_lines`](Self::take_lines).
     pub fn new(is_monitored: bool) -> Self {
         Self { monitor: is_monitored.then(VecDeque::new), ..Self::default() }
     }
@@ -151,14 +161,17 @@ impl Session {
         self.peer.as_ref().map(|_| self.connections)
     }
 
+    /// The address of the client; None without one.
     pub fn peer(&self) -> Option<&str> {
         self.peer.as_deref()
     }
 
+    /// The protocol version of the client; None until its first message.
     pub fn client_version(&self) -> Option<u8> {
         self.client.version
     }
 
+    /// Times and counts of the last messages.
     pub fn traffic(&self) -> Traffic {
         self.traffic
     }
@@ -191,7 +204,7 @@ impl Session {
     ///
     /// # Errors
     /// When the connection is to be closed.
-    pub fn receive(&mut self, message: &[u8], order: Order, now: i64) -> Result<Received, Violation> {
+    pub fn receive(&mut self, message: &[u8], order: ByteOrder, now: i64) -> Result<Received, Violation> {
         let (head, pieces) = message::parse(message, order)?;
         let traffic = &mut self.traffic;
         traffic.between_requests = now - if traffic.last_request == 0 { now } else { traffic.last_request };
@@ -214,7 +227,7 @@ impl Session {
     /// The reply to the message that was received, which fetches the results; `now` is in milliseconds.
     pub fn reply(&mut self, now: i64) -> Vec<u8> {
         let client = &mut self.client;
-        let mut writer = Writer::new(client.order);
+        let mut writer = FieldWriter::new(client.order);
         writer.bytes(&client.outbox);
         client.splits.retain_mut(|split| !split.write_next(&mut writer));
         let reply = message::reply(self.head, &writer.into_bytes(), client.has_checksum, client.order);
@@ -256,7 +269,7 @@ impl Session {
         self.client.is_executing = false;
         // Not before: a reply in between would carry the id without the results, and the client would wait for ever.
         self.head = batch.head;
-        let mut writer = Writer::new(batch.order);
+        let mut writer = FieldWriter::new(batch.order);
         for (job, answer) in batch.answers {
             if answer.ends_stream {
                 self.client.pending.remove(&job);
@@ -272,7 +285,7 @@ impl Session {
 }
 
 impl Client {
-    fn add_result(&mut self, job: Job, answer: Answer, time: i32, writer: &mut Writer) {
+    fn add_result(&mut self, job: Job, answer: Answer, time: i32, writer: &mut FieldWriter) {
         let Answer { failed, data, .. } = answer;
         let command = job.command;
         let in_pieces = match command.mode {
@@ -309,7 +322,7 @@ mod tests {
     fn the_id_of_a_message_comes_with_its_results() {
         let mut session = Session::new(false);
         session.connect("127.0.0.1".into());
-        let received = session.receive(&message(), Order::default(), 0).expect("it is a message");
+        let received = session.receive(&message(), ByteOrder::default(), 0).expect("it is a message");
         assert!(received.is_waiting);
         let mut batch = session.due(Stamp::default()).expect("a command is due");
         assert!(session.is_waiting(), "it is being executed");

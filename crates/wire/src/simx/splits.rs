@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use super::bytes::Writer;
+use super::bytes::FieldWriter;
 use super::message::{Command, ReplyPiece};
 
 /// Pieces are not smaller than this.
-const SMALLEST: usize = 50;
+const MIN_PIECE: usize = 50;
 
 /// A result of which not all was sent.
 pub(super) struct Split {
@@ -22,12 +22,12 @@ pub(super) struct Split {
 
 /// Bytes of a piece, as the command wants them.
 pub(super) fn size_of_piece(command: &Command) -> usize {
-    usize::from(command.delay).max(SMALLEST)
+    usize::from(command.delay).max(MIN_PIECE)
 }
 
 impl Split {
     /// Writes the next piece; returns whether it is the last.
-    pub(super) fn write_next(&mut self, writer: &mut Writer) -> bool {
+    pub(super) fn write_next(&mut self, writer: &mut FieldWriter) -> bool {
         let end = self.data.len().min(self.sent + size_of_piece(&self.command));
         let (offset, full) = (self.sent, self.data.len());
         let (failed, time) = (self.failed, self.time);

@@ -9,7 +9,7 @@ local sim = package.loaded.sim or require 'sim'
 local M = {}
 
 local COMMAND <const>, STATE <const>, INFO <const> = '__ctrl__', '__state__', '__info__'
-local JERK <const>, FASTEST <const>, CYCLE <const> = 99999, 99999, 0.0001
+local JERK <const>, MAX_SPEED <const>, CYCLE <const> = 99999, 99999, 0.0001
 
 ---------------------------------------------------------------- the later models
 
@@ -70,7 +70,7 @@ function Drive:towardsPosition(dt)
     local pos = self.target.pos
     local isThere = self.pos == pos and self.vel == 0
     local pva = not isThere and advance(
-        sim.ruckigPos(1, CYCLE, -1, {self.pos, self.vel, 0}, {FASTEST, self.accel, JERK}, {1}, {pos, 0}), dt)
+        sim.ruckigPos(1, CYCLE, -1, {self.pos, self.vel, 0}, {MAX_SPEED, self.accel, JERK}, {1}, {pos, 0}), dt)
     if pva then
         self.pos, self.vel = pva[1], pva[2]
     else

@@ -7,7 +7,7 @@ local M = {}
 
 local PAD <const>, ROLLER <const> = 'PATHPAD', 'PATHROL'
 local MASS <const>, ROLLER_LAYER <const> = 0.01, 512
-local MOST <const> = 10000 -- parts; more are a mistake in the settings
+local MAX_PARTS <const> = 10000 -- parts; more are a mistake in the settings
 local TYPES <const> = {0, 0, 0, 2, 2, 2, 2}
 
 local function belongs(object, tag, value)
@@ -104,7 +104,7 @@ end
 
 --- A number of parts, at least one.
 function M.checkedCount(count)
-    if not (count <= MOST) then error(('the settings ask for more than %d parts'):format(MOST), 0) end
+    if not (count <= MAX_PARTS) then error(('the settings ask for more than %d parts'):format(MAX_PARTS), 0) end
     return math.max(1, math.floor(count))
 end
 

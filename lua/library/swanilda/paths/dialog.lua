@@ -8,7 +8,7 @@ local points = require 'swanilda.paths.points'
 local M = {}
 
 local HIDDEN <const>, CLOSED <const>, SHAPE <const>, COMPUTE_ORIENTATION <const>, ALWAYS_HIDDEN <const> = 1, 2, 4, 16, 32
-local LEAST_SMOOTHING <const>, FEWEST <const>, MOST <const> = 0.05, 10, 1000
+local MIN_SMOOTHING <const>, MIN_SAMPLES <const>, MAX_SAMPLES <const> = 0.05, 10, 1000
 local MODES <const> = {
     'x along the path, y up', 'x along the path, z up', 'y along the path, x up', 'y along the path, z up', 'z along the path, x up',
     'z along the path, y up',
@@ -39,9 +39,9 @@ local function member(path, field, name, toValue)
     return field
 end
 
-local function smoothing(value) return value < LEAST_SMOOTHING and 0 or math.min(1, value) end
+local function smoothing(value) return value < MIN_SMOOTHING and 0 or math.min(1, value) end
 
-local function count(value) return math.max(FEWEST, math.min(MOST, math.floor(value))) end
+local function count(value) return math.max(MIN_SAMPLES, math.min(MAX_SAMPLES, math.floor(value))) end
 
 local function fieldsOf(path)
     return {
@@ -49,7 +49,7 @@ local function fieldsOf(path)
         option(path, 'always hidden', ALWAYS_HIDDEN),
         option(path, 'closed', CLOSED),
         option(path, 'a shape along it', SHAPE),
-        member(path, {kind = 'number', text = 'points', minimum = FEWEST, maximum = MOST}, 'pointCnt', count),
+        member(path, {kind = 'number', text = 'points', minimum = MIN_SAMPLES, maximum = MAX_SAMPLES}, 'pointCnt', count),
         member(path, {kind = 'number', text = 'smoothing', minimum = 0, maximum = 1, step = 0.05}, 'smoothing', smoothing),
         option(path, 'orientation computed', COMPUTE_ORIENTATION),
         member(path, {kind = 'choice', text = 'axes', items = MODES}, 'autoOrientation', math.floor),

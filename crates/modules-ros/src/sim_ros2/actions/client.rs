@@ -28,7 +28,7 @@ pub(in crate::sim_ros2) const FUNCTIONS: &[ApiFn] = functions![
 ];
 
 /// How long a goal waits for a server.
-const PATIENCE: Duration = Duration::from_secs(5);
+const SERVER_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// What sends goals.
 pub(in crate::sim_ros2) struct ActionClient {
@@ -152,7 +152,7 @@ fn send_goal(cx: &mut Cx, action_client_handle: String, goal: Table) -> Result<b
     let request = goal::message(&client.goals.request, id, "goal", &goal.0, client.style.get());
     let request = request.map_err(ApiError::Other)?;
     let node = node(cx);
-    let found = cx.wait_for(Some(PATIENCE), || {
+    let found = cx.wait_for(Some(SERVER_TIMEOUT), || {
         node.spin();
         (client.goals.has_server() && client.results.has_server()).then_some(())
     })?;

@@ -165,7 +165,7 @@ impl ActionServer {
 
     fn send_result(&self, call: Call, status: Status, result: Option<Record>) {
         let mut response = Record::new(&self.layouts.get_result[1]);
-        // Both fields are of the type's own making.
+        // Every action's messages have both fields.
         let status = ros_interfaces::Number::Int8(status as i8);
         response.set("status", Value::Number(status)).ok();
         result.and_then(|result| response.set("result", Value::Record(result)).ok());
