@@ -4,6 +4,7 @@ use geometry::PoseError;
 use permissions::Denied;
 use scene::SceneError;
 
+/// The result of a call from a script.
 pub type ApiResult<T> = std::result::Result<T, ApiError>;
 
 /// Why a call from a script failed. The texts are CoppeliaSim's: scripts compare them.

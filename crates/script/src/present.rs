@@ -10,12 +10,15 @@ use scene::{Data, Handle, Scene};
 /// A simulator at a moment.
 #[derive(Clone, Copy)]
 pub struct Situation<'a> {
+    /// The scene, with the poses of the moment.
     pub scene: &'a Scene,
     /// Another one after another scene was loaded.
     pub scene_uid: i64,
+    /// Whether the simulation runs.
     pub state: SimulationState,
     /// Seconds.
     pub time: f64,
+    /// Simulation steps since the start of the run.
     pub steps: u64,
     /// Uncaught errors of scripts.
     pub errors: u64,
@@ -23,6 +26,7 @@ pub struct Situation<'a> {
 
 /// A simulator after a step.
 pub struct Present<'a> {
+    /// State and scene after the step.
     pub now: Situation<'a>,
     /// Lines of the log since the last time.
     pub lines: Vec<RecentLine>,

@@ -27,6 +27,7 @@ pub struct ConsoleLine {
     pub origin: Option<String>,
     /// `info`, `error`, ...; `print` for a print and what was written to standard output, `stderr` for what was written there.
     pub level: &'static str,
+    /// The line, without its end, in the words of CoppeliaSim.
     pub text: String,
     /// An error as people read it, with files and hints.
     pub located: Option<String>,
@@ -50,6 +51,7 @@ impl ConsoleLine {
 /// Named quantities over time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Trace {
+    /// The names of the quantities, without that of time.
     pub columns: Vec<String>,
     /// Time, then a value for each column.
     pub rows: Vec<Vec<f64>>,
@@ -58,8 +60,9 @@ pub struct Trace {
 /// Tolerances of the comparison with a recorded trace.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tolerances {
+    /// Deviation that is allowed for every value, in the unit of its column.
     pub absolute: f64,
-    /// Share of the expected value.
+    /// Deviation that is allowed as a share of the expected value; the larger of the two counts.
     pub relative: f64,
     /// Absolute tolerances of single columns.
     pub columns: BTreeMap<String, f64>,
@@ -89,14 +92,18 @@ pub struct Snapshot {
 /// Something to compare with what was recorded under that name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Golden {
+    /// The name under which it was recorded, without the ending of a file.
     pub name: String,
+    /// What is compared.
     pub content: GoldenContent,
 }
 
 /// Content of a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub enum GoldenContent {
+    /// Quantities over time, and how much they may deviate.
     Trace { trace: Trace, tolerances: Tolerances },
+    /// A picture.
     Image(Snapshot),
 }
 
@@ -113,8 +120,9 @@ pub struct RunRequest {
     pub start: bool,
     /// Loop iterations without a start, and of a paused simulation.
     pub loops: u64,
-    /// Limits of the simulation: steps, and simulated time in seconds.
+    /// Limit of simulation steps.
     pub steps: Option<u64>,
+    /// Limit of simulated time, seconds.
     pub time: Option<f64>,
     /// Simulated seconds after which it has failed.
     pub time_limit: f64,
@@ -123,9 +131,11 @@ pub struct RunRequest {
 /// The result of such a run.
 #[derive(Debug, Clone, Default)]
 pub struct RunReport {
+    /// The output of the simulator and its scripts.
     pub lines: Vec<ConsoleLine>,
     /// Uncaught script errors.
     pub errors: u64,
+    /// Simulation steps.
     pub steps: u64,
     /// Simulated seconds.
     pub time: f64,
@@ -133,6 +143,7 @@ pub struct RunReport {
     pub params: BTreeMap<String, String>,
     /// The names of parameters that scripts have read.
     pub params_read: BTreeSet<String>,
+    /// How often lines of scripts ran; empty unless the options ask for that.
     pub line_counts: LineCounts,
 }
 
@@ -156,6 +167,7 @@ pub struct TestBench {
     pub run_apart: Option<RunApart>,
     /// The test's file, once a simulator has compiled it.
     pub compiled: RefCell<Option<CompiledFile>>,
+    /// What the test compares with recordings.
     pub goldens: RefCell<Vec<Golden>>,
     lines: RefCell<Vec<ConsoleLine>>,
     /// Lines of standard output and error that have no end so far.

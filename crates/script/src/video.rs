@@ -30,6 +30,7 @@ const MIN_RATE: f64 = 0.001;
 pub struct VideoOptions {
     /// Its extension says the kind: webp, gif, png for a series such as `out-%05d.png`; mp4, mkv, mov, webm or avi with ffmpeg.
     pub file: PathBuf,
+    /// Where the video is taken from.
     pub from: VideoView,
     /// Width and height in pixels, 4096 each at most; None: those of the vision sensor, or 640 and 480.
     pub size: Option<[u32; 2]>,
@@ -227,6 +228,7 @@ impl Sim {
         }
     }
 
+    /// Ends the video that scripts record, and completes its file.
     pub fn end_video_of_scripts(&self) {
         let recorder = self.app.borrow_mut().videos.of_scripts.take();
         if let Some(recorder) = recorder {

@@ -197,9 +197,9 @@ impl Simulator {
         Ok(address)
     }
 
-    /// Waits until something has arrived from outside, at most that long; false at once when nothing can, for want of sockets.
-    pub fn wait_for_request(&self, patience: Duration) -> bool {
-        self.sim.event_loop.wait_for_input(patience)
+    /// Waits until a socket has received something, at most `timeout`, and says whether it waited; without sockets it returns false at once.
+    pub fn wait_for_request(&self, timeout: Duration) -> bool {
+        self.sim.event_loop.wait_for_input(timeout)
     }
 
     /// Whether scripts have ZeroMQ sockets, whose messages `wait_for_request` does not notice.
@@ -361,6 +361,7 @@ impl Simulator {
         }
     }
 
+    /// Whether the simulation is stopped, runs or is paused.
     pub fn state(&self) -> SimulationState {
         self.sim.clock.state()
     }

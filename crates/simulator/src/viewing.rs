@@ -12,11 +12,15 @@ use script::{ApiError, Ask, Present, Situation, SysCall, Watcher};
 
 /// A property of an object, of the scene or of the application.
 pub struct PropertyRow {
+    /// Its name, without the class.
     pub name: String,
     /// The class it belongs to.
     pub class: &'static str,
+    /// The type of its value.
     pub ty: ValueType,
+    /// The value now.
     pub value: Data,
+    /// Whether scripts can set it.
     pub is_writable: bool,
 }
 

@@ -149,6 +149,7 @@ impl<'a, S: Source<'a>> Args<'a, S> {
         self.number().ok()
     }
 
+    /// Whether the argument at `position`, from 1, is a table.
     pub fn is_table(&self, position: c_int) -> bool {
         position <= self.count && self.source.kind(position) == Type::Table
     }
@@ -347,6 +348,7 @@ pub struct Handles(pub Vec<i64>);
 /// An object handle with the flag bits a script added to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ObjectRef {
+    /// The object, without flag bits.
     pub handle: Handle,
     flags: i64,
 }

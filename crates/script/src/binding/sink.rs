@@ -2,7 +2,7 @@
 
 use super::data::{push_buffer, push_data};
 use crate::error::{ApiError, ApiResult};
-use crate::lua::{LONGEST_LIST, Object, Stack};
+use crate::lua::{MAX_LIST_LENGTH, Object, Stack};
 use scene::Data;
 
 /// A destination of results.
@@ -62,7 +62,7 @@ impl Sink for Stack<'_> {
     }
 
     fn list<T>(&mut self, items: &[T], push: impl Fn(&mut Self, &T)) -> ApiResult<()> {
-        if items.len() > LONGEST_LIST {
+        if items.len() > MAX_LIST_LENGTH {
             return Err(ApiError::Other("not enough memory".into()));
         }
         self.new_table(items.len(), 0);
@@ -74,7 +74,7 @@ impl Sink for Stack<'_> {
     }
 
     fn numbers(&mut self, numbers: &[f64]) -> ApiResult<()> {
-        if numbers.len() > LONGEST_LIST {
+        if numbers.len() > MAX_LIST_LENGTH {
             return Err(ApiError::Other("not enough memory".into()));
         }
         self.push_numbers(numbers);

@@ -50,6 +50,7 @@ pub type Counts = Vec<u64>;
 /// The counts of many texts.
 #[derive(Debug, Clone, Default)]
 pub struct LineCounts {
+    /// The counts of each text.
     pub texts: BTreeMap<CountedText, Counts>,
     /// The functions of texts whose language says so while they run; those of Lua are found when they are reported.
     pub functions: BTreeMap<CountedText, Vec<Function>>,
@@ -62,6 +63,7 @@ impl LineCounts {
         self.functions.extend(other.functions);
     }
 
+    /// Adds counts of the lines of a text, from line 1, to those that it has.
     pub fn add(&mut self, text: CountedText, counts: &[u64]) {
         let sums = self.texts.entry(text).or_default();
         if sums.len() < counts.len() {

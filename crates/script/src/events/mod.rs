@@ -45,6 +45,7 @@ pub struct EventStream {
     scene_is_new: Cell<bool>,
     /// Time, steps and state as last sent.
     clock: Cell<(f64, u64, i64)>,
+    /// The version of the event protocol for listeners.
     pub protocol: Cell<Protocol>,
 }
 

@@ -14,6 +14,7 @@ pub struct LogLine<'a> {
     pub origin: &'a str,
     /// `sim.verbosity_*` with its flag bits.
     pub level: i64,
+    /// The message, in the words of CoppeliaSim.
     pub text: &'a str,
     /// An error as people read it, with files and hints, where `text` has the words of CoppeliaSim.
     pub located: Option<&'a str>,
@@ -71,7 +72,9 @@ fn without_tags(html: &str) -> String {
 /// A stream that scripts write with Lua's `io`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stream {
+    /// Standard output.
     Output,
+    /// Standard error.
     Error,
 }
 
@@ -80,6 +83,7 @@ pub trait Console {
     /// One call of a script's `print`: the line without its end, and the simulated time, seconds.
     fn print(&mut self, line: &[u8], time: f64);
 
+    /// One line of the log.
     fn log(&mut self, line: &LogLine<'_>);
 
     /// A script could not write to standard output, or to another pipe that `io.output` is, since nobody reads it any more.

@@ -16,7 +16,9 @@ const CLASSES: &CStr = c"swanilda.classes";
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Object {
+    /// The number of its class in the library.
     pub class: i64,
+    /// The number by which the library finds the object.
     pub id: i64,
 }
 

@@ -33,8 +33,11 @@ pub use value::{Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Qu
 /// An entity with properties.
 #[derive(Clone)]
 pub enum Target {
+    /// The application.
     App,
+    /// The scene.
     Scene,
+    /// An object of the scene.
     Object(Handle),
     /// A mesh of a shape.
     Mesh(Uid),

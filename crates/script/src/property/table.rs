@@ -23,20 +23,30 @@ const STATIC: &str = include_str!("static.tsv");
 
 /// Bits of the flags of a property.
 pub mod flags {
+    /// `sim.propertyinfo_notwritable`: scripts cannot set it.
     pub const NOT_WRITABLE: i64 = 1;
+    /// `sim.propertyinfo_notreadable`: scripts cannot read it.
     pub const NOT_READABLE: i64 = 2;
+    /// `sim.propertyinfo_removable`: scripts can remove it.
     pub const REMOVABLE: i64 = 4;
+    /// `sim.propertyinfo_modelhashexclude`: the hash of a model does not depend on it.
     pub const MODEL_HASH_EXCLUDE: i64 = 8;
+    /// `sim.propertyinfo_deprecated`: another property replaces it.
     pub const DEPRECATED: i64 = 0x10;
+    /// `sim.propertyinfo_largedata`: its value may be large.
     pub const LARGE_DATA: i64 = 0x100;
 }
 
 /// One static property of one class.
 #[derive(Clone)]
 pub struct Row {
+    /// Its name, without the class.
     pub name: &'static str,
+    /// The type of its value.
     pub ty: ValueType,
+    /// Bits of [`flags`].
     pub flags: i64,
+    /// Where its value comes from.
     pub source: Source,
     /// The class as returned by `sim.getPropertyName`.
     pub class: &'static str,
@@ -45,9 +55,11 @@ pub struct Row {
 /// The source of the value of a property.
 #[derive(Clone)]
 pub enum Source {
+    /// It is read and written by code.
     Works(&'static Accessor),
     /// Stored as scripts set it, without effect; the default until then.
     Inert(Data),
+    /// Always this value.
     Constant(Data),
     /// A parameter of a physics engine.
     Engine(&'static EngineParam),
@@ -164,10 +176,12 @@ const CLASSES: [ClassSpec; 17] = [
     ("mesh", "app.scene.mesh", &["scene"], &["colour", "mesh"], &[]),
 ];
 
+/// The class of the application.
 pub fn app_class() -> &'static Class {
     class(ClassId::App)
 }
 
+/// The class of the scene.
 pub fn scene_class() -> &'static Class {
     class(ClassId::Scene)
 }
@@ -251,10 +265,15 @@ fn parts() -> Parts {
 
 /// A line of `static.tsv`.
 pub struct Line {
+    /// The part of a class it belongs to, such as `object` or `joint`.
     pub part: &'static str,
+    /// Its name, without the class.
     pub name: &'static str,
+    /// The type of its value.
     pub ty: ValueType,
+    /// Bits of [`flags`].
     pub flags: i64,
+    /// `works`, `inert` or `constant`.
     pub state: &'static str,
     default: &'static str,
 }

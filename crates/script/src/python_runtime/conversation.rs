@@ -20,8 +20,8 @@ use wire::marshal::Declared;
 pub(super) const LIBRARY: &str = "swanilda.python";
 /// The global under which that module finds its native functions.
 pub(super) const NATIVES: &str = "_swanilda_python";
-/// A busy thread has this time before the end of its script.
-const LAST_WORD: Duration = Duration::from_millis(100);
+/// How long `sysCall_cleanup` waits for a thread of the script that is busy.
+const CLEANUP_TIMEOUT: Duration = Duration::from_millis(100);
 /// Seconds without a message after which a call has failed; named parameter `python.callTimeout`, 0 for no limit.
 const CALL_LIMIT: f64 = 60.0;
 
@@ -53,8 +53,8 @@ impl Conversation<'_> {
     /// # Errors
     /// The callback's, or when the process has ended.
     pub(super) fn call_callback(self, call: SysCall, args: &[Data]) -> Result<Vec<Data>, ScriptError> {
-        let patience = if call == SysCall::Cleanup { LAST_WORD } else { Duration::ZERO };
-        if !self.wait_for_turn(Some(patience))? {
+        let timeout = if call == SysCall::Cleanup { CLEANUP_TIMEOUT } else { Duration::ZERO };
+        if !self.wait_for_turn(Some(timeout))? {
             self.link.queue(call, args);
             return Ok(Vec::new());
         }

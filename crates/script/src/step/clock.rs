@@ -71,10 +71,12 @@ impl Clock {
         }
     }
 
+    /// Whether the simulation is stopped, runs or is paused.
     pub fn state(&self) -> SimulationState {
         self.state.get()
     }
 
+    /// Whether no simulation runs or is paused.
     pub fn is_stopped(&self) -> bool {
         self.state.get() == SimulationState::Stopped
     }
@@ -94,10 +96,12 @@ impl Clock {
         self.created.elapsed().as_secs_f64()
     }
 
+    /// Whether the simulation was asked to end.
     pub fn stop_is_requested(&self) -> bool {
         self.stop_requested.get()
     }
 
+    /// Whether a script asked for the end of the program.
     pub fn quit_is_requested(&self) -> bool {
         self.quit_requested.get()
     }

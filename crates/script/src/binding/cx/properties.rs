@@ -77,6 +77,7 @@ impl Cx<'_> {
         self.sim.app.borrow()
     }
 
+    /// The same, to change.
     pub fn app_mut(&mut self) -> RefMut<'_, AppData> {
         self.sim.app.borrow_mut()
     }

@@ -40,11 +40,13 @@ impl Drop for Ownership {
 }
 
 impl Cx<'_> {
+    /// Reads from the windows of scripts.
     pub fn read_ui<T>(&self, read: impl FnOnce(&Ui) -> T) -> T {
         let ui = self.app().ui.clone();
         read(&ui.borrow())
     }
 
+    /// Changes the windows of scripts.
     pub fn change_ui<T>(&mut self, change: impl FnOnce(&mut Ui) -> T) -> T {
         let ui = self.app().ui.clone();
         change(&mut ui.borrow_mut())

@@ -116,6 +116,7 @@ impl AppStorage {
         edited
     }
 
+    /// The bytes of a section by tag; reads the file at the first use.
     pub fn blocks(&mut self, section: Section) -> &Blocks {
         self.load();
         self.contents.blocks(section)
