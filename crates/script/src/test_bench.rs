@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::Options;
 use super::coverage::LineCounts;
-use super::log::console::{Console, LogLine, Stream};
+use super::log::console::{Console, LogLine, OutputStream};
 use super::log::verbosity;
 use scene::object::script_object::ScriptType;
 
@@ -102,7 +102,12 @@ pub struct Golden {
 #[derive(Debug, Clone, PartialEq)]
 pub enum GoldenContent {
     /// Quantities over time, and how much they may deviate.
-    Trace { trace: Trace, tolerances: Tolerances },
+    Trace {
+        /// The quantities.
+        trace: Trace,
+        /// How much they may deviate from the recording.
+        tolerances: Tolerances,
+    },
     /// A picture.
     Image(Snapshot),
 }
@@ -150,7 +155,7 @@ pub struct RunReport {
 /// Runs a scene in a simulator with these options; why it could not, otherwise.
 pub type RunApart = fn(Options, &RunRequest) -> Result<RunReport, String>;
 
-/// Levels of the lines of streams, in the order of `Stream`.
+/// Levels of the lines of streams, in the order of `OutputStream`.
 const LEVELS: [&str; 2] = ["print", "stderr"];
 
 /// What a language has made of the text of a file, which other simulators can load; only the language knows what it is.
@@ -228,7 +233,7 @@ impl TestBench {
     }
 
     /// Parts of lines, or a whole one with its end.
-    fn write_parts(&self, mut text: &[u8], stream: Stream, time: f64) {
+    fn write_parts(&self, mut text: &[u8], stream: OutputStream, time: f64) {
         let mut unfinished = self.unfinished[stream as usize].borrow_mut();
         while let Some(end) = text.iter().position(|&byte| byte == b'\n') {
             unfinished.extend_from_slice(&text[..end]);
@@ -258,13 +263,13 @@ struct Recorder(Rc<TestBench>);
 
 impl Console for Recorder {
     fn print(&mut self, line: &[u8], time: f64) {
-        if self.0.unfinished[Stream::Output as usize].borrow().is_empty() {
-            return self.0.write(ConsoleLine::printed(LEVELS[Stream::Output as usize], line, time));
+        if self.0.unfinished[OutputStream::Output as usize].borrow().is_empty() {
+            return self.0.write(ConsoleLine::printed(LEVELS[OutputStream::Output as usize], line, time));
         }
-        self.write(&[line, b"\n"].concat(), Stream::Output, time);
+        self.write(&[line, b"\n"].concat(), OutputStream::Output, time);
     }
 
-    fn write(&mut self, text: &[u8], stream: Stream, time: f64) {
+    fn write(&mut self, text: &[u8], stream: OutputStream, time: f64) {
         self.0.write_parts(text, stream, time);
     }
 

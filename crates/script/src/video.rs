@@ -17,11 +17,11 @@ const TRIGGERED: i64 = 29;
 /// `sim.stringparam_video_filename`.
 const FILE_NAME: i64 = 1;
 /// The file of scripts that name none.
-const USUAL_FILE: &str = "recording.webp";
+const DEFAULT_FILE: &str = "recording.webp";
 /// Width and height where neither the user nor a vision sensor says otherwise.
-const USUAL_SIZE: [u32; 2] = [640, 480];
+const DEFAULT_SIZE: [u32; 2] = [640, 480];
 /// Pictures per second at most where the user does not say otherwise.
-const USUAL_RATE: f64 = 30.0;
+const DEFAULT_RATE: f64 = 30.0;
 /// Pictures per second at least.
 const MIN_RATE: f64 = 0.001;
 
@@ -135,11 +135,11 @@ impl Film {
             VideoView::Everything => None,
         };
         let from = Viewpoint::new(&scene, camera).map_err(wrong_camera)?;
-        let size = options.size.or_else(|| from.resolution(&scene)).unwrap_or(USUAL_SIZE);
+        let size = options.size.or_else(|| from.resolution(&scene)).unwrap_or(DEFAULT_SIZE);
         let size = from.shot(&scene, size).map_err(wrong_camera)?.view.resolution;
         let format = VideoFormat {
             size,
-            rate: options.rate.unwrap_or((1.0 / dt).min(USUAL_RATE)).clamp(MIN_RATE, video::MAX_RATE),
+            rate: options.rate.unwrap_or((1.0 / dt).min(DEFAULT_RATE)).clamp(MIN_RATE, video::MAX_RATE),
         };
         Ok(Self { file: video::create(&options.file, format)?, from, format })
     }
@@ -248,6 +248,6 @@ impl Sim {
     fn video_file(&self) -> PathBuf {
         let app = self.app.borrow();
         let name = app.idle_params.texts.get(&FILE_NAME).filter(|name| !name.is_empty());
-        name.map_or_else(|| USUAL_FILE.into(), |name| String::from_utf8_lossy(name).into_owned().into())
+        name.map_or_else(|| DEFAULT_FILE.into(), |name| String::from_utf8_lossy(name).into_owned().into())
     }
 }

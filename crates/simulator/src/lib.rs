@@ -55,6 +55,7 @@ const VISUALIZATION_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.visual
 /// Why a request to a [`Simulator`] failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
+    /// A function for scripts refused the call.
     #[error(transparent)]
     Api(#[from] ApiError),
     /// A script's own error; it has been logged.

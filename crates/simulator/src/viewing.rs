@@ -52,7 +52,7 @@ impl Simulator {
         self.sim.log.take_recent()
     }
 
-    /// Dialogs of scripts are answered by it from now on.
+    /// Sets the function that shows dialogs of scripts to users and returns their answers.
     pub fn set_person(&self, ask: Rc<Ask>) {
         self.sim.set_person(ask);
     }
@@ -62,9 +62,9 @@ impl Simulator {
         self.sim.watch(watcher);
     }
 
-    /// Calls `look` with the present state, and the lines of the log since the last time.
-    pub fn with_present<T>(&self, look: impl FnOnce(&Present<'_>) -> T) -> T {
-        self.sim.with_present(look)
+    /// Calls `observe` with the present state, and the lines of the log since the last time.
+    pub fn with_present<T>(&self, observe: impl FnOnce(&Present<'_>) -> T) -> T {
+        self.sim.with_present(observe)
     }
 
     /// This simulator with its scene as it is now.
@@ -72,7 +72,7 @@ impl Simulator {
         self.sim.situation(scene)
     }
 
-    /// Another one after another scene was loaded.
+    /// Identifies the scene: it changes when another scene is loaded.
     pub fn scene_uid(&self) -> i64 {
         self.sim.scene_uid()
     }

@@ -1,4 +1,4 @@
-//! The loop of a simulator that others drive: remote clients, pages of the viewer, its own scripts.
+//! The loop of a simulator that is controlled by remote clients, pages of the viewer, or its own scripts.
 
 use std::time::Duration;
 

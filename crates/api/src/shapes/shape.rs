@@ -233,7 +233,9 @@ fn viz(scene: &Scene, part: &Part) -> Data {
     let mut mesh = Mesh::default();
     mesh.append(&part.mesh, &part.pose);
     let appearance = &part.appearance;
-    let colours = [appearance.colour.ambient_diffuse, appearance.colour.specular, appearance.colour.emission].as_flattened().to_vec();
+    let colours = [appearance.colour.ambient_diffuse, appearance.colour.specular, appearance.colour.emission]
+        .as_flattened()
+        .to_vec();
     let mut viz = Data::map([
         ("vertices", mesh.flat_vertices().into()),
         ("indices", mesh.flat_indices().into()),

@@ -77,12 +77,17 @@ pub(crate) struct Bound {
 /// A member of a module.
 #[derive(Debug, Clone, Copy)]
 pub enum Member {
+    /// An integer.
     Constant(i64),
+    /// A function in Rust.
     Native(FunctionId),
     /// Implemented as `function` in the embedded Lua file `file`.
     Lua {
+        /// The path of the embedded file.
         file: &'static str,
+        /// The name of the function in that file.
         function: &'static str,
+        /// What replaces a deprecated name; empty where nothing does.
         replacement: Option<&'static str>,
     },
     /// In CoppeliaSim's reference, but not built.
@@ -109,7 +114,8 @@ impl Namespace {
         self.members.get(name).copied()
     }
 
-    pub(crate) fn contains(&self, name: &str) -> bool {
+    /// Whether there is a member with that name.
+    pub fn contains(&self, name: &str) -> bool {
         self.members.contains_key(name)
     }
 

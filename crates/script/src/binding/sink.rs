@@ -2,7 +2,7 @@
 
 use super::data::{push_buffer, push_data};
 use crate::error::{ApiError, ApiResult};
-use crate::lua::{MAX_LIST_LENGTH, Object, Stack};
+use crate::lua::{LuaObject, MAX_LIST_LENGTH, Stack};
 use scene::Data;
 
 /// A destination of results.
@@ -27,7 +27,7 @@ pub trait Sink {
     }
     /// # Errors
     /// Where there are no objects.
-    fn object(&mut self, object: Object) -> ApiResult<()>;
+    fn object(&mut self, object: LuaObject) -> ApiResult<()>;
     /// Room for so many values; false where there is none.
     fn reserve(&mut self, count: usize) -> bool;
 }
@@ -81,7 +81,7 @@ impl Sink for Stack<'_> {
         Ok(())
     }
 
-    fn object(&mut self, object: Object) -> ApiResult<()> {
+    fn object(&mut self, object: LuaObject) -> ApiResult<()> {
         self.push_object(object);
         Ok(())
     }
@@ -127,7 +127,7 @@ impl Sink for Vec<Data> {
         Ok(())
     }
 
-    fn object(&mut self, _: Object) -> ApiResult<()> {
+    fn object(&mut self, _: LuaObject) -> ApiResult<()> {
         Err(ApiError::NeedsLua)
     }
 

@@ -12,7 +12,7 @@ use super::yields::Yields;
 use crate::binding::registry::Registry;
 use crate::binding::states::States;
 use crate::calls::callback::SysCall;
-use crate::events::Filters;
+use crate::events::EventFilters;
 use crate::log::verbosity;
 use crate::runtime::{FunctionRef, Runtime};
 use crate::sim::Sim;
@@ -44,7 +44,7 @@ pub struct Env {
     /// The random numbers of the script, seeded with the seed of the simulator.
     pub random: RefCell<Random>,
     /// The event filter of the state; None for all events.
-    pub event_filters: RefCell<Option<Filters>>,
+    pub event_filters: RefCell<Option<EventFilters>>,
     /// Whether there are event listeners, so that changes must be collected.
     pub events_wanted: Rc<Cell<bool>>,
     /// The state of modules for the script; it is dropped with the interpreter.

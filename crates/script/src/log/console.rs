@@ -71,7 +71,7 @@ fn without_tags(html: &str) -> String {
 
 /// A stream that scripts write with Lua's `io`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stream {
+pub enum OutputStream {
     /// Standard output.
     Output,
     /// Standard error.
@@ -90,7 +90,7 @@ pub trait Console {
     fn pipe_closed(&mut self) {}
 
     /// Receives parts of lines that a script wrote to a stream of the process.
-    fn write(&mut self, text: &[u8], stream: Stream, time: f64) {
+    fn write(&mut self, text: &[u8], stream: OutputStream, time: f64) {
         let _ = (text, stream, time);
     }
 }

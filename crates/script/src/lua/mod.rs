@@ -35,7 +35,7 @@ pub(crate) use file::report_closed_pipes;
 pub(crate) use hooks::count::{HOOK_INTERVAL, HookAction, hasten_count_hook, install_coroutine_hooks, set_count_hook};
 pub(crate) use hooks::debug_library::restrict_debug;
 pub use hooks::interrupt::{calls_begun, interrupt_running_code, place_of_interruption};
-pub use object::Object;
+pub use object::LuaObject;
 pub(crate) use permissions::restrict_libraries;
 pub(crate) use seal::seal_argument;
 pub(crate) use stack::tables::MAX_LIST_LENGTH;

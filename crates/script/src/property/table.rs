@@ -47,14 +47,14 @@ pub struct Row {
     /// Bits of [`flags`].
     pub flags: i64,
     /// Where its value comes from.
-    pub source: Source,
+    pub source: ValueSource,
     /// The class as returned by `sim.getPropertyName`.
     pub class: &'static str,
 }
 
 /// The source of the value of a property.
 #[derive(Clone)]
-pub enum Source {
+pub enum ValueSource {
     /// It is read and written by code.
     Works(&'static Accessor),
     /// Stored as scripts set it, without effect; the default until then.
@@ -250,9 +250,9 @@ fn parts() -> Parts {
         let is_other_word = state == "works" && !default.is_empty();
         let value = || ty.parse(default).expect("static.tsv holds defaults of the row's type");
         let source = match (accessors.get(&(part, if is_other_word { default } else { name })), state) {
-            (Some(accessor), _) => Source::Works(accessor),
-            (None, "inert") => Source::Inert(value()),
-            (None, "constant") => Source::Constant(value()),
+            (Some(accessor), _) => ValueSource::Works(accessor),
+            (None, "inert") => ValueSource::Inert(value()),
+            (None, "constant") => ValueSource::Constant(value()),
             _ => panic!("a property in static.tsv that works has an accessor: {part} {name}"),
         };
         parts.entry(part).or_default().push(Row { name, ty, flags, source, class: "" });
@@ -315,7 +315,7 @@ const ENGINE_PARTS: [(&str, EngineOwner); 4] = [
 ];
 
 fn engine_row(param: &'static EngineParam) -> Row {
-    Row { name: param.name, ty: param.ty, flags: param.flags, source: Source::Engine(param), class: "" }
+    Row { name: param.name, ty: param.ty, flags: param.flags, source: ValueSource::Engine(param), class: "" }
 }
 
 type Accessors = HashMap<(&'static str, &'static str), &'static Accessor>;
@@ -378,14 +378,14 @@ fn accessors() -> Accessors {
 
 #[cfg(test)]
 mod tests {
-    use super::{Source, accessors, app_class, classes, flags, lines, parts};
+    use super::{ValueSource, accessors, app_class, classes, flags, lines, parts};
 
     #[test]
     fn every_accessor_has_its_row() {
         let parts = parts();
         for (part, name) in accessors().keys() {
             let row = parts[part].iter().find(|row| row.name == *name);
-            assert!(row.is_some_and(|row| matches!(row.source, Source::Works(_))), "{part}: {name}");
+            assert!(row.is_some_and(|row| matches!(row.source, ValueSource::Works(_))), "{part}: {name}");
         }
     }
 
@@ -397,7 +397,7 @@ mod tests {
     #[test]
     fn what_works_works_in_every_direction_it_is_said_to() {
         for (part, row) in parts().iter().flat_map(|(part, rows)| rows.iter().map(move |row| (part, row))) {
-            let Source::Works(accessor) = row.source else { continue };
+            let ValueSource::Works(accessor) = row.source else { continue };
             assert!(accessor.read.is_some() || row.flags & flags::NOT_READABLE != 0, "{part}: {} is read", row.name);
             assert!(
                 accessor.write.is_some() || row.flags & flags::NOT_WRITABLE != 0,

@@ -1,7 +1,7 @@
 //! The thread of a Python script.
 //!
-//! It runs in the process. A coroutine of the script's Lua state stands for it: it waits for what the thread says, does it, and yields
-//! when the thread says nothing, so that threads of both languages are resumed alike (`lua/library/swanilda/python.lua`). A stepping
+//! It runs in the process. A coroutine of the script's Lua state stands for it: it waits for the thread's messages, handles them, and yields
+//! when there is none, so that threads of both languages are resumed alike (`lua/library/swanilda/python.lua`). A stepping
 //! thread is waited for. Others run beside the simulator, which looks after them once in each step: it serves a number of calls, and waits
 //! for the next one as long as a thread takes that does not sleep, so that what threads do rarely depends on the machine.
 
@@ -115,7 +115,7 @@ impl Conversation<'_> {
         Turn::Busy
     }
 
-    /// What the thread says next; None when it says nothing within `timeout`.
+    /// The next message of the thread; None when there is none within `timeout`.
     fn next_of_thread(self, timeout: Option<Duration>) -> Result<Option<Message>, ScriptError> {
         match self.link.early.take() {
             Some(message) => Ok(Some(message)),

@@ -8,13 +8,21 @@ use super::wall_clock;
 /// The state of the simulation; numbers are `sim.simulation_*` of 4.10.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SimulationState {
+    /// No simulation.
     Stopped = 0x00,
+    /// The simulation is paused: no steps run.
     Paused = 0x08,
+    /// The first step after the start.
     FirstAfterStop = 0x10,
+    /// Any step in between.
     Running = 0x11,
+    /// The last step before a pause.
     LastBeforePause = 0x13,
+    /// The first step after a pause.
     FirstAfterPause = 0x14,
+    /// The end was requested: the step before the last one.
     AboutToStop = 0x15,
+    /// The last step before the end.
     LastBeforeStop = 0x16,
 }
 

@@ -67,7 +67,7 @@ impl Cx<'_> {
         self.own(Item::View(view));
     }
 
-    /// What a person answers to a dialog; None without one.
+    /// The user's answer to a dialog; None without one.
     pub fn ask_person(&mut self, question: &Question) -> Option<Data> {
         self.sim.ask_person(question)
     }

@@ -47,7 +47,7 @@ pub struct AppData {
     pub idle_params: IdleParams,
     /// The auxiliary consoles of scripts.
     pub consoles: AuxiliaryConsoles,
-    /// The video recorder that scripts control.
+    /// The videos that the user and scripts record.
     pub videos: Videos,
     /// The windows of scripts.
     pub ui: Rc<RefCell<Ui>>,
