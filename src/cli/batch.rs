@@ -22,7 +22,7 @@ const FAILED: u8 = 1;
 /// Exit code after ctrl-c, as shells expect it.
 const INTERRUPTED: u8 = 130;
 /// Seeds of one batch.
-const MOST_SEEDS: u32 = 10_000_000;
+const MAX_SEEDS: u32 = 10_000_000;
 
 /// Run a scene many times with different seeds and parameters
 ///
@@ -168,7 +168,7 @@ fn seeds(text: &str) -> Result<Seeds, String> {
     if let Some((first, last)) = text.split_once("..") {
         let (first, last): (u32, u32) = (first.parse().map_err(|_| wrong())?, last.parse().map_err(|_| wrong())?);
         return match last.checked_sub(first) {
-            Some(count) if count < MOST_SEEDS => Ok(Seeds((first..=last).collect())),
+            Some(count) if count < MAX_SEEDS => Ok(Seeds((first..=last).collect())),
             _ => Err(wrong()),
         };
     }

@@ -19,7 +19,7 @@ use simulator::{Channels, Picture, RunLimits, Simulator};
 /// Exit code when a script raised an error.
 const SCRIPT_ERROR: u8 = 1;
 /// Width and height where neither the command line nor a vision sensor says otherwise.
-const USUAL_SIZE: [u32; 2] = [640, 480];
+const DEFAULT_SIZE: [u32; 2] = [640, 480];
 const JPEG_QUALITY: u8 = 90;
 /// Millimetres per metre.
 const MILLIMETRES: f64 = 1000.0;
@@ -87,7 +87,7 @@ impl Args {
     fn write(&self, sim: &Simulator) -> Result<(), String> {
         let camera = self.camera(sim)?;
         let is_sensor = camera.is_some_and(|camera| is_vision_sensor(sim, camera));
-        let size = self.size.or((!is_sensor).then_some(USUAL_SIZE));
+        let size = self.size.or((!is_sensor).then_some(DEFAULT_SIZE));
         let channels = match (self.depth, self.segmentation) {
             (true, _) => Channels::DEPTH,
             (_, true) => Channels::IDS,

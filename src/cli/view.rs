@@ -17,8 +17,8 @@ use super::setup::Setup;
 use simulator::{RunLimits, Simulator};
 use view::{RecordedViewer, Viewer};
 
-/// How often ctrl-c is looked for while a recording is shown.
-const NAP: Duration = Duration::from_millis(50);
+/// Interval between checks for ctrl-c while a recording is shown.
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Show a scene or a recording in a browser
 #[derive(clap::Args)]
@@ -123,7 +123,7 @@ fn view_recording(args: &Args, path: &Path) -> Outcome {
     output.viewing(&viewer.url());
     args.open_browser(&viewer.url());
     while !interrupt.is_requested() {
-        std::thread::sleep(NAP);
+        std::thread::sleep(POLL_INTERVAL);
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -20,10 +20,10 @@ impl Console for PythonConsole {
         write(if is_bad { "stderr" } else { "stdout" }, &(line.located() + "\n"));
     }
 
-    fn write(&mut self, text: &[u8], stream: script::Stream, _: f64) {
+    fn write(&mut self, text: &[u8], stream: script::OutputStream, _: f64) {
         let name = match stream {
-            script::Stream::Output => "stdout",
-            script::Stream::Error => "stderr",
+            script::OutputStream::Output => "stdout",
+            script::OutputStream::Error => "stderr",
         };
         write(name, &String::from_utf8_lossy(text));
     }

@@ -1,4 +1,4 @@
-//! Native plugins of a simulator: where they are found, which scripts use them, what they are told, what they may call.
+//! Native plugins of a simulator: where they are found, which scripts use them, which changes they are notified of, what they may call.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,7 +24,7 @@ struct LoadedPlugins {
     marks: RefCell<Marks>,
 }
 
-/// Changes of the scene that plugins are told of, with their bits.
+/// Changes of the scene that plugins are notified of, with their bits.
 struct Marks([(Mark, i32); 3]);
 
 impl Default for Marks {

@@ -1,4 +1,4 @@
-//! Who looks on at a simulation from outside of scripts: it is shown the state after each step.
+//! Observers outside of scripts, such as the viewer and the recorder: they are shown the state after each step.
 
 use std::collections::BTreeSet;
 
@@ -7,22 +7,26 @@ use super::sim::Sim;
 use super::step::clock::SimulationState;
 use scene::{Data, Handle, Scene};
 
-/// A simulator at a moment.
+/// The state of a simulator at one moment.
 #[derive(Clone, Copy)]
 pub struct Situation<'a> {
+    /// The scene, with the poses of the moment.
     pub scene: &'a Scene,
-    /// Another one after another scene was loaded.
+    /// Identifies the scene: it changes when another scene is loaded.
     pub scene_uid: i64,
+    /// Whether the simulation runs.
     pub state: SimulationState,
-    /// Seconds.
+    /// Simulated time, seconds.
     pub time: f64,
+    /// Simulation steps since the start of the run.
     pub steps: u64,
     /// Uncaught errors of scripts.
     pub errors: u64,
 }
 
-/// A simulator after a step.
+/// What happened up to the end of a step.
 pub struct Present<'a> {
+    /// State and scene after the step.
     pub now: Situation<'a>,
     /// Lines of the log since the last time.
     pub lines: Vec<RecentLine>,
@@ -34,7 +38,7 @@ pub struct Present<'a> {
     pub contacts: BTreeSet<[Handle; 2]>,
 }
 
-/// A function that looks at each of them.
+/// Called after each step.
 pub type Watcher = Box<dyn FnMut(&Present<'_>)>;
 
 /// The watcher of a simulator.
@@ -53,14 +57,14 @@ impl Sim {
         self.app.borrow_mut().watching.watcher = watcher;
     }
 
-    /// Calls `look` with the present state.
-    pub fn with_present<T>(&self, look: impl FnOnce(&Present<'_>) -> T) -> T {
+    /// Calls `observe` with the present state and what has happened since the last call.
+    pub fn with_present<T>(&self, observe: impl FnOnce(&Present<'_>) -> T) -> T {
         let (lines, broadcasts) = {
             let watching = &mut self.app.borrow_mut().watching;
             (self.log.recent_since(&mut watching.lines), std::mem::take(&mut watching.broadcasts))
         };
         let scene = self.scene.borrow();
-        look(&Present {
+        observe(&Present {
             now: self.situation(&scene),
             lines,
             signals: scene.signals.names().chain(self.app.borrow().signals.names()).map(str::to_owned).collect(),
@@ -91,7 +95,7 @@ impl Sim {
 
     /// Shows the state after a step to the watcher.
     pub(super) fn show_to_watcher(&self) {
-        // The end of a simulation restores what was before it: its last step is what is to be seen.
+        // The end of a simulation restores what was before it: observers are to see its last step.
         if self.clock.is_stopped() {
             return;
         }

@@ -115,11 +115,14 @@ pub trait Interpreter {
 
 /// A running script: its interpreter, and what the host knows about it.
 pub struct Runtime<I: Interpreter + ?Sized = dyn Interpreter> {
+    /// Its environment in the host.
     pub env: Rc<Env>,
+    /// The interpreter of its language.
     pub interpreter: I,
 }
 
 impl Runtime {
+    /// Joins an interpreter and its script's environment, which must not belong to another one.
     pub fn new<I: Interpreter + 'static>(env: Rc<Env>, interpreter: I) -> Rc<Self> {
         let runtime: Rc<Self> = Rc::new(Runtime { env, interpreter });
         // An environment is made for one interpreter.
@@ -138,6 +141,7 @@ impl<I: Interpreter + ?Sized> Drop for Runtime<I> {
 
 /// A script's own text.
 pub struct SourceText<'a> {
+    /// The text, with bytes as in the file.
     pub text: &'a [u8],
     /// Its name in error positions; a file after `@`.
     pub chunk_name: &'a str,
@@ -157,6 +161,7 @@ pub enum Callee<'a> {
 /// The argument of a callback that is called very often: a table of integers.
 #[derive(Debug, Clone, Copy)]
 pub struct Integers<'a> {
+    /// The names of the fields.
     pub names: &'static [&'static str],
     /// As many as names.
     pub values: &'a [i64],
@@ -172,6 +177,7 @@ impl Integers<'_> {
 /// The outcome of a callback.
 #[derive(Debug, PartialEq)]
 pub enum CallbackResult {
+    /// The script has no such function.
     NotDefined,
     /// The last value it returned; None when it returned nothing.
     Returned(Option<Data>),
@@ -182,10 +188,12 @@ pub enum CallbackResult {
 pub struct FunctionRef(i32);
 
 impl FunctionRef {
+    /// The function that the interpreter knows by `number`.
     pub fn new(number: i32) -> Self {
         Self(number)
     }
 
+    /// The number by which the interpreter knows it.
     pub fn number(self) -> i32 {
         self.0
     }
@@ -201,6 +209,7 @@ pub struct ScriptError {
 }
 
 impl ScriptError {
+    /// An error that is logged.
     pub fn new(text: impl Into<String>) -> Self {
         Self { text: text.into(), is_silent: false }
     }
@@ -219,7 +228,9 @@ impl ScriptError {
 /// Why a call of a function failed.
 #[derive(Debug, PartialEq)]
 pub enum CallError {
+    /// The script has no such function.
     NoSuchFunction,
+    /// The function raised an error.
     Script(ScriptError),
 }
 
@@ -240,6 +251,7 @@ impl From<ScriptError> for CallError {
 pub struct Languages(Vec<Box<dyn Language>>);
 
 impl Languages {
+    /// Languages by which a simulator runs scripts; the first one is for scripts of an unknown language.
     pub fn new(languages: Vec<Box<dyn Language>>) -> Self {
         Self(languages)
     }

@@ -110,21 +110,29 @@ pub struct Limits {
 
 /// Everything a running simulator consists of. Borrows of the parts never outlive a statement that calls a script.
 pub struct Sim {
+    /// The options it was made with.
     pub options: Options,
     /// The modules scripts can use, with their state.
     pub modules: Modules,
+    /// The scene: objects, meshes, settings.
     pub scene: RefCell<Scene>,
+    /// State and time of the simulation.
     pub clock: Clock,
+    /// The scripts and what is known about their states.
     pub scripts: ScriptSet,
     /// Taken out while it steps.
     pub dynamics: RefCell<Option<Dynamics>>,
+    /// Proximity and vision sensors.
     pub perception: RefCell<Perception>,
+    /// The log, and what the console shows of it.
     pub log: Log,
-    pub removals: Removals,
+    pub(crate) removals: Removals,
+    /// Data that scripts store in the application.
     pub app: RefCell<AppData>,
-    pub signal_owners: RefCell<SignalOwners>,
+    pub(crate) signal_owners: RefCell<SignalOwners>,
+    /// The event loop of sockets; made at the first use.
     pub event_loop: SharedEventLoop,
-    pub events: EventStream,
+    pub(crate) events: EventStream,
     /// The connection to the test runner.
     pub test_bench: OnceCell<Rc<TestBench>>,
     /// Line counts of states that are closed.
@@ -132,6 +140,7 @@ pub struct Sim {
 }
 
 impl Sim {
+    /// A simulator with an empty scene and without main script and sandbox.
     pub fn new(options: Options, registry: Arc<Registry>, console: Box<dyn Console>, languages: Languages) -> Rc<Self> {
         let perception = RefCell::new(Perception::new(options.seed, options.render_threads));
         let dynamics = RefCell::new(Some(Dynamics::new(options.threads)));

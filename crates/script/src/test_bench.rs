@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::Options;
 use super::coverage::LineCounts;
-use super::log::console::{Console, LogLine, Stream};
+use super::log::console::{Console, LogLine, OutputStream};
 use super::log::verbosity;
 use scene::object::script_object::ScriptType;
 
@@ -27,6 +27,7 @@ pub struct ConsoleLine {
     pub origin: Option<String>,
     /// `info`, `error`, ...; `print` for a print and what was written to standard output, `stderr` for what was written there.
     pub level: &'static str,
+    /// The line, without its end, in the words of CoppeliaSim.
     pub text: String,
     /// An error as people read it, with files and hints.
     pub located: Option<String>,
@@ -50,6 +51,7 @@ impl ConsoleLine {
 /// Named quantities over time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Trace {
+    /// The names of the quantities, without that of time.
     pub columns: Vec<String>,
     /// Time, then a value for each column.
     pub rows: Vec<Vec<f64>>,
@@ -58,8 +60,9 @@ pub struct Trace {
 /// Tolerances of the comparison with a recorded trace.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tolerances {
+    /// Deviation that is allowed for every value, in the unit of its column.
     pub absolute: f64,
-    /// Share of the expected value.
+    /// Deviation that is allowed as a share of the expected value; the larger of the two counts.
     pub relative: f64,
     /// Absolute tolerances of single columns.
     pub columns: BTreeMap<String, f64>,
@@ -89,14 +92,23 @@ pub struct Snapshot {
 /// Something to compare with what was recorded under that name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Golden {
+    /// The name under which it was recorded, without the ending of a file.
     pub name: String,
+    /// What is compared.
     pub content: GoldenContent,
 }
 
 /// Content of a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub enum GoldenContent {
-    Trace { trace: Trace, tolerances: Tolerances },
+    /// Quantities over time, and how much they may deviate.
+    Trace {
+        /// The quantities.
+        trace: Trace,
+        /// How much they may deviate from the recording.
+        tolerances: Tolerances,
+    },
+    /// A picture.
     Image(Snapshot),
 }
 
@@ -113,8 +125,9 @@ pub struct RunRequest {
     pub start: bool,
     /// Loop iterations without a start, and of a paused simulation.
     pub loops: u64,
-    /// Limits of the simulation: steps, and simulated time in seconds.
+    /// Limit of simulation steps.
     pub steps: Option<u64>,
+    /// Limit of simulated time, seconds.
     pub time: Option<f64>,
     /// Simulated seconds after which it has failed.
     pub time_limit: f64,
@@ -123,9 +136,11 @@ pub struct RunRequest {
 /// The result of such a run.
 #[derive(Debug, Clone, Default)]
 pub struct RunReport {
+    /// The output of the simulator and its scripts.
     pub lines: Vec<ConsoleLine>,
     /// Uncaught script errors.
     pub errors: u64,
+    /// Simulation steps.
     pub steps: u64,
     /// Simulated seconds.
     pub time: f64,
@@ -133,13 +148,14 @@ pub struct RunReport {
     pub params: BTreeMap<String, String>,
     /// The names of parameters that scripts have read.
     pub params_read: BTreeSet<String>,
+    /// How often lines of scripts ran; empty unless the options ask for that.
     pub line_counts: LineCounts,
 }
 
 /// Runs a scene in a simulator with these options; why it could not, otherwise.
 pub type RunApart = fn(Options, &RunRequest) -> Result<RunReport, String>;
 
-/// Levels of the lines of streams, in the order of `Stream`.
+/// Levels of the lines of streams, in the order of `OutputStream`.
 const LEVELS: [&str; 2] = ["print", "stderr"];
 
 /// What a language has made of the text of a file, which other simulators can load; only the language knows what it is.
@@ -156,6 +172,7 @@ pub struct TestBench {
     pub run_apart: Option<RunApart>,
     /// The test's file, once a simulator has compiled it.
     pub compiled: RefCell<Option<CompiledFile>>,
+    /// What the test compares with recordings.
     pub goldens: RefCell<Vec<Golden>>,
     lines: RefCell<Vec<ConsoleLine>>,
     /// Lines of standard output and error that have no end so far.
@@ -216,7 +233,7 @@ impl TestBench {
     }
 
     /// Parts of lines, or a whole one with its end.
-    fn write_parts(&self, mut text: &[u8], stream: Stream, time: f64) {
+    fn write_parts(&self, mut text: &[u8], stream: OutputStream, time: f64) {
         let mut unfinished = self.unfinished[stream as usize].borrow_mut();
         while let Some(end) = text.iter().position(|&byte| byte == b'\n') {
             unfinished.extend_from_slice(&text[..end]);
@@ -246,13 +263,13 @@ struct Recorder(Rc<TestBench>);
 
 impl Console for Recorder {
     fn print(&mut self, line: &[u8], time: f64) {
-        if self.0.unfinished[Stream::Output as usize].borrow().is_empty() {
-            return self.0.write(ConsoleLine::printed(LEVELS[Stream::Output as usize], line, time));
+        if self.0.unfinished[OutputStream::Output as usize].borrow().is_empty() {
+            return self.0.write(ConsoleLine::printed(LEVELS[OutputStream::Output as usize], line, time));
         }
-        self.write(&[line, b"\n"].concat(), Stream::Output, time);
+        self.write(&[line, b"\n"].concat(), OutputStream::Output, time);
     }
 
-    fn write(&mut self, text: &[u8], stream: Stream, time: f64) {
+    fn write(&mut self, text: &[u8], stream: OutputStream, time: f64) {
         self.0.write_parts(text, stream, time);
     }
 

@@ -17,11 +17,11 @@ const TRIGGERED: i64 = 29;
 /// `sim.stringparam_video_filename`.
 const FILE_NAME: i64 = 1;
 /// The file of scripts that name none.
-const USUAL_FILE: &str = "recording.webp";
+const DEFAULT_FILE: &str = "recording.webp";
 /// Width and height where neither the user nor a vision sensor says otherwise.
-const USUAL_SIZE: [u32; 2] = [640, 480];
+const DEFAULT_SIZE: [u32; 2] = [640, 480];
 /// Pictures per second at most where the user does not say otherwise.
-const USUAL_RATE: f64 = 30.0;
+const DEFAULT_RATE: f64 = 30.0;
 /// Pictures per second at least.
 const MIN_RATE: f64 = 0.001;
 
@@ -30,6 +30,7 @@ const MIN_RATE: f64 = 0.001;
 pub struct VideoOptions {
     /// Its extension says the kind: webp, gif, png for a series such as `out-%05d.png`; mp4, mkv, mov, webm or avi with ffmpeg.
     pub file: PathBuf,
+    /// Where the video is taken from.
     pub from: VideoView,
     /// Width and height in pixels, 4096 each at most; None: those of the vision sensor, or 640 and 480.
     pub size: Option<[u32; 2]>,
@@ -134,11 +135,11 @@ impl Film {
             VideoView::Everything => None,
         };
         let from = Viewpoint::new(&scene, camera).map_err(wrong_camera)?;
-        let size = options.size.or_else(|| from.resolution(&scene)).unwrap_or(USUAL_SIZE);
+        let size = options.size.or_else(|| from.resolution(&scene)).unwrap_or(DEFAULT_SIZE);
         let size = from.shot(&scene, size).map_err(wrong_camera)?.view.resolution;
         let format = VideoFormat {
             size,
-            rate: options.rate.unwrap_or((1.0 / dt).min(USUAL_RATE)).clamp(MIN_RATE, video::MAX_RATE),
+            rate: options.rate.unwrap_or((1.0 / dt).min(DEFAULT_RATE)).clamp(MIN_RATE, video::MAX_RATE),
         };
         Ok(Self { file: video::create(&options.file, format)?, from, format })
     }
@@ -227,6 +228,7 @@ impl Sim {
         }
     }
 
+    /// Ends the video that scripts record, and completes its file.
     pub fn end_video_of_scripts(&self) {
         let recorder = self.app.borrow_mut().videos.of_scripts.take();
         if let Some(recorder) = recorder {
@@ -246,6 +248,6 @@ impl Sim {
     fn video_file(&self) -> PathBuf {
         let app = self.app.borrow();
         let name = app.idle_params.texts.get(&FILE_NAME).filter(|name| !name.is_empty());
-        name.map_or_else(|| USUAL_FILE.into(), |name| String::from_utf8_lossy(name).into_owned().into())
+        name.map_or_else(|| DEFAULT_FILE.into(), |name| String::from_utf8_lossy(name).into_owned().into())
     }
 }

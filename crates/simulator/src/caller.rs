@@ -26,6 +26,7 @@ pub struct ApiFunction {
 /// How far a call has come.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Progress {
+    /// It has returned these results.
     Done(Vec<Data>),
     /// It waits for simulation steps: run one, then [`Caller::resume`] it by this number.
     Waits(i64),
@@ -34,9 +35,11 @@ pub enum Progress {
 /// A member of a module.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ModuleMember {
+    /// A constant.
     Constant(Data),
     /// The constants of an enumeration, by name.
     Enumeration(Vec<(String, i64)>),
+    /// A function.
     Function(ApiFunction),
 }
 

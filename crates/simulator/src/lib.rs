@@ -55,6 +55,7 @@ const VISUALIZATION_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.visual
 /// Why a request to a [`Simulator`] failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
+    /// A function for scripts refused the call.
     #[error(transparent)]
     Api(#[from] ApiError),
     /// A script's own error; it has been logged.
@@ -197,9 +198,9 @@ impl Simulator {
         Ok(address)
     }
 
-    /// Waits until something has arrived from outside, at most that long; false at once when nothing can, for want of sockets.
-    pub fn wait_for_request(&self, patience: Duration) -> bool {
-        self.sim.event_loop.wait_for_input(patience)
+    /// Waits until a socket has received something, at most `timeout`, and says whether it waited; without sockets it returns false at once.
+    pub fn wait_for_request(&self, timeout: Duration) -> bool {
+        self.sim.event_loop.wait_for_input(timeout)
     }
 
     /// Whether scripts have ZeroMQ sockets, whose messages `wait_for_request` does not notice.
@@ -361,6 +362,7 @@ impl Simulator {
         }
     }
 
+    /// Whether the simulation is stopped, runs or is paused.
     pub fn state(&self) -> SimulationState {
         self.sim.clock.state()
     }

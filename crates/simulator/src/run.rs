@@ -19,6 +19,7 @@ pub struct RunLimits {
 /// Result of a run, including simulations restarted by scripts.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct RunTotals {
+    /// Simulation steps.
     pub steps: u64,
     /// Simulated time, seconds.
     pub time: f64,

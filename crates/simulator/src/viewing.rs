@@ -12,11 +12,15 @@ use script::{ApiError, Ask, Present, Situation, SysCall, Watcher};
 
 /// A property of an object, of the scene or of the application.
 pub struct PropertyRow {
+    /// Its name, without the class.
     pub name: String,
     /// The class it belongs to.
     pub class: &'static str,
+    /// The type of its value.
     pub ty: ValueType,
+    /// The value now.
     pub value: Data,
+    /// Whether scripts can set it.
     pub is_writable: bool,
 }
 
@@ -48,7 +52,7 @@ impl Simulator {
         self.sim.log.take_recent()
     }
 
-    /// Dialogs of scripts are answered by it from now on.
+    /// Sets the function that shows dialogs of scripts to users and returns their answers.
     pub fn set_person(&self, ask: Rc<Ask>) {
         self.sim.set_person(ask);
     }
@@ -58,9 +62,9 @@ impl Simulator {
         self.sim.watch(watcher);
     }
 
-    /// Calls `look` with the present state, and the lines of the log since the last time.
-    pub fn with_present<T>(&self, look: impl FnOnce(&Present<'_>) -> T) -> T {
-        self.sim.with_present(look)
+    /// Calls `observe` with the present state, and the lines of the log since the last time.
+    pub fn with_present<T>(&self, observe: impl FnOnce(&Present<'_>) -> T) -> T {
+        self.sim.with_present(observe)
     }
 
     /// This simulator with its scene as it is now.
@@ -68,7 +72,7 @@ impl Simulator {
         self.sim.situation(scene)
     }
 
-    /// Another one after another scene was loaded.
+    /// Identifies the scene: it changes when another scene is loaded.
     pub fn scene_uid(&self) -> i64 {
         self.sim.scene_uid()
     }

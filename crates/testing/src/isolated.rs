@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::case::{Outcome, Status, TestCase};
 use super::excerpt::Excerpt;
 use super::report;
-use script::coverage::{CountedText, Function, LineCounts};
+use script::coverage::{CountedText, FunctionLines, LineCounts};
 use script::test_bench::ConsoleLine;
 
 /// How often the process is looked at.
@@ -121,9 +121,9 @@ fn line_counts(value: &Value) -> LineCounts {
     all
 }
 
-fn function(value: &Value) -> Function {
+fn function(value: &Value) -> FunctionLines {
     let line = |value: &Value| value.as_u64().unwrap_or_default() as u32;
-    Function {
+    FunctionLines {
         line: line(&value[0]),
         name: value[1].as_str().map(str::to_owned),
         lines: list(&value[2]).map(line).collect(),
@@ -171,8 +171,8 @@ mod tests {
         let text = b"-- \xff\xc3\xa4\nx = 1".as_slice().into();
         let script = CountedText::Script { scene: "s.ttt".into(), path: "/Arm".into(), text };
         counts.add(script.clone(), &[0, 2]);
-        let inner = Function { line: 1, lines: vec![2], name: Some("f".into()) };
-        counts.functions.insert(script, vec![Function { line: 0, lines: vec![1], name: None }, inner]);
+        let inner = FunctionLines { line: 1, lines: vec![2], name: Some("f".into()) };
+        counts.functions.insert(script, vec![FunctionLines { line: 0, lines: vec![1], name: None }, inner]);
         let test = Arc::new(TestCase::of_file(Path::new("a_test.lua")));
         let passed = Outcome::new(Arc::clone(&test), Status::Passed, "");
         let printed = printed(&passed, &counts);

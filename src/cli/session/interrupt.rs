@@ -10,14 +10,14 @@ use std::time::{Duration, Instant};
 use io::signals::{self, InterruptibleThread};
 use script::{calls_begun, interrupt_running_code, place_of_interruption};
 
-/// How long a call into a script may take after the request, before it is interrupted.
-const PATIENCE: Duration = Duration::from_millis(300);
-/// The same before the process ends without it.
-const LAST_PATIENCE: Duration = Duration::from_millis(700);
-/// How often scripts are looked at meanwhile.
-const TICK: Duration = Duration::from_millis(25);
-/// Time for what an interrupted script leaves to others, such as `sysCall_cleanup`, before the next interruption.
-const PAUSE: Duration = Duration::from_millis(150);
+/// A call into a script that takes longer than this after the request is interrupted.
+const INTERRUPT_TIMEOUT: Duration = Duration::from_millis(300);
+/// The process ends when a call takes longer than this.
+const EXIT_TIMEOUT: Duration = Duration::from_millis(700);
+/// Interval between checks of the running call.
+const POLL_INTERVAL: Duration = Duration::from_millis(25);
+/// Time between interruptions, for what still has to run after the first one, such as `sysCall_cleanup`.
+const INTERRUPT_INTERVAL: Duration = Duration::from_millis(150);
 
 /// Set when the program shall end. Cheap to clone.
 #[derive(Clone)]
@@ -77,18 +77,18 @@ impl Interrupt {
     /// Interrupts scripts that go on, until the process ends.
     fn watch(&self, scripts: InterruptibleThread) -> ! {
         let (mut calls, mut begun) = (calls_begun(), Instant::now());
-        let mut due = PATIENCE;
+        let mut due = INTERRUPT_TIMEOUT;
         loop {
-            std::thread::sleep(TICK);
+            std::thread::sleep(POLL_INTERVAL);
             if calls_begun() != calls {
-                (calls, begun, due) = (calls_begun(), Instant::now(), PATIENCE);
+                (calls, begun, due) = (calls_begun(), Instant::now(), INTERRUPT_TIMEOUT);
             }
-            if begun.elapsed() > LAST_PATIENCE {
+            if begun.elapsed() > EXIT_TIMEOUT {
                 self.end_at_once();
             }
             if begun.elapsed() > due {
                 scripts.wake();
-                due += PAUSE;
+                due += INTERRUPT_INTERVAL;
             }
         }
     }

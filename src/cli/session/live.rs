@@ -1,4 +1,4 @@
-//! The loop of a simulator that others drive: remote clients, pages of the viewer, its own scripts.
+//! The loop of a simulator that is controlled by remote clients, pages of the viewer, or its own scripts.
 
 use std::time::Duration;
 
@@ -7,11 +7,11 @@ use simulator::Simulator;
 use view::Viewer;
 
 /// Longest wait for a request before an idle loop iteration.
-const NAP: Duration = Duration::from_millis(50);
-/// The same while a page is to see what scripts do.
-const FRAME: Duration = Duration::from_millis(16);
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
+/// The same while a viewer shows what scripts do: about 60 frames per second.
+const FRAME_INTERVAL: Duration = Duration::from_millis(16);
 /// The same while a real-time step is due soon, or while scripts poll their own sockets.
-const SHORT_NAP: Duration = Duration::from_millis(1);
+const SHORT_POLL_INTERVAL: Duration = Duration::from_millis(1);
 
 /// A simulator's loop, with a viewer or without.
 pub(in crate::cli) struct Live {
@@ -36,20 +36,20 @@ impl Live {
     pub(in crate::cli) fn iterate(&mut self, sim: &mut Simulator) {
         let steps = sim.steps();
         sim.iterate();
-        let longest = if !sim.state().is_advancing() {
-            let idle = if self.viewer.is_some() { FRAME } else { NAP };
-            if sim.has_zmq_sockets() { SHORT_NAP } else { idle }
+        let timeout = if !sim.state().is_advancing() {
+            let idle = if self.viewer.is_some() { FRAME_INTERVAL } else { POLL_INTERVAL };
+            if sim.has_zmq_sockets() { SHORT_POLL_INTERVAL } else { idle }
         } else if sim.steps() == steps {
-            SHORT_NAP
+            SHORT_POLL_INTERVAL
         } else {
             Duration::ZERO
         };
-        self.rest(sim, longest);
+        self.rest(sim, timeout);
     }
 
-    fn rest(&mut self, sim: &mut Simulator, longest: Duration) {
-        let has_rested = !longest.is_zero() && sim.wait_for_request(longest);
-        let rest = if has_rested { Duration::ZERO } else { longest };
+    fn rest(&mut self, sim: &mut Simulator, timeout: Duration) {
+        let has_rested = !timeout.is_zero() && sim.wait_for_request(timeout);
+        let rest = if has_rested { Duration::ZERO } else { timeout };
         match &mut self.viewer {
             Some(viewer) => viewer.attend(sim, rest),
             None if !rest.is_zero() => std::thread::sleep(rest),

@@ -21,11 +21,11 @@ use progress::Progress;
 
 use simulator::{RunObserver, Simulator};
 
-/// Sleep between polls of the wall clock in real-time mode.
-const REAL_TIME_NAP: Duration = Duration::from_millis(1);
+/// Interval between polls of the wall clock in real-time mode.
+const REAL_TIME_POLL_INTERVAL: Duration = Duration::from_millis(1);
 
 /// Wall time after which a run without an end mentions that.
-const LONG: Duration = Duration::from_secs(2);
+const REMINDER_DELAY: Duration = Duration::from_secs(2);
 
 /// The command line as an observer of the run.
 pub(super) struct Session<'a> {
@@ -48,7 +48,7 @@ impl Reminder {
     }
 
     fn remind(&mut self, output: &Output, time: f64) {
-        if self.begun.is_some_and(|begun| begun.elapsed() > LONG) {
+        if self.begun.is_some_and(|begun| begun.elapsed() > REMINDER_DELAY) {
             self.begun = None;
             output.note("This run has no end so far: ctrl-c stops it, --time and --steps limit it.", time);
         }
@@ -75,7 +75,7 @@ impl RunObserver for Session<'_> {
 
 /// Sleeps after a loop iteration without a step: the next step is not due yet, or a remote client delays it.
 fn rest(sim: &Simulator) {
-    if !sim.wait_for_request(REAL_TIME_NAP) && sim.scene().settings().real_time {
-        std::thread::sleep(REAL_TIME_NAP);
+    if !sim.wait_for_request(REAL_TIME_POLL_INTERVAL) && sim.scene().settings().real_time {
+        std::thread::sleep(REAL_TIME_POLL_INTERVAL);
     }
 }

@@ -92,7 +92,7 @@ impl Output {
             (Aftermath::Stopping, status::RESUMED) => (Aftermath::Stopping, None),
             (Aftermath::Stopping, status::STOPPED) => (Aftermath::None, Some(STOPPED_AFTER_ERROR)),
             (Aftermath::Paused, text) => {
-                // Somebody has resumed it: the pause is told after all.
+                // The simulation was resumed, so the pause is reported after all.
                 self.write_error(&LogLine { text: status::PAUSED, ..*line });
                 (Aftermath::None, Some(text))
             }

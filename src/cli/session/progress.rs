@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use simulator::{RunLimits, Simulator};
 
 /// Runs shorter than this show nothing.
-const LONG: Duration = Duration::from_secs(1);
+const SHOW_DELAY: Duration = Duration::from_secs(1);
 
 /// The bar and what it counts.
 pub(in crate::cli) struct Progress {
@@ -34,7 +34,7 @@ impl Progress {
     }
 
     pub(in crate::cli) fn show(&mut self, sim: &Simulator) {
-        if self.waiting && self.begun.elapsed() > LONG {
+        if self.waiting && self.begun.elapsed() > SHOW_DELAY {
             self.waiting = false;
             let style = ProgressStyle::with_template("{bar:40} {percent}% {msg}, {eta} left");
             self.bar.set_style(style.expect("the template is well-formed"));

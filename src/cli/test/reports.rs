@@ -68,7 +68,7 @@ impl ReportArgs {
 
     /// Prints a message that belongs to no report, without disturbing one.
     pub(super) fn print(&self, text: &str) {
-        // A reader that closes the pipe has seen enough, which is no error.
+        // That the reader has closed the pipe is no error.
         let _ = match (self.tap || self.json, std::io::stdout().is_terminal()) {
             (true, true) => Ok(()),
             (true, false) => std::io::stderr().lock().write_all(text.as_bytes()),

@@ -9,7 +9,7 @@ use api_macro::api;
 
 use crate::{ApiFn, Cx, Result, functions};
 use scene::{CustomData, Data, Edit, Namespace, SceneError, special};
-use script::{Bytes, Number, Section, Target};
+use script::{Bytes, Number, PropertyTarget, StorageSection};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     write_custom_string_data,
@@ -26,7 +26,7 @@ const IN_FILE: i64 = 1;
 /// The owner of raw custom data.
 enum Owner {
     /// An object or the scene.
-    Scene(Target),
+    Scene(PropertyTarget),
     /// The application, until the program ends.
     App,
     /// The application, beyond the end of the program.
@@ -37,9 +37,9 @@ fn owner(cx: &Cx, raw: i64) -> Result<Owner> {
     match raw {
         special::APP_STORAGE => Ok(Owner::AppStorage),
         special::APP => Ok(Owner::App),
-        special::SCENE => Ok(Owner::Scene(Target::Scene)),
+        special::SCENE => Ok(Owner::Scene(PropertyTarget::Scene)),
         _ => match cx.property_target(raw) {
-            Ok(target @ Target::Object(_)) => Ok(Owner::Scene(target)),
+            Ok(target @ PropertyTarget::Object(_)) => Ok(Owner::Scene(target)),
             _ => Err(SceneError::NoSuchObject.into()),
         },
     }
@@ -74,10 +74,10 @@ fn write_custom_string_data(
 fn write_app_storage(cx: &mut Cx, tag: &str, bytes: Option<Vec<u8>>) {
     cx.change_storage(|storage| {
         if !tag.is_empty() {
-            return storage.set_block(Section::Tags, tag, bytes);
+            return storage.set_block(StorageSection::Tags, tag, bytes);
         }
-        let tags: Vec<String> = storage.blocks(Section::Tags).keys().cloned().collect();
-        tags.iter().for_each(|tag| storage.set_block(Section::Tags, tag, None));
+        let tags: Vec<String> = storage.blocks(StorageSection::Tags).keys().cloned().collect();
+        tags.iter().for_each(|tag| storage.set_block(StorageSection::Tags, tag, None));
     });
 }
 
@@ -96,7 +96,7 @@ fn read_custom_string_data(cx: &Cx, object_handle: Number, tag_name: String) -> 
     let bytes = match owner {
         Owner::Scene(target) => cx.named_values(&target, Namespace::CustomData, read)?,
         Owner::App => read(&cx.app().raw_data),
-        Owner::AppStorage => cx.stored_block(Section::Tags, &tag_name),
+        Owner::AppStorage => cx.stored_block(StorageSection::Tags, &tag_name),
     };
     Ok(bytes.map_or(Data::Nil, Data::Text))
 }
@@ -111,7 +111,7 @@ fn read_custom_data_tags(cx: &Cx, object_handle: Number) -> Result<Vec<String>> 
     match owner(cx, object_handle.0)? {
         Owner::Scene(target) => cx.named_values(&target, Namespace::CustomData, tags),
         Owner::App => Ok(tags(&cx.app().raw_data)),
-        Owner::AppStorage => Ok(cx.stored_tags(Section::Tags)),
+        Owner::AppStorage => Ok(cx.stored_tags(StorageSection::Tags)),
     }
 }
 
@@ -133,7 +133,7 @@ fn persistent_data_write(
         return Ok(());
     }
     cx.app_mut().persistent_data.remove(&data_tag);
-    cx.change_storage(|storage| storage.set_block(Section::Persistent, &data_tag, value));
+    cx.change_storage(|storage| storage.set_block(StorageSection::Persistent, &data_tag, value));
     Ok(())
 }
 
@@ -144,7 +144,7 @@ fn persistent_data_write(
 #[api("sim.persistentDataRead")]
 fn persistent_data_read(cx: &Cx, data_tag: String) -> Result<Option<Bytes>> {
     let until_the_end = cx.app().persistent_data.get(&data_tag).cloned();
-    let in_file = || cx.stored_block(Section::Persistent, &data_tag);
+    let in_file = || cx.stored_block(StorageSection::Persistent, &data_tag);
     Ok(until_the_end.unwrap_or_else(in_file).map(Bytes))
 }
 
@@ -153,7 +153,7 @@ fn persistent_data_read(cx: &Cx, data_tag: String) -> Result<Option<Bytes>> {
 /// @return tags in alphabetical order
 #[api("sim.getPersistentDataTags")]
 fn get_persistent_data_tags(cx: &Cx) -> Result<Vec<String>> {
-    let mut tags = BTreeSet::from_iter(cx.stored_tags(Section::Persistent));
+    let mut tags = BTreeSet::from_iter(cx.stored_tags(StorageSection::Persistent));
     for (tag, value) in &cx.app().persistent_data {
         match value {
             Some(_) => tags.insert(tag.clone()),

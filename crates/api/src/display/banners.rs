@@ -15,7 +15,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![add_banner, remove_banner, cam
 /// Added to a handle: it is a camera, not the number of a view.
 const IS_CAMERA: i64 = 0x0040_0000;
 /// Radius of what is shown where nothing has an extent, metres.
-const SMALLEST_RADIUS: f64 = 0.001;
+const MIN_RADIUS: f64 = 0.001;
 
 /// The banners that were added.
 #[derive(Default)]
@@ -111,5 +111,5 @@ fn ball_around(scene: &Scene, objects: &[Handle]) -> Result<(Point3<f64>, f64)> 
         }
     }
     let Some((low, high)) = bounds else { return Ok((Point3::origin(), 1.0)) };
-    Ok((nalgebra::center(&low, &high), (nalgebra::distance(&low, &high) / 2.0).max(SMALLEST_RADIUS)))
+    Ok((nalgebra::center(&low, &high), (nalgebra::distance(&low, &high) / 2.0).max(MIN_RADIUS)))
 }

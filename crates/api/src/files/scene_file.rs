@@ -19,7 +19,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, save_scene, close_
 const KEEP_CURRENT: &str = "@keepCurrent";
 
 /// A text as long as this is a file, not its name.
-const LONGEST_NAME: usize = 1000;
+const MAX_NAME_LENGTH: usize = 1000;
 
 /// Replaces the scene. For add-ons and the sandbox, while the simulation is stopped.
 ///
@@ -99,7 +99,7 @@ enum FileOrBytes {
 impl FileOrBytes {
     fn new(value: Data) -> Result<Self> {
         match value {
-            Data::Text(text) if text.len() < LONGEST_NAME => {
+            Data::Text(text) if text.len() < MAX_NAME_LENGTH => {
                 Ok(Self::Name(String::from_utf8_lossy(&text).into_owned()))
             }
             Data::Text(bytes) | Data::Buffer(bytes) => Ok(Self::Bytes(bytes)),

@@ -12,7 +12,7 @@ use fs4::{FileExt, TryLockError};
 use crate::{ApiError, Cx, Result};
 
 /// File names are not longer, in bytes of the key.
-const LONGEST_KEY: usize = 100;
+const MAX_KEY_LENGTH: usize = 100;
 
 /// The semaphores that this simulator holds, by key.
 #[derive(Default)]
@@ -27,8 +27,8 @@ impl Held {
         if self.0.borrow().contains_key(key) {
             return Ok(Some(()));
         }
-        if key.len() > LONGEST_KEY {
-            return Err(format!("the key is longer than {LONGEST_KEY} bytes."));
+        if key.len() > MAX_KEY_LENGTH {
+            return Err(format!("the key is longer than {MAX_KEY_LENGTH} bytes."));
         }
         let path = path_of(key);
         let failed = |error| format!("cannot use {}: {error}", path.display());
@@ -66,7 +66,7 @@ pub(crate) fn release(cx: &mut Cx, key: &[u8]) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Held, LONGEST_KEY};
+    use super::{Held, MAX_KEY_LENGTH};
 
     #[test]
     fn one_simulator_holds_it_at_a_time() {
@@ -77,6 +77,6 @@ mod tests {
         assert_eq!(second.try_acquire(&key), Ok(None));
         first.0.borrow_mut().clear();
         assert_eq!(second.try_acquire(&key), Ok(Some(())));
-        assert!(second.try_acquire(&[0; LONGEST_KEY + 1]).is_err());
+        assert!(second.try_acquire(&[0; MAX_KEY_LENGTH + 1]).is_err());
     }
 }

@@ -10,7 +10,7 @@ use script::Number;
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![generate_time_optimal_trajectory];
 
 /// Most numbers a trajectory can have: beyond, a mistyped count would fill the memory.
-const MOST_NUMBERS: usize = 10_000_000;
+const MAX_NUMBERS: usize = 10_000_000;
 
 /// The fastest motion along a path within limits of velocity and acceleration, from rest to rest.
 ///
@@ -41,7 +41,7 @@ fn generate_time_optimal_trajectory(
     let _ = (cx, timeout);
     let boundary = Boundary::from_name(&boundary_condition).ok_or_else(|| unknown(&boundary_condition))?;
     let axes = path.len() / path_lengths.len().max(1);
-    let samples = usize::try_from(traj_pt_samples.0).ok().filter(|n| *n >= 2 && n.saturating_mul(axes) <= MOST_NUMBERS);
+    let samples = usize::try_from(traj_pt_samples.0).ok().filter(|n| *n >= 2 && n.saturating_mul(axes) <= MAX_NUMBERS);
     let samples = samples.ok_or_else(|| too_many(traj_pt_samples.0))?;
     let (velocity, acceleration) = (limits(&min_max_vel, axes)?, limits(&min_max_accel, axes)?);
     let timed = TimedPath::new(&path, &path_lengths, &velocity, &acceleration, boundary).map_err(refusal)?;
@@ -63,7 +63,7 @@ fn unknown(boundary: &str) -> ApiError {
 }
 
 fn too_many(samples: i64) -> ApiError {
-    ApiError::Other(format!("cannot make {samples} points: at least 2, and at most {MOST_NUMBERS} numbers in all."))
+    ApiError::Other(format!("cannot make {samples} points: at least 2, and at most {MAX_NUMBERS} numbers in all."))
 }
 
 fn refusal(error: TimeOptimalError) -> ApiError {

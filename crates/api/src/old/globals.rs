@@ -4,7 +4,7 @@ use api_macro::api;
 
 use crate::{ApiFn, Cx, Result, functions};
 use scene::{CustomData, Data, Edit, Handle, Namespace};
-use script::{Bytes, Number, Target};
+use script::{Bytes, Number, PropertyTarget};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     sim_add_object_custom_data,
@@ -22,13 +22,13 @@ fn scene_tag(number: i64) -> String {
     format!("_oldSceneCustomData_{number}_")
 }
 
-fn write(cx: &mut Cx, target: &Target, tag: &str, data: Vec<u8>) -> Result<i64> {
+fn write(cx: &mut Cx, target: &PropertyTarget, tag: &str, data: Vec<u8>) -> Result<i64> {
     let data = Some(data).filter(|data| !data.is_empty()).map(Data::Buffer);
     cx.edit_named_values(target, Namespace::CustomData, Edit::Tag(tag, data))?;
     Ok(1)
 }
 
-fn read(cx: &Cx, target: &Target, tag: &str) -> Result<Data> {
+fn read(cx: &Cx, target: &PropertyTarget, tag: &str) -> Result<Data> {
     let bytes = |values: &CustomData| match values.get(tag) {
         Some(Data::Buffer(bytes)) => bytes.clone(),
         _ => Vec::new(),
@@ -36,9 +36,9 @@ fn read(cx: &Cx, target: &Target, tag: &str) -> Result<Data> {
     Ok(Data::Text(cx.named_values(target, Namespace::CustomData, bytes)?))
 }
 
-fn object(cx: &Cx, handle: Handle) -> Result<Target> {
+fn object(cx: &Cx, handle: Handle) -> Result<PropertyTarget> {
     cx.scene().object(handle)?;
-    Ok(Target::Object(handle))
+    Ok(PropertyTarget::Object(handle))
 }
 
 /// Writes custom data of an object under a number.
@@ -70,7 +70,7 @@ fn sim_get_object_custom_data(cx: &Cx, object_handle: Handle, header: Number) ->
 /// @return result 1
 #[api("simAddSceneCustomData")]
 fn sim_add_scene_custom_data(cx: &mut Cx, header: Number, data: Bytes) -> Result<i64> {
-    write(cx, &Target::Scene, &scene_tag(header.0), data.0)
+    write(cx, &PropertyTarget::Scene, &scene_tag(header.0), data.0)
 }
 
 /// Custom data of the scene under a number.
@@ -79,7 +79,7 @@ fn sim_add_scene_custom_data(cx: &mut Cx, header: Number, data: Bytes) -> Result
 /// @return data empty if there is none
 #[api("simGetSceneCustomData")]
 fn sim_get_scene_custom_data(cx: &Cx, header: Number) -> Result<Data> {
-    read(cx, &Target::Scene, &scene_tag(header.0))
+    read(cx, &PropertyTarget::Scene, &scene_tag(header.0))
 }
 
 /// Time by the wall clock in milliseconds.

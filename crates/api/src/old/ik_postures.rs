@@ -27,9 +27,10 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 const ITERATIONS_PER_MILLISECOND: u32 = 100;
 /// A check for collisions counts as that many.
 const ITERATIONS_PER_CHECK: u32 = 100;
-/// No search takes longer, ms.
-const LONGEST_SEARCH: u64 = 600_000;
-const MOST_POINTS: i64 = 100_000;
+/// Longest time limit of a search, ms.
+const MAX_SEARCH_MS: u64 = 600_000;
+/// Most postures of a path.
+const MAX_POINTS: i64 = 100_000;
 
 /// Searches of a simulator, so that each begins elsewhere.
 #[derive(Default)]
@@ -148,7 +149,7 @@ fn get_config_for_tip_pose(
             task.copy.limit(*joint, low[i], range[i])?;
         }
     }
-    let milliseconds = max_time_in_ms.0.unsigned_abs().clamp(1, LONGEST_SEARCH) as u32;
+    let milliseconds = max_time_in_ms.0.unsigned_abs().clamp(1, MAX_SEARCH_MS) as u32;
     search(cx, &mut task, milliseconds * ITERATIONS_PER_MILLISECOND)
 }
 
@@ -184,7 +185,7 @@ fn generate_ik_path(
     #[default(None)] joint_options: Option<Vec<i64>>,
 ) -> Result<Option<Vec<f64>>> {
     for_joints(joint_options, &joint_handles)?;
-    if !(2..=MOST_POINTS).contains(&pt_cnt.0) {
+    if !(2..=MAX_POINTS).contains(&pt_cnt.0) {
         return Err(SceneError::InvalidArgument.into());
     }
     let mut task = Task::new(cx, ik_group_handle, &joint_handles, &collision_pairs.unwrap_or_default())?;

@@ -11,7 +11,7 @@ use crate::scripts::simulation::main_script_only;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::object::script_object::ScriptType;
 use scene::{Data, Handle, SceneError, ValueType, special};
-use script::{Bytes, Number, Script, Target, Text};
+use script::{Bytes, Number, PropertyTarget, Script, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_object_associated_with_script,
@@ -86,8 +86,8 @@ impl Attribute {
     }
 }
 
-fn target_of(script: &Rc<Script>) -> Target {
-    script.object.map_or_else(|| Target::Script(Rc::clone(script)), Target::Object)
+fn target_of(script: &Rc<Script>) -> PropertyTarget {
+    script.object.map_or_else(|| PropertyTarget::Script(Rc::clone(script)), PropertyTarget::Object)
 }
 
 fn read(cx: &Cx, script: &Rc<Script>, attribute: Attribute) -> Result<Data> {

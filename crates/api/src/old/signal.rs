@@ -6,7 +6,7 @@ use api_macro::api;
 
 use crate::{ApiFn, Cx, Result, functions};
 use scene::Namespace;
-use script::{Bytes, Number, PropertyValue, Target, Text};
+use script::{Bytes, Number, PropertyTarget, PropertyValue, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     set_int32_signal,
@@ -34,12 +34,12 @@ const DOUBLE: &str = KINDS[3];
 fn set<T: PropertyValue>(cx: &mut Cx, kind: &str, name: &str, value: T) -> i64 {
     let name = format!("signal.{kind}{name}");
     // As in CoppeliaSim, a name with illegal characters stores nothing and is no error.
-    let _ = cx.write_property(&Target::Scene, &name, (T::TYPE, value.into_data()));
+    let _ = cx.write_property(&PropertyTarget::Scene, &name, (T::TYPE, value.into_data()));
     1
 }
 
 fn get<T: PropertyValue>(cx: &Cx, kind: &str, name: &str) -> Option<T> {
-    let data = cx.read_property(&Target::Scene, &format!("signal.{kind}{name}"), T::TYPE).ok()?;
+    let data = cx.read_property(&PropertyTarget::Scene, &format!("signal.{kind}{name}"), T::TYPE).ok()?;
     T::from_data(data)
 }
 
@@ -49,7 +49,7 @@ fn clear(cx: &mut Cx, kind: &str, name: Option<&str>) -> i64 {
         Some(name) => vec![name.to_owned()],
         None => names_of(cx, kind),
     };
-    let removed = names.iter().map(|name| cx.remove_property(&Target::Scene, &format!("signal.{kind}{name}")));
+    let removed = names.iter().map(|name| cx.remove_property(&PropertyTarget::Scene, &format!("signal.{kind}{name}")));
     removed.filter(Result::is_ok).count() as i64
 }
 

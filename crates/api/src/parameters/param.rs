@@ -11,7 +11,7 @@ use geometry::pose::euler;
 use super::param_property::{self, FLOATS, INTEGERS, LEVELS, LIGHT, SWITCHES, TEXTS};
 use crate::{ApiFn, Cx, Result, functions};
 use scene::{Calculations, SceneError};
-use script::{Bytes, Color, Number, PropertyValue, Target, Text};
+use script::{Bytes, Color, Number, PropertyTarget, PropertyValue, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_int32_param,
@@ -300,7 +300,7 @@ fn set_string_param(cx: &mut Cx, parameter: Number, parameter_value: Bytes) -> R
 /// @return stringParam nothing if there is none
 #[api("sim.getNamedStringParam")]
 fn get_named_string_param(cx: &Cx, param_name: String) -> Result<Option<Text>> {
-    let value = cx.read_property(&Target::App, &format!("namedParam.{param_name}"), Text::TYPE);
+    let value = cx.read_property(&PropertyTarget::App, &format!("namedParam.{param_name}"), Text::TYPE);
     Ok(value.ok().and_then(Text::from_data))
 }
 
@@ -311,7 +311,7 @@ fn get_named_string_param(cx: &Cx, param_name: String) -> Result<Option<Text>> {
 #[api("sim.setNamedStringParam")]
 fn set_named_string_param(cx: &mut Cx, param_name: String, string_param: Text) -> Result<()> {
     let value = (Text::TYPE, string_param.into_data());
-    cx.write_property(&Target::App, &format!("namedParam.{param_name}"), value)
+    cx.write_property(&PropertyTarget::App, &format!("namedParam.{param_name}"), value)
 }
 
 /// Calls the handlers of what came from outside: what persons did with windows (simUI). It happens at the end of each loop iteration anyway.

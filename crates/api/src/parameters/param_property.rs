@@ -2,7 +2,7 @@
 
 use crate::{Cx, Result};
 use scene::special::{APP, SCENE};
-use script::{PropertyValue, Target};
+use script::{PropertyTarget, PropertyValue};
 
 /// The number of a parameter, the target of its property, and the property's name.
 type PropertyParam = (i64, i64, &'static str);
@@ -85,9 +85,9 @@ pub(crate) const TEXTS: &[PropertyParam] = &[
 pub(crate) const LEVELS: &[PropertyParam] =
     &[(121, APP, "consoleVerbosityStr"), (122, APP, "statusbarVerbosityStr"), (123, APP, "dialogVerbosityStr")];
 
-fn property_of(params: &[PropertyParam], number: i64) -> Option<(Target, &'static str)> {
+fn property_of(params: &[PropertyParam], number: i64) -> Option<(PropertyTarget, &'static str)> {
     let &(_, target, name) = params.iter().find(|(known, ..)| *known == number)?;
-    Some((if target == APP { Target::App } else { Target::Scene }, name))
+    Some((if target == APP { PropertyTarget::App } else { PropertyTarget::Scene }, name))
 }
 
 /// The value of the property that `number` is; None when it is none.

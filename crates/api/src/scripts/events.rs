@@ -4,7 +4,7 @@ use api_macro::api;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::Data;
-use script::{Bytes, Filters, Table};
+use script::{Bytes, EventFilters, Table};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![set_event_filters, get_genesis_events, push_user_event];
 
@@ -14,7 +14,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![set_event_filters, get_genesis
 #[api("sim.setEventFilters")]
 fn set_event_filters(cx: &mut Cx, #[default(Data::Array(Vec::new()))] filters: Data) -> Result<()> {
     let filters = match filters {
-        Data::Array(_) | Data::Map(_) => Filters::from_table(&filters),
+        Data::Array(_) | Data::Map(_) => EventFilters::from_table(&filters),
         _ => return Err(ApiError::Other("invalid argument.".into())),
     };
     cx.set_event_filters(filters);

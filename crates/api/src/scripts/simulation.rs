@@ -5,7 +5,7 @@ use api_macro::api;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::object::script_object::ScriptType;
 use scene::special;
-use script::{Group, Number, Rest, SysCall};
+use script::{Number, Rest, ScriptGroup, SysCall};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     start_simulation,
@@ -117,8 +117,8 @@ fn callback(number: i64) -> Result<SysCall> {
 #[api("sim.handleEmbeddedScripts")]
 fn handle_embedded_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<i64> {
     main_script_only(cx)?;
-    let simulation = call_group(cx, Group::Simulation, call_type, &arguments)?;
-    Ok(simulation + call_group(cx, Group::Customization, call_type, &arguments)?)
+    let simulation = call_group(cx, ScriptGroup::Simulation, call_type, &arguments)?;
+    Ok(simulation + call_group(cx, ScriptGroup::Customization, call_type, &arguments)?)
 }
 
 /// Calls a callback of all simulation scripts. For the main script; others get -1.
@@ -130,7 +130,7 @@ fn handle_simulation_scripts(cx: &mut Cx, call_type: i64, #[name("...")] argumen
     if main_script_only(cx).is_err() {
         return Ok(-1);
     }
-    call_group(cx, Group::Simulation, call_type, &arguments)
+    call_group(cx, ScriptGroup::Simulation, call_type, &arguments)
 }
 
 /// Calls a callback of all customization scripts. For the main script.
@@ -140,7 +140,7 @@ fn handle_simulation_scripts(cx: &mut Cx, call_type: i64, #[name("...")] argumen
 #[api("sim.handleCustomizationScripts")]
 fn handle_customization_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<i64> {
     main_script_only(cx)?;
-    call_group(cx, Group::Customization, call_type, &arguments)
+    call_group(cx, ScriptGroup::Customization, call_type, &arguments)
 }
 
 /// Calls a callback of all add-ons. For the main script.
@@ -150,7 +150,7 @@ fn handle_customization_scripts(cx: &mut Cx, call_type: i64, #[name("...")] argu
 #[api("sim.handleAddOnScripts")]
 fn handle_add_on_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<i64> {
     main_script_only(cx)?;
-    call_group(cx, Group::AddOn, call_type, &arguments)
+    call_group(cx, ScriptGroup::AddOn, call_type, &arguments)
 }
 
 /// Calls a callback of the sandbox. For the main script.
@@ -159,10 +159,10 @@ fn handle_add_on_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments: 
 #[api("sim.handleSandboxScript")]
 fn handle_sandbox_script(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<()> {
     main_script_only(cx)?;
-    call_group(cx, Group::Sandbox, call_type, &arguments).map(drop)
+    call_group(cx, ScriptGroup::Sandbox, call_type, &arguments).map(drop)
 }
 
-fn call_group(cx: &mut Cx, group: Group, call_type: i64, arguments: &Rest) -> Result<i64> {
+fn call_group(cx: &mut Cx, group: ScriptGroup, call_type: i64, arguments: &Rest) -> Result<i64> {
     Ok(cx.call_group(group, callback(call_type)?, &arguments.0))
 }
 

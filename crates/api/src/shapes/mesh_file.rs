@@ -22,8 +22,8 @@ mod option {
     pub const IGNORE_UP_AXIS: i64 = 128;
 }
 
-/// Textures of imported shapes have at most as many pixels on a side.
-const LARGEST_TEXTURE: u32 = 512;
+/// Most pixels on a side of the texture of an imported shape.
+const MAX_TEXTURE_SIZE: u32 = 512;
 
 /// A new shape from a mesh file: OBJ, STL, PLY, COLLADA, glTF, 3DS or DXF; its frame is the world's. Several meshes are one compound.
 ///
@@ -50,7 +50,7 @@ fn import_shape(
     let imported = ImportedAppearance {
         colours: !has(option::DROP_COLOURS),
         transparency: !has(option::DROP_COLOURS),
-        textures: has(option::KEEP_TEXTURES).then_some(LARGEST_TEXTURE),
+        textures: has(option::KEEP_TEXTURES).then_some(MAX_TEXTURE_SIZE),
     };
     let shapes = to_shapes(&mut file, imported, &mut cx.scene_mut())?;
     let mut shape = Shape::compound(shapes)?;

@@ -232,16 +232,18 @@ fn get_shape_viz(cx: &Cx, shape_handle: Handle, item_index: Number) -> Result<Op
 fn viz(scene: &Scene, part: &Part) -> Data {
     let mut mesh = Mesh::default();
     mesh.append(&part.mesh, &part.pose);
-    let looks = &part.appearance;
-    let colours = [looks.colour.ambient_diffuse, looks.colour.specular, looks.colour.emission].as_flattened().to_vec();
+    let appearance = &part.appearance;
+    let colours = [appearance.colour.ambient_diffuse, appearance.colour.specular, appearance.colour.emission]
+        .as_flattened()
+        .to_vec();
     let mut viz = Data::map([
         ("vertices", mesh.flat_vertices().into()),
         ("indices", mesh.flat_indices().into()),
         ("normals", mesh.flat_normals().into()),
         ("colors", colours.into_iter().map(f64::from).collect::<Vec<f64>>().into()),
-        ("shadingAngle", looks.shading_angle.into()),
-        ("transparency", (1.0 - f64::from(looks.colour.opacity)).into()),
-        ("options", (i64::from(looks.culling) | i64::from(looks.wireframe) << 1).into()),
+        ("shadingAngle", appearance.shading_angle.into()),
+        ("transparency", (1.0 - f64::from(appearance.colour.opacity)).into()),
+        ("options", (i64::from(appearance.culling) | i64::from(appearance.wireframe) << 1).into()),
     ]);
     if let (Data::Map(entries), Some(texture)) = (&mut viz, texture::viz(scene, part)) {
         entries.push((Key::Text(b"texture".to_vec()), texture));

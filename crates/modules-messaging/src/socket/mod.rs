@@ -25,7 +25,7 @@ use io::socket::{self, Datagram, Failure, Family, Role, Socket, Stream, descript
 use scene::Data;
 use script::Source;
 use script::step::wall_clock;
-use script::{ApiError, ByHandle, LuaNumber, Object, Results};
+use script::{ApiError, ByHandle, LuaNumber, LuaObject, Results};
 
 use results::{Created, Outcome};
 
@@ -85,15 +85,15 @@ struct Sockets {
 impl Sockets {
     fn add_stream(&self, class: i64, stream: Stream) -> Created {
         let id = self.streams.borrow_mut().add(Rc::new(RefCell::new(stream)));
-        Created(Object { class, id })
+        Created(LuaObject { class, id })
     }
 
     fn add_datagram(&self, class: i64, datagram: Datagram) -> Created {
         let id = self.datagrams.borrow_mut().add(Rc::new(RefCell::new(datagram)));
-        Created(Object { class, id })
+        Created(LuaObject { class, id })
     }
 
-    fn any(&self, object: Object) -> Option<AnySocket> {
+    fn any(&self, object: LuaObject) -> Option<AnySocket> {
         match object.class {
             class::TCP | class::UNIX_STREAM | class::TLS => {
                 let stream = self.streams.borrow_mut().get_mut(object.id).cloned();
@@ -120,8 +120,8 @@ impl Sockets {
 
 /// An object given as an argument.
 enum AnySocket {
-    Stream(Object, Shared<Stream>),
-    Datagram(Object, Shared<Datagram>),
+    Stream(LuaObject, Shared<Stream>),
+    Datagram(LuaObject, Shared<Datagram>),
 }
 
 impl AnySocket {

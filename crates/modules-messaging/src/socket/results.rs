@@ -6,7 +6,7 @@ use super::Sockets;
 use crate::Result;
 use io::socket::Failure;
 use script::IntoScript;
-use script::{ApiError, Object, Sink};
+use script::{ApiError, LuaObject, Sink};
 
 /// The most memory that is kept for the next call.
 const MAX_KEPT_CAPACITY: usize = 1 << 16;
@@ -44,7 +44,7 @@ pub(super) fn done(result: std::result::Result<(), Failure>) -> Outcome<f64> {
 }
 
 /// A new object.
-pub(super) struct Created(pub Object);
+pub(super) struct Created(pub LuaObject);
 
 impl IntoScript for Created {
     const TYPE: &'static str = "any";

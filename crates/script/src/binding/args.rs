@@ -11,7 +11,7 @@ use super::cx::Cx;
 use super::returns::IntoScript;
 use super::source::Source;
 use crate::error::{ApiError, ApiResult};
-use crate::lua::{Object, Stack, Type};
+use crate::lua::{LuaObject, Stack, Type};
 use crate::runtime::FunctionRef;
 use scene::{Data, Frame, Handle};
 
@@ -140,7 +140,7 @@ impl<'a, S: Source<'a>> Args<'a, S> {
     }
 
     /// The argument, when it is an object of a library.
-    pub fn object(&self) -> Option<Object> {
+    pub fn object(&self) -> Option<LuaObject> {
         if self.position > self.count { None } else { self.source.object(self.position) }
     }
 
@@ -149,6 +149,7 @@ impl<'a, S: Source<'a>> Args<'a, S> {
         self.number().ok()
     }
 
+    /// Whether the argument at `position`, from 1, is a table.
     pub fn is_table(&self, position: c_int) -> bool {
         position <= self.count && self.source.kind(position) == Type::Table
     }
@@ -347,6 +348,7 @@ pub struct Handles(pub Vec<i64>);
 /// An object handle with the flag bits a script added to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ObjectRef {
+    /// The object, without flag bits.
     pub handle: Handle,
     flags: i64,
 }
@@ -366,7 +368,9 @@ impl ObjectRef {
 /// A function, by value or by the name of a global.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ScriptFunction {
+    /// The name of a global function, with dots for fields of tables.
     Name(String),
+    /// The function itself.
     Value(#[doc(hidden)] FunctionRef),
 }
 

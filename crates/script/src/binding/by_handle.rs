@@ -15,12 +15,14 @@ impl<T> Default for ByHandle<T> {
 }
 
 impl<T> ByHandle<T> {
+    /// Stores a value and returns its handle.
     pub fn add(&mut self, value: T) -> i64 {
         self.last += 1;
         self.values.insert(self.last, value);
         self.last
     }
 
+    /// The value with that handle, if it was not removed.
     pub fn get_mut(&mut self, handle: i64) -> Option<&mut T> {
         self.values.get_mut(&handle)
     }
@@ -35,6 +37,7 @@ impl<T> ByHandle<T> {
         self.values.clear();
     }
 
+    /// Removes the value with that handle and returns it.
     pub fn remove(&mut self, handle: i64) -> Option<T> {
         self.values.remove(&handle)
     }

@@ -29,6 +29,7 @@ pub struct Hooks {
 }
 
 impl Hooks {
+    /// No hooks.
     pub const NONE: Self =
         Self { start_of_iteration: None, before_step: None, after_step: None, end_of_simulation: None };
 }
@@ -62,6 +63,7 @@ impl Host<'_> {
         self.sim.app.borrow().named_params.get(name).cloned()
     }
 
+    /// Logs a line in the name of the simulator; `level` is one of `sim.verbosity_*`.
     pub fn log(&self, level: i64, text: &str) {
         self.sim.log(level, text);
     }
@@ -76,6 +78,7 @@ impl Host<'_> {
         &self.sim.clock
     }
 
+    /// The scene, to read. The borrow must end before scripts are called.
     pub fn scene(&self) -> Ref<'_, Scene> {
         self.sim.scene.borrow()
     }

@@ -27,10 +27,13 @@ use source::Values;
 pub struct ApiFn {
     /// `sim.name`, or a bare name for globals.
     pub name: &'static str,
+    /// The documentation: text, then lines with `@param` and `@return`.
     pub doc: &'static str,
+    /// The parameters, in the order of the arguments.
     pub params: &'static [Param],
     /// Types of the results.
     pub returns: &'static [&'static str],
+    /// Whether the function may change the simulator or call scripts: events are collected after such calls.
     pub mutates: bool,
     /// The call from a Lua stack.
     pub call: fn(&mut Args<'_>) -> ApiResult<c_int>,

@@ -8,6 +8,7 @@ use super::hooks::Hooks;
 /// It is data. A [`Registry`](super::registry::Registry) makes it callable; `crate::docs` makes pages of it. A Lua file of the module's
 /// name, below `lua/`, is its Lua part: it gets a table of everything that is native as its second argument and returns the module.
 pub struct Module {
+    /// The name by which `require` finds it.
     pub name: &'static str,
     /// The purpose of the module, in one line; empty if it is in the head of the Lua part.
     pub about: &'static str,
@@ -27,6 +28,7 @@ pub struct Module {
     pub old_names: &'static str,
     /// The folder of Lua files whose functions `M.name` are members, each loaded when one of its functions is first used.
     pub lua_members: Option<&'static str>,
+    /// What the module does without being called.
     pub hooks: Hooks,
     /// Whether wrong arguments are refused in the words that plugins of CoppeliaSim have in common.
     pub plugin_errors: bool,

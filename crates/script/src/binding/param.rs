@@ -8,6 +8,7 @@ use scene::Data;
 pub struct Param {
     /// `...` for the one that takes all further arguments.
     pub name: &'static str,
+    /// The type, as the reference shows it: `int`, `float[3]`.
     pub ty: &'static str,
     /// What a call without the argument means; None when there is nothing a script could write instead.
     pub default: Option<DefaultValue>,
@@ -17,6 +18,7 @@ pub struct Param {
 /// The default of a parameter.
 #[derive(Debug, Clone, Copy)]
 pub struct DefaultValue {
+    /// Makes the default value.
     pub value: fn() -> Data,
     /// The constant that has this value, where a script would write that: `sim.handle_world`.
     pub constant: Option<&'static str>,

@@ -66,6 +66,7 @@ impl Missing {
 pub(crate) struct Bound {
     /// `module.name`, or a bare name for globals.
     pub name: Cow<'static, str>,
+    /// The function's description and code.
     pub function: &'static ApiFn,
     /// The replacement of a deprecated name; empty without one.
     pub replacement: Option<&'static str>,
@@ -76,12 +77,17 @@ pub(crate) struct Bound {
 /// A member of a module.
 #[derive(Debug, Clone, Copy)]
 pub enum Member {
+    /// An integer.
     Constant(i64),
+    /// A function in Rust.
     Native(FunctionId),
     /// Implemented as `function` in the embedded Lua file `file`.
     Lua {
+        /// The path of the embedded file.
         file: &'static str,
+        /// The name of the function in that file.
         function: &'static str,
+        /// What replaces a deprecated name; empty where nothing does.
         replacement: Option<&'static str>,
     },
     /// In CoppeliaSim's reference, but not built.
@@ -90,6 +96,7 @@ pub enum Member {
 
 /// A module with its names bound.
 pub struct Namespace {
+    /// The description the names were bound from.
     pub module: &'static Module,
     members: HashMap<&'static str, Member>,
     /// Names of constants and native functions as the module lists them.
@@ -102,10 +109,12 @@ pub struct Namespace {
 }
 
 impl Namespace {
+    /// The member with that name.
     pub fn get(&self, name: &str) -> Option<Member> {
         self.members.get(name).copied()
     }
 
+    /// Whether there is a member with that name.
     pub fn contains(&self, name: &str) -> bool {
         self.members.contains_key(name)
     }
@@ -159,6 +168,7 @@ pub fn member_by_rule(global: &str) -> Option<String> {
 
 /// The modules of one simulator.
 pub struct Modules {
+    /// Their names and functions.
     pub registry: Arc<Registry>,
     /// Their state for the simulator.
     pub states: States,
@@ -211,10 +221,12 @@ impl Registry {
         Arc::new(Self::new(&[&NOTHING], &[]))
     }
 
+    /// The module `sim`.
     pub fn members_of_sim(&self) -> &Namespace {
         &self.namespaces[0]
     }
 
+    /// The module with that name.
     pub fn module(&self, name: &str) -> Option<&Namespace> {
         self.by_name.get(name).map(|&place| &self.namespaces[place])
     }

@@ -2,7 +2,7 @@
 
 use super::data::{push_buffer, push_data};
 use crate::error::{ApiError, ApiResult};
-use crate::lua::{LONGEST_LIST, Object, Stack};
+use crate::lua::{LuaObject, MAX_LIST_LENGTH, Stack};
 use scene::Data;
 
 /// A destination of results.
@@ -27,7 +27,7 @@ pub trait Sink {
     }
     /// # Errors
     /// Where there are no objects.
-    fn object(&mut self, object: Object) -> ApiResult<()>;
+    fn object(&mut self, object: LuaObject) -> ApiResult<()>;
     /// Room for so many values; false where there is none.
     fn reserve(&mut self, count: usize) -> bool;
 }
@@ -62,7 +62,7 @@ impl Sink for Stack<'_> {
     }
 
     fn list<T>(&mut self, items: &[T], push: impl Fn(&mut Self, &T)) -> ApiResult<()> {
-        if items.len() > LONGEST_LIST {
+        if items.len() > MAX_LIST_LENGTH {
             return Err(ApiError::Other("not enough memory".into()));
         }
         self.new_table(items.len(), 0);
@@ -74,14 +74,14 @@ impl Sink for Stack<'_> {
     }
 
     fn numbers(&mut self, numbers: &[f64]) -> ApiResult<()> {
-        if numbers.len() > LONGEST_LIST {
+        if numbers.len() > MAX_LIST_LENGTH {
             return Err(ApiError::Other("not enough memory".into()));
         }
         self.push_numbers(numbers);
         Ok(())
     }
 
-    fn object(&mut self, object: Object) -> ApiResult<()> {
+    fn object(&mut self, object: LuaObject) -> ApiResult<()> {
         self.push_object(object);
         Ok(())
     }
@@ -127,7 +127,7 @@ impl Sink for Vec<Data> {
         Ok(())
     }
 
-    fn object(&mut self, _: Object) -> ApiResult<()> {
+    fn object(&mut self, _: LuaObject) -> ApiResult<()> {
         Err(ApiError::NeedsLua)
     }
 

@@ -9,7 +9,7 @@ use super::cx::Cx;
 use super::data::{read_data, read_function};
 use crate::error::{ApiError, ApiResult};
 use crate::lifecycle::env::Env;
-use crate::lua::{Object, Stack, Type};
+use crate::lua::{LuaObject, Stack, Type};
 use crate::runtime::FunctionRef;
 use scene::{Data, Key};
 
@@ -39,7 +39,7 @@ pub trait Source<'a>: Copy {
     /// # Errors
     /// Where there are no functions.
     fn function(self, position: c_int) -> ApiResult<FunctionRef>;
-    fn object(self, position: c_int) -> Option<Object>;
+    fn object(self, position: c_int) -> Option<LuaObject>;
     /// # Errors
     /// When the simulator is gone.
     fn context(self) -> ApiResult<Cx<'a>>;
@@ -98,7 +98,7 @@ impl<'a> Source<'a> for Stack<'a> {
         Ok(read_function(self, position))
     }
 
-    fn object(self, position: c_int) -> Option<Object> {
+    fn object(self, position: c_int) -> Option<LuaObject> {
         Stack::object(self, position)
     }
 
@@ -206,7 +206,7 @@ impl<'a> Source<'a> for Values<'a> {
         Err(ApiError::NeedsLua)
     }
 
-    fn object(self, _: c_int) -> Option<Object> {
+    fn object(self, _: c_int) -> Option<LuaObject> {
         None
     }
 

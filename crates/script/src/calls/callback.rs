@@ -4,7 +4,7 @@ macro_rules! callbacks {
     ($($variant:ident = $code:literal $name:literal),* $(,)?) => {
         /// A callback of a script. Its number is `sim.syscb_*`.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum SysCall { $($variant = $code),* }
+        pub enum SysCall { $(#[doc = concat!("The callback `", $name, "`.")] $variant = $code),* }
 
         impl SysCall {
             /// All callbacks.

@@ -5,20 +5,20 @@ use std::rc::Rc;
 use super::callback::SysCall;
 use crate::lifecycle::Reply;
 use crate::lifecycle::instance::{Script, state};
-use crate::lifecycle::order::Group;
+use crate::lifecycle::order::ScriptGroup;
 use crate::sim::Sim;
 use scene::Data;
 
 impl Sim {
     /// Delivers a callback to the scripts of a group; returns how many ran it.
-    pub(crate) fn deliver_to(self: &Rc<Self>, group: Group, call: SysCall, args: &[Data]) -> i64 {
+    pub(crate) fn deliver_to(self: &Rc<Self>, group: ScriptGroup, call: SysCall, args: &[Data]) -> i64 {
         let scripts = self.scripts_in(group);
         scripts.iter().filter(|script| self.deliver(script, call, args).ran).count() as i64
     }
 
     /// Simulation scripts, then customization scripts.
     pub(crate) fn deliver_to_embedded(self: &Rc<Self>, call: SysCall, args: &[Data]) -> i64 {
-        self.deliver_to(Group::Simulation, call, args) + self.deliver_to(Group::Customization, call, args)
+        self.deliver_to(ScriptGroup::Simulation, call, args) + self.deliver_to(ScriptGroup::Customization, call, args)
     }
 
     /// Notes that a script has these callbacks; a script with `sysCall_event` receives events from now on.

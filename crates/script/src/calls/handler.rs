@@ -17,7 +17,9 @@ use scene::Data;
 
 /// A function by name, looked up at each call in a script of the caller's choice, or by value.
 pub enum Handler {
+    /// A function by name.
     Name(String),
+    /// A function by value.
     Function(HeldFunction),
 }
 

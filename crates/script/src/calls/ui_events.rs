@@ -1,4 +1,4 @@
-//! Delivery of what persons do with windows of scripts, and of what scripts want to be told (spec: simui 4).
+//! Delivery of user input in windows of scripts, and of the notifications that scripts asked for (spec: simui 4).
 
 use std::rc::Rc;
 

@@ -29,13 +29,14 @@ pub enum CountedText {
         scene: String,
         /// The object's path in the scene.
         path: String,
+        /// The text, with bytes as in the scene.
         text: Arc<[u8]>,
     },
 }
 
 /// A function of a text.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Function {
+pub struct FunctionLines {
     /// Its first line; 0 for the main function of the text.
     pub line: u32,
     /// The lines of its body that can run, in the order of the text.
@@ -50,9 +51,10 @@ pub type Counts = Vec<u64>;
 /// The counts of many texts.
 #[derive(Debug, Clone, Default)]
 pub struct LineCounts {
+    /// The counts of each text.
     pub texts: BTreeMap<CountedText, Counts>,
     /// The functions of texts whose language says so while they run; those of Lua are found when they are reported.
-    pub functions: BTreeMap<CountedText, Vec<Function>>,
+    pub functions: BTreeMap<CountedText, Vec<FunctionLines>>,
 }
 
 impl LineCounts {
@@ -62,6 +64,7 @@ impl LineCounts {
         self.functions.extend(other.functions);
     }
 
+    /// Adds counts of the lines of a text, from line 1, to those that it has.
     pub fn add(&mut self, text: CountedText, counts: &[u64]) {
         let sums = self.texts.entry(text).or_default();
         if sums.len() < counts.len() {

@@ -7,7 +7,7 @@ use super::encode;
 use super::protocol::{Protocol, renamed};
 use super::queue::{Entry, Event, Source};
 use super::watch::{Watch, Watched, stored_entry, stored_key};
-use crate::property::Target;
+use crate::property::PropertyTarget;
 use crate::sim::Sim;
 use scene::journal::Changes;
 use scene::{Change, Data, Field, Handle, Holder, Namespace, Uid, Unread, ValueType};
@@ -92,7 +92,8 @@ impl Sim {
     }
 
     fn list_entry(self: &Rc<Self>, name: &'static str) -> Entry {
-        let list = self.read_property(&Target::Scene, name, ValueType::IntArray).unwrap_or(Data::Array(Vec::new()));
+        let list =
+            self.read_property(&PropertyTarget::Scene, name, ValueType::IntArray).unwrap_or(Data::Array(Vec::new()));
         let mut value = Vec::new();
         if self.events.protocol.get() == Protocol::V3 {
             encode::value(Protocol::V3, ValueType::IntArray, &list, &mut value);
@@ -172,7 +173,7 @@ impl Collector<'_> {
     }
 
     fn collect_removed(&mut self, handle: Handle, uid: Uid) {
-        // One that came and went unseen.
+        // An object that was created and removed between two events.
         let Some(watched) = self.watch.objects.remove(&handle) else { return };
         debug_assert_eq!(watched.source.uid, uid);
         for gone in watched.meshes.iter().chain([&watched]) {
@@ -275,11 +276,11 @@ impl Collector<'_> {
     /// Each write of custom data or a signal becomes an event, none merged.
     fn collect_stored(&mut self, holder: Holder, namespace: Namespace, name: &str) {
         let (target, source) = match holder {
-            Holder::App => (Target::App, Source::APP),
-            Holder::Scene => (Target::Scene, Source::SCENE),
+            Holder::App => (PropertyTarget::App, Source::APP),
+            Holder::Scene => (PropertyTarget::Scene, Source::SCENE),
             Holder::Object(handle) => {
                 let Ok(uid) = self.sim.scene.borrow().object(handle).map(scene::Object::uid) else { return };
-                (Target::Object(handle), Source::object(handle, uid))
+                (PropertyTarget::Object(handle), Source::object(handle, uid))
             }
         };
         let protocol = self.sim.events.protocol.get();

@@ -17,9 +17,9 @@ impl Keys {
 
 /// Fields by target: handles of objects, scripts, application and scene, or a kind of them.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Filters(BTreeMap<i64, Keys>);
+pub struct EventFilters(BTreeMap<i64, Keys>);
 
-impl Filters {
+impl EventFilters {
     /// The table a script gave to `sim.setEventFilters`; None when it filters nothing out. What is no handle or no name is ignored.
     pub fn from_table(table: &Data) -> Option<Self> {
         let targets: BTreeMap<i64, Keys> = match table {

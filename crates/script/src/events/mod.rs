@@ -26,7 +26,7 @@ use scene::{Cursor, Data, Handle, Key, Topics, special};
 use watch::{Listeners, Watch};
 use wire::cbor;
 
-pub use filter::Filters;
+pub use filter::EventFilters;
 pub(crate) use protocol::Protocol;
 
 /// Bit of the options of `sim.pushUserEvent`.
@@ -45,6 +45,7 @@ pub struct EventStream {
     scene_is_new: Cell<bool>,
     /// Time, steps and state as last sent.
     clock: Cell<(f64, u64, i64)>,
+    /// The version of the event protocol for listeners.
     pub protocol: Cell<Protocol>,
 }
 
@@ -123,7 +124,7 @@ impl Sim {
     }
 
     /// Sets which events the state of `script` gets; None for all.
-    pub(crate) fn set_event_filters(self: &Rc<Self>, script: &Script, filters: Option<Filters>) {
+    pub(crate) fn set_event_filters(self: &Rc<Self>, script: &Script, filters: Option<EventFilters>) {
         let Some(runtime) = script.current_runtime() else { return };
         runtime.env.event_filters.replace(filters);
         if self.events.listening.get() {
@@ -211,7 +212,7 @@ impl Sim {
                 continue;
             }
             let filters = runtime.env.event_filters.borrow().clone();
-            let batch = |filters: Option<&Filters>| queue::batch(events, first, filters).map(Data::Buffer);
+            let batch = |filters: Option<&EventFilters>| queue::batch(events, first, filters).map(Data::Buffer);
             let wanted = match &filters {
                 None => Some(whole.get_or_insert_with(|| batch(None).unwrap_or(Data::Nil)).clone()),
                 Some(filters) => batch(Some(filters)),

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::hash::{BuildHasherDefault, Hasher};
 
 use super::encode;
-use super::filter::Filters;
+use super::filter::EventFilters;
 use scene::{Handle, Uid, special};
 use wire::cbor_head::push_int;
 
@@ -159,7 +159,7 @@ impl Queue {
 }
 
 /// Events as one batch, numbered from `first`; None when the filter leaves nothing.
-pub(super) fn batch(events: &[Event], first: i64, filters: Option<&Filters>) -> Option<Vec<u8>> {
+pub(super) fn batch(events: &[Event], first: i64, filters: Option<&EventFilters>) -> Option<Vec<u8>> {
     let mut out = vec![encode::LIST];
     for (seq, event) in (first..).zip(events) {
         write_event(event, seq, filters, &mut out);
@@ -169,7 +169,7 @@ pub(super) fn batch(events: &[Event], first: i64, filters: Option<&Filters>) -> 
     (!empty).then_some(out)
 }
 
-fn write_event(event: &Event, seq: i64, filters: Option<&Filters>, out: &mut Vec<u8>) {
+fn write_event(event: &Event, seq: i64, filters: Option<&EventFilters>, out: &mut Vec<u8>) {
     let keys = match filters.map(|filters| filters.keys_of(event.source)) {
         Some(None) => return,
         Some(keys) => keys,

@@ -4,12 +4,14 @@ use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 use super::encode;
-use super::filter::Filters;
+use super::filter::EventFilters;
 use super::keys::{Keys, keys};
 use super::protocol::Protocol;
 use super::queue::{Class, Entry, Event, Source};
 use crate::lifecycle::instance::Script;
-use crate::property::{Class as PropertyClass, Target, app_class, mesh_class, object_class, scene_class, script_class};
+use crate::property::{
+    Class as PropertyClass, PropertyTarget, app_class, mesh_class, object_class, scene_class, script_class,
+};
 use crate::sim::Sim;
 use scene::object::script_object::ScriptType;
 use scene::parameters::engine::SelectedEngine;
@@ -23,7 +25,7 @@ const USUAL_SIZE: usize = 40;
 pub(super) struct Listeners {
     pub protocol: Protocol,
     /// The filter of each listener; None for all events.
-    pub filters: Vec<Option<Filters>>,
+    pub filters: Vec<Option<EventFilters>>,
 }
 
 impl Listeners {
@@ -37,7 +39,7 @@ impl Listeners {
 
 /// A target and the values last sent.
 pub(super) struct Watched {
-    pub target: Target,
+    pub target: PropertyTarget,
     pub source: Source,
     /// The parent of an object when it was last looked at: it matters when the object is gone.
     pub parent: Option<Handle>,
@@ -51,11 +53,11 @@ pub(super) struct Watched {
 
 impl Watched {
     pub(super) fn app(listeners: &Listeners) -> Self {
-        Self::new(Target::App, Source::APP, app_class(), listeners)
+        Self::new(PropertyTarget::App, Source::APP, app_class(), listeners)
     }
 
     pub(super) fn scene(listeners: &Listeners) -> Self {
-        Self::new(Target::Scene, Source::SCENE, scene_class(), listeners)
+        Self::new(PropertyTarget::Scene, Source::SCENE, scene_class(), listeners)
     }
 
     pub(super) fn script(script: &Rc<Script>, listeners: &Listeners) -> Self {
@@ -65,13 +67,13 @@ impl Watched {
             _ => Class::AddOn,
         };
         let source = Source { class, handle: script.id, uid: script.id };
-        Self::new(Target::Script(Rc::clone(script)), source, script_class(), listeners)
+        Self::new(PropertyTarget::Script(Rc::clone(script)), source, script_class(), listeners)
     }
 
     pub(super) fn object(object: &Object, listeners: &Listeners) -> Self {
         let handle = object.handle();
         let source = Source::object(handle, object.uid());
-        let watched = Self::new(Target::Object(handle), source, object_class(&object.kind), listeners);
+        let watched = Self::new(PropertyTarget::Object(handle), source, object_class(&object.kind), listeners);
         Self { parent: object.parent(), meshes: Self::meshes(object, listeners), ..watched }
     }
 
@@ -81,12 +83,12 @@ impl Watched {
         let uids = shape.parts.iter().map(|part| part.uid);
         uids.map(|uid| {
             let source = Source { class: Class::Mesh, handle: uid, uid };
-            Self::new(Target::Mesh(uid), source, mesh_class(), listeners)
+            Self::new(PropertyTarget::Mesh(uid), source, mesh_class(), listeners)
         })
         .collect()
     }
 
-    fn new(target: Target, source: Source, class: &'static PropertyClass, listeners: &Listeners) -> Self {
+    fn new(target: PropertyTarget, source: Source, class: &'static PropertyClass, listeners: &Listeners) -> Self {
         let keys = keys(class);
         let wanted =
             keys.properties.iter().map(|property| listeners.wants(source, property.key(listeners.protocol))).collect();

@@ -18,6 +18,7 @@ pub enum SceneSource {
     Default,
     /// The text of a customization script of the default scene.
     Script {
+        /// The text.
         code: Vec<u8>,
         /// The file of a text in Python, whose errors name it and whose imports are beside it.
         python_file: Option<String>,

@@ -12,7 +12,7 @@ use super::yields::Yields;
 use crate::binding::registry::Registry;
 use crate::binding::states::States;
 use crate::calls::callback::SysCall;
-use crate::events::Filters;
+use crate::events::EventFilters;
 use crate::log::verbosity;
 use crate::runtime::{FunctionRef, Runtime};
 use crate::sim::Sim;
@@ -21,6 +21,7 @@ use permissions::Permissions;
 /// The host's side of one interpreter.
 pub struct Env {
     pub(crate) sim: Weak<Sim>,
+    /// The script that the environment belongs to.
     pub script: Rc<Script>,
     /// The interpreter this belongs to; there from its creation on.
     pub(crate) runtime: OnceCell<Weak<Runtime>>,
@@ -30,6 +31,7 @@ pub struct Env {
     pub defined: Cell<u64>,
     /// Callbacks that have or had hooks: most have none, which is all that a call needs to know.
     pub hooked: Cell<u64>,
+    /// The hooks of the script, by callback.
     pub hooks: RefCell<Hooks>,
     /// How often code of the state has looked into local variables of functions.
     pub looks_at_locals: Cell<u64>,
@@ -37,10 +39,12 @@ pub struct Env {
     pub host_calls: Cell<u64>,
     /// Calls of this state in progress.
     pub depth: Cell<usize>,
+    /// Whether code of the script may yield, and the length of its time slice.
     pub yields: Yields,
+    /// The random numbers of the script, seeded with the seed of the simulator.
     pub random: RefCell<Random>,
     /// The event filter of the state; None for all events.
-    pub event_filters: RefCell<Option<Filters>>,
+    pub event_filters: RefCell<Option<EventFilters>>,
     /// Whether there are event listeners, so that changes must be collected.
     pub events_wanted: Rc<Cell<bool>>,
     /// The state of modules for the script; it is dropped with the interpreter.
@@ -61,14 +65,18 @@ pub struct Env {
 /// Functions that run before and after callbacks. The lists are shared with the callback that is running, which may change them.
 #[derive(Default)]
 pub struct Hooks {
+    /// Hooks that run before a callback.
     pub before: BTreeMap<SysCall, Rc<Vec<Hook>>>,
+    /// Hooks that run after a callback.
     pub after: BTreeMap<SysCall, Rc<Vec<Hook>>>,
 }
 
 /// One hook: a kept function, or the dotted name of a global.
 #[derive(Clone)]
 pub struct Hook {
+    /// The name of the function, with dots for fields of tables.
     pub name: String,
+    /// The function, where the script passed it by value.
     pub function: Option<FunctionRef>,
 }
 

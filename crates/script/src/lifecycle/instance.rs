@@ -26,6 +26,7 @@ pub struct Script {
     pub(crate) runtime: RefCell<Option<Rc<Runtime>>>,
     /// Whether the object is disabled, and the edition of the scripts of the scene that this is from.
     pub(crate) disabled: Cell<(u64, bool)>,
+    /// Its type, which decides when its callbacks are called.
     pub script_type: ScriptType,
     pub(crate) removed: Cell<bool>,
     /// The scene object that holds text and flags; None for main, sandbox and add-ons.
@@ -41,16 +42,23 @@ pub struct Script {
 /// Text and flags of a script that is no scene object.
 #[derive(Debug, Clone, Default)]
 pub struct Detached {
+    /// Its name in the log.
     pub name: String,
+    /// Its text, with bytes as in the file.
     pub code: Vec<u8>,
     /// The name of the text in error positions.
     pub chunk_name: String,
     /// The file of the text, used as its name.
     pub source: Option<String>,
+    /// Whether it does not run.
     pub disabled: bool,
+    /// Whether it starts again after an error.
     pub restart_on_error: bool,
+    /// Its place among the scripts of its type.
     pub priority: ExecutionPriority,
+    /// The path of an add-on's file, which is the property `addOnPath`; empty without one.
     pub path: String,
+    /// The language of the text; empty for Lua.
     pub language: String,
     /// The object an old script is attached to.
     pub owner: Option<Handle>,
@@ -141,6 +149,7 @@ impl Script {
         }
     }
 
+    /// Its interpreter, while it runs.
     pub fn current_runtime(&self) -> Option<Rc<Runtime>> {
         self.runtime.borrow().clone()
     }

@@ -35,25 +35,30 @@ impl OrderCache {
 
 /// A group of scripts that is called together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Group {
+pub enum ScriptGroup {
+    /// Simulation scripts.
     Simulation,
+    /// Customization scripts.
     Customization,
+    /// The main script.
     Main,
+    /// Add-ons.
     AddOn,
+    /// The sandbox.
     Sandbox,
 }
 
 impl Sim {
     /// The scripts of a group in regular order.
-    pub(crate) fn scripts_in(&self, group: Group) -> ScriptList {
+    pub(crate) fn scripts_in(&self, group: ScriptGroup) -> ScriptList {
         self.refresh_order();
         let cache = self.scripts.order.borrow();
         match group {
-            Group::Simulation => &cache.simulation,
-            Group::Customization => &cache.customization,
-            Group::Main => &cache.main,
-            Group::AddOn => &cache.add_ons,
-            Group::Sandbox => &cache.sandbox,
+            ScriptGroup::Simulation => &cache.simulation,
+            ScriptGroup::Customization => &cache.customization,
+            ScriptGroup::Main => &cache.main,
+            ScriptGroup::AddOn => &cache.add_ons,
+            ScriptGroup::Sandbox => &cache.sandbox,
         }
         .clone()
     }
@@ -133,7 +138,8 @@ impl Sim {
         let scripts: Vec<_> = chain.into_iter().flat_map(|object| self.scripts_of_object(object)).collect();
         let of_type = |t: ScriptType| scripts.iter().filter(move |s| s.script_type == t).cloned();
         let attached = of_type(ScriptType::Simulation).chain(of_type(ScriptType::Customization));
-        let detached = [Group::Main, Group::AddOn, Group::Sandbox].map(|group| self.scripts_in(group));
+        let detached =
+            [ScriptGroup::Main, ScriptGroup::AddOn, ScriptGroup::Sandbox].map(|group| self.scripts_in(group));
         attached.chain(detached.iter().flat_map(|list| list.iter().cloned())).collect()
     }
 }

@@ -37,7 +37,10 @@ pub fn changed_level(level: i64, change: LevelChange) -> i64 {
 /// Arguments of `setAutoYield` and `setYieldAllowed`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LevelChange {
+    /// One level up: no yielding until as many calls allow it.
     Forbid,
+    /// One level down, not below 0.
     Allow,
+    /// That level.
     Set(i64),
 }

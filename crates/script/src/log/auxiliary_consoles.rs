@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 /// An open console.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AuxiliaryConsole {
+    /// The title of the window.
     pub title: String,
     /// It is open until the end of the simulation only.
     pub closes_at_end: bool,
@@ -22,6 +23,7 @@ pub struct AuxiliaryConsoles {
 }
 
 impl AuxiliaryConsoles {
+    /// Adds a console and returns its handle.
     pub fn open(&mut self, console: AuxiliaryConsole) -> i64 {
         self.opened += 1;
         let handle = self.opened;

@@ -14,6 +14,7 @@ pub struct LogLine<'a> {
     pub origin: &'a str,
     /// `sim.verbosity_*` with its flag bits.
     pub level: i64,
+    /// The message, in the words of CoppeliaSim.
     pub text: &'a str,
     /// An error as people read it, with files and hints, where `text` has the words of CoppeliaSim.
     pub located: Option<&'a str>,
@@ -70,8 +71,10 @@ fn without_tags(html: &str) -> String {
 
 /// A stream that scripts write with Lua's `io`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stream {
+pub enum OutputStream {
+    /// Standard output.
     Output,
+    /// Standard error.
     Error,
 }
 
@@ -80,13 +83,14 @@ pub trait Console {
     /// One call of a script's `print`: the line without its end, and the simulated time, seconds.
     fn print(&mut self, line: &[u8], time: f64);
 
+    /// One line of the log.
     fn log(&mut self, line: &LogLine<'_>);
 
     /// A script could not write to standard output, or to another pipe that `io.output` is, since nobody reads it any more.
     fn pipe_closed(&mut self) {}
 
     /// Receives parts of lines that a script wrote to a stream of the process.
-    fn write(&mut self, text: &[u8], stream: Stream, time: f64) {
+    fn write(&mut self, text: &[u8], stream: OutputStream, time: f64) {
         let _ = (text, stream, time);
     }
 }

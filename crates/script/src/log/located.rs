@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 /// Begins the list of calls below a message.
 const TRACEBACK: &str = "stack traceback:";
 /// Characters of a name that Lua shows in positions, with quotes and brackets (`LUA_IDSIZE`, less its end).
-const SHOWN: usize = 59;
+const MAX_NAME_LENGTH: usize = 59;
 
 /// The files of scripts, by what Lua shows for their texts.
 #[derive(Debug, Default)]
@@ -68,7 +68,7 @@ fn shown(chunk_name: &str) -> String {
         return file.to_owned();
     }
     let line = chunk_name.lines().next().unwrap_or_default();
-    let room = SHOWN - "[string \"...\"]".len();
+    let room = MAX_NAME_LENGTH - "[string \"...\"]".len();
     if line.len() == chunk_name.len() && line.len() <= room {
         return format!("[string \"{line}\"]");
     }

@@ -11,7 +11,7 @@ pub mod verbosity;
 use std::cell::{Cell, RefCell};
 use std::collections::HashSet;
 
-use console::{Console, LogLine, Stream};
+use console::{Console, LogLine, OutputStream};
 use located::ScriptFiles;
 use recent::Recent;
 pub use recent::RecentLine;
@@ -118,7 +118,7 @@ impl Log {
     }
 
     /// Output of a script to a stream of the process.
-    pub(super) fn write(&self, text: &[u8], stream: Stream, time: f64) {
+    pub(super) fn write(&self, text: &[u8], stream: OutputStream, time: f64) {
         self.console.borrow_mut().write(text, stream, time);
     }
 }

@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 use super::console::LogLine;
 use super::verbosity;
 
-/// Lines that wait at most; the oldest go first.
-const MOST: usize = 10_000;
+/// Most lines that are kept; the oldest are dropped first.
+const MAX_LINES: usize = 10_000;
 
 /// A line of the log, or of a script's `print`.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +15,7 @@ pub struct RecentLine {
     pub time: f64,
     /// `sim.verbosity_*`; None for a print.
     pub level: Option<i64>,
+    /// Who wrote it: the path of a script, `sandboxScript` or `CoppeliaSim`.
     pub origin: String,
     /// The handle of the script.
     pub script: Option<i64>,
@@ -50,7 +51,7 @@ pub(super) struct Recent {
 impl Recent {
     pub(super) fn push(&mut self, line: impl FnOnce() -> RecentLine) {
         let Some(lines) = &mut self.lines else { return };
-        if lines.len() == MOST {
+        if lines.len() == MAX_LINES {
             lines.pop_front();
             self.gone += 1;
         }

@@ -2,12 +2,12 @@
 
 use strsim::levenshtein;
 
-/// Edits by which a suggested name differs at most.
-const FARTHEST: usize = 3;
+/// Most edits by which a suggested name may differ.
+const MAX_EDITS: usize = 3;
 
 /// Of pairs of a name and what stands for it, that whose name is nearest to `wanted`; None where all names are far from it.
 pub(crate) fn nearest(wanted: &str, names: impl Iterator<Item = (String, String)>) -> Option<String> {
-    let most = FARTHEST.min(wanted.chars().count() / 2);
+    let most = MAX_EDITS.min(wanted.chars().count() / 2);
     let near =
         names.map(|(name, shown)| (levenshtein(wanted, &name), name, shown)).filter(|(edits, ..)| *edits <= most);
     near.min_by_key(|(edits, name, _)| (*edits, letter_distance(wanted, name))).map(|(_, _, shown)| shown)

@@ -15,7 +15,7 @@ use super::stack::{Stack, Type};
 pub(crate) use new_table::Scalar;
 
 /// Longer strings are cut: Lua would raise where it cannot have the memory.
-const LONGEST_STRING: usize = 1 << 29;
+const MAX_STRING_LENGTH: usize = 1 << 29;
 
 /// An index that every function accepts; nothing may be there, which Lua reads as no value.
 #[repr(transparent)]
@@ -286,6 +286,7 @@ impl<'a> Stack<'a> {
         lua_settop(self, Occupied(top));
     }
 
+    /// Removes `count` values from the top.
     pub fn pop(self, count: c_int) {
         let top = lua_gettop(self);
         assert!((0..=top).contains(&count), "only what is there can be popped");
@@ -311,7 +312,7 @@ impl<'a> Room<'a> {
 
     /// Pushes a string; one that is too long for Lua's allocator is cut.
     pub(crate) fn push_bytes(self, bytes: &[u8]) {
-        let bytes = &bytes[..bytes.len().min(LONGEST_STRING)];
+        let bytes = &bytes[..bytes.len().min(MAX_STRING_LENGTH)];
         // SAFETY: there is room, and the bytes are copied.
         unsafe { ffi::lua_pushlstring(self.0.raw(), bytes.as_ptr().cast(), bytes.len()) };
     }

@@ -12,7 +12,7 @@
 //! - Lua raises errors by `longjmp`. Only [`Stack::protected_call`] runs code that may raise; functions of ours raise as their very last
 //!   act, from a frame that owns nothing ([`calls::entry`]). Going through a table ([`Entries`]) looks whether the table still has the key, since Lua
 //!   raises where it has not. Allocation failure aborts (see `Pool`), so that pushing never raises as long as what is pushed fits
-//!   Lua's largest block: strings are cut to it, longer lists are refused before they are pushed ([`LONGEST_LIST`], `Data::MAX_ITEMS`).
+//!   Lua's largest block: strings are cut to it, longer lists are refused before they are pushed ([`MAX_LIST_LENGTH`], `Data::MAX_ITEMS`).
 
 mod api;
 mod bytecode;
@@ -35,10 +35,10 @@ pub(crate) use file::report_closed_pipes;
 pub(crate) use hooks::count::{HOOK_INTERVAL, HookAction, hasten_count_hook, install_coroutine_hooks, set_count_hook};
 pub(crate) use hooks::debug_library::restrict_debug;
 pub use hooks::interrupt::{calls_begun, interrupt_running_code, place_of_interruption};
-pub use object::Object;
+pub use object::LuaObject;
 pub(crate) use permissions::restrict_libraries;
 pub(crate) use seal::seal_argument;
-pub(crate) use stack::tables::LONGEST_LIST;
+pub(crate) use stack::tables::MAX_LIST_LENGTH;
 pub use stack::{Stack, Type};
 pub(crate) use state::State;
 pub(crate) use subjects::accept_buffers;

@@ -15,8 +15,10 @@ const CLASSES: &CStr = c"swanilda.classes";
 /// The content of a userdata.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Object {
+pub struct LuaObject {
+    /// The number of its class in the library.
     pub class: i64,
+    /// The number by which the library finds the object.
     pub id: i64,
 }
 
@@ -38,11 +40,11 @@ impl Stack<'_> {
     }
 
     /// Pushes an object of a class that is defined.
-    pub(crate) fn push_object(self, object: Object) {
+    pub(crate) fn push_object(self, object: LuaObject) {
         let _room = self.room();
         // SAFETY: there is room for one value. Pushes a block of that size, which Lua aligns for every type; it is written before anybody sees it.
         unsafe {
-            let block = ffi::lua_newuserdatauv(self.raw(), size_of::<Object>(), 0).cast::<Object>();
+            let block = ffi::lua_newuserdatauv(self.raw(), size_of::<LuaObject>(), 0).cast::<LuaObject>();
             block.write(object);
         }
         if self.push_registry(CLASSES) == Type::Table && self.raw_get_index(-1, object.class) == Type::Table {
@@ -52,9 +54,9 @@ impl Stack<'_> {
     }
 
     /// The object at `index`.
-    pub(crate) fn object(self, index: c_int) -> Option<Object> {
+    pub(crate) fn object(self, index: c_int) -> Option<LuaObject> {
         if self.kind(index) != Type::UserData
-            || self.raw_len(index) != size_of::<Object>()
+            || self.raw_len(index) != size_of::<LuaObject>()
             || !self.push_metatable(index)
         {
             return None;
@@ -68,7 +70,7 @@ impl Stack<'_> {
         };
         self.pop(2);
         // SAFETY: a userdata of that size, which stays on the stack while it is copied; every pattern of bits is an object.
-        let object = unsafe { ffi::lua_touserdata(self.raw(), index).cast::<Object>().read() };
+        let object = unsafe { ffi::lua_touserdata(self.raw(), index).cast::<LuaObject>().read() };
         class.filter(|&class| class == object.class).map(|_| object)
     }
 }

@@ -25,9 +25,9 @@ const LARGE: usize = LARGEST + 1;
 const OFFSET: usize = 8;
 const _: () = assert!(ffi::SYS_MIN_ALIGN == STEP, "blocks of mlua's allocator must be told apart by their alignment");
 
-/// Sizes of chunks, in lines of `STEP` bytes. A chunk has a quarter of what there is already: most scripts are small, and there may be thousands.
-const SMALLEST_CHUNK: usize = (4 << 10) / STEP;
-const LARGEST_CHUNK: usize = (256 << 10) / STEP;
+/// Smallest and largest chunk, in lines of `STEP` bytes. A chunk has a quarter of what there is already: most scripts are small, and there may be thousands.
+const MIN_CHUNK: usize = (4 << 10) / STEP;
+const MAX_CHUNK: usize = (256 << 10) / STEP;
 
 /// A free block: it holds the link to the next one of its class.
 struct Free(Option<NonNull<Free>>);
@@ -157,7 +157,7 @@ impl Pool {
 
     fn add_chunk(&mut self) {
         let total: usize = self.chunks.iter().map(Vec::capacity).sum();
-        let lines = (total / 4).clamp(SMALLEST_CHUNK, LARGEST_CHUNK);
+        let lines = (total / 4).clamp(MIN_CHUNK, MAX_CHUNK);
         let mut chunk = Vec::<Line>::with_capacity(lines);
         let start = NonNull::from(chunk.spare_capacity_mut()).cast();
         self.chunks.push(chunk);

@@ -6,6 +6,7 @@ use crate::lua::Bytecode;
 
 /// An embedded Lua module: its text, and its bytecode once it was needed.
 pub struct Embedded {
+    /// The text of the file.
     pub source: &'static str,
     bytecode: OnceLock<Bytecode>,
 }

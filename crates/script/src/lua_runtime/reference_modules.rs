@@ -6,15 +6,18 @@ const TABLE: &str = include_str!("reference_modules.tsv");
 /// A plugin or Lua module of CoppeliaSim.
 #[derive(Debug, Clone, Copy)]
 pub struct ReferenceModule {
+    /// The name by which `require` finds it in CoppeliaSim.
     pub name: &'static str,
     /// `plugin`, `library` or `third-party library`.
     pub kind: &'static str,
+    /// What it is for, in one line.
     pub purpose: &'static str,
     /// Its replacement; empty without one.
     pub instead: &'static str,
 }
 
 impl ReferenceModule {
+    /// All modules of the list, in its order.
     pub fn all() -> impl Iterator<Item = Self> {
         TABLE.lines().map(|line| {
             let mut columns = line.split('\t');

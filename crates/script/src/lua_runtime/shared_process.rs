@@ -3,7 +3,7 @@
 use std::ffi::c_int;
 
 use super::startup::load_module;
-use crate::log::console::Stream;
+use crate::log::console::OutputStream;
 use crate::lua::{LuaError, Stack, push_callback};
 use crate::sim::Sim;
 
@@ -18,7 +18,7 @@ pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
 fn write(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let sim = stack.owner().sim.upgrade().ok_or("the simulator is gone.")?;
     let is_error = stack.with_bytes(1, |name| name == b"stderr") == Some(true);
-    let stream = if is_error { Stream::Error } else { Stream::Output };
+    let stream = if is_error { OutputStream::Error } else { OutputStream::Output };
     let time = sim.clock.time();
     sim.log.write(&stack.bytes(2).unwrap_or_default(), stream, time);
     Ok(0)

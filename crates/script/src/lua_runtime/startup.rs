@@ -318,7 +318,7 @@ fn pairs_sim(stack: Stack<'_>) -> Outcome {
 
 /// Modules and classes used without being asked for, and old global names, whose functions log no deprecation.
 fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    // Most of what scripts look for in vain is something else, which is not worth a copy.
+    // Most globals that scripts look up without success are no functions of the simulator: the name is copied only if it is one.
     let Some(true) = stack.with_bytes(2, implicit::is_candidate) else { return Ok(0) };
     let Ok(name) = String::from_utf8(stack.bytes(2).unwrap_or_default()) else { return Ok(0) };
     if implicit::define(stack, &name) {

@@ -14,7 +14,9 @@ type Open = dyn Fn(&Lua) -> mlua::Result<Table>;
 /// A module by its name in `require`.
 #[derive(Clone)]
 pub struct UserModule {
+    /// The name by which `require` finds it.
     pub name: String,
+    /// Makes the module in a Lua state.
     pub open: Rc<Open>,
 }
 

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use geometry::Finite;
 
-use super::Target;
+use super::PropertyTarget;
 use crate::error::{ApiError, ApiResult};
 use crate::lifecycle::instance::Script;
 use crate::sim::Sim;
@@ -13,7 +13,7 @@ use scene::{Data, Handle, SceneError, SceneResult};
 /// The target of the property.
 pub struct Subject<'a> {
     pub sim: &'a Rc<Sim>,
-    pub target: &'a Target,
+    pub target: &'a PropertyTarget,
 }
 
 /// Code of one static property; what is missing in one direction is not built or not allowed.
@@ -43,7 +43,7 @@ impl Subject<'_> {
     /// The object the properties belong to.
     pub(super) fn object(&self) -> ApiResult<Handle> {
         match self.target {
-            Target::Object(handle) => Ok(*handle),
+            PropertyTarget::Object(handle) => Ok(*handle),
             _ => Err(SceneError::NoSuchObject.into()),
         }
     }
@@ -51,9 +51,9 @@ impl Subject<'_> {
     /// The script the properties belong to.
     pub(super) fn script(&self) -> ApiResult<Rc<Script>> {
         match self.target {
-            Target::Script(script) => Ok(Rc::clone(script)),
-            Target::Object(handle) => self.sim.script(handle.raw()).ok_or(ApiError::NoSuchScript),
-            Target::App | Target::Scene | Target::Mesh(_) => Err(ApiError::NoSuchScript),
+            PropertyTarget::Script(script) => Ok(Rc::clone(script)),
+            PropertyTarget::Object(handle) => self.sim.script(handle.raw()).ok_or(ApiError::NoSuchScript),
+            PropertyTarget::App | PropertyTarget::Scene | PropertyTarget::Mesh(_) => Err(ApiError::NoSuchScript),
         }
     }
 }

@@ -19,7 +19,7 @@ use super::sim::Sim;
 use ::scene::object::script_object::ScriptType;
 use ::scene::{Data, FIRST_MESH_UID, Handle, Namespace, Uid, ValueType, special};
 use access::{Accessor, Subject};
-use table::Source;
+use table::ValueSource;
 use types::{
     app, colour, display, dummy, engine, force_sensor, joint, mesh, object, proximity_sensor, scene, script, shape,
     view,
@@ -32,9 +32,12 @@ pub use value::{Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Qu
 
 /// An entity with properties.
 #[derive(Clone)]
-pub enum Target {
+pub enum PropertyTarget {
+    /// The application.
     App,
+    /// The scene.
     Scene,
+    /// An object of the scene.
     Object(Handle),
     /// A mesh of a shape.
     Mesh(Uid),
@@ -42,7 +45,7 @@ pub enum Target {
     Script(Rc<Script>),
 }
 
-impl Target {
+impl PropertyTarget {
     fn object(&self) -> Option<Handle> {
         if let Self::Object(handle) = self { Some(*handle) } else { None }
     }
@@ -64,25 +67,25 @@ pub(crate) type Info = (ValueType, i64);
 
 impl Sim {
     /// The target a script means by `raw`.
-    pub fn property_target(&self, raw: i64, caller: &Rc<Script>) -> ApiResult<Target> {
+    pub fn property_target(&self, raw: i64, caller: &Rc<Script>) -> ApiResult<PropertyTarget> {
         let script = match raw {
-            special::APP => return Ok(Target::App),
-            special::SCENE => return Ok(Target::Scene),
+            special::APP => return Ok(PropertyTarget::App),
+            special::SCENE => return Ok(PropertyTarget::Scene),
             special::SELF => Some(Rc::clone(caller)),
             special::MAIN_SCRIPT => self.scripts.detached(ScriptType::Main),
             special::SANDBOX => self.scripts.detached(ScriptType::Sandbox),
             _ => match Handle::from_raw(raw).filter(|&handle| self.scene.borrow().exists(handle)) {
-                Some(handle) if raw < FIRST_MESH_UID => return Ok(Target::Object(handle)),
-                _ if self.scene.borrow().mesh(raw).is_some() => return Ok(Target::Mesh(raw)),
+                Some(handle) if raw < FIRST_MESH_UID => return Ok(PropertyTarget::Object(handle)),
+                _ if self.scene.borrow().mesh(raw).is_some() => return Ok(PropertyTarget::Mesh(raw)),
                 _ => self.script(raw),
             },
         };
         let script = script.ok_or(ApiError::NoSuchTarget)?;
-        Ok(script.object.map_or_else(|| Target::Script(script), Target::Object))
+        Ok(script.object.map_or_else(|| PropertyTarget::Script(script), PropertyTarget::Object))
     }
 
     /// Value of a property of type `ty`.
-    pub fn read_property(self: &Rc<Self>, target: &Target, name: &str, ty: ValueType) -> ApiResult<Data> {
+    pub fn read_property(self: &Rc<Self>, target: &PropertyTarget, name: &str, ty: ValueType) -> ApiResult<Data> {
         let class = self.class_of(target)?;
         match parse_name(class, target, name) {
             Name::Stored(namespace, name) => self.read_stored(target, namespace, name, ty),
@@ -92,25 +95,25 @@ impl Sim {
     }
 
     /// Value of a static property.
-    pub fn read_row(self: &Rc<Self>, target: &Target, row: &Row) -> ApiResult<Data> {
+    pub fn read_row(self: &Rc<Self>, target: &PropertyTarget, row: &Row) -> ApiResult<Data> {
         if row.flags & flags::NOT_READABLE != 0 {
             return Err(ApiError::PropertyNotReadable);
         }
         match &row.source {
-            Source::Works(accessor) => {
+            ValueSource::Works(accessor) => {
                 let read = accessor.read.ok_or(ApiError::PropertyNotReadable)?;
                 read(&Subject { sim: self, target }).map_err(|error| refusal(error, ApiError::PropertyNotReadable))
             }
-            Source::Inert(default) => Ok(self.read_inert(target, row.name)?.unwrap_or_else(|| default.clone())),
-            Source::Constant(value) => Ok(value.clone()),
-            Source::Engine(param) => Ok(self.scene.borrow().engine_value(param, target.object())?),
+            ValueSource::Inert(default) => Ok(self.read_inert(target, row.name)?.unwrap_or_else(|| default.clone())),
+            ValueSource::Constant(value) => Ok(value.clone()),
+            ValueSource::Engine(param) => Ok(self.scene.borrow().engine_value(param, target.object())?),
         }
     }
 
     /// Sets a property of type `ty`; `writer` becomes the owner of a signal.
     pub(crate) fn write_property(
         self: &Rc<Self>,
-        target: &Target,
+        target: &PropertyTarget,
         name: &str,
         (ty, value): (ValueType, Data),
         writer: &Script,
@@ -123,18 +126,18 @@ impl Sim {
         }
     }
 
-    fn write_row(self: &Rc<Self>, target: &Target, row: &Row, value: Data) -> ApiResult<()> {
+    fn write_row(self: &Rc<Self>, target: &PropertyTarget, row: &Row, value: Data) -> ApiResult<()> {
         if row.flags & flags::NOT_WRITABLE != 0 || has_nan(&value) {
             return Err(ApiError::PropertyNotWritable);
         }
         match &row.source {
-            Source::Works(accessor) => self.write_through(accessor, target, row, value),
-            Source::Inert(default) => {
+            ValueSource::Works(accessor) => self.write_through(accessor, target, row, value),
+            ValueSource::Inert(default) => {
                 let value = row.ty.accept(default, value).ok_or(ApiError::PropertyNotWritable)?;
                 self.write_inert(target, row.name, value)
             }
-            Source::Constant(_) => Err(ApiError::PropertyNotWritable),
-            Source::Engine(param) => {
+            ValueSource::Constant(_) => Err(ApiError::PropertyNotWritable),
+            ValueSource::Engine(param) => {
                 let set = self.scene.borrow_mut().set_engine_value(param, target.object(), value);
                 set.map_err(|_| ApiError::PropertyNotWritable)
             }
@@ -142,7 +145,13 @@ impl Sim {
     }
 
     /// Writing the current value is no change, so everything that was read can be written back.
-    fn write_through(self: &Rc<Self>, accessor: &Accessor, target: &Target, row: &Row, value: Data) -> ApiResult<()> {
+    fn write_through(
+        self: &Rc<Self>,
+        accessor: &Accessor,
+        target: &PropertyTarget,
+        row: &Row,
+        value: Data,
+    ) -> ApiResult<()> {
         let write = accessor.write.ok_or(ApiError::PropertyNotWritable)?;
         let written = write(&Subject { sim: self, target }, value.clone());
         written.or_else(|error| match self.read_row(target, row) {
@@ -152,7 +161,7 @@ impl Sim {
     }
 
     /// Removes custom data, a signal or a named parameter.
-    pub(crate) fn remove_property(&self, target: &Target, name: &str) -> ApiResult<()> {
+    pub(crate) fn remove_property(&self, target: &PropertyTarget, name: &str) -> ApiResult<()> {
         let class = self.class_of(target)?;
         let existed = match parse_name(class, target, name) {
             Name::Stored(namespace, name) => self.remove_stored(target, namespace, name)?,
@@ -164,7 +173,7 @@ impl Sim {
     }
 
     /// Type and flags of a property; None if unknown. The flag for large values depends on the present value.
-    pub fn property_info(self: &Rc<Self>, target: &Target, name: &str) -> Option<Info> {
+    pub fn property_info(self: &Rc<Self>, target: &PropertyTarget, name: &str) -> Option<Info> {
         let class = self.class_of(target).ok()?;
         let (ty, flags) = match parse_name(class, target, name) {
             Name::Stored(namespace, name) => self.stored_info(target, namespace, name)?,
@@ -180,7 +189,12 @@ impl Sim {
 
     /// The property at `index` in the order of enumeration, with its class; None past the end. Static ones count only if they begin
     /// with `prefix`; custom data and signals in any case, as in CoppeliaSim.
-    pub(crate) fn property_name(&self, target: &Target, index: usize, prefix: &str) -> Option<(String, &'static str)> {
+    pub(crate) fn property_name(
+        &self,
+        target: &PropertyTarget,
+        index: usize,
+        prefix: &str,
+    ) -> Option<(String, &'static str)> {
         let (before, after) = self.rows_of(target).ok()?;
         let listed = |rows: &'static [Row]| {
             rows.iter().filter(|row| row.flags & flags::DEPRECATED == 0 && row.name.starts_with(prefix))
@@ -201,17 +215,17 @@ impl Sim {
     ///
     /// # Errors
     /// When the target is gone.
-    pub fn rows_of(&self, target: &Target) -> ApiResult<(&'static [Row], &'static [Row])> {
+    pub fn rows_of(&self, target: &PropertyTarget) -> ApiResult<(&'static [Row], &'static [Row])> {
         Ok(self.class_of(target)?.rows())
     }
 
-    fn class_of(&self, target: &Target) -> ApiResult<&'static Class> {
+    fn class_of(&self, target: &PropertyTarget) -> ApiResult<&'static Class> {
         Ok(match target {
-            Target::App => app_class(),
-            Target::Scene => scene_class(),
-            Target::Script(_) => script_class(),
-            Target::Mesh(_) => mesh_class(),
-            Target::Object(handle) => object_class(&self.scene.borrow().object(*handle)?.kind),
+            PropertyTarget::App => app_class(),
+            PropertyTarget::Scene => scene_class(),
+            PropertyTarget::Script(_) => script_class(),
+            PropertyTarget::Mesh(_) => mesh_class(),
+            PropertyTarget::Object(handle) => object_class(&self.scene.borrow().object(*handle)?.kind),
         })
     }
 }
@@ -237,9 +251,9 @@ fn row_of(class: &'static Class, name: &str, ty: ValueType) -> ApiResult<&'stati
 }
 
 /// Splits a name; it may be prefixed by the class of the target.
-fn parse_name<'a>(class: &Class, target: &Target, name: &'a str) -> Name<'a> {
+fn parse_name<'a>(class: &Class, target: &PropertyTarget, name: &'a str) -> Name<'a> {
     let name = class.without_words(name);
-    let stored = !matches!(target, Target::Script(_) | Target::Mesh(_));
+    let stored = !matches!(target, PropertyTarget::Script(_) | PropertyTarget::Mesh(_));
     if let (true, Some(rest)) = (stored, name.strip_prefix("customData.")) {
         return Name::Stored(Namespace::CustomData, rest);
     }
@@ -247,7 +261,7 @@ fn parse_name<'a>(class: &Class, target: &Target, name: &'a str) -> Name<'a> {
         return Name::Stored(Namespace::Signal, rest);
     }
     match (target, name.strip_prefix("namedParam.")) {
-        (Target::App, Some(rest)) => Name::Param(rest),
+        (PropertyTarget::App, Some(rest)) => Name::Param(rest),
         _ => Name::Static(name),
     }
 }

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::access::{Accessor, subject_properties};
-use super::{Sim, Target, flags};
+use super::{PropertyTarget, Sim, flags};
 use crate::error::ApiResult;
 use scene::{Data, Handle, Key, Kind, Namespace, Uid};
 
@@ -86,19 +86,19 @@ impl Sim {
             (parent, mesh_uids(&object.kind))
         };
         hash.part(b'o', format!("{parent:?}").as_bytes());
-        self.hash_rows(hash, &Target::Object(handle))?;
-        let custom_data = self.with_named_values(&Target::Object(handle), Namespace::CustomData, |values| {
+        self.hash_rows(hash, &PropertyTarget::Object(handle))?;
+        let custom_data = self.with_named_values(&PropertyTarget::Object(handle), Namespace::CustomData, |values| {
             values.tags().map(|tag| (tag.clone(), values.get(&tag).cloned())).collect::<Vec<_>>()
         })?;
         for (tag, value) in custom_data {
             hash.part(b'c', tag.as_bytes());
             hash.data(&value.unwrap_or(Data::Nil));
         }
-        meshes.into_iter().try_for_each(|uid| self.hash_rows(hash, &Target::Mesh(uid)))
+        meshes.into_iter().try_for_each(|uid| self.hash_rows(hash, &PropertyTarget::Mesh(uid)))
     }
 
     /// The static properties that count.
-    fn hash_rows(self: &Rc<Self>, hash: &mut Fnv, target: &Target) -> ApiResult<()> {
+    fn hash_rows(self: &Rc<Self>, hash: &mut Fnv, target: &PropertyTarget) -> ApiResult<()> {
         let (before, after) = self.rows_of(target)?;
         let left_out = flags::MODEL_HASH_EXCLUDE | flags::NOT_READABLE | flags::DEPRECATED;
         for row in before.iter().chain(after).filter(|row| row.flags & left_out == 0) {

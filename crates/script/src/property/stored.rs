@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::table::flags;
-use super::{Info, Sim, Target};
+use super::{Info, PropertyTarget, Sim};
 use crate::error::{ApiError, ApiResult};
 use crate::lifecycle::instance::Script;
 use scene::{CustomData, Data, Edit, Handle, Holder, Namespace, ValueType};
@@ -54,7 +54,7 @@ pub(crate) fn is_valid_name(name: &str) -> bool {
     !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.'))
 }
 
-impl Target {
+impl PropertyTarget {
     /// None for scripts that are no objects: they hold no named values.
     fn holder(&self) -> Option<Holder> {
         match self {
@@ -107,7 +107,7 @@ impl Sim {
     /// When the target has none or is gone.
     pub(crate) fn with_named_values<R>(
         &self,
-        target: &Target,
+        target: &PropertyTarget,
         namespace: Namespace,
         read: impl FnOnce(&CustomData) -> R,
     ) -> ApiResult<R> {
@@ -118,13 +118,18 @@ impl Sim {
     ///
     /// # Errors
     /// When the target has none or is gone.
-    pub(crate) fn edit_named_values(&self, target: &Target, namespace: Namespace, edit: Edit<'_>) -> ApiResult<bool> {
+    pub(crate) fn edit_named_values(
+        &self,
+        target: &PropertyTarget,
+        namespace: Namespace,
+        edit: Edit<'_>,
+    ) -> ApiResult<bool> {
         self.edit_stored(target.holder().ok_or(ApiError::NoSuchTarget)?, namespace, edit)
     }
 
     pub(super) fn read_stored(
         &self,
-        target: &Target,
+        target: &PropertyTarget,
         namespace: Namespace,
         name: &str,
         ty: ValueType,
@@ -143,7 +148,7 @@ impl Sim {
 
     pub(super) fn write_stored(
         &self,
-        target: &Target,
+        target: &PropertyTarget,
         namespace: Namespace,
         name: &str,
         (ty, value): (ValueType, Data),
@@ -160,7 +165,7 @@ impl Sim {
         Ok(())
     }
 
-    pub(super) fn remove_stored(&self, target: &Target, namespace: Namespace, name: &str) -> ApiResult<bool> {
+    pub(super) fn remove_stored(&self, target: &PropertyTarget, namespace: Namespace, name: &str) -> ApiResult<bool> {
         let holder = target.holder().ok_or(ApiError::UnknownProperty)?;
         if namespace == Namespace::Signal {
             self.signal_owners.borrow_mut().remove(holder, name);
@@ -168,7 +173,7 @@ impl Sim {
         self.edit_stored(holder, namespace, Edit::Name(name, None))
     }
 
-    pub(super) fn stored_info(&self, target: &Target, namespace: Namespace, name: &str) -> Option<Info> {
+    pub(super) fn stored_info(&self, target: &PropertyTarget, namespace: Namespace, name: &str) -> Option<Info> {
         let ty =
             self.with_stored(target.holder()?, namespace, |values| values.typed(name).map(|(ty, _)| ty)).ok()??;
         let volatile = if namespace == Namespace::Signal { flags::MODEL_HASH_EXCLUDE } else { 0 };
@@ -176,7 +181,7 @@ impl Sim {
     }
 
     /// Names of custom data, then of signals, then of named parameters.
-    pub fn stored_names(&self, target: &Target) -> Vec<String> {
+    pub fn stored_names(&self, target: &PropertyTarget) -> Vec<String> {
         let Some(holder) = target.holder() else { return Vec::new() };
         let mut names = Vec::new();
         for (namespace, prefix) in [(Namespace::CustomData, "customData"), (Namespace::Signal, "signal")] {

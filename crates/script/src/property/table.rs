@@ -23,31 +23,43 @@ const STATIC: &str = include_str!("static.tsv");
 
 /// Bits of the flags of a property.
 pub mod flags {
+    /// `sim.propertyinfo_notwritable`: scripts cannot set it.
     pub const NOT_WRITABLE: i64 = 1;
+    /// `sim.propertyinfo_notreadable`: scripts cannot read it.
     pub const NOT_READABLE: i64 = 2;
+    /// `sim.propertyinfo_removable`: scripts can remove it.
     pub const REMOVABLE: i64 = 4;
+    /// `sim.propertyinfo_modelhashexclude`: the hash of a model does not depend on it.
     pub const MODEL_HASH_EXCLUDE: i64 = 8;
+    /// `sim.propertyinfo_deprecated`: another property replaces it.
     pub const DEPRECATED: i64 = 0x10;
+    /// `sim.propertyinfo_largedata`: its value may be large.
     pub const LARGE_DATA: i64 = 0x100;
 }
 
 /// One static property of one class.
 #[derive(Clone)]
 pub struct Row {
+    /// Its name, without the class.
     pub name: &'static str,
+    /// The type of its value.
     pub ty: ValueType,
+    /// Bits of [`flags`].
     pub flags: i64,
-    pub source: Source,
+    /// Where its value comes from.
+    pub source: ValueSource,
     /// The class as returned by `sim.getPropertyName`.
     pub class: &'static str,
 }
 
 /// The source of the value of a property.
 #[derive(Clone)]
-pub enum Source {
+pub enum ValueSource {
+    /// It is read and written by code.
     Works(&'static Accessor),
     /// Stored as scripts set it, without effect; the default until then.
     Inert(Data),
+    /// Always this value.
     Constant(Data),
     /// A parameter of a physics engine.
     Engine(&'static EngineParam),
@@ -164,10 +176,12 @@ const CLASSES: [ClassSpec; 17] = [
     ("mesh", "app.scene.mesh", &["scene"], &["colour", "mesh"], &[]),
 ];
 
+/// The class of the application.
 pub fn app_class() -> &'static Class {
     class(ClassId::App)
 }
 
+/// The class of the scene.
 pub fn scene_class() -> &'static Class {
     class(ClassId::Scene)
 }
@@ -236,9 +250,9 @@ fn parts() -> Parts {
         let is_other_word = state == "works" && !default.is_empty();
         let value = || ty.parse(default).expect("static.tsv holds defaults of the row's type");
         let source = match (accessors.get(&(part, if is_other_word { default } else { name })), state) {
-            (Some(accessor), _) => Source::Works(accessor),
-            (None, "inert") => Source::Inert(value()),
-            (None, "constant") => Source::Constant(value()),
+            (Some(accessor), _) => ValueSource::Works(accessor),
+            (None, "inert") => ValueSource::Inert(value()),
+            (None, "constant") => ValueSource::Constant(value()),
             _ => panic!("a property in static.tsv that works has an accessor: {part} {name}"),
         };
         parts.entry(part).or_default().push(Row { name, ty, flags, source, class: "" });
@@ -251,10 +265,15 @@ fn parts() -> Parts {
 
 /// A line of `static.tsv`.
 pub struct Line {
+    /// The part of a class it belongs to, such as `object` or `joint`.
     pub part: &'static str,
+    /// Its name, without the class.
     pub name: &'static str,
+    /// The type of its value.
     pub ty: ValueType,
+    /// Bits of [`flags`].
     pub flags: i64,
+    /// `works`, `inert` or `constant`.
     pub state: &'static str,
     default: &'static str,
 }
@@ -296,7 +315,7 @@ const ENGINE_PARTS: [(&str, EngineOwner); 4] = [
 ];
 
 fn engine_row(param: &'static EngineParam) -> Row {
-    Row { name: param.name, ty: param.ty, flags: param.flags, source: Source::Engine(param), class: "" }
+    Row { name: param.name, ty: param.ty, flags: param.flags, source: ValueSource::Engine(param), class: "" }
 }
 
 type Accessors = HashMap<(&'static str, &'static str), &'static Accessor>;
@@ -359,14 +378,14 @@ fn accessors() -> Accessors {
 
 #[cfg(test)]
 mod tests {
-    use super::{Source, accessors, app_class, classes, flags, lines, parts};
+    use super::{ValueSource, accessors, app_class, classes, flags, lines, parts};
 
     #[test]
     fn every_accessor_has_its_row() {
         let parts = parts();
         for (part, name) in accessors().keys() {
             let row = parts[part].iter().find(|row| row.name == *name);
-            assert!(row.is_some_and(|row| matches!(row.source, Source::Works(_))), "{part}: {name}");
+            assert!(row.is_some_and(|row| matches!(row.source, ValueSource::Works(_))), "{part}: {name}");
         }
     }
 
@@ -378,7 +397,7 @@ mod tests {
     #[test]
     fn what_works_works_in_every_direction_it_is_said_to() {
         for (part, row) in parts().iter().flat_map(|(part, rows)| rows.iter().map(move |row| (part, row))) {
-            let Source::Works(accessor) = row.source else { continue };
+            let ValueSource::Works(accessor) = row.source else { continue };
             assert!(accessor.read.is_some() || row.flags & flags::NOT_READABLE != 0, "{part}: {} is read", row.name);
             assert!(
                 accessor.write.is_some() || row.flags & flags::NOT_WRITABLE != 0,

@@ -23,7 +23,9 @@ pub trait PropertyValue: Sized {
 
 /// The name of a property, which costs no allocation unless it is long.
 pub enum PropertyName {
+    /// A name that fits without an allocation.
     Short(ArrayString<56>),
+    /// Any other name.
     Long(String),
 }
 

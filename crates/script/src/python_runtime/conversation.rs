@@ -20,10 +20,10 @@ use wire::marshal::Declared;
 pub(super) const LIBRARY: &str = "swanilda.python";
 /// The global under which that module finds its native functions.
 pub(super) const NATIVES: &str = "_swanilda_python";
-/// A busy thread has this time before the end of its script.
-const LAST_WORD: Duration = Duration::from_millis(100);
+/// How long `sysCall_cleanup` waits for a thread of the script that is busy.
+const CLEANUP_TIMEOUT: Duration = Duration::from_millis(100);
 /// Seconds without a message after which a call has failed; named parameter `python.callTimeout`, 0 for no limit.
-const CALL_LIMIT: f64 = 60.0;
+const CALL_TIMEOUT: f64 = 60.0;
 
 /// A script's environment with its connection.
 #[derive(Clone, Copy)]
@@ -48,13 +48,13 @@ impl Conversation<'_> {
         self.exchange(&message::call(name, args), self.call_limit())
     }
 
-    /// Calls a callback that the script has. While its thread runs, the callback waits for a word of it, without results.
+    /// Calls a callback that the script has. While its thread runs, the callback is queued until the thread sends its next message, and has no results.
     ///
     /// # Errors
     /// The callback's, or when the process has ended.
     pub(super) fn call_callback(self, call: SysCall, args: &[Data]) -> Result<Vec<Data>, ScriptError> {
-        let patience = if call == SysCall::Cleanup { LAST_WORD } else { Duration::ZERO };
-        if !self.wait_for_turn(Some(patience))? {
+        let timeout = if call == SysCall::Cleanup { CLEANUP_TIMEOUT } else { Duration::ZERO };
+        if !self.wait_for_turn(Some(timeout))? {
             self.link.queue(call, args);
             return Ok(Vec::new());
         }
@@ -75,7 +75,7 @@ impl Conversation<'_> {
         Ok(self.exchange(&message::request(kind, fields), limit)?.unwrap_or_default())
     }
 
-    /// Waits until the thread of the script has spoken, if it runs; false when it has not within `limit`.
+    /// Waits for the next message of the script's thread, if it runs; false when there is none within `limit`.
     fn wait_for_turn(self, limit: Option<Duration>) -> Result<bool, ScriptError> {
         if !self.link.busy.get() || self.link.early.borrow().is_some() {
             return Ok(true);
@@ -120,7 +120,7 @@ impl Conversation<'_> {
         let sim = self.env.sim.upgrade()?;
         let app = sim.app.borrow();
         let text = app.named_params.get("python.callTimeout").and_then(|value| std::str::from_utf8(value).ok());
-        let seconds = text.and_then(|text| text.trim().parse().ok()).unwrap_or(CALL_LIMIT);
+        let seconds = text.and_then(|text| text.trim().parse().ok()).unwrap_or(CALL_TIMEOUT);
         Duration::try_from_secs_f64(seconds).ok().filter(|limit| !limit.is_zero())
     }
 
@@ -168,7 +168,7 @@ impl Conversation<'_> {
     }
 }
 
-/// What a message that is no call says of the simulator's call.
+/// The outcome of the simulator's call that a message reports.
 fn outcome(message: Message) -> Result<Option<Vec<Data>>, ScriptError> {
     match message {
         Message::Results(results) => Ok(Some(results)),

@@ -1,6 +1,6 @@
 //! Scripts in Python inside a program that has a Python itself: they need no process.
 //!
-//! The messages are those of a process. The program calls [`ScriptCalls`] for what a script says, and gets what the simulator asks.
+//! The messages are those of a process. The program calls [`ScriptCalls`] with the messages of a script, and receives the requests of the simulator.
 
 use std::cell::Cell;
 use std::rc::{Rc, Weak};
@@ -25,10 +25,10 @@ pub trait PythonHost {
 
 /// A script that runs in the program's Python. Errors are texts for people.
 pub trait EmbeddedScript {
-    /// Lets the script do what a message says; returns its answer.
+    /// Passes a request to the script and returns its answer.
     ///
     /// # Errors
-    /// When Python ends, or the person at the keyboard wants to.
+    /// When Python ends, or the user has pressed ctrl-c.
     fn ask(&self, message: &[u8]) -> Result<Vec<u8>, String>;
 
     /// Starts the thread of the script with its first call, or answers what it has called.
@@ -37,7 +37,7 @@ pub trait EmbeddedScript {
     /// As of [`Self::ask`].
     fn hand_over(&self, message: &[u8]) -> Result<(), String>;
 
-    /// What the thread of the script says; None when it says nothing within `limit`.
+    /// The next message of the script's thread; None when there is none within `limit`.
     ///
     /// # Errors
     /// As of [`Self::ask`].
@@ -64,7 +64,7 @@ impl ScriptCalls {
         member.is_some_and(|member| is_short(name, &member))
     }
 
-    /// Does what a message of the script says; returns the answer, which is empty when there is none.
+    /// Handles a message of the script; returns the answer, which is empty when there is none.
     ///
     /// # Errors
     /// When the script has ended or is to end.

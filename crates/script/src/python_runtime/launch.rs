@@ -42,7 +42,7 @@ pub(super) enum LaunchError {
     NotEmbedded(String),
 }
 
-/// The Python that somebody has chosen: the script, or the named parameter `python`. It may have arguments, separated by blanks.
+/// The Python interpreter chosen by the script or by the named parameter `python`. It may have arguments, separated by blanks.
 pub(super) fn chosen_interpreter(sim: &Sim, by_script: Option<String>) -> Option<String> {
     let named = || {
         let app = sim.app.borrow();

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::coverage::{CountedText, Function, LineCounts};
+use crate::coverage::{CountedText, FunctionLines, LineCounts};
 use crate::sim::Sim;
 use scene::{Data, Key};
 
@@ -16,7 +16,7 @@ pub(super) struct Own {
     pub text: Arc<[u8]>,
 }
 
-/// Reads what a process says: by file, the lines that have run and its functions.
+/// Reads the report of a process: by file, the lines that have run and its functions.
 pub(super) fn read(counts: &Data, own: &Own, sim: &Sim) -> LineCounts {
     let mut all = LineCounts::default();
     let Data::Map(files) = counts else { return all };
@@ -44,12 +44,12 @@ fn counts_of(lines: &[u32]) -> Vec<u64> {
     counts
 }
 
-fn function(value: &Data) -> Option<Function> {
+fn function(value: &Data) -> Option<FunctionLines> {
     let Data::Array(parts) = value else { return None };
     let [Data::Int(line), name, lines] = &parts[..] else { return None };
     let lines = numbers(lines);
     let name = if let Data::Text(name) = name { Some(String::from_utf8_lossy(name).into_owned()) } else { None };
-    (!lines.is_empty()).then_some(Function { line: u32::try_from(*line).ok()?, lines, name })
+    (!lines.is_empty()).then_some(FunctionLines { line: u32::try_from(*line).ok()?, lines, name })
 }
 
 fn list(value: &Data) -> impl Iterator<Item = &Data> {

@@ -11,21 +11,21 @@ use super::message::Message;
 use crate::calls::callback::SysCall;
 use crate::error::ApiError;
 use crate::lifecycle::env::Env;
-use crate::log::console::Stream;
+use crate::log::console::OutputStream;
 use crate::log::verbosity;
 use crate::runtime::ScriptError;
 use crate::step::wall_clock;
 use io::{PeerError, PeerProcess};
 use scene::Data;
 
-/// How often a wait looks whether the program is to end.
-const TICK: Duration = Duration::from_millis(20);
-/// A script that calls without end is looked at after so many messages.
-const LOOK_AFTER: u64 = 4096;
+/// Interval at which a wait checks whether the program is to end.
+const POLL_INTERVAL: Duration = Duration::from_millis(20);
+/// Messages of a script between checks whether it is to end.
+const CHECK_INTERVAL: u64 = 4096;
 /// Bytes that a script may print in one call.
 const MAX_PRINTED: usize = 64 << 20;
-/// A process whose connection is closed has this time to end.
-const END_LIMIT: Duration = Duration::from_millis(500);
+/// How long a process may take to end once its connection is closed.
+const END_TIMEOUT: Duration = Duration::from_millis(500);
 /// Callbacks that wait for a busy thread.
 const MAX_QUEUED: usize = 1000;
 
@@ -39,14 +39,14 @@ pub(super) enum Peer {
 #[derive(Default)]
 pub(super) struct Link {
     peer: RefCell<Option<Peer>>,
-    /// The thread of the script is running: the process has the turn, and nobody waits for it.
+    /// The thread of the script is running: the process has the turn, and the simulator does not wait for it.
     pub busy: Cell<bool>,
-    /// What the running thread has said, and nobody has looked at.
+    /// A message of the running thread that was received and not handled yet.
     pub early: RefCell<Option<Message>>,
-    /// Callbacks to run when the running thread speaks.
+    /// Callbacks to run at the next message of the running thread.
     queued: RefCell<VecDeque<(SysCall, Vec<Data>)>>,
     pub thread_started: Cell<bool>,
-    /// The thread has spoken or was answered since the simulator last waited for it in vain.
+    /// The thread has sent or received a message since the simulator last waited for it without success.
     pub thread_active: Cell<bool>,
     /// Calls of the thread in its present time slice.
     pub thread_calls: Cell<u32>,
@@ -124,7 +124,7 @@ impl Link {
         self.received.set(self.received.get() + 1);
         self.look_after(env, self.received.get())?;
         loop {
-            let wait = limit.map_or(TICK, |limit| limit.min(TICK));
+            let wait = limit.map_or(POLL_INTERVAL, |limit| limit.min(POLL_INTERVAL));
             if let Some(message) = self.next_message(wait)? {
                 let Some(message) = self.show(env, message, &mut printed)? else { continue };
                 self.show_rest(env);
@@ -143,7 +143,7 @@ impl Link {
     /// # Errors
     /// When it is.
     pub(super) fn look_after(&self, env: &Env, messages: u64) -> Result<(), ScriptError> {
-        if messages.is_multiple_of(LOOK_AFTER) { self.check_interruption(env) } else { Ok(()) }
+        if messages.is_multiple_of(CHECK_INTERVAL) { self.check_interruption(env) } else { Ok(()) }
     }
 
     fn next_message(&self, limit: Duration) -> Result<Option<Message>, ScriptError> {
@@ -186,7 +186,7 @@ impl Link {
         let time = sim.clock.time();
         match &message {
             Message::Write(stream, text) => {
-                let stream = if *stream == 2 { Stream::Error } else { Stream::Output };
+                let stream = if *stream == 2 { OutputStream::Error } else { OutputStream::Output };
                 sim.log.write(text, stream, time);
             }
             _ => sim.log.print(text, time, env.script.id, || env.script.log_name(&sim.scene.borrow())),
@@ -232,7 +232,7 @@ impl Link {
         let Some(Peer::Process(mut process)) = self.peer.take() else {
             return ScriptError::new("the Python process of this script has ended.");
         };
-        let status = process.wait_for_end(END_LIMIT);
+        let status = process.wait_for_end(END_TIMEOUT);
         let reason = match (error, status) {
             (_, Some(status)) => exit_text(status),
             (PeerError::Closed, None) => "it closed its connection".to_owned(),

@@ -3,7 +3,7 @@
 use scene::Data;
 use wire::marshal::{Declared, Encoder, MarshalError, decode};
 
-/// What the process says.
+/// A message of the process.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Message {
     /// A call of a function of the simulator.

@@ -36,10 +36,10 @@ use link::{Link, Peer};
 use permissions::read_bounded;
 use scene::Data;
 
-/// Seconds in which a script has to be loaded.
-const INIT_LIMIT: f64 = 10.0;
-/// A process has this time to say which lines have run.
-const COUNT_LIMIT: Duration = Duration::from_secs(10);
+/// How long the start of a script may take, seconds.
+const INIT_TIMEOUT: f64 = 10.0;
+/// How long a process may take to report which lines have run.
+const COUNT_TIMEOUT: Duration = Duration::from_secs(10);
 /// What `sysCall_ext` returns in place of results, as in the original.
 const NOT_FOUND: &[u8] = b"_*funcNotFound*_";
 const FAILED: &[u8] = b"_*runtimeError*_";
@@ -66,7 +66,7 @@ pub fn python_parts(text: &[u8]) -> (Vec<u8>, Vec<u8>) {
     (parts.lua, parts.python)
 }
 
-/// The Python that a script in this folder gets where nothing else is said.
+/// The Python interpreter that scripts in this folder get unless they choose another one.
 pub fn python_interpreter(folder: Option<&Path>) -> String {
     launch::default_interpreter(&folder.map(Path::to_owned).into_iter().collect::<Vec<_>>())
 }
@@ -134,7 +134,7 @@ impl PythonInterpreter {
     fn settings(&self) -> Result<Settings, ScriptError> {
         let values = self.lua.evaluate(SETTINGS)?;
         let value = |place: usize| values.get(place).unwrap_or(&Data::Nil);
-        let seconds = value(1).as_f64().unwrap_or(INIT_LIMIT);
+        let seconds = value(1).as_f64().unwrap_or(INIT_TIMEOUT);
         let flag = |place: usize, calls: &[SysCall]| {
             let bits = calls.iter().fold(0, |bits, call| bits | call.bit());
             if value(place).truthy() { bits } else { 0 }
@@ -323,7 +323,7 @@ impl Interpreter for PythonInterpreter {
         let mut all = self.lua.take_line_counts(sim);
         if let Some(own) = &*self.own.borrow()
             && self.link.is_open()
-            && let Ok(counts) = self.conversation().request("k", &[], Some(COUNT_LIMIT))
+            && let Ok(counts) = self.conversation().request("k", &[], Some(COUNT_TIMEOUT))
         {
             all.merge(line_counts::read(counts.first().unwrap_or(&Data::Nil), own, sim));
         }

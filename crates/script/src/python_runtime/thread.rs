@@ -1,7 +1,7 @@
 //! The thread of a Python script.
 //!
-//! It runs in the process. A coroutine of the script's Lua state stands for it: it waits for what the thread says, does it, and yields
-//! when the thread says nothing, so that threads of both languages are resumed alike (`lua/library/swanilda/python.lua`). A stepping
+//! It runs in the process. A coroutine of the script's Lua state stands for it: it waits for the thread's messages, handles them, and yields
+//! when there is none, so that threads of both languages are resumed alike (`lua/library/swanilda/python.lua`). A stepping
 //! thread is waited for. Others run beside the simulator, which looks after them once in each step: it serves a number of calls, and waits
 //! for the next one as long as a thread takes that does not sleep, so that what threads do rarely depends on the machine.
 
@@ -17,10 +17,10 @@ use crate::lua_runtime::threads;
 use crate::runtime::ScriptError;
 use scene::Data;
 
-/// A thread that calls nothing for so long runs beside the simulator.
-const PATIENCE: Duration = Duration::from_millis(50);
-/// Most threads begin by saying whether they step.
-const FIRST_PATIENCE: Duration = Duration::from_secs(2);
+/// A thread that makes no call for this long runs concurrently with the simulation.
+const CALL_TIMEOUT: Duration = Duration::from_millis(50);
+/// The same for the first call: most threads begin by setting their stepping mode.
+const FIRST_CALL_TIMEOUT: Duration = Duration::from_secs(2);
 /// Calls in a time slice, for each of its milliseconds.
 const CALLS_PER_MS: u32 = 20;
 
@@ -73,10 +73,10 @@ fn turn(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 impl Conversation<'_> {
     /// Serves the thread; `may_run_beside` says whether the simulation goes on while it runs.
     fn turn(self, may_run_beside: impl Fn() -> bool) -> Result<Turn, ScriptError> {
-        let mut patience = PATIENCE;
+        let mut timeout = CALL_TIMEOUT;
         if !self.link.thread_started.replace(true) {
             self.hand_over(&message::call(SysCall::Thread.name(), &[]))?;
-            patience = FIRST_PATIENCE;
+            timeout = FIRST_CALL_TIMEOUT;
         }
         let calls_in_slice = CALLS_PER_MS.saturating_mul(self.env.yields.delay_ms.get().max(1));
         loop {
@@ -84,8 +84,8 @@ impl Conversation<'_> {
             if beside && self.link.thread_calls.get() >= calls_in_slice {
                 return Ok(self.busy());
             }
-            let patience = if self.link.thread_active.get() { patience } else { Duration::ZERO };
-            let Some(message) = self.next_of_thread(beside.then_some(patience))? else {
+            let timeout = if self.link.thread_active.get() { timeout } else { Duration::ZERO };
+            let Some(message) = self.next_of_thread(beside.then_some(timeout))? else {
                 self.link.thread_active.set(false);
                 return Ok(self.busy());
             };
@@ -115,11 +115,11 @@ impl Conversation<'_> {
         Turn::Busy
     }
 
-    /// What the thread says next; None when it says nothing within `patience`.
-    fn next_of_thread(self, patience: Option<Duration>) -> Result<Option<Message>, ScriptError> {
+    /// The next message of the thread; None when there is none within `timeout`.
+    fn next_of_thread(self, timeout: Option<Duration>) -> Result<Option<Message>, ScriptError> {
         match self.link.early.take() {
             Some(message) => Ok(Some(message)),
-            None => self.link.receive(self.env, patience),
+            None => self.link.receive(self.env, timeout),
         }
     }
 

@@ -8,13 +8,21 @@ use super::wall_clock;
 /// The state of the simulation; numbers are `sim.simulation_*` of 4.10.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SimulationState {
+    /// No simulation.
     Stopped = 0x00,
+    /// The simulation is paused: no steps run.
     Paused = 0x08,
+    /// The first step after the start.
     FirstAfterStop = 0x10,
+    /// Any step in between.
     Running = 0x11,
+    /// The last step before a pause.
     LastBeforePause = 0x13,
+    /// The first step after a pause.
     FirstAfterPause = 0x14,
+    /// The end was requested: the step before the last one.
     AboutToStop = 0x15,
+    /// The last step before the end.
     LastBeforeStop = 0x16,
 }
 
@@ -71,10 +79,12 @@ impl Clock {
         }
     }
 
+    /// Whether the simulation is stopped, runs or is paused.
     pub fn state(&self) -> SimulationState {
         self.state.get()
     }
 
+    /// Whether no simulation runs or is paused.
     pub fn is_stopped(&self) -> bool {
         self.state.get() == SimulationState::Stopped
     }
@@ -94,10 +104,12 @@ impl Clock {
         self.created.elapsed().as_secs_f64()
     }
 
+    /// Whether the simulation was asked to end.
     pub fn stop_is_requested(&self) -> bool {
         self.stop_requested.get()
     }
 
+    /// Whether a script asked for the end of the program.
     pub fn quit_is_requested(&self) -> bool {
         self.quit_requested.get()
     }

@@ -72,7 +72,7 @@ impl Sim {
 
 const AT_REST: JointStep = JointStep { position: None, velocity: 0.0, accel: 0.0, immobile: true };
 
-/// Limits that nobody can keep end a motion.
+/// The first step of a planned motion. Where the limits allow no plan, the joint comes to rest.
 fn step_of(planned: Option<(f64, f64, f64)>) -> JointStep {
     let moved = |(position, velocity, accel)| JointStep { position: Some(position), velocity, accel, immobile: false };
     planned.map_or(AT_REST, moved)

@@ -13,7 +13,7 @@ use std::rc::Rc;
 
 use super::calls::callback::SysCall;
 use super::lifecycle::instance::{Script, state};
-use super::lifecycle::order::Group;
+use super::lifecycle::order::ScriptGroup;
 use super::log::{status, verbosity};
 use super::sim::Sim;
 use clock::SimulationState;
@@ -134,8 +134,8 @@ impl Sim {
         let handled = self.scripts.detached(ScriptType::Main).is_some_and(|main| self.deliver(&main, call, &[]).ran);
         if !handled {
             self.deliver_to_embedded(call, &[]);
-            self.deliver_to(Group::AddOn, call, &[]);
-            self.deliver_to(Group::Sandbox, call, &[]);
+            self.deliver_to(ScriptGroup::AddOn, call, &[]);
+            self.deliver_to(ScriptGroup::Sandbox, call, &[]);
         }
     }
 
@@ -154,13 +154,13 @@ impl Sim {
     /// The start procedure (spec: simulation 4).
     fn begin(self: &Rc<Self>) {
         self.notify_plugins(Moment::SimulationAboutToStart, [0; 4]);
-        for group in [Group::Customization, Group::AddOn, Group::Sandbox] {
+        for group in [ScriptGroup::Customization, ScriptGroup::AddOn, ScriptGroup::Sandbox] {
             self.deliver_to(group, SysCall::BeforeSimulation, &[]);
         }
         self.removals.note_start(&self.scene.borrow());
         self.scene.borrow_mut().stop_joint_motions();
         self.scene.borrow_mut().store_initial_state();
-        for script in self.scripts_in(Group::Simulation).iter() {
+        for script in self.scripts_in(ScriptGroup::Simulation).iter() {
             self.reset(script);
         }
         if let Some(main) = self.scripts.detached(ScriptType::Main) {
@@ -259,7 +259,7 @@ impl Sim {
         if let Some(main) = self.scripts.detached(ScriptType::Main) {
             self.reset(&main);
         }
-        for script in self.scripts_in(Group::Simulation).iter() {
+        for script in self.scripts_in(ScriptGroup::Simulation).iter() {
             self.reset(script);
         }
         self.clock.set_state(SimulationState::Stopped);
@@ -271,7 +271,7 @@ impl Sim {
         self.scene.borrow_mut().collision_objects_mut().reset(false);
         self.scene.borrow_mut().distance_objects_mut().reset(false);
         self.scene.borrow_mut().restore_initial_state();
-        for group in [Group::Customization, Group::AddOn, Group::Sandbox] {
+        for group in [ScriptGroup::Customization, ScriptGroup::AddOn, ScriptGroup::Sandbox] {
             self.deliver_to(group, SysCall::AfterSimulation, &[]);
         }
         self.restart_failed_customization_scripts();
@@ -282,7 +282,7 @@ impl Sim {
     }
 
     fn restart_failed_customization_scripts(self: &Rc<Self>) {
-        for script in self.scripts_in(Group::Customization).iter() {
+        for script in self.scripts_in(ScriptGroup::Customization).iter() {
             let wants = script.object.is_some_and(|handle| {
                 self.scene.borrow().object(handle).and_then(|o| o.script()).is_ok_and(|s| s.reset_after_sim_error)
             });

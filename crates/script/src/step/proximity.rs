@@ -111,7 +111,7 @@ fn with_flag(group: Group, entity: Entity, scene: &Scene) -> Group {
     }
 }
 
-/// Stores the result of a sensor; who looks at properties learns of it if it is another one.
+/// Stores the result of a sensor; readers of properties are notified if it has changed.
 fn store(scene: &mut Scene, sensor: Handle, handled: bool, detection: Option<Detection>) -> SceneResult<()> {
     let known = scene.object(sensor)?.proximity_sensor()?;
     if (known.handled, known.detection) == (handled, detection) {

@@ -7,9 +7,9 @@ use super::wall_clock;
 use crate::error::{ApiError, ApiResult};
 use crate::sim::Sim;
 
-/// The first pause between two looks; each is twice as long as the one before.
-const FIRST_PAUSE: Duration = Duration::from_micros(50);
-const LONGEST_PAUSE: Duration = Duration::from_millis(5);
+/// The first interval between two polls; each one is twice as long as the one before.
+const FIRST_POLL_INTERVAL: Duration = Duration::from_micros(50);
+const MAX_POLL_INTERVAL: Duration = Duration::from_millis(5);
 
 impl Sim {
     /// Whether the program is being stopped.
@@ -27,12 +27,12 @@ impl Sim {
         mut answer: impl FnMut() -> Option<T>,
     ) -> ApiResult<Option<T>> {
         let begun = wall_clock::now();
-        let mut pause = FIRST_PAUSE;
+        let mut pause = FIRST_POLL_INTERVAL;
         loop {
             if let Some(answer) = answer() {
                 return Ok(Some(answer));
             }
-            let left = limit.map_or(LONGEST_PAUSE, |limit| limit.saturating_sub(begun.elapsed()));
+            let left = limit.map_or(MAX_POLL_INTERVAL, |limit| limit.saturating_sub(begun.elapsed()));
             if left.is_zero() {
                 return Ok(None);
             }
@@ -40,7 +40,7 @@ impl Sim {
                 return Err(ApiError::Interrupted);
             }
             wall_clock::pause(pause.min(left));
-            pause = LONGEST_PAUSE.min(pause * 2);
+            pause = MAX_POLL_INTERVAL.min(pause * 2);
         }
     }
 }

@@ -45,7 +45,7 @@ fn write_functions(text: &mut String, record: &FileCoverage) -> std::fmt::Result
 /// LCOV knows functions by their names, so each must have one of its own.
 fn names(record: &FileCoverage) -> Vec<String> {
     let mut known = HashSet::new();
-    let name = |function: &script::coverage::Function| {
+    let name = |function: &script::coverage::FunctionLines| {
         let name = function.name.clone().unwrap_or_else(|| format!("anonymous@{}", function.line));
         if known.insert(name.clone()) { name } else { format!("{name}@{}", function.line) }
     };

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 pub use record::FileCoverage;
 
 use place::Places;
-use script::coverage::{CountedText, Function, LineCounts};
+use script::coverage::{CountedText, FunctionLines, LineCounts};
 use script::executable;
 
 /// The coverage of all texts.
@@ -48,7 +48,7 @@ impl Coverage {
     }
 
     /// Adds a text; None for the functions of one in Lua.
-    fn add(&mut self, places: &mut Places, text: &CountedText, counts: &[u64], functions: Option<Vec<Function>>) {
+    fn add(&mut self, places: &mut Places, text: &CountedText, counts: &[u64], functions: Option<Vec<FunctionLines>>) {
         let Some(place) = places.of(text) else { return };
         let functions = functions.or_else(|| executable(&place.text));
         let Some(functions) = functions.filter(|functions| !functions.is_empty()) else { return };

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use script::coverage::Function;
+use script::coverage::FunctionLines;
 
 /// A number of a line.
 pub type Line = u32;
@@ -13,11 +13,11 @@ pub struct FileCoverage {
     /// All lines that can run.
     pub lines: BTreeMap<Line, u64>,
     /// The functions of more than one line.
-    pub functions: Vec<Function>,
+    pub functions: Vec<FunctionLines>,
 }
 
 impl FileCoverage {
-    pub(super) fn new(mut functions: Vec<Function>) -> Self {
+    pub(super) fn new(mut functions: Vec<FunctionLines>) -> Self {
         let lines = functions.iter().flat_map(|function| &function.lines).map(|&line| (line, 0)).collect();
         // For a function in one line it is unknown whether it was called or only created.
         functions.retain(|function| function.line > 0 && function.lines[0] > function.line);
@@ -37,7 +37,7 @@ impl FileCoverage {
     }
 
     /// The count of the first line of a function.
-    pub(super) fn calls(&self, function: &Function) -> u64 {
+    pub(super) fn calls(&self, function: &FunctionLines) -> u64 {
         function.lines.first().and_then(|line| self.lines.get(line)).copied().unwrap_or_default()
     }
 

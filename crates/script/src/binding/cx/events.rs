@@ -2,7 +2,7 @@
 
 use super::Cx;
 use crate::calls::callback::SysCall;
-use crate::events::Filters;
+use crate::events::EventFilters;
 use scene::Data;
 
 impl Cx<'_> {
@@ -12,7 +12,7 @@ impl Cx<'_> {
     }
 
     /// Sets which events the calling script gets; None for all.
-    pub fn set_event_filters(&mut self, filters: Option<Filters>) {
+    pub fn set_event_filters(&mut self, filters: Option<EventFilters>) {
         self.sim.set_event_filters(self.script(), filters);
     }
 

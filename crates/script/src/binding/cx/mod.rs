@@ -57,6 +57,7 @@ impl<'a> Cx<'a> {
         &self.env().script
     }
 
+    /// The environment of the calling script.
     pub fn env(&self) -> &'a Env {
         self.env
     }
@@ -122,10 +123,12 @@ impl<'a> Cx<'a> {
         }
     }
 
+    /// The scene, to read. The borrow must end before scripts are called or the scene is changed.
     pub fn scene(&self) -> Ref<'_, Scene> {
         self.sim.scene.borrow()
     }
 
+    /// The scene, to change. The borrow must end before scripts are called or the scene is read.
     pub fn scene_mut(&mut self) -> RefMut<'_, Scene> {
         self.sim.scene.borrow_mut()
     }

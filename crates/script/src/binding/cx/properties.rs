@@ -4,8 +4,8 @@ use std::cell::{Ref, RefMut};
 
 use super::Cx;
 use crate::error::ApiResult;
-use crate::files::app_storage::{AppStorage, Section};
-use crate::property::{AppData, Info, Target};
+use crate::files::app_storage::{AppStorage, StorageSection};
+use crate::property::{AppData, Info, PropertyTarget};
 use scene::{CustomData, Data, Edit, Namespace, ValueType};
 
 impl Cx<'_> {
@@ -13,7 +13,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is none.
-    pub fn property_target(&self, raw: i64) -> ApiResult<Target> {
+    pub fn property_target(&self, raw: i64) -> ApiResult<PropertyTarget> {
         self.sim.property_target(raw, self.script())
     }
 
@@ -21,7 +21,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is no such property, or it cannot be read.
-    pub fn read_property(&self, target: &Target, name: &str, ty: ValueType) -> ApiResult<Data> {
+    pub fn read_property(&self, target: &PropertyTarget, name: &str, ty: ValueType) -> ApiResult<Data> {
         self.sim.read_property(target, name, ty)
     }
 
@@ -29,7 +29,7 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is no such property, or it cannot be written.
-    pub fn write_property(&mut self, target: &Target, name: &str, value: (ValueType, Data)) -> ApiResult<()> {
+    pub fn write_property(&mut self, target: &PropertyTarget, name: &str, value: (ValueType, Data)) -> ApiResult<()> {
         self.sim.write_property(target, name, value, self.script())
     }
 
@@ -37,17 +37,17 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is none, or it cannot be removed.
-    pub fn remove_property(&mut self, target: &Target, name: &str) -> ApiResult<()> {
+    pub fn remove_property(&mut self, target: &PropertyTarget, name: &str) -> ApiResult<()> {
         self.sim.remove_property(target, name)
     }
 
     /// Type and flags of a property; None when there is none of that name.
-    pub fn property_info(&self, target: &Target, name: &str) -> Option<Info> {
+    pub fn property_info(&self, target: &PropertyTarget, name: &str) -> Option<Info> {
         self.sim.property_info(target, name)
     }
 
     /// The property at `index` in the order of enumeration, with its class; None past the end.
-    pub fn property_name(&self, target: &Target, index: usize, prefix: &str) -> Option<(String, &'static str)> {
+    pub fn property_name(&self, target: &PropertyTarget, index: usize, prefix: &str) -> Option<(String, &'static str)> {
         self.sim.property_name(target, index, prefix)
     }
 
@@ -57,7 +57,7 @@ impl Cx<'_> {
     /// When the target has none or is gone.
     pub fn named_values<R>(
         &self,
-        target: &Target,
+        target: &PropertyTarget,
         namespace: Namespace,
         read: impl FnOnce(&CustomData) -> R,
     ) -> ApiResult<R> {
@@ -68,7 +68,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When the target has none or is gone.
-    pub fn edit_named_values(&mut self, target: &Target, namespace: Namespace, edit: Edit<'_>) -> ApiResult<bool> {
+    pub fn edit_named_values(
+        &mut self,
+        target: &PropertyTarget,
+        namespace: Namespace,
+        edit: Edit<'_>,
+    ) -> ApiResult<bool> {
         self.sim.edit_named_values(target, namespace, edit)
     }
 
@@ -77,17 +82,18 @@ impl Cx<'_> {
         self.sim.app.borrow()
     }
 
+    /// The same, to change.
     pub fn app_mut(&mut self) -> RefMut<'_, AppData> {
         self.sim.app.borrow_mut()
     }
 
     /// Bytes in the application's file, which is read at its first use.
-    pub fn stored_block(&self, section: Section, tag: &str) -> Option<Vec<u8>> {
+    pub fn stored_block(&self, section: StorageSection, tag: &str) -> Option<Vec<u8>> {
         self.sim.with_app_storage(|storage| storage.blocks(section).get(tag).cloned())
     }
 
     /// The tags of the bytes in the application's file, in alphabetical order.
-    pub fn stored_tags(&self, section: Section) -> Vec<String> {
+    pub fn stored_tags(&self, section: StorageSection) -> Vec<String> {
         self.sim.with_app_storage(|storage| storage.blocks(section).keys().cloned().collect())
     }
 

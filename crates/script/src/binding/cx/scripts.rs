@@ -6,7 +6,7 @@ use super::Cx;
 use crate::calls::callback::SysCall;
 use crate::error::{ApiError, ApiResult};
 use crate::lifecycle::instance::Script;
-use crate::lifecycle::order::Group;
+use crate::lifecycle::order::ScriptGroup;
 use crate::runtime::FunctionRef;
 use scene::object::script_object::ScriptType;
 use scene::{Data, Handle};
@@ -57,7 +57,7 @@ impl Cx<'_> {
     }
 
     /// Calls a callback of the scripts of a group; returns how many ran it.
-    pub fn call_group(&mut self, group: Group, call: SysCall, args: &[Data]) -> i64 {
+    pub fn call_group(&mut self, group: ScriptGroup, call: SysCall, args: &[Data]) -> i64 {
         self.sim.deliver_to(group, call, args)
     }
 

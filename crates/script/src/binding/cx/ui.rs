@@ -40,11 +40,13 @@ impl Drop for Ownership {
 }
 
 impl Cx<'_> {
+    /// Reads from the windows of scripts.
     pub fn read_ui<T>(&self, read: impl FnOnce(&Ui) -> T) -> T {
         let ui = self.app().ui.clone();
         read(&ui.borrow())
     }
 
+    /// Changes the windows of scripts.
     pub fn change_ui<T>(&mut self, change: impl FnOnce(&mut Ui) -> T) -> T {
         let ui = self.app().ui.clone();
         change(&mut ui.borrow_mut())
@@ -65,7 +67,7 @@ impl Cx<'_> {
         self.own(Item::View(view));
     }
 
-    /// What a person answers to a dialog; None without one.
+    /// The user's answer to a dialog; None without one.
     pub fn ask_person(&mut self, question: &Question) -> Option<Data> {
         self.sim.ask_person(question)
     }

@@ -40,18 +40,11 @@ impl Cx<'_> {
         Ok((picture.resolution, picture.colour))
     }
 
-    /// Whether the scripts of a sensor are looking at its picture now (`sysCall_vision`).
-    #[allow(dead_code, reason = "for modules that process images")]
-    pub(crate) fn vision_callback_runs(&self, sensor: Handle) -> bool {
-        self.sim.vision_callback_runs(sensor)
-    }
-
     /// Replaces the image of a sensor (red, green, blue of each pixel, from the lowest row), then calls its scripts, unless they are
     /// looking at its picture already.
     ///
     /// # Errors
     /// When `sensor` is no vision sensor, or there are not as many bytes as its resolution needs.
-    #[allow(dead_code, reason = "for modules that process images")]
     pub fn set_vision_image(&mut self, sensor: Handle, image: Vec<u8>) -> ApiResult<()> {
         self.change_picture(sensor, |sensor| {
             let fits = image.len() == sensor.image_len();
@@ -67,7 +60,6 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When `sensor` is no vision sensor, or there are not as many depths as its resolution needs.
-    #[allow(dead_code, reason = "for modules that process images")]
     pub fn set_vision_depth(&mut self, sensor: Handle, depth: Vec<f32>) -> ApiResult<()> {
         self.change_picture(sensor, |sensor| {
             let fits = depth.len() == sensor.pixels();

@@ -18,8 +18,8 @@ use wire::cbor;
 const NAME: &str = "app-storage.cbor";
 const LOCK: &str = "app-storage.lock";
 const VERSION: i64 = 1;
-/// A writer is done in milliseconds, unless the disk is very slow.
-const LONGEST_WAIT_FOR_LOCK: Duration = Duration::from_secs(5);
+/// Longest wait for the lock of another process. A writer holds it for milliseconds, unless the disk is very slow.
+const LOCK_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// Why the file is not what it should be.
 #[derive(Debug, thiserror::Error)]
@@ -84,7 +84,7 @@ pub(in crate::files::app_storage) fn update(
     let unusable = |error| Failure::Unusable { path: folder.join(NAME), error };
     fs::create_dir_all(folder).map_err(unusable)?;
     let lock = File::options().create(true).truncate(false).write(true).open(folder.join(LOCK)).map_err(unusable)?;
-    wait_for_lock(&lock, LONGEST_WAIT_FOR_LOCK).map_err(unusable)?;
+    wait_for_lock(&lock, LOCK_TIMEOUT).map_err(unusable)?;
     let (mut contents, failure) = match read(folder) {
         Ok(contents) => (contents, None),
         Err(corrupt @ Failure::Corrupt { .. }) => (Contents::default(), Some(corrupt)),

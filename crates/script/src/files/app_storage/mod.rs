@@ -30,8 +30,10 @@ struct Contents {
 
 /// A part of the contents that consists of bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Section {
+pub enum StorageSection {
+    /// Custom data of the application, by tag.
     Tags,
+    /// Persistent data blocks (`sim.persistentDataWrite`).
     Persistent,
 }
 
@@ -39,7 +41,7 @@ pub enum Section {
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Dirty {
     CustomData(String),
-    Block(Section, String),
+    Block(StorageSection, String),
 }
 
 /// The file as scripts see it.
@@ -57,17 +59,17 @@ pub struct AppStorage {
 }
 
 impl Contents {
-    fn blocks(&self, section: Section) -> &Blocks {
+    fn blocks(&self, section: StorageSection) -> &Blocks {
         match section {
-            Section::Tags => &self.tags,
-            Section::Persistent => &self.persistent,
+            StorageSection::Tags => &self.tags,
+            StorageSection::Persistent => &self.persistent,
         }
     }
 
-    fn blocks_mut(&mut self, section: Section) -> &mut Blocks {
+    fn blocks_mut(&mut self, section: StorageSection) -> &mut Blocks {
         match section {
-            Section::Tags => &mut self.tags,
-            Section::Persistent => &mut self.persistent,
+            StorageSection::Tags => &mut self.tags,
+            StorageSection::Persistent => &mut self.persistent,
         }
     }
 
@@ -116,13 +118,14 @@ impl AppStorage {
         edited
     }
 
-    pub fn blocks(&mut self, section: Section) -> &Blocks {
+    /// The bytes of a section by tag; reads the file at the first use.
+    pub fn blocks(&mut self, section: StorageSection) -> &Blocks {
         self.load();
         self.contents.blocks(section)
     }
 
     /// Sets the bytes of a tag; None removes it.
-    pub fn set_block(&mut self, section: Section, tag: &str, bytes: Option<Vec<u8>>) {
+    pub fn set_block(&mut self, section: StorageSection, tag: &str, bytes: Option<Vec<u8>>) {
         if self.blocks(section).get(tag) == bytes.as_ref() {
             return;
         }
@@ -202,7 +205,7 @@ impl Sim {
 
 #[cfg(test)]
 mod tests {
-    use super::{AppStorage, Edit, Section};
+    use super::{AppStorage, Edit, StorageSection};
     use scene::{Data, ValueType};
 
     fn number(name: &str, n: i64) -> Edit<'_> {
@@ -222,12 +225,12 @@ mod tests {
         let folder = tempfile::tempdir().expect("a temporary folder can be made");
         let mut storage = AppStorage::new(Some(folder.path()));
         storage.edit_custom_data(number("n", 7));
-        storage.set_block(Section::Tags, "&int&.n", Some(vec![0, 255]));
+        storage.set_block(StorageSection::Tags, "&int&.n", Some(vec![0, 255]));
         storage.save();
         let mut again = AppStorage::new(Some(folder.path()));
         assert_eq!(again.custom_data().typed("n"), Some((ValueType::Int, &Data::Int(7))));
-        assert_eq!(again.blocks(Section::Tags).get("&int&.n"), Some(&vec![0, 255]));
-        assert!(again.blocks(Section::Persistent).is_empty() && again.notices.is_empty());
+        assert_eq!(again.blocks(StorageSection::Tags).get("&int&.n"), Some(&vec![0, 255]));
+        assert!(again.blocks(StorageSection::Persistent).is_empty() && again.notices.is_empty());
     }
 
     #[test]
@@ -262,11 +265,11 @@ mod tests {
         let no_folder = folder.path().join("file");
         std::fs::write(&no_folder, b"").expect("our own folder is writable");
         let mut storage = AppStorage::new(Some(&no_folder));
-        storage.set_block(Section::Persistent, "t", Some(vec![1]));
+        storage.set_block(StorageSection::Persistent, "t", Some(vec![1]));
         storage.notices.clear();
         storage.save();
         storage.save();
         assert_eq!(storage.notices.len(), 1, "{:?}", storage.notices);
-        assert_eq!(storage.blocks(Section::Persistent).get("t"), Some(&vec![1]));
+        assert_eq!(storage.blocks(StorageSection::Persistent).get("t"), Some(&vec![1]));
     }
 }

@@ -10,7 +10,7 @@ const HEADER_SIZE: usize = 4 + 1 + 1 + 6 + 3 + 8 + 8;
 /// In place of a difference between lines: the line itself is in the list of absolute lines.
 const ABSOLUTE: i8 = -0x80;
 /// An absolute line comes at least once in so many instructions.
-const MOST_DIFFERENCES: usize = 128;
+const MAX_DIFFERENCES: usize = 128;
 
 /// Types of constants.
 const FLOAT: u8 = 0x13;
@@ -159,7 +159,7 @@ impl Prototype<'_> {
         let (mut differences, mut absolute) = (Vec::new(), Vec::new());
         for (place, &line) in self.lines.iter().enumerate() {
             let difference = i8::try_from(i64::from(line) - previous).ok().filter(|&difference| difference != ABSOLUTE);
-            match difference.filter(|_| since < MOST_DIFFERENCES) {
+            match difference.filter(|_| since < MAX_DIFFERENCES) {
                 Some(difference) => differences.push(difference as u8),
                 None => {
                     differences.push(ABSOLUTE as u8);

@@ -17,14 +17,14 @@ use crate::lua::Stack;
 use crate::lua::api::{self, Hook, Slot};
 use crate::lua::stack::frame::Facts;
 
-/// Coroutines within coroutines that are looked at.
-const LONGEST_CHAIN: usize = 250;
-/// Calls that are looked at for one with a line.
-const DEEPEST_LEVEL: c_int = 50;
-/// Lines of calls that a place consists of.
-const MOST_LINES: usize = 6;
-/// Bytes of a place that are kept.
-const LONGEST_PLACE: usize = 512;
+/// Nested coroutines that are examined.
+const MAX_COROUTINES: usize = 250;
+/// Levels of the call stack that are searched for a call with a line.
+const MAX_LEVELS: c_int = 50;
+/// Most lines of calls in a place.
+const MAX_LINES: usize = 6;
+/// Most bytes of a place.
+const MAX_PLACE_LENGTH: usize = 512;
 
 thread_local! {
     /// Where the innermost call into Lua on this thread was made; null while there is none.
@@ -36,7 +36,7 @@ thread_local! {
 }
 
 static CALLS: AtomicU64 = AtomicU64::new(0);
-static PLACE: [AtomicU8; LONGEST_PLACE] = [const { AtomicU8::new(0) }; LONGEST_PLACE];
+static PLACE: [AtomicU8; MAX_PLACE_LENGTH] = [const { AtomicU8::new(0) }; MAX_PLACE_LENGTH];
 static PLACE_LENGTH: AtomicUsize = AtomicUsize::new(0);
 
 /// A call into Lua from outside. Nested ones end in reverse order.
@@ -86,7 +86,7 @@ pub fn interrupt_running_code() {
     let mut coroutine = unsafe { Stack::from_raw(running) };
     REQUESTED.set(true);
     IS_ROUGH.set(true);
-    for _ in 0..LONGEST_CHAIN {
+    for _ in 0..MAX_COROUTINES {
         api::lua_sethook(coroutine, Some(Hook::COUNT), ffi::LUA_MASKCOUNT, 1);
         note_place(coroutine);
         match resumed_by(coroutine) {
@@ -125,8 +125,8 @@ fn resumed_by(coroutine: Stack<'_>) -> Option<Stack<'_>> {
 fn note_place(coroutine: Stack<'_>) {
     let mut place = Place { length: 0 };
     let mut lines = 0;
-    for level in 0..DEEPEST_LEVEL {
-        let Some(frame) = coroutine.frame(level, Facts::ALL).filter(|_| lines < MOST_LINES) else { break };
+    for level in 0..MAX_LEVELS {
+        let Some(frame) = coroutine.frame(level, Facts::ALL).filter(|_| lines < MAX_LINES) else { break };
         if frame.line() > 0 {
             place.push(if lines > 0 { b", called from " } else { b"" });
             place.push(frame.chunk().to_bytes());

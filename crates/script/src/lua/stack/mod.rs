@@ -25,6 +25,7 @@ pub struct Stack<'a> {
 pub struct SharedString(mlua::LuaString);
 
 impl SharedString {
+    /// The bytes of the string.
     pub fn bytes(&self) -> impl Deref<Target = [u8]> + '_ {
         self.0.as_bytes()
     }
@@ -33,15 +34,25 @@ impl SharedString {
 /// The type of a Lua value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Type {
+    /// No value: an index above the top.
     None,
+    /// `nil`.
     Nil,
+    /// `true` or `false`.
     Boolean,
+    /// An integer or a float.
     Number,
+    /// A string of bytes.
     String,
+    /// A table.
     Table,
+    /// A function of Lua or of the host.
     Function,
+    /// A block of memory with a metatable.
     UserData,
+    /// A pointer.
     LightUserData,
+    /// A coroutine.
     Thread,
 }
 
@@ -81,6 +92,7 @@ impl<'a> Stack<'a> {
         &self.owner().budget
     }
 
+    /// The number of values on the stack, which is the index of the top.
     pub fn top(self) -> c_int {
         api::lua_gettop(self)
     }
@@ -90,6 +102,7 @@ impl<'a> Stack<'a> {
         c_int::try_from(count).is_ok_and(|n| api::lua_checkstack(self, n) != 0)
     }
 
+    /// The type of the value at `index`.
     pub fn kind(self, index: c_int) -> Type {
         Type::from_raw(api::lua_type(self, self.slot(index)))
     }
@@ -107,6 +120,7 @@ impl<'a> Stack<'a> {
         (api::lua_isinteger(self, slot) != 0).then(|| api::lua_tointegerx(self, slot, None))
     }
 
+    /// Whether the value at `index` is neither nil nor false.
     pub fn truthy(self, index: c_int) -> bool {
         api::lua_toboolean(self, self.slot(index)) != 0
     }
@@ -160,18 +174,22 @@ impl<'a> Stack<'a> {
         api::lua_topointer(self, self.slot(index))
     }
 
+    /// Pushes nil.
     pub fn push_nil(self) {
         api::lua_pushnil(self.room());
     }
 
+    /// Pushes a boolean.
     pub fn push_bool(self, value: bool) {
         api::lua_pushboolean(self.room(), c_int::from(value));
     }
 
+    /// Pushes an integer.
     pub fn push_int(self, value: i64) {
         api::lua_pushinteger(self.room(), value);
     }
 
+    /// Pushes a float.
     pub fn push_number(self, value: f64) {
         api::lua_pushnumber(self.room(), value);
     }
@@ -181,6 +199,7 @@ impl<'a> Stack<'a> {
         self.room().push_bytes(bytes);
     }
 
+    /// Pushes a copy of the value at `index`.
     pub fn push_value(self, index: c_int) {
         assert!(self.kind(index) != Type::None, "only what is there can be copied");
         let slot = self.slot(index);

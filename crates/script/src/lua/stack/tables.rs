@@ -11,8 +11,8 @@ use crate::runtime::FunctionRef;
 /// Size hints beyond this are not worth their memory: tables grow by themselves.
 pub(in crate::lua) const MAX_HINT: usize = 1 << 16;
 
-/// Items of the longest list Rust pushes; where the items, of 16 bytes each, do not fit one block, Lua raises.
-pub(crate) const LONGEST_LIST: usize = 1 << 26;
+/// Most items of a list that Rust pushes. Items take 16 bytes each; where they do not fit one block, Lua raises an error.
+pub(crate) const MAX_LIST_LENGTH: usize = 1 << 26;
 
 impl Stack<'_> {
     /// Replaces the key on top by `table[key]`.
@@ -26,6 +26,7 @@ impl Stack<'_> {
         api::lua_rawlen(self, self.slot(index)) as usize
     }
 
+    /// Pushes a new table with room for `array` items of a list and `fields` other entries.
     pub fn new_table(self, array: usize, fields: usize) {
         let hint = |n: usize| n.min(MAX_HINT) as c_int;
         api::lua_createtable(self.room(), hint(array), hint(fields));

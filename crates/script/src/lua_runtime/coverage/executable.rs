@@ -5,11 +5,11 @@
 
 use std::collections::BTreeSet;
 
-use crate::coverage::Function;
+use crate::coverage::FunctionLines;
 use crate::lua::{Bytecode, Prototype};
 
 /// The functions of a text and their lines that can run, sorted by first line. None if the text does not compile.
-pub fn executable(text: &[u8]) -> Option<Vec<Function>> {
+pub fn executable(text: &[u8]) -> Option<Vec<FunctionLines>> {
     let mut text = text.to_vec();
     if text.first() == Some(&b'#') {
         // As `lua` does for the first line of a file.
@@ -24,7 +24,7 @@ pub fn executable(text: &[u8]) -> Option<Vec<Function>> {
 }
 
 /// Adds a function and the functions inside it.
-fn add(function: &Prototype<'_>, found: &mut Vec<Function>, source: &[&[u8]]) -> Option<()> {
+fn add(function: &Prototype<'_>, found: &mut Vec<FunctionLines>, source: &[&[u8]]) -> Option<()> {
     function.inner.iter().try_for_each(|inner| add(inner, found, source))?;
     // The return at the end of every function is not in the text; the first instruction of a function with `...` only arranges its arguments.
     let (_, lines) = function.lines.split_last()?;
@@ -32,7 +32,7 @@ fn add(function: &Prototype<'_>, found: &mut Vec<Function>, source: &[&[u8]]) ->
     let lines: BTreeSet<u32> = lines.filter(|&line| is_statement(source, line)).collect();
     let line = u32::try_from(function.line).ok()?;
     if !lines.is_empty() {
-        found.push(Function { line, lines: lines.into_iter().collect(), name: name(line_of(source, line)) });
+        found.push(FunctionLines { line, lines: lines.into_iter().collect(), name: name(line_of(source, line)) });
     }
     Some(())
 }

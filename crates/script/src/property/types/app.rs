@@ -29,6 +29,7 @@ pub struct AppData {
     pub storage: AppStorage,
     /// Raw custom data: it ends with the program.
     pub raw_data: CustomData,
+    /// Signals of the application.
     pub signals: CustomData,
     /// Parameters of the command line, and what scripts added.
     pub named_params: BTreeMap<String, Vec<u8>>,
@@ -44,22 +45,30 @@ pub struct AppData {
     pub closed_scenes: i64,
     /// Numbered switches, numbers and texts that have no effect here, as scripts set them.
     pub idle_params: IdleParams,
+    /// The auxiliary consoles of scripts.
     pub consoles: AuxiliaryConsoles,
+    /// The videos that the user and scripts record.
     pub videos: Videos,
     /// The windows of scripts.
     pub ui: Rc<RefCell<Ui>>,
     /// Who answers dialogs, if anybody does.
     pub person: Option<Rc<Ask>>,
+    /// Who is shown the state after each step.
     pub watching: Watching,
 }
 
 /// Parameters of the user interface and the like, by number.
 #[derive(Default)]
 pub struct IdleParams {
+    /// `sim.boolparam_*`.
     pub bools: BTreeMap<i64, bool>,
+    /// `sim.intparam_*`.
     pub integers: BTreeMap<i64, i64>,
+    /// `sim.floatparam_*`.
     pub floats: BTreeMap<i64, f64>,
+    /// `sim.arrayparam_*`.
     pub arrays: BTreeMap<i64, [f64; 3]>,
+    /// `sim.stringparam_*`.
     pub texts: BTreeMap<i64, Vec<u8>>,
 }
 

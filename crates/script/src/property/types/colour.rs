@@ -1,7 +1,7 @@
 //! Colours of objects and meshes.
 
 use super::access::{Accessor, Subject, subject_properties};
-use super::{Color, Target};
+use super::{Color, PropertyTarget};
 use crate::error::{ApiError, ApiResult};
 use scene::Handle;
 use scene::appearance::colour::{ColourSlot, Component};
@@ -10,7 +10,7 @@ impl Subject<'_> {
     /// The object and the colour meant by `slot`; of a mesh it is its own.
     fn coloured(&self, slot: ColourSlot) -> ApiResult<(Handle, ColourSlot)> {
         match self.target {
-            Target::Mesh(uid) => {
+            PropertyTarget::Mesh(uid) => {
                 let (shape, index) = self.sim.scene.borrow().mesh(*uid).ok_or(ApiError::NoSuchTarget)?;
                 Ok((shape, ColourSlot::Mesh(index)))
             }

@@ -3,7 +3,7 @@
 use geometry::{Finite, Mesh};
 
 use super::access::{Accessor, Subject, refused, subject_properties};
-use super::{IntPair, Target, Text};
+use super::{IntPair, PropertyTarget, Text};
 use crate::binding::args::Bytes;
 use crate::error::{ApiError, ApiResult};
 use crate::sim::Sim;
@@ -24,12 +24,12 @@ impl Sim {
 
 impl Subject<'_> {
     fn with_mesh<R>(&self, read: impl FnOnce(&Object, &Part) -> R) -> ApiResult<R> {
-        let Target::Mesh(uid) = *self.target else { return Err(ApiError::NoSuchTarget) };
+        let PropertyTarget::Mesh(uid) = *self.target else { return Err(ApiError::NoSuchTarget) };
         self.sim.with_mesh(uid, read)
     }
 
     fn change_mesh(&self, change: impl FnOnce(&mut Part)) -> ApiResult<()> {
-        let Target::Mesh(uid) = *self.target else { return Err(ApiError::NoSuchTarget) };
+        let PropertyTarget::Mesh(uid) = *self.target else { return Err(ApiError::NoSuchTarget) };
         let changed = self.sim.scene.borrow_mut().modify_mesh(uid, Field::Appearance, change);
         changed.ok_or(ApiError::NoSuchTarget)
     }
