@@ -133,7 +133,7 @@ impl Object {
             Kind::ForceSensor(sensor) => [sensor.size; 3],
             Kind::Light(light) => [light.size; 3],
             Kind::Script(script) => [script.size; 3],
-            // They are empty so far.
+            // No box is computed for these.
             Kind::Path(_) | Kind::OcTree(_) | Kind::PointCloud(_) => [0.0; 3],
         };
         BoundingBox { size, pose: Pose::identity() }
