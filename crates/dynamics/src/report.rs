@@ -13,7 +13,7 @@ use super::world::World;
 use super::{Dynamics, SubStep};
 use scene::joint::Joint;
 use scene::pose::placement::is_valid_pose;
-use scene::sensor::force_sensor::{Filter, ForceSensor};
+use scene::sensor::force_sensor::{ForceFilter, ForceSensor};
 use scene::shape::Velocity;
 use scene::simulation::dynamics_report::JointReport;
 use scene::{DynamicFlags, Field, Handle, Kind, Pose, Scene};
@@ -245,10 +245,10 @@ fn take_sample(sensor: &mut ForceSensor, load: Load) -> Option<Load> {
     Some(filtered)
 }
 
-fn filter(kind: Filter, samples: &[Load]) -> Option<Load> {
+fn filter(kind: ForceFilter, samples: &[Load]) -> Option<Load> {
     match kind {
-        Filter::Average => mean(samples),
-        Filter::Median => {
+        ForceFilter::Average => mean(samples),
+        ForceFilter::Median => {
             let median = |part: fn(&Load) -> [f64; 3]| {
                 [0, 1, 2].map(|axis| {
                     let mut values: Vec<f64> = samples.iter().map(|load| part(load)[axis]).collect();

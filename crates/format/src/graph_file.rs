@@ -2,7 +2,7 @@
 
 #[cfg(feature = "plots")]
 use super::plot::{self, Chart, PlottedCurve};
-use scene::graph::{Graph, Style};
+use scene::graph::{CurveStyle, Graph};
 
 /// The kind of a file, from its extension; None for others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,7 +47,7 @@ pub struct GraphData {
 #[derive(Debug, Clone, PartialEq)]
 pub struct StreamData {
     /// Label, colour and line of the stream.
-    pub style: Style,
+    pub style: CurveStyle,
     /// Whether the graph shows it.
     pub visible: bool,
     /// Times and values.
@@ -58,7 +58,7 @@ pub struct StreamData {
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveData {
     /// Label, colour and line of the curve.
-    pub style: Style,
+    pub style: CurveStyle,
     /// 2 or 3.
     pub dimensions: usize,
     /// No recording changes it.
@@ -124,12 +124,12 @@ fn charts(graph: &GraphData) -> Vec<Chart> {
 }
 
 #[cfg(feature = "plots")]
-fn plotted(style: &Style, points: impl Iterator<Item = (f64, f64)>) -> PlottedCurve {
+fn plotted(style: &CurveStyle, points: impl Iterator<Item = (f64, f64)>) -> PlottedCurve {
     let label = style.label.then(|| with_unit(style));
     PlottedCurve { label, colour: style.colour, linked: style.linked, points: points.collect() }
 }
 
-fn with_unit(style: &Style) -> String {
+fn with_unit(style: &CurveStyle) -> String {
     if style.unit.is_empty() { style.name.clone() } else { format!("{} [{}]", style.name, style.unit) }
 }
 
@@ -186,22 +186,22 @@ fn quoted(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scene::graph::{Curve, Stream};
+    use scene::graph::{GraphCurve, GraphStream};
 
-    fn style(name: &str, unit: &str) -> Style {
-        Style { id: 0, name: name.into(), unit: unit.into(), colour: [1.0, 0.0, 0.0], label: true, linked: true }
+    fn style(name: &str, unit: &str) -> CurveStyle {
+        CurveStyle { id: 0, name: name.into(), unit: unit.into(), colour: [1.0, 0.0, 0.0], label: true, linked: true }
     }
 
     fn graph() -> Graph {
         let mut graph = Graph::default();
         let ids = [("height", "m"), ("a, \"b\"", "")]
-            .map(|(name, unit)| graph.add_stream(Stream::new(style(name, unit))).expect("the name is new"));
+            .map(|(name, unit)| graph.add_stream(GraphStream::new(style(name, unit))).expect("the name is new"));
         for slot in 0..3 {
             graph.stream_mut(ids[0]).expect("it was added").next = Some(0.5 * f64::from(slot));
             graph.stream_mut(ids[1]).expect("it was added").next = (slot != 1).then_some(-1.0);
             graph.record(0.25 * f64::from(slot));
         }
-        let curve = Curve {
+        let curve = GraphCurve {
             style: style("path", ""),
             width: 1,
             dimensions: 2,
@@ -241,7 +241,7 @@ mod tests {
         let mut graph = Graph::default();
         assert_eq!(GraphData::new(&graph, "").file(GraphFile::Csv), b"time [s]\n");
         assert!(GraphData::new(&graph, "").file(GraphFile::Svg).starts_with(b"<svg"));
-        let id = graph.add_stream(Stream::new(style("s", ""))).expect("the name is new");
+        let id = graph.add_stream(GraphStream::new(style("s", ""))).expect("the name is new");
         for value in [f64::NAN, f64::INFINITY, 1e300, -1e300, 5e-324] {
             graph.stream_mut(id).expect("it was added").next = Some(value);
             graph.record(value);

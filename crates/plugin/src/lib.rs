@@ -93,6 +93,7 @@ fn interface() -> Result<&'static Interface, String> {
 #[macro_export]
 macro_rules! plugin {
     (version: $version:expr, functions: [$($function:ident),* $(,)?] $(,)?) => {
+        /// Called when the plugin is loaded; returns its version, or 0 where it cannot work.
         #[unsafe(no_mangle)]
         #[allow(non_snake_case, reason = "the name is that of the interface")]
         pub extern "C" fn simInit(info: $crate::InitInfo) -> i32 {
@@ -106,6 +107,7 @@ macro_rules! plugin {
             )*])
         }
 
+        /// Called before the plugin is unloaded.
         #[unsafe(no_mangle)]
         #[allow(non_snake_case, reason = "the name is that of the interface")]
         pub extern "C" fn simCleanup() {}

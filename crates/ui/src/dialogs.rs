@@ -1,4 +1,4 @@
-//! Dialogs that block a script, and banners. Without a person there are answers that were left beforehand, else the usual ones.
+//! Dialogs that block a script, and banners. Without a person there are answers that were left beforehand, else the defaults.
 
 use std::collections::VecDeque;
 
@@ -46,7 +46,7 @@ impl DialogKind {
 
 /// A dialog that was shown.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shown {
+pub struct ShownDialog {
     /// Counts from 1.
     pub number: u64,
     /// Its kind.
@@ -78,7 +78,7 @@ pub struct Banner {
 #[derive(Debug, Default)]
 pub struct Dialogs {
     answers: VecDeque<(DialogKind, Data)>,
-    shown: VecDeque<Shown>,
+    shown: VecDeque<ShownDialog>,
     count: u64,
     banners: Vec<Banner>,
     last_banner: i64,
@@ -110,11 +110,11 @@ impl Dialogs {
             self.shown.pop_front();
         }
         let (title, text) = (title.to_owned(), text.to_owned());
-        self.shown.push_back(Shown { number: self.count, kind, title, text, answer });
+        self.shown.push_back(ShownDialog { number: self.count, kind, title, text, answer });
     }
 
     /// The dialogs that were shown; the oldest ones may be gone.
-    pub fn shown(&self) -> impl Iterator<Item = &Shown> {
+    pub fn shown(&self) -> impl Iterator<Item = &ShownDialog> {
         self.shown.iter()
     }
 
@@ -157,7 +157,7 @@ impl Dialogs {
     }
 
     pub(super) fn json(&self) -> Value {
-        let shown = |dialog: &Shown| {
+        let shown = |dialog: &ShownDialog| {
             json!({
                 "number": dialog.number, "kind": dialog.kind.name(), "title": dialog.title, "text": dialog.text,
                 "answer": dialog.answer,

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::error::UiResult;
-use super::widgets::{Kind, TextBrowser, TextType};
-use super::window::Source;
+use super::widgets::{TextBrowser, TextType, WidgetKind};
+use super::window::WindowSource;
 use super::{Ui, xml};
 
 /// Text editors and consoles by their numbers, which both count from 0.
@@ -44,13 +44,13 @@ impl Ui {
             let [first, second] = numbers.as_slice() else { return None };
             Some([first.parse().ok()?, second.parse().ok()?])
         };
-        let kind = Kind::TextBrowser(TextBrowser {
+        let kind = WidgetKind::TextBrowser(TextBrowser {
             text: text.to_owned(),
             text_type: TextType::Plain,
             read_only: attribute(&["editable"]) == Some("false"),
             ..TextBrowser::default()
         });
-        let handle = self.add_single(Source::Editor, attribute(&["title"]).unwrap_or("Editor"), kind, owner);
+        let handle = self.add_single(WindowSource::Editor, attribute(&["title"]).unwrap_or("Editor"), kind, owner);
         let changed = self.change(&handle, |window| {
             window.closeable = attribute(&["closeable", "closable"]) != Some("false");
             window.on_close = attribute(&["on-close", "onclose", "onClose"]).unwrap_or_default().to_owned();
@@ -90,10 +90,13 @@ impl Ui {
 
     /// Opens a console; the handle of its window.
     pub fn open_console(&mut self, title: &str, position: Option<[i64; 2]>, size: Option<[i64; 2]>) -> String {
-        let kind =
-            Kind::TextBrowser(TextBrowser { text_type: TextType::Plain, read_only: true, ..TextBrowser::default() });
+        let kind = WidgetKind::TextBrowser(TextBrowser {
+            text_type: TextType::Plain,
+            read_only: true,
+            ..TextBrowser::default()
+        });
         // A console is the simulator's: it stays when its script ends.
-        let handle = self.add_single(Source::Console, title, kind, -1);
+        let handle = self.add_single(WindowSource::Console, title, kind, -1);
         let changed = self.change(&handle, |window| {
             window.position = position.unwrap_or(window.position);
             window.size = size.unwrap_or(window.size);

@@ -1,8 +1,8 @@
 //! What a person does with a window, and what that changes. Handlers of scripts run later, when the queue of events is delivered.
 
 use super::widgets::{
-    Button, Checkbox, Combobox, Edit, Image, Kind, Plot, Properties, Radiobutton, Scene3d, Slider, Spinbox, Svg, Table,
-    Tabs, TextBrowser, Tree,
+    Button, Checkbox, Combobox, Edit, Image, Plot, Properties, Radiobutton, Scene3d, Slider, Spinbox, Svg, Table, Tabs,
+    TextBrowser, Tree, WidgetKind,
 };
 use super::window::Window;
 use scene::Data;
@@ -42,7 +42,7 @@ impl Modifiers {
 
 /// What the left mouse button does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mouse {
+pub enum MouseAction {
     /// It is pressed.
     Down,
     /// It is released.
@@ -51,7 +51,7 @@ pub enum Mouse {
     Move,
 }
 
-impl Mouse {
+impl MouseAction {
     /// The handler's attribute, and the number it gets (simUI.mouse).
     fn described(self) -> (&'static str, i64) {
         match self {
@@ -91,7 +91,7 @@ pub enum Input {
     /// The mouse on an image or a drawing.
     Mouse {
         /// What the left button does.
-        mouse: Mouse,
+        mouse: MouseAction,
         /// Pixels from the upper left corner of the widget.
         at: [i64; 2],
         /// Modifier keys that are held down.
@@ -167,17 +167,17 @@ impl Window {
 
     fn click(&mut self, id: i64) -> Option<()> {
         match self.kind(id).ok()? {
-            Kind::Button(button) => {
+            WidgetKind::Button(button) => {
                 // One that excludes its neighbours stays down when it is pressed again.
                 let pressed = !button.checked || button.auto_exclusive;
                 self.set_button_pressed(id, pressed).ok()?;
                 self.raise(id, "on-click", []);
             }
-            Kind::Radiobutton(_) => {
+            WidgetKind::Radiobutton(_) => {
                 self.set_radiobutton(id, 1).ok()?;
                 self.raise(id, "on-click", []);
             }
-            Kind::Checkbox(checkbox) => {
+            WidgetKind::Checkbox(checkbox) => {
                 let value = if checkbox.value == 2 { 0 } else { 2 };
                 self.set_checkbox(id, value, true).ok()?;
             }
@@ -189,26 +189,28 @@ impl Window {
     /// A new value; None where a widget has none of that type.
     fn enter(&mut self, id: i64, value: &InputValue) -> Option<InputResult> {
         match (self.kind(id).ok()?, value) {
-            (Kind::Slider(_), InputValue::Number(value)) => self.set_slider(id, *value as i64, true).ok()?,
-            (Kind::Spinbox(_), InputValue::Number(value)) => self.set_spinbox(id, *value, true).ok()?,
-            (Kind::Edit(_), value) => self.set_edit(id, text_of(value), true).ok()?,
-            (Kind::TextBrowser(TextBrowser { read_only, .. }), InputValue::Text(text)) => {
+            (WidgetKind::Slider(_), InputValue::Number(value)) => self.set_slider(id, *value as i64, true).ok()?,
+            (WidgetKind::Spinbox(_), InputValue::Number(value)) => self.set_spinbox(id, *value, true).ok()?,
+            (WidgetKind::Edit(_), value) => self.set_edit(id, text_of(value), true).ok()?,
+            (WidgetKind::TextBrowser(TextBrowser { read_only, .. }), InputValue::Text(text)) => {
                 if *read_only {
                     return Some(Err(format!("the text of widget {id} cannot be changed")));
                 }
                 self.set_browser_text(id, text.clone(), true).ok()?;
             }
-            (Kind::Checkbox(_), value) => self.set_checkbox(id, switch(value)?, true).ok()?,
-            (Kind::Button(Button { checkable: true, checked, .. }), value) => {
+            (WidgetKind::Checkbox(_), value) => self.set_checkbox(id, switch(value)?, true).ok()?,
+            (WidgetKind::Button(Button { checkable: true, checked, .. }), value) => {
                 if (switch(value)? != 0) != *checked {
                     self.click(id)?;
                 }
             }
-            (Kind::Radiobutton(Radiobutton { .. }), value) if switch(value)? != 0 => self.click(id)?,
-            (Kind::Combobox(Combobox { items, .. }), value) => return Some(self.choose(id, items.clone(), value)),
-            (Kind::Tabs(Tabs { pages, .. }), value) => {
+            (WidgetKind::Radiobutton(Radiobutton { .. }), value) if switch(value)? != 0 => self.click(id)?,
+            (WidgetKind::Combobox(Combobox { items, .. }), value) => {
+                return Some(self.choose(id, items.clone(), value));
+            }
+            (WidgetKind::Tabs(Tabs { pages, .. }), value) => {
                 let titles = pages.iter().map(|page| match self.kind(*page) {
-                    Ok(Kind::Tab(tab)) => tab.title.clone(),
+                    Ok(WidgetKind::Tab(tab)) => tab.title.clone(),
                     _ => String::new(),
                 });
                 let index = place_of(value, &titles.collect::<Vec<_>>());
@@ -233,8 +235,8 @@ impl Window {
 
     fn select(&mut self, id: i64, item: i64) -> Option<()> {
         match self.kind(id).ok()? {
-            Kind::Tree(_) => self.select_item(id, item, true).ok(),
-            Kind::Properties(_) => self.select_property(id, item, true).ok(),
+            WidgetKind::Tree(_) => self.select_item(id, item, true).ok(),
+            WidgetKind::Properties(_) => self.select_property(id, item, true).ok(),
             _ => None,
         }
     }
@@ -260,15 +262,15 @@ impl Window {
     }
 
     fn press_key(&mut self, id: i64, key: i64, text: &str, modifiers: Modifiers) -> Option<()> {
-        if !matches!(self.kind(id).ok()?, Kind::Table(_) | Kind::Properties(_)) {
+        if !matches!(self.kind(id).ok()?, WidgetKind::Table(_) | WidgetKind::Properties(_)) {
             return None;
         }
         self.raise(id, "on-key-press", [Data::Int(key), Data::text(text), modifiers.data()]);
         Some(())
     }
 
-    fn move_mouse(&mut self, id: i64, mouse: Mouse, [x, y]: [i64; 2], modifiers: Modifiers) -> Option<()> {
-        if !matches!(self.kind(id).ok()?, Kind::Image(Image { .. }) | Kind::Svg(Svg { .. })) {
+    fn move_mouse(&mut self, id: i64, mouse: MouseAction, [x, y]: [i64; 2], modifiers: Modifiers) -> Option<()> {
+        if !matches!(self.kind(id).ok()?, WidgetKind::Image(Image { .. }) | WidgetKind::Svg(Svg { .. })) {
             return None;
         }
         let (attribute, code) = mouse.described();
@@ -277,7 +279,7 @@ impl Window {
     }
 
     fn activate_link(&mut self, id: i64, href: &str) -> Option<()> {
-        if !matches!(self.kind(id).ok()?, Kind::Label(_) | Kind::TextBrowser(_)) {
+        if !matches!(self.kind(id).ok()?, WidgetKind::Label(_) | WidgetKind::TextBrowser(_)) {
             return None;
         }
         self.raise(id, "on-link-activated", [Data::text(href)]);
@@ -313,21 +315,23 @@ impl Window {
     /// The value of a widget, as a person sees it; None for one without.
     pub fn value(&self, id: i64) -> Option<Data> {
         Some(match self.kind(id).ok()? {
-            Kind::Slider(Slider { value, .. }) | Kind::Checkbox(Checkbox { value, .. }) => Data::Int(*value),
-            Kind::Spinbox(Spinbox { value, decimals: None, .. }) => Data::Int(*value as i64),
-            Kind::Spinbox(Spinbox { value, .. }) => Data::Float(*value),
-            Kind::Edit(Edit { value, .. }) => Data::text(value),
-            Kind::Label(label) => Data::text(&label.text),
-            Kind::Radiobutton(button) => Data::Int(button.checked.into()),
-            Kind::Button(Button { checkable: true, checked, .. }) => Data::Bool(*checked),
-            Kind::Combobox(Combobox { items, selected }) => {
+            WidgetKind::Slider(Slider { value, .. }) | WidgetKind::Checkbox(Checkbox { value, .. }) => {
+                Data::Int(*value)
+            }
+            WidgetKind::Spinbox(Spinbox { value, decimals: None, .. }) => Data::Int(*value as i64),
+            WidgetKind::Spinbox(Spinbox { value, .. }) => Data::Float(*value),
+            WidgetKind::Edit(Edit { value, .. }) => Data::text(value),
+            WidgetKind::Label(label) => Data::text(&label.text),
+            WidgetKind::Radiobutton(button) => Data::Int(button.checked.into()),
+            WidgetKind::Button(Button { checkable: true, checked, .. }) => Data::Bool(*checked),
+            WidgetKind::Combobox(Combobox { items, selected }) => {
                 Data::text(selected.and_then(|selected| items.get(selected)).map_or("", String::as_str))
             }
-            Kind::ProgressBar(bar) => Data::Int(bar.value),
-            Kind::TextBrowser(browser) => Data::text(&browser.text),
-            Kind::Tabs(tabs) => Data::Int(tabs.current as i64),
-            Kind::Tree(Tree { selected, .. }) => Data::Int(*selected),
-            Kind::Table(table) => table.selection.map(Data::Int).to_vec().into(),
+            WidgetKind::ProgressBar(bar) => Data::Int(bar.value),
+            WidgetKind::TextBrowser(browser) => Data::text(&browser.text),
+            WidgetKind::Tabs(tabs) => Data::Int(tabs.current as i64),
+            WidgetKind::Tree(Tree { selected, .. }) => Data::Int(*selected),
+            WidgetKind::Table(table) => table.selection.map(Data::Int).to_vec().into(),
             _ => return None,
         })
     }

@@ -21,7 +21,7 @@
 //! `visible`, `enabled`, `modal`, `resizable`, `closeable`, `activate`, `placement` (`center`, `relative`, `absolute`), `position` and `size`
 //! (two integers, pixels), `style` (a style sheet of Qt), `content` (a container).
 //!
-//! A container has `layout` (`vbox`, `hbox`, `grid`, `form`, `none`), `margins` (left, top, right, bottom), `spacing` (-1: the usual), `items`: widgets,
+//! A container has `layout` (`vbox`, `hbox`, `grid`, `form`, `none`), `margins` (left, top, right, bottom), `spacing` (-1: the default), `items`: widgets,
 //! and `{"kind": "br"}` (the next row of a grid), `{"kind": "stretch", "factor": 1}`. Items of a form are label and field by turns.
 //!
 //! A widget has `id` (integer, unique in its window), `kind`, `enabled`, `visible`, `style`, `stretch` (-1: none), `geometry` (x, y, width, height
@@ -101,13 +101,13 @@ pub use dialogs::{Banner, DialogKind, Dialogs};
 pub use editors::EditorState;
 pub use error::{UiError, UiResult};
 pub use input::{Input, InputValue, Modifiers};
-pub use question::{Details, Question, answer_of_page};
+pub use question::{Question, QuestionDetails, answer_of_page};
 pub use widgets::{
-    Button, Cell, Checkbox, Combobox, Curve, CurveOptions, CurveType, Edit, Image, Kind, Label, Plot, Properties,
-    Property, Radiobutton, Scene3d, Slider, Spinbox, Svg, Table, Tabs, TextBrowser, Tree,
+    Button, Cell, Checkbox, Combobox, Curve, CurveOptions, CurveType, Edit, Image, Label, Plot, Properties, Property,
+    Radiobutton, Scene3d, Slider, Spinbox, Svg, Table, Tabs, TextBrowser, Tree, WidgetKind,
 };
 use widgets::{Container, Item, Widget};
-pub use window::{Event, Source, Window};
+pub use window::{Event, Window, WindowSource};
 
 /// Inputs that may wait for the simulator; further ones are refused.
 const MAX_WAITING: usize = 10_000;
@@ -174,7 +174,7 @@ impl Ui {
     }
 
     /// Opens a window with a single widget, whose id is 1; its handle.
-    pub(crate) fn add_single(&mut self, source: Source, title: &str, kind: Kind, owner: i64) -> String {
+    pub(crate) fn add_single(&mut self, source: WindowSource, title: &str, kind: WidgetKind, owner: i64) -> String {
         let mut window = Window { source, title: title.to_owned(), enabled: true, visible: true, ..Window::default() };
         (window.resizable, window.closeable, window.activate) = (true, true, true);
         window.place([0; 2], [-1; 2]);
@@ -367,7 +367,7 @@ impl Ui {
                 return Err(UiError::other(format!("window '{}' cannot be closed", window.title)));
             }
             // An editor is closed for good: its handler gets the text.
-            if (!window.raise_close() || window.source == Source::Editor) && !escape {
+            if (!window.raise_close() || window.source == WindowSource::Editor) && !escape {
                 window.visible = false;
             }
             Ok(())

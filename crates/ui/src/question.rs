@@ -13,18 +13,18 @@ pub struct Question {
     /// What it says.
     pub text: String,
     /// What it asks for.
-    pub details: Details,
+    pub details: QuestionDetails,
 }
 
 /// What a dialog asks for.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Details {
+pub enum QuestionDetails {
     /// One of several buttons.
     Message {
         /// Keys of the buttons, e.g. `yes`.
         buttons: Vec<&'static str>,
         /// The button that Enter presses.
-        usual: &'static str,
+        default_button: &'static str,
         /// `simUI.msgbox_type`.
         level: i64,
     },
@@ -55,7 +55,7 @@ pub enum Details {
     },
 }
 
-impl Details {
+impl QuestionDetails {
     /// A file to load, of any kind.
     pub fn any_file() -> Self {
         let none = String::new;
@@ -67,10 +67,10 @@ impl Question {
     /// Its kind.
     pub fn kind(&self) -> DialogKind {
         match self.details {
-            Details::Message { .. } => DialogKind::Message,
-            Details::Files { .. } => DialogKind::File,
-            Details::Color { .. } => DialogKind::Color,
-            Details::Text { .. } => DialogKind::Input,
+            QuestionDetails::Message { .. } => DialogKind::Message,
+            QuestionDetails::Files { .. } => DialogKind::File,
+            QuestionDetails::Color { .. } => DialogKind::Color,
+            QuestionDetails::Text { .. } => DialogKind::Input,
         }
     }
 
@@ -78,13 +78,15 @@ impl Question {
     pub fn json(&self, number: u64) -> Value {
         let mut all = json!({"number": number, "kind": self.kind().name(), "title": self.title, "text": self.text});
         let details = match &self.details {
-            Details::Message { buttons, usual, level } => json!({"buttons": buttons, "usual": usual, "type": level}),
-            Details::Files { selects, start_path, initial_name, extension_name, extensions } => json!({
+            QuestionDetails::Message { buttons, default_button, level } => {
+                json!({"buttons": buttons, "usual": default_button, "type": level})
+            }
+            QuestionDetails::Files { selects, start_path, initial_name, extension_name, extensions } => json!({
                 "type": selects, "startPath": start_path, "initName": initial_name, "extName": extension_name,
                 "extensions": extensions,
             }),
-            Details::Color { initial, alpha } => json!({"initial": initial, "alpha": alpha}),
-            Details::Text { initial } => json!({"initial": initial}),
+            QuestionDetails::Color { initial, alpha } => json!({"initial": initial, "alpha": alpha}),
+            QuestionDetails::Text { initial } => json!({"initial": initial}),
         };
         if let (Value::Object(all), Value::Object(details)) = (&mut all, details) {
             all.extend(details);
@@ -109,7 +111,7 @@ mod tests {
 
     #[test]
     fn pages_get_what_is_asked_for() {
-        let details = Details::Message { buttons: vec!["yes", "no"], usual: "no", level: 1 };
+        let details = QuestionDetails::Message { buttons: vec!["yes", "no"], default_button: "no", level: 1 };
         let question = Question { title: "a".into(), text: "<b>".into(), details };
         let expected = json!({
             "number": 3, "kind": "msgBox", "title": "a", "text": "<b>", "buttons": ["yes", "no"], "usual": "no", "type": 1,

@@ -1,7 +1,7 @@
 //! Finds windows and widgets by what a person sees: titles, texts, labels.
 
 use super::Ui;
-use super::widgets::{Kind, Widget};
+use super::widgets::{Widget, WidgetKind};
 use super::window::Window;
 
 impl Ui {
@@ -63,10 +63,10 @@ impl Widget {
     /// The text on it.
     fn text(&self) -> Option<&str> {
         match &self.kind {
-            Kind::Button(button) => Some(&button.text),
-            Kind::Checkbox(checkbox) => Some(&checkbox.text),
-            Kind::Radiobutton(button) => Some(&button.text),
-            Kind::Tab(tab) => Some(&tab.title),
+            WidgetKind::Button(button) => Some(&button.text),
+            WidgetKind::Checkbox(checkbox) => Some(&checkbox.text),
+            WidgetKind::Radiobutton(button) => Some(&button.text),
+            WidgetKind::Tab(tab) => Some(&tab.title),
             _ => None,
         }
     }
@@ -74,7 +74,7 @@ impl Widget {
     /// What a label says about the widget after it.
     fn label(&self) -> Option<&str> {
         match &self.kind {
-            Kind::Label(label) => Some(label.text.trim().trim_end_matches(':').trim_end()),
+            WidgetKind::Label(label) => Some(label.text.trim().trim_end_matches(':').trim_end()),
             _ => None,
         }
     }

@@ -2,8 +2,8 @@
 
 use super::error::{UiError, UiResult};
 use super::widgets::{
-    Button, Cell, Checkbox, Combobox, Edit, Kind, Label, ProgressBar, Properties, Radiobutton, Slider, Spinbox, Table,
-    Tabs, TextBrowser, TextType, Tree,
+    Button, Cell, Checkbox, Combobox, Edit, Label, ProgressBar, Properties, Radiobutton, Slider, Spinbox, Table, Tabs,
+    TextBrowser, TextType, Tree, WidgetKind,
 };
 use super::window::Window;
 use scene::Data;
@@ -30,8 +30,8 @@ impl Window {
         let neighbours = self.widgets.values_mut().filter(|widget| widget.parent == parent && widget.id != id);
         for neighbour in neighbours {
             match &mut neighbour.kind {
-                Kind::Button(button) if button.auto_exclusive => button.checked = false,
-                Kind::Radiobutton(button) if button.auto_exclusive => button.checked = false,
+                WidgetKind::Button(button) if button.auto_exclusive => button.checked = false,
+                WidgetKind::Radiobutton(button) if button.auto_exclusive => button.checked = false,
                 _ => {}
             }
         }
@@ -78,7 +78,7 @@ impl Window {
         }
         self.get::<Edit>(id)?;
         for widget in self.widgets.values_mut() {
-            if let Kind::Edit(edit) = &mut widget.kind {
+            if let WidgetKind::Edit(edit) = &mut widget.kind {
                 edit.selected = widget.id == id && !edit.value.is_empty();
             }
         }

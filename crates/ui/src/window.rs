@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::error::{UiError, UiResult};
-use super::widgets::{Container, Kind, TextBrowser, Widget, WidgetType};
+use super::widgets::{Container, TextBrowser, Widget, WidgetKind, WidgetType};
 use scene::Data;
 
 /// Where a window without a position of its own would be.
@@ -33,7 +33,7 @@ impl Placement {
 
 /// Who shows a window: what a page may say about it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Source {
+pub enum WindowSource {
     /// `simUI.create`.
     #[default]
     SimUi,
@@ -43,7 +43,7 @@ pub enum Source {
     Editor,
 }
 
-impl Source {
+impl WindowSource {
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::SimUi => "simUI",
@@ -53,10 +53,10 @@ impl Source {
     }
 }
 
-/// The screen and the main window that positions refer to, since there are none: pixels.
+/// Size of the assumed screen and main window that positions refer to, pixels: there are none without a display.
 const SCREEN: [i64; 2] = [1280, 800];
-/// The size of a window that has none of its own.
-const USUAL_SIZE: [i64; 2] = [320, 240];
+/// Size of a window that has none of its own, pixels.
+const DEFAULT_SIZE: [i64; 2] = [320, 240];
 
 /// What a person did, or a script that wants handlers to run: the name of a function of the owner's, and its arguments.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,7 +81,7 @@ pub struct Window {
     pub(super) id: u64,
     /// The handle of the script it belongs to.
     pub(super) owner: i64,
-    pub(super) source: Source,
+    pub(super) source: WindowSource,
     /// The title.
     pub title: String,
     /// Whether it takes inputs.
@@ -121,7 +121,7 @@ impl Window {
 
     /// Sets size and position from what the text of the window says.
     pub(super) fn place(&mut self, position: [i64; 2], size: [i64; 2]) {
-        self.size = if size[0] > 0 && size[1] > 0 { size } else { USUAL_SIZE };
+        self.size = if size[0] > 0 && size[1] > 0 { size } else { DEFAULT_SIZE };
         self.position = std::array::from_fn(|axis| match self.placement {
             Placement::Center => (SCREEN[axis] - self.size[axis]) / 2,
             Placement::Relative if position[axis] < 0 => SCREEN[axis] + position[axis] - self.size[axis],
@@ -129,9 +129,9 @@ impl Window {
         });
     }
 
-    /// Gives it the size it would have by itself.
+    /// Resets its size to the default.
     pub fn adjust_size(&mut self) {
-        self.size = USUAL_SIZE;
+        self.size = DEFAULT_SIZE;
     }
 
     /// The widget with that id.
@@ -229,15 +229,17 @@ impl Window {
         }
         let (window, script, handler) = (Some(self.id), self.owner, self.on_close.clone());
         let args = match (self.source, self.get::<TextBrowser>(1)) {
-            (Source::Editor, Ok(editor)) => vec![Data::text(&editor.text), self.position.into(), self.size.into()],
+            (WindowSource::Editor, Ok(editor)) => {
+                vec![Data::text(&editor.text), self.position.into(), self.size.into()]
+            }
             _ => vec![Data::text(&self.handle())],
         };
         self.raised.push(Event { window, widget: None, script, handler, args, evaluates: false });
         true
     }
 
-    /// Whether a widget has what raises events of its own.
-    pub(super) fn kind(&self, id: i64) -> UiResult<&Kind> {
+    /// The kind of a widget.
+    pub(super) fn kind(&self, id: i64) -> UiResult<&WidgetKind> {
         self.widget(id).map(|widget| &widget.kind)
     }
 }

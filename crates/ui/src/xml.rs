@@ -4,9 +4,9 @@
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-/// Deeper elements than any window has.
+/// Limit of the nesting of elements.
 const MAX_DEPTH: usize = 100;
-/// Bytes a text may have, and elements in it.
+/// Limits of a text: its size in bytes, and the number of its elements.
 const MAX_SIZE: usize = 16 << 20;
 const MAX_ELEMENTS: usize = 100_000;
 

@@ -6,7 +6,7 @@ use api_macro::api;
 use geometry::Finite;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
-use scene::graph::{Curve, Graph, GraphOptions, Stream, Style, Transformation, TransformationKind};
+use scene::graph::{CurveStyle, Graph, GraphCurve, GraphOptions, GraphStream, Transformation, TransformationKind};
 use scene::{Data, Field, Handle, Kind, Object, SceneError, special};
 use script::{Number, Results};
 
@@ -33,8 +33,8 @@ fn change<R>(
     Ok(cx.scene_mut().try_modify(handle, Field::Measured, |object| change(object.graph_mut()?))?)
 }
 
-fn style(name: String, unit: String, options: GraphOptions, colour: [f64; 3]) -> Style {
-    Style {
+fn style(name: String, unit: String, options: GraphOptions, colour: [f64; 3]) -> CurveStyle {
+    CurveStyle {
         id: 0,
         name,
         unit,
@@ -69,8 +69,11 @@ fn add_graph_stream(
     };
     let options = GraphOptions::from_bits_retain(options.0);
     let style = style(stream_name, unit, options, color);
-    let stream =
-        Stream { visible: !options.contains(GraphOptions::HIDDEN_STREAM), transformation, ..Stream::new(style) };
+    let stream = GraphStream {
+        visible: !options.contains(GraphOptions::HIDDEN_STREAM),
+        transformation,
+        ..GraphStream::new(style)
+    };
     change(cx, graph_handle, |graph| graph.add_stream(stream))
 }
 
@@ -148,7 +151,7 @@ fn add_graph_curve(
     }
     default_values.as_slice().finite().ok_or(SceneError::InvalidArgument)?;
     let options = GraphOptions::from_bits_retain(options.0);
-    let curve = Curve {
+    let curve = GraphCurve {
         style: style(curve_name, unit_str, options, color),
         width: curve_width.0.clamp(1, 100),
         dimensions,
@@ -218,7 +221,7 @@ fn shown_stream(graph: &Graph, index: usize) -> Option<Vec<Data>> {
     Some(described(&stream.style, stream.fixed.is_some(), &points, 2, 1))
 }
 
-fn described(style: &Style, fixed: bool, points: &[[f64; 3]], dimensions: usize, width: i64) -> Vec<Data> {
+fn described(style: &CurveStyle, fixed: bool, points: &[[f64; 3]], dimensions: usize, width: i64) -> Vec<Data> {
     let attributes = i64::from(style.label) << 1 | i64::from(style.linked) << 2 | i64::from(fixed) << 4;
     let axis = |axis: usize| points.iter().map(|point| point[axis]).collect::<Vec<f64>>();
     let extremes = |axis: usize| {

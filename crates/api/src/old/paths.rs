@@ -6,7 +6,7 @@ use nalgebra::Translation3;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::path_object::{
-    ControlPoint, LengthMethod, LinePoint, Measures, PathAttributes, PathObject, Travel, TravelLimits,
+    ControlPoint, LengthMethod, LinePoint, PathAttributes, PathMeasures, PathObject, Travel, TravelLimits,
 };
 use scene::{Data, Handle, Kind, Pose, SceneError, special};
 use script::Number;
@@ -89,7 +89,7 @@ fn create_path_object(
         -1 => PathAttributes::DEFAULT,
         bits => PathAttributes::from_bits_retain(bits as i32),
     };
-    let mut measures = Measures::default();
+    let mut measures = PathMeasures::default();
     let finite = |value: f64, other: f64| if value.is_finite() { value } else { other };
     if let Some([_, method, _]) = int_params {
         measures.length_method = LengthMethod::from_number(method as i64).ok_or(SceneError::InvalidArgument)?;

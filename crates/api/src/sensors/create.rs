@@ -3,7 +3,7 @@
 use api_macro::api;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
-use scene::appearance::colour::Component;
+use scene::appearance::colour::ColourComponent;
 use scene::sensor::volume::VolumeType;
 use scene::sensor::{ProximityOptions, ProximitySensor, VisionOptions, VisionSensor};
 use scene::voxels::octree::{OcTree, cell_size};
@@ -160,7 +160,7 @@ fn set_light_parameters(
     Ok(cx.scene_mut().try_modify(light_handle, Field::Appearance, |object| {
         let light = object.light_mut()?;
         light.enabled = state.0 != 0;
-        let parts = [(Component::AmbientDiffuse, diffuse_part), (Component::Specular, specular_part)];
+        let parts = [(ColourComponent::AmbientDiffuse, diffuse_part), (ColourComponent::Specular, specular_part)];
         for (component, part) in parts {
             if let Some(part) = part {
                 light.colour.set_component(component, &part);

@@ -3,7 +3,7 @@
 use api_macro::api;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
-use scene::sensor::force_sensor::{Filter, ForceSensor};
+use scene::sensor::force_sensor::{ForceFilter, ForceSensor};
 use scene::{Handle, Kind};
 use script::Number;
 
@@ -21,7 +21,7 @@ fn create_force_sensor(cx: &mut Cx, options: Number, int_params: Vec<i64>, float
     let [size, force, torque, _, _] = float_params.first_chunk().ok_or(ApiError::TableSize)?;
     let sensor = ForceSensor {
         size: *size,
-        filter: if *filter == 1 { Filter::Median } else { Filter::Average },
+        filter: if *filter == 1 { ForceFilter::Median } else { ForceFilter::Average },
         sample_size: usize::try_from(*samples).unwrap_or(0).clamp(1, ForceSensor::MAX_SAMPLES),
         consecutive_violations: u32::try_from(*consecutive).unwrap_or(0).max(1),
         force_threshold: *force,

@@ -3,14 +3,14 @@
 use api_macro::api;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
-use scene::appearance::colour::{ColourName, Component};
+use scene::appearance::colour::{ColourComponent, ColourName};
 use scene::{Data, Handle, SceneError};
 use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![get_shape_color, set_shape_color, get_object_color, set_object_color];
 
-fn component(code: Number) -> Result<Component> {
-    Component::from_code(code.0).ok_or(ApiError::Scene(SceneError::InvalidArgument))
+fn component(code: Number) -> Result<ColourComponent> {
+    ColourComponent::from_code(code.0).ok_or(ApiError::Scene(SceneError::InvalidArgument))
 }
 
 /// A colour of a shape.

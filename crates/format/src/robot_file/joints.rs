@@ -7,7 +7,7 @@ use robot_description::{Dynamics, Joint as Description, JointKind, Limits, Robot
 use super::{Import, RobotImportOptions};
 use scene::joint::{Control, Joint, JointMode, JointType};
 use scene::object::dummy::Dummy;
-use scene::sensor::force_sensor::{Filter, ForceSensor};
+use scene::sensor::force_sensor::{ForceFilter, ForceSensor};
 use scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
 
 /// Torque of a motor with limits, N m; force of one that slides, or that turns without end, N or N m; speed of both (spec: import 1).
@@ -132,5 +132,5 @@ fn set_actuator(joint: &mut Joint, description: &Description, actuator: Option<&
 }
 
 fn rigid_link() -> ForceSensor {
-    ForceSensor { size: 0.02, filter: Filter::Median, sample_size: 4, ..ForceSensor::default() }
+    ForceSensor { size: 0.02, filter: ForceFilter::Median, sample_size: 4, ..ForceSensor::default() }
 }

@@ -269,11 +269,11 @@ fn groups_in_groups_come_apart_level_by_level_after_loading() {
 #[test]
 fn what_v_rep_had_is_kept() {
     use scene::object::dummy::Dummy;
-    use scene::path_object::{ControlPoint, Measures, PathAttributes, PathFollowing, PathObject, Shaping};
+    use scene::path_object::{ControlPoint, PathAttributes, PathFollowing, PathMeasures, PathObject, Shaping};
     use scene::tree::ik_groups::{IkElement, IkGroup};
 
     let mut scene = Scene::new();
-    let mut path = PathObject::new(PathAttributes::DEFAULT, Measures::default());
+    let mut path = PathObject::new(PathAttributes::DEFAULT, PathMeasures::default());
     let at = |x: f64, y: f64| ControlPoint {
         pose: Pose::translation(x, y, 0.5),
         before: 0.3,

@@ -8,7 +8,7 @@ use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::Data;
 use script::Table;
 use script::log::verbosity;
-use ui::{Banner, Details, DialogKind, Question};
+use ui::{Banner, DialogKind, Question, QuestionDetails};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     msg_box,
@@ -36,7 +36,7 @@ fn left_answer(cx: &mut Cx, kind: DialogKind) -> Option<Data> {
 }
 
 /// The answer that was left for a dialog, else that of a person.
-fn answer(cx: &mut Cx, title: &str, text: &str, details: Details) -> Option<Data> {
+fn answer(cx: &mut Cx, title: &str, text: &str, details: QuestionDetails) -> Option<Data> {
     let question = Question { title: title.to_owned(), text: text.to_owned(), details };
     left_answer(cx, question.kind()).or_else(|| cx.ask_person(&question))
 }
@@ -77,7 +77,7 @@ fn pressed_button(cx: &mut Cx, level: i64, (usual, possible): (i64, &[i64]), tit
         return button_of(&answer, possible);
     }
     let buttons = possible.iter().map(|number| RESULTS[*number as usize]).collect();
-    let details = Details::Message { buttons, usual: RESULTS[usual as usize], level };
+    let details = QuestionDetails::Message { buttons, default_button: RESULTS[usual as usize], level };
     let question = Question { title: title.to_owned(), text: text.to_owned(), details };
     Ok(cx.ask_person(&question).and_then(|answer| button_of(&answer, possible).ok()).unwrap_or(usual))
 }
@@ -111,7 +111,7 @@ fn button_of(answer: &Data, possible: &[i64]) -> Result<i64> {
 }
 
 /// The files that were left as the answer to a dialog, else those that a person names.
-fn chosen_files(cx: &mut Cx, title: &str, details: Details) -> Vec<String> {
+fn chosen_files(cx: &mut Cx, title: &str, details: QuestionDetails) -> Vec<String> {
     let text = |data: &Data| match data {
         Data::Text(bytes) => Some(String::from_utf8_lossy(bytes).into_owned()),
         _ => None,
@@ -129,7 +129,7 @@ fn chosen_files(cx: &mut Cx, title: &str, details: Details) -> Vec<String> {
 /// @return result paths; empty if cancelled
 #[api("simUI._simFileDialog")]
 fn sim_file_dialog(cx: &mut Cx, title: String) -> Result<Vec<String>> {
-    let files = chosen_files(cx, &title, Details::any_file());
+    let files = chosen_files(cx, &title, QuestionDetails::any_file());
     note_silently(cx, DialogKind::File, &title, "", &files.join(", "));
     Ok(files)
 }
@@ -158,7 +158,7 @@ fn file_dialog(
 ) -> Result<Vec<String>> {
     let _ = native;
     let asked = [start_path.as_str(), &init_name, &ext].join(" ");
-    let details = Details::Files {
+    let details = QuestionDetails::Files {
         selects: r#type,
         start_path,
         initial_name: init_name,
@@ -191,7 +191,7 @@ fn color_dialog(
     }
     let parts = if show_alpha_channel { 4 } else { 3 };
     let initial = init_color.unwrap_or_else(|| vec![1.0; 3]);
-    let details = Details::Color { initial, alpha: show_alpha_channel };
+    let details = QuestionDetails::Color { initial, alpha: show_alpha_channel };
     let color = match answer(cx, &title, "", details) {
         Some(Data::Array(mut color)) => {
             color.resize(parts, Data::Float(1.0));
@@ -217,7 +217,7 @@ fn input_dialog(
     #[default("Input value:")] label: String,
     #[default("")] title: String,
 ) -> Result<Data> {
-    let entry = match answer(cx, &title, &label, Details::Text { initial: init_value }) {
+    let entry = match answer(cx, &title, &label, QuestionDetails::Text { initial: init_value }) {
         Some(Data::Text(entry)) => Some(entry),
         Some(Data::Int(number)) => Some(number.to_string().into_bytes()),
         Some(Data::Float(number)) => Some(number.to_string().into_bytes()),

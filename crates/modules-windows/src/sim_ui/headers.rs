@@ -5,7 +5,7 @@ use api_macro::api;
 use super::arguments::WindowHandle;
 use crate::{ApiFn, Cx, Result, functions};
 use script::Bytes;
-use ui::{Kind, UiError, UiResult, Window};
+use ui::{UiError, UiResult, WidgetKind, Window};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     get_column_count,
@@ -24,8 +24,8 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 #[api("simUI.getColumnCount")]
 fn get_column_count(cx: &Cx, handle: WindowHandle, id: i64) -> Result<i64> {
     cx.read_window(&handle.0, |window| match &window.widget(id)?.kind {
-        Kind::Table(table) => Ok(table.column_count),
-        Kind::Tree(tree) => Ok(tree.column_count),
+        WidgetKind::Table(table) => Ok(table.column_count),
+        WidgetKind::Tree(tree) => Ok(tree.column_count),
         _ => Err(UiError::NoColumns),
     })
 }
@@ -47,8 +47,8 @@ fn set_column_count(
     let _ = suppress_events;
     cx.change_window(&handle.0, |window| {
         match &mut window.widget_mut(id)?.kind {
-            Kind::Table(table) => table.resize(table.row_count, count),
-            Kind::Tree(tree) => tree.column_count = count.max(0),
+            WidgetKind::Table(table) => table.resize(table.row_count, count),
+            WidgetKind::Tree(tree) => tree.column_count = count.max(0),
             _ => return Err(UiError::NoColumns),
         }
         Ok(())
@@ -65,8 +65,8 @@ fn set_column_count(
 fn set_column_header_text(cx: &mut Cx, handle: WindowHandle, id: i64, column: i64, text: String) -> Result<()> {
     cx.change_window(&handle.0, |window| {
         let (headers, count) = match &mut window.widget_mut(id)?.kind {
-            Kind::Table(table) => (&mut table.column_headers, table.column_count),
-            Kind::Tree(tree) => (&mut tree.column_headers, tree.column_count),
+            WidgetKind::Table(table) => (&mut table.column_headers, table.column_count),
+            WidgetKind::Tree(tree) => (&mut tree.column_headers, tree.column_count),
             _ => return Err(UiError::NoColumns),
         };
         if (0..count).contains(&column) {
@@ -98,8 +98,8 @@ fn set_column_width(
 
 fn set_width(window: &mut Window, id: i64, width: Option<[i64; 2]>) -> UiResult<()> {
     match &mut window.widget_mut(id)?.kind {
-        Kind::Table(table) => table.column_width = width,
-        Kind::Tree(tree) => tree.column_width = width,
+        WidgetKind::Table(table) => table.column_width = width,
+        WidgetKind::Tree(tree) => tree.column_width = width,
         _ => return Err(UiError::NoColumns),
     }
     Ok(())
@@ -117,8 +117,8 @@ const STATE: [u8; 4] = *b"swU1";
 fn save_state(cx: &Cx, handle: WindowHandle, id: i64) -> Result<Bytes> {
     cx.read_window(&handle.0, |window| {
         let width = match &window.widget(id)?.kind {
-            Kind::Table(table) => table.column_width,
-            Kind::Tree(tree) => tree.column_width,
+            WidgetKind::Table(table) => table.column_width,
+            WidgetKind::Tree(tree) => tree.column_width,
             _ => return Err(UiError::NoColumns),
         };
         let mut state = STATE.to_vec();

@@ -31,7 +31,7 @@ pub enum ColourSlot {
 
 /// A part of a colour (`sim.colorcomponent_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Component {
+pub enum ColourComponent {
     /// Reflected ambient and diffuse light.
     AmbientDiffuse,
     /// Highlights.
@@ -55,7 +55,7 @@ pub enum ColourName {
     Named(String),
 }
 
-impl Component {
+impl ColourComponent {
     /// The component with a script's number, if there is one.
     pub fn from_code(code: i64) -> Option<Self> {
         Some(match code {
@@ -90,30 +90,30 @@ impl ColourName {
 }
 
 impl Colour {
-    /// An opaque colour with the usual gloss.
+    /// An opaque colour with default highlights.
     pub const fn new(ambient_diffuse: [f32; 3]) -> Self {
         Self { ambient_diffuse, specular: [0.25; 3], emission: [0.0; 3], auxiliary: [0.5, 0.0, 0.0], opacity: 1.0 }
     }
 
     /// The numbers of one component.
-    pub fn component(&self, component: Component) -> &[f32] {
+    pub fn component(&self, component: ColourComponent) -> &[f32] {
         match component {
-            Component::AmbientDiffuse => &self.ambient_diffuse,
-            Component::Specular => &self.specular,
-            Component::Emission => &self.emission,
-            Component::Auxiliary => &self.auxiliary,
-            Component::Transparency => std::slice::from_ref(&self.opacity),
+            ColourComponent::AmbientDiffuse => &self.ambient_diffuse,
+            ColourComponent::Specular => &self.specular,
+            ColourComponent::Emission => &self.emission,
+            ColourComponent::Auxiliary => &self.auxiliary,
+            ColourComponent::Transparency => std::slice::from_ref(&self.opacity),
         }
     }
 
     /// Sets one component; longer values are cut.
-    pub fn set_component(&mut self, component: Component, value: &[f64]) {
+    pub fn set_component(&mut self, component: ColourComponent, value: &[f64]) {
         let slot: &mut [f32] = match component {
-            Component::AmbientDiffuse => &mut self.ambient_diffuse,
-            Component::Specular => &mut self.specular,
-            Component::Emission => &mut self.emission,
-            Component::Auxiliary => &mut self.auxiliary,
-            Component::Transparency => std::slice::from_mut(&mut self.opacity),
+            ColourComponent::AmbientDiffuse => &mut self.ambient_diffuse,
+            ColourComponent::Specular => &mut self.specular,
+            ColourComponent::Emission => &mut self.emission,
+            ColourComponent::Auxiliary => &mut self.auxiliary,
+            ColourComponent::Transparency => std::slice::from_mut(&mut self.opacity),
         };
         slot.iter_mut().zip(value).for_each(|(number, new)| *number = *new as f32);
     }
@@ -179,7 +179,7 @@ fn read(slot: &[f32]) -> Vec<f64> {
 
 impl Shape {
     /// The colour of the first mesh called so, or of every mesh; None when there is none.
-    pub fn colour(&self, name: &ColourName, component: Component) -> Option<Vec<f64>> {
+    pub fn colour(&self, name: &ColourName, component: ColourComponent) -> Option<Vec<f64>> {
         let mut colours = self.parts.iter().map(|part| &part.appearance).filter(|a| name.covers(a));
         match name {
             ColourName::Compound => Some(colours.flat_map(|a| read(a.colour.component(component))).collect()),
@@ -191,7 +191,7 @@ impl Shape {
     ///
     /// # Errors
     /// When `value` has too few numbers; nothing is changed then.
-    fn set_colour(&mut self, name: &ColourName, component: Component, value: &[f64]) -> SceneResult<()> {
+    fn set_colour(&mut self, name: &ColourName, component: ColourComponent, value: &[f64]) -> SceneResult<()> {
         let width = component.width();
         let each = if *name == ColourName::Compound { width } else { 0 };
         let needed = if each == 0 { width } else { width * self.parts.len() };
@@ -214,14 +214,19 @@ impl Scene {
         &mut self,
         handle: Handle,
         name: &ColourName,
-        component: Component,
+        component: ColourComponent,
         value: &[f64],
     ) -> SceneResult<()> {
         self.try_modify(handle, Field::Appearance, |object| object.shape_mut()?.set_colour(name, component, value))
     }
 
     /// A colour of any object; None when it has no such one. Shapes have one per mesh, lights and proximity sensors two.
-    pub fn object_colour(&self, handle: Handle, index: usize, component: Component) -> SceneResult<Option<Vec<f64>>> {
+    pub fn object_colour(
+        &self,
+        handle: Handle,
+        index: usize,
+        component: ColourComponent,
+    ) -> SceneResult<Option<Vec<f64>>> {
         let object = self.object(handle)?;
         let colour = object.colour_slot(index).and_then(|slot| object.colour(slot));
         Ok(colour.map(|colour| read(colour.component(component))))
@@ -232,7 +237,7 @@ impl Scene {
         &mut self,
         handle: Handle,
         index: usize,
-        component: Component,
+        component: ColourComponent,
         value: &[f64],
     ) -> SceneResult<bool> {
         match self.object(handle)?.colour_slot(index) {
@@ -246,7 +251,7 @@ impl Scene {
         &mut self,
         handle: Handle,
         slot: ColourSlot,
-        component: Component,
+        component: ColourComponent,
         value: &[f64],
     ) -> SceneResult<bool> {
         if self.object(handle)?.colour(slot).is_none() {
@@ -270,10 +275,10 @@ mod tests {
     #[test]
     fn colours_are_kept_in_32_bits_and_not_limited() {
         let mut shape = Shape::primitive(PrimitiveKind::Cuboid, [1.0; 3], Default::default()).unwrap();
-        shape.set_colour(&ColourName::All, Component::AmbientDiffuse, &[2.0, -1.0, 0.2]).unwrap();
-        let colour = shape.colour(&ColourName::Named(String::new()), Component::AmbientDiffuse);
+        shape.set_colour(&ColourName::All, ColourComponent::AmbientDiffuse, &[2.0, -1.0, 0.2]).unwrap();
+        let colour = shape.colour(&ColourName::Named(String::new()), ColourComponent::AmbientDiffuse);
         assert_eq!(colour, Some(vec![2.0, -1.0, f64::from(0.2f32)]));
-        assert_eq!(shape.colour(&ColourName::Named("nope".into()), Component::AmbientDiffuse), None);
+        assert_eq!(shape.colour(&ColourName::Named("nope".into()), ColourComponent::AmbientDiffuse), None);
     }
 
     #[test]
@@ -281,11 +286,11 @@ mod tests {
         let mut scene = Scene::new();
         let light = Kind::Light(Box::new(Light::new(LightType::Directional)));
         let light = scene.add("l", light).unwrap();
-        assert_eq!(scene.set_object_colour(light, 1, Component::Specular, &[1.0, 0.0, 0.0]), Ok(true));
-        assert_eq!(scene.object_colour(light, 1, Component::Specular), Ok(Some(vec![1.0, 0.0, 0.0])));
-        assert_eq!(scene.object_colour(light, 0, Component::Specular), Ok(Some(vec![0.25; 3])));
-        assert_eq!(scene.object_colour(light, 2, Component::Specular), Ok(None));
+        assert_eq!(scene.set_object_colour(light, 1, ColourComponent::Specular, &[1.0, 0.0, 0.0]), Ok(true));
+        assert_eq!(scene.object_colour(light, 1, ColourComponent::Specular), Ok(Some(vec![1.0, 0.0, 0.0])));
+        assert_eq!(scene.object_colour(light, 0, ColourComponent::Specular), Ok(Some(vec![0.25; 3])));
+        assert_eq!(scene.object_colour(light, 2, ColourComponent::Specular), Ok(None));
         let dummy = scene.add("d", Kind::Dummy(crate::object::dummy::Dummy::new(0.1))).unwrap();
-        assert_eq!(scene.set_object_colour(dummy, 1, Component::Specular, &[0.0; 3]), Ok(false));
+        assert_eq!(scene.set_object_colour(dummy, 1, ColourComponent::Specular, &[0.0; 3]), Ok(false));
     }
 }

@@ -9,9 +9,9 @@ use super::texture::Texture;
 use crate::shape::{Part, Shape};
 use crate::{Field, Handle, Object, Pose, Scene, SceneError, SceneResult};
 
-/// Number of the first texture (`sim.object_texturestart`), and of the one that cannot be any more (`sim.object_textureend`).
-const FIRST: i64 = 2_180_009;
-const END: i64 = 2_280_009;
+/// Number of the first texture (`sim.object_texturestart`), and the first number beyond the range (`sim.object_textureend`).
+const FIRST_TEXTURE: i64 = 2_180_009;
+const TEXTURE_END: i64 = 2_280_009;
 
 /// Texture mapping on a mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,7 +100,7 @@ impl TextureSource {
     pub fn from_raw(raw: i64) -> Option<Self> {
         match Handle::from_raw(raw) {
             Some(sensor) => Some(Self::Sensor(sensor)),
-            None => (raw >= FIRST).then_some(Self::Texture(raw)),
+            None => (raw >= FIRST_TEXTURE).then_some(Self::Texture(raw)),
         }
     }
 
@@ -153,7 +153,7 @@ impl TextureMapping {
 }
 
 impl Part {
-    /// The number of its texture, if it has one that is no sensor's picture.
+    /// The number of its texture; None without one, or where a sensor gives the image.
     fn texture_id(&self) -> Option<i64> {
         match self.texture.as_ref()?.source {
             TextureSource::Texture(id) => Some(id),
@@ -182,8 +182,8 @@ impl Textures {
         if let Some((id, _)) = self.0.iter().find(|(_, other)| **other == texture) {
             return Ok(*id);
         }
-        let id = self.0.last_key_value().map_or(FIRST, |(last, _)| last + 1);
-        if id >= END {
+        let id = self.0.last_key_value().map_or(FIRST_TEXTURE, |(last, _)| last + 1);
+        if id >= TEXTURE_END {
             return Err(SceneError::Refused("the scene has too many textures.".into()));
         }
         self.0.insert(id, texture);
@@ -302,7 +302,7 @@ mod tests {
         let id = scene.textures_mut().add(image("a")).unwrap();
         assert_eq!(
             (id, scene.textures_mut().add(image("b")), scene.textures_mut().add(image("a"))),
-            (FIRST, Ok(FIRST + 1), Ok(FIRST))
+            (FIRST_TEXTURE, Ok(FIRST_TEXTURE + 1), Ok(FIRST_TEXTURE))
         );
         let mapping = TextureMapping::new(TextureSource::Texture(id));
         scene.set_shape_texture(a, Some(mapping.clone())).unwrap();
@@ -317,7 +317,7 @@ mod tests {
 
     #[test]
     fn coordinates_follow_the_triangles() {
-        let mut mapping = TextureMapping::new(TextureSource::Texture(FIRST));
+        let mut mapping = TextureMapping::new(TextureSource::Texture(FIRST_TEXTURE));
         mapping.coordinates = (0..12u8).map(f32::from).collect();
         assert_eq!(*mapping.of_triangles(&[1]).coordinates, [6., 7., 8., 9., 10., 11.]);
         mapping.flip();

@@ -23,7 +23,7 @@ struct Layout {
 
 /// One item.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Item<'a> {
+pub struct DrawingItem<'a> {
     layout: Layout,
     numbers: &'a [f64],
 }
@@ -59,10 +59,10 @@ impl Items {
     }
 
     /// The items, the oldest first.
-    pub(super) fn iter(&self) -> impl Iterator<Item = Item<'_>> {
+    pub(super) fn iter(&self) -> impl Iterator<Item = DrawingItem<'_>> {
         let (newer, older) = self.numbers.split_at(self.first * self.item_len());
         let rows = older.chunks_exact(self.item_len()).chain(newer.chunks_exact(self.item_len()));
-        rows.map(|numbers| Item { layout: self.layout, numbers })
+        rows.map(|numbers| DrawingItem { layout: self.layout, numbers })
     }
 
     /// Whether an item has all its points within `tolerance` of those of `item`.
@@ -97,7 +97,7 @@ impl Items {
     }
 }
 
-impl<'a> Item<'a> {
+impl<'a> DrawingItem<'a> {
     /// The numbers after the first `skipped` ones.
     fn part(self, skipped: usize, count: usize) -> &'a [f64] {
         &self.numbers[skipped..skipped + count]

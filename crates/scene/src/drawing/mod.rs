@@ -13,7 +13,7 @@ use items::Items;
 use options::{DrawingFlags, DrawingKind};
 
 pub use container::Drawings;
-pub use items::Item;
+pub use items::DrawingItem;
 
 /// Appearance and capacity of a drawing object.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,7 +66,7 @@ impl DrawingObject {
     }
 
     /// The items in the frame of the parent, the oldest first.
-    pub fn items(&self) -> impl Iterator<Item = Item<'_>> {
+    pub fn items(&self) -> impl Iterator<Item = DrawingItem<'_>> {
         self.items.iter()
     }
 

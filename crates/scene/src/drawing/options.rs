@@ -78,7 +78,7 @@ bitflags! {
         const BACK_FACE_CULLING = 0x100;
         /// Only the edges of triangles are drawn.
         const WIREFRAME = 0x200;
-        /// Drawn as paint (`sim.drawing_painttag`); stored, without effect.
+        /// Visible to vision sensors that render all objects, not only to cameras (`sim.drawing_painttag`).
         const PAINT_TAG = 0x400;
         /// Visible only while the parent is.
         const WITH_PARENT_VISIBILITY = 0x800;

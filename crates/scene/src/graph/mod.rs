@@ -25,9 +25,9 @@ pub struct Graph {
     pub foreground: [f32; 3],
     /// When the slots were recorded, seconds, the oldest first.
     pub(super) times: VecDeque<f64>,
-    pub(super) streams: Vec<Stream>,
+    pub(super) streams: Vec<GraphStream>,
     /// Curves through the values of its streams.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<GraphCurve>,
 }
 
 bitflags! {
@@ -48,7 +48,7 @@ bitflags! {
 
 /// Name and appearance of a stream or curve.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Style {
+pub struct CurveStyle {
     /// Number, unique among the streams and curves of the graph.
     pub id: i64,
     /// Name, unique among the streams, or the curves, of the graph.
@@ -65,9 +65,9 @@ pub struct Style {
 
 /// A stream: values over time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stream {
+pub struct GraphStream {
     /// Name and appearance.
-    pub style: Style,
+    pub style: CurveStyle,
     /// Shown in plots over time.
     pub visible: bool,
     /// What is done to recorded values.
@@ -75,7 +75,7 @@ pub struct Stream {
     /// Value for the next slot.
     pub next: Option<f64>,
     /// Of the last slots; those before them are gaps. None where the values are fixed.
-    pub samples: VecDeque<Sample>,
+    pub samples: VecDeque<GraphSample>,
     /// Times and values that no recording changes.
     pub fixed: Option<Vec<[f64; 2]>>,
     /// Of a stream from before 4.2.
@@ -95,7 +95,7 @@ pub struct OldSource {
 
 /// The content of one slot; empty in a gap.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Sample {
+pub struct GraphSample {
     /// The recorded value.
     pub raw: Option<f64>,
     /// After the transformation, before it is multiplied and averaged.
@@ -132,9 +132,9 @@ pub enum TransformationKind {
 
 /// A curve through the values of two or three streams.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
+pub struct GraphCurve {
     /// Name and appearance.
-    pub style: Style,
+    pub style: CurveStyle,
     /// Width of the line, pixels.
     pub width: i64,
     /// 2 or 3.
@@ -169,9 +169,9 @@ impl Default for Transformation {
     }
 }
 
-impl Stream {
+impl GraphStream {
     /// A visible stream without samples.
-    pub fn new(style: Style) -> Self {
+    pub fn new(style: CurveStyle) -> Self {
         let (samples, transformation) = Default::default();
         Self { style, visible: true, transformation, next: None, samples, fixed: None, source: None }
     }
@@ -198,12 +198,12 @@ impl Graph {
     pub const MAX_BUFFER_SIZE: i64 = 1_000_000;
 
     /// The streams in the order of their creation.
-    pub fn streams(&self) -> &[Stream] {
+    pub fn streams(&self) -> &[GraphStream] {
         &self.streams
     }
 
     /// The streams, to change their samples and settings.
-    pub fn streams_mut(&mut self) -> &mut [Stream] {
+    pub fn streams_mut(&mut self) -> &mut [GraphStream] {
         &mut self.streams
     }
 
@@ -216,7 +216,7 @@ impl Graph {
     ///
     /// # Errors
     /// When there is no such stream.
-    pub fn stream_mut(&mut self, id: i64) -> SceneResult<&mut Stream> {
+    pub fn stream_mut(&mut self, id: i64) -> SceneResult<&mut GraphStream> {
         self.streams.iter_mut().find(|stream| stream.style.id == id).ok_or_else(no_curve)
     }
 
@@ -230,7 +230,7 @@ impl Graph {
     ///
     /// # Errors
     /// When there is no name, or the one with that name is fixed.
-    pub fn add_stream(&mut self, mut stream: Stream) -> SceneResult<i64> {
+    pub fn add_stream(&mut self, mut stream: GraphStream) -> SceneResult<i64> {
         let known = self.streams.iter_mut().find(|known| known.style.name == stream.style.name);
         check_name(&stream.style.name, known.as_ref().is_some_and(|known| known.fixed.is_some()))?;
         if let Some(known) = known {
@@ -249,7 +249,7 @@ impl Graph {
     ///
     /// # Errors
     /// As [`add_stream`](Self::add_stream); and when a stream of it does not exist.
-    pub fn add_curve(&mut self, mut curve: Curve) -> SceneResult<i64> {
+    pub fn add_curve(&mut self, mut curve: GraphCurve) -> SceneResult<i64> {
         let known = self.curves.iter().position(|known| known.style.name == curve.style.name);
         check_name(&curve.style.name, known.is_some_and(|at| self.curves[at].fixed.is_some()))?;
         let exists = |id: &i64| *id == -1 || self.streams.iter().any(|stream| stream.style.id == *id);
@@ -284,23 +284,23 @@ impl Graph {
     /// When there is none with that number.
     pub fn fix_curve(&mut self, id: i64, name: &str) -> SceneResult<i64> {
         let free = self.free_id();
-        let style = |style: &Style| {
+        let style = |style: &CurveStyle| {
             let name = if name.is_empty() { format!("{} [static]", style.name) } else { name.to_owned() };
-            Style { id: free, name, ..style.clone() }
+            CurveStyle { id: free, name, ..style.clone() }
         };
         if let Some(curve) = self.curves.iter().find(|curve| curve.style.id == id) {
             let fixed = Some(self.points(curve));
-            self.curves.push(Curve { style: style(&curve.style), fixed, ..curve.clone() });
+            self.curves.push(GraphCurve { style: style(&curve.style), fixed, ..curve.clone() });
         } else {
             let stream = self.streams.iter().find(|stream| stream.style.id == id).ok_or_else(no_curve)?;
             let (style, fixed) = (style(&stream.style), Some(self.values(stream)));
-            self.streams.push(Stream { fixed, visible: stream.visible, ..Stream::new(style) });
+            self.streams.push(GraphStream { fixed, visible: stream.visible, ..GraphStream::new(style) });
         }
         Ok(free)
     }
 
     /// Takes what a file holds. Samples that are not as many as the times are left out.
-    pub fn restore(&mut self, times: VecDeque<f64>, mut streams: Vec<Stream>, curves: Vec<Curve>) {
+    pub fn restore(&mut self, times: VecDeque<f64>, mut streams: Vec<GraphStream>, curves: Vec<GraphCurve>) {
         let slots = times.len();
         for stream in streams.iter_mut() {
             if stream.fixed.is_some() || stream.samples.len() != slots {

@@ -1,6 +1,6 @@
 //! Recording of graph streams, their transformations and curves.
 
-use super::{Curve, Graph, Sample, Stream, Transformation, TransformationKind};
+use super::{Graph, GraphCurve, GraphSample, GraphStream, Transformation, TransformationKind};
 
 impl Graph {
     /// Records the next values of the streams; a stream without one gets a gap. A full graph that is not cyclic records nothing.
@@ -12,7 +12,8 @@ impl Graph {
         let step = self.times.back().map(|last| time - last);
         for stream in self.streams.iter_mut().filter(|stream| stream.fixed.is_none()) {
             let raw = stream.next.take();
-            let sample = Sample { raw, transformed: stream.transformation.apply(raw, stream.samples.back(), step) };
+            let sample =
+                GraphSample { raw, transformed: stream.transformation.apply(raw, stream.samples.back(), step) };
             stream.samples.push_back(sample);
         }
         self.times.push_back(time);
@@ -34,7 +35,7 @@ impl Graph {
     }
 
     /// Times and values of a stream, gaps left out.
-    pub fn values(&self, stream: &Stream) -> Vec<[f64; 2]> {
+    pub fn values(&self, stream: &GraphStream) -> Vec<[f64; 2]> {
         match &stream.fixed {
             Some(fixed) => fixed.clone(),
             None => self
@@ -47,7 +48,7 @@ impl Graph {
     }
 
     /// The points of a curve; slots in which a stream has a gap are left out.
-    pub fn points(&self, curve: &Curve) -> Vec<[f64; 3]> {
+    pub fn points(&self, curve: &GraphCurve) -> Vec<[f64; 3]> {
         if let Some(fixed) = &curve.fixed {
             return fixed.clone();
         }
@@ -65,12 +66,12 @@ impl Graph {
     }
 }
 
-impl Stream {
+impl GraphStream {
     /// The value of each of the slots of a graph: multiplied, moved, and averaged.
     fn slots(&self, all: usize) -> Vec<Option<f64>> {
         let Transformation { multiplier, offset, period, .. } = self.transformation;
         let scaled =
-            |sample: &Sample| Some(multiplier * sample.transformed? + offset).filter(|value| value.is_finite());
+            |sample: &GraphSample| Some(multiplier * sample.transformed? + offset).filter(|value| value.is_finite());
         let before = std::iter::repeat_n(None, all.saturating_sub(self.samples.len()));
         let scaled: Vec<Option<f64>> = before.chain(self.samples.iter().map(scaled)).collect();
         match usize::try_from(period) {
@@ -97,7 +98,7 @@ fn averaged(values: &[Option<f64>], period: usize) -> Vec<Option<f64>> {
 
 impl Transformation {
     /// Transformed value; `before` is the previous sample, `step` seconds ago.
-    fn apply(&self, raw: Option<f64>, before: Option<&Sample>, step: Option<f64>) -> Option<f64> {
+    fn apply(&self, raw: Option<f64>, before: Option<&GraphSample>, step: Option<f64>) -> Option<f64> {
         use TransformationKind::{Cumulative, Derivative, Integral, Raw};
         let raw = raw?;
         let before = before.and_then(|sample| Some((sample.raw?, sample.transformed, step?)));
@@ -123,17 +124,17 @@ impl Transformation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::graph::Style;
+    use crate::graph::CurveStyle;
 
-    fn style(name: &str) -> Style {
+    fn style(name: &str) -> CurveStyle {
         let name = name.to_owned();
-        Style { id: 0, name, unit: String::new(), colour: [1.0; 3], label: true, linked: true }
+        CurveStyle { id: 0, name, unit: String::new(), colour: [1.0; 3], label: true, linked: true }
     }
 
     /// The values of a stream into which these are recorded, one each 0.05 s.
     fn recorded(transformation: Transformation, values: &[Option<f64>]) -> Vec<Option<f64>> {
         let mut graph = Graph::default();
-        let id = graph.add_stream(Stream { transformation, ..Stream::new(style("s")) }).unwrap();
+        let id = graph.add_stream(GraphStream { transformation, ..GraphStream::new(style("s")) }).unwrap();
         for (slot, value) in values.iter().enumerate() {
             graph.stream_mut(id).unwrap().next = *value;
             graph.record(0.05 * slot as f64);
@@ -181,7 +182,7 @@ mod tests {
     fn slots_before_a_stream_are_gaps() {
         let mut graph = Graph::default();
         (0..3).for_each(|time| graph.record(f64::from(time)));
-        let id = graph.add_stream(Stream::new(style("late"))).unwrap();
+        let id = graph.add_stream(GraphStream::new(style("late"))).unwrap();
         graph.stream_mut(id).unwrap().next = Some(7.0);
         graph.record(3.0);
         assert_eq!(graph.values(&graph.streams()[0]), [[3.0, 7.0]]);
@@ -190,14 +191,16 @@ mod tests {
     #[test]
     fn the_oldest_slots_go_first() {
         let mut graph = Graph { buffer_size: 2, ..Graph::default() };
-        let (a, b) =
-            (graph.add_stream(Stream::new(style("a"))).unwrap(), graph.add_stream(Stream::new(style("b"))).unwrap());
+        let (a, b) = (
+            graph.add_stream(GraphStream::new(style("a"))).unwrap(),
+            graph.add_stream(GraphStream::new(style("b"))).unwrap(),
+        );
         for slot in 0..3 {
             graph.stream_mut(a).unwrap().next = Some(f64::from(slot));
             graph.stream_mut(b).unwrap().next = Some(f64::from(-slot)).filter(|_| slot != 1);
             graph.record(f64::from(slot));
         }
-        let curve = Curve {
+        let curve = GraphCurve {
             style: style("c"),
             width: 1,
             dimensions: 2,

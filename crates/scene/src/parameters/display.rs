@@ -78,10 +78,10 @@ impl View {
     }
 }
 
-/// Numbers of near and far plane, angle and size.
-const OF_VISION_SENSOR: [i64; 4] =
+/// Parameter numbers of the near and far clipping plane, the opening angle and the orthographic size.
+const VISION_SENSOR_VIEW: [i64; 4] =
     [vision::NEAR_CLIPPING, vision::FAR_CLIPPING, vision::PERSPECTIVE_ANGLE, vision::ORTHO_SIZE];
-const OF_CAMERA: [i64; 4] =
+const CAMERA_VIEW: [i64; 4] =
     [camera::NEAR_CLIPPING, camera::FAR_CLIPPING, camera::PERSPECTIVE_ANGLE, camera::ORTHO_SIZE];
 
 impl VisionSensor {
@@ -199,8 +199,8 @@ impl Object {
     /// A float parameter of a camera, sensor or light (SI units); None when it has no such parameter.
     pub(crate) fn display_float_param(&self, id: i64) -> Option<f64> {
         match &self.kind {
-            Kind::VisionSensor(sensor) => sensor.view.float_param(id, OF_VISION_SENSOR),
-            Kind::Camera(camera) => camera.view.float_param(id, OF_CAMERA),
+            Kind::VisionSensor(sensor) => sensor.view.float_param(id, VISION_SENSOR_VIEW),
+            Kind::Camera(camera) => camera.view.float_param(id, CAMERA_VIEW),
             Kind::Light(light) => light.float_param(id),
             Kind::ForceSensor(sensor) => sensor.float_param(id),
             Kind::OcTree(octree) if id == OCTREE_VOXEL_SIZE => Some(octree.voxel_size()),
@@ -210,8 +210,8 @@ impl Object {
 
     fn set_display_float_param(&mut self, id: i64, value: f64) -> bool {
         match &mut self.kind {
-            Kind::VisionSensor(sensor) => sensor.view.set_float_param(id, OF_VISION_SENSOR, value),
-            Kind::Camera(camera) => camera.view.set_float_param(id, OF_CAMERA, value),
+            Kind::VisionSensor(sensor) => sensor.view.set_float_param(id, VISION_SENSOR_VIEW, value),
+            Kind::Camera(camera) => camera.view.set_float_param(id, CAMERA_VIEW, value),
             Kind::Light(light) => light.set_float_param(id, value),
             _ => false,
         }

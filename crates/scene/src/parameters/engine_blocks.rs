@@ -11,31 +11,31 @@ use crate::{Data, DynamicsSettings, InertValues};
 
 /// The numbers of a row of parameters: the first one of the real ones and how many a file of 4.10 holds, then of the integers.
 #[derive(Debug, Clone, Copy)]
-pub struct Rows {
+pub struct EngineRows {
     reals: (i64, usize),
     ints: (i64, usize),
 }
 
-const fn rows(first_real: i64, reals: usize, first_int: i64, ints: usize) -> Rows {
-    Rows { reals: (first_real, reals), ints: (first_int, ints) }
+const fn rows(first_real: i64, reals: usize, first_int: i64, ints: usize) -> EngineRows {
+    EngineRows { reals: (first_real, reals), ints: (first_int, ints) }
 }
 
 /// In the order of [`Engine::ALL`].
-const SCENE: [Rows; 5] = [
+const SCENE: [EngineRows; 5] = [
     rows(1, 3, 1001, 3),
     rows(9001, 4, 10_001, 3),
     rows(18_001, 9, 19_001, 1),
     rows(27_001, 2, 28_001, 2),
     rows(37_001, 28, 38_001, 18),
 ];
-const MATERIAL: [Rows; 5] = [
+const MATERIAL: [EngineRows; 5] = [
     rows(6001, 7, 7001, 1),
     rows(15_001, 5, 16_001, 1),
     rows(24_001, 36, 25_001, 8),
     rows(33_001, 5, 34_001, 1),
     rows(43_001, 20, 44_001, 4),
 ];
-const JOINT: [Rows; 5] = [
+const JOINT: [EngineRows; 5] = [
     rows(3001, 8, 4001, 0),
     rows(12_001, 8, 13_001, 0),
     rows(21_001, 54, 22_001, 6),
@@ -43,12 +43,12 @@ const JOINT: [Rows; 5] = [
     rows(40_001, 30, 41_001, 2),
 ];
 /// Dummies have parameters of MuJoCo only.
-const DUMMY: Rows = rows(46_001, 21, 47_001, 2);
+const DUMMY: EngineRows = rows(46_001, 21, 47_001, 2);
 
 /// Objects with engine parameters of their own.
 pub trait EngineValues {
     /// Those of one engine.
-    fn rows(&self, engine: Engine) -> Option<Rows>;
+    fn rows(&self, engine: Engine) -> Option<EngineRows>;
     /// The value of a parameter, or its default.
     fn value(&self, param: &EngineParam) -> Data;
     /// Sets a parameter; `value` has its type.
@@ -56,7 +56,7 @@ pub trait EngineValues {
 
     /// Sets the parameters of one engine from the rows of a file.
     fn load_engine(&mut self, engine: Engine, reals: &[f64], ints: &[i32]) {
-        let Some(Rows { reals: (first_real, _), ints: (first_int, _) }) = self.rows(engine) else { return };
+        let Some(EngineRows { reals: (first_real, _), ints: (first_int, _) }) = self.rows(engine) else { return };
         for (number, real) in (first_real..).zip(reals) {
             if real.is_finite() && !is_step_size(number) {
                 self.set_number(number, *real);
@@ -105,7 +105,7 @@ pub trait EngineValues {
 }
 
 impl EngineValues for Material {
-    fn rows(&self, engine: Engine) -> Option<Rows> {
+    fn rows(&self, engine: Engine) -> Option<EngineRows> {
         Some(MATERIAL[engine as usize])
     }
     fn value(&self, param: &EngineParam) -> Data {
@@ -117,7 +117,7 @@ impl EngineValues for Material {
 }
 
 impl EngineValues for Joint {
-    fn rows(&self, engine: Engine) -> Option<Rows> {
+    fn rows(&self, engine: Engine) -> Option<EngineRows> {
         Some(JOINT[engine as usize])
     }
     fn value(&self, param: &EngineParam) -> Data {
@@ -129,7 +129,7 @@ impl EngineValues for Joint {
 }
 
 impl EngineValues for DynamicsSettings {
-    fn rows(&self, engine: Engine) -> Option<Rows> {
+    fn rows(&self, engine: Engine) -> Option<EngineRows> {
         Some(SCENE[engine as usize])
     }
     fn value(&self, param: &EngineParam) -> Data {
@@ -141,7 +141,7 @@ impl EngineValues for DynamicsSettings {
 }
 
 impl EngineValues for Dummy {
-    fn rows(&self, engine: Engine) -> Option<Rows> {
+    fn rows(&self, engine: Engine) -> Option<EngineRows> {
         (engine == Engine::Mujoco).then_some(DUMMY)
     }
     fn value(&self, param: &EngineParam) -> Data {

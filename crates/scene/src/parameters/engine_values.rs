@@ -10,6 +10,7 @@ use crate::{Data, Field, Handle, InertValues, Object, Scene, SceneError, SceneRe
 
 /// The version of Bullet that has the newer friction; version 0 is Bullet 2.78.
 const BULLET_283: i64 = 283;
+
 impl Scene {
     /// The value of an engine parameter: of a shape, a joint or a dummy, or of the scene (`object` does not matter then).
     ///
@@ -153,7 +154,7 @@ impl Material {
         })
     }
 
-    /// Friction and restitution that the selected engine, would use.
+    /// Friction and restitution that the selected engine would use.
     pub fn contact_values(&self, selected: SelectedEngine) -> (f64, f64) {
         let value =
             |name: &str| self.named_value(name).as_ref().and_then(|value| element(value, 0)).unwrap_or_default();

@@ -16,7 +16,7 @@ enum Attachment {
     Orientation,
 }
 
-/// What a dummy has to do with paths.
+/// How a dummy follows a path, as files store it.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct PathFollowing {
     /// Bit 1: assigned to the parent path, bit 2: free, bit 3: orientation only.

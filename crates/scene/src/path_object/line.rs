@@ -4,15 +4,15 @@ use geometry::pose::{interpolate, rotation_axis};
 
 use crate::Pose;
 
-/// Points that are closer together than that, metres and radians, are one.
-const SAME_PLACE: f64 = 0.0001;
-const SAME_ANGLE: f64 = 0.5 * std::f64::consts::PI / 180.0;
-/// Directions with a larger product are parallel.
+/// Points closer together than this, in metres and in radians, are merged.
+const MERGE_DISTANCE: f64 = 0.0001;
+const MERGE_ANGLE: f64 = 0.5 * std::f64::consts::PI / 180.0;
+/// Unit vectors with a larger dot product count as parallel.
 const PARALLEL: f64 = 0.99999;
-/// Axes of rotations with a larger product are parallel.
+/// Rotation axes with a larger dot product count as parallel.
 const PARALLEL_AXES: f64 = 0.99;
-/// Smaller rotations have no axis.
-const SMALLEST_TURN: f64 = 1.0 * std::f64::consts::PI / 180.0;
+/// Smaller rotations, in radians, count as none: their axis is not defined well.
+const MIN_ROTATION: f64 = 1.0 * std::f64::consts::PI / 180.0;
 
 /// How the length of a segment is measured (`sim.distcalcmethod_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -147,13 +147,13 @@ impl LinePoint {
 
     fn is_same_place(&self, other: &Self) -> bool {
         is_same(&self.pose, &other.pose)
-            && rotation_axis(&self.pose, &other.pose).1 < SAME_ANGLE
+            && rotation_axis(&self.pose, &other.pose).1 < MERGE_ANGLE
             && self.on_spot == other.on_spot
     }
 }
 
 fn is_same(a: &Pose, b: &Pose) -> bool {
-    (a.translation.vector - b.translation.vector).norm() < SAME_PLACE
+    (a.translation.vector - b.translation.vector).norm() < MERGE_DISTANCE
 }
 
 /// The line through control points.
@@ -198,7 +198,7 @@ fn is_rounded(before: &ControlPoint, corner: &ControlPoint, after: &ControlPoint
     let bends = apart && way(a, b).dot(&way(b, c)) < PARALLEL;
     let (first, second) = (rotation_axis(a, b), rotation_axis(b, c));
     let product: f64 = first.0.iter().zip(second.0).map(|(x, y)| x * y).sum();
-    let turns = first.1 > SMALLEST_TURN && second.1 > SMALLEST_TURN && product < PARALLEL_AXES;
+    let turns = first.1 > MIN_ROTATION && second.1 > MIN_ROTATION && product < PARALLEL_AXES;
     let stands = corner.on_spot != before.on_spot && corner.on_spot != after.on_spot;
     bends || turns || stands
 }

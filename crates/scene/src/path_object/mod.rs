@@ -118,7 +118,7 @@ pub struct PathObject {
 
 /// What a path is measured by: of `sim.createPath`, and of files.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Measures {
+pub struct PathMeasures {
     /// How translation and rotation add to the length.
     pub length_method: LengthMethod,
     /// Metres of length per radian of rotation.
@@ -129,7 +129,7 @@ pub struct Measures {
     pub profile: VelocityProfile,
 }
 
-impl Default for Measures {
+impl Default for PathMeasures {
     fn default() -> Self {
         Self {
             length_method: LengthMethod::DistanceElseAngle,
@@ -142,7 +142,7 @@ impl Default for Measures {
 
 impl PathObject {
     /// A path without points.
-    pub fn new(attributes: PathAttributes, measures: Measures) -> Self {
+    pub fn new(attributes: PathAttributes, measures: PathMeasures) -> Self {
         Self {
             attributes,
             control_points: Vec::new(),
@@ -186,8 +186,8 @@ impl PathObject {
     }
 
     /// How its length and velocity profile are computed.
-    pub fn measures(&self) -> Measures {
-        Measures {
+    pub fn measures(&self) -> PathMeasures {
+        PathMeasures {
             length_method: self.length_method,
             angle_coefficient: self.angle_coefficient,
             on_spot_coefficient: self.on_spot_coefficient,

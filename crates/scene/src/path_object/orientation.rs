@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::{PathAttributes, PathObject};
 
-/// Directions with a larger product are parallel.
+/// Unit vectors with a larger dot product count as parallel.
 const PARALLEL: f64 = 0.99999;
 
 impl PathObject {
@@ -29,21 +29,21 @@ impl PathObject {
         if !self.attributes.contains(PathAttributes::AUTOMATIC_ORIENTATION) {
             return None;
         }
-        let ways = Ways::of(places, closed)?;
+        let tangents = Tangents::of(places, closed)?;
         if self.attributes.contains(PathAttributes::KEEP_X_UP) {
-            return Some((0..places.len()).map(|at| with_x_up(&ways.direction(at))).collect());
+            return Some((0..places.len()).map(|at| with_x_up(&tangents.direction(at))).collect());
         }
-        Some(match ways.bends() {
+        Some(match tangents.bends() {
             bends if bends.iter().all(Option::is_none) => {
-                (0..places.len()).map(|at| straight(&ways.direction(at))).collect()
+                (0..places.len()).map(|at| straight(&tangents.direction(at))).collect()
             }
-            bends => ways.between_bends(&bends),
+            bends => tangents.between_bends(&bends),
         })
     }
 }
 
 /// The directions of the path into and out of each point.
-struct Ways {
+struct Tangents {
     into: Vec<Vector3<f64>>,
     out: Vec<Vector3<f64>>,
     /// Length of the path up to each point, and to the start again.
@@ -51,7 +51,7 @@ struct Ways {
     closed: bool,
 }
 
-impl Ways {
+impl Tangents {
     /// None where all points are in one place.
     fn of(places: &[Vector3<f64>], closed: bool) -> Option<Self> {
         let count = places.len();
@@ -93,7 +93,7 @@ impl Ways {
         self.into.iter().zip(&self.out).map(bend).collect()
     }
 
-    /// At bends x is perpendicular to both ways; elsewhere y changes evenly from bend to bend.
+    /// At bends x is perpendicular to both tangents; elsewhere y changes evenly from bend to bend.
     fn between_bends(&self, bends: &[Option<Vector3<f64>>]) -> Vec<UnitQuaternion<f64>> {
         let count = bends.len();
         let frame = |at: usize| {

@@ -13,7 +13,7 @@ fn at(x: f64, y: f64, count: usize) -> ControlPoint {
 
 fn path(attributes: i32, points: Vec<ControlPoint>) -> PathObject {
     let attributes = PathAttributes::from_bits_retain(attributes);
-    let mut path = PathObject::new(attributes, Measures::default());
+    let mut path = PathObject::new(attributes, PathMeasures::default());
     path.insert(0, points, attributes.contains(PathAttributes::CLOSED)).expect("they are few");
     path
 }

@@ -5,7 +5,7 @@ use super::{PathAttributes, PathObject};
 /// Limit of segments that one call passes.
 const MAX_SLICES: usize = 100;
 /// Slower motion counts as rest, m/s.
-const AT_REST: f64 = 1e-6;
+const REST_VELOCITY: f64 = 1e-6;
 
 /// The state of a motion along a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,7 +116,7 @@ impl PathObject {
         let acceleration = (v1 * v1 - v0 * v0) / (2.0 * span);
         let done = (self.unwrapped(travel.position, forward) - from).abs();
         let speed = (v0 * v0 + 2.0 * acceleration * done).max(0.0).sqrt();
-        if speed < AT_REST && acceleration <= 0.0 {
+        if speed < REST_VELOCITY && acceleration <= 0.0 {
             return Slice { duration: rest, position: travel.position };
         }
         let to_end = 2.0 * (span - done) / (speed + v1).max(f64::MIN_POSITIVE);

@@ -5,10 +5,10 @@ use nalgebra::Vector3;
 
 use super::{PathAttributes, PathObject};
 
-/// Axes of rotation that differ by more are a change of axis.
+/// Rotation axes with a smaller dot product count as a change of axis.
 const COSINE_OF_AXIS_CHANGE: f64 = 0.5;
-/// Smaller rotations do not count, radians.
-const SMALLEST_TURN: f64 = 0.001;
+/// Smaller rotations, in radians, count as none.
+const MIN_ROTATION: f64 = 0.001;
 
 impl PathObject {
     /// One for each of the lengths.
@@ -42,7 +42,7 @@ impl PathObject {
     fn velocity_of_bend(&self, at: usize) -> f64 {
         let [into, out] = self.ways(at);
         let angle = into.angle(&out);
-        if angle <= SMALLEST_TURN {
+        if angle <= MIN_ROTATION {
             return 1.0;
         }
         into.norm().min(out.norm()) / angle / (2.0 * self.profile.radius.max(f64::MIN_POSITIVE))
@@ -59,7 +59,7 @@ impl PathObject {
         let count = self.line.len();
         let [a, b, c] = [at + count - 1, at, at + 1].map(|place| &self.line[place % count].pose);
         let (first, second) = (rotation_axis(a, b), rotation_axis(b, c));
-        let turns = [first.1 > SMALLEST_TURN, second.1 > SMALLEST_TURN];
+        let turns = [first.1 > MIN_ROTATION, second.1 > MIN_ROTATION];
         let axes = Vector3::from(first.0).dot(&Vector3::from(second.0));
         turns[0] != turns[1] || turns[0] && axes < COSINE_OF_AXIS_CHANGE
     }

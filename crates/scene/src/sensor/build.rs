@@ -6,8 +6,8 @@ use super::{Entity, ProximitySensor, RenderMode, View, VisionSensor};
 use crate::appearance::colour::Colour;
 
 const DISPLAY_SIZE: f64 = 0.01;
-/// Colour of rays in files of the original.
-const RAY_GLOW: [f32; 3] = [1.0, 1.0, 0.0];
+/// Emission colour of displayed rays, as in files of CoppeliaSim.
+const RAY_EMISSION: [f32; 3] = [1.0, 1.0, 0.0];
 
 impl ProximitySensor {
     /// Default integer parameters of a sensor: faces, subdivisions, samples.
@@ -21,7 +21,7 @@ impl ProximitySensor {
         integers: [i64; 8],
         floats: Option<[f64; 15]>,
     ) -> Self {
-        let mut floats = floats.unwrap_or_else(|| usual_volume(volume_type));
+        let mut floats = floats.unwrap_or_else(|| default_volume(volume_type));
         let sizes = [1, 2, 3, 4, 5, 12];
         sizes.into_iter().for_each(|i| floats[i] = floats[i].max(Volume::MIN_SIZE));
         let limit = |option: ProximityOptions, at: usize| {
@@ -40,7 +40,7 @@ impl ProximitySensor {
             required_samples: integers[5].max(1),
             angle_threshold: limit(ProximityOptions::ANGLE_THRESHOLD, 10),
             entity: Entity::ALL,
-            ray_colour: Colour { emission: RAY_GLOW, ..Colour::new([0.0; 3]) },
+            ray_colour: Colour { emission: RAY_EMISSION, ..Colour::new([0.0; 3]) },
             file_faces: None,
             handled: false,
             detection: None,
@@ -65,7 +65,7 @@ fn volume_of(volume_type: VolumeType, integers: &[i64; 8], floats: &[f64; 15], c
 }
 
 /// Default parameters of a volume.
-fn usual_volume(volume_type: VolumeType) -> [f64; 15] {
+fn default_volume(volume_type: VolumeType) -> [f64; 15] {
     let [offset, range, x, y, far_x, far_y, radius, far_radius, angle] = match volume_type {
         VolumeType::Pyramid => [0.1, 0.2, 0.2, 0.1, 0.4, 0.2, 0.0, 0.0, 0.0],
         VolumeType::Cylinder => [0.1, 0.2, 0.0, 0.0, 0.0, 0.0, 0.1, 0.2, 0.0],
@@ -83,8 +83,8 @@ impl VisionSensor {
     pub fn new(options: VisionOptions, resolution: [i64; 2], floats: Option<[f64; 11]>) -> Self {
         let perspective = options.contains(VisionOptions::PERSPECTIVE);
         let extent = if perspective { 60f64.to_radians() } else { 0.1 };
-        let usual = [0.01, 10.0, extent, DISPLAY_SIZE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        let [near, far, extent, size, _, _, red, green, blue, ..] = floats.unwrap_or(usual);
+        let defaults = [0.01, 10.0, extent, DISPLAY_SIZE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let [near, far, extent, size, _, _, red, green, blue, ..] = floats.unwrap_or(defaults);
         let mut view = View {
             perspective,
             resolution: [1; 2],

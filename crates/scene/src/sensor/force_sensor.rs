@@ -6,7 +6,7 @@ use crate::Pose;
 
 /// How samples are combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Filter {
+pub enum ForceFilter {
     /// The mean of the samples.
     Average = 0,
     /// The median of each component.
@@ -19,20 +19,20 @@ pub struct ForceSensor {
     /// Size of its symbol, metres.
     pub size: f64,
     /// How the samples become the filtered value.
-    pub filter: Filter,
-    /// Number of samples that are combined, one per simulation step.
+    pub filter: ForceFilter,
+    /// Number of the latest samples that are combined.
     pub sample_size: usize,
-    /// Force beyond which the link is overloaded, N.
+    /// Magnitude of the filtered force that counts as a violation, N.
     pub force_threshold: f64,
     /// Whether the force threshold applies.
     pub force_threshold_enabled: bool,
-    /// Torque beyond which the link is overloaded, N m.
+    /// Magnitude of the filtered torque that counts as a violation, N m.
     pub torque_threshold: f64,
     /// Whether the torque threshold applies.
     pub torque_threshold_enabled: bool,
-    /// Overloads in a row that call the trigger function of scripts.
+    /// Filtered values in a row beyond a threshold that call the trigger function of scripts.
     pub consecutive_violations: u32,
-    /// Overloads in a row so far.
+    /// Filtered values in a row so far that exceed a threshold.
     pub violations: u32,
     /// `(force, torque)` in N and N m, the newest last, at most `sample_size`.
     pub samples: VecDeque<([f64; 3], [f64; 3])>,
@@ -48,7 +48,7 @@ impl Default for ForceSensor {
     fn default() -> Self {
         Self {
             size: 0.05,
-            filter: Filter::Average,
+            filter: ForceFilter::Average,
             sample_size: 1,
             force_threshold: 100.0,
             force_threshold_enabled: false,

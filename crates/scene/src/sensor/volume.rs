@@ -1,4 +1,4 @@
-//! The volume a proximity sensor looks into (spec: sensors 1.1): its numbers, and its edges for display.
+//! The detection volume of a proximity sensor (spec: sensors 1.1): its numbers, and its edges for display.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -9,7 +9,7 @@ use nalgebra::{Rotation2, Vector2, Vector3};
 
 use super::volume::{Volume, VolumeType};
 
-/// A normal, which points outwards, and the distance of the origin behind the plane: inside is where `n.p + d <= 0`.
+/// A normal, which points outwards, and its offset d (metres): inside is where `n.p + d <= 0`.
 pub type Plane = [f64; 4];
 
 type Vector = Vector3<f64>;
@@ -37,7 +37,7 @@ impl Volume {
         }
     }
 
-    /// Whether all of its numbers are.
+    /// Whether all of its numbers are finite.
     fn is_finite(&self) -> bool {
         let numbers = [self.offset, self.range, self.angle, self.inside_gap, self.close_threshold];
         let pairs = [self.x_size, self.y_size, self.radius];

@@ -14,8 +14,8 @@ use crate::{SceneError, SceneResult};
 
 /// Density of new primitives, kg/m3.
 const DENSITY: f64 = 500.0;
-/// Thickness flat primitives report, m.
-const FLAT: f64 = 1e-4;
+/// Thickness that flat primitives report, metres.
+const FLAT_THICKNESS: f64 = 1e-4;
 const GREY: [f32; 3] = [0.9; 3];
 const SAND: [f32; 3] = [0.68, 0.56, 0.36];
 
@@ -52,7 +52,7 @@ impl Shape {
         mesh.compute_normals(appearance.shading_angle);
         let flat = matches!(kind, PrimitiveKind::Plane | PrimitiveKind::Disc);
         let pure = !options.contains(PrimitiveOptions::PLAIN_MESH) && !open_ends && has_pure_size(kind, size);
-        let analytic = [size[0], size[1], if flat { FLAT } else { size[2] }];
+        let analytic = [size[0], size[1], if flat { FLAT_THICKNESS } else { size[2] }];
         let part = Part {
             uid: 0,
             mesh: Rc::new(mesh),

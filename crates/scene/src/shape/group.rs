@@ -264,7 +264,7 @@ fn merged(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
     (shape.mass, shape.parts[0].mass) = (master.mass, master.mass);
     shape.dynamics = master.dynamics.clone();
     shape.material = master.material.clone();
-    // Coordinates of corners are not: the other meshes have none.
+    // A projected texture is kept; coordinates per corner are dropped, since the other meshes have none.
     let projected = master.parts.first().and_then(|part| part.texture.clone()).filter(|t| t.coordinates.is_empty());
     shape.parts[0].texture = projected;
     Ok(shape)

@@ -16,8 +16,8 @@ use super::appearance::colour::Colour;
 use super::appearance::texture_mapping::TextureMapping;
 use super::{InertValues, Pose, Uid};
 
-/// Frictions of the presets that hold things, in the order of [`Material::of_frictions`].
-const GRIP: [f64; 5] = [1.0, 0.5, 1.0, 1.0, 1.0];
+/// Frictions of the presets for grasping and stable stacks, in the order of [`Material::of_frictions`].
+const GRASP_FRICTIONS: [f64; 5] = [1.0, 0.5, 1.0, 1.0, 1.0];
 
 /// A shape: one or several meshes that move as one body.
 #[derive(Debug, Clone)]
@@ -126,7 +126,7 @@ pub struct ShapeDynamics {
     pub dynamic_when_parented: bool,
     /// Which shapes it collides with.
     pub respondable_mask: RespondableMask,
-    /// Simulation steps for which collisions are suspended; 0 for none.
+    /// Collisions are suspended while this is positive; 0 again when a simulation ends.
     pub respondable_suspend_count: i64,
     /// Velocity at the start of the simulation, world axes.
     pub initial_velocity: Velocity,
@@ -183,7 +183,7 @@ impl Material {
             1 => [1.0, 1.0, 1.0, 2.0, 2.0],
             2 => [0.41, 0.2, 0.41, 0.17, 0.17],
             3 => [0.0; 5],
-            4 | 5 | 7 => GRIP,
+            4 | 5 | 7 => GRASP_FRICTIONS,
             6 | 8 => [1.0; 5],
             _ => return None,
         }))
@@ -191,7 +191,7 @@ impl Material {
 
     /// The material of new primitives.
     pub(crate) fn rest_stack_grasp() -> Self {
-        Self::of_frictions(GRIP)
+        Self::of_frictions(GRASP_FRICTIONS)
     }
 }
 

@@ -14,7 +14,7 @@ pub struct OcTree {
     pub point_size: f64,
     /// Shown as points, not as cubes.
     pub shows_points: bool,
-    /// New voxels get random colours.
+    /// Option of its creation, stored and read back; scripts choose the colours.
     pub random_colours: bool,
     voxels: BTreeMap<Cell, Voxel>,
 }

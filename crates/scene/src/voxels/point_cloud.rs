@@ -19,7 +19,7 @@ pub struct PointCloud {
     pub uses_octree: bool,
     /// How many of the points are shown, 0 to 1.
     pub display_fraction: f64,
-    /// New points get random colours.
+    /// Option of its creation, stored and read back; scripts choose the colours.
     pub random_colours: bool,
     /// The points in the order of insertion.
     pub points: Vec<CloudPoint>,
@@ -37,7 +37,7 @@ pub struct CloudPoint {
 impl PointCloud {
     /// Adds points, except for those that have another within `tolerance` metres. Points that are nowhere are left out.
     pub fn insert(&mut self, points: impl Iterator<Item = CloudPoint>, tolerance: f64) {
-        let mut near = Near::new(tolerance);
+        let mut near = NeighbourGrid::new(tolerance);
         self.points.iter().for_each(|point| near.add(point.position));
         for point in points.filter(|point| point.position.iter().all(|c| c.is_finite())) {
             if !near.finds(point.position) {
@@ -49,13 +49,13 @@ impl PointCloud {
 
     /// Removes the points that lie within `tolerance` metres of one of `places`.
     pub fn remove(&mut self, places: impl Iterator<Item = [f64; 3]>, tolerance: f64) {
-        let near = Near::of(places, tolerance);
+        let near = NeighbourGrid::of(places, tolerance);
         self.points.retain(|point| !near.finds(point.position));
     }
 
     /// Keeps only the points that lie within `tolerance` metres of one of `places`.
     pub fn intersect(&mut self, places: impl Iterator<Item = [f64; 3]>, tolerance: f64) {
-        let near = Near::of(places, tolerance);
+        let near = NeighbourGrid::of(places, tolerance);
         self.points.retain(|point| near.finds(point.position));
     }
 
@@ -71,13 +71,13 @@ impl PointCloud {
     }
 }
 
-/// Points by the cells of a grid as wide as the tolerance: what is near is in the cell or beside it.
-struct Near {
+/// Points in the cells of a grid as wide as the tolerance: neighbours are in the same cell or in one beside it.
+struct NeighbourGrid {
     tolerance: f64,
     cells: HashMap<[i64; 3], Vec<[f64; 3]>>,
 }
 
-impl Near {
+impl NeighbourGrid {
     fn new(tolerance: f64) -> Self {
         Self { tolerance: if tolerance > 0.0 { tolerance } else { 0.0 }, cells: HashMap::new() }
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::super::widgets::{
-    Cell, Image, Kind, NODE_TYPES, Node, Plot, Properties, Scene3d, SelectionMode, Svg, Table, Tree,
+    Cell, Image, NODE_TYPES, Node, Plot, Properties, Scene3d, SelectionMode, Svg, Table, Tree, WidgetKind,
 };
 use super::super::xml::Element;
 use super::attributes::{Attributes, Result, bool_of};
@@ -27,9 +27,9 @@ const COLORS: [&str; 14] = [
     "tick-label-y-color",
 ];
 
-pub(super) fn image(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
+pub(super) fn image(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
     let image = Image::blank(attributes.int("width", -1)?, attributes.int("height", -1)?);
-    Ok(Kind::Image(Image {
+    Ok(WidgetKind::Image(Image {
         file: attributes.text("file", ""),
         scaled_contents: attributes.bool("scaled-contents", false)?,
         keep_aspect_ratio: attributes.bool("keep-aspect-ratio", false)?,
@@ -37,11 +37,11 @@ pub(super) fn image(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
     }))
 }
 
-pub(super) fn svg(element: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
+pub(super) fn svg(element: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
     let drawing = element.children.iter().find(|child| child.name == "svg");
     let text = drawing.map(|child| child.source.clone()).unwrap_or_default();
     let file = attributes.text("file", "");
-    Ok(Kind::Svg(Svg { file: if drawing.is_some() { String::new() } else { file }, text }))
+    Ok(WidgetKind::Svg(Svg { file: if drawing.is_some() { String::new() } else { file }, text }))
 }
 
 /// The texts of the items in an element.
@@ -58,7 +58,7 @@ fn rows(element: &Element) -> impl Iterator<Item = &Element> {
     element.children.iter().filter(|child| child.name == "row")
 }
 
-pub(super) fn table(element: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
+pub(super) fn table(element: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
     let mut table = Table {
         show_header: [
             attributes.bool("show-horizontal-header", true)?,
@@ -86,7 +86,7 @@ pub(super) fn table(element: &Element, attributes: &Attributes<'_>) -> Result<Ki
     }
     let columns = table.column_count;
     table.column_headers = header(element).into_iter().filter(|(column, _)| *column < columns).collect();
-    Ok(Kind::Table(table))
+    Ok(WidgetKind::Table(table))
 }
 
 fn cell(item: &Element) -> Result<Cell> {
@@ -95,7 +95,7 @@ fn cell(item: &Element) -> Result<Cell> {
     Ok(Cell { editable, ..Cell::of_text(item.text.clone()) })
 }
 
-pub(super) fn tree(element: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
+pub(super) fn tree(element: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
     let mut tree = Tree {
         show_header: attributes.bool("show-header", true)?,
         autosize_header: attributes.bool("autosize-header", true)?,
@@ -126,10 +126,10 @@ pub(super) fn tree(element: &Element, attributes: &Attributes<'_>) -> Result<Kin
     for (id, (parent, texts, expanded)) in found {
         tree.add(id, parent, texts, expanded);
     }
-    Ok(Kind::Tree(tree))
+    Ok(WidgetKind::Tree(tree))
 }
 
-pub(super) fn plot(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
+pub(super) fn plot(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
     let plot_type = attributes.get("type").unwrap_or("time");
     if !["time", "xy"].contains(&plot_type) {
         return Err("the value for the 'type' attribute must be one of 'time', 'xy'".into());
@@ -144,7 +144,7 @@ pub(super) fn plot(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
         let default = attributes.bool(both, true)?;
         Ok([attributes.bool(axes[0], default)?, attributes.bool(axes[1], default)?])
     };
-    Ok(Kind::Plot(Plot {
+    Ok(WidgetKind::Plot(Plot {
         colors,
         square: attributes.bool("square", false)?,
         max_buffer_size: attributes.int("max-buffer-size", 1000)?,
@@ -155,15 +155,15 @@ pub(super) fn plot(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
     }))
 }
 
-pub(super) fn properties(_: &Element, _: &Attributes<'_>) -> Result<Kind> {
-    Ok(Kind::Properties(Properties { selected: -1, ..Properties::default() }))
+pub(super) fn properties(_: &Element, _: &Attributes<'_>) -> Result<WidgetKind> {
+    Ok(WidgetKind::Properties(Properties { selected: -1, ..Properties::default() }))
 }
 
-pub(super) fn scene3d(element: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
+pub(super) fn scene3d(element: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
     let mut scene = Scene3d { clear_color: attributes.text("clear-color", ""), ..Scene3d::default() };
     let mut anonymous = -1;
     add_nodes(&mut scene, element, -1, &mut anonymous)?;
-    Ok(Kind::Scene3d(scene))
+    Ok(WidgetKind::Scene3d(scene))
 }
 
 /// Adds the nodes in an element. Those without an id get the negative ones below `anonymous`.

@@ -1,7 +1,8 @@
 //! Elements of widgets with one value.
 
 use super::super::widgets::{
-    Button, Checkbox, Combobox, Edit, Kind, Label, ProgressBar, Radiobutton, Slider, Spinbox, TextBrowser, TextType,
+    Button, Checkbox, Combobox, Edit, Label, ProgressBar, Radiobutton, Slider, Spinbox, TextBrowser, TextType,
+    WidgetKind,
 };
 use super::super::xml::Element;
 use super::attributes::{Attributes, Result, bool_of};
@@ -11,12 +12,12 @@ const FRACTION: f64 = 1e-6;
 /// Decimals of floats unless the text says another number.
 const DECIMALS: i64 = 6;
 
-pub(super) fn button(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
+pub(super) fn button(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
     let repeats = attributes.bool("auto-repeat", false)?;
     let times = [attributes.int("auto-repeat-delay", 0)?, attributes.int("auto-repeat-interval", 200)?];
     attributes.bool("default", false)?;
     let checkable = attributes.bool("checkable", false)?;
-    Ok(Kind::Button(Button {
+    Ok(WidgetKind::Button(Button {
         text: attributes.text("text", "???"),
         checkable,
         checked: attributes.bool("checked", false)? && checkable,
@@ -26,8 +27,8 @@ pub(super) fn button(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
     }))
 }
 
-pub(super) fn checkbox(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
-    Ok(Kind::Checkbox(Checkbox {
+pub(super) fn checkbox(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
+    Ok(WidgetKind::Checkbox(Checkbox {
         text: attributes.text("text", "???"),
         value: if attributes.bool("checked", false)? { 2 } else { 0 },
         checkable: attributes.bool("checkable", true)?,
@@ -35,8 +36,8 @@ pub(super) fn checkbox(_: &Element, attributes: &Attributes<'_>) -> Result<Kind>
     }))
 }
 
-pub(super) fn radiobutton(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
-    Ok(Kind::Radiobutton(Radiobutton {
+pub(super) fn radiobutton(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
+    Ok(WidgetKind::Radiobutton(Radiobutton {
         text: attributes.text("text", "???"),
         checked: attributes.bool("checked", false)?,
         checkable: attributes.bool("checkable", true)?,
@@ -44,15 +45,15 @@ pub(super) fn radiobutton(_: &Element, attributes: &Attributes<'_>) -> Result<Ki
     }))
 }
 
-pub(super) fn combobox(element: &Element, _: &Attributes<'_>) -> Result<Kind> {
+pub(super) fn combobox(element: &Element, _: &Attributes<'_>) -> Result<WidgetKind> {
     let items = element.children.iter().filter(|child| child.name == "item");
     let items: Vec<String> = items.map(|item| item.text.clone()).collect();
     let selected = (!items.is_empty()).then_some(0);
-    Ok(Kind::Combobox(Combobox { items, selected }))
+    Ok(WidgetKind::Combobox(Combobox { items, selected }))
 }
 
-pub(super) fn edit(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
-    Ok(Kind::Edit(Edit {
+pub(super) fn edit(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
+    Ok(WidgetKind::Edit(Edit {
         value: attributes.text("value", ""),
         password: attributes.bool("password", false)?,
         evaluates: attributes.bool("evaluate-expressions", false)?,
@@ -60,7 +61,7 @@ pub(super) fn edit(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
     }))
 }
 
-pub(super) fn slider(element: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
+pub(super) fn slider(element: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
     let positions = ["none", "both-sides", "above", "below", "left", "right"];
     let mut slider = Slider {
         vertical: element.name == "vslider",
@@ -72,10 +73,10 @@ pub(super) fn slider(element: &Element, attributes: &Attributes<'_>) -> Result<K
         inverted: attributes.bool("inverted", false)?,
     };
     slider.value = slider.clamped(attributes.int("value", 0)?);
-    Ok(Kind::Slider(slider))
+    Ok(WidgetKind::Slider(slider))
 }
 
-pub(super) fn spinbox(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
+pub(super) fn spinbox(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
     let minimum = attributes.float("minimum")?.unwrap_or(0.0);
     let maximum = attributes.float("maximum")?.unwrap_or(100.0);
     let step = attributes.float("step")?.unwrap_or(1.0);
@@ -97,16 +98,16 @@ pub(super) fn spinbox(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> 
         suffix: attributes.text("suffix", ""),
     };
     spinbox.value = spinbox.clamped(attributes.float("value")?.unwrap_or(0.0));
-    Ok(Kind::Spinbox(spinbox))
+    Ok(WidgetKind::Spinbox(spinbox))
 }
 
-pub(super) fn label(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
-    Ok(Kind::Label(Label { text: attributes.text("text", ""), word_wrap: attributes.bool("word-wrap", false)? }))
+pub(super) fn label(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
+    Ok(WidgetKind::Label(Label { text: attributes.text("text", ""), word_wrap: attributes.bool("word-wrap", false)? }))
 }
 
-pub(super) fn progress_bar(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
+pub(super) fn progress_bar(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
     let orientation = attributes.choice("orientation", &["horizontal", "vertical"], "horizontal")?;
-    Ok(Kind::ProgressBar(ProgressBar {
+    Ok(WidgetKind::ProgressBar(ProgressBar {
         minimum: attributes.int("minimum", 0)?,
         maximum: attributes.int("maximum", 100)?,
         value: attributes.int("value", 0)?,
@@ -116,10 +117,10 @@ pub(super) fn progress_bar(_: &Element, attributes: &Attributes<'_>) -> Result<K
     }))
 }
 
-pub(super) fn text_browser(_: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
+pub(super) fn text_browser(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
     let is_html = attributes.replaced("html", "type").map(|value| bool_of(value, "html")).transpose()?;
     let default = if is_html == Some(false) { "plain" } else { "html" };
-    Ok(Kind::TextBrowser(TextBrowser {
+    Ok(WidgetKind::TextBrowser(TextBrowser {
         text: attributes.text("text", ""),
         text_type: TextType::named(attributes.choice("type", &TextType::NAMES, default)?),
         read_only: attributes.bool("read-only", true)?,

@@ -7,14 +7,14 @@ mod inputs;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use super::widgets::{Container, Group, Item, Kind, Layout, Tab, Tabs, Widget};
+use super::widgets::{Container, Group, Item, Layout, Tab, Tabs, Widget, WidgetKind};
 use super::window::{Placement, Window};
 use super::xml::{self, Element};
 pub(crate) use attributes::Warning;
 use attributes::{Attributes, Result};
 
 /// A function that reads what is special about a kind of widget.
-type Read = fn(&Element, &Attributes<'_>) -> Result<Kind>;
+type Read = fn(&Element, &Attributes<'_>) -> Result<WidgetKind>;
 
 /// The elements that contain no others, with the attributes for handlers of each.
 const SIMPLE: &[(&str, Read, &[&str])] = &[
@@ -182,7 +182,7 @@ impl Builder<'_> {
             geometry,
             handlers: BTreeMap::new(),
             // A place for what follows: children must find that the id is in use.
-            kind: Kind::Group(Group::default()),
+            kind: WidgetKind::Group(Group::default()),
         };
         self.widgets.insert(id, widget);
         let (kind, handlers) = self.kind(id, element, attributes)?;
@@ -197,15 +197,15 @@ impl Builder<'_> {
         id: i64,
         element: &Element,
         attributes: &Attributes<'_>,
-    ) -> Result<(Kind, BTreeMap<&'static str, String>)> {
+    ) -> Result<(WidgetKind, BTreeMap<&'static str, String>)> {
         let kind = match element.name.as_str() {
             "group" => {
                 let flat = attributes.bool("flat", false)?;
-                Kind::Group(Group { container: self.container(element, attributes, Some(id))?, flat })
+                WidgetKind::Group(Group { container: self.container(element, attributes, Some(id))?, flat })
             }
             "tab" => {
                 let title = attributes.text("title", "???");
-                Kind::Tab(Tab { title, container: self.container(element, attributes, Some(id))? })
+                WidgetKind::Tab(Tab { title, container: self.container(element, attributes, Some(id))? })
             }
             "tabs" => self.tabs(id, element, attributes)?,
             name => {
@@ -219,7 +219,7 @@ impl Builder<'_> {
         Ok((kind, BTreeMap::new()))
     }
 
-    fn tabs(&mut self, id: i64, element: &Element, attributes: &Attributes<'_>) -> Result<Kind> {
+    fn tabs(&mut self, id: i64, element: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
         let positions = ["north", "south", "east", "west"];
         let mut tabs =
             Tabs { position: attributes.choice("tab-position", &positions, "north")?, current: 0, pages: Vec::new() };
@@ -231,14 +231,14 @@ impl Builder<'_> {
             }
             tabs.pages.push(self.widget(child, Layout::VerticalBox, Some(id))?);
         }
-        Ok(Kind::Tabs(tabs))
+        Ok(WidgetKind::Tabs(tabs))
     }
 
     /// Of exclusive radio buttons side by side only the last that says so is checked.
     fn check_last_radiobutton(&mut self, container: &Container) {
         let mut found = false;
         for id in container.widgets().collect::<Vec<_>>().into_iter().rev() {
-            if let Some(Kind::Radiobutton(button)) = self.widgets.get_mut(&id).map(|widget| &mut widget.kind)
+            if let Some(WidgetKind::Radiobutton(button)) = self.widgets.get_mut(&id).map(|widget| &mut widget.kind)
                 && button.auto_exclusive
                 && button.checked
             {

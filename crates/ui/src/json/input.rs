@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::super::input::{Input, InputValue, Modifiers, Mouse};
+use super::super::input::{Input, InputValue, Modifiers, MouseAction};
 
 /// What a page asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,11 +94,11 @@ fn value(json: &Value) -> Result<InputValue, String> {
     }
 }
 
-fn mouse(event: &str) -> Result<Mouse, String> {
+fn mouse(event: &str) -> Result<MouseAction, String> {
     match event {
-        "down" => Ok(Mouse::Down),
-        "up" => Ok(Mouse::Up),
-        "move" => Ok(Mouse::Move),
+        "down" => Ok(MouseAction::Down),
+        "up" => Ok(MouseAction::Up),
+        "move" => Ok(MouseAction::Move),
         _ => Err("the field 'event' is 'down', 'up' or 'move'".into()),
     }
 }

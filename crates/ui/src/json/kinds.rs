@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::super::widgets::{Curve, Image, Kind, Plot, Scene3d, Table, Tree};
+use super::super::widgets::{Curve, Image, Plot, Scene3d, Table, Tree, WidgetKind};
 use super::super::window::Window;
 use super::base64;
 use scene::Data;
@@ -11,54 +11,56 @@ use scene::Data;
 const MAX_HEADERS: i64 = 1000;
 
 impl Window {
-    pub(super) fn kind_json(&self, kind: &Kind) -> Value {
+    pub(super) fn kind_json(&self, kind: &WidgetKind) -> Value {
         match kind {
-            Kind::Group(group) => json!({"flat": group.flat, "content": self.container_json(&group.container)}),
-            Kind::Tab(tab) => json!({"title": tab.title, "content": self.container_json(&tab.container)}),
-            Kind::Tabs(tabs) => {
+            WidgetKind::Group(group) => json!({"flat": group.flat, "content": self.container_json(&group.container)}),
+            WidgetKind::Tab(tab) => json!({"title": tab.title, "content": self.container_json(&tab.container)}),
+            WidgetKind::Tabs(tabs) => {
                 let pages = tabs.pages.iter().filter_map(|page| self.widgets.get(page));
                 let pages: Vec<Value> = pages.map(|page| self.widget_json(page)).collect();
                 json!({"current": tabs.current, "position": tabs.position, "pages": pages})
             }
-            Kind::Button(button) => json!({
+            WidgetKind::Button(button) => json!({
                 "text": button.text, "checkable": button.checkable, "checked": button.checked,
                 "autoExclusive": button.auto_exclusive, "icon": button.icon, "repeat": button.repeat,
             }),
-            Kind::Checkbox(checkbox) => json!({
+            WidgetKind::Checkbox(checkbox) => json!({
                 "text": checkbox.text, "value": checkbox.value, "checkable": checkbox.checkable,
             }),
-            Kind::Radiobutton(button) => json!({
+            WidgetKind::Radiobutton(button) => json!({
                 "text": button.text, "value": i64::from(button.checked), "checkable": button.checkable,
                 "autoExclusive": button.auto_exclusive,
             }),
-            Kind::Combobox(combobox) => json!({
+            WidgetKind::Combobox(combobox) => json!({
                 "items": combobox.items, "value": combobox.selected.map_or(-1, |selected| selected as i64),
             }),
-            Kind::Edit(edit) => json!({"value": edit.value, "password": edit.password, "selected": edit.selected}),
-            Kind::Slider(slider) => json!({
+            WidgetKind::Edit(edit) => {
+                json!({"value": edit.value, "password": edit.password, "selected": edit.selected})
+            }
+            WidgetKind::Slider(slider) => json!({
                 "value": slider.value, "minimum": slider.minimum, "maximum": slider.maximum,
                 "vertical": slider.vertical, "tickInterval": slider.tick_interval,
                 "tickPosition": slider.tick_position, "inverted": slider.inverted,
             }),
-            Kind::Spinbox(spinbox) => json!({
+            WidgetKind::Spinbox(spinbox) => json!({
                 "value": spinbox.value, "minimum": spinbox.minimum, "maximum": spinbox.maximum, "step": spinbox.step,
                 "decimals": spinbox.decimals, "prefix": spinbox.prefix, "suffix": spinbox.suffix,
             }),
-            Kind::Label(label) => json!({"text": label.text, "wordWrap": label.word_wrap}),
-            Kind::ProgressBar(bar) => json!({
+            WidgetKind::Label(label) => json!({"text": label.text, "wordWrap": label.word_wrap}),
+            WidgetKind::ProgressBar(bar) => json!({
                 "value": bar.value, "minimum": bar.minimum, "maximum": bar.maximum, "vertical": bar.vertical,
                 "inverted": bar.inverted, "textVisible": bar.text_visible,
             }),
-            Kind::TextBrowser(browser) => json!({
+            WidgetKind::TextBrowser(browser) => json!({
                 "text": browser.text, "type": browser.text_type.name(), "readOnly": browser.read_only,
                 "wordWrap": browser.word_wrap, "url": browser.url,
             }),
-            Kind::Image(image) => image_json(image),
-            Kind::Svg(svg) => json!({"text": svg.text}),
-            Kind::Table(table) => table_json(table),
-            Kind::Tree(tree) => tree_json(tree),
-            Kind::Plot(plot) => plot_json(plot),
-            Kind::Properties(properties) => {
+            WidgetKind::Image(image) => image_json(image),
+            WidgetKind::Svg(svg) => json!({"text": svg.text}),
+            WidgetKind::Table(table) => table_json(table),
+            WidgetKind::Tree(tree) => tree_json(tree),
+            WidgetKind::Plot(plot) => plot_json(plot),
+            WidgetKind::Properties(properties) => {
                 let rows = properties.rows.iter().map(|row| {
                     json!({
                         "name": row.name, "type": row.type_name, "value": row.value, "flags": row.flags,
@@ -70,7 +72,7 @@ impl Window {
                     "rows": rows.collect::<Vec<_>>(), "selected": properties.selected, "menu": properties.menu,
                 })
             }
-            Kind::Scene3d(scene) => scene_json(scene),
+            WidgetKind::Scene3d(scene) => scene_json(scene),
         }
     }
 }

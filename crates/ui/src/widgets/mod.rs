@@ -119,12 +119,12 @@ macro_rules! kinds {
     ($($kind:ident $tag:literal $class:literal;)*) => {
         /// What a widget is.
         #[derive(Debug, Clone, PartialEq)]
-        pub enum Kind {$(
+        pub enum WidgetKind {$(
             #[doc = concat!("The element `", $tag, "`.")]
             $kind($kind),
         )*}
 
-        impl Kind {
+        impl WidgetKind {
             /// The name of its element.
             pub fn tag(&self) -> &'static str {
                 match self {
@@ -138,13 +138,13 @@ macro_rules! kinds {
             const CLASS: &'static str = $class;
 
             /// The widget as this type, if it is one.
-            fn of(kind: &Kind) -> Option<&Self> {
-                if let Kind::$kind(widget) = kind { Some(widget) } else { None }
+            fn of(kind: &WidgetKind) -> Option<&Self> {
+                if let WidgetKind::$kind(widget) = kind { Some(widget) } else { None }
             }
 
             /// The widget as this type, to change it, if it is one.
-            fn of_mut(kind: &mut Kind) -> Option<&mut Self> {
-                if let Kind::$kind(widget) = kind { Some(widget) } else { None }
+            fn of_mut(kind: &mut WidgetKind) -> Option<&mut Self> {
+                if let WidgetKind::$kind(widget) = kind { Some(widget) } else { None }
             }
         })*
     };
@@ -178,8 +178,8 @@ pub trait WidgetType: Sized {
     /// The name errors call it by.
     const CLASS: &'static str;
 
-    fn of(kind: &Kind) -> Option<&Self>;
-    fn of_mut(kind: &mut Kind) -> Option<&mut Self>;
+    fn of(kind: &WidgetKind) -> Option<&Self>;
+    fn of_mut(kind: &mut WidgetKind) -> Option<&mut Self>;
 }
 
 /// A widget of a window.
@@ -202,16 +202,16 @@ pub struct Widget {
     /// Names of functions of the owner's, by the attribute.
     pub handlers: BTreeMap<&'static str, String>,
     /// What it is.
-    pub kind: Kind,
+    pub kind: WidgetKind,
 }
 
 impl Widget {
     /// The widgets directly in it.
     pub(crate) fn children(&self) -> Vec<i64> {
         match &self.kind {
-            Kind::Group(group) => group.container.widgets().collect(),
-            Kind::Tab(tab) => tab.container.widgets().collect(),
-            Kind::Tabs(tabs) => tabs.pages.clone(),
+            WidgetKind::Group(group) => group.container.widgets().collect(),
+            WidgetKind::Tab(tab) => tab.container.widgets().collect(),
+            WidgetKind::Tabs(tabs) => tabs.pages.clone(),
             _ => Vec::new(),
         }
     }

@@ -115,7 +115,7 @@ impl Curve {
 /// A plot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plot {
-    /// The colours that are not the usual ones, by attribute.
+    /// Colours that differ from the default, by attribute: red, green, blue, 0 to 255.
     pub colors: BTreeMap<&'static str, [i64; 3]>,
     /// Both axes have the same scale.
     pub square: bool,

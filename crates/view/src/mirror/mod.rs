@@ -215,6 +215,7 @@ impl Mirror {
     }
 
     /// The messages that bring a reader from a state up to the present one, and the number of that.
+    #[cfg(test)]
     pub(crate) fn update_since(&self, seen: Revision) -> (Revision, Vec<Message>) {
         self.changes_since(seen).map_or((self.revision, Vec::new()), |changes| (changes.revision, changes.messages()))
     }

@@ -8,7 +8,7 @@ use super::Observer;
 use perception::vision::item_colour;
 use scene::Scene;
 use scene::drawing::options::{DrawingFlags, DrawingKind};
-use scene::drawing::{DrawingObject, Item};
+use scene::drawing::{DrawingItem, DrawingObject};
 
 impl Observer {
     /// Drawing objects that changed, or all; and the identifiers of those that are gone.
@@ -67,7 +67,7 @@ fn name(kind: DrawingKind) -> &'static str {
 }
 
 /// Coordinates of the points, then a quaternion where the item has a direction.
-fn numbers(item: Item<'_>) -> Vec<f32> {
+fn numbers(item: DrawingItem<'_>) -> Vec<f32> {
     let coordinates = item.points().iter().flatten().map(|number| *number as f32);
     let turn = item.normal().into_iter().flat_map(towards);
     coordinates.chain(turn).collect()

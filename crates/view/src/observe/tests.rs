@@ -172,9 +172,9 @@ fn drawing_objects_are_sent_when_they_change() {
 
 #[test]
 fn lines_of_old_paths_are_sent_when_they_change() {
-    use ::scene::path_object::{ControlPoint, Measures, PathAttributes, PathObject};
+    use ::scene::path_object::{ControlPoint, PathAttributes, PathMeasures, PathObject};
     let mut stage = Stage::new();
-    let path = PathObject::new(PathAttributes::DEFAULT, Measures::default());
+    let path = PathObject::new(PathAttributes::DEFAULT, PathMeasures::default());
     let handle = stage.scene.add("Path", Kind::Path(path.into())).unwrap();
     assert_eq!(stage.update()["drawings"].as_array().map_or(0, Vec::len), 0);
     let point = |x| ControlPoint {

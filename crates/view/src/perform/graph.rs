@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use scene::graph::{Graph, Style};
+use scene::graph::{CurveStyle, Graph};
 use scene::{Handle, SceneError};
 use simulator::Simulator;
 
@@ -31,7 +31,7 @@ fn of_streams(graph: &Graph) -> Vec<Value> {
     visible.map(|stream| curve_of(&stream.style, graph.values(stream))).collect()
 }
 
-fn curve_of(style: &Style, points: Vec<[f64; 2]>) -> Value {
+fn curve_of(style: &CurveStyle, points: Vec<[f64; 2]>) -> Value {
     let (x, y): (Vec<f64>, Vec<f64>) = points.into_iter().map(|[x, y]| (x, y)).unzip();
     json!({ "name": style.name, "unit": style.unit, "color": style.colour, "x": x, "y": y })
 }

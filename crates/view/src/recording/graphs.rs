@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use format::graph_file::{CurveData, GraphData, StreamData};
-use scene::graph::Style;
+use scene::graph::CurveStyle;
 use scene::{Kind, Scene};
 
 /// The message; None for a scene without graphs.
@@ -39,7 +39,7 @@ fn graph_json(graph: &GraphData, handle: i64) -> Value {
     })
 }
 
-fn style_json(style: &Style) -> Value {
+fn style_json(style: &CurveStyle) -> Value {
     json!({
         "id": style.id, "name": style.name, "unit": style.unit, "color": style.colour, "label": style.label,
         "linked": style.linked,
@@ -88,8 +88,8 @@ fn colour(value: &Value) -> Option<[f32; 3]> {
     numbers(value).map(|colour| colour.map(|part| part as f32))
 }
 
-fn style(value: &Value) -> Option<Style> {
-    Some(Style {
+fn style(value: &Value) -> Option<CurveStyle> {
+    Some(CurveStyle {
         id: value["id"].as_i64()?,
         name: value["name"].as_str()?.to_owned(),
         unit: value["unit"].as_str()?.to_owned(),

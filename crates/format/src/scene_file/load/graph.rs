@@ -6,7 +6,9 @@ use super::sensors::groups;
 use crate::ttt::chunks as file;
 use crate::ttt::{Counted, Rest, Text};
 use scene::Handle;
-use scene::graph::{Curve, Graph, OldSource, Sample, Stream, Style, Transformation, TransformationKind};
+use scene::graph::{
+    CurveStyle, Graph, GraphCurve, GraphSample, GraphStream, OldSource, Transformation, TransformationKind,
+};
 
 /// Bits of a stream; of a curve the first says that it moves with the graph.
 const VISIBLE: u8 = 0x1;
@@ -36,9 +38,9 @@ pub(super) fn graph(chunk: &file::Graph) -> Graph {
     graph
 }
 
-fn style(names: Option<&(Text, Text)>, id: Option<i32>, colour: Option<[f32; 3]>, flags: u8) -> Style {
+fn style(names: Option<&(Text, Text)>, id: Option<i32>, colour: Option<[f32; 3]>, flags: u8) -> CurveStyle {
     let (name, unit) = names.map(|(name, unit)| (name.decode(), unit.decode())).unwrap_or_default();
-    Style {
+    CurveStyle {
         id: id.unwrap_or(0).into(),
         name,
         unit,
@@ -48,10 +50,10 @@ fn style(names: Option<&(Text, Text)>, id: Option<i32>, colour: Option<[f32; 3]>
     }
 }
 
-fn stream(chunk: &file::DataStream, slots: usize) -> Stream {
+fn stream(chunk: &file::DataStream, slots: usize) -> GraphStream {
     let flags = chunk.flags.unwrap_or(VISIBLE | LABEL | LINKED);
     let style = style(chunk.name_and_unit.as_ref(), chunk.id, chunk.colour, flags);
-    let mut stream = Stream { visible: flags & VISIBLE != 0, ..Stream::new(style) };
+    let mut stream = GraphStream { visible: flags & VISIBLE != 0, ..GraphStream::new(style) };
     if let Some((kind, [multiplier, offset], period, cyclic_range)) = chunk.transformation {
         let kind = TransformationKind::from_code(kind.into()).unwrap_or(TransformationKind::Raw);
         stream.transformation = Transformation { kind, multiplier, offset, period: period.into(), cyclic_range };
@@ -62,7 +64,7 @@ fn stream(chunk: &file::DataStream, slots: usize) -> Stream {
 }
 
 /// Per slot a value, what became of it, and whether there are such; in single precision up to serialization 24.
-fn samples(bytes: &[u8], slots: usize) -> Vec<Sample> {
+fn samples(bytes: &[u8], slots: usize) -> Vec<GraphSample> {
     let numbers: fn(&[u8]) -> [f64; 2] = match bytes.len().checked_div(slots) {
         Some(18) => |slot| [0, 8].map(|at| f64::from_le_bytes(std::array::from_fn(|i| slot[at + i]))),
         Some(10) => |slot| [0, 4].map(|at| f32::from_le_bytes(std::array::from_fn(|i| slot[at + i])).into()),
@@ -72,12 +74,12 @@ fn samples(bytes: &[u8], slots: usize) -> Vec<Sample> {
     let sample = |slot: &[u8]| {
         let [raw, transformed] = numbers(slot);
         let [has_raw, has_transformed] = [slot[size - 2], slot[size - 1]].map(|valid| valid != 0);
-        Sample { raw: has_raw.then_some(raw), transformed: has_transformed.then_some(transformed) }
+        GraphSample { raw: has_raw.then_some(raw), transformed: has_transformed.then_some(transformed) }
     };
     bytes.chunks_exact(size).map(sample).collect()
 }
 
-fn curve(chunk: &file::Curve) -> Curve {
+fn curve(chunk: &file::Curve) -> GraphCurve {
     let flags = chunk.flags.unwrap_or(RELATIVE | LABEL | LINKED);
     let [id, dimensions, width] = chunk.id_dim_width.unwrap_or([0, 2, 1]);
     let dimensions = dimensions.clamp(2, 3) as usize;
@@ -85,7 +87,7 @@ fn curve(chunk: &file::Curve) -> Curve {
         let point = |point: &[f64]| std::array::from_fn(|axis| point.get(axis).copied().unwrap_or(0.0));
         values.chunks_exact(dimensions).map(point).collect()
     });
-    Curve {
+    GraphCurve {
         style: style(chunk.name_and_unit.as_ref(), Some(id), chunk.colour, flags),
         width: width.into(),
         dimensions,
@@ -97,11 +99,11 @@ fn curve(chunk: &file::Curve) -> Curve {
     }
 }
 
-fn old_stream(chunk: &file::OldDataStream) -> Stream {
+fn old_stream(chunk: &file::OldDataStream) -> GraphStream {
     let flags = chunk.flags.unwrap_or(VISIBLE | LABEL | LINKED);
     let name = chunk.name.clone().map(|name| (name, Text::default()));
     let style = style(name.as_ref(), chunk.id, chunk.colour, flags);
-    let mut stream = Stream { visible: flags & VISIBLE != 0, ..Stream::new(style) };
+    let mut stream = GraphStream { visible: flags & VISIBLE != 0, ..GraphStream::new(style) };
     let old = chunk.old_zoom_and_offset.map(|[zoom, _, offset]| [zoom.into(), offset.into()]);
     let [multiplier, offset] = chunk.zoom_and_offset.or(old).unwrap_or([1.0, 0.0]);
     let kind = TransformationKind::from_code(chunk.transf.unwrap_or(0).into()).unwrap_or(TransformationKind::Raw);
@@ -114,7 +116,7 @@ fn old_stream(chunk: &file::OldDataStream) -> Stream {
     let is_valid = |valid: &Option<Rest<u8>>, slot: usize| {
         valid.as_ref().is_some_and(|Rest(valid)| valid.get(slot).is_some_and(|valid| *valid != 0))
     };
-    let sample = |(slot, (raw, transformed)): (usize, (&f64, &f64))| Sample {
+    let sample = |(slot, (raw, transformed)): (usize, (&f64, &f64))| GraphSample {
         raw: is_valid(&chunk.valid, slot).then_some(*raw),
         transformed: is_valid(&chunk.tvalid, slot).then_some(*transformed),
     };
@@ -122,13 +124,13 @@ fn old_stream(chunk: &file::OldDataStream) -> Stream {
     stream
 }
 
-fn old_curve(chunk: &file::OldCurve, dimensions: usize) -> Curve {
+fn old_curve(chunk: &file::OldCurve, dimensions: usize) -> GraphCurve {
     let flags = chunk.flags.unwrap_or(VISIBLE | LABEL | LINKED);
     let first = |values: &[f32]| [values[0], values[1], values[2]];
     let new = chunk.colour.as_ref().and_then(|colour| colour.values.as_ref()).map(|values| first(values));
     let colour = new.or(chunk.old_colours.as_ref().map(|values| first(values)));
     let name = chunk.name.clone().map(|name| (name, Text::default()));
-    Curve {
+    GraphCurve {
         style: style(name.as_ref(), chunk.id, colour, flags),
         width: chunk.width.unwrap_or(1.0) as i64,
         dimensions,

@@ -10,7 +10,7 @@ use scene::object::dummy::{Dummy, LinkType};
 use scene::parameters::engine::Engine;
 use scene::parameters::engine_blocks::EngineValues;
 use scene::path_object::PathFollowing;
-use scene::sensor::force_sensor::{Filter, ForceSensor};
+use scene::sensor::force_sensor::{ForceFilter, ForceSensor};
 
 /// The step of the physics that gains were multiplied by before 3.1.1.
 const OLD_STEP: f64 = 0.005;
@@ -148,7 +148,7 @@ pub(super) fn force_sensor(chunk: &ForceSensorChunk) -> ForceSensor {
     (sensor.force_threshold_enabled, sensor.torque_threshold_enabled) = (switches & 1 != 0, switches & 2 != 0);
     if let Some([samples, filter]) = chunk.filter {
         sensor.sample_size = usize::try_from(samples).unwrap_or(1).clamp(1, ForceSensor::MAX_SAMPLES);
-        sensor.filter = if filter == 1 { Filter::Median } else { Filter::Average };
+        sensor.filter = if filter == 1 { ForceFilter::Median } else { ForceFilter::Average };
     }
     sensor
 }

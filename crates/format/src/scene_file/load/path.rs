@@ -4,7 +4,9 @@ use super::sensors::colour;
 use crate::ttt::chunks::{Path, PathControl, PathPoint};
 use scene::Pose;
 use scene::appearance::colour::Colour;
-use scene::path_object::{ControlPoint, LengthMethod, Measures, PathAttributes, PathObject, Shaping, VelocityProfile};
+use scene::path_object::{
+    ControlPoint, LengthMethod, PathAttributes, PathMeasures, PathObject, Shaping, VelocityProfile,
+};
 
 /// The bit of [`Path::flags`]; the others concern the shape along the path.
 const EXPLICIT: u8 = 0x20;
@@ -29,15 +31,15 @@ pub(super) fn path(chunk: &Path) -> PathObject {
     path
 }
 
-fn measures(line: &PathControl) -> Measures {
-    let usual = Measures::default();
+fn measures(line: &PathControl) -> PathMeasures {
+    let usual = PathMeasures::default();
     let finite = |value: f64, other: f64| if value.is_finite() { value } else { other };
     let (angle, method) = line.length.unwrap_or((usual.angle_coefficient, usual.length_method as i32));
     let profile = line.averages.filter(|numbers| numbers.iter().all(|n| n.is_finite())).map_or(
         usual.profile,
         |[radius, axis_change, acceleration]| VelocityProfile { radius, axis_change, acceleration },
     );
-    Measures {
+    PathMeasures {
         length_method: LengthMethod::from_number(method.into()).unwrap_or(usual.length_method),
         angle_coefficient: finite(angle, usual.angle_coefficient),
         on_spot_coefficient: finite(line.on_spot_coeff.unwrap_or(usual.on_spot_coefficient), usual.on_spot_coefficient),

@@ -4,7 +4,7 @@ use super::Context;
 use super::sensors::bits;
 use crate::ttt::chunks as file;
 use crate::ttt::{Counted, Rest};
-use scene::graph::{Curve, Graph, OldSource, Sample, Stream, Style};
+use scene::graph::{CurveStyle, Graph, GraphCurve, GraphSample, GraphStream, OldSource};
 
 /// Streams and curves that scripts made outlive them here.
 const NO_SCRIPT: i32 = -1;
@@ -35,12 +35,12 @@ pub(super) fn graph(context: &Context<'_>, graph: &Graph, colour: Option<file::C
     }
 }
 
-fn flags(first: bool, style: &Style, fixed: Option<u8>) -> u8 {
+fn flags(first: bool, style: &CurveStyle, fixed: Option<u8>) -> u8 {
     bits(&[(first, 0), (style.label, 1), (style.linked, 2)]) | fixed.map_or(0, |bit| 1 << bit)
 }
 
 /// A stream of a graph with so many slots.
-fn stream(stream: &Stream, slots: usize) -> file::DataStream {
+fn stream(stream: &GraphStream, slots: usize) -> file::DataStream {
     let (style, transformation) = (&stream.style, &stream.transformation);
     file::DataStream {
         name_and_unit: Some((style.name.as_str().into(), style.unit.as_str().into())),
@@ -61,13 +61,13 @@ fn stream(stream: &Stream, slots: usize) -> file::DataStream {
 }
 
 /// A sample for each slot; those from before the stream was there are gaps.
-fn samples(stream: &Stream, slots: usize) -> impl Iterator<Item = Sample> {
+fn samples(stream: &GraphStream, slots: usize) -> impl Iterator<Item = GraphSample> {
     let before = slots.saturating_sub(stream.samples.len());
-    std::iter::repeat_n(Sample::default(), before).chain(stream.samples.iter().copied())
+    std::iter::repeat_n(GraphSample::default(), before).chain(stream.samples.iter().copied())
 }
 
 /// A value, what became of it, and whether there are such.
-fn slot(sample: &Sample) -> [u8; 18] {
+fn slot(sample: &GraphSample) -> [u8; 18] {
     let mut bytes = [0; 18];
     for (i, value) in [sample.raw, sample.transformed].into_iter().enumerate() {
         bytes[8 * i..8 * i + 8].copy_from_slice(&value.unwrap_or(0.0).to_le_bytes());
@@ -76,7 +76,7 @@ fn slot(sample: &Sample) -> [u8; 18] {
     bytes
 }
 
-fn curve(curve: &Curve) -> file::Curve {
+fn curve(curve: &GraphCurve) -> file::Curve {
     let style = &curve.style;
     let fixed = |points: &Vec<[f64; 3]>| {
         Counted(points.iter().flat_map(|point| point[..curve.dimensions].iter().copied()).collect())
@@ -94,11 +94,11 @@ fn curve(curve: &Curve) -> file::Curve {
 }
 
 /// One of the two numbers of a sample.
-type Half = fn(&Sample) -> Option<f64>;
+type Half = fn(&GraphSample) -> Option<f64>;
 
-fn old_stream(context: &Context<'_>, stream: &Stream, source: OldSource, slots: usize) -> file::OldDataStream {
+fn old_stream(context: &Context<'_>, stream: &GraphStream, source: OldSource, slots: usize) -> file::OldDataStream {
     let (style, transformation) = (&stream.style, &stream.transformation);
-    let all: Vec<Sample> = if stream.samples.is_empty() { Vec::new() } else { samples(stream, slots).collect() };
+    let all: Vec<GraphSample> = if stream.samples.is_empty() { Vec::new() } else { samples(stream, slots).collect() };
     let values = |of: Half| all.iter().map(|sample| of(sample).unwrap_or(0.0)).collect();
     let valid = |of: Half| Rest(all.iter().map(|sample| of(sample).is_some().into()).collect());
     let (raw, transformed): (Half, Half) = (|s| s.raw, |s| s.transformed);
@@ -119,7 +119,7 @@ fn old_stream(context: &Context<'_>, stream: &Stream, source: OldSource, slots: 
     }
 }
 
-fn old_curve(curve: &Curve) -> file::OldCurve {
+fn old_curve(curve: &GraphCurve) -> file::OldCurve {
     let mut colour = scene::appearance::colour::Colour::new(curve.style.colour);
     colour.specular = [0.0; 3];
     file::OldCurve {

@@ -14,7 +14,7 @@ use crate::vision::surfaces::of_colour;
 use scene::Pose;
 use scene::appearance::colour::Colour;
 use scene::drawing::options::{DrawingFlags, DrawingKind};
-use scene::drawing::{DrawingStyle, Item};
+use scene::drawing::{DrawingItem, DrawingStyle};
 
 /// Corners of a disc.
 const DISC_CORNERS: usize = 16;
@@ -36,7 +36,14 @@ pub(super) struct Bodies {
 
 impl Bodies {
     /// Adds an item of that size (m) which faces a direction.
-    pub(super) fn add(&mut self, kind: DrawingKind, item: Item, size: f64, facing: Vector3<f64>, colour: [f32; 3]) {
+    pub(super) fn add(
+        &mut self,
+        kind: DrawingKind,
+        item: DrawingItem,
+        size: f64,
+        facing: Vector3<f64>,
+        colour: [f32; 3],
+    ) {
         let centre = Vector3::from(item.points()[0]);
         let frame = frame_facing(facing);
         let flat = |corners: &[[f64; 2]]| -> Vec<[f64; 3]> {

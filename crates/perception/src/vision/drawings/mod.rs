@@ -12,7 +12,7 @@ use super::models::{Model, ModelLines, ModelPoints};
 use super::{Shot, Subjects};
 use bodies::Bodies;
 use scene::drawing::options::{DrawingFlags, DrawingKind};
-use scene::drawing::{DrawingObject, Item};
+use scene::drawing::{DrawingItem, DrawingObject};
 use scene::{Pose, Scene};
 
 /// A drawing object as it is drawn.
@@ -101,7 +101,7 @@ fn solids(drawing: &DrawingObject, towards_camera: Vector3<f64>) -> Vec<super::m
 }
 
 /// The colour of an item: its own, the mean of those of its points, or that of the drawing object.
-pub fn item_colour(drawing: &DrawingObject, item: Item) -> [f32; 3] {
+pub fn item_colour(drawing: &DrawingObject, item: DrawingItem) -> [f32; 3] {
     let style = &drawing.style;
     let own = item.colours();
     if own.is_empty() {

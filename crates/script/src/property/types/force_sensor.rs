@@ -5,7 +5,7 @@ use geometry::pose::pose_to_array;
 
 use super::access::{Accessor, length, object_properties, refused};
 use super::{PoseArray, Vector3};
-use scene::sensor::force_sensor::{Filter, ForceSensor};
+use scene::sensor::force_sensor::{ForceFilter, ForceSensor};
 use scene::{Object, Pose, SceneResult};
 
 pub(in crate::property) const FORCE_SENSOR: &[Accessor] = object_properties! {
@@ -37,7 +37,8 @@ pub(in crate::property) const FORCE_SENSOR: &[Accessor] = object_properties! {
 
 fn set_filter(object: &mut Object, filter: i64) -> SceneResult<()> {
     let sensor = object.force_sensor_mut()?;
-    sensor.filter = [Filter::Average, Filter::Median].into_iter().find(|f| *f as i64 == filter).ok_or_else(refused)?;
+    sensor.filter =
+        [ForceFilter::Average, ForceFilter::Median].into_iter().find(|f| *f as i64 == filter).ok_or_else(refused)?;
     sensor.samples.clear();
     Ok(())
 }
