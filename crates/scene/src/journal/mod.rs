@@ -115,7 +115,7 @@ impl Journal {
 
     /// Skips all changes so far.
     pub fn skip(&self, cursor: &mut Cursor) {
-        // That all of it may have changed is no news to somebody who has just looked.
+        // The caller has just read the scene itself, so that it needs no changes from before.
         let _ = self.log.read(cursor);
     }
 

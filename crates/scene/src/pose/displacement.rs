@@ -37,7 +37,7 @@ impl Displacement<'_> {
         self.before.iter().map(|(handle, _)| *handle)
     }
 
-    /// Places an object as [`Scene::place`] does; the physics learns nothing of it.
+    /// Places an object as [`Scene::place`] does; the physics is not reset.
     ///
     /// # Errors
     /// When there is no such object, or the resulting pose is not valid.

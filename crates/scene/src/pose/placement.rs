@@ -117,7 +117,7 @@ impl Scene {
         self.set_pose_in(handle, pose, Frame::World, false)
     }
 
-    /// Places `handle` as a script wishes; its children move along. What the physics moves is taken out of it and put back at the
+    /// Places `handle` for a script; its children move along. What the physics moves is taken out of it and put back at the
     /// new place, so that it loses its velocity; not so where a joint or sensor is placed, which takes the bodies behind it along.
     pub fn place(&mut self, handle: Handle, placement: Placement, frame: Frame, joint_base: bool) -> SceneResult<()> {
         let local = self.local_pose_of(handle, placement, frame, joint_base)?;

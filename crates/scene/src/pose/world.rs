@@ -2,7 +2,7 @@
 //!
 //! Changes of place are numbered. A change costs one number, written into the object that moved, however much hangs below it; a
 //! pose is checked when it is asked for, by the largest number from the object up to its root. That walk ends at the first object
-//! that was looked at since the last change, so that reading all poses after a change looks at each object once.
+//! that was checked since the last change, so that reading all poses after a change visits each object once.
 
 #[cfg(test)]
 pub(crate) mod tests;

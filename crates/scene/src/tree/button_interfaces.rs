@@ -130,7 +130,7 @@ impl Button {
     }
 
     /// Whether it is a slider.
-    pub fn is_slider(&self) -> bool {
+    fn is_slider(&self) -> bool {
         self.attributes & TYPE_BITS == SLIDER
     }
 
@@ -192,7 +192,7 @@ pub struct ButtonInterfaces {
     made: i64,
     /// Grows with every change.
     revision: u64,
-    /// What persons did, by handle.
+    /// Events for scripts, by handle.
     events: BTreeMap<i64, Events>,
 }
 
@@ -257,9 +257,9 @@ impl ButtonInterfaces {
     }
 
     /// Removes those of objects that are removed.
-    pub(crate) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
+    pub(crate) fn forget(&mut self, removed: &BTreeSet<Handle>) {
         let before = self.by_handle.len();
-        self.by_handle.retain(|_, interface| !interface.object.is_some_and(|object| doomed.contains(&object)));
+        self.by_handle.retain(|_, interface| !interface.object.is_some_and(|object| removed.contains(&object)));
         if self.by_handle.len() != before {
             self.revision += 1;
             let kept = &self.by_handle;

@@ -84,9 +84,9 @@ impl<R, const FIRST: i64> CalculationObjects<R, FIRST> {
     }
 
     /// Removes those of an entity that is removed.
-    fn forget(&mut self, doomed: &BTreeSet<Handle>) {
-        let is_doomed = |entity: &i64| Handle::from_raw(*entity).is_some_and(|handle| doomed.contains(&handle));
-        self.by_handle.retain(|_, object| !object.entities.iter().any(is_doomed));
+    fn forget(&mut self, removed: &BTreeSet<Handle>) {
+        let is_removed = |entity: &i64| Handle::from_raw(*entity).is_some_and(|handle| removed.contains(&handle));
+        self.by_handle.retain(|_, object| !object.entities.iter().any(is_removed));
     }
 }
 
@@ -112,11 +112,11 @@ impl Scene {
     }
 
     /// Removes collision and distance objects of objects that are removed, and results that name them.
-    pub(crate) fn forget_calculations(&mut self, doomed: &BTreeSet<Handle>) {
-        self.collision_objects.forget(doomed);
-        self.distance_objects.forget(doomed);
+    pub(crate) fn forget_calculations(&mut self, removed: &BTreeSet<Handle>) {
+        self.collision_objects.forget(removed);
+        self.distance_objects.forget(removed);
         for object in self.collision_objects.by_handle.values_mut() {
-            if object.result.flatten().is_some_and(|pair| pair.iter().any(|handle| doomed.contains(handle))) {
+            if object.result.flatten().is_some_and(|pair| pair.iter().any(|handle| removed.contains(handle))) {
                 object.result = None;
             }
         }

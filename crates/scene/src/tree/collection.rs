@@ -158,9 +158,9 @@ impl Collections {
         self.by_handle.retain(|_, collection| collection.owner != Some(owner));
     }
 
-    pub(super) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
+    pub(super) fn forget(&mut self, removed: &BTreeSet<Handle>) {
         for collection in self.by_handle.values_mut() {
-            collection.items.retain(|item| item.members.base().is_none_or(|base| !doomed.contains(&base)));
+            collection.items.retain(|item| item.members.base().is_none_or(|base| !removed.contains(&base)));
         }
     }
 }
@@ -191,7 +191,7 @@ impl Scene {
                 }
             }
         }
-        // By their numbers, without a look at all objects of the scene: sensors ask in each step.
+        // Sorting the members costs less than going through all objects of the scene, and sensors need this in each step.
         let mut in_order: Vec<Handle> = members.into_iter().collect();
         in_order.sort_by_key(|handle| self.object(*handle).map_or(i64::MAX, crate::Object::uid));
         Ok(in_order)

@@ -199,19 +199,19 @@ impl Scene {
     /// # Errors
     /// When a handle is unknown or given twice; nothing is removed then.
     pub fn remove(&mut self, handles: &[Handle]) -> SceneResult<()> {
-        let doomed: BTreeSet<Handle> = handles.iter().copied().collect();
-        if doomed.len() != handles.len() || handles.iter().any(|&h| !self.exists(h)) {
+        let removed: BTreeSet<Handle> = handles.iter().copied().collect();
+        if removed.len() != handles.len() || handles.iter().any(|&h| !self.exists(h)) {
             return Err(SceneError::InvalidHandles);
         }
-        for orphan in self.children_outside(&doomed) {
-            let heir = self.ancestors(orphan).find(|h| !doomed.contains(h));
+        for orphan in self.children_outside(&removed) {
+            let heir = self.ancestors(orphan).find(|h| !removed.contains(h));
             self.set_parent(orphan, heir, true)?;
         }
-        self.forget_references(&doomed);
+        self.forget_references(&removed);
         for &handle in handles {
             let parent = self.object(handle)?.parent();
             take_out(self.siblings_mut(parent)?, handle);
-            // Children of the doomed are doomed too by now; they must not be looked up through this parent.
+            // The remaining children are removed too; they must not be looked up through this parent.
             for child in std::mem::take(&mut self.object_mut(handle)?.children) {
                 self.object_mut(child)?.parent = None;
                 self.roots.push(child);
@@ -221,12 +221,12 @@ impl Scene {
         Ok(())
     }
 
-    fn children_outside(&self, doomed: &BTreeSet<Handle>) -> Vec<Handle> {
-        let mut orphans: Vec<&crate::Object> = doomed
+    fn children_outside(&self, removed: &BTreeSet<Handle>) -> Vec<Handle> {
+        let mut orphans: Vec<&crate::Object> = removed
             .iter()
             .filter_map(|&h| self.object(h).ok())
             .flat_map(|object| object.children().iter())
-            .filter(|child| !doomed.contains(child))
+            .filter(|child| !removed.contains(child))
             .filter_map(|&child| self.object(child).ok())
             .collect();
         orphans.sort_by_key(|object| object.uid());

@@ -167,13 +167,13 @@ impl IkGroups {
     }
 
     /// Removes elements whose tip is removed, and groups that are left without one.
-    pub(super) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
+    pub(super) fn forget(&mut self, removed: &BTreeSet<Handle>) {
         self.by_handle.retain(|_, group| {
             let before = group.elements.len();
-            group.elements.retain(|element| !doomed.contains(&element.tip));
+            group.elements.retain(|element| !removed.contains(&element.tip));
             for element in &mut group.elements {
-                element.base = element.base.filter(|base| !doomed.contains(base));
-                element.constraint_base = element.constraint_base.filter(|base| !doomed.contains(base));
+                element.base = element.base.filter(|base| !removed.contains(base));
+                element.constraint_base = element.constraint_base.filter(|base| !removed.contains(base));
             }
             before == 0 || !group.elements.is_empty()
         });

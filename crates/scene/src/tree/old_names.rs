@@ -19,7 +19,7 @@ pub(crate) struct OldNames {
 }
 
 impl OldNames {
-    /// Reserves a name for an object: the wished one, or the next free number at its end.
+    /// Reserves a name for an object: the one that is asked for, or the next free number at its end.
     pub(crate) fn claim(&mut self, wished: String, handle: Handle) -> String {
         let name = if self.handles.contains_key(&wished) { self.next_free(&wished) } else { wished };
         if self.handles.insert(name.clone(), handle).is_none() {

@@ -207,7 +207,7 @@ impl Scene {
     }
 }
 
-/// One lookup. What was searched in vain is remembered, so that patterns such as `/*/*/*/x` cost no more than the tree is large.
+/// One lookup. Subtrees without a match are remembered, so that patterns such as `/*/*/*/x` visit each object once for each part.
 struct Search<'a> {
     scene: &'a Scene,
     /// Number of matches below an object for the last so many components.

@@ -56,8 +56,8 @@ impl Object {
         self.reference_lists(kind).iter().find(|(t, _)| t == tag).map_or(&[], |(_, list)| list)
     }
 
-    fn forget(&mut self, doomed: &BTreeSet<Handle>) {
-        let gone = |h: Handle| doomed.contains(&h);
+    fn forget(&mut self, removed: &BTreeSet<Handle>) {
+        let gone = |h: Handle| removed.contains(&h);
         match &mut self.kind {
             Kind::Joint(joint) if joint.dependency.is_some_and(|d| gone(d.master)) => joint.dependency = None,
             Kind::Dummy(dummy) if dummy.link.is_some_and(gone) => dummy.link = None,
@@ -67,7 +67,7 @@ impl Object {
             }
             _ => {}
         }
-        self.viewers = self.viewers.without(doomed);
+        self.viewers = self.viewers.without(removed);
         let lists = self.references.iter_mut().chain(self.original_references.iter_mut());
         for handle in lists.flat_map(|(_, list)| list.iter_mut()) {
             if Handle::from_raw(*handle).is_some_and(gone) {
@@ -100,19 +100,19 @@ impl Scene {
 
     /// Removes references to objects that are being removed: links, dependencies, selection, collections, lists of handles. The drawing
     /// objects that move with them are removed.
-    pub(crate) fn forget_references(&mut self, doomed: &BTreeSet<Handle>) {
-        if self.selection.forget(doomed) {
+    pub(crate) fn forget_references(&mut self, removed: &BTreeSet<Handle>) {
+        if self.selection.forget(removed) {
             self.note(Change::Selection);
         }
-        self.collections.forget(doomed);
-        self.drawings.forget(doomed);
-        self.forget_calculations(doomed);
-        self.ik_groups.forget(doomed);
-        self.button_interfaces.forget(doomed);
+        self.collections.forget(removed);
+        self.drawings.forget(removed);
+        self.forget_calculations(removed);
+        self.ik_groups.forget(removed);
+        self.button_interfaces.forget(removed);
         let objects = &mut self.objects;
         self.referrers.0.retain(|&handle| {
             let referrer = objects.get_in_place(handle);
-            referrer.map(|object| object.forget(doomed)).is_ok()
+            referrer.map(|object| object.forget(removed)).is_ok()
         });
     }
 }

@@ -10,9 +10,9 @@ pub(crate) struct Selection(Vec<Handle>);
 
 impl Selection {
     /// Takes objects out; tells whether any was in it.
-    pub(crate) fn forget(&mut self, doomed: &BTreeSet<Handle>) -> bool {
+    pub(crate) fn forget(&mut self, removed: &BTreeSet<Handle>) -> bool {
         let before = self.0.len();
-        self.0.retain(|handle| !doomed.contains(handle));
+        self.0.retain(|handle| !removed.contains(handle));
         self.0.len() < before
     }
 }

@@ -1,4 +1,4 @@
-//! What persons do with user interfaces of V-REP, and the events that scripts read of it.
+//! What users do with user interfaces of V-REP, and the events that scripts read of it.
 
 use std::collections::VecDeque;
 
@@ -8,7 +8,7 @@ use crate::{Handle, Scene};
 /// Events of a user interface that may wait for scripts; further inputs are refused.
 const MAX_WAITING: usize = 1000;
 
-/// What a person does with a button, slider or edit box.
+/// What a user does with a button, slider or edit box.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ButtonInput {
     /// The button goes down (true) or up.
@@ -21,7 +21,7 @@ pub enum ButtonInput {
     Enter(String),
 }
 
-/// A button that a person used, as it was then.
+/// A button that a user operated, in its state after that.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ButtonEvent {
     /// Which scripts call the button by.
@@ -40,7 +40,7 @@ pub(super) struct Events {
 }
 
 impl Button {
-    /// Changes to what a person does with it; whether scripts get an event. None if it takes no such input.
+    /// Applies an input and returns whether scripts get an event. None if it takes no such input.
     fn take(&mut self, input: ButtonInput) -> Option<bool> {
         match (self.kind(), input) {
             (ButtonKind::Button, ButtonInput::Hold(down)) => Some(self.hold(down)),
@@ -105,7 +105,7 @@ impl Scene {
             && (!has(ui_property::VISIBLE_WHEN_OBJECT_SELECTED) || interface.object.is_none_or(is_selected))
     }
 
-    /// Does what a person does with a button; scripts see the event in the next pass (spec: vrep-era 2.6).
+    /// Applies what a user does with a button; scripts see the event in the next pass (spec: vrep-era 2.6).
     ///
     /// # Errors
     /// Why it is refused.
