@@ -16,8 +16,8 @@ pub(crate) mod shapes;
 
 use script::{Hooks, Module};
 
-pub(crate) use script::{ApiError, ApiResult as Result, functions};
-pub use script::{ApiFn, Args, Cx, FromScript, IntoScript, Param};
+pub use script::ApiFn;
+pub(crate) use script::{ApiError, ApiResult as Result, Args, Cx, FromScript, functions};
 
 /// All native functions, file by file.
 const CATEGORIES: &[(&str, &[ApiFn])] = &[

@@ -20,7 +20,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![create_texture, get_texture_id, get_shape_texture_id, set_shape_texture, read_texture, write_texture];
 
 /// Default size of a new texture in pixels.
-const USUAL_SIDE: f64 = 256.0;
+const DEFAULT_SIDE: f64 = 256.0;
 const WHITE: u8 = 255;
 /// The name of what is from no file.
 const NAME: &str = "texture";
@@ -54,7 +54,7 @@ fn create_texture(
     #[default(None)] resolution: Option<[f64; 2]>,
 ) -> Result<(Handle, i64, IntPair)> {
     let texture = match file_name.as_str() {
-        "" => blank(resolution.unwrap_or([USUAL_SIDE; 2]))?,
+        "" => blank(resolution.unwrap_or([DEFAULT_SIDE; 2]))?,
         name => of_file(cx, name, resolution.filter(|_| fixed_resolution.0 != 0))?,
     };
     let [width, height] = texture.size();
