@@ -14,7 +14,7 @@ fn read(bytes: &[u8], size: usize) -> (Vec<Vec<u8>>, Result<(), Violation>) {
     for piece in bytes.chunks(size) {
         packets.feed(piece);
         loop {
-            match packets.next() {
+            match packets.next_message() {
                 Ok(Some(message)) => read.push(message),
                 Ok(None) => break,
                 Err(violation) => return (read, Err(violation)),

@@ -171,7 +171,7 @@ async fn serve(mut stream: TcpStream, shared: &Shared) -> io::Result<()> {
     stream.set_nodelay(true)?;
     let (mut packets, mut chunk) = (Packets::default(), vec![0; CHUNK]);
     loop {
-        while let Some(message) = packets.next().map_err(refused)? {
+        while let Some(message) = packets.next_message().map_err(refused)? {
             let received = shared.session().receive(&message, packets.order(), shared.now());
             let Received { is_waiting, ends } = received.map_err(refused)?;
             if is_waiting {

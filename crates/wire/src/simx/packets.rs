@@ -42,7 +42,7 @@ impl Packets {
     ///
     /// # Errors
     /// When the bytes are no packet, or the message is too large.
-    pub fn next(&mut self) -> Result<Option<Vec<u8>>, Violation> {
+    pub fn next_message(&mut self) -> Result<Option<Vec<u8>>, Violation> {
         let mut start = 0;
         let mut complete = None;
         while complete.is_none() {
@@ -106,7 +106,7 @@ mod tests {
         let (mut packets, mut messages) = (Packets::default(), Vec::new());
         for piece in bytes.chunks(piece) {
             packets.feed(piece);
-            while let Some(message) = packets.next()? {
+            while let Some(message) = packets.next_message()? {
                 messages.push(message);
             }
         }
