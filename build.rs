@@ -2,7 +2,10 @@
 
 use std::env;
 
-#[allow(clippy::disallowed_methods, reason = "cargo tells a build script its target through the environment")]
+#[allow(
+    clippy::disallowed_methods,
+    reason = "cargo tells a build script its target through the environment"
+)]
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
     let family = env::var("CARGO_CFG_TARGET_FAMILY").unwrap_or_default();

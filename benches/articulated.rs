@@ -56,14 +56,22 @@ impl Chain {
 
     /// The joint's axis in the frame of its box.
     fn axis(&self, index: usize) -> Vector {
-        if self.alternate && index.is_multiple_of(2) { Vector::Z } else { Vector::Y }
+        if self.alternate && index.is_multiple_of(2) {
+            Vector::Z
+        } else {
+            Vector::Y
+        }
     }
 
     /// Both frames whole: multibodies place their links by them.
     fn joint(&self, index: usize) -> GenericJoint {
         let half = Vector::Z * (self.length / 2.0);
         let along = Rotation::from_rotation_arc(Vector::X, self.axis(index));
-        let (anchor, turn) = if index == 0 { (Vector::ZERO, self.turn()) } else { (half, Rotation::IDENTITY) };
+        let (anchor, turn) = if index == 0 {
+            (Vector::ZERO, self.turn())
+        } else {
+            (half, Rotation::IDENTITY)
+        };
         let mut joint = GenericJoint::new(JointAxesMask::LOCKED_REVOLUTE_AXES);
         joint.set_local_frame1(Pose::from_parts(anchor, turn * along));
         joint.set_local_frame2(Pose::from_parts(-half, along));
@@ -76,7 +84,11 @@ impl Chain {
 
     fn fall(&self) -> f64 {
         let reach = |i: usize| self.length * (i as f64 + 0.5) * (1.0 + self.incline.cos());
-        self.masses.iter().enumerate().map(|(i, mass)| mass * G * reach(i)).sum()
+        self.masses
+            .iter()
+            .enumerate()
+            .map(|(i, mass)| mass * G * reach(i))
+            .sum()
     }
 }
 
@@ -98,7 +110,11 @@ struct Raw<'a> {
 
 impl<'a> Raw<'a> {
     fn new(chain: &'a Chain, kind: Kind) -> Self {
-        let iterations = if let Kind::Impulse { iterations } = kind { iterations } else { 4 };
+        let iterations = if let Kind::Impulse { iterations } = kind {
+            iterations
+        } else {
+            4
+        };
         let parameters = IntegrationParameters {
             dt: STEP,
             num_solver_iterations: 1,
@@ -107,7 +123,14 @@ impl<'a> Raw<'a> {
             ..IntegrationParameters::default()
         };
         let world = RawWorld::new(parameters);
-        let mut raw = Self { chain, kind, links: Vec::new(), impulse: Vec::new(), reduced: Vec::new(), world };
+        let mut raw = Self {
+            chain,
+            kind,
+            links: Vec::new(),
+            impulse: Vec::new(),
+            reduced: Vec::new(),
+            world,
+        };
         raw.build();
         raw
     }
@@ -121,23 +144,36 @@ impl<'a> Raw<'a> {
             let half = [0.01, 0.01, chain.length / 2.0];
             let collider = ColliderBuilder::cuboid(half[0], half[1], half[2]).mass(mass);
             let collider = collider.collision_groups(InteractionGroups::none());
-            let body = self.world.add(RigidBodyBuilder::dynamic().pose(pose).can_sleep(false), collider);
+            let body = self.world.add(
+                RigidBodyBuilder::dynamic().pose(pose).can_sleep(false),
+                collider,
+            );
             let joint = chain.joint(i);
             match self.kind {
-                Kind::Impulse { .. } => self.impulse.push(self.world.joints.insert(parent, body, joint, true)),
-                Kind::Multibody => self.reduced.extend(self.world.multibodies.insert(parent, body, joint, true)),
+                Kind::Impulse { .. } => self
+                    .impulse
+                    .push(self.world.joints.insert(parent, body, joint, true)),
+                Kind::Multibody => self
+                    .reduced
+                    .extend(self.world.multibodies.insert(parent, body, joint, true)),
             }
             self.links.push(body);
             parent = body;
         }
         // They are damped by default.
-        if let Some((multibody, _)) = self.reduced.first().and_then(|&joint| self.world.multibodies.get_mut(joint)) {
+        if let Some((multibody, _)) = self
+            .reduced
+            .first()
+            .and_then(|&joint| self.world.multibodies.get_mut(joint))
+        {
             multibody.damping_mut().fill(0.0);
         }
     }
 
     fn pose(&self, index: Option<usize>) -> Pose {
-        index.map_or(Pose::IDENTITY, |index| *self.world.bodies[self.links[index]].position())
+        index.map_or(Pose::IDENTITY, |index| {
+            *self.world.bodies[self.links[index]].position()
+        })
     }
 
     /// Angle of a joint.
@@ -151,17 +187,23 @@ impl<'a> Raw<'a> {
     }
 
     fn drive(&mut self) {
-        let Some(target) = self.chain.target else { return };
+        let Some(target) = self.chain.target else {
+            return;
+        };
         for i in 0..self.links.len() {
-            let velocity = (0.1 * (target - self.angle(i)) / STEP).clamp(-LARGEST_SPEED, LARGEST_SPEED);
-            let data = match self.kind {
-                Kind::Impulse { .. } => self.world.joints.get_mut(self.impulse[i], true).map(|joint| &mut joint.data),
-                Kind::Multibody => self
-                    .world
-                    .multibodies
-                    .get_mut(self.reduced[i])
-                    .and_then(|(multibody, id)| multibody.link_mut(id).map(|link| &mut link.joint.data)),
-            };
+            let velocity =
+                (0.1 * (target - self.angle(i)) / STEP).clamp(-LARGEST_SPEED, LARGEST_SPEED);
+            let data =
+                match self.kind {
+                    Kind::Impulse { .. } => self
+                        .world
+                        .joints
+                        .get_mut(self.impulse[i], true)
+                        .map(|joint| &mut joint.data),
+                    Kind::Multibody => self.world.multibodies.get_mut(self.reduced[i]).and_then(
+                        |(multibody, id)| multibody.link_mut(id).map(|link| &mut link.joint.data),
+                    ),
+                };
             if let Some(data) = data {
                 data.set_motor_model(JointAxis::AngX, MotorModel::AccelerationBased);
                 data.set_motor(JointAxis::AngX, 0.0, velocity, 0.0, 1e12);
@@ -172,8 +214,16 @@ impl<'a> Raw<'a> {
 
     fn gap(&self) -> f64 {
         let half = Vector::Z * (self.chain.length / 2.0);
-        let end = |i: usize| if i == 0 { Vector::ZERO } else { self.pose(Some(i - 1)) * half };
-        (0..self.links.len()).map(|i| (self.pose(Some(i)) * -half - end(i)).length()).fold(0.0, f64::max)
+        let end = |i: usize| {
+            if i == 0 {
+                Vector::ZERO
+            } else {
+                self.pose(Some(i - 1)) * half
+            }
+        };
+        (0..self.links.len())
+            .map(|i| (self.pose(Some(i)) * -half - end(i)).length())
+            .fold(0.0, f64::max)
     }
 
     fn energy(&self) -> f64 {
@@ -200,21 +250,41 @@ impl<'a> Raw<'a> {
             gap = largest(gap, self.gap());
             energy = largest(energy, (self.energy() - start).abs());
         }
-        let error = |target: f64| (0..self.links.len()).map(|i| (self.angle(i) - target).abs()).fold(0.0, largest);
+        let error = |target: f64| {
+            (0..self.links.len())
+                .map(|i| (self.angle(i) - target).abs())
+                .fold(0.0, largest)
+        };
         let error = self.chain.target.map_or(0.0, error);
-        Outcome { error, gap, energy: energy / self.chain.fall(), time }
+        Outcome {
+            error,
+            gap,
+            energy: energy / self.chain.fall(),
+            time,
+        }
     }
 }
 
 /// Not a number is larger than any.
 fn largest(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        a.max(b)
+    }
 }
 
 /// The same chain in a scene, held by that solver. `report` returns gap, energy and error.
 fn scene(chain: &Chain, solver: &str) -> (Simulator, ScriptRef) {
-    let masses = chain.masses.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
-    let target = chain.target.map_or("nil".to_owned(), |target| target.to_string());
+    let masses = chain
+        .masses
+        .iter()
+        .map(f64::to_string)
+        .collect::<Vec<_>>()
+        .join(",");
+    let target = chain
+        .target
+        .map_or("nil".to_owned(), |target| target.to_string());
     let code = include_str!("articulated.lua")
         .replace("LENGTH", &chain.length.to_string())
         .replace("INCLINE", &chain.incline.to_string())
@@ -223,7 +293,9 @@ fn scene(chain: &Chain, solver: &str) -> (Simulator, ScriptRef) {
         .replace("SOLVER", solver)
         .replace("MASSES", &masses);
     let mut sim = Simulator::new(Options::default());
-    let script = sim.add_script(ScriptKind::Customization, "chain", code.as_bytes()).expect("the scene loads");
+    let script = sim
+        .add_script(ScriptKind::Customization, "chain", code.as_bytes())
+        .expect("the scene loads");
     sim.start();
     sim.iterate();
     (sim, script)
@@ -245,13 +317,29 @@ fn here(chain: &Chain, solver: &str) -> Outcome {
         energy = largest(energy, (now_energy - first).abs());
         error = now_error;
     }
-    Outcome { error, gap, energy: energy / chain.fall(), time }
+    Outcome {
+        error,
+        gap,
+        energy: energy / chain.fall(),
+        time,
+    }
 }
 
 fn chains() -> Vec<Chain> {
-    let loaded = |count: usize, load: f64| (1..=count).map(|i| if i == count { 0.1 * load } else { 0.1 }).collect();
-    let swing =
-        |name, masses| Chain { name, seconds: 10.0, length: 0.1, incline: 2.6, masses, alternate: false, target: None };
+    let loaded = |count: usize, load: f64| {
+        (1..=count)
+            .map(|i| if i == count { 0.1 * load } else { 0.1 })
+            .collect()
+    };
+    let swing = |name, masses| Chain {
+        name,
+        seconds: 10.0,
+        length: 0.1,
+        incline: 2.6,
+        masses,
+        alternate: false,
+        target: None,
+    };
     vec![
         Chain {
             name: "arm of 7 joints, position control",
@@ -264,7 +352,10 @@ fn chains() -> Vec<Chain> {
         },
         swing("20 links, swinging", loaded(20, 1.0)),
         swing("20 links with a load 100 times as heavy", loaded(20, 100.0)),
-        swing("20 links with a load 1000 times as heavy", loaded(20, 1000.0)),
+        swing(
+            "20 links with a load 1000 times as heavy",
+            loaded(20, 1000.0),
+        ),
         swing("100 links, swinging", loaded(100, 1.0)),
     ]
 }
@@ -274,22 +365,41 @@ fn main() {
     if !std::env::args().any(|argument| argument == "--bench") {
         return;
     }
-    println!("| chain | solver | error of the joints, rad | largest gap, m | energy, largest change | sub-step, us |");
+    println!(
+        "| chain | solver | error of the joints, rad | largest gap, m | energy, largest change | sub-step, us |"
+    );
     println!("|---|---|---|---|---|---|");
     for chain in chains() {
         let raw = |kind| Raw::new(&chain, kind).run();
         let outcomes = [
             ("Swanilda", here(&chain, "exact")),
             ("Swanilda, `impulse`", here(&chain, "impulse")),
-            ("impulse joints, 4 iterations", raw(Kind::Impulse { iterations: 4 })),
-            ("impulse joints, 50 iterations", raw(Kind::Impulse { iterations: 50 })),
+            (
+                "impulse joints, 4 iterations",
+                raw(Kind::Impulse { iterations: 4 }),
+            ),
+            (
+                "impulse joints, 50 iterations",
+                raw(Kind::Impulse { iterations: 50 }),
+            ),
             ("multibody", raw(Kind::Multibody)),
         ];
         for (solver, it) in outcomes {
-            let error = if chain.target.is_some() { format!("{:.1e}", it.error) } else { String::new() };
-            let energy = if chain.target.is_some() { String::new() } else { format!("{:.1e}", it.energy) };
+            let error = if chain.target.is_some() {
+                format!("{:.1e}", it.error)
+            } else {
+                String::new()
+            };
+            let energy = if chain.target.is_some() {
+                String::new()
+            } else {
+                format!("{:.1e}", it.energy)
+            };
             let time = it.time.as_secs_f64() * 1e6;
-            println!("| {} | {solver} | {error} | {:.0e} | {energy} | {time:.0} |", chain.name, it.gap);
+            println!(
+                "| {} | {solver} | {error} | {:.0e} | {energy} | {time:.0} |",
+                chain.name, it.gap
+            );
         }
     }
 }

@@ -55,12 +55,17 @@ fn own(lua: &Lua) -> mlua::Result<Table> {
 
 fn calls(criterion: &mut Criterion) {
     let mut sim = Simulator::builder().lua_module("own", own).build();
-    let script = sim.add_script(ScriptKind::Customization, "bench", SCRIPT.as_bytes()).expect("the script loads");
+    let script = sim
+        .add_script(ScriptKind::Customization, "bench", SCRIPT.as_bytes())
+        .expect("the script loads");
     let mut group = criterion.benchmark_group("calls");
     group.throughput(Throughput::Elements(CALLS));
     for function in FUNCTIONS {
         group.bench_function(function, |bencher| {
-            bencher.iter(|| sim.call(&script, function, &[Data::Int(CALLS as i64)]).expect("the function works"));
+            bencher.iter(|| {
+                sim.call(&script, function, &[Data::Int(CALLS as i64)])
+                    .expect("the function works")
+            });
         });
     }
     group.finish();

@@ -82,11 +82,19 @@ fn coverage(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(ROUNDS));
         for (name, count_lines) in [("watched", false), ("counted", true)] {
             let limits = Some(Limits { memory: 1 << 30 });
-            let mut sim = Simulator::new(Options { limits, count_lines, ..Options::default() });
-            let script =
-                sim.add_script(ScriptKind::Customization, "bench", SCRIPT.as_bytes()).expect("the script loads");
+            let mut sim = Simulator::new(Options {
+                limits,
+                count_lines,
+                ..Options::default()
+            });
+            let script = sim
+                .add_script(ScriptKind::Customization, "bench", SCRIPT.as_bytes())
+                .expect("the script loads");
             group.bench_function(name, |bencher| {
-                bencher.iter(|| sim.call(&script, function, &[Data::Int(ROUNDS as i64)]).expect("the function works"));
+                bencher.iter(|| {
+                    sim.call(&script, function, &[Data::Int(ROUNDS as i64)])
+                        .expect("the function works")
+                });
             });
         }
         group.finish();

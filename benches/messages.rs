@@ -16,13 +16,19 @@ function send(n) local m = {id = 'pose', data = {1, 2, 3}} for _ = 1, n do sim.b
 fn broadcast(criterion: &mut Criterion) {
     let mut sim = Simulator::new(Options::default());
     for _ in 0..RECEIVERS {
-        sim.add_script(ScriptKind::Customization, "receiver", RECEIVER).expect("the script loads");
+        sim.add_script(ScriptKind::Customization, "receiver", RECEIVER)
+            .expect("the script loads");
     }
-    let sender = sim.add_script(ScriptKind::Customization, "sender", SENDER).expect("the script loads");
+    let sender = sim
+        .add_script(ScriptKind::Customization, "sender", SENDER)
+        .expect("the script loads");
     let mut group = criterion.benchmark_group("messages");
     group.throughput(Throughput::Elements(RECEIVERS * MESSAGES));
     group.bench_function("broadcast to 100 scripts", |bencher| {
-        bencher.iter(|| sim.call(&sender, "send", &[Data::Int(MESSAGES as i64)]).expect("the function works"));
+        bencher.iter(|| {
+            sim.call(&sender, "send", &[Data::Int(MESSAGES as i64)])
+                .expect("the function works")
+        });
     });
     group.finish();
 }

@@ -33,16 +33,24 @@ end
 
 fn simulator(count: usize, sliding: f64) -> Simulator {
     let mut sim = Simulator::new(Options::default());
-    sim.scene_mut().add_default_objects().expect("an empty scene has room");
-    let scene = SCENE.replace("COUNT", &count.to_string()).replace("SLIDING", &sliding.to_string());
-    sim.add_script(ScriptKind::Customization, "scene", scene.as_bytes()).expect("the scene loads");
+    sim.scene_mut()
+        .add_default_objects()
+        .expect("an empty scene has room");
+    let scene = SCENE
+        .replace("COUNT", &count.to_string())
+        .replace("SLIDING", &sliding.to_string());
+    sim.add_script(ScriptKind::Customization, "scene", scene.as_bytes())
+        .expect("the scene loads");
     sim.step(60);
     sim
 }
 
 /// The settings of `crates/dynamics/src/world.rs`.
 fn parameters() -> IntegrationParameters {
-    let softness = SpringCoefficients { natural_frequency: 60.0, damping_ratio: 5.0 };
+    let softness = SpringCoefficients {
+        natural_frequency: 60.0,
+        damping_ratio: 5.0,
+    };
     IntegrationParameters {
         dt: 0.005,
         num_solver_iterations: 1,
@@ -60,13 +68,25 @@ fn parameters() -> IntegrationParameters {
 fn raw_rapier(count: usize) -> RawWorld {
     let cuboid = |x, y, z| ColliderBuilder::cuboid(x, y, z).mass(1.0).friction(0.0);
     let mut raw = RawWorld::new(parameters());
-    raw.add(RigidBodyBuilder::fixed().translation(Vector::new(0.0, 0.0, -0.1)), cuboid(2.5, 2.5, 0.1));
+    raw.add(
+        RigidBodyBuilder::fixed().translation(Vector::new(0.0, 0.0, -0.1)),
+        cuboid(2.5, 2.5, 0.1),
+    );
     for i in 0..count {
-        let at = Vector::new((i % 32) as f64 * 0.15 - 2.4, (i / 32) as f64 * 0.15 - 2.4, HALF);
-        let body = RigidBodyBuilder::dynamic().translation(at).linvel(Vector::new(SLIDING, 0.0, 0.0));
+        let at = Vector::new(
+            (i % 32) as f64 * 0.15 - 2.4,
+            (i / 32) as f64 * 0.15 - 2.4,
+            HALF,
+        );
+        let body = RigidBodyBuilder::dynamic()
+            .translation(at)
+            .linvel(Vector::new(SLIDING, 0.0, 0.0));
         let body = raw.add(body.allow_fast_rotation(true), cuboid(HALF, HALF, HALF));
         let activation = raw.bodies[body].activation_mut();
-        (activation.normalized_linear_threshold, activation.angular_threshold) = (RESTING, RESTING);
+        (
+            activation.normalized_linear_threshold,
+            activation.angular_threshold,
+        ) = (RESTING, RESTING);
     }
     iterate(&mut raw);
     raw
@@ -81,11 +101,17 @@ fn overhead(criterion: &mut Criterion) {
     group.sample_size(20);
     for count in [100, 1000] {
         let (mut raw, mut sim) = (raw_rapier(count), simulator(count, SLIDING));
-        group.bench_function(format!("raw rapier, {count} boxes"), |bencher| bencher.iter(|| iterate(&mut raw)));
-        group.bench_function(format!("simulator, {count} boxes"), |bencher| bencher.iter(|| sim.iterate()));
+        group.bench_function(format!("raw rapier, {count} boxes"), |bencher| {
+            bencher.iter(|| iterate(&mut raw))
+        });
+        group.bench_function(format!("simulator, {count} boxes"), |bencher| {
+            bencher.iter(|| sim.iterate())
+        });
     }
     let mut sim = simulator(1000, 0.0);
-    group.bench_function("simulator, 1000 sleeping boxes", |bencher| bencher.iter(|| sim.iterate()));
+    group.bench_function("simulator, 1000 sleeping boxes", |bencher| {
+        bencher.iter(|| sim.iterate())
+    });
     group.finish();
 }
 

@@ -32,7 +32,8 @@ fn scene_file(megabytes: usize) -> Vec<u8> {
     let file = |meshes: usize| {
         let mut sim = Simulator::new(Options::default());
         let text = MESHES.replace("COUNT", &meshes.to_string());
-        sim.add_script(ScriptKind::Customization, "meshes", text.as_bytes()).expect("the script runs");
+        sim.add_script(ScriptKind::Customization, "meshes", text.as_bytes())
+            .expect("the script runs");
         assert_eq!(sim.errors(), 0);
         SceneFile::bytes_of(&sim.scene(), &[]).expect("the tree is sound")
     };

@@ -35,13 +35,18 @@ fn serve() -> u16 {
 fn lines(criterion: &mut Criterion) {
     let port = serve();
     let mut sim = Simulator::new(Options::default());
-    let reader = sim.add_script(ScriptKind::Customization, "reader", READER).expect("the script loads");
+    let reader = sim
+        .add_script(ScriptKind::Customization, "reader", READER)
+        .expect("the script loads");
     let mut group = criterion.benchmark_group("sockets");
     group.throughput(Throughput::Elements(LINES));
     group.sample_size(20);
     group.bench_function("receive('*l') of lines of 24 bytes", |bencher| {
         let args = [Data::Int(port.into()), Data::Int(LINES as i64)];
-        bencher.iter(|| sim.call(&reader, "read", &args).expect("the function works"));
+        bencher.iter(|| {
+            sim.call(&reader, "read", &args)
+                .expect("the function works")
+        });
     });
     group.finish();
 }

@@ -95,17 +95,26 @@ function sysCall_event(events) received = (received or 0) + #events end
 
 fn running(kind: ScriptKind, scene: &str) -> Simulator {
     let mut sim = Simulator::new(Options::default());
-    sim.scene_mut().add_default_objects().expect("an empty scene has room");
-    sim.add_script(kind, "bench", scene.as_bytes()).expect("the scene loads");
+    sim.scene_mut()
+        .add_default_objects()
+        .expect("an empty scene has room");
+    sim.add_script(kind, "bench", scene.as_bytes())
+        .expect("the scene loads");
     sim.step(2);
     sim
 }
 
 fn child_scripts(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("child scripts");
-    group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
+    group
+        .throughput(Throughput::Elements(1))
+        .sampling_mode(SamplingMode::Flat)
+        .sample_size(20);
     for count in [0, 1, 100, 1000] {
-        let mut sim = running(ScriptKind::Sandbox, &CHILDREN.replace("COUNT", &count.to_string()));
+        let mut sim = running(
+            ScriptKind::Sandbox,
+            &CHILDREN.replace("COUNT", &count.to_string()),
+        );
         group.bench_function(count.to_string(), |bencher| bencher.iter(|| sim.iterate()));
     }
     group.finish();
@@ -130,7 +139,10 @@ fn pile(criterion: &mut Criterion) {
 
 fn arm(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("arm");
-    group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
+    group
+        .throughput(Throughput::Elements(1))
+        .sampling_mode(SamplingMode::Flat)
+        .sample_size(20);
     let mut sim = running(ScriptKind::Customization, ARM);
     sim.step(20);
     group.bench_function("seven joints", |bencher| bencher.iter(|| sim.iterate()));
@@ -139,7 +151,10 @@ fn arm(criterion: &mut Criterion) {
 
 fn world_poses(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("1000 world poses ten levels deep");
-    group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
+    group
+        .throughput(Throughput::Elements(1))
+        .sampling_mode(SamplingMode::Flat)
+        .sample_size(20);
     for (name, moved) in [("nothing moves", "0"), ("all move", "100")] {
         let mut sim = running(ScriptKind::Customization, &DEEP.replace("MOVED", moved));
         group.bench_function(name, |bencher| bencher.iter(|| sim.iterate()));
@@ -149,8 +164,15 @@ fn world_poses(criterion: &mut Criterion) {
 
 fn events(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("1000 moving objects");
-    group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
-    for (name, listener) in [("no listener", ""), ("filtered listener", FILTERED), ("listener", LISTENER)] {
+    group
+        .throughput(Throughput::Elements(1))
+        .sampling_mode(SamplingMode::Flat)
+        .sample_size(20);
+    for (name, listener) in [
+        ("no listener", ""),
+        ("filtered listener", FILTERED),
+        ("listener", LISTENER),
+    ] {
         let mut sim = running(ScriptKind::Customization, &format!("{MOVING}{listener}"));
         group.bench_function(name, |bencher| bencher.iter(|| sim.iterate()));
     }

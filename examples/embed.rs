@@ -23,7 +23,10 @@ end
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Scripts may recurse deeply: give them the stack they expect.
     let thread = std::thread::Builder::new().stack_size(Simulator::STACK_SIZE);
-    thread.spawn(simulate)?.join().expect("a simulator does not panic")?;
+    thread
+        .spawn(simulate)?
+        .join()
+        .expect("a simulator does not panic")?;
     Ok(())
 }
 
@@ -32,12 +35,18 @@ fn simulate() -> Result<(), Error> {
     let script = sim.add_script(ScriptKind::Customization, "embedded", SCENE.as_bytes())?;
     sim.step(1);
     let results = sim.call(&script, "push", &[Data::Float(1.5)])?;
-    let [Data::Int(ball)] = results.as_slice() else { panic!("push returns a handle") };
+    let [Data::Int(ball)] = results.as_slice() else {
+        panic!("push returns a handle")
+    };
     let ball = Handle::from_raw(*ball).expect("push returns a handle");
     for _ in 0..5 {
         sim.step(2);
         if let Ok(pose) = sim.scene().world_pose(ball) {
-            println!("{:.2} s: the ball is at {:.3?}", sim.time(), pose.translation.vector.as_slice());
+            println!(
+                "{:.2} s: the ball is at {:.3?}",
+                sim.time(),
+                pose.translation.vector.as_slice()
+            );
         }
     }
     sim.stop();

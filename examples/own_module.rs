@@ -18,7 +18,9 @@ impl UserData for LowPass {
             if !sample.is_finite() {
                 return Err(mlua::Error::runtime(format!("{sample} is no sample")));
             }
-            let value = filter.value.map_or(sample, |value| value + filter.share * (sample - value));
+            let value = filter
+                .value
+                .map_or(sample, |value| value + filter.share * (sample - value));
             filter.value = Some(value);
             Ok(value)
         });
@@ -28,7 +30,10 @@ impl UserData for LowPass {
 /// The module `filters`.
 fn filters(lua: &Lua) -> mlua::Result<Table> {
     let module = lua.create_table()?;
-    module.set("low_pass", lua.create_function(|_, share: f64| Ok(LowPass { share, value: None }))?)?;
+    module.set(
+        "low_pass",
+        lua.create_function(|_, share: f64| Ok(LowPass { share, value: None }))?,
+    )?;
     let mean = |_: &Lua, samples: Vec<f64>| Ok(samples.iter().sum::<f64>() / samples.len() as f64);
     module.set("mean", lua.create_function(mean)?)?;
     Ok(module)
@@ -64,7 +69,10 @@ impl Console for Terminal {
 
 /// Runs two steps of a scene whose script uses the module.
 pub fn simulate(console: Box<dyn Console>) -> Result<(), Error> {
-    let mut simulator = Simulator::builder().console(console).lua_module("filters", filters).build();
+    let mut simulator = Simulator::builder()
+        .console(console)
+        .lua_module("filters", filters)
+        .build();
     simulator.add_script(ScriptKind::Simulation, "filtering", SCRIPT.as_bytes())?;
     simulator.step(2);
     simulator.stop();
@@ -74,6 +82,9 @@ pub fn simulate(console: Box<dyn Console>) -> Result<(), Error> {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Scripts may recurse deeply: give them the stack they expect.
     let thread = std::thread::Builder::new().stack_size(Simulator::STACK_SIZE);
-    thread.spawn(|| simulate(Box::new(Terminal)))?.join().expect("a simulator does not panic")?;
+    thread
+        .spawn(|| simulate(Box::new(Terminal)))?
+        .join()
+        .expect("a simulator does not panic")?;
     Ok(())
 }

@@ -35,9 +35,14 @@ impl RawWorld {
     }
 
     /// A body with one collider.
-    pub fn add(&mut self, body: impl Into<RigidBody>, collider: impl Into<Collider>) -> RigidBodyHandle {
+    pub fn add(
+        &mut self,
+        body: impl Into<RigidBody>,
+        collider: impl Into<Collider>,
+    ) -> RigidBodyHandle {
         let body = self.bodies.insert(body);
-        self.colliders.insert_with_parent(collider, body, &mut self.bodies);
+        self.colliders
+            .insert_with_parent(collider, body, &mut self.bodies);
         body
     }
 

@@ -29,7 +29,10 @@ pub(super) fn api(args: &Args) -> Outcome {
         say(list_module(name, &functions).as_bytes());
         return Ok(ExitCode::SUCCESS);
     }
-    if let Some(function) = functions.iter().find(|function| function.name == *name || function.member() == name) {
+    if let Some(function) = functions
+        .iter()
+        .find(|function| function.name == *name || function.member() == name)
+    {
         say(docs::function_text(function).as_bytes());
         return Ok(ExitCode::SUCCESS);
     }
@@ -39,18 +42,37 @@ pub(super) fn api(args: &Args) -> Outcome {
 /// Names with their summaries, by category.
 fn list(functions: &[Function]) -> String {
     let mut categories: BTreeMap<&str, String> = BTreeMap::new();
-    for function in functions.iter().filter(|function| function.alias_of.is_none()) {
+    for function in functions
+        .iter()
+        .filter(|function| function.alias_of.is_none())
+    {
         let lines = categories.entry(&function.category).or_default();
-        let mark = if docs::difference(&function.name).is_some() { " (approximated)" } else { "" };
-        lines.push_str(&format!("  {:<36} {}{mark}\n", function.name, function.summary()));
+        let mark = if docs::difference(&function.name).is_some() {
+            " (approximated)"
+        } else {
+            ""
+        };
+        lines.push_str(&format!(
+            "  {:<36} {}{mark}\n",
+            function.name,
+            function.summary()
+        ));
     }
-    categories.iter().map(|(category, lines)| format!("{category}\n{lines}")).collect::<Vec<_>>().join("\n")
+    categories
+        .iter()
+        .map(|(category, lines)| format!("{category}\n{lines}"))
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 /// Summary of a module, and its functions with their summaries.
 fn list_module(module: &str, functions: &[Function]) -> String {
-    let of_module = functions.iter().filter(|function| function.category == module);
-    let lines: String = of_module.map(|function| format!("{:<38} {}\n", function.name, function.summary())).collect();
+    let of_module = functions
+        .iter()
+        .filter(|function| function.category == module);
+    let lines: String = of_module
+        .map(|function| format!("{:<38} {}\n", function.name, function.summary()))
+        .collect();
     match docs::module_summary(module) {
         "" => lines,
         summary => format!("{summary}\n\n{lines}"),
@@ -60,19 +82,35 @@ fn list_module(module: &str, functions: &[Function]) -> String {
 /// The message for an unknown name.
 fn unknown(name: &str, functions: &[Function]) -> String {
     if let Some(signature) = docs::reference_signature(name) {
-        return format!("{name} is not implemented in Swanilda. CoppeliaSim's reference: {signature}");
+        return format!(
+            "{name} is not implemented in Swanilda. CoppeliaSim's reference: {signature}"
+        );
     }
     let wanted = name.strip_prefix("sim.").unwrap_or(name).to_lowercase();
     let distance = |f: &Function| {
         let member = f.member().to_lowercase();
-        if wanted.len() > NEAR && member.contains(&wanted) { 1 } else { strsim::levenshtein(&wanted, &member) }
+        if wanted.len() > NEAR && member.contains(&wanted) {
+            1
+        } else {
+            strsim::levenshtein(&wanted, &member)
+        }
     };
-    let mut near: Vec<(usize, &str)> = functions.iter().map(|f| (distance(f), f.name.as_str())).collect();
+    let mut near: Vec<(usize, &str)> = functions
+        .iter()
+        .map(|f| (distance(f), f.name.as_str()))
+        .collect();
     near.retain(|(distance, _)| *distance <= NEAR);
     near.sort_unstable();
-    let names: Vec<&str> = near.into_iter().take(SUGGESTIONS).map(|(_, name)| name).collect();
+    let names: Vec<&str> = near
+        .into_iter()
+        .take(SUGGESTIONS)
+        .map(|(_, name)| name)
+        .collect();
     match names.as_slice() {
         [] => format!("there is no function {name}; `swanilda api` lists all"),
-        names => format!("there is no function {name}; did you mean {}?", names.join(", ")),
+        names => format!(
+            "there is no function {name}; did you mean {}?",
+            names.join(", ")
+        ),
     }
 }

@@ -91,19 +91,30 @@ fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
         return super::batch_ray::run(&batch, address, &args.out, args.timeout, args.force);
     }
     let runs = batch.runs();
-    let mut store = Store::open(&args.out, &batch, args.force).map_err(|error| error.to_string())?;
+    let mut store =
+        Store::open(&args.out, &batch, args.force).map_err(|error| error.to_string())?;
     let missing = store.missing(&runs);
     let bar = bar(&runs, &missing);
     let mut lost = None;
     let mut read = BTreeSet::new();
-    batch::run(&args.config(interrupt), &batch, &missing, &mut |row, params_read| {
-        read.extend(params_read.iter().cloned());
-        if let Some(error) = &row.error {
-            bar.suspend(|| super::complain(&format!("run {} (seed {}): {error}", row.run.number, row.run.seed)));
-        }
-        bar.inc(1);
-        lost = lost.take().or(store.add(row).err());
-    })?;
+    batch::run(
+        &args.config(interrupt),
+        &batch,
+        &missing,
+        &mut |row, params_read| {
+            read.extend(params_read.iter().cloned());
+            if let Some(error) = &row.error {
+                bar.suspend(|| {
+                    super::complain(&format!(
+                        "run {} (seed {}): {error}",
+                        row.run.number, row.run.seed
+                    ))
+                });
+            }
+            bar.inc(1);
+            lost = lost.take().or(store.add(row).err());
+        },
+    )?;
     bar.finish_and_clear();
     if let Some(error) = lost {
         return Err(error.to_string());
@@ -113,9 +124,17 @@ fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
     }
     let table = store.finish().map_err(|error| error.to_string())?;
     let (done, failed) = (store.rows().count(), store.failed());
-    let line = format!("{done} of {} runs done, {failed} failed: {}\n", runs.len(), table.display());
+    let line = format!(
+        "{done} of {} runs done, {failed} failed: {}\n",
+        runs.len(),
+        table.display()
+    );
     super::say(line.as_bytes());
-    Ok(if interrupt.is_requested() { INTERRUPTED } else { u8::from(failed > 0) * FAILED })
+    Ok(if interrupt.is_requested() {
+        INTERRUPTED
+    } else {
+        u8::from(failed > 0) * FAILED
+    })
 }
 
 /// Names the swept parameters that no run has read: its rows differ by chance only, or not at all.
@@ -129,7 +148,11 @@ fn warn_of_unread(batch: &Batch, read: &BTreeSet<String>) {
 
 fn bar(runs: &[Run], missing: &[Run]) -> ProgressBar {
     let hidden = !std::io::stderr().is_terminal();
-    let target = if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let target = if hidden {
+        ProgressDrawTarget::hidden()
+    } else {
+        ProgressDrawTarget::stderr()
+    };
     let bar = ProgressBar::with_draw_target(Some(runs.len() as u64), target);
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} runs, {eta} left");
     bar.set_style(style.expect("the template is well-formed"));
@@ -140,7 +163,10 @@ impl Args {
     fn batch(&self) -> Batch {
         Batch {
             scene: self.scene.clone(),
-            seeds: self.seeds.clone().map_or_else(|| vec![Options::default().seed], |seeds| seeds.0),
+            seeds: self
+                .seeds
+                .clone()
+                .map_or_else(|| vec![Options::default().seed], |seeds| seeds.0),
             sweeps: self.sweep.clone(),
             fixed: self.define.iter().cloned().collect::<BTreeMap<_, _>>(),
             time: self.time,
@@ -166,7 +192,10 @@ impl Args {
 fn seeds(text: &str) -> Result<Seeds, String> {
     let wrong = || "seeds are written 0..99 or 1,2,3".to_owned();
     if let Some((first, last)) = text.split_once("..") {
-        let (first, last): (u32, u32) = (first.parse().map_err(|_| wrong())?, last.parse().map_err(|_| wrong())?);
+        let (first, last): (u32, u32) = (
+            first.parse().map_err(|_| wrong())?,
+            last.parse().map_err(|_| wrong())?,
+        );
         return match last.checked_sub(first) {
             Some(count) if count < MAX_SEEDS => Ok(Seeds((first..=last).collect())),
             _ => Err(wrong()),
@@ -178,9 +207,10 @@ fn seeds(text: &str) -> Result<Seeds, String> {
 
 fn sweep(text: &str) -> Result<(String, Vec<String>), String> {
     match text.split_once('=') {
-        Some((name, values)) if !name.is_empty() => {
-            Ok((name.to_owned(), values.split(',').map(str::to_owned).collect()))
-        }
+        Some((name, values)) if !name.is_empty() => Ok((
+            name.to_owned(),
+            values.split(',').map(str::to_owned).collect(),
+        )),
         _ => Err("NAME=V1,V2,... is needed".into()),
     }
 }

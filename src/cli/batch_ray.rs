@@ -11,15 +11,29 @@ use testing::batch::Batch;
 ///
 /// # Errors
 /// When Python, its packages or the cluster are not there; they have said why.
-pub(super) fn run(batch: &Batch, address: &str, out: &Path, timeout: f64, force: bool) -> Result<u8, String> {
-    let cluster = if address == "local" { Value::Null } else { address.into() };
+pub(super) fn run(
+    batch: &Batch,
+    address: &str,
+    out: &Path,
+    timeout: f64,
+    force: bool,
+) -> Result<u8, String> {
+    let cluster = if address == "local" {
+        Value::Null
+    } else {
+        address.into()
+    };
     let arguments = json!({
         "scene": batch.scene, "params": batch.sweeps, "seeds": batch.seeds, "fixed": batch.fixed, "time": batch.time,
         "timeout": timeout, "cluster": cluster, "out": out, "force": force,
     });
     let mut python = Command::new("python3");
-    python.args(["-m", "swanilda.ray", &arguments.to_string()]).stdin(Stdio::null());
-    let status = python.status().map_err(|error| format!("--ray needs python3 with the package swanilda: {error}"))?;
+    python
+        .args(["-m", "swanilda.ray", &arguments.to_string()])
+        .stdin(Stdio::null());
+    let status = python
+        .status()
+        .map_err(|error| format!("--ray needs python3 with the package swanilda: {error}"))?;
     match status.code() {
         Some(code @ (0 | 3)) => Ok(u8::from(code == 3)),
         _ => Err(format!(

@@ -32,42 +32,62 @@ pub(super) fn convert(args: &Args) -> Outcome {
 }
 
 fn write_gltf(file: File, path: &Path) -> Result<(), String> {
-    let reason = |error: &dyn std::fmt::Display| format!("cannot write {}: {error}", path.display());
+    let reason =
+        |error: &dyn std::fmt::Display| format!("cannot write {}: {error}", path.display());
     let mut scene = Scene::new();
     let file = SceneFile::new(file).map_err(|error| reason(&error))?;
-    file.add_to(&mut scene, false).map_err(|error| reason(&error))?;
+    file.add_to(&mut scene, false)
+        .map_err(|error| reason(&error))?;
     let file = GltfFile::of_scene(&scene).map_err(|error| reason(&error))?;
     file.write(path).map_err(|error| reason(&error))
 }
 
 fn write_robot(file: File, path: &Path) -> Result<(), String> {
-    let reason = |error: &dyn std::fmt::Display| format!("cannot write {}: {error}", path.display());
+    let reason =
+        |error: &dyn std::fmt::Display| format!("cannot write {}: {error}", path.display());
     let file = SceneFile::new(file).map_err(|error| reason(&error))?;
     let mut scene = Scene::new();
-    let loaded = file.add_to(&mut scene, false).map_err(|error| reason(&error))?;
+    let loaded = file
+        .add_to(&mut scene, false)
+        .map_err(|error| reason(&error))?;
     let base = match loaded.root {
         Some(root) => root,
         None => only_model(&scene).map_err(|error| reason(&error))?,
     };
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    for file in export(&scene, base, &stem, RobotExportOptions::default()).map_err(|error| reason(&error))? {
+    for file in export(&scene, base, &stem, RobotExportOptions::default())
+        .map_err(|error| reason(&error))?
+    {
         let path = path.with_file_name(&file.name);
-        write_whole(&path, &file.bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+        write_whole(&path, &file.bytes)
+            .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     }
     Ok(())
 }
 
 /// A URDF file has one robot: the model of a scene that has joints.
 fn only_model(scene: &Scene) -> Result<Handle, String> {
-    let has_joints = |base: &Handle| scene.subtree(*base).iter().any(|handle| is_joint(scene, *handle));
-    let models =
-        scene.objects().filter(|object| object.is_model() && object.parent().is_none()).map(|object| object.handle());
+    let has_joints = |base: &Handle| {
+        scene
+            .subtree(*base)
+            .iter()
+            .any(|handle| is_joint(scene, *handle))
+    };
+    let models = scene
+        .objects()
+        .filter(|object| object.is_model() && object.parent().is_none())
+        .map(|object| object.handle());
     match models.filter(has_joints).collect::<Vec<_>>().as_slice() {
         [model] => Ok(*model),
-        models => Err(format!("a URDF file has one robot, and the scene has {} models with joints", models.len())),
+        models => Err(format!(
+            "a URDF file has one robot, and the scene has {} models with joints",
+            models.len()
+        )),
     }
 }
 
 fn is_joint(scene: &Scene, handle: Handle) -> bool {
-    scene.object(handle).is_ok_and(|object| object.joint().is_ok())
+    scene
+        .object(handle)
+        .is_ok_and(|object| object.joint().is_ok())
 }

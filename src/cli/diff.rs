@@ -21,7 +21,11 @@ pub(super) struct Args {
 pub(super) fn diff(args: &Args) -> Outcome {
     let report = differences(&outline(&args.old)?, &outline(&args.new)?);
     say(report.as_bytes());
-    Ok(if report.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(DIFFERENT) })
+    Ok(if report.is_empty() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(DIFFERENT)
+    })
 }
 
 pub(super) fn outline(path: &Path) -> Result<Outline, String> {

@@ -13,7 +13,14 @@ use permissions::read_bounded;
 const NOT_ALL_WORKS: u8 = 1;
 
 /// File name endings to look for in folders.
-const ENDINGS: [&str; 6] = [".lua", ".py", ".ttt", ".ttm", ".simscene.xml", ".simmodel.xml"];
+const ENDINGS: [&str; 6] = [
+    ".lua",
+    ".py",
+    ".ttt",
+    ".ttm",
+    ".simscene.xml",
+    ".simmodel.xml",
+];
 
 /// Report which API calls in scripts and scenes are supported, approximated or missing
 #[derive(clap::Args)]
@@ -34,10 +41,15 @@ pub(super) struct Args {
 
 /// Checks everything; the exit code reports whether all of it is supported.
 pub(super) fn doctor(args: &Args) -> Outcome {
-    let mut report = Report { deprecated: args.deprecated, ..Report::default() };
+    let mut report = Report {
+        deprecated: args.deprecated,
+        ..Report::default()
+    };
     let mut unreadable = Vec::new();
     for path in &args.paths {
-        let found = files(path).map_err(|reason| unreadable.push(reason)).unwrap_or_default();
+        let found = files(path)
+            .map_err(|reason| unreadable.push(reason))
+            .unwrap_or_default();
         for file in found {
             if let Err(reason) = report.add_file(&file, args.compat) {
                 unreadable.push(reason);
@@ -45,12 +57,21 @@ pub(super) fn doctor(args: &Args) -> Outcome {
         }
     }
     if !report.scripts.is_empty() || unreadable.is_empty() {
-        say(if args.json { report.json() } else { report.text() }.as_bytes());
+        say(if args.json {
+            report.json()
+        } else {
+            report.text()
+        }
+        .as_bytes());
     }
     if !unreadable.is_empty() {
         return Err(unreadable.join("\nswanilda: "));
     }
-    Ok(if report.all_works() { ExitCode::SUCCESS } else { ExitCode::from(NOT_ALL_WORKS) })
+    Ok(if report.all_works() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(NOT_ALL_WORKS)
+    })
 }
 
 /// The file, or those below the folder that are scripts or scenes, sorted.
@@ -67,7 +88,10 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, String> {
         // Folders by their own type: a link could lead back here.
         if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
             found.extend(files(&below)?);
-        } else if ENDINGS.iter().any(|ending| below.to_string_lossy().ends_with(ending)) {
+        } else if ENDINGS
+            .iter()
+            .any(|ending| below.to_string_lossy().ends_with(ending))
+        {
             found.push(below);
         }
     }
@@ -96,12 +120,21 @@ impl Report {
         if scene_file::is_scene(&bytes) && script_file::check_no_xacro(path).is_ok() {
             let file = super::files::scene(path)?;
             for script in file.scripts() {
-                self.add(format!("{name}: {}", script.name), path, &script.language, &script.code);
+                self.add(
+                    format!("{name}: {}", script.name),
+                    path,
+                    &script.language,
+                    &script.code,
+                );
             }
         } else {
             script_file::check(path, &bytes).map_err(|reason| unreadable(reason.to_string()))?;
             let language = script_file::language(Some(path), &bytes);
-            let code = if compat && language == "lua" { scene_file::with_compat(bytes) } else { bytes };
+            let code = if compat && language == "lua" {
+                scene_file::with_compat(bytes)
+            } else {
+                bytes
+            };
             self.add(name, path, language, &code);
         }
         Ok(())
@@ -122,14 +155,26 @@ impl Report {
 
     /// How many different functions there are of each kind: working, approximated, missing.
     fn counts(&self) -> [usize; 3] {
-        let by_name: BTreeMap<&str, Support> = self.uses().map(|found| (found.name.as_str(), found.support)).collect();
-        let count = |kind| by_name.values().filter(|support| word(**support) == kind).count();
+        let by_name: BTreeMap<&str, Support> = self
+            .uses()
+            .map(|found| (found.name.as_str(), found.support))
+            .collect();
+        let count = |kind| {
+            by_name
+                .values()
+                .filter(|support| word(**support) == kind)
+                .count()
+        };
         ["works", "approximated", "missing"].map(count)
     }
 
     /// Functions that do not work in full, script by script, then a summary.
     fn text(&self) -> String {
-        let mut out: String = self.scripts.iter().map(|script| script.text(self.deprecated)).collect();
+        let mut out: String = self
+            .scripts
+            .iter()
+            .map(|script| script.text(self.deprecated))
+            .collect();
         let [works, approximated, missing] = self.counts();
         out.push_str(&format!(
             "{} scripts call {} functions: {works} work, {approximated} are approximated, {missing} are missing.\n",
@@ -154,7 +199,9 @@ impl Report {
 pub(super) fn uses_of(file: &Path, language: &str, code: &[u8]) -> Vec<Use> {
     match language {
         "lua" => docs::uses(code),
-        "python" => python_uses::uses(code, file).unwrap_or_else(|reason| docs::unreadable_script(&reason)),
+        "python" => {
+            python_uses::uses(code, file).unwrap_or_else(|reason| docs::unreadable_script(&reason))
+        }
         _ => docs::foreign_script(language),
     }
 }
@@ -162,9 +209,14 @@ pub(super) fn uses_of(file: &Path, language: &str, code: &[u8]) -> Vec<Use> {
 impl Patient {
     fn text(&self, with_deprecated: bool) -> String {
         let mut lines: BTreeMap<(Support, &str), Vec<String>> = BTreeMap::new();
-        let is_listed = |found: &&Use| found.support != Support::Works || with_deprecated && found.instead().is_some();
+        let is_listed = |found: &&Use| {
+            found.support != Support::Works || with_deprecated && found.instead().is_some()
+        };
         for found in self.uses.iter().filter(is_listed) {
-            lines.entry((found.support, found.name.as_str())).or_default().push(found.line.to_string());
+            lines
+                .entry((found.support, found.name.as_str()))
+                .or_default()
+                .push(found.line.to_string());
         }
         if lines.is_empty() {
             return String::new();
@@ -172,11 +224,15 @@ impl Patient {
         let rows = lines.iter().map(|((support, name), lines)| {
             let how = match support {
                 Support::Approximated(how) => format!(" ({how})"),
-                Support::Missing | Support::Works => {
-                    docs::remedy(name).map(|remedy| format!(" (use {remedy})")).unwrap_or_default()
-                }
+                Support::Missing | Support::Works => docs::remedy(name)
+                    .map(|remedy| format!(" (use {remedy})"))
+                    .unwrap_or_default(),
             };
-            let kind = if *support == Support::Works { "deprecated" } else { word(*support) };
+            let kind = if *support == Support::Works {
+                "deprecated"
+            } else {
+                word(*support)
+            };
             format!("  {kind:<12} {name}: line {}{how}\n", lines.join(", "))
         });
         format!("{}\n{}", self.name, rows.collect::<String>())
@@ -189,7 +245,8 @@ impl Patient {
 }
 
 fn json_of(found: &Use) -> serde_json::Value {
-    let mut object = serde_json::json!({"name": found.name, "line": found.line, "support": word(found.support)});
+    let mut object =
+        serde_json::json!({"name": found.name, "line": found.line, "support": word(found.support)});
     if let Some(written) = &found.written {
         object["written"] = written.as_str().into();
     }

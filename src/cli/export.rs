@@ -42,7 +42,9 @@ impl Args {
     fn export(&self) -> Result<(), String> {
         let mut recording = open(&self.recording)?;
         if let Some(path) = &self.html {
-            whole(path, |file| recording::html(&mut recording, &view::page_file, file))?;
+            whole(path, |file| {
+                recording::html(&mut recording, &view::page_file, file)
+            })?;
         }
         if let Some(path) = &self.mcap {
             whole(path, |file| mcap::write(&mut recording, file))?;
@@ -70,7 +72,8 @@ fn whole<E: std::fmt::Display>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<WholeFile>) -> Result<(), E>,
 ) -> Result<(), String> {
-    let unwritable = |error: &dyn std::fmt::Display| format!("cannot write {}: {error}", path.display());
+    let unwritable =
+        |error: &dyn std::fmt::Display| format!("cannot write {}: {error}", path.display());
     let mut file = BufWriter::new(WholeFile::create(path).map_err(|error| unwritable(&error))?);
     write(&mut file).map_err(|error| unwritable(&error))?;
     file.flush().map_err(|error| unwritable(&error))?;
@@ -79,18 +82,31 @@ fn whole<E: std::fmt::Display>(
 }
 
 /// The graph with that path or handle: graphs are at the end.
-fn find_graph(recording: &mut Recording<impl Read + Seek>, name: &str) -> Result<GraphData, String> {
+fn find_graph(
+    recording: &mut Recording<impl Read + Seek>,
+    name: &str,
+) -> Result<GraphData, String> {
     let last = recording.index().chunks.len().saturating_sub(1);
-    let chunk = recording.chunk(last).map_err(|error| format!("cannot read the recording: {error}"))?;
+    let chunk = recording
+        .chunk(last)
+        .map_err(|error| format!("cannot read the recording: {error}"))?;
     let mut known = Vec::new();
     for message in recording::messages(&chunk).flatten() {
-        let Content::Text(text) = message.content else { continue };
-        let graphs = serde_json::from_str::<Value>(text).ok().and_then(|message| recording::graphs(&message));
+        let Content::Text(text) = message.content else {
+            continue;
+        };
+        let graphs = serde_json::from_str::<Value>(text)
+            .ok()
+            .and_then(|message| recording::graphs(&message));
         known.extend(graphs.unwrap_or_default());
     }
     let names: Vec<String> = known.iter().map(|(_, graph)| graph.title.clone()).collect();
-    let is_it = |handle: i64, title: &str| title == name || title == format!("/{name}") || handle.to_string() == name;
-    let found = known.into_iter().find(|(handle, graph)| is_it(*handle, &graph.title));
+    let is_it = |handle: i64, title: &str| {
+        title == name || title == format!("/{name}") || handle.to_string() == name
+    };
+    let found = known
+        .into_iter()
+        .find(|(handle, graph)| is_it(*handle, &graph.title));
     found.map(|(_, graph)| graph).ok_or_else(|| match names.as_slice() {
         [] => "there are no graphs in this recording: they come with its end, or the scene has none".to_owned(),
         names => format!("there is no graph {name}: there are {}", names.join(", ")),

@@ -26,7 +26,9 @@ pub(super) fn file(path: &Path) -> Result<File, String> {
     };
     if let Some(model) = model {
         let (file, messages) = model.map_err(unreadable)?;
-        messages.iter().for_each(|message| complain(&format!("{}: {message}", path.display())));
+        messages
+            .iter()
+            .for_each(|message| complain(&format!("{}: {message}", path.display())));
         return Ok(file);
     }
     script_file::check_no_xacro(path).map_err(|reason| unreadable(reason.to_string()))?;

@@ -23,8 +23,12 @@ pub(super) struct Args {
 }
 
 pub(super) fn init(args: &Args) -> Outcome {
-    let stubs = docs::stubs().into_iter().map(|(path, text)| (args.folder.join(STUBS).join(path), text));
-    let files: Vec<_> = std::iter::once((args.folder.join(".luarc.json"), settings())).chain(stubs).collect();
+    let stubs = docs::stubs()
+        .into_iter()
+        .map(|(path, text)| (args.folder.join(STUBS).join(path), text));
+    let files: Vec<_> = std::iter::once((args.folder.join(".luarc.json"), settings()))
+        .chain(stubs)
+        .collect();
     if let Some((path, _)) = files.iter().find(|(path, _)| path.exists() && !args.force) {
         return Err(format!("{} exists; --force overwrites it", path.display()));
     }
@@ -32,7 +36,12 @@ pub(super) fn init(args: &Args) -> Outcome {
         write(path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     }
     let folder = args.folder.join(STUBS);
-    let line = format!("wrote {} and {} files below {}\n", files[0].0.display(), files.len() - 1, folder.display());
+    let line = format!(
+        "wrote {} and {} files below {}\n",
+        files[0].0.display(),
+        files.len() - 1,
+        folder.display()
+    );
     say(line.as_bytes());
     Ok(ExitCode::SUCCESS)
 }
@@ -47,7 +56,9 @@ fn write(path: &Path, text: &str) -> std::io::Result<()> {
 /// Settings of the language server. Scripts define callbacks and keep handles as globals, which is no mistake: the calls between scripts
 /// are to global functions. Modules are globals as long as a script requires none.
 fn settings() -> String {
-    let modules = docs::module_names().into_iter().filter(|name| name.starts_with("sim"));
+    let modules = docs::module_names()
+        .into_iter()
+        .filter(|name| name.starts_with("sim"));
     let globals: Vec<String> = std::iter::once("sim".to_owned()).chain(modules).collect();
     let settings = json!({
         "runtime.version": "Lua 5.4",

@@ -13,8 +13,12 @@ const NOTE: &str = "SWANILDA_PLUGIN_NOTE";
 pub(super) fn note() -> Option<PathBuf> {
     let note = std::env::var_os(NOTE).map(PathBuf::from)?;
     #[cfg(target_os = "linux")]
-    if let Err(error) = rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::TERM)) {
-        complain(&format!("this process may outlive the one that has started it: {error}"));
+    if let Err(error) =
+        rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::TERM))
+    {
+        complain(&format!(
+            "this process may outlive the one that has started it: {error}"
+        ));
     }
     Some(note)
 }
@@ -23,7 +27,9 @@ pub(super) fn note() -> Option<PathBuf> {
 pub(super) fn run() -> ExitCode {
     match run_child() {
         Err(error) => {
-            complain(&format!("the scene cannot run in a process of its own: {error}"));
+            complain(&format!(
+                "the scene cannot run in a process of its own: {error}"
+            ));
             ExitCode::from(INTERNAL)
         }
         Ok((status, running)) => match status.code().map(u8::try_from) {
@@ -39,10 +45,16 @@ pub(super) fn run() -> ExitCode {
 fn run_child() -> std::io::Result<(ExitStatus, String)> {
     let note = tempfile::NamedTempFile::new()?;
     let program = std::env::current_exe()?;
-    let mut child = Command::new(program).args(std::env::args_os().skip(1)).env(NOTE, note.path()).spawn()?;
+    let mut child = Command::new(program)
+        .args(std::env::args_os().skip(1))
+        .env(NOTE, note.path())
+        .spawn()?;
     pass_on_requests(&child);
     let status = child.wait()?;
-    Ok((status, std::fs::read_to_string(note.path()).unwrap_or_default()))
+    Ok((
+        status,
+        std::fs::read_to_string(note.path()).unwrap_or_default(),
+    ))
 }
 
 /// This process waits for the child's end when it is asked to end itself.

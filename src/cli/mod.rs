@@ -1,7 +1,10 @@
 //! The command line: one file per subcommand.
 //!
 //! This is the outermost layer, the one that may look at clocks, terminals and signals.
-#![allow(clippy::disallowed_methods, reason = "the outside world is this layer's business")]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "the outside world is this layer's business"
+)]
 
 mod api;
 mod batch;
@@ -30,7 +33,10 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use session::{graphs, interrupt, launch, live, output, permissions, progress, recording, resources, setup, video};
+use session::{
+    graphs, interrupt, launch, live, output, permissions, progress, recording, resources, setup,
+    video,
+};
 
 /// Exit code for a wrong command line or a file that cannot be read or written; clap uses the same.
 const USAGE: u8 = 2;
@@ -71,7 +77,9 @@ enum Command {
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
     // Scripts may recurse deeply, within Lua and across scripts.
-    let thread = std::thread::Builder::new().name("simulator".into()).stack_size(simulator::Simulator::STACK_SIZE);
+    let thread = std::thread::Builder::new()
+        .name("simulator".into())
+        .stack_size(simulator::Simulator::STACK_SIZE);
     let outcome = thread.spawn(|| parse().map_or_else(|code| code, |cli| cli.command.execute()));
     match outcome.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,
@@ -83,7 +91,9 @@ pub fn main() -> ExitCode {
 fn parse() -> Result<Cli, ExitCode> {
     Cli::try_parse().map_err(|error| {
         let _ = error.print();
-        let for_tests = std::env::args().nth(1).is_some_and(|command| command == "test");
+        let for_tests = std::env::args()
+            .nth(1)
+            .is_some_and(|command| command == "test");
         ExitCode::from(if !error.use_stderr() {
             0
         } else if for_tests {

@@ -37,7 +37,11 @@ pub(super) fn uses(code: &[u8], file: &Path) -> Result<Vec<Use>, String> {
 
 fn run(interpreter: &str, text: &[u8]) -> std::io::Result<String> {
     let mut command = Command::new(interpreter);
-    command.args(["-c", READER]).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+        .args(["-c", READER])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
     let mut child = command.spawn()?;
     if let Some(mut input) = child.stdin.take() {
         input.write_all(text)?;
@@ -46,5 +50,9 @@ fn run(interpreter: &str, text: &[u8]) -> std::io::Result<String> {
     if output.status.success() {
         return Ok(String::from_utf8_lossy(&output.stdout).into_owned());
     }
-    Err(std::io::Error::other(String::from_utf8_lossy(&output.stderr).trim_end().to_owned()))
+    Err(std::io::Error::other(
+        String::from_utf8_lossy(&output.stderr)
+            .trim_end()
+            .to_owned(),
+    ))
 }

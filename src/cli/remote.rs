@@ -25,10 +25,18 @@ struct Api {
     start_param: &'static str,
 }
 
-const ZMQ: Api =
-    Api { name: "ZeroMQ", first_port: 23_000, param: "zmqRemoteApi.rpcPort", start_param: "zmqRemoteApi.autoStart" };
-const WS: Api =
-    Api { name: "WebSocket", first_port: 23_050, param: "wsRemoteApi.port", start_param: "wsRemoteApi.autoStart" };
+const ZMQ: Api = Api {
+    name: "ZeroMQ",
+    first_port: 23_000,
+    param: "zmqRemoteApi.rpcPort",
+    start_param: "zmqRemoteApi.autoStart",
+};
+const WS: Api = Api {
+    name: "WebSocket",
+    first_port: 23_050,
+    param: "wsRemoteApi.port",
+    start_param: "wsRemoteApi.autoStart",
+};
 const STREAM: Api = Api {
     name: "Visualization stream",
     first_port: 23_020,
@@ -74,7 +82,8 @@ pub(super) struct Remote {
 }
 
 fn ip_address(text: &str) -> Result<IpAddr, String> {
-    text.parse().map_err(|_| "an IP address is needed, such as 127.0.0.1 or 0.0.0.0".to_owned())
+    text.parse()
+        .map_err(|_| "an IP address is needed, such as 127.0.0.1 or 0.0.0.0".to_owned())
 }
 
 /// The folder of the scene, and that of an installation of CoppeliaSim.
@@ -95,10 +104,16 @@ impl Remote {
 
     /// The options with what scripts may do, which depends on who can connect.
     pub(super) fn guard(&self, options: Options) -> Options {
-        let is_open = !self.bind.is_loopback() && !self.allow_unsafe && !self.permissions.is_restricted();
-        let permissions = if is_open { Permissions::strict() } else { self.permissions.permissions() };
+        let is_open =
+            !self.bind.is_loopback() && !self.allow_unsafe && !self.permissions.is_restricted();
+        let permissions = if is_open {
+            Permissions::strict()
+        } else {
+            self.permissions.permissions()
+        };
         Options {
-            permissions: readable_folders(&options).fold(permissions, |set, folder| set.of_scene(folder)),
+            permissions: readable_folders(&options)
+                .fold(permissions, |set, folder| set.of_scene(folder)),
             listen_address: self.bind,
             web_origins: self.allow_origin.clone(),
             ..options
@@ -120,7 +135,10 @@ impl Remote {
         let failed = |error| format!("the remote API cannot start: {error}");
         if zmq && !ZMQ.is_refused(setup) {
             let listener = self.listener(setup, &ZMQ, self.remote_api.flatten())?;
-            output.listening(ZMQ.name, sim.serve_zmq(listener, interrupt.flag()).map_err(failed)?);
+            output.listening(
+                ZMQ.name,
+                sim.serve_zmq(listener, interrupt.flag()).map_err(failed)?,
+            );
         }
         if let Some(port) = self.ws_remote_api.filter(|_| !WS.is_refused(setup)) {
             let listener = self.listener(setup, &WS, port)?;
@@ -130,7 +148,10 @@ impl Remote {
             let listener = listener_at(self.bind, port)?;
             output.listening("Legacy", sim.serve_legacy(listener).map_err(failed)?);
         }
-        if let Some(port) = self.visualization_stream.filter(|_| !STREAM.is_refused(setup)) {
+        if let Some(port) = self
+            .visualization_stream
+            .filter(|_| !STREAM.is_refused(setup))
+        {
             let listener = self.listener(setup, &STREAM, port)?;
             output.streaming(sim.serve_visualization_stream(listener).map_err(failed)?);
         }
@@ -139,8 +160,13 @@ impl Remote {
 
     fn listener(&self, setup: &Setup, api: &Api, port: Option<u16>) -> Result<TcpListener, String> {
         let address = self.bind;
-        let Api { first_port, param, .. } = api;
-        let given = setup.param(param).map(|text| text.parse().map_err(|_| format!("{param}: no port: {text}")));
+        let Api {
+            first_port, param, ..
+        } = api;
+        let given = setup.param(param).map(|text| {
+            text.parse()
+                .map_err(|_| format!("{param}: no port: {text}"))
+        });
         if let Some(port) = port.or(given.transpose()?) {
             return listener_at(address, port);
         }
@@ -151,7 +177,10 @@ impl Remote {
                 Err(error) => return Err(cannot_listen(address, port, &error)),
             }
         }
-        Err(format!("ports {first_port} to {} are all in use at {address}", first_port + TRIED_PORTS - 1))
+        Err(format!(
+            "ports {first_port} to {} are all in use at {address}",
+            first_port + TRIED_PORTS - 1
+        ))
     }
 }
 

@@ -56,18 +56,32 @@ pub(super) struct Args {
 
 /// Writes the picture; the exit code reports the outcome.
 pub(super) fn render(args: &Args) -> Outcome {
-    let limits = RunLimits { steps: None, time: Some(args.time), idle: 0, once: false };
-    let mut progress = Progress::new(limits, args.setup.quiet || args.setup.json || args.time == 0.0);
+    let limits = RunLimits {
+        steps: None,
+        time: Some(args.time),
+        idle: 0,
+        once: false,
+    };
+    let mut progress = Progress::new(
+        limits,
+        args.setup.quiet || args.setup.json || args.time == 0.0,
+    );
     let mut launch = Launch::new(&args.setup, None, Some(&args.scene), &progress, None)?;
     launch.fill(args.kind.into());
-    let Launch { mut sim, interrupt, .. } = launch;
+    let Launch {
+        mut sim, interrupt, ..
+    } = launch;
     args.simulate(&mut sim, &interrupt, &mut progress);
     progress.finish();
     if interrupt.is_requested() {
         return Ok(ExitCode::from(interrupt.exit_code()));
     }
     args.write(&sim)?;
-    Ok(if sim.errors() > 0 { ExitCode::from(SCRIPT_ERROR) } else { ExitCode::SUCCESS })
+    Ok(if sim.errors() > 0 {
+        ExitCode::from(SCRIPT_ERROR)
+    } else {
+        ExitCode::SUCCESS
+    })
 }
 
 impl Args {
@@ -78,7 +92,10 @@ impl Args {
         }
         sim.start();
         // Half a microsecond: times are sums of steps.
-        while sim.time() + 5e-7 < self.time && sim.state().is_advancing() && !interrupt.is_requested() {
+        while sim.time() + 5e-7 < self.time
+            && sim.state().is_advancing()
+            && !interrupt.is_requested()
+        {
             sim.iterate();
             progress.show(sim);
         }
@@ -93,8 +110,13 @@ impl Args {
             (_, true) => Channels::IDS,
             _ => Channels::COLOUR,
         };
-        let picture = sim.picture(camera, size, channels).map_err(|error| error.to_string())?;
-        let planes = sim.projection(camera).map_err(|error| error.to_string())?.clipping;
+        let picture = sim
+            .picture(camera, size, channels)
+            .map_err(|error| error.to_string())?;
+        let planes = sim
+            .projection(camera)
+            .map_err(|error| error.to_string())?
+            .clipping;
         let file = match (self.depth, self.segmentation) {
             (true, _) => self.depth_file(&picture, planes),
             (_, true) => self.colour_file(&picture, segments(sim, &picture)),
@@ -115,10 +137,19 @@ impl Args {
             }
             return Ok(first_camera(&scene));
         };
-        let by_handle = name.parse().ok().and_then(Handle::from_raw).filter(|handle| scene.exists(*handle));
-        let path = if name.starts_with('/') { name.clone() } else { format!("/{name}") };
+        let by_handle = name
+            .parse()
+            .ok()
+            .and_then(Handle::from_raw)
+            .filter(|handle| scene.exists(*handle));
+        let path = if name.starts_with('/') {
+            name.clone()
+        } else {
+            format!("/{name}")
+        };
         let camera = by_handle.map_or_else(|| scene.find(&path, None, None), Ok);
-        let camera = camera.map_err(|_| format!("there is no object {name} in {}", self.scene.display()))?;
+        let camera =
+            camera.map_err(|_| format!("there is no object {name} in {}", self.scene.display()))?;
         match scene.object(camera).map(|object| &object.kind) {
             Ok(ObjectKind::Camera(_) | ObjectKind::VisionSensor(_)) => Ok(Some(camera)),
             _ => Err(format!("{name} is neither a camera nor a vision sensor")),
@@ -127,11 +158,17 @@ impl Args {
 
     /// Whether the file holds a model, which the camera of the default scene does not look at.
     fn is_model(&self) -> bool {
-        self.scene.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ttm"))
+        self.scene
+            .extension()
+            .is_some_and(|extension| extension.eq_ignore_ascii_case("ttm"))
     }
 
     fn extension(&self) -> String {
-        self.output.extension().unwrap_or_default().to_string_lossy().to_lowercase()
+        self.output
+            .extension()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .to_lowercase()
     }
 
     fn colour_file(&self, picture: &Picture, pixels: Vec<u8>) -> Result<Vec<u8>, PictureError> {
@@ -140,26 +177,46 @@ impl Args {
         upright.encode(&self.extension(), JPEG_QUALITY)
     }
 
-    fn depth_file(&self, picture: &Picture, [near, far]: [f64; 2]) -> Result<Vec<u8>, PictureError> {
+    fn depth_file(
+        &self,
+        picture: &Picture,
+        [near, far]: [f64; 2],
+    ) -> Result<Vec<u8>, PictureError> {
         if self.extension() != "png" {
-            return Err(PictureError::Kind(format!("{} for depths", self.extension())));
+            return Err(PictureError::Kind(format!(
+                "{} for depths",
+                self.extension()
+            )));
         }
         let millimetres = |depth: f32| match depth {
             1.0 => 0,
             _ => (MILLIMETRES * (near + f64::from(depth) * (far - near)) + 0.5) as u16,
         };
-        let rows = picture.depth.chunks_exact(picture.resolution[0] as usize).rev();
-        picture::grey_16_bit_png(rows.flatten().copied().map(millimetres).collect(), picture.resolution)
+        let rows = picture
+            .depth
+            .chunks_exact(picture.resolution[0] as usize)
+            .rev();
+        picture::grey_16_bit_png(
+            rows.flatten().copied().map(millimetres).collect(),
+            picture.resolution,
+        )
     }
 }
 
 fn is_vision_sensor(sim: &Simulator, handle: Handle) -> bool {
-    sim.scene().object(handle).is_ok_and(|object| object.vision_sensor().is_ok())
+    sim.scene()
+        .object(handle)
+        .is_ok_and(|object| object.vision_sensor().is_ok())
 }
 
 /// A colour for each object that is seen, which are listed on standard output.
 fn segments(sim: &Simulator, picture: &Picture) -> Vec<u8> {
-    let mut seen: Vec<u32> = picture.ids.iter().copied().filter(|id| *id != Picture::NOTHING).collect();
+    let mut seen: Vec<u32> = picture
+        .ids
+        .iter()
+        .copied()
+        .filter(|id| *id != Picture::NOTHING)
+        .collect();
     seen.sort_unstable();
     seen.dedup();
     let scene = sim.scene();

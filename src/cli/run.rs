@@ -89,20 +89,43 @@ pub(super) fn run(args: &Args) -> Outcome {
     if args.isolate && plugin_note.is_none() {
         return Ok(isolated::run());
     }
-    let progress = Progress::new(args.limits(), args.setup.quiet || args.setup.json || args.no_start);
-    let mut launch = Launch::new(&args.setup, Some(&args.remote), Some(&args.scene), &progress, plugin_note)?;
+    let progress = Progress::new(
+        args.limits(),
+        args.setup.quiet || args.setup.json || args.no_start,
+    );
+    let mut launch = Launch::new(
+        &args.setup,
+        Some(&args.remote),
+        Some(&args.scene),
+        &progress,
+        plugin_note,
+    )?;
     let begun = Instant::now();
     launch.fill(args.kind.into());
     launch.serve(&args.remote, args.remote.asks_for_zmq())?;
-    let Launch { mut sim, output, interrupt, .. } = launch;
+    let Launch {
+        mut sim,
+        output,
+        interrupt,
+        ..
+    } = launch;
     let recorder = args.record.start(&sim)?;
     args.video.start(&mut sim, &args.scene);
     let viewer = args.view.start(&sim, &args.remote, &output)?;
-    let mut session = Session { interrupt: &interrupt, progress, output: &output, reminder: args.reminder() };
+    let mut session = Session {
+        interrupt: &interrupt,
+        progress,
+        output: &output,
+        reminder: args.reminder(),
+    };
     let totals = args.simulate(&mut sim, viewer, &mut session);
     session.progress.finish();
     let recorded = args.record.finish(&sim, recorder);
-    let written = args.video.finish(&mut sim).and(args.graphs.write(&sim)).and(recorded);
+    let written = args
+        .video
+        .finish(&mut sim)
+        .and(args.graphs.write(&sim))
+        .and(recorded);
     let (errors, code) = end(sim, &written, &interrupt);
     output.summary(totals, begun.elapsed(), errors, code);
     Ok(ExitCode::from(code))
@@ -131,27 +154,43 @@ fn end(mut sim: Simulator, written: &Result<(), String>, interrupt: &Interrupt) 
 
 /// A whole number, zero or more.
 fn count(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| "a whole number is needed, zero or more".to_owned())
+    text.parse()
+        .map_err(|_| "a whole number is needed, zero or more".to_owned())
 }
 
 impl Args {
     fn limits(&self) -> RunLimits {
-        RunLimits { steps: self.steps, time: self.time, idle: self.loops, once: false }
+        RunLimits {
+            steps: self.steps,
+            time: self.time,
+            idle: self.loops,
+            once: false,
+        }
     }
 
     /// Remote clients and --no-start end a run their own way.
     fn reminder(&self) -> Reminder {
-        Reminder::new(self.has_end() || self.no_start || self.remote.asks_for_zmq() || self.setup.json)
+        Reminder::new(
+            self.has_end() || self.no_start || self.remote.asks_for_zmq() || self.setup.json,
+        )
     }
 
-    fn simulate(&self, sim: &mut Simulator, viewer: Option<Viewer>, session: &mut Session) -> RunTotals {
+    fn simulate(
+        &self,
+        sim: &mut Simulator,
+        viewer: Option<Viewer>,
+        session: &mut Session,
+    ) -> RunTotals {
         if let Some(viewer) = viewer {
             self.run_viewed(sim, Live::new(Some(viewer)), session.interrupt)
         } else if self.no_start {
             sim.loop_freely(self.loops, session)
         } else if sim.errors() > 0 && !self.has_end() {
             // Without its script the run might never end.
-            session.output.note("A script failed while it was loaded: the simulation is not started.", 0.0);
+            session.output.note(
+                "A script failed while it was loaded: the simulation is not started.",
+                0.0,
+            );
             RunTotals::default()
         } else {
             sim.run(self.limits(), session)
@@ -167,7 +206,11 @@ impl Args {
             sim.start();
         }
         while !sim.quit_requested() {
-            let is_over = if self.no_start { loops >= self.loops } else { sim.state() == SimulationState::Stopped };
+            let is_over = if self.no_start {
+                loops >= self.loops
+            } else {
+                sim.state() == SimulationState::Stopped
+            };
             if is_over || interrupt.is_requested() && self.no_start {
                 break;
             }

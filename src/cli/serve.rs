@@ -31,10 +31,21 @@ pub(super) struct Args {
 /// Serves until ctrl-c, SIGTERM or `quitSimulator()`.
 pub(super) fn serve(args: &Args) -> Outcome {
     let progress = Progress::new(RunLimits::default(), true);
-    let mut launch = Launch::new(&args.setup, Some(&args.remote), args.scene.as_deref(), &progress, None)?;
+    let mut launch = Launch::new(
+        &args.setup,
+        Some(&args.remote),
+        args.scene.as_deref(),
+        &progress,
+        None,
+    )?;
     launch.fill(ScriptKind::Customization);
     launch.serve(&args.remote, !args.no_remote_api)?;
-    let Launch { mut sim, output, interrupt, .. } = launch;
+    let Launch {
+        mut sim,
+        output,
+        interrupt,
+        ..
+    } = launch;
     let viewer = args.view.start(&sim, &args.remote, &output)?;
     Live::new(viewer).run(&mut sim, &interrupt);
     Ok(ExitCode::SUCCESS)

@@ -43,8 +43,14 @@ pub(super) fn pack(args: &PackArgs) -> Outcome {
 pub(super) fn write(file: File, path: &Path) -> Result<(), String> {
     let (variant, name) = Variant::of_name(path.to_str().unwrap_or_default());
     let (path, bytes) = match variant {
-        Some(variant) => (Path::new(name), xml::write(&as_saved(file)?, variant).into_bytes()),
-        None => (path, readable_bytes(&file, None).map_err(|error| error.to_string())?),
+        Some(variant) => (
+            Path::new(name),
+            xml::write(&as_saved(file)?, variant).into_bytes(),
+        ),
+        None => (
+            path,
+            readable_bytes(&file, None).map_err(|error| error.to_string())?,
+        ),
     };
     write_whole(path, &bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))
 }
@@ -55,7 +61,9 @@ fn as_saved(file: File) -> Result<File, String> {
     let file = SceneFile::new(file).map_err(|error| damaged(&error))?;
     let is_model = file.is_model();
     let mut scene = Scene::new();
-    let loaded = file.add_to(&mut scene, !is_model).map_err(|error| damaged(&error))?;
+    let loaded = file
+        .add_to(&mut scene, !is_model)
+        .map_err(|error| damaged(&error))?;
     let saved = match loaded.root.filter(|_| is_model) {
         Some(base) => save::model(&scene, base, &loaded.scripts),
         None => save::scene(&scene, &loaded.scripts),

@@ -38,7 +38,12 @@ pub(super) struct Args {
     #[arg(long)]
     no_open: bool,
     /// What pages may do
-    #[arg(long, value_name = "MODE", default_value = "full", require_equals = true)]
+    #[arg(
+        long,
+        value_name = "MODE",
+        default_value = "full",
+        require_equals = true
+    )]
     view: Mode,
     /// Port of the page [default: any free one]
     #[arg(long, value_name = "PORT", default_value_t = 0)]
@@ -72,13 +77,26 @@ impl ViewArgs {
     ///
     /// # Errors
     /// When the port is not free.
-    pub(super) fn start(&self, sim: &Simulator, remote: &Remote, output: &Output) -> Result<Option<Viewer>, String> {
-        self.view.map(|mode| start(sim, mode, self.port, remote, output)).transpose()
+    pub(super) fn start(
+        &self,
+        sim: &Simulator,
+        remote: &Remote,
+        output: &Output,
+    ) -> Result<Option<Viewer>, String> {
+        self.view
+            .map(|mode| start(sim, mode, self.port, remote, output))
+            .transpose()
     }
 }
 
 /// Starts a viewer and prints its address.
-fn start(sim: &Simulator, mode: Mode, port: u16, remote: &Remote, output: &Output) -> Result<Viewer, String> {
+fn start(
+    sim: &Simulator,
+    mode: Mode,
+    port: u16,
+    remote: &Remote,
+    output: &Output,
+) -> Result<Viewer, String> {
     let failed = |error: std::io::Error| format!("the viewer cannot start at port {port}: {error}");
     let listener = TcpListener::bind((remote.address(), port)).map_err(failed)?;
     let viewer = Viewer::start(sim, listener, mode == Mode::ReadOnly).map_err(failed)?;
@@ -95,10 +113,18 @@ pub(super) fn view(args: &Args) -> Outcome {
     let progress = Progress::new(RunLimits::default(), true);
     let mut launch = Launch::new(&args.setup, Some(&args.remote), scene, &progress, None)?;
     // Before the scripts, so that pages have their first lines as well.
-    let viewer = start(&launch.sim, args.view, args.port, &args.remote, &launch.output)?;
+    let viewer = start(
+        &launch.sim,
+        args.view,
+        args.port,
+        &args.remote,
+        &launch.output,
+    )?;
     launch.fill(args.kind.into());
     launch.serve(&args.remote, args.remote.asks_for_zmq())?;
-    let Launch { mut sim, interrupt, .. } = launch;
+    let Launch {
+        mut sim, interrupt, ..
+    } = launch;
     sim.set_pace(args.speed);
     args.open_browser(&viewer.url());
     if !args.paused {
@@ -109,15 +135,19 @@ pub(super) fn view(args: &Args) -> Outcome {
 }
 
 fn is_recording(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("swr"))
+    path.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("swr"))
 }
 
 /// Shows a recording until ctrl-c or SIGTERM.
 fn view_recording(args: &Args, path: &Path) -> Outcome {
     let recording = super::export::open(path)?;
     let interrupt = Interrupt::of_scripts_here();
-    let output = args.setup.output(&Progress::new(RunLimits::default(), true), &interrupt);
-    let failed = |error: std::io::Error| format!("the viewer cannot start at port {}: {error}", args.port);
+    let output = args
+        .setup
+        .output(&Progress::new(RunLimits::default(), true), &interrupt);
+    let failed =
+        |error: std::io::Error| format!("the viewer cannot start at port {}: {error}", args.port);
     let listener = TcpListener::bind((args.remote.address(), args.port)).map_err(failed)?;
     let viewer = RecordedViewer::start(recording, listener).map_err(failed)?;
     output.viewing(&viewer.url());
@@ -145,8 +175,17 @@ fn open_browser(url: &str) {
     if !has_desktop {
         return;
     }
-    let opener = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
-    let opened = Command::new(opener).arg(url).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+    let opener = if cfg!(target_os = "macos") {
+        "open"
+    } else {
+        "xdg-open"
+    };
+    let opened = Command::new(opener)
+        .arg(url)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn();
     if let Ok(mut child) = opened {
         // Somebody has to wait for it, or it stays in the table of processes.
         drop(std::thread::spawn(move || drop(child.wait())));

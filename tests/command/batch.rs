@@ -23,7 +23,10 @@ end
 fn batch(folder: &Path, args: &[&str]) -> (i32, String) {
     std::fs::write(folder.join("scene.lua"), SCENE).expect("a file");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.args(["batch", "scene.lua"]).args(args).current_dir(folder);
+    command
+        .args(["batch", "scene.lua"])
+        .args(args)
+        .current_dir(folder);
     run_for_code(&mut command, Duration::from_secs(120)).expect("it ends")
 }
 
@@ -37,14 +40,29 @@ fn every_run_has_its_row_whatever_the_number_of_threads() {
     let dir = tempfile::tempdir().expect("a folder");
     let args = ["--seeds", "5..7", "--sweep", "kp=1,2", "-D", "mode=fast"];
     for (jobs, out) in [("1", "one"), ("4", "four")] {
-        let (code, output) = batch(dir.path(), &[&args[..], &["-j", jobs, "--out", out]].concat());
-        assert!(code == 0 && output.contains("6 of 6 runs done, 0 failed"), "{output}");
+        let (code, output) = batch(
+            dir.path(),
+            &[&args[..], &["-j", jobs, "--out", out]].concat(),
+        );
+        assert!(
+            code == 0 && output.contains("6 of 6 runs done, 0 failed"),
+            "{output}"
+        );
     }
     let rows = table(dir.path(), "one");
     assert_eq!(rows, table(dir.path(), "four"));
-    assert_eq!((rows.len(), rows[0].as_str()), (7, "run,seed,kp,error,steps,time,mode,score"));
-    assert!(rows[1].starts_with("1,5,1,,") && rows[6].starts_with("6,7,2,,") && rows[6].contains(",fast,"), "{rows:?}");
-    let scores: std::collections::BTreeSet<_> = rows[1..].iter().map(|row| row.rsplit(',').next()).collect();
+    assert_eq!(
+        (rows.len(), rows[0].as_str()),
+        (7, "run,seed,kp,error,steps,time,mode,score")
+    );
+    assert!(
+        rows[1].starts_with("1,5,1,,")
+            && rows[6].starts_with("6,7,2,,")
+            && rows[6].contains(",fast,"),
+        "{rows:?}"
+    );
+    let scores: std::collections::BTreeSet<_> =
+        rows[1..].iter().map(|row| row.rsplit(',').next()).collect();
     assert_eq!(scores.len(), 6, "each seed has its own numbers: {rows:?}");
 }
 
@@ -52,10 +70,19 @@ fn every_run_has_its_row_whatever_the_number_of_threads() {
 fn a_run_that_fails_is_a_row() {
     let dir = tempfile::tempdir().expect("a folder");
     let (code, output) = batch(dir.path(), &["--sweep", "kp=1,3,4,2", "--timeout", "3"]);
-    assert!(code == 1 && output.contains("4 of 4 runs done, 2 failed"), "{output}");
+    assert!(
+        code == 1 && output.contains("4 of 4 runs done, 2 failed"),
+        "{output}"
+    );
     let rows = table(dir.path(), "results");
-    assert!(rows[2].contains("too much") && rows[3].contains("longer than 3 s"), "{rows:?}");
-    assert!(!rows[1].contains("Script") && !rows[4].contains("Script"), "{rows:?}");
+    assert!(
+        rows[2].contains("too much") && rows[3].contains("longer than 3 s"),
+        "{rows:?}"
+    );
+    assert!(
+        !rows[1].contains("Script") && !rows[4].contains("Script"),
+        "{rows:?}"
+    );
 }
 
 #[test]
@@ -68,13 +95,23 @@ fn an_interrupted_batch_goes_on() {
     let text = std::fs::read_to_string(&log).expect("the log");
     // Cut in the third line, and with a mark in the first that a second run would not have made.
     let cut = text.match_indices('\n').nth(2).expect("four lines").0 - 10;
-    std::fs::write(&log, text[..cut].replacen("\"steps\":", "\"steps\":1000", 1)).expect("a file");
+    std::fs::write(
+        &log,
+        text[..cut].replacen("\"steps\":", "\"steps\":1000", 1),
+    )
+    .expect("a file");
     assert_eq!(batch(dir.path(), &args).0, 0);
     let again = table(dir.path(), "results");
-    assert!(again[1].contains(",1000"), "a row that is there is kept: {again:?}");
+    assert!(
+        again[1].contains(",1000"),
+        "a row that is there is kept: {again:?}"
+    );
     assert_eq!(again[2..], whole[2..]);
     let (code, output) = batch(dir.path(), &["--seeds", "1..5"]);
-    assert!(code == 2 && output.contains("holds the results of another batch"), "{output}");
+    assert!(
+        code == 2 && output.contains("holds the results of another batch"),
+        "{output}"
+    );
     assert_eq!(batch(dir.path(), &[&args[..], &["--force"]].concat()).0, 0);
     assert_eq!(table(dir.path(), "results"), whole);
 }
@@ -82,7 +119,12 @@ fn an_interrupted_batch_goes_on() {
 #[test]
 fn wrong_usage_is_an_error() {
     let dir = tempfile::tempdir().expect("a folder");
-    for wrong in [["--seeds", "9..1"], ["--seeds", "x"], ["--sweep", "kp"], ["--out", "/dev/null/x"]] {
+    for wrong in [
+        ["--seeds", "9..1"],
+        ["--seeds", "x"],
+        ["--sweep", "kp"],
+        ["--out", "/dev/null/x"],
+    ] {
         assert_eq!(batch(dir.path(), &wrong).0, 2, "{wrong:?}");
     }
 }
@@ -92,10 +134,23 @@ fn scenes_of_coppeliasim_are_run() {
     let dir = tempfile::tempdir().expect("a folder");
     let files = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
     let mut unpack = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    unpack.arg("unpack").arg(files.join("robot.ttt")).arg("unpacked").current_dir(dir.path());
-    assert_eq!(run_for_code(&mut unpack, Duration::from_secs(60)).expect("it ends").0, 0);
+    unpack
+        .arg("unpack")
+        .arg(files.join("robot.ttt"))
+        .arg("unpacked")
+        .current_dir(dir.path());
+    assert_eq!(
+        run_for_code(&mut unpack, Duration::from_secs(60))
+            .expect("it ends")
+            .0,
+        0
+    );
     for scene in ["robot.ttt", "kinds.simscene.xml", "unpacked"] {
-        let path = if scene == "unpacked" { dir.path().join(scene) } else { files.join(scene) };
+        let path = if scene == "unpacked" {
+            dir.path().join(scene)
+        } else {
+            files.join(scene)
+        };
         let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
         command
             .arg("batch")
@@ -105,8 +160,14 @@ fn scenes_of_coppeliasim_are_run() {
         let (_, output) = run_for_code(&mut command, Duration::from_secs(120)).expect("it ends");
         assert!(output.contains("1 of 1 runs done"), "{output}");
         let row = &table(dir.path(), &format!("{scene}.results"))[1];
-        assert!(!row.contains("[string"), "no Lua error of a file read as Lua: {row}");
-        assert!(row.split(',').any(|value| value.starts_with("0.")), "it simulates: {row}");
+        assert!(
+            !row.contains("[string"),
+            "no Lua error of a file read as Lua: {row}"
+        );
+        assert!(
+            row.split(',').any(|value| value.starts_with("0.")),
+            "it simulates: {row}"
+        );
     }
 }
 
@@ -117,9 +178,16 @@ fn permissions_of_runs() {
     function sysCall_init() assert(io.open(sim.getStringProperty(sim.handle_scene, 'scenePath'))) assert(io.open('new', 'w')) end
     function sysCall_sensing() sim.stopSimulation() end";
     std::fs::write(dir.path().join("scene.lua"), scene).expect("a file");
-    for (args, expected) in [(&["--no-unsafe"][..], 1), (&["--allow-write=."], 0), (&["--deny-all"], 1)] {
+    for (args, expected) in [
+        (&["--no-unsafe"][..], 1),
+        (&["--allow-write=."], 0),
+        (&["--deny-all"], 1),
+    ] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-        command.args(["batch", "scene.lua", "--force"]).args(args).current_dir(dir.path());
+        command
+            .args(["batch", "scene.lua", "--force"])
+            .args(args)
+            .current_dir(dir.path());
         let (code, output) = run_for_code(&mut command, Duration::from_secs(120)).expect("it ends");
         assert_eq!(code, expected, "{args:?}: {output}");
     }
@@ -132,6 +200,9 @@ fn a_swept_parameter_that_no_run_reads_is_named() {
     let dir = tempfile::tempdir().expect("a folder");
     let (code, said) = batch(dir.path(), &["--sweep", "kp=1,2", "--sweep", "gain=1,2"]);
     assert_eq!(code, 0, "{said}");
-    assert!(said.contains("no run has read the parameter gain;"), "{said}");
+    assert!(
+        said.contains("no run has read the parameter gain;"),
+        "{said}"
+    );
     assert!(!said.contains("the parameter kp"), "{said}");
 }

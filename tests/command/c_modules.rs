@@ -14,9 +14,17 @@ fn compile(library: &Path) {
         true => command.args(["-bundle", "-undefined", "dynamic_lookup"]),
         false => command.args(["-shared", "-fPIC"]),
     };
-    let output =
-        command.args(["-Wall", "-Werror", "-o"]).arg(library).arg(source).output().expect("there is a C compiler");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = command
+        .args(["-Wall", "-Werror", "-o"])
+        .arg(library)
+        .arg(source)
+        .output()
+        .expect("there is a C compiler");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
 }
 
 /// Runs a scene that has the module beside it; what it prints.
@@ -24,11 +32,19 @@ fn run(code: &str, args: &[&str]) -> String {
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
     compile(&folder.path().join("c_module.so"));
     fs::create_dir(folder.path().join("sub")).expect("our own folder is writable");
-    fs::write(folder.path().join("sub/lua_part.lua"), "return require('c_module').add(20, 22)").expect("it is");
+    fs::write(
+        folder.path().join("sub/lua_part.lua"),
+        "return require('c_module').add(20, 22)",
+    )
+    .expect("it is");
     let scene = folder.path().join("scene.lua");
     fs::write(&scene, format!("sim = require 'sim'\n{code}")).expect("it is");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.arg("run").arg(&scene).args(["--quiet", "--empty", "--time", "1"]).args(args);
+    command
+        .arg("run")
+        .arg(&scene)
+        .args(["--quiet", "--empty", "--time", "1"])
+        .args(args);
     run_bounded(&mut command).unwrap_or_else(|error| panic!("{error}\nof {code}"))
 }
 
@@ -95,7 +111,14 @@ fn yields_go_through_c() {
             -- Pre-emption waits until C allows it.
             print(m.apply(function() local n = 0 for i = 1, 1000000 do n = n + 1 end return n end))
         end",
-        &["2", "end, resumed", "true, stepped", "false, after a step", "true", "1000000"],
+        &[
+            "2",
+            "end, resumed",
+            "true, stepped",
+            "false, after a step",
+            "true",
+            "1000000",
+        ],
     );
 }
 
@@ -115,7 +138,9 @@ fn a_callback_may_be_a_c_function() {
 
 #[test]
 fn no_unsafe_loads_none() {
-    let output =
-        run("print(pcall(require, 'c_module') == false, pcall(package.loadlib, 'x', 'y') == false)", &["--no-unsafe"]);
+    let output = run(
+        "print(pcall(require, 'c_module') == false, pcall(package.loadlib, 'x', 'y') == false)",
+        &["--no-unsafe"],
+    );
     assert_eq!(output.trim(), "true, true");
 }

@@ -17,7 +17,10 @@ use test_support::process::run_bounded;
 #[test]
 fn cases_print_what_the_original_prints() {
     let filter = std::env::var("CASE").unwrap_or_default();
-    let cases: Vec<PathBuf> = discover().into_iter().filter(|path| path.to_string_lossy().contains(&filter)).collect();
+    let cases: Vec<PathBuf> = discover()
+        .into_iter()
+        .filter(|path| path.to_string_lossy().contains(&filter))
+        .collect();
     assert!(!cases.is_empty(), "no case matches {filter:?}");
     let known = known_failures();
     let failures = run_all(&cases);
@@ -26,11 +29,25 @@ fn cases_print_what_the_original_prints() {
         .filter(|(name, _)| !filter.is_empty() || !known.contains_key(*name))
         .map(|(name, difference)| format!("{name}:\n{difference}\n"))
         .collect();
-    let fixed: Vec<&String> =
-        known.keys().filter(|name| is_among(&cases, name) && !failures.contains_key(*name)).collect();
-    println!("{} of {} cases pass", cases.len() - failures.len(), cases.len());
-    assert!(surprises.is_empty(), "{} cases differ:\n{}", surprises.len(), surprises.join("\n"));
-    assert!(fixed.is_empty() || !filter.is_empty(), "these pass now, take them off KNOWN.md: {fixed:?}");
+    let fixed: Vec<&String> = known
+        .keys()
+        .filter(|name| is_among(&cases, name) && !failures.contains_key(*name))
+        .collect();
+    println!(
+        "{} of {} cases pass",
+        cases.len() - failures.len(),
+        cases.len()
+    );
+    assert!(
+        surprises.is_empty(),
+        "{} cases differ:\n{}",
+        surprises.len(),
+        surprises.join("\n")
+    );
+    assert!(
+        fixed.is_empty() || !filter.is_empty(),
+        "these pass now, take them off KNOWN.md: {fixed:?}"
+    );
 }
 
 fn root() -> PathBuf {
@@ -42,11 +59,16 @@ fn discover() -> Vec<PathBuf> {
     let mut pending = vec![root()];
     let mut cases = Vec::new();
     while let Some(dir) = pending.pop() {
-        for entry in fs::read_dir(&dir).expect("the conformance folder is readable").flatten() {
+        for entry in fs::read_dir(&dir)
+            .expect("the conformance folder is readable")
+            .flatten()
+        {
             let path = entry.path();
             if path.is_dir() {
                 pending.push(path);
-            } else if path.extension().is_some_and(|e| e == "lua") && path.with_extension("expected").exists() {
+            } else if path.extension().is_some_and(|e| e == "lua")
+                && path.with_extension("expected").exists()
+            {
                 cases.push(path);
             }
         }
@@ -58,8 +80,11 @@ fn discover() -> Vec<PathBuf> {
 /// `folder/case` of each row of the tables in KNOWN.md, with its reason.
 fn known_failures() -> BTreeMap<String, String> {
     let text = fs::read_to_string(root().join("KNOWN.md")).unwrap_or_default();
-    let rows = text.lines().filter_map(|line| line.strip_prefix("| `")?.split_once("` |"));
-    rows.map(|(name, reason)| (name.to_owned(), reason.trim_matches([' ', '|']).to_owned())).collect()
+    let rows = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("| `")?.split_once("` |"));
+    rows.map(|(name, reason)| (name.to_owned(), reason.trim_matches([' ', '|']).to_owned()))
+        .collect()
 }
 
 fn is_among(cases: &[PathBuf], name: &str) -> bool {
@@ -67,29 +92,45 @@ fn is_among(cases: &[PathBuf], name: &str) -> bool {
 }
 
 fn case_name(case: &Path) -> String {
-    let relative = case.strip_prefix(root()).expect("discovered below the root").with_extension("");
+    let relative = case
+        .strip_prefix(root())
+        .expect("discovered below the root")
+        .with_extension("");
     relative.to_string_lossy().into_owned()
 }
 
 /// The cases that differ, with how.
 fn run_all(cases: &[PathBuf]) -> BTreeMap<String, String> {
     let differences = parallel::map(cases, |case| run_case(case));
-    cases.iter().zip(differences).filter_map(|(case, difference)| Some((case_name(case), difference?))).collect()
+    cases
+        .iter()
+        .zip(differences)
+        .filter_map(|(case, difference)| Some((case_name(case), difference?)))
+        .collect()
 }
 
 /// How the output of a case differs from the recording, if it does.
 fn run_case(case: &Path) -> Option<String> {
     let text = fs::read_to_string(case).expect("a case is readable text");
-    let header = |key: &str| text.lines().find_map(|l| l.strip_prefix(&format!("-- {key}: "))).map(str::trim);
+    let header = |key: &str| {
+        text.lines()
+            .find_map(|l| l.strip_prefix(&format!("-- {key}: ")))
+            .map(str::trim)
+    };
     let data = tempfile::tempdir().expect("a temporary folder can be made");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.arg("run").arg(case).arg("--data-dir").arg(data.path()).args([
-        "--as",
-        header("as").unwrap_or("sandbox"),
-        "--empty",
-        "--original-errors",
-        "--quiet",
-    ]);
+    command
+        .arg("run")
+        .arg(case)
+        .arg("--data-dir")
+        .arg(data.path())
+        .args([
+            "--as",
+            header("as").unwrap_or("sandbox"),
+            "--empty",
+            "--original-errors",
+            "--quiet",
+        ]);
     match header("passes").unwrap_or("0") {
         "0" => command.args(["--no-start", "--loops", header("loops").unwrap_or("20")]),
         passes => command.args(["--steps", passes]),

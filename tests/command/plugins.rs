@@ -11,38 +11,62 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// Compiles a plugin from `tests/support`.
 fn compile(source: &str, library: &Path) {
-    let compiler = if source.ends_with(".cpp") { "c++" } else { "cc" };
+    let compiler = if source.ends_with(".cpp") {
+        "c++"
+    } else {
+        "cc"
+    };
     let mut command = Command::new(compiler);
-    command.args(["-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", "-I"]).arg(format!("{ROOT}/include"));
-    command.arg("-o").arg(library).arg(format!("{ROOT}/tests/support/{source}")).args(["-ldl", "-lpthread"]);
+    command
+        .args(["-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", "-I"])
+        .arg(format!("{ROOT}/include"));
+    command
+        .arg("-o")
+        .arg(library)
+        .arg(format!("{ROOT}/tests/support/{source}"))
+        .args(["-ldl", "-lpthread"]);
     let output = command.output().expect("there is a compiler");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
 }
 
 /// A folder with the plugins simT in C and simCpp in C++, and a scene.
 fn folder(code: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
     compile("plugin.c", &folder.path().join("libsimT.so"));
-    fs::write(folder.path().join("scene.lua"), format!("sim = require 'sim'\n{code}")).expect("it is writable");
+    fs::write(
+        folder.path().join("scene.lua"),
+        format!("sim = require 'sim'\n{code}"),
+    )
+    .expect("it is writable");
     folder
 }
 
 fn command(folder: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.arg("run").arg(folder.join("scene.lua")).args(["--empty", "--time", "1"]).args(args);
+    command
+        .arg("run")
+        .arg(folder.join("scene.lua"))
+        .args(["--empty", "--time", "1"])
+        .args(args);
     command.env("XDG_CACHE_HOME", folder.join("cache"));
     command
 }
 
 fn run(code: &str) -> String {
     let folder = folder(code);
-    run_bounded(&mut command(folder.path(), &["--quiet"])).unwrap_or_else(|error| panic!("{error}\nof {code}"))
+    run_bounded(&mut command(folder.path(), &["--quiet"]))
+        .unwrap_or_else(|error| panic!("{error}\nof {code}"))
 }
 
 fn assert_prints(code: &str, expected: &[&str]) {
     let output = run(&format!("local simT = loadPlugin('simT')\n{code}"));
     // Its own lines, and warnings about functions that are old for scripts.
-    let is_expected = |line: &&str| !line.contains("the plugin has") && !line.contains(" is deprecated. ");
+    let is_expected =
+        |line: &&str| !line.contains("the plugin has") && !line.contains(" is deprecated. ");
     let lines: Vec<&str> = output.lines().filter(is_expected).collect();
     assert_eq!(lines, expected, "of {code}");
 }
@@ -106,7 +130,10 @@ fn modules_stand_in_for_plugins_and_wrap_them() {
     let wrapper = "local simT = loadPlugin 'simT' function simT.twice(x) return simT.echo(x, x) end return simT";
     fs::write(folder.path().join("simT.lua"), wrapper).expect("it is writable");
     let output = run_bounded(&mut command(folder.path(), &["--quiet"])).expect("it ends");
-    assert!(output.contains("true, 0\n") && output.contains("Hello to you too!, true, a, a\n"), "{output}");
+    assert!(
+        output.contains("true, 0\n") && output.contains("Hello to you too!, true, a, a\n"),
+        "{output}"
+    );
 }
 
 #[test]
@@ -137,10 +164,19 @@ fn plugins_call_scripts() {
             print(simT.callScript('g'))
         end");
     assert!(output.contains("too early, -1, 1\n"), "{output}");
-    assert!(output.contains("4, k, 0, 3\n8, k, 0, 3, 0, 5\n"), "{output}");
+    assert!(
+        output.contains("4, k, 0, 3\n8, k, 0, 3, 0, 5\n"),
+        "{output}"
+    );
     let failed = "External call to simCallScriptFunction failed ('noSuchFunction'): failed calling script function.";
-    assert!(output.contains(failed) && output.contains("\n-1, 1\n"), "{output}");
-    assert!(output.contains("on purpose") && output.contains("failed ('g')"), "{output}");
+    assert!(
+        output.contains(failed) && output.contains("\n-1, 1\n"),
+        "{output}"
+    );
+    assert!(
+        output.contains("on purpose") && output.contains("failed ('g')"),
+        "{output}"
+    );
 }
 
 #[test]
@@ -159,7 +195,10 @@ fn functions_of_the_simulator() {
         "local dummy = sim.createDummy(0.1)
         print(simT.moveObject(dummy))
         print(sim.getObjectPosition(dummy))",
-        &["2, {1., 2., 3.}, dummy, true, -1., 1, -1, 71, 0", "{1., 2., 3.}"],
+        &[
+            "2, {1., 2., 3.}, dummy, true, -1., 1, -1, 71, 0",
+            "{1., 2., 3.}",
+        ],
     );
 }
 
@@ -183,8 +222,13 @@ fn several_results_of_one_function() {
 
 #[test]
 fn misuse_fails_and_does_no_harm() {
-    assert_prints("print((simT.misuse()))\nprint(simT.func())", &["0", "Hello to you too!"]);
-    let output = run("local simT = loadPlugin('simT') print(simT.fromThread(), simT.fromThread(), simT.func())");
+    assert_prints(
+        "print((simT.misuse()))\nprint(simT.func())",
+        &["0", "Hello to you too!"],
+    );
+    let output = run(
+        "local simT = loadPlugin('simT') print(simT.fromThread(), simT.fromThread(), simT.func())",
+    );
     assert!(output.contains("-1., -1., Hello to you too!"), "{output}");
     let told = "a plugin called simGetSimulationTime_D outside of a call by the simulator";
     assert_eq!(output.matches(told).count(), 1, "{output}");
@@ -195,7 +239,10 @@ fn a_function_that_is_missing_is_named() {
     let output = run("print(loadPlugin('simT').missing())");
     let told = "the plugin calls simCameraFitToView_D: it is not implemented in Swanilda";
     assert_eq!(output.matches(told).count(), 1, "{output}");
-    assert!(output.contains("-2, simCameraFitToView_D: it is not implemented in Swanilda"), "{output}");
+    assert!(
+        output.contains("-2, simCameraFitToView_D: it is not implemented in Swanilda"),
+        "{output}"
+    );
 }
 
 #[test]
@@ -226,8 +273,14 @@ fn a_plugin_lives_as_long_as_its_users() {
         print(loadPlugin('simT').func())");
     let lines: Vec<&str> = output.lines().collect();
     let text = lines.join("\n");
-    assert!(text.contains("Hello to you too!\ntrue, Hello to you too!"), "{text}");
-    assert!(text.contains("the plugin is not loaded any more."), "{text}");
+    assert!(
+        text.contains("Hello to you too!\ntrue, Hello to you too!"),
+        "{text}"
+    );
+    assert!(
+        text.contains("the plugin is not loaded any more."),
+        "{text}"
+    );
     assert_eq!(text.matches("the plugin has started.").count(), 2, "{text}");
     assert_eq!(text.matches("the plugin has ended.").count(), 2, "{text}");
 }
@@ -243,8 +296,11 @@ fn what_cannot_be_loaded_is_told() {
     fs::copy(path.join("libsimT.so"), path.join("libsimBad.so")).expect("it is writable");
     let empty = path.join("empty.c");
     fs::write(&empty, "int nothing;").expect("it is writable");
-    let compiled =
-        Command::new("cc").args(["-shared", "-fPIC", "-o"]).arg(path.join("libsimEmpty.so")).arg(&empty).status();
+    let compiled = Command::new("cc")
+        .args(["-shared", "-fPIC", "-o"])
+        .arg(path.join("libsimEmpty.so"))
+        .arg(&empty)
+        .status();
     assert!(compiled.is_ok_and(|status| status.success()));
     let output = run_bounded(&mut command(path, &["--quiet"])).expect("it ends");
     for told in [
@@ -263,8 +319,12 @@ fn what_cannot_be_loaded_is_told() {
 #[test]
 fn no_unsafe_loads_none() {
     let folder = folder("print(pcall(loadPlugin, 'simT'))");
-    let output = run_bounded(&mut command(folder.path(), &["--quiet", "--no-unsafe"])).expect("it ends");
-    assert!(output.contains("loading the plugin 'simT' is not allowed: run with --allow-native"), "{output}");
+    let output =
+        run_bounded(&mut command(folder.path(), &["--quiet", "--no-unsafe"])).expect("it ends");
+    assert!(
+        output.contains("loading the plugin 'simT' is not allowed: run with --allow-native"),
+        "{output}"
+    );
 }
 
 #[test]
@@ -279,7 +339,10 @@ fn plugins_in_other_folders_and_in_cpp() {
     compile("plugin.cpp", &plugins.join("libsimCpp-2.so"));
     let option = format!("--plugin-path={}", plugins.display());
     let output = run_bounded(&mut command(folder.path(), &["--quiet", &option])).expect("it ends");
-    assert!(output.starts_with("Hello to you too!, What?, true\nfalse, 4: error in"), "{output}");
+    assert!(
+        output.starts_with("Hello to you too!, What?, true\nfalse, 4: error in"),
+        "{output}"
+    );
     assert!(output.contains("caught at the edge"), "{output}");
 }
 
@@ -288,21 +351,34 @@ fn plugins_in_other_folders_and_in_cpp() {
 fn an_exception_that_nobody_catches_ends_the_process() {
     let folder = folder("print(pcall(loadPlugin('simCpp').uncaught)) print('still here')");
     compile("plugin.cpp", &folder.path().join("libsimCpp.so"));
-    let ended = run_for_code(&mut command(folder.path(), &["--quiet"]), test_support::process::LIMIT);
+    let ended = run_for_code(
+        &mut command(folder.path(), &["--quiet"]),
+        test_support::process::LIMIT,
+    );
     let text = ended.expect_err("it ends by a signal");
     let told = "swanilda: uncaught of the plugin simCpp let an exception out.";
-    assert!(text.contains(told) && !text.contains("still here"), "{text}");
+    assert!(
+        text.contains(told) && !text.contains("still here"),
+        "{text}"
+    );
 }
 
 #[test]
 fn a_crash_is_told_with_its_place() {
     let folder = folder("loadPlugin('simT').func() loadPlugin('simT').crash()");
-    let ended = run_for_code(&mut command(folder.path(), &["--quiet", "--isolate"]), test_support::process::LIMIT);
+    let ended = run_for_code(
+        &mut command(folder.path(), &["--quiet", "--isolate"]),
+        test_support::process::LIMIT,
+    );
     let (code, text) = ended.expect("only the child ends by a signal");
-    let told = "the process of the scene has crashed in crash of the plugin simT: signal: 6 (SIGABRT)";
+    let told =
+        "the process of the scene has crashed in crash of the plugin simT: signal: 6 (SIGABRT)";
     assert!(code == 70 && text.contains(told), "{code}: {text}");
     fs::write(folder.path().join("scene.lua"), "error('on purpose')").expect("it is writable");
-    let ended = run_for_code(&mut command(folder.path(), &["--quiet", "--isolate"]), test_support::process::LIMIT);
+    let ended = run_for_code(
+        &mut command(folder.path(), &["--quiet", "--isolate"]),
+        test_support::process::LIMIT,
+    );
     assert_eq!(ended.expect("it ends").0, 1);
 }
 
@@ -310,9 +386,15 @@ fn a_crash_is_told_with_its_place() {
 fn what_a_plugin_prints_itself_is_no_line_of_json() {
     let folder = folder("loadPlugin('simT').shout() print('Hello')");
     let output = output_of(&mut command(folder.path(), &["--json"]));
-    let (lines, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    let (lines, errors) = (
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr),
+    );
     let is_json = |line: &str| serde_json::from_str::<serde_json::Value>(line).is_ok();
-    assert!(lines.contains("Hello") && lines.lines().all(is_json), "{lines}");
+    assert!(
+        lines.contains("Hello") && lines.lines().all(is_json),
+        "{lines}"
+    );
     assert!(errors.contains("written by the plugin itself"), "{errors}");
     let output = run("loadPlugin('simT').shout()");
     assert!(output.contains("written by the plugin itself"), "{output}");
@@ -322,8 +404,18 @@ fn what_a_plugin_prints_itself_is_no_line_of_json() {
 #[test]
 fn the_example_runs() {
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
-    compile("../../examples/plugin_hello.c", &folder.path().join("libsimHello.so"));
-    fs::copy(format!("{ROOT}/scenes/plugin_hello.lua"), folder.path().join("scene.lua")).expect("it is writable");
+    compile(
+        "../../examples/plugin_hello.c",
+        &folder.path().join("libsimHello.so"),
+    );
+    fs::copy(
+        format!("{ROOT}/scenes/plugin_hello.lua"),
+        folder.path().join("scene.lua"),
+    )
+    .expect("it is writable");
     let output = run_bounded(&mut command(folder.path(), &["--quiet"])).expect("it ends");
-    assert!(output.starts_with("Hello to you too!, from C\nThe ball has fallen to 0.2"), "{output}");
+    assert!(
+        output.starts_with("Hello to you too!, from C\nThe ball has fallen to 0.2"),
+        "{output}"
+    );
 }

@@ -18,7 +18,9 @@ fn command(name: &str, paths: &[&Path]) -> Output {
 }
 
 fn robot(extension: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(format!("robot.{extension}"))
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/data")
+        .join(format!("robot.{extension}"))
 }
 
 fn folder() -> TempDir {
@@ -36,7 +38,10 @@ fn stderr(output: &Output) -> String {
 /// The robot in a folder, its script changed.
 fn unpacked(folder: &Path, change: impl Fn(&str) -> String) -> PathBuf {
     let scene = folder.join("robot");
-    assert_eq!(command("unpack", &[&robot("ttt"), &scene]).status.code(), Some(0));
+    assert_eq!(
+        command("unpack", &[&robot("ttt"), &scene]).status.code(),
+        Some(0)
+    );
     let script = script_of(&scene);
     let text = fs::read_to_string(&script).expect("a script");
     fs::write(script, change(&text)).expect("our own folder is writable");
@@ -53,7 +58,10 @@ fn inspect_tells_what_is_in_a_scene() {
     let text = stdout(&output);
     assert_eq!(output.status.code(), Some(0), "{text}");
     assert!(text.starts_with("scene of 4.10.0 (format 25): "), "{text}");
-    assert!(text.contains("arm (Shape") && text.contains("script /robot/script (lua, "), "{text}");
+    assert!(
+        text.contains("arm (Shape") && text.contains("script /robot/script (lua, "),
+        "{text}"
+    );
     let json = command("inspect", &[&robot("ttm"), Path::new("--json")]);
     let report: Value = serde_json::from_slice(&json.stdout).expect("JSON");
     assert_eq!(report["scripts"][0]["name"], "/robot/script");
@@ -63,10 +71,16 @@ fn inspect_tells_what_is_in_a_scene() {
 #[test]
 fn inspect_tells_what_is_missing() {
     let folder = folder();
-    let scene = unpacked(folder.path(), |text| text.replace("sim.setJointTargetPosition", "sim.frobnicate"));
+    let scene = unpacked(folder.path(), |text| {
+        text.replace("sim.setJointTargetPosition", "sim.frobnicate")
+    });
     let output = command("inspect", &[&scene]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stdout(&output).contains("missing      sim.frobnicate"), "{}", stdout(&output));
+    assert!(
+        stdout(&output).contains("missing      sim.frobnicate"),
+        "{}",
+        stdout(&output)
+    );
 }
 
 #[test]
@@ -77,10 +91,16 @@ fn an_unpacked_scene_packs_to_the_same() {
     let packed = folder.path().join("packed.ttt");
     assert_eq!(command("pack", &[&scene, &packed]).status.code(), Some(0));
     let same = command("diff", &[&robot("ttt"), &packed]);
-    assert_eq!((same.status.code(), stdout(&same)), (Some(0), String::new()));
+    assert_eq!(
+        (same.status.code(), stdout(&same)),
+        (Some(0), String::new())
+    );
     // The folder may be written again, but not what is none of ours.
     assert_eq!(command("unpack", &[&packed, &scene]).status.code(), Some(0));
-    assert_eq!(command("unpack", &[&packed, folder.path()]).status.code(), Some(2));
+    assert_eq!(
+        command("unpack", &[&packed, folder.path()]).status.code(),
+        Some(2)
+    );
 }
 
 #[test]
@@ -90,8 +110,16 @@ fn diff_tells_what_changed() {
     let output = command("diff", &[&robot("ttt"), &scene]);
     assert_eq!(output.status.code(), Some(1));
     let text = stdout(&output);
-    assert!(text.lines().any(|line| line.starts_with('-') && line.contains("math.sin")), "{text}");
-    assert!(text.lines().any(|line| line.starts_with('+') && line.contains("math.cos")), "{text}");
+    assert!(
+        text.lines()
+            .any(|line| line.starts_with('-') && line.contains("math.sin")),
+        "{text}"
+    );
+    assert!(
+        text.lines()
+            .any(|line| line.starts_with('+') && line.contains("math.cos")),
+        "{text}"
+    );
 }
 
 #[test]
@@ -100,20 +128,33 @@ fn doctor_tells_what_works() {
     assert_eq!(works.status.code(), Some(0), "{}", stdout(&works));
     let folder = folder();
     let file = folder.path().join("robot.lua");
-    fs::write(&file, "sim = require 'sim'\nsim.getObject('/a')\nsim.frobnicate(1, 2, 0)\n").expect("writable");
+    fs::write(
+        &file,
+        "sim = require 'sim'\nsim.getObject('/a')\nsim.frobnicate(1, 2, 0)\n",
+    )
+    .expect("writable");
     let output = command("doctor", &[folder.path()]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stdout(&output).contains("sim.frobnicate: line 3"), "{}", stdout(&output));
+    assert!(
+        stdout(&output).contains("sim.frobnicate: line 3"),
+        "{}",
+        stdout(&output)
+    );
     let json = command("doctor", &[&file, Path::new("--json")]);
     let report: Value = serde_json::from_slice(&json.stdout).expect("JSON");
     assert_eq!(report["summary"]["missing"], 1);
     fs::write(folder.path().join("broken.ttt"), "VREP and no more").expect("writable");
-    fs::write(folder.path().join("old.lua"), "simRMLPos() sim.getObjectName(1)").expect("writable");
+    fs::write(
+        folder.path().join("old.lua"),
+        "simRMLPos() sim.getObjectName(1)",
+    )
+    .expect("writable");
     let output = command("doctor", &[folder.path(), Path::new("--deprecated")]);
     assert_eq!(output.status.code(), Some(2));
     let text = stdout(&output);
     assert!(
-        text.contains("sim.frobnicate: line 3") && text.contains("deprecated   sim.getObjectName: line 1"),
+        text.contains("sim.frobnicate: line 3")
+            && text.contains("deprecated   sim.getObjectName: line 1"),
         "{text}"
     );
 }
@@ -126,11 +167,23 @@ fn bad_paths_are_refused() {
     let bytes = fs::read(robot("ttt")).expect("a scene");
     fs::write(&broken, &bytes[..bytes.len() / 2]).expect("our own folder is writable");
     let out = folder.path().join("nowhere/out.ttt");
-    for paths in [["inspect", "missing"], ["inspect", "broken"], ["doctor", "missing"]] {
-        let path = if paths[1] == "missing" { &missing } else { &broken };
+    for paths in [
+        ["inspect", "missing"],
+        ["inspect", "broken"],
+        ["doctor", "missing"],
+    ] {
+        let path = if paths[1] == "missing" {
+            &missing
+        } else {
+            &broken
+        };
         let output = command(paths[0], &[path]);
         assert_eq!(output.status.code(), Some(2), "{paths:?}");
-        assert!(stderr(&output).contains(paths[1]), "{paths:?}: {}", stderr(&output));
+        assert!(
+            stderr(&output).contains(paths[1]),
+            "{paths:?}: {}",
+            stderr(&output)
+        );
     }
     for (name, first, second) in [
         ("diff", robot("ttt"), missing.clone()),
@@ -141,8 +194,17 @@ fn bad_paths_are_refused() {
         ("pack", unpacked(folder.path(), str::to_owned), out.clone()),
     ] {
         let output = command(name, &[&first, &second]);
-        assert_eq!(output.status.code(), Some(2), "{name} {} {}", first.display(), second.display());
-        assert!(!stderr(&output).is_empty() && stdout(&output).is_empty(), "{name}");
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{name} {} {}",
+            first.display(),
+            second.display()
+        );
+        assert!(
+            !stderr(&output).is_empty() && stdout(&output).is_empty(),
+            "{name}"
+        );
     }
     assert!(!out.exists());
 }
@@ -150,8 +212,15 @@ fn bad_paths_are_refused() {
 #[test]
 fn an_unpacked_folder_runs_and_errors_name_its_files() {
     let folder = folder();
-    let scene = unpacked(folder.path(), |text| text.replace("    sim.setJointTargetPosition", "    error('boom')\n--"));
-    let output = swanilda(&[Path::new("run"), &scene, Path::new("--steps"), Path::new("3")]);
+    let scene = unpacked(folder.path(), |text| {
+        text.replace("    sim.setJointTargetPosition", "    error('boom')\n--")
+    });
+    let output = swanilda(&[
+        Path::new("run"),
+        &scene,
+        Path::new("--steps"),
+        Path::new("3"),
+    ]);
     assert_eq!(output.status.code(), Some(1));
     let text = stderr(&output);
     // Long paths are cut at their front.
@@ -161,8 +230,14 @@ fn an_unpacked_folder_runs_and_errors_name_its_files() {
 /// Git in a repository of its own; none where there is no git.
 fn git(repository: &Path, args: &[&str]) -> Option<Output> {
     let mut command = Command::new("git");
-    command.args(["-c", "user.name=test", "-c", "user.email=test@example.org"]).args(args).current_dir(repository);
-    command.env("GIT_CONFIG_GLOBAL", "/dev/null").env("GIT_CONFIG_NOSYSTEM", "1").env("GIT_PAGER", "cat");
+    command
+        .args(["-c", "user.name=test", "-c", "user.email=test@example.org"])
+        .args(args)
+        .current_dir(repository);
+    command
+        .env("GIT_CONFIG_GLOBAL", "/dev/null")
+        .env("GIT_CONFIG_NOSYSTEM", "1")
+        .env("GIT_PAGER", "cat");
     let output = command.output().ok()?;
     assert!(output.status.success(), "git {args:?}: {}", stderr(&output));
     Some(output)
@@ -178,8 +253,16 @@ fn git_shows_differences_of_scenes() {
     }
     let run = |args: &[&str]| stdout(&git(&repository, args).expect("git is there"));
     let program = env!("CARGO_BIN_EXE_swanilda");
-    run(&["config", "diff.swanilda.textconv", &format!("'{program}' inspect --textconv")]);
-    run(&["config", "difftool.swanilda.cmd", &format!("'{program}' diff \"$LOCAL\" \"$REMOTE\"")]);
+    run(&[
+        "config",
+        "diff.swanilda.textconv",
+        &format!("'{program}' inspect --textconv"),
+    ]);
+    run(&[
+        "config",
+        "difftool.swanilda.cmd",
+        &format!("'{program}' diff \"$LOCAL\" \"$REMOTE\""),
+    ]);
     fs::write(repository.join(".gitattributes"), "*.ttt diff=swanilda\n").expect("writable");
     let file = repository.join("robot.ttt");
     fs::copy(robot("ttt"), &file).expect("writable");
@@ -188,7 +271,11 @@ fn git_shows_differences_of_scenes() {
     let changed = unpacked(folder.path(), |text| text.replace("math.sin", "math.cos"));
     assert_eq!(command("pack", &[&changed, &file]).status.code(), Some(0));
     for shown in [run(&["diff"]), run(&["difftool", "-y", "-t", "swanilda"])] {
-        let has = |sign, word| shown.lines().any(|line| line.starts_with(sign) && line.contains(word));
+        let has = |sign, word| {
+            shown
+                .lines()
+                .any(|line| line.starts_with(sign) && line.contains(word))
+        };
         assert!(has('-', "math.sin") && has('+', "math.cos"), "{shown}");
     }
 }

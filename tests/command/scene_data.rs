@@ -24,7 +24,11 @@ fn swanilda(args: &[&Path]) -> Output {
 /// Runs a command for scene files, which succeeds.
 fn convert(command: &str, from: &Path, to: &Path) {
     let output = swanilda(&[Path::new(command), from, to]);
-    assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{command}: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
 }
 
 /// What `check.lua` says of a file.
@@ -32,7 +36,9 @@ fn checked(file: &Path, options: &[&str]) -> String {
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
     command.arg("run").arg(data().join("check.lua"));
     command.args(["--as", "sandbox", "--empty", "--no-start", "--quiet", "-D"]);
-    command.arg(format!("file={}", file.display())).args(options);
+    command
+        .arg(format!("file={}", file.display()))
+        .args(options);
     let output = output_of(&mut command);
     String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
 }
@@ -44,7 +50,10 @@ fn binary_scenes_are_read() {
 
 #[test]
 fn binary_models_are_read() {
-    assert_eq!(checked(&data().join("part.ttm"), &["-D", "part=true"]), CHECKS.1);
+    assert_eq!(
+        checked(&data().join("part.ttm"), &["-D", "part=true"]),
+        CHECKS.1
+    );
 }
 
 #[test]
@@ -71,11 +80,19 @@ fn the_files_can_be_made_again() {
     let folder = folder();
     let mut make = Command::new(data().join("make.sh"));
     let output = output_of(make.arg(env!("CARGO_BIN_EXE_swanilda")).arg(folder.path()));
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     for name in ["world.ttt", "part.ttm", "robot.ttt", "robot.ttm"] {
         let (kept, made) = (data().join(name), folder.path().join(name));
         let difference = swanilda(&[Path::new("diff"), &kept, &made]);
-        assert!(difference.status.success(), "{name}: {}", String::from_utf8_lossy(&difference.stdout));
+        assert!(
+            difference.status.success(),
+            "{name}: {}",
+            String::from_utf8_lossy(&difference.stdout)
+        );
     }
 }
 

@@ -13,7 +13,15 @@ fn folder() -> PathBuf {
 
 fn run(file: &Path) -> String {
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.arg("run").arg(file).args(["--as", "sandbox", "--empty", "--quiet", "--no-start", "--loops", "0"]);
+    command.arg("run").arg(file).args([
+        "--as",
+        "sandbox",
+        "--empty",
+        "--quiet",
+        "--no-start",
+        "--loops",
+        "0",
+    ]);
     run_bounded(&mut command).expect("the script ends")
 }
 
@@ -21,12 +29,19 @@ fn run(file: &Path) -> String {
 fn masked(line: &str) -> String {
     let label = line.split(" => ").next().unwrap_or_default();
     match label {
-        "stats type" => return line.rsplit_once(", ").map_or(line, |(rest, _)| rest).to_owned(),
+        "stats type" => {
+            return line
+                .rsplit_once(", ")
+                .map_or(line, |(rest, _)| rest)
+                .to_owned();
+        }
         "unix" => return "unix => true, table".to_owned(),
         _ => {}
     }
     let words = line.split(' ').map(|word| match word {
-        _ if word.starts_with("0x") => word.split_once(',').map_or("ADDR".into(), |(_, rest)| format!("ADDR,{rest}")),
+        _ if word.starts_with("0x") => word
+            .split_once(',')
+            .map_or("ADDR".into(), |(_, rest)| format!("ADDR,{rest}")),
         _ if is_port(word) => "PORT".into(),
         _ if word.contains("sock.lua:") => word.replace("sock.lua:", "[string \\\"probe\\\"]:"),
         _ => word.into(),
@@ -36,13 +51,19 @@ fn masked(line: &str) -> String {
 
 /// A number above the well-known ports, with its quotes and comma.
 fn is_port(word: &str) -> bool {
-    word.trim_matches(['"', ',']).parse::<u16>().is_ok_and(|port| port > 10_000)
+    word.trim_matches(['"', ','])
+        .parse::<u16>()
+        .is_ok_and(|port| port > 10_000)
 }
 
 #[test]
 fn the_probe_prints_what_luasocket_printed() {
-    let recorded = fs::read_to_string(folder().join("probe.txt")).expect("the recording is readable");
-    let mut expected = recorded.lines().filter(|line| !line.starts_with("# ")).map(masked);
+    let recorded =
+        fs::read_to_string(folder().join("probe.txt")).expect("the recording is readable");
+    let mut expected = recorded
+        .lines()
+        .filter(|line| !line.starts_with("# "))
+        .map(masked);
     let printed = run(&folder().join("probe.lua"));
     let mut lines = printed.lines().map(masked);
     for expected in expected.by_ref() {
@@ -51,7 +72,9 @@ fn the_probe_prints_what_luasocket_printed() {
             // The recording cuts the list of names.
             Some(_) => assert!(line.starts_with(&expected), "{line}"),
             // Serial ports have functions of their own: sim.serialOpen.
-            None if expected.starts_with("serial => ") => assert!(line.starts_with("serial => false"), "{line}"),
+            None if expected.starts_with("serial => ") => {
+                assert!(line.starts_with("serial => false"), "{line}")
+            }
             None => assert_eq!(line, expected),
         }
         if line.starts_with("serial => ") {
@@ -83,11 +106,24 @@ fn an_interrupt_ends_every_wait() {
     fs::write(&file, script).expect("the folder is ours");
     for wait in ["accept", "receive", "send", "select", "sleep"] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-        command.arg("run").arg(&file).args(["--as", "sandbox", "--empty", "--quiet", "-D", &format!("wait={wait}")]);
-        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the command starts");
+        command.arg("run").arg(&file).args([
+            "--as",
+            "sandbox",
+            "--empty",
+            "--quiet",
+            "-D",
+            &format!("wait={wait}"),
+        ]);
+        let mut child = command
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the command starts");
         let mut out = BufReader::new(child.stdout.take().expect("standard output is piped"));
-        out.read_line(&mut String::new()).expect("the script says when it waits");
-        run_bounded(Command::new("kill").args(["-INT", &child.id().to_string()])).expect("the signal is sent");
+        out.read_line(&mut String::new())
+            .expect("the script says when it waits");
+        run_bounded(Command::new("kill").args(["-INT", &child.id().to_string()]))
+            .expect("the signal is sent");
         assert!(wait_within(&mut child, LIMIT).is_some(), "{wait} goes on");
         let output = child.wait_with_output().expect("the command ends");
         let said = String::from_utf8_lossy(&output.stderr);

@@ -14,21 +14,32 @@ const VALIDATOR: &str = "gltf-validator@2.0.0-dev.3.10";
 
 #[test]
 fn khronos_validator_finds_no_fault() {
-    let Some(modules) = validator() else { return skipped_outside_of_ci("there is no node with npm") };
+    let Some(modules) = validator() else {
+        return skipped_outside_of_ci("there is no node with npm");
+    };
     let files = tempfile::tempdir().expect("a temporary folder can be made");
     let mut scene = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    scene.args(["run", "--quiet"]).arg(folder().join("gltf_scene.lua"));
-    scene.arg("-D").arg(format!("folder={}", files.path().display()));
+    scene
+        .args(["run", "--quiet"])
+        .arg(folder().join("gltf_scene.lua"));
+    scene
+        .arg("-D")
+        .arg(format!("folder={}", files.path().display()));
     assert_eq!(run_bounded(&mut scene).as_deref(), Ok(""));
     let mut node = Command::new("node");
-    node.arg(folder().join("gltf_validate.js")).arg(files.path()).env("NODE_PATH", modules);
+    node.arg(folder().join("gltf_validate.js"))
+        .arg(files.path())
+        .env("NODE_PATH", modules);
     assert_eq!(run_bounded(&mut node).as_deref(), Ok("4 files\n"));
 }
 
 /// The folder of node's modules with the validator; None where there is no node.
 fn validator() -> Option<PathBuf> {
     let works = |program: &str| {
-        let status = Command::new(program).arg("--version").stdout(Stdio::null()).status();
+        let status = Command::new(program)
+            .arg("--version")
+            .stdout(Stdio::null())
+            .status();
         status.is_ok_and(|status| status.success())
     };
     if !(works("node") && works("npm")) {
@@ -38,8 +49,20 @@ fn validator() -> Option<PathBuf> {
     let modules = dir.join("node_modules");
     if !modules.join("gltf-validator/package.json").exists() {
         let mut install = Command::new("npm");
-        install.args(["install", "--no-audit", "--no-fund", "--silent", VALIDATOR, "--prefix"]).arg(&dir);
-        assert!(install.status().expect("npm starts").success(), "{install:?}");
+        install
+            .args([
+                "install",
+                "--no-audit",
+                "--no-fund",
+                "--silent",
+                VALIDATOR,
+                "--prefix",
+            ])
+            .arg(&dir);
+        assert!(
+            install.status().expect("npm starts").success(),
+            "{install:?}"
+        );
     }
     Some(modules)
 }

@@ -3,7 +3,10 @@
 //! Needs python3 with `venv`, and the Python index once: the environment stays in `target/`. Without python3 the tests are skipped,
 //! except where `CI` is set.
 
-#![allow(clippy::disallowed_methods, reason = "tests start programs and look at the environment")]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests start programs and look at the environment"
+)]
 
 mod gltf;
 mod motion;

@@ -19,14 +19,27 @@ fn python_with_package() -> Option<&'static PathBuf> {
     let python = python()?;
     INSTALLED.get_or_init(|| {
         let mut pip = Command::new(python);
-        pip.args(["-m", "pip", "install", "--quiet", "--no-deps", "--no-build-isolation", "--force-reinstall"]);
-        pip.arg("--config-settings=build-args=--profile dev").arg(root());
+        pip.args([
+            "-m",
+            "pip",
+            "install",
+            "--quiet",
+            "--no-deps",
+            "--no-build-isolation",
+            "--force-reinstall",
+        ]);
+        pip.arg("--config-settings=build-args=--profile dev")
+            .arg(root());
         // `cargo test` passes on what belongs to the package it tests.
-        pip.env_remove("CARGO_MANIFEST_DIR").env("PATH", path_with(python));
+        pip.env_remove("CARGO_MANIFEST_DIR")
+            .env("PATH", path_with(python));
         succeed(&mut pip, BUILD);
         // It is as large as all others together; its tests are skipped without it.
         if std::env::var_os("CI").is_some() {
-            succeed(Command::new(python).args(["-m", "pip", "install", "--quiet", "ray[data]==2.60.0"]), BUILD);
+            succeed(
+                Command::new(python).args(["-m", "pip", "install", "--quiet", "ray[data]==2.60.0"]),
+                BUILD,
+            );
         }
     });
     Some(python)
@@ -36,7 +49,8 @@ fn python_with_package() -> Option<&'static PathBuf> {
 fn path_with(python: &Path) -> std::ffi::OsString {
     let folder = python.parent().expect("it lies in a folder").to_owned();
     let rest = std::env::var_os("PATH").unwrap_or_default();
-    std::env::join_paths(std::iter::once(folder).chain(std::env::split_paths(&rest))).expect("paths have no colon")
+    std::env::join_paths(std::iter::once(folder).chain(std::env::split_paths(&rest)))
+        .expect("paths have no colon")
 }
 
 fn root() -> &'static Path {
@@ -44,17 +58,26 @@ fn root() -> &'static Path {
 }
 
 fn succeed(command: &mut Command, limit: Duration) {
-    let (code, text) = run_for_code(command, limit).unwrap_or_else(|reason| panic!("{command:?} {reason}"));
+    let (code, text) =
+        run_for_code(command, limit).unwrap_or_else(|reason| panic!("{command:?} {reason}"));
     assert_eq!(code, 0, "{command:?}\n{text}");
 }
 
 #[test]
 fn the_package_passes_its_tests() {
-    let Some(python) = python_with_package() else { return };
+    let Some(python) = python_with_package() else {
+        return;
+    };
     let server = Server::start();
     let mut pytest = Command::new(python);
-    pytest.args(["-m", "pytest", "-q", "-p", "no:cacheprovider"]).arg(root().join("tests/python"));
-    pytest.env("SWANILDA_PORT", &server.port).env("SWANILDA_BIN", env!("CARGO_BIN_EXE_swanilda"));
-    pytest.env("PYTHONDONTWRITEBYTECODE", "1").current_dir(root().join("tests"));
+    pytest
+        .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
+        .arg(root().join("tests/python"));
+    pytest
+        .env("SWANILDA_PORT", &server.port)
+        .env("SWANILDA_BIN", env!("CARGO_BIN_EXE_swanilda"));
+    pytest
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .current_dir(root().join("tests"));
     succeed(&mut pytest, TESTS);
 }

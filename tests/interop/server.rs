@@ -22,7 +22,11 @@ impl Server {
 
     pub fn start_with(args: &[&str]) -> Self {
         let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-        command.args(["serve", "--json"]).args(args).stdin(Stdio::null()).stdout(Stdio::piped());
+        command
+            .args(["serve", "--json"])
+            .args(args)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped());
         let mut child = command.spawn().expect("the server starts");
         let mut out = BufReader::new(child.stdout.take().expect("standard output is piped"));
         let port = announced_port(&mut out);
@@ -66,7 +70,11 @@ pub fn python() -> Option<&'static PathBuf> {
 }
 
 fn make_environment() -> Option<PathBuf> {
-    if !Command::new("python3").args(["-c", "import ensurepip, venv"]).status().is_ok_and(|status| status.success()) {
+    if !Command::new("python3")
+        .args(["-c", "import ensurepip, venv"])
+        .status()
+        .is_ok_and(|status| status.success())
+    {
         return None;
     }
     let dir = Path::new(env!("CARGO_TARGET_TMPDIR")).join("interop-venv");
@@ -76,8 +84,16 @@ fn make_environment() -> Option<PathBuf> {
     if fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) {
         return Some(python);
     }
-    succeed(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&dir));
-    succeed(Command::new(&python).args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(&requirements));
+    succeed(
+        Command::new("python3")
+            .args(["-m", "venv", "--clear"])
+            .arg(&dir),
+    );
+    succeed(
+        Command::new(&python)
+            .args(["-m", "pip", "install", "--quiet", "--requirement"])
+            .arg(&requirements),
+    );
     fs::write(stamp, wanted).expect("the environment is ours");
     Some(python)
 }
@@ -96,6 +112,14 @@ pub fn check(file: &str, args: &[&str]) {
 /// Runs one file against a server.
 pub fn run(python: &Path, file: &str, server: &Server, args: &[&str]) {
     let mut command = Command::new(python);
-    command.arg(folder().join(file)).arg(&server.port).args(args).env("PYTHONDONTWRITEBYTECODE", "1");
-    assert_eq!(run_bounded(&mut command).as_deref(), Ok(""), "{file} {args:?}");
+    command
+        .arg(folder().join(file))
+        .arg(&server.port)
+        .args(args)
+        .env("PYTHONDONTWRITEBYTECODE", "1");
+    assert_eq!(
+        run_bounded(&mut command).as_deref(),
+        Ok(""),
+        "{file} {args:?}"
+    );
 }

@@ -10,7 +10,10 @@ use crate::server::{folder, python};
 fn check(file: &str) {
     let Some(python) = python() else { return };
     let mut command = Command::new(python);
-    command.arg(folder().join(file)).arg(env!("CARGO_BIN_EXE_swanilda")).env("PYTHONDONTWRITEBYTECODE", "1");
+    command
+        .arg(folder().join(file))
+        .arg(env!("CARGO_BIN_EXE_swanilda"))
+        .env("PYTHONDONTWRITEBYTECODE", "1");
     assert_eq!(run_bounded(&mut command).as_deref(), Ok(""), "{file}");
 }
 

@@ -24,7 +24,15 @@ fn old_scene() -> PathBuf {
     let mut sim = Simulator::new(Options::default());
     let button = |number: i32, attributes: i32, cell: [i32; 2], span: [i32; 2], label: &str| {
         let colours = [0.2, 0.5, 0.3, 0.8, 0.4, 0.2, 1.0, 1.0, 1.0];
-        Button { number, attributes, cell, span, label: label.into(), colours, ..Button::default() }
+        Button {
+            number,
+            attributes,
+            cell,
+            span,
+            label: label.into(),
+            colours,
+            ..Button::default()
+        }
     };
     let buttons = vec![
         button(1, 0x10, [0, 0], [4, 1], "Start"),
@@ -34,10 +42,17 @@ fn old_scene() -> PathBuf {
         button(5, 0x11, [0, 3], [8, 1], "a label"),
     ];
     let (cells, cell_size) = ([8, 4], [20, 16]);
-    let interface =
-        ButtonInterface { name: "Controls".into(), attributes: 3, cells, cell_size, buttons, ..Default::default() };
+    let interface = ButtonInterface {
+        name: "Controls".into(),
+        attributes: 3,
+        cells,
+        cell_size,
+        buttons,
+        ..Default::default()
+    };
     sim.scene_mut().button_interfaces_mut().add(interface);
     let name = Data::text(path.to_str().expect("a name in UTF-8"));
-    sim.call_api("sim.saveScene", &[name]).expect("the scene is saved");
+    sim.call_api("sim.saveScene", &[name])
+        .expect("the scene is saved");
     path
 }

@@ -20,7 +20,10 @@ pub fn check(file: &str) {
 fn check_with(file: &str, arguments: &[&Path]) {
     let Some(python) = python() else { return };
     let mut command = Command::new(python);
-    command.arg(folder().join(file)).arg(env!("CARGO_BIN_EXE_swanilda")).args(arguments);
+    command
+        .arg(folder().join(file))
+        .arg(env!("CARGO_BIN_EXE_swanilda"))
+        .args(arguments);
     command.env("PYTHONDONTWRITEBYTECODE", "1");
     assert_eq!(run_within(&mut command, LIMIT).as_deref(), Ok(""), "{file}");
 }
@@ -54,8 +57,12 @@ pub fn check_in_browser(file: &str) {
 /// The same with further arguments.
 pub fn check_in_browser_with(file: &str, arguments: &[&Path]) {
     let names = ["chromium", "chromium-browser", "google-chrome"];
-    let is_there =
-        |name: &&str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
+    let is_there = |name: &&str| {
+        Command::new(name)
+            .arg("--version")
+            .output()
+            .is_ok_and(|output| output.status.success())
+    };
     if names.iter().any(is_there) {
         return check_with(file, arguments);
     }

@@ -33,13 +33,23 @@ fn clients_that_are_killed() {
 fn many_clients_and_improper_ones() {
     let Some(python) = python() else { return };
     let server = Server::start();
-    run(python, "zmq_crowd.py", &server, &[&server.child.id().to_string()]);
+    run(
+        python,
+        "zmq_crowd.py",
+        &server,
+        &[&server.child.id().to_string()],
+    );
 }
 
 #[test]
 fn a_restart_while_clients_wait() {
     let Some(python) = python() else { return };
-    run(python, "zmq_restart.py", &Server::start(), &[env!("CARGO_BIN_EXE_swanilda")]);
+    run(
+        python,
+        "zmq_restart.py",
+        &Server::start(),
+        &[env!("CARGO_BIN_EXE_swanilda")],
+    );
 }
 
 #[test]
@@ -54,7 +64,12 @@ fn the_end_while_a_client_holds_up_the_simulation() {
     let mut server = Server::start();
     let id = server.child.id().to_string();
     run(python, "zmq_end.py", &server, &[&id]);
-    assert!(wait_within(&mut server.child, LIMIT).expect("it ends").success(), "SIGTERM is a clean end");
+    assert!(
+        wait_within(&mut server.child, LIMIT)
+            .expect("it ends")
+            .success(),
+        "SIGTERM is a clean end"
+    );
 }
 
 #[test]
@@ -75,5 +90,10 @@ fn several_calls_in_one_request() {
 #[test]
 fn what_clients_do_not_get() {
     let Some(python) = python() else { return };
-    run(python, "zmq_restricted.py", &Server::start_with(&["--remote-api=0", "--no-unsafe"]), &[]);
+    run(
+        python,
+        "zmq_restricted.py",
+        &Server::start_with(&["--remote-api=0", "--no-unsafe"]),
+        &[],
+    );
 }

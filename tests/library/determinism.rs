@@ -27,11 +27,19 @@ const OUTSIDE: [&str; 5] = ["ros", "ws_", "zmq_", "serial_", "fetch_"];
 fn scenes() -> Vec<PathBuf> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let folders = [top.clone(), top.join("messaging")];
-    let entries = folders.iter().flat_map(|folder| fs::read_dir(folder).expect("scenes/ is readable").flatten());
+    let entries = folders
+        .iter()
+        .flat_map(|folder| fs::read_dir(folder).expect("scenes/ is readable").flatten());
     let files = entries.map(|entry| entry.path());
-    let mut scenes: Vec<_> = files.filter(|path| path.extension().is_some_and(|e| e == "lua")).collect();
+    let mut scenes: Vec<_> = files
+        .filter(|path| path.extension().is_some_and(|e| e == "lua"))
+        .collect();
     let is_outside = |name: &str| OUTSIDE.iter().any(|start| name.starts_with(start));
-    scenes.retain(|path| !path.file_name().is_some_and(|name| is_outside(&name.to_string_lossy())));
+    scenes.retain(|path| {
+        !path
+            .file_name()
+            .is_some_and(|name| is_outside(&name.to_string_lossy()))
+    });
     scenes.sort();
     scenes
 }
@@ -49,7 +57,12 @@ fn twice_in_processes_of_their_own() {
     parallel::map(&scenes(), |scene| {
         let run = || {
             let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-            command.arg("run").arg(scene).args(["--quiet", "--json", "--steps", &LONGEST.to_string()]);
+            command.arg("run").arg(scene).args([
+                "--quiet",
+                "--json",
+                "--steps",
+                &LONGEST.to_string(),
+            ]);
             let (code, said) = run_for_code(&mut command, LIMIT).expect("it ends");
             assert!(code == 0, "{} fails: {said}", scene.display());
             said
@@ -63,19 +76,32 @@ fn twice_in_processes_of_their_own() {
 fn pictures_with_any_number_of_threads() {
     for name in ["camera", "line_follower"] {
         let pictures = [1, 2, 7].map(|threads| on_a_large_stack(picture, (name, threads)));
-        assert!(pictures[0].depth.iter().any(|depth| *depth < 1.0), "{name}: something is seen");
-        assert!(pictures.iter().all(|picture| *picture == pictures[0]), "{name}");
+        assert!(
+            pictures[0].depth.iter().any(|depth| *depth < 1.0),
+            "{name}: something is seen"
+        );
+        assert!(
+            pictures.iter().all(|picture| *picture == pictures[0]),
+            "{name}"
+        );
     }
 }
 
 fn picture((name, threads): (&'static str, usize)) -> Picture {
-    let options = Options { render_threads: NonZero::new(threads), ..Options::default() };
+    let options = Options {
+        render_threads: NonZero::new(threads),
+        ..Options::default()
+    };
     let mut sim = Simulator::new(options);
-    sim.scene_mut().add_default_objects().expect("there is room");
+    sim.scene_mut()
+        .add_default_objects()
+        .expect("there is room");
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.lua"));
     let code = fs::read(scene).expect("the scene is readable");
-    sim.add_script(ScriptKind::Customization, "scene", &code).expect("the scene loads");
-    sim.picture(None, Some([211, 157]), Channels::ALL).expect("there is a view")
+    sim.add_script(ScriptKind::Customization, "scene", &code)
+        .expect("the scene loads");
+    sim.picture(None, Some([211, 157]), Channels::ALL)
+        .expect("there is a view")
 }
 
 /// Bodies and readings do not depend on how many threads solve mechanisms.
@@ -90,11 +116,20 @@ fn mechanisms_with_any_number_of_threads() {
 fn swarm(threads: usize) -> String {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/determinism/swarm.lua");
     let transcript = Transcript::default();
-    let options = Options { threads: NonZero::new(threads).expect("from one"), ..Options::default() };
+    let options = Options {
+        threads: NonZero::new(threads).expect("from one"),
+        ..Options::default()
+    };
     let mut sim = Simulator::with_console(options, Box::new(transcript.clone()));
-    sim.scene_mut().add_default_objects().expect("an empty scene has room");
-    sim.add_script(ScriptKind::Customization, "scene", &fs::read(&scene).expect("a scene is readable"))
-        .expect("a scene loads");
+    sim.scene_mut()
+        .add_default_objects()
+        .expect("an empty scene has room");
+    sim.add_script(
+        ScriptKind::Customization,
+        "scene",
+        &fs::read(&scene).expect("a scene is readable"),
+    )
+    .expect("a scene loads");
     sim.step(40);
     assert_eq!(sim.errors(), 0, "{}", transcript.text.borrow());
     transcript.text.take()
@@ -111,13 +146,24 @@ fn ten_thousand_steps() {
     };
     let processes = [start(), start()];
     let runs = on_a_large_stack(two_short_runs, scene.clone());
-    let hashes: Vec<_> = runs.lines().filter(|line| line.ends_with("after 10.0 s")).collect();
-    let [first, second] = hashes[..] else { panic!("each run prints a line: {runs}") };
+    let hashes: Vec<_> = runs
+        .lines()
+        .filter(|line| line.ends_with("after 10.0 s"))
+        .collect();
+    let [first, second] = hashes[..] else {
+        panic!("each run prints a line: {runs}")
+    };
     assert_eq!(first, second, "a run differs from the one before it");
     let said = processes.map(|process| {
         let (code, said) = process.join().expect("it was run");
-        assert!(code == 0 && said.contains(first), "a process differs from `{first}`: {said}");
-        let end = said.lines().find(|line| line.contains("after 50.0 s")).map(str::to_owned);
+        assert!(
+            code == 0 && said.contains(first),
+            "a process differs from `{first}`: {said}"
+        );
+        let end = said
+            .lines()
+            .find(|line| line.contains("after 50.0 s"))
+            .map(str::to_owned);
         end.unwrap_or_else(|| panic!("10 000 steps end with a line: {said}"))
     });
     assert_eq!(said[0], said[1], "two processes differ");
@@ -127,9 +173,15 @@ fn ten_thousand_steps() {
 fn two_short_runs(scene: PathBuf) -> String {
     let transcript = Transcript::default();
     let mut sim = Simulator::with_console(Options::default(), Box::new(transcript.clone()));
-    sim.scene_mut().add_default_objects().expect("an empty scene has room");
-    sim.add_script(ScriptKind::Customization, "scene", &fs::read(&scene).expect("a scene is readable"))
-        .expect("a scene loads");
+    sim.scene_mut()
+        .add_default_objects()
+        .expect("an empty scene has room");
+    sim.add_script(
+        ScriptKind::Customization,
+        "scene",
+        &fs::read(&scene).expect("a scene is readable"),
+    )
+    .expect("a scene loads");
     for _ in 0..2 {
         sim.step(2001);
         sim.stop();
@@ -140,13 +192,22 @@ fn two_short_runs(scene: PathBuf) -> String {
 
 fn assert_same(first: &str, second: &str, scene: &Path) {
     let difference = first.lines().zip(second.lines()).find(|(a, b)| a != b);
-    assert!(first == second, "{} differs between two runs, first at {difference:?}", scene.display());
+    assert!(
+        first == second,
+        "{} differs between two runs, first at {difference:?}",
+        scene.display()
+    );
     assert!(!first.is_empty(), "{} says nothing", scene.display());
 }
 
 fn on_a_large_stack<T: Send + 'static, R: Send + 'static>(run: fn(T) -> R, input: T) -> R {
-    let thread = std::thread::Builder::new().stack_size(Simulator::STACK_SIZE).spawn(move || run(input));
-    thread.expect("a thread can be made").join().expect("a simulator does not panic")
+    let thread = std::thread::Builder::new()
+        .stack_size(Simulator::STACK_SIZE)
+        .spawn(move || run(input));
+    thread
+        .expect("a thread can be made")
+        .join()
+        .expect("a simulator does not panic")
 }
 
 /// Everything a scene says, and where every object is before its last step.
@@ -157,9 +218,12 @@ fn record(scene: PathBuf) -> String {
         ..Options::default()
     };
     let mut sim = Simulator::with_console(options, Box::new(transcript.clone()));
-    sim.scene_mut().add_default_objects().expect("an empty scene has room");
+    sim.scene_mut()
+        .add_default_objects()
+        .expect("an empty scene has room");
     let code = fs::read(&scene).expect("a scene is readable");
-    sim.add_script(ScriptKind::Customization, "scene", &code).expect("a scene loads");
+    sim.add_script(ScriptKind::Customization, "scene", &code)
+        .expect("a scene loads");
     let mut poses = String::new();
     sim.start();
     while sim.state().is_advancing() {
@@ -170,7 +234,13 @@ fn record(scene: PathBuf) -> String {
         sim.iterate();
     }
     sim.stop();
-    assert_eq!(sim.errors(), 0, "{}: {}", scene.display(), transcript.text.borrow());
+    assert_eq!(
+        sim.errors(),
+        0,
+        "{}: {}",
+        scene.display(),
+        transcript.text.borrow()
+    );
     transcript.text.take() + &poses
 }
 
@@ -179,7 +249,11 @@ fn poses_of(sim: &Simulator) -> String {
     let scene = sim.scene();
     let line = |object: &swanilda::scene::Object| {
         let pose = scene.world_pose(object.handle());
-        format!("{} {:x?}\n", object.handle().raw(), pose.map(|pose| pose_to_array(&pose).map(f64::to_bits)))
+        format!(
+            "{} {:x?}\n",
+            object.handle().raw(),
+            pose.map(|pose| pose_to_array(&pose).map(f64::to_bits))
+        )
     };
     scene.objects().map(line).collect()
 }

@@ -11,7 +11,9 @@ pub struct Lines(pub Rc<RefCell<Vec<String>>>);
 
 impl Console for Lines {
     fn print(&mut self, line: &[u8], _: f64) {
-        self.0.borrow_mut().push(String::from_utf8_lossy(line).into_owned());
+        self.0
+            .borrow_mut()
+            .push(String::from_utf8_lossy(line).into_owned());
     }
 
     fn log(&mut self, line: &LogLine<'_>) {

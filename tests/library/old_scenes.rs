@@ -41,7 +41,11 @@ fn panel(name: &str, object: Option<Handle>) -> ButtonInterface {
         view: 2,
         object,
         rollup: [1, 2, 3, 4],
-        buttons: vec![button(1, 0x18, "Start"), button(2, 0x11, "Speed"), button(3, 0x12, "")],
+        buttons: vec![
+            button(1, 0x18, "Start"),
+            button(2, 0x11, "Speed"),
+            button(3, 0x12, ""),
+        ],
     }
 }
 
@@ -50,14 +54,17 @@ fn simulator() -> Simulator {
 }
 
 fn dummy(sim: &mut Simulator) -> Handle {
-    sim.scene_mut().add("robot", Kind::Dummy(Dummy::new(0.01))).expect("there is room")
+    sim.scene_mut()
+        .add("robot", Kind::Dummy(Dummy::new(0.01)))
+        .expect("there is room")
 }
 
 #[track_caller]
 fn loaded(path: &Path) -> Simulator {
     let mut sim = simulator();
     let bytes = std::fs::read(path).expect("the file is there");
-    sim.load(SceneFile::read(&bytes).expect("a scene")).expect("there is room");
+    sim.load(SceneFile::read(&bytes).expect("a scene"))
+        .expect("there is room");
     sim
 }
 
@@ -77,30 +84,52 @@ fn user_interfaces_are_saved_and_loaded() {
         sim.scene_mut().button_interfaces_mut().add(interface);
     }
     let path = folder.path().join("scene.ttt");
-    sim.call_api("sim.saveScene", &[text(&path)]).expect("the scene is saved");
+    sim.call_api("sim.saveScene", &[text(&path)])
+        .expect("the scene is saved");
     let interfaces = |sim: &Simulator| {
         let scene = sim.scene();
-        scene.button_interfaces().iter().map(|(handle, of)| (handle, of.clone())).collect::<Vec<_>>()
+        scene
+            .button_interfaces()
+            .iter()
+            .map(|(handle, of)| (handle, of.clone()))
+            .collect::<Vec<_>>()
     };
     assert_eq!(interfaces(&sim).len(), 2);
     assert_eq!(interfaces(&sim), interfaces(&loaded(&path)));
     let path = folder.path().join("robot.ttm");
-    sim.call_api("sim.setBoolProperty", &[robot.raw().into(), Data::text("modelBase"), true.into()]).expect("a model");
-    sim.call_api("sim.saveModel", &[robot.raw().into(), text(&path)]).expect("the model is saved");
-    sim.call_api("sim.loadModel", &[text(&path)]).expect("the model is loaded");
-    let names: Vec<_> = sim.scene().button_interfaces().iter().map(|(_, interface)| interface.name.clone()).collect();
+    sim.call_api(
+        "sim.setBoolProperty",
+        &[robot.raw().into(), Data::text("modelBase"), true.into()],
+    )
+    .expect("a model");
+    sim.call_api("sim.saveModel", &[robot.raw().into(), text(&path)])
+        .expect("the model is saved");
+    sim.call_api("sim.loadModel", &[text(&path)])
+        .expect("the model is loaded");
+    let names: Vec<_> = sim
+        .scene()
+        .button_interfaces()
+        .iter()
+        .map(|(_, interface)| interface.name.clone())
+        .collect();
     assert_eq!(names, ["panel", "robotPanel", "robotPanel0"]);
-    sim.call_api("sim.removeObjects", &[vec![robot.raw()].into()]).expect("the robot is removed");
+    sim.call_api("sim.removeObjects", &[vec![robot.raw()].into()])
+        .expect("the robot is removed");
     assert_eq!(sim.scene().button_interfaces().named("robotPanel"), None);
-    sim.call_api("sim.closeScene", &[]).expect("the scene is closed");
+    sim.call_api("sim.closeScene", &[])
+        .expect("the scene is closed");
     assert_eq!(sim.scene().button_interfaces().iter().count(), 0);
 }
 
 #[test]
 fn scripts_read_and_write_user_interfaces() {
     let mut sim = simulator();
-    sim.scene_mut().button_interfaces_mut().add(panel("panel", None));
-    sim.scene_mut().button_interfaces_mut().add(panel("other#3", None));
+    sim.scene_mut()
+        .button_interfaces_mut()
+        .add(panel("panel", None));
+    sim.scene_mut()
+        .button_interfaces_mut()
+        .add(panel("other#3", None));
     run(
         &mut sim,
         "local ui = simGetUIHandle('panel')
@@ -120,15 +149,29 @@ fn scripts_read_and_write_user_interfaces() {
         assert(sim.getUIHandle == nil)",
     );
     let scene = sim.scene();
-    let button = scene.button_interfaces().get(2_060_006).unwrap().button(1).unwrap().clone();
-    assert_eq!((button.label.as_str(), button.down_label.as_str()), ("Stop", "pressed"));
-    assert_eq!(button.colours, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    let button = scene
+        .button_interfaces()
+        .get(2_060_006)
+        .unwrap()
+        .button(1)
+        .unwrap()
+        .clone();
+    assert_eq!(
+        (button.label.as_str(), button.down_label.as_str()),
+        ("Stop", "pressed")
+    );
+    assert_eq!(
+        button.colours,
+        [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+    );
 }
 
 #[test]
 fn what_is_not_there_is_refused() {
     let mut sim = simulator();
-    sim.scene_mut().button_interfaces_mut().add(panel("panel", None));
+    sim.scene_mut()
+        .button_interfaces_mut()
+        .add(panel("panel", None));
     run(
         &mut sim,
         "local function refused(words, call, ...)
@@ -159,7 +202,9 @@ fn what_is_not_there_is_refused() {
 #[test]
 fn what_persons_do_reaches_scripts_in_the_next_step() {
     let mut sim = simulator();
-    sim.scene_mut().button_interfaces_mut().add(panel("panel", None));
+    sim.scene_mut()
+        .button_interfaces_mut()
+        .add(panel("panel", None));
     let code = "sim = require 'sim'
         function sysCall_init() seen = {} end
         function sysCall_actuation()
@@ -167,10 +212,17 @@ fn what_persons_do_reaches_scripts_in_the_next_step() {
             if button >= 0 then seen[#seen + 1] = button .. ':' .. values[1] .. ':' .. values[2] end
             sim.setStringSignal('seen', table.concat(seen, ' '))
         end";
-    sim.add_script(swanilda::ScriptKind::Simulation, "", code.as_bytes()).expect("a script");
-    let ui = sim.scene().button_interfaces().named("panel").expect("it was added");
+    sim.add_script(swanilda::ScriptKind::Simulation, "", code.as_bytes())
+        .expect("a script");
+    let ui = sim
+        .scene()
+        .button_interfaces()
+        .named("panel")
+        .expect("it was added");
     let press = |sim: &mut Simulator, button: i64, input: ButtonInput| {
-        sim.scene_mut().use_button(ui, button, input).expect("it takes that");
+        sim.scene_mut()
+            .use_button(ui, button, input)
+            .expect("it takes that");
     };
     sim.start();
     press(&mut sim, 1, ButtonInput::Click);
@@ -180,7 +232,9 @@ fn what_persons_do_reaches_scripts_in_the_next_step() {
     }
     press(&mut sim, 1, ButtonInput::Click);
     sim.iterate();
-    let seen = sim.call_api("sim.getStringSignal", &[Data::text("seen")]).expect("a signal");
+    let seen = sim
+        .call_api("sim.getStringSignal", &[Data::text("seen")])
+        .expect("a signal");
     assert_eq!(seen, [Data::text("1:280:0 3:18:250 1:24:0")]);
 }
 
@@ -188,20 +242,46 @@ fn what_persons_do_reaches_scripts_in_the_next_step() {
 fn arm(scene: &mut Scene, mode: JointMode, explicit: bool) -> [Handle; 2] {
     let mut parent = None;
     for (x, position) in [(0.0, 0.3), (0.5, 0.6)] {
-        let joint = Joint { position, ..Joint::new(JointType::Revolute, mode) };
-        let joint = scene.add("joint", Kind::Joint(Box::new(joint))).expect("there is room");
+        let joint = Joint {
+            position,
+            ..Joint::new(JointType::Revolute, mode)
+        };
+        let joint = scene
+            .add("joint", Kind::Joint(Box::new(joint)))
+            .expect("there is room");
         scene.set_parent(joint, parent, false).expect("both exist");
-        scene.set_local_pose(joint, Pose::translation(x, 0.0, 0.0)).expect("it is a place");
+        scene
+            .set_local_pose(joint, Pose::translation(x, 0.0, 0.0))
+            .expect("it is a place");
         parent = Some(joint);
     }
-    let mut dummy = || scene.add("dummy", Kind::Dummy(Dummy::new(0.01))).expect("there is room");
+    let mut dummy = || {
+        scene
+            .add("dummy", Kind::Dummy(Dummy::new(0.01)))
+            .expect("there is room")
+    };
     let [tip, target] = [dummy(), dummy()];
     scene.set_parent(tip, parent, false).expect("both exist");
-    scene.set_local_pose(tip, Pose::translation(0.5, 0.0, 0.0)).expect("it is a place");
-    scene.set_local_pose(target, Pose::translation(0.8, 0.5, 0.0)).expect("it is a place");
-    scene.link_dummies(tip, Some(target)).expect("both are dummies");
-    let element = IkElement { precisions: [0.001, 0.0005], constraints: 3, ..IkElement::new(tip) };
-    let group = IkGroup { explicit, max_iterations: 10, elements: vec![element], ..IkGroup::new("reach") };
+    scene
+        .set_local_pose(tip, Pose::translation(0.5, 0.0, 0.0))
+        .expect("it is a place");
+    scene
+        .set_local_pose(target, Pose::translation(0.8, 0.5, 0.0))
+        .expect("it is a place");
+    scene
+        .link_dummies(tip, Some(target))
+        .expect("both are dummies");
+    let element = IkElement {
+        precisions: [0.001, 0.0005],
+        constraints: 3,
+        ..IkElement::new(tip)
+    };
+    let group = IkGroup {
+        explicit,
+        max_iterations: 10,
+        elements: vec![element],
+        ..IkGroup::new("reach")
+    };
     scene.ik_groups_mut().add(group);
     [tip, target]
 }
@@ -219,11 +299,15 @@ fn groups_of_inverse_kinematics_move_their_joints_in_each_step() {
     assert!(distance(&sim, ends) > 0.01);
     sim.step(2);
     assert!(distance(&sim, ends) < 0.0005);
-    sim.scene_mut().set_local_pose(ends[1], Pose::translation(0.5, 0.6, 0.0)).expect("it is a place");
+    sim.scene_mut()
+        .set_local_pose(ends[1], Pose::translation(0.5, 0.6, 0.0))
+        .expect("it is a place");
     sim.step(2);
     assert!(distance(&sim, ends) < 0.0005);
     // Out of reach: the arm points there.
-    sim.scene_mut().set_local_pose(ends[1], Pose::translation(0.0, 2.0, 0.0)).expect("it is a place");
+    sim.scene_mut()
+        .set_local_pose(ends[1], Pose::translation(0.0, 2.0, 0.0))
+        .expect("it is a place");
     sim.step(20);
     assert_eq!(sim.errors(), 0);
     sim.scene_mut().remove(&[ends[1]]).expect("it exists");

@@ -3,7 +3,9 @@
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use swanilda::mlua::{self, Function, Lua, Table, UserData, UserDataFields, UserDataMethods, Value, Variadic};
+use swanilda::mlua::{
+    self, Function, Lua, Table, UserData, UserDataFields, UserDataMethods, Value, Variadic,
+};
 use swanilda::{Limits, Options, ScriptKind, Simulator};
 
 use crate::lines::Lines;
@@ -35,11 +37,18 @@ impl UserData for Counter {
 
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
         methods.add_method_mut("add", |_, counter, n: i64| {
-            counter.count = counter.count.checked_add(n).ok_or_else(|| mlua::Error::runtime("too many"))?;
+            counter.count = counter
+                .count
+                .checked_add(n)
+                .ok_or_else(|| mlua::Error::runtime("too many"))?;
             Ok(counter.count)
         });
-        methods.add_method("explode", |_, _, ()| -> mlua::Result<()> { panic!("out of order") });
-        methods.add_method("call", |_, _, function: Function| function.call::<Variadic<Value>>(()));
+        methods.add_method("explode", |_, _, ()| -> mlua::Result<()> {
+            panic!("out of order")
+        });
+        methods.add_method("call", |_, _, function: Function| {
+            function.call::<Variadic<Value>>(())
+        });
     }
 }
 
@@ -48,14 +57,26 @@ fn mine(lua: &Lua, alive: &Rc<Cell<i64>>) -> mlua::Result<Table> {
     let alive = Rc::clone(alive);
     let counter = move |_: &Lua, ()| {
         alive.set(alive.get() + 1);
-        Ok(Counter { count: 0, alive: Rc::clone(&alive) })
+        Ok(Counter {
+            count: 0,
+            alive: Rc::clone(&alive),
+        })
     };
     module.set("counter", lua.create_function(counter)?)?;
     let fail = |_: &Lua, text: String| -> mlua::Result<()> { Err(mlua::Error::runtime(text)) };
     module.set("fail", lua.create_function(fail)?)?;
-    module.set("explode", lua.create_function(|_, ()| -> mlua::Result<()> { panic!("out of order") })?)?;
-    module.set("call", lua.create_function(|_, function: Function| function.call::<Value>(()))?)?;
-    module.set("fill", lua.create_function(|lua, n: i64| lua.create_sequence_from(0..n))?)?;
+    module.set(
+        "explode",
+        lua.create_function(|_, ()| -> mlua::Result<()> { panic!("out of order") })?,
+    )?;
+    module.set(
+        "call",
+        lua.create_function(|_, function: Function| function.call::<Value>(()))?,
+    )?;
+    module.set(
+        "fill",
+        lua.create_function(|lua, n: i64| lua.create_sequence_from(0..n))?,
+    )?;
     Ok(module)
 }
 
@@ -69,7 +90,9 @@ fn run_with(options: Options, code: &str) -> Vec<String> {
         .lua_module("mine", move |lua| mine(lua, &held))
         .build();
     let code = format!("sim = require 'sim' mine = require 'mine'\n{code}");
-    simulator.add_script(ScriptKind::Customization, "", code.as_bytes()).expect("there is room for a script");
+    simulator
+        .add_script(ScriptKind::Customization, "", code.as_bytes())
+        .expect("there is room for a script");
     drop(simulator);
     assert_eq!(alive.get(), 0, "all values are dropped with the state");
     lines.0.take()
@@ -83,8 +106,17 @@ fn run(code: &str) -> Vec<String> {
 fn the_example_runs() {
     let lines = Lines::default();
     example::simulate(Box::new(lines.clone())).expect("the example is right");
-    let prints: Vec<String> = lines.0.take().into_iter().filter(|line| !line.starts_with("Simulation")).collect();
-    assert_eq!(prints[..4], ["3.", "0.", "12: in update: NaN is no sample", "0.025"], "{prints:?}");
+    let prints: Vec<String> = lines
+        .0
+        .take()
+        .into_iter()
+        .filter(|line| !line.starts_with("Simulation"))
+        .collect();
+    assert_eq!(
+        prints[..4],
+        ["3.", "0.", "12: in update: NaN is no sample", "0.025"],
+        "{prints:?}"
+    );
 }
 
 #[test]
@@ -94,7 +126,10 @@ fn values_and_methods() {
         c.count = 7
         print(c.count, mine.call(function() return c:add(1) end), #mine.fill(1000), package.loaded.mine == mine)
         print(c:call(function() return 1, 2, 3 end))");
-    assert_eq!(lines, ["2, 5, 5, userdata, function", "7, 8, 1000, true", "1, 2, 3"]);
+    assert_eq!(
+        lines,
+        ["2, 5, 5, userdata, function", "7, 8, 1000, true", "1, 2, 3"]
+    );
 }
 
 #[test]
@@ -190,18 +225,33 @@ fn a_panic_is_an_error_of_the_script() {
         print(mine.counter():add(1))
         mine.explode()");
     let panicked = "a Rust function panicked: out of order";
-    assert_eq!(lines[..3], [(); 3].map(|()| format!("false, {panicked}")), "{lines:?}");
+    assert_eq!(
+        lines[..3],
+        [(); 3].map(|()| format!("false, {panicked}")),
+        "{lines:?}"
+    );
     assert_eq!(lines[3], "1");
-    assert!(lines[4].starts_with(panicked) && lines[4].contains(":6: in main chunk"), "{lines:?}");
+    assert!(
+        lines[4].starts_with(panicked) && lines[4].contains(":6: in main chunk"),
+        "{lines:?}"
+    );
     assert_eq!(lines.len(), 5);
 }
 
 #[test]
 fn an_error_nobody_caught_is_logged_with_its_traceback() {
     let lines = run("local function inner()\n    mine.counter():add(1.5)\nend\ninner()");
-    let [error] = lines.as_slice() else { panic!("{lines:?}") };
-    assert!(error.starts_with("3: in add: bad argument #2 to `Counter.add`"), "{error}");
-    assert!(error.contains("stack traceback:") && error.contains(":5: in main chunk"), "{error}");
+    let [error] = lines.as_slice() else {
+        panic!("{lines:?}")
+    };
+    assert!(
+        error.starts_with("3: in add: bad argument #2 to `Counter.add`"),
+        "{error}"
+    );
+    assert!(
+        error.contains("stack traceback:") && error.contains(":5: in main chunk"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -212,8 +262,14 @@ fn a_module_that_cannot_be_made_is_an_error() {
         .lua_module("mine", |_| Err(mlua::Error::runtime("no licence")))
         .build();
     let code = b"print(pcall(require, 'mine'))";
-    simulator.add_script(ScriptKind::Customization, "", code).expect("there is room for a script");
-    assert!(lines.0.borrow()[0].ends_with("no licence"), "{:?}", lines.0.borrow());
+    simulator
+        .add_script(ScriptKind::Customization, "", code)
+        .expect("there is room for a script");
+    assert!(
+        lines.0.borrow()[0].ends_with("no licence"),
+        "{:?}",
+        lines.0.borrow()
+    );
 }
 
 /// What a program has kept of a state outlives it without harm.
@@ -227,12 +283,15 @@ fn a_function_that_was_kept_fails_when_its_state_is_gone() {
             lua.create_table()
         })
         .build();
-    simulator.add_script(ScriptKind::Customization, "", b"require 'mine'").expect("there is room for a script");
+    simulator
+        .add_script(ScriptKind::Customization, "", b"require 'mine'")
+        .expect("there is room for a script");
     let function = kept.take().expect("the module was required");
     assert_eq!(function.call::<i64>(1).expect("the script lives"), 2);
     drop(simulator);
     assert!(
-        std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| function.call::<i64>(1))).map_or(true, |r| r.is_err())
+        std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| function.call::<i64>(1)))
+            .map_or(true, |r| r.is_err())
     );
 }
 
@@ -247,20 +306,39 @@ fn a_state_that_was_kept_works_without_its_script() {
             lua.create_table()
         })
         .build();
-    simulator.add_script(ScriptKind::Customization, "", b"sim = require 'sim' require 'mine'").expect("there is room");
+    simulator
+        .add_script(
+            ScriptKind::Customization,
+            "",
+            b"sim = require 'sim' require 'mine'",
+        )
+        .expect("there is room");
     drop(simulator);
     let lua = kept.take().expect("the module was required");
-    let made: String =
-        lua.load("local t = {} for i = 1, 1e4 do t[i] = {i} end return tostring(#t)").eval().expect("runs");
+    let made: String = lua
+        .load("local t = {} for i = 1, 1e4 do t[i] = {i} end return tostring(#t)")
+        .eval()
+        .expect("runs");
     assert_eq!(made, "10000");
-    let error = lua.load("sim.getSimulationTime()").exec().expect_err("there is no simulator");
-    assert!(error.to_string().contains("the simulator is gone"), "{error}");
+    let error = lua
+        .load("sim.getSimulationTime()")
+        .exec()
+        .expect_err("there is no simulator");
+    assert!(
+        error.to_string().contains("the simulator is gone"),
+        "{error}"
+    );
 }
 
 #[test]
 fn memory_that_is_refused_is_an_error_in_rust_functions_too() {
-    let options = Options { limits: Some(Limits { memory: 8 << 20 }), ..Options::default() };
-    let lines =
-        run_with(options, "local ok, text = pcall(mine.fill, 1000000) print(ok, #text > 0)\nprint(#mine.fill(10))");
+    let options = Options {
+        limits: Some(Limits { memory: 8 << 20 }),
+        ..Options::default()
+    };
+    let lines = run_with(
+        options,
+        "local ok, text = pcall(mine.fill, 1000000) print(ok, #text > 0)\nprint(#mine.fill(10))",
+    );
     assert_eq!(lines, ["false, true", "10"]);
 }

@@ -21,7 +21,9 @@ fn files() -> Vec<PathBuf> {
         test_support::skipped("the scenes of other people: there is no ../shared");
         return own_files();
     };
-    let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("a readable folder").path()).collect();
+    let mut files: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("a readable folder").path())
+        .collect();
     files.retain(|path| path.metadata().is_ok_and(|file| file.len() < LARGEST));
     files.extend(own_files());
     files.sort();
@@ -30,12 +32,15 @@ fn files() -> Vec<PathBuf> {
 
 fn own_files() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
-    ["world.ttt", "robot.ttt", "part.ttm", "robot.ttm"].map(|name| folder.join(name)).to_vec()
+    ["world.ttt", "robot.ttt", "part.ttm", "robot.ttm"]
+        .map(|name| folder.join(name))
+        .to_vec()
 }
 
 fn loaded(path: &Path) -> Simulator {
     let bytes = std::fs::read(path).expect("a readable file");
-    let file = SceneFile::read(&bytes).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let file =
+        SceneFile::read(&bytes).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let mut sim = Simulator::new(Options::default());
     sim.load(file).expect("there is room");
     sim
@@ -68,11 +73,16 @@ assert(sim.insertPointsIntoPointCloud(cloud, 0, points) == 100)
 #[test]
 fn the_independent_reader_reads_what_is_saved() {
     let mut sim = Simulator::new(Options::default());
-    sim.add_script(ScriptKind::Customization, "own", OWN.as_bytes()).expect("the script runs");
+    sim.add_script(ScriptKind::Customization, "own", OWN.as_bytes())
+        .expect("the script runs");
     assert_eq!(sim.errors(), 0);
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
     let path = folder.path().join("own.ttt");
-    std::fs::write(&path, SceneFile::bytes_of(&sim.scene(), &[]).expect("a sound tree")).expect("writable");
+    std::fs::write(
+        &path,
+        SceneFile::bytes_of(&sim.scene(), &[]).expect("a sound tree"),
+    )
+    .expect("writable");
     compare_files(&[path]);
 }
 
@@ -83,18 +93,29 @@ fn compare_files(files: &[PathBuf]) -> Option<usize> {
         test_support::skipped("there is no reader of others: ../shared is missing");
         return None;
     }
-    let reader = Command::new("python3").arg(script).arg(shared().join("tools/ttt")).args(files).output();
+    let reader = Command::new("python3")
+        .arg(script)
+        .arg(shared().join("tools/ttt"))
+        .args(files)
+        .output();
     let Ok(output) = reader else {
         test_support::skipped_outside_of_ci("there is no python3");
         return None;
     };
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let text = String::from_utf8(output.stdout).expect("UTF-8");
     let mut compared = 0;
     for part in text.split("file\t").skip(1) {
         let (path, lines) = part.split_once('\n').expect("a line");
         let sim = loaded(Path::new(path));
-        let expected: Vec<&str> = lines.lines().filter(|line| line.starts_with("object\t")).collect();
+        let expected: Vec<&str> = lines
+            .lines()
+            .filter(|line| line.starts_with("object\t"))
+            .collect();
         let scene = sim.scene();
         let objects: Vec<&Object> = scene.objects().collect();
         assert_eq!(objects.len(), expected.len(), "{path}");
@@ -102,10 +123,18 @@ fn compare_files(files: &[PathBuf]) -> Option<usize> {
             compare(object, &objects, line, path);
             compared += 1;
         }
-        for line in lines.lines().filter_map(|line| line.strip_prefix("cells\t")) {
+        for line in lines
+            .lines()
+            .filter_map(|line| line.strip_prefix("cells\t"))
+        {
             let (place, count) = line.split_once('\t').expect("a place and a count");
             let object = objects[place.parse::<usize>().expect("a place")];
-            assert_eq!(cells(object), count.parse::<usize>().expect("a count"), "{path}: {}", object.alias());
+            assert_eq!(
+                cells(object),
+                count.parse::<usize>().expect("a count"),
+                "{path}: {}",
+                object.alias()
+            );
         }
     }
     Some(compared)
@@ -113,20 +142,46 @@ fn compare_files(files: &[PathBuf]) -> Option<usize> {
 
 fn compare(object: &Object, all: &[&Object], line: &str, path: &str) {
     let fields: Vec<&str> = line.split('\t').collect();
-    let [_, kind, alias, parent, pose @ .., mass] = &fields[..] else { panic!("{line}") };
+    let [_, kind, alias, parent, pose @ .., mass] = &fields[..] else {
+        panic!("{line}")
+    };
     assert_eq!(object.alias(), *alias, "{path}");
     assert_eq!(word(&object.kind), *kind, "{path}: {alias}");
-    let place = object.parent().and_then(|parent| all.iter().position(|other| other.handle() == parent));
-    assert_eq!(place.map_or(-1, |place| place as i64), parent.parse::<i64>().expect("a place"), "{path}: {alias}");
-    let pose: Vec<f64> = pose.iter().map(|number| number.parse().expect("a number")).collect();
+    let place = object
+        .parent()
+        .and_then(|parent| all.iter().position(|other| other.handle() == parent));
+    assert_eq!(
+        place.map_or(-1, |place| place as i64),
+        parent.parse::<i64>().expect("a place"),
+        "{path}: {alias}"
+    );
+    let pose: Vec<f64> = pose
+        .iter()
+        .map(|number| number.parse().expect("a number"))
+        .collect();
     let (p, q) = (object.pose().translation, object.pose().rotation);
-    let same = [p.x, p.y, p.z].iter().zip(&pose).all(|(a, b)| (a - b).abs() < 1e-9);
-    let overlap: f64 = [q.i, q.j, q.k, q.w].iter().zip(&pose[3..]).map(|(a, b)| a * b).sum();
-    assert!(same && (overlap.abs() - 1.0).abs() < 1e-6, "{path}: {alias} is at {:?}, not {pose:?}", object.pose());
+    let same = [p.x, p.y, p.z]
+        .iter()
+        .zip(&pose)
+        .all(|(a, b)| (a - b).abs() < 1e-9);
+    let overlap: f64 = [q.i, q.j, q.k, q.w]
+        .iter()
+        .zip(&pose[3..])
+        .map(|(a, b)| a * b)
+        .sum();
+    assert!(
+        same && (overlap.abs() - 1.0).abs() < 1e-6,
+        "{path}: {alias} is at {:?}, not {pose:?}",
+        object.pose()
+    );
     if let Ok(shape) = object.shape() {
         let mass: f64 = mass.parse().expect("a mass");
         let mass = if mass == 0.0 { 0.001 } else { mass };
-        assert!((shape.mass.mass - mass).abs() <= 1e-6 * mass, "{path}: {alias} weighs {} kg", shape.mass.mass);
+        assert!(
+            (shape.mass.mass - mass).abs() <= 1e-6 * mass,
+            "{path}: {alias} weighs {} kg",
+            shape.mass.mass
+        );
     }
 }
 

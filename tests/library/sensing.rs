@@ -22,9 +22,15 @@ fn simulator() -> Simulator {
 }
 
 fn cube(sim: &mut Simulator, x: f64) -> Handle {
-    let shape = Shape::primitive(PrimitiveKind::Cuboid, [0.2; 3], Default::default()).expect("a size");
-    let cube = sim.scene_mut().add("cube", Kind::Shape(Box::new(shape))).expect("there is room");
-    sim.scene_mut().set_world_pose(cube, Pose::translation(x, 0.0, 0.0)).expect("a place");
+    let shape =
+        Shape::primitive(PrimitiveKind::Cuboid, [0.2; 3], Default::default()).expect("a size");
+    let cube = sim
+        .scene_mut()
+        .add("cube", Kind::Shape(Box::new(shape)))
+        .expect("there is room");
+    sim.scene_mut()
+        .set_world_pose(cube, Pose::translation(x, 0.0, 0.0))
+        .expect("a place");
     cube
 }
 
@@ -45,14 +51,25 @@ fn old_scene(path: &Path) {
     let mut sim = simulator();
     let [a, b, c] = [0.0, 1.0, 3.0].map(|x| cube(&mut sim, x).raw());
     let mut scene = sim.scene_mut();
-    scene.collision_objects_mut().add(object("bump", [a, b], 0.0));
-    scene.collision_objects_mut().add(object("any", [c, special::ALL], 0.0));
-    for (name, entities, threshold) in [("gap", [a, b], 0.0), ("near", [b, c], 0.5), ("rest", [c, special::ALL], 0.0)] {
-        scene.distance_objects_mut().add(object(name, entities, threshold));
+    scene
+        .collision_objects_mut()
+        .add(object("bump", [a, b], 0.0));
+    scene
+        .collision_objects_mut()
+        .add(object("any", [c, special::ALL], 0.0));
+    for (name, entities, threshold) in [
+        ("gap", [a, b], 0.0),
+        ("near", [b, c], 0.5),
+        ("rest", [c, special::ALL], 0.0),
+    ] {
+        scene
+            .distance_objects_mut()
+            .add(object(name, entities, threshold));
     }
     drop(scene);
     let path = Data::text(path.to_str().expect("a name in UTF-8"));
-    sim.call_api("sim.saveScene", &[path]).expect("the scene is saved");
+    sim.call_api("sim.saveScene", &[path])
+        .expect("the scene is saved");
 }
 
 #[test]
@@ -61,7 +78,8 @@ fn collision_and_distance_objects_of_files_are_computed_by_the_main_script() {
     let path = folder.path().join("old.ttt");
     old_scene(&path);
     let mut sim = simulator();
-    sim.load(SceneFile::read(&std::fs::read(&path).unwrap()).unwrap()).unwrap();
+    sim.load(SceneFile::read(&std::fs::read(&path).unwrap()).unwrap())
+        .unwrap();
     run(
         &mut sim,
         "near = function(a, b) return math.abs(a - b) < 1e-7 end
@@ -107,22 +125,47 @@ fn collision_and_distance_objects_of_files_are_computed_by_the_main_script() {
         end",
     );
     sim.stop();
-    run(&mut sim, "assert(sim.readDistance(gap) == 0 and sim.readCollision(bump) == 1)");
+    run(
+        &mut sim,
+        "assert(sim.readDistance(gap) == 0 and sim.readCollision(bump) == 1)",
+    );
     assert_eq!(sim.errors(), 0);
-    assert_eq!(sim.scene().collision_objects().iter().next().unwrap().1.switches, 3);
+    assert_eq!(
+        sim.scene()
+            .collision_objects()
+            .iter()
+            .next()
+            .unwrap()
+            .1
+            .switches,
+        3
+    );
 }
 
 #[test]
 fn calculations_that_a_scene_switches_off_find_nothing() {
     let mut sim = simulator();
     let [a, b] = [0.0, 0.1].map(|x| cube(&mut sim, x).raw());
-    sim.scene_mut().collision_objects_mut().add(object("bump", [a, b], 0.0));
-    sim.scene_mut().distance_objects_mut().add(object("gap", [a, b], 0.0));
-    run(&mut sim, "assert(sim.handleCollision(sim.handle_all) == 1 and sim.handleDistance(sim.handle_all) == 1)");
+    sim.scene_mut()
+        .collision_objects_mut()
+        .add(object("bump", [a, b], 0.0));
+    sim.scene_mut()
+        .distance_objects_mut()
+        .add(object("gap", [a, b], 0.0));
+    run(
+        &mut sim,
+        "assert(sim.handleCollision(sim.handle_all) == 1 and sim.handleDistance(sim.handle_all) == 1)",
+    );
     sim.scene_mut().modify_settings(|settings| {
-        (settings.calculations.collision, settings.calculations.distance) = (false, false);
+        (
+            settings.calculations.collision,
+            settings.calculations.distance,
+        ) = (false, false);
     });
-    run(&mut sim, "assert(sim.handleCollision(sim.handle_all) == 0 and sim.handleDistance(sim.handle_all) == 0)");
+    run(
+        &mut sim,
+        "assert(sim.handleCollision(sim.handle_all) == 0 and sim.handleDistance(sim.handle_all) == 0)",
+    );
 }
 
 #[test]
@@ -166,7 +209,11 @@ fn sensors_at_no_place_see_nothing() {
         end",
     );
     let sensors: Vec<Handle> = ["/visionSensor", "/proximitySensor"]
-        .map(|path| sim.call_api("sim.getObject", &[Data::text(path)]).unwrap()[0].as_f64().unwrap() as i64)
+        .map(|path| {
+            sim.call_api("sim.getObject", &[Data::text(path)]).unwrap()[0]
+                .as_f64()
+                .unwrap() as i64
+        })
         .map(|raw| Handle::from_raw(raw).unwrap())
         .into();
     for sensor in sensors {
@@ -182,7 +229,10 @@ fn sensors_at_no_place_see_nothing() {
 
 /// What 20 readings of a sensor with random rays report.
 fn random_readings(seed: u32) -> Vec<Data> {
-    let mut sim = Simulator::new(Options { seed, ..Options::default() });
+    let mut sim = Simulator::new(Options {
+        seed,
+        ..Options::default()
+    });
     cube(&mut sim, 0.0);
     let script = run(
         &mut sim,
@@ -201,7 +251,8 @@ fn random_readings(seed: u32) -> Vec<Data> {
             return all
         end",
     );
-    sim.call(&script, "readings", &[]).expect("the sensor reads")
+    sim.call(&script, "readings", &[])
+        .expect("the sensor reads")
 }
 
 #[test]
@@ -209,6 +260,15 @@ fn random_rays_repeat_with_the_seed() {
     let first = random_readings(7);
     assert_eq!(first, random_readings(7));
     assert_ne!(first, random_readings(8));
-    let Data::Array(numbers) = &first[0] else { panic!("{first:?}") };
-    assert!(numbers.iter().step_by(5).filter(|result| result.as_f64() == Some(1.0)).count() > 10);
+    let Data::Array(numbers) = &first[0] else {
+        panic!("{first:?}")
+    };
+    assert!(
+        numbers
+            .iter()
+            .step_by(5)
+            .filter(|result| result.as_f64() == Some(1.0))
+            .count()
+            > 10
+    );
 }

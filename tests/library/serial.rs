@@ -34,13 +34,22 @@ impl Bench {
         let script = add_script(&mut sim, SCRIPT);
         let (device, line) = TTYPort::pair().expect("the system has pseudo-terminals");
         let path = line.name().expect("the line has a name");
-        Self { sim, script, device, line, path }
+        Self {
+            sim,
+            script,
+            device,
+            line,
+            path,
+        }
     }
 
     /// One with the port open as the global `h`.
     fn open() -> Self {
         let mut bench = Self::new();
-        assert_eq!(bench.run("h = sim.serialOpen(PATH, 115200) return h"), [Data::Int(1)]);
+        assert_eq!(
+            bench.run("h = sim.serialOpen(PATH, 115200) return h"),
+            [Data::Int(1)]
+        );
         bench
     }
 
@@ -66,13 +75,19 @@ impl Bench {
         let waiting = |line: &TTYPort| line.bytes_to_read().expect("the line is there") as usize;
         let before = waiting(&self.line);
         self.device.write_all(bytes).expect("the line takes it");
-        wait_until("the bytes arrive", || waiting(&self.line) >= before + bytes.len());
+        wait_until("the bytes arrive", || {
+            waiting(&self.line) >= before + bytes.len()
+        });
     }
 
     fn device_gets(&mut self, count: usize) -> Vec<u8> {
         let mut bytes = vec![0; count];
-        self.device.set_timeout(LIMIT).expect("a time-out can be set");
-        self.device.read_exact(&mut bytes).expect("the script has sent it");
+        self.device
+            .set_timeout(LIMIT)
+            .expect("a time-out can be set");
+        self.device
+            .read_exact(&mut bytes)
+            .expect("the script has sent it");
         bytes
     }
 
@@ -90,7 +105,8 @@ impl Bench {
 }
 
 fn add_script(sim: &mut Simulator, code: &str) -> ScriptRef {
-    sim.add_script(ScriptKind::Customization, "script", code.as_bytes()).expect("the script loads")
+    sim.add_script(ScriptKind::Customization, "script", code.as_bytes())
+        .expect("the script loads")
 }
 
 /// Makes the thread read once; `done` is what it got.
@@ -101,17 +117,44 @@ fn read_in_thread(arguments: &str) -> String {
 #[test]
 fn what_cannot_be_opened() {
     let mut bench = Bench::new();
-    for port in ["'/dev/does_not_exist', 9600", "'/dev/null', 9600", "'/', 9600", "'', 9600", "'a\\0b', 9600"] {
-        assert_eq!(bench.run(&format!("return sim.serialOpen({port})")), [Data::Int(-1)], "{port}");
+    for port in [
+        "'/dev/does_not_exist', 9600",
+        "'/dev/null', 9600",
+        "'/', 9600",
+        "'', 9600",
+        "'a\\0b', 9600",
+    ] {
+        assert_eq!(
+            bench.run(&format!("return sim.serialOpen({port})")),
+            [Data::Int(-1)],
+            "{port}"
+        );
     }
     for rate in ["12345", "0", "-9600", "1 << 62"] {
-        assert_eq!(bench.run(&format!("return sim.serialOpen(PATH, {rate})")), [Data::Int(-1)], "{rate}");
+        assert_eq!(
+            bench.run(&format!("return sim.serialOpen(PATH, {rate})")),
+            [Data::Int(-1)],
+            "{rate}"
+        );
     }
-    assert_eq!(bench.run("return sim.serialOpen(PATH, 115200)"), [Data::Int(1)]);
-    assert_eq!(bench.run("return sim.serialOpen(PATH, 115200)"), [Data::Int(-1)], "it is open already");
-    assert_eq!(bench.run("sim.serialClose(1) return sim.serialOpen(PATH, 9600)"), [Data::Int(2)]);
+    assert_eq!(
+        bench.run("return sim.serialOpen(PATH, 115200)"),
+        [Data::Int(1)]
+    );
+    assert_eq!(
+        bench.run("return sim.serialOpen(PATH, 115200)"),
+        [Data::Int(-1)],
+        "it is open already"
+    );
+    assert_eq!(
+        bench.run("sim.serialClose(1) return sim.serialOpen(PATH, 9600)"),
+        [Data::Int(2)]
+    );
     for arguments in ["", "PATH", "9600, 9600", "PATH, '9600'", "PATH, 9600, 1"] {
-        assert!(bench.fails(&format!("sim.serialOpen({arguments})")), "{arguments}");
+        assert!(
+            bench.fails(&format!("sim.serialOpen({arguments})")),
+            "{arguments}"
+        );
     }
 }
 
@@ -126,7 +169,11 @@ fn bytes_go_both_ways() {
     assert_eq!(bench.text("return sim.serialRead(h, 3, false)"), "hel");
     assert_eq!(bench.text("return sim.serialRead(h, 10, false)"), "lo");
     assert_eq!(bench.text("return sim.serialRead(h, 10)"), "");
-    assert_eq!(bench.text("return simSerialRead(h, -1)"), "", "the old name");
+    assert_eq!(
+        bench.text("return simSerialRead(h, -1)"),
+        "",
+        "the old name"
+    );
 }
 
 #[test]
@@ -137,7 +184,10 @@ fn every_byte_arrives_as_it_was() {
     assert_eq!(bench.device_gets(256), all);
     bench.device_sends(&all);
     bench.device_sends(b"\0\xff");
-    assert_eq!(bench.run("return sim.serialRead(h, 258) == all .. '\\0\\255'"), [Data::Bool(true)]);
+    assert_eq!(
+        bench.run("return sim.serialRead(h, 258) == all .. '\\0\\255'"),
+        [Data::Bool(true)]
+    );
 }
 
 #[test]
@@ -179,19 +229,31 @@ fn a_time_out_ends_a_read_with_what_there_is() {
     bench.run(&read_in_thread("100, true, '', 0.3"));
     assert_eq!(bench.pass_until("return done"), [Data::text("xy")]);
     assert_eq!(bench.text("return sim.serialRead(h, 10)"), "");
-    assert_eq!(bench.text("return sim.serialRead(h, 10, true, 'z', 0.05)"), "", "outside of a thread too");
+    assert_eq!(
+        bench.text("return sim.serialRead(h, 10, true, 'z', 0.05)"),
+        "",
+        "outside of a thread too"
+    );
 }
 
 #[test]
 fn unknown_handles_are_errors() {
     let mut bench = Bench::open();
-    for call in
-        ["sim.serialSend(9999, 'x')", "sim.serialCheck(9999)", "sim.serialClose(9999)", "sim.serialRead(9999, 1)"]
-    {
+    for call in [
+        "sim.serialSend(9999, 'x')",
+        "sim.serialCheck(9999)",
+        "sim.serialClose(9999)",
+        "sim.serialRead(9999, 1)",
+    ] {
         assert!(bench.fails(call), "{call}");
     }
     bench.run("sim.serialClose(h)");
-    for call in ["sim.serialSend(h, 'x')", "sim.serialCheck(h)", "sim.serialClose(h)", "sim.serialRead(h, 1)"] {
+    for call in [
+        "sim.serialSend(h, 'x')",
+        "sim.serialCheck(h)",
+        "sim.serialClose(h)",
+        "sim.serialRead(h, 1)",
+    ] {
         assert!(bench.fails(call), "{call} after it was closed");
     }
 }
@@ -203,20 +265,39 @@ fn the_end_of_the_simulation_closes_ports() {
     for run in 2..5 {
         bench.sim.step(2);
         bench.sim.stop();
-        assert_eq!(descriptors(&bench.path), 1, "the port is closed, the test's end of the line is open");
-        assert_eq!(bench.run("return pcall(sim.serialCheck, h)")[0], Data::Bool(false));
-        assert_eq!(bench.run("h = sim.serialOpen(PATH, 9600) return h"), [Data::Int(run)]);
+        assert_eq!(
+            descriptors(&bench.path),
+            1,
+            "the port is closed, the test's end of the line is open"
+        );
+        assert_eq!(
+            bench.run("return pcall(sim.serialCheck, h)")[0],
+            Data::Bool(false)
+        );
+        assert_eq!(
+            bench.run("h = sim.serialOpen(PATH, 9600) return h"),
+            [Data::Int(run)]
+        );
         assert_eq!(descriptors(&bench.path), 2);
     }
     drop((bench.sim, bench.script));
-    assert_eq!(descriptors(&bench.path), 1, "the end of the simulator closes it as well");
+    assert_eq!(
+        descriptors(&bench.path),
+        1,
+        "the end of the simulator closes it as well"
+    );
 }
 
 /// How many descriptors of a device this process has open.
 #[cfg(target_os = "linux")]
 fn descriptors(path: &str) -> usize {
-    let entries = std::fs::read_dir("/proc/self/fd").expect("descriptors can be listed").flatten();
-    entries.filter_map(|entry| std::fs::read_link(entry.path()).ok()).filter(|link| link.as_os_str() == path).count()
+    let entries = std::fs::read_dir("/proc/self/fd")
+        .expect("descriptors can be listed")
+        .flatten();
+    entries
+        .filter_map(|entry| std::fs::read_link(entry.path()).ok())
+        .filter(|link| link.as_os_str() == path)
+        .count()
 }
 
 #[test]
@@ -225,7 +306,10 @@ fn a_device_that_vanishes() {
     bench.run(&read_in_thread("100, true, '\\n', 0.05"));
     let (other, _) = TTYPort::pair().expect("the system has pseudo-terminals");
     drop(std::mem::replace(&mut bench.device, other));
-    assert_eq!(bench.run("return sim.serialSend(h, 'anybody?')"), [Data::Int(-1)]);
+    assert_eq!(
+        bench.run("return sim.serialSend(h, 'anybody?')"),
+        [Data::Int(-1)]
+    );
     assert_eq!(bench.run("return sim.serialCheck(h)"), [Data::Int(-1)]);
     bench.sim.start();
     assert_eq!(bench.pass_until("return done"), [Data::text("")]);
@@ -237,7 +321,9 @@ fn a_device_that_vanishes() {
 fn a_device_that_takes_nothing_does_not_hold_the_simulator() {
     let mut bench = Bench::open();
     let sent = bench.run("return sim.serialSend(h, ('x'):rep(1 << 20))");
-    let [Data::Int(sent)] = sent[..] else { panic!("{sent:?}") };
+    let [Data::Int(sent)] = sent[..] else {
+        panic!("{sent:?}")
+    };
     assert!((1..1 << 20).contains(&sent), "{sent}");
     assert_eq!(bench.device_gets(sent as usize), vec![b'x'; sent as usize]);
 }
@@ -273,7 +359,10 @@ fn two_scripts_talk_over_a_line() {
         passes += 1;
         assert!(passes < 10_000, "the scripts do not talk");
     }
-    assert_eq!(bench.text("return got[1] .. got[20]"), "pong ping 1\npong ping 20\n");
+    assert_eq!(
+        bench.text("return got[1] .. got[20]"),
+        "pong ping 1\npong ping 20\n"
+    );
 }
 
 #[test]
@@ -281,13 +370,21 @@ fn the_bridge_scene_obeys_its_device() {
     let (mut device, line) = TTYPort::pair().expect("the system has pseudo-terminals");
     let path = line.name().expect("the line has a name");
     let named_params = [("port".to_owned(), path)].into();
-    let mut sim = Simulator::new(Options { named_params, ..Options::default() });
+    let mut sim = Simulator::new(Options {
+        named_params,
+        ..Options::default()
+    });
     add_script(&mut sim, include_str!("../../scenes/serial_bridge.lua"));
     sim.start();
     sim.step(2);
-    device.write_all(b"speed 2\nnonsense\n").expect("the line takes it");
+    device
+        .write_all(b"speed 2\nnonsense\n")
+        .expect("the line takes it");
     let (mut said, mut passes) = (String::new(), 0);
-    while !said.lines().any(|line| line.strip_prefix("angle ").is_some_and(|angle| angle != "0.000")) {
+    while !said.lines().any(|line| {
+        line.strip_prefix("angle ")
+            .is_some_and(|angle| angle != "0.000")
+    }) {
         sim.iterate();
         let mut bytes = vec![0; device.bytes_to_read().expect("the device is there") as usize];
         device.read_exact(&mut bytes).expect("they are there");

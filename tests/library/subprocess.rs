@@ -27,7 +27,9 @@ impl Bench {
 
     fn with(options: Options) -> Self {
         let mut sim = Simulator::new(options);
-        let script = sim.add_script(ScriptKind::Customization, "script", SCRIPT).expect("the script loads");
+        let script = sim
+            .add_script(ScriptKind::Customization, "script", SCRIPT)
+            .expect("the script loads");
         Self { sim, script }
     }
 
@@ -38,7 +40,9 @@ impl Bench {
 
     /// The error `code` raises.
     fn error(&mut self, code: &str) -> String {
-        let results = self.run(&format!("local ok, why = pcall(function() {code} end) return ok, tostring(why)"));
+        let results = self.run(&format!(
+            "local ok, why = pcall(function() {code} end) return ok, tostring(why)"
+        ));
         match &results[..] {
             [Data::Bool(false), Data::Text(text)] => String::from_utf8_lossy(text).into_owned(),
             other => panic!("{code} does not fail: {other:?}"),
@@ -47,7 +51,9 @@ impl Bench {
 
     fn pid(&mut self, handle: &str) -> i64 {
         let pid = self.run(&format!("return simSubprocess.getpid({handle})"));
-        let [Data::Int(pid)] = pid[..] else { panic!("{pid:?}") };
+        let [Data::Int(pid)] = pid[..] else {
+            panic!("{pid:?}")
+        };
         pid
     }
 }
@@ -59,13 +65,16 @@ fn bytes(text: &[u8]) -> Data {
 #[test]
 fn exec_gives_exit_code_and_outputs() {
     let mut bench = Bench::new();
-    let results = bench.run("return simSubprocess.exec('sh', {'-c', 'cat; echo -n no >&2; exit 3'}, 'in')");
+    let results =
+        bench.run("return simSubprocess.exec('sh', {'-c', 'cat; echo -n no >&2; exit 3'}, 'in')");
     assert_eq!(results, [Data::Int(3), bytes(b"in"), bytes(b"no")]);
-    let results = bench.run("return simSubprocess.exec('echo', {'a b', '\"c\"', 1}, tobuffer('unread'))");
+    let results =
+        bench.run("return simSubprocess.exec('echo', {'a b', '\"c\"', 1}, tobuffer('unread'))");
     assert_eq!(results, [Data::Int(0), bytes(b"a b \"c\" 1\n"), bytes(b"")]);
     let results = bench.run("return simSubprocess.exec('pwd', {}, '', {workingDir = '/usr'})");
     assert_eq!(results[1], bytes(b"/usr\n"));
-    let results = bench.run("return simSubprocess.exec('/bin/sh', {'-c', ':'}, '', {useSearchPath = false})");
+    let results =
+        bench.run("return simSubprocess.exec('/bin/sh', {'-c', ':'}, '', {useSearchPath = false})");
     assert_eq!(results[0], Data::Int(0));
 }
 
@@ -88,10 +97,19 @@ fn what_cannot_run() {
     let mut bench = Bench::new();
     for (code, reason) in [
         ("exec('no-such-program', {})", "waitForStarted timed out"),
-        ("exec('sh', {}, '', {useSearchPath = false})", "waitForStarted timed out"),
-        ("exec('sh', {}, '', {workingDir = '/no/such/folder'})", "waitForStarted timed out"),
+        (
+            "exec('sh', {}, '', {useSearchPath = false})",
+            "waitForStarted timed out",
+        ),
+        (
+            "exec('sh', {}, '', {workingDir = '/no/such/folder'})",
+            "waitForStarted timed out",
+        ),
         ("exec('a\\0b', {})", "waitForStarted timed out"),
-        ("execAsync('no-such-program', {})", "waitForStarted timed out"),
+        (
+            "execAsync('no-such-program', {})",
+            "waitForStarted timed out",
+        ),
         ("exec('sh', {'-c', 'kill -9 $$'})", "the process crashed"),
         ("exec('cat', {'/dev/zero'})", "256 MiB"),
         ("exec('sh', {{}})", "a string is needed"),
@@ -114,14 +132,24 @@ fn what_cannot_run() {
 fn programs_that_run_on() {
     let mut bench = Bench::new();
     bench.run("h = simSubprocess.execAsync('sleep', {'60'})");
-    assert_eq!(bench.run("return h:match('^%x+:simSubprocess%.child$') == h"), [Data::Bool(true)]);
+    assert_eq!(
+        bench.run("return h:match('^%x+:simSubprocess%.child$') == h"),
+        [Data::Bool(true)]
+    );
     assert!(is_running(bench.pid("h")));
-    assert_eq!(bench.run("return simSubprocess.isRunning(h)"), [Data::Bool(true)]);
+    assert_eq!(
+        bench.run("return simSubprocess.isRunning(h)"),
+        [Data::Bool(true)]
+    );
     assert_eq!(bench.run("return simSubprocess.wait(h, 0.01)"), [Data::Nil]);
     let pid = bench.pid("h");
     assert_eq!(bench.run("return simSubprocess.kill(h)"), [Data::Nil]);
     assert!(!is_running(pid), "killed and reaped");
-    assert!(bench.error("simSubprocess.isRunning(h)").contains("invalid object handle"));
+    assert!(
+        bench
+            .error("simSubprocess.isRunning(h)")
+            .contains("invalid object handle")
+    );
 
     bench.run("h = simSubprocess.execAsync('sh', {'-c', 'exit 7'})");
     assert_eq!(bench.run("return simSubprocess.wait(h)"), [Data::Int(7)]);
@@ -130,7 +158,11 @@ fn programs_that_run_on() {
         [7.into(), Data::Bool(false)]
     );
     bench.run("h = simSubprocess.execAsync('sh', {'-c', 'kill -9 $$'})");
-    assert!(bench.error("simSubprocess.wait(h, -1)").contains("the process crashed"));
+    assert!(
+        bench
+            .error("simSubprocess.wait(h, -1)")
+            .contains("the process crashed")
+    );
 }
 
 #[test]
@@ -146,11 +178,22 @@ fn programs_end_with_their_script() {
 fn a_launched_program_goes_on_by_itself() {
     let mut bench = Bench::new();
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
-    let (started, go, done) = (folder.path().join("started"), folder.path().join("go"), folder.path().join("done it"));
+    let (started, go, done) = (
+        folder.path().join("started"),
+        folder.path().join("go"),
+        folder.path().join("done it"),
+    );
     let script = folder.path().join("launched.sh");
-    let code = "#!/bin/sh\ntouch \"$1\"\nwhile [ ! -e \"$2\" ]; do sleep 0.01; done\ntouch \"$3\"\n";
+    let code =
+        "#!/bin/sh\ntouch \"$1\"\nwhile [ ! -e \"$2\" ]; do sleep 0.01; done\ntouch \"$3\"\n";
     std::fs::write(&script, code).expect("our own folder is writable");
-    let parameters = format!("{} {} {} \"{}\"", script.display(), started.display(), go.display(), done.display());
+    let parameters = format!(
+        "{} {} {} \"{}\"",
+        script.display(),
+        started.display(),
+        go.display(),
+        done.display()
+    );
     bench.run(&format!("sim.launchExecutable('sh', [[{parameters}]])"));
     wait_until("the program has started", || started.exists());
     drop(bench);
@@ -170,16 +213,26 @@ fn a_stop_ends_a_program_that_does_not() {
         wait_until("the program has started", || pid_in(&started).is_some());
         stop.store(true, Ordering::Relaxed);
     });
-    let code = format!("simSubprocess.exec('sh', {{'-c', 'echo $$ > {}; exec sleep 1000'}})", file.display());
+    let code = format!(
+        "simSubprocess.exec('sh', {{'-c', 'echo $$ > {}; exec sleep 1000'}})",
+        file.display()
+    );
     let error = bench.error(&code);
     assert!(error.contains("interrupted"), "{error}");
     thread.join().expect("the other thread ends");
-    assert!(!is_running(pid_in(&file).expect("it was started")), "it was killed and reaped");
+    assert!(
+        !is_running(pid_in(&file).expect("it was started")),
+        "it was killed and reaped"
+    );
 }
 
 /// The number in the first line of a file, once the line is complete.
 fn pid_in(file: &Path) -> Option<i64> {
-    std::fs::read_to_string(file).ok()?.strip_suffix('\n')?.parse().ok()
+    std::fs::read_to_string(file)
+        .ok()?
+        .strip_suffix('\n')?
+        .parse()
+        .ok()
 }
 
 /// Neither open files nor children, zombies included, of a process of its own, which counts them where the system tells.
@@ -219,16 +272,29 @@ fn nothing_is_left() {
     let scene = folder.path().join("scene.lua");
     std::fs::write(&scene, code).expect("our own folder is writable");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.arg("run").arg(&scene).args(["--as", "sandbox", "--empty", "--no-start", "--loops", "1", "--quiet"]);
+    command.arg("run").arg(&scene).args([
+        "--as",
+        "sandbox",
+        "--empty",
+        "--no-start",
+        "--loops",
+        "1",
+        "--quiet",
+    ]);
     assert_eq!(run_bounded(&mut command).as_deref(), Ok("0, 0\n"));
 }
 
 #[test]
 fn no_programs_without_permission() {
-    let mut bench = Bench::with(Options { permissions: Permissions::strict(), ..Options::default() });
-    for code in
-        ["simSubprocess.exec('true', {})", "simSubprocess.execAsync('true', {})", "sim.launchExecutable('true')"]
-    {
+    let mut bench = Bench::with(Options {
+        permissions: Permissions::strict(),
+        ..Options::default()
+    });
+    for code in [
+        "simSubprocess.exec('true', {})",
+        "simSubprocess.execAsync('true', {})",
+        "sim.launchExecutable('true')",
+    ] {
         let error = bench.error(code);
         assert!(error.contains("--allow-run"), "{code}: {error}");
     }
@@ -236,5 +302,10 @@ fn no_programs_without_permission() {
 
 /// Whether there is a process of that number, if only as a zombie.
 fn is_running(pid: i64) -> bool {
-    Command::new("kill").args(["-0", &pid.to_string()]).output().expect("kill starts").status.success()
+    Command::new("kill")
+        .args(["-0", &pid.to_string()])
+        .output()
+        .expect("kill starts")
+        .status
+        .success()
 }

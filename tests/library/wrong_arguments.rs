@@ -17,7 +17,11 @@ fn run(code: &str) -> String {
     fs::write(&scene, code).expect("our own folder is writable");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
     // Functions that write files do so where nobody minds.
-    command.current_dir(folder.path()).arg("run").arg(&scene).args(["--data-dir", ".", "--as", "sandbox"]);
+    command
+        .current_dir(folder.path())
+        .arg("run")
+        .arg(&scene)
+        .args(["--data-dir", ".", "--as", "sandbox"]);
     command.args(["--no-start", "--loops", "1", "--quiet"]);
     let output = run_bounded(&mut command).unwrap_or_else(|error| panic!("{error}"));
     assert!(!output.contains("panicked"), "{output}");
@@ -26,14 +30,24 @@ fn run(code: &str) -> String {
 
 #[test]
 fn wrong_arguments_for_every_function() {
-    let functions: Vec<Function> = docs::functions().into_iter().filter(|f| !NOT_CALLED.contains(&&*f.name)).collect();
+    let functions: Vec<Function> = docs::functions()
+        .into_iter()
+        .filter(|f| !NOT_CALLED.contains(&&*f.name))
+        .collect();
     assert!(functions.len() > 100, "the table of functions is read");
     let chunks: Vec<&[Function]> = functions.chunks(functions.len().div_ceil(8)).collect();
     parallel::map(&chunks, |chunk| {
-        let names: Vec<String> = chunk.iter().map(|f| format!("{{'{}', {}}}", f.name, f.parameters.len())).collect();
+        let names: Vec<String> = chunk
+            .iter()
+            .map(|f| format!("{{'{}', {}}}", f.name, f.parameters.len()))
+            .collect();
         let code = CALL_WRONGLY.replace("FUNCTIONS", &names.join(", "));
         let output = run(&code);
-        let last = output.lines().rev().find(|line| line.starts_with("calling")).unwrap_or_default();
+        let last = output
+            .lines()
+            .rev()
+            .find(|line| line.starts_with("calling"))
+            .unwrap_or_default();
         assert!(
             output.contains("all called"),
             "{last}\n{}",

@@ -14,14 +14,19 @@ fn reference_is_current() {
     let files = docs::files();
     let stale: Vec<&str> = files
         .iter()
-        .filter(|(path, text)| fs::read_to_string(root().join(path)).map_or(true, |committed| committed != *text))
+        .filter(|(path, text)| {
+            fs::read_to_string(root().join(path)).map_or(true, |committed| committed != *text)
+        })
         .map(|(path, _)| path.as_str())
         .collect();
     let left_over = left_over(&files);
     if std::env::var_os("UPDATE").is_some() {
         return update(&files, &left_over);
     }
-    assert!(stale.is_empty(), "stale: {stale:?}\nrun UPDATE=1 cargo test --test repository generated");
+    assert!(
+        stale.is_empty(),
+        "stale: {stale:?}\nrun UPDATE=1 cargo test --test repository generated"
+    );
     assert!(left_over.is_empty(), "no longer generated: {left_over:?}");
 }
 
@@ -34,24 +39,38 @@ fn readme_is_current() {
     if std::env::var_os("UPDATE").is_some() {
         return fs::write(path, current).expect("the repository is writable");
     }
-    assert!(readme == current, "README.md is stale: run UPDATE=1 cargo test --test repository generated");
+    assert!(
+        readme == current,
+        "README.md is stale: run UPDATE=1 cargo test --test repository generated"
+    );
 }
 
 #[test]
 fn every_function_says_what_it_does() {
-    let silent: Vec<String> =
-        docs::functions().into_iter().filter(|f| f.text.is_empty() && f.alias_of.is_none()).map(|f| f.name).collect();
+    let silent: Vec<String> = docs::functions()
+        .into_iter()
+        .filter(|f| f.text.is_empty() && f.alias_of.is_none())
+        .map(|f| f.name)
+        .collect();
     assert!(silent.is_empty(), "no documentation: {silent:?}");
 }
 
 #[test]
 fn documented_parameters_exist() {
     let names: BTreeSet<String> = docs::functions().iter().map(|f| f.name.clone()).collect();
-    assert!(names.contains("sim.getObjectPosition"), "the table of functions is read");
+    assert!(
+        names.contains("sim.getObjectPosition"),
+        "the table of functions is read"
+    );
     for function in docs::functions() {
         let mut seen = BTreeSet::new();
         for parameter in &function.parameters {
-            assert!(seen.insert(&parameter.name), "{}: two parameters named {}", function.name, parameter.name);
+            assert!(
+                seen.insert(&parameter.name),
+                "{}: two parameters named {}",
+                function.name,
+                parameter.name
+            );
         }
     }
 }
@@ -70,14 +89,29 @@ fn defaults_are_values_in_lua() {
         return ''
     end";
     let mut sim = Simulator::new(Options::default());
-    let sandbox = sim.add_script(ScriptKind::Sandbox, "defaults", CODE.as_bytes()).expect("the chunk runs");
+    let sandbox = sim
+        .add_script(ScriptKind::Sandbox, "defaults", CODE.as_bytes())
+        .expect("the chunk runs");
     let mut faults = Vec::new();
-    for function in docs::functions().into_iter().chain(docs::module_functions()) {
-        let is_parameter = |word: &str| function.parameters.iter().any(|parameter| parameter.name == word);
-        let defaults = function.parameters.iter().filter_map(|parameter| parameter.default.as_deref());
+    for function in docs::functions()
+        .into_iter()
+        .chain(docs::module_functions())
+    {
+        let is_parameter = |word: &str| {
+            function
+                .parameters
+                .iter()
+                .any(|parameter| parameter.name == word)
+        };
+        let defaults = function
+            .parameters
+            .iter()
+            .filter_map(|parameter| parameter.default.as_deref());
         // What depends on another parameter is no value by itself.
         for default in defaults.filter(|default| !is_parameter(default.trim_start_matches('#'))) {
-            let fault = sim.call(&sandbox, "fault", &[Data::text(default)]).expect("it runs");
+            let fault = sim
+                .call(&sandbox, "fault", &[Data::text(default)])
+                .expect("it runs");
             if fault != [Data::text("")] {
                 faults.push(format!("{}: {default}: {fault:?}", function.name));
             }
@@ -116,13 +150,22 @@ fn modules_have_the_functions_their_pages_describe() {
         return names
     end";
     let mut sim = Simulator::new(Options::default());
-    let sandbox = sim.add_script(ScriptKind::Sandbox, "functions", CODE.as_bytes()).expect("the chunk runs");
+    let sandbox = sim
+        .add_script(ScriptKind::Sandbox, "functions", CODE.as_bytes())
+        .expect("the chunk runs");
     let functions = docs::module_functions();
     for module in MODULES {
-        let described: Vec<String> =
-            functions.iter().filter(|f| f.category == *module).map(|f| f.name.clone()).collect();
-        let found = sim.call(&sandbox, "functions", &[Data::text(module)]).expect("the module loads");
-        let [Data::Array(found)] = &found[..] else { panic!("a list of names: {found:?}") };
+        let described: Vec<String> = functions
+            .iter()
+            .filter(|f| f.category == *module)
+            .map(|f| f.name.clone())
+            .collect();
+        let found = sim
+            .call(&sandbox, "functions", &[Data::text(module)])
+            .expect("the module loads");
+        let [Data::Array(found)] = &found[..] else {
+            panic!("a list of names: {found:?}")
+        };
         let found = found.iter().map(|name| match name {
             Data::Text(name) => format!("{module}.{}", String::from_utf8_lossy(name)),
             other => panic!("a name: {other:?}"),
@@ -137,16 +180,25 @@ fn root() -> &'static Path {
 
 /// Pages of categories that are no more.
 fn left_over(files: &[(String, String)]) -> Vec<PathBuf> {
-    let Ok(pages) = fs::read_dir(root().join("docs/api")) else { return Vec::new() };
+    let Ok(pages) = fs::read_dir(root().join("docs/api")) else {
+        return Vec::new();
+    };
     let generated: Vec<PathBuf> = files.iter().map(|(path, _)| root().join(path)).collect();
-    pages.flatten().map(|entry| entry.path()).filter(|path| !generated.contains(path)).collect()
+    pages
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| !generated.contains(path))
+        .collect()
 }
 
 fn update(files: &[(String, String)], left_over: &[PathBuf]) {
     for (path, text) in files {
         let path = root().join(path);
-        fs::create_dir_all(path.parent().expect("files lie in folders")).expect("the repository is writable");
+        fs::create_dir_all(path.parent().expect("files lie in folders"))
+            .expect("the repository is writable");
         fs::write(path, text).expect("the repository is writable");
     }
-    left_over.iter().for_each(|path| fs::remove_file(path).expect("the repository is writable"));
+    left_over
+        .iter()
+        .for_each(|path| fs::remove_file(path).expect("the repository is writable"));
 }

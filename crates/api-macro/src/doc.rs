@@ -9,19 +9,31 @@ pub(crate) struct Doc(Vec<(String, Span)>);
 
 impl Doc {
     pub(crate) fn of(attributes: &[Attribute]) -> Self {
-        let comments = attributes.iter().filter_map(|attribute| Some((text_of(attribute)?, attribute.span())));
-        Self(comments.flat_map(|(text, span)| lines(&text, span)).collect())
+        let comments = attributes
+            .iter()
+            .filter_map(|attribute| Some((text_of(attribute)?, attribute.span())));
+        Self(
+            comments
+                .flat_map(|(text, span)| lines(&text, span))
+                .collect(),
+        )
     }
 
     pub(crate) fn text(&self) -> String {
-        self.0.iter().map(|(line, _)| line.as_str()).collect::<Vec<_>>().join("\n")
+        self.0
+            .iter()
+            .map(|(line, _)| line.as_str())
+            .collect::<Vec<_>>()
+            .join("\n")
     }
 
     /// # Errors
     /// At the first `@param` that describes none of these parameters.
     pub(crate) fn check_parameters(&self, known: &[&str]) -> syn::Result<()> {
         for (line, span) in &self.0 {
-            let Some(described) = line.strip_prefix("@param") else { continue };
+            let Some(described) = line.strip_prefix("@param") else {
+                continue;
+            };
             let name = described.split_whitespace().next().unwrap_or_default();
             if !known.contains(&name) {
                 return Err(syn::Error::new(*span, unknown(name, known)));
@@ -40,14 +52,21 @@ fn unknown(name: &str, known: &[&str]) -> String {
 }
 
 fn text_of(attribute: &Attribute) -> Option<String> {
-    let Meta::NameValue(pair) = &attribute.meta else { return None };
+    let Meta::NameValue(pair) = &attribute.meta else {
+        return None;
+    };
     match &pair.value {
-        Expr::Lit(ExprLit { lit: Lit::Str(text), .. }) if pair.path.is_ident("doc") => Some(text.value()),
+        Expr::Lit(ExprLit {
+            lit: Lit::Str(text),
+            ..
+        }) if pair.path.is_ident("doc") => Some(text.value()),
         _ => None,
     }
 }
 
 /// An empty comment is an empty line.
 fn lines(text: &str, span: Span) -> Vec<(String, Span)> {
-    text.split('\n').map(|line| (line.trim().to_owned(), span)).collect()
+    text.split('\n')
+        .map(|line| (line.trim().to_owned(), span))
+        .collect()
 }

@@ -29,7 +29,9 @@ use syn::{FnArg, ItemFn, LitStr, PatType, ReturnType, Token, Type, parse_macro_i
 pub fn api(name: TokenStream, item: TokenStream) -> TokenStream {
     let attribute = parse_macro_input!(name as Attribute);
     let mut function = parse_macro_input!(item as ItemFn);
-    expand(&attribute, &mut function).unwrap_or_else(syn::Error::into_compile_error).into()
+    expand(&attribute, &mut function)
+        .unwrap_or_else(syn::Error::into_compile_error)
+        .into()
 }
 
 /// `"sim.name"`, or `"simZMQ.name", snake_case` for a function whose parameters keep their names.
@@ -48,7 +50,10 @@ impl Parse for Attribute {
                 return Err(syn::Error::new(word.span(), "expected `snake_case`"));
             }
         }
-        Ok(Self { name, is_snake_case })
+        Ok(Self {
+            name,
+            is_snake_case,
+        })
     }
 }
 
@@ -57,17 +62,33 @@ fn expand(attribute: &Attribute, function: &mut ItemFn) -> syn::Result<Tokens> {
     let doc = Doc::of(&function.attrs);
     let mut inputs = function.sig.inputs.iter_mut();
     let mutates = takes_mut_context(inputs.next())?;
-    let parameters =
-        inputs.map(|input| Parameter::take(input, attribute.is_snake_case)).collect::<syn::Result<Vec<_>>>()?;
+    let parameters = inputs
+        .map(|input| Parameter::take(input, attribute.is_snake_case))
+        .collect::<syn::Result<Vec<_>>>()?;
     check_names(&parameters)?;
-    doc.check_parameters(&parameters.iter().map(|parameter| parameter.name.as_str()).collect::<Vec<_>>())?;
-    let glue = glue(attribute, function, &doc.text(), mutates, &parameters, &output);
+    doc.check_parameters(
+        &parameters
+            .iter()
+            .map(|parameter| parameter.name.as_str())
+            .collect::<Vec<_>>(),
+    )?;
+    let glue = glue(
+        attribute,
+        function,
+        &doc.text(),
+        mutates,
+        &parameters,
+        &output,
+    );
     Ok(quote!(#function #glue))
 }
 
 fn check_names(parameters: &[Parameter]) -> syn::Result<()> {
     for (i, parameter) in parameters.iter().enumerate() {
-        if parameters[..i].iter().any(|earlier| earlier.name == parameter.name) {
+        if parameters[..i]
+            .iter()
+            .any(|earlier| earlier.name == parameter.name)
+        {
             let reason = format!("scripts would know two parameters as `{}`", parameter.name);
             return Err(syn::Error::new(parameter.ident.span(), reason));
         }
@@ -124,7 +145,11 @@ fn glue(
 fn perform(ident: &syn::Ident, mutates: bool, parameters: &[Parameter], output: &Type) -> Tokens {
     let decoders = parameters.iter().map(Parameter::decoder);
     let locals = parameters.iter().map(|parameter| &parameter.ident);
-    let context = if mutates { quote!(&mut cx) } else { quote!(&cx) };
+    let context = if mutates {
+        quote!(&mut cx)
+    } else {
+        quote!(&cx)
+    };
     quote! {
         #[inline(always)]
         fn perform<'a, S: Source<'a>>(args: &mut Args<'a, S>) -> Result<#output> {
@@ -147,7 +172,10 @@ fn output_type(function: &ItemFn) -> syn::Result<Type> {
     {
         return Ok(ty.clone());
     }
-    Err(syn::Error::new_spanned(&function.sig, "a scriptable function returns `Result<T>`"))
+    Err(syn::Error::new_spanned(
+        &function.sig,
+        "a scriptable function returns `Result<T>`",
+    ))
 }
 
 /// Several results are a tuple, none is `()`.
@@ -162,8 +190,14 @@ fn takes_mut_context(first: Option<&mut FnArg>) -> syn::Result<bool> {
     match first {
         Some(FnArg::Typed(PatType { ty, .. })) => match &**ty {
             Type::Reference(reference) => Ok(reference.mutability.is_some()),
-            other => Err(syn::Error::new_spanned(other, "the first parameter is `&Cx` or `&mut Cx`")),
+            other => Err(syn::Error::new_spanned(
+                other,
+                "the first parameter is `&Cx` or `&mut Cx`",
+            )),
         },
-        _ => Err(syn::Error::new(proc_macro2::Span::call_site(), "the first parameter is `&Cx` or `&mut Cx`")),
+        _ => Err(syn::Error::new(
+            proc_macro2::Span::call_site(),
+            "the first parameter is `&Cx` or `&mut Cx`",
+        )),
     }
 }

@@ -45,14 +45,25 @@ impl Parameter {
             Some(name) => name.value(),
             None => script_name(&ident.to_string(), is_snake_case),
         };
-        Ok(Self { ident, name, ty: (**ty).clone(), default })
+        Ok(Self {
+            ident,
+            name,
+            ty: (**ty).clone(),
+            default,
+        })
     }
 
     /// The row for the reference.
     pub(crate) fn row(&self) -> Tokens {
-        let Self { name, ty, default, .. } = self;
-        let Some(Default { value, constant }) = default else { return quote!(Param::new::<#ty>(#name)) };
-        let constant = constant.as_ref().map_or_else(|| quote!(None), |name| quote!(Some(#name)));
+        let Self {
+            name, ty, default, ..
+        } = self;
+        let Some(Default { value, constant }) = default else {
+            return quote!(Param::new::<#ty>(#name));
+        };
+        let constant = constant
+            .as_ref()
+            .map_or_else(|| quote!(None), |name| quote!(Some(#name)));
         quote! {
             Param::optional::<#ty>(#name, DefaultValue {
                 value: || {
@@ -67,14 +78,19 @@ impl Parameter {
     pub(crate) fn decoder(&self) -> Tokens {
         let Self { ident, ty, .. } = self;
         match &self.default {
-            Some(Default { value, .. }) => quote!(let #ident: #ty = args.take_or(|| (#value).into())?;),
+            Some(Default { value, .. }) => {
+                quote!(let #ident: #ty = args.take_or(|| (#value).into())?;)
+            }
             None => quote!(let #ident: #ty = args.take()?;),
         }
     }
 }
 
 fn take_attribute<T: Parse>(attributes: &mut Vec<Attribute>, name: &str) -> syn::Result<Option<T>> {
-    match attributes.iter().position(|attribute| attribute.path().is_ident(name)) {
+    match attributes
+        .iter()
+        .position(|attribute| attribute.path().is_ident(name))
+    {
         Some(at) => attributes.remove(at).parse_args().map(Some),
         None => Ok(None),
     }
@@ -83,7 +99,11 @@ fn take_attribute<T: Parse>(attributes: &mut Vec<Attribute>, name: &str) -> syn:
 /// The name that scripts see without `#[name]`. The underscore of an unused parameter and `r#` mean something to Rust alone.
 fn script_name(rust_name: &str, is_snake_case: bool) -> String {
     let name = rust_name.trim_start_matches("r#").trim_start_matches('_');
-    if is_snake_case { name.to_owned() } else { camel_case(name) }
+    if is_snake_case {
+        name.to_owned()
+    } else {
+        camel_case(name)
+    }
 }
 
 fn camel_case(snake: &str) -> String {

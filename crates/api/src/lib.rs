@@ -27,7 +27,10 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Globals of V-REP", old::globals::FUNCTIONS),
     ("Paths of V-REP", old::paths::FUNCTIONS),
     ("Path planning of V-REP", old::path_planning::FUNCTIONS),
-    ("Custom user interfaces of V-REP", old::button_interfaces::FUNCTIONS),
+    (
+        "Custom user interfaces of V-REP",
+        old::button_interfaces::FUNCTIONS,
+    ),
     ("Time and chance", scripts::time::FUNCTIONS),
     ("Simulation", scripts::simulation::FUNCTIONS),
     ("Threads", scripts::thread::FUNCTIONS),
@@ -48,16 +51,31 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Textures", shapes::texture::FUNCTIONS),
     ("Joints", motion::joint::FUNCTIONS),
     ("Joint motion", motion::joint_motion::FUNCTIONS),
-    ("Old functions of joints and shapes", old::joint_shape::FUNCTIONS),
+    (
+        "Old functions of joints and shapes",
+        old::joint_shape::FUNCTIONS,
+    ),
     ("Dummies", objects::dummy::FUNCTIONS),
     ("Force sensors", sensors::force_sensor::FUNCTIONS),
     ("Proximity sensors", sensors::proximity_sensor::FUNCTIONS),
     ("Collisions and distances", sensors::queries::FUNCTIONS),
-    ("Collision and distance objects of old scenes", old::calculation_objects::FUNCTIONS),
-    ("Groups of inverse kinematics of V-REP", old::ik_groups::FUNCTIONS),
-    ("Postures for groups of inverse kinematics of V-REP", old::ik_postures::FUNCTIONS),
+    (
+        "Collision and distance objects of old scenes",
+        old::calculation_objects::FUNCTIONS,
+    ),
+    (
+        "Groups of inverse kinematics of V-REP",
+        old::ik_groups::FUNCTIONS,
+    ),
+    (
+        "Postures for groups of inverse kinematics of V-REP",
+        old::ik_postures::FUNCTIONS,
+    ),
     ("Vision sensors", sensors::vision::FUNCTIONS),
-    ("Old functions of vision sensors", old::vision_sensor::FUNCTIONS),
+    (
+        "Old functions of vision sensors",
+        old::vision_sensor::FUNCTIONS,
+    ),
     ("Sensor objects", sensors::create::FUNCTIONS),
     ("Ruckig", motion::ruckig::FUNCTIONS),
     ("Time-optimal trajectories", motion::trajectory::FUNCTIONS),
@@ -73,11 +91,17 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Tubes", old::tube::FUNCTIONS),
     ("Serial ports", files::serial::FUNCTIONS),
     ("Programs", files::program::FUNCTIONS),
-    ("Consoles, messages of the interface, semaphores", display::auxiliary_console::FUNCTIONS),
+    (
+        "Consoles, messages of the interface, semaphores",
+        display::auxiliary_console::FUNCTIONS,
+    ),
     ("Text editors", display::text_editor::FUNCTIONS),
     ("User parameters", old::user_param::FUNCTIONS),
     ("Octrees and point clouds", sensors::voxels::FUNCTIONS),
-    ("Objects in octrees and point clouds", sensors::voxel_objects::FUNCTIONS),
+    (
+        "Objects in octrees and point clouds",
+        sensors::voxel_objects::FUNCTIONS,
+    ),
     ("Scene files", files::scene_file::FUNCTIONS),
     ("Graphs", display::graph::FUNCTIONS),
     ("Drawing objects", display::drawing::FUNCTIONS),
@@ -94,7 +118,10 @@ pub static SIM: Module = Module {
     reference: include_str!("tables/reference.tsv"),
     old_names: include_str!("tables/old_names.tsv"),
     lua_members: Some("sim/"),
-    hooks: Hooks { end_of_simulation: Some(files::serial::end_simulation), ..Hooks::NONE },
+    hooks: Hooks {
+        end_of_simulation: Some(files::serial::end_simulation),
+        ..Hooks::NONE
+    },
     ..Module::new("sim")
 };
 

@@ -49,8 +49,17 @@ impl Pattern {
 
     fn push_column(&mut self, column: usize, rows: &[usize]) {
         let first = self.places.len();
-        self.places.extend(rows.iter().enumerate().map(|(i, &row)| ((row, column), first + i)));
-        self.columns.push(rows.iter().enumerate().map(|(i, &row)| (row, first + i)).collect());
+        self.places.extend(
+            rows.iter()
+                .enumerate()
+                .map(|(i, &row)| ((row, column), first + i)),
+        );
+        self.columns.push(
+            rows.iter()
+                .enumerate()
+                .map(|(i, &row)| (row, first + i))
+                .collect(),
+        );
     }
 
     fn updates_of(&self, column: usize) -> Vec<(Place, usize, usize)> {
@@ -59,7 +68,9 @@ impl Pattern {
         for (i, &(column, right)) in rows.iter().enumerate() {
             updates.push((Place::Diagonal(column), right, right));
             updates.extend(
-                rows[i + 1..].iter().map(|&(row, left)| (Place::Below(self.places[&(row, column)]), left, right)),
+                rows[i + 1..]
+                    .iter()
+                    .map(|&(row, left)| (Place::Below(self.places[&(row, column)]), left, right)),
             );
         }
         updates
@@ -70,7 +81,11 @@ impl Pattern {
     /// # Panics
     /// When the two are not coupled.
     pub(crate) fn place(&self, row: usize, column: usize) -> Place {
-        if row == column { Place::Diagonal(row) } else { Place::Below(self.places[&(row, column)]) }
+        if row == column {
+            Place::Diagonal(row)
+        } else {
+            Place::Below(self.places[&(row, column)])
+        }
     }
 }
 
@@ -85,7 +100,10 @@ pub(crate) struct Matrix {
 
 /// The factor of a block and one over its pivots; None when it is not positive definite. Below the diagonal the factor holds `L`, on it the
 /// pivots `D`; what is above the diagonal is left.
-#[allow(clippy::needless_range_loop, reason = "loops of fixed length become straight code, iterators do not")]
+#[allow(
+    clippy::needless_range_loop,
+    reason = "loops of fixed length become straight code, iterators do not"
+)]
 fn factor_of(block: &Block) -> Option<(Block, [f64; 6])> {
     let (mut factor, mut reciprocals) = (*block, [0.0; 6]);
     let columns = &mut factor.data.0;
@@ -109,7 +127,10 @@ fn factor_of(block: &Block) -> Option<(Block, [f64; 6])> {
 }
 
 /// Solves `x D L^T = x` in place, column by column.
-#[allow(clippy::needless_range_loop, reason = "loops of fixed length become straight code, iterators do not")]
+#[allow(
+    clippy::needless_range_loop,
+    reason = "loops of fixed length become straight code, iterators do not"
+)]
 fn divide_by_upper(factor: &Block, reciprocals: &[f64; 6], x: &mut Block) {
     let columns = &mut x.data.0;
     for column in 0..6 {
@@ -121,12 +142,17 @@ fn divide_by_upper(factor: &Block, reciprocals: &[f64; 6], x: &mut Block) {
         }
     }
     for column in 0..6 {
-        columns[column].iter_mut().for_each(|x| *x *= reciprocals[column]);
+        columns[column]
+            .iter_mut()
+            .for_each(|x| *x *= reciprocals[column]);
     }
 }
 
 /// `target -= block D block^T`, its lower triangle; `factor` holds the pivots.
-#[allow(clippy::needless_range_loop, reason = "loops of fixed length become straight code, iterators do not")]
+#[allow(
+    clippy::needless_range_loop,
+    reason = "loops of fixed length become straight code, iterators do not"
+)]
 fn subtract_lower_square(target: &mut Block, block: &Block, factor: &Block) {
     for inner in 0..6 {
         for column in 0..6 {
@@ -139,7 +165,10 @@ fn subtract_lower_square(target: &mut Block, block: &Block, factor: &Block) {
 }
 
 /// Solves `L x = x` in place.
-#[allow(clippy::needless_range_loop, reason = "loops of fixed length become straight code, iterators do not")]
+#[allow(
+    clippy::needless_range_loop,
+    reason = "loops of fixed length become straight code, iterators do not"
+)]
 fn solve_lower(factor: &Block, x: &mut [f64; 6]) {
     for column in 0..5 {
         for row in column + 1..6 {
@@ -149,7 +178,10 @@ fn solve_lower(factor: &Block, x: &mut [f64; 6]) {
 }
 
 /// Solves `L^T x = x` in place.
-#[allow(clippy::needless_range_loop, reason = "loops of fixed length become straight code, iterators do not")]
+#[allow(
+    clippy::needless_range_loop,
+    reason = "loops of fixed length become straight code, iterators do not"
+)]
 fn solve_upper(factor: &Block, x: &mut [f64; 6]) {
     for column in (0..5).rev() {
         for row in column + 1..6 {
@@ -171,7 +203,9 @@ impl Matrix {
     pub(crate) fn factorize(&mut self, pattern: &Pattern) -> bool {
         self.reciprocals.clear();
         for column in 0..pattern.columns.len() {
-            let Some((factor, reciprocals)) = factor_of(&self.diagonal[column]) else { return false };
+            let Some((factor, reciprocals)) = factor_of(&self.diagonal[column]) else {
+                return false;
+            };
             self.diagonal[column] = factor;
             self.reciprocals.push(reciprocals);
             for &(_, place) in &pattern.columns[column] {
@@ -179,11 +213,15 @@ impl Matrix {
             }
             for &(target, left, right) in &pattern.updates[column] {
                 match target {
-                    Place::Diagonal(row) => subtract_lower_square(&mut self.diagonal[row], &self.below[left], &factor),
+                    Place::Diagonal(row) => {
+                        subtract_lower_square(&mut self.diagonal[row], &self.below[left], &factor)
+                    }
                     Place::Below(place) => {
                         let mut scaled = self.below[left];
                         (0..6).for_each(|column| {
-                            scaled.data.0[column].iter_mut().for_each(|x| *x *= factor.data.0[column][column])
+                            scaled.data.0[column]
+                                .iter_mut()
+                                .for_each(|x| *x *= factor.data.0[column][column])
                         });
                         let product = scaled * self.below[right].transpose();
                         self.below[place] -= product;
@@ -202,14 +240,24 @@ impl Matrix {
     /// Solves `L D^(1/2) x = x` for six right-hand sides at once; None stands for zeros.
     pub(crate) fn carry(&self, pattern: &Pattern, x: &mut [Option<Block>]) {
         for column in 0..pattern.columns.len() {
-            let Some(mut solved) = x[column] else { continue };
+            let Some(mut solved) = x[column] else {
+                continue;
+            };
             let (factor, reciprocals) = (&self.diagonal[column], &self.reciprocals[column]);
-            solved.data.0.iter_mut().for_each(|x| solve_lower(factor, x));
+            solved
+                .data
+                .0
+                .iter_mut()
+                .for_each(|x| solve_lower(factor, x));
             for &(row, place) in &pattern.columns[column] {
                 *x[row].get_or_insert_with(Block::zeros) -= self.below[place] * solved;
             }
             let scale = reciprocals.map(f64::sqrt);
-            solved.data.0.iter_mut().for_each(|x| x.iter_mut().zip(scale).for_each(|(x, scale)| *x *= scale));
+            solved
+                .data
+                .0
+                .iter_mut()
+                .for_each(|x| x.iter_mut().zip(scale).for_each(|(x, scale)| *x *= scale));
             x[column] = Some(solved);
         }
     }
@@ -224,7 +272,10 @@ impl Matrix {
             }
         }
         for column in (0..pattern.columns.len()).rev() {
-            x[column].iter_mut().zip(self.reciprocals[column]).for_each(|(x, reciprocal)| *x *= reciprocal);
+            x[column]
+                .iter_mut()
+                .zip(self.reciprocals[column])
+                .for_each(|(x, reciprocal)| *x *= reciprocal);
             for &(row, place) in &pattern.columns[column] {
                 let known = self.below[place].transpose() * x[row];
                 x[column] -= known;
@@ -260,11 +311,17 @@ mod tests {
             if let Place::Below(place) = pattern.place(row, column) {
                 matrix.below[place] = block;
             }
-            dense.view_mut((row * 6, column * 6), (6, 6)).copy_from(&block);
-            dense.view_mut((column * 6, row * 6), (6, 6)).copy_from(&block.transpose());
+            dense
+                .view_mut((row * 6, column * 6), (6, 6))
+                .copy_from(&block);
+            dense
+                .view_mut((column * 6, row * 6), (6, 6))
+                .copy_from(&block.transpose());
         }
         let right = nalgebra::DVector::from_fn(30, |i, _| entry(i, 3));
-        let mut x: Vec<Segment> = (0..5).map(|i| Segment::from_fn(|j, _| right[i * 6 + j])).collect();
+        let mut x: Vec<Segment> = (0..5)
+            .map(|i| Segment::from_fn(|j, _| right[i * 6 + j]))
+            .collect();
         assert!(matrix.factorize(&pattern));
         matrix.solve(&pattern, &mut x);
         let x = nalgebra::DVector::from_fn(30, |i, _| x[i / 6][i % 6]);

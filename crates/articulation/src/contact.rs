@@ -103,17 +103,32 @@ impl Row {
         let (first, second) = tangents(&normal);
         let axes = Matrix3::from_rows(&[normal.transpose(), first.transpose(), second.transpose()]);
         let sides = [0, 1].map(|side| {
-            let body = contact.bodies[side].filter(|&body| bodies.get(body).is_some_and(LinkedBody::is_dynamic))?;
+            let body = contact.bodies[side]
+                .filter(|&body| bodies.get(body).is_some_and(LinkedBody::is_dynamic))?;
             let sign = if side == 0 { 1.0 } else { -1.0 };
             let lever = Vector3::from(contact.point) - bodies[body].com;
             let mut jacobian = Matrix6x3::zeros();
-            jacobian.fixed_view_mut::<3, 3>(0, 0).copy_from(&(axes.transpose() * sign));
-            jacobian.fixed_view_mut::<3, 3>(3, 0).copy_from(&(lever.cross_matrix() * axes.transpose() * sign));
-            Some(Side { body, place: place_of(places, body), jacobian })
+            jacobian
+                .fixed_view_mut::<3, 3>(0, 0)
+                .copy_from(&(axes.transpose() * sign));
+            jacobian
+                .fixed_view_mut::<3, 3>(3, 0)
+                .copy_from(&(lever.cross_matrix() * axes.transpose() * sign));
+            Some(Side {
+                body,
+                place: place_of(places, body),
+                jacobian,
+            })
         });
         let impulse = axes * Vector3::from(contact.impulse);
-        let mut row =
-            Self { sides, axes, impulse, target: Vector3::zeros(), friction: contact.friction, compliance: 0.0 };
+        let mut row = Self {
+            sides,
+            axes,
+            impulse,
+            target: Vector3::zeros(),
+            friction: contact.friction,
+            compliance: 0.0,
+        };
         row.target = row.target(contact, bodies, step);
         row.compliance = COMPLIANCE * row.free_response(bodies);
         row
@@ -122,10 +137,19 @@ impl Row {
     fn target(&self, contact: &Contact, bodies: &[LinkedBody], step: f64) -> Vector3<f64> {
         let mut target = self.axes * Vector3::from(contact.velocity);
         let approach = self.velocity(|body| bodies[body].present_velocity())[0] - target[0];
-        let share = if contact.distance < 0.0 { PENETRATION_CORRECTION } else { 1.0 };
+        let share = if contact.distance < 0.0 {
+            PENETRATION_CORRECTION
+        } else {
+            1.0
+        };
         let closing = (-contact.distance * share / step).min(MAX_CORRECTION_VELOCITY);
-        let rebounds = contact.restitution > 0.0 && approach < -RESTITUTION_THRESHOLD && approach < closing;
-        target[0] += if rebounds { -approach * contact.restitution } else { closing };
+        let rebounds =
+            contact.restitution > 0.0 && approach < -RESTITUTION_THRESHOLD && approach < closing;
+        target[0] += if rebounds {
+            -approach * contact.restitution
+        } else {
+            closing
+        };
         target
     }
 
@@ -140,28 +164,46 @@ impl Row {
 
     /// Velocity of the first body relative to the second along the axes.
     fn velocity(&self, of_body: impl Fn(usize) -> Vector6<f64>) -> Vector3<f64> {
-        self.sides.iter().flatten().map(|side| side.jacobian.tr_mul(&of_body(side.body))).sum()
+        self.sides
+            .iter()
+            .flatten()
+            .map(|side| side.jacobian.tr_mul(&of_body(side.body)))
+            .sum()
     }
 
     /// Tangential impulses within what friction transmits.
     fn within_cone(&self, first: f64, second: f64) -> (f64, f64) {
-        let (largest, length) = (self.friction * self.impulse[0], (first * first + second * second).sqrt());
-        let scale = if length > largest { largest / length } else { 1.0 };
+        let (largest, length) = (
+            self.friction * self.impulse[0],
+            (first * first + second * second).sqrt(),
+        );
+        let scale = if length > largest {
+            largest / length
+        } else {
+            1.0
+        };
         (first * scale, second * scale)
     }
 }
 
 /// Place of a body among those that touch something, the last one if it is new.
 fn place_of(places: &mut Vec<usize>, body: usize) -> usize {
-    places.iter().position(|&other| other == body).unwrap_or_else(|| {
-        places.push(body);
-        places.len() - 1
-    })
+    places
+        .iter()
+        .position(|&other| other == body)
+        .unwrap_or_else(|| {
+            places.push(body);
+            places.len() - 1
+        })
 }
 
 /// Two unit vectors across a unit vector.
 fn tangents(normal: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
-    let helper = if normal.x.abs() < 0.7 { Vector3::x() } else { Vector3::y() };
+    let helper = if normal.x.abs() < 0.7 {
+        Vector3::x()
+    } else {
+        Vector3::y()
+    };
     let first = normal.cross(&helper).normalize();
     (first, normal.cross(&first))
 }
@@ -169,25 +211,49 @@ fn tangents(normal: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
 impl Mechanism {
     /// Sets the contacts for the step that has begun; [`solve`](Self::solve) finds their impulses.
     pub fn set_contacts(&mut self, contacts: &[Contact]) {
-        let possible: Vec<bool> = contacts.iter().map(|contact| self.can_separate(contact, contacts)).collect();
-        let Self { bodies, contacts: system, step, .. } = self;
-        let Contacts { rows, bodies: places, .. } = system;
+        let possible: Vec<bool> = contacts
+            .iter()
+            .map(|contact| self.can_separate(contact, contacts))
+            .collect();
+        let Self {
+            bodies,
+            contacts: system,
+            step,
+            ..
+        } = self;
+        let Contacts {
+            rows,
+            bodies: places,
+            ..
+        } = system;
         places.clear();
         rows.clear();
         for (contact, possible) in contacts.iter().zip(possible) {
-            let contact = if possible { *contact } else { Contact { bodies: [None; 2], ..*contact } };
+            let contact = if possible {
+                *contact
+            } else {
+                Contact {
+                    bodies: [None; 2],
+                    ..*contact
+                }
+            };
             rows.push(Row::new(&contact, places, bodies, *step));
         }
     }
 
     /// The impulses of the contacts on their first bodies in the order of [`set_contacts`](Self::set_contacts), N s, world.
     pub fn contact_impulses(&self) -> impl Iterator<Item = [f64; 3]> {
-        self.contacts.rows.iter().map(|row| row.axes.tr_mul(&row.impulse).into())
+        self.contacts
+            .rows
+            .iter()
+            .map(|row| row.axes.tr_mul(&row.impulse).into())
     }
 
     /// Lets the impulses of the contacts act on the bodies.
     pub(crate) fn apply_contact_impulses(&mut self) {
-        self.bodies.iter_mut().for_each(|body| body.contact_impulse = Vector6::zeros());
+        self.bodies
+            .iter_mut()
+            .for_each(|body| body.contact_impulse = Vector6::zeros());
         for row in &self.contacts.rows {
             for side in row.sides.iter().flatten() {
                 self.bodies[side.body].contact_impulse += side.jacobian * row.impulse;
@@ -201,21 +267,34 @@ impl Mechanism {
 
     /// Finds how contacts respond to each other while the joints hold, from the factor of the system.
     pub(crate) fn find_contact_response(&mut self) {
-        let Self { system, joints, contacts, .. } = self;
+        let Self {
+            system,
+            joints,
+            contacts,
+            ..
+        } = self;
         contacts.update_changes(&system.responses(joints, &contacts.bodies));
     }
 
     /// Finds the impulses of the contacts, the joints having been solved for those assumed so far; true when they changed.
     pub(crate) fn find_contact_impulses(&mut self) -> bool {
-        let Self { bodies, contacts, .. } = self;
+        let Self {
+            bodies, contacts, ..
+        } = self;
         contacts.velocities.clear();
-        contacts.velocities.extend(contacts.bodies.iter().map(|&body| bodies[body].velocity));
+        contacts
+            .velocities
+            .extend(contacts.bodies.iter().map(|&body| bodies[body].velocity));
         contacts.directions.clear();
-        contacts.directions.resize(contacts.rows.len(), Vector3::zeros());
+        contacts
+            .directions
+            .resize(contacts.rows.len(), Vector3::zeros());
         let (mut changed, mut square) = (false, f64::INFINITY);
         for sweep in 1..=MAX_ITERATIONS {
             contacts.before.clear();
-            contacts.before.extend(contacts.rows.iter().map(|row| row.impulse));
+            contacts
+                .before
+                .extend(contacts.rows.iter().map(|row| row.impulse));
             let (change, largest) = contacts.sweep();
             changed |= change > 0.0;
             // What is found in the end lies within the friction cones, where only sweeps keep it.
@@ -229,11 +308,19 @@ impl Mechanism {
 
     /// Whether the bodies of a contact can be separated: those of a joint only where its motion does so at all points where they touch.
     fn can_separate(&self, contact: &Contact, all: &[Contact]) -> bool {
-        let joins = |joint: &&Joint| joint.properties.bodies.into_iter().all(|body| contact.is_of(body));
+        let joins = |joint: &&Joint| {
+            joint
+                .properties
+                .bodies
+                .into_iter()
+                .all(|body| contact.is_of(body))
+        };
         self.joints.iter().filter(joins).all(|joint| {
-            let touching =
-                all.iter().filter(|other| other.distance < TOUCHING_DISTANCE && other.has_bodies_of(contact));
-            let directions: Vec<Vector3<f64>> = touching.map(|contact| joint.separation(contact)).collect();
+            let touching = all
+                .iter()
+                .filter(|other| other.distance < TOUCHING_DISTANCE && other.has_bodies_of(contact));
+            let directions: Vec<Vector3<f64>> =
+                touching.map(|contact| joint.separation(contact)).collect();
             joint.separation(contact).norm() > MIN_SEPARATION_RATE && is_separable(&directions)
         })
     }
@@ -244,7 +331,10 @@ fn is_separable(directions: &[Vector3<f64>]) -> bool {
     let mut motion: Vector3<f64> = directions.iter().sum();
     for _ in 0..MAX_PERCEPTRON_PASSES {
         let mut is_found = true;
-        for direction in directions.iter().filter(|direction| direction.norm() > MIN_SEPARATION_RATE) {
+        for direction in directions
+            .iter()
+            .filter(|direction| direction.norm() > MIN_SEPARATION_RATE)
+        {
             if direction.dot(&motion) <= 0.0 {
                 motion += direction;
                 is_found = false;
@@ -279,7 +369,13 @@ impl Contact {
 impl Contacts {
     /// `bodies`: the response of touching bodies to each other.
     fn update_changes(&mut self, bodies: &[Matrix6<f64>]) {
-        let Self { rows, bodies: touching, changes, own, .. } = self;
+        let Self {
+            rows,
+            bodies: touching,
+            changes,
+            own,
+            ..
+        } = self;
         let count = touching.len();
         changes.clear();
         own.clear();
@@ -289,7 +385,13 @@ impl Contacts {
                 changes.push(row.sides.iter().flatten().map(change).sum());
             }
             let of_row = &changes[changes.len() - count..];
-            own.push(row.sides.iter().flatten().map(|side| side.jacobian.tr_mul(&of_row[side.place])).sum());
+            own.push(
+                row.sides
+                    .iter()
+                    .flatten()
+                    .map(|side| side.jacobian.tr_mul(&of_row[side.place]))
+                    .sum(),
+            );
         }
     }
 
@@ -308,9 +410,14 @@ impl Contacts {
     /// nonlinear conjugate gradient method for interactive contact force problems*, 2010), which need a tenth of the sweeps where bodies bear
     /// each other by many contacts. `before`: the squared length of the last step; returns that of this one.
     fn extrapolate(&mut self, before: f64) -> f64 {
-        let step = |contacts: &Self, index: usize| contacts.rows[index].impulse - contacts.before[index];
-        let square: f64 = (0..self.rows.len()).map(|index| step(self, index).norm_squared()).sum();
-        let share = Some(square / before).filter(|share| *share <= 1.0).unwrap_or(0.0);
+        let step =
+            |contacts: &Self, index: usize| contacts.rows[index].impulse - contacts.before[index];
+        let square: f64 = (0..self.rows.len())
+            .map(|index| step(self, index).norm_squared())
+            .sum();
+        let share = Some(square / before)
+            .filter(|share| *share <= 1.0)
+            .unwrap_or(0.0);
         for index in 0..self.rows.len() {
             let further = self.directions[index] * share;
             self.directions[index] = further + step(self, index);
@@ -355,7 +462,8 @@ impl Contacts {
     fn apply_friction(&mut self, index: usize) -> f64 {
         let own = &self.own[index];
         // The same for all directions, so that friction opposes the motion.
-        let response = own[(1, 1)].max(own[(2, 2)]) + own[(1, 2)].abs() + self.rows[index].compliance;
+        let response =
+            own[(1, 1)].max(own[(2, 2)]) + own[(1, 2)].abs() + self.rows[index].compliance;
         let row = &self.rows[index];
         if row.impulse == Vector3::zeros() {
             return 0.0;

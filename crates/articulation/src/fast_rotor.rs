@@ -35,28 +35,45 @@ pub(crate) struct FastRotor {
 impl Spin {
     fn about(axis: &Vector3<f64>, velocity: &Vector3<f64>) -> Self {
         let axial = axis * velocity.dot(axis);
-        Self { axial, transverse: velocity - axial }
+        Self {
+            axial,
+            transverse: velocity - axial,
+        }
     }
 }
 
 impl Mechanism {
     /// The spins of the bodies on joints that turn far in a step, by body; none at all where nothing turns far.
     pub(crate) fn fast_spins(&self, motions: &[BodyMotion], step: f64) -> Vec<Option<Spin>> {
-        let turns_far = |motion: &BodyMotion| motion.velocity.fixed_rows::<3>(3).norm() * step > FAR_TURN;
+        let turns_far =
+            |motion: &BodyMotion| motion.velocity.fixed_rows::<3>(3).norm() * step > FAR_TURN;
         if !motions.iter().any(turns_far) {
             return Vec::new();
         }
         let mut spins: Vec<Option<Spin>> = vec![None; self.bodies.len()];
-        for joint in self.joints.iter().filter(|joint| joint.properties.kind == JointKind::Revolute) {
+        for joint in self
+            .joints
+            .iter()
+            .filter(|joint| joint.properties.kind == JointKind::Revolute)
+        {
             let base = &joint.properties.base;
             let axis = self.bodies[joint.body(0)].pose.rotation * (base.rotation * Vector3::z());
-            let of_bodies = joint.properties.bodies.map(|body| self.spin_about(&axis, body, &motions[body]));
-            if !of_bodies.iter().flatten().any(|spin| spin.axial.norm() * step > FAR_TURN) {
+            let of_bodies = joint
+                .properties
+                .bodies
+                .map(|body| self.spin_about(&axis, body, &motions[body]));
+            if !of_bodies
+                .iter()
+                .flatten()
+                .any(|spin| spin.axial.norm() * step > FAR_TURN)
+            {
                 continue;
             }
             for (body, spin) in joint.properties.bodies.into_iter().zip(of_bodies) {
                 let known = spins[body].as_ref().map_or(0.0, |known| known.axial.norm());
-                spins[body] = spin.filter(|spin| spin.axial.norm() >= known).or(spins[body].take());
+                spins[body] = spin
+                    .filter(|spin| spin.axial.norm() >= known)
+                    .or(spins[body].take());
             }
         }
         spins
@@ -71,15 +88,26 @@ impl Mechanism {
 
 impl LinkedBody {
     /// Turns the body from where it was `before` the step, the axis of its spin with the rest of the motion.
-    pub(crate) fn turn_with_axis(&mut self, spin: Option<Spin>, before: UnitQuaternion<f64>, step: f64) {
+    pub(crate) fn turn_with_axis(
+        &mut self,
+        spin: Option<Spin>,
+        before: UnitQuaternion<f64>,
+        step: f64,
+    ) {
         let previous_impulse = self.rotor.take().and_then(|rotor| rotor.previous_impulse);
-        let Some(Spin { axial, transverse }) = spin else { return };
+        let Some(Spin { axial, transverse }) = spin else {
+            return;
+        };
         let turn = UnitQuaternion::from_scaled_axis;
         let of_axis = turn(transverse * step);
         self.turn_to(of_axis * turn(axial * step) * before);
         let velocity_change = of_axis * axial - axial;
         let excess_momentum = self.world_inertia() * velocity_change;
-        self.rotor = Some(FastRotor { velocity_change, excess_momentum, previous_impulse });
+        self.rotor = Some(FastRotor {
+            velocity_change,
+            excess_momentum,
+            previous_impulse,
+        });
     }
 
     /// Angular impulse of the gyroscopic torque on a fast body, and of what it has to compensate; None for others.

@@ -42,7 +42,13 @@ impl FreeAxis {
             JointKind::Prismatic => 2,
             JointKind::Spherical | JointKind::Fixed => return None,
         };
-        Some(Self { row, motor: MotorState::Off, target: 0.0, max_impulse: 0.0, limit: None })
+        Some(Self {
+            row,
+            motor: MotorState::Off,
+            target: 0.0,
+            max_impulse: 0.0,
+            limit: None,
+        })
     }
 
     /// Whether the axis is constrained.
@@ -61,7 +67,9 @@ impl FreeAxis {
 
     /// Begins with the active set of the step before.
     pub(crate) fn warm_start(&mut self, joint: &JointState, step: f64) {
-        self.limit = self.limit.and_then(|limit| limit_at(joint, limit.sign, step));
+        self.limit = self
+            .limit
+            .and_then(|limit| limit_at(joint, limit.sign, step));
         let Some(motor) = joint.motor else {
             self.motor = MotorState::Off;
             return;
@@ -127,8 +135,15 @@ fn reached_limit(joint: &JointState, velocity: f64, step: f64) -> Option<ActiveL
 /// The upper limit, which pushes with a negative sign, or the lower one.
 fn limit_at(joint: &JointState, sign: f64, step: f64) -> Option<ActiveLimit> {
     let [low, high] = joint.limits?;
-    let distance = if sign < 0.0 { high - joint.position } else { low - joint.position };
+    let distance = if sign < 0.0 {
+        high - joint.position
+    } else {
+        low - joint.position
+    };
     let is_beyond = distance * sign > 0.0;
     let share = if is_beyond { LIMIT_CORRECTION } else { 1.0 };
-    Some(ActiveLimit { velocity: distance * share / step, sign })
+    Some(ActiveLimit {
+        velocity: distance * share / step,
+        sign,
+    })
 }

@@ -42,7 +42,11 @@ impl GeometricStiffness {
 impl Mechanism {
     /// Begins a step with the inertia that the forces of the one before require.
     pub(crate) fn stabilize(&mut self) {
-        for body in self.bodies.iter_mut().filter(|body| body.geometric_stiffness.added_inertia.is_some()) {
+        for body in self
+            .bodies
+            .iter_mut()
+            .filter(|body| body.geometric_stiffness.added_inertia.is_some())
+        {
             body.geometric_stiffness.added_inertia = None;
             body.update_inertia();
         }
@@ -75,15 +79,20 @@ impl Mechanism {
     /// Whether the stiffness of a body may be more than that many times its inertia. Most often the sizes of forces and levers tell that it
     /// is not, whatever their directions.
     fn may_exceed(&mut self, ratio: f64) -> bool {
-        self.bodies.iter_mut().for_each(|body| body.geometric_stiffness.bound = 0.0);
+        self.bodies
+            .iter_mut()
+            .for_each(|body| body.geometric_stiffness.bound = 0.0);
         for joint in self.joints.iter().filter(|joint| joint.holds_point()) {
             let force = joint.impulse.fixed_rows::<3>(0).norm() * self.step;
             for side in 0..2 {
-                self.bodies[joint.body(side)].geometric_stiffness.bound += force * joint.levers[side].norm();
+                self.bodies[joint.body(side)].geometric_stiffness.bound +=
+                    force * joint.levers[side].norm();
             }
         }
         let exceeds = |of_body: &GeometricStiffness| of_body.bound * of_body.response > ratio;
-        self.bodies.iter().any(|body| body.is_dynamic() && exceeds(&body.geometric_stiffness))
+        self.bodies
+            .iter()
+            .any(|body| body.is_dynamic() && exceeds(&body.geometric_stiffness))
     }
 
     fn add_inertia(&mut self, largest_ratio: f64) -> bool {
@@ -95,7 +104,10 @@ impl Mechanism {
             (of_body.tension, of_body.pendulum_inertia) = (Matrix3::zeros(), Matrix3::zeros());
         }
         for joint in self.joints.iter().filter(|joint| joint.holds_point()) {
-            let [first, second] = joint.properties.bodies.map(|body| self.bodies[body].is_dynamic());
+            let [first, second] = joint
+                .properties
+                .bodies
+                .map(|body| self.bodies[body].is_dynamic());
             let force = joint.axes.tr_mul(&joint.impulse.fixed_rows::<3>(0)) * self.step;
             for (side, force, other_moves) in [(0, -force, second), (1, force, first)] {
                 self.bodies[joint.body(side)].add_tension(joint, &force, other_moves);
@@ -126,10 +138,18 @@ impl LinkedBody {
 
     /// Adds inertia about an axis if the ratio of stiffness to inertia is too large there; true if it is.
     fn add_inertia(&mut self, axis: &Vector3<f64>, largest_ratio: f64) -> bool {
-        let GeometricStiffness { tension, pendulum_inertia, added_inertia, .. } = &mut self.geometric_stiffness;
+        let GeometricStiffness {
+            tension,
+            pendulum_inertia,
+            added_inertia,
+            ..
+        } = &mut self.geometric_stiffness;
         let stiffness = tension.trace() - axis.dot(&(*tension * axis));
         let inertia = axis.dot(&((self.inertia + *pendulum_inertia) * axis));
-        if !(self.properties.is_dynamic() && stiffness.is_finite() && stiffness > largest_ratio * inertia) {
+        if !(self.properties.is_dynamic()
+            && stiffness.is_finite()
+            && stiffness > largest_ratio * inertia)
+        {
             return false;
         }
         let missing = axis * axis.transpose() * (stiffness / TARGET_RATIO - inertia);

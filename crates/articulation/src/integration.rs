@@ -22,7 +22,10 @@ impl Mechanism {
 
 impl LinkedBody {
     fn after(&self, step: f64) -> BodyMotion {
-        let mut moved = BodyMotion { pose: self.pose, velocity: self.velocity };
+        let mut moved = BodyMotion {
+            pose: self.pose,
+            velocity: self.velocity,
+        };
         if self.is_dynamic() {
             moved.pose = self.displaced(&(self.velocity * step));
         }

@@ -87,7 +87,9 @@ impl JointKind {
     pub fn coordinate(self, tip_in_base: &Pose) -> f64 {
         match self {
             // nalgebra's arc tangent has the same bits on every processor, that of the C library has not.
-            Self::Revolute => wrap_angle(2.0 * RealField::atan2(tip_in_base.rotation.k, tip_in_base.rotation.w)),
+            Self::Revolute => {
+                wrap_angle(2.0 * RealField::atan2(tip_in_base.rotation.k, tip_in_base.rotation.w))
+            }
             Self::Prismatic => tip_in_base.translation.z,
             Self::Spherical | Self::Fixed => 0.0,
         }
@@ -130,7 +132,12 @@ impl Joint {
     pub(crate) fn new(properties: JointProperties) -> Self {
         Self {
             properties,
-            state: JointState { position: 0.0, velocity: 0.0, motor: None, limits: None },
+            state: JointState {
+                position: 0.0,
+                velocity: 0.0,
+                motor: None,
+                limits: None,
+            },
             axes: Matrix3::zeros(),
             point: Vector3::zeros(),
             levers: [Vector3::zeros(); 2],
@@ -150,7 +157,10 @@ impl Joint {
     pub(crate) fn place(&mut self, bodies: &[LinkedBody]) {
         let JointProperties { base, tip, .. } = &self.properties;
         let [first, second] = self.properties.bodies.map(|body| &bodies[body]);
-        self.axes = (first.pose.rotation * base.rotation).to_rotation_matrix().into_inner().transpose();
+        self.axes = (first.pose.rotation * base.rotation)
+            .to_rotation_matrix()
+            .into_inner()
+            .transpose();
         self.point = (second.pose.transform_point(&tip.translation.vector.into())).coords;
         self.levers = [first.com - self.point, second.com - self.point];
     }
@@ -163,7 +173,11 @@ impl Joint {
             let screwed = lever.row(2) - axes.row(2) * self.properties.pitch;
             lever.set_row(2, &screwed);
         }
-        Jacobian { linear: axes, lever, angular: axes }
+        Jacobian {
+            linear: axes,
+            lever,
+            angular: axes,
+        }
     }
 
     /// The motions of the second body at the point of the joint that the joint leaves free if no motor and no limit acts, at unit velocity.
@@ -221,11 +235,18 @@ impl Joint {
 
     /// By how much the locked rows are violated: metres and radians. `turned`: how far the joint turned in this step.
     pub(crate) fn position_error(&self, bodies: &[LinkedBody], turned: f64) -> Segment {
-        let JointProperties { kind, base, tip, pitch, .. } = &self.properties;
+        let JointProperties {
+            kind,
+            base,
+            tip,
+            pitch,
+            ..
+        } = &self.properties;
         let [first, second] = self.properties.bodies.map(|body| &bodies[body].pose);
         let base = first * base;
         if *kind == JointKind::Revolute && *pitch == 0.0 {
-            let linear = base.inverse_transform_point(&second.transform_point(&tip.translation.vector.into()));
+            let linear = base
+                .inverse_transform_point(&second.transform_point(&tip.translation.vector.into()));
             let axis = base.inverse_transform_vector(&(second.rotation * self.tip_axis));
             return spatial(linear.coords, misaligned(&axis));
         }
@@ -243,7 +264,9 @@ impl Joint {
 
     /// With zeros in the rows that are not locked.
     pub(crate) fn locked_part(&self, mut rows: Segment) -> Segment {
-        (0..6).filter(|&row| !self.locked[row]).for_each(|row| rows[row] = 0.0);
+        (0..6)
+            .filter(|&row| !self.locked[row])
+            .for_each(|row| rows[row] = 0.0);
         rows
     }
 
@@ -254,7 +277,9 @@ impl Joint {
 
     /// With zeros in the rows that are not active.
     fn with_active(&self, mut rows: Segment) -> Segment {
-        (0..6).filter(|&row| !self.is_active(row)).for_each(|row| rows[row] = 0.0);
+        (0..6)
+            .filter(|&row| !self.is_active(row))
+            .for_each(|row| rows[row] = 0.0);
         rows
     }
 
@@ -287,7 +312,10 @@ impl Joint {
     /// The impulse of a saturated motor along the free axis; 0 for others.
     pub(crate) fn saturated_impulse(&self) -> f64 {
         match self.axis {
-            Some(FreeAxis { motor: MotorState::Saturated(all), .. }) => all,
+            Some(FreeAxis {
+                motor: MotorState::Saturated(all),
+                ..
+            }) => all,
             _ => 0.0,
         }
     }
@@ -303,8 +331,15 @@ impl Joint {
 
     fn motor_impulse(&self) -> f64 {
         match self.axis {
-            Some(FreeAxis { motor: MotorState::Saturated(all), .. }) => all,
-            Some(FreeAxis { motor: MotorState::Tracking, row, .. }) => self.impulse[row],
+            Some(FreeAxis {
+                motor: MotorState::Saturated(all),
+                ..
+            }) => all,
+            Some(FreeAxis {
+                motor: MotorState::Tracking,
+                row,
+                ..
+            }) => self.impulse[row],
             _ => 0.0,
         }
     }
@@ -315,15 +350,31 @@ impl Joint {
     }
 
     pub(crate) fn load(&self, step: f64) -> JointLoad {
-        JointLoad { rows: self.total_impulse() / step, motor: self.motor_impulse() / step }
+        JointLoad {
+            rows: self.total_impulse() / step,
+            motor: self.motor_impulse() / step,
+        }
     }
 
     /// Lets motor and limit change sides where the solution violates their bounds; true when the system must be solved again. With caution
     /// nothing leaves its bound again.
-    pub(crate) fn update_active_set(&mut self, bodies: &[LinkedBody], step: f64, is_cautious: bool) -> bool {
-        let Some(mut axis) = self.axis.filter(|axis| axis.can_change(&self.state)) else { return false };
+    pub(crate) fn update_active_set(
+        &mut self,
+        bodies: &[LinkedBody],
+        step: f64,
+        is_cautious: bool,
+    ) -> bool {
+        let Some(mut axis) = self.axis.filter(|axis| axis.can_change(&self.state)) else {
+            return false;
+        };
         let velocity = self.axis_velocity(axis.row, bodies);
-        let changed = axis.update_active_set(&self.state, velocity, self.impulse[axis.row], step, is_cautious);
+        let changed = axis.update_active_set(
+            &self.state,
+            velocity,
+            self.impulse[axis.row],
+            step,
+            is_cautious,
+        );
         self.axis = Some(axis);
         changed
     }
@@ -334,16 +385,27 @@ impl Joint {
         let normal = Vector3::from(contact.normal);
         let lever = Vector3::from(contact.point) - self.point;
         // Motions are those of the joint's second body: the first one of the contact may be the other one.
-        let sign = if contact.bodies[0].or(contact.base) == Some(self.properties.bodies[1]) { 1.0 } else { -1.0 };
+        let sign = if contact.bodies[0].or(contact.base) == Some(self.properties.bodies[1]) {
+            1.0
+        } else {
+            -1.0
+        };
         let along = |velocity: Vector3<f64>| {
             let speed = velocity.norm();
-            Vector3::x() * if speed > 0.0 { sign * velocity.dot(&normal) / speed } else { 0.0 }
+            Vector3::x()
+                * if speed > 0.0 {
+                    sign * velocity.dot(&normal) / speed
+                } else {
+                    0.0
+                }
         };
         let axis = self.axes.row(2).transpose();
         match self.properties.kind {
             JointKind::Revolute => along(axis.cross(&lever)),
             JointKind::Prismatic => along(axis),
-            JointKind::Spherical if lever != Vector3::zeros() => sign * lever.cross(&normal) / lever.norm(),
+            JointKind::Spherical if lever != Vector3::zeros() => {
+                sign * lever.cross(&normal) / lever.norm()
+            }
             JointKind::Spherical | JointKind::Fixed => Vector3::zeros(),
         }
     }

@@ -103,5 +103,7 @@ pub use mechanism::Mechanism;
 
 /// Linear and angular part as one.
 pub fn spatial(linear: Vector3<f64>, angular: Vector3<f64>) -> Vector6<f64> {
-    Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
+    Vector6::new(
+        linear.x, linear.y, linear.z, angular.x, angular.y, angular.z,
+    )
 }

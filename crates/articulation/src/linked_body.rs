@@ -49,12 +49,22 @@ impl BodyProperties {
     /// let the body turn.
     pub fn dynamic(mass: f64, inertia: Matrix3<f64>, com: Vector3<f64>) -> Self {
         let inverse_inertia = inertia.try_inverse().unwrap_or_else(Matrix3::zeros);
-        Self { inverse_mass: 1.0 / mass, inertia, inverse_inertia, com }
+        Self {
+            inverse_mass: 1.0 / mass,
+            inertia,
+            inverse_inertia,
+            com,
+        }
     }
 
     /// A body that no force moves: it rests, or is moved from place to place.
     pub fn immovable(com: Vector3<f64>) -> Self {
-        Self { inverse_mass: 0.0, inertia: Matrix3::zeros(), inverse_inertia: Matrix3::zeros(), com }
+        Self {
+            inverse_mass: 0.0,
+            inertia: Matrix3::zeros(),
+            inverse_inertia: Matrix3::zeros(),
+            com,
+        }
     }
 
     /// Whether torques turn the body.
@@ -127,7 +137,10 @@ impl LinkedBody {
 
     /// A free body that touches the mechanism.
     pub(crate) fn guest(properties: BodyProperties) -> Self {
-        Self { is_guest: true, ..Self::new(properties) }
+        Self {
+            is_guest: true,
+            ..Self::new(properties)
+        }
     }
 
     pub(crate) fn is_dynamic(&self) -> bool {
@@ -164,7 +177,10 @@ impl LinkedBody {
         let inverse = || self.along_world(&self.properties.inverse_inertia);
         let with_added = || self.inertia.try_inverse().unwrap_or_else(inverse);
         let is_added = self.geometric_stiffness.added_inertia().is_some();
-        InverseMass { linear: self.properties.inverse_mass, angular: if is_added { with_added() } else { inverse() } }
+        InverseMass {
+            linear: self.properties.inverse_mass,
+            angular: if is_added { with_added() } else { inverse() },
+        }
     }
 
     /// Inertia of a body that forces move, world axes.
@@ -180,7 +196,9 @@ impl LinkedBody {
     pub(crate) fn predict(&mut self, state: &BodyState, gravity: Vector3<f64>, step: f64) {
         self.present_velocity = state.motion.velocity;
         if !self.is_dynamic() {
-            self.free_velocity = state.target.map_or_else(Vector6::zeros, |target| self.velocity_to(&target, step));
+            self.free_velocity = state
+                .target
+                .map_or_else(Vector6::zeros, |target| self.velocity_to(&target, step));
             return;
         }
         let linear = state.motion.velocity.fixed_rows::<3>(0) + gravity * step;
@@ -188,7 +206,8 @@ impl LinkedBody {
         self.gyroscopic_impulse = self
             .rotor_impulse(&spin, step)
             .unwrap_or_else(|| self.angular_momentum(&(state.gyroscopic_velocity - spin)));
-        self.external_impulse = state.force * step + spatial(Vector3::zeros(), self.gyroscopic_impulse);
+        self.external_impulse =
+            state.force * step + spatial(Vector3::zeros(), self.gyroscopic_impulse);
         self.free_velocity = spatial(linear, spin);
     }
 
@@ -222,7 +241,10 @@ impl LinkedBody {
     /// The momentum at a velocity.
     fn momentum(&self, velocity: &Vector6<f64>) -> Vector6<f64> {
         let (linear, angular) = halves(velocity);
-        spatial(linear / self.properties.inverse_mass, self.inertia * angular)
+        spatial(
+            linear / self.properties.inverse_mass,
+            self.inertia * angular,
+        )
     }
 
     /// The velocity before the step.
@@ -261,11 +283,16 @@ impl LinkedBody {
     }
 
     pub(crate) fn placement(&self) -> Placement {
-        Placement { pose: self.pose, com: self.com, correction: self.correction }
+        Placement {
+            pose: self.pose,
+            com: self.com,
+            correction: self.correction,
+        }
     }
 
     pub(crate) fn restore(&mut self, placement: &Placement) {
-        (self.pose, self.com, self.correction) = (placement.pose, placement.com, placement.correction);
+        (self.pose, self.com, self.correction) =
+            (placement.pose, placement.com, placement.correction);
     }
 
     /// The impulse that gives the body of an engine, which applies external forces by itself and knows no added inertia, the
@@ -276,7 +303,10 @@ impl LinkedBody {
             return found;
         }
         let angular = found.fixed_rows::<3>(3) + self.gyroscopic_impulse;
-        spatial(found.fixed_rows::<3>(0).into_owned(), self.without_added_inertia(angular))
+        spatial(
+            found.fixed_rows::<3>(0).into_owned(),
+            self.without_added_inertia(angular),
+        )
     }
 
     fn without_added_inertia(&self, angular: Vector3<f64>) -> Vector3<f64> {

@@ -43,7 +43,10 @@ impl Mechanism {
     /// When a joint refers to a body that is not there.
     pub fn new(bodies: Vec<BodyProperties>, joints: Vec<JointProperties>) -> Self {
         assert!(
-            joints.iter().flat_map(|joint| joint.bodies).all(|body| body < bodies.len()),
+            joints
+                .iter()
+                .flat_map(|joint| joint.bodies)
+                .all(|body| body < bodies.len()),
             "joints need their bodies"
         );
         let bodies: Vec<LinkedBody> = bodies.into_iter().map(LinkedBody::new).collect();
@@ -51,26 +54,45 @@ impl Mechanism {
         let system = system_of(&bodies, &joints);
         let linked = bodies.len();
         let (contacts, errors) = (Contacts::default(), Vec::new());
-        let mut mechanism = Self { bodies, joints, system, contacts, errors, linked, step: 0.0 };
+        let mut mechanism = Self {
+            bodies,
+            joints,
+            system,
+            contacts,
+            errors,
+            linked,
+            step: 0.0,
+        };
         mechanism.find_turning_responses();
         mechanism
     }
 
     /// Whether joints form loops. A tree has as many joints as bodies that move, at most.
     pub fn has_loops(&self) -> bool {
-        self.joints.len() > self.bodies[..self.linked].iter().filter(|body| body.is_dynamic()).count()
+        self.joints.len()
+            > self.bodies[..self.linked]
+                .iter()
+                .filter(|body| body.is_dynamic())
+                .count()
     }
 
     /// Sets the guests of the next step: free bodies that touch the mechanism, which come after its own bodies.
     pub fn set_guests(&mut self, guests: impl IntoIterator<Item = BodyProperties>) {
         self.bodies.truncate(self.linked);
-        self.bodies.extend(guests.into_iter().map(LinkedBody::guest));
+        self.bodies
+            .extend(guests.into_iter().map(LinkedBody::guest));
         self.system.set_guests(self.linked..self.bodies.len());
     }
 
     /// Begins a step of `step` seconds: where bodies and joints are, and what acts on them. `gravity` in m/s2, world axes. Bodies (guests last) and joints
     /// are in the order of [`Mechanism::new`].
-    pub fn begin(&mut self, bodies: &[BodyState], joints: &[JointState], gravity: [f64; 3], step: f64) {
+    pub fn begin(
+        &mut self,
+        bodies: &[BodyState],
+        joints: &[JointState],
+        gravity: [f64; 3],
+        step: f64,
+    ) {
         self.step = step;
         self.set_contacts(&[]);
         for (body, state) in self.bodies.iter_mut().zip(bodies) {
@@ -80,7 +102,10 @@ impl Mechanism {
         for (joint, state) in self.joints.iter_mut().zip(joints) {
             joint.state = *state;
             joint.place(&self.bodies);
-            joint.axis.iter_mut().for_each(|axis| axis.warm_start(state, step));
+            joint
+                .axis
+                .iter_mut()
+                .for_each(|axis| axis.warm_start(state, step));
         }
         self.stabilize();
     }
@@ -119,7 +144,9 @@ impl Mechanism {
                 break;
             }
         }
-        self.joints.iter().all(|joint| joint.impulse.iter().all(|impulse| impulse.is_finite()))
+        self.joints
+            .iter()
+            .all(|joint| joint.impulse.iter().all(|impulse| impulse.is_finite()))
     }
 
     /// Force and torque about the centre of mass (N, N m, world axes) that an engine is to apply to each body during the step, beside
@@ -142,7 +169,8 @@ impl Mechanism {
     /// Solves for the impulses and velocities.
     fn find_impulses(&mut self) {
         self.apply_contact_impulses();
-        self.system.find_impulses(&mut self.joints, &mut self.bodies);
+        self.system
+            .find_impulses(&mut self.joints, &mut self.bodies);
     }
 }
 
@@ -163,7 +191,8 @@ mod tests {
         let inertia = Matrix3::from_diagonal(&Vector3::new(1e-4, 0.02, 0.02));
         let mut bodies = vec![BodyProperties::immovable(Vector3::zeros())];
         bodies.extend((0..rods).map(|_| BodyProperties::dynamic(1.0, inertia, Vector3::zeros())));
-        let about_y = nalgebra::UnitQuaternion::from_scaled_axis(Vector3::x() * -std::f64::consts::FRAC_PI_2);
+        let about_y =
+            nalgebra::UnitQuaternion::from_scaled_axis(Vector3::x() * -std::f64::consts::FRAC_PI_2);
         let at = |x: f64| Pose::from_parts(Vector3::new(x, 0.0, 0.0).into(), about_y);
         let joint = |i: usize| JointProperties {
             kind: JointKind::Revolute,
@@ -176,12 +205,18 @@ mod tests {
             let x = if i == 0 { 0.0 } else { 0.5 * i as f64 - 0.25 };
             at_rest(Pose::translation(x, 0.0, 0.0))
         });
-        (Mechanism::new(bodies, (0..rods).rev().map(joint).collect()), states.collect())
+        (
+            Mechanism::new(bodies, (0..rods).rev().map(joint).collect()),
+            states.collect(),
+        )
     }
 
     fn at_rest(pose: Pose) -> BodyState {
         BodyState {
-            motion: BodyMotion { pose, velocity: Vector6::zeros() },
+            motion: BodyMotion {
+                pose,
+                velocity: Vector6::zeros(),
+            },
             force: Vector6::zeros(),
             gyroscopic_velocity: Vector3::zeros(),
             target: None,
@@ -190,7 +225,12 @@ mod tests {
 
     fn solved(rods: usize, motor: Option<Motor>) -> Mechanism {
         let (mut mechanism, bodies) = chain(rods);
-        let joint = JointState { position: 0.0, velocity: 0.0, motor, limits: None };
+        let joint = JointState {
+            position: 0.0,
+            velocity: 0.0,
+            motor,
+            limits: None,
+        };
         mechanism.begin(&bodies, &vec![joint; rods], GRAVITY, STEP);
         assert!(mechanism.solve());
         mechanism
@@ -199,21 +239,43 @@ mod tests {
     #[test]
     fn a_locked_chain_bears_its_weight() {
         for rods in [1, 2, 10] {
-            let hold = Motor { velocity: 0.0, max_force: 1e9 };
+            let hold = Motor {
+                velocity: 0.0,
+                max_force: 1e9,
+            };
             let mechanism = solved(rods, Some(hold));
             // The joint at the base comes last.
             let load = mechanism.joint_loads().last().expect("there are joints");
             let weight = 9.81 * rods as f64;
             let moment = weight * 0.25 * rods as f64;
-            assert!((load.rows.fixed_rows::<3>(0).norm() - weight).abs() < 1e-4 * weight, "{rods}");
-            assert!((load.motor.abs() - moment).abs() < 1e-4 * moment, "{rods}: {}", load.motor);
+            assert!(
+                (load.rows.fixed_rows::<3>(0).norm() - weight).abs() < 1e-4 * weight,
+                "{rods}"
+            );
+            assert!(
+                (load.motor.abs() - moment).abs() < 1e-4 * moment,
+                "{rods}: {}",
+                load.motor
+            );
         }
     }
 
     #[test]
     fn a_weak_motor_is_saturated() {
-        let mechanism = solved(1, Some(Motor { velocity: 0.0, max_force: 1.0 }));
-        assert_eq!(mechanism.joint_loads().map(|load| load.motor.abs()).collect::<Vec<_>>(), [1.0]);
+        let mechanism = solved(
+            1,
+            Some(Motor {
+                velocity: 0.0,
+                max_force: 1.0,
+            }),
+        );
+        assert_eq!(
+            mechanism
+                .joint_loads()
+                .map(|load| load.motor.abs())
+                .collect::<Vec<_>>(),
+            [1.0]
+        );
     }
 
     #[test]
@@ -224,18 +286,34 @@ mod tests {
             let mut next = || random.unit();
             let joints: Vec<JointState> = (0..24)
                 .map(|_| {
-                    let motor = Motor { velocity: 20.0 * next() - 10.0, max_force: 10.0 * next() * next() };
+                    let motor = Motor {
+                        velocity: 20.0 * next() - 10.0,
+                        max_force: 10.0 * next() * next(),
+                    };
                     let limits = (next() < 0.5).then_some([0.0, 1.0]);
-                    JointState { position: 0.0, velocity: 0.0, motor: Some(motor), limits }
+                    JointState {
+                        position: 0.0,
+                        velocity: 0.0,
+                        motor: Some(motor),
+                        limits,
+                    }
                 })
                 .collect();
             mechanism.begin(&bodies, &joints, GRAVITY, STEP);
             assert!(mechanism.solve());
             for (joint, load) in joints.iter().zip(mechanism.joint_loads()) {
                 let most = joint.motor.map_or(0.0, |motor| motor.max_force);
-                assert!(load.motor.abs() <= most * (1.0 + 1e-9), "{seed}: {} of {most}", load.motor);
+                assert!(
+                    load.motor.abs() <= most * (1.0 + 1e-9),
+                    "{seed}: {} of {most}",
+                    load.motor
+                );
                 // All that acts about the axis is the motor.
-                assert!(joint.limits.is_some() || load.rows[5] == load.motor, "{seed}: {} of {most}", load.rows[5]);
+                assert!(
+                    joint.limits.is_some() || load.rows[5] == load.motor,
+                    "{seed}: {} of {most}",
+                    load.rows[5]
+                );
             }
         }
     }
@@ -250,21 +328,34 @@ mod tests {
     #[test]
     fn gaps_are_closed() {
         let (mut mechanism, mut bodies) = chain(3);
-        let joint = JointState { position: 0.0, velocity: 0.0, motor: None, limits: None };
+        let joint = JointState {
+            position: 0.0,
+            velocity: 0.0,
+            motor: None,
+            limits: None,
+        };
         mechanism.begin(&bodies, &[joint; 3], GRAVITY, STEP);
         assert!(mechanism.solve());
         bodies[2].motion.pose.translation.vector.z += 1e-3;
         let motions: Vec<BodyMotion> = bodies.iter().map(|body| body.motion).collect();
         let corrected = mechanism.correct_positions(&motions, &[0.0; 3]);
         assert!(corrected[0].is_none() && corrected[1..].iter().all(Option::is_some));
-        let errors = mechanism.joints.iter().map(|joint| joint.position_error(&mechanism.bodies, 0.0).amax());
+        let errors = mechanism
+            .joints
+            .iter()
+            .map(|joint| joint.position_error(&mechanism.bodies, 0.0).amax());
         assert!(errors.fold(0.0, f64::max) < 1e-6);
     }
 
     /// A chain of rods with its tip on an obstacle that supports it from below.
     fn supported(friction: f64, velocity: [f64; 3]) -> Mechanism {
         let (mut mechanism, bodies) = chain(3);
-        let joint = JointState { position: 0.0, velocity: 0.0, motor: None, limits: None };
+        let joint = JointState {
+            position: 0.0,
+            velocity: 0.0,
+            motor: None,
+            limits: None,
+        };
         mechanism.begin(&bodies, &[joint; 3], GRAVITY, STEP);
         let contact = crate::Contact {
             bodies: [Some(3), None],
@@ -297,7 +388,8 @@ mod tests {
         let mechanism = supported(0.5, [0.0, 10.0, 0.0]);
         let impulse = mechanism.contact_impulses().next().expect("one contact");
         assert!(
-            ((impulse[0] * impulse[0] + impulse[1] * impulse[1]).sqrt() - 0.5 * impulse[2]).abs() < 1e-9 * impulse[2]
+            ((impulse[0] * impulse[0] + impulse[1] * impulse[1]).sqrt() - 0.5 * impulse[2]).abs()
+                < 1e-9 * impulse[2]
         );
         assert!(impulse[1] > 0.0 && impulse[0].abs() < 0.1 * impulse[1]);
     }

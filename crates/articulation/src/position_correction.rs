@@ -28,8 +28,15 @@ impl Mechanism {
     ///
     /// `motions`: of all bodies after the step. `turned`: how far each joint turned in it (rad), known to half a turn. Returns where bodies
     /// belong and how they move; None for those that are right.
-    pub fn correct_positions(&mut self, motions: &[BodyMotion], turned: &[f64]) -> Vec<Option<BodyMotion>> {
-        let spins = self.fast_spins(motions, self.step).into_iter().chain(std::iter::repeat(None));
+    pub fn correct_positions(
+        &mut self,
+        motions: &[BodyMotion],
+        turned: &[f64],
+    ) -> Vec<Option<BodyMotion>> {
+        let spins = self
+            .fast_spins(motions, self.step)
+            .into_iter()
+            .chain(std::iter::repeat(None));
         for ((body, motion), spin) in self.bodies.iter_mut().zip(motions).zip(spins) {
             let before = body.pose.rotation;
             body.place(motion.pose);
@@ -37,11 +44,16 @@ impl Mechanism {
             body.turn_with_axis(spin, before, self.step);
         }
         let is_closed = self.close_gaps(turned);
-        let fastest = if is_closed { f64::MAX } else { MAX_TURN_PER_STEP / self.step };
+        let fastest = if is_closed {
+            f64::MAX
+        } else {
+            MAX_TURN_PER_STEP / self.step
+        };
         let corrects_velocity = is_closed || !self.has_loops();
         let step = self.step;
-        let of_body =
-            |(body, motion): (&LinkedBody, _)| body.corrected_motion(motion, step, corrects_velocity, fastest);
+        let of_body = |(body, motion): (&LinkedBody, _)| {
+            body.corrected_motion(motion, step, corrects_velocity, fastest)
+        };
         self.bodies.iter().zip(motions).map(of_body).collect()
     }
 
@@ -49,8 +61,11 @@ impl Mechanism {
     /// are taken back and corrected along the joints as they are. False when wide errors remain.
     fn close_gaps(&mut self, turned: &[f64]) -> bool {
         let (mut largest, has_loops) = (self.find_errors(turned), self.has_loops());
-        let closed =
-            if has_loops { MIN_TOLERANCE } else { (largest * RELATIVE_TOLERANCE).clamp(MIN_TOLERANCE, MAX_TOLERANCE) };
+        let closed = if has_loops {
+            MIN_TOLERANCE
+        } else {
+            (largest * RELATIVE_TOLERANCE).clamp(MIN_TOLERANCE, MAX_TOLERANCE)
+        };
         let (mut rate, mut is_current) = (f64::INFINITY, false);
         let begin = (largest > LARGE_ERROR && has_loops).then(|| (largest, self.placements()));
         for _ in 0..MAX_ITERATIONS {
@@ -58,7 +73,8 @@ impl Mechanism {
                 break;
             }
             let placements = self.placements();
-            self.system.displace(&self.joints, &mut self.bodies, &mut self.errors);
+            self.system
+                .displace(&self.joints, &mut self.bodies, &mut self.errors);
             // Without loops every correction leaves about the same part of the error.
             if !has_loops && largest * rate < closed {
                 largest *= rate;
@@ -76,7 +92,9 @@ impl Mechanism {
             }
         }
         // Errors that cannot be closed, as in a loop that is too short, remain.
-        if let Some((_, placements)) = begin.filter(|(before, _)| largest > before * (1.0 - MIN_PROGRESS)) {
+        if let Some((_, placements)) =
+            begin.filter(|(before, _)| largest > before * (1.0 - MIN_PROGRESS))
+        {
             self.restore(&placements);
         }
         largest <= LARGE_ERROR
@@ -87,14 +105,27 @@ impl Mechanism {
     }
 
     fn restore(&mut self, placements: &[Placement]) {
-        self.bodies.iter_mut().zip(placements).for_each(|(body, placement)| body.restore(placement));
+        self.bodies
+            .iter_mut()
+            .zip(placements)
+            .for_each(|(body, placement)| body.restore(placement));
     }
 
     /// Finds the errors of all joints; returns the largest one.
     fn find_errors(&mut self, turned: &[f64]) -> f64 {
-        let Self { joints, bodies, errors, .. } = self;
+        let Self {
+            joints,
+            bodies,
+            errors,
+            ..
+        } = self;
         errors.clear();
-        errors.extend(joints.iter().zip(turned).map(|(joint, turned)| joint.position_error(bodies, *turned)));
+        errors.extend(
+            joints
+                .iter()
+                .zip(turned)
+                .map(|(joint, turned)| joint.position_error(bodies, *turned)),
+        );
         errors.iter().map(|error| error.amax()).fold(0.0, f64::max)
     }
 
@@ -120,15 +151,25 @@ impl LinkedBody {
         if self.correction == Vector6::zeros() && self.rotor.is_none() {
             return None;
         }
-        let change = if corrects_velocity { self.correction } else { Vector6::zeros() };
+        let change = if corrects_velocity {
+            self.correction
+        } else {
+            Vector6::zeros()
+        };
         let mut velocity = motion.velocity + change / step;
         let mut angular = velocity.fixed_rows::<3>(3).into_owned();
-        angular += self.rotor.as_ref().map_or_else(Vector3::zeros, |rotor| rotor.velocity_change);
+        angular += self
+            .rotor
+            .as_ref()
+            .map_or_else(Vector3::zeros, |rotor| rotor.velocity_change);
         let speed = angular.norm_squared();
         if speed > fastest * fastest {
             angular = fastest * (angular / speed.sqrt());
         }
         velocity.fixed_rows_mut::<3>(3).copy_from(&angular);
-        Some(BodyMotion { pose: self.pose, velocity })
+        Some(BodyMotion {
+            pose: self.pose,
+            velocity,
+        })
     }
 }

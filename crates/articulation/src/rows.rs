@@ -50,9 +50,16 @@ impl Rows {
     /// Lays out the system. Joints are eliminated in their order: with those at the tips of a tree first, there is no fill-in.
     pub(crate) fn new(bodies: &[LinkedBody], joints: &[Joint]) -> Self {
         let pairs = coupled_pairs(bodies, joints);
-        let pattern = Pattern::new(joints.len(), pairs.iter().map(|(row, column)| (row.0, column.0)));
+        let pattern = Pattern::new(
+            joints.len(),
+            pairs.iter().map(|(row, column)| (row.0, column.0)),
+        );
         let place = |row: (usize, usize), column: (usize, usize)| pattern.place(row.0, column.0);
-        let couplings = pairs.into_iter().map(|(row, column)| Coupling { row, column, place: place(row, column) });
+        let couplings = pairs.into_iter().map(|(row, column)| Coupling {
+            row,
+            column,
+            place: place(row, column),
+        });
         Self {
             couplings: couplings.collect(),
             pattern,
@@ -85,7 +92,11 @@ impl Rows {
         for diagonal in &mut self.matrix.diagonal {
             for row in 0..6 {
                 let response = diagonal[(row, row)];
-                diagonal[(row, row)] = if response > 0.0 { response * (1.0 + COMPLIANCE) } else { 1.0 };
+                diagonal[(row, row)] = if response > 0.0 {
+                    response * (1.0 + COMPLIANCE)
+                } else {
+                    1.0
+                };
             }
         }
     }
@@ -106,9 +117,14 @@ impl System for Rows {
 
     fn factorize(&mut self, joints: &[Joint], bodies: &[LinkedBody]) -> bool {
         self.inverse_masses.clear();
-        self.inverse_masses.extend(bodies.iter().map(LinkedBody::inverse_mass));
+        self.inverse_masses
+            .extend(bodies.iter().map(LinkedBody::inverse_mass));
         self.joints.clear();
-        self.joints.extend(joints.iter().map(|joint| JointRows::new(joint, &self.inverse_masses)));
+        self.joints.extend(
+            joints
+                .iter()
+                .map(|joint| JointRows::new(joint, &self.inverse_masses)),
+        );
         self.assemble(joints);
         self.matrix.factorize(&self.pattern)
     }
@@ -122,7 +138,10 @@ impl System for Rows {
             body.joint_impulse = Vector6::zeros();
             body.velocity = body.free_velocity() + mass.times(&body.known_impulse());
         }
-        for joint in joints.iter().filter(|joint| joint.saturated_impulse() != 0.0) {
+        for joint in joints
+            .iter()
+            .filter(|joint| joint.saturated_impulse() != 0.0)
+        {
             self.apply_impulse(joint, bodies, &joint.saturated_rows());
         }
         let mut impulses = std::mem::take(&mut self.impulses);
@@ -158,18 +177,25 @@ impl System for Rows {
             blocks.resize(joints.len(), None);
             for ((joint, rows), block) in joints.iter().zip(&self.joints).zip(blocks.iter_mut()) {
                 for side in (0..2).filter(|&side| joint.body(side) == body) {
-                    *block.get_or_insert_with(Block::zeros) += rows.active_inverse_mass[side].dense();
+                    *block.get_or_insert_with(Block::zeros) +=
+                        rows.active_inverse_mass[side].dense();
                 }
             }
             self.matrix.carry(&self.pattern, blocks);
         }
         let of = |i: usize, j: usize| {
-            let own = if i == j { self.inverse_masses[touching[i]].dense() } else { Matrix6::zeros() };
+            let own = if i == j {
+                self.inverse_masses[touching[i]].dense()
+            } else {
+                Matrix6::zeros()
+            };
             let pairs = self.carried[i].iter().zip(&self.carried[j]);
             let shared = pairs.filter_map(|(a, b)| Some(a.as_ref()?.tr_mul(b.as_ref()?)));
             shared.fold(own, |sum, product| sum - product)
         };
-        (0..touching.len()).flat_map(|i| (0..touching.len()).map(move |j| of(i, j))).collect()
+        (0..touching.len())
+            .flat_map(|i| (0..touching.len()).map(move |j| of(i, j)))
+            .collect()
     }
 }
 
@@ -177,8 +203,12 @@ impl JointRows {
     fn new(joint: &Joint, inverse_masses: &[InverseMass]) -> Self {
         let rows = joint.active_rows();
         let active = [0, 1].map(|side| joint.jacobian(side).with_rows(&rows));
-        let active_inverse_mass = [0, 1].map(|side| active[side].times(&inverse_masses[joint.body(side)]));
-        Self { active, active_inverse_mass }
+        let active_inverse_mass =
+            [0, 1].map(|side| active[side].times(&inverse_masses[joint.body(side)]));
+        Self {
+            active,
+            active_inverse_mass,
+        }
     }
 }
 

@@ -15,19 +15,30 @@ pub(crate) struct SpatialInertia {
 
 impl SpatialInertia {
     pub(crate) fn zero() -> Self {
-        Self { linear: Matrix3::zeros(), coupling: Matrix3::zeros(), angular: Matrix3::zeros() }
+        Self {
+            linear: Matrix3::zeros(),
+            coupling: Matrix3::zeros(),
+            angular: Matrix3::zeros(),
+        }
     }
 
     /// That of a body about its centre of mass: kg, kg m2.
     pub(crate) fn of_body(mass: f64, angular: Matrix3<f64>) -> Self {
-        Self { linear: Matrix3::from_diagonal_element(mass), coupling: Matrix3::zeros(), angular }
+        Self {
+            linear: Matrix3::from_diagonal_element(mass),
+            coupling: Matrix3::zeros(),
+            angular,
+        }
     }
 
     /// The momentum at a velocity.
     #[inline]
     pub(crate) fn times(&self, velocity: &Vector6<f64>) -> Vector6<f64> {
         let (linear, angular) = halves(velocity);
-        spatial(self.linear * linear + self.coupling * angular, self.coupling.tr_mul(&linear) + self.angular * angular)
+        spatial(
+            self.linear * linear + self.coupling * angular,
+            self.coupling.tr_mul(&linear) + self.angular * angular,
+        )
     }
 
     /// Subtracts `vector vector^T factor`.
@@ -77,7 +88,8 @@ mod tests {
     }
 
     fn inertia() -> SpatialInertia {
-        let mut inertia = SpatialInertia::of_body(2.0, Matrix3::from_diagonal(&Vector3::new(0.1, 0.2, 0.25)));
+        let mut inertia =
+            SpatialInertia::of_body(2.0, Matrix3::from_diagonal(&Vector3::new(0.1, 0.2, 0.25)));
         inertia.subtract_square(&Vector6::new(0.3, 0.2, -0.1, 0.05, 0.02, 0.04), 0.5);
         inertia
     }
@@ -86,12 +98,17 @@ mod tests {
     fn a_square_is_subtracted() {
         let vector = Vector6::new(0.3, 0.2, -0.1, 0.05, 0.02, 0.04);
         let diagonal = Matrix6::from_diagonal(&Vector6::new(2.0, 2.0, 2.0, 0.1, 0.2, 0.25));
-        assert!((dense(&inertia()) - (diagonal - vector * vector.transpose() * 0.5)).amax() < 1e-15);
+        assert!(
+            (dense(&inertia()) - (diagonal - vector * vector.transpose() * 0.5)).amax() < 1e-15
+        );
     }
 
     #[test]
     fn a_shifted_inertia_has_the_momentum_of_the_shifted_velocity() {
-        let (arm, velocity) = (Vector3::new(0.3, -0.5, 0.7), Vector6::new(1.0, -2.0, 0.5, 0.3, 0.8, -0.6));
+        let (arm, velocity) = (
+            Vector3::new(0.3, -0.5, 0.7),
+            Vector6::new(1.0, -2.0, 0.5, 0.3, 0.8, -0.6),
+        );
         let mut shifted = SpatialInertia::zero();
         shifted.add_shifted(&inertia(), &arm);
         let momentum = inertia().times(&shifted_velocity(&velocity, &arm));

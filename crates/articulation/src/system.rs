@@ -46,10 +46,18 @@ mod tests {
     use test_support::random;
 
     use super::*;
-    use crate::{BodyMotion, BodyProperties, BodyState, JointKind, JointProperties, JointState, Mechanism, Motor};
+    use crate::{
+        BodyMotion, BodyProperties, BodyState, JointKind, JointProperties, JointState, Mechanism,
+        Motor,
+    };
 
     const BODIES: usize = 9;
-    const KINDS: [JointKind; 4] = [JointKind::Revolute, JointKind::Prismatic, JointKind::Spherical, JointKind::Fixed];
+    const KINDS: [JointKind; 4] = [
+        JointKind::Revolute,
+        JointKind::Prismatic,
+        JointKind::Spherical,
+        JointKind::Fixed,
+    ];
 
     /// What is drawn at random.
     struct Random(random::Random);
@@ -69,7 +77,10 @@ mod tests {
         }
 
         fn pose(&mut self) -> Pose {
-            Pose::from_parts(self.vector().into(), UnitQuaternion::from_scaled_axis(self.vector()))
+            Pose::from_parts(
+                self.vector().into(),
+                UnitQuaternion::from_scaled_axis(self.vector()),
+            )
         }
 
         fn body(&mut self) -> BodyProperties {
@@ -85,8 +96,16 @@ mod tests {
         fn state(&mut self) -> BodyState {
             let mut six = || Vector6::from_fn(|_, _| self.next());
             let (velocity, force) = (six(), six());
-            let motion = BodyMotion { pose: self.pose(), velocity };
-            BodyState { motion, force, gyroscopic_velocity: self.vector(), target: None }
+            let motion = BodyMotion {
+                pose: self.pose(),
+                velocity,
+            };
+            BodyState {
+                motion,
+                force,
+                gyroscopic_velocity: self.vector(),
+                target: None,
+            }
         }
 
         /// A joint from one of the bodies before to a body, in either direction.
@@ -96,15 +115,33 @@ mod tests {
                 bodies.reverse();
             }
             let kind = KINDS[self.0.below(4)];
-            let pitch = if kind == JointKind::Revolute && self.next() > 0.0 { 0.3 } else { 0.0 };
-            JointProperties { kind, bodies, base: self.pose(), tip: self.pose(), pitch }
+            let pitch = if kind == JointKind::Revolute && self.next() > 0.0 {
+                0.3
+            } else {
+                0.0
+            };
+            JointProperties {
+                kind,
+                bodies,
+                base: self.pose(),
+                tip: self.pose(),
+                pitch,
+            }
         }
 
         fn joint_state(&mut self) -> JointState {
             let force = if self.next() > 0.0 { 300.0 } else { 1.0 };
-            let motor = (self.next() > -0.3).then(|| Motor { velocity: self.next(), max_force: force });
+            let motor = (self.next() > -0.3).then(|| Motor {
+                velocity: self.next(),
+                max_force: force,
+            });
             let limits = (self.next() > 0.5).then_some([-0.001, 0.001]);
-            JointState { position: 0.0, velocity: 0.0, motor, limits }
+            JointState {
+                position: 0.0,
+                velocity: 0.0,
+                motor,
+                limits,
+            }
         }
     }
 
@@ -133,7 +170,12 @@ mod tests {
         for seed in 0..200 {
             let [tree, rows] = [false, true].map(|as_rows| solved(seed, as_rows));
             for (a, b) in tree.bodies.iter().zip(&rows.bodies) {
-                assert!((a.velocity - b.velocity).amax() < 1e-6, "{seed}: {} {}", a.velocity, b.velocity);
+                assert!(
+                    (a.velocity - b.velocity).amax() < 1e-6,
+                    "{seed}: {} {}",
+                    a.velocity,
+                    b.velocity
+                );
                 if a.is_dynamic() {
                     let most = 1e-5 * (1.0 + b.joint_impulse.amax());
                     assert!((a.joint_impulse - b.joint_impulse).amax() < most, "{seed}");
@@ -141,7 +183,10 @@ mod tests {
             }
             for (a, b) in tree.joint_loads().zip(rows.joint_loads()) {
                 let most = 1e-5 * (1.0 + b.rows.amax());
-                assert!((a.rows - b.rows).amax() < most && (a.motor - b.motor).abs() < most, "{seed}: {a:?} {b:?}");
+                assert!(
+                    (a.rows - b.rows).amax() < most && (a.motor - b.motor).abs() < most,
+                    "{seed}: {a:?} {b:?}"
+                );
             }
         }
     }
@@ -151,7 +196,8 @@ mod tests {
         for seed in 0..50 {
             let [mut tree, mut rows] = [false, true].map(|as_rows| solved(seed, as_rows));
             let moving: Vec<usize> = (1..BODIES).collect();
-            let [first, second] = [&mut tree, &mut rows].map(|it| it.system.responses(&it.joints, &moving));
+            let [first, second] =
+                [&mut tree, &mut rows].map(|it| it.system.responses(&it.joints, &moving));
             for (a, b) in first.iter().zip(&second) {
                 assert!((a - b).amax() < 1e-6, "{seed}: {a} {b}");
             }
@@ -162,13 +208,26 @@ mod tests {
     fn a_tree_is_corrected_as_its_rows_say() {
         for seed in 0..50 {
             let corrections = [false, true].map(|as_rows| {
-                let Mechanism { joints, mut bodies, mut system, .. } = solved(seed, as_rows);
+                let Mechanism {
+                    joints,
+                    mut bodies,
+                    mut system,
+                    ..
+                } = solved(seed, as_rows);
                 let mut random = Random::new(seed);
-                let errors = joints.iter().map(|_| Segment::from_fn(|_, _| random.next() * 1e-3));
-                let mut errors: Vec<Segment> =
-                    joints.iter().zip(errors).map(|(joint, e)| joint.locked_part(e)).collect();
+                let errors = joints
+                    .iter()
+                    .map(|_| Segment::from_fn(|_, _| random.next() * 1e-3));
+                let mut errors: Vec<Segment> = joints
+                    .iter()
+                    .zip(errors)
+                    .map(|(joint, e)| joint.locked_part(e))
+                    .collect();
                 system.displace(&joints, &mut bodies, &mut errors);
-                bodies.iter().map(|body| body.correction).collect::<Vec<_>>()
+                bodies
+                    .iter()
+                    .map(|body| body.correction)
+                    .collect::<Vec<_>>()
             });
             for (a, b) in corrections[0].iter().zip(&corrections[1]) {
                 assert!((a - b).amax() < 1e-7, "{seed}: {a} {b}");
@@ -180,12 +239,21 @@ mod tests {
     fn loops_are_no_trees() {
         let mut random = Random::new(7);
         let bodies: Vec<BodyProperties> = (0..3).map(|_| random.body()).collect();
-        let ends = |bodies| JointProperties { kind: JointKind::Revolute, bodies, ..Random::new(1).joint(1) };
+        let ends = |bodies| JointProperties {
+            kind: JointKind::Revolute,
+            bodies,
+            ..Random::new(1).joint(1)
+        };
         let linked = |joints: &[[usize; 2]]| {
-            let mechanism = Mechanism::new(bodies.clone(), joints.iter().map(|&bodies| ends(bodies)).collect());
+            let mechanism = Mechanism::new(
+                bodies.clone(),
+                joints.iter().map(|&bodies| ends(bodies)).collect(),
+            );
             Tree::new(&mechanism.bodies, &mechanism.joints).is_some()
         };
         assert!(linked(&[[0, 1], [1, 2]]) && linked(&[[0, 1]]));
-        assert!(!linked(&[[0, 1], [1, 2], [2, 0]]) && !linked(&[[0, 1], [1, 0]]) && !linked(&[[0, 0]]));
+        assert!(
+            !linked(&[[0, 1], [1, 2], [2, 0]]) && !linked(&[[0, 1], [1, 0]]) && !linked(&[[0, 0]])
+        );
     }
 }

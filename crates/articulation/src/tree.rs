@@ -92,16 +92,29 @@ impl Tree {
         for parent in links.iter_mut().filter_map(|link| link.parent.as_mut()) {
             parent.place = places[parent.body];
         }
-        Some(Self { linked: links.len(), links, is_factor: false })
+        Some(Self {
+            linked: links.len(),
+            links,
+            is_factor: false,
+        })
     }
 
     /// Calls `visit` for every link from the tips to the root, and `carry` with it, its parent and the arm between them.
-    fn toward_root(&mut self, mut visit: impl FnMut(&mut Link), carry: impl Fn(&Link, &mut Link, &Vector3<f64>)) {
+    fn toward_root(
+        &mut self,
+        mut visit: impl FnMut(&mut Link),
+        carry: impl Fn(&Link, &mut Link, &Vector3<f64>),
+    ) {
         for place in 0..self.links.len() {
             let (visited, others) = self.links.split_at_mut(place + 1);
             let link = &mut visited[place];
             visit(link);
-            if let Some(Parent { place: Some(parent), arm, .. }) = &link.parent {
+            if let Some(Parent {
+                place: Some(parent),
+                arm,
+                ..
+            }) = &link.parent
+            {
                 carry(link, &mut others[parent - place - 1], arm);
             }
         }
@@ -124,7 +137,9 @@ impl Tree {
 
     /// The impulses of the joints that lead to the velocities of the bodies.
     fn find_joint_impulses(&mut self, joints: &mut [Joint], bodies: &mut [LinkedBody]) {
-        self.links.iter_mut().for_each(|link| link.impulse = Vector6::zeros());
+        self.links
+            .iter_mut()
+            .for_each(|link| link.impulse = Vector6::zeros());
         let visit = |link: &mut Link| {
             let body = &mut bodies[link.body];
             let Some(parent) = &link.parent else {
@@ -133,7 +148,8 @@ impl Tree {
             };
             body.joint_impulse = body.missing_impulse();
             link.impulse += body.joint_impulse;
-            joints[parent.joint].set_impulse(&(shifted_impulse(&link.impulse, &parent.lever) * parent.sign));
+            joints[parent.joint]
+                .set_impulse(&(shifted_impulse(&link.impulse, &parent.lever) * parent.sign));
         };
         self.toward_root(visit, Link::carry_impulse);
     }
@@ -145,15 +161,34 @@ impl Tree {
         let mut next = self.links.iter().position(|link| link.body == body);
         while let Some(place) = next {
             let link = &self.links[place];
-            for (number, Axis { motion, momentum, response, .. }) in link.axes.iter().enumerate() {
+            for (
+                number,
+                Axis {
+                    motion,
+                    momentum,
+                    response,
+                    ..
+                },
+            ) in link.axes.iter().enumerate()
+            {
                 let along = impulses.tr_mul(motion);
                 impulses -= momentum * (along * *response).transpose();
-                shares.push(Share { axis: (place, number), impulses: along, response: *response });
+                shares.push(Share {
+                    axis: (place, number),
+                    impulses: along,
+                    response: *response,
+                });
             }
             next = link.parent.as_ref().and_then(|parent| parent.place);
             for column in (0..6).filter(|_| next.is_some()) {
-                let arm = link.parent.as_ref().map_or_else(Vector3::zeros, |parent| parent.arm);
-                impulses.set_column(column, &shifted_impulse(&impulses.column(column).into_owned(), &arm));
+                let arm = link
+                    .parent
+                    .as_ref()
+                    .map_or_else(Vector3::zeros, |parent| parent.arm);
+                impulses.set_column(
+                    column,
+                    &shifted_impulse(&impulses.column(column).into_owned(), &arm),
+                );
             }
         }
         shares
@@ -163,17 +198,23 @@ impl Tree {
 impl System for Tree {
     fn set_guests(&mut self, guests: Range<usize>) {
         self.links.truncate(self.linked);
-        self.links.extend(guests.map(|guest| Link::new(guest, None, 6)));
+        self.links
+            .extend(guests.map(|guest| Link::new(guest, None, 6)));
     }
 
     fn factorize(&mut self, joints: &[Joint], bodies: &[LinkedBody]) -> bool {
         for link in &mut self.links {
             link.place(joints, bodies);
         }
-        let carry = |link: &Link, parent: &mut Link, arm: &Vector3<f64>| parent.inertia.add_shifted(&link.inertia, arm);
+        let carry = |link: &Link, parent: &mut Link, arm: &Vector3<f64>| {
+            parent.inertia.add_shifted(&link.inertia, arm)
+        };
         self.toward_root(Link::eliminate_axes, carry);
         let can_respond = |axis: &Axis| axis.response >= 0.0 && axis.response.is_finite();
-        self.is_factor = self.links.iter().all(|link| link.axes.iter().all(can_respond));
+        self.is_factor = self
+            .links
+            .iter()
+            .all(|link| link.axes.iter().all(can_respond));
         self.is_factor
     }
 
@@ -206,17 +247,31 @@ impl System for Tree {
     fn responses(&mut self, _: &[Joint], touching: &[usize]) -> Vec<Matrix6<f64>> {
         let shares: Vec<Vec<Share>> = touching.iter().map(|&body| self.shares(body)).collect();
         let of = |first: &[Share], second: &[Share]| {
-            let common = first.iter().rev().zip(second.iter().rev()).take_while(|(a, b)| a.axis == b.axis);
-            common.map(|(a, b)| a.impulses * (b.impulses * b.response).transpose()).sum()
+            let common = first
+                .iter()
+                .rev()
+                .zip(second.iter().rev())
+                .take_while(|(a, b)| a.axis == b.axis);
+            common
+                .map(|(a, b)| a.impulses * (b.impulses * b.response).transpose())
+                .sum()
         };
-        shares.iter().flat_map(|first| shares.iter().map(move |second| of(first, second))).collect()
+        shares
+            .iter()
+            .flat_map(|first| shares.iter().map(move |second| of(first, second)))
+            .collect()
     }
 }
 
 impl Link {
     pub(crate) fn new(body: usize, parent: Option<Parent>, axes: usize) -> Self {
         let none = Vector6::zeros();
-        let axis = Axis { motion: none, momentum: none, response: 0.0, rate: 0.0 };
+        let axis = Axis {
+            motion: none,
+            momentum: none,
+            response: 0.0,
+            rate: 0.0,
+        };
         Self {
             body,
             parent,
@@ -260,12 +315,16 @@ impl Link {
 
     /// Sets what motors and limits do, and bodies that are moved.
     fn impose_velocity(&mut self, joints: &[Joint], bodies: &[LinkedBody]) {
-        (self.offset, self.offset_momentum, self.effort) = (Vector6::zeros(), Vector6::zeros(), 0.0);
+        (self.offset, self.offset_momentum, self.effort) =
+            (Vector6::zeros(), Vector6::zeros(), 0.0);
         let Some(parent) = &self.parent else { return };
         let joint = &joints[parent.joint];
         if self.is_imposed {
             let velocity = joint.imposed_velocity();
-            (self.offset, self.offset_momentum) = (self.axes[0].motion * velocity, self.axes[0].momentum * velocity);
+            (self.offset, self.offset_momentum) = (
+                self.axes[0].motion * velocity,
+                self.axes[0].momentum * velocity,
+            );
         } else {
             self.effort = joint.saturated_impulse();
         }
@@ -278,8 +337,10 @@ impl Link {
     fn impose_displacement(&mut self, joints: &[Joint], errors: &[Segment]) {
         (self.impulse, self.effort) = (Vector6::zeros(), 0.0);
         let Some(parent) = &self.parent else { return };
-        self.offset =
-            shifted_velocity(&joints[parent.joint].along_axes(&errors[parent.joint]), &parent.lever) * -parent.sign;
+        self.offset = shifted_velocity(
+            &joints[parent.joint].along_axes(&errors[parent.joint]),
+            &parent.lever,
+        ) * -parent.sign;
         self.offset_momentum = self.inertia.times(&self.offset);
     }
 
@@ -300,13 +361,21 @@ impl Link {
     fn find_velocity(&mut self, carried: Vector6<f64>) {
         self.velocity = carried + self.offset;
         for axis in self.axes.iter().rev() {
-            self.velocity += axis.motion * (axis.rate - axis.momentum.dot(&self.velocity) * axis.response);
+            self.velocity +=
+                axis.motion * (axis.rate - axis.momentum.dot(&self.velocity) * axis.response);
         }
     }
 }
 
 impl Parent {
     pub(crate) fn new(joint: usize, body: usize, sign: f64) -> Self {
-        Self { joint, body, place: None, sign, arm: Vector3::zeros(), lever: Vector3::zeros() }
+        Self {
+            joint,
+            body,
+            place: None,
+            sign,
+            arm: Vector3::zeros(),
+            lever: Vector3::zeros(),
+        }
     }
 }

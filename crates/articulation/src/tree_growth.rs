@@ -21,7 +21,13 @@ pub(crate) fn grown(bodies: &[LinkedBody], joints: &[Joint]) -> Option<Vec<Link>
     for (index, joint) in joints.iter().enumerate() {
         (0..2).for_each(|side| at_body[joint.body(side)].push((index, side)));
     }
-    let mut growth = Growth { bodies, joints, at_body, reached: vec![false; bodies.len()], links: Vec::new() };
+    let mut growth = Growth {
+        bodies,
+        joints,
+        at_body,
+        reached: vec![false; bodies.len()],
+        links: Vec::new(),
+    };
     let fixed = (0..bodies.len()).filter(|&body| !bodies[body].is_dynamic());
     let bases = joints.iter().rev().map(|joint| joint.body(0));
     let roots: Vec<usize> = fixed.chain(bases).chain(0..bodies.len()).collect();
@@ -49,7 +55,9 @@ impl Growth<'_> {
                     continue;
                 }
                 let beyond = self.joints[joint].body(1 - side);
-                if !self.bodies[beyond].is_dynamic() || std::mem::replace(&mut self.reached[beyond], true) {
+                if !self.bodies[beyond].is_dynamic()
+                    || std::mem::replace(&mut self.reached[beyond], true)
+                {
                     return false;
                 }
                 self.links.push(self.link(beyond, joint, side));
@@ -63,6 +71,10 @@ impl Growth<'_> {
     fn link(&self, body: usize, joint: usize, side: usize) -> Link {
         let sign = if side == 0 { 1.0 } else { -1.0 };
         let of_joint = &self.joints[joint];
-        Link::new(body, Some(Parent::new(joint, of_joint.body(side), sign)), of_joint.free_motions().count())
+        Link::new(
+            body,
+            Some(Parent::new(joint, of_joint.body(side), sign)),
+            of_joint.free_motions().count(),
+        )
     }
 }

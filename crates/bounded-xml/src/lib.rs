@@ -76,14 +76,24 @@ impl Error {
 ///
 /// # Errors
 /// For text that is no XML, or exceeds a limit.
-pub fn parse(text: &str, max_nodes: u32, document_type: DocumentType) -> Result<Document<'_>, Error> {
+pub fn parse(
+    text: &str,
+    max_nodes: u32,
+    document_type: DocumentType,
+) -> Result<Document<'_>, Error> {
     if let Some(at) = crowded(text) {
-        return Err(Error::TooManyAttributes { line: line_at(text, at) });
+        return Err(Error::TooManyAttributes {
+            line: line_at(text, at),
+        });
     }
     if text.matches("xmlns").nth(MAX_NAMESPACES).is_some() {
         return Err(Error::TooManyNamespaces);
     }
-    let options = |allow_dtd| ParsingOptions { allow_dtd, nodes_limit: max_nodes, ..ParsingOptions::default() };
+    let options = |allow_dtd| ParsingOptions {
+        allow_dtd,
+        nodes_limit: max_nodes,
+        ..ParsingOptions::default()
+    };
     let parsed = match Document::parse_with_options(text, options(false)) {
         Err(roxmltree::Error::DtdDetected) => {
             check_document_type(text, document_type)?;
@@ -101,14 +111,19 @@ impl From<roxmltree::Error> for Error {
         }
         let position = error.pos();
         let place = format!(" at {}:{}", position.row, position.col);
-        Self::Syntax { line: position.row, message: error.to_string().replace(&place, "") }
+        Self::Syntax {
+            line: position.row,
+            message: error.to_string().replace(&place, ""),
+        }
     }
 }
 
 fn check_document_type(text: &str, document_type: DocumentType) -> Result<(), Error> {
     let line = |at| line_at(text, at);
     match document_type {
-        DocumentType::Refused => Err(Error::DocumentType { line: text.find("<!DOCTYPE").map_or(1, line) }),
+        DocumentType::Refused => Err(Error::DocumentType {
+            line: text.find("<!DOCTYPE").map_or(1, line),
+        }),
         DocumentType::WithoutEntities => match text.find("<!ENTITY").map(line) {
             Some(line) => Err(Error::Entities { line }),
             None => Ok(()),
@@ -153,7 +168,11 @@ fn tag_length(text: &str) -> Option<usize> {
 }
 
 fn line_at(text: &str, at: usize) -> u32 {
-    text.as_bytes()[..at].iter().filter(|byte| **byte == b'\n').count() as u32 + 1
+    text.as_bytes()[..at]
+        .iter()
+        .filter(|byte| **byte == b'\n')
+        .count() as u32
+        + 1
 }
 
 #[cfg(test)]
@@ -165,7 +184,9 @@ mod tests {
     }
 
     fn attributes(count: usize) -> String {
-        (0..count).map(|number| format!(" a{number}='a=\"b\">'")).collect()
+        (0..count)
+            .map(|number| format!(" a{number}='a=\"b\">'"))
+            .collect()
     }
 
     #[test]
@@ -178,7 +199,10 @@ mod tests {
         };
         assert!(parse(&text(attributes(200)), 1000, DocumentType::Refused).is_ok());
         for count in [201, 200_000] {
-            assert_eq!(error(&text(attributes(count))), Error::TooManyAttributes { line: 3 });
+            assert_eq!(
+                error(&text(attributes(count))),
+                Error::TooManyAttributes { line: 3 }
+            );
         }
     }
 
@@ -190,7 +214,10 @@ mod tests {
 
     #[test]
     fn very_many_elements_are_refused() {
-        assert_eq!(error(&format!("<a>{}</a>", "<b/>".repeat(1000))), Error::TooManyNodes);
+        assert_eq!(
+            error(&format!("<a>{}</a>", "<b/>".repeat(1000))),
+            Error::TooManyNodes
+        );
     }
 
     #[test]
@@ -198,14 +225,27 @@ mod tests {
         let text = "<?xml version='1.0'?>\n<!DOCTYPE a><a/>";
         assert!(parse(text, 1000, DocumentType::WithoutEntities).is_ok());
         let refused = parse(text, 1000, DocumentType::Refused).expect_err("a document type");
-        assert_eq!((refused.line(), &refused), (Some(2), &Error::DocumentType { line: 2 }));
+        assert_eq!(
+            (refused.line(), &refused),
+            (Some(2), &Error::DocumentType { line: 2 })
+        );
         let bomb = "<!DOCTYPE a [\n<!ENTITY b 'bb'>]><a>&b;</a>";
         assert_eq!(error(bomb), Error::Entities { line: 2 });
     }
 
     #[test]
     fn damaged_texts_are_errors_with_their_line() {
-        for text in ["", "<", "<a", "<a b='", "<!--", "<![CDATA[", "<?", "\n<a></b>", "<a xmlns:b='' b:c=''"] {
+        for text in [
+            "",
+            "<",
+            "<a",
+            "<a b='",
+            "<!--",
+            "<![CDATA[",
+            "<?",
+            "\n<a></b>",
+            "<a xmlns:b='' b:c=''",
+        ] {
             assert!(error(text).line().is_none_or(|line| line <= 2), "{text}");
         }
     }

@@ -22,9 +22,18 @@ mod tests {
 
     #[test]
     fn only_what_is_there_is_approximated() {
-        let mut known: Vec<String> = functions().into_iter().map(|function| function.name).collect();
+        let mut known: Vec<String> = functions()
+            .into_iter()
+            .map(|function| function.name)
+            .collect();
         known.extend(modules::names());
-        known.extend(::modules::registry().members_of_sim().names().into_iter().map(|member| format!("sim.{member}")));
+        known.extend(
+            ::modules::registry()
+                .members_of_sim()
+                .names()
+                .into_iter()
+                .map(|member| format!("sim.{member}")),
+        );
         for (name, _) in pairs(TABLE) {
             assert!(known.iter().any(|known| known == name), "{name}");
         }
@@ -32,7 +41,10 @@ mod tests {
 
     #[test]
     fn what_works_in_full_has_no_difference() {
-        assert_eq!(difference("sim.adjustView"), Some("accepted without effect: nothing is drawn"));
+        assert_eq!(
+            difference("sim.adjustView"),
+            Some("accepted without effect: nothing is drawn")
+        );
         assert_eq!(difference("sim.getObject"), None);
     }
 }

@@ -11,7 +11,9 @@ use script::pairs;
 /// The table.
 pub(super) fn text(functions: &[Function]) -> String {
     let built: HashSet<&str> = functions.iter().map(Function::member).collect();
-    let rows: Vec<ReferenceRow> = reference().filter(|row| !row.name.starts_with('_')).collect();
+    let rows: Vec<ReferenceRow> = reference()
+        .filter(|row| !row.name.starts_with('_'))
+        .collect();
     let counted: Vec<&ReferenceRow> = rows.iter().filter(|row| row.age != Age::Later).collect();
     let mut out = String::from(
         "# Coverage of the `sim` reference\n\nGenerated from the sources: `UPDATE=1 cargo test --test repository generated`. A function that is \
@@ -27,8 +29,14 @@ pub(super) fn text(functions: &[Function]) -> String {
             Age::Deprecated => ", deprecated",
             Age::Later => ", came after 4.10",
         };
-        let how = difference(&format!("sim.{}", row.name)).map(|how| format!(": {how}")).unwrap_or_default();
-        let _ = writeln!(out, "| `sim.{}` | {} | {status}{note}{how} |", row.name, row.category);
+        let how = difference(&format!("sim.{}", row.name))
+            .map(|how| format!(": {how}"))
+            .unwrap_or_default();
+        let _ = writeln!(
+            out,
+            "| `sim.{}` | {} | {status}{note}{how} |",
+            row.name, row.category
+        );
     }
     out
 }
@@ -63,15 +71,26 @@ pub(super) fn status(name: &str, built: &HashSet<&str>) -> Status {
 /// Counts by tier: how much published code needs a function.
 fn tiers(rows: &[&ReferenceRow], built: &HashSet<&str>) -> String {
     const MEANING: [(&str, &str); 4] = [
-        ("T1", "called in five or more public repositories, or by the default main script"),
-        ("T2", "called in two to four, or needed by the stock models and libraries"),
+        (
+            "T1",
+            "called in five or more public repositories, or by the default main script",
+        ),
+        (
+            "T2",
+            "called in two to four, or needed by the stock models and libraries",
+        ),
         ("T3", "called in one, or documented"),
         ("T4", "deprecated without use, graphical, or removed"),
     ];
     let tier_of: BTreeMap<&str, &str> = pairs(api::TIERS).collect();
-    let mut out = String::from("| tier | what it is | works | approximated | of |\n|---|---|---|---|---|\n");
+    let mut out =
+        String::from("| tier | what it is | works | approximated | of |\n|---|---|---|---|---|\n");
     let mut line = |tier: &str, meaning: &str, of: &[&&ReferenceRow]| {
-        let count = |wanted: Status| of.iter().filter(|row| status(row.name, built) == wanted).count();
+        let count = |wanted: Status| {
+            of.iter()
+                .filter(|row| status(row.name, built) == wanted)
+                .count()
+        };
         let _ = writeln!(
             out,
             "| {tier} | {meaning} | {} | {} | {} |",
@@ -81,7 +100,10 @@ fn tiers(rows: &[&ReferenceRow], built: &HashSet<&str>) -> String {
         );
     };
     for (tier, meaning) in MEANING {
-        let of: Vec<_> = rows.iter().filter(|row| tier_of.get(row.name) == Some(&tier)).collect();
+        let of: Vec<_> = rows
+            .iter()
+            .filter(|row| tier_of.get(row.name) == Some(&tier))
+            .collect();
         line(tier, meaning, &of);
     }
     line("", "all", &rows.iter().collect::<Vec<_>>());

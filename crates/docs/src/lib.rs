@@ -30,7 +30,9 @@ pub use approximated::difference;
 pub use markdown::function_text;
 pub use overview::with_overview;
 pub use row::{Function, Parameter, Returned};
-pub use usage::{Support, Use, foreign_script, unreadable_script, use_of_member, use_of_module, uses};
+pub use usage::{
+    Support, Use, foreign_script, unreadable_script, use_of_member, use_of_module, uses,
+};
 
 /// Where the editor stubs are kept in the repository.
 pub const STUBS: &str = "docs/stubs";
@@ -43,12 +45,19 @@ pub fn functions() -> Vec<Function> {
         all.insert(function.name.clone(), function);
     }
     for (category, functions) in api::SIM.functions {
-        for function in functions.iter().map(|function| Function::native(category, function)) {
+        for function in functions
+            .iter()
+            .map(|function| Function::native(category, function))
+        {
             all.insert(function.name.clone(), function);
         }
     }
     for (old, new) in pairs(api::SIM.aliases) {
-        if let Some(alias) = all.get(&full(new)).or_else(|| all.get(new)).map(|known| known.renamed(&full(old))) {
+        if let Some(alias) = all
+            .get(&full(new))
+            .or_else(|| all.get(new))
+            .map(|known| known.renamed(&full(old)))
+        {
             all.insert(alias.name.clone(), alias);
         }
     }
@@ -57,7 +66,9 @@ pub fn functions() -> Vec<Function> {
             function.deprecated = Some(replacement.to_owned());
         }
     }
-    all.into_values().filter(|function| !function.is_inner()).collect()
+    all.into_values()
+        .filter(|function| !function.is_inner())
+        .collect()
 }
 
 /// Replacement of a missing function of CoppeliaSim; None without one.
@@ -70,7 +81,9 @@ pub fn remedy(name: &str) -> Option<&'static str> {
 
 /// Every function of the modules beside `sim`, module by module.
 pub fn module_functions() -> Vec<Function> {
-    modules::names().flat_map(|module| module_stubs::of_module(&module)).collect()
+    modules::names()
+        .flat_map(|module| module_stubs::of_module(&module))
+        .collect()
 }
 
 /// Summary of a module, in a line or two; empty if it has none.
@@ -94,13 +107,20 @@ pub fn files() -> Vec<(String, String)> {
     let mut files = markdown::pages(&functions);
     files.push(("docs/api/modules.md".to_owned(), modules::page()));
     files.extend(modules::own_pages());
-    files.extend(stubs().into_iter().map(|(path, text)| (format!("{STUBS}/{path}"), text)));
+    files.extend(
+        stubs()
+            .into_iter()
+            .map(|(path, text)| (format!("{STUBS}/{path}"), text)),
+    );
     files.push((python_stubs::PATH.to_owned(), python_stubs::text()));
     files.push(("docs/COVERAGE.md".to_owned(), coverage::text(&functions)));
     files.push(("docs/PROPERTIES.md".to_owned(), properties::text()));
     files.push(("docs/CALLBACKS.md".to_owned(), callbacks::text()));
     files.push(("docs/PLUGINS.md".to_owned(), plugins::text()));
-    files.push(("include/swanilda_plugin.h".to_owned(), plugin_header::text()));
+    files.push((
+        "include/swanilda_plugin.h".to_owned(),
+        plugin_header::text(),
+    ));
     files
 }
 
@@ -108,13 +128,18 @@ pub fn files() -> Vec<(String, String)> {
 pub fn stubs() -> Vec<(String, String)> {
     let sim = ("sim.lua".to_owned(), stubs::text(&functions()));
     let callbacks = ("callbacks.lua".to_owned(), callbacks::stub());
-    [sim, callbacks].into_iter().chain(module_stubs::files()).collect()
+    [sim, callbacks]
+        .into_iter()
+        .chain(module_stubs::files())
+        .collect()
 }
 
 /// Signature of a function of CoppeliaSim's reference, empty when unknown; None when there is no such function.
 pub fn reference_signature(name: &str) -> Option<&'static str> {
     let member = name.strip_prefix("sim.").unwrap_or(name);
-    reference().find(|row| row.name == member).map(|row| row.signature)
+    reference()
+        .find(|row| row.name == member)
+        .map(|row| row.signature)
 }
 
 /// One row of CoppeliaSim's reference.
@@ -148,7 +173,12 @@ fn reference() -> impl Iterator<Item = ReferenceRow> {
     api::SIM.reference.lines().map(|line| {
         let mut columns = line.split('\t');
         let mut next = || columns.next().unwrap_or_default();
-        ReferenceRow { name: next(), category: next(), age: Age::from_word(next()), signature: next() }
+        ReferenceRow {
+            name: next(),
+            category: next(),
+            age: Age::from_word(next()),
+            signature: next(),
+        }
     })
 }
 

@@ -12,8 +12,14 @@ pub(super) fn literal(value: &Data) -> String {
         Data::Int(value) => value.to_string(),
         Data::Float(value) => float(*value),
         Data::Text(bytes) | Data::Buffer(bytes) => string(bytes),
-        Data::Array(items) => format!("{{{}}}", items.iter().map(literal).collect::<Vec<_>>().join(", ")),
-        Data::Map(entries) => format!("{{{}}}", entries.iter().map(entry).collect::<Vec<_>>().join(", ")),
+        Data::Array(items) => format!(
+            "{{{}}}",
+            items.iter().map(literal).collect::<Vec<_>>().join(", ")
+        ),
+        Data::Map(entries) => format!(
+            "{{{}}}",
+            entries.iter().map(entry).collect::<Vec<_>>().join(", ")
+        ),
     }
 }
 
@@ -39,7 +45,9 @@ fn entry((key, value): &(Key, Data)) -> String {
 
 fn is_name(text: &[u8]) -> bool {
     text.first().is_some_and(|first| !first.is_ascii_digit())
-        && text.iter().all(|byte| byte.is_ascii_alphanumeric() || *byte == b'_')
+        && text
+            .iter()
+            .all(|byte| byte.is_ascii_alphanumeric() || *byte == b'_')
 }
 
 /// Three digits are an escape whatever follows.
@@ -68,12 +76,18 @@ mod tests {
         written(Data::Float(-1.0), "-1.0");
         written(Data::Float(f64::NEG_INFINITY), "-math.huge");
         written(Data::text("it's \\\n1"), "'it\\'s \\\\\\0101'");
-        written([[0.0, 0.5], [1.0, 1e-9]].into(), "{{0.0, 0.5}, {1.0, 1e-9}}");
+        written(
+            [[0.0, 0.5], [1.0, 1e-9]].into(),
+            "{{0.0, 0.5}, {1.0, 1e-9}}",
+        );
         let entries = vec![
             (Key::Text(b"noError".to_vec()), true.into()),
             (Key::Text(b"a b".to_vec()), Data::Array(Vec::new())),
             (Key::Int(0), Data::Nil),
         ];
-        written(Data::Map(entries), "{noError = true, ['a b'] = {}, [0] = nil}");
+        written(
+            Data::Map(entries),
+            "{noError = true, ['a b'] = {}, [0] = nil}",
+        );
     }
 }

@@ -23,7 +23,10 @@ const CATEGORIES: &[(&str, &str)] = &[
 
 /// The functions of the library's files.
 pub(super) fn functions() -> Vec<Function> {
-    api::SIM.member_files(FILES).flat_map(|(module, source)| in_file(module, source)).collect()
+    api::SIM
+        .member_files(FILES)
+        .flat_map(|(module, source)| in_file(module, source))
+        .collect()
 }
 
 /// The functions that the Lua part of a module describes: any comment with `@api module.name(...)`, and calls of `declare` with
@@ -32,7 +35,9 @@ pub(super) fn in_module(module: &str, source: &str) -> Vec<Function> {
     let mut found = Vec::new();
     for (comment, line) in comments(source) {
         let declarations = annotated(&comment).chain(declared(line));
-        found.extend(declarations.filter_map(|declaration| described(module, module, declaration, &comment)));
+        found.extend(
+            declarations.filter_map(|declaration| described(module, module, declaration, &comment)),
+        );
     }
     found
 }
@@ -63,11 +68,17 @@ fn declared(line: &str) -> Option<&str> {
 }
 
 fn in_file(module: &str, source: &str) -> Vec<Function> {
-    let category = CATEGORIES.iter().find(|(name, _)| *name == module).map_or("Other", |(_, category)| category);
+    let category = CATEGORIES
+        .iter()
+        .find(|(name, _)| *name == module)
+        .map_or("Other", |(_, category)| category);
     let mut found = Vec::new();
     for (comment, _) in comments(source).filter(|(_, line)| line.starts_with("function M.")) {
         let declarations = annotated(&comment);
-        found.extend(declarations.filter_map(|declaration| described("sim", category, declaration, &comment)));
+        found.extend(
+            declarations
+                .filter_map(|declaration| described("sim", category, declaration, &comment)),
+        );
     }
     found
 }
@@ -75,25 +86,42 @@ fn in_file(module: &str, source: &str) -> Vec<Function> {
 /// The parameters of a declaration, by name.
 #[cfg(test)]
 fn parameter_names(declaration: &str) -> impl Iterator<Item = &str> {
-    let parameters = declaration.split_once('(').map_or("", |(_, parameters)| parameters.trim_end_matches(')'));
+    let parameters = declaration
+        .split_once('(')
+        .map_or("", |(_, parameters)| parameters.trim_end_matches(')'));
     split_list(parameters).into_iter().map(|text| parts(text).1)
 }
 
 /// `int result = module.name(int parameter)`, with the comment above it.
-fn described(module: &str, category: &str, declaration: &str, comment: &[&str]) -> Option<Function> {
+fn described(
+    module: &str,
+    category: &str,
+    declaration: &str,
+    comment: &[&str],
+) -> Option<Function> {
     let (head, parameters) = declaration.split_once('(')?;
     let (results, name) = head.split_once(" = ").unwrap_or(("", head));
     if !belongs(module, name) {
         return None;
     }
-    let prose: Vec<&str> = comment.iter().copied().filter(|line| !line.starts_with("@api ")).collect();
+    let prose: Vec<&str> = comment
+        .iter()
+        .copied()
+        .filter(|line| !line.starts_with("@api "))
+        .collect();
     let doc = Doc::parse(&prose.join("\n"));
     let parameters = split_list(parameters.trim_end().strip_suffix(')')?);
     Some(Function {
         name: name.to_owned(),
         category: category.to_owned(),
-        parameters: parameters.iter().map(|text| parameter(text, &doc)).collect(),
-        results: split_list(results).iter().map(|text| result(text, &doc)).collect(),
+        parameters: parameters
+            .iter()
+            .map(|text| parameter(text, &doc))
+            .collect(),
+        results: split_list(results)
+            .iter()
+            .map(|text| result(text, &doc))
+            .collect(),
         text: doc.text,
         alias_of: None,
         deprecated: None,
@@ -103,7 +131,10 @@ fn described(module: &str, category: &str, declaration: &str, comment: &[&str]) 
 /// `module.name`, `module:name`, and `Class:name` for the classes of a module.
 fn belongs(module: &str, name: &str) -> bool {
     let is_class = name.starts_with(char::is_uppercase) && name.contains(':');
-    is_class || name.strip_prefix(module).is_some_and(|rest| rest.starts_with(['.', ':']))
+    is_class
+        || name
+            .strip_prefix(module)
+            .is_some_and(|rest| rest.starts_with(['.', ':']))
 }
 
 fn parameter(text: &str, doc: &Doc) -> Parameter {
@@ -128,7 +159,11 @@ fn parts(text: &str) -> (&str, &str, Option<&str>) {
 
 fn result(text: &str, doc: &Doc) -> Returned {
     let (ty, name) = text.rsplit_once(' ').unwrap_or((text, "result"));
-    Returned { name: name.to_owned(), ty: ty.to_owned(), text: doc.of_result(name) }
+    Returned {
+        name: name.to_owned(),
+        ty: ty.to_owned(),
+        text: doc.of_result(name),
+    }
 }
 
 /// Splits at commas outside of braces and quotes.
@@ -143,7 +178,10 @@ fn split_list(text: &str) -> Vec<&str> {
         }
         c == ',' && depth == 0 && !is_quoted
     });
-    parts.map(str::trim).filter(|part| !part.is_empty()).collect()
+    parts
+        .map(str::trim)
+        .filter(|part| !part.is_empty())
+        .collect()
 }
 
 #[cfg(test)]
@@ -154,25 +192,50 @@ mod tests {
     fn reads_a_comment() {
         let text = "--- Waits.\n-- Long.\n-- @api float left = sim.wait(float dt, int[2] v = {1, 2}, ...)\n-- @param dt seconds\n\
                     -- @return left overshoot\nfunction M.wait() end\n";
-        let [function] = &in_file("sim/thread", text)[..] else { panic!("one function") };
-        assert_eq!(function.signature(), "float left = sim.wait(float dt, int[2] v = {1, 2}, ...)");
-        assert_eq!((function.text.as_str(), function.category.as_str()), ("Waits.\nLong.", "Threads"));
-        assert_eq!((function.parameters[0].text.as_str(), function.results[0].text.as_str()), ("seconds", "overshoot"));
+        let [function] = &in_file("sim/thread", text)[..] else {
+            panic!("one function")
+        };
+        assert_eq!(
+            function.signature(),
+            "float left = sim.wait(float dt, int[2] v = {1, 2}, ...)"
+        );
+        assert_eq!(
+            (function.text.as_str(), function.category.as_str()),
+            ("Waits.\nLong.", "Threads")
+        );
+        assert_eq!(
+            (
+                function.parameters[0].text.as_str(),
+                function.results[0].text.as_str()
+            ),
+            ("seconds", "overshoot")
+        );
     }
 
     /// What each `@param` names that is no parameter of the function below: what the declarations of a comment say, or else the code.
     fn strays(source: &str) -> Vec<String> {
-        let source: String = source.lines().map(|line| line.trim_start().to_owned() + "\n").collect();
+        let source: String = source
+            .lines()
+            .map(|line| line.trim_start().to_owned() + "\n")
+            .collect();
         let mut strays = Vec::new();
         for (comment, line) in comments(&source) {
             let mut declarations: Vec<&str> = annotated(&comment).chain(declared(line)).collect();
             if declarations.is_empty() {
-                let code = line.split_once("function").and_then(|(_, code)| code.split_once(')'));
+                let code = line
+                    .split_once("function")
+                    .and_then(|(_, code)| code.split_once(')'));
                 declarations.extend(code.map(|(head, _)| head));
             }
             let known: Vec<&str> = declarations.into_iter().flat_map(parameter_names).collect();
-            let named = comment.iter().filter_map(|line| line.strip_prefix("@param")?.split_whitespace().next());
-            strays.extend(named.filter(|name| !known.contains(name)).map(str::to_owned));
+            let named = comment
+                .iter()
+                .filter_map(|line| line.strip_prefix("@param")?.split_whitespace().next());
+            strays.extend(
+                named
+                    .filter(|name| !known.contains(name))
+                    .map(str::to_owned),
+            );
         }
         strays
     }
@@ -182,15 +245,26 @@ mod tests {
         let mut described = 0;
         for (file, source) in FILES {
             described += source.matches("-- @param ").count();
-            assert_eq!(strays(source), [""; 0], "lua/{file}.lua describes what is no parameter");
+            assert_eq!(
+                strays(source),
+                [""; 0],
+                "lua/{file}.lua describes what is no parameter"
+            );
         }
         assert!(described > 400, "{described} descriptions were read");
     }
 
     #[test]
     fn a_description_of_no_parameter_is_found() {
-        let above = |line: &str| strays(&format!("--- Text.\n-- @param a one\n-- @param b, c two\n{line}"));
-        assert_eq!(above("-- @api sim.f(int a, int[] b = {1}, int c)\nfunction M.f(b) end"), ["b,"]);
+        let above = |line: &str| {
+            strays(&format!(
+                "--- Text.\n-- @param a one\n-- @param b, c two\n{line}"
+            ))
+        };
+        assert_eq!(
+            above("-- @api sim.f(int a, int[] b = {1}, int c)\nfunction M.f(b) end"),
+            ["b,"]
+        );
         assert_eq!(above("declare('simEigen.f(int a)', f)"), ["b,"]);
         assert_eq!(above("    local function f(c, a)"), ["b,"]);
         assert_eq!(above("local a = 1"), ["a", "b,"]);

@@ -21,7 +21,10 @@ pub(super) enum Kind<'a> {
 
 /// The tokens of `source`.
 pub(super) fn tokens(source: &[u8]) -> Vec<Token<'_>> {
-    let mut reader = Reader { rest: source, line: 1 };
+    let mut reader = Reader {
+        rest: source,
+        line: 1,
+    };
     let mut found = Vec::new();
     if source.starts_with(b"#") {
         reader.skip_line();
@@ -63,14 +66,22 @@ impl<'a> Reader<'a> {
     }
 
     fn skip_line(&mut self) {
-        let end = self.rest.iter().position(|byte| *byte == b'\n').unwrap_or(self.rest.len());
+        let end = self
+            .rest
+            .iter()
+            .position(|byte| *byte == b'\n')
+            .unwrap_or(self.rest.len());
         self.take(end);
     }
 
     /// Skips white space and comments.
     fn skip_blanks(&mut self) {
         loop {
-            let blanks = self.rest.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
+            let blanks = self
+                .rest
+                .iter()
+                .take_while(|byte| byte.is_ascii_whitespace())
+                .count();
             self.take(blanks);
             if !self.rest.starts_with(b"--") {
                 return;
@@ -84,7 +95,10 @@ impl<'a> Reader<'a> {
     }
 
     fn word(&mut self) -> &'a [u8] {
-        let end = self.rest.iter().position(|byte| !is_letter(*byte) && !byte.is_ascii_digit());
+        let end = self
+            .rest
+            .iter()
+            .position(|byte| !is_letter(*byte) && !byte.is_ascii_digit());
         self.take(end.unwrap_or(self.rest.len()))
     }
 
@@ -116,7 +130,11 @@ impl<'a> Reader<'a> {
         let level = long_bracket(self.rest).unwrap_or(0);
         self.take(level + 2);
         let close = [b"]".as_slice(), &vec![b'='; level], b"]"].concat();
-        let end = self.rest.windows(close.len()).position(|window| window == close).unwrap_or(self.rest.len());
+        let end = self
+            .rest
+            .windows(close.len())
+            .position(|window| window == close)
+            .unwrap_or(self.rest.len());
         let text = self.take(end);
         self.take(close.len());
         text
@@ -145,7 +163,10 @@ fn join_chains(tokens: Vec<Token<'_>>) -> Vec<Token<'_>> {
         });
         if token.kind == Kind::Sign(b'.')
             && let Some(member) = member
-            && let Some(Token { kind: Kind::Name(owner), .. }) = joined.last_mut()
+            && let Some(Token {
+                kind: Kind::Name(owner),
+                ..
+            }) = joined.last_mut()
             && !KEYWORDS.contains(&owner.as_str())
         {
             owner.push('.');
@@ -159,8 +180,9 @@ fn join_chains(tokens: Vec<Token<'_>>) -> Vec<Token<'_>> {
 }
 
 /// Words of the language that may stand before a dot only by mistake, or before `..`.
-const KEYWORDS: &[&str] =
-    &["and", "do", "else", "end", "false", "if", "in", "nil", "not", "or", "return", "then", "true"];
+const KEYWORDS: &[&str] = &[
+    "and", "do", "else", "end", "false", "if", "in", "nil", "not", "or", "return", "then", "true",
+];
 
 #[cfg(test)]
 mod tests {
@@ -173,7 +195,10 @@ mod tests {
             Kind::Text(text) => Some(format!("'{}'", String::from_utf8_lossy(text))),
             Kind::Sign(_) => None,
         };
-        tokens(source.as_bytes()).iter().filter_map(|token| Some((text(&token.kind)?, token.line))).collect()
+        tokens(source.as_bytes())
+            .iter()
+            .filter_map(|token| Some((text(&token.kind)?, token.line)))
+            .collect()
     }
 
     fn names(source: &str) -> Vec<String> {
@@ -190,24 +215,36 @@ mod tests {
 
     #[test]
     fn comments_are_gone_and_strings_whole() {
-        assert_eq!(names("f() -- sim.a\ng() --[[ sim.b\n]] h()"), ["f", "g", "h"]);
+        assert_eq!(
+            names("f() -- sim.a\ng() --[[ sim.b\n]] h()"),
+            ["f", "g", "h"]
+        );
         assert_eq!(names("--[==[ ]] sim.a ]==] x"), ["x"]);
         assert_eq!(names(r#"p('sim.a \' b') q"#), ["p", r"'sim.a \' b'", "q"]);
-        assert_eq!(names("p[[a]] q[=[ ]] ]=] t[1]"), ["p", "'a'", "q", "' ]] '", "t"]);
+        assert_eq!(
+            names("p[[a]] q[=[ ]] ]=] t[1]"),
+            ["p", "'a'", "q", "' ]] '", "t"]
+        );
         assert_eq!(names("#!/bin/lua sim.a\nx"), ["x"]);
     }
 
     #[test]
     fn lines_are_counted_everywhere() {
         assert_eq!(
-            seen("--[[\n\n]]a\n[[\n]]b'\\\n'c").iter().map(|(_, line)| *line).collect::<Vec<_>>(),
+            seen("--[[\n\n]]a\n[[\n]]b'\\\n'c")
+                .iter()
+                .map(|(_, line)| *line)
+                .collect::<Vec<_>>(),
             [3, 4, 5, 5, 6]
         );
     }
 
     #[test]
     fn what_is_not_closed_ends_with_the_line_or_the_file() {
-        assert_eq!(names("a 'b\nc"), ["a", "'b", "c"].map(|name| name.replace("'b", "'b'")));
+        assert_eq!(
+            names("a 'b\nc"),
+            ["a", "'b", "c"].map(|name| name.replace("'b", "'b'"))
+        );
         assert_eq!(names("a [[b\nc"), ["a", "'b\nc'"]);
         assert_eq!(names("a '\\"), ["a", r"'\'"]);
         assert_eq!(names("--[["), [""; 0]);

@@ -11,11 +11,17 @@ use super::row::Function;
 pub(super) fn pages(functions: &[Function]) -> Vec<(String, String)> {
     let mut categories: BTreeMap<&str, Vec<&Function>> = BTreeMap::new();
     for function in functions {
-        categories.entry(&function.category).or_default().push(function);
+        categories
+            .entry(&function.category)
+            .or_default()
+            .push(function);
     }
     let mut pages = vec![("docs/api/README.md".to_owned(), index(&categories))];
     for (category, functions) in &categories {
-        pages.push((format!("docs/api/{}.md", slug(category)), page(category, functions)));
+        pages.push((
+            format!("docs/api/{}.md", slug(category)),
+            page(category, functions),
+        ));
     }
     pages
 }
@@ -30,11 +36,17 @@ fn index(categories: &BTreeMap<&str, Vec<&Function>>) -> String {
     );
     for (category, functions) in categories {
         let _ = write!(out, "\n## [{category}]({}.md)\n\n", slug(category));
-        let links = functions.iter().map(|f| format!("[{}]({}.md#{})", f.name, slug(category), anchor(&f.name)));
+        let links = functions
+            .iter()
+            .map(|f| format!("[{}]({}.md#{})", f.name, slug(category), anchor(&f.name)));
         let _ = writeln!(out, "{}", links.collect::<Vec<_>>().join(" · "));
     }
     let links = modules::names().map(|name| format!("[{name}](modules.md#{})", anchor(&name)));
-    let _ = write!(out, "\n## [Modules](modules.md)\n\n{}\n", links.collect::<Vec<_>>().join(" · "));
+    let _ = write!(
+        out,
+        "\n## [Modules](modules.md)\n\n{}\n",
+        links.collect::<Vec<_>>().join(" · ")
+    );
     out
 }
 
@@ -49,7 +61,11 @@ fn page(category: &str, functions: &[&Function]) -> String {
 pub(super) fn body(function: &Function) -> String {
     let mut out = String::new();
     if let Some(replacement) = &function.deprecated {
-        let advice = if replacement.is_empty() { String::new() } else { format!("; use `{replacement}`") };
+        let advice = if replacement.is_empty() {
+            String::new()
+        } else {
+            format!("; use `{replacement}`")
+        };
         let _ = write!(out, "**Deprecated**{advice}.\n\n");
     }
     if let Some(name) = &function.alias_of {
@@ -65,9 +81,16 @@ pub(super) fn body(function: &Function) -> String {
     if !function.text.is_empty() {
         let _ = write!(out, "\n{}\n", function.text);
     }
-    let parameters = function.parameters.iter().filter(|p| !p.text.is_empty()).map(|p| item(&p.name, &p.text));
-    let results =
-        function.results.iter().filter(|r| !r.text.is_empty()).map(|r| format!("- → {}", &item(&r.name, &r.text)[2..]));
+    let parameters = function
+        .parameters
+        .iter()
+        .filter(|p| !p.text.is_empty())
+        .map(|p| item(&p.name, &p.text));
+    let results = function
+        .results
+        .iter()
+        .filter(|r| !r.text.is_empty())
+        .map(|r| format!("- → {}", &item(&r.name, &r.text)[2..]));
     let items: String = parameters.chain(results).collect();
     if !items.is_empty() {
         let _ = write!(out, "\n{items}");
@@ -81,7 +104,12 @@ fn item(name: &str, text: &str) -> String {
 
 /// One function for a terminal.
 pub fn function_text(function: &Function) -> String {
-    format!("{} ({})\n\n{}", function.name, function.category, body(function).replace("```\n", ""))
+    format!(
+        "{} ({})\n\n{}",
+        function.name,
+        function.category,
+        body(function).replace("```\n", "")
+    )
 }
 
 fn slug(category: &str) -> String {

@@ -112,9 +112,17 @@ pub(super) fn own_pages() -> Vec<(String, String)> {
 
 fn own_page(module: &str, functions: &[Function]) -> String {
     let summary = summary(module);
-    let mut out = format!("# {module}\n\n[All modules](modules.md)\n\n{summary}\n{}", section(details(module), ""));
+    let mut out = format!(
+        "# {module}\n\n[All modules](modules.md)\n\n{summary}\n{}",
+        section(details(module), "")
+    );
     for function in functions {
-        let _ = write!(out, "\n## {}\n\n{}", function.name, markdown::body(function));
+        let _ = write!(
+            out,
+            "\n## {}\n\n{}",
+            function.name,
+            markdown::body(function)
+        );
     }
     out
 }
@@ -122,7 +130,11 @@ fn own_page(module: &str, functions: &[Function]) -> String {
 /// The functions of a module, if types of some are known.
 fn described(module: &str) -> Vec<Function> {
     let functions = module_stubs::of_module(module);
-    if functions.iter().any(Function::is_typed) { functions } else { Vec::new() }
+    if functions.iter().any(Function::is_typed) {
+        functions
+    } else {
+        Vec::new()
+    }
 }
 
 /// The names of the modules.
@@ -132,17 +144,28 @@ pub(super) fn names() -> impl Iterator<Item = String> {
 
 /// Path below `lua` and text of every module for scripts.
 pub(super) fn public() -> impl Iterator<Item = (String, &'static str)> {
-    let files = FILES.iter().filter(|(name, _)| !name.starts_with("sim/") && !INNER.contains(name));
-    let native = ALL.iter().filter(|module| module.name != "sim" && module.public_functions().next().is_some());
+    let files = FILES
+        .iter()
+        .filter(|(name, _)| !name.starts_with("sim/") && !INNER.contains(name));
+    let native = ALL
+        .iter()
+        .filter(|module| module.name != "sim" && module.public_functions().next().is_some());
     let paths = native.map(|module| module.name.replace('.', "/"));
-    let native = paths.filter(|path| !FILES.iter().any(|(name, _)| name == path)).map(|path| (path, ""));
-    files.map(|&(name, source)| (name.to_owned(), source)).chain(native)
+    let native = paths
+        .filter(|path| !FILES.iter().any(|(name, _)| name == path))
+        .map(|path| (path, ""));
+    files
+        .map(|&(name, source)| (name.to_owned(), source))
+        .chain(native)
 }
 
 /// Summary of a module.
 pub(super) fn summary(module: &str) -> &'static str {
     match about(module) {
-        "" => head(source_of(module)).split("\n\n").next().unwrap_or_default(),
+        "" => head(source_of(module))
+            .split("\n\n")
+            .next()
+            .unwrap_or_default(),
         about => about,
     }
 }
@@ -157,24 +180,35 @@ pub(super) fn details(module: &str) -> &'static str {
 }
 
 fn about(module: &str) -> &'static str {
-    ALL.iter().find(|of| of.name == module).map_or("", |of| of.about)
+    ALL.iter()
+        .find(|of| of.name == module)
+        .map_or("", |of| of.about)
 }
 
 /// The Lua part of a module; empty without one.
 pub(super) fn source_of(module: &str) -> &'static str {
     let path = module.replace('.', "/");
-    public().find(|(known, _)| *known == path).map_or("", |(_, source)| source)
+    public()
+        .find(|(known, _)| *known == path)
+        .map_or("", |(_, source)| source)
 }
 
 /// The files that a module loads from the folder of its name.
 pub(super) fn parts(module: &str) -> impl Iterator<Item = &'static str> {
     let folder = module.replace('.', "/") + "/";
-    FILES.iter().filter(move |(name, _)| name.starts_with(&folder) && INNER.contains(name)).map(|(_, source)| *source)
+    FILES
+        .iter()
+        .filter(move |(name, _)| name.starts_with(&folder) && INNER.contains(name))
+        .map(|(_, source)| *source)
 }
 
 /// The comment a file begins with.
 pub(super) fn head(source: &str) -> &str {
-    source.strip_prefix("--[[").and_then(|rest| rest.split_once("]]")).map_or("", |(head, _)| head).trim()
+    source
+        .strip_prefix("--[[")
+        .and_then(|rest| rest.split_once("]]"))
+        .map_or("", |(head, _)| head)
+        .trim()
 }
 
 /// Details as they are, and the list of functions of a source.
@@ -193,13 +227,19 @@ fn section(details: &str, source: &str) -> String {
 /// A line for each function below a comment of three dashes.
 fn functions(source: &str) -> impl Iterator<Item = String> {
     let lines: Vec<&str> = source.lines().collect();
-    let starts: Vec<usize> =
-        (0..lines.len()).filter(|&i| lines[i].starts_with("---") && !lines[i].starts_with("----")).collect();
+    let starts: Vec<usize> = (0..lines.len())
+        .filter(|&i| lines[i].starts_with("---") && !lines[i].starts_with("----"))
+        .collect();
     starts.into_iter().filter_map(move |start| {
         let end = (start..lines.len()).find(|&i| !lines[i].starts_with("--"))?;
         let declaration = lines[end].strip_prefix("function ")?.split_once(')')?.0;
-        let text: Vec<&str> = lines[start..end].iter().map(|line| line.trim_start_matches('-').trim()).collect();
-        let name = declaration.split_once(['.', ':']).map_or(declaration, |(_, name)| name);
+        let text: Vec<&str> = lines[start..end]
+            .iter()
+            .map(|line| line.trim_start_matches('-').trim())
+            .collect();
+        let name = declaration
+            .split_once(['.', ':'])
+            .map_or(declaration, |(_, name)| name);
         Some(format!("- `{name})`: {}\n", text.join(" ")))
     })
 }
@@ -210,7 +250,11 @@ mod tests {
 
     #[test]
     fn details_and_comments_make_a_section() {
-        let source = "local M = {}\n\n--- The sum\n-- of both.\nfunction M.add(a, b) return a + b end\n";
-        assert_eq!(section("Not more.", source), "\n```text\nNot more.\n```\n\n- `add(a, b)`: The sum of both.\n");
+        let source =
+            "local M = {}\n\n--- The sum\n-- of both.\nfunction M.add(a, b) return a + b end\n";
+        assert_eq!(
+            section("Not more.", source),
+            "\n```text\nNot more.\n```\n\n- `add(a, b)`: The sum of both.\n"
+        );
     }
 }

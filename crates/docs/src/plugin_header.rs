@@ -21,7 +21,13 @@ pub(super) fn text() -> String {
     for row in plugin_host::symbols().filter(|row| !row.is_missing()) {
         // Without the suffix for double precision, as plugins call it.
         let name = row.symbol.trim_end_matches("_D");
-        let _ = write!(out, " \\\n    X({}, {name}, \"{}\", ({}))", row.c_result(), row.symbol, row.c_params());
+        let _ = write!(
+            out,
+            " \\\n    X({}, {name}, \"{}\", ({}))",
+            row.c_result(),
+            row.symbol,
+            row.c_params()
+        );
     }
     out.push_str("\n\n");
     out.push_str(END);

@@ -22,7 +22,9 @@ pub(super) fn all() -> Vec<(ReferenceModule, State)> {
         None if here.iter().any(|known| known == name) => State::Works,
         None => State::Missing,
     };
-    ReferenceModule::all().map(|module| (module, state(module.name))).collect()
+    ReferenceModule::all()
+        .map(|module| (module, state(module.name)))
+        .collect()
 }
 
 /// `docs/PLUGINS.md`.
@@ -36,10 +38,19 @@ pub(super) fn text() -> String {
     for (kind, title) in [
         ("plugin", "Plugins"),
         ("library", "Lua modules of CoppeliaSim"),
-        ("third-party library", "Third-party Lua modules that come with CoppeliaSim"),
+        (
+            "third-party library",
+            "Third-party Lua modules that come with CoppeliaSim",
+        ),
     ] {
-        let rows: Vec<_> = all().into_iter().filter(|(module, _)| module.kind == kind).collect();
-        let here = rows.iter().filter(|(_, state)| *state != State::Missing).count();
+        let rows: Vec<_> = all()
+            .into_iter()
+            .filter(|(module, _)| module.kind == kind)
+            .collect();
+        let here = rows
+            .iter()
+            .filter(|(_, state)| *state != State::Missing)
+            .count();
         let _ = write!(
             out,
             "\n## {title}\n\n{here} of {} are here.\n\n| module | for | state | instead |\n|---|---|---|---|\n",
@@ -55,8 +66,10 @@ pub(super) fn text() -> String {
 
 /// Which functions native plugins can call.
 fn c_interface() -> String {
-    let missing: Vec<String> =
-        symbols().filter(|row| row.is_missing()).map(|row| format!("`{}`", row.symbol)).collect();
+    let missing: Vec<String> = symbols()
+        .filter(|row| row.is_missing())
+        .map(|row| format!("`{}`", row.symbol))
+        .collect();
     let all = symbols().count();
     format!(
         "\n## Functions of the C interface\n\n{} of the {all} functions that the two versions of CoppeliaSim's loaders for plugins look up \
@@ -84,8 +97,15 @@ mod tests {
     #[test]
     fn every_function_of_scripts_that_plugins_call_is_there() {
         let registry = modules::registry();
-        let is_there = |name: &str| matches!(registry.find(name), Some(Member::Native(_) | Member::Lua { .. }));
-        let called = symbols().map(|row| row.function).filter(|function| function.starts_with("sim."));
+        let is_there = |name: &str| {
+            matches!(
+                registry.find(name),
+                Some(Member::Native(_) | Member::Lua { .. })
+            )
+        };
+        let called = symbols()
+            .map(|row| row.function)
+            .filter(|function| function.starts_with("sim."));
         let missing: Vec<_> = called.filter(|function| !is_there(function)).collect();
         assert!(missing.is_empty(), "{missing:?}");
     }

@@ -52,18 +52,40 @@ pub(super) fn text() -> String {
         count("constant")
     );
     for (part, title) in PARTS {
-        let _ = write!(out, "\n## {title}\n\n| name | type | access | state |\n|---|---|---|---|\n");
+        let _ = write!(
+            out,
+            "\n## {title}\n\n| name | type | access | state |\n|---|---|---|---|\n"
+        );
         for line in lines.iter().filter(|line| line.part == part) {
-            let _ = writeln!(out, "| `{}` | {} | {} | {} |", line.name, line.ty.word(), access(line.flags), line.state);
+            let _ = writeln!(
+                out,
+                "| `{}` | {} | {} | {} |",
+                line.name,
+                line.ty.word(),
+                access(line.flags),
+                line.state
+            );
         }
     }
     out
 }
 
 fn access(flags: i64) -> String {
-    let read = if flags & flags::NOT_READABLE == 0 { "R" } else { "" };
-    let write = if flags & flags::NOT_WRITABLE == 0 { "W" } else { "" };
-    let deprecated = if flags & flags::DEPRECATED == 0 { "" } else { ", deprecated" };
+    let read = if flags & flags::NOT_READABLE == 0 {
+        "R"
+    } else {
+        ""
+    };
+    let write = if flags & flags::NOT_WRITABLE == 0 {
+        "W"
+    } else {
+        ""
+    };
+    let deprecated = if flags & flags::DEPRECATED == 0 {
+        ""
+    } else {
+        ", deprecated"
+    };
     format!("{read}{write}{deprecated}")
 }
 
@@ -73,6 +95,10 @@ mod tests {
 
     #[test]
     fn every_part_has_a_title() {
-        assert!(described().iter().all(|line| PARTS.iter().any(|(part, _)| *part == line.part)));
+        assert!(
+            described()
+                .iter()
+                .all(|line| PARTS.iter().any(|(part, _)| *part == line.part))
+        );
     }
 }

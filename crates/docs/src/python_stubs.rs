@@ -19,9 +19,10 @@ from typing import Any, Literal, overload
 
 /// Words that cannot name a parameter.
 const KEYWORDS: &[&str] = &[
-    "and", "as", "assert", "async", "await", "break", "class", "continue", "def", "del", "elif", "else", "except",
-    "finally", "for", "from", "global", "if", "import", "in", "is", "lambda", "nonlocal", "not", "or", "pass", "raise",
-    "return", "self", "try", "while", "with", "yield", "None", "True", "False",
+    "and", "as", "assert", "async", "await", "break", "class", "continue", "def", "del", "elif",
+    "else", "except", "finally", "for", "from", "global", "if", "import", "in", "is", "lambda",
+    "nonlocal", "not", "or", "pass", "raise", "return", "self", "try", "while", "with", "yield",
+    "None", "True", "False",
 ];
 
 /// The file.
@@ -30,12 +31,20 @@ pub(super) fn text() -> String {
     let mut names = Vec::new();
     let mut required: BTreeSet<String> = module_names().into_iter().collect();
     required.insert("sim".to_owned());
-    let of_sim = functions().into_iter().filter(|function| function.name.starts_with("sim."));
+    let of_sim = functions()
+        .into_iter()
+        .filter(|function| function.name.starts_with("sim."));
     let all: Vec<Function> = of_sim.chain(module_functions()).collect();
-    let modules = all.iter().filter_map(|function| module_of(function)).filter(|name| required.contains(*name));
+    let modules = all
+        .iter()
+        .filter_map(|function| module_of(function))
+        .filter(|name| required.contains(*name));
     let modules: BTreeSet<&str> = modules.collect();
     for module in modules {
-        let members: Vec<&Function> = all.iter().filter(|function| module_of(function) == Some(module)).collect();
+        let members: Vec<&Function> = all
+            .iter()
+            .filter(|function| module_of(function) == Some(module))
+            .collect();
         declare_module(&mut out, module, &members);
         names.push(module);
     }
@@ -65,7 +74,11 @@ fn class(module: &str) -> String {
 fn declare_module(out: &mut String, module: &str, members: &[&Function]) {
     let _ = writeln!(out, "\nclass {}:", class(module));
     let mut enumerations = BTreeSet::new();
-    for (name, _) in ALL.iter().filter(|of| of.name == module).flat_map(|of| pairs(of.constants)) {
+    for (name, _) in ALL
+        .iter()
+        .filter(|of| of.name == module)
+        .flat_map(|of| pairs(of.constants))
+    {
         match name.split_once('.') {
             Some((enumeration, _)) if enumerations.insert(enumeration) => {
                 let _ = writeln!(out, "    {enumeration}: Any");
@@ -83,7 +96,11 @@ fn declare_module(out: &mut String, module: &str, members: &[&Function]) {
 
 fn declare(out: &mut String, function: &Function) {
     let member = function.name.rsplit('.').next().unwrap_or_default();
-    let signature = format!("def {member}({}) -> {}:", parameters(&function.parameters), result(function));
+    let signature = format!(
+        "def {member}({}) -> {}:",
+        parameters(&function.parameters),
+        result(function)
+    );
     let lines = doc(function);
     if lines.is_empty() {
         let _ = writeln!(out, "    {signature} ...");
@@ -101,11 +118,20 @@ fn declare(out: &mut String, function: &Function) {
 fn doc(function: &Function) -> Vec<String> {
     let escaped = |line: &str| line.replace('\\', "\\\\").replace("\"\"\"", "'''");
     let mut lines: Vec<String> = function.text.lines().map(escaped).collect();
-    if let Some(replacement) = function.deprecated.as_deref().filter(|replacement| !replacement.is_empty()) {
+    if let Some(replacement) = function
+        .deprecated
+        .as_deref()
+        .filter(|replacement| !replacement.is_empty())
+    {
         lines.push(format!("Deprecated: use {replacement}."));
     }
-    let described = function.parameters.iter().filter(|parameter| !parameter.text.is_empty());
-    lines.extend(described.map(|parameter| escaped(&format!("{}: {}", parameter.name, parameter.text))));
+    let described = function
+        .parameters
+        .iter()
+        .filter(|parameter| !parameter.text.is_empty());
+    lines.extend(
+        described.map(|parameter| escaped(&format!("{}: {}", parameter.name, parameter.text))),
+    );
     lines
 }
 
@@ -119,7 +145,9 @@ fn parameters(parameters: &[Parameter]) -> String {
             break;
         }
         is_optional |= parameter.default.is_some() || parameter.ty == "any";
-        let mut name = parameter.name.replace(|c: char| !c.is_ascii_alphanumeric() && c != '_', "_");
+        let mut name = parameter
+            .name
+            .replace(|c: char| !c.is_ascii_alphanumeric() && c != '_', "_");
         if KEYWORDS.contains(&name.as_str()) || !seen.insert(name.clone()) {
             name.push('_');
         }
@@ -158,12 +186,23 @@ fn result(function: &Function) -> String {
     if !function.is_typed() && function.results.is_empty() {
         return "Any".to_owned();
     }
-    let types: Vec<&str> = function.results.iter().map(|result| result.ty.as_str()).collect();
+    let types: Vec<&str> = function
+        .results
+        .iter()
+        .map(|result| result.ty.as_str())
+        .collect();
     match types[..] {
         [] => "None".to_owned(),
         [one] if !one.ends_with("...") => returned(one),
         _ if types.iter().any(|ty| ty.ends_with("...")) => "Any".to_owned(),
-        _ => format!("tuple[{}]", types.iter().map(|ty| returned(ty)).collect::<Vec<_>>().join(", ")),
+        _ => format!(
+            "tuple[{}]",
+            types
+                .iter()
+                .map(|ty| returned(ty))
+                .collect::<Vec<_>>()
+                .join(", ")
+        ),
     }
 }
 
@@ -196,8 +235,15 @@ mod tests {
             default: default.map(Into::into),
             text: String::new(),
         };
-        let all = [parameter("in", None), parameter("b", Some("1")), parameter("c", None)];
-        assert_eq!(parameters(&all), "self, in_: int, b: int | None = ..., c: int | None = ..., /");
+        let all = [
+            parameter("in", None),
+            parameter("b", Some("1")),
+            parameter("c", None),
+        ];
+        assert_eq!(
+            parameters(&all),
+            "self, in_: int, b: int | None = ..., c: int | None = ..., /"
+        );
     }
 
     #[test]

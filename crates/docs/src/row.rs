@@ -70,8 +70,12 @@ impl Function {
 
     /// A function of which only the names of its parameters are known.
     pub(super) fn untyped(name: String, category: &str, parameters: &[String], text: &str) -> Self {
-        let parameter =
-            |name: &String| Parameter { name: name.clone(), ty: "any".to_owned(), default: None, text: String::new() };
+        let parameter = |name: &String| Parameter {
+            name: name.clone(),
+            ty: "any".to_owned(),
+            default: None,
+            text: String::new(),
+        };
         Self {
             name,
             category: category.to_owned(),
@@ -85,12 +89,20 @@ impl Function {
 
     /// Whether types are known, be it of parameters or of results.
     pub(super) fn is_typed(&self) -> bool {
-        !self.results.is_empty() || self.parameters.iter().any(|parameter| parameter.ty != "any")
+        !self.results.is_empty()
+            || self
+                .parameters
+                .iter()
+                .any(|parameter| parameter.ty != "any")
     }
 
     /// The same function by another name.
     pub(super) fn renamed(&self, name: &str) -> Self {
-        Self { name: name.to_owned(), alias_of: Some(self.name.clone()), ..self.clone() }
+        Self {
+            name: name.to_owned(),
+            alias_of: Some(self.name.clone()),
+            ..self.clone()
+        }
     }
 
     /// The name without `sim.`.
@@ -106,15 +118,26 @@ impl Function {
     /// `float[3] position = sim.getObjectPosition(int objectHandle, int relativeTo = sim.handle_world)`.
     pub fn signature(&self) -> String {
         let parameters: Vec<String> = self.parameters.iter().map(Parameter::declaration).collect();
-        let results: Vec<String> = self.results.iter().map(|r| format!("{} {}", r.ty, r.name)).collect();
+        let results: Vec<String> = self
+            .results
+            .iter()
+            .map(|r| format!("{} {}", r.ty, r.name))
+            .collect();
         let assignment = if results.is_empty() { "" } else { " = " };
-        format!("{}{assignment}{}({})", results.join(", "), self.name, parameters.join(", "))
+        format!(
+            "{}{assignment}{}({})",
+            results.join(", "),
+            self.name,
+            parameters.join(", ")
+        )
     }
 
     /// The first sentence.
     pub fn summary(&self) -> &str {
         let line = self.text.lines().next().unwrap_or_default();
-        line.split_once(". ").map_or(line, |(sentence, _)| sentence).trim_end_matches('.')
+        line.split_once(". ")
+            .map_or(line, |(sentence, _)| sentence)
+            .trim_end_matches('.')
     }
 }
 
@@ -149,16 +172,27 @@ impl Doc {
                 text.push(line);
             }
         }
-        Self { text: text.join("\n").trim().to_owned(), parameters, returns }
+        Self {
+            text: text.join("\n").trim().to_owned(),
+            parameters,
+            returns,
+        }
     }
 
     pub(super) fn of_parameter(&self, name: &str) -> String {
-        self.parameters.iter().find(|(known, _)| known == name).map(|(_, text)| text.clone()).unwrap_or_default()
+        self.parameters
+            .iter()
+            .find(|(known, _)| known == name)
+            .map(|(_, text)| text.clone())
+            .unwrap_or_default()
     }
 
     /// Description of the result `name`.
     pub(super) fn of_result(&self, name: &str) -> String {
-        let said = self.returns.iter().filter_map(|line| line.strip_prefix(name)?.strip_prefix(' '));
+        let said = self
+            .returns
+            .iter()
+            .filter_map(|line| line.strip_prefix(name)?.strip_prefix(' '));
         said.collect::<Vec<_>>().join(" ")
     }
 
@@ -172,8 +206,16 @@ impl Doc {
         let described = types.iter().enumerate().map(|(i, ty)| {
             let line = lines.get(i).copied().unwrap_or_default();
             let (name, text) = line.split_once(' ').unwrap_or((line, ""));
-            let name = if name.is_empty() { "result" } else { name.trim_end_matches(',') };
-            Returned { name: name.to_owned(), ty: (*ty).to_owned(), text: text.trim().to_owned() }
+            let name = if name.is_empty() {
+                "result"
+            } else {
+                name.trim_end_matches(',')
+            };
+            Returned {
+                name: name.to_owned(),
+                ty: (*ty).to_owned(),
+                text: text.trim().to_owned(),
+            }
         });
         described.collect()
     }
@@ -181,7 +223,9 @@ impl Doc {
 
 /// A default value as a script would write it.
 fn shown(default: DefaultValue) -> String {
-    default.constant.map_or_else(|| literal(&(default.value)()), str::to_owned)
+    default
+        .constant
+        .map_or_else(|| literal(&(default.value)()), str::to_owned)
 }
 
 #[cfg(test)]
@@ -194,16 +238,24 @@ mod tests {
 
     #[test]
     fn a_constant_has_the_value_of_the_default_it_is_shown_for() {
-        let constants =
-            ALL.iter().flat_map(|of| pairs(of.constants).map(|(name, value)| (format!("{}.{name}", of.name), value)));
+        let constants = ALL.iter().flat_map(|of| {
+            pairs(of.constants).map(|(name, value)| (format!("{}.{name}", of.name), value))
+        });
         let mut constants: HashMap<String, &str> = constants.collect();
         constants.insert("math.pi".to_owned(), "3.141592653589793");
         let mut checked = 0;
         for function in ALL.iter().flat_map(|of| of.public_functions()) {
             for default in function.params.iter().filter_map(|param| param.default) {
-                let Some(constant) = default.constant else { continue };
+                let Some(constant) = default.constant else {
+                    continue;
+                };
                 let value = literal(&(default.value)());
-                assert_eq!(constants.get(constant), Some(&value.as_str()), "{}: {constant}", function.name);
+                assert_eq!(
+                    constants.get(constant),
+                    Some(&value.as_str()),
+                    "{}: {constant}",
+                    function.name
+                );
                 checked += 1;
             }
         }
@@ -213,10 +265,22 @@ mod tests {
     /// What an underscore or a capital means in Rust is of no concern to scripts.
     #[test]
     fn parameters_begin_with_a_small_letter() {
-        let functions = ALL.iter().flat_map(|of| of.public_functions().chain(of.inner.iter().copied().flatten()));
+        let functions = ALL.iter().flat_map(|of| {
+            of.public_functions()
+                .chain(of.inner.iter().copied().flatten())
+        });
         for function in functions {
-            for name in function.params.iter().map(|param| param.name).filter(|name| *name != "...") {
-                assert!(name.starts_with(|first: char| first.is_ascii_lowercase()), "{}: {name}", function.name);
+            for name in function
+                .params
+                .iter()
+                .map(|param| param.name)
+                .filter(|name| *name != "...")
+            {
+                assert!(
+                    name.starts_with(|first: char| first.is_ascii_lowercase()),
+                    "{}: {name}",
+                    function.name
+                );
             }
         }
     }

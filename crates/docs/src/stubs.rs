@@ -6,7 +6,9 @@ use super::row::Function;
 use script::pairs;
 
 /// Words that cannot name a parameter.
-const KEYWORDS: &[&str] = &["end", "function", "repeat", "until", "local", "and", "or", "not", "in", "goto", "break"];
+const KEYWORDS: &[&str] = &[
+    "end", "function", "repeat", "until", "local", "and", "or", "not", "in", "goto", "break",
+];
 
 /// The file.
 pub(super) fn text(functions: &[Function]) -> String {
@@ -36,18 +38,37 @@ pub(super) fn declare(out: &mut String, function: &Function, name: &str) {
     for parameter in function.parameters.iter().filter(|_| function.is_typed()) {
         let optional = if parameter.default.is_some() { "?" } else { "" };
         let parameter_name = parameter_name(&parameter.name);
-        let _ = writeln!(out, "---@param {parameter_name}{optional} {} {}", annotation(&parameter.ty), parameter.text);
+        let _ = writeln!(
+            out,
+            "---@param {parameter_name}{optional} {} {}",
+            annotation(&parameter.ty),
+            parameter.text
+        );
     }
     for result in &function.results {
-        let _ = writeln!(out, "---@return {} {} {}", annotation(&result.ty), result.name, result.text);
+        let _ = writeln!(
+            out,
+            "---@return {} {} {}",
+            annotation(&result.ty),
+            result.name,
+            result.text
+        );
     }
-    let names: Vec<String> = function.parameters.iter().map(|p| parameter_name(&p.name)).collect();
+    let names: Vec<String> = function
+        .parameters
+        .iter()
+        .map(|p| parameter_name(&p.name))
+        .collect();
     let _ = writeln!(out, "function {name}({}) end", names.join(", "));
     *out = out.replace(" \n", "\n");
 }
 
 fn parameter_name(name: &str) -> String {
-    if KEYWORDS.contains(&name) { format!("{name}_") } else { name.to_owned() }
+    if KEYWORDS.contains(&name) {
+        format!("{name}_")
+    } else {
+        name.to_owned()
+    }
 }
 
 /// The language server's word for a type of the reference.

@@ -77,7 +77,11 @@ fn uses_within(code: &[u8], depth: usize) -> Vec<Use> {
 /// Uses of a script in a string that begins in a line.
 fn uses_of_text(text: &[u8], line: usize, depth: usize) -> Vec<Use> {
     let is_quoted = !text.contains(&b'\n');
-    let code = if is_quoted { unescaped(text) } else { text.to_vec() };
+    let code = if is_quoted {
+        unescaped(text)
+    } else {
+        text.to_vec()
+    };
     let mut found = uses_within(&code, depth + 1);
     for one in &mut found {
         one.line = if is_quoted { line } else { line + one.line - 1 };
@@ -91,7 +95,10 @@ fn unescaped(text: &[u8]) -> Vec<u8> {
     let mut rest = text.iter();
     while let Some(&byte) = rest.next() {
         match byte {
-            b'\\' => out.extend(rest.next().map(|&escaped| if escaped == b'n' { b'\n' } else { escaped })),
+            b'\\' => out.extend(
+                rest.next()
+                    .map(|&escaped| if escaped == b'n' { b'\n' } else { escaped }),
+            ),
             _ => out.push(byte),
         }
     }
@@ -106,7 +113,8 @@ fn is_code(tokens: &[Token<'_>], at: usize) -> bool {
             Kind::Sign(b')' | b'}' | b']') => open += 1,
             Kind::Sign(b'(' | b'{' | b'[') if open > 0 => open -= 1,
             Kind::Sign(b'(') => {
-                return place > 0 && matches!(&tokens[place - 1].kind, Kind::Name(name) if runs_code(name));
+                return place > 0
+                    && matches!(&tokens[place - 1].kind, Kind::Name(name) if runs_code(name));
             }
             Kind::Sign(b'{' | b'[') => return false,
             _ => {}
@@ -118,8 +126,15 @@ fn is_code(tokens: &[Token<'_>], at: usize) -> bool {
 fn runs_code(function: &str) -> bool {
     let last = function.rsplit('.').next().unwrap_or(function);
     let last = last.strip_prefix("sim").unwrap_or(last);
-    ["createScript", "CreateScript", "setScriptText", "SetScriptText", "executeScriptString", "ExecuteScriptString"]
-        .contains(&last)
+    [
+        "createScript",
+        "CreateScript",
+        "setScriptText",
+        "SetScriptText",
+        "executeScriptString",
+        "ExecuteScriptString",
+    ]
+    .contains(&last)
         || ["load", "loadstring"].contains(&function)
 }
 
@@ -134,7 +149,12 @@ pub fn unreadable_script(reason: &str) -> Vec<Use> {
 }
 
 fn missing_script(name: String) -> Vec<Use> {
-    vec![Use { name, written: None, line: 1, support: Support::Missing }]
+    vec![Use {
+        name,
+        written: None,
+        line: 1,
+        support: Support::Missing,
+    }]
 }
 
 /// Functions that only scripts in Python have.
@@ -147,7 +167,12 @@ pub fn use_of_member(module: &str, member: &str, line: usize, is_call: bool) -> 
         "sim" => of_sim(member)?,
         _ => of_module(module, member, is_call)?,
     };
-    Some(Use { name: format!("{module}.{member}"), written: None, line, support })
+    Some(Use {
+        name: format!("{module}.{member}"),
+        written: None,
+        line,
+        support,
+    })
 }
 
 /// The use of a module in a script in Python; None if it works, or is not CoppeliaSim's.
@@ -165,7 +190,10 @@ struct Scope {
 
 impl Scope {
     fn of(tokens: &[Token<'_>]) -> Self {
-        let mut scope = Self { modules: HashMap::new(), own: HashSet::new() };
+        let mut scope = Self {
+            modules: HashMap::new(),
+            own: HashSet::new(),
+        };
         for (at, token) in tokens.iter().enumerate() {
             match &token.kind {
                 Kind::Name(name) if is_definition(tokens, at) || is_declared(tokens, at) => {
@@ -173,7 +201,10 @@ impl Scope {
                 }
                 Kind::Text(text) if required_at(tokens, at) => {
                     if let Some(variable) = variable_of_require(tokens, at) {
-                        scope.modules.insert(variable.to_owned(), String::from_utf8_lossy(text).into_owned());
+                        scope.modules.insert(
+                            variable.to_owned(),
+                            String::from_utf8_lossy(text).into_owned(),
+                        );
                     }
                 }
                 _ => {}
@@ -190,28 +221,49 @@ impl Scope {
             Some(name) => (name, true),
             None => (written.to_owned(), false),
         };
-        let Some((owner, rest)) = name.split_once('.') else { return global(written, is_call, line) };
+        let Some((owner, rest)) = name.split_once('.') else {
+            return global(written, is_call, line);
+        };
         let member = rest.split('.').next()?;
         // A variable of the script that has the name of a module.
-        if !owner.starts_with("sim") && self.own.contains(owner) && !self.modules.contains_key(owner) {
+        if !owner.starts_with("sim")
+            && self.own.contains(owner)
+            && !self.modules.contains_key(owner)
+        {
             return None;
         }
         let module = self.modules.get(owner).map_or(owner, String::as_str);
-        let support = if module == "sim" { of_sim(member)? } else { of_module(module, member, is_call)? };
+        let support = if module == "sim" {
+            of_sim(member)?
+        } else {
+            of_module(module, member, is_call)?
+        };
         let written = is_old.then(|| written.to_owned());
-        Some(Use { name: format!("{module}.{member}"), written, line, support })
+        Some(Use {
+            name: format!("{module}.{member}"),
+            written,
+            line,
+            support,
+        })
     }
 }
 
 /// Whether the name is given a value here, as a variable or a function.
 fn is_definition(tokens: &[Token<'_>], at: usize) -> bool {
-    let is = |at: usize, sign: u8| tokens.get(at).is_some_and(|token| token.kind == Kind::Sign(sign));
+    let is = |at: usize, sign: u8| {
+        tokens
+            .get(at)
+            .is_some_and(|token| token.kind == Kind::Sign(sign))
+    };
     let after_function = at > 0 && is_word(&tokens[at - 1], "function");
     after_function || is(at + 1, b'=') && !is(at + 2, b'=')
 }
 
 fn is_call(tokens: &[Token<'_>], at: usize) -> bool {
-    matches!(tokens.get(at + 1).map(|token| &token.kind), Some(Kind::Sign(b'(' | b'{') | Kind::Text(_)))
+    matches!(
+        tokens.get(at + 1).map(|token| &token.kind),
+        Some(Kind::Sign(b'(' | b'{') | Kind::Text(_))
+    )
 }
 
 fn is_word(token: &Token<'_>, word: &str) -> bool {
@@ -221,7 +273,11 @@ fn is_word(token: &Token<'_>, word: &str) -> bool {
 /// The place of the word `require` whose argument the text at `at` is.
 fn require_of(tokens: &[Token<'_>], at: usize) -> Option<usize> {
     let before = at.checked_sub(1)?;
-    let word = if tokens[before].kind == Kind::Sign(b'(') { before.checked_sub(1)? } else { before };
+    let word = if tokens[before].kind == Kind::Sign(b'(') {
+        before.checked_sub(1)?
+    } else {
+        before
+    };
     is_word(&tokens[word], "require").then_some(word)
 }
 
@@ -231,7 +287,8 @@ fn required_at(tokens: &[Token<'_>], at: usize) -> bool {
 
 /// Whether the name is declared here: in a list behind `local`, as a parameter, or by a `for`.
 fn is_declared(tokens: &[Token<'_>], at: usize) -> bool {
-    let is_plain = |token: &Token<'_>| matches!(&token.kind, Kind::Name(name) if !name.contains('.'));
+    let is_plain =
+        |token: &Token<'_>| matches!(&token.kind, Kind::Name(name) if !name.contains('.'));
     if !is_plain(&tokens[at]) {
         return false;
     }
@@ -239,15 +296,23 @@ fn is_declared(tokens: &[Token<'_>], at: usize) -> bool {
     while place >= 2 && tokens[place - 1].kind == Kind::Sign(b',') && is_plain(&tokens[place - 2]) {
         place -= 2;
     }
-    let Some(before) = place.checked_sub(1) else { return false };
+    let Some(before) = place.checked_sub(1) else {
+        return false;
+    };
     let is_parameter = tokens[before].kind == Kind::Sign(b'(')
-        && (1..=2).any(|back| before.checked_sub(back).is_some_and(|at| is_word(&tokens[at], "function")));
+        && (1..=2).any(|back| {
+            before
+                .checked_sub(back)
+                .is_some_and(|at| is_word(&tokens[at], "function"))
+        });
     is_parameter || is_word(&tokens[before], "local") || is_word(&tokens[before], "for")
 }
 
 /// The variable of `name = require 'module'`; not of what a function or member of the module yields.
 fn variable_of_require<'a>(tokens: &'a [Token<'_>], at: usize) -> Option<&'a str> {
-    let is_closed = tokens.get(at + 1).is_some_and(|token| token.kind == Kind::Sign(b')'));
+    let is_closed = tokens
+        .get(at + 1)
+        .is_some_and(|token| token.kind == Kind::Sign(b')'));
     let after = tokens.get(if is_closed { at + 2 } else { at + 1 });
     if after.is_some_and(|token| matches!(token.kind, Kind::Sign(b'.' | b':' | b'[' | b'('))) {
         return None;
@@ -261,9 +326,19 @@ fn variable_of_require<'a>(tokens: &'a [Token<'_>], at: usize) -> Option<&'a str
 
 /// The use of a module of CoppeliaSim that is missing here, or approximated as a whole. Other modules say so by their functions.
 fn required(module: &str, line: usize) -> Option<Use> {
-    let is_missing = CATALOGUE.reference_modules.contains(module) && !CATALOGUE.modules.contains_key(module);
-    let support = if is_missing { Support::Missing } else { Support::Approximated(difference(module)?) };
-    Some(Use { name: module.to_owned(), written: None, line, support })
+    let is_missing =
+        CATALOGUE.reference_modules.contains(module) && !CATALOGUE.modules.contains_key(module);
+    let support = if is_missing {
+        Support::Missing
+    } else {
+        Support::Approximated(difference(module)?)
+    };
+    Some(Use {
+        name: module.to_owned(),
+        written: None,
+        line,
+        support,
+    })
 }
 
 /// Current name for an old one; None for other names.
@@ -277,9 +352,13 @@ fn current_name(written: &str) -> Option<String> {
         let member = member_by_rule(written).filter(|member| members.contains(member))?;
         Some(format!("sim.{member}"))
     };
-    let current = members.of_old_name(written).filter(|member| members.contains(member) && !member.starts_with('_'));
+    let current = members
+        .of_old_name(written)
+        .filter(|member| members.contains(member) && !member.starts_with('_'));
     let current = current.map(|member| format!("sim.{member}"));
-    current.or_else(by_rule).or_else(|| old_names::current(written).map(str::to_owned))
+    current
+        .or_else(by_rule)
+        .or_else(|| old_names::current(written).map(str::to_owned))
 }
 
 /// A function of V-REP that is no member of `sim`; what is called like one of them and unknown is missing.
@@ -292,7 +371,12 @@ fn global(written: &str, is_call: bool, line: usize) -> Option<Use> {
         None if is_call && rest.starts_with(|c: char| c.is_ascii_uppercase()) => Support::Missing,
         None => return None,
     };
-    Some(Use { name: written.to_owned(), written: None, line, support })
+    Some(Use {
+        name: written.to_owned(),
+        written: None,
+        line,
+        support,
+    })
 }
 
 /// None for constants, which are no functions.
@@ -314,7 +398,9 @@ fn of_module(module: &str, member: &str, is_call: bool) -> Option<Support> {
         return None;
     }
     match CATALOGUE.modules.get(module) {
-        Some(functions) if functions.contains(member) => Some(of_function(&format!("{module}.{member}"))),
+        Some(functions) if functions.contains(member) => {
+            Some(of_function(&format!("{module}.{member}")))
+        }
         Some(_) if !is_call => None,
         _ => Some(Support::Missing),
     }
@@ -328,7 +414,9 @@ struct Catalogue {
 }
 
 static CATALOGUE: LazyLock<Catalogue> = LazyLock::new(|| Catalogue {
-    modules: modules::names().map(|name| (name.clone(), module_stubs::names(&name))).collect(),
+    modules: modules::names()
+        .map(|name| (name.clone(), module_stubs::names(&name)))
+        .collect(),
     reference_modules: ReferenceModule::all().map(|module| module.name).collect(),
 });
 
@@ -337,18 +425,32 @@ mod tests {
     use super::{Support, uses};
 
     fn names(code: &str) -> Vec<String> {
-        uses(code.as_bytes()).into_iter().map(|found| found.name).collect()
+        uses(code.as_bytes())
+            .into_iter()
+            .map(|found| found.name)
+            .collect()
     }
 
     fn supports(code: &str) -> Vec<Support> {
-        uses(code.as_bytes()).into_iter().map(|found| found.support).collect()
+        uses(code.as_bytes())
+            .into_iter()
+            .map(|found| found.support)
+            .collect()
     }
 
     #[test]
     fn names_lines_and_support() {
-        let found = uses(b"sim = require 'sim'\nlocal h = sim.getObject('/a') -- sim.f()\nsim.frobnicate()");
-        assert_eq!((found[0].name.as_str(), found[0].line, found[0].support), ("sim.getObject", 2, Support::Works));
-        assert_eq!((found[1].name.as_str(), found[1].line, found[1].support), ("sim.frobnicate", 3, Support::Missing));
+        let found = uses(
+            b"sim = require 'sim'\nlocal h = sim.getObject('/a') -- sim.f()\nsim.frobnicate()",
+        );
+        assert_eq!(
+            (found[0].name.as_str(), found[0].line, found[0].support),
+            ("sim.getObject", 2, Support::Works)
+        );
+        assert_eq!(
+            (found[1].name.as_str(), found[1].line, found[1].support),
+            ("sim.frobnicate", 3, Support::Missing)
+        );
         assert_eq!(found.len(), 2);
     }
 
@@ -362,29 +464,46 @@ mod tests {
 
     #[test]
     fn names_a_require_gives() {
-        assert_eq!(names("local s = require('sim')\ns.getObject('/a')"), ["sim.getObject"]);
+        assert_eq!(
+            names("local s = require('sim')\ns.getObject('/a')"),
+            ["sim.getObject"]
+        );
         assert_eq!(names("local cmd=require'mine'\ncmd.f()"), [""; 0]);
-        assert_eq!(supports("z = require 'simZMQ' z.ctx_new() z.PUB() z.PUB"), [Support::Works, Support::Missing]);
+        assert_eq!(
+            supports("z = require 'simZMQ' z.ctx_new() z.PUB() z.PUB"),
+            [Support::Works, Support::Missing]
+        );
     }
 
     #[test]
     fn scripts_in_strings() {
         let found = uses(b"sim.createScript(sim.scripttype_customization, [[\nlocal sim = require 'sim'\nsim.frobnicate()\n]], 0, 'lua')");
-        let named: Vec<_> = found.iter().map(|one| (one.name.as_str(), one.line)).collect();
+        let named: Vec<_> = found
+            .iter()
+            .map(|one| (one.name.as_str(), one.line))
+            .collect();
         assert_eq!(named, [("sim.createScript", 1), ("sim.frobnicate", 3)]);
-        assert_eq!(names(r#"load("x = 1 sim.frobnicate(\"a\")")"#), ["sim.frobnicate"]);
+        assert_eq!(
+            names(r#"load("x = 1 sim.frobnicate(\"a\")")"#),
+            ["sim.frobnicate"]
+        );
         assert_eq!(names("print('sim.frobnicate()')"), [""; 0]);
     }
 
     #[test]
     fn variables_with_the_names_of_modules() {
         assert_eq!(
-            names("local zmq = require 'simZMQ' local socket = zmq.socket(c, 1) socket.frobnicate(1)"),
+            names(
+                "local zmq = require 'simZMQ' local socket = zmq.socket(c, 1) socket.frobnicate(1)"
+            ),
             ["simZMQ.socket"]
         );
         assert_eq!(names("local a, socket = f() socket.frobnicate()"), [""; 0]);
         assert_eq!(names("function f(socket) socket.frobnicate() end"), [""; 0]);
-        assert_eq!(names("local socket = require('socket').tcp() socket.frobnicate()"), [""; 0]);
+        assert_eq!(
+            names("local socket = require('socket').tcp() socket.frobnicate()"),
+            [""; 0]
+        );
         assert_eq!(
             supports("socket = require 'socket' socket.connect('a', 1) socket.frobnicate()"),
             [Support::Works, Support::Missing]
@@ -393,9 +512,15 @@ mod tests {
 
     #[test]
     fn globals_of_v_rep() {
-        assert_eq!(supports("simAddObjectCustomData(1, 2, 'x') simHandlePath(1, 2)"), [Support::Works; 2]);
+        assert_eq!(
+            supports("simAddObjectCustomData(1, 2, 'x') simHandlePath(1, 2)"),
+            [Support::Works; 2]
+        );
         assert_eq!(supports("simFrobnicate(1)"), [Support::Missing]);
-        assert_eq!(names("simTime = 1 simTime() print(simulate, sim_handle_all, simple())"), [""; 0]);
+        assert_eq!(
+            names("simTime = 1 simTime() print(simulate, sim_handle_all, simple())"),
+            [""; 0]
+        );
     }
 
     #[test]

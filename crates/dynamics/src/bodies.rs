@@ -6,8 +6,8 @@ use geometry::Finite;
 use geometry::pose::interpolate;
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
-    CoefficientCombineRule, ColliderBuilder, ColliderHandle, MassProperties, RigidBody, RigidBodyBuilder,
-    RigidBodyHandle, RigidBodyType,
+    CoefficientCombineRule, ColliderBuilder, ColliderHandle, MassProperties, RigidBody,
+    RigidBodyBuilder, RigidBodyHandle, RigidBodyType,
 };
 
 use super::colliders;
@@ -67,7 +67,11 @@ impl Tag {
     }
 
     pub(super) fn unpack(data: u128) -> Self {
-        Self { shape: Handle(data as u32), root: Handle((data >> 32) as u32), mask: (data >> 64) as u16 }
+        Self {
+            shape: Handle(data as u32),
+            root: Handle((data >> 32) as u32),
+            mask: (data >> 64) as u16,
+        }
     }
 }
 
@@ -90,22 +94,40 @@ impl Bodies {
     pub(super) fn were_touched(&self, scene: &Scene) -> bool {
         self.iter().any(|(shape, body)| match scene.object(shape) {
             Ok(object) => {
-                object.dynamics_reset || (body.build.dynamic && object.pose() != body.local) || is_far(scene, shape)
+                object.dynamics_reset
+                    || (body.build.dynamic && object.pose() != body.local)
+                    || is_far(scene, shape)
             }
             Err(_) => true,
         })
     }
 
     /// Makes the engine's bodies those of the plan; those whose making is unchanged go on as they are.
-    pub(super) fn apply_plan(&mut self, plan: Vec<(Handle, BodyPlan)>, world: &mut World, scene: &mut Scene) {
+    pub(super) fn apply_plan(
+        &mut self,
+        plan: Vec<(Handle, BodyPlan)>,
+        world: &mut World,
+        scene: &mut Scene,
+    ) {
         let mut old: BTreeMap<Handle, Body> = std::mem::take(&mut self.all).into_iter().collect();
-        self.places = plan.iter().enumerate().map(|(place, (shape, _))| (*shape, place)).collect();
+        self.places = plan
+            .iter()
+            .enumerate()
+            .map(|(place, (shape, _))| (*shape, place))
+            .collect();
         for (shape, plan) in plan {
-            let is_unchanged = |body: &Body| body.build == plan.build && !wants_rebuild(scene, shape, body, world);
+            let is_unchanged =
+                |body: &Body| body.build == plan.build && !wants_rebuild(scene, shape, body, world);
             // Bodies that no longer exist stay in `old`, to be removed from the engine.
-            let existing = if old.get(&shape).is_some_and(is_unchanged) { old.remove(&shape) } else { None };
+            let existing = if old.get(&shape).is_some_and(is_unchanged) {
+                old.remove(&shape)
+            } else {
+                None
+            };
             let body = match existing {
-                Some(body) => body.with_surface(shape, plan.surface, world).with_drift(shape, scene),
+                Some(body) => body
+                    .with_surface(shape, plan.surface, world)
+                    .with_drift(shape, scene),
                 None => Body::insert(shape, plan, world, scene),
             };
             self.all.push((shape, body));
@@ -118,22 +140,34 @@ impl Bodies {
 
 /// A static body that is reset stays, with its contacts, unless it was moved: then it is elsewhere at once, without a way there.
 fn wants_rebuild(scene: &Scene, shape: Handle, body: &Body, world: &World) -> bool {
-    let Ok(object) = scene.object(shape) else { return false };
+    let Ok(object) = scene.object(shape) else {
+        return false;
+    };
     if body.build.dynamic {
         return object.dynamics_reset || object.pose() != body.local;
     }
     let stands = body.standing.or_else(|| body.pose(world));
-    object.dynamics_reset && stands.zip(scene.world_pose(shape).ok()).is_none_or(|(from, to)| has_moved(&from, &to))
+    object.dynamics_reset
+        && stands
+            .zip(scene.world_pose(shape).ok())
+            .is_none_or(|(from, to)| has_moved(&from, &to))
 }
 
 impl Body {
     /// Builds the body where its shape is, with the initial velocity the shape carries, which is used up by that.
     fn insert(shape: Handle, plan: BodyPlan, world: &mut World, scene: &mut Scene) -> Self {
         let pose = scene.world_pose(shape).unwrap_or_else(|_| Pose::identity());
-        let local = scene.object(shape).map(|object| object.pose()).unwrap_or(pose);
+        let local = scene
+            .object(shape)
+            .map(|object| object.pose())
+            .unwrap_or(pose);
         let mut rigid = rigid_body(&plan, &pose);
         let velocity = take_initial_velocity(scene, shape).unwrap_or_default();
-        let drift = if plan.build.dynamic { Velocity::default() } else { velocity };
+        let drift = if plan.build.dynamic {
+            Velocity::default()
+        } else {
+            velocity
+        };
         if plan.build.dynamic {
             rigid.set_linvel(to_vector(velocity.linear), true);
             rigid.set_angvel(to_vector(velocity.angular), true);
@@ -144,7 +178,17 @@ impl Body {
         let rigid = world.bodies.insert(rigid);
         let (build, surface) = (plan.build, plan.surface);
         let (sweep, standing, slept) = (None, None, false);
-        let mut body = Self { rigid, colliders: Vec::new(), build, surface, local, sweep, drift, standing, slept };
+        let mut body = Self {
+            rigid,
+            colliders: Vec::new(),
+            build,
+            surface,
+            local,
+            sweep,
+            drift,
+            standing,
+            slept,
+        };
         body.insert_colliders(shape, world);
         // rapier would only know the mass during the first step, mechanisms need it before.
         if let Some(rigid) = world.bodies.get_mut(rigid) {
@@ -157,8 +201,16 @@ impl Body {
         if !self.build.respondable {
             return;
         }
-        let tag = Tag { shape, root: self.surface.root, mask: self.surface.mask };
-        let forms = self.build.parts.iter().flat_map(|part| colliders::forms(part, self.build.dynamic));
+        let tag = Tag {
+            shape,
+            root: self.surface.root,
+            mask: self.surface.mask,
+        };
+        let forms = self
+            .build
+            .parts
+            .iter()
+            .flat_map(|part| colliders::forms(part, self.build.dynamic));
         for (pose, form) in forms.collect::<Vec<_>>() {
             let collider = ColliderBuilder::new(form)
                 .position(pose)
@@ -169,7 +221,11 @@ impl Body {
                 .restitution_combine_rule(CoefficientCombineRule::Multiply)
                 .active_hooks(ALL_HOOKS)
                 .user_data(tag.pack());
-            self.colliders.push(world.colliders.insert_with_parent(collider, self.rigid, &mut world.bodies));
+            self.colliders.push(world.colliders.insert_with_parent(
+                collider,
+                self.rigid,
+                &mut world.bodies,
+            ));
         }
     }
 
@@ -178,7 +234,11 @@ impl Body {
             return self;
         }
         self.surface = surface;
-        let tag = Tag { shape, root: surface.root, mask: surface.mask };
+        let tag = Tag {
+            shape,
+            root: surface.root,
+            mask: surface.mask,
+        };
         for &handle in &self.colliders {
             if let Some(collider) = world.colliders.get_mut(handle) {
                 collider.set_friction(surface.friction);
@@ -198,7 +258,9 @@ impl Body {
 
     /// A static body that was reset has the surface velocity that it carries now.
     fn with_drift(mut self, shape: Handle, scene: &mut Scene) -> Self {
-        let is_reset = scene.object(shape).is_ok_and(|object| object.dynamics_reset);
+        let is_reset = scene
+            .object(shape)
+            .is_ok_and(|object| object.dynamics_reset);
         if is_reset && !self.build.dynamic {
             self.drift = take_initial_velocity(scene, shape).unwrap_or_default();
         }
@@ -211,12 +273,21 @@ impl Body {
     }
 
     fn drifts(&self) -> bool {
-        self.drift != Velocity::default() && self.drift.linear.iter().chain(&self.drift.angular).all(|x| x.is_finite())
+        self.drift != Velocity::default()
+            && self
+                .drift
+                .linear
+                .iter()
+                .chain(&self.drift.angular)
+                .all(|x| x.is_finite())
     }
 
     /// Whether the engine still has the body.
     pub(super) fn pose(&self, world: &World) -> Option<Pose> {
-        world.bodies.get(self.rigid).map(|rigid| from_pose(rigid.position()))
+        world
+            .bodies
+            .get(self.rigid)
+            .map(|rigid| from_pose(rigid.position()))
     }
 }
 
@@ -228,12 +299,20 @@ fn combine_rule(rule: FrictionRule) -> CoefficientCombineRule {
 }
 
 fn rigid_body(plan: &BodyPlan, pose: &Pose) -> RigidBody {
-    let kind = if plan.build.dynamic { RigidBodyType::Dynamic } else { RigidBodyType::Fixed };
+    let kind = if plan.build.dynamic {
+        RigidBodyType::Dynamic
+    } else {
+        RigidBodyType::Fixed
+    };
     let mass = &plan.build.mass;
     let inertia = to_matrix(&(mass.inertia * mass.mass));
     RigidBodyBuilder::new(kind)
         .pose(to_pose(pose))
-        .additional_mass_properties(MassProperties::with_inertia_matrix(to_vector(mass.com), mass.mass, inertia))
+        .additional_mass_properties(MassProperties::with_inertia_matrix(
+            to_vector(mass.com),
+            mass.mass,
+            inertia,
+        ))
         .linear_damping(plan.surface.linear_damping)
         .angular_damping(plan.surface.angular_damping)
         .can_sleep(false)
@@ -245,14 +324,22 @@ impl Bodies {
     /// Lets bodies sleep when they rest, but for those that `stays_awake` names.
     pub(super) fn let_sleep(&self, world: &mut World, stays_awake: impl Fn(Handle) -> bool) {
         for (shape, body) in self.iter().filter(|(_, body)| body.build.dynamic) {
-            let threshold = if stays_awake(shape) { NEVER_SLEEPS } else { SLEEP_THRESHOLD.0 };
-            let is_set = |rigid: &RigidBody| rigid.activation().normalized_linear_threshold == threshold;
+            let threshold = if stays_awake(shape) {
+                NEVER_SLEEPS
+            } else {
+                SLEEP_THRESHOLD.0
+            };
+            let is_set =
+                |rigid: &RigidBody| rigid.activation().normalized_linear_threshold == threshold;
             if world.bodies.get(body.rigid).is_some_and(is_set) {
                 continue;
             }
             if let Some(rigid) = world.bodies.get_mut(body.rigid) {
                 let activation = rigid.activation_mut();
-                (activation.normalized_linear_threshold, activation.angular_threshold) = (threshold, threshold);
+                (
+                    activation.normalized_linear_threshold,
+                    activation.angular_threshold,
+                ) = (threshold, threshold);
                 activation.time_until_sleep = SLEEP_THRESHOLD.1;
                 if threshold == NEVER_SLEEPS {
                     rigid.wake_up(true);
@@ -284,9 +371,16 @@ impl Bodies {
     /// Plans the way of the static bodies over the call: from where the engine has them to where the scene has them.
     pub(super) fn plan_sweeps(&mut self, world: &mut World, scene: &Scene) {
         self.sweeping.clear();
-        for (place, (shape, body)) in self.all.iter_mut().enumerate().filter(|(_, (_, body))| !body.build.dynamic) {
+        for (place, (shape, body)) in self
+            .all
+            .iter_mut()
+            .enumerate()
+            .filter(|(_, (_, body))| !body.build.dynamic)
+        {
             body.stop_drift(world);
-            let (Some(held), Ok(to)) = (body.pose(world), scene.world_pose(*shape)) else { continue };
+            let (Some(held), Ok(to)) = (body.pose(world), scene.world_pose(*shape)) else {
+                continue;
+            };
             let from = body.standing.unwrap_or(held);
             let moves = has_moved(&from, &to) || body.drifts();
             body.sweep = (moves && to.is_finite()).then_some((from, to));
@@ -302,8 +396,13 @@ impl Bodies {
     /// stand and go as far as their surface does: contacts only know velocities of bodies.
     pub(super) fn sweep(&mut self, fraction: f64, step: f64, world: &mut World) {
         for &place in &self.sweeping {
-            let Some((_, body)) = self.all.get_mut(place) else { continue };
-            let (Some((from, to)), Some(rigid)) = (&body.sweep, world.bodies.get_mut(body.rigid)) else { continue };
+            let Some((_, body)) = self.all.get_mut(place) else {
+                continue;
+            };
+            let (Some((from, to)), Some(rigid)) = (&body.sweep, world.bodies.get_mut(body.rigid))
+            else {
+                continue;
+            };
             let next = interpolate(from, to, fraction);
             let Some(standing) = &mut body.standing else {
                 rigid.set_next_kinematic_position(to_pose(&next));
@@ -319,15 +418,24 @@ impl Bodies {
     /// without forces are left alone.
     pub(super) fn apply_forces(&self, world: &mut World, scene: &Scene) {
         for (shape, body) in self.iter().filter(|(_, body)| body.build.dynamic) {
-            let Ok(shape) = scene.object(shape).and_then(|object| object.shape()) else { continue };
+            let Ok(shape) = scene.object(shape).and_then(|object| object.shape()) else {
+                continue;
+            };
             let is_forced = shape.force != [0.0; 3] || shape.torque != [0.0; 3];
             if !is_forced && world.bodies.get(body.rigid).is_none_or(is_free) {
                 continue;
             }
-            let Some(rigid) = world.bodies.get_mut(body.rigid) else { continue };
+            let Some(rigid) = world.bodies.get_mut(body.rigid) else {
+                continue;
+            };
             rigid.reset_forces(false);
             rigid.reset_torques(false);
-            if shape.force.iter().chain(&shape.torque).all(|x| x.is_finite()) {
+            if shape
+                .force
+                .iter()
+                .chain(&shape.torque)
+                .all(|x| x.is_finite())
+            {
                 rigid.add_force(to_vector(shape.force), true);
                 rigid.add_torque(to_vector(shape.torque), true);
             }

@@ -24,7 +24,9 @@ pub(super) fn forms(part: &PartForm, dynamic: bool) -> Vec<(EnginePose, SharedSh
     if let Some(form) = part.primitive.as_ref().and_then(analytic) {
         return vec![(frame * form.0, form.1)];
     }
-    mesh_form(part, dynamic).map(|form| vec![(frame, form)]).unwrap_or_default()
+    mesh_form(part, dynamic)
+        .map(|form| vec![(frame, form)])
+        .unwrap_or_default()
 }
 
 /// The exact form of a primitive, where rapier has one.
@@ -34,18 +36,29 @@ fn analytic(primitive: &Primitive) -> Option<(EnginePose, SharedShape)> {
     let upright = EnginePose::from_rotation(Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2));
     Some(match primitive.kind {
         PrimitiveKind::Cuboid => (EnginePose::IDENTITY, SharedShape::cuboid(x, y, z)),
-        PrimitiveKind::Plane => (EnginePose::IDENTITY, SharedShape::cuboid(x, y, MIN_THICKNESS / 2.0)),
+        PrimitiveKind::Plane => (
+            EnginePose::IDENTITY,
+            SharedShape::cuboid(x, y, MIN_THICKNESS / 2.0),
+        ),
         PrimitiveKind::Disc => (upright, SharedShape::cylinder(MIN_THICKNESS / 2.0, round)),
         PrimitiveKind::Spheroid => (EnginePose::IDENTITY, SharedShape::ball(round)),
         PrimitiveKind::Cylinder => (upright, SharedShape::cylinder(z, round)),
         PrimitiveKind::Cone => (upright, SharedShape::cone(z, round)),
-        PrimitiveKind::Capsule => (EnginePose::IDENTITY, SharedShape::capsule_z((z - round).max(0.0), round)),
+        PrimitiveKind::Capsule => (
+            EnginePose::IDENTITY,
+            SharedShape::capsule_z((z - round).max(0.0), round),
+        ),
         PrimitiveKind::Heightfield => return None,
     })
 }
 
 fn mesh_form(part: &PartForm, dynamic: bool) -> Option<SharedShape> {
-    let points: Vec<Vector> = part.mesh.vertices.iter().map(|&vertex| to_vector(vertex)).collect();
+    let points: Vec<Vector> = part
+        .mesh
+        .vertices
+        .iter()
+        .map(|&vertex| to_vector(vertex))
+        .collect();
     if points.len() < 3 || !has_size(&part.mesh) {
         return None;
     }
@@ -62,8 +75,14 @@ fn mesh_form(part: &PartForm, dynamic: bool) -> Option<SharedShape> {
 fn pieces(points: &[Vector], mesh: &Mesh) -> Option<SharedShape> {
     let hulls = VHACD::decompose(&VHACDParameters::default(), points, &mesh.triangles, true)
         .compute_exact_convex_hulls(points, &mesh.triangles);
-    let convex = |(points, triangles): (Vec<Vector>, Vec<[u32; 3]>)| SharedShape::convex_mesh(points, &triangles);
-    let parts: Vec<_> = hulls.into_iter().filter_map(convex).map(|piece| (EnginePose::IDENTITY, piece)).collect();
+    let convex = |(points, triangles): (Vec<Vector>, Vec<[u32; 3]>)| {
+        SharedShape::convex_mesh(points, &triangles)
+    };
+    let parts: Vec<_> = hulls
+        .into_iter()
+        .filter_map(convex)
+        .map(|piece| (EnginePose::IDENTITY, piece))
+        .collect();
     (!parts.is_empty()).then(|| SharedShape::compound(parts))
 }
 
@@ -73,11 +92,17 @@ fn surface(points: Vec<Vector>, mesh: &Mesh) -> Option<SharedShape> {
 
 /// Whether the geometry of a mesh can be computed with.
 fn has_size(mesh: &Mesh) -> bool {
-    let extent = |(low, high): ([f64; 3], [f64; 3])| (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
-    mesh.aabb().is_some_and(|aabb| MESH_SIZES.contains(&extent(aabb)))
+    let extent = |(low, high): ([f64; 3], [f64; 3])| {
+        (0..3)
+            .map(|axis| high[axis] - low[axis])
+            .fold(0.0, f64::max)
+    };
+    mesh.aabb()
+        .is_some_and(|aabb| MESH_SIZES.contains(&extent(aabb)))
 }
 
 /// Flat meshes cannot be decomposed.
 fn has_volume(mesh: &Mesh) -> bool {
-    mesh.aabb().is_some_and(|(low, high)| (0..3).all(|axis| high[axis] - low[axis] > MIN_THICKNESS))
+    mesh.aabb()
+        .is_some_and(|(low, high)| (0..3).all(|axis| high[axis] - low[axis] > MIN_THICKNESS))
 }

@@ -7,7 +7,9 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use rapier3d_f64::math::{Pose as EnginePose, Vector};
-use rapier3d_f64::prelude::{ColliderHandle, ContactManifold, ContactManifoldData, ContactPair, RigidBodyHandle};
+use rapier3d_f64::prelude::{
+    ColliderHandle, ContactManifold, ContactManifoldData, ContactPair, RigidBodyHandle,
+};
 
 use super::bodies::Tag;
 use super::convert::from_vector;
@@ -118,31 +120,48 @@ impl ContactLog {
         let first = self.awake.touches.len();
         self.awake.step = step;
         if self.resting.is_anybody_awake() {
-            self.awake.add_pairs(world, |pair| self.resting.shapes(pair, true));
+            self.awake
+                .add_pairs(world, |pair| self.resting.shapes(pair, true));
         }
         self.awake.add_ground(ground);
         let touches = first..self.awake.touches.len();
-        self.sub_steps.push(SubStepContacts { touches, resting: self.resting.contacts.clone() });
+        self.sub_steps.push(SubStepContacts {
+            touches,
+            resting: self.resting.contacts.clone(),
+        });
     }
 
     /// All contacts, in the order of the sub-steps.
     pub(super) fn iter(&self) -> impl Iterator<Item = Contact> {
-        (0..).zip(&self.sub_steps).flat_map(move |(number, sub_step)| {
-            let awake = self.awake.contacts(sub_step.touches.clone(), number);
-            awake.chain(sub_step.resting.contacts(0..sub_step.resting.touches.len(), number))
-        })
+        (0..)
+            .zip(&self.sub_steps)
+            .flat_map(move |(number, sub_step)| {
+                let awake = self.awake.contacts(sub_step.touches.clone(), number);
+                awake.chain(
+                    sub_step
+                        .resting
+                        .contacts(0..sub_step.resting.touches.len(), number),
+                )
+            })
     }
 }
 
 impl Resting {
     /// Updates the set of sleeping bodies if it has changed.
     fn follow(&mut self, world: &World, step: f64) {
-        if self.awake.as_ref().is_some_and(|awake| world.awake().eq(awake.iter().copied())) {
+        if self
+            .awake
+            .as_ref()
+            .is_some_and(|awake| world.awake().eq(awake.iter().copied()))
+        {
             return;
         }
         self.awake = Some(world.awake().collect());
         self.know_colliders(world);
-        let mut contacts = Batch { step, ..Batch::default() };
+        let mut contacts = Batch {
+            step,
+            ..Batch::default()
+        };
         contacts.add_pairs(world, |pair| self.shapes(pair, false));
         self.contacts = Rc::new(contacts);
     }
@@ -151,9 +170,13 @@ impl Resting {
         self.colliders.clear();
         for (handle, collider) in world.colliders.iter() {
             let index = index_of(handle);
-            self.colliders.resize(self.colliders.len().max(index + 1), None);
+            self.colliders
+                .resize(self.colliders.len().max(index + 1), None);
             let shape = Tag::unpack(collider.user_data).shape;
-            self.colliders[index] = Some(Known { shape, awake: false });
+            self.colliders[index] = Some(Known {
+                shape,
+                awake: false,
+            });
         }
         for rigid in world.awake().filter_map(|handle| world.bodies.get(handle)) {
             for &collider in rigid.colliders() {
@@ -170,7 +193,8 @@ impl Resting {
 
     /// The shapes of a pair, if whether one of them is awake is as asked.
     fn shapes(&self, pair: &ContactPair, awake: bool) -> Option<[Handle; 2]> {
-        let [a, b] = [pair.collider1, pair.collider2].map(|collider| self.colliders.get(index_of(collider)));
+        let [a, b] =
+            [pair.collider1, pair.collider2].map(|collider| self.colliders.get(index_of(collider)));
         let (a, b) = ((*a?)?, (*b?)?);
         ((a.awake || b.awake) == awake).then_some([a.shape, b.shape])
     }
@@ -185,7 +209,10 @@ impl Batch {
     fn add_pairs(&mut self, world: &World, shapes: impl Fn(&ContactPair) -> Option<[Handle; 2]>) {
         for pair in world.narrow_phase.contact_pairs() {
             let Some(shapes) = shapes(pair) else { continue };
-            for manifold in pair.solver_manifolds().iter().filter(|manifold| !manifold.data.solver_contacts.is_empty())
+            for manifold in pair
+                .solver_manifolds()
+                .iter()
+                .filter(|manifold| !manifold.data.solver_contacts.is_empty())
             {
                 self.add_manifold(world, manifold, shapes);
             }
@@ -201,8 +228,16 @@ impl Batch {
             }
             let friction = point.impulse - point.normal * impulse;
             let first = self.points.len();
-            self.points.push(TouchPoint { place: point.place(), impulse });
-            self.touches.push(Touch { shapes: point.shapes, normal: point.normal, friction, points: first..first + 1 });
+            self.points.push(TouchPoint {
+                place: point.place(),
+                impulse,
+            });
+            self.touches.push(Touch {
+                shapes: point.shapes,
+                normal: point.normal,
+                friction,
+                points: first..first + 1,
+            });
         }
     }
 
@@ -213,32 +248,49 @@ impl Batch {
         let normal = -manifold.data.normal;
         let share = parts_of_impulse(manifold) / manifold.data.solver_contacts.len() as f64;
         for contact in &manifold.data.solver_contacts {
-            let Some(found) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
+            let Some(found) = manifold.points.get(contact.contact_indices()[0] as usize) else {
+                continue;
+            };
             let (impulse, tangent) = (found.data.impulse, found.data.warmstart_tangent_world);
             if impulse == 0.0 || !impulse.is_finite() || !tangent.is_finite() {
                 continue;
             }
-            self.points.push(TouchPoint { place: sides.middle(contact.anchor1, contact.anchor2), impulse });
+            self.points.push(TouchPoint {
+                place: sides.middle(contact.anchor1, contact.anchor2),
+                impulse,
+            });
             let (friction, end) = (tangent * share, self.points.len());
-            match self.touches[first..].last_mut().filter(|touch| touch.friction == friction) {
+            match self.touches[first..]
+                .last_mut()
+                .filter(|touch| touch.friction == friction)
+            {
                 Some(touch) => touch.points.end = end,
-                None => self.touches.push(Touch { shapes, normal, friction, points: end - 1..end }),
+                None => self.touches.push(Touch {
+                    shapes,
+                    normal,
+                    friction,
+                    points: end - 1..end,
+                }),
             }
         }
     }
 
     fn contacts(&self, touches: Range<usize>, sub_step: u32) -> impl Iterator<Item = Contact> {
-        self.touches[touches].iter().flat_map(move |touch| self.contacts_of(touch, sub_step))
+        self.touches[touches]
+            .iter()
+            .flat_map(move |touch| self.contacts_of(touch, sub_step))
     }
 
     fn contacts_of(&self, touch: &Touch, sub_step: u32) -> impl Iterator<Item = Contact> {
-        self.points[touch.points.clone()].iter().map(move |point| Contact {
-            sub_step,
-            shapes: touch.shapes,
-            point: from_vector(point.place),
-            force: from_vector((touch.normal * point.impulse + touch.friction) / self.step),
-            normal: from_vector(touch.normal),
-        })
+        self.points[touch.points.clone()]
+            .iter()
+            .map(move |point| Contact {
+                sub_step,
+                shapes: touch.shapes,
+                point: from_vector(point.place),
+                force: from_vector((touch.normal * point.impulse + touch.friction) / self.step),
+                normal: from_vector(touch.normal),
+            })
     }
 }
 
@@ -249,9 +301,15 @@ impl Sides {
     fn new(world: &World, data: &ContactManifoldData) -> Self {
         let side = |handle: Option<RigidBodyHandle>, is_world: bool| {
             let rigid = world.bodies.get(handle.filter(|_| !is_world)?)?;
-            Some((*rigid.position(), rigid.mass_properties().local_mprops.local_com))
+            Some((
+                *rigid.position(),
+                rigid.mass_properties().local_mprops.local_com,
+            ))
         };
-        Self([side(data.rigid_body1, data.relative_dominance > 0), side(data.rigid_body2, data.relative_dominance < 0)])
+        Self([
+            side(data.rigid_body1, data.relative_dominance > 0),
+            side(data.rigid_body2, data.relative_dominance < 0),
+        ])
     }
 
     /// Halfway between the two surfaces; anchors are relative to the centres of mass of bodies that move.

@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
     ActiveHooks, CoefficientCombineRule, Collider, ColliderHandle, ColliderSet, ContactManifold,
-    ContactModificationContext, ContactPair, PairFilterContext, PhysicsHooks, RigidBody, SolverFlags,
+    ContactModificationContext, ContactPair, PairFilterContext, PhysicsHooks, RigidBody,
+    SolverFlags,
 };
 
 use super::bodies::Tag;
@@ -61,8 +62,14 @@ impl Verdicts {
     /// What scripts have answered about pairs of shapes, which all differ.
     pub fn new(asked: Vec<(Handle, Handle)>, responses: Vec<ContactResponse>) -> Self {
         let all = asked.iter().copied().zip(responses);
-        let special = all.filter(|(_, response)| *response != ContactResponse::Default).collect();
-        Self { asked, is_sorted: false, special }
+        let special = all
+            .filter(|(_, response)| *response != ContactResponse::Default)
+            .collect();
+        Self {
+            asked,
+            is_sorted: false,
+            special,
+        }
     }
 
     /// The verdict about a pair; None when scripts were not asked.
@@ -71,12 +78,17 @@ impl Verdicts {
             self.asked.sort_unstable_by_key(rank);
             self.is_sorted = true;
         }
-        self.asked.binary_search_by_key(&rank(&pair), rank).is_ok().then(|| self.special_or_default(pair))
+        self.asked
+            .binary_search_by_key(&rank(&pair), rank)
+            .is_ok()
+            .then(|| self.special_or_default(pair))
     }
 
     /// Adds the verdict about a pair that was looked for.
     fn insert(&mut self, pair: (Handle, Handle), response: ContactResponse) {
-        let place = self.asked.partition_point(|known| rank(known) < rank(&pair));
+        let place = self
+            .asked
+            .partition_point(|known| rank(known) < rank(&pair));
         self.asked.insert(place, pair);
         if response != ContactResponse::Default {
             self.special.insert(pair, response);
@@ -84,7 +96,10 @@ impl Verdicts {
     }
 
     fn special_or_default(&self, pair: (Handle, Handle)) -> ContactResponse {
-        self.special.get(&pair).copied().unwrap_or(ContactResponse::Default)
+        self.special
+            .get(&pair)
+            .copied()
+            .unwrap_or(ContactResponse::Default)
     }
 
     /// How a pair responds: masks first, then scripts.
@@ -110,8 +125,16 @@ pub(super) struct Rules<'a> {
 }
 
 impl<'a> Rules<'a> {
-    pub(super) fn new(callback: Option<ContactCallback<'a>>, verdicts: Verdicts, apart: &'a [ColliderPair]) -> Self {
-        Self { callback, verdicts: RefCell::new(verdicts), apart }
+    pub(super) fn new(
+        callback: Option<ContactCallback<'a>>,
+        verdicts: Verdicts,
+        apart: &'a [ColliderPair],
+    ) -> Self {
+        Self {
+            callback,
+            verdicts: RefCell::new(verdicts),
+            apart,
+        }
     }
 
     /// Scripts are asked about pairs that were not known before the sub-step.
@@ -137,7 +160,11 @@ fn masks_overlap(a: Tag, b: Tag) -> bool {
 
 impl PhysicsHooks for Rules<'_> {
     fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
-        if self.apart.binary_search(&pair_of([context.collider1, context.collider2])).is_ok() {
+        if self
+            .apart
+            .binary_search(&pair_of([context.collider1, context.collider2]))
+            .is_ok()
+        {
             return None;
         }
         let [a, b] = tags(context.colliders, context.collider1, context.collider2)?;
@@ -145,10 +172,18 @@ impl PhysicsHooks for Rules<'_> {
     }
 
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
-        let Some([a, b]) = tags(context.colliders, context.collider1, context.collider2) else { return };
+        let Some([a, b]) = tags(context.colliders, context.collider1, context.collider2) else {
+            return;
+        };
         let response = self.response(a, b);
-        let Some(contact) = context.rigid_mut() else { return };
-        if let ContactResponse::Collide { friction, restitution } = response {
+        let Some(contact) = context.rigid_mut() else {
+            return;
+        };
+        if let ContactResponse::Collide {
+            friction,
+            restitution,
+        } = response
+        {
             *contact.friction = friction;
             *contact.restitution = restitution;
         }
@@ -167,7 +202,11 @@ pub(super) fn pairs_near(world: &World) -> Vec<(Handle, Handle)> {
         let may_touch = (first.moves || second.moves) && a.shape != b.shape && masks_overlap(a, b);
         may_touch.then_some((a.shape, b.shape))
     };
-    let mut pairs: Vec<_> = world.narrow_phase.contact_pairs().filter_map(near).collect();
+    let mut pairs: Vec<_> = world
+        .narrow_phase
+        .contact_pairs()
+        .filter_map(near)
+        .collect();
     if known.is_composite {
         let mut seen = BTreeSet::new();
         pairs.retain(|&pair| seen.insert(pair));
@@ -181,7 +220,10 @@ pub(super) fn tags(
     first: rapier3d_f64::prelude::ColliderHandle,
     second: rapier3d_f64::prelude::ColliderHandle,
 ) -> Option<[Tag; 2]> {
-    Some([Tag::unpack(colliders.get(first)?.user_data), Tag::unpack(colliders.get(second)?.user_data)])
+    Some([
+        Tag::unpack(colliders.get(first)?.user_data),
+        Tag::unpack(colliders.get(second)?.user_data),
+    ])
 }
 
 /// Sets for which colliders rapier asks the rules: those in pairs that mechanisms solve or that do not just collide with friction, and those so fast that
@@ -189,22 +231,41 @@ pub(super) fn tags(
 /// shall not for others; whether scripts look on changes nothing.
 pub(super) fn set_hooks(world: &mut World, verdicts: &Verdicts, apart: &[ColliderPair]) {
     let asked = asked_about(world, verdicts, apart);
-    let is_asked = |handle: ColliderHandle| asked.get(handle.into_raw_parts().0 as usize).is_some_and(|&asked| asked);
-    let awake = world.awake().filter_map(|body| world.bodies.get(body)).flat_map(|rigid| rigid.colliders());
+    let is_asked = |handle: ColliderHandle| {
+        asked
+            .get(handle.into_raw_parts().0 as usize)
+            .is_some_and(|&asked| asked)
+    };
+    let awake = world
+        .awake()
+        .filter_map(|body| world.bodies.get(body))
+        .flat_map(|rigid| rigid.colliders());
     let others = (0..).zip(&asked).filter(|(_, asked)| **asked);
     let others = others.filter_map(|(index, _)| Some(world.colliders.get_unknown_gen(index)?.1));
     let hooks = |handle: ColliderHandle| {
         let collider = world.colliders.get(handle)?;
-        let rigid = world.bodies.get(collider.parent()?).filter(|rigid| rigid.is_dynamic())?;
-        let hooks = if is_asked(handle) || is_fast(rigid) { ALL_HOOKS } else { ActiveHooks::empty() };
+        let rigid = world
+            .bodies
+            .get(collider.parent()?)
+            .filter(|rigid| rigid.is_dynamic())?;
+        let hooks = if is_asked(handle) || is_fast(rigid) {
+            ALL_HOOKS
+        } else {
+            ActiveHooks::empty()
+        };
         (collider.active_hooks() != hooks).then_some((handle, hooks))
     };
     let changes: Vec<_> = awake.copied().chain(others).filter_map(hooks).collect();
     for (handle, hooks) in changes {
-        let Some(collider) = world.colliders.get_mut(handle) else { continue };
+        let Some(collider) = world.colliders.get_mut(handle) else {
+            continue;
+        };
         collider.set_active_hooks(hooks);
         // A sleeper may lose what it lies on.
-        if let Some(rigid) = collider.parent().and_then(|body| world.bodies.get_mut(body)) {
+        if let Some(rigid) = collider
+            .parent()
+            .and_then(|body| world.bodies.get_mut(body))
+        {
             rigid.wake_up(true);
         }
     }
@@ -224,7 +285,9 @@ fn asked_about(world: &World, verdicts: &Verdicts, apart: &[ColliderPair]) -> Ve
         return asked;
     }
     for pair in world.narrow_phase.contact_pairs() {
-        let Some([first, second]) = world.known.pair(pair) else { continue };
+        let Some([first, second]) = world.known.pair(pair) else {
+            continue;
+        };
         let response = verdicts.response(Tag::unpack(first.tag), Tag::unpack(second.tag));
         if response != ContactResponse::Default || first.friction(second) == 0.0 {
             ask(pair_of([pair.collider1, pair.collider2]));
@@ -248,7 +311,10 @@ pub(super) fn note_colliders(world: &mut World) {
 
 /// Friction between two colliders.
 pub(super) fn friction(first: &Collider, second: &Collider) -> f64 {
-    let rules = (first.friction_combine_rule(), second.friction_combine_rule());
+    let rules = (
+        first.friction_combine_rule(),
+        second.friction_combine_rule(),
+    );
     CoefficientCombineRule::combine(first.friction(), second.friction(), rules.0, rules.1)
 }
 
@@ -269,7 +335,9 @@ pub(super) struct Push {
 pub(super) fn expected(world: &World, matters: impl Fn(Handle) -> bool) -> Vec<Push> {
     let mut pushes = Vec::new();
     for pair in world.narrow_phase.contact_pairs() {
-        let Some([a, b]) = tags(&world.colliders, pair.collider1, pair.collider2) else { continue };
+        let Some([a, b]) = tags(&world.colliders, pair.collider1, pair.collider2) else {
+            continue;
+        };
         if matters(a.shape) || matters(b.shape) {
             pair.solver_manifolds()
                 .iter()
@@ -284,14 +352,26 @@ fn expect(world: &World, manifold: &ContactManifold, shapes: [Handle; 2], pushes
     let (mut middle, mut friction) = (Vector::ZERO, Vector::ZERO);
     let share = 1.0 / manifold.data.solver_contacts.len() as f64;
     for contact in &manifold.data.solver_contacts {
-        let Some(point) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
-        let (a, b) = manifold.data.solver_contact_world_points(contact, &world.bodies);
+        let Some(point) = manifold.points.get(contact.contact_indices()[0] as usize) else {
+            continue;
+        };
+        let (a, b) = manifold
+            .data
+            .solver_contact_world_points(contact, &world.bodies);
         let place = (a + b) * 0.5;
         let impulse = manifold.data.normal * -point.data.impulse;
-        pushes.push(Push { shapes, point: from_vector(place), impulse: from_vector(impulse) });
+        pushes.push(Push {
+            shapes,
+            point: from_vector(place),
+            impulse: from_vector(impulse),
+        });
         middle += place * share;
         friction += point.data.warmstart_tangent_world * share;
     }
     let friction = friction * parts_of_impulse(manifold);
-    pushes.push(Push { shapes, point: from_vector(middle), impulse: from_vector(friction) });
+    pushes.push(Push {
+        shapes,
+        point: from_vector(middle),
+        impulse: from_vector(friction),
+    });
 }

@@ -18,7 +18,10 @@ pub(super) fn to_rotation(rotation: &UnitQuaternion<f64>) -> Rotation {
 }
 
 pub(super) fn to_pose(pose: &Pose) -> EnginePose {
-    EnginePose::from_parts(to_vector(pose.translation.vector.into()), to_rotation(&pose.rotation))
+    EnginePose::from_parts(
+        to_vector(pose.translation.vector.into()),
+        to_rotation(&pose.rotation),
+    )
 }
 
 pub(super) fn from_pose(pose: &EnginePose) -> Pose {

@@ -9,7 +9,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use articulation::Contact;
 use rapier3d_f64::math::{Pose as EnginePose, Vector};
 use rapier3d_f64::parry::query::details::ContactManifoldsWorkspace;
-use rapier3d_f64::parry::query::{ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher, TrackedContact};
+use rapier3d_f64::parry::query::{
+    ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher, TrackedContact,
+};
 use rapier3d_f64::prelude::{CoefficientCombineRule, Collider, ColliderHandle, RigidBody};
 
 use super::bodies::Tag;
@@ -133,7 +135,12 @@ impl ExactContacts {
         step: f64,
         touching: Touching<'_>,
     ) -> Option<Vec<Handle>> {
-        let Touching { mechanism, linked, colliders, bases } = touching;
+        let Touching {
+            mechanism,
+            linked,
+            colliders,
+            bases,
+        } = touching;
         let mut search = Search {
             world,
             places,
@@ -158,12 +165,19 @@ impl ExactContacts {
 
     /// The contacts of a mechanism.
     pub(super) fn of(&self, mechanism: usize) -> Vec<Contact> {
-        self.points.iter().filter(|point| point.mechanism == mechanism).map(|point| point.contact).collect()
+        self.points
+            .iter()
+            .filter(|point| point.mechanism == mechanism)
+            .map(|point| point.contact)
+            .collect()
     }
 
     /// Stores what the contacts of a mechanism exert.
     pub(super) fn store(&mut self, mechanism: usize, impulses: impl Iterator<Item = [f64; 3]>) {
-        let points = self.points.iter_mut().filter(|point| point.mechanism == mechanism);
+        let points = self
+            .points
+            .iter_mut()
+            .filter(|point| point.mechanism == mechanism);
         for (point, impulse) in points.zip(impulses) {
             point.impulse = to_vector(impulse);
             let (manifold, index) = point.index;
@@ -208,13 +222,23 @@ impl Search<'_> {
     }
 
     /// Adds the points of a pair, and its guest; None when the mechanism cannot solve it.
-    fn look_at(&mut self, handles: [ColliderHandle; 2], pairs: &mut BTreeMap<ColliderPair, Pair>) -> Option<()> {
-        let [Some(first), Some(second)] = handles.map(|handle| self.world.colliders.get(handle)) else {
+    fn look_at(
+        &mut self,
+        handles: [ColliderHandle; 2],
+        pairs: &mut BTreeMap<ColliderPair, Pair>,
+    ) -> Option<()> {
+        let [Some(first), Some(second)] = handles.map(|handle| self.world.colliders.get(handle))
+        else {
             return Some(());
         };
-        let Some([a, b]) = tags(&self.world.colliders, handles[0], handles[1]) else { return Some(()) };
-        let is_possible = first.parent() != second.parent() && first.is_enabled() && second.is_enabled();
-        let Some(surface) = surface(first, second, self.verdicts.response(a, b)).filter(|_| is_possible) else {
+        let Some([a, b]) = tags(&self.world.colliders, handles[0], handles[1]) else {
+            return Some(());
+        };
+        let is_possible =
+            first.parent() != second.parent() && first.is_enabled() && second.is_enabled();
+        let Some(surface) =
+            surface(first, second, self.verdicts.response(a, b)).filter(|_| is_possible)
+        else {
             return Some(());
         };
         let key = pair_of(handles);
@@ -225,14 +249,18 @@ impl Search<'_> {
             return Some(());
         }
         let bodies = [self.side(first, a)?, self.side(second, b)?].map(Side::body);
-        let base = [a, b].into_iter().find_map(|tag| self.bases.get(&tag.shape).copied());
+        let base = [a, b]
+            .into_iter()
+            .find_map(|tag| self.bases.get(&tag.shape).copied());
         let mut points = pair.points(key, first, second);
         for point in &mut points {
             point.mechanism = self.mechanism;
             point.shapes = [a.shape, b.shape];
             (point.contact.bodies, point.contact.base) = (bodies, base);
-            (point.contact.friction, point.contact.restitution) = (surface.friction, surface.restitution);
-            point.contact.velocity = from_vector(self.obstacle_velocity([first, second], point.place()));
+            (point.contact.friction, point.contact.restitution) =
+                (surface.friction, surface.restitution);
+            point.contact.velocity =
+                from_vector(self.obstacle_velocity([first, second], point.place()));
         }
         self.points.extend(points);
         Some(())
@@ -262,7 +290,9 @@ impl Search<'_> {
     /// Velocity of the second shape relative to the first at a point, as far as no force moves them.
     fn obstacle_velocity(&self, colliders: [&Collider; 2], place: Vector) -> Vector {
         let velocity = |collider: &Collider| {
-            let rigid = collider.parent().and_then(|body| self.world.bodies.get(body));
+            let rigid = collider
+                .parent()
+                .and_then(|body| self.world.bodies.get(body));
             rigid.map_or(Vector::ZERO, |rigid| velocity_at(rigid, place, self.step))
         };
         velocity(colliders[1]) - velocity(colliders[0])
@@ -271,13 +301,27 @@ impl Search<'_> {
 
 fn surface(first: &Collider, second: &Collider, response: ContactResponse) -> Option<Surface> {
     let combine = CoefficientCombineRule::combine;
-    let restitutions = (first.restitution_combine_rule(), second.restitution_combine_rule());
+    let restitutions = (
+        first.restitution_combine_rule(),
+        second.restitution_combine_rule(),
+    );
     match response {
         ContactResponse::NoCollision => None,
-        ContactResponse::Collide { friction, restitution } => Some(Surface { friction, restitution }),
+        ContactResponse::Collide {
+            friction,
+            restitution,
+        } => Some(Surface {
+            friction,
+            restitution,
+        }),
         ContactResponse::Default => Some(Surface {
             friction: contacts::friction(first, second),
-            restitution: combine(first.restitution(), second.restitution(), restitutions.0, restitutions.1),
+            restitution: combine(
+                first.restitution(),
+                second.restitution(),
+                restitutions.0,
+                restitutions.1,
+            ),
         }),
     }
 }
@@ -296,7 +340,9 @@ impl Pair {
     fn update(&mut self, first: &Collider, second: &Collider) -> bool {
         let apart = first.position().inv_mul(second.position());
         // parry would keep points that moved by less than a millimetre: behind a wheel that begins to roll they drive it on.
-        self.manifolds.iter_mut().for_each(Manifold::mark_shapes_deformed);
+        self.manifolds
+            .iter_mut()
+            .for_each(Manifold::mark_shapes_deformed);
         let dispatcher: &dyn PersistentQueryDispatcher<(), [f64; 3]> = &DefaultQueryDispatcher;
         let shapes = (first.shape(), second.shape());
         let found = dispatcher.contact_manifolds(
@@ -307,18 +353,29 @@ impl Pair {
             &mut self.manifolds,
             &mut self.workspace,
         );
-        found.is_ok() && self.manifolds.iter().any(|manifold| manifold.points.iter().any(is_near))
+        found.is_ok()
+            && self
+                .manifolds
+                .iter()
+                .any(|manifold| manifold.points.iter().any(is_near))
     }
 
     fn points(&self, key: ColliderPair, first: &Collider, second: &Collider) -> Vec<Point> {
         let mut points = Vec::new();
         for (number, manifold) in self.manifolds.iter().enumerate() {
-            let placed = |pose: &EnginePose, part: Option<&EnginePose>| part.map_or(*pose, |part| *pose * *part);
+            let placed = |pose: &EnginePose, part: Option<&EnginePose>| {
+                part.map_or(*pose, |part| *pose * *part)
+            };
             let a = placed(first.position(), manifold.subshape_pos1());
             let b = placed(second.position(), manifold.subshape_pos2());
             // parry's normal points from the first to the second.
             let normal = -(a.rotation * manifold.local_n1);
-            for (index, found) in manifold.points.iter().enumerate().filter(|(_, found)| is_near(found)) {
+            for (index, found) in manifold
+                .points
+                .iter()
+                .enumerate()
+                .filter(|(_, found)| is_near(found))
+            {
                 let place = (a * found.local_p1 + b * found.local_p2) * 0.5;
                 points.push(Point::new(key, (number, index), found, place, normal));
             }
@@ -350,7 +407,15 @@ impl Point {
             velocity: [0.0; 3],
             impulse: found.data,
         };
-        Self { pair, index, mechanism: 0, shapes: [Handle(0); 2], contact, impulse: Vector::ZERO, normal }
+        Self {
+            pair,
+            index,
+            mechanism: 0,
+            shapes: [Handle(0); 2],
+            contact,
+            impulse: Vector::ZERO,
+            normal,
+        }
     }
 }
 
@@ -361,7 +426,9 @@ fn reduced(points: Vec<Point>) -> Vec<Point> {
     }
     let mut groups: Vec<Vec<Point>> = Vec::new();
     for point in points {
-        let group = groups.iter_mut().find(|group| group[0].normal.dot(point.normal) > MIN_NORMAL_COSINE);
+        let group = groups
+            .iter_mut()
+            .find(|group| group[0].normal.dot(point.normal) > MIN_NORMAL_COSINE);
         match group {
             Some(group) => group.push(point),
             None => groups.push(vec![point]),
@@ -376,7 +443,13 @@ fn corners(group: Vec<Point>) -> Vec<Point> {
     }
     let at = |index: usize| group[index].place();
     let best = |score: &dyn Fn(usize) -> f64| {
-        (0..group.len()).fold(0, |best, index| if score(index) > score(best) { index } else { best })
+        (0..group.len()).fold(0, |best, index| {
+            if score(index) > score(best) {
+                index
+            } else {
+                best
+            }
+        })
     };
     let deepest = best(&|index| -group[index].contact.distance);
     let farthest = best(&|index| (at(index) - at(deepest)).length());
@@ -384,5 +457,10 @@ fn corners(group: Vec<Point>) -> Vec<Point> {
     let left = best(&|index| (at(index) - at(deepest)).dot(across));
     let right = best(&|index| (at(deepest) - at(index)).dot(across));
     let chosen = [deepest, farthest, left, right];
-    group.into_iter().enumerate().filter(|(index, _)| chosen.contains(index)).map(|(_, point)| point).collect()
+    group
+        .into_iter()
+        .enumerate()
+        .filter(|(index, _)| chosen.contains(index))
+        .map(|(_, point)| point)
+        .collect()
 }

@@ -30,7 +30,9 @@ impl Frozen {
     pub(super) fn release(&mut self, scene: &Scene) -> bool {
         let count = self.shapes.len();
         self.shapes.retain(|&shape, (uid, pose)| {
-            scene.object(shape).is_ok_and(|o| o.uid() == *uid && o.pose() == *pose && !o.dynamics_reset)
+            scene
+                .object(shape)
+                .is_ok_and(|o| o.uid() == *uid && o.pose() == *pose && !o.dynamics_reset)
         });
         self.shapes.len() < count
     }

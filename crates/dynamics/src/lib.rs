@@ -158,16 +158,26 @@ impl SubStep {
 impl Dynamics {
     /// An empty world that is computed on up to `threads` threads, which does not show in the results.
     pub fn new(threads: NonZero<usize>) -> Self {
-        Self { workers: Workers::new(threads), ..Self::default() }
+        Self {
+            workers: Workers::new(threads),
+            ..Self::default()
+        }
     }
 
     /// Drops the world; it is rebuilt at the next step.
     pub fn reset(&mut self) {
-        *self = Self { workers: std::mem::take(&mut self.workers), ..Self::default() };
+        *self = Self {
+            workers: std::mem::take(&mut self.workers),
+            ..Self::default()
+        };
     }
 
     /// Begins a call that advances `time_step` seconds; None when there is nothing to simulate.
-    pub fn begin(&mut self, scene: &mut Scene, time_step: f64) -> Result<Option<DynamicsCall>, Busy> {
+    pub fn begin(
+        &mut self,
+        scene: &mut Scene,
+        time_step: f64,
+    ) -> Result<Option<DynamicsCall>, Busy> {
         if self.call.is_some() {
             return Err(Busy);
         }
@@ -187,7 +197,10 @@ impl Dynamics {
             link.efforts.clear();
             link.loads.clear();
         }
-        self.call = Some(DynamicsCall { sub_steps, step: time_step / f64::from(sub_steps) });
+        self.call = Some(DynamicsCall {
+            sub_steps,
+            step: time_step / f64::from(sub_steps),
+        });
         Ok(self.call)
     }
 
@@ -214,24 +227,39 @@ impl Dynamics {
         let_sleep(&self.bodies, &self.links, world);
         self.contacts.forget_resting();
         self.is_stepped = false;
-        self.mechanisms.rebuild(&mut self.links, &scene.all_breadth_first(), &self.bodies, world);
+        self.mechanisms.rebuild(
+            &mut self.links,
+            &scene.all_breadth_first(),
+            &self.bodies,
+            world,
+        );
         // Changes made here need no new plan.
         self.has_new_changes(scene);
     }
 
     /// Whether the scene changed since the last call in a way that may need a new plan.
     fn has_new_changes(&mut self, scene: &Scene) -> bool {
-        scene.journal().changed_since(self.known.get_or_insert(Mark::new(PLANNED)))
+        scene
+            .journal()
+            .changed_since(self.known.get_or_insert(Mark::new(PLANNED)))
     }
 
     /// Before sub-step number `sub_step` (from 1): moves the static bodies and sets the motors. Returns the joints only a script can drive.
     pub fn prepare(&mut self, scene: &Scene, sub_step: u32) -> Vec<JointRequest> {
-        let (Some(world), Some(call)) = (self.world.as_mut(), self.call) else { return Vec::new() };
-        self.bodies.sweep(f64::from(sub_step) / f64::from(call.sub_steps), call.step, world);
+        let (Some(world), Some(call)) = (self.world.as_mut(), self.call) else {
+            return Vec::new();
+        };
+        self.bodies.sweep(
+            f64::from(sub_step) / f64::from(call.sub_steps),
+            call.step,
+            world,
+        );
         let engine = scene.settings().dynamics.engine.engine;
         let (mut requests, mut dependent) = (Vec::new(), Vec::new());
         for (handle, link) in self.links.iter_mut() {
-            let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) else { continue };
+            let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) else {
+                continue;
+            };
             if joint.mode == JointMode::Dependent {
                 dependent.push((handle, joint));
                 continue;
@@ -244,10 +272,15 @@ impl Dynamics {
         }
         self.follows_scene = false;
         for (handle, joint) in dependent {
-            self.follows_scene |= joint.dependency.is_some_and(|law| !self.links.contains(law.master));
+            self.follows_scene |= joint
+                .dependency
+                .is_some_and(|law| !self.links.contains(law.master));
             let master = master_of(scene, joint, &self.links);
-            let Some(link) = self.links.get_mut(handle) else { continue };
-            let drive = master.and_then(|master| motors::coupled_drive(joint, link.motion, master, call.step));
+            let Some(link) = self.links.get_mut(handle) else {
+                continue;
+            };
+            let drive = master
+                .and_then(|master| motors::coupled_drive(joint, link.motion, master, call.step));
             link.set_drive(drive, world);
         }
         requests
@@ -262,7 +295,10 @@ impl Dynamics {
 
     /// The pairs of shapes that may touch in the next sub-step, as far as they are known.
     pub fn pairs_near(&self) -> Vec<(Handle, Handle)> {
-        self.world.as_deref().map(contacts::pairs_near).unwrap_or_default()
+        self.world
+            .as_deref()
+            .map(contacts::pairs_near)
+            .unwrap_or_default()
     }
 
     /// Prepares sub-step number `sub_step` (from 1): forces of scripts, gravity. `verdicts`: what scripts decided about contacts.
@@ -283,7 +319,11 @@ impl Dynamics {
             link.before_step(&world);
         }
         let gravity = scene.settings().dynamics.gravity.map(f64::from);
-        let gravity = if gravity.iter().all(|x| x.is_finite()) { gravity } else { [0.0; 3] };
+        let gravity = if gravity.iter().all(|x| x.is_finite()) {
+            gravity
+        } else {
+            [0.0; 3]
+        };
         let is_integrated = self.solve_mechanisms(&mut world, gravity, call.step, &verdicts);
         let apart = self.mechanisms.contacts().pairs();
         contacts::set_hooks(&mut world, &verdicts, &apart);
@@ -293,17 +333,34 @@ impl Dynamics {
         }
         let seen = script_access.possible || sub_step == call.sub_steps;
         let gravity = convert::to_vector(gravity);
-        Some(SubStep { world, gravity, step: call.step, seen, verdicts, apart, is_integrated })
+        Some(SubStep {
+            world,
+            gravity,
+            step: call.step,
+            seen,
+            verdicts,
+            apart,
+            is_integrated,
+        })
     }
 
     /// Solves the mechanisms, and moves their bodies if nothing else moves; whether it did.
-    fn solve_mechanisms(&mut self, world: &mut World, gravity: [f64; 3], step: f64, verdicts: &Verdicts) -> bool {
+    fn solve_mechanisms(
+        &mut self,
+        world: &mut World,
+        gravity: [f64; 3],
+        step: f64,
+        verdicts: &Verdicts,
+    ) -> bool {
         if self.mechanisms.is_empty() {
             return false;
         }
         let (links, bodies, workers) = (&mut self.links, &self.bodies, &mut self.workers);
-        self.mechanisms.solve(links, bodies, world, gravity, step, verdicts, workers);
-        let is_usual = self.is_stepped && world.has_gravity(convert::to_vector(gravity)) && !self.bodies.are_sweeping();
+        self.mechanisms
+            .solve(links, bodies, world, gravity, step, verdicts, workers);
+        let is_usual = self.is_stepped
+            && world.has_gravity(convert::to_vector(gravity))
+            && !self.bodies.are_sweeping();
         let is_integrated = is_usual && self.mechanisms.can_integrate(world);
         if is_integrated {
             self.mechanisms.integrate(links, world, workers);
@@ -317,7 +374,10 @@ impl Dynamics {
     /// Whether the engine holds this shape, joint or force sensor.
     pub fn simulates(&self, object: Handle) -> bool {
         self.bodies.get(object).is_some()
-            || self.links.get(object).is_some_and(|link| link.plan.kind != plan::LinkKind::Weld)
+            || self
+                .links
+                .get(object)
+                .is_some_and(|link| link.plan.kind != plan::LinkKind::Weld)
     }
 
     /// Shapes that had to be stopped since this was last asked: their motion was no longer one of numbers.
@@ -333,7 +393,10 @@ impl Dynamics {
 
 /// Bodies with links stay awake.
 fn let_sleep(bodies: &Bodies, links: &Links, world: &mut World) {
-    let linked: BTreeSet<Handle> = links.iter().flat_map(|(_, link)| [link.plan.first, link.plan.second]).collect();
+    let linked: BTreeSet<Handle> = links
+        .iter()
+        .flat_map(|(_, link)| [link.plan.first, link.plan.second])
+        .collect();
     bodies.let_sleep(world, |shape| linked.contains(&shape));
 }
 
@@ -342,7 +405,10 @@ fn master_of(scene: &Scene, joint: &Joint, links: &Links) -> Option<Motion> {
     let master = joint.dependency?.master;
     links.get(master).map(|link| link.motion).or_else(|| {
         let joint = scene.object(master).ok()?.joint().ok()?;
-        Some(Motion { position: joint.position, velocity: 0.0 })
+        Some(Motion {
+            position: joint.position,
+            velocity: 0.0,
+        })
     })
 }
 

@@ -3,7 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use articulation::{BodyMotion, BodyProperties, BodyState, Contact, JointState, Mechanism, spatial};
+use articulation::{
+    BodyMotion, BodyProperties, BodyState, Contact, JointState, Mechanism, spatial,
+};
 use geometry::Finite;
 use nalgebra::Vector6;
 use rapier3d_f64::prelude::{ColliderHandle, RigidBody, RigidBodyHandle};
@@ -70,7 +72,9 @@ pub(super) struct LinkedShape {
 
 /// Lets rapier hold the links as well, or not: where the mechanism solves its contacts there is nothing to add.
 pub(super) fn share(places: &[usize], with_engine: bool, links: &mut Links, world: &mut World) {
-    places.iter().for_each(|&place| links.at_mut(place).share(with_engine, world));
+    places
+        .iter()
+        .for_each(|&place| links.at_mut(place).share(with_engine, world));
 }
 
 /// Notes in how many parts rapier makes the next sub-step for linked bodies, and lets it iterate accordingly if it holds the links.
@@ -82,8 +86,13 @@ pub(super) fn divide(
     world: &mut World,
 ) {
     let moving = || bodies.iter().filter(|body| body.is_dynamic);
-    let parts = moving().map(|body| world.parts_of(body.rigid)).max().unwrap_or(1);
-    places.iter().for_each(|&place| links.at_mut(place).parts = parts);
+    let parts = moving()
+        .map(|body| world.parts_of(body.rigid))
+        .max()
+        .unwrap_or(1);
+    places
+        .iter()
+        .for_each(|&place| links.at_mut(place).parts = parts);
     let iterations = match (with_engine, parts) {
         (false, _) => 0,
         (true, 1) => FREE_ITERATIONS,
@@ -109,11 +118,16 @@ impl Linked {
     ) -> Self {
         let mut colliders = Vec::new();
         for shape in shapes.iter_mut().filter(|shape| shape.is_dynamic) {
-            let Some(body) = bodies.get(shape.shape) else { continue };
+            let Some(body) = bodies.get(shape.shape) else {
+                continue;
+            };
             colliders.extend(&body.colliders);
             shape.reach = Reach::of(&body.colliders, &world.colliders);
         }
-        let resting = shapes.iter().enumerate().filter(|(_, body)| !body.is_dynamic);
+        let resting = shapes
+            .iter()
+            .enumerate()
+            .filter(|(_, body)| !body.is_dynamic);
         let bases = resting.map(|(index, body)| (body.shape, index)).collect();
         Self {
             mechanism,
@@ -139,15 +153,26 @@ impl Linked {
 
     /// What the search for contacts has to know of the mechanism.
     pub(super) fn touching(&self, mechanism: usize) -> Touching<'_> {
-        Touching { mechanism, linked: self.bodies.len(), colliders: &self.colliders, bases: &self.bases }
+        Touching {
+            mechanism,
+            linked: self.bodies.len(),
+            colliders: &self.colliders,
+            bases: &self.bases,
+        }
     }
 
     /// Takes free bodies in for a sub-step.
     pub(super) fn receive(&mut self, guests: Vec<Handle>, bodies: &Bodies) {
-        let guests: Vec<(Handle, &Body)> =
-            guests.into_iter().filter_map(|shape| Some((shape, bodies.get(shape)?))).collect();
-        self.mechanism.set_guests(guests.iter().map(|(_, body)| properties(body)));
-        self.guests = guests.into_iter().map(|(shape, body)| LinkedShape::new(shape, body)).collect();
+        let guests: Vec<(Handle, &Body)> = guests
+            .into_iter()
+            .filter_map(|shape| Some((shape, bodies.get(shape)?)))
+            .collect();
+        self.mechanism
+            .set_guests(guests.iter().map(|(_, body)| properties(body)));
+        self.guests = guests
+            .into_iter()
+            .map(|(shape, body)| LinkedShape::new(shape, body))
+            .collect();
     }
 
     /// Whether rapier applies the gyroscopic torque; to linked bodies the mechanism does, since rapier would apply it to what the links
@@ -162,13 +187,27 @@ impl Linked {
 
     /// Reads where bodies and links are, and what acts on them; `contacts`: those that the mechanism solves. Without a body that
     /// rapier lacks there is nothing to be solved.
-    pub(super) fn read(&mut self, links: &Links, world: &World, gravity: [f64; 3], step: f64, contacts: Vec<Contact>) {
-        let Input { bodies, joints, pushes, .. } = &mut self.input;
+    pub(super) fn read(
+        &mut self,
+        links: &Links,
+        world: &World,
+        gravity: [f64; 3],
+        step: f64,
+        contacts: Vec<Contact>,
+    ) {
+        let Input {
+            bodies,
+            joints,
+            pushes,
+            ..
+        } = &mut self.input;
         bodies.clear();
         joints.clear();
         pushes.clear();
         for body in self.bodies.iter_mut().chain(&mut self.guests) {
-            let Some(rigid) = world.bodies.get(body.rigid) else { continue };
+            let Some(rigid) = world.bodies.get(body.rigid) else {
+                continue;
+            };
             let state = body_state(rigid, body.is_dynamic, step);
             body.external = state.force;
             bodies.push(state);
@@ -184,11 +223,21 @@ impl Linked {
 
     /// Finds the forces for what was read.
     pub(super) fn solve(&mut self) {
-        let Input { bodies, joints, contacts, pushes, gravity, step, .. } = &self.input;
+        let Input {
+            bodies,
+            joints,
+            contacts,
+            pushes,
+            gravity,
+            step,
+            ..
+        } = &self.input;
         self.is_solved = bodies.len() == self.bodies.len() + self.guests.len();
         if self.is_solved {
             self.mechanism.begin(bodies, joints, *gravity, *step);
-            pushes.iter().for_each(|&(body, impulse, point)| self.mechanism.add_impulse(body, impulse, point));
+            pushes.iter().for_each(|&(body, impulse, point)| {
+                self.mechanism.add_impulse(body, impulse, point)
+            });
             self.mechanism.set_contacts(contacts);
             self.is_solved = self.mechanism.solve();
         }
@@ -197,7 +246,8 @@ impl Linked {
     /// Whether nothing but the mechanism acts on its bodies in this sub-step, and nothing could be in the way of a fast one.
     pub(super) fn can_integrate(&self) -> bool {
         let is_usual = |body: &LinkedShape, velocity| {
-            !body.is_dynamic || !body.is_damped && !body.reach.is_exceeded(velocity, self.input.step)
+            !body.is_dynamic
+                || !body.is_damped && !body.reach.is_exceeded(velocity, self.input.step)
         };
         let mut moving = self.bodies.iter().zip(self.mechanism.velocities());
         self.is_solved
@@ -208,7 +258,9 @@ impl Linked {
 
     /// Finds where the bodies are after the sub-step, for [`apply_positions`](Self::apply_positions).
     pub(super) fn integrate(&mut self) {
-        let Input { motions, turned, .. } = &mut self.input;
+        let Input {
+            motions, turned, ..
+        } = &mut self.input;
         motions.clear();
         motions.extend(self.mechanism.integrate());
         turned.clear();
@@ -224,8 +276,11 @@ impl Linked {
         for (&place, turned) in self.links.iter().zip(&self.input.turned) {
             links.at_mut(place).turned = *turned;
         }
-        let solid =
-            self.bodies.iter().zip(&self.input.motions).filter(|(body, _)| body.is_dynamic && body.reach.is_solid());
+        let solid = self
+            .bodies
+            .iter()
+            .zip(&self.input.motions)
+            .filter(|(body, _)| body.is_dynamic && body.reach.is_solid());
         for (body, motion) in solid {
             if let Some(rigid) = world.bodies.get_mut(body.rigid) {
                 rigid.set_position(to_pose(&motion.pose), false);
@@ -252,7 +307,12 @@ impl Linked {
 
     /// Applies the forces to the bodies.
     pub(super) fn apply_forces(&self, world: &mut World) {
-        for (body, load) in self.bodies.iter().chain(&self.guests).zip(self.mechanism.body_loads()) {
+        for (body, load) in self
+            .bodies
+            .iter()
+            .chain(&self.guests)
+            .zip(self.mechanism.body_loads())
+        {
             if let (Some(load), Some(rigid)) = (load, world.bodies.get_mut(body.rigid)) {
                 rigid.add_force(to_vector(linear(&load)), true);
                 rigid.add_torque(to_vector(angular(&load)), true);
@@ -262,17 +322,28 @@ impl Linked {
 
     /// Reads how the bodies moved, and removes the forces.
     pub(super) fn read_motions(&mut self, links: &Links, world: &mut World) {
-        self.bodies.iter().chain(&self.guests).for_each(|body| body.remove_forces_of_links(world));
-        let Input { motions, turned, .. } = &mut self.input;
+        self.bodies
+            .iter()
+            .chain(&self.guests)
+            .for_each(|body| body.remove_forces_of_links(world));
+        let Input {
+            motions, turned, ..
+        } = &mut self.input;
         motions.clear();
-        motions.extend(self.bodies.iter().filter_map(|body| world.bodies.get(body.rigid).map(motion)));
+        motions.extend(
+            self.bodies
+                .iter()
+                .filter_map(|body| world.bodies.get(body.rigid).map(motion)),
+        );
         turned.clear();
         turned.extend(self.links.iter().map(|&place| links.at(place).turned));
     }
 
     /// Corrects the positions so that the links hold.
     pub(super) fn correct_positions(&mut self) {
-        let Input { motions, turned, .. } = &self.input;
+        let Input {
+            motions, turned, ..
+        } = &self.input;
         self.corrected.clear();
         if motions.len() == self.bodies.len() {
             self.corrected = self.mechanism.correct_positions(motions, turned);
@@ -281,8 +352,15 @@ impl Linked {
 
     /// Moves the bodies to the corrected positions.
     pub(super) fn apply_positions(&self, world: &mut World) {
-        for (body, corrected) in self.bodies.iter().zip(&self.corrected).filter(|(body, _)| body.is_dynamic) {
-            let Some(motion) = corrected.filter(|motion| motion.pose.is_finite()) else { continue };
+        for (body, corrected) in self
+            .bodies
+            .iter()
+            .zip(&self.corrected)
+            .filter(|(body, _)| body.is_dynamic)
+        {
+            let Some(motion) = corrected.filter(|motion| motion.pose.is_finite()) else {
+                continue;
+            };
             if let Some(rigid) = world.bodies.get_mut(body.rigid) {
                 rigid.set_position(to_pose(&motion.pose), false);
                 rigid.set_linvel(to_vector(linear(&motion.velocity)), false);
@@ -315,7 +393,11 @@ impl LinkedShape {
     }
 
     fn remove_forces_of_links(&self, world: &mut World) {
-        if let Some(rigid) = world.bodies.get_mut(self.rigid).filter(|rigid| rigid.is_dynamic()) {
+        if let Some(rigid) = world
+            .bodies
+            .get_mut(self.rigid)
+            .filter(|rigid| rigid.is_dynamic())
+        {
             rigid.reset_forces(false);
             rigid.reset_torques(false);
             rigid.add_force(to_vector(linear(&self.external)), false);
@@ -327,7 +409,9 @@ impl LinkedShape {
 fn body_state(rigid: &RigidBody, is_dynamic: bool, step: f64) -> BodyState {
     let motion = motion(rigid);
     if !is_dynamic {
-        let target = rigid.is_kinematic().then(|| from_pose(rigid.next_position()));
+        let target = rigid
+            .is_kinematic()
+            .then(|| from_pose(rigid.next_position()));
         return BodyState {
             motion,
             force: Vector6::zeros(),
@@ -335,19 +419,41 @@ fn body_state(rigid: &RigidBody, is_dynamic: bool, step: f64) -> BodyState {
             target,
         };
     }
-    let force = spatial(from_vector(rigid.user_force()).into(), from_vector(rigid.user_torque()).into());
+    let force = spatial(
+        from_vector(rigid.user_force()).into(),
+        from_vector(rigid.user_torque()).into(),
+    );
     let gyroscopic_velocity = from_vector(rigid.angvel_with_gyroscopic_forces(step)).into();
-    BodyState { motion, force, gyroscopic_velocity, target: None }
+    BodyState {
+        motion,
+        force,
+        gyroscopic_velocity,
+        target: None,
+    }
 }
 
 fn motion(rigid: &RigidBody) -> BodyMotion {
-    let velocity = spatial(from_vector(rigid.linvel()).into(), from_vector(rigid.angvel()).into());
-    BodyMotion { pose: from_pose(rigid.position()), velocity }
+    let velocity = spatial(
+        from_vector(rigid.linvel()).into(),
+        from_vector(rigid.angvel()).into(),
+    );
+    BodyMotion {
+        pose: from_pose(rigid.position()),
+        velocity,
+    }
 }
 
 fn joint_state(link: &Link) -> JointState {
-    let motor = link.drive.map(|drive| articulation::Motor { velocity: drive.velocity, max_force: drive.force });
-    JointState { position: link.motion.position, velocity: link.motion.velocity, motor, limits: link.stops }
+    let motor = link.drive.map(|drive| articulation::Motor {
+        velocity: drive.velocity,
+        max_force: drive.force,
+    });
+    JointState {
+        position: link.motion.position,
+        velocity: link.motion.velocity,
+        motor,
+        limits: link.stops,
+    }
 }
 
 fn linear(v: &Vector6<f64>) -> [f64; 3] {

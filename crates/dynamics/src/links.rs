@@ -11,7 +11,8 @@ use geometry::Finite;
 use geometry::pose::euler::wrap_angle;
 use nalgebra::{Vector3, Vector6};
 use rapier3d_f64::prelude::{
-    GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, RigidBodyHandle, SpringCoefficients,
+    GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, RigidBodyHandle,
+    SpringCoefficients,
 };
 
 use super::bodies::Bodies;
@@ -26,7 +27,10 @@ use scene::{Field, Handle, Pose, Scene};
 /// Damping that makes a velocity motor rigid within its force.
 const RIGID: f64 = 1e12;
 /// rapier corrects a fifth of the gaps it finds in a sub-step of 5 ms.
-const SOFTNESS: SpringCoefficients<f64> = SpringCoefficients { natural_frequency: 1.6e4, damping_ratio: 1000.0 };
+const SOFTNESS: SpringCoefficients<f64> = SpringCoefficients {
+    natural_frequency: 1.6e4,
+    damping_ratio: 1000.0,
+};
 /// A revolute joint whose range is this or more has no stops, radians.
 const MAX_STOP_RANGE: f64 = 359.0 * std::f64::consts::PI / 180.0;
 
@@ -37,7 +41,9 @@ pub(super) struct Links(Vec<(Handle, Link)>);
 impl Links {
     /// The place of the link of an object.
     pub(super) fn place(&self, object: Handle) -> Option<usize> {
-        self.0.binary_search_by_key(&object, |(handle, _)| *handle).ok()
+        self.0
+            .binary_search_by_key(&object, |(handle, _)| *handle)
+            .ok()
     }
 
     pub(super) fn contains(&self, object: Handle) -> bool {
@@ -111,13 +117,26 @@ pub(super) fn move_with_joints(
     scene: &Scene,
 ) {
     for (&handle, plan) in plans {
-        let Some(old) = links.get(handle).filter(|old| old.plan.base != plan.base) else { continue };
+        let Some(old) = links.get(handle).filter(|old| old.plan.base != plan.base) else {
+            continue;
+        };
         let ends = [plan.first, plan.second].map(|shape| bodies.get(shape).map(|body| body.rigid));
-        let [Some(first), Some(second)] = ends else { continue };
-        let Some(parent) = world.bodies.get(first).filter(|_| [first, second] == old.bodies) else { continue };
+        let [Some(first), Some(second)] = ends else {
+            continue;
+        };
+        let Some(parent) = world
+            .bodies
+            .get(first)
+            .filter(|_| [first, second] == old.bodies)
+        else {
+            continue;
+        };
         let parent = from_pose(parent.position());
         let turn = parent * plan.base * old.plan.base.inverse() * parent.inverse();
-        for (_, body) in bodies.iter().filter(|(shape, _)| scene.is_ancestor_or_self(handle, *shape)) {
+        for (_, body) in bodies
+            .iter()
+            .filter(|(shape, _)| scene.is_ancestor_or_self(handle, *shape))
+        {
             if let Some(rigid) = world.bodies.get_mut(body.rigid) {
                 let moved = turn * from_pose(rigid.position());
                 rigid.set_position(to_pose(&moved), true);
@@ -136,11 +155,19 @@ pub(super) fn apply_plan(
 ) {
     let mut old: BTreeMap<Handle, Link> = std::mem::take(&mut links.0).into_iter().collect();
     for (handle, plan) in plans {
-        let (Some(first), Some(second)) = (bodies.get(plan.first), bodies.get(plan.second)) else { continue };
+        let (Some(first), Some(second)) = (bodies.get(plan.first), bodies.get(plan.second)) else {
+            continue;
+        };
         let ends = [first.rigid, second.rigid];
-        let reset = scene.object(handle).is_ok_and(|object| object.dynamics_reset);
+        let reset = scene
+            .object(handle)
+            .is_ok_and(|object| object.dynamics_reset);
         let is_unchanged = |link: &Link| link.plan == plan && link.bodies == ends && !reset;
-        let existing = if old.get(&handle).is_some_and(is_unchanged) { old.remove(&handle) } else { None };
+        let existing = if old.get(&handle).is_some_and(is_unchanged) {
+            old.remove(&handle)
+        } else {
+            None
+        };
         let mut link = match existing {
             Some(link) => link,
             None => Link::insert(plan, ends, world),
@@ -148,7 +175,8 @@ pub(super) fn apply_plan(
         if let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) {
             link.set_limits(joint, world);
             if link.fresh {
-                link.motion.position = joint.position + wrap_angle(link.motion.position - joint.position);
+                link.motion.position =
+                    joint.position + wrap_angle(link.motion.position - joint.position);
             }
         }
         links.0.push((handle, link));
@@ -162,14 +190,18 @@ impl Link {
     fn insert(plan: LinkPlan, bodies: [RigidBodyHandle; 2], world: &mut World) -> Self {
         let mut data = GenericJoint::new(locked_axes(&plan));
         data.softness = SOFTNESS;
-        data.set_local_frame1(to_pose(&plan.base)).set_local_frame2(to_pose(&plan.tip));
+        data.set_local_frame1(to_pose(&plan.base))
+            .set_local_frame2(to_pose(&plan.tip));
         let joint = world.joints.insert(bodies[0], bodies[1], data, true);
         let mut link = Self {
             plan,
             joint,
             bodies,
             motor: Motor::default(),
-            motion: Motion { position: 0.0, velocity: 0.0 },
+            motion: Motion {
+                position: 0.0,
+                velocity: 0.0,
+            },
             turned: 0.0,
             fresh: true,
             drive: None,
@@ -181,8 +213,9 @@ impl Link {
             loads: Vec::new(),
             rows: None,
         };
-        link.motion.position =
-            link.deviation(world).map_or(0.0, |relative| link.plan.kind.joint().coordinate(&relative));
+        link.motion.position = link
+            .deviation(world)
+            .map_or(0.0, |relative| link.plan.kind.joint().coordinate(&relative));
         link
     }
 
@@ -196,8 +229,12 @@ impl Link {
     }
 
     fn set_limits(&mut self, joint: &Joint, world: &mut World) {
-        let (Some(axis), Some(link)) = (self.axis(), world.joints.get_mut(self.joint, false)) else { return };
-        let has_stops = !joint.cyclic && (self.plan.kind == LinkKind::Prismatic || joint.range < MAX_STOP_RANGE);
+        let (Some(axis), Some(link)) = (self.axis(), world.joints.get_mut(self.joint, false))
+        else {
+            return;
+        };
+        let has_stops = !joint.cyclic
+            && (self.plan.kind == LinkKind::Prismatic || joint.range < MAX_STOP_RANGE);
         self.stops = has_stops.then_some([joint.min, joint.min + joint.range]);
         match self.stops {
             Some(stops) => drop(link.data.set_limits(axis, stops)),
@@ -215,10 +252,13 @@ impl Link {
 
     /// Sets rapier's motor, which matters only where rapier solves the link as well.
     fn set_engine_motor(&self, world: &mut World) {
-        let (Some(axis), Some(link)) = (self.axis(), world.joints.get_mut(self.joint, true)) else { return };
+        let (Some(axis), Some(link)) = (self.axis(), world.joints.get_mut(self.joint, true)) else {
+            return;
+        };
         match self.drive {
             Some(Drive { velocity, force }) => {
-                link.data.set_motor_model(axis, MotorModel::AccelerationBased);
+                link.data
+                    .set_motor_model(axis, MotorModel::AccelerationBased);
                 link.data.set_motor(axis, 0.0, velocity, 0.0, RIGID);
                 link.data.set_motor_max_force(axis, force);
             }
@@ -242,9 +282,12 @@ impl Link {
     /// Stores the exact solution; the rest is left to rapier's motor.
     pub(super) fn set_solution(&mut self, load: &JointLoad, world: &mut World) {
         self.solution = Some(*load);
-        let (Some(axis), Some(drive), true) = (self.axis(), self.drive, self.shared) else { return };
+        let (Some(axis), Some(drive), true) = (self.axis(), self.drive, self.shared) else {
+            return;
+        };
         if let Some(link) = world.joints.get_mut(self.joint, true) {
-            link.data.set_motor_max_force(axis, (drive.force - load.motor.abs()).max(0.0));
+            link.data
+                .set_motor_max_force(axis, (drive.force - load.motor.abs()).max(0.0));
         }
     }
 
@@ -261,10 +304,14 @@ impl Link {
 
     /// Notes how far the sub-step just made turned the joint: a fast wheel makes more than half a turn in it.
     pub(super) fn note_turn(&mut self, world: &World, step: f64) {
-        let [Some(first), Some(second)] = self.bodies.map(|body| world.bodies.get(body)) else { return };
+        let [Some(first), Some(second)] = self.bodies.map(|body| world.bodies.get(body)) else {
+            return;
+        };
         let axis = from_pose(first.position()) * self.plan.base * Vector3::z();
         let spin = Vector3::from(from_vector(second.angvel() - first.angvel()));
-        self.turned = Some(spin.dot(&axis) * step).filter(|turned| turned.is_finite()).unwrap_or(0.0);
+        self.turned = Some(spin.dot(&axis) * step)
+            .filter(|turned| turned.is_finite())
+            .unwrap_or(0.0);
     }
 
     /// Prepares what is needed to read the load after the sub-step.
@@ -278,22 +325,38 @@ impl Link {
     pub(super) fn after_step(&mut self, world: &World, step: f64) -> Option<Pose> {
         let relative = self.deviation(world).and_then(Finite::finite)?;
         let before = self.motion.position;
-        let position = self.plan.kind.joint().continued_coordinate(&relative, before, self.turned);
-        self.motion = Motion { position, velocity: (position - before) / step };
+        let position = self
+            .plan
+            .kind
+            .joint()
+            .continued_coordinate(&relative, before, self.turned);
+        self.motion = Motion {
+            position,
+            velocity: (position - before) / step,
+        };
         self.fresh = false;
         let joint = world.joints.get(self.joint)?;
-        let solution = self.solution.take().unwrap_or(JointLoad { rows: Vector6::zeros(), motor: 0.0 });
+        let solution = self.solution.take().unwrap_or(JointLoad {
+            rows: Vector6::zeros(),
+            motor: 0.0,
+        });
         let axis = self.axis().filter(|_| self.shared && self.drive.is_some());
         let impulse = axis.map_or(0.0, |axis| joint.data.motors[axis as usize].impulse);
         // Values that overflowed are not read at all.
         // rapier remembers the impulses of the last part.
         let part = step / self.parts as f64;
-        self.efforts.push((impulse / part - solution.motor).finite().unwrap_or(0.0));
+        self.efforts
+            .push((impulse / part - solution.motor).finite().unwrap_or(0.0));
         if let Some(residual) = self.rows.take() {
-            let impulses = if self.shared { joint.impulses } else { Default::default() };
+            let impulses = if self.shared {
+                joint.impulses
+            } else {
+                Default::default()
+            };
             let (force, torque) = residual.load(&impulses, part);
-            let load =
-                |of: [f64; 3], at: usize| [0, 1, 2].map(|i| (of[i] - solution.rows[at + i]).finite().unwrap_or(0.0));
+            let load = |of: [f64; 3], at: usize| {
+                [0, 1, 2].map(|i| (of[i] - solution.rows[at + i]).finite().unwrap_or(0.0))
+            };
             self.loads.push((load(force, 0), load(torque, 3)));
         }
         Some(relative)
@@ -304,7 +367,9 @@ impl Link {
 fn locked_axes(plan: &LinkPlan) -> JointAxesMask {
     let all = JointAxesMask::all();
     match plan.kind {
-        LinkKind::Revolute if plan.pitch != 0.0 => all.difference(JointAxesMask::ANG_Z | JointAxesMask::LIN_Z),
+        LinkKind::Revolute if plan.pitch != 0.0 => {
+            all.difference(JointAxesMask::ANG_Z | JointAxesMask::LIN_Z)
+        }
         LinkKind::Revolute => all.difference(JointAxesMask::ANG_Z),
         LinkKind::Prismatic => all.difference(JointAxesMask::LIN_Z),
         LinkKind::Spherical => JointAxesMask::LIN_AXES,
@@ -315,9 +380,14 @@ fn locked_axes(plan: &LinkPlan) -> JointAxesMask {
 /// Clears the reset requests of links that were rebuilt.
 pub(super) fn clear_resets(links: &Links, scene: &mut Scene) {
     for (handle, _) in links.iter() {
-        if scene.object(handle).is_ok_and(|object| object.dynamics_reset) {
+        if scene
+            .object(handle)
+            .is_ok_and(|object| object.dynamics_reset)
+        {
             // The handle was just read.
-            let _ = scene.modify(handle, Field::Dynamics, |object| object.dynamics_reset = false);
+            let _ = scene.modify(handle, Field::Dynamics, |object| {
+                object.dynamics_reset = false
+            });
         }
     }
 }
@@ -325,6 +395,8 @@ pub(super) fn clear_resets(links: &Links, scene: &mut Scene) {
 /// Whether a script moved a link or requested a reset.
 pub(super) fn were_touched(links: &Links, scene: &Scene) -> bool {
     links.iter().any(|(handle, link)| {
-        scene.object(handle).map_or(true, |object| object.pose() != link.plan.base || object.dynamics_reset)
+        scene.object(handle).map_or(true, |object| {
+            object.pose() != link.plan.base || object.dynamics_reset
+        })
     })
 }

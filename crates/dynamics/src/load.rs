@@ -36,7 +36,11 @@ struct Response {
 }
 
 impl Rows {
-    pub(super) fn new(world: &World, bodies: [RigidBodyHandle; 2], plan: &LinkPlan) -> Option<Self> {
+    pub(super) fn new(
+        world: &World,
+        bodies: [RigidBodyHandle; 2],
+        plan: &LinkPlan,
+    ) -> Option<Self> {
         let [first, second] = [world.bodies.get(bodies[0])?, world.bodies.get(bodies[1])?];
         let base = from_pose(first.position()) * plan.base;
         let tip = from_pose(second.position()) * plan.tip;
@@ -47,13 +51,23 @@ impl Rows {
         let row = |i: usize| {
             let axis: Vector3<f64> = axes.matrix().column(i % 3).into();
             match i {
-                0..3 => Row { linear: Vector3::zeros(), angular: [axis * 0.5; 2] },
-                _ => Row { linear: axis, angular: [levers[0].cross(&axis), tip_lever.cross(&axis)] },
+                0..3 => Row {
+                    linear: Vector3::zeros(),
+                    angular: [axis * 0.5; 2],
+                },
+                _ => Row {
+                    linear: axis,
+                    angular: [levers[0].cross(&axis), tip_lever.cross(&axis)],
+                },
             }
         };
         let mut rows = [0, 1, 2, 3, 4, 5].map(row);
         make_independent(&mut rows, &[response(first), response(second)]);
-        Some(Self { base, com: com(second), rows })
+        Some(Self {
+            base,
+            com: com(second),
+            rows,
+        })
     }
 
     /// Load of the second body on the first through the link, from the solver's impulses over `step` seconds.
@@ -78,7 +92,10 @@ fn com(body: &RigidBody) -> Vector3<f64> {
 
 fn response(body: &RigidBody) -> Response {
     if !body.is_dynamic() {
-        return Response { mass: 0.0, inertia: Matrix3::zeros() };
+        return Response {
+            mass: 0.0,
+            inertia: Matrix3::zeros(),
+        };
     }
     let inverse = body.mass_properties().effective_world_inv_inertia;
     Response {
@@ -100,7 +117,10 @@ fn response(body: &RigidBody) -> Response {
 fn make_independent(rows: &mut [Row; 6], bodies: &[Response; 2]) {
     let dot = |a: &Row, b: &Row| {
         let linear = a.linear.dot(&b.linear) * (bodies[0].mass + bodies[1].mass);
-        linear + (0..2).map(|i| (bodies[i].inertia * a.angular[i]).dot(&b.angular[i])).sum::<f64>()
+        linear
+            + (0..2)
+                .map(|i| (bodies[i].inertia * a.angular[i]).dot(&b.angular[i]))
+                .sum::<f64>()
     };
     for j in 0..rows.len() {
         let done = rows[j];

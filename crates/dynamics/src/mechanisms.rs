@@ -56,19 +56,43 @@ struct Builder {
 
 impl Mechanisms {
     /// Builds the systems for the links; mechanisms with a joint that selects rapier are left to rapier. `order`: base to tip.
-    pub(super) fn rebuild(&mut self, links: &mut Links, order: &[Handle], bodies: &Bodies, world: &mut World) {
-        self.all.iter().for_each(|linked| linked.enable_engine_gyration(true, world));
+    pub(super) fn rebuild(
+        &mut self,
+        links: &mut Links,
+        order: &[Handle],
+        bodies: &Bodies,
+        world: &mut World,
+    ) {
+        self.all
+            .iter()
+            .for_each(|linked| linked.enable_engine_gyration(true, world));
         let builders = builders(links, order, bodies);
-        let (of_rapier, exact): (Vec<Builder>, Vec<Builder>) = builders.into_iter().partition(Builder::is_for_rapier);
-        self.of_rapier = of_rapier.into_iter().map(|builder| (builder.shapes, builder.links)).collect();
-        self.of_rapier.iter().for_each(|(_, places)| share(places, true, links, world));
-        self.all = exact.into_iter().map(|builder| builder.build(bodies, world)).collect();
+        let (of_rapier, exact): (Vec<Builder>, Vec<Builder>) =
+            builders.into_iter().partition(Builder::is_for_rapier);
+        self.of_rapier = of_rapier
+            .into_iter()
+            .map(|builder| (builder.shapes, builder.links))
+            .collect();
+        self.of_rapier
+            .iter()
+            .for_each(|(_, places)| share(places, true, links, world));
+        self.all = exact
+            .into_iter()
+            .map(|builder| builder.build(bodies, world))
+            .collect();
         self.joint_count = self.all.iter().map(|linked| linked.links().len()).sum();
-        self.all.iter().for_each(|linked| linked.enable_engine_gyration(false, world));
+        self.all
+            .iter()
+            .for_each(|linked| linked.enable_engine_gyration(false, world));
         self.places = BTreeMap::new();
         for (number, linked) in self.all.iter().enumerate() {
-            let dynamic = linked.bodies().iter().enumerate().filter(|(_, body)| body.is_dynamic);
-            self.places.extend(dynamic.map(|(index, body)| (body.shape, (number, index))));
+            let dynamic = linked
+                .bodies()
+                .iter()
+                .enumerate()
+                .filter(|(_, body)| body.is_dynamic);
+            self.places
+                .extend(dynamic.map(|(index, body)| (body.shape, (number, index))));
         }
     }
 
@@ -101,7 +125,9 @@ impl Mechanisms {
         self.contacts.clear();
         for (number, linked) in self.all.iter_mut().enumerate() {
             let touching = linked.touching(number);
-            let guests = self.contacts.find(world, &self.places, verdicts, step, touching);
+            let guests = self
+                .contacts
+                .find(world, &self.places, verdicts, step, touching);
             linked.shared = guests.is_none();
             linked.receive(guests.unwrap_or_default(), bodies);
             linked.read(links, world, gravity, step, self.contacts.of(number));
@@ -126,19 +152,33 @@ impl Mechanisms {
 
     /// Applies the forces to the bodies, which the engine then moves.
     pub(super) fn apply_forces(&self, world: &mut World) {
-        self.all.iter().filter(|linked| linked.is_solved).for_each(|linked| linked.apply_forces(world));
+        self.all
+            .iter()
+            .filter(|linked| linked.is_solved)
+            .for_each(|linked| linked.apply_forces(world));
     }
 
     /// Whether all that moves are bodies of mechanisms that were solved with all that acts on them: the engine has nothing to add.
     pub(super) fn can_integrate(&self, world: &World) -> bool {
-        let moving = world.awake().filter(|&body| world.bodies.get(body).is_some_and(RigidBody::is_dynamic));
-        self.of_rapier.is_empty() && self.all.iter().all(Linked::can_integrate) && moving.count() == self.places.len()
+        let moving = world
+            .awake()
+            .filter(|&body| world.bodies.get(body).is_some_and(RigidBody::is_dynamic));
+        self.of_rapier.is_empty()
+            && self.all.iter().all(Linked::can_integrate)
+            && moving.count() == self.places.len()
     }
 
     /// Moves the bodies over the sub-step that was solved, and finds their corrected positions.
-    pub(super) fn integrate(&mut self, links: &mut Links, world: &mut World, workers: &mut Workers) {
+    pub(super) fn integrate(
+        &mut self,
+        links: &mut Links,
+        world: &mut World,
+        workers: &mut Workers,
+    ) {
         self.for_each(workers, Linked::integrate);
-        self.all.iter().for_each(|linked| linked.apply_motions(links, world));
+        self.all
+            .iter()
+            .for_each(|linked| linked.apply_motions(links, world));
     }
 
     /// Calls `work` for every mechanism.
@@ -169,7 +209,11 @@ impl Mechanisms {
         if !self.all.iter().any(|linked| linked.shared) {
             return;
         }
-        let is_shared = |shape| self.places.get(&shape).is_some_and(|place| self.all[place.0].shared);
+        let is_shared = |shape| {
+            self.places
+                .get(&shape)
+                .is_some_and(|place| self.all[place.0].shared)
+        };
         for push in contacts::expected(world, is_shared) {
             for (shape, sign) in [(push.shapes[0], 1.0), (push.shapes[1], -1.0)] {
                 if let Some(&(number, body)) = self.places.get(&shape) {
@@ -180,27 +224,49 @@ impl Mechanisms {
     }
 
     /// Corrects the positions of the bodies after a sub-step, so that the links hold.
-    pub(super) fn correct_positions(&mut self, links: &Links, world: &mut World, workers: &mut Workers) {
-        self.all.iter_mut().for_each(|linked| linked.read_motions(links, world));
+    pub(super) fn correct_positions(
+        &mut self,
+        links: &Links,
+        world: &mut World,
+        workers: &mut Workers,
+    ) {
+        self.all
+            .iter_mut()
+            .for_each(|linked| linked.read_motions(links, world));
         self.for_each(workers, Linked::correct_positions);
         self.apply_positions(world);
     }
 
     /// Moves the bodies to the corrected positions.
     pub(super) fn apply_positions(&self, world: &mut World) {
-        self.all.iter().for_each(|linked| linked.apply_positions(world));
+        self.all
+            .iter()
+            .for_each(|linked| linked.apply_positions(world));
     }
 }
 
 /// A builder for each set of links that hang together by bodies that move. Links at the tips come first, which are eliminated first.
 fn builders(links: &Links, order: &[Handle], bodies: &Bodies) -> Vec<Builder> {
-    let plan = |&handle: &Handle| links.place(handle).map(|place| (place, &links.at(place).plan));
+    let plan = |&handle: &Handle| {
+        links
+            .place(handle)
+            .map(|place| (place, &links.at(place).plan))
+    };
     let plans: Vec<(usize, &LinkPlan)> = order.iter().rev().filter_map(plan).collect();
-    let moving = |shape: Handle| bodies.get(shape).filter(|body| body.build.dynamic).map(|_| shape);
-    let ends = |(_, plan): &(usize, &LinkPlan)| [plan.first, plan.second].into_iter().filter_map(moving);
+    let moving = |shape: Handle| {
+        bodies
+            .get(shape)
+            .filter(|body| body.build.dynamic)
+            .map(|_| shape)
+    };
+    let ends =
+        |(_, plan): &(usize, &LinkPlan)| [plan.first, plan.second].into_iter().filter_map(moving);
     let numbers = partition(plans.iter().map(ends));
     let mut builders = Vec::new();
-    builders.resize_with(numbers.iter().max().map_or(0, |last| last + 1), Builder::default);
+    builders.resize_with(
+        numbers.iter().max().map_or(0, |last| last + 1),
+        Builder::default,
+    );
     for ((place, plan), number) in plans.into_iter().zip(numbers) {
         builders[number].add(place, plan, bodies);
     }
@@ -211,9 +277,24 @@ impl Builder {
     fn add(&mut self, link: usize, plan: &LinkPlan, bodies: &Bodies) {
         self.asks_rapier |= plan.solver == JointSolver::Impulse;
         self.has_screw |= plan.pitch != 0.0;
-        if let (Some(first), Some(second)) = (self.body(plan.first, bodies), self.body(plan.second, bodies)) {
-            let LinkPlan { kind, base, tip, pitch, .. } = *plan;
-            self.joints.push(JointProperties { kind: kind.joint(), bodies: [first, second], base, tip, pitch });
+        if let (Some(first), Some(second)) = (
+            self.body(plan.first, bodies),
+            self.body(plan.second, bodies),
+        ) {
+            let LinkPlan {
+                kind,
+                base,
+                tip,
+                pitch,
+                ..
+            } = *plan;
+            self.joints.push(JointProperties {
+                kind: kind.joint(),
+                bodies: [first, second],
+                base,
+                tip,
+                pitch,
+            });
             self.links.push(link);
         }
     }
@@ -234,6 +315,12 @@ impl Builder {
     }
 
     fn build(self, bodies: &Bodies, world: &World) -> Linked {
-        Linked::new(Mechanism::new(self.bodies, self.joints), self.shapes, self.links, bodies, world)
+        Linked::new(
+            Mechanism::new(self.bodies, self.joints),
+            self.shapes,
+            self.links,
+            bodies,
+            world,
+        )
     }
 }

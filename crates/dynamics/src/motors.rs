@@ -44,7 +44,13 @@ pub(super) struct Motor {
 impl Motor {
     /// The order for the next `step` seconds with the gains of that engine; None when the motor is off. Callback control is not decided
     /// here.
-    pub(super) fn drive(&mut self, joint: &Joint, engine: Engine, now: Motion, step: f64) -> Option<Drive> {
+    pub(super) fn drive(
+        &mut self,
+        joint: &Joint,
+        engine: Engine,
+        now: Motion,
+        step: f64,
+    ) -> Option<Drive> {
         let limit = joint.target_force.abs();
         if joint.control != Control::Velocity || !joint.motor_lock || joint.target_velocity != 0.0 {
             self.lock = None;
@@ -52,21 +58,34 @@ impl Motor {
         match joint.control {
             Control::Free | Control::Callback => None,
             Control::Force => Some(push(joint.target_force)),
-            Control::Velocity if joint.motor_lock && joint.target_velocity == 0.0 => Some(self.hold(now, step)),
-            Control::Velocity => Some(Drive { velocity: self.velocity(joint, now, step), force: limit }),
-            Control::Position | Control::PositionOrCallback => {
-                Some(Drive { velocity: self.approach(joint, joint.gains_with(engine), now, step), force: limit })
+            Control::Velocity if joint.motor_lock && joint.target_velocity == 0.0 => {
+                Some(self.hold(now, step))
             }
+            Control::Velocity => Some(Drive {
+                velocity: self.velocity(joint, now, step),
+                force: limit,
+            }),
+            Control::Position | Control::PositionOrCallback => Some(Drive {
+                velocity: self.approach(joint, joint.gains_with(engine), now, step),
+                force: limit,
+            }),
             Control::Spring | Control::SpringOrCallback => {
-                let effort = joint.spring[0] * joint.position_error(now.position) - joint.spring[1] * now.velocity;
-                Some(Drive { velocity: joint.target_velocity.abs().copysign(effort), force: effort.abs() })
+                let effort = joint.spring[0] * joint.position_error(now.position)
+                    - joint.spring[1] * now.velocity;
+                Some(Drive {
+                    velocity: joint.target_velocity.abs().copysign(effort),
+                    force: effort.abs(),
+                })
             }
         }
     }
 
     fn hold(&mut self, now: Motion, step: f64) -> Drive {
         let place = *self.lock.get_or_insert(now.position);
-        Drive { velocity: (place - now.position) / step, force: RIGID_FORCE }
+        Drive {
+            velocity: (place - now.position) / step,
+            force: RIGID_FORCE,
+        }
     }
 
     fn velocity(&mut self, joint: &Joint, now: Motion, step: f64) -> f64 {
@@ -74,7 +93,8 @@ impl Motor {
             return joint.target_velocity;
         }
         let (velocity, acceleration) = self.profile;
-        let (target, max_accel, max_jerk) = (joint.target_velocity, joint.max_accel, joint.max_jerk);
+        let (target, max_accel, max_jerk) =
+            (joint.target_velocity, joint.max_accel, joint.max_jerk);
         self.advance_profile(ruckig_plan::velocity_step(
             now.position,
             velocity,
@@ -104,7 +124,11 @@ impl Motor {
             );
             return self.advance_profile(next);
         }
-        self.integral = if i == 0.0 { 0.0 } else { self.integral + error * step };
+        self.integral = if i == 0.0 {
+            0.0
+        } else {
+            self.integral + error * step
+        };
         let velocity = (p * error + i * self.integral - d * now.velocity) / CONTROL_PERIOD;
         velocity.clamp(-joint.max_vel.abs(), joint.max_vel.abs())
     }
@@ -120,22 +144,42 @@ impl Motor {
 /// The order that a joint callback's answer means.
 pub(super) fn answered(velocity: Option<f64>, force: Option<f64>) -> Option<Drive> {
     match (velocity, force) {
-        (None, None) => Some(Drive { velocity: 0.0, force: 0.0 }),
+        (None, None) => Some(Drive {
+            velocity: 0.0,
+            force: 0.0,
+        }),
         (None, Some(force)) => Some(push(force)),
-        (Some(velocity), None) => Some(Drive { velocity, force: MAX_FREE_FORCE }),
-        (Some(velocity), Some(force)) => Some(Drive { velocity, force: force.abs() }),
+        (Some(velocity), None) => Some(Drive {
+            velocity,
+            force: MAX_FREE_FORCE,
+        }),
+        (Some(velocity), Some(force)) => Some(Drive {
+            velocity,
+            force: force.abs(),
+        }),
     }
 }
 
 /// A joint that depends on another one of the dynamics follows it rigidly. `master`: the other joint.
-pub(super) fn coupled_drive(joint: &Joint, now: Motion, master: Motion, step: f64) -> Option<Drive> {
+pub(super) fn coupled_drive(
+    joint: &Joint,
+    now: Motion,
+    master: Motion,
+    step: f64,
+) -> Option<Drive> {
     let law = joint.dependency?;
     let error = law.offset + law.coefficient * master.position - now.position;
-    Some(Drive { velocity: error / step + law.coefficient * master.velocity, force: RIGID_FORCE })
+    Some(Drive {
+        velocity: error / step + law.coefficient * master.velocity,
+        force: RIGID_FORCE,
+    })
 }
 
 fn push(force: f64) -> Drive {
-    Drive { velocity: FORCE_CONTROL_VELOCITY.copysign(force), force: force.abs() }
+    Drive {
+        velocity: FORCE_CONTROL_VELOCITY.copysign(force),
+        force: force.abs(),
+    }
 }
 
 #[cfg(test)]
@@ -144,24 +188,48 @@ mod tests {
     use scene::joint::{JointMode, JointType};
 
     fn joint(control: Control) -> Joint {
-        Joint { control, ..Joint::new(JointType::Revolute, JointMode::Dynamic) }
+        Joint {
+            control,
+            ..Joint::new(JointType::Revolute, JointMode::Dynamic)
+        }
     }
 
-    const AT_ZERO: Motion = Motion { position: 0.0, velocity: 0.0 };
+    const AT_ZERO: Motion = Motion {
+        position: 0.0,
+        velocity: 0.0,
+    };
 
     #[test]
     fn position_control_closes_a_tenth_of_the_error_in_five_milliseconds() {
-        let joint = Joint { target_position: 0.1, ..joint(Control::Position) };
-        let drive = Motor::default().drive(&joint, Engine::Bullet, AT_ZERO, 0.005).expect("on");
+        let joint = Joint {
+            target_position: 0.1,
+            ..joint(Control::Position)
+        };
+        let drive = Motor::default()
+            .drive(&joint, Engine::Bullet, AT_ZERO, 0.005)
+            .expect("on");
         assert!((drive.velocity * 0.005 - 0.01).abs() < 1e-15);
     }
 
     #[test]
     fn a_spring_pushes_with_its_effort() {
-        let joint =
-            Joint { spring: [2.0, 0.1], target_velocity: 1000.0, target_position: 0.5, ..joint(Control::Spring) };
-        let drive =
-            Motor::default().drive(&joint, Engine::Bullet, Motion { position: 0.0, velocity: 1.0 }, 0.005).expect("on");
+        let joint = Joint {
+            spring: [2.0, 0.1],
+            target_velocity: 1000.0,
+            target_position: 0.5,
+            ..joint(Control::Spring)
+        };
+        let drive = Motor::default()
+            .drive(
+                &joint,
+                Engine::Bullet,
+                Motion {
+                    position: 0.0,
+                    velocity: 1.0,
+                },
+                0.005,
+            )
+            .expect("on");
         assert!((drive.force - 0.9).abs() < 1e-12);
         assert_eq!(drive.velocity, 1000.0);
     }

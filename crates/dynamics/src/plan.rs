@@ -130,11 +130,27 @@ impl LinkKind {
 impl Plan {
     pub(super) fn new(scene: &Scene, frozen: &Frozen) -> Self {
         let order = scene.all_breadth_first();
-        let far: Vec<_> = order.iter().copied().filter(|&handle| is_far(scene, handle)).collect();
-        let here = order.iter().filter(|&&handle| far.is_empty() || !far.contains(&scene.root_of(handle)));
-        let bodies = here.filter_map(|&handle| Some((handle, body(scene, handle, frozen)?))).collect();
-        let mut plan = Self { bodies, links: BTreeMap::new(), far };
-        let roles: BTreeMap<Handle, bool> = plan.bodies.iter().map(|(h, body)| (*h, body.build.dynamic)).collect();
+        let far: Vec<_> = order
+            .iter()
+            .copied()
+            .filter(|&handle| is_far(scene, handle))
+            .collect();
+        let here = order
+            .iter()
+            .filter(|&&handle| far.is_empty() || !far.contains(&scene.root_of(handle)));
+        let bodies = here
+            .filter_map(|&handle| Some((handle, body(scene, handle, frozen)?)))
+            .collect();
+        let mut plan = Self {
+            bodies,
+            links: BTreeMap::new(),
+            far,
+        };
+        let roles: BTreeMap<Handle, bool> = plan
+            .bodies
+            .iter()
+            .map(|(h, body)| (*h, body.build.dynamic))
+            .collect();
         for handle in order {
             if let Some(link) = link(scene, handle, &roles) {
                 plan.links.insert(handle, link);
@@ -152,8 +168,10 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
         return None;
     }
     let flags = scene.calculated_model_property(handle);
-    let (dynamic_tree, respondable_tree) =
-        (!flags.contains(ModelFlags::NOT_DYNAMIC), !flags.contains(ModelFlags::NOT_RESPONDABLE));
+    let (dynamic_tree, respondable_tree) = (
+        !flags.contains(ModelFlags::NOT_DYNAMIC),
+        !flags.contains(ModelFlags::NOT_RESPONDABLE),
+    );
     let is_somewhere = || scene.world_pose(handle).is_ok_and(|pose| pose.is_finite());
     if !(dynamic_tree || respondable_tree) || !is_somewhere() {
         return None;
@@ -165,12 +183,21 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
         mass: shape.mass.with_positive_moments(),
         parts: shape.parts.iter().map(PartForm::of).collect(),
     };
-    Some(BodyPlan { build, surface: surface(scene, handle, shape), asleep: dynamics.start_asleep })
+    Some(BodyPlan {
+        build,
+        surface: surface(scene, handle, shape),
+        asleep: dynamics.start_asleep,
+    })
 }
 
 impl PartForm {
     fn of(part: &scene::shape::Part) -> Self {
-        Self { mesh: part.mesh.clone(), pose: part.pose, primitive: part.primitive.clone(), convex: part.convex }
+        Self {
+            mesh: part.mesh.clone(),
+            pose: part.pose,
+            primitive: part.primitive.clone(),
+            convex: part.convex,
+        }
     }
 }
 
@@ -180,9 +207,17 @@ fn surface(scene: &Scene, handle: Handle, shape: &Shape) -> Surface {
     let suspended = shape.dynamics.respondable_suspend_count > 0;
     Surface {
         root: scene.root_of(handle),
-        mask: if suspended { 0 } else { shape.dynamics.respondable_mask.bits() },
+        mask: if suspended {
+            0
+        } else {
+            shape.dynamics.respondable_mask.bits()
+        },
         friction,
-        friction_rule: if selected.engine == Engine::Mujoco { FrictionRule::Largest } else { FrictionRule::Product },
+        friction_rule: if selected.engine == Engine::Mujoco {
+            FrictionRule::Largest
+        } else {
+            FrictionRule::Product
+        },
         restitution,
         linear_damping: shape.material.linear_damping,
         angular_damping: shape.material.angular_damping,
@@ -201,7 +236,9 @@ pub(super) fn is_far(scene: &Scene, handle: Handle) -> bool {
 /// Whether a static shape that collides with nothing is needed as the base of a joint, force sensor or weld.
 fn carries_links(scene: &Scene, shape: &Object) -> bool {
     children(scene, shape).any(|child| match &child.kind {
-        Kind::Joint(joint) => is_dynamic_mode(scene, joint) && !closing_children(scene, child).is_empty(),
+        Kind::Joint(joint) => {
+            is_dynamic_mode(scene, joint) && !closing_children(scene, child).is_empty()
+        }
         Kind::ForceSensor(_) => !closing_children(scene, child).is_empty(),
         Kind::Dummy(_) => welded_to(scene, child).is_some(),
         _ => false,
@@ -209,7 +246,10 @@ fn carries_links(scene: &Scene, shape: &Object) -> bool {
 }
 
 fn children<'a>(scene: &'a Scene, object: &'a Object) -> impl Iterator<Item = &'a Object> {
-    object.children().iter().filter_map(|&child| scene.object(child).ok())
+    object
+        .children()
+        .iter()
+        .filter_map(|&child| scene.object(child).ok())
 }
 
 /// Also a joint that follows a dynamic one counts as dynamic, directly or by way of others. Masters never form a circle.
@@ -244,16 +284,22 @@ fn closing_children<'a>(scene: &'a Scene, link: &'a Object) -> Vec<&'a Object> {
 fn welded_to<'a>(scene: &'a Scene, dummy: &Object) -> Option<&'a Object> {
     let data = dummy.dummy().ok()?;
     let partner = scene.object(data.link?).ok()?;
-    let closes =
-        data.link_type == LinkType::LoopClosure && dummy.children().is_empty() && partner.children().is_empty();
+    let closes = data.link_type == LinkType::LoopClosure
+        && dummy.children().is_empty()
+        && partner.children().is_empty();
     closes.then_some(partner)
 }
 
 /// The link of an object, if all its conditions hold. `roles`: the bodies, and whether they are dynamic.
 fn link(scene: &Scene, handle: Handle, roles: &BTreeMap<Handle, bool>) -> Option<LinkPlan> {
     let object = scene.object(handle).ok()?;
-    let first = object.parent().filter(|parent| roles.contains_key(parent))?;
-    if scene.calculated_model_property(handle).contains(ModelFlags::NOT_DYNAMIC) {
+    let first = object
+        .parent()
+        .filter(|parent| roles.contains_key(parent))?;
+    if scene
+        .calculated_model_property(handle)
+        .contains(ModelFlags::NOT_DYNAMIC)
+    {
         return None;
     }
     let kind = match &object.kind {
@@ -266,7 +312,9 @@ fn link(scene: &Scene, handle: Handle, roles: &BTreeMap<Handle, bool>) -> Option
         Kind::Dummy(_) => return weld(scene, object, first, roles),
         _ => return None,
     };
-    let [child] = closing_children(scene, object)[..] else { return None };
+    let [child] = closing_children(scene, object)[..] else {
+        return None;
+    };
     let (second, tip) = match &child.kind {
         Kind::Shape(_) => (child.handle(), child.pose().inverse()),
         _ => {
@@ -276,7 +324,11 @@ fn link(scene: &Scene, handle: Handle, roles: &BTreeMap<Handle, bool>) -> Option
     };
     let second_is_child = second == child.handle();
     let moves = |body: Handle| roles.get(&body).copied();
-    let linked = if second_is_child { moves(second)? } else { moves(first)? || moves(second)? };
+    let linked = if second_is_child {
+        moves(second)?
+    } else {
+        moves(first)? || moves(second)?
+    };
     (linked && first != second).then(|| LinkPlan {
         uid: object.uid(),
         kind,
@@ -285,13 +337,20 @@ fn link(scene: &Scene, handle: Handle, roles: &BTreeMap<Handle, bool>) -> Option
         base: object.pose(),
         tip,
         pitch: object.joint().map_or(0.0, pitch),
-        solver: object.joint().map_or(JointSolver::Exact, |joint| joint.solver),
+        solver: object
+            .joint()
+            .map_or(JointSolver::Exact, |joint| joint.solver),
         second_is_child,
     })
 }
 
 /// Two dummies directly below shapes; the link is identified by the first.
-fn weld(scene: &Scene, dummy: &Object, first: Handle, roles: &BTreeMap<Handle, bool>) -> Option<LinkPlan> {
+fn weld(
+    scene: &Scene,
+    dummy: &Object,
+    first: Handle,
+    roles: &BTreeMap<Handle, bool>,
+) -> Option<LinkPlan> {
     let partner = welded_to(scene, dummy)?;
     let second = partner.parent()?;
     let moves = *roles.get(&first)? || *roles.get(&second)?;
@@ -309,5 +368,9 @@ fn weld(scene: &Scene, dummy: &Object, first: Handle, roles: &BTreeMap<Handle, b
 }
 
 fn pitch(joint: &Joint) -> f64 {
-    if joint.is_revolute() { joint.screw_lead / std::f64::consts::TAU } else { 0.0 }
+    if joint.is_revolute() {
+        joint.screw_lead / std::f64::consts::TAU
+    } else {
+        0.0
+    }
 }

@@ -16,7 +16,10 @@ pub(super) struct Reach {
 
 impl Default for Reach {
     fn default() -> Self {
-        Self { thickness: f64::MAX, extent: 0.0 }
+        Self {
+            thickness: f64::MAX,
+            extent: 0.0,
+        }
     }
 }
 
@@ -25,7 +28,9 @@ impl Reach {
         let mut reach = Self::default();
         for collider in colliders.iter().filter_map(|&handle| all.get(handle)) {
             let sphere = collider.shape().compute_local_bounding_sphere();
-            let offset = collider.position_wrt_parent().map_or(0.0, |pose| (*pose * sphere.center).length());
+            let offset = collider
+                .position_wrt_parent()
+                .map_or(0.0, |pose| (*pose * sphere.center).length());
             reach.thickness = reach.thickness.min(collider.shape().ccd_thickness());
             reach.extent = reach.extent.max(offset + sphere.radius);
         }
@@ -41,6 +46,8 @@ impl Reach {
     pub(super) fn is_exceeded(&self, velocity: &Vector6<f64>, step: f64) -> bool {
         let [linear, angular] = [0, 3].map(|first| velocity.fixed_rows::<3>(first).norm());
         let is_in_range = linear < MAX_SPEED && angular < MAX_SPEED;
-        !is_in_range || (linear + angular * self.extent) * step > RigidBodyCcd::FAST_BODY_SAFETY_FACTOR * self.thickness
+        !is_in_range
+            || (linear + angular * self.extent) * step
+                > RigidBodyCcd::FAST_BODY_SAFETY_FACTOR * self.thickness
     }
 }

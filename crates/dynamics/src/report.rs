@@ -33,15 +33,24 @@ impl Dynamics {
     /// Takes the engine back after a sub-step and tells the scene: joints and force sensors first, then shapes, base-to-tip. Only when
     /// somebody can see them before the next sub-step, or when the engine gave up on a shape.
     pub fn finish_sub_step(&mut self, sub_step: SubStep, scene: &mut Scene) {
-        let SubStep { mut world, step, seen, is_integrated, .. } = sub_step;
+        let SubStep {
+            mut world,
+            step,
+            seen,
+            is_integrated,
+            ..
+        } = sub_step;
         if self.call.is_none() {
             return;
         }
         if is_integrated {
             self.mechanisms.apply_positions(&mut world);
         } else {
-            self.links.values_mut().for_each(|link| link.note_turn(&world, step));
-            self.mechanisms.correct_positions(&self.links, &mut world, &mut self.workers);
+            self.links
+                .values_mut()
+                .for_each(|link| link.note_turn(&world, step));
+            self.mechanisms
+                .correct_positions(&self.links, &mut world, &mut self.workers);
         }
         let reports = seen || self.follows_scene;
         for (handle, link) in self.links.iter_mut() {
@@ -49,8 +58,13 @@ impl Dynamics {
                 report_link(scene, handle, link, moving_side);
             }
         }
-        let stopped = if seen || world.has_invalid_bodies() { self.report_bodies(&world, scene) } else { Vec::new() };
-        self.contacts.add_sub_step(&world, self.mechanisms.contacts(), step);
+        let stopped = if seen || world.has_invalid_bodies() {
+            self.report_bodies(&world, scene)
+        } else {
+            Vec::new()
+        };
+        self.contacts
+            .add_sub_step(&world, self.mechanisms.contacts(), step);
         self.world = Some(world);
         self.stop_bodies(&stopped, scene);
     }
@@ -58,8 +72,15 @@ impl Dynamics {
     /// Tells the scene where the bodies are; returns those for which there is no telling.
     fn report_bodies(&mut self, world: &World, scene: &mut Scene) -> Vec<Handle> {
         let mut stopped = Vec::new();
-        for (shape, body) in self.bodies.iter_mut().filter(|(_, body)| body.build.dynamic) {
-            let sleeps = world.bodies.get(body.rigid).is_some_and(RigidBody::is_sleeping);
+        for (shape, body) in self
+            .bodies
+            .iter_mut()
+            .filter(|(_, body)| body.build.dynamic)
+        {
+            let sleeps = world
+                .bodies
+                .get(body.rigid)
+                .is_some_and(RigidBody::is_sleeping);
             // Below a parent a sleeper stays where it is when the parent moves, so that its place has to be said again.
             if std::mem::replace(&mut body.slept, sleeps) && sleeps && is_root(scene, shape) {
                 continue;
@@ -93,7 +114,11 @@ impl Dynamics {
     /// Ends the call: clears forces, averages readings, sets the dynamic flags. Returns the force sensors that trigger.
     pub fn end(&mut self, scene: &mut Scene) -> Vec<Trigger> {
         self.call = None;
-        let forced: Vec<Handle> = scene.objects().filter(|o| is_forced(o)).map(|o| o.handle()).collect();
+        let forced: Vec<Handle> = scene
+            .objects()
+            .filter(|o| is_forced(o))
+            .map(|o| o.handle())
+            .collect();
         for shape in forced {
             let _ = scene.try_modify(shape, Field::Pose, |object| {
                 let shape = object.shape_mut()?;
@@ -101,7 +126,11 @@ impl Dynamics {
                 Ok(())
             });
         }
-        let triggers = self.links.iter().filter_map(|(handle, link)| read(scene, handle, link)).collect();
+        let triggers = self
+            .links
+            .iter()
+            .filter_map(|(handle, link)| read(scene, handle, link))
+            .collect();
         self.write_flags(scene);
         triggers
     }
@@ -109,7 +138,13 @@ impl Dynamics {
     fn write_flags(&self, scene: &mut Scene) {
         let changes: Vec<(Handle, DynamicFlags)> = scene
             .objects()
-            .map(|object| (object.handle(), self.flag_of(object.handle(), &object.kind), object.dynamic_flag))
+            .map(|object| {
+                (
+                    object.handle(),
+                    self.flag_of(object.handle(), &object.kind),
+                    object.dynamic_flag,
+                )
+            })
             .filter(|(_, flag, old)| flag != old)
             .map(|(handle, flag, _)| (handle, flag))
             .collect();
@@ -121,15 +156,23 @@ impl Dynamics {
 
     fn flag_of(&self, handle: Handle, kind: &Kind) -> DynamicFlags {
         match kind {
-            Kind::Shape(_) => self.bodies.get(handle).map_or(DynamicFlags::empty(), |body| {
-                let mut flags = DynamicFlags::empty();
-                flags.set(DynamicFlags::RESPONDABLE, body.build.respondable);
-                flags.set(DynamicFlags::DYNAMIC, body.build.dynamic);
-                flags
-            }),
+            Kind::Shape(_) => self
+                .bodies
+                .get(handle)
+                .map_or(DynamicFlags::empty(), |body| {
+                    let mut flags = DynamicFlags::empty();
+                    flags.set(DynamicFlags::RESPONDABLE, body.build.respondable);
+                    flags.set(DynamicFlags::DYNAMIC, body.build.dynamic);
+                    flags
+                }),
             Kind::Joint(_) if self.links.contains(handle) => DynamicFlags::JOINT,
             Kind::ForceSensor(_) if self.links.contains(handle) => DynamicFlags::FORCE_SENSOR,
-            Kind::Dummy(dummy) if [Some(handle), dummy.link].iter().flatten().any(|&end| self.links.contains(end)) => {
+            Kind::Dummy(dummy)
+                if [Some(handle), dummy.link]
+                    .iter()
+                    .flatten()
+                    .any(|&end| self.links.contains(end)) =>
+            {
                 DynamicFlags::DUMMY
             }
             _ => DynamicFlags::empty(),
@@ -138,7 +181,9 @@ impl Dynamics {
 }
 
 fn is_root(scene: &Scene, shape: Handle) -> bool {
-    scene.object(shape).is_ok_and(|object| object.parent().is_none())
+    scene
+        .object(shape)
+        .is_ok_and(|object| object.parent().is_none())
 }
 
 /// Whether the shape hangs on a link that is its parent, so that its place in the scene follows from the link.
@@ -151,8 +196,14 @@ fn is_held(links: &Links, scene: &Scene, shape: Handle) -> bool {
 
 /// Where a body is and how it moves; None when that cannot be said in numbers. rapier disables such a body.
 fn state(body: &Body, world: &World) -> Option<(Pose, Velocity)> {
-    let rigid = world.bodies.get(body.rigid).filter(|rigid| rigid.is_enabled())?;
-    let velocity = Velocity { linear: from_vector(rigid.linvel()), angular: from_vector(rigid.angvel()) };
+    let rigid = world
+        .bodies
+        .get(body.rigid)
+        .filter(|rigid| rigid.is_enabled())?;
+    let velocity = Velocity {
+        linear: from_vector(rigid.linvel()),
+        angular: from_vector(rigid.angvel()),
+    };
     let pose = from_pose(rigid.position());
     (is_valid_pose(&pose) && rigid.vels().is_finite()).then_some((pose, velocity))
 }
@@ -164,10 +215,16 @@ fn report_link(scene: &mut Scene, handle: Handle, link: &Link, moving_side: Pose
         LinkKind::Sensor => scene.report_sensor(handle, moving_side),
         kind => {
             let shown = |joint: &Joint| shown_position(joint, kind, link.motion.position);
-            let position = scene.object(handle).and_then(|object| object.joint().map(shown));
+            let position = scene
+                .object(handle)
+                .and_then(|object| object.joint().map(shown));
             let report = JointReport {
                 position: position.unwrap_or(link.motion.position),
-                rotation: if kind == LinkKind::Spherical { moving_side.rotation } else { UnitQuaternion::identity() },
+                rotation: if kind == LinkKind::Spherical {
+                    moving_side.rotation
+                } else {
+                    UnitQuaternion::identity()
+                },
                 velocity: link.motion.velocity,
                 moving_side,
                 effort: link.efforts.last().copied().unwrap_or(0.0),
@@ -187,7 +244,9 @@ fn shown_position(joint: &Joint, kind: LinkKind, position: f64) -> f64 {
 }
 
 fn is_forced(object: &scene::Object) -> bool {
-    object.shape().is_ok_and(|shape| shape.force != [0.0; 3] || shape.torque != [0.0; 3])
+    object
+        .shape()
+        .is_ok_and(|shape| shape.force != [0.0; 3] || shape.torque != [0.0; 3])
 }
 
 /// Averages what a link measured over the call.
@@ -201,7 +260,11 @@ fn read(scene: &mut Scene, handle: Handle, link: &Link) -> Option<Trigger> {
                 sensor.raw = Some(latest);
                 Ok(take_sample(sensor, load))
             });
-            fired.ok().flatten().map(|filtered| Trigger { sensor: handle, raw: load, filtered })
+            fired.ok().flatten().map(|filtered| Trigger {
+                sensor: handle,
+                raw: load,
+                filtered,
+            })
         }
         LinkKind::Revolute | LinkKind::Prismatic => {
             let mean = link.efforts.iter().sum::<f64>() / link.efforts.len().max(1) as f64;
@@ -217,7 +280,8 @@ fn read(scene: &mut Scene, handle: Handle, link: &Link) -> Option<Trigger> {
 
 fn mean(loads: &[Load]) -> Option<Load> {
     let sum = |part: fn(&Load) -> [f64; 3]| {
-        [0, 1, 2].map(|axis| loads.iter().map(|load| part(load)[axis]).sum::<f64>() / loads.len() as f64)
+        [0, 1, 2]
+            .map(|axis| loads.iter().map(|load| part(load)[axis]).sum::<f64>() / loads.len() as f64)
     };
     (!loads.is_empty()).then(|| (sum(|load| load.0), sum(|load| load.1)))
 }
@@ -234,7 +298,9 @@ fn take_sample(sensor: &mut ForceSensor, load: Load) -> Option<Load> {
     }
     let filtered = filter(sensor.filter, sensor.samples.make_contiguous())?;
     sensor.filtered = Some(filtered);
-    let exceeds = |vector: [f64; 3], threshold: f64| vector.iter().map(|x| x * x).sum::<f64>().sqrt() >= threshold;
+    let exceeds = |vector: [f64; 3], threshold: f64| {
+        vector.iter().map(|x| x * x).sum::<f64>().sqrt() >= threshold
+    };
     let violated = sensor.force_threshold_enabled && exceeds(filtered.0, sensor.force_threshold)
         || sensor.torque_threshold_enabled && exceeds(filtered.1, sensor.torque_threshold);
     sensor.violations = if violated { sensor.violations + 1 } else { 0 };
@@ -251,7 +317,8 @@ fn filter(kind: ForceFilter, samples: &[Load]) -> Option<Load> {
         ForceFilter::Median => {
             let median = |part: fn(&Load) -> [f64; 3]| {
                 [0, 1, 2].map(|axis| {
-                    let mut values: Vec<f64> = samples.iter().map(|load| part(load)[axis]).collect();
+                    let mut values: Vec<f64> =
+                        samples.iter().map(|load| part(load)[axis]).collect();
                     values.sort_by(f64::total_cmp);
                     values[values.len() / 2]
                 })

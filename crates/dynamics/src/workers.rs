@@ -24,11 +24,18 @@ impl Default for Workers {
 
 impl Workers {
     pub(super) fn new(count: NonZero<usize>) -> Self {
-        Self { count: count.get(), others: Vec::new() }
+        Self {
+            count: count.get(),
+            others: Vec::new(),
+        }
     }
 
     /// Calls `work` for each item.
-    pub(super) fn for_each<T: Send + 'static>(&mut self, mut items: Vec<T>, work: fn(&mut T)) -> Vec<T> {
+    pub(super) fn for_each<T: Send + 'static>(
+        &mut self,
+        mut items: Vec<T>,
+        work: fn(&mut T),
+    ) -> Vec<T> {
         let share = items.len().div_ceil(self.count).max(1);
         let mut rest = items.split_off(share.min(items.len()));
         let mut pending = Vec::new();
@@ -44,7 +51,12 @@ impl Workers {
     }
 
     /// Lets another thread work.
-    fn start<T: Send + 'static>(&mut self, thread: usize, mut items: Vec<T>, work: fn(&mut T)) -> Receiver<Vec<T>> {
+    fn start<T: Send + 'static>(
+        &mut self,
+        thread: usize,
+        mut items: Vec<T>,
+        work: fn(&mut T),
+    ) -> Receiver<Vec<T>> {
         if thread == self.others.len() {
             let (jobs, received) = channel();
             std::thread::spawn(move || run(&received));
@@ -56,7 +68,9 @@ impl Workers {
             // Nobody waits for it after a panic of the calling thread.
             let _ = results.send(items);
         };
-        self.others[thread].send(Box::new(job)).expect("a thread ends with its workers");
+        self.others[thread]
+            .send(Box::new(job))
+            .expect("a thread ends with its workers");
         receiver
     }
 }
@@ -70,7 +84,12 @@ fn run(jobs: &Receiver<Job>) {
 
 /// Waits for a message; None when nobody can send one any more.
 fn receive<T>(messages: &Receiver<T>) -> Option<T> {
-    let ready = (0..SPIN_ITERATIONS).find_map(|_| messages.try_recv().inspect_err(|_| std::thread::yield_now()).ok());
+    let ready = (0..SPIN_ITERATIONS).find_map(|_| {
+        messages
+            .try_recv()
+            .inspect_err(|_| std::thread::yield_now())
+            .ok()
+    });
     ready.or_else(|| messages.recv().ok())
 }
 
@@ -83,8 +102,12 @@ mod tests {
         for count in 1..6 {
             let mut workers = Workers::new(NonZero::new(count).expect("from one"));
             for length in 0..20 {
-                let doubled = workers.for_each((0..length).collect(), |item: &mut usize| *item *= 2);
-                assert_eq!(doubled, (0..length).map(|item| item * 2).collect::<Vec<_>>());
+                let doubled =
+                    workers.for_each((0..length).collect(), |item: &mut usize| *item *= 2);
+                assert_eq!(
+                    doubled,
+                    (0..length).map(|item| item * 2).collect::<Vec<_>>()
+                );
             }
         }
     }

@@ -6,10 +6,10 @@
 
 use rapier3d_f64::math::{Rotation, Vector};
 use rapier3d_f64::prelude::{
-    ActiveHooks, BroadPhaseBvh, CCDSolver, CoefficientCombineRule, Collider, ColliderHandle, ColliderSet,
-    ContactManifold, ContactPair, FrictionModel, ImpulseJointSet, IntegrationParameters, IslandManager,
-    MultibodyJointSet, NarrowPhase, PhysicsHooks, PhysicsPipeline, RigidBody, RigidBodyHandle, RigidBodySet,
-    SoftBodySet, SpringCoefficients,
+    ActiveHooks, BroadPhaseBvh, CCDSolver, CoefficientCombineRule, Collider, ColliderHandle,
+    ColliderSet, ContactManifold, ContactPair, FrictionModel, ImpulseJointSet,
+    IntegrationParameters, IslandManager, MultibodyJointSet, NarrowPhase, PhysicsHooks,
+    PhysicsPipeline, RigidBody, RigidBodyHandle, RigidBodySet, SoftBodySet, SpringCoefficients,
 };
 
 /// Number of solver steps into which a sub-step is divided for bodies in contact.
@@ -17,7 +17,10 @@ pub(super) const CONTACT_SUBSTEPS: usize = 4;
 /// Iterations of the constraint solver in each solver step.
 const ITERATIONS: usize = 2;
 /// Stiffness and damping of contacts: as stiff as solver steps of 1.25 ms resolve.
-const CONTACT_SOFTNESS: SpringCoefficients<f64> = SpringCoefficients { natural_frequency: 240.0, damping_ratio: 5.0 };
+const CONTACT_SOFTNESS: SpringCoefficients<f64> = SpringCoefficients {
+    natural_frequency: 240.0,
+    damping_ratio: 5.0,
+};
 /// Penetration that is not corrected, metres.
 const PENETRATION_SLOP: f64 = 2e-4;
 /// Distance at which contacts are prepared, metres.
@@ -26,7 +29,8 @@ pub(super) const PREDICTION_DISTANCE: f64 = 0.01;
 const CONTACT_RECYCLE_DISTANCE: f64 = 0.005;
 
 /// The decisions that rapier leaves to [`Rules`](super::contacts::Rules).
-pub(super) const ALL_HOOKS: ActiveHooks = ActiveHooks::FILTER_CONTACT_PAIRS.union(ActiveHooks::MODIFY_SOLVER_CONTACTS);
+pub(super) const ALL_HOOKS: ActiveHooks =
+    ActiveHooks::FILTER_CONTACT_PAIRS.union(ActiveHooks::MODIFY_SOLVER_CONTACTS);
 
 /// Rotation in a sub-step up to which rapier integrates accurately enough, radians: its relative error there is 1/30000.
 const MAX_ACCURATE_ROTATION: f64 = 0.02;
@@ -73,19 +77,36 @@ pub(super) struct KnownCollider {
 }
 
 impl Known {
-    pub(super) fn add(&mut self, handle: ColliderHandle, collider: &Collider, bodies: &RigidBodySet) {
+    pub(super) fn add(
+        &mut self,
+        handle: ColliderHandle,
+        collider: &Collider,
+        bodies: &RigidBodySet,
+    ) {
         let index = handle.into_raw_parts().0 as usize;
-        self.colliders.resize(self.colliders.len().max(index + 1), None);
+        self.colliders
+            .resize(self.colliders.len().max(index + 1), None);
         let body = collider.parent();
-        let moves = body.and_then(|body| bodies.get(body)).is_some_and(RigidBody::is_dynamic);
+        let moves = body
+            .and_then(|body| bodies.get(body))
+            .is_some_and(RigidBody::is_dynamic);
         let friction = (collider.friction(), collider.friction_combine_rule());
-        self.colliders[index] = Some(KnownCollider { handle, body, moves, tag: collider.user_data, friction });
+        self.colliders[index] = Some(KnownCollider {
+            handle,
+            body,
+            moves,
+            tag: collider.user_data,
+            friction,
+        });
     }
 
     /// Colliders that are still there.
     pub(super) fn pair(&self, pair: &ContactPair) -> Option<[&KnownCollider; 2]> {
         let of = |handle: ColliderHandle| {
-            let known = self.colliders.get(handle.into_raw_parts().0 as usize)?.as_ref();
+            let known = self
+                .colliders
+                .get(handle.into_raw_parts().0 as usize)?
+                .as_ref();
             known.filter(|known| known.handle == handle)
         };
         Some([of(pair.collider1)?, of(pair.collider2)?])
@@ -123,13 +144,21 @@ impl Default for World {
 impl World {
     /// Advances everything by `step` seconds under `gravity` (m/s2).
     pub(super) fn step(&mut self, step: f64, gravity: Vector, hooks: &dyn PhysicsHooks) {
-        if self.gravity.replace(gravity).is_some_and(|before| before != gravity) {
+        if self
+            .gravity
+            .replace(gravity)
+            .is_some_and(|before| before != gravity)
+        {
             self.wake_all();
         }
         self.run_pipeline(step, gravity, hooks);
         // Only those are changed: rapier processes every body that may have changed.
         let awake = self.islands.active_bodies();
-        let fast = awake.filter(|&handle| self.bodies.get(handle).is_some_and(|rigid| turns_fast(rigid, step)));
+        let fast = awake.filter(|&handle| {
+            self.bodies
+                .get(handle)
+                .is_some_and(|rigid| turns_fast(rigid, step))
+        });
         for handle in fast.collect::<Vec<_>>() {
             if let Some(rigid) = self.bodies.get_mut(handle) {
                 complete_turn(rigid, step);
@@ -189,12 +218,22 @@ impl World {
     /// Whether bodies are in contact, by index.
     fn touching(&self, exact: impl Fn(&Collider) -> bool) -> Vec<bool> {
         let mut touching = vec![false; self.bodies.len()];
-        for pair in self.narrow_phase.contact_pairs().filter(|pair| pair.has_any_active_contact()) {
-            let Some(colliders) = self.known.pair(pair) else { continue };
-            for (known, body) in colliders.iter().filter_map(|known| Some((known, known.body?))) {
+        for pair in self
+            .narrow_phase
+            .contact_pairs()
+            .filter(|pair| pair.has_any_active_contact())
+        {
+            let Some(colliders) = self.known.pair(pair) else {
+                continue;
+            };
+            for (known, body) in colliders
+                .iter()
+                .filter_map(|known| Some((known, known.body?)))
+            {
                 let index = index_of(body);
                 touching.resize(touching.len().max(index + 1), false);
-                touching[index] = touching[index] || !self.colliders.get(known.handle).is_some_and(&exact);
+                touching[index] =
+                    touching[index] || !self.colliders.get(known.handle).is_some_and(&exact);
             }
         }
         touching
@@ -211,7 +250,9 @@ impl World {
     }
 
     pub(super) fn wake_all(&mut self) {
-        self.bodies.iter_mut().for_each(|(_, rigid)| rigid.wake_up(true));
+        self.bodies
+            .iter_mut()
+            .for_each(|(_, rigid)| rigid.wake_up(true));
     }
 
     /// Recomputes the contacts of a collider that changed; what touches it wakes up.
@@ -266,7 +307,9 @@ fn complete_turn(rigid: &mut RigidBody, step: f64) {
 pub(super) fn parts_of_impulse(manifold: &ContactManifold) -> f64 {
     let (mut all, mut last) = (0.0, 0.0);
     for contact in &manifold.data.solver_contacts {
-        let Some(point) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
+        let Some(point) = manifold.points.get(contact.contact_indices()[0] as usize) else {
+            continue;
+        };
         all += point.data.impulse;
         last += point.data.warmstart_impulse;
     }

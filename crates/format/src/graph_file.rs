@@ -105,8 +105,12 @@ impl GraphData {
 #[cfg(feature = "plots")]
 fn charts(graph: &GraphData) -> Vec<Chart> {
     let visible = graph.streams.iter().filter(|stream| stream.visible);
-    let streams =
-        visible.map(|stream| plotted(&stream.style, stream.values.iter().map(|[time, value]| (*time, *value))));
+    let streams = visible.map(|stream| {
+        plotted(
+            &stream.style,
+            stream.values.iter().map(|[time, value]| (*time, *value)),
+        )
+    });
     let chart = |caption: &str, x_label: &str, curves| Chart {
         caption: caption.to_owned(),
         x_label: x_label.to_owned(),
@@ -117,8 +121,13 @@ fn charts(graph: &GraphData) -> Vec<Chart> {
     let mut charts = vec![chart(&graph.title, "time [s]", streams.collect())];
     if !graph.curves.is_empty() {
         let curves = graph.curves.iter();
-        let curves = curves.map(|curve| plotted(&curve.style, curve.points.iter().map(|[x, y, _]| (*x, *y))));
-        charts.push(chart(&format!("{}, curves", graph.title), "x", curves.collect()));
+        let curves = curves
+            .map(|curve| plotted(&curve.style, curve.points.iter().map(|[x, y, _]| (*x, *y))));
+        charts.push(chart(
+            &format!("{}, curves", graph.title),
+            "x",
+            curves.collect(),
+        ));
     }
     charts
 }
@@ -126,17 +135,30 @@ fn charts(graph: &GraphData) -> Vec<Chart> {
 #[cfg(feature = "plots")]
 fn plotted(style: &CurveStyle, points: impl Iterator<Item = (f64, f64)>) -> PlottedCurve {
     let label = style.label.then(|| with_unit(style));
-    PlottedCurve { label, colour: style.colour, linked: style.linked, points: points.collect() }
+    PlottedCurve {
+        label,
+        colour: style.colour,
+        linked: style.linked,
+        points: points.collect(),
+    }
 }
 
 fn with_unit(style: &CurveStyle) -> String {
-    if style.unit.is_empty() { style.name.clone() } else { format!("{} [{}]", style.name, style.unit) }
+    if style.unit.is_empty() {
+        style.name.clone()
+    } else {
+        format!("{} [{}]", style.name, style.unit)
+    }
 }
 
 /// A row for each time, a column for each stream, also those that are not shown; nothing in gaps. Then the points of curves that no recording
 /// changes, which have no times: two or three columns each, from the first row on.
 fn csv(graph: &GraphData) -> String {
-    let of_streams = graph.streams.iter().flat_map(|stream| &stream.values).map(|[time, _]| *time);
+    let of_streams = graph
+        .streams
+        .iter()
+        .flat_map(|stream| &stream.values)
+        .map(|[time, _]| *time);
     let mut times: Vec<f64> = graph.times.iter().copied().chain(of_streams).collect();
     times.sort_by(f64::total_cmp);
     times.dedup();
@@ -146,7 +168,11 @@ fn csv(graph: &GraphData) -> String {
         columns.push((with_unit(&stream.style), at_times(&times, &stream.values)));
     }
     for curve in graph.curves.iter().filter(|curve| curve.is_static) {
-        for (axis, name) in ["x", "y", "z"].into_iter().enumerate().take(curve.dimensions) {
+        for (axis, name) in ["x", "y", "z"]
+            .into_iter()
+            .enumerate()
+            .take(curve.dimensions)
+        {
             let column = curve.points.iter().map(|point| Some(point[axis])).collect();
             columns.push((format!("{} {name}", with_unit(&curve.style)), column));
         }
@@ -166,11 +192,24 @@ fn at_times(times: &[f64], values: &[[f64; 2]]) -> Vec<Option<f64>> {
 }
 
 fn table(columns: &[(String, Vec<Option<f64>>)]) -> String {
-    let rows = columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
-    let mut text = columns.iter().map(|(name, _)| quoted(name)).collect::<Vec<_>>().join(",") + "\n";
+    let rows = columns
+        .iter()
+        .map(|(_, values)| values.len())
+        .max()
+        .unwrap_or(0);
+    let mut text = columns
+        .iter()
+        .map(|(name, _)| quoted(name))
+        .collect::<Vec<_>>()
+        .join(",")
+        + "\n";
     for row in 0..rows {
         let cell = |(_, values): &(String, Vec<Option<f64>>)| {
-            values.get(row).copied().flatten().map_or_else(String::new, |value| value.to_string())
+            values
+                .get(row)
+                .copied()
+                .flatten()
+                .map_or_else(String::new, |value| value.to_string())
         };
         text += &(columns.iter().map(cell).collect::<Vec<_>>().join(",") + "\n");
     }
@@ -180,7 +219,11 @@ fn table(columns: &[(String, Vec<Option<f64>>)]) -> String {
 /// RFC 4180: quotation marks around what contains separators.
 fn quoted(text: &str) -> String {
     let is_plain = !text.contains([',', '"', '\n', '\r']);
-    if is_plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }
+    if is_plain {
+        text.to_owned()
+    } else {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    }
 }
 
 #[cfg(test)]
@@ -189,13 +232,23 @@ mod tests {
     use scene::graph::{GraphCurve, GraphStream};
 
     fn style(name: &str, unit: &str) -> CurveStyle {
-        CurveStyle { id: 0, name: name.into(), unit: unit.into(), colour: [1.0, 0.0, 0.0], label: true, linked: true }
+        CurveStyle {
+            id: 0,
+            name: name.into(),
+            unit: unit.into(),
+            colour: [1.0, 0.0, 0.0],
+            label: true,
+            linked: true,
+        }
     }
 
     fn graph() -> Graph {
         let mut graph = Graph::default();
-        let ids = [("height", "m"), ("a, \"b\"", "")]
-            .map(|(name, unit)| graph.add_stream(GraphStream::new(style(name, unit))).expect("the name is new"));
+        let ids = [("height", "m"), ("a, \"b\"", "")].map(|(name, unit)| {
+            graph
+                .add_stream(GraphStream::new(style(name, unit)))
+                .expect("the name is new")
+        });
         for slot in 0..3 {
             graph.stream_mut(ids[0]).expect("it was added").next = Some(0.5 * f64::from(slot));
             graph.stream_mut(ids[1]).expect("it was added").next = (slot != 1).then_some(-1.0);
@@ -218,7 +271,8 @@ mod tests {
 
     #[test]
     fn a_table_has_all_streams() {
-        let text = String::from_utf8(GraphData::new(&graph(), "g").file(GraphFile::Csv)).expect("it is text");
+        let text = String::from_utf8(GraphData::new(&graph(), "g").file(GraphFile::Csv))
+            .expect("it is text");
         let expected = "time [s],height [m],\"a, \"\"b\"\"\",path [static] x,path [static] y\n\
                         0,0,-1,0,-1\n0.25,0.5,,1,-1\n0.5,1,-1,,\n";
         assert_eq!(text, expected);
@@ -226,27 +280,50 @@ mod tests {
 
     #[test]
     fn a_picture_has_names_and_colours() {
-        let text = String::from_utf8(GraphData::new(&graph(), "Heights <1>").file(GraphFile::Svg)).expect("it is text");
-        for part in ["<svg", "height [m]", "Heights &lt;1&gt;", "#FF0000", "time [s]"] {
+        let text = String::from_utf8(GraphData::new(&graph(), "Heights <1>").file(GraphFile::Svg))
+            .expect("it is text");
+        for part in [
+            "<svg",
+            "height [m]",
+            "Heights &lt;1&gt;",
+            "#FF0000",
+            "time [s]",
+        ] {
             assert!(text.contains(part), "{part}: {text}");
         }
         assert!(
             text.contains("height=\"720\"")
-                && text == String::from_utf8_lossy(&GraphData::new(&graph(), "Heights <1>").file(GraphFile::Svg))
+                && text
+                    == String::from_utf8_lossy(
+                        &GraphData::new(&graph(), "Heights <1>").file(GraphFile::Svg)
+                    )
         );
     }
 
     #[test]
     fn empty_graphs_and_odd_numbers_are_no_trouble() {
         let mut graph = Graph::default();
-        assert_eq!(GraphData::new(&graph, "").file(GraphFile::Csv), b"time [s]\n");
-        assert!(GraphData::new(&graph, "").file(GraphFile::Svg).starts_with(b"<svg"));
-        let id = graph.add_stream(GraphStream::new(style("s", ""))).expect("the name is new");
+        assert_eq!(
+            GraphData::new(&graph, "").file(GraphFile::Csv),
+            b"time [s]\n"
+        );
+        assert!(
+            GraphData::new(&graph, "")
+                .file(GraphFile::Svg)
+                .starts_with(b"<svg")
+        );
+        let id = graph
+            .add_stream(GraphStream::new(style("s", "")))
+            .expect("the name is new");
         for value in [f64::NAN, f64::INFINITY, 1e300, -1e300, 5e-324] {
             graph.stream_mut(id).expect("it was added").next = Some(value);
             graph.record(value);
         }
-        assert!(GraphData::new(&graph, "").file(GraphFile::Svg).ends_with(b"</svg>\n"));
+        assert!(
+            GraphData::new(&graph, "")
+                .file(GraphFile::Svg)
+                .ends_with(b"</svg>\n")
+        );
         GraphData::new(&graph, "").file(GraphFile::Csv);
     }
 }

@@ -33,7 +33,9 @@ pub enum PictureError {
     Kind(String),
     /// The kind is known, but only to builds with the feature `pictures`.
     #[cfg(not(feature = "pictures"))]
-    #[error("this build knows no images but PNG ({0}): build Swanilda with the feature `pictures`.")]
+    #[error(
+        "this build knows no images but PNG ({0}): build Swanilda with the feature `pictures`."
+    )]
     LeftOut(String),
     /// The file is damaged, or cannot be written in this kind.
     #[error("{0}.")]
@@ -77,7 +79,10 @@ pub struct Picture {
 ///
 /// # Errors
 /// When there are not as many values as the resolution says.
-pub fn grey_16_bit_png(values: Vec<u16>, [width, height]: [u32; 2]) -> Result<Vec<u8>, PictureError> {
+pub fn grey_16_bit_png(
+    values: Vec<u16>,
+    [width, height]: [u32; 2],
+) -> Result<Vec<u8>, PictureError> {
     let (found, expected) = (2 * values.len(), 2 * width as usize * height as usize);
     let picture = image::ImageBuffer::<image::Luma<u16>, _>::from_raw(width, height, values)
         .ok_or(PictureError::Length { found, expected })?;
@@ -91,13 +96,25 @@ impl Picture {
     ///
     /// # Errors
     /// When the resolution is impossible, or the bytes do not fit it.
-    pub fn new(bytes: Vec<u8>, [width, height]: [i64; 2], layout: Layout) -> Result<Self, PictureError> {
+    pub fn new(
+        bytes: Vec<u8>,
+        [width, height]: [i64; 2],
+        layout: Layout,
+    ) -> Result<Self, PictureError> {
         let (width, height) = (side(width)?, side(height)?);
         let expected = width as usize * height as usize * layout as usize;
         if bytes.len() != expected {
-            return Err(PictureError::Length { found: bytes.len(), expected });
+            return Err(PictureError::Length {
+                found: bytes.len(),
+                expected,
+            });
         }
-        Ok(Self { width, height, layout, bytes })
+        Ok(Self {
+            width,
+            height,
+            layout,
+            bytes,
+        })
     }
 
     /// The picture a file holds.
@@ -121,7 +138,10 @@ impl Picture {
     ///
     /// # Errors
     /// When there is no such kind.
-    #[cfg_attr(not(feature = "pictures"), allow(unused_variables, reason = "there is no JPEG"))]
+    #[cfg_attr(
+        not(feature = "pictures"),
+        allow(unused_variables, reason = "there is no JPEG")
+    )]
     pub fn encode(&self, extension: &str, quality: u8) -> Result<Vec<u8>, PictureError> {
         let format = ImageFormat::from_extension(extension).filter(ImageFormat::can_write);
         let mut file = Cursor::new(Vec::new());
@@ -143,7 +163,12 @@ impl Picture {
     ///
     /// # Errors
     /// When the resolution is impossible.
-    pub fn scaled(&self, size: [i64; 2], keep_aspect: bool, layout: Layout) -> Result<Self, PictureError> {
+    pub fn scaled(
+        &self,
+        size: [i64; 2],
+        keep_aspect: bool,
+        layout: Layout,
+    ) -> Result<Self, PictureError> {
         let (width, height) = (side(size[0])?, side(size[1])?);
         let picture = self.to_dynamic();
         let scaled = match keep_aspect {
@@ -178,7 +203,9 @@ impl Picture {
     fn to_dynamic(&self) -> DynamicImage {
         let (width, height, bytes) = (self.width, self.height, self.bytes.clone());
         let picture = match self.layout {
-            Layout::Grey => image::GrayImage::from_raw(width, height, bytes).map(DynamicImage::from),
+            Layout::Grey => {
+                image::GrayImage::from_raw(width, height, bytes).map(DynamicImage::from)
+            }
             Layout::Rgb => image::RgbImage::from_raw(width, height, bytes).map(DynamicImage::from),
             Layout::Rgba => RgbaImage::from_raw(width, height, bytes).map(DynamicImage::from),
         };
@@ -191,12 +218,20 @@ impl Picture {
             Layout::Rgb => picture.to_rgb8().into_raw(),
             Layout::Rgba => picture.to_rgba8().into_raw(),
         };
-        Self { width: picture.width(), height: picture.height(), layout, bytes }
+        Self {
+            width: picture.width(),
+            height: picture.height(),
+            layout,
+            bytes,
+        }
     }
 }
 
 fn side(pixels: i64) -> Result<u32, PictureError> {
-    u32::try_from(pixels).ok().filter(|side| (1..=MAX_SIDE).contains(side)).ok_or(PictureError::Resolution)
+    u32::try_from(pixels)
+        .ok()
+        .filter(|side| (1..=MAX_SIDE).contains(side))
+        .ok_or(PictureError::Resolution)
 }
 
 #[cfg(test)]
@@ -204,7 +239,8 @@ mod tests {
     use super::{Layout, Picture};
 
     fn picture() -> Picture {
-        Picture::new((0..12).collect(), [2, 2], Layout::Rgb).expect("twelve bytes are two by two pixels")
+        Picture::new((0..12).collect(), [2, 2], Layout::Rgb)
+            .expect("twelve bytes are two by two pixels")
     }
 
     #[test]
@@ -213,7 +249,11 @@ mod tests {
             let file = picture().encode(kind, 90).expect("a known kind");
             if kind != "tga" {
                 // TGA files have no mark at their beginning.
-                assert_eq!(Picture::decode(&file, Layout::Rgb).expect("a file just written"), picture(), "{kind}");
+                assert_eq!(
+                    Picture::decode(&file, Layout::Rgb).expect("a file just written"),
+                    picture(),
+                    "{kind}"
+                );
             }
         }
         assert!(picture().encode("xyz", 90).is_err());

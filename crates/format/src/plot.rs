@@ -36,8 +36,15 @@ pub(crate) struct PlottedCurve {
 /// The charts one below the other; None when there is none.
 pub(crate) fn svg(charts: &[Chart]) -> Option<String> {
     let mut text = String::new();
-    let height = HEIGHT * u32::try_from(charts.len()).ok().filter(|count| (1..1000).contains(count))?;
-    draw(SVGBackend::with_string(&mut text, (WIDTH, height)).into_drawing_area(), charts).ok()?;
+    let height = HEIGHT
+        * u32::try_from(charts.len())
+            .ok()
+            .filter(|count| (1..1000).contains(count))?;
+    draw(
+        SVGBackend::with_string(&mut text, (WIDTH, height)).into_drawing_area(),
+        charts,
+    )
+    .ok()?;
     Some(text)
 }
 
@@ -61,8 +68,11 @@ where
 {
     let (paper, ink) = (rgb(chart.background), rgb(chart.foreground));
     area.fill(&paper)?;
-    let curves: Vec<(&PlottedCurve, Vec<(f64, f64)>)> =
-        chart.curves.iter().map(|curve| (curve, thinned(drawable(&curve.points), WIDTH as usize))).collect();
+    let curves: Vec<(&PlottedCurve, Vec<(f64, f64)>)> = chart
+        .curves
+        .iter()
+        .map(|curve| (curve, thinned(drawable(&curve.points), WIDTH as usize)))
+        .collect();
     let all = || curves.iter().flat_map(|(_, points)| points);
     let words = ("sans-serif", 13).into_font().color(&ink);
     let mut axes = ChartBuilder::on(area)
@@ -70,7 +80,10 @@ where
         .caption(&chart.caption, ("sans-serif", 16).into_font().color(&ink))
         .x_label_area_size(36)
         .y_label_area_size(70)
-        .build_cartesian_2d(range(all().map(|point| point.0)), range(all().map(|point| point.1)))?;
+        .build_cartesian_2d(
+            range(all().map(|point| point.0)),
+            range(all().map(|point| point.1)),
+        )?;
     axes.configure_mesh()
         .axis_style(ink)
         .bold_line_style(ink.mix(0.2))
@@ -84,18 +97,30 @@ where
     for (curve, points) in &curves {
         let colour = rgb(curve.colour);
         let series = if curve.linked {
-            axes.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?
+            axes.draw_series(LineSeries::new(
+                points.iter().copied(),
+                colour.stroke_width(2),
+            ))?
         } else {
-            axes.draw_series(points.iter().map(|point| Circle::new(*point, 2, colour.filled())))?
+            axes.draw_series(
+                points
+                    .iter()
+                    .map(|point| Circle::new(*point, 2, colour.filled())),
+            )?
         };
         if let Some(name) = &curve.label {
-            let sample = move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour.stroke_width(2));
+            let sample =
+                move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour.stroke_width(2));
             series.label(name).legend(sample);
         }
     }
     if curves.iter().any(|(curve, _)| curve.label.is_some()) {
         let legend = paper.mix(0.8);
-        axes.configure_series_labels().label_font(words).background_style(legend).border_style(ink.mix(0.5)).draw()?;
+        axes.configure_series_labels()
+            .label_font(words)
+            .background_style(legend)
+            .border_style(ink.mix(0.5))
+            .draw()?;
     }
     Ok(())
 }
@@ -108,7 +133,11 @@ fn rgb(colour: [f32; 3]) -> RGBColor {
 /// Points that can be drawn: larger values leave no room between two lines of a grid.
 pub fn drawable(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let is_fine = |value: f64| value.is_finite() && value.abs() < 1e100;
-    points.iter().copied().filter(|(x, y)| is_fine(*x) && is_fine(*y)).collect()
+    points
+        .iter()
+        .copied()
+        .filter(|(x, y)| is_fine(*x) && is_fine(*y))
+        .collect()
 }
 
 /// Of many points over one pixel, only the lowest and the highest can be seen. Curves that turn back keep all.
@@ -118,26 +147,42 @@ pub fn thinned(points: Vec<(f64, f64)>, width: usize) -> Vec<(f64, f64)> {
     }
     let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
     let extremes = |some: &[(f64, f64)]| {
-        let mut ends: Vec<_> =
-            some.iter().min_by(by_value).into_iter().chain(some.iter().max_by(by_value)).copied().collect();
+        let mut ends: Vec<_> = some
+            .iter()
+            .min_by(by_value)
+            .into_iter()
+            .chain(some.iter().max_by(by_value))
+            .copied()
+            .collect();
         ends.sort_by(|a, b| a.0.total_cmp(&b.0));
         ends
     };
-    points.chunks(points.len().div_ceil(width)).flat_map(extremes).collect()
+    points
+        .chunks(points.len().div_ceil(width))
+        .flat_map(extremes)
+        .collect()
 }
 
 /// A number beside an axis.
 pub fn label(value: f64) -> String {
-    if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) { format!("{value:.2e}") } else { format!("{value:.4}") }
+    if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) {
+        format!("{value:.2e}")
+    } else {
+        format!("{value:.4}")
+    }
 }
 
 /// The range of some numbers with a little room; never empty.
 pub fn range(values: impl Iterator<Item = f64>) -> Range<f64> {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+        (low.min(v), high.max(v))
+    });
     if low > high {
         return 0.0..1.0;
     }
-    let room = ((high - low) * 0.05).max(high.abs().max(low.abs()) * 1e-9).max(1e-12);
+    let room = ((high - low) * 0.05)
+        .max(high.abs().max(low.abs()) * 1e-9)
+        .max(1e-12);
     low - room..high + room
 }
 
@@ -145,5 +190,11 @@ pub fn range(values: impl Iterator<Item = f64>) -> Range<f64> {
 pub fn load_font() {
     static LOADED: Once = Once::new();
     // A font that cannot be loaded leaves a picture without words.
-    LOADED.call_once(|| drop(register_font("sans-serif", FontStyle::Normal, dejavu::sans::regular())));
+    LOADED.call_once(|| {
+        drop(register_font(
+            "sans-serif",
+            FontStyle::Normal,
+            dejavu::sans::regular(),
+        ))
+    });
 }

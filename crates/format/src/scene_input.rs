@@ -49,8 +49,14 @@ impl SceneInput {
     /// # Errors
     /// When it may not or cannot be read; in words, with the path.
     pub fn read(path: &Path, permissions: &Permissions) -> Result<Self, String> {
-        permissions.check_read(path).map_err(|denied| denied.to_string())?;
-        let input = if path.is_dir() { read_folder(path, permissions) } else { read_file(path, permissions) };
+        permissions
+            .check_read(path)
+            .map_err(|denied| denied.to_string())?;
+        let input = if path.is_dir() {
+            read_folder(path, permissions)
+        } else {
+            read_file(path, permissions)
+        };
         input.map_err(|reason| format!("cannot read {}: {reason}", path.display()))
     }
 
@@ -67,8 +73,15 @@ fn read_folder(path: &Path, permissions: &Permissions) -> Result<SceneInput, Str
     if !scene_folder::is_scene(path) {
         return Err("it is a folder, and no unpacked scene: scene.json is missing".into());
     }
-    let (file, sources) = (scene_folder::pack(path, permissions)?, scene_folder::sources(path, permissions)?);
-    Ok(SceneInput::File(Box::new(InputFile { file, sources, messages: Vec::new() })))
+    let (file, sources) = (
+        scene_folder::pack(path, permissions)?,
+        scene_folder::sources(path, permissions)?,
+    );
+    Ok(SceneInput::File(Box::new(InputFile {
+        file,
+        sources,
+        messages: Vec::new(),
+    })))
 }
 
 /// A robot becomes a model, with the usual options.
@@ -78,7 +91,11 @@ fn read_robot(path: &Path, permissions: &Permissions) -> Result<SceneInput, Stri
 }
 
 fn model_input(file: File, messages: Vec<String>) -> SceneInput {
-    SceneInput::File(Box::new(InputFile { file, sources: ScriptSources::default(), messages }))
+    SceneInput::File(Box::new(InputFile {
+        file,
+        sources: ScriptSources::default(),
+        messages,
+    }))
 }
 
 fn read_file(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
@@ -94,6 +111,11 @@ fn read_file(path: &Path, permissions: &Permissions) -> Result<SceneInput, Strin
         script_file::check(path, &bytes).map_err(|reason| reason.to_string())?;
         return Ok(SceneInput::Script(bytes));
     }
-    let file = scene_file::read_file(&bytes, path.parent(), permissions).map_err(|error| error.to_string())?;
-    Ok(SceneInput::File(Box::new(InputFile { file, sources: ScriptSources::default(), messages: Vec::new() })))
+    let file = scene_file::read_file(&bytes, path.parent(), permissions)
+        .map_err(|error| error.to_string())?;
+    Ok(SceneInput::File(Box::new(InputFile {
+        file,
+        sources: ScriptSources::default(),
+        messages: Vec::new(),
+    })))
 }

@@ -14,7 +14,9 @@ pub enum NotAScript {
     #[error("it is not a scene or model of CoppeliaSim, whatever its name says")]
     NotAScene,
     /// A robot's description that has to be expanded.
-    #[error("it is a xacro file. Expand it first: xacro FILE > robot.urdf (pip install xacro, or a ROS installation)")]
+    #[error(
+        "it is a xacro file. Expand it first: xacro FILE > robot.urdf (pip install xacro, or a ROS installation)"
+    )]
     Xacro,
     /// Triangles in a format of meshes.
     #[error("it holds a mesh, and no scene")]
@@ -32,8 +34,14 @@ pub enum NotAScript {
 /// # Errors
 /// [`NotAScript::Xacro`].
 pub fn check_no_xacro(path: &Path) -> Result<(), NotAScript> {
-    let is_xacro = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xacro"));
-    if is_xacro { Err(NotAScript::Xacro) } else { Ok(()) }
+    let is_xacro = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("xacro"));
+    if is_xacro {
+        Err(NotAScript::Xacro)
+    } else {
+        Ok(())
+    }
 }
 
 /// Checks a file that is not a scene or model.
@@ -41,7 +49,11 @@ pub fn check_no_xacro(path: &Path) -> Result<(), NotAScript> {
 /// # Errors
 /// When its name or its content says that it is no script.
 pub fn check(path: &Path, content: &[u8]) -> Result<(), NotAScript> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+    let name = path
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .to_lowercase();
     let ends_with = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
     if ends_with(&[".lua", ".py"]) {
         return Ok(());
@@ -67,7 +79,9 @@ pub fn check(path: &Path, content: &[u8]) -> Result<(), NotAScript> {
 
 /// The language of a script: that of its file's name, else what its first line says.
 pub fn language(path: Option<&Path>, text: &[u8]) -> &'static str {
-    let extension = path.and_then(Path::extension).map(|extension| extension.to_string_lossy().to_lowercase());
+    let extension = path
+        .and_then(Path::extension)
+        .map(|extension| extension.to_string_lossy().to_lowercase());
     let first_line = text.split(|&byte| byte == b'\n').next().unwrap_or_default();
     match extension.as_deref() {
         Some("py") => "python",
@@ -89,9 +103,15 @@ mod tests {
     fn names_of_other_kinds_are_no_scripts() {
         assert_eq!(refusal("r.ttt", b"print(1)"), Some(NotAScript::NotAScene));
         assert_eq!(refusal("a/R.TTM", b"\x8f\x00"), Some(NotAScript::NotAScene));
-        assert_eq!(refusal("x.urdf.xacro", b"<robot/>"), Some(NotAScript::Xacro));
+        assert_eq!(
+            refusal("x.urdf.xacro", b"<robot/>"),
+            Some(NotAScript::Xacro)
+        );
         assert_eq!(refusal("x.stl", b"solid x"), Some(NotAScript::Mesh));
-        assert_eq!(refusal("x/scene.json", b"{}"), Some(NotAScript::PartOfFolder));
+        assert_eq!(
+            refusal("x/scene.json", b"{}"),
+            Some(NotAScript::PartOfFolder)
+        );
         for name in ["x.ttt", "x.xacro", "x"] {
             assert_eq!(refusal(name, b""), Some(NotAScript::Empty), "{name}");
         }
@@ -101,7 +121,10 @@ mod tests {
     fn other_names_are_scripts_if_they_hold_text() {
         assert_eq!(refusal("scene", b"print(1)"), None);
         assert_eq!(refusal("scene.txt", "print('ü')".as_bytes()), None);
-        assert_eq!(refusal("scene", b"\x1bLua\x54\x00"), Some(NotAScript::Binary));
+        assert_eq!(
+            refusal("scene", b"\x1bLua\x54\x00"),
+            Some(NotAScript::Binary)
+        );
         assert_eq!(refusal("scene", b"\xff\xfe"), Some(NotAScript::Binary));
     }
 
@@ -115,7 +138,11 @@ mod tests {
             ("x", b"-- python", "lua"),
             ("", b"#python", "python"),
         ] {
-            assert_eq!(language(Some(Path::new(name)).filter(|_| !name.is_empty()), text), expected, "{name}");
+            assert_eq!(
+                language(Some(Path::new(name)).filter(|_| !name.is_empty()), text),
+                expected,
+                "{name}"
+            );
         }
     }
 

@@ -68,7 +68,9 @@ mod tests {
     fn one_bad_coordinate_is_enough() {
         assert_eq!([1.0, 2.0].finite(), Some([1.0, 2.0]));
         assert_eq!([1.0, f64::NAN].finite(), None);
-        assert!(Pose::identity().is_finite() && !Pose::translation(0.0, f64::INFINITY, 0.0).is_finite());
+        assert!(
+            Pose::identity().is_finite() && !Pose::translation(0.0, f64::INFINITY, 0.0).is_finite()
+        );
         assert!(!Finite::is_finite(&f32::NEG_INFINITY) && [[0.0_f64; 3]; 2].is_finite());
     }
 }

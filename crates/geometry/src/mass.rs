@@ -41,7 +41,11 @@ impl Default for MassProperties {
 impl MassProperties {
     /// Mass at the origin with a diagonal inertia per unit mass (m2).
     pub fn diagonal(mass: f64, moments: [f64; 3]) -> Self {
-        let mut properties = Self { mass: 1.0, com: [0.0; 3], inertia: Matrix3::from_diagonal(&moments.into()) };
+        let mut properties = Self {
+            mass: 1.0,
+            com: [0.0; 3],
+            inertia: Matrix3::from_diagonal(&moments.into()),
+        };
         properties.set_mass(mass);
         properties
     }
@@ -82,7 +86,10 @@ impl MassProperties {
         }
         let [xx, xy, xz, yy, yz, zz] = upper;
         let pose = pose_from_matrix(frame);
-        let absolute = turned(&Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz), &pose.rotation);
+        let absolute = turned(
+            &Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
+            &pose.rotation,
+        );
         self.inertia = absolute / self.mass;
         self.com = pose.translation.vector.into();
     }
@@ -90,19 +97,31 @@ impl MassProperties {
     /// The body made of several, each with the pose of its shape frame in the new frame: masses add, the
     /// centre is their mean, inertias follow the parallel axes. `None` for no parts.
     pub fn combine(parts: &[(Pose, MassProperties)]) -> Option<Self> {
-        let parts: Vec<Self> = parts.iter().map(|(pose, part)| part.reexpressed(pose)).collect();
+        let parts: Vec<Self> = parts
+            .iter()
+            .map(|(pose, part)| part.reexpressed(pose))
+            .collect();
         let mass: f64 = parts.iter().map(|p| p.mass).sum();
         let weighted = |p: &Self| Vector3::from(p.com) * (p.mass / mass);
         let com: Vector3<f64> = parts.iter().map(weighted).sum();
-        let about_com = |p: &Self| (p.inertia + steiner(&(Vector3::from(p.com) - com))) * (p.mass / mass);
+        let about_com =
+            |p: &Self| (p.inertia + steiner(&(Vector3::from(p.com) - com))) * (p.mass / mass);
         let inertia = parts.iter().map(about_com).sum();
-        (!parts.is_empty()).then(|| Self { mass, com: com.into(), inertia })
+        (!parts.is_empty()).then(|| Self {
+            mass,
+            com: com.into(),
+            inertia,
+        })
     }
 
     /// The same body in another frame, in which the old shape frame has the pose `old_in_new`.
     pub fn reexpressed(&self, old_in_new: &Pose) -> Self {
         let com = old_in_new.rotation * Vector3::from(self.com) + old_in_new.translation.vector;
-        Self { mass: self.mass, com: com.into(), inertia: turned(&self.inertia, &old_in_new.rotation) }
+        Self {
+            mass: self.mass,
+            com: com.into(),
+            inertia: turned(&self.inertia, &old_in_new.rotation),
+        }
     }
 
     /// The body with all lengths scaled, `sim.scaleObjects`: mass by the cube, inertia per unit mass by the
@@ -111,7 +130,11 @@ impl MassProperties {
         if !(factor.is_finite() && factor > 0.0) {
             return *self;
         }
-        let mut scaled = Self { com: self.com.map(|c| c * factor), inertia: self.inertia * factor.powi(2), ..*self };
+        let mut scaled = Self {
+            com: self.com.map(|c| c * factor),
+            inertia: self.inertia * factor.powi(2),
+            ..*self
+        };
         scaled.set_mass(self.mass * factor.powi(3));
         scaled
     }
@@ -149,8 +172,17 @@ impl MassProperties {
             return *self;
         }
         let missing = (2.0 * largest - moments.iter().sum::<f64>()).max(0.0) / 2.0;
-        let raised = moments.map(|moment| if moment == largest { moment } else { moment + missing });
-        Self { inertia: turned(&Matrix3::from_diagonal(&raised.into()), &axes), ..*self }
+        let raised = moments.map(|moment| {
+            if moment == largest {
+                moment
+            } else {
+                moment + missing
+            }
+        });
+        Self {
+            inertia: turned(&Matrix3::from_diagonal(&raised.into()), &axes),
+            ..*self
+        }
     }
 }
 
@@ -176,14 +208,30 @@ pub fn solid(mesh: &Mesh, density: f64) -> Option<MassProperties> {
     let (low, high) = mesh.aabb()?;
     let centre = Vector3::from(low).lerp(&high.into(), 0.5);
     let corner = |i: u32| Vector3::from(mesh.vertices[i as usize]) - centre;
-    let tetrahedra: Vec<_> = mesh.triangles.iter().map(|t| Tetrahedron::new(t.map(corner))).collect();
+    let tetrahedra: Vec<_> = mesh
+        .triangles
+        .iter()
+        .map(|t| Tetrahedron::new(t.map(corner)))
+        .collect();
     let volume: f64 = tetrahedra.iter().map(|t| t.volume).sum();
-    let offset = tetrahedra.iter().map(|t| t.first * t.volume).sum::<Vector3<f64>>() / volume;
-    let second = tetrahedra.iter().map(|t| t.second * t.volume).sum::<Matrix3<f64>>() / volume;
+    let offset = tetrahedra
+        .iter()
+        .map(|t| t.first * t.volume)
+        .sum::<Vector3<f64>>()
+        / volume;
+    let second = tetrahedra
+        .iter()
+        .map(|t| t.second * t.volume)
+        .sum::<Matrix3<f64>>()
+        / volume;
     let second = second - offset * offset.transpose();
     let inertia = Matrix3::from_diagonal_element(second.trace()) - second;
     let usable = volume > 0.0 && inertia.iter().all(|x| x.is_finite());
-    let mut properties = MassProperties { mass: 1.0, com: (centre + offset).into(), inertia };
+    let mut properties = MassProperties {
+        mass: 1.0,
+        com: (centre + offset).into(),
+        inertia,
+    };
     properties.set_mass(volume * density);
     usable.then_some(properties)
 }
@@ -198,8 +246,15 @@ struct Tetrahedron {
 impl Tetrahedron {
     fn new([a, b, c]: [Vector3<f64>; 3]) -> Self {
         let sum = a + b + c;
-        let squares = [a, b, c, sum].iter().map(|v| v * v.transpose()).sum::<Matrix3<f64>>();
-        Self { volume: a.dot(&b.cross(&c)) / 6.0, first: sum / 4.0, second: squares / 20.0 }
+        let squares = [a, b, c, sum]
+            .iter()
+            .map(|v| v * v.transpose())
+            .sum::<Matrix3<f64>>();
+        Self {
+            volume: a.dot(&b.cross(&c)) / 6.0,
+            first: sum / 4.0,
+            second: squares / 20.0,
+        }
     }
 }
 
@@ -209,7 +264,9 @@ fn exact_solid(kind: PrimitiveKind, size: [f64; 3], density: f64) -> Option<Mass
         return None;
     }
     let (mass, moments) = match kind {
-        PrimitiveKind::Cuboid | PrimitiveKind::Spheroid | PrimitiveKind::Cylinder => creation_mass(kind, size, density),
+        PrimitiveKind::Cuboid | PrimitiveKind::Spheroid | PrimitiveKind::Cylinder => {
+            creation_mass(kind, size, density)
+        }
         PrimitiveKind::Capsule => capsule(0.5 * size[0], size[2] - size[0], density),
         _ => return None,
     };
@@ -218,7 +275,10 @@ fn exact_solid(kind: PrimitiveKind, size: [f64; 3], density: f64) -> Option<Mass
 
 /// Mass and per-unit-mass moments of a capsule of radius `r` around a cylinder of length `l`.
 fn capsule(r: f64, l: f64, density: f64) -> (f64, [f64; 3]) {
-    let (cylinder, balls) = (PI * r * r * l * density, 4.0 / 3.0 * PI * r.powi(3) * density);
+    let (cylinder, balls) = (
+        PI * r * r * l * density,
+        4.0 / 3.0 * PI * r.powi(3) * density,
+    );
     let mass = cylinder + balls;
     let along = (cylinder * r * r / 2.0 + balls * 0.4 * r * r) / mass;
     let ball_across = 0.4 * r * r + 0.375 * r * l + l * l / 4.0;
@@ -257,14 +317,30 @@ mod tests {
     fn inertia_follows_the_mass_and_reads_the_upper_triangle_s8_s9() {
         let mut s = primitive(PrimitiveKind::Cuboid, [0.1, 0.2, 0.3]);
         s.set_mass(6.0);
-        close(&s.absolute_inertia(), &[0.065, 0., 0., 0., 0.05, 0., 0., 0., 0.025], 1e-9);
+        close(
+            &s.absolute_inertia(),
+            &[0.065, 0., 0., 0., 0.05, 0., 0., 0., 0.025],
+            1e-9,
+        );
         let quarter = [0., -1., 0., 0.1, 1., 0., 0., 0., 0., 0., 1., 0.];
         s.set_absolute_inertia(&[1., 0., 0., 0., 2., 0., 0., 0., 3.], &quarter);
-        close(&s.absolute_inertia(), &[2., 0., 0., 0., 1., 0., 0., 0., 3.], 1e-12);
-        close(&s.com_matrix(), &[1., 0., 0., 0.1, 0., 1., 0., 0., 0., 0., 1., 0.], 1e-12);
+        close(
+            &s.absolute_inertia(),
+            &[2., 0., 0., 0., 1., 0., 0., 0., 3.],
+            1e-12,
+        );
+        close(
+            &s.com_matrix(),
+            &[1., 0., 0., 0.1, 0., 1., 0., 0., 0., 0., 1., 0.],
+            1e-12,
+        );
         s.set_absolute_inertia(&[1., 0.1, 0., 99., 2., 0., 99., 99., 3.], &IDENTITY_MATRIX);
         s.set_mass(3.0);
-        close(&s.absolute_inertia(), &[0.5, 0.05, 0., 0.05, 1., 0., 0., 0., 1.5], 1e-12);
+        close(
+            &s.absolute_inertia(),
+            &[0.5, 0.05, 0., 0.05, 1., 0., 0., 0., 1.5],
+            1e-12,
+        );
         s.set_mass(f64::NAN);
         s.set_absolute_inertia(&[f64::NAN; 9], &IDENTITY_MATRIX);
         assert_eq!(s.mass, 3.0);
@@ -275,36 +351,75 @@ mod tests {
     #[test]
     fn grouping_uses_parallel_axes_s10() {
         let cube = primitive(PrimitiveKind::Cuboid, [0.1; 3]);
-        let group = MassProperties::combine(&[(Pose::translation(-0.4, 0., 0.), cube), (Pose::identity(), cube)]);
+        let group = MassProperties::combine(&[
+            (Pose::translation(-0.4, 0., 0.), cube),
+            (Pose::identity(), cube),
+        ]);
         let group = group.expect("two parts");
         close(&group.com, &[-0.2, 0., 0.], 1e-12);
-        close(&group.absolute_inertia(), &[0.001666667, 0., 0., 0., 0.041666667, 0., 0., 0., 0.041666667], 1e-9);
+        close(
+            &group.absolute_inertia(),
+            &[
+                0.001666667,
+                0.,
+                0.,
+                0.,
+                0.041666667,
+                0.,
+                0.,
+                0.,
+                0.041666667,
+            ],
+            1e-9,
+        );
         assert_eq!(MassProperties::combine(&[]), None);
     }
 
     #[test]
     fn grouping_of_rotated_members() {
-        let at = |p: [f64; 3], e: [f64; 3]| pose_from_matrix(&crate::pose::euler::build_matrix(&p, &e));
-        let (a, b) = (at([0.1, 0.2, 0.3], [0.4, 0.5, 0.6]), at([-0.5, 0.1, 0.2], [1., 0.2, 0.1]));
+        let at =
+            |p: [f64; 3], e: [f64; 3]| pose_from_matrix(&crate::pose::euler::build_matrix(&p, &e));
+        let (a, b) = (
+            at([0.1, 0.2, 0.3], [0.4, 0.5, 0.6]),
+            at([-0.5, 0.1, 0.2], [1., 0.2, 0.1]),
+        );
         let box_ = primitive(PrimitiveKind::Cuboid, [0.1, 0.2, 0.3]);
         let rod = primitive(PrimitiveKind::Cylinder, [0.2, 0.2, 0.5]);
-        let group = MassProperties::combine(&[(b.inverse() * a, box_), (Pose::identity(), rod)]).expect("two parts");
+        let group = MassProperties::combine(&[(b.inverse() * a, box_), (Pose::identity(), rod)])
+            .expect("two parts");
         close(&[group.mass], &[10.853981634], 1e-9);
         close(&group.com, &[0.167178370, 0.021609668, 0.024788617], 1e-9);
-        let expected = [0.242765781, -0.103793096, -0.124664706, -0.103793096, 1.017434133];
+        let expected = [
+            0.242765781,
+            -0.103793096,
+            -0.124664706,
+            -0.103793096,
+            1.017434133,
+        ];
         close(&group.absolute_inertia()[..5], &expected, 1e-9);
         let (axes, moments) = group.principal_axes();
-        let principal = MassProperties { inertia: Matrix3::from_diagonal(&moments.into()), ..group };
-        let back = principal.reexpressed(&Pose::from_parts(nalgebra::Translation3::identity(), axes));
+        let principal = MassProperties {
+            inertia: Matrix3::from_diagonal(&moments.into()),
+            ..group
+        };
+        let back =
+            principal.reexpressed(&Pose::from_parts(nalgebra::Translation3::identity(), axes));
         close(&back.absolute_inertia(), &group.absolute_inertia(), 1e-12);
     }
 
     #[test]
     fn scaling_goes_with_the_fifth_power() {
-        let body = MassProperties { com: [1., 2., 3.], ..primitive(PrimitiveKind::Cuboid, [0.1, 0.2, 0.3]) };
+        let body = MassProperties {
+            com: [1., 2., 3.],
+            ..primitive(PrimitiveKind::Cuboid, [0.1, 0.2, 0.3])
+        };
         let scaled = body.scaled(2.0);
         close(&scaled.com, &[2., 4., 6.], 0.0);
-        close(&scaled.absolute_inertia(), &body.absolute_inertia().map(|i| 32.0 * i), 1e-12);
+        close(
+            &scaled.absolute_inertia(),
+            &body.absolute_inertia().map(|i| 32.0 * i),
+            1e-12,
+        );
         assert_eq!(body.scaled(f64::NAN), body);
     }
 
@@ -315,50 +430,100 @@ mod tests {
             let i = p.absolute_inertia();
             close(&[p.mass, i[0], i[4], i[8]], &expected, 1e-9);
         };
-        check(PrimitiveKind::Cuboid, [0.1, 0.2, 0.3], [6.0, 0.065, 0.05, 0.025]);
-        check(PrimitiveKind::Spheroid, [0.2; 3], [4.188790205, 0.016755161, 0.016755161, 0.016755161]);
-        check(PrimitiveKind::Cylinder, [0.2, 0.2, 0.4], [12.566370614, 0.198967535, 0.198967535, 0.062831853]);
-        check(PrimitiveKind::Capsule, [0.2, 0.2, 0.5], [13.613568166, 0.252374610, 0.252374610, 0.063879051]);
+        check(
+            PrimitiveKind::Cuboid,
+            [0.1, 0.2, 0.3],
+            [6.0, 0.065, 0.05, 0.025],
+        );
+        check(
+            PrimitiveKind::Spheroid,
+            [0.2; 3],
+            [4.188790205, 0.016755161, 0.016755161, 0.016755161],
+        );
+        check(
+            PrimitiveKind::Cylinder,
+            [0.2, 0.2, 0.4],
+            [12.566370614, 0.198967535, 0.198967535, 0.062831853],
+        );
+        check(
+            PrimitiveKind::Capsule,
+            [0.2, 0.2, 0.5],
+            [13.613568166, 0.252374610, 0.252374610, 0.063879051],
+        );
     }
 
     #[test]
     fn computed_meshes_are_their_solid_hull_s12() {
-        let vertices = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.], [0.1, 0.1, 0.1]];
+        let vertices = [
+            [0., 0., 0.],
+            [1., 0., 0.],
+            [0., 1., 0.],
+            [0., 0., 1.],
+            [0.1, 0.1, 0.1],
+        ];
         let p = compute_mass_and_inertia(None, &vertices, 1200.0).expect("solid");
         close(&[p.mass], &[200.0], 1e-9);
         close(&p.com, &[0.25; 3], 1e-12);
-        close(&p.absolute_inertia(), &[15., 2.5, 2.5, 2.5, 15., 2.5, 2.5, 2.5, 15.], 1e-9);
+        close(
+            &p.absolute_inertia(),
+            &[15., 2.5, 2.5, 2.5, 15., 2.5, 2.5, 2.5, 15.],
+            1e-9,
+        );
         assert_eq!(compute_mass_and_inertia(None, &vertices[..3], 1200.0), None);
         assert_eq!(compute_mass_and_inertia(None, &[], 1200.0), None);
         assert_eq!(compute_mass_and_inertia(None, &vertices, f64::NAN), None);
-        assert_eq!(compute_mass_and_inertia(Some((PrimitiveKind::Plane, [1.; 3])), &[], 1.0), None);
+        assert_eq!(
+            compute_mass_and_inertia(Some((PrimitiveKind::Plane, [1.; 3])), &[], 1.0),
+            None
+        );
     }
 
     #[test]
     fn inertias_that_no_body_has_become_positive() {
-        let body = |inertia: Matrix3<f64>| MassProperties { inertia, ..MassProperties::default() };
+        let body = |inertia: Matrix3<f64>| MassProperties {
+            inertia,
+            ..MassProperties::default()
+        };
         // All nine numbers equal, as robots' files have it: the moments are 3, 0 and 0.
         let raised = body(Matrix3::repeat(1.0)).with_positive_moments();
         close(&raised.principal_axes().1, &[1.5, 1.5, 3.0], 1e-7);
         // The axis of the largest moment stays.
         assert!((raised.inertia * Vector3::repeat(1.0) - Vector3::repeat(3.0)).norm() < 1e-7);
-        let raised = body(Matrix3::from_diagonal(&Vector3::new(9.0, -4.0, 3.0))).with_positive_moments();
-        close(&[raised.inertia[(0, 0)], raised.inertia[(1, 1)], raised.inertia[(2, 2)]], &[9.0, 3.0, 6.0], 1e-7);
+        let raised =
+            body(Matrix3::from_diagonal(&Vector3::new(9.0, -4.0, 3.0))).with_positive_moments();
+        close(
+            &[
+                raised.inertia[(0, 0)],
+                raised.inertia[(1, 1)],
+                raised.inertia[(2, 2)],
+            ],
+            &[9.0, 3.0, 6.0],
+            1e-7,
+        );
         // A rod without thickness gets the smallest one; a body that only is unusual stays.
-        let rod = body(Matrix3::from_diagonal(&Vector3::new(0.0, 1.0, 1.0))).with_positive_moments();
+        let rod =
+            body(Matrix3::from_diagonal(&Vector3::new(0.0, 1.0, 1.0))).with_positive_moments();
         assert_eq!(rod.inertia.diagonal(), Vector3::new(MIN_MOMENT, 1.0, 1.0));
         let unusual = body(Matrix3::new(1.0, 0.1, 0.0, 0.1, 2.0, 0.0, 0.0, 0.0, 30.0));
         assert_eq!(unusual.with_positive_moments(), unusual);
         let nothing = body(Matrix3::zeros()).with_positive_moments();
         assert_eq!(nothing.inertia, Matrix3::from_diagonal_element(MIN_MOMENT));
-        assert!(body(Matrix3::repeat(f64::NAN)).with_positive_moments().inertia[(0, 0)].is_nan());
+        assert!(
+            body(Matrix3::repeat(f64::NAN))
+                .with_positive_moments()
+                .inertia[(0, 0)]
+                .is_nan()
+        );
     }
 
     #[test]
     fn principal_moments_are_limited_and_survive_bad_numbers() {
         let point = MassProperties::diagonal(1.0, [0.0; 3]);
         assert_eq!(point.principal_axes().1, [MIN_MOMENT; 3]);
-        let bad = MassProperties { inertia: Matrix3::repeat(f64::NAN), ..point };
+        let bad = MassProperties {
+            inertia: Matrix3::repeat(f64::NAN),
+            ..point
+        };
         assert_eq!(bad.principal_axes().0, UnitQuaternion::identity());
     }
 }

@@ -41,7 +41,18 @@ impl PrimitiveKind {
     /// The kind with a script's number, if there is one.
     pub fn from_code(code: i64) -> Option<Self> {
         use PrimitiveKind::*;
-        [Plane, Disc, Cuboid, Spheroid, Cylinder, Cone, Heightfield, Capsule].into_iter().find(|k| k.code() == code)
+        [
+            Plane,
+            Disc,
+            Cuboid,
+            Spheroid,
+            Cylinder,
+            Cone,
+            Heightfield,
+            Capsule,
+        ]
+        .into_iter()
+        .find(|k| k.code() == code)
     }
 
     /// The number scripts use.
@@ -74,7 +85,11 @@ impl PrimitiveKind {
 pub fn clamp_size(kind: PrimitiveKind, size: [f64; 3]) -> [f64; 3] {
     let [x, y, z] = size.map(|s| s.max(SIZES.0).min(SIZES.1));
     let widest = (z - 0.0001).max(SIZES.0);
-    if kind == PrimitiveKind::Capsule { [x.min(widest), y.min(widest), z] } else { [x, y, z] }
+    if kind == PrimitiveKind::Capsule {
+        [x.min(widest), y.min(widest), z]
+    } else {
+        [x, y, z]
+    }
 }
 
 /// Size of the bounding box of a primitive: flat ones have no height.
@@ -125,11 +140,21 @@ pub fn heightfield(columns: usize, rows: usize, width: f64, heights: &[f64]) -> 
     let heights = heights.get(..if fits { columns * rows } else { return None })?;
     let cell = width / (columns - 1) as f64;
     let centred = |i: usize, count: usize| cell * (i as f64 - 0.5 * (count - 1) as f64);
-    let place = |(i, z): (usize, &f64)| [centred(i % columns, columns), -centred(i / columns, rows), *z];
+    let place = |(i, z): (usize, &f64)| {
+        [
+            centred(i % columns, columns),
+            -centred(i / columns, rows),
+            *z,
+        ]
+    };
     let cells = (0..rows - 1).flat_map(|r| (0..columns - 1).map(move |c| (r * columns + c) as u32));
     let row = columns as u32;
     let halves = cells.flat_map(|i| [[i, i + row, i + row + 1], [i, i + row + 1, i + 1]]);
-    Mesh::new(heights.iter().enumerate().map(place).collect(), halves.collect()).ok()
+    Mesh::new(
+        heights.iter().enumerate().map(place).collect(),
+        halves.collect(),
+    )
+    .ok()
 }
 
 /// Mass (kg) and diagonal of the inertia per kg (m2) that a new primitive gets for a density (kg/m3).
@@ -138,13 +163,25 @@ pub fn heightfield(columns: usize, rows: usize, width: f64, heights: &[f64]) -> 
 /// 4 % too much. Zero for height fields.
 pub fn creation_mass(kind: PrimitiveKind, size: [f64; 3], density: f64) -> (f64, [f64; 3]) {
     let [x, y, z] = size;
-    let r = if kind == PrimitiveKind::Spheroid { (x + y + z) / 6.0 } else { (x + y) / 4.0 };
-    let round = |volume: f64, across, along| unequal(kind, size, r, (volume * density, [across, across, along]));
+    let r = if kind == PrimitiveKind::Spheroid {
+        (x + y + z) / 6.0
+    } else {
+        (x + y) / 4.0
+    };
+    let round = |volume: f64, across, along| {
+        unequal(kind, size, r, (volume * density, [across, across, along]))
+    };
     let rod = |length: f64| (3.0 * r * r + length * length) / 12.0;
     let disc = PI * r * r;
     match kind {
-        PrimitiveKind::Plane => (x * y * SHEET * density, [y * y, x * x, x * x + y * y].map(|s| s / 12.0)),
-        PrimitiveKind::Cuboid => (x * y * z * density, [y * y + z * z, x * x + z * z, x * x + y * y].map(|s| s / 12.0)),
+        PrimitiveKind::Plane => (
+            x * y * SHEET * density,
+            [y * y, x * x, x * x + y * y].map(|s| s / 12.0),
+        ),
+        PrimitiveKind::Cuboid => (
+            x * y * z * density,
+            [y * y + z * z, x * x + z * z, x * x + y * y].map(|s| s / 12.0),
+        ),
         PrimitiveKind::Disc => round(disc * SHEET, r * r / 4.0, r * r / 2.0),
         PrimitiveKind::Spheroid => round(4.0 / 3.0 * disc * r, 0.4 * r * r, 0.4 * r * r),
         PrimitiveKind::Cylinder => round(disc * z, rod(z), r * r / 2.0),
@@ -158,8 +195,17 @@ pub fn creation_mass(kind: PrimitiveKind, size: [f64; 3], density: f64) -> (f64,
 }
 
 /// The correction for unequal radii: scaled as if the round solid were scaled to the same volume.
-fn unequal(kind: PrimitiveKind, [x, y, z]: [f64; 3], r: f64, (mass, inertia): (f64, [f64; 3])) -> (f64, [f64; 3]) {
-    let third = if kind == PrimitiveKind::Spheroid { z } else { 2.0 * r };
+fn unequal(
+    kind: PrimitiveKind,
+    [x, y, z]: [f64; 3],
+    r: f64,
+    (mass, inertia): (f64, [f64; 3]),
+) -> (f64, [f64; 3]) {
+    let third = if kind == PrimitiveKind::Spheroid {
+        z
+    } else {
+        2.0 * r
+    };
     if x == y && x == third || r <= 0.0 {
         return (mass, inertia);
     }
@@ -170,15 +216,29 @@ fn unequal(kind: PrimitiveKind, [x, y, z]: [f64; 3], r: f64, (mass, inertia): (f
 type Parts = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
 fn plane() -> Parts {
-    let corners = vec![[-0.5, -0.5, 0.0], [0.5, -0.5, 0.0], [0.5, 0.5, 0.0], [-0.5, 0.5, 0.0]];
+    let corners = vec![
+        [-0.5, -0.5, 0.0],
+        [0.5, -0.5, 0.0],
+        [0.5, 0.5, 0.0],
+        [-0.5, 0.5, 0.0],
+    ];
     (corners, vec![[0, 1, 2], [0, 2, 3]])
 }
 
 /// Vertex i lies at +x, +y, +z where bit 0, 1, 2 of i is set.
 fn cuboid() -> Parts {
     let corner = |i: u32| [0, 1, 2].map(|axis| f64::from(i >> axis & 1) - 0.5);
-    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-    let halves = sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
+    let sides = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let halves = sides
+        .iter()
+        .flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
     ((0..8).map(corner).collect(), halves.collect())
 }
 
@@ -190,10 +250,16 @@ fn sphere_rings() -> Vec<(f64, f64)> {
 
 /// The rings of a capsule in units of its size: half balls that are as high as half its largest width.
 fn capsule_rings([x, y, z]: [f64; 3]) -> Vec<(f64, f64)> {
-    let cap = if z > 0.0 { 0.5 * (x.max(y) / z).min(1.0) } else { 0.0 };
+    let cap = if z > 0.0 {
+        0.5 * (x.max(y) / z).min(1.0)
+    } else {
+        0.0
+    };
     let half = RINGS / 2;
     let angles = (1..=half).map(|k| FRAC_PI_2 * f64::from(k) / f64::from(half));
-    let upper: Vec<_> = angles.map(|a| (0.5 * a.sin(), 0.5 - cap * (1.0 - a.cos()))).collect();
+    let upper: Vec<_> = angles
+        .map(|a| (0.5 * a.sin(), 0.5 - cap * (1.0 - a.cos())))
+        .collect();
     let lower = upper.iter().rev().map(|(radius, z)| (*radius, -z));
     upper.iter().copied().chain(lower).collect()
 }
@@ -206,8 +272,14 @@ fn revolve(top: Option<f64>, rings: &[(f64, f64)], bottom: Option<f64>) -> Parts
         (0..SIDES).map(move |k| [radius * turn(k).1, radius * turn(k).0, z])
     };
     let mut vertices: Vec<_> = rings.iter().flat_map(ring).collect();
-    let bands = (0..rings.len() as u32 - 1).flat_map(|r| (0..SIDES).map(move |k| (SIDES * r, k, (k + 1) % SIDES)));
-    let quads = bands.flat_map(|(r, k, n)| [[r + k, r + SIDES + k, r + SIDES + n], [r + k, r + SIDES + n, r + n]]);
+    let bands = (0..rings.len() as u32 - 1)
+        .flat_map(|r| (0..SIDES).map(move |k| (SIDES * r, k, (k + 1) % SIDES)));
+    let quads = bands.flat_map(|(r, k, n)| {
+        [
+            [r + k, r + SIDES + k, r + SIDES + n],
+            [r + k, r + SIDES + n, r + n],
+        ]
+    });
     let mut triangles: Vec<_> = quads.collect();
     let last = vertices.len() as u32 - SIDES;
     for (z, first, down) in [(top, 0, false), (bottom, last, true)] {
@@ -215,7 +287,11 @@ fn revolve(top: Option<f64>, rings: &[(f64, f64)], bottom: Option<f64>) -> Parts
         let tip = vertices.len() as u32;
         let side = |k: u32| (first + k, first + (k + 1) % SIDES);
         vertices.push([0.0, 0.0, z]);
-        triangles.extend((0..SIDES).map(side).map(|(a, b)| if down { [tip, b, a] } else { [tip, a, b] }));
+        triangles.extend(
+            (0..SIDES)
+                .map(side)
+                .map(|(a, b)| if down { [tip, b, a] } else { [tip, a, b] }),
+        );
     }
     (vertices, triangles)
 }
@@ -227,7 +303,10 @@ mod tests {
 
     #[track_caller]
     fn close(a: &[f64], b: &[f64]) {
-        assert!(a.len() == b.len() && a.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-9), "{a:?} is not {b:?}");
+        assert!(
+            a.len() == b.len() && a.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-9),
+            "{a:?} is not {b:?}"
+        );
     }
 
     fn mesh(kind: PrimitiveKind, size: [f64; 3]) -> Mesh {
@@ -237,19 +316,36 @@ mod tests {
     #[test]
     fn meshes_have_the_counts_of_the_original() {
         let counts = |m: Mesh| (m.vertices.len(), m.triangles.len());
-        let expected =
-            [(Plane, (4, 2)), (Disc, (33, 32)), (Cuboid, (8, 12)), (Spheroid, (482, 960)), (Cylinder, (66, 128))];
-        for (kind, count) in expected.into_iter().chain([(Cone, (34, 64)), (Capsule, (514, 1024))]) {
+        let expected = [
+            (Plane, (4, 2)),
+            (Disc, (33, 32)),
+            (Cuboid, (8, 12)),
+            (Spheroid, (482, 960)),
+            (Cylinder, (66, 128)),
+        ];
+        for (kind, count) in expected
+            .into_iter()
+            .chain([(Cone, (34, 64)), (Capsule, (514, 1024))])
+        {
             assert_eq!(counts(mesh(kind, [1., 1., 2.])), count, "{kind:?}");
         }
-        assert_eq!(counts(tessellate(Cylinder, [1.; 3], true).expect("has a mesh")), (64, 64));
-        assert_eq!(counts(tessellate(Cone, [1.; 3], true).expect("has a mesh")), (33, 32));
+        assert_eq!(
+            counts(tessellate(Cylinder, [1.; 3], true).expect("has a mesh")),
+            (64, 64)
+        );
+        assert_eq!(
+            counts(tessellate(Cone, [1.; 3], true).expect("has a mesh")),
+            (33, 32)
+        );
     }
 
     #[test]
     fn meshes_fill_their_box_and_are_convex() {
         for kind in [Plane, Disc, Cuboid, Spheroid, Cylinder, Cone, Capsule] {
-            let (mesh, size) = (mesh(kind, [0.1, 0.2, 0.5]), bounding_size(kind, [0.1, 0.2, 0.5]));
+            let (mesh, size) = (
+                mesh(kind, [0.1, 0.2, 0.5]),
+                bounding_size(kind, [0.1, 0.2, 0.5]),
+            );
             let (low, high) = mesh.aabb().expect("not empty");
             close(&high, &size.map(|s| 0.5 * s));
             close(&low, &size.map(|s| -0.5 * s));
@@ -260,11 +356,24 @@ mod tests {
     #[test]
     fn volumes_of_the_inscribed_meshes() {
         let volume = |kind| mesh(kind, [1.; 3]).volume();
-        for (kind, expected) in [(Spheroid, 0.515242718), (Cylinder, 0.780361288), (Cone, 0.260120429)] {
-            assert!((volume(kind) - expected).abs() < 1e-8, "{kind:?} {}", volume(kind));
+        for (kind, expected) in [
+            (Spheroid, 0.515242718),
+            (Cylinder, 0.780361288),
+            (Cone, 0.260120429),
+        ] {
+            assert!(
+                (volume(kind) - expected).abs() < 1e-8,
+                "{kind:?} {}",
+                volume(kind)
+            );
         }
         close(&[mesh(Cuboid, [0.2, 0.4, 0.6]).volume()], &[0.048]);
-        assert!(mesh(Plane, [1.; 3]).normals.iter().all(|n| *n == [0., 0., 1.]));
+        assert!(
+            mesh(Plane, [1.; 3])
+                .normals
+                .iter()
+                .all(|n| *n == [0., 0., 1.])
+        );
     }
 
     #[test]
@@ -276,10 +385,30 @@ mod tests {
         };
         check(Cuboid, [0.1, 0.2, 0.3], 3.0, [0.0325, 0.025, 0.0125]);
         check(Spheroid, [0.2; 3], 2.094395102, [0.008377580410; 3]);
-        check(Cylinder, [0.2, 0.2, 0.4], TAU, [0.099483767, 0.099483767, 0.031415927]);
-        check(Cone, [0.2, 0.2, 0.3], 14.137166941, [0.784612765, 0.784612765, 0.042411501]);
-        check(Capsule, [0.2, 0.2, 0.5], 7.068583471, [0.136953805, 0.136953805, 0.035342917]);
-        check(Plane, [2., 1., 0.], 1.0, [0.083333333333, 0.333333333333, 0.416666666667]);
+        check(
+            Cylinder,
+            [0.2, 0.2, 0.4],
+            TAU,
+            [0.099483767, 0.099483767, 0.031415927],
+        );
+        check(
+            Cone,
+            [0.2, 0.2, 0.3],
+            14.137166941,
+            [0.784612765, 0.784612765, 0.042411501],
+        );
+        check(
+            Capsule,
+            [0.2, 0.2, 0.5],
+            7.068583471,
+            [0.136953805, 0.136953805, 0.035342917],
+        );
+        check(
+            Plane,
+            [2., 1., 0.],
+            1.0,
+            [0.083333333333, 0.333333333333, 0.416666666667],
+        );
     }
 
     #[test]
@@ -290,30 +419,68 @@ mod tests {
             close(&j.map(|j| j * m), &absolute);
         };
         check(Spheroid, [0.1, 0.2, 0.3], FRAC_PI_2, [0.005186655; 3]);
-        check(Cylinder, [0.1, 0.2, 0.3], 2.356194490, [0.019400116, 0.019400116, 0.006126353]);
-        check(Cone, [0.1, 0.2, 0.3], 7.068583471, [0.358391624, 0.358391624, 0.011027435]);
-        check(Disc, [0.1, 0.2, 0.], 0.007853982, [0.000010211, 0.000010211, 0.000020421]);
-        check(Capsule, [0.1, 0.2, 0.5], 3.534291735, [0.059731937, 0.059731937, 0.009189529]);
+        check(
+            Cylinder,
+            [0.1, 0.2, 0.3],
+            2.356194490,
+            [0.019400116, 0.019400116, 0.006126353],
+        );
+        check(
+            Cone,
+            [0.1, 0.2, 0.3],
+            7.068583471,
+            [0.358391624, 0.358391624, 0.011027435],
+        );
+        check(
+            Disc,
+            [0.1, 0.2, 0.],
+            0.007853982,
+            [0.000010211, 0.000010211, 0.000020421],
+        );
+        check(
+            Capsule,
+            [0.1, 0.2, 0.5],
+            3.534291735,
+            [0.059731937, 0.059731937, 0.009189529],
+        );
     }
 
     #[test]
     fn sizes_and_purity() {
-        assert_eq!(clamp_size(Cuboid, [0., f64::NAN, f64::INFINITY]), [1e-5, 1e-5, 1e5]);
-        assert_eq!(clamp_size(Capsule, [1., 0.1, 0.5]), [0.5 - 0.0001, 0.1, 0.5]);
+        assert_eq!(
+            clamp_size(Cuboid, [0., f64::NAN, f64::INFINITY]),
+            [1e-5, 1e-5, 1e5]
+        );
+        assert_eq!(
+            clamp_size(Capsule, [1., 0.1, 0.5]),
+            [0.5 - 0.0001, 0.1, 0.5]
+        );
         assert!(has_pure_size(Cylinder, [1., 1., 2.]) && !has_pure_size(Cylinder, [1., 2., 2.]));
         assert!(!has_pure_size(Spheroid, [1., 1., 2.]) && has_pure_size(Cuboid, [1., 2., 3.]));
         assert_eq!(PrimitiveKind::from_code(8), Some(Capsule));
         assert_eq!(PrimitiveKind::from_code(0), None);
-        assert!(tessellate(Cone, [f64::NAN; 3], false).is_none() && tessellate(Capsule, [0.; 3], false).is_some());
+        assert!(
+            tessellate(Cone, [f64::NAN; 3], false).is_none()
+                && tessellate(Capsule, [0.; 3], false).is_some()
+        );
     }
 
     #[test]
     fn height_fields_start_at_plus_y() {
         let mesh = heightfield(3, 2, 2.0, &[0., 0., 0., 1., 1., 1.]).expect("valid");
-        assert_eq!((mesh.vertices[0], mesh.vertices[5]), ([-1., 0.5, 0.], [1., -0.5, 1.]));
+        assert_eq!(
+            (mesh.vertices[0], mesh.vertices[5]),
+            ([-1., 0.5, 0.], [1., -0.5, 1.])
+        );
         assert_eq!(mesh.triangles.len(), 4);
         assert!(mesh.normals.iter().all(|n| n[2] > 0.0));
-        assert!(heightfield(1, 2, 2.0, &[0., 0.]).is_none() && heightfield(2, 2, 1.0, &[0., 0.]).is_none());
-        assert!(heightfield(2, 2, f64::NAN, &[0.; 4]).is_none() && heightfield(2, 2, 1.0, &[f64::NAN; 4]).is_none());
+        assert!(
+            heightfield(1, 2, 2.0, &[0., 0.]).is_none()
+                && heightfield(2, 2, 1.0, &[0., 0.]).is_none()
+        );
+        assert!(
+            heightfield(2, 2, f64::NAN, &[0.; 4]).is_none()
+                && heightfield(2, 2, 1.0, &[f64::NAN; 4]).is_none()
+        );
     }
 }

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 /// The group of each tie: ties with a common end are in the same group. Groups are numbered by their first tie.
-pub fn partition<K: Ord>(ties: impl IntoIterator<Item = impl IntoIterator<Item = K>>) -> Vec<usize> {
+pub fn partition<K: Ord>(
+    ties: impl IntoIterator<Item = impl IntoIterator<Item = K>>,
+) -> Vec<usize> {
     let (mut leaders, mut known) = (Vec::new(), BTreeMap::new());
     for (tie, ends) in ties.into_iter().enumerate() {
         leaders.push(tie);

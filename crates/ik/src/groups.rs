@@ -1,7 +1,8 @@
 //! The groups of inverse kinematics of V-REP: copied from the scene, solved, and written back (spec: kinematics 7).
 
 use kinematics::{
-    Constraints, Environment, Flags, Frame, GroupFlags, GroupId, JointMode, Method, Outcome, Pose, Start,
+    Constraints, Environment, Flags, Frame, GroupFlags, GroupId, JointMode, Method, Outcome, Pose,
+    Start,
 };
 
 use super::Result;
@@ -52,7 +53,12 @@ impl GroupCopy {
         let (mut env, mut links) = (Environment::new(seed), SceneLinks::default());
         let (id, complete) = links.add_group(scene, &mut env, group)?;
         links.keep_other_joints(scene, &mut env)?;
-        Ok(Self { env, links, group: id, complete })
+        Ok(Self {
+            env,
+            links,
+            group: id,
+            complete,
+        })
     }
 
     /// Whether all tips have targets.
@@ -84,7 +90,9 @@ impl GroupCopy {
             *iterations = 0;
             return Ok(false);
         }
-        Ok(self.env.find_posture(self.group, Start::Random, iterations)?)
+        Ok(self
+            .env
+            .find_posture(self.group, Start::Random, iterations)?)
     }
 
     /// Limits the search to a part of a joint's interval. Joints outside of the group have no part in it.
@@ -92,7 +100,9 @@ impl GroupCopy {
     /// # Errors
     /// When the object is no joint.
     pub fn limit(&mut self, joint: Handle, min: f64, range: f64) -> Result<()> {
-        let Some(&id) = self.links.copies.get(&joint) else { return Ok(()) };
+        let Some(&id) = self.links.copies.get(&joint) else {
+            return Ok(());
+        };
         let copy = self.env.joint_mut(id)?;
         (copy.cyclic, copy.min, copy.range) = (false, min, range);
         let position = copy.position;
@@ -109,7 +119,9 @@ impl GroupCopy {
     pub fn ends(&self) -> Result<Vec<[Pose; 2]>> {
         let tips = self.tips()?;
         let pose = |id| self.env.pose(id, Frame::World);
-        tips.into_iter().map(|[tip, target]| Ok([pose(tip)?, pose(target)?])).collect()
+        tips.into_iter()
+            .map(|[tip, target]| Ok([pose(tip)?, pose(target)?]))
+            .collect()
     }
 
     /// Moves all targets to poses in the world.
@@ -135,7 +147,11 @@ impl GroupCopy {
     /// When one of them is no joint.
     pub fn config(&self, scene: &Scene, joints: &[Handle]) -> Result<Vec<f64>> {
         let position = |joint: &Handle| match self.links.copies.get(joint) {
-            Some(&id) => Ok(self.env.joint(id).map_err(|_| SceneError::WrongType("joint"))?.position),
+            Some(&id) => Ok(self
+                .env
+                .joint(id)
+                .map_err(|_| SceneError::WrongType("joint"))?
+                .position),
             None => Ok(scene.object(*joint)?.joint()?.position),
         };
         joints.iter().map(position).collect()
@@ -149,15 +165,32 @@ impl GroupCopy {
         if !self.complete {
             return Ok(None);
         }
-        let Some(equations) = self.env.equations(self.group)? else { return Ok(None) };
+        let Some(equations) = self.env.equations(self.group)? else {
+            return Ok(None);
+        };
         let (columns, rows) = (equations.columns.len(), equations.rows.len());
         let mut values = equations.jacobian;
         if weighted {
-            let weight = |column: &kinematics::Column| self.env.joint(column.joint).map(|joint| joint.weight.max(0.0));
-            let weights = equations.columns.iter().map(weight).collect::<kinematics::Result<Vec<f64>>>()?;
-            values.iter_mut().zip(weights.iter().cycle()).for_each(|(value, weight)| *value *= weight);
+            let weight = |column: &kinematics::Column| {
+                self.env
+                    .joint(column.joint)
+                    .map(|joint| joint.weight.max(0.0))
+            };
+            let weights = equations
+                .columns
+                .iter()
+                .map(weight)
+                .collect::<kinematics::Result<Vec<f64>>>()?;
+            values
+                .iter_mut()
+                .zip(weights.iter().cycle())
+                .for_each(|(value, weight)| *value *= weight);
         }
-        Ok(Some(Jacobian { columns, rows, values }))
+        Ok(Some(Jacobian {
+            columns,
+            rows,
+            values,
+        }))
     }
 
     /// Moves the joints of the scene.
@@ -165,7 +198,8 @@ impl GroupCopy {
     /// # Errors
     /// When a joint has no place to go to.
     pub fn apply(&self, scene: &mut Scene, is_dynamic: impl Fn(Handle) -> bool) -> Result<()> {
-        self.links.sync_to(scene, &self.env, &[self.group], is_dynamic)
+        self.links
+            .sync_to(scene, &self.env, &[self.group], is_dynamic)
     }
 }
 
@@ -174,7 +208,13 @@ impl GroupCopy {
 /// # Errors
 /// When an object is gone, or tip or target is a joint.
 pub fn export(scene: &Scene) -> Result<Vec<u8>> {
-    let (mut env, mut links) = (Environment::new(0), SceneLinks { named: true, ..SceneLinks::default() });
+    let (mut env, mut links) = (
+        Environment::new(0),
+        SceneLinks {
+            named: true,
+            ..SceneLinks::default()
+        },
+    );
     for (_, group) in scene.ik_groups().iter() {
         links.add_group(scene, &mut env, group)?;
     }
@@ -184,7 +224,12 @@ pub fn export(scene: &Scene) -> Result<Vec<u8>> {
 
 impl SceneLinks {
     /// Adds a group with its elements; whether all tips have targets.
-    fn add_group(&mut self, scene: &Scene, env: &mut Environment, group: &IkGroup) -> Result<(GroupId, bool)> {
+    fn add_group(
+        &mut self,
+        scene: &Scene,
+        env: &mut Environment,
+        group: &IkGroup,
+    ) -> Result<(GroupId, bool)> {
         let id = env.create_group(&group.name);
         let copy = env.group_mut(id)?;
         copy.method = Method::from_raw(group.method.into()).unwrap_or(Method::PseudoInverse);
@@ -211,12 +256,21 @@ impl SceneLinks {
         target: Handle,
     ) -> Result<()> {
         let constraints = Constraints(element.constraints as u32 & Constraints::POSE.0);
-        let added = SceneElement { base: element.base, tip: element.tip, target, constraints };
+        let added = SceneElement {
+            base: element.base,
+            tip: element.tip,
+            target,
+            constraints,
+        };
         let added = self.add_element(scene, env, group, &added)?;
-        let frame = element.constraint_base.map(|frame| self.copy(scene, env, frame)).transpose()?;
+        let frame = element
+            .constraint_base
+            .map(|frame| self.copy(scene, env, frame))
+            .transpose()?;
         let [angular, linear] = element.precisions;
         let copy = env.element_mut(group, added)?;
-        (copy.precision, copy.constraint_base, copy.enabled) = ([linear, angular], frame, element.enabled);
+        (copy.precision, copy.constraint_base, copy.enabled) =
+            ([linear, angular], frame, element.enabled);
         copy.weights = [element.weights[0], element.weights[1], 1.0];
         Ok(())
     }
@@ -227,7 +281,10 @@ impl SceneLinks {
             let joint = scene.object(handle)?.joint()?;
             let copy = env.joint_mut(id)?;
             (copy.weight, copy.max_step) = (joint.ik.weight, joint.ik.max_step);
-            if !matches!(joint.mode, joint::JointMode::InverseKinematics | joint::JointMode::Dependent) {
+            if !matches!(
+                joint.mode,
+                joint::JointMode::InverseKinematics | joint::JointMode::Dependent
+            ) {
                 copy.mode = JointMode::Passive;
             }
         }
@@ -240,10 +297,19 @@ fn flags(group: &IkGroup) -> GroupFlags {
     let choices = [
         (options.enabled, GroupFlags::ENABLED),
         (options.ignores_max_steps, GroupFlags::IGNORE_MAX_STEPS),
-        (options.restores_on_bad_linear, GroupFlags::RESTORE_ON_BAD_LINEAR),
-        (options.restores_on_bad_angular, GroupFlags::RESTORE_ON_BAD_ANGULAR),
+        (
+            options.restores_on_bad_linear,
+            GroupFlags::RESTORE_ON_BAD_LINEAR,
+        ),
+        (
+            options.restores_on_bad_angular,
+            GroupFlags::RESTORE_ON_BAD_ANGULAR,
+        ),
     ];
     let mut flags = GroupFlags::default();
-    choices.into_iter().filter(|(on, _)| *on).for_each(|(_, flag)| flags.insert(flag));
+    choices
+        .into_iter()
+        .filter(|(on, _)| *on)
+        .for_each(|(_, flag)| flags.insert(flag));
     flags
 }

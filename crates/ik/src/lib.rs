@@ -7,7 +7,9 @@ pub mod groups;
 
 use std::collections::BTreeMap;
 
-use kinematics::{Constraints, ElementId, Environment, Frame, GroupId, JointMode, JointType, Law, ObjectId};
+use kinematics::{
+    Constraints, ElementId, Environment, Frame, GroupId, JointMode, JointType, Law, ObjectId,
+};
 
 use scene::joint::{self, Joint};
 use scene::{self, Handle, Kind, Scene, SceneError};
@@ -75,7 +77,10 @@ impl SceneLinks {
                 return Err(SceneError::WrongType("dummy").into());
             }
         }
-        let base = element.base.map(|base| self.copy(scene, env, base)).transpose()?;
+        let base = element
+            .base
+            .map(|base| self.copy(scene, env, base))
+            .transpose()?;
         let tip = self.copy(scene, env, element.tip)?;
         let target = self.copy(scene, env, element.target)?;
         self.copy_dependencies(scene, env)?;
@@ -83,7 +88,11 @@ impl SceneLinks {
         let id = env.add_element(group, tip)?;
         let added = env.element_mut(group, id)?;
         (added.base, added.constraints) = (base, element.constraints);
-        let task = Task { tip: element.tip, target: element.target, base: element.base };
+        let task = Task {
+            tip: element.tip,
+            target: element.target,
+            base: element.base,
+        };
         self.groups.entry(group.raw()).or_default().push(task);
         Ok(id)
     }
@@ -109,10 +118,18 @@ impl SceneLinks {
             self.copies.insert(object, id);
             parent = Some(id);
         }
-        self.copies.get(&handle).copied().ok_or(SceneError::NoSuchObject.into())
+        self.copies
+            .get(&handle)
+            .copied()
+            .ok_or(SceneError::NoSuchObject.into())
     }
 
-    fn copy_one(&mut self, scene: &Scene, env: &mut Environment, handle: Handle) -> Result<ObjectId> {
+    fn copy_one(
+        &mut self,
+        scene: &Scene,
+        env: &mut Environment,
+        handle: Handle,
+    ) -> Result<ObjectId> {
         let object = scene.object(handle)?;
         let name = if self.named { object.old_name() } else { "" };
         let Kind::Joint(joint) = &object.kind else {
@@ -136,10 +153,18 @@ impl SceneLinks {
     fn copy_dependencies(&self, scene: &Scene, env: &mut Environment) -> Result<()> {
         for &(handle, id) in &self.joints {
             let joint = scene.object(handle)?.joint()?;
-            let Some(law) = joint.dependency.filter(|_| joint.mode == joint::JointMode::Dependent) else { continue };
+            let Some(law) = joint
+                .dependency
+                .filter(|_| joint.mode == joint::JointMode::Dependent)
+            else {
+                continue;
+            };
             match self.copies.get(&law.master) {
                 Some(&master) => {
-                    let linear = Law::Linear { offset: law.offset, factor: law.coefficient };
+                    let linear = Law::Linear {
+                        offset: law.offset,
+                        factor: law.coefficient,
+                    };
                     env.set_dependency(id, Some((master, linear)))?;
                 }
                 None => env.joint_mut(id)?.mode = JointMode::Passive,
@@ -153,20 +178,39 @@ impl SceneLinks {
     ///
     /// # Errors
     /// When the environment lost an object.
-    pub fn sync_from(&self, scene: &Scene, env: &mut Environment, groups: &[GroupId]) -> Result<()> {
-        if groups.iter().all(|group| !self.groups.contains_key(&group.raw())) {
+    pub fn sync_from(
+        &self,
+        scene: &Scene,
+        env: &mut Environment,
+        groups: &[GroupId],
+    ) -> Result<()> {
+        if groups
+            .iter()
+            .all(|group| !self.groups.contains_key(&group.raw()))
+        {
             return Ok(());
         }
         for &(handle, id) in &self.joints {
-            if let (Ok(joint), Ok(_)) = (scene.object(handle).and_then(|object| object.joint()), env.joint(id)) {
+            if let (Ok(joint), Ok(_)) = (
+                scene.object(handle).and_then(|object| object.joint()),
+                env.joint(id),
+            ) {
                 copy_position(env, id, joint)?;
             }
         }
-        for task in groups.iter().flat_map(|group| self.groups.get(&group.raw())).flatten() {
+        for task in groups
+            .iter()
+            .flat_map(|group| self.groups.get(&group.raw()))
+            .flatten()
+        {
             let frame = task.base.map_or(scene::Frame::World, scene::Frame::Object);
-            let Ok(pose) = scene.pose_in(task.target, frame, false) else { continue };
-            let base =
-                task.base.and_then(|base| self.copies.get(&base)).map_or(Frame::World, |base| Frame::Object(*base));
+            let Ok(pose) = scene.pose_in(task.target, frame, false) else {
+                continue;
+            };
+            let base = task
+                .base
+                .and_then(|base| self.copies.get(&base))
+                .map_or(Frame::World, |base| Frame::Object(*base));
             if let Some(&target) = self.copies.get(&task.target) {
                 env.set_pose(target, pose, base)?;
             }
@@ -186,7 +230,9 @@ impl SceneLinks {
         is_dynamic: impl Fn(Handle) -> bool,
     ) -> Result<()> {
         for handle in self.joints_of(scene, groups) {
-            let Some(joint) = self.copies.get(&handle).and_then(|id| env.joint(*id).ok()) else { continue };
+            let Some(joint) = self.copies.get(&handle).and_then(|id| env.joint(*id).ok()) else {
+                continue;
+            };
             if joint.mode != JointMode::Ik || joint.dependency.is_some() {
                 continue;
             }
@@ -209,10 +255,16 @@ impl SceneLinks {
     /// The joints between base and tip of the groups' elements.
     pub fn joints_of(&self, scene: &Scene, groups: &[GroupId]) -> Vec<Handle> {
         let mut joints = Vec::new();
-        for task in groups.iter().flat_map(|group| self.groups.get(&group.raw())).flatten() {
+        for task in groups
+            .iter()
+            .flat_map(|group| self.groups.get(&group.raw()))
+            .flatten()
+        {
             let mut next = Some(task.tip);
             while let Some(handle) = next.filter(|handle| Some(*handle) != task.base) {
-                let Ok(object) = scene.object(handle) else { break };
+                let Ok(object) = scene.object(handle) else {
+                    break;
+                };
                 if object.joint().is_ok() && !joints.contains(&handle) {
                     joints.push(handle);
                 }

@@ -39,12 +39,21 @@ impl EventLoop {
     /// When the system has no event queue.
     pub fn new() -> io::Result<Self> {
         let mut builder = tokio::runtime::Builder::new_current_thread();
-        let runtime = builder.enable_io().enable_time().event_interval(TASKS_PER_POLL).build()?;
-        Ok(Self { runtime: Some(runtime), waiting: Arc::default() })
+        let runtime = builder
+            .enable_io()
+            .enable_time()
+            .event_interval(TASKS_PER_POLL)
+            .build()?;
+        Ok(Self {
+            runtime: Some(runtime),
+            waiting: Arc::default(),
+        })
     }
 
     fn runtime(&self) -> &Runtime {
-        self.runtime.as_ref().expect("it is there until it is dropped")
+        self.runtime
+            .as_ref()
+            .expect("it is there until it is dropped")
     }
 
     /// Moves the sockets without waiting for anything.
@@ -87,7 +96,12 @@ impl EventLoop {
                 return there;
             }
         }
-        self.block_on(async { tokio::time::timeout(timeout, inbox.next()).await.ok().flatten() })
+        self.block_on(async {
+            tokio::time::timeout(timeout, inbox.next())
+                .await
+                .ok()
+                .flatten()
+        })
     }
 
     /// Moves the sockets until `future` is done.
@@ -97,7 +111,10 @@ impl EventLoop {
 
     /// A [`Waker`] for another thread, which ends waits.
     pub(super) fn waker(&self) -> Waker {
-        Waker { waiting: self.waiting.clone(), is_set: AtomicBool::new(false) }
+        Waker {
+            waiting: self.waiting.clone(),
+            is_set: AtomicBool::new(false),
+        }
     }
 
     /// Runs a task until it ends or what is returned is dropped.
@@ -108,7 +125,16 @@ impl EventLoop {
     /// An inbox for at most `capacity` arrivals. Who delivers more waits.
     pub(super) fn inbox<T>(&self, capacity: usize) -> (Deliver<T>, Inbox<T>) {
         let (sender, receiver) = mpsc::channel(capacity);
-        (Deliver { sender, waiting: self.waiting.clone() }, Inbox { receiver, waiting: self.waiting.clone() })
+        (
+            Deliver {
+                sender,
+                waiting: self.waiting.clone(),
+            },
+            Inbox {
+                receiver,
+                waiting: self.waiting.clone(),
+            },
+        )
     }
 }
 
@@ -167,7 +193,10 @@ pub(super) struct Deliver<T> {
 
 impl<T> Clone for Deliver<T> {
     fn clone(&self) -> Self {
-        Self { sender: self.sender.clone(), waiting: self.waiting.clone() }
+        Self {
+            sender: self.sender.clone(),
+            waiting: self.waiting.clone(),
+        }
     }
 }
 

@@ -80,7 +80,11 @@ impl PeerProcess {
         socket.set_write_timeout(Some(WRITE_LIMIT))?;
         socket.set_read_timeout(Some(READ_TIME))?;
         let mut command = Command::new(program);
-        command.args(args).stdin(OwnedFd::from(theirs)).stdout(OwnedFd::from(their_lifeline)).stderr(Stdio::piped());
+        command
+            .args(args)
+            .stdin(OwnedFd::from(theirs))
+            .stdout(OwnedFd::from(their_lifeline))
+            .stderr(Stdio::piped());
         if let Some(folder) = working_dir {
             command.current_dir(folder);
         }
@@ -90,7 +94,14 @@ impl PeerProcess {
             let output = Arc::clone(&output);
             Builder::new().spawn(move || collect(pipe, &output))?;
         }
-        Ok(Self { socket, lifeline: Some(lifeline), child, output, received: Vec::new(), part: vec![0; 1 << 16] })
+        Ok(Self {
+            socket,
+            lifeline: Some(lifeline),
+            child,
+            output,
+            received: Vec::new(),
+            part: vec![0; 1 << 16],
+        })
     }
 
     /// Sends one frame.
@@ -98,7 +109,9 @@ impl PeerProcess {
     /// # Errors
     /// When the program has ended, or reads nothing.
     pub fn send(&mut self, content: &[u8]) -> Result<(), PeerError> {
-        let length = u32::try_from(content.len()).ok().filter(|_| content.len() <= MAX_FRAME);
+        let length = u32::try_from(content.len())
+            .ok()
+            .filter(|_| content.len() <= MAX_FRAME);
         let length = length.ok_or(PeerError::TooLong)?.to_le_bytes();
         Ok(self.socket.write_all(&[&length, content].concat())?)
     }
@@ -157,12 +170,16 @@ impl PeerProcess {
 
     /// A frame that has been received completely.
     fn next_frame(&mut self) -> Result<Option<Vec<u8>>, PeerError> {
-        let Some((length, rest)) = self.received.split_first_chunk() else { return Ok(None) };
+        let Some((length, rest)) = self.received.split_first_chunk() else {
+            return Ok(None);
+        };
         let length = u32::from_le_bytes(*length) as usize;
         if length > MAX_FRAME {
             return Err(PeerError::TooLong);
         }
-        let Some(frame) = rest.get(..length).map(<[u8]>::to_vec) else { return Ok(None) };
+        let Some(frame) = rest.get(..length).map(<[u8]>::to_vec) else {
+            return Ok(None);
+        };
         self.received.drain(..length + 4);
         Ok(Some(frame))
     }
@@ -170,13 +187,24 @@ impl PeerProcess {
     /// What the program wrote beside its frames since the last time, and how many bytes of that were lost since they were too many.
     pub fn take_output(&self) -> (Vec<u8>, usize) {
         let mut output = self.output.lock().unwrap_or_else(PoisonError::into_inner);
-        (std::mem::take(&mut output.bytes).into(), std::mem::take(&mut output.lost))
+        (
+            std::mem::take(&mut output.bytes).into(),
+            std::mem::take(&mut output.lost),
+        )
     }
 
     /// The same of a program that has ended, whose last words are on their way.
-    #[allow(clippy::disallowed_methods, reason = "they come in a moment, which nothing depends on")]
+    #[allow(
+        clippy::disallowed_methods,
+        reason = "they come in a moment, which nothing depends on"
+    )]
     pub fn last_output(&self) -> Vec<u8> {
-        let is_complete = || self.output.lock().unwrap_or_else(PoisonError::into_inner).is_complete;
+        let is_complete = || {
+            self.output
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .is_complete
+        };
         let mut left = GUARDIAN_LIMIT;
         while !left.is_zero() && !is_complete() {
             std::thread::sleep(PAUSE);
@@ -186,7 +214,10 @@ impl PeerProcess {
     }
 
     /// The status with which the program ended; None while it runs, for at most `limit`.
-    #[allow(clippy::disallowed_methods, reason = "a program that ends takes a moment, which nothing depends on")]
+    #[allow(
+        clippy::disallowed_methods,
+        reason = "a program that ends takes a moment, which nothing depends on"
+    )]
     pub fn wait_for_end(&mut self, limit: Duration) -> Option<ExitStatus> {
         let mut left = limit;
         loop {
@@ -226,7 +257,12 @@ fn collect(mut pipe: impl Read, output: &Mutex<Output>) {
     loop {
         match pipe.read(&mut part) {
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            Ok(0) | Err(_) => return output.lock().unwrap_or_else(PoisonError::into_inner).is_complete = true,
+            Ok(0) | Err(_) => {
+                return output
+                    .lock()
+                    .unwrap_or_else(PoisonError::into_inner)
+                    .is_complete = true;
+            }
             Ok(count) => {
                 let mut output = output.lock().unwrap_or_else(PoisonError::into_inner);
                 let kept = count.min(MAX_OUTPUT - output.bytes.len());

@@ -21,7 +21,10 @@ impl PeerProcess {
     /// # Errors
     /// Always.
     pub(crate) fn start(_: &str, _: &[&str], _: Option<&Path>) -> io::Result<Self> {
-        Err(io::Error::new(io::ErrorKind::Unsupported, "scripts have no processes of their own on this system so far"))
+        Err(io::Error::new(
+            io::ErrorKind::Unsupported,
+            "scripts have no processes of their own on this system so far",
+        ))
     }
 
     pub(crate) fn send(&mut self, _: &[u8]) -> Result<(), PeerError> {

@@ -40,7 +40,11 @@ pub struct Program {
 
 impl Program {
     fn command(&self) -> io::Result<Command> {
-        let path = if self.search_path { PathBuf::from(&self.path) } else { std::path::absolute(&self.path)? };
+        let path = if self.search_path {
+            PathBuf::from(&self.path)
+        } else {
+            std::path::absolute(&self.path)?
+        };
         let mut command = Command::new(path);
         command.args(&self.args);
         if let Some(folder) = &self.working_dir {
@@ -58,14 +62,26 @@ impl Program {
     /// Starts it with `input`; what it writes is read while it runs, so that neither side waits for the other.
     pub fn run(&self, input: Vec<u8>) -> Result<Run, ProcessError> {
         let mut command = self.command()?;
-        let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
+        let child = command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()?;
         let mut child = Process(child);
-        let (stdin, stdout, stderr) = (child.0.stdin.take(), child.0.stdout.take(), child.0.stderr.take());
+        let (stdin, stdout, stderr) = (
+            child.0.stdin.take(),
+            child.0.stdout.take(),
+            child.0.stderr.take(),
+        );
         if let Some(mut stdin) = stdin {
             // A program that does not want its input is not at fault. Its end closes the pipe, which ends the thread.
             Builder::new().spawn(move || drop(stdin.write_all(&input)))?;
         }
-        Ok(Run { out: Collected::of(stdout)?, err: Collected::of(stderr)?, child })
+        Ok(Run {
+            out: Collected::of(stdout)?,
+            err: Collected::of(stderr)?,
+            child,
+        })
     }
 
     /// Starts it with the outputs of this program. Its input is open and empty.
@@ -156,7 +172,9 @@ impl Collected {
     fn of(pipe: Option<impl Read + Send + 'static>) -> io::Result<Self> {
         let bytes = Arc::new(Mutex::new(Vec::new()));
         let theirs = Arc::clone(&bytes);
-        let thread = pipe.map(|pipe| Builder::new().spawn(move || collect(pipe, &theirs))).transpose()?;
+        let thread = pipe
+            .map(|pipe| Builder::new().spawn(move || collect(pipe, &theirs)))
+            .transpose()?;
         Ok(Self { bytes, thread })
     }
 

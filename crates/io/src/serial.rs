@@ -9,8 +9,10 @@ use std::time::Duration;
 use serialport::ClearBuffer;
 
 /// The baud rates of CoppeliaSim.
-const BAUD_RATES: &[u32] =
-    &[50, 75, 110, 134, 150, 200, 300, 600, 1200, 1800, 2400, 4800, 9600, 19_200, 38_400, 57_600, 115_200, 230_400];
+const BAUD_RATES: &[u32] = &[
+    50, 75, 110, 134, 150, 200, 300, 600, 1200, 1800, 2400, 4800, 9600, 19_200, 38_400, 57_600,
+    115_200, 230_400,
+];
 
 /// A device that is ready accepts that many bytes without blocking the writer.
 const CHUNK: usize = 256;
@@ -38,7 +40,9 @@ impl SerialPort {
     }
 
     fn opened(path: &str, baud_rate: i64) -> Option<Self> {
-        let baud_rate = *BAUD_RATES.iter().find(|&&known| i64::from(known) == baud_rate)?;
+        let baud_rate = *BAUD_RATES
+            .iter()
+            .find(|&&known| i64::from(known) == baud_rate)?;
         let builder = serialport::new(path, baud_rate).timeout(SLICE);
         // As in CoppeliaSim, other programs may open the device too.
         #[cfg(unix)]
@@ -46,13 +50,21 @@ impl SerialPort {
         let device = builder.open().ok()?;
         // If clearing fails, the device has received nothing yet.
         let _ = device.clear(ClearBuffer::Input);
-        Some(Self { path: path.to_owned(), device, max_idle_slices: max_idle_slices(baud_rate) })
+        Some(Self {
+            path: path.to_owned(),
+            device,
+            max_idle_slices: max_idle_slices(baud_rate),
+        })
     }
 
     /// The file of a device.
     pub fn file(path: &str) -> PathBuf {
         // Windows names ports in a folder of devices.
-        if cfg!(windows) { Path::new(r"\\.").join(path) } else { path.into() }
+        if cfg!(windows) {
+            Path::new(r"\\.").join(path)
+        } else {
+            path.into()
+        }
     }
 
     /// The device as it was given.
@@ -68,7 +80,11 @@ impl SerialPort {
     /// At most `wanted` of the bytes that are there, without waiting.
     pub fn read(&mut self, wanted: usize) -> Vec<u8> {
         let mut bytes = vec![0; wanted.min(self.available().unwrap_or(0))];
-        let count = if bytes.is_empty() { 0 } else { self.device.read(&mut bytes).unwrap_or(0) };
+        let count = if bytes.is_empty() {
+            0
+        } else {
+            self.device.read(&mut bytes).unwrap_or(0)
+        };
         bytes.truncate(count);
         bytes
     }
@@ -84,7 +100,11 @@ impl SerialPort {
                     written += count;
                     idle = if count == 0 { idle + 1 } else { 0 };
                 }
-                Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::Interrupted) => idle += 1,
+                Err(error)
+                    if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::Interrupted) =>
+                {
+                    idle += 1
+                }
                 Err(_) => break,
             }
         }
@@ -104,6 +124,9 @@ mod tests {
     #[test]
     fn slow_devices_are_given_time() {
         assert_eq!(max_idle_slices(230_400), 20);
-        assert!(max_idle_slices(50) > 100 * 20, "256 bytes at 50 baud take 51 seconds");
+        assert!(
+            max_idle_slices(50) > 100 * 20,
+            "256 bytes at 50 baud take 51 seconds"
+        );
     }
 }

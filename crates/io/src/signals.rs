@@ -4,11 +4,13 @@
 
 #[cfg(not(unix))]
 pub use elsewhere::{
-    InterruptibleThread, last_request, note_requests, reserve_standard_output, run_on_crash, standard_output_is_closed,
+    InterruptibleThread, last_request, note_requests, reserve_standard_output, run_on_crash,
+    standard_output_is_closed,
 };
 #[cfg(unix)]
 pub use unix::{
-    InterruptibleThread, last_request, note_requests, reserve_standard_output, run_on_crash, standard_output_is_closed,
+    InterruptibleThread, last_request, note_requests, reserve_standard_output, run_on_crash,
+    standard_output_is_closed,
 };
 
 /// The number of the signal that ctrl-c sends.
@@ -58,7 +60,9 @@ mod unix {
 
     extern "C" fn note(signal: c_int) {
         LAST.store(signal, Ordering::Relaxed);
-        let Some(next) = REQUESTS.iter().position(|&request| request == signal) else { return };
+        let Some(next) = REQUESTS.iter().position(|&request| request == signal) else {
+            return;
+        };
         let next = NEXT[next].load(Ordering::Relaxed);
         if next != libc::SIG_DFL && next != libc::SIG_IGN {
             // SAFETY: the system had this address as a handler without `SA_SIGINFO`.
@@ -112,7 +116,13 @@ mod unix {
     }
 
     /// Signals of faults in native code.
-    const CRASHES: [c_int; 5] = [libc::SIGSEGV, libc::SIGBUS, libc::SIGILL, libc::SIGFPE, libc::SIGABRT];
+    const CRASHES: [c_int; 5] = [
+        libc::SIGSEGV,
+        libc::SIGBUS,
+        libc::SIGILL,
+        libc::SIGFPE,
+        libc::SIGABRT,
+    ];
 
     /// A program to run after a crash, in the form that the system takes.
     struct Successor {
@@ -128,12 +138,21 @@ mod unix {
     /// When native code crashes, prints `message` and replaces this process by the program `args[0]`, which has no crash handler then. Does
     /// nothing where the arguments are too many, or cannot be passed on.
     pub fn run_on_crash(message: String, args: Vec<OsString>) {
-        let args: Result<Vec<_>, _> = args.into_iter().map(|arg| CString::new(arg.into_vec())).collect();
-        let Some(args) = args.ok().filter(|args| (1..MAX_ARGS).contains(&args.len())) else { return };
+        let args: Result<Vec<_>, _> = args
+            .into_iter()
+            .map(|arg| CString::new(arg.into_vec()))
+            .collect();
+        let Some(args) = args.ok().filter(|args| (1..MAX_ARGS).contains(&args.len())) else {
+            return;
+        };
         SUCCESSOR.get_or_init(|| Successor { message, args });
         for signal in CRASHES {
             // A fault may be a stack that is full: the handler has one of its own, which Rust gives to each thread.
-            handle(signal, succeed, libc::SA_ONSTACK | libc::SA_RESETHAND | libc::SA_NODEFER);
+            handle(
+                signal,
+                succeed,
+                libc::SA_ONSTACK | libc::SA_RESETHAND | libc::SA_NODEFER,
+            );
         }
     }
 
@@ -172,7 +191,10 @@ mod unix {
         let stdout = std::io::stdout();
         let output = reserved.map_or_else(|| stdout.as_fd(), AsFd::as_fd);
         let mut polled = [PollFd::from_borrowed_fd(output, PollFlags::empty())];
-        let at_once = Timespec { tv_sec: 0, tv_nsec: 0 };
+        let at_once = Timespec {
+            tv_sec: 0,
+            tv_nsec: 0,
+        };
         poll(&mut polled, Some(&at_once)).is_ok() && polled[0].revents().contains(PollFlags::ERR)
     }
 }

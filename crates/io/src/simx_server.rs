@@ -73,17 +73,25 @@ impl SimxServer {
             max_packet,
             begun: now.checked_sub(age).unwrap_or(now),
         });
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_io().enable_time().build()?;
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_io()
+            .enable_time()
+            .build()?;
         let theirs = shared.clone();
-        let thread = std::thread::Builder::new().name("legacy remote API".into()).spawn(move || {
-            runtime.block_on(async {
-                tokio::select! {
-                    () = theirs.end.notified() => {}
-                    () = serve_all(listener, &theirs) => {}
-                }
-            });
-        })?;
-        Ok(Self { shared, thread: Some(thread) })
+        let thread = std::thread::Builder::new()
+            .name("legacy remote API".into())
+            .spawn(move || {
+                runtime.block_on(async {
+                    tokio::select! {
+                        () = theirs.end.notified() => {}
+                        () = serve_all(listener, &theirs) => {}
+                    }
+                });
+            })?;
+        Ok(Self {
+            shared,
+            thread: Some(thread),
+        })
     }
 
     /// What is known of the client. Hold it for a moment only: the client waits.
@@ -149,7 +157,9 @@ impl Shared {
 /// Serves one connection after the other.
 async fn serve_all(listener: TcpListener, shared: &Shared) {
     // This does not fail: the thread has a runtime, and the listener is valid.
-    let Ok(listener) = tokio::net::TcpListener::from_std(listener) else { return };
+    let Ok(listener) = tokio::net::TcpListener::from_std(listener) else {
+        return;
+    };
     loop {
         match listener.accept().await {
             Ok((stream, from)) => {
@@ -172,7 +182,9 @@ async fn serve(mut stream: TcpStream, shared: &Shared) -> io::Result<()> {
     let (mut packets, mut chunk) = (Packets::default(), vec![0; CHUNK]);
     loop {
         while let Some(message) = packets.next_message().map_err(refused)? {
-            let received = shared.session().receive(&message, packets.order(), shared.now());
+            let received = shared
+                .session()
+                .receive(&message, packets.order(), shared.now());
             let Received { is_waiting, ends } = received.map_err(refused)?;
             if is_waiting {
                 shared.wait_for_results().await;
@@ -210,7 +222,11 @@ mod tests {
         let listener = TcpListener::bind("127.0.0.1:0").expect("a port is free");
         let address = listener.local_addr().expect("it is bound");
         let session = Session::new(false);
-        (SimxServer::start(&event_loop, listener, 1300, session, Duration::ZERO).expect("a thread"), address)
+        (
+            SimxServer::start(&event_loop, listener, 1300, session, Duration::ZERO)
+                .expect("a thread"),
+            address,
+        )
     }
 
     /// An empty message.
@@ -232,7 +248,10 @@ mod tests {
         let (server, address) = server();
         let mut client = std::net::TcpStream::connect(address).expect("it listens");
         let reply = exchange(&mut client, &empty(0)).expect("a reply comes");
-        assert_eq!(reply[..13], [1, 0, 18, 0, 0, 0, 0, 0, 11, 0xff, 0xff, 0xff, 0xff]);
+        assert_eq!(
+            reply[..13],
+            [1, 0, 18, 0, 0, 0, 0, 0, 11, 0xff, 0xff, 0xff, 0xff]
+        );
         assert_eq!(server.session().peer(), Some("127.0.0.1"));
     }
 

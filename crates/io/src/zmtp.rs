@@ -91,7 +91,11 @@ pub(super) fn pong(context: &[u8]) -> Vec<u8> {
 
 /// A short command.
 fn command(name: &[u8], data: &[u8]) -> Vec<u8> {
-    let mut out = vec![flag::COMMAND, (1 + name.len() + data.len()) as u8, name.len() as u8];
+    let mut out = vec![
+        flag::COMMAND,
+        (1 + name.len() + data.len()) as u8,
+        name.len() as u8,
+    ];
     out.extend_from_slice(name);
     out.extend_from_slice(data);
     out
@@ -114,7 +118,11 @@ pub(super) fn answer(envelope: &[u8], content: &[u8]) -> Vec<u8> {
 
 impl Decoder {
     pub(super) fn new() -> Self {
-        Self { stage: Stage::Greeting, bytes: Vec::new(), used: 0 }
+        Self {
+            stage: Stage::Greeting,
+            bytes: Vec::new(),
+            used: 0,
+        }
     }
 
     /// Whether the handshake is over.
@@ -173,7 +181,9 @@ impl Decoder {
         if wrong {
             return Err(Violation::Greeting);
         }
-        let Some(greeting) = begun.get(..GREETING_SIZE) else { return Ok(false) };
+        let Some(greeting) = begun.get(..GREETING_SIZE) else {
+            return Ok(false);
+        };
         let (name, padding) = greeting[MECHANISM].split_at(4);
         if name != b"NULL" || padding.iter().any(|&byte| byte != 0) {
             return Err(Violation::Greeting);
@@ -184,8 +194,12 @@ impl Decoder {
 
     /// Reads the peer's READY; whether it was there.
     fn ready(&mut self) -> Result<bool, Violation> {
-        let Some(frame) = self.frame(self.used)? else { return Ok(false) };
-        let data = self.bytes[frame.body.clone()].strip_prefix(b"\x05READY").ok_or(Violation::Frame)?;
+        let Some(frame) = self.frame(self.used)? else {
+            return Ok(false);
+        };
+        let data = self.bytes[frame.body.clone()]
+            .strip_prefix(b"\x05READY")
+            .ok_or(Violation::Frame)?;
         if frame.flags & flag::COMMAND == 0 {
             return Err(Violation::Frame);
         }
@@ -198,15 +212,23 @@ impl Decoder {
 
     /// The next request or command; Some(None) for one that is ignored.
     fn traffic(&mut self) -> Result<Option<Option<PeerMessage>>, Violation> {
-        let Some(first) = self.frame(self.used)? else { return Ok(None) };
+        let Some(first) = self.frame(self.used)? else {
+            return Ok(None);
+        };
         if first.flags & flag::COMMAND != 0 {
             let body = &self.bytes[first.body.clone()];
-            let ping = body.strip_prefix(b"\x04PING").and_then(|ping| ping.get(2..));
-            let said = ping.map(|context| PeerMessage::Ping(context[..context.len().min(MAX_CONTEXT)].to_vec()));
+            let ping = body
+                .strip_prefix(b"\x04PING")
+                .and_then(|ping| ping.get(2..));
+            let said = ping.map(|context| {
+                PeerMessage::Ping(context[..context.len().min(MAX_CONTEXT)].to_vec())
+            });
             self.used = first.body.end;
             return Ok(Some(said));
         }
-        let Some(parts) = self.message(first)? else { return Ok(None) };
+        let Some(parts) = self.message(first)? else {
+            return Ok(None);
+        };
         let end = parts.last().map_or(self.used, |part| part.end);
         let request = self.request(&parts);
         self.used = end;
@@ -226,7 +248,9 @@ impl Decoder {
             if parts.len() > MAX_ENVELOPE {
                 return Err(Violation::TooLong);
             }
-            let Some(next) = self.frame(end)? else { return Ok(None) };
+            let Some(next) = self.frame(end)? else {
+                return Ok(None);
+            };
             if next.flags & flag::COMMAND != 0 {
                 return Err(Violation::Frame);
             }
@@ -239,22 +263,38 @@ impl Decoder {
         let (content, envelope) = parts.split_last()?;
         let delimiter = envelope.last().filter(|last| last.is_empty())?;
         let envelope = self.bytes[self.used..delimiter.end].to_vec();
-        Some(Request { envelope, content: self.bytes[content.clone()].to_vec() })
+        Some(Request {
+            envelope,
+            content: self.bytes[content.clone()].to_vec(),
+        })
     }
 
     /// The frame at `at`; None while it is incomplete. Its length is checked before its bytes have come.
     fn frame(&self, at: usize) -> Result<Option<Frame>, Violation> {
         let rest = &self.bytes[at..];
-        let Some(&flags) = rest.first() else { return Ok(None) };
+        let Some(&flags) = rest.first() else {
+            return Ok(None);
+        };
         if flags & !(flag::MORE | flag::LONG | flag::COMMAND) != 0 {
             return Err(Violation::Frame);
         }
         let is_long = flags & flag::LONG != 0;
         let head = if is_long { 9 } else { 2 };
-        let Some(length) = rest.get(1..head) else { return Ok(None) };
-        let length = length.iter().fold(0_u64, |length, &byte| length << 8 | u64::from(byte));
-        let limit = if flags & flag::COMMAND != 0 { MAX_COMMAND } else { MAX_MESSAGE };
-        let length = usize::try_from(length).ok().filter(|&length| length <= limit).ok_or(Violation::TooLong)?;
+        let Some(length) = rest.get(1..head) else {
+            return Ok(None);
+        };
+        let length = length
+            .iter()
+            .fold(0_u64, |length, &byte| length << 8 | u64::from(byte));
+        let limit = if flags & flag::COMMAND != 0 {
+            MAX_COMMAND
+        } else {
+            MAX_MESSAGE
+        };
+        let length = usize::try_from(length)
+            .ok()
+            .filter(|&length| length <= limit)
+            .ok_or(Violation::TooLong)?;
         let body = at + head..at + head + length;
         if body.end - self.used > MAX_MESSAGE + GREETING_SIZE {
             return Err(Violation::TooLong);
@@ -266,7 +306,9 @@ impl Decoder {
 /// The value of a property in the data of READY.
 fn property<'a>(mut data: &'a [u8], wanted: &[u8]) -> Result<Option<&'a [u8]>, Violation> {
     while let Some((&length, rest)) = data.split_first() {
-        let (name, rest) = rest.split_at_checked(usize::from(length)).ok_or(Violation::Frame)?;
+        let (name, rest) = rest
+            .split_at_checked(usize::from(length))
+            .ok_or(Violation::Frame)?;
         let (size, rest) = rest.split_first_chunk::<4>().ok_or(Violation::Frame)?;
         let size = usize::try_from(u32::from_be_bytes(*size)).map_err(|_| Violation::Frame)?;
         let (value, rest) = rest.split_at_checked(size).ok_or(Violation::Frame)?;
@@ -335,16 +377,33 @@ mod tests {
                 said.push(one);
             }
         }
-        let expect = |content: &[u8]| PeerMessage::Request(Request { envelope: vec![1, 0], content: content.to_vec() });
-        assert_eq!(said, [expect(b"short"), PeerMessage::Ping(b"ctx".to_vec()), expect(&[7; 300])]);
+        let expect = |content: &[u8]| {
+            PeerMessage::Request(Request {
+                envelope: vec![1, 0],
+                content: content.to_vec(),
+            })
+        };
+        assert_eq!(
+            said,
+            [
+                expect(b"short"),
+                PeerMessage::Ping(b"ctx".to_vec()),
+                expect(&[7; 300])
+            ]
+        );
     }
 
     #[test]
     fn the_whole_envelope_comes_back() {
         let mut bytes = opening(b"REQ");
         bytes.extend([flag::MORE, 2, 8, 9, flag::MORE, 0, 0, 1, b'x']);
-        let Ok(Some(PeerMessage::Request(request))) = said_at_once(&bytes) else { panic!("a request") };
-        assert_eq!(answer(&request.envelope, b"y"), [flag::MORE, 2, 8, 9, flag::MORE, 0, 0, 1, b'y']);
+        let Ok(Some(PeerMessage::Request(request))) = said_at_once(&bytes) else {
+            panic!("a request")
+        };
+        assert_eq!(
+            answer(&request.envelope, b"y"),
+            [flag::MORE, 2, 8, 9, flag::MORE, 0, 0, 1, b'y']
+        );
     }
 
     #[test]
@@ -386,7 +445,11 @@ mod tests {
             }
             bytes.truncate(random.below(bytes.len() + 1));
             let pieces = random.below(40) + 1;
-            assert_eq!(read_in_pieces(&bytes, bytes.len().max(1)), read_in_pieces(&bytes, pieces), "{bytes:?}");
+            assert_eq!(
+                read_in_pieces(&bytes, bytes.len().max(1)),
+                read_in_pieces(&bytes, pieces),
+                "{bytes:?}"
+            );
         }
     }
 }

@@ -54,7 +54,12 @@ impl Times {
     }
 }
 
-fn measure(arm: &mut Arm, what: &str, mut prepare: impl FnMut(&mut Arm, usize), solve: impl Fn(&mut Arm) -> bool) {
+fn measure(
+    arm: &mut Arm,
+    what: &str,
+    mut prepare: impl FnMut(&mut Arm, usize),
+    solve: impl Fn(&mut Arm) -> bool,
+) {
     let (mut times, mut successes) = (Times(Vec::new()), 0);
     for i in 0..POSES {
         prepare(arm, i);
@@ -68,7 +73,9 @@ fn measure(arm: &mut Arm, what: &str, mut prepare: impl FnMut(&mut Arm, usize), 
 }
 
 fn find(arm: &mut Arm) -> bool {
-    arm.env.find_posture(arm.group, Start::Present, &mut 100_000).expect("the group exists")
+    arm.env
+        .find_posture(arm.group, Start::Present, &mut 100_000)
+        .expect("the group exists")
 }
 
 fn table(_: &mut Criterion) {
@@ -78,26 +85,47 @@ fn table(_: &mut Criterion) {
         let goals = goals(&mut arm);
         let mut random = Random::new(5);
         let mut near = |goal: &[f64], by: f64| -> Vec<f64> {
-            goal.iter().map(|q| q + by * (2.0 * random.uniform() - 1.0)).collect()
+            goal.iter()
+                .map(|q| q + by * (2.0 * random.uniform() - 1.0))
+                .collect()
         };
         let fixed = |arm: &mut Arm, i: usize| {
             arm.set_config(&start);
             arm.aim(goals[i].1);
         };
-        measure(&mut arm, &format!("{name}: any posture, fixed start"), fixed, find);
+        measure(
+            &mut arm,
+            &format!("{name}: any posture, fixed start"),
+            fixed,
+            find,
+        );
         let close = |arm: &mut Arm, i: usize| {
             arm.set_config(&near(&goals[i].0, 0.2));
             arm.aim(goals[i].1);
         };
-        measure(&mut arm, &format!("{name}: any posture, start within 0.2 rad"), close, find);
+        measure(
+            &mut arm,
+            &format!("{name}: any posture, start within 0.2 rad"),
+            close,
+            find,
+        );
         let mut random = Random::new(6);
         let tracking = |arm: &mut Arm, i: usize| {
-            let from: Vec<f64> = goals[i].0.iter().map(|q| q + 0.02 * (random.uniform() - 0.5)).collect();
+            let from: Vec<f64> = goals[i]
+                .0
+                .iter()
+                .map(|q| q + 0.02 * (random.uniform() - 0.5))
+                .collect();
             arm.set_config(&from);
             arm.aim(goals[i].1);
         };
         arm.set_group(|group| group.iterations = 10);
-        measure(&mut arm, &format!("{name}: tracking step, pseudo-inverse"), tracking, |arm| arm.handle().is_success());
+        measure(
+            &mut arm,
+            &format!("{name}: tracking step, pseudo-inverse"),
+            tracking,
+            |arm| arm.handle().is_success(),
+        );
     }
 }
 
@@ -125,7 +153,9 @@ fn single_calls(c: &mut Criterion) {
         c.bench_function(&format!("{name}/tracking step"), |b| {
             b.iter(|| {
                 angle += 0.01;
-                arm.aim(Pose::translation(0.05 * angle.sin(), 0.05 * angle.cos() - 0.05, 0.0) * centre);
+                arm.aim(
+                    Pose::translation(0.05 * angle.sin(), 0.05 * angle.cos() - 0.05, 0.0) * centre,
+                );
                 arm.handle()
             });
         });

@@ -54,9 +54,15 @@ impl Environment {
     }
 
     fn compile(&self, group: GroupId) -> Result<Chains> {
-        let mut chains = Chains { structure: self.structure, ..Chains::default() };
+        let mut chains = Chains {
+            structure: self.structure,
+            ..Chains::default()
+        };
         chains.valid = true;
-        let enabled = self.group(group)?.elements().filter(|(_, element)| element.enabled);
+        let enabled = self
+            .group(group)?
+            .elements()
+            .filter(|(_, element)| element.enabled);
         for id in enabled.map(|(id, _)| id) {
             match self.compile_element(group, id, &mut chains.columns)? {
                 Some(chain) => chains.chains.push(chain),
@@ -67,9 +73,16 @@ impl Environment {
         Ok(chains)
     }
 
-    fn compile_element(&self, group: GroupId, id: ElementId, columns: &mut Vec<Column>) -> Result<Option<Chain>> {
+    fn compile_element(
+        &self,
+        group: GroupId,
+        id: ElementId,
+        columns: &mut Vec<Column>,
+    ) -> Result<Option<Chain>> {
         let element = self.element(group, id)?;
-        let Some(target) = self.partner(element.tip)? else { return Ok(None) };
+        let Some(target) = self.partner(element.tip)? else {
+            return Ok(None);
+        };
         let path = self.path_to(element.tip, element.base)?;
         let mut links = Vec::new();
         let mut before = Rigid::identity();
@@ -112,18 +125,35 @@ impl Environment {
         Ok(path)
     }
 
-    fn compile_link(&self, joint: ObjectId, before: Rigid, columns: &mut Vec<Column>) -> Result<Link> {
+    fn compile_link(
+        &self,
+        joint: ObjectId,
+        before: Rigid,
+        columns: &mut Vec<Column>,
+    ) -> Result<Link> {
         let root = self.root_master(joint)?;
         let master = self.joint(root)?;
         let moved = master.mode == JointMode::Ik;
-        let stages = if master.joint_type == JointType::Spherical { 3 } else { 1 };
+        let stages = if master.joint_type == JointType::Spherical {
+            3
+        } else {
+            1
+        };
         let column = moved.then(|| {
-            columns.iter().position(|column| column.joint == root).unwrap_or_else(|| {
-                columns.extend((0..stages).map(|stage| Column { joint: root, stage }));
-                columns.len() - stages
-            })
+            columns
+                .iter()
+                .position(|column| column.joint == root)
+                .unwrap_or_else(|| {
+                    columns.extend((0..stages).map(|stage| Column { joint: root, stage }));
+                    columns.len() - stages
+                })
         });
-        Ok(Link { before, joint, column, dependent: root != joint })
+        Ok(Link {
+            before,
+            joint,
+            column,
+            dependent: root != joint,
+        })
     }
 
     fn is_below_joint(&self, id: ObjectId) -> Result<bool> {
@@ -139,6 +169,8 @@ impl Environment {
 
     /// The frame in which a chain begins: the moving side of its base.
     pub(crate) fn start_of(&self, base: Option<ObjectId>) -> Result<Rigid> {
-        base.map_or(Ok(Rigid::identity()), |base| self.moving_side(base).map(|pose| Rigid::from(&pose)))
+        base.map_or(Ok(Rigid::identity()), |base| {
+            self.moving_side(base).map(|pose| Rigid::from(&pose))
+        })
     }
 }

@@ -35,7 +35,13 @@ pub struct Environment {
 impl Environment {
     /// Without objects. `seed` is for the random starts of [`Environment::find_posture`].
     pub fn new(seed: u64) -> Self {
-        Self { objects: Vec::new(), groups: Vec::new(), random: Random::new(seed), structure: 0, dependencies: false }
+        Self {
+            objects: Vec::new(),
+            groups: Vec::new(),
+            random: Random::new(seed),
+            structure: 0,
+            dependencies: false,
+        }
     }
 
     // ---------------------------------------------------------------- objects
@@ -66,16 +72,24 @@ impl Environment {
     /// # Errors
     /// When there is no such object.
     pub fn object(&self, id: ObjectId) -> Result<&Object> {
-        self.objects.get(id.0).and_then(Option::as_ref).ok_or(KinematicsError::NoSuchObject)
+        self.objects
+            .get(id.0)
+            .and_then(Option::as_ref)
+            .ok_or(KinematicsError::NoSuchObject)
     }
 
     fn object_mut(&mut self, id: ObjectId) -> Result<&mut Object> {
-        self.objects.get_mut(id.0).and_then(Option::as_mut).ok_or(KinematicsError::NoSuchObject)
+        self.objects
+            .get_mut(id.0)
+            .and_then(Option::as_mut)
+            .ok_or(KinematicsError::NoSuchObject)
     }
 
     /// The first object with that name.
     pub fn named(&self, name: &str) -> Option<ObjectId> {
-        self.objects().find(|(_, object)| object.name == name).map(|(id, _)| id)
+        self.objects()
+            .find(|(_, object)| object.name == name)
+            .map(|(id, _)| id)
     }
 
     /// Removes an object. Its children stay where they are, below its parent; elements that need it are removed.
@@ -84,16 +98,32 @@ impl Environment {
     /// When there is no such object.
     pub fn erase(&mut self, id: ObjectId) -> Result<()> {
         let parent = self.object(id)?.parent;
-        let children: Vec<ObjectId> = self.objects().filter(|(_, o)| o.parent == Some(id)).map(|(id, _)| id).collect();
-        children.into_iter().try_for_each(|child| self.set_parent(child, parent, true))?;
+        let children: Vec<ObjectId> = self
+            .objects()
+            .filter(|(_, o)| o.parent == Some(id))
+            .map(|(id, _)| id)
+            .collect();
+        children
+            .into_iter()
+            .try_for_each(|child| self.set_parent(child, parent, true))?;
         self.set_parent(id, None, true)?;
         self.unlink(id);
         self.objects[id.0] = None;
-        for joint in self.objects.iter_mut().flatten().filter_map(Object::joint_mut) {
-            joint.dependency = joint.dependency.take().filter(|dependency| dependency.master != id);
+        for joint in self
+            .objects
+            .iter_mut()
+            .flatten()
+            .filter_map(Object::joint_mut)
+        {
+            joint.dependency = joint
+                .dependency
+                .take()
+                .filter(|dependency| dependency.master != id);
         }
         for element in self.groups.iter_mut().flat_map(|group| &mut group.elements) {
-            *element = element.take().filter(|e| e.tip != id && e.base != Some(id) && e.constraint_base != Some(id));
+            *element = element
+                .take()
+                .filter(|e| e.tip != id && e.base != Some(id) && e.constraint_base != Some(id));
         }
         self.changed();
         Ok(())
@@ -103,7 +133,12 @@ impl Environment {
     ///
     /// # Errors
     /// When one of them does not exist, or the parent is below the object.
-    pub fn set_parent(&mut self, id: ObjectId, parent: Option<ObjectId>, in_place: bool) -> Result<()> {
+    pub fn set_parent(
+        &mut self,
+        id: ObjectId,
+        parent: Option<ObjectId>,
+        in_place: bool,
+    ) -> Result<()> {
         let before = self.object(id)?.parent;
         let mut ancestor = parent;
         while let Some(above) = ancestor {
@@ -121,7 +156,11 @@ impl Environment {
             self.object_mut(parent)?.children += 1;
         }
         self.changed();
-        if in_place { self.set_pose(id, world, Frame::World) } else { Ok(()) }
+        if in_place {
+            self.set_pose(id, world, Frame::World)
+        } else {
+            Ok(())
+        }
     }
 
     // ---------------------------------------------------------------- poses
@@ -135,14 +174,19 @@ impl Environment {
         Ok(match frame {
             Frame::Parent => object.pose,
             Frame::World => self.parent_side(object)? * object.pose,
-            Frame::Object(other) => self.moving_side(other)?.inverse() * (self.parent_side(object)? * object.pose),
+            Frame::Object(other) => {
+                self.moving_side(other)?.inverse() * (self.parent_side(object)? * object.pose)
+            }
         })
     }
 
     /// An object in the world; of a joint, its moving side.
     pub(crate) fn moving_side(&self, id: ObjectId) -> Result<Pose> {
         let pose = self.pose(id, Frame::World)?;
-        Ok(self.object(id)?.joint().map_or(pose, |joint| pose * joint.motion()))
+        Ok(self
+            .object(id)?
+            .joint()
+            .map_or(pose, |joint| pose * joint.motion()))
     }
 
     /// The moving side of the parent, in the world.
@@ -169,9 +213,13 @@ impl Environment {
         let local = match frame {
             Frame::Parent => pose,
             Frame::World => self.parent_side(object)?.inverse() * pose,
-            Frame::Object(other) => self.parent_side(object)?.inverse() * (self.moving_side(other)? * pose),
+            Frame::Object(other) => {
+                self.parent_side(object)?.inverse() * (self.moving_side(other)? * pose)
+            }
         };
-        geometry::pose::pose_to_array(&local).finite().ok_or(KinematicsError::NotFinite)?;
+        geometry::pose::pose_to_array(&local)
+            .finite()
+            .ok_or(KinematicsError::NotFinite)?;
         let within_chains = object.children > 0 || object.joint().is_some() || self.is_tip(id);
         self.object_mut(id)?.pose = local;
         if within_chains {
@@ -181,7 +229,10 @@ impl Environment {
     }
 
     fn is_tip(&self, id: ObjectId) -> bool {
-        self.groups.iter().flat_map(Group::elements).any(|(_, element)| element.tip == id)
+        self.groups
+            .iter()
+            .flat_map(Group::elements)
+            .any(|(_, element)| element.tip == id)
     }
 
     // ---------------------------------------------------------------- dummies
@@ -222,7 +273,11 @@ impl Environment {
     }
 
     fn link(&mut self, dummy: ObjectId, to: Option<ObjectId>) {
-        if let Ok(Object { kind: Kind::Dummy { partner }, .. }) = self.object_mut(dummy) {
+        if let Ok(Object {
+            kind: Kind::Dummy { partner },
+            ..
+        }) = self.object_mut(dummy)
+        {
             *partner = to;
         }
     }
@@ -243,7 +298,9 @@ impl Environment {
     /// When there is no such joint.
     pub fn joint_mut(&mut self, id: ObjectId) -> Result<&mut Joint> {
         self.structure += 1;
-        self.object_mut(id)?.joint_mut().ok_or(KinematicsError::NotAJoint)
+        self.object_mut(id)?
+            .joint_mut()
+            .ok_or(KinematicsError::NotAJoint)
     }
 
     /// Moves a joint within its limits, and those that depend on it.
@@ -251,7 +308,10 @@ impl Environment {
     /// # Errors
     /// When there is no such joint, it is spherical, or the position is not finite.
     pub fn set_joint_position(&mut self, id: ObjectId, position: f64) -> Result<()> {
-        let joint = self.object_mut(id)?.joint_mut().ok_or(KinematicsError::NotAJoint)?;
+        let joint = self
+            .object_mut(id)?
+            .joint_mut()
+            .ok_or(KinematicsError::NotAJoint)?;
         if joint.joint_type == JointType::Spherical {
             return Err(KinematicsError::Spherical);
         }
@@ -265,7 +325,10 @@ impl Environment {
     /// # Errors
     /// When there is no such joint, or it is not spherical.
     pub fn set_rotation(&mut self, id: ObjectId, rotation: UnitQuaternion<f64>) -> Result<()> {
-        let joint = self.object_mut(id)?.joint_mut().ok_or(KinematicsError::NotAJoint)?;
+        let joint = self
+            .object_mut(id)?
+            .joint_mut()
+            .ok_or(KinematicsError::NotAJoint)?;
         if joint.joint_type != JointType::Spherical {
             return Err(KinematicsError::NotSpherical);
         }
@@ -277,8 +340,15 @@ impl Environment {
     ///
     /// # Errors
     /// When one of them does not exist, is no joint or spherical.
-    pub fn set_dependency(&mut self, id: ObjectId, dependency: Option<(ObjectId, Law)>) -> Result<()> {
-        for joint in [Some(id), dependency.as_ref().map(|(master, _)| *master)].into_iter().flatten() {
+    pub fn set_dependency(
+        &mut self,
+        id: ObjectId,
+        dependency: Option<(ObjectId, Law)>,
+    ) -> Result<()> {
+        for joint in [Some(id), dependency.as_ref().map(|(master, _)| *master)]
+            .into_iter()
+            .flatten()
+        {
             if self.joint(joint)?.joint_type == JointType::Spherical {
                 return Err(KinematicsError::Spherical);
             }
@@ -325,12 +395,20 @@ impl Environment {
         }
         let mut pending = vec![master];
         while let Some(master) = pending.pop() {
-            let Ok(position) = self.joint(master).map(|joint| joint.position) else { return };
+            let Ok(position) = self.joint(master).map(|joint| joint.position) else {
+                return;
+            };
             for (i, object) in self.objects.iter_mut().enumerate() {
-                let Some(joint) = object.as_mut().and_then(Object::joint_mut) else { continue };
+                let Some(joint) = object.as_mut().and_then(Object::joint_mut) else {
+                    continue;
+                };
                 if let Some(dependency) = joint.dependency.as_ref().filter(|d| d.master == master) {
                     let dependent = dependency.law.position(position);
-                    joint.position = if dependent.is_finite() { dependent } else { joint.position };
+                    joint.position = if dependent.is_finite() {
+                        dependent
+                    } else {
+                        joint.position
+                    };
                     pending.push(ObjectId(i));
                 }
             }
@@ -347,12 +425,17 @@ impl Environment {
 
     /// All groups with their numbers, in the order in which they were created.
     pub fn groups(&self) -> impl Iterator<Item = (GroupId, &Group)> {
-        self.groups.iter().enumerate().map(|(i, group)| (GroupId(i), group))
+        self.groups
+            .iter()
+            .enumerate()
+            .map(|(i, group)| (GroupId(i), group))
     }
 
     /// The first group with that name.
     pub fn group_named(&self, name: &str) -> Option<GroupId> {
-        self.groups().find(|(_, group)| group.name == name).map(|(id, _)| id)
+        self.groups()
+            .find(|(_, group)| group.name == name)
+            .map(|(id, _)| id)
     }
 
     /// A group of the environment.
@@ -368,7 +451,9 @@ impl Environment {
     /// # Errors
     /// When there is no such group.
     pub fn group_mut(&mut self, id: GroupId) -> Result<&mut Group> {
-        self.groups.get_mut(id.0).ok_or(KinematicsError::NoSuchGroup)
+        self.groups
+            .get_mut(id.0)
+            .ok_or(KinematicsError::NoSuchGroup)
     }
 
     /// A tip of a group, with the partner it has when the group is handled as its target.
@@ -389,7 +474,11 @@ impl Environment {
     /// # Errors
     /// When there is no such element.
     pub fn element(&self, group: GroupId, element: ElementId) -> Result<&Element> {
-        let element = self.group(group)?.elements.get(element.0).and_then(Option::as_ref);
+        let element = self
+            .group(group)?
+            .elements
+            .get(element.0)
+            .and_then(Option::as_ref);
         element.ok_or(KinematicsError::NoSuchElement)
     }
 
@@ -399,7 +488,11 @@ impl Environment {
     /// When there is no such element.
     pub fn element_mut(&mut self, group: GroupId, element: ElementId) -> Result<&mut Element> {
         self.changed();
-        let element = self.group_mut(group)?.elements.get_mut(element.0).and_then(Option::as_mut);
+        let element = self
+            .group_mut(group)?
+            .elements
+            .get_mut(element.0)
+            .and_then(Option::as_mut);
         element.ok_or(KinematicsError::NoSuchElement)
     }
 
@@ -409,7 +502,10 @@ impl Environment {
     /// When there is none.
     pub fn element_of_tip(&self, group: GroupId, tip: ObjectId) -> Result<ElementId> {
         let mut elements = self.group(group)?.elements();
-        elements.find(|(_, element)| element.tip == tip).map(|(id, _)| id).ok_or(KinematicsError::NoSuchElement)
+        elements
+            .find(|(_, element)| element.tip == tip)
+            .map(|(id, _)| id)
+            .ok_or(KinematicsError::NoSuchElement)
     }
 
     fn changed(&mut self) {

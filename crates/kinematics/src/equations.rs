@@ -89,7 +89,13 @@ impl Equations {
     }
 
     /// Computes everything for the present positions of the joints.
-    pub(crate) fn evaluate(&mut self, env: &Environment, group: &Group, chains: &Chains, angles: Angles) -> Result<()> {
+    pub(crate) fn evaluate(
+        &mut self,
+        env: &Environment,
+        group: &Group,
+        chains: &Chains,
+        angles: Angles,
+    ) -> Result<()> {
         if self.columns != chains.columns {
             self.columns.clone_from(&chains.columns);
         }
@@ -112,8 +118,16 @@ impl Equations {
             return Ok(*frames);
         }
         let rigid = |id| env.pose(id, Frame::World).map(|pose| Rigid::from(&pose));
-        let axes = chain.constraint_base.map(rigid).transpose()?.map(|base| base.rotation);
-        let frames = Frames { start: env.start_of(chain.base)?, target: rigid(chain.target)?, axes };
+        let axes = chain
+            .constraint_base
+            .map(rigid)
+            .transpose()?
+            .map(|base| base.rotation);
+        let frames = Frames {
+            start: env.start_of(chain.base)?,
+            target: rigid(chain.target)?,
+            axes,
+        };
         self.fixed.truncate(index);
         self.fixed.push(frames);
         Ok(frames)
@@ -135,11 +149,15 @@ impl Equations {
         for (bit, constraint) in SINGLE.into_iter().enumerate() {
             if chain.constraints.intersects(constraint) {
                 // ALPHA_BETA has two rows.
-                self.rows.push(Row::Constraint { element: chain.element, constraint });
+                self.rows.push(Row::Constraint {
+                    element: chain.element,
+                    constraint,
+                });
                 self.errors.push(errors[bit]);
             }
         }
-        self.jacobian.resize(self.rows.len() * self.columns.len(), 0.0);
+        self.jacobian
+            .resize(self.rows.len() * self.columns.len(), 0.0);
         self.fill(env, chain, &tip, frames, first)
     }
 
@@ -159,45 +177,84 @@ impl Equations {
                     }
                 }
                 JointType::Prismatic => frame.shift(joint.position),
-                JointType::Spherical => frame.rotation *= joint.rotation.to_rotation_matrix().into_inner(),
+                JointType::Spherical => {
+                    frame.rotation *= joint.rotation.to_rotation_matrix().into_inner()
+                }
             }
         }
         Ok(frame.after(&chain.to_tip))
     }
 
     fn measure(&mut self, group: &Group, chain: &Chain, difference: &Difference) {
-        let precision = group.elements[chain.element.0].as_ref().map_or([0.0; 2], |element| element.precision);
+        let precision = group.elements[chain.element.0]
+            .as_ref()
+            .map_or([0.0; 2], |element| element.precision);
         self.linear_missed |= exceeds(difference.distance, precision[0] * self.share);
         self.angular_missed |= exceeds(difference.angle, precision[1] * self.share);
         self.precision[0] = self.precision[0].max(difference.distance);
         self.precision[1] = self.precision[1].max(difference.angle);
     }
 
-    fn fill(&mut self, env: &Environment, chain: &Chain, tip: &Rigid, frames: &Frames, first: usize) -> Result<()> {
-        let angular_axes =
-            if chain.constraints.contains(Constraints::ORIENTATION) { frames.axes } else { Some(tip.rotation) };
+    fn fill(
+        &mut self,
+        env: &Environment,
+        chain: &Chain,
+        tip: &Rigid,
+        frames: &Frames,
+        first: usize,
+    ) -> Result<()> {
+        let angular_axes = if chain.constraints.contains(Constraints::ORIENTATION) {
+            frames.axes
+        } else {
+            Some(tip.rotation)
+        };
         for (i, link) in chain.links.iter().enumerate() {
             let Some(column) = link.column else { continue };
-            let factor = if link.dependent { slope(env, link.joint)? } else { 1.0 };
+            let factor = if link.dependent {
+                slope(env, link.joint)?
+            } else {
+                1.0
+            };
             let resting = self.resting[i];
             let joint = env.joint(link.joint)?;
-            let stages = if joint.joint_type == JointType::Spherical { 0..3 } else { 2..3 };
+            let stages = if joint.joint_type == JointType::Spherical {
+                0..3
+            } else {
+                2..3
+            };
             for (place, axis) in stages.enumerate() {
                 let z: Vector3<f64> = resting.rotation.column(axis).into();
                 let (linear, angular) = match joint.joint_type {
                     JointType::Prismatic => (z, Vector3::zeros()),
-                    _ => (z.cross(&(tip.translation - resting.translation)) + z * (joint.screw_lead / TAU), z),
+                    _ => (
+                        z.cross(&(tip.translation - resting.translation))
+                            + z * (joint.screw_lead / TAU),
+                        z,
+                    ),
                 };
                 let linear = along(&frames.axes, linear);
                 let angular = along(&angular_axes, angular);
-                let numbers = [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z];
-                self.add_to_column(chain.constraints, first, column + place, numbers.map(|x| x * factor));
+                let numbers = [
+                    linear.x, linear.y, linear.z, angular.x, angular.y, angular.z,
+                ];
+                self.add_to_column(
+                    chain.constraints,
+                    first,
+                    column + place,
+                    numbers.map(|x| x * factor),
+                );
             }
         }
         Ok(())
     }
 
-    fn add_to_column(&mut self, constraints: Constraints, first: usize, column: usize, numbers: [f64; 6]) {
+    fn add_to_column(
+        &mut self,
+        constraints: Constraints,
+        first: usize,
+        column: usize,
+        numbers: [f64; 6],
+    ) {
         let width = self.columns.len();
         let mut place = first * width + column;
         for (constraint, number) in SINGLE.into_iter().zip(numbers) {
@@ -213,9 +270,13 @@ impl Equations {
         for column in 0..self.columns.len() {
             let id = self.columns[column].joint;
             let joint = env.joint(id)?;
-            let Some([low, high]) = joint.limits() else { continue };
-            let (below, above) =
-                (low + joint.limit_margin - joint.position, joint.position - high + joint.limit_margin);
+            let Some([low, high]) = joint.limits() else {
+                continue;
+            };
+            let (below, above) = (
+                low + joint.limit_margin - joint.position,
+                joint.position - high + joint.limit_margin,
+            );
             for (sign, penetration) in [(1.0, below), (-1.0, above)] {
                 if penetration > 0.0 {
                     self.rows.push(Row::Limit { joint: id });
@@ -276,20 +337,35 @@ impl Difference {
         let position = along(&frames.axes, frames.target.translation - tip.translation);
         let rotation = tip.rotation.tr_mul(&frames.target.rotation);
         let bits = [Constraints::X, Constraints::Y, Constraints::Z];
-        let constrained: f64 =
-            (0..3).filter(|&i| constraints.intersects(bits[i])).map(|i| position[i] * position[i]).sum();
-        let (swing, twist) =
-            (constraints.intersects(Constraints::ALPHA_BETA), constraints.intersects(Constraints::GAMMA));
+        let constrained: f64 = (0..3)
+            .filter(|&i| constraints.intersects(bits[i]))
+            .map(|i| position[i] * position[i])
+            .sum();
+        let (swing, twist) = (
+            constraints.intersects(Constraints::ALPHA_BETA),
+            constraints.intersects(Constraints::GAMMA),
+        );
         let angle = match (swing, twist) {
             (true, true) => angle_of(&rotation),
             (true, false) => angle_of_z(&rotation),
             (false, true) => gamma(&rotation).abs(),
             (false, false) => 0.0,
         };
-        Self { position, rotation, distance: constrained.sqrt(), angle }
+        Self {
+            position,
+            rotation,
+            distance: constrained.sqrt(),
+            angle,
+        }
     }
 
-    fn errors(&self, tip: &Rigid, frames: &Frames, constraints: Constraints, angles: Angles) -> [f64; 6] {
+    fn errors(
+        &self,
+        tip: &Rigid,
+        frames: &Frames,
+        constraints: Constraints,
+        angles: Angles,
+    ) -> [f64; 6] {
         let full = constraints.contains(Constraints::ORIENTATION);
         let angular = match angles {
             _ if !constraints.intersects(Constraints::ORIENTATION) => Vector3::zeros(),
@@ -300,9 +376,15 @@ impl Difference {
                 Vector3::new(swing[0], swing[1], gamma(&self.rotation))
             }
         };
-        let angular = if full { along(&frames.axes, tip.rotation * angular) } else { angular };
+        let angular = if full {
+            along(&frames.axes, tip.rotation * angular)
+        } else {
+            angular
+        };
         let position = self.position;
-        [position.x, position.y, position.z, angular.x, angular.y, angular.z]
+        [
+            position.x, position.y, position.z, angular.x, angular.y, angular.z,
+        ]
     }
 }
 
@@ -319,7 +401,11 @@ fn gamma(r: &Matrix3<f64>) -> f64 {
 
 /// Twice the sine times the axis.
 fn vee(r: &Matrix3<f64>) -> Vector3<f64> {
-    Vector3::new(r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)])
+    Vector3::new(
+        r[(2, 1)] - r[(1, 2)],
+        r[(0, 2)] - r[(2, 0)],
+        r[(1, 0)] - r[(0, 1)],
+    )
 }
 
 fn angle_of(r: &Matrix3<f64>) -> f64 {
@@ -343,7 +429,9 @@ fn rotation_vector(r: &Matrix3<f64>) -> Vector3<f64> {
     }
     let symmetric = (r + Matrix3::identity()) * 0.5;
     let column: Vector3<f64> = symmetric.column(symmetric.diagonal().imax()).into();
-    column.try_normalize(1e-9).map_or(Vector3::zeros(), |axis| axis * PI)
+    column
+        .try_normalize(1e-9)
+        .map_or(Vector3::zeros(), |axis| axis * PI)
 }
 
 /// The first two numbers of the rotation vector that brings the z axis of the tip to that of the target.

@@ -140,9 +140,14 @@ pub enum Method {
 impl Method {
     /// The method of a script's number.
     pub fn from_raw(raw: i64) -> Option<Self> {
-        [Self::PseudoInverse, Self::DampedLeastSquares, Self::JacobianTranspose, Self::UndampedPseudoInverse]
-            .into_iter()
-            .find(|method| *method as i64 == raw)
+        [
+            Self::PseudoInverse,
+            Self::DampedLeastSquares,
+            Self::JacobianTranspose,
+            Self::UndampedPseudoInverse,
+        ]
+        .into_iter()
+        .find(|method| *method as i64 == raw)
     }
 }
 

@@ -95,7 +95,9 @@ impl Law {
         const STEP: f64 = 1e-6;
         match self {
             Self::Linear { factor, .. } => *factor,
-            Self::Function(function) => (function(master + STEP) - function(master - STEP)) / (2.0 * STEP),
+            Self::Function(function) => {
+                (function(master + STEP) - function(master - STEP)) / (2.0 * STEP)
+            }
         }
     }
 }
@@ -112,7 +114,13 @@ impl fmt::Debug for Law {
 impl PartialEq for Law {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::Linear { offset, factor }, Self::Linear { offset: o, factor: f }) => (offset, factor) == (o, f),
+            (
+                Self::Linear { offset, factor },
+                Self::Linear {
+                    offset: o,
+                    factor: f,
+                },
+            ) => (offset, factor) == (o, f),
             (Self::Function(function), Self::Function(other)) => Rc::ptr_eq(function, other),
             _ => false,
         }
@@ -149,8 +157,13 @@ impl Joint {
         match self.joint_type {
             JointType::Revolute => {
                 let (sine, cosine) = libm::sincos(0.5 * self.position);
-                let turn = UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(cosine, 0.0, 0.0, sine));
-                Isometry3::from_parts(Translation3::new(0.0, 0.0, self.position * self.screw_lead / TAU), turn)
+                let turn = UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(
+                    cosine, 0.0, 0.0, sine,
+                ));
+                Isometry3::from_parts(
+                    Translation3::new(0.0, 0.0, self.position * self.screw_lead / TAU),
+                    turn,
+                )
             }
             JointType::Prismatic => Isometry3::translation(0.0, 0.0, self.position),
             JointType::Spherical => Isometry3::from_parts(Translation3::identity(), self.rotation),

@@ -81,7 +81,9 @@ impl Problem<'_> {
     }
 
     fn by_singular_values(&self, errors: &[f64], step: &mut Vec<f64>) -> bool {
-        let Some(inverse) = self.inverse() else { return false };
+        let Some(inverse) = self.inverse() else {
+            return false;
+        };
         step.clear();
         step.extend((inverse * DVector::from_column_slice(errors)).iter());
         step.iter().all(|x| x.is_finite())
@@ -152,13 +154,22 @@ mod tests {
 
     fn step(jacobian: &[f64], columns: usize, damping: f64, errors: &[f64]) -> Option<Vec<f64>> {
         let mut step = Vec::new();
-        let problem = Problem { jacobian, columns, damping };
-        problem.solve(errors, &mut step, &mut Scratch::default()).then_some(step)
+        let problem = Problem {
+            jacobian,
+            columns,
+            damping,
+        };
+        problem
+            .solve(errors, &mut step, &mut Scratch::default())
+            .then_some(step)
     }
 
     #[track_caller]
     fn close(a: &[f64], b: &[f64]) {
-        assert!(a.len() == b.len() && a.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-9), "{a:?} is not {b:?}");
+        assert!(
+            a.len() == b.len() && a.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-9),
+            "{a:?} is not {b:?}"
+        );
     }
 
     #[test]
@@ -166,22 +177,43 @@ mod tests {
         let wide = [1.0, 2.0, 0.5, -1.0, 0.3, 2.0];
         let errors = [0.1, -0.2];
         for damping in [0.0, 0.1, 1.0] {
-            let problem = Problem { jacobian: &wide, columns: 3, damping };
+            let problem = Problem {
+                jacobian: &wide,
+                columns: 3,
+                damping,
+            };
             let expected = problem.inverse().unwrap() * DVector::from_column_slice(&errors);
-            close(&step(&wide, 3, damping, &errors).unwrap(), expected.as_slice());
+            close(
+                &step(&wide, 3, damping, &errors).unwrap(),
+                expected.as_slice(),
+            );
         }
         let tall = [1.0, -1.0, 2.0, 0.3, 0.5, 2.0];
         for damping in [0.0, 0.1] {
-            let problem = Problem { jacobian: &tall, columns: 2, damping };
-            let expected = problem.inverse().unwrap() * DVector::from_column_slice(&[0.1, 0.2, 0.3]);
-            close(&step(&tall, 2, damping, &[0.1, 0.2, 0.3]).unwrap(), expected.as_slice());
+            let problem = Problem {
+                jacobian: &tall,
+                columns: 2,
+                damping,
+            };
+            let expected =
+                problem.inverse().unwrap() * DVector::from_column_slice(&[0.1, 0.2, 0.3]);
+            close(
+                &step(&tall, 2, damping, &[0.1, 0.2, 0.3]).unwrap(),
+                expected.as_slice(),
+            );
         }
     }
 
     #[test]
     fn a_singular_matrix_has_the_shortest_step() {
-        close(&step(&[1.0, 1.0, 1.0, 1.0], 2, 0.0, &[1.0, 1.0]).unwrap(), &[0.5, 0.5]);
-        close(&step(&[1.0, 1.0, 1.0, 1.0], 2, 0.0, &[1.0, -1.0]).unwrap(), &[0.0, 0.0]);
+        close(
+            &step(&[1.0, 1.0, 1.0, 1.0], 2, 0.0, &[1.0, 1.0]).unwrap(),
+            &[0.5, 0.5],
+        );
+        close(
+            &step(&[1.0, 1.0, 1.0, 1.0], 2, 0.0, &[1.0, -1.0]).unwrap(),
+            &[0.0, 0.0],
+        );
         close(&step(&[0.0; 4], 2, 0.0, &[1.0, -1.0]).unwrap(), &[0.0, 0.0]);
     }
 

@@ -75,7 +75,9 @@ pub use environment::{Environment, Frame};
 pub use equations::{Column, Equations, Row};
 pub use error::{KinematicsError, Result};
 pub use geometry::Pose;
-pub use group::{Constraints, Element, ElementId, Flags, Group, GroupFlags, GroupId, LimitHit, Method};
+pub use group::{
+    Constraints, Element, ElementId, Flags, Group, GroupFlags, GroupId, LimitHit, Method,
+};
 pub use joint::{Dependency, Joint, JointMode, JointType, Law};
 pub use object::{Object, ObjectId};
 pub use queries::Posture;

@@ -43,7 +43,13 @@ pub(crate) enum Kind {
 
 impl Object {
     pub(crate) fn new(name: &str, kind: Kind) -> Self {
-        Self { name: name.into(), parent: None, pose: Pose::identity(), kind, children: 0 }
+        Self {
+            name: name.into(),
+            parent: None,
+            pose: Pose::identity(),
+            kind,
+            children: 0,
+        }
     }
 
     /// The object it is attached to; None at the root of a tree.

@@ -25,8 +25,11 @@ impl Environment {
         let chains = self.take_chains(group)?;
         let mut equations = Equations::default();
         let valid = chains.valid;
-        let evaluated =
-            if valid { equations.evaluate(self, self.group(group)?, &chains, Angles::Euler) } else { Ok(()) };
+        let evaluated = if valid {
+            equations.evaluate(self, self.group(group)?, &chains, Angles::Euler)
+        } else {
+            Ok(())
+        };
         self.group_mut(group)?.chains = Some(chains);
         evaluated.map(|()| valid.then_some(equations))
     }
@@ -37,7 +40,12 @@ impl Environment {
     /// When there is no such group.
     pub fn joints_of(&mut self, group: GroupId) -> Result<Vec<ObjectId>> {
         let chains = self.take_chains(group)?;
-        let joints = chains.columns.iter().filter(|column| column.stage == 0).map(|column| column.joint).collect();
+        let joints = chains
+            .columns
+            .iter()
+            .filter(|column| column.stage == 0)
+            .map(|column| column.joint)
+            .collect();
         self.group_mut(group)?.chains = Some(chains);
         Ok(joints)
     }
@@ -66,26 +74,39 @@ impl Environment {
         let group = copy.create_group("");
         let element = copy.add_element(group, tip)?;
         let element = copy.element_mut(group, element)?;
-        (element.base, element.constraint_base, element.constraints) = (base, axes.map(|_| frame), constraints);
+        (element.base, element.constraint_base, element.constraints) =
+            (base, axes.map(|_| frame), constraints);
         copy.equations(group)
     }
 
     /// Where all joints are.
     pub fn postures(&self) -> Vec<Posture> {
-        let joints = self.objects().filter_map(|(id, object)| object.joint().map(|joint| (id, joint)));
+        let joints = self
+            .objects()
+            .filter_map(|(id, object)| object.joint().map(|joint| (id, joint)));
         joints
-            .map(|(joint, Joint { position, rotation, .. })| Posture {
-                joint,
-                position: *position,
-                rotation: *rotation,
-            })
+            .map(
+                |(
+                    joint,
+                    Joint {
+                        position, rotation, ..
+                    },
+                )| Posture {
+                    joint,
+                    position: *position,
+                    rotation: *rotation,
+                },
+            )
             .collect()
     }
 
     /// Puts joints back to where they were.
     pub fn set_postures(&mut self, before: &[Posture]) {
         for posture in before {
-            if let Some(joint) = self.objects[posture.joint.0].as_mut().and_then(Object::joint_mut) {
+            if let Some(joint) = self.objects[posture.joint.0]
+                .as_mut()
+                .and_then(Object::joint_mut)
+            {
                 (joint.position, joint.rotation) = (posture.position, posture.rotation);
             }
         }

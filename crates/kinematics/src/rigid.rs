@@ -11,7 +11,10 @@ pub(crate) struct Rigid {
 
 impl Rigid {
     pub fn identity() -> Self {
-        Self { rotation: Matrix3::identity(), translation: Vector3::zeros() }
+        Self {
+            rotation: Matrix3::identity(),
+            translation: Vector3::zeros(),
+        }
     }
 
     pub fn after(&self, other: &Self) -> Self {
@@ -28,7 +31,10 @@ impl Rigid {
     /// Turned about its own z axis.
     pub fn turn(&mut self, angle: f64) {
         let (sine, cosine) = libm::sincos(angle);
-        let (x, y) = (self.rotation.column(0).into_owned(), self.rotation.column(1).into_owned());
+        let (x, y) = (
+            self.rotation.column(0).into_owned(),
+            self.rotation.column(1).into_owned(),
+        );
         self.rotation.set_column(0, &(x * cosine + y * sine));
         self.rotation.set_column(1, &(y * cosine - x * sine));
     }
@@ -41,6 +47,9 @@ impl Rigid {
 
 impl From<&Pose> for Rigid {
     fn from(pose: &Pose) -> Self {
-        Self { rotation: pose.rotation.to_rotation_matrix().into_inner(), translation: pose.translation.vector }
+        Self {
+            rotation: pose.rotation.to_rotation_matrix().into_inner(),
+            translation: pose.translation.vector,
+        }
     }
 }

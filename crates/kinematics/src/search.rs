@@ -47,7 +47,12 @@ impl Environment {
     ///
     /// # Errors
     /// When there is no such group.
-    pub fn find_posture(&mut self, group: GroupId, start: Start, iterations: &mut u32) -> Result<bool> {
+    pub fn find_posture(
+        &mut self,
+        group: GroupId,
+        start: Start,
+        iterations: &mut u32,
+    ) -> Result<bool> {
         let chains = self.take_chains(group)?;
         let mut search = Search {
             group,
@@ -69,13 +74,20 @@ impl Environment {
     pub fn distance(&mut self, group: GroupId, metric: [f64; 4]) -> Result<f64> {
         let mut sum = 0.0;
         for (_, element) in self.group(group)?.elements() {
-            let Some(target) = self.partner(element.tip)? else { continue };
+            let Some(target) = self.partner(element.tip)? else {
+                continue;
+            };
             let [tip, target] = [element.tip, target].map(|id| self.pose(id, crate::Frame::World));
             let (tip, target) = (tip?, target?);
             let gap = target.translation.vector - tip.translation.vector;
             let angle = tip.rotation.angle_to(&target.rotation);
             let parts = [gap.x, gap.y, gap.z, angle];
-            sum += parts.iter().zip(metric).map(|(part, factor)| (part * factor) * (part * factor)).sum::<f64>().sqrt();
+            sum += parts
+                .iter()
+                .zip(metric)
+                .map(|(part, factor)| (part * factor) * (part * factor))
+                .sum::<f64>()
+                .sqrt();
         }
         Ok(sum)
     }
@@ -93,7 +105,10 @@ impl Environment {
 
     fn draw(&mut self, columns: &[Column]) {
         for column in columns.iter().filter(|column| column.stage == 0) {
-            if let Some(joint) = self.objects[column.joint.0].as_mut().and_then(Object::joint_mut) {
+            if let Some(joint) = self.objects[column.joint.0]
+                .as_mut()
+                .and_then(Object::joint_mut)
+            {
                 joint.move_randomly(&mut self.random);
             }
             self.move_dependent(column.joint);
@@ -120,7 +135,11 @@ impl Joint {
 
 /// All rotations are equally likely (K. Shoemake, *Uniform random rotations*, Graphics Gems III, 1992).
 fn rotation(random: &mut Random) -> UnitQuaternion<f64> {
-    let (share, first, second) = (random.uniform(), TAU * random.uniform(), TAU * random.uniform());
+    let (share, first, second) = (
+        random.uniform(),
+        TAU * random.uniform(),
+        TAU * random.uniform(),
+    );
     let (a, b) = ((1.0 - share).sqrt(), share.sqrt());
     let ((s1, c1), (s2, c2)) = (libm::sincos(first), libm::sincos(second));
     UnitQuaternion::new_normalize(Quaternion::new(b * c2, a * s1, a * c1, b * s2))
@@ -139,11 +158,10 @@ impl Search {
         if !self.chains.valid {
             return Ok(false);
         }
-        let before = self
-            .chains
-            .columns
-            .iter()
-            .map(|column| env.joint(column.joint).map(|joint| (column.joint, joint.position, joint.rotation)));
+        let before = self.chains.columns.iter().map(|column| {
+            env.joint(column.joint)
+                .map(|joint| (column.joint, joint.position, joint.rotation))
+        });
         let before: Vec<_> = before.collect::<Result<_>>()?;
         self.equations.restart(PRECISION_RATIO);
         let mut draw = start == Start::Random;
@@ -191,20 +209,34 @@ impl Search {
 
     /// Returns the squared error.
     fn evaluate(&mut self, env: &Environment) -> Result<f64> {
-        self.equations.evaluate(env, env.group(self.group)?, &self.chains, Angles::RotationVector)?;
+        self.equations.evaluate(
+            env,
+            env.group(self.group)?,
+            &self.chains,
+            Angles::RotationVector,
+        )?;
         Ok(self.equations.errors.iter().map(|e| e * e).sum())
     }
 
     /// Moves the joints within their limits.
     fn apply(&mut self, env: &mut Environment) -> Result<()> {
         let longest = self.step.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let scale = if longest > MAX_STEP { MAX_STEP / longest } else { 1.0 };
+        let scale = if longest > MAX_STEP {
+            MAX_STEP / longest
+        } else {
+            1.0
+        };
         let mut at = 0;
         while at < self.step.len() {
             let id = self.chains.columns[at].joint;
-            let Some(joint) = env.objects[id.0].as_mut().and_then(Object::joint_mut) else { return Ok(()) };
+            let Some(joint) = env.objects[id.0].as_mut().and_then(Object::joint_mut) else {
+                return Ok(());
+            };
             if joint.joint_type == JointType::Spherical {
-                joint.turn(nalgebra::Vector3::new(self.step[at], self.step[at + 1], self.step[at + 2]) * scale);
+                joint.turn(
+                    nalgebra::Vector3::new(self.step[at], self.step[at + 1], self.step[at + 2])
+                        * scale,
+                );
                 at += 3;
                 continue;
             }

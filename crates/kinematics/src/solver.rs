@@ -27,7 +27,9 @@ pub struct Outcome {
 impl Outcome {
     /// Whether it was done, with all errors within the precisions.
     pub fn is_success(&self) -> bool {
-        !self.flags.intersects(Flags(Flags::NOT_PERFORMED.0 | Flags::CANNOT_INVERT.0 | Flags::NOT_WITHIN_TOLERANCE.0))
+        !self.flags.intersects(Flags(
+            Flags::NOT_PERFORMED.0 | Flags::CANNOT_INVERT.0 | Flags::NOT_WITHIN_TOLERANCE.0,
+        ))
     }
 }
 
@@ -94,29 +96,50 @@ impl Calculation {
     fn begin(env: &mut Environment, groups: &[GroupId]) -> Result<Self> {
         let mut columns: Vec<Column> = Vec::new();
         let mut tasks = Vec::new();
-        groups.iter().try_for_each(|group| env.group(*group).map(drop))?;
+        groups
+            .iter()
+            .try_for_each(|group| env.group(*group).map(drop))?;
         for &group in groups {
             let chains = env.take_chains(group)?;
             let places = chains.columns.iter().map(|column| {
-                columns.iter().position(|other| other == column).unwrap_or_else(|| {
-                    columns.push(*column);
-                    columns.len() - 1
-                })
+                columns
+                    .iter()
+                    .position(|other| other == column)
+                    .unwrap_or_else(|| {
+                        columns.push(*column);
+                        columns.len() - 1
+                    })
             });
             let places = places.collect();
             let state = env.group_mut(group)?;
             let (mut equations, flags) = (std::mem::take(&mut state.equations), state.flags);
             equations.restart(1.0);
-            tasks.push(Task { group, chains, equations, places, flags });
+            tasks.push(Task {
+                group,
+                chains,
+                equations,
+                places,
+                flags,
+            });
         }
-        let iterations =
-            groups.first().map_or(Ok(0), |group| env.group(*group).map(|group| group.iterations.max(1)))?;
-        let before = columns
-            .iter()
-            .map(|column| env.joint(column.joint).map(|joint| (column.joint, joint.position, joint.rotation)));
+        let iterations = groups.first().map_or(Ok(0), |group| {
+            env.group(*group).map(|group| group.iterations.max(1))
+        })?;
+        let before = columns.iter().map(|column| {
+            env.joint(column.joint)
+                .map(|joint| (column.joint, joint.position, joint.rotation))
+        });
         let before = before.collect::<Result<_>>()?;
         let (flags, limit_hits, scratch) = (Flags::default(), Vec::new(), Scratch::default());
-        Ok(Self { tasks, columns, iterations, before, flags, limit_hits, scratch })
+        Ok(Self {
+            tasks,
+            columns,
+            iterations,
+            before,
+            flags,
+            limit_hits,
+            scratch,
+        })
     }
 
     /// Returns what was taken out of the groups.
@@ -133,7 +156,10 @@ impl Calculation {
     fn run(&mut self, env: &mut Environment, revise: &mut Revise<'_>) -> Result<Outcome> {
         let is_ready = |task: &Task| task.chains.valid && task.flags.contains(GroupFlags::ENABLED);
         if self.tasks.is_empty() || !self.tasks.iter().all(is_ready) {
-            return Ok(Outcome { flags: Flags::NOT_PERFORMED, precision: [0.0; 2] });
+            return Ok(Outcome {
+                flags: Flags::NOT_PERFORMED,
+                precision: [0.0; 2],
+            });
         }
         self.evaluate(env)?;
         for iteration in 0..self.iterations {
@@ -143,45 +169,81 @@ impl Calculation {
             };
             let hit = self.apply(env, &step)?;
             self.evaluate(env)?;
-            let stop = hit && self.tasks.iter().any(|task| task.flags.contains(GroupFlags::STOP_ON_LIMIT_HIT));
+            let stop = hit
+                && self
+                    .tasks
+                    .iter()
+                    .any(|task| task.flags.contains(GroupFlags::STOP_ON_LIMIT_HIT));
             if stop || self.tasks.iter().all(|task| task.equations.is_within()) {
                 break;
             }
         }
         let precision = self.precision();
         self.conclude(env)?;
-        Ok(Outcome { flags: self.flags, precision })
+        Ok(Outcome {
+            flags: self.flags,
+            precision,
+        })
     }
 
     fn evaluate(&mut self, env: &Environment) -> Result<()> {
-        for Task { group, chains, equations, .. } in &mut self.tasks {
+        for Task {
+            group,
+            chains,
+            equations,
+            ..
+        } in &mut self.tasks
+        {
             equations.evaluate(env, env.group(*group)?, chains, Angles::Euler)?;
         }
         Ok(())
     }
 
     fn precision(&self) -> [f64; 2] {
-        let largest = |i: usize| self.tasks.iter().map(|task| task.equations.precision[i]).fold(0.0, f64::max);
+        let largest = |i: usize| {
+            self.tasks
+                .iter()
+                .map(|task| task.equations.precision[i])
+                .fold(0.0, f64::max)
+        };
         [largest(0), largest(1)]
     }
 
     /// `dq1 + (I - J1+ J1) (dq2 + ...)` for all columns; None where it cannot be computed.
-    fn step(&mut self, env: &Environment, iteration: u32, revise: &mut Revise<'_>) -> Result<Option<Vec<f64>>> {
+    fn step(
+        &mut self,
+        env: &Environment,
+        iteration: u32,
+        revise: &mut Revise<'_>,
+    ) -> Result<Option<Vec<f64>>> {
         let alone = self.tasks.len() == 1;
         let width = self.columns.len();
         let mut total = vec![0.0; width];
         let mut free: Option<DMatrix<f64>> = None;
         for index in 0..self.tasks.len() {
-            let Some(solved) = self.solve(env, index, iteration, revise, !alone)? else { return Ok(None) };
+            let Some(solved) = self.solve(env, index, iteration, revise, !alone)? else {
+                return Ok(None);
+            };
             let places = &self.tasks[index].places;
             let mut step = DVector::zeros(width);
-            places.iter().zip(&solved.step).for_each(|(place, dq)| step[*place] = *dq);
-            let step = free.as_ref().map_or_else(|| step.clone(), |free| free * &step);
-            total.iter_mut().zip(step.iter()).for_each(|(sum, dq)| *sum += dq);
+            places
+                .iter()
+                .zip(&solved.step)
+                .for_each(|(place, dq)| step[*place] = *dq);
+            let step = free
+                .as_ref()
+                .map_or_else(|| step.clone(), |free| free * &step);
+            total
+                .iter_mut()
+                .zip(step.iter())
+                .for_each(|(sum, dq)| *sum += dq);
             if let Some(used) = solved.used {
                 let mut remaining = DMatrix::identity(width, width);
                 for (i, a) in places.iter().enumerate() {
-                    places.iter().enumerate().for_each(|(j, b)| remaining[(*a, *b)] -= used[(i, j)]);
+                    places
+                        .iter()
+                        .enumerate()
+                        .for_each(|(j, b)| remaining[(*a, *b)] -= used[(i, j)]);
                 }
                 free = Some(match free {
                     Some(free) => free * remaining,
@@ -209,16 +271,33 @@ impl Calculation {
             self.flags.insert(Flags::INVALID_CALLBACK_DATA);
             return Ok(None);
         }
-        let jacobian = revision.jacobian.as_ref().unwrap_or(&task.equations.jacobian);
-        let mut errors = revision.errors.as_ref().unwrap_or(&task.equations.errors).clone();
+        let jacobian = revision
+            .jacobian
+            .as_ref()
+            .unwrap_or(&task.equations.jacobian);
+        let mut errors = revision
+            .errors
+            .as_ref()
+            .unwrap_or(&task.equations.errors)
+            .clone();
         weigh(group, &task.equations.rows, &mut errors);
-        let step = Step { group, jacobian, columns: &task.equations.columns, revision: &revision };
-        let Some(mut solved) = step.solve(env, &errors, with_used, &mut self.scratch)? else { return Ok(None) };
+        let step = Step {
+            group,
+            jacobian,
+            columns: &task.equations.columns,
+            revision: &revision,
+        };
+        let Some(mut solved) = step.solve(env, &errors, with_used, &mut self.scratch)? else {
+            return Ok(None);
+        };
         let ratio = too_big(env, &task.equations.columns, &solved.step)?;
         if ratio > 1.0 {
             self.flags.insert(Flags::STEPS_TOO_BIG);
             if !task.flags.contains(GroupFlags::IGNORE_MAX_STEPS) {
-                solved.step.iter_mut().for_each(|dq| *dq /= STEP_REDUCTION_MARGIN * ratio);
+                solved
+                    .step
+                    .iter_mut()
+                    .for_each(|dq| *dq /= STEP_REDUCTION_MARGIN * ratio);
             }
         }
         Ok(Some(solved))
@@ -241,7 +320,10 @@ impl Calculation {
             joint.position = joint.within_limits(wanted);
             let overshoot = wanted - joint.position;
             if joint.limits().is_some() && overshoot != 0.0 {
-                self.limit_hits.push(LimitHit { joint: id, overshoot });
+                self.limit_hits.push(LimitHit {
+                    joint: id,
+                    overshoot,
+                });
             }
             env.move_dependent(id);
             at += 1;
@@ -257,12 +339,16 @@ impl Calculation {
     fn conclude(&mut self, env: &mut Environment) -> Result<()> {
         let missed = |flag: GroupFlags, linear: bool| {
             self.tasks.iter().any(|task| {
-                let missed = if linear { task.equations.linear_missed } else { task.equations.angular_missed };
+                let missed = if linear {
+                    task.equations.linear_missed
+                } else {
+                    task.equations.angular_missed
+                };
                 task.flags.contains(flag) && missed
             })
         };
-        let restore =
-            missed(GroupFlags::RESTORE_ON_BAD_LINEAR, true) || missed(GroupFlags::RESTORE_ON_BAD_ANGULAR, false);
+        let restore = missed(GroupFlags::RESTORE_ON_BAD_LINEAR, true)
+            || missed(GroupFlags::RESTORE_ON_BAD_ANGULAR, false);
         if !self.tasks.iter().all(|task| task.equations.is_within()) {
             self.flags.insert(Flags::NOT_WITHIN_TOLERANCE);
         }
@@ -295,7 +381,9 @@ impl Revision {
         ];
         for (name, values, size) in sizes {
             if values.as_ref().is_some_and(|values| values.len() != size) {
-                return Err(KinematicsError::Callback(format!("the callback's '{name}' has a wrong size.")));
+                return Err(KinematicsError::Callback(format!(
+                    "the callback's '{name}' has a wrong size."
+                )));
             }
         }
         Ok(())
@@ -303,6 +391,10 @@ impl Revision {
 
     fn is_finite(&self) -> bool {
         let values = [&self.jacobian, &self.errors, &self.step, &self.inverse];
-        values.into_iter().flatten().flatten().all(|x| x.is_finite())
+        values
+            .into_iter()
+            .flatten()
+            .flatten()
+            .all(|x| x.is_finite())
     }
 }

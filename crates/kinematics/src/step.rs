@@ -36,22 +36,43 @@ impl Step<'_> {
         scratch: &mut Scratch,
     ) -> Result<Option<Solved>> {
         let transpose = self.group.method == Method::JacobianTranspose;
-        let roots = if transpose { None } else { roots_of_weights(env, self.columns)? };
+        let roots = if transpose {
+            None
+        } else {
+            roots_of_weights(env, self.columns)?
+        };
         let scaled = roots.as_ref().map(|roots| scaled(self.jacobian, roots));
         let jacobian = scaled.as_deref().unwrap_or(self.jacobian);
-        let problem = Problem { jacobian, columns: self.columns.len(), damping: self.damping() };
+        let problem = Problem {
+            jacobian,
+            columns: self.columns.len(),
+            damping: self.damping(),
+        };
         let inverse = self.own_inverse(errors.len());
-        let inverse = inverse.or_else(|| if with_used { with_roots(problem.inverse()?, &roots) } else { None });
+        let inverse = inverse.or_else(|| {
+            if with_used {
+                with_roots(problem.inverse()?, &roots)
+            } else {
+                None
+            }
+        });
         let mut step = Vec::new();
         match (&self.revision.step, &inverse) {
             (Some(own), _) => step.clone_from(own),
-            (None, Some(inverse)) => step.extend((inverse * DVector::from_column_slice(errors)).iter()),
+            (None, Some(inverse)) => {
+                step.extend((inverse * DVector::from_column_slice(errors)).iter())
+            }
             (None, None) if !problem.solve(errors, &mut step, scratch) => return Ok(None),
-            (None, None) => step.iter_mut().zip(roots.iter().flatten()).for_each(|(dq, root)| *dq *= root),
+            (None, None) => step
+                .iter_mut()
+                .zip(roots.iter().flatten())
+                .for_each(|(dq, root)| *dq *= root),
         }
         self.wrap(env, &mut step)?;
         let jacobian = || DMatrix::from_row_slice(errors.len(), self.columns.len(), self.jacobian);
-        let used = inverse.filter(|_| with_used).map(|inverse| inverse * jacobian());
+        let used = inverse
+            .filter(|_| with_used)
+            .map(|inverse| inverse * jacobian());
         Ok(Some(Solved { step, used }))
     }
 
@@ -67,9 +88,9 @@ impl Step<'_> {
     fn own_inverse(&self, rows: usize) -> Option<DMatrix<f64>> {
         match &self.revision.inverse {
             Some(inverse) => Some(DMatrix::from_row_slice(self.columns.len(), rows, inverse)),
-            None if self.group.method == Method::JacobianTranspose => {
-                Some(DMatrix::from_column_slice(self.columns.len(), rows, self.jacobian))
-            }
+            None if self.group.method == Method::JacobianTranspose => Some(
+                DMatrix::from_column_slice(self.columns.len(), rows, self.jacobian),
+            ),
             None => None,
         }
     }
@@ -99,19 +120,31 @@ fn roots_of_weights(env: &Environment, columns: &[Column]) -> Result<Option<Vec<
     for column in columns {
         different |= weight(column)? != 1.0;
     }
-    let roots = || columns.iter().map(|column| weight(column).map(|weight| weight.max(0.0).sqrt())).collect();
+    let roots = || {
+        columns
+            .iter()
+            .map(|column| weight(column).map(|weight| weight.max(0.0).sqrt()))
+            .collect()
+    };
     different.then(roots).transpose()
 }
 
 fn scaled(jacobian: &[f64], roots: &[f64]) -> Vec<f64> {
     let rows = jacobian.chunks_exact(roots.len());
-    rows.flat_map(|row| row.iter().zip(roots).map(|(j, root)| j * root)).collect()
+    rows.flat_map(|row| row.iter().zip(roots).map(|(j, root)| j * root))
+        .collect()
 }
 
 /// Multiplies errors by the weights of their elements.
 pub(crate) fn weigh(group: &Group, rows: &[Row], errors: &mut [f64]) {
     for (row, error) in rows.iter().zip(errors) {
-        let Row::Constraint { element, constraint } = row else { continue };
+        let Row::Constraint {
+            element,
+            constraint,
+        } = row
+        else {
+            continue;
+        };
         if let Some(element) = &group.elements[element.0] {
             let kind = usize::from(constraint.intersects(Constraints::ORIENTATION));
             *error *= element.weights[kind] * element.weights[2];

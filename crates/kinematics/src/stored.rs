@@ -36,11 +36,18 @@ impl Environment {
     pub fn read_bytes(&mut self, bytes: &[u8]) -> Result<()> {
         let mut read = Environment::new(0);
         let mut input = Reader(bytes.strip_prefix(MAGIC).ok_or(KinematicsError::Damaged)?);
-        input.environment(&mut read).filter(|()| input.0.is_empty()).ok_or(KinematicsError::Damaged)?;
+        input
+            .environment(&mut read)
+            .filter(|()| input.0.is_empty())
+            .ok_or(KinematicsError::Damaged)?;
         read.is_consistent().ok_or(KinematicsError::Damaged)?;
         self.structure += 1;
         (self.objects, self.groups) = (read.objects, read.groups);
-        let is_dependent = |object: &Object| object.joint().is_some_and(|joint| joint.dependency.is_some());
+        let is_dependent = |object: &Object| {
+            object
+                .joint()
+                .is_some_and(|joint| joint.dependency.is_some())
+        };
         self.dependencies = self.objects.iter().flatten().any(is_dependent);
         Ok(())
     }
@@ -60,7 +67,9 @@ impl Environment {
                 return None;
             }
             match kind {
-                Kind::Dummy { partner: Some(partner) } => (self.partner(partner).ok()? == Some(id)).then_some(())?,
+                Kind::Dummy {
+                    partner: Some(partner),
+                } => (self.partner(partner).ok()? == Some(id)).then_some(())?,
                 Kind::Dummy { partner: None } => {}
                 Kind::Joint(joint) => self.has_free_master(joint.dependency, ids.len())?,
             }
@@ -85,7 +94,10 @@ impl Environment {
             let Some(master) = next else { return Some(()) };
             let joint = self.joint(master).ok()?;
             (joint.joint_type != JointType::Spherical).then_some(())?;
-            next = joint.dependency.as_ref().map(|dependency| dependency.master);
+            next = joint
+                .dependency
+                .as_ref()
+                .map(|dependency| dependency.master);
         }
         None
     }
@@ -99,7 +111,10 @@ impl Writer {
     }
 
     fn count(&mut self, count: usize) -> Result<()> {
-        let count = u32::try_from(count).ok().filter(|count| *count < NONE).ok_or(KinematicsError::TooLarge)?;
+        let count = u32::try_from(count)
+            .ok()
+            .filter(|count| *count < NONE)
+            .ok_or(KinematicsError::TooLarge)?;
         self.integer(count);
         Ok(())
     }
@@ -149,7 +164,10 @@ impl Writer {
         self.numbers(&[joint.weight, joint.max_step, joint.limit_margin]);
         self.numbers(&quaternion_to_array(&joint.rotation));
         match &joint.dependency {
-            Some(Dependency { master, law: Law::Linear { offset, factor } }) => {
+            Some(Dependency {
+                master,
+                law: Law::Linear { offset, factor },
+            }) => {
                 self.reference(Some(*master))?;
                 self.numbers(&[*offset, *factor]);
                 Ok(())
@@ -160,19 +178,25 @@ impl Writer {
 
     fn group(&mut self, group: &Group) -> Result<()> {
         self.text(&group.name)?;
-        [group.method as u32, group.iterations, group.flags.0].into_iter().for_each(|x| self.integer(x));
+        [group.method as u32, group.iterations, group.flags.0]
+            .into_iter()
+            .for_each(|x| self.integer(x));
         self.numbers(&[group.damping]);
         self.count(group.elements.len())?;
         for element in &group.elements {
             self.flag(element.is_some());
-            element.iter().try_for_each(|element| self.element(element))?;
+            element
+                .iter()
+                .try_for_each(|element| self.element(element))?;
         }
         Ok(())
     }
 
     fn element(&mut self, element: &Element) -> Result<()> {
         self.flag(element.enabled);
-        [Some(element.tip), element.base, element.constraint_base].into_iter().try_for_each(|id| self.reference(id))?;
+        [Some(element.tip), element.base, element.constraint_base]
+            .into_iter()
+            .try_for_each(|id| self.reference(id))?;
         self.integer(element.constraints.0);
         self.numbers(&element.precision);
         self.numbers(&element.weights);
@@ -196,7 +220,9 @@ impl Reader<'_> {
 
     /// How many things there are, each of at least one byte: they must be.
     fn count(&mut self) -> Option<usize> {
-        self.integer().map(|count| count as usize).filter(|count| *count <= self.0.len())
+        self.integer()
+            .map(|count| count as usize)
+            .filter(|count| *count <= self.0.len())
     }
 
     fn flag(&mut self) -> Option<bool> {
@@ -210,7 +236,10 @@ impl Reader<'_> {
     fn numbers<const N: usize>(&mut self) -> Option<[f64; N]> {
         let mut numbers = [0.0; N];
         for number in &mut numbers {
-            *number = self.take().map(f64::from_le_bytes).filter(|x| x.is_finite())?;
+            *number = self
+                .take()
+                .map(f64::from_le_bytes)
+                .filter(|x| x.is_finite())?;
         }
         Some(numbers)
     }
@@ -229,7 +258,11 @@ impl Reader<'_> {
 
     fn environment(&mut self, env: &mut Environment) -> Option<()> {
         for _ in 0..self.count()? {
-            let object = if self.flag()? { Some(self.object()?) } else { None };
+            let object = if self.flag()? {
+                Some(self.object()?)
+            } else {
+                None
+            };
             env.objects.push(object);
         }
         for _ in 0..self.count()? {
@@ -244,13 +277,21 @@ impl Reader<'_> {
         let parent = self.reference()?;
         let pose = pose_from_array(&self.numbers()?);
         let kind = match self.integer()? {
-            0 => Kind::Dummy { partner: self.reference()? },
+            0 => Kind::Dummy {
+                partner: self.reference()?,
+            },
             10 => Kind::Joint(self.joint(JointType::Revolute)?),
             11 => Kind::Joint(self.joint(JointType::Prismatic)?),
             12 => Kind::Joint(self.joint(JointType::Spherical)?),
             _ => return None,
         };
-        Some(Object { name, parent, pose, kind, children: 0 })
+        Some(Object {
+            name,
+            parent,
+            pose,
+            kind,
+            children: 0,
+        })
     }
 
     fn joint(&mut self, joint_type: JointType) -> Option<Joint> {
@@ -266,13 +307,30 @@ impl Reader<'_> {
         let dependency = match self.reference()? {
             Some(master) => {
                 let [offset, factor] = self.numbers()?;
-                Some(Dependency { master, law: Law::Linear { offset, factor } })
+                Some(Dependency {
+                    master,
+                    law: Law::Linear { offset, factor },
+                })
             }
             None => None,
         };
-        let numbers =
-            Joint { position, min, range, screw_lead, weight, max_step, limit_margin, ..Joint::new(joint_type) };
-        Some(Joint { mode, cyclic, rotation, dependency, ..numbers })
+        let numbers = Joint {
+            position,
+            min,
+            range,
+            screw_lead,
+            weight,
+            max_step,
+            limit_margin,
+            ..Joint::new(joint_type)
+        };
+        Some(Joint {
+            mode,
+            cyclic,
+            rotation,
+            dependency,
+            ..numbers
+        })
     }
 
     fn group(&mut self) -> Option<Group> {
@@ -282,7 +340,11 @@ impl Reader<'_> {
         group.flags = GroupFlags(self.integer()?);
         [group.damping] = self.numbers()?;
         for _ in 0..self.count()? {
-            let element = if self.flag()? { Some(self.element()?) } else { None };
+            let element = if self.flag()? {
+                Some(self.element()?)
+            } else {
+                None
+            };
             group.elements.push(element);
         }
         Some(group)
@@ -294,6 +356,14 @@ impl Reader<'_> {
         let (base, constraint_base) = (self.reference()?, self.reference()?);
         let constraints = Constraints(self.integer()?);
         let (precision, weights) = (self.numbers()?, self.numbers()?);
-        Some(Element { enabled, tip, base, constraint_base, constraints, precision, weights })
+        Some(Element {
+            enabled,
+            tip,
+            base,
+            constraint_base,
+            constraints,
+            precision,
+            weights,
+        })
     }
 }

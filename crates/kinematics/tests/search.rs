@@ -18,7 +18,9 @@ fn aim_randomly(arm: &mut Arm, random: &mut Random) {
 fn is_within_limits(arm: &Arm) -> bool {
     arm.joints.iter().all(|joint| {
         let joint = arm.env.joint(*joint).unwrap();
-        joint.limits().is_none_or(|[low, high]| joint.position >= low && joint.position <= high)
+        joint
+            .limits()
+            .is_none_or(|[low, high]| joint.position >= low && joint.position <= high)
     })
 }
 
@@ -29,9 +31,17 @@ fn both_arms_reach_whatever_they_can_reach() {
         for i in 0..300 {
             aim_randomly(&mut arm, &mut random);
             let mut iterations = 20_000;
-            assert!(arm.env.find_posture(arm.group, Start::Present, &mut iterations).unwrap(), "pose {i}");
+            assert!(
+                arm.env
+                    .find_posture(arm.group, Start::Present, &mut iterations)
+                    .unwrap(),
+                "pose {i}"
+            );
             let [distance, angle] = arm.gap();
-            assert!(distance < 0.0005 && angle < 0.1_f64.to_radians() && is_within_limits(&arm), "{distance} {angle}");
+            assert!(
+                distance < 0.0005 && angle < 0.1_f64.to_radians() && is_within_limits(&arm),
+                "{distance} {angle}"
+            );
         }
     }
 }
@@ -46,10 +56,16 @@ fn random_chains_of_2_to_12_joints() {
             aim_randomly(&mut arm, &mut random);
             let mut iterations = 20_000;
             all += 1;
-            if arm.env.find_posture(arm.group, Start::Random, &mut iterations).unwrap() {
+            if arm
+                .env
+                .find_posture(arm.group, Start::Random, &mut iterations)
+                .unwrap()
+            {
                 found += 1;
                 let [distance, angle] = arm.gap();
-                assert!(distance < 0.0005 && angle < 0.1_f64.to_radians() && is_within_limits(&arm));
+                assert!(
+                    distance < 0.0005 && angle < 0.1_f64.to_radians() && is_within_limits(&arm)
+                );
             }
         }
     }
@@ -62,7 +78,11 @@ fn without_a_posture_the_joints_stay_and_the_iterations_are_used() {
     arm.aim(Pose::translation(3.0, 0.0, 0.0));
     let before = arm.config();
     let mut iterations = 5000;
-    assert!(!arm.env.find_posture(arm.group, Start::Present, &mut iterations).unwrap());
+    assert!(
+        !arm.env
+            .find_posture(arm.group, Start::Present, &mut iterations)
+            .unwrap()
+    );
     assert_eq!((arm.config(), iterations), (before, 0));
 }
 

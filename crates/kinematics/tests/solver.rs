@@ -10,21 +10,32 @@ use support::{Arm, random_chain};
 #[track_caller]
 fn close(a: &[f64], b: &[f64], tolerance: f64) {
     assert_eq!(a.len(), b.len());
-    assert!(a.iter().zip(b).all(|(x, y)| (x - y).abs() < tolerance), "{a:?} is not {b:?}");
+    assert!(
+        a.iter().zip(b).all(|(x, y)| (x - y).abs() < tolerance),
+        "{a:?} is not {b:?}"
+    );
 }
 
 /// The planar arm, with a target a little away from the tip.
 fn planar(method: Method, damping: f64, iterations: u32) -> Arm {
     let mut arm = Arm::planar();
     arm.aim(Pose::translation(0.01, -0.02, 0.0) * arm.tip_pose());
-    arm.set_element(|element| element.constraints = Constraints(Constraints::X.0 | Constraints::Y.0));
-    arm.set_group(|group| (group.method, group.damping, group.iterations) = (method, damping, iterations));
+    arm.set_element(|element| {
+        element.constraints = Constraints(Constraints::X.0 | Constraints::Y.0)
+    });
+    arm.set_group(|group| {
+        (group.method, group.damping, group.iterations) = (method, damping, iterations)
+    });
     arm
 }
 
 #[test]
 fn m11_one_iteration_of_each_method() {
-    close(Arm::planar().tip_pose().translation.vector.as_slice(), &[0.788473229, 0.539423558, 0.0], 1e-9);
+    close(
+        Arm::planar().tip_pose().translation.vector.as_slice(),
+        &[0.788473229, 0.539423558, 0.0],
+        1e-9,
+    );
     for (method, damping, expected) in [
         (Method::DampedLeastSquares, 0.1, [0.272241117, 0.609748405]),
         (Method::PseudoInverse, 0.0, [0.266525938, 0.620570460]),
@@ -49,11 +60,18 @@ fn m11_many_iterations() {
 
 #[test]
 fn m12_out_of_reach() {
-    for method in [Method::PseudoInverse, Method::DampedLeastSquares, Method::UndampedPseudoInverse] {
+    for method in [
+        Method::PseudoInverse,
+        Method::DampedLeastSquares,
+        Method::UndampedPseudoInverse,
+    ] {
         let mut arm = planar(method, 0.1, 20);
         arm.aim(Pose::translation(1.2, 0.0, 0.0));
         let outcome = arm.handle();
-        assert!(!outcome.is_success() && outcome.flags.contains(Flags::NOT_WITHIN_TOLERANCE), "{outcome:?}");
+        assert!(
+            !outcome.is_success() && outcome.flags.contains(Flags::NOT_WITHIN_TOLERANCE),
+            "{outcome:?}"
+        );
         assert!(arm.config().iter().all(|q| q.is_finite()));
     }
 }
@@ -87,7 +105,12 @@ fn steps_are_bounded_where_they_are_asked_to_be() {
     arm.set_group(|group| group.flags.remove(GroupFlags::IGNORE_MAX_STEPS));
     let outcome = arm.handle();
     assert!(outcome.flags.contains(Flags::STEPS_TOO_BIG));
-    let largest = arm.config().iter().zip([0.3, 0.6]).map(|(q, before)| (q - before).abs()).fold(0.0, f64::max);
+    let largest = arm
+        .config()
+        .iter()
+        .zip([0.3, 0.6])
+        .map(|(q, before)| (q - before).abs())
+        .fold(0.0, f64::max);
     close(&[largest], &[10_f64.to_radians() / 1.1], 1e-12);
     free.handle();
     assert!((free.config()[0] - 0.3).abs() > 0.2, "{:?}", free.config());
@@ -108,7 +131,8 @@ fn limits_stop_joints_and_are_reported() {
     avoiding.limit(&[(0.29, 1.0), (0.0, 2.0)]);
     avoiding.reach();
     avoiding.set_group(|group| group.flags.insert(GroupFlags::AVOID_LIMITS));
-    avoiding.set_element(|element| (element.constraints, element.precision[0]) = (Constraints::X, 0.0));
+    avoiding
+        .set_element(|element| (element.constraints, element.precision[0]) = (Constraints::X, 0.0));
     avoiding.handle();
     close(&[avoiding.config()[0]], &[0.29 + 5_f64.to_radians()], 1e-6);
 }
@@ -134,7 +158,14 @@ fn jacobians_equal_differences() {
         arm.set_config(&config);
         let tip = arm.tip_pose();
         let equations = arm.env.equations(arm.group).unwrap().unwrap();
-        assert_eq!(equations.columns.iter().map(|column| column.joint).collect::<Vec<_>>(), arm.joints);
+        assert_eq!(
+            equations
+                .columns
+                .iter()
+                .map(|column| column.joint)
+                .collect::<Vec<_>>(),
+            arm.joints
+        );
         for column in 0..joints {
             let step = 1e-7;
             let mut moved = config.clone();
@@ -143,7 +174,9 @@ fn jacobians_equal_differences() {
             let linear = (arm.tip_pose().translation.vector - tip.translation.vector) / step;
             let angular = (arm.tip_pose().rotation * tip.rotation.inverse()).scaled_axis() / step;
             let expected: Vec<f64> = linear.iter().chain(angular.iter()).copied().collect();
-            let rows: Vec<f64> = (0..6).map(|row| equations.jacobian[row * joints + column]).collect();
+            let rows: Vec<f64> = (0..6)
+                .map(|row| equations.jacobian[row * joints + column])
+                .collect();
             close(&rows, &expected, 1e-5);
         }
     }
@@ -158,12 +191,16 @@ fn random_chains_of_2_to_12_joints_reach_near_targets() {
         for _ in 0..20 {
             let mut arm = random_chain(&mut random, joints);
             let config: Vec<f64> = (0..joints).map(|_| random.uniform() - 0.5).collect();
-            let near: Vec<f64> = config.iter().map(|q| q + 0.1 * (random.uniform() - 0.5)).collect();
+            let near: Vec<f64> = config
+                .iter()
+                .map(|q| q + 0.1 * (random.uniform() - 0.5))
+                .collect();
             arm.set_config(&near);
             arm.reach();
             arm.set_config(&config);
             arm.set_group(|group| {
-                (group.method, group.damping, group.iterations) = (Method::DampedLeastSquares, 0.01, 100);
+                (group.method, group.damping, group.iterations) =
+                    (Method::DampedLeastSquares, 0.01, 100);
             });
             let outcome = arm.handle();
             close(&outcome.precision, &arm.gap(), 1e-9);
@@ -179,7 +216,13 @@ fn random_chains_of_2_to_12_joints_reach_near_targets() {
 
 #[test]
 fn partial_orientations() {
-    for constraints in [Constraints::ALPHA_BETA, Constraints::GAMMA, Constraints(15), Constraints(23), Constraints(9)] {
+    for constraints in [
+        Constraints::ALPHA_BETA,
+        Constraints::GAMMA,
+        Constraints(15),
+        Constraints(23),
+        Constraints(9),
+    ] {
         let mut arm = Arm::panda();
         arm.set_config(&[0.3, -0.4, 0.5, -1.5, 0.2, 1.7, 0.1]);
         arm.reach();
@@ -188,7 +231,10 @@ fn partial_orientations() {
         arm.set_group(|group| group.iterations = 50);
         let outcome = arm.handle();
         assert!(outcome.is_success(), "{constraints:?} {outcome:?}");
-        let (tip, target) = (arm.tip_pose(), arm.env.pose(arm.target, Frame::World).unwrap());
+        let (tip, target) = (
+            arm.tip_pose(),
+            arm.env.pose(arm.target, Frame::World).unwrap(),
+        );
         let z = [tip, target].map(|pose| pose.rotation * nalgebra::Vector3::z());
         if constraints.contains(Constraints::ALPHA_BETA) {
             assert!(z[0].angle(&z[1]) < 0.002);
@@ -201,12 +247,26 @@ fn constraints_are_along_the_axes_of_their_base() {
     let mut arm = Arm::planar();
     let base = arm.env.create_dummy("base");
     let turn = nalgebra::UnitQuaternion::from_scaled_axis(nalgebra::Vector3::z() * 0.5);
-    arm.env.set_pose(base, Pose::from_parts(Default::default(), turn), Frame::World).unwrap();
+    arm.env
+        .set_pose(
+            base,
+            Pose::from_parts(Default::default(), turn),
+            Frame::World,
+        )
+        .unwrap();
     arm.aim(Pose::translation(-0.1, 0.05, 0.0) * arm.tip_pose());
-    arm.set_element(|element| (element.constraints, element.constraint_base) = (Constraints::X, Some(base)));
+    arm.set_element(|element| {
+        (element.constraints, element.constraint_base) = (Constraints::X, Some(base))
+    });
     arm.set_group(|group| group.iterations = 20);
     assert!(arm.handle().is_success());
-    let gap = arm.env.pose(arm.target, Frame::World).unwrap().translation.vector - arm.tip_pose().translation.vector;
+    let gap = arm
+        .env
+        .pose(arm.target, Frame::World)
+        .unwrap()
+        .translation
+        .vector
+        - arm.tip_pose().translation.vector;
     let along = turn.inverse() * gap;
     assert!(along.x.abs() < 5e-4 && along.y.abs() > 0.01, "{along}");
 }
@@ -221,29 +281,51 @@ fn the_first_group_has_priority() {
     arm.set_group(|group| group.iterations = 50);
     // The elbow should be somewhere it cannot be.
     let (elbow, wish) = (arm.env.create_dummy("elbow"), arm.env.create_dummy("wish"));
-    arm.env.set_parent(elbow, Some(arm.joints[3]), false).unwrap();
-    arm.env.set_pose(wish, Pose::translation(0.0, 0.6, 0.4), Frame::World).unwrap();
+    arm.env
+        .set_parent(elbow, Some(arm.joints[3]), false)
+        .unwrap();
+    arm.env
+        .set_pose(wish, Pose::translation(0.0, 0.6, 0.4), Frame::World)
+        .unwrap();
     arm.env.set_partner(elbow, Some(wish)).unwrap();
     let second = arm.env.create_group("elbow");
     arm.env.add_element(second, elbow).unwrap();
-    arm.env.group_mut(second).unwrap().flags.remove(GroupFlags::IGNORE_MAX_STEPS);
+    arm.env
+        .group_mut(second)
+        .unwrap()
+        .flags
+        .remove(GroupFlags::IGNORE_MAX_STEPS);
     arm.set_group(|group| group.flags.remove(GroupFlags::IGNORE_MAX_STEPS));
     let away = |arm: &Arm| {
-        let [elbow, wish] = [elbow, wish].map(|id| arm.env.pose(id, Frame::World).unwrap().translation.vector);
+        let [elbow, wish] =
+            [elbow, wish].map(|id| arm.env.pose(id, Frame::World).unwrap().translation.vector);
         (elbow - wish).norm()
     };
     let before = away(&arm);
     let outcome = arm.env.handle(&[arm.group, second]).unwrap();
     assert!(outcome.flags.contains(Flags::NOT_WITHIN_TOLERANCE));
-    assert!(arm.gap()[0] < 0.002 && away(&arm) < before - 0.02, "{:?} {} {before}", arm.gap(), away(&arm));
+    assert!(
+        arm.gap()[0] < 0.002 && away(&arm) < before - 0.02,
+        "{:?} {} {before}",
+        arm.gap(),
+        away(&arm)
+    );
 }
 
 #[test]
 fn dependent_joints_are_part_of_the_jacobian() {
-    for law in [Law::Linear { offset: 0.1, factor: -2.0 }, Law::Function(std::rc::Rc::new(|q: f64| 0.3 + q * q))] {
+    for law in [
+        Law::Linear {
+            offset: 0.1,
+            factor: -2.0,
+        },
+        Law::Function(std::rc::Rc::new(|q: f64| 0.3 + q * q)),
+    ] {
         let mut arm = Arm::planar();
         let [shoulder, elbow] = [arm.joints[0], arm.joints[1]];
-        arm.env.set_dependency(elbow, Some((shoulder, law.clone()))).unwrap();
+        arm.env
+            .set_dependency(elbow, Some((shoulder, law.clone())))
+            .unwrap();
         arm.set_config(&[0.5]);
         arm.reach();
         arm.set_config(&[0.4]);
@@ -260,7 +342,10 @@ fn dependent_joints_are_part_of_the_jacobian() {
 fn circles_of_dependencies_are_opened() {
     let mut arm = Arm::planar();
     let [a, b] = [arm.joints[0], arm.joints[1]];
-    let law = Law::Linear { offset: 0.0, factor: 1.0 };
+    let law = Law::Linear {
+        offset: 0.0,
+        factor: 1.0,
+    };
     arm.env.set_dependency(a, Some((b, law.clone()))).unwrap();
     arm.env.set_dependency(b, Some((a, law))).unwrap();
     assert!(arm.env.joint(a).unwrap().dependency.is_none());
@@ -271,7 +356,13 @@ fn circles_of_dependencies_are_opened() {
 #[test]
 fn spherical_joints() {
     let reach = Pose::translation(0.5, 0.0, 0.0);
-    let mut arm = Arm::new(&[(JointType::Spherical, Pose::identity()), (JointType::Revolute, reach)], reach);
+    let mut arm = Arm::new(
+        &[
+            (JointType::Spherical, Pose::identity()),
+            (JointType::Revolute, reach),
+        ],
+        reach,
+    );
     arm.set_element(|element| element.constraints = Constraints::POSITION);
     arm.set_group(|group| (group.method, group.iterations) = (Method::DampedLeastSquares, 100));
     arm.aim(Pose::translation(0.2, 0.4, 0.5));
@@ -283,17 +374,29 @@ fn spherical_joints() {
 #[test]
 fn a_closed_chain() {
     let long = Pose::translation(0.5, 0.0, 0.0);
-    let mut arm = Arm::new(&[(JointType::Revolute, Pose::identity()), (JointType::Revolute, long)], long);
+    let mut arm = Arm::new(
+        &[
+            (JointType::Revolute, Pose::identity()),
+            (JointType::Revolute, long),
+        ],
+        long,
+    );
     let crank = arm.env.create_joint("crank", JointType::Revolute);
-    arm.env.set_pose(crank, Pose::translation(0.6, 0.0, 0.0), Frame::World).unwrap();
+    arm.env
+        .set_pose(crank, Pose::translation(0.6, 0.0, 0.0), Frame::World)
+        .unwrap();
     arm.env.joint_mut(crank).unwrap().mode = JointMode::Passive;
     arm.env.set_parent(arm.target, Some(crank), false).unwrap();
-    arm.env.set_pose(arm.target, Pose::translation(0.2, 0.0, 0.0), Frame::Parent).unwrap();
+    arm.env
+        .set_pose(arm.target, Pose::translation(0.2, 0.0, 0.0), Frame::Parent)
+        .unwrap();
     arm.set_element(|element| element.constraints = Constraints(3));
     arm.set_group(|group| group.iterations = 30);
     arm.set_config(&[0.3, 0.3]);
     for i in 0..60 {
-        arm.env.set_joint_position(crank, f64::from(i) * 0.1).unwrap();
+        arm.env
+            .set_joint_position(crank, f64::from(i) * 0.1)
+            .unwrap();
         assert!(arm.handle().is_success(), "{i} {:?}", arm.gap());
         assert!(arm.gap()[0] < 5e-4);
     }
@@ -304,21 +407,49 @@ fn callbacks_may_replace_what_is_computed() {
     let run = |revision: Revision| {
         let mut arm = planar(Method::PseudoInverse, 0.0, 1);
         let group = arm.group;
-        let outcome = arm.env.handle_with(&[group], &mut |equations, index, iteration| {
-            assert_eq!((equations.rows.len(), equations.columns.len(), index, iteration), (2, 2, 0, 0));
-            Ok(revision.clone())
-        });
+        let outcome = arm
+            .env
+            .handle_with(&[group], &mut |equations, index, iteration| {
+                assert_eq!(
+                    (
+                        equations.rows.len(),
+                        equations.columns.len(),
+                        index,
+                        iteration
+                    ),
+                    (2, 2, 0, 0)
+                );
+                Ok(revision.clone())
+            });
         outcome.map(|outcome| (outcome.flags, arm.config()))
     };
-    let step = Revision { step: Some(vec![0.01, -0.02]), ..Revision::default() };
+    let step = Revision {
+        step: Some(vec![0.01, -0.02]),
+        ..Revision::default()
+    };
     close(&run(step).unwrap().1, &[0.31, 0.58], 1e-12);
-    let errors = Revision { errors: Some(vec![0.0, 0.0]), ..Revision::default() };
+    let errors = Revision {
+        errors: Some(vec![0.0, 0.0]),
+        ..Revision::default()
+    };
     close(&run(errors).unwrap().1, &[0.3, 0.6], 1e-12);
-    let inverse = Revision { inverse: Some(vec![1.0, 0.0, 0.0, 1.0]), ..Revision::default() };
+    let inverse = Revision {
+        inverse: Some(vec![1.0, 0.0, 0.0, 1.0]),
+        ..Revision::default()
+    };
     close(&run(inverse).unwrap().1, &[0.31, 0.58], 1e-12);
-    let short = Revision { jacobian: Some(vec![1.0]), ..Revision::default() };
-    assert_eq!(run(short).unwrap_err().to_string(), "the callback's 'jacobian' has a wrong size.");
-    let bad = Revision { jacobian: Some(vec![f64::NAN; 4]), ..Revision::default() };
+    let short = Revision {
+        jacobian: Some(vec![1.0]),
+        ..Revision::default()
+    };
+    assert_eq!(
+        run(short).unwrap_err().to_string(),
+        "the callback's 'jacobian' has a wrong size."
+    );
+    let bad = Revision {
+        jacobian: Some(vec![f64::NAN; 4]),
+        ..Revision::default()
+    };
     let (flags, config) = run(bad).unwrap();
     assert!(flags.contains(Flags::CANNOT_INVERT) && flags.contains(Flags::INVALID_CALLBACK_DATA));
     assert_eq!(config, [0.3, 0.6]);

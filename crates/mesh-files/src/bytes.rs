@@ -11,7 +11,10 @@ pub(crate) struct Bytes<'a> {
 
 impl<'a> Bytes<'a> {
     pub(crate) fn new(bytes: &'a [u8], start: usize) -> Self {
-        Self { rest: bytes, at: start }
+        Self {
+            rest: bytes,
+            at: start,
+        }
     }
 
     /// The next byte of the file.
@@ -30,7 +33,10 @@ impl<'a> Bytes<'a> {
     /// The next bytes.
     pub(crate) fn take(&mut self, count: usize, element: &str) -> Result<&'a [u8]> {
         let Some((bytes, rest)) = self.rest.split_at_checked(count) else {
-            let problem = format!("{count} bytes are needed, the file has {} more", self.rest.len());
+            let problem = format!(
+                "{count} bytes are needed, the file has {} more",
+                self.rest.len()
+            );
             return Err(ReadError::new(self.place(), element, problem));
         };
         self.rest = rest;
@@ -40,7 +46,9 @@ impl<'a> Bytes<'a> {
 
     pub(crate) fn array<const N: usize>(&mut self, element: &str) -> Result<[u8; N]> {
         let bytes = self.take(N, element)?;
-        Ok(bytes.try_into().expect("take returns as many bytes as asked for"))
+        Ok(bytes
+            .try_into()
+            .expect("take returns as many bytes as asked for"))
     }
 
     pub(crate) fn u16(&mut self, element: &str) -> Result<u16> {
@@ -62,13 +70,21 @@ impl<'a> Bytes<'a> {
         if vector.iter().all(|x| x.is_finite()) {
             return Ok(vector.map(f64::from));
         }
-        Err(ReadError::new(place, element, "a coordinate that is not finite"))
+        Err(ReadError::new(
+            place,
+            element,
+            "a coordinate that is not finite",
+        ))
     }
 
     /// A text that a zero byte ends.
     pub(crate) fn text(&mut self, element: &str) -> Result<String> {
         let Some(end) = self.rest.iter().position(|&byte| byte == 0) else {
-            return Err(ReadError::new(self.place(), element, "a text without an end"));
+            return Err(ReadError::new(
+                self.place(),
+                element,
+                "a text without an end",
+            ));
         };
         let bytes = self.take(end + 1, element)?;
         Ok(crate::text::name(&bytes[..end]))
@@ -79,8 +95,10 @@ impl<'a> Bytes<'a> {
         match count.checked_mul(size) {
             Some(need) if need <= self.len() => Ok(()),
             _ => {
-                let problem =
-                    format!("{count} of {size} bytes each are announced, the file has {} bytes more", self.len());
+                let problem = format!(
+                    "{count} of {size} bytes each are announced, the file has {} bytes more",
+                    self.len()
+                );
                 Err(ReadError::new(self.place(), element, problem))
             }
         }

@@ -24,28 +24,57 @@ pub(crate) struct Lists<'a> {
 }
 
 /// Adds the triangles of a polygon, whose positions must be in the list.
-pub(crate) fn push_polygon(polygon: &[Corner], positions: &[[f64; 3]], triangles: &mut Vec<[Corner; 3]>) {
+pub(crate) fn push_polygon(
+    polygon: &[Corner],
+    positions: &[[f64; 3]],
+    triangles: &mut Vec<[Corner; 3]>,
+) {
     if let &[a, b, c] = polygon {
         return triangles.push([a, b, c]);
     }
-    let points: Vec<[f64; 3]> = polygon.iter().map(|corner| positions[corner.position as usize]).collect();
-    triangulate(&points, |triangle| triangles.push(triangle.map(|corner| polygon[corner])));
+    let points: Vec<[f64; 3]> = polygon
+        .iter()
+        .map(|corner| positions[corner.position as usize])
+        .collect();
+    triangulate(&points, |triangle| {
+        triangles.push(triangle.map(|corner| polygon[corner]))
+    });
 }
 
 /// A part with only those vertices that triangles use, in the order of the list. Indices must be in the lists or [`NONE`].
-pub(crate) fn part(name: String, lists: Lists, corners: &[[Corner; 3]], material: Material) -> Part {
+pub(crate) fn part(
+    name: String,
+    lists: Lists,
+    corners: &[[Corner; 3]],
+    material: Material,
+) -> Part {
     let (used, new_index) = used_positions(lists.positions.len(), corners);
-    let has = |index: fn(&Corner) -> u32| corners.as_flattened().iter().any(|corner| index(corner) != NONE);
+    let has = |index: fn(&Corner) -> u32| {
+        corners
+            .as_flattened()
+            .iter()
+            .any(|corner| index(corner) != NONE)
+    };
     Part {
         name,
-        vertices: used.iter().map(|&index| lists.positions[index as usize]).collect(),
-        triangles: corners.iter().map(|triangle| triangle.map(|corner| new_index.of(corner.position))).collect(),
+        vertices: used
+            .iter()
+            .map(|&index| lists.positions[index as usize])
+            .collect(),
+        triangles: corners
+            .iter()
+            .map(|triangle| triangle.map(|corner| new_index.of(corner.position)))
+            .collect(),
         normals: if has(|corner| corner.normal) {
             attribute(lists.normals, corners, |corner| corner.normal)
         } else {
             Vec::new()
         },
-        uv: if has(|corner| corner.uv) { attribute(lists.uv, corners, |corner| corner.uv) } else { Vec::new() },
+        uv: if has(|corner| corner.uv) {
+            attribute(lists.uv, corners, |corner| corner.uv)
+        } else {
+            Vec::new()
+        },
         material,
     }
 }
@@ -89,19 +118,32 @@ fn used_positions(positions: usize, corners: &[[Corner; 3]]) -> (Vec<u32>, NewIn
     }
     let mut table = vec![NONE; positions];
     indices.for_each(|index| table[index as usize] = 0);
-    let used: Vec<u32> = (0..positions as u32).filter(|&index| table[index as usize] == 0).collect();
-    used.iter().zip(0..).for_each(|(&index, new)| table[index as usize] = new);
+    let used: Vec<u32> = (0..positions as u32)
+        .filter(|&index| table[index as usize] == 0)
+        .collect();
+    used.iter()
+        .zip(0..)
+        .for_each(|(&index, new)| table[index as usize] = new);
     (used, NewIndex::Table(table))
 }
 
 impl Part {
     /// Moves the part by the transform of a node; one that mirrors turns the triangles over, so that they still look outwards.
     pub(crate) fn transform(&mut self, transform: &Transform) {
-        self.vertices.iter_mut().for_each(|vertex| *vertex = transform.apply(*vertex));
-        self.normals.as_flattened_mut().iter_mut().for_each(|normal| *normal = transform.normal(*normal));
+        self.vertices
+            .iter_mut()
+            .for_each(|vertex| *vertex = transform.apply(*vertex));
+        self.normals
+            .as_flattened_mut()
+            .iter_mut()
+            .for_each(|normal| *normal = transform.normal(*normal));
         if transform.mirrors() {
-            self.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
-            self.normals.iter_mut().for_each(|corners| corners.swap(1, 2));
+            self.triangles
+                .iter_mut()
+                .for_each(|corners| corners.swap(1, 2));
+            self.normals
+                .iter_mut()
+                .for_each(|corners| corners.swap(1, 2));
             self.uv.iter_mut().for_each(|corners| corners.swap(1, 2));
         }
     }

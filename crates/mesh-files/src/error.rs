@@ -36,8 +36,16 @@ pub struct ReadError {
 }
 
 impl ReadError {
-    pub(crate) fn new(place: Location, element: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self { place, element: element.into(), problem: problem.into() }
+    pub(crate) fn new(
+        place: Location,
+        element: impl Into<String>,
+        problem: impl Into<String>,
+    ) -> Self {
+        Self {
+            place,
+            element: element.into(),
+            problem: problem.into(),
+        }
     }
 }
 

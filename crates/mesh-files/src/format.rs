@@ -40,7 +40,10 @@ impl MeshFormat {
     /// The format of a file, by the extension of its name in either case.
     pub fn of_name(name: &str) -> Option<Self> {
         let (_, extension) = name.rsplit_once('.')?;
-        Self::ALL.iter().find(|(_, known, _)| known.eq_ignore_ascii_case(extension)).map(|(format, ..)| *format)
+        Self::ALL
+            .iter()
+            .find(|(_, known, _)| known.eq_ignore_ascii_case(extension))
+            .map(|(format, ..)| *format)
     }
 }
 
@@ -77,10 +80,19 @@ pub struct Written {
 /// # Errors
 ///
 /// Where the file is damaged, exceeds the limits, or has no triangles.
-pub fn read(bytes: &[u8], format: MeshFormat, limits: Limits, resolve: Resolve) -> Result<MeshFile> {
+pub fn read(
+    bytes: &[u8],
+    format: MeshFormat,
+    limits: Limits,
+    resolve: Resolve,
+) -> Result<MeshFile> {
     let largest = largest_file(format);
     if bytes.len() > largest {
-        return Err(ReadError::new(Location::File, "file", format!("larger than {} MiB", largest >> 20)));
+        return Err(ReadError::new(
+            Location::File,
+            "file",
+            format!("larger than {} MiB", largest >> 20),
+        ));
     }
     let file = match format {
         MeshFormat::Obj => obj::read(bytes, limits, resolve)?,
@@ -107,7 +119,11 @@ fn largest_file(format: MeshFormat) -> usize {
 /// # Errors
 ///
 /// Triangles of vertices that are not there, coordinates that are not finite, and more elements than the format can count.
-pub fn write(file: &MeshFile, format: ExportFormat, name: &str) -> std::result::Result<Vec<Written>, WriteError> {
+pub fn write(
+    file: &MeshFile,
+    format: ExportFormat,
+    name: &str,
+) -> std::result::Result<Vec<Written>, WriteError> {
     check_parts(file.parts.iter())?;
     let bytes = match format {
         ExportFormat::Obj => return Ok(obj::write(file, name)),
@@ -118,22 +134,45 @@ pub fn write(file: &MeshFile, format: ExportFormat, name: &str) -> std::result::
         ExportFormat::PlyBinary => ply::write_binary(file),
         ExportFormat::Glb => gltf::write(file)?,
     };
-    Ok(vec![Written { name: name.into(), bytes }])
+    Ok(vec![Written {
+        name: name.into(),
+        bytes,
+    }])
 }
 
 /// What every writer relies on.
-pub(crate) fn check_parts<'a>(parts: impl Iterator<Item = &'a Part> + Clone) -> std::result::Result<(), WriteError> {
+pub(crate) fn check_parts<'a>(
+    parts: impl Iterator<Item = &'a Part> + Clone,
+) -> std::result::Result<(), WriteError> {
     for (number, part) in parts.clone().enumerate() {
-        if let Some(vertex) = part.vertices.iter().position(|vertex| !vertex.iter().all(|x| x.is_finite())) {
-            return Err(WriteError::NotFinite { part: number, vertex });
+        if let Some(vertex) = part
+            .vertices
+            .iter()
+            .position(|vertex| !vertex.iter().all(|x| x.is_finite()))
+        {
+            return Err(WriteError::NotFinite {
+                part: number,
+                vertex,
+            });
         }
-        let is_wrong = |triangle: &[u32; 3]| triangle.iter().any(|&index| index as usize >= part.vertices.len());
+        let is_wrong = |triangle: &[u32; 3]| {
+            triangle
+                .iter()
+                .any(|&index| index as usize >= part.vertices.len())
+        };
         if let Some(triangle) = part.triangles.iter().position(is_wrong) {
-            return Err(WriteError::NoSuchVertex { part: number, triangle });
+            return Err(WriteError::NoSuchVertex {
+                part: number,
+                triangle,
+            });
         }
     }
     let vertices: usize = parts.clone().map(|part| part.vertices.len()).sum();
     let triangles: usize = parts.map(|part| part.triangles.len()).sum();
     // Indices, byte lengths of 60 bytes a triangle included, stay below 2^32.
-    if vertices.max(triangles) > u32::MAX as usize / 60 { Err(WriteError::TooLarge) } else { Ok(()) }
+    if vertices.max(triangles) > u32::MAX as usize / 60 {
+        Err(WriteError::TooLarge)
+    } else {
+        Ok(())
+    }
 }

@@ -16,7 +16,11 @@ pub struct Limits {
 impl Default for Limits {
     /// 20 million vertices and triangles, some 700 MB.
     fn default() -> Self {
-        Self { vertices: 20_000_000, triangles: 20_000_000, parts: 100_000 }
+        Self {
+            vertices: 20_000_000,
+            triangles: 20_000_000,
+            parts: 100_000,
+        }
     }
 }
 
@@ -24,7 +28,8 @@ impl Limits {
     /// Takes away what one more part needs.
     pub(crate) fn take(&mut self, vertices: usize, triangles: usize) -> Result<()> {
         let left = |have: usize, need: usize, what: &str| {
-            have.checked_sub(need).ok_or_else(|| ReadError::new(Location::File, what, "more than the limit"))
+            have.checked_sub(need)
+                .ok_or_else(|| ReadError::new(Location::File, what, "more than the limit"))
         };
         self.vertices = left(self.vertices, vertices, "vertices")?;
         self.triangles = left(self.triangles, triangles, "triangles")?;

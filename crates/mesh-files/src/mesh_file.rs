@@ -101,7 +101,12 @@ impl Part {
         pad(&mut self.normals, self.triangles.len(), has_normals);
         pad(&mut self.uv, self.triangles.len(), has_uv);
         self.vertices.extend_from_slice(&other.vertices);
-        self.triangles.extend(other.triangles.iter().map(|triangle| triangle.map(|index| index + first)));
+        self.triangles.extend(
+            other
+                .triangles
+                .iter()
+                .map(|triangle| triangle.map(|index| index + first)),
+        );
         self.normals.extend_from_slice(&other.normals);
         self.uv.extend_from_slice(&other.uv);
         pad(&mut self.normals, self.triangles.len(), has_normals);
@@ -127,7 +132,10 @@ impl MeshFile {
         let mut merged: Vec<Part> = Vec::new();
         for part in self.parts.drain(..) {
             let room = u32::MAX as usize - part.vertices.len();
-            match merged.iter_mut().find(|other| other.material == part.material && other.vertices.len() <= room) {
+            match merged
+                .iter_mut()
+                .find(|other| other.material == part.material && other.vertices.len() <= room)
+            {
                 Some(other) => other.append(&part),
                 None => merged.push(part),
             }
@@ -151,8 +159,13 @@ impl MeshFile {
             UpAxis::Z => [x, y, z],
         };
         for part in &mut self.parts {
-            part.vertices.iter_mut().for_each(|vertex| *vertex = turn(*vertex));
-            part.normals.as_flattened_mut().iter_mut().for_each(|normal| *normal = turn(*normal));
+            part.vertices
+                .iter_mut()
+                .for_each(|vertex| *vertex = turn(*vertex));
+            part.normals
+                .as_flattened_mut()
+                .iter_mut()
+                .for_each(|normal| *normal = turn(*normal));
         }
         self.up = Some(UpAxis::Z);
     }

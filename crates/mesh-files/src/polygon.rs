@@ -37,19 +37,31 @@ fn cut_ears(points: &[[f64; 2]], left: &mut Vec<usize>, triangle: &mut impl FnMu
 
 /// A corner between its neighbours.
 fn around(left: &[usize], corner: usize) -> [usize; 3] {
-    [left[(corner + left.len() - 1) % left.len()], left[corner], left[(corner + 1) % left.len()]]
+    [
+        left[(corner + left.len() - 1) % left.len()],
+        left[corner],
+        left[(corner + 1) % left.len()],
+    ]
 }
 
 fn is_ear(points: &[[f64; 2]], ear: [usize; 3], left: &[usize]) -> bool {
-    area(points, ear) > 0.0 && !left.iter().any(|corner| !ear.contains(corner) && is_inside(points, ear, *corner))
+    area(points, ear) > 0.0
+        && !left
+            .iter()
+            .any(|corner| !ear.contains(corner) && is_inside(points, ear, *corner))
 }
 
 fn is_inside(points: &[[f64; 2]], [a, b, c]: [usize; 3], point: usize) -> bool {
     // A corner that is there twice, where a hole was joined to the outline, is in nobody's way.
-    if [a, b, c].iter().any(|&corner| points[corner] == points[point]) {
+    if [a, b, c]
+        .iter()
+        .any(|&corner| points[corner] == points[point])
+    {
         return false;
     }
-    [[a, b, point], [b, c, point], [c, a, point]].iter().all(|triangle| area(points, *triangle) >= 0.0)
+    [[a, b, point], [b, c, point], [c, a, point]]
+        .iter()
+        .all(|triangle| area(points, *triangle) >= 0.0)
 }
 
 /// Twice the area; positive if counterclockwise.
@@ -61,14 +73,29 @@ fn area(points: &[[f64; 2]], [a, b, c]: [usize; 3]) -> f64 {
 /// The polygon seen along the axis along which its area is largest, counterclockwise.
 fn flatten(corners: &[[f64; 3]]) -> Vec<[f64; 2]> {
     let areas = [0, 1, 2].map(|axis| signed_area(corners, (axis + 1) % 3, (axis + 2) % 3));
-    let axis = (0..3).max_by(|&a, &b| areas[a].abs().total_cmp(&areas[b].abs())).unwrap_or(2);
+    let axis = (0..3)
+        .max_by(|&a, &b| areas[a].abs().total_cmp(&areas[b].abs()))
+        .unwrap_or(2);
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-    corners.iter().map(|p| if areas[axis] < 0.0 { [p[v], p[u]] } else { [p[u], p[v]] }).collect()
+    corners
+        .iter()
+        .map(|p| {
+            if areas[axis] < 0.0 {
+                [p[v], p[u]]
+            } else {
+                [p[u], p[v]]
+            }
+        })
+        .collect()
 }
 
 /// Twice the area of the projection onto a plane of two axes (the shoelace formula).
 fn signed_area(corners: &[[f64; 3]], u: usize, v: usize) -> f64 {
-    corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| a[u] * b[v] - a[v] * b[u]).sum()
+    corners
+        .iter()
+        .zip(corners.iter().cycle().skip(1))
+        .map(|(a, b)| a[u] * b[v] - a[v] * b[u])
+        .sum()
 }
 
 #[cfg(test)]
@@ -82,24 +109,41 @@ mod tests {
     }
 
     fn total_area(corners: &[[f64; 3]], triangles: &[[usize; 3]]) -> f64 {
-        triangles.iter().map(|t| signed_area(&t.map(|corner| corners[corner]), 0, 1)).sum()
+        triangles
+            .iter()
+            .map(|t| signed_area(&t.map(|corner| corners[corner]), 0, 1))
+            .sum()
     }
 
     #[test]
     fn a_convex_polygon_is_a_fan() {
         assert_eq!(
-            triangles(&[[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [1.0, 1.0, 5.0], [0.0, 1.0, 5.0]]),
+            triangles(&[
+                [0.0, 0.0, 5.0],
+                [1.0, 0.0, 5.0],
+                [1.0, 1.0, 5.0],
+                [0.0, 1.0, 5.0]
+            ]),
             [[0, 1, 2], [0, 2, 3]]
         );
     }
 
     #[test]
     fn triangles_of_a_concave_polygon_do_not_overlap_in_either_sense() {
-        let mut arrow = vec![[0.0, 0.0, 0.0], [4.0, -3.0, 1.0], [1.0, 0.0, 0.0], [4.0, 3.0, 1.0]];
+        let mut arrow = vec![
+            [0.0, 0.0, 0.0],
+            [4.0, -3.0, 1.0],
+            [1.0, 0.0, 0.0],
+            [4.0, 3.0, 1.0],
+        ];
         for sense in [1.0, -1.0] {
             let triangles = triangles(&arrow);
             assert_eq!(triangles.len(), 2);
-            assert!(triangles.iter().all(|t| sense * signed_area(&t.map(|corner| arrow[corner]), 0, 1) > 0.0));
+            assert!(
+                triangles
+                    .iter()
+                    .all(|t| sense * signed_area(&t.map(|corner| arrow[corner]), 0, 1) > 0.0)
+            );
             assert_eq!(total_area(&arrow, &triangles), signed_area(&arrow, 0, 1));
             arrow.reverse();
         }
@@ -110,7 +154,11 @@ mod tests {
         let mut spiral: Vec<[f64; 3]> = Vec::new();
         let arm = |k: usize, width: f64| {
             let angle = k as f64 * 0.3;
-            [(1.0 + angle + width) * angle.cos(), (1.0 + angle + width) * angle.sin(), 0.0]
+            [
+                (1.0 + angle + width) * angle.cos(),
+                (1.0 + angle + width) * angle.sin(),
+                0.0,
+            ]
         };
         spiral.extend((0..60).map(|k| arm(k, 1.0)));
         spiral.extend((0..60).rev().map(|k| arm(k, 0.0)));

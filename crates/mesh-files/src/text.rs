@@ -10,7 +10,10 @@ pub(crate) struct Words<'a> {
 
 impl<'a> Words<'a> {
     pub(crate) fn new(text: &'a [u8]) -> Self {
-        Self { rest: text, line: 1 }
+        Self {
+            rest: text,
+            line: 1,
+        }
     }
 
     /// The line of the word that was read last.
@@ -20,7 +23,11 @@ impl<'a> Words<'a> {
 
     /// What is left of this line, without spaces around it.
     pub(crate) fn rest_of_line(&mut self) -> &'a [u8] {
-        let end = self.rest.iter().position(|&byte| byte == b'\n').unwrap_or(self.rest.len());
+        let end = self
+            .rest
+            .iter()
+            .position(|&byte| byte == b'\n')
+            .unwrap_or(self.rest.len());
         let (line, rest) = self.rest.split_at(end);
         self.rest = rest;
         line.trim_ascii()
@@ -29,12 +36,17 @@ impl<'a> Words<'a> {
     /// A coordinate.
     pub(crate) fn number(&mut self, element: &str) -> Result<f64> {
         let word = self.next();
-        word.and_then(number).ok_or_else(|| ReadError::new(self.place(), element, no_number(word)))
+        word.and_then(number)
+            .ok_or_else(|| ReadError::new(self.place(), element, no_number(word)))
     }
 
     /// Three coordinates.
     pub(crate) fn vector(&mut self, element: &str) -> Result<[f64; 3]> {
-        Ok([self.number(element)?, self.number(element)?, self.number(element)?])
+        Ok([
+            self.number(element)?,
+            self.number(element)?,
+            self.number(element)?,
+        ])
     }
 }
 
@@ -42,10 +54,20 @@ impl<'a> Iterator for Words<'a> {
     type Item = &'a [u8];
 
     fn next(&mut self) -> Option<&'a [u8]> {
-        let start = self.rest.iter().position(|byte| !byte.is_ascii_whitespace()).unwrap_or(self.rest.len());
-        self.line += self.rest[..start].iter().filter(|&&byte| byte == b'\n').count();
+        let start = self
+            .rest
+            .iter()
+            .position(|byte| !byte.is_ascii_whitespace())
+            .unwrap_or(self.rest.len());
+        self.line += self.rest[..start]
+            .iter()
+            .filter(|&&byte| byte == b'\n')
+            .count();
         let rest = &self.rest[start..];
-        let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        let end = rest
+            .iter()
+            .position(u8::is_ascii_whitespace)
+            .unwrap_or(rest.len());
         let (word, rest) = rest.split_at(end);
         self.rest = rest;
         (!word.is_empty()).then_some(word)
@@ -54,7 +76,11 @@ impl<'a> Iterator for Words<'a> {
 
 /// A finite number.
 pub(crate) fn number(word: &[u8]) -> Option<f64> {
-    std::str::from_utf8(word).ok()?.parse().ok().filter(|x: &f64| x.is_finite())
+    std::str::from_utf8(word)
+        .ok()?
+        .parse()
+        .ok()
+        .filter(|x: &f64| x.is_finite())
 }
 
 /// A finite number, or 0: for normals and texture coordinates, where programs write `nan` for what they could not compute.
@@ -64,7 +90,8 @@ pub(crate) fn number_or_zero(word: Option<&[u8]>) -> f64 {
 
 /// The words of one line.
 pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
-    line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+    line.split(u8::is_ascii_whitespace)
+        .filter(|word| !word.is_empty())
 }
 
 /// What to say of a word that is no number; long words are cut.
@@ -96,7 +123,10 @@ pub(crate) fn percent_decoded(path: &str) -> String {
     let mut decoded = Vec::new();
     let mut rest = path.as_bytes();
     while let Some((&first, after)) = rest.split_first() {
-        let code = after.get(..2).filter(|_| first == b'%').and_then(|code| std::str::from_utf8(code).ok());
+        let code = after
+            .get(..2)
+            .filter(|_| first == b'%')
+            .and_then(|code| std::str::from_utf8(code).ok());
         match code.and_then(|code| u8::from_str_radix(code, 16).ok()) {
             Some(byte) => {
                 decoded.push(byte);

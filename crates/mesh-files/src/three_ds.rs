@@ -48,14 +48,24 @@ pub(crate) fn read(bytes: &[u8], mut limits: Limits, resolve: Resolve) -> Result
     match chunk(&mut file)? {
         (MAIN, content) => reader.main(content)?,
         (kind, _) => {
-            return Err(ReadError::new(Location::Byte(0), "chunk", format!("{kind:#06x} does not begin a 3DS file")));
+            return Err(ReadError::new(
+                Location::Byte(0),
+                "chunk",
+                format!("{kind:#06x} does not begin a 3DS file"),
+            ));
         }
     }
     let mut file = MeshFile::default();
     let mut known = BTreeMap::new();
     for (name, (material, path)) in reader.materials {
         let texture = path.and_then(|path| texture(&path, &mut file, resolve));
-        known.insert(name, Material { texture, ..material });
+        known.insert(
+            name,
+            Material {
+                texture,
+                ..material
+            },
+        );
     }
     for mesh in &reader.meshes {
         mesh.parts(&known, &mut limits, &mut file)?;
@@ -65,12 +75,19 @@ pub(crate) fn read(bytes: &[u8], mut limits: Limits, resolve: Resolve) -> Result
 
 fn texture(path: &str, file: &mut MeshFile, resolve: Resolve) -> Option<usize> {
     let name = file_name(path);
-    if let Some(known) = file.textures.iter().position(|texture| texture.name == name) {
+    if let Some(known) = file
+        .textures
+        .iter()
+        .position(|texture| texture.name == name)
+    {
         return Some(known);
     }
     match resolve(path) {
         Ok(bytes) => {
-            file.textures.push(Texture { name: name.into(), bytes });
+            file.textures.push(Texture {
+                name: name.into(),
+                bytes,
+            });
             Some(file.textures.len() - 1)
         }
         Err(why) => {
@@ -86,7 +103,11 @@ fn chunk<'a>(bytes: &mut Bytes<'a>) -> Result<(u16, Bytes<'a>)> {
     let kind = bytes.u16("chunk")?;
     let length = bytes.u32("chunk")? as usize;
     let Some(length) = length.checked_sub(6) else {
-        return Err(ReadError::new(place, format!("chunk {kind:#06x}"), "shorter than its head"));
+        return Err(ReadError::new(
+            place,
+            format!("chunk {kind:#06x}"),
+            "shorter than its head",
+        ));
     };
     let at = bytes.at();
     Ok((kind, Bytes::new(bytes.take(length, "chunk")?, at)))
@@ -116,7 +137,10 @@ impl Reader {
         let name = content.text("object")?;
         chunks(content, |kind, content| {
             if kind == MESH {
-                let mut mesh = Mesh { name: name.clone(), ..Mesh::default() };
+                let mut mesh = Mesh {
+                    name: name.clone(),
+                    ..Mesh::default()
+                };
                 chunks(content, |kind, content| mesh.chunk(kind, content))?;
                 self.meshes.push(mesh);
             }
@@ -154,7 +178,9 @@ fn colour(content: Bytes) -> Result<Option<[f64; 3]>> {
     chunks(content, |kind, mut content| {
         match kind {
             0x0010 | 0x0013 => colour = Some(content.vector("colour")?.map(|x| x.clamp(0.0, 1.0))),
-            0x0011 | 0x0012 => colour = Some(content.array::<3>("colour")?.map(|x| f64::from(x) / 255.0)),
+            0x0011 | 0x0012 => {
+                colour = Some(content.array::<3>("colour")?.map(|x| f64::from(x) / 255.0))
+            }
             _ => {}
         }
         Ok(())
@@ -173,7 +199,11 @@ fn share(content: Bytes) -> Result<f64> {
         }
         Ok(())
     })?;
-    Ok(if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 })
+    Ok(if share.is_finite() {
+        share.clamp(0.0, 1.0)
+    } else {
+        0.0
+    })
 }
 
 impl Mesh {
@@ -182,14 +212,21 @@ impl Mesh {
             VERTICES => {
                 let count = content.u16("vertices")?;
                 content.check_room(count.into(), 12, "vertices")?;
-                self.positions = (0..count).map(|_| content.vector("vertex")).collect::<Result<_>>()?;
+                self.positions = (0..count)
+                    .map(|_| content.vector("vertex"))
+                    .collect::<Result<_>>()?;
             }
             TEXTURE_COORDINATES => {
                 let count = content.u16("texture coordinates")?;
                 content.check_room(count.into(), 8, "texture coordinates")?;
-                let mut next =
-                    || content.f32("texture coordinates").map(|x| if x.is_finite() { f64::from(x) } else { 0.0 });
-                self.uv = (0..count).map(|_| Ok([next()?, next()?])).collect::<Result<_>>()?;
+                let mut next = || {
+                    content
+                        .f32("texture coordinates")
+                        .map(|x| if x.is_finite() { f64::from(x) } else { 0.0 })
+                };
+                self.uv = (0..count)
+                    .map(|_| Ok([next()?, next()?]))
+                    .collect::<Result<_>>()?;
             }
             FACES => self.faces(content)?,
             _ => {}
@@ -201,7 +238,11 @@ impl Mesh {
         let count = content.u16("faces")?;
         content.check_room(count.into(), 8, "faces")?;
         for _ in 0..count {
-            self.faces.push([content.u16("face")?, content.u16("face")?, content.u16("face")?]);
+            self.faces.push([
+                content.u16("face")?,
+                content.u16("face")?,
+                content.u16("face")?,
+            ]);
             content.u16("flags of a face")?;
         }
         chunks(content, |kind, mut content| {
@@ -209,7 +250,9 @@ impl Mesh {
                 let name = content.text("material of faces")?;
                 let count = content.u16("material of faces")?;
                 content.check_room(count.into(), 2, "material of faces")?;
-                let faces = (0..count).map(|_| content.u16("material of faces")).collect::<Result<_>>()?;
+                let faces = (0..count)
+                    .map(|_| content.u16("material of faces"))
+                    .collect::<Result<_>>()?;
                 self.materials.push((name, faces));
             }
             Ok(())
@@ -217,7 +260,12 @@ impl Mesh {
     }
 
     /// A part for each material, and one for the faces without any.
-    fn parts(&self, known: &BTreeMap<String, Material>, limits: &mut Limits, file: &mut MeshFile) -> Result<()> {
+    fn parts(
+        &self,
+        known: &BTreeMap<String, Material>,
+        limits: &mut Limits,
+        file: &mut MeshFile,
+    ) -> Result<()> {
         let mut is_left = vec![true; self.faces.len()];
         for (name, faces) in &self.materials {
             let mut own = Vec::new();
@@ -227,12 +275,20 @@ impl Mesh {
                     own.push(self.corners(self.faces[face as usize])?);
                 }
             }
-            let material =
-                known.get(name).cloned().unwrap_or_else(|| Material { name: name.clone(), ..Material::default() });
+            let material = known.get(name).cloned().unwrap_or_else(|| Material {
+                name: name.clone(),
+                ..Material::default()
+            });
             self.part(&own, material, limits, file)?;
         }
-        let rest = self.faces.iter().zip(&is_left).filter(|(_, is_left)| **is_left);
-        let rest = rest.map(|(face, _)| self.corners(*face)).collect::<Result<Vec<_>>>()?;
+        let rest = self
+            .faces
+            .iter()
+            .zip(&is_left)
+            .filter(|(_, is_left)| **is_left);
+        let rest = rest
+            .map(|(face, _)| self.corners(*face))
+            .collect::<Result<Vec<_>>>()?;
         self.part(&rest, Material::default(), limits, file)
     }
 
@@ -246,7 +302,11 @@ impl Mesh {
         if corners.is_empty() {
             return Ok(());
         }
-        let lists = Lists { positions: &self.positions, normals: &[], uv: &self.uv };
+        let lists = Lists {
+            positions: &self.positions,
+            normals: &[],
+            uv: &self.uv,
+        };
         let part = part(self.name.clone(), lists, corners, material);
         limits.take(part.vertices.len(), part.triangles.len())?;
         file.parts.push(part);
@@ -254,11 +314,28 @@ impl Mesh {
     }
 
     fn corners(&self, face: [u16; 3]) -> Result<[Corner; 3]> {
-        if let Some(index) = face.iter().find(|index| **index as usize >= self.positions.len()) {
+        if let Some(index) = face
+            .iter()
+            .find(|index| **index as usize >= self.positions.len())
+        {
             let problem = format!("vertex {index} of {}", self.positions.len());
-            return Err(ReadError::new(Location::File, format!("face of {:?}", self.name), problem));
+            return Err(ReadError::new(
+                Location::File,
+                format!("face of {:?}", self.name),
+                problem,
+            ));
         }
-        let uv = |index: u16| if (index as usize) < self.uv.len() { index.into() } else { NONE };
-        Ok(face.map(|index| Corner { position: index.into(), normal: NONE, uv: uv(index) }))
+        let uv = |index: u16| {
+            if (index as usize) < self.uv.len() {
+                index.into()
+            } else {
+                NONE
+            }
+        };
+        Ok(face.map(|index| Corner {
+            position: index.into(),
+            normal: NONE,
+            uv: uv(index),
+        }))
     }
 }

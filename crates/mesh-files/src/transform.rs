@@ -5,7 +5,11 @@
 pub(crate) struct Transform(pub(crate) [[f64; 4]; 3]);
 
 impl Transform {
-    pub(crate) const IDENTITY: Self = Self([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]);
+    pub(crate) const IDENTITY: Self = Self([
+        [1.0, 0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0],
+    ]);
 
     pub(crate) fn translation([x, y, z]: [f64; 3]) -> Self {
         Self([[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, y], [0.0, 0.0, 1.0, z]])
@@ -23,9 +27,24 @@ impl Transform {
         }
         let s = 2.0 / square;
         Self([
-            [1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w), 0.0],
-            [s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w), 0.0],
-            [s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y), 0.0],
+            [
+                1.0 - s * (y * y + z * z),
+                s * (x * y - z * w),
+                s * (x * z + y * w),
+                0.0,
+            ],
+            [
+                s * (x * y + z * w),
+                1.0 - s * (x * x + z * z),
+                s * (y * z - x * w),
+                0.0,
+            ],
+            [
+                s * (x * z - y * w),
+                s * (y * z + x * w),
+                1.0 - s * (x * x + y * y),
+                0.0,
+            ],
         ])
     }
 
@@ -38,9 +57,24 @@ impl Transform {
         let [x, y, z] = axis.map(|a| a / length);
         let t = 1.0 - cos;
         Self([
-            [t * x * x + cos, t * x * y - sin * z, t * x * z + sin * y, 0.0],
-            [t * x * y + sin * z, t * y * y + cos, t * y * z - sin * x, 0.0],
-            [t * x * z - sin * y, t * y * z + sin * x, t * z * z + cos, 0.0],
+            [
+                t * x * x + cos,
+                t * x * y - sin * z,
+                t * x * z + sin * y,
+                0.0,
+            ],
+            [
+                t * x * y + sin * z,
+                t * y * y + cos,
+                t * y * z - sin * x,
+                0.0,
+            ],
+            [
+                t * x * z - sin * y,
+                t * y * z + sin * x,
+                t * z * z + cos,
+                0.0,
+            ],
         ])
     }
 
@@ -49,7 +83,9 @@ impl Transform {
         let mut product = [[0.0; 4]; 3];
         for (row, a) in product.iter_mut().zip(&self.0) {
             for (column, x) in row.iter_mut().enumerate() {
-                let sum = a[0] * other.0[0][column] + a[1] * other.0[1][column] + a[2] * other.0[2][column];
+                let sum = a[0] * other.0[0][column]
+                    + a[1] * other.0[1][column]
+                    + a[2] * other.0[2][column];
                 *x = if column == 3 { sum + a[3] } else { sum };
             }
         }
@@ -57,17 +93,23 @@ impl Transform {
     }
 
     pub(crate) fn apply(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        self.0.map(|row| row[0] * x + row[1] * y + row[2] * z + row[3])
+        self.0
+            .map(|row| row[0] * x + row[1] * y + row[2] * z + row[3])
     }
 
     /// Turns normals: by the cofactors of the matrix, which differ from its inverse transposed by a factor only.
     pub(crate) fn normal(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let [a, b, c] = self.0;
         let cross = |p: [f64; 4], q: [f64; 4]| {
-            [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+            [
+                p[1] * q[2] - p[2] * q[1],
+                p[2] * q[0] - p[0] * q[2],
+                p[0] * q[1] - p[1] * q[0],
+            ]
         };
         let sign = if self.mirrors() { -1.0 } else { 1.0 };
-        let turned = [cross(b, c), cross(c, a), cross(a, b)].map(|row| sign * (row[0] * x + row[1] * y + row[2] * z));
+        let turned = [cross(b, c), cross(c, a), cross(a, b)]
+            .map(|row| sign * (row[0] * x + row[1] * y + row[2] * z));
         unit(turned)
     }
 
@@ -80,8 +122,11 @@ impl Transform {
         let along = x.iter().zip(y).map(|(a, b)| a * b).sum::<f64>();
         let y = unit([0, 1, 2].map(|k| y[k] - along * x[k]));
         let z = cross(x, y);
-        let [x, y, z] =
-            if unit(z) == [0.0; 3] { [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] } else { [x, y, z] };
+        let [x, y, z] = if unit(z) == [0.0; 3] {
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+        } else {
+            [x, y, z]
+        };
         Self([0, 1, 2].map(|k| [x[k], y[k], z[k], self.0[k][3]]))
     }
 
@@ -95,8 +140,16 @@ impl Transform {
     /// The unit quaternion x, y, z, w of a rigid transform, by its largest component (S. W. Shepperd 1978).
     pub(crate) fn quaternion(&self) -> [f64; 4] {
         let [[xx, xy, xz, _], [yx, yy, yz, _], [zx, zy, zz, _]] = self.0;
-        let squares = [1.0 + xx - yy - zz, 1.0 - xx + yy - zz, 1.0 - xx - yy + zz, 1.0 + xx + yy + zz];
-        let largest = (0..4).fold(3, |best, k| if squares[k] > squares[best] { k } else { best });
+        let squares = [
+            1.0 + xx - yy - zz,
+            1.0 - xx + yy - zz,
+            1.0 - xx - yy + zz,
+            1.0 + xx + yy + zz,
+        ];
+        let largest = (0..4).fold(
+            3,
+            |best, k| if squares[k] > squares[best] { k } else { best },
+        );
         let rows = [
             [squares[0], xy + yx, xz + zx, zy - yz],
             [xy + yx, squares[1], yz + zy, xz - zx],
@@ -110,19 +163,28 @@ impl Transform {
     /// Whether it turns a mesh inside out.
     pub(crate) fn mirrors(&self) -> bool {
         let [a, b, c] = self.0;
-        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+            + a[2] * (b[0] * c[1] - b[1] * c[0])
             < 0.0
     }
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
 }
 
 /// Of length 1, or zero if it has no direction.
 pub(crate) fn unit(vector: [f64; 3]) -> [f64; 3] {
     let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if length > 0.0 && length.is_finite() { vector.map(|x| x / length) } else { [0.0; 3] }
+    if length > 0.0 && length.is_finite() {
+        vector.map(|x| x / length)
+    } else {
+        [0.0; 3]
+    }
 }
 
 #[cfg(test)]
@@ -132,9 +194,17 @@ mod tests {
     #[test]
     fn a_quarter_turn_about_z_takes_x_to_y() {
         let half = 0.5_f64.sqrt();
-        for turn in [Transform::rotation([0.0, 0.0, half, half]), Transform::about([0.0, 0.0, 3.0], 0.0, 1.0)] {
+        for turn in [
+            Transform::rotation([0.0, 0.0, half, half]),
+            Transform::about([0.0, 0.0, 3.0], 0.0, 1.0),
+        ] {
             let turned = turn.apply([1.0, 0.0, 0.0]);
-            assert!(turned.iter().zip([0.0, 1.0, 0.0]).all(|(a, b)| (a - b).abs() < 1e-15));
+            assert!(
+                turned
+                    .iter()
+                    .zip([0.0, 1.0, 0.0])
+                    .all(|(a, b)| (a - b).abs() < 1e-15)
+            );
         }
     }
 
@@ -152,10 +222,21 @@ mod tests {
             let rigid = placed.after(&Transform::scaling([2.0, 3.0, 4.0])).rigid();
             let [x, y, z, w] = rigid.quaternion();
             let along: f64 = turn.iter().zip([x, y, z, w]).map(|(a, b)| a * b).sum();
-            assert!((along.abs() - 1.0).abs() < 1e-14, "{turn:?} became {:?}", [x, y, z, w]);
+            assert!(
+                (along.abs() - 1.0).abs() < 1e-14,
+                "{turn:?} became {:?}",
+                [x, y, z, w]
+            );
             let back = rigid.rigid_inverse().after(&rigid);
-            let both = back.0.as_flattened().iter().zip(Transform::IDENTITY.0.as_flattened());
-            assert!(both.into_iter().all(|(a, b)| (a - b).abs() < 1e-14), "{back:?}");
+            let both = back
+                .0
+                .as_flattened()
+                .iter()
+                .zip(Transform::IDENTITY.0.as_flattened());
+            assert!(
+                both.into_iter().all(|(a, b)| (a - b).abs() < 1e-14),
+                "{back:?}"
+            );
         }
         assert_eq!(Transform::scaling([0.0; 3]).rigid(), Transform::IDENTITY);
     }
@@ -163,8 +244,19 @@ mod tests {
     #[test]
     fn normals_stay_perpendicular_under_uneven_and_mirroring_scales() {
         let scale = Transform::scaling([1.0, -4.0, 1.0]);
-        let (along, normal) = (scale.apply([1.0, 1.0, 0.0]), scale.normal(unit([1.0, -1.0, 0.0])));
-        assert!(along.iter().zip(normal).map(|(a, b)| a * b).sum::<f64>().abs() < 1e-15);
+        let (along, normal) = (
+            scale.apply([1.0, 1.0, 0.0]),
+            scale.normal(unit([1.0, -1.0, 0.0])),
+        );
+        assert!(
+            along
+                .iter()
+                .zip(normal)
+                .map(|(a, b)| a * b)
+                .sum::<f64>()
+                .abs()
+                < 1e-15
+        );
         assert!(scale.mirrors() && normal[0] > 0.0);
     }
 }

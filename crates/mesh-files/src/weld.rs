@@ -21,7 +21,10 @@ const FREE: u32 = u32::MAX;
 
 impl<const N: usize> Default for Table<N> {
     fn default() -> Self {
-        Self { slots: vec![FREE; 64], seen: Vec::new() }
+        Self {
+            slots: vec![FREE; 64],
+            seen: Vec::new(),
+        }
     }
 }
 
@@ -77,10 +80,18 @@ mod tests {
 
     #[test]
     fn equal_positions_become_one_vertex_zero_of_either_sign_too() {
-        let mut vertices = vec![[0.0, 1.0, 2.0], [5.0, 0.0, 0.0], [-0.0, 1.0, 2.0], [5.0, 0.0, 1e-300]];
+        let mut vertices = vec![
+            [0.0, 1.0, 2.0],
+            [5.0, 0.0, 0.0],
+            [-0.0, 1.0, 2.0],
+            [5.0, 0.0, 1e-300],
+        ];
         let mut triangles = [[0, 1, 2], [3, 2, 1]];
         weld(&mut vertices, &mut triangles);
-        assert_eq!(vertices, [[0.0, 1.0, 2.0], [5.0, 0.0, 0.0], [5.0, 0.0, 1e-300]]);
+        assert_eq!(
+            vertices,
+            [[0.0, 1.0, 2.0], [5.0, 0.0, 0.0], [5.0, 0.0, 1e-300]]
+        );
         assert_eq!(triangles, [[0, 1, 0], [2, 0, 1]]);
     }
 }

@@ -3,7 +3,8 @@
 use mesh_files::{Limits, MeshFile, MeshFormat, ReadError, UpAxis, read};
 
 fn parsed(bytes: &[u8], format: MeshFormat) -> Result<MeshFile, ReadError> {
-    read(bytes, format, Limits::default(), &mut |name| match name {
+    read(bytes, format, Limits::default(), &mut |name| {
+        match name {
         "paint.mtl" => {
             Ok(b"newmtl red\nKd 1 0 0\nKs 0.5\nd 0.25\nmap_Kd -s 1 1 1 -o 0 0 a picture.png\nnewmtl plain\n".to_vec())
         }
@@ -12,11 +13,14 @@ fn parsed(bytes: &[u8], format: MeshFormat) -> Result<MeshFile, ReadError> {
             Ok([0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().flat_map(|x| x.to_le_bytes()).collect())
         }
         _ => Err("no such file".into()),
+    }
     })
 }
 
 fn error(bytes: &[u8], format: MeshFormat) -> String {
-    parsed(bytes, format).expect_err("the file is refused").to_string()
+    parsed(bytes, format)
+        .expect_err("the file is refused")
+        .to_string()
 }
 
 #[test]
@@ -25,8 +29,13 @@ fn obj_has_a_part_for_each_group_and_material() {
         o lid\nusemtl red\nf 1/1/1 2/2/1 \\\n3/3/1\nusemtl plain\nf -4 -2 -1\no lid\nusemtl red\nf 1 2 4\n";
     let file = parsed(text, MeshFormat::Obj).unwrap();
     assert_eq!(file.parts.len(), 2);
-    let [red, plain] = &file.parts[..] else { panic!() };
-    assert_eq!((red.name.as_str(), red.triangles.len(), red.vertices.len()), ("lid", 2, 4));
+    let [red, plain] = &file.parts[..] else {
+        panic!()
+    };
+    assert_eq!(
+        (red.name.as_str(), red.triangles.len(), red.vertices.len()),
+        ("lid", 2, 4)
+    );
     assert_eq!(red.normals, [[[0.0, 0.0, 1.0]; 3], [[0.0; 3]; 3]]);
     assert_eq!(red.uv[0], [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
     let material = &red.material;
@@ -34,20 +43,40 @@ fn obj_has_a_part_for_each_group_and_material() {
         (material.diffuse, material.specular, material.transparency),
         (Some([1.0, 0.0, 0.0]), Some([0.5; 3]), 0.75)
     );
-    assert_eq!(file.textures[material.texture.unwrap()].name, "a picture.png");
-    assert_eq!((plain.vertices.len(), plain.normals.len(), plain.material.name.as_str()), (3, 0, "plain"));
+    assert_eq!(
+        file.textures[material.texture.unwrap()].name,
+        "a picture.png"
+    );
+    assert_eq!(
+        (
+            plain.vertices.len(),
+            plain.normals.len(),
+            plain.material.name.as_str()
+        ),
+        (3, 0, "plain")
+    );
 }
 
 #[test]
 fn obj_without_its_materials_is_read_with_a_warning() {
-    let file = parsed(b"mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", MeshFormat::Obj).unwrap();
+    let file = parsed(
+        b"mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n",
+        MeshFormat::Obj,
+    )
+    .unwrap();
     assert_eq!(file.warnings, ["materials gone.mtl: no such file"]);
 }
 
 #[test]
 fn obj_errors_name_the_line() {
-    assert_eq!(error(b"v 0 0 0\nv 1 0\n", MeshFormat::Obj), "line 2: vertex: a number is missing");
-    assert_eq!(error(b"v 0 0 0\nv 1 0 nan\n", MeshFormat::Obj), "line 2: vertex: not a finite number: \"nan\"");
+    assert_eq!(
+        error(b"v 0 0 0\nv 1 0\n", MeshFormat::Obj),
+        "line 2: vertex: a number is missing"
+    );
+    assert_eq!(
+        error(b"v 0 0 0\nv 1 0 nan\n", MeshFormat::Obj),
+        "line 2: vertex: not a finite number: \"nan\""
+    );
     assert_eq!(
         error(b"v 0 0 0\nf 1 1 2\n", MeshFormat::Obj),
         "line 2: face: \"2\" names nothing that was defined before"
@@ -64,20 +93,46 @@ fn binary_stl(header: &[u8], count: u32) -> Vec<u8> {
     let mut bytes = header.to_vec();
     bytes.resize(80, 0);
     bytes.extend(count.to_le_bytes());
-    bytes.extend([0.0_f32, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().flat_map(|x| x.to_le_bytes()));
+    bytes.extend(
+        [
+            0.0_f32, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0,
+        ]
+        .iter()
+        .flat_map(|x| x.to_le_bytes()),
+    );
     bytes.extend([0, 0]);
     bytes
 }
 
 #[test]
 fn stl_is_binary_or_text_whatever_it_begins_with() {
-    for header in [&b"made by hand"[..], b"solid of a program that lies", b"solid facet facet"] {
-        assert_eq!(parsed(&binary_stl(header, 1), MeshFormat::Stl).unwrap().parts[0].triangles, [[0, 1, 2]]);
+    for header in [
+        &b"made by hand"[..],
+        b"solid of a program that lies",
+        b"solid facet facet",
+    ] {
+        assert_eq!(
+            parsed(&binary_stl(header, 1), MeshFormat::Stl)
+                .unwrap()
+                .parts[0]
+                .triangles,
+            [[0, 1, 2]]
+        );
     }
     let text = b"solid two words\nfacet normal nan nan nan\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid two words\n";
     let file = parsed(text, MeshFormat::Stl).unwrap();
-    assert_eq!((file.parts[0].name.as_str(), file.parts[0].triangles.len()), ("two words", 1));
-    assert_eq!(parsed(&text.to_ascii_uppercase(), MeshFormat::Stl).unwrap().parts[0].triangles.len(), 1);
+    assert_eq!(
+        (file.parts[0].name.as_str(), file.parts[0].triangles.len()),
+        ("two words", 1)
+    );
+    assert_eq!(
+        parsed(&text.to_ascii_uppercase(), MeshFormat::Stl)
+            .unwrap()
+            .parts[0]
+            .triangles
+            .len(),
+        1
+    );
 }
 
 #[test]
@@ -93,7 +148,10 @@ fn stl_errors_name_line_or_byte() {
         "byte 84: triangles: 4294967295 of 50 bytes each are announced, the file has 50 bytes more"
     );
     assert_eq!(
-        error(b"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x\n", MeshFormat::Stl),
+        error(
+            b"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x\n",
+            MeshFormat::Stl
+        ),
         "line 4: vertex: not a finite number: \"x\""
     );
     assert_eq!(
@@ -107,13 +165,17 @@ const PLY: &str = "element vertex 4\nproperty float x\nproperty float y\npropert
 
 #[test]
 fn ply_is_the_same_in_all_three_encodings() {
-    let text =
-        format!("ply\nformat ascii 1.0\ncomment a b c\n{PLY}0 0 0 9\n1 0 0 9\n1 1 0 9\n0 1 0 9\n2 5 -6\n4 0 1 2 3 7\n");
+    let text = format!(
+        "ply\nformat ascii 1.0\ncomment a b c\n{PLY}0 0 0 9\n1 0 0 9\n1 1 0 9\n0 1 0 9\n2 5 -6\n4 0 1 2 3 7\n"
+    );
     let expected = parsed(text.as_bytes(), MeshFormat::Ply).unwrap();
     assert_eq!(expected.parts[0].triangles, [[0, 1, 2], [0, 2, 3]]);
     for big in [false, true] {
-        let mut bytes =
-            format!("ply\nformat binary_{}_endian 1.0\n{PLY}", if big { "big" } else { "little" }).into_bytes();
+        let mut bytes = format!(
+            "ply\nformat binary_{}_endian 1.0\n{PLY}",
+            if big { "big" } else { "little" }
+        )
+        .into_bytes();
         let mut push = |mut value: Vec<u8>| {
             if big {
                 value.reverse();
@@ -121,13 +183,19 @@ fn ply_is_the_same_in_all_three_encodings() {
             bytes.extend(value);
         };
         for [x, y] in [[0.0_f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
-            [x, y, 0.0].into_iter().for_each(|x| push(x.to_le_bytes().into()));
+            [x, y, 0.0]
+                .into_iter()
+                .for_each(|x| push(x.to_le_bytes().into()));
             push(vec![9]);
         }
         push(vec![2]);
-        [5_i16, -6].into_iter().for_each(|x| push(x.to_le_bytes().into()));
+        [5_i16, -6]
+            .into_iter()
+            .for_each(|x| push(x.to_le_bytes().into()));
         push(vec![4]);
-        [0_i32, 1, 2, 3].into_iter().for_each(|x| push(x.to_le_bytes().into()));
+        [0_i32, 1, 2, 3]
+            .into_iter()
+            .for_each(|x| push(x.to_le_bytes().into()));
         push(vec![7]);
         assert_eq!(parsed(&bytes, MeshFormat::Ply).unwrap(), expected);
     }
@@ -139,21 +207,36 @@ fn ply_errors_name_the_line_and_counts_are_compared_with_the_length() {
     let huge = format!(
         "{head}element vertex 99999999999\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n"
     );
-    assert!(error(huge.as_bytes(), MeshFormat::Ply).contains("99999999999 are announced, the file is shorter"));
+    assert!(
+        error(huge.as_bytes(), MeshFormat::Ply)
+            .contains("99999999999 are announced, the file is shorter")
+    );
     let beyond = format!(
         "{head}element vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n3 0 0 1\n"
     );
-    assert_eq!(error(beyond.as_bytes(), MeshFormat::Ply), "line 11: face: vertex 1 of 1");
-    assert_eq!(error(b"ply\nformat odd 1.0\n", MeshFormat::Ply), "line 2: header: unknown format \"odd\"");
+    assert_eq!(
+        error(beyond.as_bytes(), MeshFormat::Ply),
+        "line 11: face: vertex 1 of 1"
+    );
+    assert_eq!(
+        error(b"ply\nformat odd 1.0\n", MeshFormat::Ply),
+        "line 2: header: unknown format \"odd\""
+    );
     let empty = format!("{head}element nothing 18446744073709551615\nend_header\n");
-    assert_eq!(error(empty.as_bytes(), MeshFormat::Ply), "file: no triangles");
+    assert_eq!(
+        error(empty.as_bytes(), MeshFormat::Ply),
+        "file: no triangles"
+    );
 }
 
 #[test]
 fn ply_strips_alternate() {
     let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
         element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n8 0 1 2 3 -1 2 1 3\n";
-    assert_eq!(parsed(text.as_bytes(), MeshFormat::Ply).unwrap().parts[0].triangles, [[0, 1, 2], [2, 1, 3], [2, 1, 3]]);
+    assert_eq!(
+        parsed(text.as_bytes(), MeshFormat::Ply).unwrap().parts[0].triangles,
+        [[0, 1, 2], [2, 1, 3], [2, 1, 3]]
+    );
 }
 
 /// A COLLADA file of a triangle in a scene.
@@ -183,15 +266,29 @@ fn collada(asset: &str, nodes: &str) -> String {
 #[test]
 fn collada_places_geometry_by_the_nodes_of_the_scene() {
     let nodes = "<node name=\"n\"><translate>1 0 0</translate><rotate>0 0 1 90</rotate><scale>2 1 -1</scale><instance_node url=\"#shared\"/></node>";
-    let file = parsed(collada("<unit meter=\"0.01\"/><up_axis>Z_UP</up_axis>", nodes).as_bytes(), MeshFormat::Collada)
-        .unwrap();
+    let file = parsed(
+        collada("<unit meter=\"0.01\"/><up_axis>Z_UP</up_axis>", nodes).as_bytes(),
+        MeshFormat::Collada,
+    )
+    .unwrap();
     assert_eq!((file.unit, file.up), (Some(0.01), Some(UpAxis::Z)));
     let part = &file.parts[0];
-    assert_eq!(part.vertices, [[1.0, 0.0, -5.0], [1.0, 2.0, -5.0], [-1.0, 0.0, -5.0]]);
-    assert_eq!(part.triangles, [[0, 2, 1]], "a scale that mirrors turns triangles over");
+    assert_eq!(
+        part.vertices,
+        [[1.0, 0.0, -5.0], [1.0, 2.0, -5.0], [-1.0, 0.0, -5.0]]
+    );
+    assert_eq!(
+        part.triangles,
+        [[0, 2, 1]],
+        "a scale that mirrors turns triangles over"
+    );
     let material = &part.material;
     assert_eq!(
-        (material.name.as_str(), material.emission, material.transparency.round()),
+        (
+            material.name.as_str(),
+            material.emission,
+            material.transparency.round()
+        ),
         ("glass", Some([0.0, 0.0, 1.0]), 1.0)
     );
     assert_eq!(file.textures[material.texture.unwrap()].name, "a.png");
@@ -200,7 +297,10 @@ fn collada_places_geometry_by_the_nodes_of_the_scene() {
 #[test]
 fn collada_nodes_that_contain_themselves_are_refused() {
     let nodes = "<node id=\"a\"><instance_node url=\"#b\"/></node><node id=\"b\"><instance_node url=\"#a\"/></node>";
-    assert!(error(collada("", nodes).as_bytes(), MeshFormat::Collada).contains("a node that contains itself"));
+    assert!(
+        error(collada("", nodes).as_bytes(), MeshFormat::Collada)
+            .contains("a node that contains itself")
+    );
     let mut doubling = String::from("<node id=\"n0\"><instance_geometry url=\"#g\"/></node>");
     for k in 1..90 {
         let url = format!("<instance_node url=\"#n{}\"/>", k - 1);
@@ -221,15 +321,24 @@ fn collada_with_entities_of_its_own_is_refused() {
 fn collada_errors_name_line_and_element() {
     let file = collada("", "<node><instance_geometry url=\"#g\"/></node>");
     assert_eq!(
-        error(file.replace("7 2</p>", "7 3</p>").as_bytes(), MeshFormat::Collada),
+        error(
+            file.replace("7 2</p>", "7 3</p>").as_bytes(),
+            MeshFormat::Collada
+        ),
         "line 13: p: an index beyond the 3 positions"
     );
     assert_eq!(
-        error(file.replace("9 1 0 0", "9 1 0 oh").as_bytes(), MeshFormat::Collada),
+        error(
+            file.replace("9 1 0 0", "9 1 0 oh").as_bytes(),
+            MeshFormat::Collada
+        ),
         "line 10: float_array: not a finite number: \"oh\""
     );
     assert_eq!(
-        error(file.replace("url=\"#g\"", "url=\"#h\"").as_bytes(), MeshFormat::Collada),
+        error(
+            file.replace("url=\"#g\"", "url=\"#h\"").as_bytes(),
+            MeshFormat::Collada
+        ),
         "line 17: instance_geometry: url \"#h\" names nothing in this file"
     );
 }
@@ -248,14 +357,25 @@ fn gltf(nodes: &str, accessor: &str) -> String {
 
 #[test]
 fn gltf_places_meshes_by_its_nodes() {
-    let nodes =
-        r#"{"translation":[0,0,1],"children":[1]},{"name":"n","mesh":0,"matrix":[2,0,0,0, 0,2,0,0, 0,0,2,0, 5,0,0,1]}"#;
+    let nodes = r#"{"translation":[0,0,1],"children":[1]},{"name":"n","mesh":0,"matrix":[2,0,0,0, 0,2,0,0, 0,0,2,0, 5,0,0,1]}"#;
     let file = parsed(gltf(nodes, r#""count":3"#).as_bytes(), MeshFormat::Gltf).unwrap();
-    assert_eq!((file.unit, file.up, file.parts[0].name.as_str()), (Some(1.0), Some(UpAxis::Y), "n"));
-    assert_eq!(file.parts[0].vertices, [[5.0, 0.0, 1.0], [7.0, 0.0, 1.0], [5.0, 2.0, 1.0]]);
+    assert_eq!(
+        (file.unit, file.up, file.parts[0].name.as_str()),
+        (Some(1.0), Some(UpAxis::Y), "n")
+    );
+    assert_eq!(
+        file.parts[0].vertices,
+        [[5.0, 0.0, 1.0], [7.0, 0.0, 1.0], [5.0, 2.0, 1.0]]
+    );
     let material = &file.parts[0].material;
-    assert_eq!((material.diffuse, material.transparency), (Some([1.0, 0.5, 0.0]), 0.75));
-    assert_eq!((&file.textures[0].name[..], &file.textures[0].bytes[..]), ("image0.png", &b"\x89PNG"[..]));
+    assert_eq!(
+        (material.diffuse, material.transparency),
+        (Some([1.0, 0.5, 0.0]), 0.75)
+    );
+    assert_eq!(
+        (&file.textures[0].name[..], &file.textures[0].bytes[..]),
+        ("image0.png", &b"\x89PNG"[..])
+    );
 }
 
 #[test]
@@ -266,38 +386,74 @@ fn gltf_errors_name_the_element() {
         "accessor 0: 4 rows do not fit into bufferView 0"
     );
     assert!(
-        error(gltf(node, r#""count":18446744073709551615"#).as_bytes(), MeshFormat::Gltf)
-            .contains("more than the limit")
+        error(
+            gltf(node, r#""count":18446744073709551615"#).as_bytes(),
+            MeshFormat::Gltf
+        )
+        .contains("more than the limit")
     );
     let cycle = r#"{"mesh":0,"children":[1]},{"children":[0]}"#;
     assert_eq!(
         error(gltf(cycle, r#""count":3"#).as_bytes(), MeshFormat::Gltf),
         "node 0: in the scene twice, or inside itself"
     );
-    let draco = gltf(node, r#""count":3"#).replacen('{', r#"{"extensionsRequired":["KHR_draco_mesh_compression"],"#, 1);
+    let draco = gltf(node, r#""count":3"#).replacen(
+        '{',
+        r#"{"extensionsRequired":["KHR_draco_mesh_compression"],"#,
+        1,
+    );
     assert_eq!(
         error(draco.as_bytes(), MeshFormat::Gltf),
         "extensionsRequired: KHR_draco_mesh_compression is not supported"
     );
     assert!(error("[".repeat(10_000).as_bytes(), MeshFormat::Gltf).contains("recursion"));
     let gone = gltf(node, r#""count":3"#).replace("points.bin", "gone.bin");
-    assert_eq!(error(gone.as_bytes(), MeshFormat::Gltf), "buffer 0: no such file");
+    assert_eq!(
+        error(gone.as_bytes(), MeshFormat::Gltf),
+        "buffer 0: no such file"
+    );
 }
 
 /// A chunk of 3DS.
 fn chunk(kind: u16, content: &[u8]) -> Vec<u8> {
-    [&kind.to_le_bytes()[..], &(content.len() as u32 + 6).to_le_bytes(), content].concat()
+    [
+        &kind.to_le_bytes()[..],
+        &(content.len() as u32 + 6).to_le_bytes(),
+        content,
+    ]
+    .concat()
 }
 
 /// A 3DS file of a square, of whose triangles one is red.
 pub fn three_ds() -> Vec<u8> {
-    let corners = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-    let vertices =
-        [&4_u16.to_le_bytes()[..], &corners.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>()]
-            .concat();
+    let corners = [
+        [0.0_f32, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+    ];
+    let vertices = [
+        &4_u16.to_le_bytes()[..],
+        &corners
+            .as_flattened()
+            .iter()
+            .flat_map(|x| x.to_le_bytes())
+            .collect::<Vec<_>>(),
+    ]
+    .concat();
     let painted = chunk(0x4130, b"red\0\x01\0\x01\0");
-    let faces: Vec<u8> = [2_u16, 0, 1, 2, 0, 0, 2, 3, 0].iter().flat_map(|x| x.to_le_bytes()).collect();
-    let mesh = chunk(0x4100, &[chunk(0x4110, &vertices), chunk(0x4120, &[faces, painted].concat())].concat());
+    let faces: Vec<u8> = [2_u16, 0, 1, 2, 0, 0, 2, 3, 0]
+        .iter()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    let mesh = chunk(
+        0x4100,
+        &[
+            chunk(0x4110, &vertices),
+            chunk(0x4120, &[faces, painted].concat()),
+        ]
+        .concat(),
+    );
     let texture = chunk(0xa200, &chunk(0xa300, b"a picture.png\0"));
     let material = [
         chunk(0xa000, b"red\0"),
@@ -305,23 +461,40 @@ pub fn three_ds() -> Vec<u8> {
         chunk(0xa050, &chunk(0x0030, &[50, 0])),
         texture,
     ];
-    let editor = [chunk(0xafff, &material.concat()), chunk(0x4000, &[&b"square\0"[..], &mesh].concat())].concat();
+    let editor = [
+        chunk(0xafff, &material.concat()),
+        chunk(0x4000, &[&b"square\0"[..], &mesh].concat()),
+    ]
+    .concat();
     chunk(0x4d4d, &chunk(0x3d3d, &editor))
 }
 
 #[test]
 fn three_ds_has_a_part_for_each_material() {
     let file = parsed(&three_ds(), MeshFormat::ThreeDs).unwrap();
-    let [red, rest] = &file.parts[..] else { panic!() };
-    assert_eq!((red.vertices.len(), rest.vertices.len(), red.name.as_str()), (3, 3, "square"));
-    assert_eq!((red.material.diffuse, red.material.transparency), (Some([1.0, 0.0, 0.0]), 0.5));
-    assert_eq!(file.textures[red.material.texture.unwrap()].name, "a picture.png");
+    let [red, rest] = &file.parts[..] else {
+        panic!()
+    };
+    assert_eq!(
+        (red.vertices.len(), rest.vertices.len(), red.name.as_str()),
+        (3, 3, "square")
+    );
+    assert_eq!(
+        (red.material.diffuse, red.material.transparency),
+        (Some([1.0, 0.0, 0.0]), 0.5)
+    );
+    assert_eq!(
+        file.textures[red.material.texture.unwrap()].name,
+        "a picture.png"
+    );
 }
 
 #[test]
 fn dxf_has_a_part_for_each_layer() {
     let face = |layer: &str, last: &str| {
-        format!("0\n3DFACE\n8\n{layer}\n10\n0\n20\n0\n30\n0\n11\n1\n21\n0\n31\n0\n12\n1\n22\n1\n32\n0\n{last}")
+        format!(
+            "0\n3DFACE\n8\n{layer}\n10\n0\n20\n0\n30\n0\n11\n1\n21\n0\n31\n0\n12\n1\n22\n1\n32\n0\n{last}"
+        )
     };
     let mesh = "0\nPOLYLINE\n8\nb\n70\n16\n71\n2\n72\n2\n0\nVERTEX\n10\n0\n20\n0\n0\nVERTEX\n10\n0\n20\n1\n0\nVERTEX\n10\n1\n20\n0\n0\nVERTEX\n10\n1\n20\n1\n0\nSEQEND\n";
     let text = format!(
@@ -330,7 +503,11 @@ fn dxf_has_a_part_for_each_layer() {
         face("b", "13\n1\n23\n1\n33\n0\n")
     );
     let file = parsed(text.as_bytes(), MeshFormat::Dxf).unwrap();
-    let counts: Vec<_> = file.parts.iter().map(|part| (part.name.as_str(), part.triangles.len())).collect();
+    let counts: Vec<_> = file
+        .parts
+        .iter()
+        .map(|part| (part.name.as_str(), part.triangles.len()))
+        .collect();
     assert_eq!(counts, [("a", 2), ("b", 3)]);
     let curves = "0\nSECTION\n2\nENTITIES\n0\n3DSOLID\n0\nARC\n0\nENDSEC\n0\nEOF\n";
     assert_eq!(
@@ -341,9 +518,15 @@ fn dxf_has_a_part_for_each_layer() {
 
 #[test]
 fn instances_are_limited() {
-    let limits = Limits { parts: 3, ..Limits::default() };
+    let limits = Limits {
+        parts: 3,
+        ..Limits::default()
+    };
     let node = "<node><instance_geometry url=\"#g\"/></node>".repeat(4);
     let file = collada("", &node);
-    let refused = read(file.as_bytes(), MeshFormat::Collada, limits, &mut |_| Err(String::new())).unwrap_err();
+    let refused = read(file.as_bytes(), MeshFormat::Collada, limits, &mut |_| {
+        Err(String::new())
+    })
+    .unwrap_err();
     assert_eq!(refused.to_string(), "parts: more than the limit");
 }

@@ -28,7 +28,11 @@ pub struct Target {
 impl Default for Target {
     /// Nothing is collapsed.
     fn default() -> Self {
-        Self { triangles: usize::MAX, vertices: usize::MAX, largest_error: f64::INFINITY }
+        Self {
+            triangles: usize::MAX,
+            vertices: usize::MAX,
+            largest_error: f64::INFINITY,
+        }
     }
 }
 
@@ -43,7 +47,11 @@ struct Candidate {
 impl Ord for Candidate {
     /// The cheapest is the greatest; among equals the one with the smallest numbers.
     fn cmp(&self, other: &Self) -> Ordering {
-        other.cost.total_cmp(&self.cost).then(other.edge.cmp(&self.edge)).then(other.versions.cmp(&self.versions))
+        other
+            .cost
+            .total_cmp(&self.cost)
+            .then(other.edge.cmp(&self.edge))
+            .then(other.versions.cmp(&self.versions))
     }
 }
 
@@ -67,8 +75,11 @@ impl Eq for Candidate {}
 /// Returns the vertices that are used, and the triangles.
 pub fn decimate(vertices: &[[f64; 3]], triangles: &[[u32; 3]], target: Target) -> Triangles {
     let mut surface = Surface::new(vertices, triangles);
-    let mut heap: BinaryHeap<Candidate> =
-        surface.edges().into_iter().filter_map(|edge| candidate(&surface, edge, target)).collect();
+    let mut heap: BinaryHeap<Candidate> = surface
+        .edges()
+        .into_iter()
+        .filter_map(|edge| candidate(&surface, edge, target))
+        .collect();
     while surface.triangle_count() > target.triangles || surface.vertex_count() > target.vertices {
         let Some(next) = heap.pop() else { break };
         if next.edge.map(|vertex| surface.version(vertex)) != next.versions.map(Some)
@@ -80,7 +91,9 @@ pub fn decimate(vertices: &[[f64; 3]], triangles: &[[u32; 3]], target: Target) -
         let [kept, _] = next.edge;
         let around = surface.distinct_neighbours(kept);
         heap.extend(
-            around.into_iter().filter_map(|other| candidate(&surface, [kept.min(other), kept.max(other)], target)),
+            around.into_iter().filter_map(|other| {
+                candidate(&surface, [kept.min(other), kept.max(other)], target)
+            }),
         );
     }
     surface.into_triangles()
@@ -89,7 +102,12 @@ pub fn decimate(vertices: &[[f64; 3]], triangles: &[[u32; 3]], target: Target) -
 fn candidate(surface: &Surface, edge: [u32; 2], target: Target) -> Option<Candidate> {
     let (place, cost) = surface.best_place(edge);
     let versions = [surface.version(edge[0])?, surface.version(edge[1])?];
-    (cost.sqrt() <= target.largest_error).then_some(Candidate { cost, edge, versions, place })
+    (cost.sqrt() <= target.largest_error).then_some(Candidate {
+        cost,
+        edge,
+        versions,
+        place,
+    })
 }
 
 #[cfg(test)]
@@ -104,11 +122,18 @@ mod tests {
             let (x, y) = (f64::from(i) / f64::from(n), f64::from(j) / f64::from(n));
             [x, y, height * (7.0 * x).sin() * (5.0 * y).cos()]
         };
-        let vertices = (0..=n).flat_map(|j| (0..=n).map(move |i| at(i, j))).collect();
+        let vertices = (0..=n)
+            .flat_map(|j| (0..=n).map(move |i| at(i, j)))
+            .collect();
         let corner = |i: u32, j: u32| j * (n + 1) + i;
         let squares = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
         let triangles = squares.flat_map(|(i, j)| {
-            let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+            let [a, b, c, d] = [
+                corner(i, j),
+                corner(i + 1, j),
+                corner(i + 1, j + 1),
+                corner(i, j + 1),
+            ];
             [[a, b, c], [a, c, d]]
         });
         (vertices, triangles.collect())
@@ -116,14 +141,30 @@ mod tests {
 
     /// A sphere of radius 1 from an octahedron whose faces are divided.
     fn sphere(times: u32) -> Triangles {
-        let mut vertices = vec![[1., 0., 0.], [-1., 0., 0.], [0., 1., 0.], [0., -1., 0.], [0., 0., 1.], [0., 0., -1.]];
-        let mut triangles =
-            vec![[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
+        let mut vertices = vec![
+            [1., 0., 0.],
+            [-1., 0., 0.],
+            [0., 1., 0.],
+            [0., -1., 0.],
+            [0., 0., 1.],
+            [0., 0., -1.],
+        ];
+        let mut triangles = vec![
+            [0, 2, 4],
+            [2, 1, 4],
+            [1, 3, 4],
+            [3, 0, 4],
+            [2, 0, 5],
+            [1, 2, 5],
+            [3, 1, 5],
+            [0, 3, 5],
+        ];
         for _ in 0..times {
             let mut middles = std::collections::HashMap::new();
             let mut middle = |a: u32, b: u32| {
                 *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
-                    let sum = Vector3::from(vertices[a as usize]) + Vector3::from(vertices[b as usize]);
+                    let sum =
+                        Vector3::from(vertices[a as usize]) + Vector3::from(vertices[b as usize]);
                     vertices.push(sum.normalize().into());
                     vertices.len() as u32 - 1
                 })
@@ -138,22 +179,36 @@ mod tests {
     }
 
     fn is_closed(triangles: &[[u32; 3]]) -> bool {
-        let edges: BTreeSet<(u32, u32)> =
-            triangles.iter().flat_map(|t| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])]).collect();
+        let edges: BTreeSet<(u32, u32)> = triangles
+            .iter()
+            .flat_map(|t| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])])
+            .collect();
         edges.len() == 3 * triangles.len() && edges.iter().all(|(a, b)| edges.contains(&(*b, *a)))
     }
 
     fn volume((vertices, triangles): &Triangles) -> f64 {
         let corner = |i: u32| Vector3::from(vertices[i as usize]);
-        triangles.iter().map(|t| corner(t[0]).dot(&corner(t[1]).cross(&corner(t[2]))) / 6.0).sum()
+        triangles
+            .iter()
+            .map(|t| corner(t[0]).dot(&corner(t[1]).cross(&corner(t[2]))) / 6.0)
+            .sum()
     }
 
     #[test]
     fn a_plane_needs_two_triangles() {
         let (vertices, triangles) = sheet(20, 0.0);
-        let (vertices, triangles) = decimate(&vertices, &triangles, Target { triangles: 2, ..Target::default() });
+        let (vertices, triangles) = decimate(
+            &vertices,
+            &triangles,
+            Target {
+                triangles: 2,
+                ..Target::default()
+            },
+        );
         assert_eq!((vertices.len(), triangles.len()), (4, 2));
-        let corners = vertices.iter().all(|v| v[0].min(1.0 - v[0]).abs() < 1e-9 && v[1].min(1.0 - v[1]).abs() < 1e-9);
+        let corners = vertices
+            .iter()
+            .all(|v| v[0].min(1.0 - v[0]).abs() < 1e-9 && v[1].min(1.0 - v[1]).abs() < 1e-9);
         assert!(corners, "the border stays: {vertices:?}");
     }
 
@@ -161,21 +216,43 @@ mod tests {
     fn a_sphere_stays_closed_and_keeps_its_volume() {
         let (vertices, triangles) = sphere(5);
         assert_eq!(triangles.len(), 8192);
-        let small = decimate(&vertices, &triangles, Target { triangles: 500, ..Target::default() });
+        let small = decimate(
+            &vertices,
+            &triangles,
+            Target {
+                triangles: 500,
+                ..Target::default()
+            },
+        );
         assert!(small.1.len() <= 500 && small.1.len() > 490 && is_closed(&small.1));
         let ratio = volume(&small) / volume(&(vertices.clone(), triangles.clone()));
         assert!((ratio - 1.0).abs() < 0.01, "{ratio}");
-        let off = small.0.iter().map(|v| (Vector3::from(*v).norm() - 1.0).abs()).fold(0.0, f64::max);
+        let off = small
+            .0
+            .iter()
+            .map(|v| (Vector3::from(*v).norm() - 1.0).abs())
+            .fold(0.0, f64::max);
         assert!(off < 0.02, "{off}");
         // A tetrahedron is the least that is closed.
-        let least = decimate(&vertices, &triangles, Target { vertices: 1, ..Target::default() });
+        let least = decimate(
+            &vertices,
+            &triangles,
+            Target {
+                vertices: 1,
+                ..Target::default()
+            },
+        );
         assert!(least.1.len() >= 4 && is_closed(&least.1));
     }
 
     #[test]
     fn the_error_is_limited() {
         let (vertices, triangles) = sheet(40, 0.05);
-        let target = Target { triangles: 1, largest_error: 1e-3, ..Target::default() };
+        let target = Target {
+            triangles: 1,
+            largest_error: 1e-3,
+            ..Target::default()
+        };
         let (few, small) = decimate(&vertices, &triangles, target);
         assert!(small.len() < triangles.len() / 3, "{}", small.len());
         let wave = |v: &[f64; 3]| (v[2] - 0.05 * (7.0 * v[0]).sin() * (5.0 * v[1]).cos()).abs();
@@ -187,10 +264,40 @@ mod tests {
     #[test]
     fn odd_meshes_are_decimated_as_far_as_they_allow() {
         // Three triangles at one edge, a degenerate one, one twice, and vertices nobody uses.
-        let vertices = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., -1., 0.], [0., 0., 1.], [9., 9., 9.]];
+        let vertices = [
+            [0., 0., 0.],
+            [1., 0., 0.],
+            [0., 1., 0.],
+            [0., -1., 0.],
+            [0., 0., 1.],
+            [9., 9., 9.],
+        ];
         let triangles = [[0, 1, 2], [1, 0, 3], [0, 1, 4], [0, 0, 1], [0, 1, 2]];
-        let (vertices, triangles) = decimate(&vertices, &triangles, Target { triangles: 1, ..Target::default() });
-        assert!(triangles.iter().flatten().all(|i| (*i as usize) < vertices.len()) && !triangles.is_empty());
-        assert_eq!(decimate(&[], &[], Target { triangles: 0, ..Target::default() }), (vec![], vec![]));
+        let (vertices, triangles) = decimate(
+            &vertices,
+            &triangles,
+            Target {
+                triangles: 1,
+                ..Target::default()
+            },
+        );
+        assert!(
+            triangles
+                .iter()
+                .flatten()
+                .all(|i| (*i as usize) < vertices.len())
+                && !triangles.is_empty()
+        );
+        assert_eq!(
+            decimate(
+                &[],
+                &[],
+                Target {
+                    triangles: 0,
+                    ..Target::default()
+                }
+            ),
+            (vec![], vec![])
+        );
     }
 }

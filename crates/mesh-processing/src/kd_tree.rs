@@ -30,7 +30,9 @@ impl Eq for Neighbour {}
 impl Ord for Neighbour {
     /// By distance; among equals, by number.
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.distance_squared.total_cmp(&other.distance_squared).then(self.number.cmp(&other.number))
+        self.distance_squared
+            .total_cmp(&other.distance_squared)
+            .then(self.number.cmp(&other.number))
     }
 }
 
@@ -46,7 +48,14 @@ impl KdTree {
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
         let mut axes = vec![0; points.len()];
         divide(points, &mut order, &mut axes);
-        Self { points: order.iter().map(|number| points[*number as usize]).collect(), numbers: order, axes }
+        Self {
+            points: order
+                .iter()
+                .map(|number| points[*number as usize])
+                .collect(),
+            numbers: order,
+            axes,
+        }
     }
 
     /// How many points there are.
@@ -83,7 +92,8 @@ impl KdTree {
             if heap.len() < count {
                 f64::INFINITY
             } else {
-                heap.peek().map_or(f64::INFINITY, |far: &Neighbour| far.distance_squared)
+                heap.peek()
+                    .map_or(f64::INFINITY, |far: &Neighbour| far.distance_squared)
             }
         });
         heap.into_sorted_vec()
@@ -104,14 +114,26 @@ impl KdTree {
     }
 
     /// Shows the points of a part, the nearer side first; `found` answers how far away further ones may be, squared.
-    fn visit(&self, part: std::ops::Range<usize>, to: [f64; 3], found: &mut impl FnMut(Neighbour) -> f64) -> f64 {
+    fn visit(
+        &self,
+        part: std::ops::Range<usize>,
+        to: [f64; 3],
+        found: &mut impl FnMut(Neighbour) -> f64,
+    ) -> f64 {
         let show = |index: usize, found: &mut dyn FnMut(Neighbour) -> f64| {
             let point = self.points[index];
-            let distance_squared = (0..3).map(|k| (point[k] - to[k]) * (point[k] - to[k])).sum();
-            found(Neighbour { distance_squared, number: self.numbers[index] })
+            let distance_squared = (0..3)
+                .map(|k| (point[k] - to[k]) * (point[k] - to[k]))
+                .sum();
+            found(Neighbour {
+                distance_squared,
+                number: self.numbers[index],
+            })
         };
         if part.len() <= MAX_LEAF_SIZE {
-            return part.map(|index| show(index, found)).fold(f64::INFINITY, |_, limit| limit);
+            return part
+                .map(|index| show(index, found))
+                .fold(f64::INFINITY, |_, limit| limit);
         }
         let middle = part.start + part.len() / 2;
         let axis = self.axes[middle] as usize;
@@ -123,7 +145,11 @@ impl KdTree {
         };
         self.visit(near, to, found);
         let limit = show(middle, found);
-        if offset * offset <= limit { self.visit(far, to, found) } else { limit }
+        if offset * offset <= limit {
+            self.visit(far, to, found)
+        } else {
+            limit
+        }
     }
 }
 
@@ -137,7 +163,13 @@ fn divide(points: &[[f64; 3]], order: &mut [u32], axes: &mut [u8]) {
         bounds.clone().fold(f64::MIN, f64::max) - bounds.fold(f64::MAX, f64::min)
     };
     let widths = [0, 1, 2].map(extent);
-    let axis = (0..3).fold(0, |best, axis| if widths[axis] > widths[best] { axis } else { best });
+    let axis = (0..3).fold(0, |best, axis| {
+        if widths[axis] > widths[best] {
+            axis
+        } else {
+            best
+        }
+    });
     let middle = order.len() / 2;
     let along = |number: &u32| points[*number as usize][axis];
     order.select_nth_unstable_by(middle, |a, b| along(a).total_cmp(&along(b)).then(a.cmp(b)));
@@ -159,14 +191,28 @@ mod tests {
         let mut random = Random::new(1);
         let mut next = || random.unit();
         // Some are equal, and some lie in a plane.
-        let points: Vec<[f64; 3]> =
-            (0..500).map(|k| [next(), (next() * 8.0).floor() / 8.0, if k % 3 == 0 { 0.5 } else { next() }]).collect();
+        let points: Vec<[f64; 3]> = (0..500)
+            .map(|k| {
+                [
+                    next(),
+                    (next() * 8.0).floor() / 8.0,
+                    if k % 3 == 0 { 0.5 } else { next() },
+                ]
+            })
+            .collect();
         let tree = KdTree::new(&points);
         for _ in 0..100 {
             let to = [next() * 1.5 - 0.25, next(), next()];
-            let distance = |p: &[f64; 3]| (0..3).map(|k| (p[k] - to[k]) * (p[k] - to[k])).sum::<f64>();
-            let mut all: Vec<Neighbour> =
-                points.iter().zip(0..).map(|(p, number)| Neighbour { distance_squared: distance(p), number }).collect();
+            let distance =
+                |p: &[f64; 3]| (0..3).map(|k| (p[k] - to[k]) * (p[k] - to[k])).sum::<f64>();
+            let mut all: Vec<Neighbour> = points
+                .iter()
+                .zip(0..)
+                .map(|(p, number)| Neighbour {
+                    distance_squared: distance(p),
+                    number,
+                })
+                .collect();
             all.sort();
             assert_eq!(tree.nearest(to), Some(all[0]));
             assert_eq!(tree.k_nearest(to, 17), all[..17]);

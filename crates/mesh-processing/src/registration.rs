@@ -36,18 +36,37 @@ pub fn register(
     if points.is_empty() || model.is_empty() {
         return None;
     }
-    let (many, few) = (thinned(points, MAX_POINTS), thinned(points, MAX_COARSE_POINTS));
+    let (many, few) = (
+        thinned(points, MAX_POINTS),
+        thinned(points, MAX_COARSE_POINTS),
+    );
     let coarse = |start| search(&few, start, MAX_COARSE_ROUNDS, nearest, outliers);
     let first = coarse(Isometry3::identity())?;
-    let others = starts(&many, &thinned(model, MAX_POINTS)).into_iter().filter_map(coarse);
-    let best = others.fold(first, |best, other| if other.error < best.error { other } else { best });
+    let others = starts(&many, &thinned(model, MAX_POINTS))
+        .into_iter()
+        .filter_map(coarse);
+    let best = others.fold(first, |best, other| {
+        if other.error < best.error {
+            other
+        } else {
+            best
+        }
+    });
     let first = search(&many, first.pose, MAX_ROUNDS, nearest, outliers)?;
     let best = search(&many, best.pose, MAX_ROUNDS, nearest, outliers)?;
-    Some(if best.error < MUCH_BETTER * first.error { best } else { first })
+    Some(if best.error < MUCH_BETTER * first.error {
+        best
+    } else {
+        first
+    })
 }
 
 fn thinned(points: &[[f64; 3]], most: usize) -> Vec<Point3<f64>> {
-    points.iter().step_by(points.len().div_ceil(most).max(1)).map(|point| Point3::from(*point)).collect()
+    points
+        .iter()
+        .step_by(points.len().div_ceil(most).max(1))
+        .map(|point| Point3::from(*point))
+        .collect()
 }
 
 /// Iterative closest points from a start, until nothing changes any more.
@@ -58,7 +77,10 @@ fn search(
     nearest: &dyn Fn([f64; 3]) -> Option<[f64; 3]>,
     outliers: Option<f64>,
 ) -> Option<Registration> {
-    let mut found = Registration { pose: start, error: f64::INFINITY };
+    let mut found = Registration {
+        pose: start,
+        error: f64::INFINITY,
+    };
     for _ in 0..rounds {
         let mut pairs = Vec::with_capacity(points.len());
         for point in points {
@@ -66,12 +88,16 @@ fn search(
             let on_model = Point3::from(nearest(moved.coords.into())?);
             pairs.push((*point, on_model, (on_model - moved).norm()));
         }
-        let inside = |pair: &&(Point3<f64>, Point3<f64>, f64)| outliers.is_none_or(|limit| pair.2 <= limit);
+        let inside =
+            |pair: &&(Point3<f64>, Point3<f64>, f64)| outliers.is_none_or(|limit| pair.2 <= limit);
         if pairs.iter().filter(inside).count() >= 3 {
             pairs = pairs.iter().filter(inside).copied().collect();
         }
         let pose = alignment(&pairs);
-        let squares: f64 = pairs.iter().map(|(point, on_model, _)| (pose * point - on_model).norm_squared()).sum();
+        let squares: f64 = pairs
+            .iter()
+            .map(|(point, on_model, _)| (pose * point - on_model).norm_squared())
+            .sum();
         let error = (squares / pairs.len() as f64).sqrt();
         let is_done = error >= found.error * (1.0 - 1e-6);
         found = Registration { pose, error };
@@ -85,9 +111,20 @@ fn search(
 /// The pose that moves the first points of pairs onto the second ones with the least squares (W. Kabsch 1976).
 fn alignment(pairs: &[(Point3<f64>, Point3<f64>, f64)]) -> Isometry3<f64> {
     let count = pairs.len() as f64;
-    let from = pairs.iter().map(|(point, ..)| point.coords).sum::<Vector3<f64>>() / count;
-    let to = pairs.iter().map(|(_, point, _)| point.coords).sum::<Vector3<f64>>() / count;
-    let covariance: Matrix3<f64> = pairs.iter().map(|(a, b, _)| (b.coords - to) * (a.coords - from).transpose()).sum();
+    let from = pairs
+        .iter()
+        .map(|(point, ..)| point.coords)
+        .sum::<Vector3<f64>>()
+        / count;
+    let to = pairs
+        .iter()
+        .map(|(_, point, _)| point.coords)
+        .sum::<Vector3<f64>>()
+        / count;
+    let covariance: Matrix3<f64> = pairs
+        .iter()
+        .map(|(a, b, _)| (b.coords - to) * (a.coords - from).transpose())
+        .sum();
     let svd = covariance.svd(true, true);
     let (Some(u), Some(v)) = (svd.u, svd.v_t) else {
         return Translation3::from(to - from).into();
@@ -95,16 +132,26 @@ fn alignment(pairs: &[(Point3<f64>, Point3<f64>, f64)]) -> Isometry3<f64> {
     // A mirror is no rotation: the least important direction is turned over.
     let sign = (u * v).determinant().signum();
     let rotation = u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign)) * v;
-    let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
+    let rotation =
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
     Isometry3::from_parts(Translation3::from(to - rotation * from), rotation)
 }
 
 /// Where centres and principal axes are the same: axes have no sign, and those of equal length no order.
 fn starts(points: &[Point3<f64>], model: &[Point3<f64>]) -> Vec<Isometry3<f64>> {
     let ((from, own), (to, theirs)) = (principal_axes(points), principal_axes(model));
-    let orders = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+    let orders = [
+        [0, 1, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [0, 2, 1],
+        [2, 1, 0],
+        [1, 0, 2],
+    ];
     let signs = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
-    let turns = orders.into_iter().flat_map(|order| signs.map(|sign| (order, sign)));
+    let turns = orders
+        .into_iter()
+        .flat_map(|order| signs.map(|sign| (order, sign)));
     let poses = turns.map(|(order, [first, second])| {
         let x = theirs.column(order[0]) * first;
         let y = theirs.column(order[1]) * second;
@@ -118,9 +165,15 @@ fn starts(points: &[Point3<f64>], model: &[Point3<f64>]) -> Vec<Isometry3<f64>> 
 
 /// The centre of points, and their principal axes, the longest first, right-handed.
 fn principal_axes(points: &[Point3<f64>]) -> (Vector3<f64>, Matrix3<f64>) {
-    let centre = points.iter().map(|point| point.coords).sum::<Vector3<f64>>() / points.len() as f64;
-    let covariance: Matrix3<f64> =
-        points.iter().map(|point| (point.coords - centre) * (point.coords - centre).transpose()).sum();
+    let centre = points
+        .iter()
+        .map(|point| point.coords)
+        .sum::<Vector3<f64>>()
+        / points.len() as f64;
+    let covariance: Matrix3<f64> = points
+        .iter()
+        .map(|point| (point.coords - centre) * (point.coords - centre).transpose())
+        .sum();
     let eigen = covariance.symmetric_eigen();
     let mut order = [0, 1, 2];
     order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
@@ -136,8 +189,9 @@ mod tests {
 
     /// Points on three sides of a box, which has no symmetry but its own middle.
     fn corner() -> Vec<[f64; 3]> {
-        let grid =
-            |n: u32, m: u32| (0..n).flat_map(move |i| (0..m).map(move |j| (f64::from(i) * 0.1, f64::from(j) * 0.1)));
+        let grid = |n: u32, m: u32| {
+            (0..n).flat_map(move |i| (0..m).map(move |j| (f64::from(i) * 0.1, f64::from(j) * 0.1)))
+        };
         let floor = grid(10, 6).map(|(x, y)| [x, y, 0.0]);
         let back = grid(10, 4).map(|(x, z)| [x, 0.0, z]);
         let side = grid(6, 4).map(|(y, z)| [0.0, y, z]);
@@ -145,10 +199,17 @@ mod tests {
     }
 
     fn moved(points: &[[f64; 3]], pose: &Isometry3<f64>) -> Vec<[f64; 3]> {
-        points.iter().map(|point| (pose * Point3::from(*point)).coords.into()).collect()
+        points
+            .iter()
+            .map(|point| (pose * Point3::from(*point)).coords.into())
+            .collect()
     }
 
-    fn register_points(points: &[[f64; 3]], model: &[[f64; 3]], outliers: Option<f64>) -> Registration {
+    fn register_points(
+        points: &[[f64; 3]],
+        model: &[[f64; 3]],
+        outliers: Option<f64>,
+    ) -> Registration {
         let tree = KdTree::new(model);
         let nearest = |to: [f64; 3]| tree.nearest(to).map(|found| model[found.number as usize]);
         register(points, model, &nearest, outliers).expect("there are points")
@@ -157,7 +218,12 @@ mod tests {
     #[test]
     fn finds_any_pose() {
         let model = corner();
-        let turns = [[0.05, 0.02, -0.03], [1.0, 2.0, 3.0], [0.0, std::f64::consts::PI, 0.0], [-2.0, 0.5, 1.0]];
+        let turns = [
+            [0.05, 0.02, -0.03],
+            [1.0, 2.0, 3.0],
+            [0.0, std::f64::consts::PI, 0.0],
+            [-2.0, 0.5, 1.0],
+        ];
         for (k, turn) in turns.into_iter().enumerate() {
             let pose = Isometry3::new(Vector3::new(0.02, -0.01, k as f64), Vector3::from(turn));
             let found = register_points(&moved(&model, &pose.inverse()), &model, None);
@@ -173,7 +239,10 @@ mod tests {
     #[test]
     fn outliers_do_not_count() {
         let model = corner();
-        let pose = Isometry3::new(Vector3::new(0.02, -0.01, 0.01), Vector3::new(0.02, 0.01, 0.03));
+        let pose = Isometry3::new(
+            Vector3::new(0.02, -0.01, 0.01),
+            Vector3::new(0.02, 0.01, 0.03),
+        );
         let mut points = moved(&model, &pose.inverse());
         points.extend([[5.0, 5.0, 5.0], [-3.0, 4.0, 4.0]]);
         assert!(register_points(&points, &model, Some(0.2)).error < 1e-9);

@@ -31,7 +31,12 @@ pub struct SurfaceOptions {
 
 impl Default for SurfaceOptions {
     fn default() -> Self {
-        Self { iterations: 4, neighbors: 12, samples: 300, squared_radius: None }
+        Self {
+            iterations: 4,
+            neighbors: 12,
+            samples: 300,
+            squared_radius: None,
+        }
     }
 }
 
@@ -39,7 +44,9 @@ impl Default for SurfaceOptions {
 /// part of it are left out. It looks up at its highest point. Empty where there is none. Points must be finite.
 pub fn surface(points: &[[f64; 3]], options: SurfaceOptions) -> Triangles {
     let tree = KdTree::new(points);
-    let radius = options.squared_radius.map_or_else(|| mean_radius(points, &tree, options), f64::sqrt);
+    let radius = options
+        .squared_radius
+        .map_or_else(|| mean_radius(points, &tree, options), f64::sqrt);
     if !(radius > 0.0 && radius.is_finite()) {
         return (Vec::new(), Vec::new());
     }
@@ -51,7 +58,10 @@ pub fn surface(points: &[[f64; 3]], options: SurfaceOptions) -> Triangles {
     let smooth: Vec<[f64; 3]> = kept.iter().map(|number| smooth[*number]).collect();
     let normals = oriented_normals(&smooth, options.neighbors);
     let triangles = Pivoting::new(&smooth, &normals, radius).triangles();
-    used(kept.iter().map(|number| points[*number]).collect(), triangles)
+    used(
+        kept.iter().map(|number| points[*number]).collect(),
+        triangles,
+    )
 }
 
 /// The mean distance of the farthest of the nearest neighbours, of some points.
@@ -59,9 +69,13 @@ fn mean_radius(points: &[[f64; 3]], tree: &KdTree, options: SurfaceOptions) -> f
     let stride = points.len().div_ceil(options.samples.max(1)).max(1);
     let farthest = points.iter().step_by(stride).filter_map(|point| {
         // The point itself is its own nearest neighbour.
-        tree.k_nearest(*point, options.neighbors + 1).last().map(|far| far.distance_squared.sqrt())
+        tree.k_nearest(*point, options.neighbors + 1)
+            .last()
+            .map(|far| far.distance_squared.sqrt())
     });
-    let (sum, count) = farthest.fold((0.0, 0), |(sum, count), distance| (sum + distance, count + 1));
+    let (sum, count) = farthest.fold((0.0, 0), |(sum, count), distance| {
+        (sum + distance, count + 1)
+    });
     sum / f64::from(count.max(1))
 }
 
@@ -69,7 +83,10 @@ fn moved_onto_planes(points: &[[f64; 3]], neighbors: usize) -> Vec<[f64; 3]> {
     let tree = KdTree::new(points);
     let moved = |point: &[f64; 3]| {
         let near = tree.k_nearest(*point, neighbors + 1);
-        let near: Vec<Vector3<f64>> = near.iter().map(|found| Vector3::from(points[found.number as usize])).collect();
+        let near: Vec<Vector3<f64>> = near
+            .iter()
+            .map(|found| Vector3::from(points[found.number as usize]))
+            .collect();
         let (centre, normal) = principal_plane(&near);
         let point = Vector3::from(*point);
         (point - normal * normal.dot(&(point - centre))).into()
@@ -81,19 +98,30 @@ fn moved_onto_planes(points: &[[f64; 3]], neighbors: usize) -> Vec<[f64; 3]> {
 fn thinned(points: &[[f64; 3]], cell: f64) -> Vec<usize> {
     let mut seen = HashSet::new();
     let cube = |point: &[f64; 3]| point.map(|x| (x / cell).floor() as i64);
-    (0..points.len()).filter(|number| seen.insert(cube(&points[*number]))).collect()
+    (0..points.len())
+        .filter(|number| seen.insert(cube(&points[*number])))
+        .collect()
 }
 
 /// Only the vertices that triangles use.
 fn used(points: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Triangles {
     let mut numbers = vec![None; points.len()];
-    triangles.as_flattened().iter().for_each(|vertex| numbers[*vertex as usize] = Some(0));
+    triangles
+        .as_flattened()
+        .iter()
+        .for_each(|vertex| numbers[*vertex as usize] = Some(0));
     let mut vertices = Vec::new();
-    for (number, point) in numbers.iter_mut().zip(&points).filter(|(number, _)| number.is_some()) {
+    for (number, point) in numbers
+        .iter_mut()
+        .zip(&points)
+        .filter(|(number, _)| number.is_some())
+    {
         *number = Some(vertices.len() as u32);
         vertices.push(*point);
     }
-    let renumbered = triangles.iter().map(|triangle| triangle.map(|vertex| numbers[vertex as usize].unwrap_or(0)));
+    let renumbered = triangles
+        .iter()
+        .map(|triangle| triangle.map(|vertex| numbers[vertex as usize].unwrap_or(0)));
     (vertices, renumbered.collect())
 }
 
@@ -111,28 +139,52 @@ mod tests {
             let z = 1.0 - 2.0 * (f64::from(i) + 0.5) / f64::from(count);
             let (angle, ring) = (2.399_963_229_728_653 * f64::from(i), (1.0 - z * z).sqrt());
             let radius = 1.0 + noise * (12.9898 * f64::from(i)).sin();
-            [radius * ring * angle.cos(), radius * ring * angle.sin(), radius * z]
+            [
+                radius * ring * angle.cos(),
+                radius * ring * angle.sin(),
+                radius * z,
+            ]
         };
         (0..count).map(at).collect()
     }
 
     fn volume((vertices, triangles): &Triangles) -> f64 {
         let corner = |i: u32| Vector3::from(vertices[i as usize]);
-        triangles.iter().map(|t| corner(t[0]).dot(&corner(t[1]).cross(&corner(t[2]))) / 6.0).sum()
+        triangles
+            .iter()
+            .map(|t| corner(t[0]).dot(&corner(t[1]).cross(&corner(t[2]))) / 6.0)
+            .sum()
     }
 
     fn open_edges(triangles: &[[u32; 3]]) -> usize {
         let directed = |t: &[u32; 3]| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
         let edges: HashSet<(u32, u32)> = triangles.iter().flat_map(directed).collect();
-        assert_eq!(edges.len(), 3 * triangles.len(), "an edge has two triangles at most");
-        edges.iter().filter(|(a, b)| !edges.contains(&(*b, *a))).count()
+        assert_eq!(
+            edges.len(),
+            3 * triangles.len(),
+            "an edge has two triangles at most"
+        );
+        edges
+            .iter()
+            .filter(|(a, b)| !edges.contains(&(*b, *a)))
+            .count()
     }
 
     #[test]
     fn a_ball_is_closed_and_looks_outwards() {
-        let found = surface(&ball(2000, 0.0), SurfaceOptions { iterations: 0, ..SurfaceOptions::default() });
+        let found = surface(
+            &ball(2000, 0.0),
+            SurfaceOptions {
+                iterations: 0,
+                ..SurfaceOptions::default()
+            },
+        );
         assert_eq!((found.0.len(), open_edges(&found.1)), (2000, 0));
-        assert_eq!(found.0.len() + found.1.len(), 3 * found.1.len() / 2 + 2, "one piece without holes (Euler)");
+        assert_eq!(
+            found.0.len() + found.1.len(),
+            3 * found.1.len() / 2 + 2,
+            "one piece without holes (Euler)"
+        );
         let ratio = volume(&found) / (4.0 / 3.0 * std::f64::consts::PI);
         assert!((0.99..1.0).contains(&ratio), "{ratio}");
     }
@@ -149,9 +201,21 @@ mod tests {
     #[test]
     fn a_sheet_has_its_border_and_looks_up() {
         let points: Vec<[f64; 3]> = (0..400)
-            .map(|i| [f64::from(i % 20) * 0.1, f64::from(i / 20) * 0.1, 0.05 * f64::from(i % 20).sin()])
+            .map(|i| {
+                [
+                    f64::from(i % 20) * 0.1,
+                    f64::from(i / 20) * 0.1,
+                    0.05 * f64::from(i % 20).sin(),
+                ]
+            })
             .collect();
-        let (vertices, triangles) = surface(&points, SurfaceOptions { iterations: 0, ..SurfaceOptions::default() });
+        let (vertices, triangles) = surface(
+            &points,
+            SurfaceOptions {
+                iterations: 0,
+                ..SurfaceOptions::default()
+            },
+        );
         let area = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|i| Vector3::from(vertices[i as usize]));
             ((b - a).cross(&(c - a)) / 2.0).z
@@ -162,10 +226,17 @@ mod tests {
 
     #[test]
     fn few_or_equal_points_have_no_surface() {
-        for points in [vec![], vec![[0.0; 3]; 50], vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]] {
+        for points in [
+            vec![],
+            vec![[0.0; 3]; 50],
+            vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
+        ] {
             assert!(surface(&points, SurfaceOptions::default()).1.is_empty());
         }
-        let options = SurfaceOptions { squared_radius: Some(100.0), ..SurfaceOptions::default() };
+        let options = SurfaceOptions {
+            squared_radius: Some(100.0),
+            ..SurfaceOptions::default()
+        };
         assert!(surface(&[[1.0; 3]; 9], options).1.is_empty());
     }
 }

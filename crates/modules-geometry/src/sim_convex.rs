@@ -65,7 +65,11 @@ fn qhull(_cx: &Cx, points: Vec<f64>, #[default(0.0)] growth: f64) -> Result<(Vec
 /// @param params resolution (100000: voxels in all, at most 16 million), concavity (0.1), plane_downsampling (4), hull_downsampling (4), alpha (0.05), beta (0.05); other fields have no effect
 /// @return shapeHandles
 #[api("simConvex.vhacd")]
-fn vhacd(cx: &mut Cx, shape_handle: Handle, #[default(Table(Data::Nil))] params: Table) -> Result<Vec<Handle>> {
+fn vhacd(
+    cx: &mut Cx,
+    shape_handle: Handle,
+    #[default(Table(Data::Nil))] params: Table,
+) -> Result<Vec<Handle>> {
     divide(cx, shape_handle, fineness(&params.0)?)
 }
 
@@ -75,7 +79,11 @@ fn vhacd(cx: &mut Cx, shape_handle: Handle, #[default(Table(Data::Nil))] params:
 /// @param params without effect
 /// @return shapeHandles
 #[api("simConvex.hacd")]
-fn hacd(cx: &mut Cx, shape_handle: Handle, #[default(Table(Data::Nil))] params: Table) -> Result<Vec<Handle>> {
+fn hacd(
+    cx: &mut Cx,
+    shape_handle: Handle,
+    #[default(Table(Data::Nil))] params: Table,
+) -> Result<Vec<Handle>> {
     let _ = params;
     divide(cx, shape_handle, DecompositionParameters::default())
 }
@@ -95,7 +103,10 @@ fn divide(cx: &mut Cx, original: Handle, fineness: DecompositionParameters) -> R
 fn fineness(params: &Data) -> Result<DecompositionParameters> {
     let number = |name: &str, usual: f64| match params.field(name) {
         None | Some(Data::Nil) => Ok(usual),
-        Some(value) => value.as_f64().filter(|x| x.is_finite() && *x >= 0.0).ok_or_else(|| invalid(name)),
+        Some(value) => value
+            .as_f64()
+            .filter(|x| x.is_finite() && *x >= 0.0)
+            .ok_or_else(|| invalid(name)),
     };
     Ok(DecompositionParameters {
         voxels: number("resolution", 1e5)?,
@@ -108,7 +119,12 @@ fn fineness(params: &Data) -> Result<DecompositionParameters> {
 }
 
 fn grown(points: &[[f64; 3]], growth: f64) -> Result<Mesh> {
-    if !points.as_flattened().iter().chain([&growth]).all(|x| x.is_finite()) {
+    if !points
+        .as_flattened()
+        .iter()
+        .chain([&growth])
+        .all(|x| x.is_finite())
+    {
         return Err(SceneError::InvalidData.into());
     }
     Mesh::grown_hull(points, growth).ok_or_else(|| refused("the points do not span a volume."))

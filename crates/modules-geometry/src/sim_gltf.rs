@@ -15,9 +15,16 @@ use script::{Handles, Hooks, Host};
 /// The module `simGLTF`.
 pub static MODULE: Module = Module {
     about: "glTF files: scenes with colours, textures, cameras, lights and recorded movements.",
-    functions: &[("Contents", CONTENTS), ("Files", FILES), ("Animation", ANIMATION)],
+    functions: &[
+        ("Contents", CONTENTS),
+        ("Files", FILES),
+        ("Animation", ANIMATION),
+    ],
     constants: "TextureFormat.bmp\t6761\nTextureFormat.png\t6762\nTextureFormat.jpg\t6763\n",
-    hooks: Hooks { after_step: Some(record_step), ..Hooks::NONE },
+    hooks: Hooks {
+        after_step: Some(record_step),
+        ..Hooks::NONE
+    },
     ..Module::new("simGLTF")
 };
 
@@ -48,7 +55,11 @@ struct State {
 impl Default for State {
     fn default() -> Self {
         let texture_format = Cell::new(TEXTURE_FORMATS[1]);
-        Self { file: RefCell::default(), recording: RefCell::default(), texture_format }
+        Self {
+            file: RefCell::default(),
+            recording: RefCell::default(),
+            texture_format,
+        }
     }
 }
 
@@ -78,9 +89,17 @@ fn export_shape(
     };
     let state = cx.module_state::<State>();
     let mut file = state.file.borrow_mut();
-    let node = usize::try_from(parent_node_index).ok().filter(|node| *node < file.asset().nodes.len());
-    let node = node.ok_or_else(|| ApiError::Other(format!("there is no node {parent_node_index}.")))?;
-    let exported = file.add_shape(&cx.scene(), shape_handle, (parent, node), state.texture_format.get().1)?;
+    let node = usize::try_from(parent_node_index)
+        .ok()
+        .filter(|node| *node < file.asset().nodes.len());
+    let node =
+        node.ok_or_else(|| ApiError::Other(format!("there is no node {parent_node_index}.")))?;
+    let exported = file.add_shape(
+        &cx.scene(),
+        shape_handle,
+        (parent, node),
+        state.texture_format.get().1,
+    )?;
     Ok(exported as i64)
 }
 
@@ -122,7 +141,10 @@ fn export_selected_objects(cx: &mut Cx) -> Result<()> {
 
 fn add(cx: &mut Cx, handles: &[Handle]) -> Result<()> {
     let state = cx.module_state::<State>();
-    state.file.borrow_mut().add_objects(&cx.scene(), handles, state.texture_format.get().1)?;
+    state
+        .file
+        .borrow_mut()
+        .add_objects(&cx.scene(), handles, state.texture_format.get().1)?;
     Ok(())
 }
 
@@ -155,7 +177,9 @@ fn get_export_texture_format(cx: &Cx) -> Result<(i64, String)> {
 /// @param textureFormat simGLTF.TextureFormat
 #[api("simGLTF.setExportTextureFormat")]
 fn set_export_texture_format(cx: &mut Cx, texture_format: i64) -> Result<()> {
-    let known = TEXTURE_FORMATS.into_iter().find(|(number, _)| *number == texture_format);
+    let known = TEXTURE_FORMATS
+        .into_iter()
+        .find(|(number, _)| *number == texture_format);
     let format = known.ok_or_else(|| ApiError::Other("invalid texture format.".into()))?;
     cx.module_state::<State>().texture_format.set(format);
     Ok(())
@@ -190,7 +214,11 @@ fn load(cx: &mut Cx, name: &str, is_of_kind: fn(&[u8]) -> bool) -> Result<(bool,
         Err(error) => return Ok((false, String::new(), format!("{name}: {error}"))),
     };
     if !is_of_kind(&bytes) {
-        return Ok((false, String::new(), format!("{name}: loadBinary reads binary files, loadASCII files of text")));
+        return Ok((
+            false,
+            String::new(),
+            format!("{name}: loadBinary reads binary files, loadASCII files of text"),
+        ));
     }
     match GltfFile::parse(&bytes, Path::new(name), permissions) {
         Ok(file) => {
@@ -224,9 +252,16 @@ fn save_binary(cx: &mut Cx, filepath: String) -> Result<bool> {
 
 fn save(cx: &mut Cx, name: &str, bytes: &[u8]) -> bool {
     let path = Path::new(name);
-    let written = cx.permissions().check_write(path).map_err(Into::into).and_then(|()| write_whole(path, bytes));
+    let written = cx
+        .permissions()
+        .check_write(path)
+        .map_err(Into::into)
+        .and_then(|()| write_whole(path, bytes));
     if let Err(error) = &written {
-        cx.env().log(verbosity::SCRIPT_ERRORS, &format!("cannot write {name}: {error}"));
+        cx.env().log(
+            verbosity::SCRIPT_ERRORS,
+            &format!("cannot write {name}: {error}"),
+        );
     }
     written.is_ok()
 }
@@ -240,7 +275,12 @@ fn serialize(cx: &Cx) -> Result<String> {
 }
 
 fn text(cx: &Cx) -> Result<String> {
-    cx.module_state::<State>().file.borrow().asset().to_text().map_err(not_writable)
+    cx.module_state::<State>()
+        .file
+        .borrow()
+        .asset()
+        .to_text()
+        .map_err(not_writable)
 }
 
 fn not_writable(error: mesh_files::WriteError) -> ApiError {
@@ -266,7 +306,10 @@ fn record_animation(cx: &mut Cx, enable: bool) -> Result<()> {
 #[api("simGLTF.exportAnimation")]
 fn export_animation(cx: &mut Cx) -> Result<()> {
     let state = cx.module_state::<State>();
-    state.file.borrow_mut().add_animation(&state.recording.borrow());
+    state
+        .file
+        .borrow_mut()
+        .add_animation(&state.recording.borrow());
     Ok(())
 }
 
@@ -279,13 +322,18 @@ fn animation_frame_count(cx: &Cx) -> Result<i64> {
 }
 
 fn record_step(host: &Host<'_>) {
-    let Some(state) = host.module_state::<State>() else { return };
+    let Some(state) = host.module_state::<State>() else {
+        return;
+    };
     let mut recording = state.recording.borrow_mut();
     if !recording.is_on() {
         return;
     }
     let (scene, time) = (host.scene(), host.clock().time());
     if !recording.record(&scene, time, scene.settings().time_step) {
-        host.log(verbosity::SCRIPT_WARNINGS, "simGLTF: the recording ends, it has become too large.");
+        host.log(
+            verbosity::SCRIPT_WARNINGS,
+            "simGLTF: the recording ends, it has become too large.",
+        );
     }
 }

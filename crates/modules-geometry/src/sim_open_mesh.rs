@@ -30,11 +30,18 @@ const FIELDS: [&str; 4] = ["percentage", "triangles", "vertices", "error"];
 /// moved, metres: edges beyond that stay)
 /// @return decimatedShape
 #[api("simOpenMesh.decimate")]
-fn decimate(cx: &mut Cx, input_shape: Handle, #[default(Table(Data::Nil))] params: Table) -> Result<Handle> {
+fn decimate(
+    cx: &mut Cx,
+    input_shape: Handle,
+    #[default(Table(Data::Nil))] params: Table,
+) -> Result<Handle> {
     check_fields(&params.0)?;
     let triangles = triangles(cx, input_shape)?;
     let error = number(&params.0, "error")?;
-    let (most_triangles, most_vertices) = (number(&params.0, "triangles")?, number(&params.0, "vertices")?);
+    let (most_triangles, most_vertices) = (
+        number(&params.0, "triangles")?,
+        number(&params.0, "vertices")?,
+    );
     let share = match number(&params.0, "percentage")? {
         Some(share) => share_of(triangles, share)?,
         // Without a percentage, the other limits decide; without any, half of the triangles stay.
@@ -58,14 +65,25 @@ fn decimate(cx: &mut Cx, input_shape: Handle, #[default(Table(Data::Nil))] param
 #[api("simOpenMesh.getDecimatedShape")]
 fn get_decimated_shape(cx: &mut Cx, shape_handle: Handle, prop: f64) -> Result<Handle> {
     let triangles = share_of(triangles(cx, shape_handle)?, prop)?;
-    add_decimated(cx, shape_handle, Target { triangles, ..Target::default() })
+    add_decimated(
+        cx,
+        shape_handle,
+        Target {
+            triangles,
+            ..Target::default()
+        },
+    )
 }
 
 fn add_decimated(cx: &mut Cx, original: Handle, target: Target) -> Result<Handle> {
     let (shape, alias, pose) = {
         let scene = cx.scene();
         let object = scene.object(original)?;
-        (object.shape()?.decimated(target)?, object.alias().to_owned(), scene.world_pose(original)?)
+        (
+            object.shape()?.decimated(target)?,
+            object.alias().to_owned(),
+            scene.world_pose(original)?,
+        )
     };
     let handle = cx.add_object(&alias, Kind::Shape(Box::new(shape)))?;
     cx.scene_mut().set_world_pose(handle, pose)?;
@@ -73,7 +91,13 @@ fn add_decimated(cx: &mut Cx, original: Handle, target: Target) -> Result<Handle
 }
 
 fn triangles(cx: &Cx, shape: Handle) -> Result<usize> {
-    let count = |shape: &Shape| shape.parts.iter().map(|part| part.mesh.triangles.len()).sum();
+    let count = |shape: &Shape| {
+        shape
+            .parts
+            .iter()
+            .map(|part| part.mesh.triangles.len())
+            .sum()
+    };
     Ok(count(cx.scene().object(shape)?.shape()?))
 }
 
@@ -86,11 +110,17 @@ fn share_of(triangles: usize, share: f64) -> Result<usize> {
 
 /// A field of another name is a mistake.
 fn check_fields(params: &Data) -> Result<()> {
-    let Data::Map(entries) = params else { return Ok(()) };
+    let Data::Map(entries) = params else {
+        return Ok(());
+    };
     let is_known = |key: &Key| matches!(key, Key::Text(name) if FIELDS.iter().any(|known| known.as_bytes() == name));
     match entries.iter().find(|(key, _)| !is_known(key)) {
         None => Ok(()),
-        Some((key, _)) => Err(refused(&format!("unknown field '{}' (known: {}).", name_of(key), FIELDS.join(", ")))),
+        Some((key, _)) => Err(refused(&format!(
+            "unknown field '{}' (known: {}).",
+            name_of(key),
+            FIELDS.join(", ")
+        ))),
     }
 }
 
@@ -104,7 +134,11 @@ fn name_of(key: &Key) -> String {
 fn number(params: &Data, name: &str) -> Result<Option<f64>> {
     match params.field(name) {
         None | Some(Data::Nil) => Ok(None),
-        Some(value) => value.as_f64().filter(|x| x.is_finite() && *x >= 0.0).map(Some).ok_or_else(|| invalid(name)),
+        Some(value) => value
+            .as_f64()
+            .filter(|x| x.is_finite() && *x >= 0.0)
+            .map(Some)
+            .ok_or_else(|| invalid(name)),
     }
 }
 

@@ -22,13 +22,38 @@ const FUNCTIONS: &[ApiFn] = functions![import, dump];
 
 /// The fields of the options, with what they are without being said, and the bit of `simURDF.import` that they set; and whether it is set by true.
 const FIELDS: [(&str, bool, RobotImportOptions, bool); 8] = [
-    ("hideCollisionLinks", true, RobotImportOptions::SHOW_COLLISIONS, false),
+    (
+        "hideCollisionLinks",
+        true,
+        RobotImportOptions::SHOW_COLLISIONS,
+        false,
+    ),
     ("hideJoints", true, RobotImportOptions::SHOW_JOINTS, false),
-    ("convexDecompose", true, RobotImportOptions::DECOMPOSE_COLLISIONS, true),
-    ("createVisualIfNone", true, RobotImportOptions::CREATE_VISUALS, true),
-    ("centerModel", true, RobotImportOptions::KEEP_POSITION, false),
+    (
+        "convexDecompose",
+        true,
+        RobotImportOptions::DECOMPOSE_COLLISIONS,
+        true,
+    ),
+    (
+        "createVisualIfNone",
+        true,
+        RobotImportOptions::CREATE_VISUALS,
+        true,
+    ),
+    (
+        "centerModel",
+        true,
+        RobotImportOptions::KEEP_POSITION,
+        false,
+    ),
     ("prepareModel", true, RobotImportOptions::NO_MODEL, false),
-    ("noSelfCollision", true, RobotImportOptions::ALTERNATE_MASKS, false),
+    (
+        "noSelfCollision",
+        true,
+        RobotImportOptions::ALTERNATE_MASKS,
+        false,
+    ),
     ("positionCtrl", true, RobotImportOptions::FREE_JOINTS, false),
 ];
 
@@ -42,13 +67,23 @@ const FIELDS: [(&str, bool, RobotImportOptions, bool); 8] = [
 /// @param options fields that are true unless they are said: hideCollisionLinks, hideJoints, convexDecompose (collision meshes that are not convex),
 /// createVisualIfNone, centerModel, prepareModel (as a model), noSelfCollision, positionCtrl; ignoreMissingValues and showConvexDecompositionDlg have no effect
 #[api("simSDF.import")]
-fn import(cx: &mut Cx, file_name: String, #[default(Table(Data::Nil))] options: Table) -> Result<()> {
+fn import(
+    cx: &mut Cx,
+    file_name: String,
+    #[default(Table(Data::Nil))] options: Table,
+) -> Result<()> {
     let file = read(cx, &file_name)?;
     let mut bits = import_options(&options.0)?;
-    bits.set(RobotImportOptions::KEEP_POSITION, bits.contains(RobotImportOptions::KEEP_POSITION) || file.has_world());
+    bits.set(
+        RobotImportOptions::KEEP_POSITION,
+        bits.contains(RobotImportOptions::KEEP_POSITION) || file.has_world(),
+    );
     let imported = file.add_to(&mut cx.scene_mut(), bits)?;
     for message in &imported.messages {
-        cx.env().log(verbosity::SCRIPT_WARNINGS, &format!("{}: {message}", imported.name));
+        cx.env().log(
+            verbosity::SCRIPT_WARNINGS,
+            &format!("{}: {message}", imported.name),
+        );
     }
     cx.notify_created(&imported.objects);
     Ok(())
@@ -66,7 +101,12 @@ fn dump(cx: &mut Cx, file_name: String) -> Result<()> {
 }
 
 fn read(cx: &Cx, file_name: &str) -> Result<RobotFile> {
-    let file = RobotFile::read_as(Some(RobotFormat::Sdf), Path::new(file_name), None, cx.permissions());
+    let file = RobotFile::read_as(
+        Some(RobotFormat::Sdf),
+        Path::new(file_name),
+        None,
+        cx.permissions(),
+    );
     file.map_err(|reason| ApiError::Other(format!("{file_name}: {reason}")))
 }
 

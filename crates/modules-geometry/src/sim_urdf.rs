@@ -42,15 +42,32 @@ fn import(
 ) -> Result<(String, Vec<Handle>)> {
     let file = if urdf.trim_start().starts_with("<?xml") {
         let beside = std::path::absolute("robot.urdf").unwrap_or_default();
-        RobotFile::parse(urdf.as_bytes(), RobotFormat::Urdf, &beside, package_str_replace, cx.permissions())
+        RobotFile::parse(
+            urdf.as_bytes(),
+            RobotFormat::Urdf,
+            &beside,
+            package_str_replace,
+            cx.permissions(),
+        )
     } else {
-        RobotFile::read_as(Some(RobotFormat::Urdf), Path::new(&urdf), package_str_replace, cx.permissions())
-            .map_err(|reason| format!("{urdf}: {reason}"))
+        RobotFile::read_as(
+            Some(RobotFormat::Urdf),
+            Path::new(&urdf),
+            package_str_replace,
+            cx.permissions(),
+        )
+        .map_err(|reason| format!("{urdf}: {reason}"))
     };
     let file = file.map_err(ApiError::Other)?;
-    let imported = file.add_to(&mut cx.scene_mut(), RobotImportOptions::from_bits_retain(options.0))?;
+    let imported = file.add_to(
+        &mut cx.scene_mut(),
+        RobotImportOptions::from_bits_retain(options.0),
+    )?;
     for message in &imported.messages {
-        cx.env().log(verbosity::SCRIPT_WARNINGS, &format!("{}: {message}", imported.name));
+        cx.env().log(
+            verbosity::SCRIPT_WARNINGS,
+            &format!("{}: {message}", imported.name),
+        );
     }
     cx.notify_created(&imported.objects);
     Ok((imported.name, imported.roots))
@@ -65,15 +82,30 @@ fn import(
 /// @param fileName ends with `.urdf`
 /// @param options 1: dummies become small red cubes, 2: frames of meshes are those of their joints, 4: joints are exported with their positions as zero
 #[api("simURDF.export")]
-fn export_model(cx: &mut Cx, model_handle: Handle, file_name: String, #[default(0)] options: Number) -> Result<()> {
+fn export_model(
+    cx: &mut Cx,
+    model_handle: Handle,
+    file_name: String,
+    #[default(0)] options: Number,
+) -> Result<()> {
     let path = Path::new(&file_name);
-    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let files = export(&cx.scene(), model_handle, &stem, RobotExportOptions::from_bits_retain(options.0))?;
+    let stem = path
+        .file_stem()
+        .map(|stem| stem.to_string_lossy().into_owned())
+        .unwrap_or_default();
+    let files = export(
+        &cx.scene(),
+        model_handle,
+        &stem,
+        RobotExportOptions::from_bits_retain(options.0),
+    )?;
     for file in files {
         let path = path.with_file_name(&file.name);
         cx.permissions().check_write(&path)?;
         let written = std::fs::write(&path, &file.bytes);
-        written.map_err(|error| ApiError::Other(format!("cannot write {}: {error}", path.display())))?;
+        written.map_err(|error| {
+            ApiError::Other(format!("cannot write {}: {error}", path.display()))
+        })?;
     }
     Ok(())
 }

@@ -10,4 +10,6 @@ pub mod sim_ws;
 pub mod sim_zmq;
 pub mod socket;
 
-use script::{ApiError, ApiFn, ApiResult as Result, Args, Cx, FromScript, Module, Param, functions};
+use script::{
+    ApiError, ApiFn, ApiResult as Result, Args, Cx, FromScript, Module, Param, functions,
+};

@@ -8,8 +8,8 @@ use super::{ApiFn, Cx, Module, Result, functions};
 use scene::Data;
 use script::{LuaNumber, LuaString, Results};
 use wire::mime::{
-    QuotedPrintable, decode_base64, decode_quoted_printable, encode_base64, finish_base64, stuff_dots, unify_line_ends,
-    wrap_quoted_printable, wrap_text,
+    QuotedPrintable, decode_base64, decode_quoted_printable, encode_base64, finish_base64,
+    stuff_dots, unify_line_ends, wrap_quoted_printable, wrap_text,
 };
 
 /// The module `mime.core`.
@@ -26,7 +26,11 @@ const LINE: f64 = 76.0;
 
 /// Nil for empty text: at the end of all chunks nothing is left to say.
 fn last(text: Vec<u8>) -> Results {
-    let text = if text.is_empty() { Data::Nil } else { Data::Text(text) };
+    let text = if text.is_empty() {
+        Data::Nil
+    } else {
+        Data::Text(text)
+    };
     Results(vec![text, Data::Nil])
 }
 
@@ -39,9 +43,13 @@ const NOTHING: [Data; 2] = [Data::Nil, Data::Nil];
 /// Base64.
 #[api("mime.core.b64")]
 fn b64(_cx: &Cx, left: Option<LuaString>, chunk: Option<LuaString>) -> Result<Results> {
-    let Some(LuaString(first)) = left else { return Ok(Results(NOTHING.into())) };
+    let Some(LuaString(first)) = left else {
+        return Ok(Results(NOTHING.into()));
+    };
     let (mut text, rest) = encode_base64(&first);
-    let Some(LuaString(chunk)) = chunk else { return Ok(last((text + &finish_base64(rest)).into_bytes())) };
+    let Some(LuaString(chunk)) = chunk else {
+        return Ok(last((text + &finish_base64(rest)).into_bytes()));
+    };
     let both = [rest, &chunk[..]].concat();
     let (more, rest) = encode_base64(&both);
     text += &more;
@@ -51,19 +59,35 @@ fn b64(_cx: &Cx, left: Option<LuaString>, chunk: Option<LuaString>) -> Result<Re
 /// Base64, the other way.
 #[api("mime.core.unb64")]
 fn unb64(_cx: &Cx, left: Option<LuaString>, chunk: Option<LuaString>) -> Result<Results> {
-    let Some(LuaString(mut text)) = left else { return Ok(Results(NOTHING.into())) };
+    let Some(LuaString(mut text)) = left else {
+        return Ok(Results(NOTHING.into()));
+    };
     let is_last = chunk.is_none();
     text.extend(chunk.into_iter().flat_map(|chunk| chunk.0));
     let (bytes, rest) = decode_base64(&text);
-    Ok(if is_last { last(bytes) } else { pair(bytes, &rest) })
+    Ok(if is_last {
+        last(bytes)
+    } else {
+        pair(bytes, &rest)
+    })
 }
 
 /// Quoted-printable.
 #[api("mime.core.qp")]
-fn qp(_cx: &Cx, left: Option<LuaString>, chunk: Option<LuaString>, marker: Option<LuaString>) -> Result<Results> {
-    let Some(LuaString(first)) = left else { return Ok(Results(NOTHING.into())) };
+fn qp(
+    _cx: &Cx,
+    left: Option<LuaString>,
+    chunk: Option<LuaString>,
+    marker: Option<LuaString>,
+) -> Result<Results> {
+    let Some(LuaString(first)) = left else {
+        return Ok(Results(NOTHING.into()));
+    };
     let marker = marker.map_or_else(|| b"\r\n".to_vec(), |marker| marker.0);
-    let mut encoder = QuotedPrintable { marker: &marker, pending: Vec::new() };
+    let mut encoder = QuotedPrintable {
+        marker: &marker,
+        pending: Vec::new(),
+    };
     let mut out = Vec::new();
     encoder.encode(&first, &mut out);
     match chunk {
@@ -81,17 +105,29 @@ fn qp(_cx: &Cx, left: Option<LuaString>, chunk: Option<LuaString>, marker: Optio
 /// Quoted-printable, the other way.
 #[api("mime.core.unqp")]
 fn unqp(_cx: &Cx, left: Option<LuaString>, chunk: Option<LuaString>) -> Result<Results> {
-    let Some(LuaString(mut text)) = left else { return Ok(Results(NOTHING.into())) };
+    let Some(LuaString(mut text)) = left else {
+        return Ok(Results(NOTHING.into()));
+    };
     let is_last = chunk.is_none();
     text.extend(chunk.into_iter().flat_map(|chunk| chunk.0));
     let (bytes, rest) = decode_quoted_printable(&text);
-    Ok(if is_last { last([&bytes[..], rest].concat()) } else { pair(bytes, rest) })
+    Ok(if is_last {
+        last([&bytes[..], rest].concat())
+    } else {
+        pair(bytes, rest)
+    })
 }
 
 type Wrap = fn(&[u8], i64, i64, &mut Vec<u8>) -> i64;
 
 /// Wraps a chunk; at the end, a line that has begun is ended with `end`.
-fn wrapped(wrap: Wrap, end: &[u8], left: f64, chunk: Option<LuaString>, length: Option<LuaNumber>) -> Results {
+fn wrapped(
+    wrap: Wrap,
+    end: &[u8],
+    left: f64,
+    chunk: Option<LuaString>,
+    length: Option<LuaNumber>,
+) -> Results {
     let length = length.map_or(LINE, |length| length.0);
     let mut out = Vec::new();
     let (text, left) = match chunk {
@@ -107,20 +143,43 @@ fn wrapped(wrap: Wrap, end: &[u8], left: f64, chunk: Option<LuaString>, length: 
 
 /// Breaks text into lines; the first argument is how much still fits the current one.
 #[api("mime.core.wrp")]
-fn wrp(_cx: &Cx, left: LuaNumber, chunk: Option<LuaString>, length: Option<LuaNumber>) -> Result<Results> {
+fn wrp(
+    _cx: &Cx,
+    left: LuaNumber,
+    chunk: Option<LuaString>,
+    length: Option<LuaNumber>,
+) -> Result<Results> {
     Ok(wrapped(wrap_text, b"\r\n", left.0, chunk, length))
 }
 
 /// Breaks quoted-printable text into lines.
 #[api("mime.core.qpwrp")]
-fn qpwrp(_cx: &Cx, left: LuaNumber, chunk: Option<LuaString>, length: Option<LuaNumber>) -> Result<Results> {
-    Ok(wrapped(wrap_quoted_printable, b"=\r\n", left.0, chunk, length))
+fn qpwrp(
+    _cx: &Cx,
+    left: LuaNumber,
+    chunk: Option<LuaString>,
+    length: Option<LuaNumber>,
+) -> Result<Results> {
+    Ok(wrapped(
+        wrap_quoted_printable,
+        b"=\r\n",
+        left.0,
+        chunk,
+        length,
+    ))
 }
 
 /// Makes all line ends the same.
 #[api("mime.core.eol")]
-fn eol(_cx: &Cx, last: LuaNumber, chunk: Option<LuaString>, marker: Option<LuaString>) -> Result<Results> {
-    let Some(LuaString(chunk)) = chunk else { return Ok(Results(vec![Data::Nil, Data::Float(0.0)])) };
+fn eol(
+    _cx: &Cx,
+    last: LuaNumber,
+    chunk: Option<LuaString>,
+    marker: Option<LuaString>,
+) -> Result<Results> {
+    let Some(LuaString(chunk)) = chunk else {
+        return Ok(Results(vec![Data::Nil, Data::Float(0.0)]));
+    };
     let marker = marker.map_or_else(|| b"\r\n".to_vec(), |marker| marker.0);
     let mut out = Vec::new();
     let last = unify_line_ends(&chunk, last.0 as u8, &marker, &mut out);
@@ -130,7 +189,9 @@ fn eol(_cx: &Cx, last: LuaNumber, chunk: Option<LuaString>, marker: Option<LuaSt
 /// Doubles dots at the beginnings of lines, as SMTP wants it.
 #[api("mime.core.dot")]
 fn dot(_cx: &Cx, seen: LuaNumber, chunk: Option<LuaString>) -> Result<Results> {
-    let Some(LuaString(chunk)) = chunk else { return Ok(Results(vec![Data::Nil, Data::Float(2.0)])) };
+    let Some(LuaString(chunk)) = chunk else {
+        return Ok(Results(vec![Data::Nil, Data::Float(2.0)]));
+    };
     let mut out = Vec::new();
     let seen = stuff_dots(&chunk, seen.0 as usize, &mut out);
     Ok(Results(vec![Data::Text(out), Data::Float(seen as f64)]))

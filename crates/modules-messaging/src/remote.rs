@@ -12,13 +12,25 @@ use io::{Incoming, ZmqServer};
 use script::{Bytes, States, Text};
 
 /// The module `remote.zmq`.
-pub static ZMQ: Module = Module { inner: &[FUNCTIONS, TYPES, NAMES], ..Module::new("remote.zmq") };
+pub static ZMQ: Module = Module {
+    inner: &[FUNCTIONS, TYPES, NAMES],
+    ..Module::new("remote.zmq")
+};
 /// What the library of scripts in Python needs.
-pub static PYTHON: Module = Module { inner: &[TYPES, NAMES], ..Module::new("swanilda.python") };
+pub static PYTHON: Module = Module {
+    inner: &[TYPES, NAMES],
+    ..Module::new("swanilda.python")
+};
 /// The module `remote.ws`.
-pub static WS: Module = Module { inner: &[sim_ws::REMOTE, NAMES], ..Module::new("remote.ws") };
+pub static WS: Module = Module {
+    inner: &[sim_ws::REMOTE, NAMES],
+    ..Module::new("remote.ws")
+};
 /// The module `remote.visualization`.
-pub static VISUALIZATION: Module = Module { inner: &[sim_ws::STREAM], ..Module::new("remote.visualization") };
+pub static VISUALIZATION: Module = Module {
+    inner: &[sim_ws::STREAM],
+    ..Module::new("remote.visualization")
+};
 
 const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, others];
 /// Types of results.
@@ -36,17 +48,26 @@ struct Listeners {
 
 /// Lets programs outside call functions by ZeroMQ.
 pub fn set_zmq_server(states: &States, server: ZmqServer) {
-    states.get::<Listeners>().zmq_server.replace(Some(Rc::new(server)));
+    states
+        .get::<Listeners>()
+        .zmq_server
+        .replace(Some(Rc::new(server)));
 }
 
 /// Where the WebSocket remote API is to listen.
 pub fn set_web_socket_listener(states: &States, listener: TcpListener) {
-    states.get::<Listeners>().web_socket_listener.replace(Some(listener));
+    states
+        .get::<Listeners>()
+        .web_socket_listener
+        .replace(Some(listener));
 }
 
 /// Where the visualization stream is to listen.
 pub fn set_visualization_listener(states: &States, listener: TcpListener) {
-    states.get::<Listeners>().visualization_listener.replace(Some(listener));
+    states
+        .get::<Listeners>()
+        .visualization_listener
+        .replace(Some(listener));
 }
 
 fn zmq_server(cx: &Cx) -> Option<Rc<ZmqServer>> {
@@ -55,12 +76,20 @@ fn zmq_server(cx: &Cx) -> Option<Rc<ZmqServer>> {
 
 /// The listener of the WebSocket remote API, if there is one.
 pub(super) fn listener(cx: &Cx) -> Option<std::io::Result<TcpListener>> {
-    cx.module_state::<Listeners>().web_socket_listener.borrow().as_ref().map(TcpListener::try_clone)
+    cx.module_state::<Listeners>()
+        .web_socket_listener
+        .borrow()
+        .as_ref()
+        .map(TcpListener::try_clone)
 }
 
 /// The listener of the visualization stream, if there is one.
 pub(super) fn visualization_listener(cx: &Cx) -> Option<std::io::Result<TcpListener>> {
-    cx.module_state::<Listeners>().visualization_listener.borrow().as_ref().map(TcpListener::try_clone)
+    cx.module_state::<Listeners>()
+        .visualization_listener
+        .borrow()
+        .as_ref()
+        .map(TcpListener::try_clone)
 }
 
 /// Longest wait, seconds: the simulator must look after itself from time to time.
@@ -74,10 +103,12 @@ const MAX_WAIT: f64 = 1.0;
 fn receive(cx: &mut Cx, timeout: f64) -> Result<Option<(i64, Option<Text>)>> {
     let timeout = Duration::from_secs_f64(timeout.clamp(0.0, MAX_WAIT));
     let server = zmq_server(cx);
-    Ok(server.and_then(|server| server.receive(timeout)).map(|incoming| match incoming {
-        Incoming::Request(peer, message) => (peer as i64, Some(Text(message))),
-        Incoming::Gone(peer) => (peer as i64, None),
-    }))
+    Ok(server
+        .and_then(|server| server.receive(timeout))
+        .map(|incoming| match incoming {
+            Incoming::Request(peer, message) => (peer as i64, Some(Text(message))),
+            Incoming::Gone(peer) => (peer as i64, None),
+        }))
 }
 
 /// Answers a connection.
@@ -123,5 +154,12 @@ fn returns(cx: &Cx, name: String) -> Result<Option<Vec<String>>> {
 /// @return names
 #[api("remote.zmq.members")]
 fn members(cx: &Cx) -> Result<Vec<String>> {
-    Ok(cx.env().registry.members_of_sim().names().into_iter().map(str::to_owned).collect())
+    Ok(cx
+        .env()
+        .registry
+        .members_of_sim()
+        .names()
+        .into_iter()
+        .map(str::to_owned)
+        .collect())
 }

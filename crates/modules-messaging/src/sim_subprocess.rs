@@ -47,7 +47,9 @@ impl Processes {
 
     /// Reaps ended processes.
     fn reap(&mut self) {
-        self.by_handle.values_mut().for_each(|process| drop(process.exit_code()));
+        self.by_handle
+            .values_mut()
+            .for_each(|process| drop(process.exit_code()));
     }
 }
 
@@ -79,7 +81,9 @@ fn exec(
     let mut run = program.run(input.0).map_err(failure)?;
     let exit_code = cx.wait_for(None, || run.exit_code())?;
     let exit_code = exit_code.ok_or(ApiError::Interrupted)?.map_err(failure)?;
-    cx.wait_for(Some(OUTPUT_TIMEOUT), || run.outputs_are_complete().then_some(()))?;
+    cx.wait_for(Some(OUTPUT_TIMEOUT), || {
+        run.outputs_are_complete().then_some(())
+    })?;
     let (out, err) = run.outputs().map_err(failure)?;
     Ok((exit_code.into(), Bytes(out), Bytes(err)))
 }
@@ -97,7 +101,9 @@ fn exec_async(
     arguments: Table,
     #[default(Table(Data::Nil))] opts: Table,
 ) -> Result<String> {
-    let process = program(cx, program_path, &arguments, &opts)?.start().map_err(failure)?;
+    let process = program(cx, program_path, &arguments, &opts)?
+        .start()
+        .map_err(failure)?;
     let processes = processes(cx);
     processes.borrow_mut().reap();
     let handle = processes.borrow_mut().add(process);
@@ -110,7 +116,11 @@ fn exec_async(
 /// @return result
 #[api("simSubprocess.isRunning")]
 fn is_running(cx: &Cx, handle: String) -> Result<bool> {
-    Ok(processes(cx).borrow_mut().get(&handle)?.exit_code().is_none())
+    Ok(processes(cx)
+        .borrow_mut()
+        .get(&handle)?
+        .exit_code()
+        .is_none())
 }
 
 /// Waits until a program exits. A program that ends by a signal is an error.
@@ -123,13 +133,22 @@ fn wait(cx: &Cx, handle: String, #[default(5.0)] timeout: f64) -> Result<Results
     let processes = processes(cx);
     let mut processes = processes.borrow_mut();
     let process = processes.get(&handle)?;
-    let exit_code = cx.wait_for(limit(timeout), || process.exit_code())?.transpose().map_err(failure)?;
-    Ok(Results(vec![exit_code.map_or(Data::Nil, |code| Data::Int(code.into()))]))
+    let exit_code = cx
+        .wait_for(limit(timeout), || process.exit_code())?
+        .transpose()
+        .map_err(failure)?;
+    Ok(Results(vec![
+        exit_code.map_or(Data::Nil, |code| Data::Int(code.into())),
+    ]))
 }
 
 /// A time limit of a script in seconds; None for no limit (negative or too large).
 fn limit(timeout: f64) -> Option<Duration> {
-    if timeout.is_nan() { Some(Duration::ZERO) } else { Duration::try_from_secs_f64(timeout).ok() }
+    if timeout.is_nan() {
+        Some(Duration::ZERO)
+    } else {
+        Duration::try_from_secs_f64(timeout).ok()
+    }
 }
 
 /// Kills a program; its handle becomes invalid.
@@ -137,7 +156,12 @@ fn limit(timeout: f64) -> Option<Duration> {
 /// @param handle the program
 #[api("simSubprocess.kill")]
 fn kill(cx: &mut Cx, handle: String) -> Result<Nil> {
-    processes(cx).borrow_mut().by_handle.remove(&handle).ok_or_else(unknown)?.kill();
+    processes(cx)
+        .borrow_mut()
+        .by_handle
+        .remove(&handle)
+        .ok_or_else(unknown)?
+        .kill();
     Ok(Nil)
 }
 
@@ -161,7 +185,11 @@ fn program(cx: &Cx, path: String, args: &Table, opts: &Table) -> Result<Program>
         path,
         args: match &args.0 {
             Data::Array(args) => args.iter().map(text).collect::<Result<_>>()?,
-            _ => return Err(ApiError::Other("the arguments of a program are a list of strings.".into())),
+            _ => {
+                return Err(ApiError::Other(
+                    "the arguments of a program are a list of strings.".into(),
+                ));
+            }
         },
         search_path: option("useSearchPath", true),
         working_dir,

@@ -22,7 +22,10 @@ struct Ownership<E> {
 
 impl<E> Default for Entities<E> {
     fn default() -> Self {
-        Self { by_number: RefCell::default(), count: Cell::default() }
+        Self {
+            by_number: RefCell::default(),
+            count: Cell::default(),
+        }
     }
 }
 
@@ -57,7 +60,10 @@ impl<E: Clone + 'static> Entities<E> {
         let owned = cx.script_state::<Owned<E>>();
         let mut owned = owned.0.borrow_mut();
         owned.retain(|other| self.by_number.borrow().contains_key(&other.number));
-        owned.push(Ownership { entities: Rc::downgrade(self), number });
+        owned.push(Ownership {
+            entities: Rc::downgrade(self),
+            number,
+        });
         format!("{number:x}:ptr")
     }
 
@@ -96,5 +102,7 @@ impl<E: Clone + 'static> Entities<E> {
 
 fn number_of(handle: &str) -> Option<u64> {
     let digits = handle.strip_suffix(":ptr")?;
-    u64::from_str_radix(digits, 16).ok().filter(|number| format!("{number:x}") == digits)
+    u64::from_str_radix(digits, 16)
+        .ok()
+        .filter(|number| format!("{number:x}") == digits)
 }

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use ros_interfaces::{
-    Array, Duration, Element, Field, FieldType, Layout, Number, NumberType, Numbers, Record, Shape, Time, Value,
+    Array, Duration, Element, Field, FieldType, Layout, Number, NumberType, Numbers, Record, Shape,
+    Time, Value,
 };
 
 use scene::{Data, Key};
@@ -18,7 +19,10 @@ pub(super) struct Style {
 /// A message as a table with all fields.
 pub(super) fn to_data(record: &Record, style: Style) -> Data {
     let entry = |(field, value): (&Field<Arc<Layout>>, &Value)| {
-        (Key::Text(field.name.as_bytes().to_vec()), value_to_data(value, style))
+        (
+            Key::Text(field.name.as_bytes().to_vec()),
+            value_to_data(value, style),
+        )
     };
     Data::Map(record.iter().map(entry).collect())
 }
@@ -63,14 +67,27 @@ fn duration_to_data(duration: Duration) -> Data {
 
 fn array_to_data(array: &Array, style: Style) -> Data {
     match array {
-        Array::Numbers(Numbers::UInt8(bytes)) if style.bytes_as_strings => Data::Text(bytes.clone()),
-        Array::Numbers(numbers) => {
-            Data::Array((0..numbers.len()).filter_map(|index| numbers.get(index)).map(number_to_data).collect())
+        Array::Numbers(Numbers::UInt8(bytes)) if style.bytes_as_strings => {
+            Data::Text(bytes.clone())
         }
-        Array::Strings(all) => Data::Array(all.iter().map(|text| Data::Text(text.clone())).collect()),
+        Array::Numbers(numbers) => Data::Array(
+            (0..numbers.len())
+                .filter_map(|index| numbers.get(index))
+                .map(number_to_data)
+                .collect(),
+        ),
+        Array::Strings(all) => {
+            Data::Array(all.iter().map(|text| Data::Text(text.clone())).collect())
+        }
         Array::Times(all) => Data::Array(all.iter().map(|time| time_to_data(*time)).collect()),
-        Array::Durations(all) => Data::Array(all.iter().map(|duration| duration_to_data(*duration)).collect()),
-        Array::Records(all) => Data::Array(all.iter().map(|record| to_data(record, style)).collect()),
+        Array::Durations(all) => Data::Array(
+            all.iter()
+                .map(|duration| duration_to_data(*duration))
+                .collect(),
+        ),
+        Array::Records(all) => {
+            Data::Array(all.iter().map(|record| to_data(record, style)).collect())
+        }
     }
 }
 
@@ -88,10 +105,14 @@ pub(super) fn from_data(layout: &Arc<Layout>, data: &Data, style: Style) -> Resu
     };
     for (key, value) in entries.iter().filter(|(_, value)| *value != Data::Nil) {
         let name = key_text(key);
-        let (_, field) = layout.field(&name).ok_or_else(|| format!("{}: unexpected key: {name}", reader_of(layout)))?;
+        let (_, field) = layout
+            .field(&name)
+            .ok_or_else(|| format!("{}: unexpected key: {name}", reader_of(layout)))?;
         let value = field_from_data(&field.field_type, value, style)
             .map_err(|problem| problem.of_field(&reader_of(layout), &name))?;
-        record.set(&name, value).map_err(|error| error.to_string())?;
+        record
+            .set(&name, value)
+            .map_err(|error| error.to_string())?;
     }
     Ok(record)
 }
@@ -127,7 +148,11 @@ impl Problem {
     }
 }
 
-fn field_from_data(field_type: &FieldType<Arc<Layout>>, data: &Data, style: Style) -> Result<Value, Problem> {
+fn field_from_data(
+    field_type: &FieldType<Arc<Layout>>,
+    data: &Data,
+    style: Style,
+) -> Result<Value, Problem> {
     let element = &field_type.element;
     let mut array = match field_type.shape {
         Shape::Single => return element_from_data(element, data, style),
@@ -136,7 +161,9 @@ fn field_from_data(field_type: &FieldType<Arc<Layout>>, data: &Data, style: Styl
     match field_type.shape {
         // Fixed lengths are not checked in the original: what is missing is zero, what is too much is left out.
         Shape::Array(length) => resize(&mut array, element, length),
-        Shape::Sequence(Some(bound)) if array.len() > bound => return Err(Problem::Expected("a shorter array")),
+        Shape::Sequence(Some(bound)) if array.len() > bound => {
+            return Err(Problem::Expected("a shorter array"));
+        }
         _ => {}
     }
     Ok(Value::Array(array))
@@ -159,14 +186,22 @@ fn resize(array: &mut Array, element: &Element<Arc<Layout>>, length: usize) {
     }
 }
 
-fn element_from_data(element: &Element<Arc<Layout>>, data: &Data, style: Style) -> Result<Value, Problem> {
+fn element_from_data(
+    element: &Element<Arc<Layout>>,
+    data: &Data,
+    style: Style,
+) -> Result<Value, Problem> {
     match element {
         Element::Number(number) => number_from_data(*number, data).map(Value::Number),
-        Element::String(bound) | Element::WString(bound) => text_from_data(data, *bound).map(Value::String),
+        Element::String(bound) | Element::WString(bound) => {
+            text_from_data(data, *bound).map(Value::String)
+        }
         Element::Time => time_from_data(data).map(Value::Time),
         Element::Duration => duration_from_data(data).map(Value::Duration),
         Element::Nested(layout) => match data {
-            Data::Map(_) | Data::Array(_) => from_data(layout, data, style).map(Value::Record).map_err(Problem::Within),
+            Data::Map(_) | Data::Array(_) => from_data(layout, data, style)
+                .map(Value::Record)
+                .map_err(Problem::Within),
             _ => Err(Problem::Expected("a table")),
         },
     }
@@ -208,12 +243,18 @@ fn time_from_data(data: &Data) -> Result<Time, Problem> {
     if sec < 0.0 {
         return Ok(Time::default());
     }
-    Ok(Time { sec: sec as u32, nanosec })
+    Ok(Time {
+        sec: sec as u32,
+        nanosec,
+    })
 }
 
 fn duration_from_data(data: &Data) -> Result<Duration, Problem> {
     let (sec, nanosec) = seconds_from_data(data)?;
-    Ok(Duration { sec: sec as i32, nanosec: nanosec.cast_signed() })
+    Ok(Duration {
+        sec: sec as i32,
+        nanosec: nanosec.cast_signed(),
+    })
 }
 
 /// Whole seconds, and nanoseconds below 10^9.
@@ -223,17 +264,27 @@ fn seconds_from_data(data: &Data) -> Result<(f64, u32), Problem> {
         Data::Float(value) => *value,
         _ => return Err(Problem::Expected("float")),
     };
-    let nanosec = ((seconds - seconds.floor()) * 1e9).round().min(999_999_999.0);
+    let nanosec = ((seconds - seconds.floor()) * 1e9)
+        .round()
+        .min(999_999_999.0);
     Ok((seconds.floor(), nanosec as u32))
 }
 
-fn array_from_data(element: &Element<Arc<Layout>>, data: &Data, style: Style) -> Result<Array, Problem> {
-    if style.bytes_as_strings && matches!(element, Element::Number(number) if number.of_values() == NumberType::UInt8) {
+fn array_from_data(
+    element: &Element<Arc<Layout>>,
+    data: &Data,
+    style: Style,
+) -> Result<Array, Problem> {
+    if style.bytes_as_strings
+        && matches!(element, Element::Number(number) if number.of_values() == NumberType::UInt8)
+    {
         return match data {
             Data::Text(bytes) | Data::Buffer(bytes) if !bytes.is_empty() => {
                 Ok(Array::Numbers(Numbers::UInt8(bytes.clone())))
             }
-            _ => Err(Problem::Within("string read error when trying to read uint8[]".into())),
+            _ => Err(Problem::Within(
+                "string read error when trying to read uint8[]".into(),
+            )),
         };
     }
     let items = match data {
@@ -249,7 +300,9 @@ fn array_from_data(element: &Element<Arc<Layout>>, data: &Data, style: Style) ->
         Element::Time => each(items, time_from_data).map(Array::Times),
         Element::Duration => each(items, duration_from_data).map(Array::Durations),
         Element::Nested(layout) => each(items, |item| match item {
-            Data::Map(_) | Data::Array(_) => from_data(layout, item, style).map_err(Problem::Within),
+            Data::Map(_) | Data::Array(_) => {
+                from_data(layout, item, style).map_err(Problem::Within)
+            }
             _ => Err(Problem::Expected("a table")),
         })
         .map(Array::Records),
@@ -272,7 +325,10 @@ fn numbers_from_data(number: NumberType, items: &[Data]) -> Result<Array, Proble
 #[cfg(feature = "ros2")]
 pub(super) fn constants(layout: &Layout) -> Data {
     let entry = |constant: &ros_interfaces::Constant| {
-        (Key::Text(constant.name.as_bytes().to_vec()), value_to_data(&constant.value, Style::default()))
+        (
+            Key::Text(constant.name.as_bytes().to_vec()),
+            value_to_data(&constant.value, Style::default()),
+        )
     };
     Data::Map(layout.constants.iter().map(entry).collect())
 }
@@ -293,7 +349,9 @@ mod tests {
     }
 
     fn read(entries: &[(&str, Data)]) -> Result<Record, String> {
-        let entries = entries.iter().map(|(key, value)| (Key::Text(key.as_bytes().to_vec()), value.clone()));
+        let entries = entries
+            .iter()
+            .map(|(key, value)| (Key::Text(key.as_bytes().to_vec()), value.clone()));
         from_data(&layout(), &Data::Map(entries.collect()), Style::default())
     }
 
@@ -301,40 +359,86 @@ mod tests {
     fn a_table_has_all_fields_and_is_read_back() {
         let record = Record::new(&layout());
         let data = to_data(&record, Style::default());
-        assert_eq!(data.field("c"), Some(&Data::Float(0.0)), "64 bits are floats");
-        assert_eq!(data.field("h"), Some(&Data::Array(vec![Data::Float(0.0); 3])));
-        let changed = read(&[("a", Data::Int(-3)), ("b", Data::Int(-1)), ("g", Data::Array(vec![Data::Int(200)]))]);
+        assert_eq!(
+            data.field("c"),
+            Some(&Data::Float(0.0)),
+            "64 bits are floats"
+        );
+        assert_eq!(
+            data.field("h"),
+            Some(&Data::Array(vec![Data::Float(0.0); 3]))
+        );
+        let changed = read(&[
+            ("a", Data::Int(-3)),
+            ("b", Data::Int(-1)),
+            ("g", Data::Array(vec![Data::Int(200)])),
+        ]);
         let data = to_data(&changed.expect("a message"), Style::default());
-        assert_eq!((data.field("a"), data.field("b")), (Some(&Data::Int(-3)), Some(&Data::Int(-1))));
+        assert_eq!(
+            (data.field("a"), data.field("b")),
+            (Some(&Data::Int(-3)), Some(&Data::Int(-1)))
+        );
     }
 
     #[test]
     fn errors_name_message_field_and_kind() {
         let error = |key, value| read(&[(key, value)]).expect_err("an error");
-        assert_eq!(error("z", Data::Int(1)), "read__test_msgs__msg__Tested: unexpected key: z");
-        assert_eq!(error("a", Data::text("1")), "read__test_msgs__msg__Tested: field a: expected integer");
-        assert_eq!(error("d", Data::Bool(true)), "read__test_msgs__msg__Tested: field d: expected float");
-        assert_eq!(error("e", Data::Int(1)), "read__test_msgs__msg__Tested: field e: expected bool");
-        assert_eq!(error("f", Data::text("")), "read__test_msgs__msg__Tested: field f: expected string");
-        assert_eq!(error("i", Data::Int(1)), "read__test_msgs__msg__Tested: field i: expected array");
+        assert_eq!(
+            error("z", Data::Int(1)),
+            "read__test_msgs__msg__Tested: unexpected key: z"
+        );
+        assert_eq!(
+            error("a", Data::text("1")),
+            "read__test_msgs__msg__Tested: field a: expected integer"
+        );
+        assert_eq!(
+            error("d", Data::Bool(true)),
+            "read__test_msgs__msg__Tested: field d: expected float"
+        );
+        assert_eq!(
+            error("e", Data::Int(1)),
+            "read__test_msgs__msg__Tested: field e: expected bool"
+        );
+        assert_eq!(
+            error("f", Data::text("")),
+            "read__test_msgs__msg__Tested: field f: expected string"
+        );
+        assert_eq!(
+            error("i", Data::Int(1)),
+            "read__test_msgs__msg__Tested: field i: expected array"
+        );
         let wrong = Data::Array(vec![Data::text("x")]);
-        assert_eq!(error("h", wrong), "read__test_msgs__msg__Tested: field h: expected double");
+        assert_eq!(
+            error("h", wrong),
+            "read__test_msgs__msg__Tested: field h: expected double"
+        );
     }
 
     #[test]
     fn bytes_are_strings_if_a_script_says_so() {
-        let style = Style { bytes_as_strings: true };
+        let style = Style {
+            bytes_as_strings: true,
+        };
         let data = Data::map([("g", Data::Buffer(vec![0, 255, 3]))]);
         let record = from_data(&layout(), &data, style).expect("a message");
-        assert_eq!(to_data(&record, style).field("g"), Some(&Data::Text(vec![0, 255, 3])));
+        assert_eq!(
+            to_data(&record, style).field("g"),
+            Some(&Data::Text(vec![0, 255, 3]))
+        );
         let empty = from_data(&layout(), &Data::map([("g", Data::text(""))]), style);
-        assert_eq!(empty, Err("string read error when trying to read uint8[]".into()));
+        assert_eq!(
+            empty,
+            Err("string read error when trying to read uint8[]".into())
+        );
     }
 
     #[test]
     fn fixed_arrays_get_their_length() {
         let short = read(&[("h", Data::Array(vec![Data::Int(1)]))]).expect("a message");
         let expected = Data::Array(vec![Data::Float(1.0), Data::Float(0.0), Data::Float(0.0)]);
-        assert_eq!(to_data(&short, Style::default()).field("h"), Some(&expected));
+        assert_eq!(
+            to_data(&short, Style::default()).field("h"),
+            Some(&expected)
+        );
     }
 }

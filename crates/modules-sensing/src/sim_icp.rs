@@ -58,13 +58,26 @@ fn match_to_shape(
         mesh.transform(&scene.world_pose(model_handle)?);
         mesh
     };
-    let surface = TriangleMesh::new(&mesh.vertices, &mesh.triangles).ok_or(SceneError::InvalidData)?;
-    let surface = Placed { geometry: Geometry::Mesh(&surface), pose: Pose::identity() };
+    let surface =
+        TriangleMesh::new(&mesh.vertices, &mesh.triangles).ok_or(SceneError::InvalidData)?;
+    let surface = Placed {
+        geometry: Geometry::Mesh(&surface),
+        pose: Pose::identity(),
+    };
     let nearest = |to: [f64; 3]| {
-        let point = Placed { geometry: Geometry::Point, pose: Pose::translation(to[0], to[1], to[2]) };
+        let point = Placed {
+            geometry: Geometry::Point,
+            pose: Pose::translation(to[0], to[1], to[2]),
+        };
         Some(distance(surface, point, f64::INFINITY)?.points[0])
     };
-    matrix(cx, &mesh.vertices, template_handle, &nearest, outlier_treshold)
+    matrix(
+        cx,
+        &mesh.vertices,
+        template_handle,
+        &nearest,
+        outlier_treshold,
+    )
 }
 
 fn matrix(
@@ -76,7 +89,9 @@ fn matrix(
 ) -> Result<[f64; 12]> {
     let points = cx.scene().points_for_hull(template)?;
     let outliers = (outliers > 0.0).then_some(outliers);
-    let found =
-        register(&points, model, nearest, outliers).ok_or_else(|| ApiError::Other("there are no points.".into()))?;
-    Ok(pose_to_matrix(&(found.pose * cx.scene().world_pose(template)?)))
+    let found = register(&points, model, nearest, outliers)
+        .ok_or_else(|| ApiError::Other("there are no points.".into()))?;
+    Ok(pose_to_matrix(
+        &(found.pose * cx.scene().world_pose(template)?),
+    ))
 }

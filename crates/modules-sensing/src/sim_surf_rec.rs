@@ -65,7 +65,9 @@ fn within(name: &str, number: i64, [least, most]: [i64; 2]) -> Result<usize> {
     if (least..=most).contains(&number) {
         Ok(number as usize)
     } else {
-        Err(refused(&format!("'{name}' lies between {least} and {most}.")))
+        Err(refused(&format!(
+            "'{name}' lies between {least} and {most}."
+        )))
     }
 }
 

@@ -53,6 +53,7 @@ pub static ALL: &[&Module] = &[
 
 /// All built-in functions and modules. Bound once per process.
 pub fn registry() -> Arc<Registry> {
-    static REGISTRY: LazyLock<Arc<Registry>> = LazyLock::new(|| Arc::new(Registry::new(ALL, FILES)));
+    static REGISTRY: LazyLock<Arc<Registry>> =
+        LazyLock::new(|| Arc::new(Registry::new(ALL, FILES)));
     REGISTRY.clone()
 }

@@ -136,13 +136,21 @@ impl Trajectory {
         let duration = self.duration();
         self.elapsed += dt;
         self.time = advance(self.time, duration, self.base_cycle, cycles);
-        let code = if self.time > duration { REACHED } else { RUNNING };
+        let code = if self.time > duration {
+            REACHED
+        } else {
+            RUNNING
+        };
         self.result(code, duration - self.elapsed)
     }
 
     /// Length of the motion (s); 0 when it could not be planned.
     pub fn duration(&self) -> f64 {
-        self.plan.as_ref().ok().and_then(Option::as_ref).map_or(0.0, Plan::duration)
+        self.plan
+            .as_ref()
+            .ok()
+            .and_then(Option::as_ref)
+            .map_or(0.0, Plan::duration)
     }
 
     fn start(
@@ -155,7 +163,14 @@ impl Trajectory {
             return Err(RuckigError::InvalidData);
         }
         let plan = (!active.is_empty()).then(|| Plan::new(input)).transpose();
-        Ok(Self { plan, start: cur.concat(), active, base_cycle, time: 0.0, elapsed: 0.0 })
+        Ok(Self {
+            plan,
+            start: cur.concat(),
+            active,
+            base_cycle,
+            time: 0.0,
+            elapsed: 0.0,
+        })
     }
 
     fn result(&self, code: i32, sync: f64) -> StepResult {
@@ -173,7 +188,11 @@ impl Trajectory {
 
 impl RuckigError {
     fn code(&self) -> i32 {
-        if let Self::Failed(code) = self { *code } else { INVALID_INPUT }
+        if let Self::Failed(code) = self {
+            *code
+        } else {
+            INVALID_INPUT
+        }
     }
 }
 
@@ -252,7 +271,10 @@ pub(crate) mod tests {
     #[track_caller]
     pub fn close(a: &[f64], b: &[f64], tolerance: f64) {
         assert_eq!(a.len(), b.len());
-        assert!(a.iter().zip(b).all(|(x, y)| (x - y).abs() <= tolerance), "{a:?} is not {b:?}");
+        assert!(
+            a.iter().zip(b).all(|(x, y)| (x - y).abs() <= tolerance),
+            "{a:?} is not {b:?}"
+        );
     }
 
     fn one_axis(cur: [f64; 3], max: &[f64], flags: i64, target: [f64; 2]) -> Trajectory {
@@ -262,7 +284,9 @@ pub(crate) mod tests {
     /// Steps of 0.05 s until the end: the count and the last result.
     fn run(trajectory: &mut Trajectory) -> (usize, StepResult) {
         let mut steps = (1..1000).map(|k| (k, trajectory.step(0.05)));
-        steps.find(|(_, r)| r.code != RUNNING).expect("the motion ends")
+        steps
+            .find(|(_, r)| r.code != RUNNING)
+            .expect("the motion ends")
     }
 
     #[test]
@@ -314,7 +338,11 @@ pub(crate) mod tests {
         let mut t = new(3, 1e-4, 0, &cur, &max, &[1, 1, 0], &target).expect("valid lists");
         for _ in 0..60 {
             let r = t.step(0.05);
-            close(&[r.pva[1], r.pva[2], r.pva[5]], &[0.5 * r.pva[0], 0.25, 0.0], 1e-9);
+            close(
+                &[r.pva[1], r.pva[2], r.pva[5]],
+                &[0.5 * r.pva[0], 0.25, 0.0],
+                1e-9,
+            );
         }
         let mut none = new(3, 1e-4, 0, &cur, &max, &[0; 3], &target).expect("valid lists");
         assert_eq!(none.step(0.05).code, REACHED);
@@ -327,9 +355,14 @@ pub(crate) mod tests {
             assert_eq!(t.step(dt).code, BAD_CYCLE_TIME);
         }
         assert_eq!(t.step(1e9).code, REACHED);
-        let new = |cur: &[f64]| Trajectory::new_position(1, 1e-4, 0, cur, &[0.5, 1.0, 10.0], &[1], &[1.0, 0.0]);
+        let new = |cur: &[f64]| {
+            Trajectory::new_position(1, 1e-4, 0, cur, &[0.5, 1.0, 10.0], &[1], &[1.0, 0.0])
+        };
         assert_eq!(new(&[0.0, 0.0]).err(), Some(RuckigError::TableSize));
-        assert_eq!(new(&[0.0, f64::NAN, 0.0]).err(), Some(RuckigError::InvalidData));
+        assert_eq!(
+            new(&[0.0, f64::NAN, 0.0]).err(),
+            Some(RuckigError::InvalidData)
+        );
         for bad in [0.0, -1.0] {
             let mut zero = one_axis([0.0; 3], &[bad, 1.0, 10.0], 0, [1.0, 0.0]);
             assert_eq!(zero.step(0.05).code, INVALID_INPUT);

@@ -1,6 +1,8 @@
 //! Planning by rsruckig, guarded against numbers that it cannot handle, and single steps of one joint.
 
-use rsruckig::prelude::{ControlInterface, InputParameter, Ruckig, RuckigErrorHandler, RuckigResult};
+use rsruckig::prelude::{
+    ControlInterface, InputParameter, Ruckig, RuckigErrorHandler, RuckigResult,
+};
 
 use super::ruckig::{INVALID_INPUT, RuckigError};
 
@@ -13,7 +15,10 @@ const MAX_MAGNITUDE: f64 = 1e12;
 /// # Errors
 /// [`RuckigError::InvalidData`] for numbers that are not finite or a negative `dt`,
 /// [`RuckigError::Failed`] for limits that are not positive or motions that cannot be planned.
-#[expect(clippy::too_many_arguments, reason = "the state and the limits of one joint, read at one place")]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "the state and the limits of one joint, read at one place"
+)]
 pub fn position_step(
     pos: f64,
     vel: f64,
@@ -78,12 +83,14 @@ impl<const N: usize> Plan<N> {
         let mut trajectory = rsruckig::prelude::Trajectory::new(dofs);
         let result = Ruckig::<N, Codes>::new(dofs, 0.0).calculate(input, &mut trajectory);
         match result {
-            Ok(RuckigResult::Working | RuckigResult::Finished) if trajectory.duration.is_finite() => {
+            Ok(RuckigResult::Working | RuckigResult::Finished)
+                if trajectory.duration.is_finite() =>
+            {
                 Ok(Self(trajectory))
             }
-            Ok(RuckigResult::Working | RuckigResult::Finished) => {
-                Err(RuckigError::Failed(RuckigResult::ErrorTrajectoryDuration as i32))
-            }
+            Ok(RuckigResult::Working | RuckigResult::Finished) => Err(RuckigError::Failed(
+                RuckigResult::ErrorTrajectoryDuration as i32,
+            )),
             Ok(failure) => Err(RuckigError::Failed(failure as i32)),
             Err(_) => Err(RuckigError::Failed(INVALID_INPUT)),
         }
@@ -95,9 +102,10 @@ impl<const N: usize> Plan<N> {
 
     /// Calls `each` with the axis and its position, velocity, acceleration at `time`.
     pub(crate) fn sample(&self, time: f64, mut each: impl FnMut(usize, (f64, f64, f64))) {
-        self.0.state_to_integrate_from(time, &mut 0, |axis, t, p, v, a, j| {
-            each(axis, rsruckig::util::integrate(t, p, v, a, j));
-        });
+        self.0
+            .state_to_integrate_from(time, &mut 0, |axis, t, p, v, a, j| {
+                each(axis, rsruckig::util::integrate(t, p, v, a, j));
+            });
     }
 }
 
@@ -106,7 +114,9 @@ struct Codes;
 
 impl RuckigErrorHandler for Codes {
     fn handle_validation_error(message: &str) -> Result<(), rsruckig::prelude::RuckigError> {
-        Err(rsruckig::prelude::RuckigError::ValidationError(message.to_owned()))
+        Err(rsruckig::prelude::RuckigError::ValidationError(
+            message.to_owned(),
+        ))
     }
 
     fn handle_calculator_error(_: &str) -> Result<(), rsruckig::prelude::RuckigError> {
@@ -116,10 +126,20 @@ impl RuckigErrorHandler for Codes {
 
 /// Every number that describes the motion, limits last.
 fn lists<const N: usize>(input: &InputParameter<N>) -> impl Iterator<Item = &f64> {
-    let states = input.current_position.iter().chain(input.current_velocity.iter());
+    let states = input
+        .current_position
+        .iter()
+        .chain(input.current_velocity.iter());
     let states = states.chain(input.current_acceleration.iter());
-    let targets = input.target_position.iter().chain(input.target_velocity.iter());
-    let minima = input.min_velocity.iter().chain(&input.min_acceleration).flat_map(|m| m.iter());
+    let targets = input
+        .target_position
+        .iter()
+        .chain(input.target_velocity.iter());
+    let minima = input
+        .min_velocity
+        .iter()
+        .chain(&input.min_acceleration)
+        .flat_map(|m| m.iter());
     states.chain(targets).chain(minima).chain(maxima(input))
 }
 
@@ -128,11 +148,14 @@ fn maxima<const N: usize>(input: &InputParameter<N>) -> impl Iterator<Item = &f6
         ControlInterface::Velocity => [].iter(),
         _ => input.max_velocity.iter(),
     };
-    velocity.chain(input.max_acceleration.iter()).chain(input.max_jerk.iter())
+    velocity
+        .chain(input.max_acceleration.iter())
+        .chain(input.max_jerk.iter())
 }
 
 fn plannable<const N: usize>(input: &InputParameter<N>) -> bool {
-    lists(input).all(|x| x.abs() <= MAX_MAGNITUDE) && maxima(input).all(|x| *x >= 1.0 / MAX_MAGNITUDE)
+    lists(input).all(|x| x.abs() <= MAX_MAGNITUDE)
+        && maxima(input).all(|x| *x >= 1.0 / MAX_MAGNITUDE)
 }
 
 #[cfg(test)]

@@ -41,7 +41,11 @@ impl CubicSpline {
     pub fn new(knots: Vec<f64>, points: Vec<Vec<f64>>, boundary: Boundary) -> Self {
         let axis = |values: Vec<f64>| {
             let slopes = slopes(&knots, &values, boundary);
-            values.into_iter().zip(slopes).map(|(value, slope)| [value, slope]).collect()
+            values
+                .into_iter()
+                .zip(slopes)
+                .map(|(value, slope)| [value, slope])
+                .collect()
         };
         let axes = points.into_iter().map(axis).collect();
         Self { knots, axes }
@@ -60,14 +64,25 @@ impl CubicSpline {
     /// Per axis: value, first and second derivative.
     pub fn at(&self, s: f64) -> impl Iterator<Item = [f64; 3]> {
         let last_piece = self.knots.len() - 2;
-        let piece = self.knots.partition_point(|knot| *knot <= s).saturating_sub(1).min(last_piece);
+        let piece = self
+            .knots
+            .partition_point(|knot| *knot <= s)
+            .saturating_sub(1)
+            .min(last_piece);
         let width = self.knots[piece + 1] - self.knots[piece];
         let t = s - self.knots[piece];
         self.axes.iter().map(move |axis| {
             let ([a, da], [b, db]) = (axis[piece], axis[piece + 1]);
             let mean = (b - a) / width;
-            let (c2, c3) = ((3.0 * mean - 2.0 * da - db) / width, (da + db - 2.0 * mean) / (width * width));
-            [a + t * (da + t * (c2 + t * c3)), da + t * (2.0 * c2 + t * 3.0 * c3), 2.0 * c2 + 6.0 * c3 * t]
+            let (c2, c3) = (
+                (3.0 * mean - 2.0 * da - db) / width,
+                (da + db - 2.0 * mean) / (width * width),
+            );
+            [
+                a + t * (da + t * (c2 + t * c3)),
+                da + t * (2.0 * c2 + t * 3.0 * c3),
+                2.0 * c2 + 6.0 * c3 * t,
+            ]
         })
     }
 }
@@ -78,15 +93,24 @@ type Row = [f64; 4];
 /// Slopes at the knots that make the second derivative continuous.
 fn slopes(knots: &[f64], values: &[f64], boundary: Boundary) -> Vec<f64> {
     let widths: Vec<f64> = knots.windows(2).map(|k| k[1] - k[0]).collect();
-    let means: Vec<f64> = values.windows(2).zip(&widths).map(|(v, h)| (v[1] - v[0]) / h).collect();
+    let means: Vec<f64> = values
+        .windows(2)
+        .zip(&widths)
+        .map(|(v, h)| (v[1] - v[0]) / h)
+        .collect();
     if boundary == Boundary::Periodic {
         return periodic_slopes(&widths, &means);
     }
     let (h, m) = (widths.as_slice(), means.as_slice());
     let mut rows = vec![first_row(h, m, boundary)];
-    rows.extend(
-        (1..h.len()).map(|i| [h[i], 2.0 * (h[i - 1] + h[i]), h[i - 1], 3.0 * (h[i] * m[i - 1] + h[i - 1] * m[i])]),
-    );
+    rows.extend((1..h.len()).map(|i| {
+        [
+            h[i],
+            2.0 * (h[i - 1] + h[i]),
+            h[i - 1],
+            3.0 * (h[i] * m[i - 1] + h[i - 1] * m[i]),
+        ]
+    }));
     rows.push(last_row(h, m, boundary));
     solve(rows)
 }
@@ -146,7 +170,12 @@ fn cyclic_slopes(h: &[f64], m: &[f64]) -> Vec<f64> {
     let n = h.len();
     let row = |i: usize| {
         let before = (i + n - 1) % n;
-        [h[i], 2.0 * (h[before] + h[i]), h[before], 3.0 * (h[i] * m[before] + h[before] * m[i])]
+        [
+            h[i],
+            2.0 * (h[before] + h[i]),
+            h[before],
+            3.0 * (h[i] * m[before] + h[before] * m[i]),
+        ]
     };
     let mut rows: Vec<Row> = (0..n).map(row).collect();
     let (corner_top, corner_bottom) = (rows[0][0], rows[n - 1][2]);
@@ -169,15 +198,31 @@ mod tests {
     #[track_caller]
     fn slopes_are(knots: &[f64], values: &[f64], boundary: Boundary, expected: &[f64]) {
         let found = slopes(knots, values, boundary);
-        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} is not {expected:?}");
+        assert!(
+            found
+                .iter()
+                .zip(expected)
+                .all(|(a, b)| (a - b).abs() < 1e-12),
+            "{found:?} is not {expected:?}"
+        );
     }
 
     #[test]
     fn not_a_knot_reproduces_cubics() {
         let knots = [0.0, 0.3, 1.0, 1.2, 2.0];
         let cubic = |s: f64| s * s * s - 2.0 * s + 1.0;
-        slopes_are(&knots, &knots.map(cubic), Boundary::NotAKnot, &knots.map(|s| 3.0 * s * s - 2.0));
-        slopes_are(&[0.0, 1.0, 3.0], &[0.0, 1.0, 9.0], Boundary::NotAKnot, &[0.0, 2.0, 6.0]);
+        slopes_are(
+            &knots,
+            &knots.map(cubic),
+            Boundary::NotAKnot,
+            &knots.map(|s| 3.0 * s * s - 2.0),
+        );
+        slopes_are(
+            &[0.0, 1.0, 3.0],
+            &[0.0, 1.0, 9.0],
+            Boundary::NotAKnot,
+            &[0.0, 2.0, 6.0],
+        );
         slopes_are(&[0.0, 2.0], &[1.0, 5.0], Boundary::NotAKnot, &[2.0, 2.0]);
         slopes_are(&[0.0, 2.0], &[1.0, 5.0], Boundary::Natural, &[2.0, 2.0]);
         slopes_are(&[0.0, 2.0], &[1.0, 5.0], Boundary::Clamped, &[0.0, 0.0]);
@@ -186,13 +231,21 @@ mod tests {
     #[test]
     fn closed_curves_go_on() {
         for n in [2, 3, 4, 7] {
-            let knots: Vec<f64> = (0..=n).map(|i| f64::from(i) + 0.1 * f64::from(i * i)).collect();
+            let knots: Vec<f64> = (0..=n)
+                .map(|i| f64::from(i) + 0.1 * f64::from(i * i))
+                .collect();
             let mut values: Vec<f64> = (0..n).map(|i| f64::from(i * 7 % 5)).collect();
             values.push(values[0]);
             let end = knots[n as usize];
             let spline = CubicSpline::new(knots, vec![values], Boundary::Periodic);
-            let (first, last) = (spline.at(0.0).next().unwrap(), spline.at(end).next().unwrap());
-            assert!(first.iter().zip(last).all(|(a, b)| (a - b).abs() < 1e-9), "{n}: {first:?} {last:?}");
+            let (first, last) = (
+                spline.at(0.0).next().unwrap(),
+                spline.at(end).next().unwrap(),
+            );
+            assert!(
+                first.iter().zip(last).all(|(a, b)| (a - b).abs() < 1e-9),
+                "{n}: {first:?} {last:?}"
+            );
         }
     }
 }

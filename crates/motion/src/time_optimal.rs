@@ -70,7 +70,11 @@ impl TimedPath {
         if !sized {
             return Err(TimeOptimalError::Sizes);
         }
-        if !velocity.iter().chain(acceleration).all(|[low, high]| *low <= 0.0 && *high >= 0.0) {
+        if !velocity
+            .iter()
+            .chain(acceleration)
+            .all(|[low, high]| *low <= 0.0 && *high >= 0.0)
+        {
             return Err(TimeOptimalError::Limits);
         }
         let places = places(spline.knots());
@@ -87,7 +91,11 @@ impl TimedPath {
 
     /// The configuration at a time.
     pub fn at(&self, time: f64) -> impl Iterator<Item = f64> {
-        let cell = self.grid.partition_point(|[_, _, t]| *t <= time).clamp(1, self.grid.len() - 1) - 1;
+        let cell = self
+            .grid
+            .partition_point(|[_, _, t]| *t <= time)
+            .clamp(1, self.grid.len() - 1)
+            - 1;
         let ([s, v, t], [next_s, next_v, next_t]) = (self.grid[cell], self.grid[cell + 1]);
         let (dt, acceleration) = (time - t, (next_v - v) / (next_t - t));
         let parameter = (s + dt * (v + 0.5 * acceleration * dt)).clamp(s, next_s);
@@ -95,7 +103,11 @@ impl TimedPath {
     }
 }
 
-fn spline(path: &[f64], lengths: &[f64], boundary: Boundary) -> Result<CubicSpline, TimeOptimalError> {
+fn spline(
+    path: &[f64],
+    lengths: &[f64],
+    boundary: Boundary,
+) -> Result<CubicSpline, TimeOptimalError> {
     let count = lengths.len();
     if count < 2 || path.len() < count || !path.len().is_multiple_of(count) {
         return Err(TimeOptimalError::Sizes);
@@ -105,13 +117,20 @@ fn spline(path: &[f64], lengths: &[f64], boundary: Boundary) -> Result<CubicSpli
     }
     let axes = path.len() / count;
     let (start, total) = (lengths[0], lengths[count - 1] - lengths[0]);
-    let knots: Vec<f64> = lengths.iter().map(|length| (length - start) / total).collect();
+    let knots: Vec<f64> = lengths
+        .iter()
+        .map(|length| (length - start) / total)
+        .collect();
     if total.is_nan() || total <= 0.0 || !knots.windows(2).all(|pair| pair[0] < pair[1]) {
         return Err(TimeOptimalError::RepeatedPoints);
     }
     let axis = |axis: usize| path.iter().skip(axis).step_by(axes).copied().collect();
     let points: Vec<Vec<f64>> = (0..axes).map(axis).collect();
-    if boundary == Boundary::Periodic && points.iter().any(|axis| (axis[0] - axis[count - 1]).abs() > 1e-9) {
+    if boundary == Boundary::Periodic
+        && points
+            .iter()
+            .any(|axis| (axis[0] - axis[count - 1]).abs() > 1e-9)
+    {
         return Err(TimeOptimalError::NotClosed);
     }
     Ok(CubicSpline::new(knots, points, boundary))
@@ -121,7 +140,8 @@ fn spline(path: &[f64], lengths: &[f64], boundary: Boundary) -> Result<CubicSpli
 fn places(knots: &[f64]) -> Vec<f64> {
     let mut places = vec![0.0];
     for pair in knots.windows(2) {
-        let parts = (((pair[1] - pair[0]) * INTERVALS as f64).ceil() as usize).max(INTERVALS_PER_PIECE);
+        let parts =
+            (((pair[1] - pair[0]) * INTERVALS as f64).ceil() as usize).max(INTERVALS_PER_PIECE);
         places.extend((1..=parts).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / parts as f64));
     }
     places
@@ -144,25 +164,48 @@ struct Stage {
     reach: f64,
 }
 
-fn stages(spline: &CubicSpline, places: &[f64], velocity: &Limits, acceleration: &Limits) -> Vec<Stage> {
-    let derivatives: Vec<Vec<[f64; 2]>> =
-        places.iter().map(|s| spline.at(*s).map(|[_, d, dd]| [d, dd]).collect()).collect();
-    let largest = derivatives.iter().flatten().flatten().fold(0.0_f64, |m, d| m.max(d.abs()));
+fn stages(
+    spline: &CubicSpline,
+    places: &[f64],
+    velocity: &Limits,
+    acceleration: &Limits,
+) -> Vec<Stage> {
+    let derivatives: Vec<Vec<[f64; 2]>> = places
+        .iter()
+        .map(|s| spline.at(*s).map(|[_, d, dd]| [d, dd]).collect())
+        .collect();
+    let largest = derivatives
+        .iter()
+        .flatten()
+        .flatten()
+        .fold(0.0_f64, |m, d| m.max(d.abs()));
     let negligible = RELATIVE_TOLERANCE * largest;
     let stage = |i: usize| {
         let reach = 2.0 * (places[i + 1] - places[i]);
         let mut lines = Vec::new();
-        for ((here, next), [low, high]) in derivatives[i].iter().zip(&derivatives[i + 1]).zip(acceleration) {
+        for ((here, next), [low, high]) in derivatives[i]
+            .iter()
+            .zip(&derivatives[i + 1])
+            .zip(acceleration)
+        {
             // The limits hold at both ends of the interval: else u jumps to and fro where a derivative passes zero.
             for [a, b] in [*here, [next[0] + reach * next[1], next[1]]] {
                 if a.abs() > negligible || b.abs() > negligible {
                     lines.push(Line { a, b, c: *high });
-                    lines.push(Line { a: -a, b: -b, c: -*low });
+                    lines.push(Line {
+                        a: -a,
+                        b: -b,
+                        c: -*low,
+                    });
                 }
             }
         }
         lines.retain(|line| line.c.is_finite());
-        Stage { lines, fastest: fastest(&derivatives[i], velocity, negligible), reach }
+        Stage {
+            lines,
+            fastest: fastest(&derivatives[i], velocity, negligible),
+            reach,
+        }
     };
     (0..places.len() - 1).map(stage).collect()
 }
@@ -171,15 +214,34 @@ fn stages(spline: &CubicSpline, places: &[f64], velocity: &Limits, acceleration:
 fn fastest(derivatives: &[[f64; 2]], velocity: &Limits, negligible: f64) -> f64 {
     let bound = |([derivative, _], [low, high]): (&[f64; 2], &[f64; 2])| {
         let limit = if *derivative > 0.0 { high } else { low };
-        if derivative.abs() > negligible { (limit / derivative).powi(2) } else { MAX_SQUARED_SPEED }
+        if derivative.abs() > negligible {
+            (limit / derivative).powi(2)
+        } else {
+            MAX_SQUARED_SPEED
+        }
     };
-    derivatives.iter().zip(velocity).map(bound).fold(MAX_SQUARED_SPEED, f64::min)
+    derivatives
+        .iter()
+        .zip(velocity)
+        .map(bound)
+        .fold(MAX_SQUARED_SPEED, f64::min)
 }
 
 impl Stage {
     /// All lines, with those that keep the next x between 0 and `next`.
     fn lines(&self, next: f64) -> impl Iterator<Item = Line> {
-        let within = [Line { a: self.reach, b: 1.0, c: next }, Line { a: -self.reach, b: -1.0, c: 0.0 }];
+        let within = [
+            Line {
+                a: self.reach,
+                b: 1.0,
+                c: next,
+            },
+            Line {
+                a: -self.reach,
+                b: -1.0,
+                c: 0.0,
+            },
+        ];
         self.lines.iter().copied().chain(within)
     }
 
@@ -188,16 +250,28 @@ impl Stage {
         let u = |line: &Line| (line.c - line.b * x) / line.a;
         let of_sign = |sign: f64| self.lines(next).filter(move |line| line.a * sign > 0.0);
         // Both are there: the last two lines of every stage.
-        let none = Line { a: 1.0, b: 0.0, c: f64::INFINITY };
-        let low = of_sign(-1.0).max_by(|l, m| u(l).total_cmp(&u(m))).unwrap_or(none);
-        let high = of_sign(1.0).min_by(|l, m| u(l).total_cmp(&u(m))).unwrap_or(none);
+        let none = Line {
+            a: 1.0,
+            b: 0.0,
+            c: f64::INFINITY,
+        };
+        let low = of_sign(-1.0)
+            .max_by(|l, m| u(l).total_cmp(&u(m)))
+            .unwrap_or(none);
+        let high = of_sign(1.0)
+            .min_by(|l, m| u(l).total_cmp(&u(m)))
+            .unwrap_or(none);
         (low, high)
     }
 
     /// The largest x from which an x of at most `next` can be reached. The room for u shrinks ever faster with x, so that where its
     /// two bounds meet is never too low: Newton's method from above ends exactly.
     fn largest_x(&self, next: f64) -> f64 {
-        let upright = self.lines.iter().filter(|line| line.a == 0.0 && line.b > 0.0).map(|line| line.c / line.b);
+        let upright = self
+            .lines
+            .iter()
+            .filter(|line| line.a == 0.0 && line.b > 0.0)
+            .map(|line| line.c / line.b);
         let mut x = upright.fold(self.fastest, f64::min);
         for _ in 0..2 * self.lines.len() + 8 {
             let (low, high) = self.bounds(x, next);
@@ -217,7 +291,11 @@ impl Stage {
         let (low, high) = self.bounds(x, next);
         let at = |line: Line| (line.c - line.b * x) / line.a;
         // If rounding leaves an empty interval, the middle is used.
-        let u = if at(low) <= at(high) { at(high) } else { 0.5 * (at(low) + at(high)) };
+        let u = if at(low) <= at(high) {
+            at(high)
+        } else {
+            0.5 * (at(low) + at(high))
+        };
         (x + self.reach * u).clamp(0.0, next)
     }
 }
@@ -263,15 +341,24 @@ mod tests {
 
     fn timed_path(path: &[f64], lengths: &[f64], v: f64, a: f64, boundary: Boundary) -> TimedPath {
         let limits = |limit: f64| vec![[-limit, limit]; path.len() / lengths.len()];
-        TimedPath::new(path, lengths, &limits(v), &limits(a), boundary).expect("a path that can be followed")
+        TimedPath::new(path, lengths, &limits(v), &limits(a), boundary)
+            .expect("a path that can be followed")
     }
 
     #[test]
     fn straight_lines_are_trapezoids() {
         // Distance 2 at 0.5 m/s and 1 m/s2: 2 / 0.5 + 0.5 / 1. Distance 1 without reaching the limit: 2 sqrt(1).
-        for (path, v, duration) in [([0.0, 2.0], 0.5, 4.5), ([1.0, 0.0], 9.0, 2.0), ([0.0, -1.0], f64::INFINITY, 2.0)] {
+        for (path, v, duration) in [
+            ([0.0, 2.0], 0.5, 4.5),
+            ([1.0, 0.0], 9.0, 2.0),
+            ([0.0, -1.0], f64::INFINITY, 2.0),
+        ] {
             let timed = timed_path(&path, &[0.0, 1.0], v, 1.0, Boundary::NotAKnot);
-            assert!((timed.duration() - duration).abs() < 1e-3, "{} is not {duration}", timed.duration());
+            assert!(
+                (timed.duration() - duration).abs() < 1e-3,
+                "{} is not {duration}",
+                timed.duration()
+            );
             assert_eq!(timed.at(0.0).next(), Some(path[0]));
             assert!((timed.at(duration).next().unwrap() - path[1]).abs() < 1e-6);
         }
@@ -281,10 +368,21 @@ mod tests {
     fn the_slower_axis_and_the_weaker_side_decide() {
         let v = vec![[-9.0, 9.0], [-0.25, 9.0]];
         let a = vec![[-4.0, 9.0], [-9.0, 9.0]];
-        let timed = TimedPath::new(&[0.0, 0.0, 2.0, -1.0], &[0.0, 1.0], &v, &a, Boundary::NotAKnot).unwrap();
+        let timed = TimedPath::new(
+            &[0.0, 0.0, 2.0, -1.0],
+            &[0.0, 1.0],
+            &v,
+            &a,
+            Boundary::NotAKnot,
+        )
+        .unwrap();
         // Axis 1 at 0.25: 4 s; axis 0 reaches 0.5 with 9 and stops with 4: half of both times more.
         let duration = 4.0 + 0.5 * (0.5 / 9.0 + 0.5 / 4.0);
-        assert!((timed.duration() - duration).abs() < 1e-3, "{} is not {duration}", timed.duration());
+        assert!(
+            (timed.duration() - duration).abs() < 1e-3,
+            "{} is not {duration}",
+            timed.duration()
+        );
     }
 
     #[test]
@@ -301,9 +399,16 @@ mod tests {
                     let (before, here, after) = (at(i - 1), at(i), at(i + 1));
                     for axis in 0..3 {
                         let velocity = (after[axis] - before[axis]) / (2.0 * h);
-                        let acceleration = (after[axis] - 2.0 * here[axis] + before[axis]) / (h * h);
-                        assert!(velocity.abs() < 1.001, "{boundary:?} {points}: velocity {velocity}");
-                        assert!(acceleration.abs() < 2.05, "{boundary:?} {points}: acceleration {acceleration}");
+                        let acceleration =
+                            (after[axis] - 2.0 * here[axis] + before[axis]) / (h * h);
+                        assert!(
+                            velocity.abs() < 1.001,
+                            "{boundary:?} {points}: velocity {velocity}"
+                        );
+                        assert!(
+                            acceleration.abs() < 2.05,
+                            "{boundary:?} {points}: acceleration {acceleration}"
+                        );
                     }
                 }
             }
@@ -318,24 +423,51 @@ mod tests {
         };
         let knot = Boundary::NotAKnot;
         let one = [0.0, 1.0];
-        assert_eq!(new(&one, &[0.0], &limits, &limits, knot), Some(TimeOptimalError::Sizes));
-        assert_eq!(new(&one, &one, &vec![], &limits, knot), Some(TimeOptimalError::Sizes));
-        assert_eq!(new(&[0.0, f64::NAN], &one, &limits, &limits, knot), Some(TimeOptimalError::NotFinite));
+        assert_eq!(
+            new(&one, &[0.0], &limits, &limits, knot),
+            Some(TimeOptimalError::Sizes)
+        );
+        assert_eq!(
+            new(&one, &one, &vec![], &limits, knot),
+            Some(TimeOptimalError::Sizes)
+        );
+        assert_eq!(
+            new(&[0.0, f64::NAN], &one, &limits, &limits, knot),
+            Some(TimeOptimalError::NotFinite)
+        );
         for lengths in [[0.0, 0.0], [1.0, 0.0]] {
-            assert_eq!(new(&one, &lengths, &limits, &limits, knot), Some(TimeOptimalError::RepeatedPoints));
+            assert_eq!(
+                new(&one, &lengths, &limits, &limits, knot),
+                Some(TimeOptimalError::RepeatedPoints)
+            );
         }
         assert_eq!(
             new(&[0.0, 1.0, 1.0], &[0.0, 1.0, 1.0], &limits, &limits, knot),
             Some(TimeOptimalError::RepeatedPoints)
         );
         for bad in [[1.0, 2.0], [f64::NAN, 1.0]] {
-            assert_eq!(new(&one, &one, &vec![bad], &limits, knot), Some(TimeOptimalError::Limits));
-            assert_eq!(new(&one, &one, &limits, &vec![bad], knot), Some(TimeOptimalError::Limits));
+            assert_eq!(
+                new(&one, &one, &vec![bad], &limits, knot),
+                Some(TimeOptimalError::Limits)
+            );
+            assert_eq!(
+                new(&one, &one, &limits, &vec![bad], knot),
+                Some(TimeOptimalError::Limits)
+            );
         }
         let zero = vec![[0.0, 0.0]];
-        assert_eq!(new(&one, &one, &zero, &limits, knot), Some(TimeOptimalError::Infeasible));
-        assert_eq!(new(&one, &one, &limits, &zero, knot), Some(TimeOptimalError::Infeasible));
-        assert_eq!(new(&one, &one, &limits, &limits, Boundary::Periodic), Some(TimeOptimalError::NotClosed));
+        assert_eq!(
+            new(&one, &one, &zero, &limits, knot),
+            Some(TimeOptimalError::Infeasible)
+        );
+        assert_eq!(
+            new(&one, &one, &limits, &zero, knot),
+            Some(TimeOptimalError::Infeasible)
+        );
+        assert_eq!(
+            new(&one, &one, &limits, &limits, Boundary::Periodic),
+            Some(TimeOptimalError::NotClosed)
+        );
         assert!(
             new(&[1e300, -1e300], &[0.0, 1e300], &limits, &limits, knot)
                 .is_none_or(|e| e == TimeOptimalError::Infeasible)

@@ -23,14 +23,21 @@ impl Perception {
         entities: &[[Entity; 2]],
         displaced: impl IntoIterator<Item = Handle>,
     ) -> CollisionTest {
-        let pairs = entities.iter().map(|&entities| Pairs::of(scene, Purpose::Collision, entities));
-        CollisionTest { pairs: pairs.collect(), displaced: self.index(scene).bodies_below(scene, displaced) }
+        let pairs = entities
+            .iter()
+            .map(|&entities| Pairs::of(scene, Purpose::Collision, entities));
+        CollisionTest {
+            pairs: pairs.collect(),
+            displaced: self.index(scene).bodies_below(scene, displaced),
+        }
     }
 
     /// Whether any pair of a test collides, with objects displaced as the test has it. The journal need not mention that.
     pub fn collides(&mut self, scene: &Scene, test: &CollisionTest) -> bool {
         self.index.place_displaced(scene, &test.displaced);
-        test.pairs.iter().any(|pairs| first_collision(pairs, scene, &self.index).is_some())
+        test.pairs
+            .iter()
+            .any(|pairs| first_collision(pairs, scene, &self.index).is_some())
     }
 
     /// The segments (world, metres) in which the surfaces of the entities intersect.
@@ -40,7 +47,8 @@ impl Perception {
         let mut segments = Vec::new();
         for object in pairs.first(index) {
             for (_, other) in pairs.overlapping((scene, index), object) {
-                parts(object.1, other).for_each(|[a, b]| segments.extend(intersection_segments(a, b)));
+                parts(object.1, other)
+                    .for_each(|[a, b]| segments.extend(intersection_segments(a, b)));
             }
         }
         segments
@@ -56,7 +64,9 @@ pub struct CollisionTest {
 fn first_collision(pairs: &Pairs, scene: &Scene, index: &Index) -> Option<[Handle; 2]> {
     pairs.first(index).find_map(|object| {
         let mut others = pairs.overlapping((scene, index), object);
-        others.find(|(_, other)| collide(object.1, other)).map(|(other, _)| [object.0, other])
+        others
+            .find(|(_, other)| collide(object.1, other))
+            .map(|(other, _)| [object.0, other])
     })
 }
 
@@ -67,6 +77,9 @@ fn collide(body: &Body, other: &Body) -> bool {
 /// The pairs of parts whose boxes overlap.
 fn parts<'a>(body: &'a Body, other: &'a Body) -> impl Iterator<Item = [proximity::Placed<'a>; 2]> {
     body.parts().flat_map(move |(a, bounds)| {
-        other.parts().filter(|(_, other)| bounds.overlaps(other)).map(move |(b, _)| [a, b])
+        other
+            .parts()
+            .filter(|(_, other)| bounds.overlaps(other))
+            .map(move |(b, _)| [a, b])
     })
 }

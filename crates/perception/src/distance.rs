@@ -21,17 +21,34 @@ pub struct Shortest {
 
 impl Perception {
     /// The closest points of two entities, if they are nearer than `below` (m).
-    pub fn distance(&mut self, scene: &Scene, entities: [Entity; 2], below: f64) -> Option<Shortest> {
+    pub fn distance(
+        &mut self,
+        scene: &Scene,
+        entities: [Entity; 2],
+        below: f64,
+    ) -> Option<Shortest> {
         let pairs = Pairs::of(scene, Purpose::Distance, entities);
         let index = self.index(scene);
         let mut shortest: Option<Shortest> = None;
         for (object, body) in pairs.first(index) {
             let limit = shortest.map_or(below, |found| found.distance);
-            pairs.nearest_first((scene, index), (object, body), limit, |other, other_body, limit| {
-                let Some(Closest { points, distance }) = closest(body, other_body, limit) else { return limit };
-                shortest = Some(Shortest { objects: [object, other], points, distance });
-                distance
-            });
+            pairs.nearest_first(
+                (scene, index),
+                (object, body),
+                limit,
+                |other, other_body, limit| {
+                    let Some(Closest { points, distance }) = closest(body, other_body, limit)
+                    else {
+                        return limit;
+                    };
+                    shortest = Some(Shortest {
+                        objects: [object, other],
+                        points,
+                        distance,
+                    });
+                    distance
+                },
+            );
         }
         shortest
     }

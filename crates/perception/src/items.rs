@@ -29,17 +29,25 @@ impl Items {
     /// # Errors
     /// When there is no such type, or there are not enough coordinates.
     pub fn new(coordinates: &[f64], item_type: i64, count: i64) -> SceneResult<Self> {
-        let corners =
-            usize::try_from(item_type).ok().filter(|corners| *corners < 3).ok_or(SceneError::InvalidArgument)? + 1;
-        let count = usize::try_from(count).ok().and_then(|count| count.checked_mul(corners));
+        let corners = usize::try_from(item_type)
+            .ok()
+            .filter(|corners| *corners < 3)
+            .ok_or(SceneError::InvalidArgument)?
+            + 1;
+        let count = usize::try_from(count)
+            .ok()
+            .and_then(|count| count.checked_mul(corners));
         let points = coordinates.as_chunks::<3>().0;
-        let points = count.and_then(|count| points.get(..count)).ok_or(SceneError::InvalidArgument)?;
+        let points = count
+            .and_then(|count| points.get(..count))
+            .ok_or(SceneError::InvalidArgument)?;
         Ok(match corners {
             1 => PointSet::new(points).map_or(Self::None, Self::Points),
             2 => Self::Segments(points.as_chunks().0.to_vec()),
             _ => {
-                let triangles: Vec<[u32; 3]> =
-                    (0..points.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+                let triangles: Vec<[u32; 3]> = (0..points.len() as u32 / 3)
+                    .map(|i| [3 * i, 3 * i + 1, 3 * i + 2])
+                    .collect();
                 TriangleMesh::new(points, &triangles).map_or(Self::None, Self::Triangles)
             }
         })
@@ -60,19 +68,43 @@ impl Perception {
     ) -> SceneResult<Option<Hit>> {
         let data = scene.object(sensor)?.proximity_sensor()?;
         let here = Pose::identity();
-        let placed = |geometry| Placed { geometry, pose: here };
+        let placed = |geometry| Placed {
+            geometry,
+            pose: here,
+        };
         if data.volume.volume_type == VolumeType::Ray {
-            let Items::Triangles(mesh) = items else { return Ok(None) };
+            let Items::Triangles(mesh) = items else {
+                return Ok(None);
+            };
             let range = range(&data.volume, mode.reach);
-            return Ok(cast_ray(placed(Geometry::Mesh(mesh)), &here, [0.0, 0.0, 1.0], range, &mode.filter));
+            return Ok(cast_ray(
+                placed(Geometry::Mesh(mesh)),
+                &here,
+                [0.0, 0.0, 1.0],
+                range,
+                &mode.filter,
+            ));
         }
         let volume = self.search_volume(scene, sensor, &data.volume);
         Ok(match items {
             Items::None => None,
-            Items::Points(points) => volume.closest(placed(Geometry::Points(points)), &here, mode.reach, &mode.filter),
-            Items::Triangles(mesh) => volume.closest(placed(Geometry::Mesh(mesh)), &here, mode.reach, &mode.filter),
+            Items::Points(points) => volume.closest(
+                placed(Geometry::Points(points)),
+                &here,
+                mode.reach,
+                &mode.filter,
+            ),
+            Items::Triangles(mesh) => volume.closest(
+                placed(Geometry::Mesh(mesh)),
+                &here,
+                mode.reach,
+                &mode.filter,
+            ),
             Items::Segments(segments) => {
-                let nearest = segments.iter().flat_map(|segment| volume.parts_of_segment(segment)).map(nearest);
+                let nearest = segments
+                    .iter()
+                    .flat_map(|segment| volume.parts_of_segment(segment))
+                    .map(nearest);
                 let hits = nearest.filter(|hit| hit.distance < mode.reach);
                 hits.reduce(|a, b| if b.distance < a.distance { b } else { a })
             }
@@ -85,8 +117,16 @@ fn nearest([from, to]: [Point; 2]) -> Hit {
     let (from, to) = (Vector3::from(from), Vector3::from(to));
     let along = to - from;
     let length = along.norm_squared();
-    let share = if length > 0.0 { (-from.dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 };
+    let share = if length > 0.0 {
+        (-from.dot(&along) / length).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     let point = from + along * share;
     let normal = point.try_normalize(0.0).unwrap_or_default();
-    Hit { point: point.into(), normal: normal.into(), distance: point.norm() }
+    Hit {
+        point: point.into(),
+        normal: normal.into(),
+        distance: point.norm(),
+    }
 }

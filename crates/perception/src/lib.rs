@@ -43,7 +43,13 @@ impl Perception {
     /// as there are processor cores.
     pub fn new(seed: u32, render_threads: Option<NonZero<usize>>) -> Self {
         let vision = vision::Vision::new(render_threads);
-        Self { vision, index: Index::default(), volumes: BTreeMap::new(), seed, random: None }
+        Self {
+            vision,
+            index: Index::default(),
+            volumes: BTreeMap::new(),
+            seed,
+            random: None,
+        }
     }
 
     /// The index, up to date with the scene.
@@ -54,7 +60,9 @@ impl Perception {
 
     /// The next random number in [0, 1).
     fn random(&mut self) -> f64 {
-        let generator = self.random.get_or_insert_with(|| Box::new(Mt::new(self.seed)));
+        let generator = self
+            .random
+            .get_or_insert_with(|| Box::new(Mt::new(self.seed)));
         f64::from(generator.next_u32()) / 4_294_967_296.0
     }
 }

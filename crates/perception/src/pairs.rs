@@ -28,17 +28,28 @@ impl Pairs {
         let shared = match &group {
             Group::List(list) => {
                 let known: BTreeSet<_> = objects.iter().collect();
-                list.iter().copied().filter(|object| known.contains(object)).collect()
+                list.iter()
+                    .copied()
+                    .filter(|object| known.contains(object))
+                    .collect()
             }
             Group::All { .. } => BTreeSet::new(),
         };
         let is_self = first == second;
-        Self { purpose, first: objects, second: group, shared, is_self }
+        Self {
+            purpose,
+            first: objects,
+            second: group,
+            shared,
+            is_self,
+        }
     }
 
     /// The bodies of the first entity.
     pub(super) fn first<'i>(&self, index: &'i Index) -> impl Iterator<Item = (Handle, &'i Body)> {
-        self.first.iter().filter_map(|&object| Some((object, index.body(object)?)))
+        self.first
+            .iter()
+            .filter_map(|&object| Some((object, index.body(object)?)))
     }
 
     /// The bodies that `object` is compared with, as far as their boxes overlap, in the order of the scene.
@@ -48,7 +59,9 @@ impl Pairs {
         (object, body): (Handle, &Body),
     ) -> impl Iterator<Item = (Handle, &'i Body)> {
         let others = index.overlapping(&self.second, (scene, self.purpose), &body.bounds);
-        others.into_iter().filter(move |&(other, _)| self.is_compared(scene, object, other))
+        others
+            .into_iter()
+            .filter(move |&(other, _)| self.is_compared(scene, object, other))
     }
 
     /// Visits the bodies that `object` is compared with by ascending distance of their boxes, as long as it is smaller than the limit.
@@ -61,9 +74,19 @@ impl Pairs {
     ) {
         let distance = |bounds: &proximity::Bounds| bounds.distance(&body.bounds);
         let purpose = (scene, self.purpose);
-        index.nearest_first(&self.second, purpose, distance, limit, |other, body, limit| {
-            if self.is_compared(scene, object, other) { visit(other, body, limit) } else { limit }
-        });
+        index.nearest_first(
+            &self.second,
+            purpose,
+            distance,
+            limit,
+            |other, body, limit| {
+                if self.is_compared(scene, object, other) {
+                    visit(other, body, limit)
+                } else {
+                    limit
+                }
+            },
+        );
     }
 
     /// Whether a pair counts: not an object with itself, and no pair twice.
@@ -71,11 +94,17 @@ impl Pairs {
         let both = self.shared.contains(&object) && self.shared.contains(&other);
         let created = |object| scene.object(object).ok().map(scene::Object::uid);
         let is_second_time = || created(other) < created(object);
-        object != other && !(both && is_second_time()) && !(self.is_self && are_neighbours(scene, object, other))
+        object != other
+            && !(both && is_second_time())
+            && !(self.is_self && are_neighbours(scene, object, other))
     }
 }
 
 fn are_neighbours(scene: &Scene, object: Handle, other: Handle) -> bool {
-    let indicator = |object| scene.object(object).map_or(0, |object| object.self_collision_indicator);
+    let indicator = |object| {
+        scene
+            .object(object)
+            .map_or(0, |object| object.self_collision_indicator)
+    };
     NEIGHBOURS.contains(&indicator(object).abs_diff(indicator(other)))
 }

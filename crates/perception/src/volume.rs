@@ -27,13 +27,27 @@ pub(super) struct SearchVolume {
 impl SearchVolume {
     pub(super) fn new(source: &Volume) -> Self {
         let pieces = source.pieces();
-        let filled = proximity::Volume { pieces: pieces.iter().map(|piece| piece.planes.clone()).collect() };
+        let filled = proximity::Volume {
+            pieces: pieces.iter().map(|piece| piece.planes.clone()).collect(),
+        };
         let [min, max] = source.extent();
-        Self { source: source.clone(), pieces, filled, hollow: OnceCell::new(), bounds: Bounds { min, max } }
+        Self {
+            source: source.clone(),
+            pieces,
+            filled,
+            hollow: OnceCell::new(),
+            bounds: Bounds { min, max },
+        }
     }
 
     /// The nearest point of a geometry in the volume of a sensor at a pose.
-    pub(super) fn closest(&self, on: Placed, sensor: &Pose, below: f64, filter: &Filter) -> Option<Hit> {
+    pub(super) fn closest(
+        &self,
+        on: Placed,
+        sensor: &Pose,
+        below: f64,
+        filter: &Filter,
+    ) -> Option<Hit> {
         let hit = closest_in_volume(on, sensor, &self.filled, below, filter)?;
         if !self.is_in_hole(&hit.point) {
             return Some(hit);
@@ -43,18 +57,31 @@ impl SearchVolume {
 
     /// The parts of a segment (m, in the frame of the sensor) that are inside.
     pub(super) fn parts_of_segment(&self, segment: &[[f64; 3]; 2]) -> Vec<[[f64; 3]; 2]> {
-        self.hollow().pieces.iter().filter_map(|planes| clipped(*segment, planes)).collect()
+        self.hollow()
+            .pieces
+            .iter()
+            .filter_map(|planes| clipped(*segment, planes))
+            .collect()
     }
 
     fn hollow(&self) -> &proximity::Volume {
-        self.hollow.get_or_init(|| proximity::Volume { pieces: self.pieces.iter().flat_map(without_holes).collect() })
+        self.hollow.get_or_init(|| proximity::Volume {
+            pieces: self.pieces.iter().flat_map(without_holes).collect(),
+        })
     }
 
     /// Whether a point of the filled volume is in holes of all pieces around it.
     fn is_in_hole(&self, point: &[f64; 3]) -> bool {
-        let inside = |planes: &[Plane], margin: f64| planes.iter().all(|plane| height(plane, point) < margin);
-        let mut around = self.pieces.iter().filter(|piece| inside(&piece.planes, TOUCHING)).peekable();
-        around.peek().is_some() && around.all(|piece| piece.holes.iter().any(|hole| inside(hole, -TOUCHING)))
+        let inside = |planes: &[Plane], margin: f64| {
+            planes.iter().all(|plane| height(plane, point) < margin)
+        };
+        let mut around = self
+            .pieces
+            .iter()
+            .filter(|piece| inside(&piece.planes, TOUCHING))
+            .peekable();
+        around.peek().is_some()
+            && around.all(|piece| piece.holes.iter().any(|hole| inside(hole, -TOUCHING)))
     }
 }
 
@@ -83,11 +110,18 @@ fn clipped([from, to]: [[f64; 3]; 2], planes: &[Plane]) -> Option<[[f64; 3]; 2]>
 /// Pieces whose union is a piece without its holes: one behind each plane of a hole.
 fn without_holes(piece: &ConvexPiece) -> Vec<Vec<Plane>> {
     let behind = |[x, y, z, d]: &Plane| [-x, -y, -z, -d];
-    piece.holes.iter().fold(vec![piece.planes.clone()], |pieces, hole| {
-        let cut = |planes: &Vec<Plane>| {
-            let planes = planes.clone();
-            hole.iter().map(move |side| std::iter::once(behind(side)).chain(planes.iter().copied()).collect())
-        };
-        pieces.iter().flat_map(cut).collect()
-    })
+    piece
+        .holes
+        .iter()
+        .fold(vec![piece.planes.clone()], |pieces, hole| {
+            let cut = |planes: &Vec<Plane>| {
+                let planes = planes.clone();
+                hole.iter().map(move |side| {
+                    std::iter::once(behind(side))
+                        .chain(planes.iter().copied())
+                        .collect()
+                })
+            };
+            pieces.iter().flat_map(cut).collect()
+        })
 }

@@ -27,7 +27,11 @@ pub fn read_bounded(path: &Path) -> Result<Vec<u8>> {
     }
     let mut bytes = Vec::with_capacity(metadata.len() as usize);
     file.take(limit + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > limit { Err(too_large()) } else { Ok(bytes) }
+    if bytes.len() as u64 > limit {
+        Err(too_large())
+    } else {
+        Ok(bytes)
+    }
 }
 
 #[cfg(test)]
@@ -48,15 +52,23 @@ mod tests {
     fn what_is_too_large_is_refused_at_once() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("sparse");
-        std::fs::File::create(&path).unwrap().set_len(1 << 40).unwrap();
-        assert_eq!(read_bounded(&path).unwrap_err().to_string(), "it is larger than 2048 MiB");
+        std::fs::File::create(&path)
+            .unwrap()
+            .set_len(1 << 40)
+            .unwrap();
+        assert_eq!(
+            read_bounded(&path).unwrap_err().to_string(),
+            "it is larger than 2048 MiB"
+        );
     }
 
     #[test]
     #[cfg(unix)]
     fn devices_are_read_up_to_a_bound() {
         assert_eq!(read_bounded(Path::new("/dev/null")).unwrap(), b"");
-        let error = read_bounded(Path::new("/dev/zero")).unwrap_err().to_string();
+        let error = read_bounded(Path::new("/dev/zero"))
+            .unwrap_err()
+            .to_string();
         assert_eq!(error, "this device or pipe has more than 64 MiB");
     }
 }

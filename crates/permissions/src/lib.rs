@@ -84,13 +84,20 @@ impl Permissions {
 
     /// Nothing but to read the folder of the scene (`--no-unsafe`), which [`of_scene`](Self::of_scene) names.
     pub fn strict() -> Self {
-        Self { reads_scene_folder: true, ..Self::none() }
+        Self {
+            reads_scene_folder: true,
+            ..Self::none()
+        }
     }
 
     /// The same for a scene in `folder`, which can be read where the set says so.
     #[must_use]
     pub fn of_scene(self, folder: &Path) -> Self {
-        if self.reads_scene_folder { self.allow_read(folder) } else { self }
+        if self.reads_scene_folder {
+            self.allow_read(folder)
+        } else {
+            self
+        }
     }
 
     /// Files in `folder` can be read; or one file.
@@ -103,7 +110,10 @@ impl Permissions {
     /// All files can be read, and the environment.
     #[must_use]
     pub fn allow_read_everywhere(self) -> Self {
-        Self { read: Scope::Everything, ..self }
+        Self {
+            read: Scope::Everything,
+            ..self
+        }
     }
 
     /// Files in `folder` can be written, made and removed; or one file.
@@ -116,7 +126,10 @@ impl Permissions {
     /// All files can be written: as good as everything.
     #[must_use]
     pub fn allow_write_everywhere(self) -> Self {
-        Self { write: Scope::Everything, ..self }
+        Self {
+            write: Scope::Everything,
+            ..self
+        }
     }
 
     /// Programs can be started: as good as everything, since a program is not restricted.
@@ -135,18 +148,26 @@ impl Permissions {
     /// The whole network can be used.
     #[must_use]
     pub fn allow_net_everywhere(self) -> Self {
-        Self { network: Scope::Everything, ..self }
+        Self {
+            network: Scope::Everything,
+            ..self
+        }
     }
 
     /// Native libraries and bytecode can be loaded: as good as everything, since native code is not restricted.
     #[must_use]
     pub fn allow_native(self) -> Self {
-        Self { native: true, ..self }
+        Self {
+            native: true,
+            ..self
+        }
     }
 
     /// Whether nothing is refused.
     pub fn is_all(&self) -> bool {
-        let is_open = self.reads_everything() && self.writes_everything() && matches!(self.network, Scope::Everything);
+        let is_open = self.reads_everything()
+            && self.writes_everything()
+            && matches!(self.network, Scope::Everything);
         is_open && self.run && self.native
     }
 
@@ -216,19 +237,30 @@ impl Permissions {
         if is_free {
             Ok(())
         } else {
-            Err(Denied(format!("{what} is not allowed: run with --allow-read --allow-write")))
+            Err(Denied(format!(
+                "{what} is not allowed: run with --allow-read --allow-write"
+            )))
         }
     }
 
     /// The environment of the process is read.
     pub fn check_environment(&self) -> Result<(), Denied> {
-        let denied = || Denied("reading the environment is not allowed: run with --allow-read".into());
-        if self.reads_everything() { Ok(()) } else { Err(denied()) }
+        let denied =
+            || Denied("reading the environment is not allowed: run with --allow-read".into());
+        if self.reads_everything() {
+            Ok(())
+        } else {
+            Err(denied())
+        }
     }
 
     /// A program is started.
     pub fn check_run(&self, program: &str) -> Result<(), Denied> {
-        let denied = || Denied(format!("running '{program}' is not allowed: run with --allow-run"));
+        let denied = || {
+            Denied(format!(
+                "running '{program}' is not allowed: run with --allow-run"
+            ))
+        };
         if self.run { Ok(()) } else { Err(denied()) }
     }
 
@@ -245,7 +277,9 @@ impl Permissions {
             Scope::Only(rules) if rules.iter().any(|rule| rule.admits(host, port)) => Ok(()),
             Scope::Only(_) => {
                 let place = network::place(host, port);
-                Err(Denied(format!("the network at '{place}' is not allowed: run with --allow-net={place}")))
+                Err(Denied(format!(
+                    "the network at '{place}' is not allowed: run with --allow-net={place}"
+                )))
             }
         }
     }
@@ -253,7 +287,11 @@ impl Permissions {
     /// A use of the network that no host stands for.
     pub fn check_net_everywhere(&self, what: &str) -> Result<(), Denied> {
         let denied = || Denied(format!("{what} is not allowed: run with --allow-net"));
-        if matches!(self.network, Scope::Everything) { Ok(()) } else { Err(denied()) }
+        if matches!(self.network, Scope::Everything) {
+            Ok(())
+        } else {
+            Err(denied())
+        }
     }
 
     /// The bytes of a file, which is checked first.
@@ -303,7 +341,11 @@ fn without_dots(path: PathBuf) -> PathBuf {
             part => plain.push(part),
         }
     }
-    if resolve(&plain).ok() == resolve(&path).ok() { plain } else { path }
+    if resolve(&plain).ok() == resolve(&path).ok() {
+        plain
+    } else {
+        path
+    }
 }
 
 fn itself(path: &Path) -> Option<&Path> {
@@ -316,8 +358,14 @@ struct Access {
     option: &'static str,
 }
 
-const READ: Access = Access { doing: "reading", option: "--allow-read" };
-const WRITE: Access = Access { doing: "writing", option: "--allow-write" };
+const READ: Access = Access {
+    doing: "reading",
+    option: "--allow-read",
+};
+const WRITE: Access = Access {
+    doing: "writing",
+    option: "--allow-write",
+};
 
 impl Access {
     /// `suggested` says which part of the path the option would name.
@@ -328,7 +376,9 @@ impl Access {
         follow: fn(&Path) -> std::io::Result<PathBuf>,
         suggested: fn(&Path) -> Option<&Path>,
     ) -> Result<(), Denied> {
-        let Scope::Only(roots) = scope else { return Ok(()) };
+        let Scope::Only(roots) = scope else {
+            return Ok(());
+        };
         let is_allowed = |resolved: PathBuf| roots.iter().any(|root| resolved.starts_with(root));
         // The system refuses an empty name itself.
         if path.as_os_str().is_empty() || follow(path).is_ok_and(is_allowed) {
@@ -343,7 +393,11 @@ impl Access {
     /// Paths stand as the script has named them: where links lead is not the script's to know.
     fn denied(&self, path: &Path, allowed: &Path) -> Denied {
         let Self { doing, option } = self;
-        Denied(format!("{doing} '{}' is not allowed: run with {option}={}", path.display(), allowed.display()))
+        Denied(format!(
+            "{doing} '{}' is not allowed: run with {option}={}",
+            path.display(),
+            allowed.display()
+        ))
     }
 }
 

@@ -13,7 +13,10 @@ pub struct HostRule {
 impl HostRule {
     /// A host at a port; without one, at all.
     pub fn new(host: &str, port: Option<u16>) -> Self {
-        Self { host: canonical(host), port }
+        Self {
+            host: canonical(host),
+            port,
+        }
     }
 
     /// Without a port, whether the host may be asked for. Names are compared as they stand: what a name leads to is the resolver's business.
@@ -32,11 +35,20 @@ impl FromStr for HostRule {
             return Ok(Self::new(text, None));
         }
         let (host, port) = match text.rsplit_once(':') {
-            Some((host, port)) if !host.ends_with(':') => (host, Some(port.parse().map_err(|_| wrong())?)),
+            Some((host, port)) if !host.ends_with(':') => {
+                (host, Some(port.parse().map_err(|_| wrong())?))
+            }
             _ => (text, None),
         };
-        let bare = host.strip_prefix('[').and_then(|host| host.strip_suffix(']')).unwrap_or(host);
-        if bare.is_empty() || (bare.contains(':') && bare == host) { Err(wrong()) } else { Ok(Self::new(bare, port)) }
+        let bare = host
+            .strip_prefix('[')
+            .and_then(|host| host.strip_suffix(']'))
+            .unwrap_or(host);
+        if bare.is_empty() || (bare.contains(':') && bare == host) {
+            Err(wrong())
+        } else {
+            Ok(Self::new(bare, port))
+        }
     }
 }
 
@@ -50,6 +62,10 @@ fn canonical(host: &str) -> String {
 
 /// As the option takes it.
 pub(super) fn place(host: &str, port: Option<u16>) -> String {
-    let host = if host.contains(':') { format!("[{host}]") } else { host.to_owned() };
+    let host = if host.contains(':') {
+        format!("[{host}]")
+    } else {
+        host.to_owned()
+    };
     port.map_or_else(|| host.clone(), |port| format!("{host}:{port}"))
 }

@@ -28,13 +28,18 @@ pub(super) fn resolve(path: &Path) -> Result<PathBuf> {
             Some(Component::Prefix(_) | Component::RootDir) => resolved.push(part),
             Some(Component::Normal(_)) => {
                 resolved.push(part);
-                let Ok(target) = std::fs::read_link(&resolved) else { continue };
+                let Ok(target) = std::fs::read_link(&resolved) else {
+                    continue;
+                };
                 links += 1;
                 if links > MAX_LINKS {
                     return Err(Error::new(ErrorKind::InvalidInput, "too many links"));
                 }
                 resolved.pop();
-                parts(&target).into_iter().rev().for_each(|part| left.push_front(part));
+                parts(&target)
+                    .into_iter()
+                    .rev()
+                    .for_each(|part| left.push_front(part));
             }
             _ => {}
         }
@@ -44,11 +49,21 @@ pub(super) fn resolve(path: &Path) -> Result<PathBuf> {
 
 /// Where the entry itself is that `path` names, be it a link. A path that ends in a separator or in dots names what a link leads to.
 pub(super) fn resolve_entry(path: &Path) -> Result<PathBuf> {
-    let ends_in_separator = path.as_os_str().as_encoded_bytes().last().is_some_and(|&byte| is_separator(byte));
-    let Some(name) = path.file_name().filter(|_| !ends_in_separator && !ends_in_dot(path)) else {
+    let ends_in_separator = path
+        .as_os_str()
+        .as_encoded_bytes()
+        .last()
+        .is_some_and(|&byte| is_separator(byte));
+    let Some(name) = path
+        .file_name()
+        .filter(|_| !ends_in_separator && !ends_in_dot(path))
+    else {
         return resolve(path);
     };
-    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    let folder = path
+        .parent()
+        .filter(|folder| *folder != Path::new(""))
+        .unwrap_or(Path::new("."));
     Ok(resolve(folder)?.join(name))
 }
 
@@ -62,5 +77,7 @@ fn ends_in_dot(path: &Path) -> bool {
 }
 
 fn parts(path: &Path) -> VecDeque<OsString> {
-    path.components().map(|part| part.as_os_str().to_owned()).collect()
+    path.components()
+        .map(|part| part.as_os_str().to_owned())
+        .collect()
 }

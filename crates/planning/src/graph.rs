@@ -35,7 +35,10 @@ impl PartialOrd for Open {
 
 impl Ord for Open {
     fn cmp(&self, other: &Self) -> Ordering {
-        other.estimate.total_cmp(&self.estimate).then(other.place.cmp(&self.place))
+        other
+            .estimate
+            .total_cmp(&self.estimate)
+            .then(other.place.cmp(&self.place))
     }
 }
 
@@ -58,15 +61,30 @@ impl Graph {
     }
 
     /// The `count` vertices nearest to a state.
-    pub(crate) fn nearest(&self, space: &dyn StateSpace, state: &[f64], count: usize) -> Vec<usize> {
+    pub(crate) fn nearest(
+        &self,
+        space: &dyn StateSpace,
+        state: &[f64],
+        count: usize,
+    ) -> Vec<usize> {
         let distances = self.states.iter().map(|other| space.distance(other, state));
-        lowest(distances.enumerate().collect(), count).into_iter().map(|(place, _)| place).collect()
+        lowest(distances.enumerate().collect(), count)
+            .into_iter()
+            .map(|(place, _)| place)
+            .collect()
     }
 
     /// The shortest path from one of `starts` to one of `goals` (A*, with the distance as the estimate).
-    pub(crate) fn shortest(&self, space: &dyn StateSpace, starts: &[usize], goals: &[usize]) -> Option<Vec<usize>> {
+    pub(crate) fn shortest(
+        &self,
+        space: &dyn StateSpace,
+        starts: &[usize],
+        goals: &[usize],
+    ) -> Option<Vec<usize>> {
         let estimate = |place: usize| {
-            let distances = goals.iter().map(|&goal| space.distance(&self.states[place], &self.states[goal]));
+            let distances = goals
+                .iter()
+                .map(|&goal| space.distance(&self.states[place], &self.states[goal]));
             distances.fold(f64::INFINITY, f64::min)
         };
         let mut costs = vec![f64::INFINITY; self.states.len()];
@@ -75,7 +93,10 @@ impl Graph {
         let mut open = BinaryHeap::new();
         for &start in starts {
             costs[start] = 0.0;
-            open.push(Open { estimate: estimate(start), place: start });
+            open.push(Open {
+                estimate: estimate(start),
+                place: start,
+            });
         }
         while let Some(Open { place, .. }) = open.pop() {
             if std::mem::replace(&mut is_closed[place], true) {
@@ -88,7 +109,10 @@ impl Graph {
                 let cost = costs[place] + length;
                 if cost < costs[next] {
                     (costs[next], parents[next], is_closed[next]) = (cost, place, false);
-                    open.push(Open { estimate: cost + estimate(next), place: next });
+                    open.push(Open {
+                        estimate: cost + estimate(next),
+                        place: next,
+                    });
                 }
             }
         }

@@ -9,7 +9,10 @@ const FAILURES: usize = 20;
 
 /// The length of a path.
 pub fn length(space: &dyn StateSpace, states: &[State]) -> f64 {
-    states.windows(2).map(|pair| space.distance(&pair[0], &pair[1])).sum()
+    states
+        .windows(2)
+        .map(|pair| space.distance(&pair[0], &pair[1]))
+        .sum()
 }
 
 /// Adds states so that no piece is longer than the resolution of the checks.
@@ -28,19 +31,36 @@ pub fn interpolate(space: &dyn StateSpace, states: &[State], count: usize) -> Ve
     divide(space, states, |from, to| {
         let piece = space.distance(from, to);
         pieces -= 1;
-        let share = if left > 0.0 { (missing as f64 * piece / left).round() as usize } else { 0 };
-        let added = if pieces == 0 { missing } else { share.min(missing) };
+        let share = if left > 0.0 {
+            (missing as f64 * piece / left).round() as usize
+        } else {
+            0
+        };
+        let added = if pieces == 0 {
+            missing
+        } else {
+            share.min(missing)
+        };
         (left, missing) = (left - piece, missing - added);
         added + 1
     })
 }
 
-fn divide(space: &dyn StateSpace, states: &[State], mut parts: impl FnMut(&[f64], &[f64]) -> usize) -> Vec<State> {
-    let Some(first) = states.first() else { return Vec::new() };
+fn divide(
+    space: &dyn StateSpace,
+    states: &[State],
+    mut parts: impl FnMut(&[f64], &[f64]) -> usize,
+) -> Vec<State> {
+    let Some(first) = states.first() else {
+        return Vec::new();
+    };
     let mut out = vec![first.clone()];
     for pair in states.windows(2) {
         let parts = parts(&pair[0], &pair[1]);
-        out.extend((1..parts).map(|part| space.interpolate(&pair[0], &pair[1], part as f64 / parts as f64)));
+        out.extend(
+            (1..parts)
+                .map(|part| space.interpolate(&pair[0], &pair[1], part as f64 / parts as f64)),
+        );
         out.push(pair[1].clone());
     }
     out
@@ -86,9 +106,16 @@ pub fn shortcut(problem: &mut Problem<'_>, states: &mut Vec<State>) {
     let mut failures = 0;
     while failures < FAILURES && states.len() > 2 && !problem.world.is_over() {
         let total = length(problem.space, states);
-        let mut places = [problem.random.between(0.0, total), problem.random.between(0.0, total)];
+        let mut places = [
+            problem.random.between(0.0, total),
+            problem.random.between(0.0, total),
+        ];
         places.sort_by(f64::total_cmp);
-        failures = if join(problem, states, places) { 0 } else { failures + 1 };
+        failures = if join(problem, states, places) {
+            0
+        } else {
+            failures + 1
+        };
     }
 }
 

@@ -116,7 +116,9 @@ impl Problem<'_> {
                 continue;
             }
             let middle = first + (last - first) / 2;
-            let state = self.space.interpolate(from, to, middle as f64 / parts as f64);
+            let state = self
+                .space
+                .interpolate(from, to, middle as f64 / parts as f64);
             if !self.is_valid(&state) {
                 return false;
             }
@@ -133,7 +135,11 @@ impl Problem<'_> {
         for part in 1..=parts {
             let is_end = part == parts;
             let part = part as f64 / parts as f64;
-            let state = if is_end { to.to_vec() } else { self.space.interpolate(from, to, part) };
+            let state = if is_end {
+                to.to_vec()
+            } else {
+                self.space.interpolate(from, to, part)
+            };
             if !self.is_valid(&state) {
                 break;
             }
@@ -145,7 +151,11 @@ impl Problem<'_> {
     /// The state at most `range` away on the way to another.
     pub fn towards(&self, from: &[f64], to: &[f64], range: f64) -> State {
         let distance = self.space.distance(from, to);
-        if distance <= range { to.to_vec() } else { self.space.interpolate(from, to, range / distance) }
+        if distance <= range {
+            to.to_vec()
+        } else {
+            self.space.interpolate(from, to, range / distance)
+        }
     }
 
     /// A state within the bounds.
@@ -182,7 +192,10 @@ impl Problem<'_> {
             Goal::States(states) => {
                 let distances = states.iter().map(|goal| self.space.distance(state, goal));
                 let distance = distances.fold(f64::INFINITY, f64::min);
-                Nearness { is_reached: distance <= f64::EPSILON, distance }
+                Nearness {
+                    is_reached: distance <= f64::EPSILON,
+                    distance,
+                }
             }
         }
     }
@@ -190,17 +203,25 @@ impl Problem<'_> {
     /// A state of the goal; None where it has none.
     pub fn sample_goal(&mut self) -> Option<State> {
         match &self.goal {
-            Goal::States(states) if !states.is_empty() => Some(states[self.random.index(states.len())].clone()),
+            Goal::States(states) if !states.is_empty() => {
+                Some(states[self.random.index(states.len())].clone())
+            }
             _ => None,
         }
     }
 
     /// Those of some states that are within the bounds and valid.
     fn admissible(&mut self, states: Vec<State>) -> Result<Vec<State>, Refusal> {
-        if states.iter().any(|state| state.len() != self.space.dimension()) {
+        if states
+            .iter()
+            .any(|state| state.len() != self.space.dimension())
+        {
             return Err(Refusal::StateSize);
         }
-        Ok(states.into_iter().filter(|state| self.space.is_within_bounds(state) && self.is_valid(state)).collect())
+        Ok(states
+            .into_iter()
+            .filter(|state| self.space.is_within_bounds(state) && self.is_valid(state))
+            .collect())
     }
 
     /// The starts that are within the bounds and valid.
@@ -209,12 +230,18 @@ impl Problem<'_> {
     /// When none is.
     pub fn valid_starts(&mut self) -> Result<Vec<State>, Refusal> {
         let valid = self.admissible(self.starts.clone())?;
-        if valid.is_empty() { Err(Refusal::NoValidStart) } else { Ok(valid) }
+        if valid.is_empty() {
+            Err(Refusal::NoValidStart)
+        } else {
+            Ok(valid)
+        }
     }
 
     /// The path of a start that is in the goal already.
     pub fn immediate(&mut self, starts: &[State]) -> Option<Solution> {
-        let start = starts.iter().find(|start| self.nearness(start).is_reached)?;
+        let start = starts
+            .iter()
+            .find(|start| self.nearness(start).is_reached)?;
         Some(Solution::exact(vec![start.clone()]))
     }
 
@@ -223,9 +250,15 @@ impl Problem<'_> {
     /// # Errors
     /// When none is, or the goal has no states.
     pub fn valid_goals(&mut self) -> Result<Vec<State>, Refusal> {
-        let Goal::States(states) = &self.goal else { return Err(Refusal::GoalWithoutStates) };
+        let Goal::States(states) = &self.goal else {
+            return Err(Refusal::GoalWithoutStates);
+        };
         let valid = self.admissible(states.clone())?;
-        if valid.is_empty() { Err(Refusal::NoValidGoal) } else { Ok(valid) }
+        if valid.is_empty() {
+            Err(Refusal::NoValidGoal)
+        } else {
+            Ok(valid)
+        }
     }
 }
 
@@ -243,13 +276,19 @@ pub struct Solution {
 impl Solution {
     /// A path that ends in the goal.
     pub fn exact(states: Vec<State>) -> Self {
-        Self { states, is_exact: true, difference: 0.0 }
+        Self {
+            states,
+            is_exact: true,
+            difference: 0.0,
+        }
     }
 
     /// Whether it is better than another: exact, or nearer to the goal; of two exact ones the shorter.
     pub fn is_better(&self, other: &Self, space: &dyn StateSpace) -> bool {
         match (self.is_exact, other.is_exact) {
-            (true, true) => crate::path::length(space, &self.states) < crate::path::length(space, &other.states),
+            (true, true) => {
+                crate::path::length(space, &self.states) < crate::path::length(space, &other.states)
+            }
             (false, false) => self.difference < other.difference,
             (exact, _) => exact,
         }

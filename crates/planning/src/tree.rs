@@ -33,8 +33,15 @@ pub(crate) struct Tree {
 
 impl Tree {
     pub(crate) fn of_roots(roots: &[State]) -> Self {
-        let vertex = |state: &State| Vertex { state: state.clone(), parent: None, cost: 0.0, is_checked: true };
-        Self { vertices: roots.iter().map(vertex).collect() }
+        let vertex = |state: &State| Vertex {
+            state: state.clone(),
+            parent: None,
+            cost: 0.0,
+            is_checked: true,
+        };
+        Self {
+            vertices: roots.iter().map(vertex).collect(),
+        }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -52,24 +59,46 @@ impl Tree {
     /// Adds a state that was reached by a valid motion; returns its place.
     pub(crate) fn add(&mut self, space: &dyn StateSpace, state: State, parent: usize) -> usize {
         let cost = self.vertices[parent].cost + space.distance(self.state(parent), &state);
-        self.vertices.push(Vertex { state, parent: Some(parent), cost, is_checked: true });
+        self.vertices.push(Vertex {
+            state,
+            parent: Some(parent),
+            cost,
+            is_checked: true,
+        });
         self.vertices.len() - 1
     }
 
     /// The vertex from which the way to a state is shortest; the first of several.
     pub(crate) fn nearest(&self, space: &dyn StateSpace, state: &[f64]) -> Option<usize> {
-        let distances = self.vertices.iter().map(|vertex| space.distance(&vertex.state, state));
-        distances.enumerate().min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(place, _)| place)
+        let distances = self
+            .vertices
+            .iter()
+            .map(|vertex| space.distance(&vertex.state, state));
+        distances
+            .enumerate()
+            .min_by(|(_, a), (_, b)| a.total_cmp(b))
+            .map(|(place, _)| place)
     }
 
     /// How many vertices are at most `radius` away from a state.
     pub(crate) fn count_within(&self, space: &dyn StateSpace, state: &[f64], radius: f64) -> usize {
-        self.vertices.iter().filter(|vertex| space.distance(&vertex.state, state) <= radius).count()
+        self.vertices
+            .iter()
+            .filter(|vertex| space.distance(&vertex.state, state) <= radius)
+            .count()
     }
 
     /// The `count` vertices from which the ways to a state are shortest, with the lengths, the nearest first.
-    pub(crate) fn nearest_few(&self, space: &dyn StateSpace, state: &[f64], count: usize) -> Vec<(usize, f64)> {
-        let distances = self.vertices.iter().map(|vertex| space.distance(&vertex.state, state));
+    pub(crate) fn nearest_few(
+        &self,
+        space: &dyn StateSpace,
+        state: &[f64],
+        count: usize,
+    ) -> Vec<(usize, f64)> {
+        let distances = self
+            .vertices
+            .iter()
+            .map(|vertex| space.distance(&vertex.state, state));
         lowest(distances.enumerate().collect(), count)
     }
 

@@ -29,7 +29,11 @@ fn bounds(count: usize, limit: f64) -> Bounds {
 }
 
 fn dubins(symmetric: bool) -> CompoundSpace {
-    of(Component::Dubins { bounds: bounds(2, 5.0), radius: 0.05, symmetric })
+    of(Component::Dubins {
+        bounds: bounds(2, 5.0),
+        radius: 0.05,
+        symmetric,
+    })
 }
 
 fn all() -> Vec<CompoundSpace> {
@@ -41,7 +45,10 @@ fn all() -> Vec<CompoundSpace> {
         of(Component::Space(bounds(3, 2.0))),
         dubins(false),
         dubins(true),
-        CompoundSpace::new(vec![(Component::Plane(bounds(2, 1.0)), 2.0), (Component::Angle, 0.5)]),
+        CompoundSpace::new(vec![
+            (Component::Plane(bounds(2, 1.0)), 2.0),
+            (Component::Angle, 0.5),
+        ]),
     ]
 }
 
@@ -54,19 +61,31 @@ fn distances_are_those_of_the_original() {
     let weighted = CompoundSpace::new(vec![(Component::Real(bounds(2, 1.0)), 2.0)]);
     assert!(near(weighted.distance(&[0.0, 0.0], &[0.3, 0.4]), 1.0));
     let plane = of(Component::Plane(bounds(2, 5.0)));
-    assert!(near(plane.distance(&[0.0, 0.0, 3.0], &[3.0, 4.0, -3.0]), 5.141_592_654));
+    assert!(near(
+        plane.distance(&[0.0, 0.0, 3.0], &[3.0, 4.0, -3.0]),
+        5.141_592_654
+    ));
     let space = of(Component::Space(bounds(3, 5.0)));
     let half = FRAC_PI_4.sin_cos();
     let turned = [0.0, 0.0, 0.0, 0.0, 0.0, half.0, half.1];
-    assert!(near(space.distance(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], &turned), FRAC_PI_4));
+    assert!(near(
+        space.distance(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], &turned),
+        FRAC_PI_4
+    ));
 }
 
 #[test]
 fn shortest_curves_are_those_of_the_original() {
     let start = [0.0; 3];
     assert!(near(dubins(false).distance(&start, &[1.0, 0.0, 0.0]), 1.0));
-    assert!(near(dubins(false).distance(&start, &[0.0, 0.1, PI]), 0.157_079_633));
-    assert!(near(dubins(false).distance(&start, &[-1.0, 0.0, 0.0]), 1.314_159_265));
+    assert!(near(
+        dubins(false).distance(&start, &[0.0, 0.1, PI]),
+        0.157_079_633
+    ));
+    assert!(near(
+        dubins(false).distance(&start, &[-1.0, 0.0, 0.0]),
+        1.314_159_265
+    ));
     assert!(near(dubins(true).distance(&start, &[-1.0, 0.0, 0.0]), 1.0));
 }
 
@@ -81,13 +100,22 @@ fn ways_begin_and_end_where_they_should_and_are_even() {
             assert!(length >= 0.0 && length.is_finite());
             for (part, expected) in [(0.0, &from), (1.0, &to)] {
                 let end = space.interpolate(&from, &to, part);
-                assert!(space.distance(&end, expected) < 1e-4, "{space:?} {from:?} {to:?} {end:?}");
+                assert!(
+                    space.distance(&end, expected) < 1e-4,
+                    "{space:?} {from:?} {to:?} {end:?}"
+                );
             }
             let middle = space.interpolate(&from, &to, 0.5);
             if space.is_symmetric() {
-                assert!((space.distance(&from, &middle) - 0.5 * length).abs() < 1e-6, "{space:?}");
+                assert!(
+                    (space.distance(&from, &middle) - 0.5 * length).abs() < 1e-6,
+                    "{space:?}"
+                );
             } else {
-                assert!(space.distance(&from, &middle) <= 0.5 * length + 1e-6, "{space:?}");
+                assert!(
+                    space.distance(&from, &middle) <= 0.5 * length + 1e-6,
+                    "{space:?}"
+                );
             }
         }
     }

@@ -36,7 +36,10 @@ thread_local! {
 
 /// The innermost call of this thread.
 pub(super) fn current() -> Option<Rc<Frame>> {
-    FRAMES.try_with(|frames| frames.borrow().last().cloned()).ok().flatten()
+    FRAMES
+        .try_with(|frames| frames.borrow().last().cloned())
+        .ok()
+        .flatten()
 }
 
 /// Runs code of a plugin.
@@ -68,9 +71,15 @@ impl Drop for End<'_> {
 impl Frame {
     pub fn note_failure(&self, row: &Row, reason: String) {
         if row.is_missing() && self.shared.missing.borrow_mut().insert(row.symbol) {
-            self.host.log(&self.plugin.name, ERRORS, &format!("the plugin calls {}: {reason}", row.symbol));
+            self.host.log(
+                &self.plugin.name,
+                ERRORS,
+                &format!("the plugin calls {}: {reason}", row.symbol),
+            );
         }
-        self.shared.last_error.replace(Some(format!("{}: {reason}", row.symbol)));
+        self.shared
+            .last_error
+            .replace(Some(format!("{}: {reason}", row.symbol)));
     }
 
     /// Keeps a result until the plugin releases it; its address, 0 where there is none. `length` becomes the number of its items.
@@ -78,11 +87,17 @@ impl Frame {
         let bytes = match (ty, result) {
             ('I', Some(Data::Array(items))) => {
                 *length = items.len();
-                items.iter().flat_map(|item| (super::dispatch::integer(item) as i32).to_ne_bytes()).collect()
+                items
+                    .iter()
+                    .flat_map(|item| (super::dispatch::integer(item) as i32).to_ne_bytes())
+                    .collect()
             }
             ('D', Some(Data::Array(items))) => {
                 *length = items.len();
-                items.iter().flat_map(|item| item.as_f64().unwrap_or_default().to_ne_bytes()).collect()
+                items
+                    .iter()
+                    .flat_map(|item| item.as_f64().unwrap_or_default().to_ne_bytes())
+                    .collect()
             }
             (_, Some(Data::Text(bytes) | Data::Buffer(bytes))) => {
                 *length = bytes.len();

@@ -34,7 +34,13 @@ static BOUND: LazyLock<Vec<Bound>> = LazyLock::new(|| {
         None if row.function.starts_with("sim.") => Target::Api(row.function),
         None => Target::Missing,
     };
-    signature::rows(SYMBOLS).into_iter().map(|row| Bound { target: target(&row), row }).collect()
+    signature::rows(SYMBOLS)
+        .into_iter()
+        .map(|row| Bound {
+            target: target(&row),
+            row,
+        })
+        .collect()
 });
 
 /// All symbols.
@@ -52,7 +58,9 @@ pub(super) struct Call<'a> {
 
 /// Performs the call of symbol `number`; its result as C returns it.
 pub(super) fn perform(number: u32, values: &mut [Value]) -> i64 {
-    let Some(bound) = BOUND.get(number as usize) else { return -1 };
+    let Some(bound) = BOUND.get(number as usize) else {
+        return -1;
+    };
     let Some(frame) = current() else {
         warn_of_thread(bound.row.symbol);
         return failure(number);
@@ -65,7 +73,9 @@ pub(super) fn perform(number: u32, values: &mut [Value]) -> i64 {
 
 /// What a call that failed returns.
 pub(super) fn failure(number: u32) -> i64 {
-    let is_pointer = BOUND.get(number as usize).is_some_and(|bound| bound.row.returns_pointer());
+    let is_pointer = BOUND
+        .get(number as usize)
+        .is_some_and(|bound| bound.row.returns_pointer());
     if is_pointer { 0 } else { -1 }
 }
 
@@ -81,10 +91,18 @@ fn warn_of_thread(symbol: &str) {
 
 fn answer(frame: &Frame, bound: &Bound, values: &mut [Value]) -> Result<i64, String> {
     let row = &bound.row;
-    let args = if row.is_missing() { Vec::new() } else { read(row, values)? };
+    let args = if row.is_missing() {
+        Vec::new()
+    } else {
+        read(row, values)?
+    };
     let results = match bound.target {
         Target::Missing => return Err("it is not implemented in Swanilda".into()),
-        Target::Own(function) => function(&Call { frame, args, values })?,
+        Target::Own(function) => function(&Call {
+            frame,
+            args,
+            values,
+        })?,
         Target::Api(name) => frame.host.call(name, &ordered(row, args))?,
     };
     write(frame, row, values, results)
@@ -92,7 +110,10 @@ fn answer(frame: &Frame, bound: &Bound, values: &mut [Value]) -> Result<i64, Str
 
 fn ordered(row: &Row, args: Vec<Data>) -> Vec<Data> {
     match &row.order {
-        Some(order) => order.iter().map(|&place| args.get(place).cloned().unwrap_or(Data::Nil)).collect(),
+        Some(order) => order
+            .iter()
+            .map(|&place| args.get(place).cloned().unwrap_or(Data::Nil))
+            .collect(),
         None => args,
     }
 }
@@ -115,7 +136,9 @@ fn count_of(param: Param, value: &Value) -> Result<usize, String> {
         Size::One => Ok(1),
         Size::Fixed(count) => Ok(count),
         Size::Counted => {
-            let count = usize::try_from(value.integer).ok().filter(|&count| count <= MAX_ITEMS);
+            let count = usize::try_from(value.integer)
+                .ok()
+                .filter(|&count| count <= MAX_ITEMS);
             count.ok_or_else(|| format!("{} is no number of values", value.integer))
         }
     }
@@ -135,9 +158,17 @@ fn argument(param: Param, value: &Value) -> Result<Data, String> {
         // Arrays of a fixed size are optional.
         (_, Size::Fixed(_)) if value.address.is_null() => Data::Nil,
         ('u', _) => Data::Buffer(list::<u8>(value, count)?),
-        ('i', _) => list::<i32>(value, count)?.into_iter().map(i64::from).collect::<Vec<_>>().into(),
+        ('i', _) => list::<i32>(value, count)?
+            .into_iter()
+            .map(i64::from)
+            .collect::<Vec<_>>()
+            .into(),
         ('l', _) => list::<i64>(value, count)?.into(),
-        ('f', _) => list::<f32>(value, count)?.into_iter().map(f64::from).collect::<Vec<_>>().into(),
+        ('f', _) => list::<f32>(value, count)?
+            .into_iter()
+            .map(f64::from)
+            .collect::<Vec<_>>()
+            .into(),
         _ => list::<f64>(value, count)?.into(),
     })
 }
@@ -146,11 +177,19 @@ fn list<T: super::ffi::Plain>(value: &Value, count: usize) -> Result<Vec<T>, Str
     if count == 0 {
         return Ok(Vec::new());
     }
-    value.address.read(count).ok_or_else(|| format!("NULL was passed for {count} values"))
+    value
+        .address
+        .read(count)
+        .ok_or_else(|| format!("NULL was passed for {count} values"))
 }
 
 /// Writes results to the places the plugin named; what the function returns.
-fn write(frame: &Frame, row: &Row, values: &mut [Value], results: Vec<Data>) -> Result<i64, String> {
+fn write(
+    frame: &Frame,
+    row: &Row,
+    values: &mut [Value],
+    results: Vec<Data>,
+) -> Result<i64, String> {
     if row.result == 'q' && results.first().is_none_or(|first| *first == Data::Nil) {
         return Ok(0);
     }
@@ -159,14 +198,25 @@ fn write(frame: &Frame, row: &Row, values: &mut [Value], results: Vec<Data>) -> 
     let returned = match row.result {
         'v' | 'k' | 'q' => 1,
         'd' => {
-            let number = results.next().as_ref().and_then(Data::as_f64).ok_or("there is no number")?;
-            values.last_mut().into_iter().for_each(|last| last.number = number);
+            let number = results
+                .next()
+                .as_ref()
+                .and_then(Data::as_f64)
+                .ok_or("there is no number")?;
+            values
+                .last_mut()
+                .into_iter()
+                .for_each(|last| last.number = number);
             1
         }
         'S' | 'P' | 'I' | 'D' => frame.keep(row.result, results.next(), &mut length),
         _ => results.next().map_or(1, |first| integer(&first)),
     };
-    let mut places = row.params.iter().zip(&*values).filter(|(param, _)| param.is_out);
+    let mut places = row
+        .params
+        .iter()
+        .zip(&*values)
+        .filter(|(param, _)| param.is_out);
     places.try_for_each(|(param, value)| fill(frame, *param, value, &mut results, &mut length))?;
     Ok(returned)
 }
@@ -180,13 +230,19 @@ fn fill(
     length: &mut usize,
 ) -> Result<(), String> {
     match param.ty {
-        '#' => value.address.write(&[i32::try_from(*length).unwrap_or(i32::MAX)]),
+        '#' => value
+            .address
+            .write(&[i32::try_from(*length).unwrap_or(i32::MAX)]),
         'S' | 'I' | 'D' => {
             let address = frame.keep(param.ty, results.next(), length);
             value.address.write(&[address as usize]);
         }
         // Output arguments without a result keep their values.
-        _ => return results.next().map_or(Ok(()), |result| fill_numbers(param, value, &result)),
+        _ => {
+            return results
+                .next()
+                .map_or(Ok(()), |result| fill_numbers(param, value, &result));
+        }
     }
     Ok(())
 }
@@ -202,10 +258,16 @@ fn fill_numbers(param: Param, value: &Value, result: &Data) -> Result<(), String
     let integers = || items.iter().map(integer);
     let numbers = || items.iter().map(|item| item.as_f64().unwrap_or_default());
     match param.ty {
-        'u' | 'b' => value.address.write(&integers().map(|item| item as u8).collect::<Vec<_>>()),
-        'i' => value.address.write(&integers().map(|item| item as i32).collect::<Vec<_>>()),
+        'u' | 'b' => value
+            .address
+            .write(&integers().map(|item| item as u8).collect::<Vec<_>>()),
+        'i' => value
+            .address
+            .write(&integers().map(|item| item as i32).collect::<Vec<_>>()),
         'l' => value.address.write(&integers().collect::<Vec<_>>()),
-        'f' => value.address.write(&numbers().map(|item| item as f32).collect::<Vec<_>>()),
+        'f' => value
+            .address
+            .write(&numbers().map(|item| item as f32).collect::<Vec<_>>()),
         _ => value.address.write(&numbers().collect::<Vec<_>>()),
     }
     Ok(())

@@ -25,29 +25,76 @@ const FUNCTIONS: &[(&str, Function)] = &[
     ("plugin.call_method", call_method),
     ("script.call", call_script),
     ("script.execute", execute),
-    ("stack.create", |call| Ok(vec![Data::Int(call.stacks().add(Vec::new()).into())])),
-    ("stack.release", |call| call.stacks().remove(call.int(0)?).map(|_| Vec::new())),
+    ("stack.create", |call| {
+        Ok(vec![Data::Int(call.stacks().add(Vec::new()).into())])
+    }),
+    ("stack.release", |call| {
+        call.stacks().remove(call.int(0)?).map(|_| Vec::new())
+    }),
     ("stack.copy", copy_stack),
     ("stack.push", |call| call.push(call.arg(1).clone())),
     ("stack.push_null", |call| call.push(Data::Nil)),
-    ("stack.push_text", |call| call.push(Data::Text(call.bytes(1)?.to_vec()))),
-    ("stack.push_buffer", |call| call.push(Data::Buffer(call.bytes(1)?.to_vec()))),
-    ("stack.push_bytes", |call| call.push(call.bytes(1)?.iter().map(|&b| i64::from(b)).collect::<Vec<_>>().into())),
-    ("stack.push_table", |call| call.push(Data::Array(Vec::new()))),
-    ("stack.insert", |call| insert(call.stacks().get(call.int(0)?)?).map(|()| Vec::new())),
-    ("stack.size", |call| Ok(vec![Data::Int(call.stacks().get(call.int(0)?)?.len() as i64)])),
+    ("stack.push_text", |call| {
+        call.push(Data::Text(call.bytes(1)?.to_vec()))
+    }),
+    ("stack.push_buffer", |call| {
+        call.push(Data::Buffer(call.bytes(1)?.to_vec()))
+    }),
+    ("stack.push_bytes", |call| {
+        call.push(
+            call.bytes(1)?
+                .iter()
+                .map(|&b| i64::from(b))
+                .collect::<Vec<_>>()
+                .into(),
+        )
+    }),
+    ("stack.push_table", |call| {
+        call.push(Data::Array(Vec::new()))
+    }),
+    ("stack.insert", |call| {
+        insert(call.stacks().get(call.int(0)?)?).map(|()| Vec::new())
+    }),
+    ("stack.size", |call| {
+        Ok(vec![Data::Int(
+            call.stacks().get(call.int(0)?)?.len() as i64
+        )])
+    }),
     ("stack.pop", pop),
     ("stack.move_to_top", move_to_top),
     ("stack.item_type", type_of_item),
-    ("stack.is_null", |call| Ok(vec![Data::Bool(*call.stacks().top(call.int(0)?)? == Data::Nil)])),
-    ("stack.bool", |call| call.found(|top| matches!(top, Data::Bool(_)).then(|| top.clone()))),
-    ("stack.int", |call| call.found(|top| rounded(top).map(Data::Int))),
-    ("stack.number", |call| call.found(|top| top.as_f64().map(Data::Float))),
-    ("stack.string", |call| Ok(vec![text_of(call.stacks().top(call.int(0)?)?).unwrap_or(Data::Nil)])),
-    ("stack.table_info", |call| Ok(vec![Data::Int(table_info(call.stacks().top(call.int(0)?)?, call.int(1)?))])),
+    ("stack.is_null", |call| {
+        Ok(vec![Data::Bool(
+            *call.stacks().top(call.int(0)?)? == Data::Nil,
+        )])
+    }),
+    ("stack.bool", |call| {
+        call.found(|top| matches!(top, Data::Bool(_)).then(|| top.clone()))
+    }),
+    ("stack.int", |call| {
+        call.found(|top| rounded(top).map(Data::Int))
+    }),
+    ("stack.number", |call| {
+        call.found(|top| top.as_f64().map(Data::Float))
+    }),
+    ("stack.string", |call| {
+        Ok(vec![
+            text_of(call.stacks().top(call.int(0)?)?).unwrap_or(Data::Nil),
+        ])
+    }),
+    ("stack.table_info", |call| {
+        Ok(vec![Data::Int(table_info(
+            call.stacks().top(call.int(0)?)?,
+            call.int(1)?,
+        ))])
+    }),
     ("stack.bytes", |call| call.found(bytes_of)),
-    ("stack.ints", |call| call.found(|top| list_of(top, |item| rounded(item).map(Data::Int)))),
-    ("stack.numbers", |call| call.found(|top| list_of(top, |item| item.as_f64().map(Data::Float)))),
+    ("stack.ints", |call| {
+        call.found(|top| list_of(top, |item| rounded(item).map(Data::Int)))
+    }),
+    ("stack.numbers", |call| {
+        call.found(|top| list_of(top, |item| item.as_f64().map(Data::Float)))
+    }),
     ("stack.unfold", unfold),
     ("stack.debug", debug),
     ("stack.pack", |call| {
@@ -60,7 +107,9 @@ const FUNCTIONS: &[(&str, Function)] = &[
 /// The function of that name.
 pub(super) fn find(name: &str) -> Option<Function> {
     let mut functions = FUNCTIONS.iter().chain(scene_functions::FUNCTIONS);
-    functions.find(|(known, _)| *known == name).map(|&(_, function)| function)
+    functions
+        .find(|(known, _)| *known == name)
+        .map(|&(_, function)| function)
 }
 
 impl Call<'_> {
@@ -82,12 +131,16 @@ impl Call<'_> {
     pub(super) fn bytes(&self, place: usize) -> Result<&[u8], String> {
         match self.arg(place) {
             Data::Text(bytes) | Data::Buffer(bytes) => Ok(bytes),
-            _ => Err(format!("NULL was passed for the text that is parameter {}", place + 1)),
+            _ => Err(format!(
+                "NULL was passed for the text that is parameter {}",
+                place + 1
+            )),
         }
     }
 
     fn text(&self, place: usize) -> Result<String, String> {
-        self.bytes(place).map(|bytes| String::from_utf8_lossy(bytes).into_owned())
+        self.bytes(place)
+            .map(|bytes| String::from_utf8_lossy(bytes).into_owned())
     }
 
     fn push(&self, item: Data) -> Answer {
@@ -119,19 +172,29 @@ fn text_of(data: &Data) -> Option<Data> {
 
 fn bytes_of(data: &Data) -> Option<Data> {
     match data {
-        Data::Text(bytes) | Data::Buffer(bytes) => {
-            Some(bytes.iter().map(|&byte| i64::from(byte)).collect::<Vec<_>>().into())
-        }
+        Data::Text(bytes) | Data::Buffer(bytes) => Some(
+            bytes
+                .iter()
+                .map(|&byte| i64::from(byte))
+                .collect::<Vec<_>>()
+                .into(),
+        ),
         _ => list_of(data, |item| rounded(item).map(Data::Int)),
     }
 }
 
 fn list_of(data: &Data, convert: impl Fn(&Data) -> Option<Data>) -> Option<Data> {
-    as_list(data)?.iter().map(convert).collect::<Option<Vec<_>>>().map(Data::Array)
+    as_list(data)?
+        .iter()
+        .map(convert)
+        .collect::<Option<Vec<_>>>()
+        .map(Data::Array)
 }
 
 fn log(call: &Call<'_>) -> Answer {
-    let origin = call.text(0).unwrap_or_else(|_| call.frame.plugin.name.clone());
+    let origin = call
+        .text(0)
+        .unwrap_or_else(|_| call.frame.plugin.name.clone());
     call.frame.host.log(&origin, call.int(1)?, &call.text(2)?);
     Ok(Vec::new())
 }
@@ -155,13 +218,26 @@ fn create_buffer(call: &Call<'_>) -> Answer {
 }
 
 fn release_buffer(call: &Call<'_>) -> Answer {
-    let released = call.frame.shared.buffers.borrow_mut().release(call.int(0)? as usize);
-    if released { Ok(Vec::new()) } else { Err("the simulator has no buffer there".into()) }
+    let released = call
+        .frame
+        .shared
+        .buffers
+        .borrow_mut()
+        .release(call.int(0)? as usize);
+    if released {
+        Ok(Vec::new())
+    } else {
+        Err("the simulator has no buffer there".into())
+    }
 }
 
 fn register_function(call: &Call<'_>) -> Answer {
     let name = call.text(0)?;
-    let callback = call.values.get(2).and_then(|value| value.address.callback()).ok_or("NULL is no function")?;
+    let callback = call
+        .values
+        .get(2)
+        .and_then(|value| value.address.callback())
+        .ok_or("NULL is no function")?;
     let mut functions = call.frame.plugin.functions.borrow_mut();
     let known = functions.iter().position(|function| function.name == name);
     match known {
@@ -179,13 +255,25 @@ fn register_variable(call: &Call<'_>) -> Answer {
     } else {
         Variable::Expression(call.text(1)?)
     };
-    call.frame.plugin.variables.borrow_mut().push((call.text(0)?, value));
+    call.frame
+        .plugin
+        .variables
+        .borrow_mut()
+        .push((call.text(0)?, value));
     Ok(vec![Data::Int(1)])
 }
 
 fn set_info(call: &Call<'_>) -> Answer {
-    let value = if call.int(1)? < 2 { call.arg(2) } else { call.arg(3) };
-    call.frame.plugin.infos.borrow_mut().insert(call.int(1)?, value.clone());
+    let value = if call.int(1)? < 2 {
+        call.arg(2)
+    } else {
+        call.arg(3)
+    };
+    call.frame
+        .plugin
+        .infos
+        .borrow_mut()
+        .insert(call.int(1)?, value.clone());
     Ok(Vec::new())
 }
 
@@ -214,14 +302,25 @@ fn call_method(call: &Call<'_>) -> Answer {
 fn call_script(call: &Call<'_>) -> Answer {
     let (script, name, stack) = (call.int(0)?, call.text(1)?, call.int(2)?);
     let args = std::mem::take(call.stacks().get(stack)?);
-    let (script, is_silent) = if script >= 0 { (script & !SILENT, script & SILENT != 0) } else { (script, false) };
-    let results = call.frame.host.call_script(script, &name, &args).map_err(|reason| {
-        let text = format!("External call to simCallScriptFunction failed ('{name}'): {reason}");
-        if !is_silent {
-            call.frame.host.log(&call.frame.plugin.name, super::current::ERRORS, &text);
-        }
-        text
-    })?;
+    let (script, is_silent) = if script >= 0 {
+        (script & !SILENT, script & SILENT != 0)
+    } else {
+        (script, false)
+    };
+    let results = call
+        .frame
+        .host
+        .call_script(script, &name, &args)
+        .map_err(|reason| {
+            let text =
+                format!("External call to simCallScriptFunction failed ('{name}'): {reason}");
+            if !is_silent {
+                call.frame
+                    .host
+                    .log(&call.frame.plugin.name, super::current::ERRORS, &text);
+            }
+            text
+        })?;
     // The function may have released the stack.
     *call.stacks().get(stack)? = results;
     Ok(vec![Data::Int(0)])
@@ -246,9 +345,10 @@ fn pop(call: &Call<'_>) -> Answer {
     let items = stacks.get(call.int(0)?)?;
     let size = match call.int(1)? {
         0 => 0,
-        count => {
-            usize::try_from(count).ok().and_then(|count| items.len().checked_sub(count)).ok_or("too many items")?
-        }
+        count => usize::try_from(count)
+            .ok()
+            .and_then(|count| items.len().checked_sub(count))
+            .ok_or("too many items")?,
     };
     items.truncate(size);
     Ok(vec![Data::Int(size as i64)])
@@ -265,26 +365,40 @@ fn move_to_top(call: &Call<'_>) -> Answer {
 fn type_of_item(call: &Call<'_>) -> Answer {
     let mut stacks = call.stacks();
     let items = stacks.get(call.int(0)?)?;
-    Ok(vec![Data::Int(item_type(&items[place(items, call.int(1)?)?]))])
+    Ok(vec![Data::Int(item_type(
+        &items[place(items, call.int(1)?)?],
+    ))])
 }
 
 fn unfold(call: &Call<'_>) -> Answer {
     let mut stacks = call.stacks();
     let items = stacks.get(call.int(0)?)?;
-    let parts = items.last().and_then(unfolded).ok_or("there is no table on top")?;
+    let parts = items
+        .last()
+        .and_then(unfolded)
+        .ok_or("there is no table on top")?;
     items.pop();
     items.extend(parts);
     Ok(Vec::new())
 }
 
 fn debug(call: &Call<'_>) -> Answer {
-    let text = format!("stack {}: {:?}", call.int(0)?, call.stacks().get(call.int(0)?)?);
-    call.frame.host.log(&call.frame.plugin.name, super::current::INFOS, &text);
+    let text = format!(
+        "stack {}: {:?}",
+        call.int(0)?,
+        call.stacks().get(call.int(0)?)?
+    );
+    call.frame
+        .host
+        .log(&call.frame.plugin.name, super::current::INFOS, &text);
     Ok(Vec::new())
 }
 
 fn unpack(call: &Call<'_>) -> Answer {
-    let table = call.frame.host.call("sim.unpackTable", &[call.arg(0).clone()])?;
+    let table = call
+        .frame
+        .host
+        .call("sim.unpackTable", &[call.arg(0).clone()])?;
     Ok(vec![Data::Int(call.stacks().add(table).into())])
 }
 
@@ -296,7 +410,14 @@ mod tests {
     /// Integers are read from numbers that are a little off.
     #[test]
     fn integers_from_numbers() {
-        for (number, integer) in [(2.0, 2), (1.95, 2), (-1.95, -2), (2.5, 2), (f64::NAN, 0), (1e300, i64::MAX)] {
+        for (number, integer) in [
+            (2.0, 2),
+            (1.95, 2),
+            (-1.95, -2),
+            (2.5, 2),
+            (f64::NAN, 0),
+            (1e300, i64::MAX),
+        ] {
             assert_eq!(rounded(&Data::Float(number)), Some(integer), "{number}");
         }
         assert_eq!(rounded(&Data::text("x")), None);

@@ -100,7 +100,9 @@ struct Note {
 impl Note {
     fn begin(&self, plugin: &str, function: &str) {
         if self.file.borrow().is_some() {
-            self.running.borrow_mut().push(format!("{plugin}\n{function}"));
+            self.running
+                .borrow_mut()
+                .push(format!("{plugin}\n{function}"));
             self.write();
         }
     }
@@ -114,7 +116,10 @@ impl Note {
     fn write(&self) {
         if let Some(file) = &*self.file.borrow() {
             // If writing fails, a report of a crash lacks the names of plugin and function.
-            let _ = std::fs::write(file, self.running.borrow().last().map_or("", String::as_str));
+            let _ = std::fs::write(
+                file,
+                self.running.borrow().last().map_or("", String::as_str),
+            );
         }
     }
 }
@@ -153,7 +158,11 @@ pub enum Moment {
 impl Plugin {
     /// Names of its functions, in the order of their registration.
     pub fn functions(&self) -> Vec<String> {
-        self.functions.borrow().iter().map(|function| function.name.clone()).collect()
+        self.functions
+            .borrow()
+            .iter()
+            .map(|function| function.name.clone())
+            .collect()
     }
 
     /// Names and values of its variables.
@@ -170,7 +179,11 @@ impl Plugin {
 impl Plugins {
     /// The plugin with that name, if it is loaded.
     pub fn get(&self, name: &str) -> Option<Rc<Plugin>> {
-        self.loaded.borrow().iter().find(|plugin| plugin.name == name).cloned()
+        self.loaded
+            .borrow()
+            .iter()
+            .find(|plugin| plugin.name == name)
+            .cloned()
     }
 
     /// All of them, in the order in which they were loaded.
@@ -200,10 +213,19 @@ impl Plugins {
             calls: Cell::new(0),
             _claim: claim,
         });
-        let version = self.run(host, &plugin, "simInit", |plugin| plugin.library.start(&plugin.name, own_library));
+        let version = self.run(host, &plugin, "simInit", |plugin| {
+            plugin.library.start(&plugin.name, own_library)
+        });
         if version == 0 {
-            let reason = self.shared.last_error.take().map(|error| format!(" (the last error: {error})"));
-            return Err(format!("could not properly initialize plugin{}", reason.unwrap_or_default()));
+            let reason = self
+                .shared
+                .last_error
+                .take()
+                .map(|error| format!(" (the last error: {error})"));
+            return Err(format!(
+                "could not properly initialize plugin{}",
+                reason.unwrap_or_default()
+            ));
         }
         self.loaded.borrow_mut().push(Rc::clone(&plugin));
         Ok(plugin)
@@ -221,14 +243,29 @@ impl Plugins {
         (script, object): (i64, i64),
         args: Vec<Data>,
     ) -> Result<Vec<Data>, String> {
-        let function = plugin.functions.borrow().get(function).cloned().ok_or("the plugin has no such function")?;
+        let function = plugin
+            .functions
+            .borrow()
+            .get(function)
+            .cloned()
+            .ok_or("the plugin has no such function")?;
         let stack = self.shared.stacks.borrow_mut().add(args);
         let before = self.shared.raised.take();
         let (script, object) = (script as i32, object as i32);
-        let older_error =
-            self.run(host, plugin, &function.name, |_| function.callback.call(Caller { object, script, stack }));
+        let older_error = self.run(host, plugin, &function.name, |_| {
+            function.callback.call(Caller {
+                object,
+                script,
+                stack,
+            })
+        });
         // Nothing is left of a stack that the plugin has released.
-        let results = self.shared.stacks.borrow_mut().remove(stack.into()).unwrap_or_default();
+        let results = self
+            .shared
+            .stacks
+            .borrow_mut()
+            .remove(stack.into())
+            .unwrap_or_default();
         match self.shared.raised.replace(before).or(older_error) {
             Some(error) => Err(error),
             None => Ok(results),
@@ -238,21 +275,46 @@ impl Plugins {
     /// Sends a message to all plugins.
     pub fn send(&self, host: Rc<dyn Host>, moment: Moment, values: [i32; 4]) {
         for plugin in self.all() {
-            let message = Message { id: moment as i32, values };
-            self.run(Rc::clone(&host), &plugin, "simMsg", |plugin| plugin.library.receive(message));
+            let message = Message {
+                id: moment as i32,
+                values,
+            };
+            self.run(Rc::clone(&host), &plugin, "simMsg", |plugin| {
+                plugin.library.receive(message)
+            });
         }
     }
 
     /// Ends a plugin. Its library stays in memory.
     pub fn unload(&self, host: Rc<dyn Host>, plugin: &Rc<Plugin>) {
-        self.loaded.borrow_mut().retain(|loaded| !Rc::ptr_eq(loaded, plugin));
-        self.run(host, plugin, "simCleanup", |plugin| plugin.library.clean_up());
+        self.loaded
+            .borrow_mut()
+            .retain(|loaded| !Rc::ptr_eq(loaded, plugin));
+        self.run(host, plugin, "simCleanup", |plugin| {
+            plugin.library.clean_up()
+        });
     }
 
-    fn run<T>(&self, host: Rc<dyn Host>, plugin: &Rc<Plugin>, function: &str, code: impl FnOnce(&Plugin) -> T) -> T {
+    fn run<T>(
+        &self,
+        host: Rc<dyn Host>,
+        plugin: &Rc<Plugin>,
+        function: &str,
+        code: impl FnOnce(&Plugin) -> T,
+    ) -> T {
         self.note.begin(&plugin.name, function);
-        let exception = UncaughtException { plugin: &plugin.name, function };
-        let result = within(Frame { shared: Rc::clone(&self.shared), plugin: Rc::clone(plugin), host }, code);
+        let exception = UncaughtException {
+            plugin: &plugin.name,
+            function,
+        };
+        let result = within(
+            Frame {
+                shared: Rc::clone(&self.shared),
+                plugin: Rc::clone(plugin),
+                host,
+            },
+            code,
+        );
         std::mem::forget(exception);
         self.note.end();
         result
@@ -285,15 +347,25 @@ static CLAIMED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 impl Claim {
     fn of(path: &Path) -> Result<Self, String> {
         let path = path.canonicalize().map_err(|error| error.to_string())?;
-        let is_free = CLAIMED.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone());
+        let is_free = CLAIMED
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .insert(path.clone());
         let used = "another simulator of this process uses it, and a library has its variables only once: run them one after the other, \
                     or in processes of their own (swanilda test --isolate)";
-        if is_free { Ok(Self(path)) } else { Err(used.to_owned()) }
+        if is_free {
+            Ok(Self(path))
+        } else {
+            Err(used.to_owned())
+        }
     }
 }
 
 impl Drop for Claim {
     fn drop(&mut self) {
-        CLAIMED.lock().unwrap_or_else(PoisonError::into_inner).remove(&self.0);
+        CLAIMED
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .remove(&self.0);
     }
 }

@@ -23,17 +23,25 @@ fn connect() -> Result<PathBuf, String> {
     if LIBRARY.is_empty() {
         return Err("native plugins are not supported on this system".into());
     }
-    let path = unpacked().map_err(|error| format!("the library for plugins cannot be unpacked: {error}"))?;
-    ffi::connect(&path, ffi::enter).map_err(|error| format!("{} cannot be used: {error}", path.display()))?;
+    let path = unpacked()
+        .map_err(|error| format!("the library for plugins cannot be unpacked: {error}"))?;
+    ffi::connect(&path, ffi::enter)
+        .map_err(|error| format!("{} cannot be used: {error}", path.display()))?;
     Ok(path)
 }
 
 /// In the user's cache, or where that cannot be written in a folder for temporary files, which then stays there.
 fn unpacked() -> io::Result<PathBuf> {
-    let cache = directories::ProjectDirs::from("", "", "swanilda").map(|folders| folders.cache_dir().to_owned());
+    let cache = directories::ProjectDirs::from("", "", "swanilda")
+        .map(|folders| folders.cache_dir().to_owned());
     match cache.map(|folder| unpack_into(&folder)) {
         Some(Ok(path)) => Ok(path),
-        _ => unpack_into(&tempfile::Builder::new().prefix("swanilda-").tempdir()?.keep()),
+        _ => unpack_into(
+            &tempfile::Builder::new()
+                .prefix("swanilda-")
+                .tempdir()?
+                .keep(),
+        ),
     }
 }
 
@@ -50,8 +58,10 @@ fn unpack_into(folder: &Path) -> io::Result<PathBuf> {
     make.create(folder)?;
     // Another process may do the same now: each writes its own file and moves it to the place at once.
     let mine = folder.join(format!(".{}-{:016x}", std::process::id(), hasher.finish()));
-    let written =
-        create.open(&mine).and_then(|mut file| file.write_all(LIBRARY)).and_then(|()| fs::rename(&mine, &path));
+    let written = create
+        .open(&mine)
+        .and_then(|mut file| file.write_all(LIBRARY))
+        .and_then(|()| fs::rename(&mine, &path));
     if written.is_err() {
         // A file that is left over is harmless.
         let _ = fs::remove_file(&mine);
@@ -79,8 +89,18 @@ mod tests {
         let folder = tempfile::tempdir().expect("a temporary folder can be made");
         let path = unpack_into(&folder.path().join("new")).expect("it is writable");
         fs::write(&path, b"something else").expect("it is writable");
-        assert_eq!(unpack_into(&folder.path().join("new")).expect("it is writable"), path);
+        assert_eq!(
+            unpack_into(&folder.path().join("new")).expect("it is writable"),
+            path
+        );
         assert!(fs::read(&path).expect("it is there") == LIBRARY);
-        assert_eq!(fs::metadata(&path).expect("it is there").permissions().mode() & 0o777, 0o700);
+        assert_eq!(
+            fs::metadata(&path)
+                .expect("it is there")
+                .permissions()
+                .mode()
+                & 0o777,
+            0o700
+        );
     }
 }

@@ -11,18 +11,34 @@ const EXTENDED: i64 = 0x40_0000;
 pub(super) const FUNCTIONS: &[(&str, Function)] = &[
     ("object.find", find_object),
     ("script.find", find_script),
-    ("sensor.read", |call| detection(call, "sim.readProximitySensor")),
-    ("sensor.handle", |call| detection(call, "sim.handleProximitySensor")),
-    ("sensor.check", |call| detection(call, "sim.checkProximitySensor")),
+    ("sensor.read", |call| {
+        detection(call, "sim.readProximitySensor")
+    }),
+    ("sensor.handle", |call| {
+        detection(call, "sim.handleProximitySensor")
+    }),
+    ("sensor.check", |call| {
+        detection(call, "sim.checkProximitySensor")
+    }),
     ("camera.read", |call| packets(call, "sim.readVisionSensor")),
-    ("camera.handle", |call| packets(call, "sim.handleVisionSensor")),
-    ("camera.check", |call| packets(call, "sim.checkVisionSensor")),
+    ("camera.handle", |call| {
+        packets(call, "sim.handleVisionSensor")
+    }),
+    ("camera.check", |call| {
+        packets(call, "sim.checkVisionSensor")
+    }),
     ("contact.info", contact),
     ("engine.bool", |call| engine(call, "sim.getEngineBoolParam")),
     ("engine.int", |call| engine(call, "sim.getEngineInt32Param")),
-    ("engine.float", |call| engine(call, "sim.getEngineFloatParam")),
-    ("names.persistent", |call| names(call, "sim.getPersistentDataTags")),
-    ("names.custom", |call| names(call, "sim.readCustomDataBlockTags")),
+    ("engine.float", |call| {
+        engine(call, "sim.getEngineFloatParam")
+    }),
+    ("names.persistent", |call| {
+        names(call, "sim.getPersistentDataTags")
+    }),
+    ("names.custom", |call| {
+        names(call, "sim.readCustomDataBlockTags")
+    }),
     ("property.name", property_name),
     ("serial.read", read_serial),
 ];
@@ -32,14 +48,26 @@ fn find_object(call: &Call<'_>) -> Answer {
     let mut options = vec![("noError", Data::Bool(flags & 1 != 0))];
     options.extend((index >= 0).then_some(("index", Data::Int(index))));
     options.extend((proxy >= 0).then_some(("proxy", Data::Int(proxy))));
-    let options = options.into_iter().map(|(key, value)| (Key::Text(key.into()), value)).collect();
-    call.frame.host.call("sim.getObject", &[Data::Text(call.bytes(0)?.to_vec()), Data::Map(options)])
+    let options = options
+        .into_iter()
+        .map(|(key, value)| (Key::Text(key.into()), value))
+        .collect();
+    call.frame.host.call(
+        "sim.getObject",
+        &[Data::Text(call.bytes(0)?.to_vec()), Data::Map(options)],
+    )
 }
 
 /// By the object it belongs to, or else by name.
 fn find_script(call: &Call<'_>) -> Answer {
-    let owner = if call.int(1)? >= 0 { call.arg(1) } else { call.arg(2) };
-    call.frame.host.call("sim.getScript", &[call.arg(0).clone(), owner.clone()])
+    let owner = if call.int(1)? >= 0 {
+        call.arg(1)
+    } else {
+        call.arg(2)
+    };
+    call.frame
+        .host
+        .call("sim.getScript", &[call.arg(0).clone(), owner.clone()])
 }
 
 /// Whether something was detected; point and distance; the object; the normal.
@@ -61,20 +89,39 @@ fn packets(call: &Call<'_>, function: &str) -> Answer {
     let mut results = call.frame.host.call(function, &call.args)?.into_iter();
     let state = results.next().unwrap_or(Data::Int(-1));
     let packets: Vec<Vec<Data>> = results.map(items).collect();
-    let counts = std::iter::once(packets.len()).chain(packets.iter().map(Vec::len)).map(|count| count as i64);
+    let counts = std::iter::once(packets.len())
+        .chain(packets.iter().map(Vec::len))
+        .map(|count| count as i64);
     let counts = counts.collect::<Vec<_>>().into();
-    Ok(vec![state, Data::Array(packets.into_iter().flatten().collect()), counts])
+    Ok(vec![
+        state,
+        Data::Array(packets.into_iter().flatten().collect()),
+        counts,
+    ])
 }
 
 /// Whether there is such a contact; the two objects; point, force and, if it is wanted, normal.
 fn contact(call: &Call<'_>) -> Answer {
     let [pass, object, index] = [call.int(0)?, call.int(1)?, call.int(2)?];
-    let args = [Data::Int(pass), Data::Int(object), Data::Int(index & !EXTENDED)];
-    let mut results = call.frame.host.call("sim.getContactInfo", &args)?.into_iter().map(items);
+    let args = [
+        Data::Int(pass),
+        Data::Int(object),
+        Data::Int(index & !EXTENDED),
+    ];
+    let mut results = call
+        .frame
+        .host
+        .call("sim.getContactInfo", &args)?
+        .into_iter()
+        .map(items);
     let objects = results.next().unwrap_or_default();
     let vectors = if index & EXTENDED != 0 { 3 } else { 2 };
     let numbers = results.take(vectors).flatten().collect();
-    Ok(vec![Data::Bool(!objects.is_empty()), Data::Array(objects), Data::Array(numbers)])
+    Ok(vec![
+        Data::Bool(!objects.is_empty()),
+        Data::Array(objects),
+        Data::Array(numbers),
+    ])
 }
 
 /// The value, and whether there is one.
@@ -95,10 +142,26 @@ fn engine(call: &Call<'_>, function: &str) -> Answer {
 
 /// Names, each with a NUL behind it, and how many they are.
 fn names(call: &Call<'_>, function: &str) -> Answer {
-    let names: Vec<Data> = call.frame.host.call(function, &call.args)?.into_iter().flat_map(items).collect();
+    let names: Vec<Data> = call
+        .frame
+        .host
+        .call(function, &call.args)?
+        .into_iter()
+        .flat_map(items)
+        .collect();
     let count = Data::Int(names.len() as i64);
-    let text: Vec<u8> = names.into_iter().flat_map(|name| [bytes(name), vec![0]].concat()).collect();
-    Ok(vec![if text.is_empty() { Data::Nil } else { Data::Buffer(text) }, count])
+    let text: Vec<u8> = names
+        .into_iter()
+        .flat_map(|name| [bytes(name), vec![0]].concat())
+        .collect();
+    Ok(vec![
+        if text.is_empty() {
+            Data::Nil
+        } else {
+            Data::Buffer(text)
+        },
+        count,
+    ])
 }
 
 fn property_name(call: &Call<'_>) -> Answer {
@@ -110,18 +173,35 @@ fn property_name(call: &Call<'_>) -> Answer {
 
 /// How many bytes were read, and the bytes.
 fn read_serial(call: &Call<'_>) -> Answer {
-    let bytes: Vec<u8> =
-        call.frame.host.call("sim.serialRead", &call.args)?.into_iter().take(1).flat_map(bytes).collect();
+    let bytes: Vec<u8> = call
+        .frame
+        .host
+        .call("sim.serialRead", &call.args)?
+        .into_iter()
+        .take(1)
+        .flat_map(bytes)
+        .collect();
     let count = Data::Int(bytes.len() as i64);
-    Ok(vec![count, bytes.into_iter().map(i64::from).collect::<Vec<_>>().into()])
+    Ok(vec![
+        count,
+        bytes.into_iter().map(i64::from).collect::<Vec<_>>().into(),
+    ])
 }
 
 /// The items of a table; nothing of all else.
 fn items(data: Data) -> Vec<Data> {
-    if let Data::Array(items) = data { items } else { Vec::new() }
+    if let Data::Array(items) = data {
+        items
+    } else {
+        Vec::new()
+    }
 }
 
 /// The bytes of a text; nothing of all else.
 fn bytes(data: Data) -> Vec<u8> {
-    if let Data::Text(bytes) | Data::Buffer(bytes) = data { bytes } else { Vec::new() }
+    if let Data::Text(bytes) | Data::Buffer(bytes) = data {
+        bytes
+    } else {
+        Vec::new()
+    }
 }

@@ -49,7 +49,10 @@ pub enum Size {
 
 /// All symbols of the table `text`, in its order.
 pub fn rows(text: &'static str) -> Vec<Row> {
-    text.lines().filter(|line| !line.is_empty() && !line.starts_with('#')).map(Row::parse).collect()
+    text.lines()
+        .filter(|line| !line.is_empty() && !line.starts_with('#'))
+        .map(Row::parse)
+        .collect()
 }
 
 impl Row {
@@ -58,11 +61,29 @@ impl Row {
         let mut next = || columns.next().unwrap_or_default();
         let (symbol, result, params, function) = (next(), next(), next(), next());
         let (function, order) = match function.split_once(' ') {
-            Some((name, order)) => (name, Some(order.split(',').filter_map(|place| place.parse().ok()).collect())),
+            Some((name, order)) => (
+                name,
+                Some(
+                    order
+                        .split(',')
+                        .filter_map(|place| place.parse().ok())
+                        .collect(),
+                ),
+            ),
             None => (function, None),
         };
-        let params = params.split(',').filter(|param| !param.is_empty()).map(Param::parse).collect();
-        Self { symbol, result: result.chars().next().unwrap_or('v'), params, function, order }
+        let params = params
+            .split(',')
+            .filter(|param| !param.is_empty())
+            .map(Param::parse)
+            .collect();
+        Self {
+            symbol,
+            result: result.chars().next().unwrap_or('v'),
+            params,
+            function,
+            order,
+        }
     }
 
     /// Whether it only says that it is missing.
@@ -91,8 +112,17 @@ impl Row {
 
     /// The parameters in C, with the names `a`, `b`, ... and `n` before the name for counts.
     pub fn c_params(&self) -> String {
-        let params: Vec<String> = self.params.iter().enumerate().map(|(place, param)| param.c_text(place)).collect();
-        if params.is_empty() { "void".to_owned() } else { params.join(", ") }
+        let params: Vec<String> = self
+            .params
+            .iter()
+            .enumerate()
+            .map(|(place, param)| param.c_text(place))
+            .collect();
+        if params.is_empty() {
+            "void".to_owned()
+        } else {
+            params.join(", ")
+        }
     }
 }
 
@@ -100,14 +130,21 @@ impl Param {
     fn parse(text: &str) -> Self {
         let (is_in, is_out, rest) = match text.strip_prefix('>') {
             Some(rest) => (false, true, rest),
-            None => text.strip_prefix('=').map_or((true, false, text), |rest| (true, true, rest)),
+            None => text
+                .strip_prefix('=')
+                .map_or((true, false, text), |rest| (true, true, rest)),
         };
         let ty = rest.chars().next().unwrap_or('p');
         let size = match &rest[ty.len_utf8()..] {
             "#" => Size::Counted,
             digits => digits.parse().map_or(Size::One, Size::Fixed),
         };
-        Self { is_in, is_out, ty, size }
+        Self {
+            is_in,
+            is_out,
+            ty,
+            size,
+        }
     }
 
     /// Whether C passes an address.
@@ -141,7 +178,11 @@ impl Param {
             true => format!("{constant}{}* {name}", self.c_type()),
             false => format!("{} {name}", self.c_type()),
         };
-        if self.size == Size::Counted { format!("{value}, int n{name}") } else { value }
+        if self.size == Size::Counted {
+            format!("{value}, int n{name}")
+        } else {
+            value
+        }
     }
 }
 

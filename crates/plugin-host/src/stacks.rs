@@ -37,16 +37,22 @@ impl Stacks {
     /// Removes a stack; its items.
     pub fn remove(&mut self, handle: i64) -> Result<Vec<Data>, String> {
         let handle = i32::try_from(handle).ok();
-        handle.and_then(|handle| self.stacks.remove(&handle)).ok_or_else(no_stack)
+        handle
+            .and_then(|handle| self.stacks.remove(&handle))
+            .ok_or_else(no_stack)
     }
 
     pub fn get(&mut self, handle: i64) -> Result<&mut Vec<Data>, String> {
         let handle = i32::try_from(handle).ok();
-        handle.and_then(|handle| self.stacks.get_mut(&handle)).ok_or_else(no_stack)
+        handle
+            .and_then(|handle| self.stacks.get_mut(&handle))
+            .ok_or_else(no_stack)
     }
 
     pub fn top(&mut self, handle: i64) -> Result<&mut Data, String> {
-        self.get(handle)?.last_mut().ok_or_else(|| "the stack is empty".to_owned())
+        self.get(handle)?
+            .last_mut()
+            .ok_or_else(|| "the stack is empty".to_owned())
     }
 }
 
@@ -56,13 +62,22 @@ fn no_stack() -> String {
 
 /// The place of an item; a negative index counts from the end.
 pub(super) fn place(items: &[Data], index: i64) -> Result<usize, String> {
-    let place = if index < 0 { index.saturating_add(items.len() as i64) } else { index };
-    usize::try_from(place).ok().filter(|&place| place < items.len()).ok_or_else(|| "there is no such item".to_owned())
+    let place = if index < 0 {
+        index.saturating_add(items.len() as i64)
+    } else {
+        index
+    };
+    usize::try_from(place)
+        .ok()
+        .filter(|&place| place < items.len())
+        .ok_or_else(|| "there is no such item".to_owned())
 }
 
 /// Puts the value on top into the table below, under the key between them.
 pub(super) fn insert(items: &mut Vec<Data>) -> Result<(), String> {
-    let [.., table, key, _] = items.as_mut_slice() else { return Err("a table, a key and a value are needed".into()) };
+    let [.., table, key, _] = items.as_mut_slice() else {
+        return Err("a table, a key and a value are needed".into());
+    };
     let key = as_key(key).ok_or("this is no key of a table")?;
     let entries = match table {
         Data::Array(list) if matches!(key, Key::Int(next) if next == list.len() as i64 + 1) => None,
@@ -105,10 +120,17 @@ pub(super) fn as_list(data: &Data) -> Option<Vec<Data>> {
         Data::Map(entries) => entries,
         _ => return None,
     };
-    let number = |key: &Key| if let Key::Int(number) = key { usize::try_from(*number).ok() } else { None };
+    let number = |key: &Key| {
+        if let Key::Int(number) = key {
+            usize::try_from(*number).ok()
+        } else {
+            None
+        }
+    };
     let mut items = vec![None; entries.len()];
     for (key, value) in entries {
-        *number(key).and_then(|number| items.get_mut(number.checked_sub(1)?))? = Some(value.clone());
+        *number(key).and_then(|number| items.get_mut(number.checked_sub(1)?))? =
+            Some(value.clone());
     }
     items.into_iter().collect()
 }
@@ -132,8 +154,11 @@ pub(super) fn table_info(data: &Data, info: i64) -> i64 {
     if !matches!(data, Data::Array(_) | Data::Map(_)) {
         return NO_TABLE;
     }
-    let Some(items) = as_list(data) else { return if info == 0 { MAP } else { 0 } };
-    let all = |wanted: &[i64]| i64::from(items.iter().all(|item| wanted.contains(&item_type(item))));
+    let Some(items) = as_list(data) else {
+        return if info == 0 { MAP } else { 0 };
+    };
+    let all =
+        |wanted: &[i64]| i64::from(items.iter().all(|item| wanted.contains(&item_type(item))));
     match info {
         0 => items.len() as i64,
         1 => all(&[NULL]),
@@ -152,12 +177,15 @@ pub(super) fn unfolded(data: &Data) -> Option<Vec<Data>> {
         pairs.flat_map(|(key, value)| [key, value]).collect()
     };
     match data {
-        Data::Text(bytes) | Data::Buffer(bytes) => {
-            Some(listed(bytes.iter().map(|&byte| Data::Int(byte.into())).collect()))
-        }
-        Data::Map(entries) if as_list(data).is_none() => {
-            Some(entries.iter().flat_map(|(key, value)| [of_key(key), value.clone()]).collect())
-        }
+        Data::Text(bytes) | Data::Buffer(bytes) => Some(listed(
+            bytes.iter().map(|&byte| Data::Int(byte.into())).collect(),
+        )),
+        Data::Map(entries) if as_list(data).is_none() => Some(
+            entries
+                .iter()
+                .flat_map(|(key, value)| [of_key(key), value.clone()])
+                .collect(),
+        ),
         _ => as_list(data).map(listed),
     }
 }
@@ -190,7 +218,10 @@ mod tests {
         items.extend([text("a"), Data::Bool(true)]);
         insert(&mut items).expect("key and value are there");
         assert_eq!((as_list(&items[0]), table_info(&items[0], 0)), (None, -2));
-        assert!(insert(&mut items).is_err() && insert(&mut vec![Data::Nil, Data::Int(1), Data::Nil]).is_err());
+        assert!(
+            insert(&mut items).is_err()
+                && insert(&mut vec![Data::Nil, Data::Int(1), Data::Nil]).is_err()
+        );
         items.extend([Data::Float(f64::NAN), Data::Nil]);
         assert!(insert(&mut items).is_err());
     }
@@ -199,23 +230,44 @@ mod tests {
     #[test]
     fn what_plugins_learn_of_tables() {
         let list = Data::from([1, 2, 3]);
-        assert_eq!((table_info(&list, 0), table_info(&list, 2), table_info(&list, 3)), (3, 1, 0));
+        assert_eq!(
+            (
+                table_info(&list, 0),
+                table_info(&list, 2),
+                table_info(&list, 3)
+            ),
+            (3, 1, 0)
+        );
         assert_eq!(table_info(&Data::Array(Vec::new()), 0), 0);
         assert_eq!(table_info(&Data::Int(5), 0), -3);
         let map = Data::map([("a", Data::Int(1))]);
         assert_eq!(table_info(&map, 0), -2);
         assert_eq!(unfolded(&map), Some(vec![text("a"), Data::Int(1)]));
-        assert_eq!(unfolded(&text("A")), Some(vec![Data::Int(1), Data::Int(65)]));
+        assert_eq!(
+            unfolded(&text("A")),
+            Some(vec![Data::Int(1), Data::Int(65)])
+        );
         assert_eq!(unfolded(&Data::Nil), None);
     }
 
     #[test]
     fn handles_are_never_zero_and_stale_ones_are_refused() {
-        let mut stacks = Stacks { last: i32::MAX, ..Stacks::default() };
+        let mut stacks = Stacks {
+            last: i32::MAX,
+            ..Stacks::default()
+        };
         let handle = i64::from(stacks.add(vec![Data::Nil]));
         assert!(handle > 0 && stacks.get(handle).is_ok());
-        assert!(stacks.remove(handle).is_ok() && stacks.remove(handle).is_err() && stacks.get(i64::MAX).is_err());
-        assert!(place(&[Data::Nil], -1).is_ok() && place(&[Data::Nil], -2).is_err() && place(&[], 0).is_err());
+        assert!(
+            stacks.remove(handle).is_ok()
+                && stacks.remove(handle).is_err()
+                && stacks.get(i64::MAX).is_err()
+        );
+        assert!(
+            place(&[Data::Nil], -1).is_ok()
+                && place(&[Data::Nil], -2).is_err()
+                && place(&[], 0).is_err()
+        );
         assert!(place(&[], i64::MIN).is_err());
     }
 }

@@ -8,7 +8,9 @@ plugin! { version: 1, functions: [func, echo, fail, panic, ask] }
 /// An answer to a greeting.
 fn func(_: &Call, args: Vec<Value>) -> Result<Vec<Value>, String> {
     match args.as_slice() {
-        [Value::Text(greeting)] if greeting == b"Hello" => Ok(vec![Value::Text(b"Hello to you too!".to_vec())]),
+        [Value::Text(greeting)] if greeting == b"Hello" => {
+            Ok(vec![Value::Text(b"Hello to you too!".to_vec())])
+        }
         _ => Err("say Hello.".to_owned()),
     }
 }
@@ -30,7 +32,9 @@ fn ask(call: &Call, mut args: Vec<Value>) -> Result<Vec<Value>, String> {
     if args.is_empty() {
         return Err("the name of a function is needed.".to_owned());
     }
-    let Value::Text(name) = args.remove(0) else { return Err("the name of a function is needed.".to_owned()) };
+    let Value::Text(name) = args.remove(0) else {
+        return Err("the name of a function is needed.".to_owned());
+    };
     call.log("simRust", 450, "the plugin asks.")?;
     call.call_script(call.script(), &String::from_utf8_lossy(&name), &args)
 }

@@ -38,7 +38,13 @@ impl CallInfo {
     pub(super) fn call(&self) -> (i32, Call) {
         // SAFETY: the simulator passes a struct of the interface that lives until the call returns.
         let info = unsafe { &*self.0 };
-        (info.stack, Call { script: info.script, object: info.object })
+        (
+            info.stack,
+            Call {
+                script: info.script,
+                object: info.object,
+            },
+        )
     }
 }
 
@@ -98,7 +104,9 @@ impl Interface {
             return Some(interface);
         }
         // SAFETY: the simulator passes a struct of the interface with a text that ends with NUL.
-        let path = unsafe { CStr::from_ptr((*info.0).host_library) }.to_str().ok()?;
+        let path = unsafe { CStr::from_ptr((*info.0).host_library) }
+            .to_str()
+            .ok()?;
         // SAFETY: it is the library of the simulator that has loaded the plugin, and already open.
         let library = unsafe { libloading::Library::new(OsStr::new(path)) }.ok()?;
         let interface = Self::of(&library)?;
@@ -107,7 +115,9 @@ impl Interface {
     }
 
     pub fn register(&self, name: &str, callback: Callback) -> bool {
-        CString::new(name).is_ok_and(|name| (self.register_function)(name.as_ptr(), std::ptr::null(), callback) >= 0)
+        CString::new(name).is_ok_and(|name| {
+            (self.register_function)(name.as_ptr(), std::ptr::null(), callback) >= 0
+        })
     }
 
     pub fn set_error(&self, text: &str) {
@@ -122,14 +132,23 @@ impl Interface {
         Ok(())
     }
 
-    pub fn call_script(&self, script: i32, function: &str, args: &[Value]) -> Result<Vec<Value>, String> {
+    pub fn call_script(
+        &self,
+        script: i32,
+        function: &str,
+        args: &[Value],
+    ) -> Result<Vec<Value>, String> {
         let name = c_text(function)?;
         let items = (self.create_stack)();
         args.iter().for_each(|arg| stack::push(self, items, arg));
         let outcome = (self.call_function)(script, name.as_ptr(), items);
         let results = stack::take(self, items);
         (self.release_stack)(items);
-        if outcome >= 0 { Ok(results) } else { Err(format!("the call of {function} failed.")) }
+        if outcome >= 0 {
+            Ok(results)
+        } else {
+            Err(format!("the call of {function} failed."))
+        }
     }
 
     /// The text on top of a stack.
@@ -140,7 +159,9 @@ impl Interface {
             return Vec::new();
         }
         // SAFETY: the simulator has made a buffer with so many bytes, which nobody else has.
-        let bytes = unsafe { std::slice::from_raw_parts(text.cast::<u8>(), usize::try_from(length).unwrap_or(0)) };
+        let bytes = unsafe {
+            std::slice::from_raw_parts(text.cast::<u8>(), usize::try_from(length).unwrap_or(0))
+        };
         let bytes = bytes.to_vec();
         (self.release_buffer)(text.cast());
         bytes
@@ -153,7 +174,14 @@ fn c_text(text: &str) -> Result<CString, String> {
 
 /// A function by the type that the interface says it has.
 fn symbol<F: Copy>(library: &libloading::Library, name: &CStr) -> Option<F> {
-    const { assert!(size_of::<F>() == size_of::<usize>(), "a function is an address") };
+    const {
+        assert!(
+            size_of::<F>() == size_of::<usize>(),
+            "a function is an address"
+        )
+    };
     // SAFETY: the types are those of the interface, and the library stays open.
-    unsafe { library.get::<F>(name.to_bytes_with_nul()) }.ok().map(|symbol| *symbol)
+    unsafe { library.get::<F>(name.to_bytes_with_nul()) }
+        .ok()
+        .map(|symbol| *symbol)
 }

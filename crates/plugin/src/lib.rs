@@ -71,7 +71,12 @@ impl Call {
     ///
     /// # Errors
     /// When there is no such script or function, or it fails.
-    pub fn call_script(&self, script: i32, function: &str, args: &[Value]) -> Result<Vec<Value>, String> {
+    pub fn call_script(
+        &self,
+        script: i32,
+        function: &str,
+        args: &[Value],
+    ) -> Result<Vec<Value>, String> {
         interface()?.call_script(script, function, args)
     }
 
@@ -117,20 +122,28 @@ macro_rules! plugin {
 /// What `simInit` does: the version, or 0 where the plugin cannot run.
 #[doc(hidden)]
 pub fn start(info: &InitInfo, version: i32, functions: &[(&str, Callback)]) -> i32 {
-    let Some(interface) = Interface::find(info) else { return 0 };
-    let all = functions.iter().all(|&(name, callback)| interface.register(name, callback));
+    let Some(interface) = Interface::find(info) else {
+        return 0;
+    };
+    let all = functions
+        .iter()
+        .all(|&(name, callback)| interface.register(name, callback));
     if all { version } else { 0 }
 }
 
 /// What a function for scripts does around the plugin's own.
 #[doc(hidden)]
 pub fn answer(info: &CallInfo, function: Function) {
-    let Some(interface) = Interface::get() else { return };
+    let Some(interface) = Interface::get() else {
+        return;
+    };
     let (stack, call) = info.call();
     let args = stack::take(interface, stack);
     let results = catch_unwind(AssertUnwindSafe(|| function(&call, args)));
     match results.unwrap_or_else(|_| Err("the plugin's function has panicked.".to_owned())) {
-        Ok(results) => results.iter().for_each(|result| stack::push(interface, stack, result)),
+        Ok(results) => results
+            .iter()
+            .for_each(|result| stack::push(interface, stack, result)),
         Err(error) => interface.set_error(&error),
     }
 }

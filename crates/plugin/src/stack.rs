@@ -15,7 +15,9 @@ const INTEGER: i32 = 9;
 
 /// Takes all values off a stack; the first one was at the bottom.
 pub(super) fn take(interface: &Interface, stack: i32) -> Vec<Value> {
-    let mut values: Vec<Value> = (0..(interface.size)(stack)).map(|_| pop(interface, stack, 0)).collect();
+    let mut values: Vec<Value> = (0..(interface.size)(stack))
+        .map(|_| pop(interface, stack, 0))
+        .collect();
     values.reverse();
     values
 }
@@ -56,7 +58,11 @@ fn pop_table(interface: &Interface, stack: i32, depth: usize) -> Value {
         entries.push((pop(interface, stack, depth + 1), value));
     }
     entries.reverse();
-    if is_list { Value::Array(entries.into_iter().map(|(_, value)| value).collect()) } else { Value::Map(entries) }
+    if is_list {
+        Value::Array(entries.into_iter().map(|(_, value)| value).collect())
+    } else {
+        Value::Map(entries)
+    }
 }
 
 /// Puts a value onto a stack.
@@ -90,7 +96,9 @@ pub(super) fn push(interface: &Interface, stack: i32, value: &Value) {
         }
         Value::Map(entries) => {
             (interface.push_table)(stack);
-            entries.iter().for_each(|(key, item)| insert(interface, stack, key, item));
+            entries
+                .iter()
+                .for_each(|(key, item)| insert(interface, stack, key, item));
         }
     }
 }

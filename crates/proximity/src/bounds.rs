@@ -14,11 +14,19 @@ pub struct Bounds {
 
 impl Bounds {
     /// The box without points: merged with another one it is the other one.
-    pub const EMPTY: Self = Self { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
+    pub const EMPTY: Self = Self {
+        min: [f64::INFINITY; 3],
+        max: [f64::NEG_INFINITY; 3],
+    };
 
     /// The smallest box around points; [`Bounds::EMPTY`] without points.
     pub fn around<'a>(points: impl IntoIterator<Item = &'a [f64; 3]>) -> Self {
-        points.into_iter().fold(Self::EMPTY, |bounds, point| bounds.merged(&Self { min: *point, max: *point }))
+        points.into_iter().fold(Self::EMPTY, |bounds, point| {
+            bounds.merged(&Self {
+                min: *point,
+                max: *point,
+            })
+        })
     }
 
     /// The smallest box around both.
@@ -38,13 +46,20 @@ impl Bounds {
             return Self::EMPTY;
         }
         let centre = pose * nalgebra::Point3::from(self.centre());
-        let half = pose.rotation.to_rotation_matrix().into_inner().abs() * Vector3::from(self.half_size());
-        Self { min: (centre.coords - half).into(), max: (centre.coords + half).into() }
+        let half =
+            pose.rotation.to_rotation_matrix().into_inner().abs() * Vector3::from(self.half_size());
+        Self {
+            min: (centre.coords - half).into(),
+            max: (centre.coords + half).into(),
+        }
     }
 
     /// The box grown by `margin` (m) on every side.
     pub fn grown(&self, margin: f64) -> Self {
-        Self { min: self.min.map(|x| x - margin), max: self.max.map(|x| x + margin) }
+        Self {
+            min: self.min.map(|x| x - margin),
+            max: self.max.map(|x| x + margin),
+        }
     }
 
     /// Whether there is no point in it.
@@ -91,7 +106,9 @@ impl Bounds {
     /// Square of [`Bounds::distance_to_point`] (m²).
     #[inline]
     pub fn distance_squared_to_point(&self, point: &[f64; 3]) -> f64 {
-        (0..3).map(|i| square(gap(self.min[i], self.max[i], point[i], point[i]))).sum()
+        (0..3)
+            .map(|i| square(gap(self.min[i], self.max[i], point[i], point[i])))
+            .sum()
     }
 
     /// Distance between the boxes (m); 0 where they overlap.
@@ -102,7 +119,9 @@ impl Bounds {
     /// Square of [`Bounds::distance`] (m²).
     #[inline]
     pub fn distance_squared(&self, other: &Self) -> f64 {
-        (0..3).map(|i| square(gap(self.min[i], self.max[i], other.min[i], other.max[i]))).sum()
+        (0..3)
+            .map(|i| square(gap(self.min[i], self.max[i], other.min[i], other.max[i])))
+            .sum()
     }
 }
 

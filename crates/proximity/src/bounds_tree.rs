@@ -53,7 +53,12 @@ struct Node {
 impl Default for BoundsTree {
     /// A tree without boxes.
     fn default() -> Self {
-        Self { nodes: Vec::new(), free: Vec::new(), root: NONE, leaves: BTreeMap::new() }
+        Self {
+            nodes: Vec::new(),
+            free: Vec::new(),
+            root: NONE,
+            leaves: BTreeMap::new(),
+        }
     }
 }
 
@@ -68,7 +73,13 @@ impl BoundsTree {
         if bounds.min.iter().chain(&bounds.max).any(|x| !x.is_finite()) {
             return;
         }
-        let leaf = self.add(Node { bounds: *bounds, parent: NONE, children: [NONE; 2], key, count: 1 });
+        let leaf = self.add(Node {
+            bounds: *bounds,
+            parent: NONE,
+            children: [NONE; 2],
+            key,
+            count: 1,
+        });
         self.leaves.insert(key, leaf);
         if self.root == NONE {
             self.root = leaf;
@@ -79,15 +90,25 @@ impl BoundsTree {
 
     /// Removes the box with a number; whether there was one.
     pub fn remove(&mut self, key: u32) -> bool {
-        let Some(leaf) = self.leaves.remove(&key) else { return false };
+        let Some(leaf) = self.leaves.remove(&key) else {
+            return false;
+        };
         let parent = self.at(leaf).parent;
         self.free.push(leaf);
         if parent == NONE {
             self.root = NONE;
             return true;
         }
-        let Node { children, parent: above, .. } = *self.at(parent);
-        let sibling = if children[0] == leaf { children[1] } else { children[0] };
+        let Node {
+            children,
+            parent: above,
+            ..
+        } = *self.at(parent);
+        let sibling = if children[0] == leaf {
+            children[1]
+        } else {
+            children[0]
+        };
         self.free.push(parent);
         self.replace_child(above, parent, sibling);
         self.refit(above);
@@ -101,7 +122,11 @@ impl BoundsTree {
 
     /// The box around all boxes; [`Bounds::EMPTY`] without any.
     pub fn bounds(&self) -> Bounds {
-        if self.root == NONE { Bounds::EMPTY } else { self.at(self.root).bounds }
+        if self.root == NONE {
+            Bounds::EMPTY
+        } else {
+            self.at(self.root).bounds
+        }
     }
 
     /// How many boxes there are.
@@ -145,20 +170,34 @@ impl BoundsTree {
         let put = |open: &mut BinaryHeap<Next>, node: u32, limit| {
             let bound = lower_bound(&self.at(node).bounds);
             if bound < limit {
-                open.push(Next { bound, is_leaf: self.at(node).children[0] == NONE, key: self.at(node).key, node });
+                open.push(Next {
+                    bound,
+                    is_leaf: self.at(node).children[0] == NONE,
+                    key: self.at(node).key,
+                    node,
+                });
             }
         };
         if self.root != NONE {
             put(&mut open, self.root, limit);
         }
-        while let Some(Next { bound, is_leaf, key, node }) = open.pop() {
+        while let Some(Next {
+            bound,
+            is_leaf,
+            key,
+            node,
+        }) = open.pop()
+        {
             if bound >= limit {
                 return;
             }
             if is_leaf {
                 limit = visit(key, bound, limit);
             } else {
-                self.at(node).children.into_iter().for_each(|child| put(&mut open, child, limit));
+                self.at(node)
+                    .children
+                    .into_iter()
+                    .for_each(|child| put(&mut open, child, limit));
             }
         }
     }
@@ -172,7 +211,8 @@ impl BoundsTree {
         [from, mut to]: [f64; 2],
         mut visit: impl FnMut(u32, f64) -> f64,
     ) {
-        let is_ray = origin.iter().chain(&direction).all(|x| x.is_finite()) && direction != [0.0; 3];
+        let is_ray =
+            origin.iter().chain(&direction).all(|x| x.is_finite()) && direction != [0.0; 3];
         if self.root == NONE || !is_ray {
             return;
         }
@@ -215,13 +255,29 @@ impl BoundsTree {
     /// The node beside which a box makes the boxes above grow least, found by descending where the growth is smaller.
     fn sibling_for(&self, bounds: &Bounds) -> u32 {
         let growth = |node: u32| {
-            let Node { bounds: own, children, count, .. } = self.at(node);
+            let Node {
+                bounds: own,
+                children,
+                count,
+                ..
+            } = self.at(node);
             let joined = own.merged(bounds).half_area();
-            (if children[0] == NONE { joined } else { joined - own.half_area() }, *count)
+            (
+                if children[0] == NONE {
+                    joined
+                } else {
+                    joined - own.half_area()
+                },
+                *count,
+            )
         };
         let mut node = self.root;
         loop {
-            let Node { bounds: own, children: [left, right], .. } = *self.at(node);
+            let Node {
+                bounds: own,
+                children: [left, right],
+                ..
+            } = *self.at(node);
             if left == NONE {
                 return node;
             }
@@ -240,7 +296,13 @@ impl BoundsTree {
     fn join(&mut self, leaf: u32, sibling: u32) {
         let above = self.at(sibling).parent;
         let bounds = self.at(sibling).bounds;
-        let parent = self.add(Node { bounds, parent: above, children: [sibling, leaf], key: 0, count: 0 });
+        let parent = self.add(Node {
+            bounds,
+            parent: above,
+            children: [sibling, leaf],
+            key: 0,
+            count: 0,
+        });
         self.replace_child(above, sibling, parent);
         self.at_mut(sibling).parent = parent;
         self.at_mut(leaf).parent = parent;
@@ -268,7 +330,10 @@ impl BoundsTree {
 
     fn renew(&mut self, node: u32) {
         let [a, b] = self.at(node).children;
-        let (bounds, count) = (self.at(a).bounds.merged(&self.at(b).bounds), self.at(a).count + self.at(b).count);
+        let (bounds, count) = (
+            self.at(a).bounds.merged(&self.at(b).bounds),
+            self.at(a).count + self.at(b).count,
+        );
         (self.at_mut(node).bounds, self.at_mut(node).count) = (bounds, count);
     }
 
@@ -285,8 +350,10 @@ impl BoundsTree {
             }
             for slot in [0, 1] {
                 let kept = self.at(grandchildren[1 - slot]).bounds;
-                let gain = self.at(parent).bounds.half_area() - kept.merged(&self.at(lone).bounds).half_area();
-                let evenness = i64::from(self.at(grandchildren[slot]).count) - i64::from(self.at(lone).count);
+                let gain = self.at(parent).bounds.half_area()
+                    - kept.merged(&self.at(lone).bounds).half_area();
+                let evenness =
+                    i64::from(self.at(grandchildren[slot]).count) - i64::from(self.at(lone).count);
                 if (gain, evenness) > best.0 {
                     best = ((gain, evenness), Some((side, slot)));
                 }
@@ -314,7 +381,10 @@ struct Next {
 impl Ord for Next {
     fn cmp(&self, other: &Self) -> Ordering {
         let order = |next: &Self| (next.is_leaf, next.key, next.node);
-        other.bound.total_cmp(&self.bound).then_with(|| order(other).cmp(&order(self)))
+        other
+            .bound
+            .total_cmp(&self.bound)
+            .then_with(|| order(other).cmp(&order(self)))
     }
 }
 

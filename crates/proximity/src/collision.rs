@@ -17,7 +17,9 @@ pub fn intersects(a: Placed, b: Placed) -> bool {
     match (a.geometry, b.geometry) {
         (Geometry::Points(_) | Geometry::Point, Geometry::Voxels(_)) => intersects(b, a),
         (Geometry::Voxels(_), Geometry::Mesh(_)) => intersects(b, a),
-        _ => a.relative(&b.pose).is_some_and(|place| touch(a.geometry, b.geometry, &place)),
+        _ => a
+            .relative(&b.pose)
+            .is_some_and(|place| touch(a.geometry, b.geometry, &place)),
     }
 }
 
@@ -35,15 +37,20 @@ fn touch(a: Geometry, b: Geometry, place: &Transform) -> bool {
 /// The segments in which two meshes intersect, in the world (m). Their union is the whole curve; adjacent triangles contribute a segment each,
 /// and a shared edge one per triangle. Places where the meshes only touch, or lie in one plane, have none.
 pub fn intersection_segments(a: Placed, b: Placed) -> Vec<[[f64; 3]; 2]> {
-    let (Geometry::Mesh(mesh), Geometry::Mesh(other)) = (a.geometry, b.geometry) else { return Vec::new() };
-    let Some(place) = a.relative(&b.pose) else { return Vec::new() };
+    let (Geometry::Mesh(mesh), Geometry::Mesh(other)) = (a.geometry, b.geometry) else {
+        return Vec::new();
+    };
+    let Some(place) = a.relative(&b.pose) else {
+        return Vec::new();
+    };
     let world = |p| a.pose.transform_point(&Point3::from(p)).coords.into();
     let mut segments = Vec::new();
     overlapping_leaves(mesh, other, &place, |i, j| {
         let moved = other.triangles[j].map(|p| place.point(&p));
         let ends = segments_of_triangles(&mesh.triangles[i], &moved);
         segments.extend(
-            ends.filter(|[p, q]| p != q || is_segment(mesh, i) || is_segment(other, j)).map(|ends| ends.map(world)),
+            ends.filter(|[p, q]| p != q || is_segment(mesh, i) || is_segment(other, j))
+                .map(|ends| ends.map(world)),
         );
         false
     });
@@ -61,7 +68,9 @@ where
     B: Items,
     A::Item: Compare<B::Item>,
 {
-    overlapping_leaves(a, b, place, |i, j| a.item(i).touches(&A::Item::moved(&b.item(j), place)))
+    overlapping_leaves(a, b, place, |i, j| {
+        a.item(i).touches(&A::Item::moved(&b.item(j), place))
+    })
 }
 
 /// Visits pairs of things in leaves that overlap, until `visit` returns true. Whether it did.

@@ -33,13 +33,22 @@ pub struct Closest {
 /// where a pose or `below` is not a number.
 pub fn distance(a: Placed, b: Placed, below: f64) -> Option<Closest> {
     if rank(&a.geometry) > rank(&b.geometry) {
-        let Closest { points: [of_b, of_a], distance } = distance(b, a, below)?;
-        return Some(Closest { points: [of_a, of_b], distance });
+        let Closest {
+            points: [of_b, of_a],
+            distance,
+        } = distance(b, a, below)?;
+        return Some(Closest {
+            points: [of_a, of_b],
+            distance,
+        });
     }
     let place = a.relative(&b.pose)?;
     let (p, q, squared) = closest(a.geometry, b.geometry, &place, below)?;
     let world = |p| a.pose.transform_point(&Point3::from(p)).coords.into();
-    Some(Closest { points: [world(p), world(q)], distance: squared.sqrt() })
+    Some(Closest {
+        points: [world(p), world(q)],
+        distance: squared.sqrt(),
+    })
 }
 
 /// Pairs of kinds are compared in one order only.
@@ -67,7 +76,12 @@ fn closest(a: Geometry, b: Geometry, place: &Transform, below: f64) -> Option<Pa
 }
 
 /// Meshes that are surfaces of boxes are compared with as solid ones, as long as nothing is inside.
-fn closest_meshes(a: &TriangleMesh, b: &TriangleMesh, place: &Transform, below: f64) -> Option<Pair> {
+fn closest_meshes(
+    a: &TriangleMesh,
+    b: &TriangleMesh,
+    place: &Transform,
+    below: f64,
+) -> Option<Pair> {
     if let Some(solid) = b.solid().filter(|_| a.len() >= MIN_TRIANGLES_FOR_SOLID) {
         match closest_items(a, solid, place, below) {
             Some((.., squared)) if squared <= 0.0 => (),
@@ -86,7 +100,10 @@ struct Candidate {
 impl Ord for Candidate {
     /// The smallest bound is the greatest candidate; equal ones are in the order of the nodes.
     fn cmp(&self, other: &Self) -> Ordering {
-        other.bound.total_cmp(&self.bound).then_with(|| other.nodes.cmp(&self.nodes))
+        other
+            .bound
+            .total_cmp(&self.bound)
+            .then_with(|| other.nodes.cmp(&self.nodes))
     }
 }
 
@@ -110,9 +127,19 @@ where
     B: Items,
     A::Item: Compare<B::Item>,
 {
-    let limit = if below > 0.0 { below * below } else { return None };
+    let limit = if below > 0.0 {
+        below * below
+    } else {
+        return None;
+    };
     let pairs = NodePairs::new(a, b, place);
-    let mut search = Search { pairs, waiting: BinaryHeap::new(), limit, best: None, across: Vector::zeros() };
+    let mut search = Search {
+        pairs,
+        waiting: BinaryHeap::new(),
+        limit,
+        best: None,
+        across: Vector::zeros(),
+    };
     search.put([0, 0], search.pairs.distance_squared([0, 0]));
     while let Some(Candidate { bound, nodes }) = search.waiting.pop() {
         if bound >= search.limit {
@@ -150,7 +177,9 @@ where
                 self.put([second, b], bounds[1]);
             }
             Some(Side::B(children)) => {
-                children.into_iter().for_each(|child| self.put([a, child], self.pairs.distance_squared([a, child])));
+                children.into_iter().for_each(|child| {
+                    self.put([a, child], self.pairs.distance_squared([a, child]))
+                });
             }
             None => self.compare_leaves(nodes),
         }

@@ -5,7 +5,8 @@ use crate::oriented::OrientedBox;
 use crate::placed::Transform;
 use crate::points::PointSet;
 use crate::primitive::{
-    Pair, SolidBox, Triangle, Vector, closest_on_triangle, closest_on_triangles, pair, triangles_touch,
+    Pair, SolidBox, Triangle, Vector, closest_on_triangle, closest_on_triangles, pair,
+    triangles_touch,
 };
 use crate::tree::Tree;
 use crate::voxels::VoxelGrid;
@@ -143,7 +144,11 @@ impl Compare<SolidBox> for Triangle {
         };
         let middle = (self[0] + self[1] + self[2]) / 3.0;
         let to_box = forth.point(&other.closest_to_point(&back.point(&middle))) - middle;
-        gap(direction).max(to_box.try_normalize(0.0).map_or(f64::NEG_INFINITY, |direction| gap(&direction)))
+        gap(direction).max(
+            to_box
+                .try_normalize(0.0)
+                .map_or(f64::NEG_INFINITY, |direction| gap(&direction)),
+        )
     }
 }
 

@@ -40,14 +40,20 @@ impl TriangleMesh {
             let [a, b, c] = triangle.map(|i| vertices.get(i as usize).copied().map(Vector::from));
             Some([a?, b?, c?])
         };
-        let kept: Vec<Triangle> = triangles.iter().filter_map(corners).filter(has_area).collect();
+        let kept: Vec<Triangle> = triangles
+            .iter()
+            .filter_map(corners)
+            .filter(has_area)
+            .collect();
         Self::of_triangles(&kept)
     }
 
     /// A mesh of line segments, given by their ends (m): for distances and intersections; rays miss them. Segments whose coordinates are
     /// not finite or beyond 1e30 are left out. `None` when no segment is left.
     pub fn of_segments(segments: &[[[f64; 3]; 2]]) -> Option<Self> {
-        let flat = segments.iter().map(|[a, b]| [Vector::from(*a), Vector::from(*b), Vector::from(*b)]);
+        let flat = segments
+            .iter()
+            .map(|[a, b]| [Vector::from(*a), Vector::from(*b), Vector::from(*b)]);
         Self::of_triangles(&flat.filter(is_within_range).collect::<Vec<_>>())
     }
 
@@ -58,7 +64,12 @@ impl TriangleMesh {
         let boxes: Vec<Bounds> = triangles.iter().map(bounds_of).collect();
         let (tree, order) = Tree::build(&boxes);
         let triangles = order.into_iter().map(|i| triangles[i as usize]).collect();
-        Some(Self { triangles, tree, oriented: OnceLock::new(), solid: OnceLock::new() })
+        Some(Self {
+            triangles,
+            tree,
+            oriented: OnceLock::new(),
+            solid: OnceLock::new(),
+        })
     }
 
     /// The box around all triangles.
@@ -68,13 +79,16 @@ impl TriangleMesh {
 
     #[inline]
     pub(crate) fn oriented_boxes(&self) -> &[OrientedBox] {
-        self.oriented.get_or_init(|| boxes_of(&self.tree, &self.triangles))
+        self.oriented
+            .get_or_init(|| boxes_of(&self.tree, &self.triangles))
     }
 
     /// The box whose surface this is; none for other meshes.
     #[inline]
     pub(crate) fn solid(&self) -> Option<&SolidMesh> {
-        self.solid.get_or_init(|| self.find_solid().map(Box::new)).as_deref()
+        self.solid
+            .get_or_init(|| self.find_solid().map(Box::new))
+            .as_deref()
     }
 
     fn find_solid(&self) -> Option<SolidMesh> {
@@ -82,8 +96,14 @@ impl TriangleMesh {
         if !is_surface_of(&bounds, &self.triangles) {
             return None;
         }
-        let solid = SolidBox { centre: bounds.centre().into(), half: bounds.half_size().into() };
-        Some(SolidMesh { tree: Tree::build(&[bounds]).0, solid })
+        let solid = SolidBox {
+            centre: bounds.centre().into(),
+            half: bounds.half_size().into(),
+        };
+        Some(SolidMesh {
+            tree: Tree::build(&[bounds]).0,
+            solid,
+        })
     }
 
     /// How many triangles there are.
@@ -99,7 +119,10 @@ impl TriangleMesh {
 
 fn has_area(triangle: &Triangle) -> bool {
     let [a, b, c] = triangle;
-    let longest = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared());
+    let longest = (b - a)
+        .norm_squared()
+        .max((c - b).norm_squared())
+        .max((a - c).norm_squared());
     is_within_range(triangle) && (b - a).cross(&(c - a)).norm() > FLAT * longest
 }
 
@@ -109,7 +132,10 @@ fn is_within_range(triangle: &Triangle) -> bool {
 
 fn bounds_of(triangle: &Triangle) -> Bounds {
     let [a, b, c] = triangle;
-    Bounds { min: a.inf(&b.inf(c)).into(), max: a.sup(&b.sup(c)).into() }
+    Bounds {
+        min: a.inf(&b.inf(c)).into(),
+        max: a.sup(&b.sup(c)).into(),
+    }
 }
 
 /// Whether triangles are the six sides of a box, two for each. Each triangle of a side leaves one of the side's corners out; both cover the
@@ -121,11 +147,20 @@ fn is_surface_of(bounds: &Bounds, triangles: &[Triangle]) -> bool {
     // For each side the corners that its two triangles leave out.
     let mut sides = [[None; 2]; 6];
     for triangle in triangles {
-        let Some(corners) = corner_numbers(bounds, triangle) else { return false };
-        let [shared, any] = [corners[0] & corners[1] & corners[2], corners[0] | corners[1] | corners[2]];
-        let Some(axis) = (0..3).find(|axis| (shared >> axis & 1) == (any >> axis & 1)) else { return false };
+        let Some(corners) = corner_numbers(bounds, triangle) else {
+            return false;
+        };
+        let [shared, any] = [
+            corners[0] & corners[1] & corners[2],
+            corners[0] | corners[1] | corners[2],
+        ];
+        let Some(axis) = (0..3).find(|axis| (shared >> axis & 1) == (any >> axis & 1)) else {
+            return false;
+        };
         let side = &mut sides[2 * axis + (shared >> axis & 1)];
-        let Some(place) = side.iter_mut().find(|place| place.is_none()) else { return false };
+        let Some(place) = side.iter_mut().find(|place| place.is_none()) else {
+            return false;
+        };
         // The corner that is left out: on each of the other axes both ends occur twice among the four corners.
         *place = Some(corners[0] ^ corners[1] ^ corners[2]);
     }
@@ -156,8 +191,18 @@ mod tests {
 
     #[test]
     fn boxes_are_known_by_their_sides() {
-        let mesh = geometry::primitive::tessellate(geometry::PrimitiveKind::Cuboid, [0.1, 0.2, 0.3], false).unwrap();
-        let solid = |triangles: &[[u32; 3]]| TriangleMesh::new(&mesh.vertices, triangles).unwrap().solid().is_some();
+        let mesh = geometry::primitive::tessellate(
+            geometry::PrimitiveKind::Cuboid,
+            [0.1, 0.2, 0.3],
+            false,
+        )
+        .unwrap();
+        let solid = |triangles: &[[u32; 3]]| {
+            TriangleMesh::new(&mesh.vertices, triangles)
+                .unwrap()
+                .solid()
+                .is_some()
+        };
         assert!(solid(&mesh.triangles));
         assert!(!solid(&mesh.triangles[1..]));
         for i in 0..12 {
@@ -168,6 +213,11 @@ mod tests {
         }
         let mut moved = mesh.vertices.clone();
         moved[0][0] *= 1.5;
-        assert!(TriangleMesh::new(&moved, &mesh.triangles).unwrap().solid().is_none());
+        assert!(
+            TriangleMesh::new(&moved, &mesh.triangles)
+                .unwrap()
+                .solid()
+                .is_none()
+        );
     }
 }

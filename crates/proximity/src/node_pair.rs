@@ -30,9 +30,19 @@ pub(crate) enum Side {
 
 impl<'a, A: Items, B: Items> NodePairs<'a, A, B> {
     pub fn new(a: &'a A, b: &'a B, place: &Transform) -> Self {
-        let largest = |tree: &Tree| Vector::from(tree.bounds().min).amax().max(Vector::from(tree.bounds().max).amax());
-        let rounding = ROUNDING * (largest(a.tree()) + largest(b.tree()) + place.translation.amax());
-        Self { a, b, place: *place, rounding: rounding * rounding }
+        let largest = |tree: &Tree| {
+            Vector::from(tree.bounds().min)
+                .amax()
+                .max(Vector::from(tree.bounds().max).amax())
+        };
+        let rounding =
+            ROUNDING * (largest(a.tree()) + largest(b.tree()) + place.translation.amax());
+        Self {
+            a,
+            b,
+            place: *place,
+            rounding: rounding * rounding,
+        }
     }
 
     /// The places of the things in two leaves.
@@ -41,7 +51,10 @@ impl<'a, A: Items, B: Items> NodePairs<'a, A, B> {
     }
 
     fn nodes(&self, nodes: [u32; 2]) -> [&'a Node; 2] {
-        [&self.a.tree().nodes[nodes[0] as usize], &self.b.tree().nodes[nodes[1] as usize]]
+        [
+            &self.a.tree().nodes[nodes[0] as usize],
+            &self.b.tree().nodes[nodes[1] as usize],
+        ]
     }
 
     /// The children of the larger node, or of the one that has some; `None` for two leaves.
@@ -51,7 +64,9 @@ impl<'a, A: Items, B: Items> NodePairs<'a, A, B> {
             (true, true) => None,
             (false, true) => Some(Side::A(self.a.tree().children(a))),
             (true, false) => Some(Side::B(self.b.tree().children(b))),
-            _ if a.bounds.half_area() >= b.bounds.half_area() => Some(Side::A(self.a.tree().children(a))),
+            _ if a.bounds.half_area() >= b.bounds.half_area() => {
+                Some(Side::A(self.a.tree().children(a)))
+            }
             _ => Some(Side::B(self.b.tree().children(b))),
         }
     }
@@ -76,7 +91,11 @@ impl<'a, A: Items, B: Items> NodePairs<'a, A, B> {
     #[inline]
     fn placed_box(&self, node: u32) -> OrientedBox {
         let own = self.b.oriented_box(node);
-        OrientedBox { centre: self.place.point(&own.centre), axes: self.place.rotation * own.axes, half: own.half }
+        OrientedBox {
+            centre: self.place.point(&own.centre),
+            axes: self.place.rotation * own.axes,
+            half: own.half,
+        }
     }
 }
 
@@ -92,9 +111,12 @@ fn gap_squared(a: &OrientedBox, b: &OrientedBox) -> f64 {
     let along_axes_of_a = positive_squared(&(in_a.abs() - a.half - reach * b.half));
     let along_axes_of_b = positive_squared(&(in_b.abs() - b.half - reach.tr_mul(&a.half)));
     let (from_a, from_b) = (outside(&in_a, &a.half), outside(&in_b, &b.half));
-    let along_lines =
-        gap_along(&from_a, &turn.tr_mul(&from_a), b).max(gap_along(&from_b, &(turn * from_b), a)).max(0.0);
-    along_axes_of_a.max(along_axes_of_b).max(along_lines * along_lines)
+    let along_lines = gap_along(&from_a, &turn.tr_mul(&from_a), b)
+        .max(gap_along(&from_b, &(turn * from_b), a))
+        .max(0.0);
+    along_axes_of_a
+        .max(along_axes_of_b)
+        .max(along_lines * along_lines)
 }
 
 /// The line from the point of a box that is closest to `p` to `p`, both in the axes of the box.
@@ -113,5 +135,7 @@ fn gap_along(line: &Vector, turned: &Vector, to: &OrientedBox) -> f64 {
 
 #[inline]
 fn positive_squared(gaps: &Vector) -> f64 {
-    gaps.iter().map(|x| if *x > 0.0 { x * x } else { 0.0 }).sum()
+    gaps.iter()
+        .map(|x| if *x > 0.0 { x * x } else { 0.0 })
+        .sum()
 }

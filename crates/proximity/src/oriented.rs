@@ -23,14 +23,21 @@ pub(crate) struct OrientedBox {
 impl OrientedBox {
     #[inline]
     pub fn upright(bounds: &Bounds) -> Self {
-        Self { centre: bounds.centre().into(), axes: Matrix3::identity(), half: bounds.half_size().into() }
+        Self {
+            centre: bounds.centre().into(),
+            axes: Matrix3::identity(),
+            half: bounds.half_size().into(),
+        }
     }
 
     /// Square of the distance of a point (m²); 0 inside.
     #[inline]
     pub fn distance_squared_to_point(&self, p: &Vector) -> f64 {
         let apart = self.axes.tr_mul(&(p - self.centre)).abs() - self.half;
-        apart.iter().map(|x| if *x > 0.0 { x * x } else { 0.0 }).sum()
+        apart
+            .iter()
+            .map(|x| if *x > 0.0 { x * x } else { 0.0 })
+            .sum()
     }
 
     /// How far it reaches from its centre along a direction.
@@ -48,7 +55,11 @@ impl OrientedBox {
     fn around(axes: &Matrix3<f64>, intervals: [[f64; 2]; 3]) -> Self {
         let middle = Vector::from(intervals.map(|[low, high]| 0.5 * (low + high)));
         let half = Vector::from(intervals.map(|[low, high]| 0.5 * (high - low)));
-        Self { centre: axes * middle, axes: *axes, half }
+        Self {
+            centre: axes * middle,
+            axes: *axes,
+            half,
+        }
     }
 }
 
@@ -68,15 +79,24 @@ struct Surface {
 /// A box for each node of a tree over triangles.
 pub(crate) fn boxes_of(tree: &Tree, triangles: &[Triangle]) -> Vec<OrientedBox> {
     let surfaces = surfaces_of(tree, triangles);
-    let mut boxes: Vec<OrientedBox> = tree.nodes.iter().map(|node| OrientedBox::upright(&node.bounds)).collect();
+    let mut boxes: Vec<OrientedBox> = tree
+        .nodes
+        .iter()
+        .map(|node| OrientedBox::upright(&node.bounds))
+        .collect();
     // Children lie behind their parents.
     for (i, node) in tree.nodes.iter().enumerate().rev() {
-        let Some(axes) = axes(node, &surfaces[i]) else { continue };
+        let Some(axes) = axes(node, &surfaces[i]) else {
+            continue;
+        };
         let items = surfaces[i].items.clone();
         let fitted = if items.len() <= MAX_TRIANGLES_FOR_OWN_BOX {
             around_corners(&axes, &triangles[items])
         } else {
-            around_boxes(&axes, tree.children(node).map(|child| boxes[child as usize]))
+            around_boxes(
+                &axes,
+                tree.children(node).map(|child| boxes[child as usize]),
+            )
         };
         if fitted.half_area() < boxes[i].half_area() {
             boxes[i] = fitted;
@@ -104,10 +124,17 @@ fn surfaces_of(tree: &Tree, triangles: &[Triangle]) -> Vec<Surface> {
 
 impl Surface {
     fn of_leaf(items: Range<usize>, triangles: &[Triangle]) -> Self {
-        let normals = triangles[items.clone()].iter().map(|[a, b, c]| (b - a).cross(&(c - a)));
-        let (normal, length) =
-            normals.fold((Vector::zeros(), 0.0), |sum, normal| (sum.0 + normal, sum.1 + normal.norm()));
-        Self { items, normal, length }
+        let normals = triangles[items.clone()]
+            .iter()
+            .map(|[a, b, c]| (b - a).cross(&(c - a)));
+        let (normal, length) = normals.fold((Vector::zeros(), 0.0), |sum, normal| {
+            (sum.0 + normal, sum.1 + normal.norm())
+        });
+        Self {
+            items,
+            normal,
+            length,
+        }
     }
 }
 
@@ -120,10 +147,20 @@ fn axes(node: &Node, Surface { normal, length, .. }: &Surface) -> Option<Matrix3
     let normal = normal.normalize();
     let extents = Vector::from(node.bounds.half_size());
     let across = |axis: usize| extents[axis] * (1.0 - normal[axis] * normal[axis]);
-    let longest = (1..3).fold(0, |best, axis| if across(axis) > across(best) { axis } else { best });
+    let longest = (1..3).fold(0, |best, axis| {
+        if across(axis) > across(best) {
+            axis
+        } else {
+            best
+        }
+    });
     let side = Vector::ith(longest, 1.0);
     let first = (side - normal * normal[longest]).try_normalize(1e-6)?;
-    Some(Matrix3::from_columns(&[normal, first, normal.cross(&first)]))
+    Some(Matrix3::from_columns(&[
+        normal,
+        first,
+        normal.cross(&first),
+    ]))
 }
 
 fn around_corners(axes: &Matrix3<f64>, triangles: &[Triangle]) -> OrientedBox {

@@ -45,8 +45,10 @@ impl Placed<'_> {
 
     /// The world's pose of another frame, seen from this one; `None` where one cannot compute with a pose.
     pub(crate) fn relative(&self, other: &Pose) -> Option<Transform> {
-        let is_usable = |pose: &Pose| pose.is_finite() && pose.translation.vector.amax() <= MAX_COORDINATE;
-        (is_usable(&self.pose) && is_usable(other)).then(|| Transform::of(&self.pose.inv_mul(other)))
+        let is_usable =
+            |pose: &Pose| pose.is_finite() && pose.translation.vector.amax() <= MAX_COORDINATE;
+        (is_usable(&self.pose) && is_usable(other))
+            .then(|| Transform::of(&self.pose.inv_mul(other)))
     }
 }
 
@@ -59,7 +61,10 @@ pub(crate) struct Transform {
 
 impl Transform {
     pub fn of(pose: &Pose) -> Self {
-        Self { rotation: pose.rotation.to_rotation_matrix().into_inner(), translation: pose.translation.vector }
+        Self {
+            rotation: pose.rotation.to_rotation_matrix().into_inner(),
+            translation: pose.translation.vector,
+        }
     }
 
     #[inline]
@@ -70,6 +75,9 @@ impl Transform {
     #[inline]
     pub fn inverse(&self) -> Self {
         let rotation = self.rotation.transpose();
-        Self { rotation, translation: -(rotation * self.translation) }
+        Self {
+            rotation,
+            translation: -(rotation * self.translation),
+        }
     }
 }

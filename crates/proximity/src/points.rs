@@ -29,7 +29,13 @@ impl PointSet {
         }
         let boxes: Vec<Bounds> = points.iter().map(|p| Bounds { min: *p, max: *p }).collect();
         let (tree, order) = Tree::build(&boxes);
-        Some(Self { points: order.into_iter().map(|i| Vector::from(points[i as usize])).collect(), tree })
+        Some(Self {
+            points: order
+                .into_iter()
+                .map(|i| Vector::from(points[i as usize]))
+                .collect(),
+            tree,
+        })
     }
 
     /// The box around all points.

@@ -24,7 +24,12 @@ pub struct Filter {
 impl Default for Filter {
     /// The nearest point of any surface.
     fn default() -> Self {
-        Self { front: true, back: true, max_angle: None, any: false }
+        Self {
+            front: true,
+            back: true,
+            max_angle: None,
+            any: false,
+        }
     }
 }
 
@@ -44,7 +49,13 @@ pub struct Hit {
 ///
 /// `direction` is in the sensor's frame; its length does not matter. Rays see triangles and the faces of voxels, not points. A ray through
 /// an edge that two triangles share meets at least one of them. `None` without a hit, and for poses, directions and ranges that are not numbers.
-pub fn cast_ray(on: Placed, sensor: &Pose, direction: [f64; 3], range: [f64; 2], filter: &Filter) -> Option<Hit> {
+pub fn cast_ray(
+    on: Placed,
+    sensor: &Pose,
+    direction: [f64; 3],
+    range: [f64; 2],
+    filter: &Filter,
+) -> Option<Hit> {
     let direction = Vector::from(direction);
     let is_direction = direction.iter().all(|x| x.is_finite()) && direction.amax() > 0.0;
     let unit = is_direction.then(|| (direction / direction.amax()).normalize())?;
@@ -56,7 +67,11 @@ pub fn cast_ray(on: Placed, sensor: &Pose, direction: [f64; 3], range: [f64; 2],
         Geometry::Points(_) | Geometry::Point => return None,
     };
     let normal = place.rotation.transpose() * normal;
-    Some(Hit { point: (unit * distance).into(), normal: normal.into(), distance })
+    Some(Hit {
+        point: (unit * distance).into(),
+        normal: normal.into(),
+        distance,
+    })
 }
 
 /// A ray with what its tests need.
@@ -78,12 +93,33 @@ impl Ray {
         if direction[along] < 0.0 {
             std::mem::swap(&mut x, &mut y);
         }
-        let shear = [direction[x] / direction[along], direction[y] / direction[along], 1.0 / direction[along]];
+        let shear = [
+            direction[x] / direction[along],
+            direction[y] / direction[along],
+            1.0 / direction[along],
+        ];
         // A finite reciprocal of 0 saves the boxes from 0 times infinity.
-        let inverse = direction.map(|d| if d.abs() > 1e-300 { 1.0 / d } else { 1e300_f64.copysign(d) });
-        let margin = |i: usize| (origin[i].abs() * 4.0 * f64::EPSILON + 1e-290).copysign(inverse[i]);
-        let outside = [[0, 1, 2].map(|i| origin[i] + margin(i)), [0, 1, 2].map(|i| origin[i] - margin(i))];
-        Self { origin, direction, inverse, outside, axes: [x, y, along], shear }
+        let inverse = direction.map(|d| {
+            if d.abs() > 1e-300 {
+                1.0 / d
+            } else {
+                1e300_f64.copysign(d)
+            }
+        });
+        let margin =
+            |i: usize| (origin[i].abs() * 4.0 * f64::EPSILON + 1e-290).copysign(inverse[i]);
+        let outside = [
+            [0, 1, 2].map(|i| origin[i] + margin(i)),
+            [0, 1, 2].map(|i| origin[i] - margin(i)),
+        ];
+        Self {
+            origin,
+            direction,
+            inverse,
+            outside,
+            axes: [x, y, along],
+            shear,
+        }
     }
 
     /// Where the ray enters a box, at the earliest at `from`; infinity if it does not before `to`.
@@ -92,10 +128,17 @@ impl Ray {
         let (mut enter, mut leave) = (from, to);
         for i in 0..3 {
             let (near, far) = (bounds.min[i], bounds.max[i]);
-            let (near, far) = if self.inverse[i] > 0.0 { (near, far) } else { (far, near) };
+            let (near, far) = if self.inverse[i] > 0.0 {
+                (near, far)
+            } else {
+                (far, near)
+            };
             enter = larger((near - self.outside[0][i]) * self.inverse[i], enter);
             // More than the rounding errors of the two operations (T. Ize, *Robust BVH ray traversal*, 2013).
-            leave = smaller((far - self.outside[1][i]) * self.inverse[i] * (1.0 + 4.0 * f64::EPSILON), leave);
+            leave = smaller(
+                (far - self.outside[1][i]) * self.inverse[i] * (1.0 + 4.0 * f64::EPSILON),
+                leave,
+            );
         }
         if enter <= leave { enter } else { f64::INFINITY }
     }
@@ -107,7 +150,11 @@ impl Ray {
         let [x, y, z] = self.axes;
         let [a, b, c] = triangle.map(|p| {
             let p = p - self.origin;
-            [p[x] - self.shear[0] * p[z], p[y] - self.shear[1] * p[z], p[z]]
+            [
+                p[x] - self.shear[0] * p[z],
+                p[y] - self.shear[1] * p[z],
+                p[z],
+            ]
         });
         let u = c[0] * b[1] - c[1] * b[0];
         let v = a[0] * c[1] - a[1] * c[0];
@@ -133,7 +180,9 @@ fn hit_mesh(mesh: &TriangleMesh, ray: &Ray, range: [f64; 2], filter: &Filter) ->
         if !wanted || t < range[0] || t > to {
             return None;
         }
-        let normal = (triangle[1] - triangle[0]).cross(&(triangle[2] - triangle[0])).try_normalize(0.0)?;
+        let normal = (triangle[1] - triangle[0])
+            .cross(&(triangle[2] - triangle[0]))
+            .try_normalize(0.0)?;
         (least == 0.0 || normal.dot(&ray.direction).abs() >= least).then_some((t, normal))
     })
 }
@@ -146,13 +195,18 @@ fn hit_voxels(grid: &VoxelGrid, ray: &Ray, range: [f64; 2], filter: &Filter) -> 
             wanted && range[0] <= *t && *t <= to && normal.dot(&ray.direction).abs() >= least
         };
         let [entry, exit] = sides;
-        seen(&entry, filter.front).then_some(entry).or(seen(&exit, filter.back).then_some(exit))
+        seen(&entry, filter.front)
+            .then_some(entry)
+            .or(seen(&exit, filter.back).then_some(exit))
     })
 }
 
 /// Where the line enters and leaves a cell, with the outward normals there.
 fn cell_sides(ray: &Ray, centre: &Vector, half: f64) -> Option<[Found; 2]> {
-    let mut sides = [(f64::NEG_INFINITY, Vector::zeros()), (f64::INFINITY, Vector::zeros())];
+    let mut sides = [
+        (f64::NEG_INFINITY, Vector::zeros()),
+        (f64::INFINITY, Vector::zeros()),
+    ];
     for axis in 0..3 {
         let outward = Vector::ith(axis, 1.0_f64.copysign(ray.inverse[axis]));
         let middle = (centre[axis] - ray.origin[axis]) * ray.inverse[axis];
@@ -196,8 +250,12 @@ fn descend(
             }
             continue;
         }
-        let [a, b] =
-            tree.children(node).map(|child| (ray.entry(&tree.nodes[child as usize].bounds, from, limit), child));
+        let [a, b] = tree.children(node).map(|child| {
+            (
+                ray.entry(&tree.nodes[child as usize].bounds, from, limit),
+                child,
+            )
+        });
         // The nearer one is on top.
         (waiting[depth], waiting[depth + 1]) = if a.0 <= b.0 { (b, a) } else { (a, b) };
         depth += 2;

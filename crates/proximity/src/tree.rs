@@ -44,8 +44,16 @@ pub(crate) struct Tree {
 impl Tree {
     /// The tree over things with the given boxes, and the order in which it has them. There must be at least one.
     pub fn build(boxes: &[Bounds]) -> (Self, Vec<u32>) {
-        let mut order: Vec<Entry> = boxes.iter().enumerate().map(|(i, bounds)| Entry::new(i, bounds)).collect();
-        let root = Node { bounds: merged(&order), start: 0, count: order.len() as u32 };
+        let mut order: Vec<Entry> = boxes
+            .iter()
+            .enumerate()
+            .map(|(i, bounds)| Entry::new(i, bounds))
+            .collect();
+        let root = Node {
+            bounds: merged(&order),
+            start: 0,
+            count: order.len() as u32,
+        };
         let mut nodes = Vec::with_capacity(boxes.len());
         nodes.push(root);
         let mut open = vec![(0, 0)];
@@ -55,14 +63,25 @@ impl Tree {
             if let Some((left, middle, right)) = divide(&mut order[items], depth) {
                 let [first, middle] = [nodes.len() as u32, middle as u32];
                 let count = nodes[node].count;
-                nodes.push(Node { bounds: left, start, count: middle });
-                nodes.push(Node { bounds: right, start: start + middle, count: count - middle });
+                nodes.push(Node {
+                    bounds: left,
+                    start,
+                    count: middle,
+                });
+                nodes.push(Node {
+                    bounds: right,
+                    start: start + middle,
+                    count: count - middle,
+                });
                 (nodes[node].start, nodes[node].count) = (first, 0);
                 open.push((first as usize + 1, depth + 1));
                 open.push((first as usize, depth + 1));
             }
         }
-        (Self { nodes }, order.into_iter().map(|entry| entry.index).collect())
+        (
+            Self { nodes },
+            order.into_iter().map(|entry| entry.index).collect(),
+        )
     }
 
     pub fn bounds(&self) -> Bounds {
@@ -85,7 +104,10 @@ struct Entry {
 
 impl Entry {
     fn new(index: usize, bounds: &Bounds) -> Self {
-        Self { bounds: *bounds, index: index as u32 }
+        Self {
+            bounds: *bounds,
+            index: index as u32,
+        }
     }
 
     /// Twice the centre along an axis: halving would not change the order.
@@ -96,7 +118,9 @@ impl Entry {
 }
 
 fn merged(entries: &[Entry]) -> Bounds {
-    entries.iter().fold(Bounds::EMPTY, |bounds, entry| bounds.merged(&entry.bounds))
+    entries
+        .iter()
+        .fold(Bounds::EMPTY, |bounds, entry| bounds.merged(&entry.bounds))
 }
 
 /// Divides the things of a node into two groups: their boxes and how many are in the first. `None` for a leaf.
@@ -106,29 +130,55 @@ fn divide(entries: &mut [Entry], depth: usize) -> Option<(Bounds, usize, Bounds)
     }
     let centres = entries.iter().fold(Bounds::EMPTY, |bounds, entry| {
         let centre = [0, 1, 2].map(|axis| entry.centre(axis));
-        bounds.merged(&Bounds { min: centre, max: centre })
+        bounds.merged(&Bounds {
+            min: centre,
+            max: centre,
+        })
     });
     let extent = |axis: usize| centres.max[axis] - centres.min[axis];
-    let axis = (0..3).fold(0, |widest, axis| if extent(axis) > extent(widest) { axis } else { widest });
-    let binned = if depth < DEPTH_OF_HALVES { divide_by_area(entries, axis, &centres) } else { None };
+    let axis = (0..3).fold(0, |widest, axis| {
+        if extent(axis) > extent(widest) {
+            axis
+        } else {
+            widest
+        }
+    });
+    let binned = if depth < DEPTH_OF_HALVES {
+        divide_by_area(entries, axis, &centres)
+    } else {
+        None
+    };
     Some(binned.unwrap_or_else(|| halve(entries, axis)))
 }
 
 /// The halves along an axis.
 fn halve(entries: &mut [Entry], axis: usize) -> (Bounds, usize, Bounds) {
     let middle = entries.len() / 2;
-    let by_centre = |a: &Entry, b: &Entry| a.centre(axis).total_cmp(&b.centre(axis)).then(a.index.cmp(&b.index));
+    let by_centre = |a: &Entry, b: &Entry| {
+        a.centre(axis)
+            .total_cmp(&b.centre(axis))
+            .then(a.index.cmp(&b.index))
+    };
     entries.select_nth_unstable_by(middle, by_centre);
-    (merged(&entries[..middle]), middle, merged(&entries[middle..]))
+    (
+        merged(&entries[..middle]),
+        middle,
+        merged(&entries[middle..]),
+    )
 }
 
 /// The cut between two bins with the smallest sum of areas times numbers; `None` if all centres are in one place.
-fn divide_by_area(entries: &mut [Entry], axis: usize, centres: &Bounds) -> Option<(Bounds, usize, Bounds)> {
+fn divide_by_area(
+    entries: &mut [Entry],
+    axis: usize,
+    centres: &Bounds,
+) -> Option<(Bounds, usize, Bounds)> {
     let scale = BINS as f64 / (centres.max[axis] - centres.min[axis]);
     if !scale.is_finite() {
         return None;
     }
-    let bin_of = |entry: &Entry| (((entry.centre(axis) - centres.min[axis]) * scale) as usize).min(BINS - 1);
+    let bin_of =
+        |entry: &Entry| (((entry.centre(axis) - centres.min[axis]) * scale) as usize).min(BINS - 1);
     let mut bins = [(Bounds::EMPTY, 0_usize); BINS];
     for entry in entries.iter() {
         let (bounds, count) = &mut bins[bin_of(entry)];
@@ -143,7 +193,10 @@ fn divide_by_area(entries: &mut [Entry], axis: usize, centres: &Bounds) -> Optio
 fn cheapest_cut(bins: &[(Bounds, usize); BINS]) -> Option<(usize, Bounds, Bounds)> {
     let mut behind = [(Bounds::EMPTY, 0); BINS + 1];
     for cut in (1..BINS).rev() {
-        behind[cut] = (behind[cut + 1].0.merged(&bins[cut].0), behind[cut + 1].1 + bins[cut].1);
+        behind[cut] = (
+            behind[cut + 1].0.merged(&bins[cut].0),
+            behind[cut + 1].1 + bins[cut].1,
+        );
     }
     let (mut before, mut number) = (Bounds::EMPTY, 0);
     let mut best: Option<(usize, Bounds, Bounds)> = None;

@@ -22,15 +22,29 @@ pub struct Volume {
 /// Triangles and the faces of voxels are cut by the planes of the volume, so that the point need not be the nearest one of a triangle.
 /// A triangle whose nearest point is outside of the angle limit of `filter` is not seen. `None` without such a point, and for poses, planes
 /// and limits that are not numbers.
-pub fn closest_in_volume(on: Placed, sensor: &Pose, volume: &Volume, below: f64, filter: &Filter) -> Option<Hit> {
+pub fn closest_in_volume(
+    on: Placed,
+    sensor: &Pose,
+    volume: &Volume,
+    below: f64,
+    filter: &Filter,
+) -> Option<Hit> {
     let place = on.relative(sensor)?;
-    let limit = if below > 0.0 { below * below } else { return None };
+    let limit = if below > 0.0 {
+        below * below
+    } else {
+        return None;
+    };
     let mut search = Search::new(&place, limit, filter);
     for piece in &volume.pieces {
         search.enter(piece, &place)?;
         match on.geometry {
-            Geometry::Mesh(mesh) => search.descend(mesh, |search, i| search.face(&mesh.triangles[i])),
-            Geometry::Voxels(grid) => search.descend(grid, |search, i| search.cell(&grid.cells[i], grid.half)),
+            Geometry::Mesh(mesh) => {
+                search.descend(mesh, |search, i| search.face(&mesh.triangles[i]))
+            }
+            Geometry::Voxels(grid) => {
+                search.descend(grid, |search, i| search.cell(&grid.cells[i], grid.half))
+            }
             Geometry::Points(points) => search.points(points),
             Geometry::Point => search.points(&ORIGIN),
         }
@@ -41,7 +55,11 @@ pub fn closest_in_volume(on: Placed, sensor: &Pose, volume: &Volume, below: f64,
     let (point, normal) = search.found?;
     let back = place.inverse();
     let (point, distance) = (back.point(&point), search.limit.sqrt());
-    Some(Hit { point: point.into(), normal: (back.rotation * normal).into(), distance })
+    Some(Hit {
+        point: point.into(),
+        normal: (back.rotation * normal).into(),
+        distance,
+    })
 }
 
 /// A plane in the frame of the geometry: inside is where the height is not positive.
@@ -83,7 +101,15 @@ impl<'a> Search<'a> {
     fn new(place: &Transform, limit: f64, filter: &'a Filter) -> Self {
         let least = filter.max_angle.map_or(0.0, f64::cos);
         let polygons = [Vec::new(), Vec::new()];
-        Self { origin: place.translation, filter, least, piece: Vec::new(), limit, found: None, polygons }
+        Self {
+            origin: place.translation,
+            filter,
+            least,
+            piece: Vec::new(),
+            limit,
+            found: None,
+            polygons,
+        }
     }
 
     /// Brings the planes of a piece to the frame of the geometry; `None` if one is not finite.
@@ -91,7 +117,10 @@ impl<'a> Search<'a> {
         self.piece.clear();
         for plane @ [x, y, z, d] in piece {
             let normal = place.rotation * Vector::new(*x, *y, *z);
-            self.piece.push(Plane { normal, offset: d - normal.dot(&place.translation) });
+            self.piece.push(Plane {
+                normal,
+                offset: d - normal.dot(&place.translation),
+            });
             plane.iter().all(|x| x.is_finite()).then_some(())?;
         }
         Some(())
@@ -109,7 +138,11 @@ impl<'a> Search<'a> {
         if upright >= self.limit || self.piece.iter().any(|plane| plane.lowest(bounds) > 0.0) {
             return f64::INFINITY;
         }
-        upright.max(things.oriented_box(node).distance_squared_to_point(&self.origin))
+        upright.max(
+            things
+                .oriented_box(node)
+                .distance_squared_to_point(&self.origin),
+        )
     }
 
     /// Visits the leaves that reach into the piece, near ones first.
@@ -129,7 +162,9 @@ impl<'a> Search<'a> {
                 node.items().for_each(|i| visit(self, i));
                 continue;
             }
-            let [a, b] = tree.children(node).map(|child| (self.bound(things, child), child));
+            let [a, b] = tree
+                .children(node)
+                .map(|child| (self.bound(things, child), child));
             // The nearer one is on top.
             (waiting[depth], waiting[depth + 1]) = if a.0 <= b.0 { (b, a) } else { (a, b) };
             depth += 2;
@@ -170,7 +205,12 @@ impl<'a> Search<'a> {
                 let (out, u) = (Vector::ith(axis, side), Vector::ith((axis + 1) % 3, half));
                 let v = Vector::ith((axis + 2) % 3, side);
                 let middle = centre + out;
-                self.face(&[middle - u - v, middle + u - v, middle + u + v, middle - u + v]);
+                self.face(&[
+                    middle - u - v,
+                    middle + u - v,
+                    middle + u + v,
+                    middle - u + v,
+                ]);
             }
         }
     }
@@ -188,8 +228,13 @@ impl<'a> Search<'a> {
     /// Keeps a point if it is the nearest one so far and seen at an angle that is allowed.
     fn offer(&mut self, point: Vector, normal: &Vector) {
         let sight = point - self.origin;
-        let (squared, normal) = (sight.norm_squared(), normal.try_normalize(0.0).unwrap_or_default());
-        if squared < self.limit && (self.least == 0.0 || normal.dot(&sight).abs() >= self.least * squared.sqrt()) {
+        let (squared, normal) = (
+            sight.norm_squared(),
+            normal.try_normalize(0.0).unwrap_or_default(),
+        );
+        if squared < self.limit
+            && (self.least == 0.0 || normal.dot(&sight).abs() >= self.least * squared.sqrt())
+        {
             (self.limit, self.found) = (squared, Some((point, normal)));
         }
     }

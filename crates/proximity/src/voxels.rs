@@ -25,10 +25,16 @@ impl VoxelGrid {
             return None;
         }
         let half = 0.5 * cell;
-        let bounds =
-            |centre: &Vector| Bounds { min: centre.map(|x| x - half).into(), max: centre.map(|x| x + half).into() };
+        let bounds = |centre: &Vector| Bounds {
+            min: centre.map(|x| x - half).into(),
+            max: centre.map(|x| x + half).into(),
+        };
         let (tree, order) = Tree::build(&centres.iter().map(bounds).collect::<Vec<_>>());
-        Some(Self { cells: order.into_iter().map(|i| centres[i as usize]).collect(), half, tree })
+        Some(Self {
+            cells: order.into_iter().map(|i| centres[i as usize]).collect(),
+            half,
+            tree,
+        })
     }
 
     /// The box around all cells.
@@ -37,6 +43,9 @@ impl VoxelGrid {
     }
 
     pub(crate) fn cell(&self, i: usize) -> SolidBox {
-        SolidBox { centre: self.cells[i], half: Vector::repeat(self.half) }
+        SolidBox {
+            centre: self.cells[i],
+            half: Vector::repeat(self.half),
+        }
     }
 }

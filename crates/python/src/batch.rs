@@ -40,10 +40,24 @@ impl Batch {
         unsafe_functions: bool,
     ) -> PyResult<Self> {
         if !(0.0..=1e9).contains(&timeout) || time.is_some_and(|time| time.is_nan() || time < 0.0) {
-            return Err(PyValueError::new_err("time and timeout are numbers of seconds, zero or more"));
+            return Err(PyValueError::new_err(
+                "time and timeout are numbers of seconds, zero or more",
+            ));
         }
-        let batch = batch::Batch { scene, seeds, sweeps, fixed, time };
-        Ok(Self { runs: batch.runs(), batch, timeout, unsafe_functions, store: Mutex::default() })
+        let batch = batch::Batch {
+            scene,
+            seeds,
+            sweeps,
+            fixed,
+            time,
+        };
+        Ok(Self {
+            runs: batch.runs(),
+            batch,
+            timeout,
+            unsafe_functions,
+            store: Mutex::default(),
+        })
     }
 
     fn __len__(&self) -> usize {
@@ -53,8 +67,13 @@ impl Batch {
     /// Opens or creates the folder of results; returns the numbers of the runs that are not done.
     #[pyo3(signature = (folder, force=false))]
     fn open(&self, folder: PathBuf, force: bool) -> PyResult<Vec<usize>> {
-        let store = Store::open(&folder, &self.batch, force).map_err(|error| Error::new_err(error.to_string()))?;
-        let missing = store.missing(&self.runs).iter().map(|run| run.number).collect();
+        let store = Store::open(&folder, &self.batch, force)
+            .map_err(|error| Error::new_err(error.to_string()))?;
+        let missing = store
+            .missing(&self.runs)
+            .iter()
+            .map(|run| run.number)
+            .collect();
         self.with_slot(|slot| *slot = Some(store));
         Ok(missing)
     }
@@ -63,12 +82,25 @@ impl Batch {
     fn simulate(&self, py: Python<'_>, number: usize) -> PyResult<String> {
         let run = self.run_of(number)?.clone();
         py.detach(|| {
-            let permissions = if self.unsafe_functions { Permissions::all() } else { Permissions::none() };
-            let allowance =
-                Allowance { wall: Duration::from_secs_f64(self.timeout), simulated: f64::INFINITY, memory: MEMORY };
-            let config = Config { permissions, ..Config::new(1, allowance, Arc::default()) };
+            let permissions = if self.unsafe_functions {
+                Permissions::all()
+            } else {
+                Permissions::none()
+            };
+            let allowance = Allowance {
+                wall: Duration::from_secs_f64(self.timeout),
+                simulated: f64::INFINITY,
+                memory: MEMORY,
+            };
+            let config = Config {
+                permissions,
+                ..Config::new(1, allowance, Arc::default())
+            };
             let mut line = None;
-            batch::run(&config, &self.batch, &[run], &mut |row, _| line = Some(row.line())).map_err(Error::new_err)?;
+            batch::run(&config, &self.batch, &[run], &mut |row, _| {
+                line = Some(row.line())
+            })
+            .map_err(Error::new_err)?;
             line.ok_or_else(|| Error::new_err("the run has no result."))
         })
     }
@@ -76,17 +108,32 @@ impl Batch {
     /// The row of a run that could not be made, as a line of JSON.
     fn lost(&self, number: usize, reason: String) -> PyResult<String> {
         let run = self.run_of(number)?.clone();
-        Ok(Row { run, error: Some(reason), steps: 0, time: 0.0, results: BTreeMap::new() }.line())
+        Ok(Row {
+            run,
+            error: Some(reason),
+            steps: 0,
+            time: 0.0,
+            results: BTreeMap::new(),
+        }
+        .line())
     }
 
     /// Keeps the row of a line; false when it is there already.
     fn add(&self, line: &str) -> PyResult<bool> {
-        self.with_store(|store| store.add_line(line, &self.runs).map_err(|error| Error::new_err(error.to_string())))
+        self.with_store(|store| {
+            store
+                .add_line(line, &self.runs)
+                .map_err(|error| Error::new_err(error.to_string()))
+        })
     }
 
     /// Writes the table of all rows; returns its path.
     fn finish(&self) -> PyResult<PathBuf> {
-        self.with_store(|store| store.finish().map_err(|error| Error::new_err(error.to_string())))
+        self.with_store(|store| {
+            store
+                .finish()
+                .map_err(|error| Error::new_err(error.to_string()))
+        })
     }
 
     /// How many runs failed.
@@ -106,6 +153,11 @@ impl Batch {
     }
 
     fn with_store<T>(&self, work: impl FnOnce(&mut Store) -> PyResult<T>) -> PyResult<T> {
-        self.with_slot(|slot| work(slot.as_mut().ok_or_else(|| Error::new_err("open() the folder of results first."))?))
+        self.with_slot(|slot| {
+            work(
+                slot.as_mut()
+                    .ok_or_else(|| Error::new_err("open() the folder of results first."))?,
+            )
+        })
     }
 }

@@ -26,21 +26,30 @@ impl Callables {
             let by_name = self.by_name.borrow();
             let mut all = by_name.iter();
             // Methods are new objects each time, and equal.
-            all.find(|(_, known)| known.bind(callable.py()).eq(callable).unwrap_or(false)).map(|(name, _)| name.clone())
+            all.find(|(_, known)| known.bind(callable.py()).eq(callable).unwrap_or(false))
+                .map(|(name, _)| name.clone())
         };
         if let Some(name) = known {
             return Ok(name);
         }
         self.count.set(self.count.get() + 1);
-        let label = callable.getattr("__name__").and_then(|name| name.extract::<String>()).unwrap_or_default();
+        let label = callable
+            .getattr("__name__")
+            .and_then(|name| name.extract::<String>())
+            .unwrap_or_default();
         let name = format!("{PREFIX}{} {label}", self.count.get());
-        self.by_name.borrow_mut().insert(name.clone(), callable.clone().unbind());
+        self.by_name
+            .borrow_mut()
+            .insert(name.clone(), callable.clone().unbind());
         Ok(name)
     }
 
     /// The callable of that name.
     pub fn get(&self, py: Python<'_>, name: &str) -> Option<Py<PyAny>> {
-        self.by_name.borrow().get(name).map(|callable| callable.clone_ref(py))
+        self.by_name
+            .borrow()
+            .get(name)
+            .map(|callable| callable.clone_ref(py))
     }
 
     /// Whether there is a callable of that name.
@@ -50,7 +59,12 @@ impl Callables {
 }
 
 /// Calls a callable: None is no result, a tuple is several.
-pub fn call(py: Python<'_>, callable: &Bound<'_, PyAny>, args: &[Data], callables: &Callables) -> PyResult<Vec<Data>> {
+pub fn call(
+    py: Python<'_>,
+    callable: &Bound<'_, PyAny>,
+    args: &[Data],
+    callables: &Callables,
+) -> PyResult<Vec<Data>> {
     let result = callable.call1(convert::tuple(py, args.to_vec())?)?;
     if result.is_none() {
         return Ok(Vec::new());

@@ -9,7 +9,10 @@ pub struct PythonConsole;
 
 impl Console for PythonConsole {
     fn print(&mut self, line: &[u8], _: f64) {
-        write("stdout", &(String::from_utf8_lossy(line).into_owned() + "\n"));
+        write(
+            "stdout",
+            &(String::from_utf8_lossy(line).into_owned() + "\n"),
+        );
     }
 
     fn log(&mut self, line: &LogLine<'_>) {
@@ -17,7 +20,10 @@ impl Console for PythonConsole {
             return;
         }
         let is_bad = verbosity::plain(line.level) <= verbosity::SCRIPT_WARNINGS;
-        write(if is_bad { "stderr" } else { "stdout" }, &(line.located() + "\n"));
+        write(
+            if is_bad { "stderr" } else { "stdout" },
+            &(line.located() + "\n"),
+        );
     }
 
     fn write(&mut self, text: &[u8], stream: script::OutputStream, _: f64) {

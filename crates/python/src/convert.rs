@@ -5,7 +5,9 @@
 
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyByteArray, PyBytes, PyDict, PyFloat, PyInt, PyList, PyMemoryView, PyString, PyTuple};
+use pyo3::types::{
+    PyBool, PyByteArray, PyBytes, PyDict, PyFloat, PyInt, PyList, PyMemoryView, PyString, PyTuple,
+};
 use scene::{Data, Key};
 
 use crate::callables::Callables;
@@ -15,7 +17,9 @@ const MAX_DEPTH: usize = 100;
 
 /// The arguments of a call.
 pub fn arguments(args: &Bound<'_, PyTuple>, callables: &Callables) -> PyResult<Vec<Data>> {
-    args.iter().map(|value| to_data(&value, callables, 0)).collect()
+    args.iter()
+        .map(|value| to_data(&value, callables, 0))
+        .collect()
 }
 
 /// A value for the simulator.
@@ -30,22 +34,37 @@ pub fn to_data(value: &Bound<'_, PyAny>, callables: &Callables, depth: usize) ->
         return Ok(Data::Bool(value.is_true()));
     }
     if value.is_instance_of::<PyInt>() {
-        return value.extract().map(Data::Int).map_err(|_| PyOverflowError::new_err("an integer has at most 64 bits"));
+        return value
+            .extract()
+            .map(Data::Int)
+            .map_err(|_| PyOverflowError::new_err("an integer has at most 64 bits"));
     }
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(Data::Text(text.to_str()?.as_bytes().to_vec()));
     }
     if depth > MAX_DEPTH {
-        return Err(PyValueError::new_err(format!("values are nested at most {MAX_DEPTH} levels deep")));
+        return Err(PyValueError::new_err(format!(
+            "values are nested at most {MAX_DEPTH} levels deep"
+        )));
     }
     if let Ok(list) = value.cast::<PyList>() {
-        return list.iter().map(|item| to_data(&item, callables, depth + 1)).collect::<PyResult<_>>().map(Data::Array);
+        return list
+            .iter()
+            .map(|item| to_data(&item, callables, depth + 1))
+            .collect::<PyResult<_>>()
+            .map(Data::Array);
     }
     if let Ok(tuple) = value.cast::<PyTuple>() {
-        return tuple.iter().map(|item| to_data(&item, callables, depth + 1)).collect::<PyResult<_>>().map(Data::Array);
+        return tuple
+            .iter()
+            .map(|item| to_data(&item, callables, depth + 1))
+            .collect::<PyResult<_>>()
+            .map(Data::Array);
     }
     if let Ok(dict) = value.cast::<PyDict>() {
-        let entries = dict.iter().map(|(key, item)| Ok((to_key(&key)?, to_data(&item, callables, depth + 1)?)));
+        let entries = dict
+            .iter()
+            .map(|(key, item)| Ok((to_key(&key)?, to_data(&item, callables, depth + 1)?)));
         return entries.collect::<PyResult<_>>().map(Data::Map);
     }
     other_to_data(value, callables, depth)
@@ -75,7 +94,10 @@ fn other_to_data(value: &Bound<'_, PyAny>, callables: &Callables, depth: usize) 
         return Ok(Data::Text(callables.name_of(value)?.into_bytes()));
     }
     let ty = value.get_type();
-    Err(PyTypeError::new_err(format!("the simulator has no values of type {}", ty.name()?)))
+    Err(PyTypeError::new_err(format!(
+        "the simulator has no values of type {}",
+        ty.name()?
+    )))
 }
 
 fn to_key(key: &Bound<'_, PyAny>) -> PyResult<Key> {
@@ -88,7 +110,9 @@ fn to_key(key: &Bound<'_, PyAny>) -> PyResult<Key> {
     if let Ok(number) = key.cast::<PyFloat>() {
         return Ok(Key::Float(number.value()));
     }
-    key.extract().map(Key::Int).map_err(|_| PyTypeError::new_err("keys are text, numbers or booleans"))
+    key.extract()
+        .map(Key::Int)
+        .map_err(|_| PyTypeError::new_err("keys are text, numbers or booleans"))
 }
 
 /// The results of a call as Python has them: nothing is None, several are a tuple.
@@ -103,7 +127,10 @@ pub fn results(py: Python<'_>, results: Vec<Data>) -> PyResult<Py<PyAny>> {
 
 /// Several values.
 pub fn tuple(py: Python<'_>, values: Vec<Data>) -> PyResult<Bound<'_, PyTuple>> {
-    let values = values.into_iter().map(|value| from_data(py, value)).collect::<PyResult<Vec<_>>>()?;
+    let values = values
+        .into_iter()
+        .map(|value| from_data(py, value))
+        .collect::<PyResult<Vec<_>>>()?;
     PyTuple::new(py, values)
 }
 
@@ -117,7 +144,10 @@ pub fn from_data(py: Python<'_>, data: Data) -> PyResult<Bound<'_, PyAny>> {
         Data::Text(text) => from_text(py, &text),
         Data::Buffer(bytes) => PyBytes::new(py, &bytes).into_any(),
         Data::Array(items) => {
-            let items = items.into_iter().map(|item| from_data(py, item)).collect::<PyResult<Vec<_>>>()?;
+            let items = items
+                .into_iter()
+                .map(|item| from_data(py, item))
+                .collect::<PyResult<Vec<_>>>()?;
             PyList::new(py, items)?.into_any()
         }
         Data::Map(entries) => {

@@ -33,10 +33,16 @@ impl PythonHost for ThisPython {
         CALLS.with_borrow_mut(|all| all.insert(number, Rc::new(calls)));
         let script = attached(&self.shared, |py| {
             let start = py.import("swanilda._embedded")?.getattr("start")?;
-            start.call1((PyBytes::new(py, modules), Calls { number })).map(Bound::unbind)
+            start
+                .call1((PyBytes::new(py, modules), Calls { number }))
+                .map(Bound::unbind)
         });
         let script = script.inspect_err(|_| forget(number))?;
-        Ok(Rc::new(Embedded { script, number, shared: Rc::clone(&self.shared) }))
+        Ok(Rc::new(Embedded {
+            script,
+            number,
+            shared: Rc::clone(&self.shared),
+        }))
     }
 }
 
@@ -55,19 +61,25 @@ impl Calls {
     /// Does what a message says; returns the answer.
     fn serve<'py>(&self, py: Python<'py>, message: &[u8]) -> PyResult<Bound<'py, PyBytes>> {
         let answer = py.detach(|| -> PyResult<_> { Ok(calls(self.number)?.serve(message)) })?;
-        answer.map(|answer| PyBytes::new(py, &answer)).map_err(Error::new_err)
+        answer
+            .map(|answer| PyBytes::new(py, &answer))
+            .map_err(Error::new_err)
     }
 
     /// The same, while other threads wait.
     fn serve_at_once<'py>(&self, py: Python<'py>, message: &[u8]) -> PyResult<Bound<'py, PyBytes>> {
         let answer = calls(self.number)?.serve(message);
-        answer.map(|answer| PyBytes::new(py, &answer)).map_err(Error::new_err)
+        answer
+            .map(|answer| PyBytes::new(py, &answer))
+            .map_err(Error::new_err)
     }
 }
 
 fn calls(number: u64) -> PyResult<Rc<ScriptCalls>> {
     let found = CALLS.try_with(|calls| calls.try_borrow().ok()?.get(&number).cloned());
-    found.ok().flatten().ok_or_else(|| Error::new_err("the script has ended, or this is not its simulator's process."))
+    found.ok().flatten().ok_or_else(|| {
+        Error::new_err("the script has ended, or this is not its simulator's process.")
+    })
 }
 
 /// A script of a scene, an object of `swanilda_embedded`.
@@ -83,23 +95,39 @@ impl EmbeddedScript for Embedded {
     }
 
     fn hand_over(&self, message: &[u8]) -> Result<(), String> {
-        attached(&self.shared, |py| self.call(py, "hand_over", message).map(drop))
+        attached(&self.shared, |py| {
+            self.call(py, "hand_over", message).map(drop)
+        })
     }
 
     fn take(&self, limit: Duration) -> Result<Option<Vec<u8>>, String> {
-        attached(&self.shared, |py| self.script.bind(py).call_method1("take", (limit.as_secs_f64(),))?.extract())
+        attached(&self.shared, |py| {
+            self.script
+                .bind(py)
+                .call_method1("take", (limit.as_secs_f64(),))?
+                .extract()
+        })
     }
 
     fn close(&self) {
         // What is left undone ends with Python.
-        let _ = attached(&self.shared, |py| self.script.bind(py).call_method0("close").map(drop));
+        let _ = attached(&self.shared, |py| {
+            self.script.bind(py).call_method0("close").map(drop)
+        });
         forget(self.number);
     }
 }
 
 impl Embedded {
-    fn call<'py>(&self, py: Python<'py>, function: &str, message: &[u8]) -> PyResult<Bound<'py, PyAny>> {
-        self.script.bind(py).call_method1(function, (PyBytes::new(py, message),))
+    fn call<'py>(
+        &self,
+        py: Python<'py>,
+        function: &str,
+        message: &[u8],
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.script
+            .bind(py)
+            .call_method1(function, (PyBytes::new(py, message),))
     }
 }
 
@@ -125,7 +153,11 @@ fn forget(number: u64) {
 
 /// In a new child process, which has copies of the scripts.
 pub fn forget_after_fork() {
-    let forgotten = CALLS.try_with(|calls| calls.try_borrow_mut().map(|mut calls| std::mem::take(&mut *calls)));
+    let forgotten = CALLS.try_with(|calls| {
+        calls
+            .try_borrow_mut()
+            .map(|mut calls| std::mem::take(&mut *calls))
+    });
     if let Ok(Ok(calls)) = forgotten {
         std::mem::forget(calls);
     }

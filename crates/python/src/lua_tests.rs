@@ -14,7 +14,10 @@ const MEMORY: usize = 1024 << 20;
 #[pyfunction]
 pub fn list_tests(py: Python<'_>, file: PathBuf) -> PyResult<Vec<(usize, String, Option<u32>)>> {
     let tests = py.detach(|| testing::list(&config(file, 60.0)))?;
-    Ok(tests.iter().map(|test| (test.index, test.title(), test.line)).collect())
+    Ok(tests
+        .iter()
+        .map(|test| (test.index, test.title(), test.line))
+        .collect())
 }
 
 /// Runs a file's tests: number, name, status (`passed`, `failed`, `error` or `pending`), message and traceback of each, and what it printed.
@@ -38,13 +41,26 @@ pub fn run_tests(
             Status::Error => "error",
             Status::Pending => "pending",
         };
-        (outcome.test.index, outcome.test.title(), status, outcome.message, outcome.trace)
+        (
+            outcome.test.index,
+            outcome.test.title(),
+            status,
+            outcome.message,
+            outcome.trace,
+        )
     };
     Ok(summary.outcomes.into_iter().map(row).collect())
 }
 
 fn config(file: PathBuf, timeout: f64) -> Config {
     let wall = Duration::try_from_secs_f64(timeout).unwrap_or(Duration::MAX);
-    let allowance = Allowance { wall, simulated: f64::INFINITY, memory: MEMORY };
-    Config { paths: vec![file], ..Config::new(1, allowance, Arc::default()) }
+    let allowance = Allowance {
+        wall,
+        simulated: f64::INFINITY,
+        memory: MEMORY,
+    };
+    Config {
+        paths: vec![file],
+        ..Config::new(1, allowance, Arc::default())
+    }
 }

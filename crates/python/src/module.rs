@@ -34,10 +34,15 @@ impl Module {
     /// # Errors
     /// As that of `require` in scripts.
     pub fn require(py: Python<'_>, world: u64, script: Option<i64>, name: &str) -> PyResult<Self> {
-        let required =
-            py.detach(|| -> PyResult<_> { Ok(worlds::get(world)?.speaker(script)?.caller.require(name)) })?;
+        let required = py.detach(|| -> PyResult<_> {
+            Ok(worlds::get(world)?.speaker(script)?.caller.require(name))
+        })?;
         required.map_err(|error| errors::plain(&error))?;
-        Ok(Self { world, script, name: name.to_owned() })
+        Ok(Self {
+            world,
+            script,
+            name: name.to_owned(),
+        })
     }
 
     fn member<'py>(&self, py: Python<'py>, member: ModuleMember) -> PyResult<Bound<'py, PyAny>> {
@@ -48,12 +53,23 @@ impl Module {
                 for (name, value) in constants {
                     namespace.set_item(name, value)?;
                 }
-                py.import("types")?.getattr("SimpleNamespace")?.call((), Some(&namespace))
+                py.import("types")?
+                    .getattr("SimpleNamespace")?
+                    .call((), Some(&namespace))
             }
             ModuleMember::Function(function) => {
                 let is_short = function.is_short();
                 let function = Arc::new(function);
-                Ok(Bound::new(py, Function { world: self.world, script: self.script, function, is_short })?.into_any())
+                Ok(Bound::new(
+                    py,
+                    Function {
+                        world: self.world,
+                        script: self.script,
+                        function,
+                        is_short,
+                    },
+                )?
+                .into_any())
             }
         }
     }
@@ -64,19 +80,28 @@ impl Module {
     /// Called for names that are not yet attributes.
     fn __getattr__<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let this = slf.get();
-        let missing = || PyAttributeError::new_err(format!("module '{}' has no member '{name}'", this.name));
+        let missing =
+            || PyAttributeError::new_err(format!("module '{}' has no member '{name}'", this.name));
         if name.starts_with("__") {
             return Err(missing());
         }
-        let found = worlds::get(this.world)?.speaker(this.script)?.caller.member(&this.name, name);
-        let member = found.map_err(|error| errors::plain(&error))?.ok_or_else(missing)?;
+        let found = worlds::get(this.world)?
+            .speaker(this.script)?
+            .caller
+            .member(&this.name, name);
+        let member = found
+            .map_err(|error| errors::plain(&error))?
+            .ok_or_else(missing)?;
         let value = this.member(slf.py(), member)?;
         slf.as_any().getattr("__dict__")?.set_item(name, &value)?;
         Ok(value)
     }
 
     fn __dir__(&self) -> PyResult<Vec<String>> {
-        let names = worlds::get(self.world)?.speaker(self.script)?.caller.member_names(&self.name);
+        let names = worlds::get(self.world)?
+            .speaker(self.script)?
+            .caller
+            .member_names(&self.name);
         names.map_err(|error| errors::plain(&error))
     }
 
@@ -93,7 +118,10 @@ impl Function {
         let speaker = world.speaker(self.script)?;
         let args = convert::arguments(args, &speaker.callables)?;
         let results = if self.is_short {
-            speaker.caller.call(&self.function, &args).map_err(|error| self.error(&error))
+            speaker
+                .caller
+                .call(&self.function, &args)
+                .map_err(|error| self.error(&error))
         } else if self.function.is_lua() && self.script.is_none() && world.borrow().is_ok() {
             self.call_and_step(py, &world, &args)
         } else {
@@ -110,7 +138,9 @@ impl Function {
 
     #[getter]
     fn __doc__(&self) -> Option<String> {
-        let text = docs::functions().into_iter().find(|function| function.name == self.function.name());
+        let text = docs::functions()
+            .into_iter()
+            .find(|function| function.name == self.function.name());
         text.as_ref().map(docs::function_text)
     }
 
@@ -119,7 +149,9 @@ impl Function {
     }
 
     fn __reduce__(&self) -> PyResult<()> {
-        Err(PyTypeError::new_err("functions of a simulator stay in their process"))
+        Err(PyTypeError::new_err(
+            "functions of a simulator stay in their process",
+        ))
     }
 }
 
@@ -134,7 +166,9 @@ impl Function {
         py: Python<'_>,
         work: impl FnOnce(&Speaker) -> Result<T, swanilda::Error> + Send,
     ) -> PyResult<T> {
-        let result = py.detach(|| -> PyResult<_> { Ok(work(&*worlds::get(self.world)?.speaker(self.script)?)) })?;
+        let result = py.detach(|| -> PyResult<_> {
+            Ok(work(&*worlds::get(self.world)?.speaker(self.script)?))
+        })?;
         result.map_err(|error| self.error(&error))
     }
 
@@ -144,7 +178,8 @@ impl Function {
 
     /// A function in Lua that is called from outside of the loop may wait for steps: they run here.
     fn call_and_step(&self, py: Python<'_>, world: &World, args: &[Data]) -> PyResult<Vec<Data>> {
-        let mut progress = self.detached(py, |speaker| speaker.caller.begin(&self.function, args))?;
+        let mut progress =
+            self.detached(py, |speaker| speaker.caller.begin(&self.function, args))?;
         loop {
             let number = match progress {
                 Progress::Done(results) => return Ok(results),
@@ -159,7 +194,10 @@ impl Function {
     }
 
     fn step_for_waiting(&self, py: Python<'_>, world: &World) -> PyResult<()> {
-        if matches!(world.main.caller.state(), SimulationState::Stopped | SimulationState::Paused) {
+        if matches!(
+            world.main.caller.state(),
+            SimulationState::Stopped | SimulationState::Paused
+        ) {
             let name = self.function.name();
             return Err(errors::Error::new_err(format!(
                 "in {name}: it waits for steps of a simulation that does not run: start() it first."

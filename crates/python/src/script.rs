@@ -26,7 +26,9 @@ impl NativeScript for MainProgram {
 
     fn call(&self, function: &str, args: &[Data]) -> Result<Vec<Data>, String> {
         let called = Python::try_attach(|py| {
-            let Some(callable) = self.callables.get(py, function) else { return Vec::new() };
+            let Some(callable) = self.callables.get(py, function) else {
+                return Vec::new();
+            };
             callables::call(py, callable.bind(py), args, &self.callables).unwrap_or_else(|error| {
                 self.shared.exception.borrow_mut().get_or_insert(error);
                 Vec::new()
@@ -53,17 +55,36 @@ enum Thread {
 
 impl PythonScript {
     /// Makes the object of a script that starts: `create` gets its handle.
-    pub fn start(caller: Caller, create: &Py<PyAny>, shared: &Rc<Shared>) -> Result<Box<dyn NativeScript>, String> {
-        let speaker = Rc::new(Speaker { caller, callables: Rc::default() });
+    pub fn start(
+        caller: Caller,
+        create: &Py<PyAny>,
+        shared: &Rc<Shared>,
+    ) -> Result<Box<dyn NativeScript>, String> {
+        let speaker = Rc::new(Speaker {
+            caller,
+            callables: Rc::default(),
+        });
         let handle = speaker.caller.handle();
-        shared.speakers.borrow_mut().insert(handle, Rc::clone(&speaker));
+        shared
+            .speakers
+            .borrow_mut()
+            .insert(handle, Rc::clone(&speaker));
         let made = Python::try_attach(|py| {
-            create.bind(py).call1((handle,)).map(Bound::unbind).map_err(|e| (errors::text(py, &e), e))
+            create
+                .bind(py)
+                .call1((handle,))
+                .map(Bound::unbind)
+                .map_err(|e| (errors::text(py, &e), e))
         });
         match made {
             Some(Ok(object)) => {
                 let thread = RefCell::new(Thread::NotStarted);
-                Ok(Box::new(Self { object, speaker, shared: Rc::clone(shared), thread }))
+                Ok(Box::new(Self {
+                    object,
+                    speaker,
+                    shared: Rc::clone(shared),
+                    thread,
+                }))
             }
             Some(Err((text, error))) => {
                 shared.exception.borrow_mut().get_or_insert(error);
@@ -75,11 +96,14 @@ impl PythonScript {
 
     /// Works with Python; an exception is the script's error, and raised where Python called the simulator.
     fn attached<T>(&self, work: impl FnOnce(Python<'_>) -> PyResult<T>) -> Result<T, String> {
-        let result = Python::try_attach(|py| work(py).map_err(|error| (errors::text(py, &error), error)));
-        result.ok_or_else(|| "Python is ending.".to_owned())?.map_err(|(text, error)| {
-            self.shared.exception.borrow_mut().get_or_insert(error);
-            text
-        })
+        let result =
+            Python::try_attach(|py| work(py).map_err(|error| (errors::text(py, &error), error)));
+        result
+            .ok_or_else(|| "Python is ending.".to_owned())?
+            .map_err(|(text, error)| {
+                self.shared.exception.borrow_mut().get_or_insert(error);
+                text
+            })
     }
 
     fn function<'py>(&self, py: Python<'py>, name: &str) -> Option<Bound<'py, PyAny>> {
@@ -87,7 +111,10 @@ impl PythonScript {
             return Some(callable.into_bound(py));
         }
         let object = self.object.bind(py);
-        object.getattr(name).ok().filter(|function| function.is_callable())
+        object
+            .getattr(name)
+            .ok()
+            .filter(|function| function.is_callable())
     }
 
     fn advance(&self, py: Python<'_>, generator: Py<PyAny>) -> PyResult<Thread> {
@@ -120,7 +147,11 @@ impl NativeScript for PythonScript {
                 None => Ok(Thread::Ended),
                 Some(function) => {
                     let result = function.call0()?;
-                    if result.hasattr("__next__")? { self.advance(py, result.unbind()) } else { Ok(Thread::Ended) }
+                    if result.hasattr("__next__")? {
+                        self.advance(py, result.unbind())
+                    } else {
+                        Ok(Thread::Ended)
+                    }
                 }
             },
         })?;
@@ -133,7 +164,10 @@ impl NativeScript for PythonScript {
             let object = self.object.bind(py);
             let names = object.getattr("__dict__")?;
             let text = String::from_utf8_lossy(text).into_owned();
-            let value = py.import("builtins")?.getattr("eval")?.call1((text, names))?;
+            let value = py
+                .import("builtins")?
+                .getattr("eval")?
+                .call1((text, names))?;
             Ok(vec![convert::to_data(&value, &self.speaker.callables, 0)?])
         })
     }
@@ -144,7 +178,10 @@ impl Drop for PythonScript {
         let handle = self.speaker.caller.handle();
         let mut speakers = self.shared.speakers.borrow_mut();
         // It may have started anew.
-        if speakers.get(&handle).is_some_and(|speaker| Rc::ptr_eq(speaker, &self.speaker)) {
+        if speakers
+            .get(&handle)
+            .is_some_and(|speaker| Rc::ptr_eq(speaker, &self.speaker))
+        {
             speakers.remove(&handle);
         }
     }

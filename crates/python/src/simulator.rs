@@ -46,16 +46,34 @@ fn kind_of(name: &str) -> PyResult<ScriptKind> {
 fn made(options: Options, quiet: bool) -> World {
     let (callables, shared) = (Rc::<Callables>::default(), Rc::<Shared>::default());
     let builder = swanilda::Simulator::builder().options(options);
-    let builder = builder.python(Rc::new(ThisPython { shared: Rc::clone(&shared) }));
-    let builder = if quiet { builder } else { builder.console(Box::new(PythonConsole)) };
+    let builder = builder.python(Rc::new(ThisPython {
+        shared: Rc::clone(&shared),
+    }));
+    let builder = if quiet {
+        builder
+    } else {
+        builder.console(Box::new(PythonConsole))
+    };
     let mut simulator = builder.build();
     let (functions, exceptions) = (Rc::clone(&callables), Rc::clone(&shared));
     let main = simulator.add_native_script(ScriptKind::AddOn, "Python", move |_| {
-        Ok(Box::new(MainProgram { callables: Rc::clone(&functions), shared: Rc::clone(&exceptions) }))
+        Ok(Box::new(MainProgram {
+            callables: Rc::clone(&functions),
+            shared: Rc::clone(&exceptions),
+        }))
     });
     let main = main.expect("add-ons are no objects, for which there could be no room");
-    let main = Rc::new(Speaker { caller: simulator.caller(&main), callables });
-    World { number: worlds::new_number(), simulator: simulator.into(), main, shared, viewer: None.into() }
+    let main = Rc::new(Speaker {
+        caller: simulator.caller(&main),
+        callables,
+    });
+    World {
+        number: worlds::new_number(),
+        simulator: simulator.into(),
+        main,
+        shared,
+        viewer: None.into(),
+    }
 }
 
 #[pymethods]
@@ -63,7 +81,10 @@ impl Simulator {
     #[new]
     #[pyo3(signature = (scene=None, *, seed=None, params=None, kind="customization", time_step=None, empty=false, quiet=false,
         unsafe_functions=true, package_dirs=None, data_dir=None, verbosity=None, render_threads=None))]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments, each of which has a default")]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "keyword arguments, each of which has a default"
+    )]
     fn new(
         py: Python<'_>,
         scene: Option<PathBuf>,
@@ -81,22 +102,36 @@ impl Simulator {
     ) -> PyResult<Self> {
         let kind = kind_of(kind)?;
         if time_step.is_some_and(|step| !(step > 0.0 && step.is_finite())) {
-            return Err(PyValueError::new_err("time_step is a number of seconds above 0"));
+            return Err(PyValueError::new_err(
+                "time_step is a number of seconds above 0",
+            ));
         }
         let mut options = Options {
             named_params: params.unwrap_or_default(),
-            package_dirs: scene.iter().map(|scene| swanilda::Simulator::folder_of_scene(scene)).collect(),
+            package_dirs: scene
+                .iter()
+                .map(|scene| swanilda::Simulator::folder_of_scene(scene))
+                .collect(),
             data_dir,
             render_threads: render_threads.and_then(std::num::NonZero::new),
-            permissions: if unsafe_functions { Permissions::all() } else { Permissions::none() },
+            permissions: if unsafe_functions {
+                Permissions::all()
+            } else {
+                Permissions::none()
+            },
             ..Options::default()
         };
-        options.package_dirs.extend(package_dirs.unwrap_or_default());
+        options
+            .package_dirs
+            .extend(package_dirs.unwrap_or_default());
         options.seed = seed.unwrap_or(options.seed);
         options.verbosity = verbosity.unwrap_or(options.verbosity);
         let this = Self::filled(py, options, quiet, scene, kind, empty)?;
         if let Some(step) = time_step {
-            worlds::get(this.number)?.borrow()?.scene_mut().modify_settings(|settings| settings.time_step = step);
+            worlds::get(this.number)?
+                .borrow()?
+                .scene_mut()
+                .modify_settings(|settings| settings.time_step = step);
         }
         Ok(this)
     }
@@ -150,7 +185,12 @@ impl Simulator {
             viewer.attend(&mut simulator, Duration::ZERO);
             world.viewer.replace(Some(viewer));
         }
-        Ok(world.viewer.borrow().as_ref().map(Viewer::url).unwrap_or_default())
+        Ok(world
+            .viewer
+            .borrow()
+            .as_ref()
+            .map(Viewer::url)
+            .unwrap_or_default())
     }
 
     /// Starts the simulation, or resumes it.
@@ -215,24 +255,41 @@ impl Simulator {
 
     /// Adds a script in Python; returns its handle. `create` gets the handle each time the script starts, and returns the object whose
     /// functions are called.
-    fn _add_python_script(&self, py: Python<'_>, kind: &str, name: String, create: Py<PyAny>) -> PyResult<i64> {
+    fn _add_python_script(
+        &self,
+        py: Python<'_>,
+        kind: &str,
+        name: String,
+        create: Py<PyAny>,
+    ) -> PyResult<i64> {
         let kind = kind_of(kind)?;
         let shared = SendRc(self.number);
         let added = self.detached(py, move |simulator| {
             let shared = shared.shared()?;
             let create = Rc::new(create);
-            let script =
-                simulator.add_native_script(kind, &name, move |caller| PythonScript::start(caller, &create, &shared));
-            script.map(|script| script.handle()).map_err(|error| errors::plain(&error))
+            let script = simulator.add_native_script(kind, &name, move |caller| {
+                PythonScript::start(caller, &create, &shared)
+            });
+            script
+                .map(|script| script.handle())
+                .map_err(|error| errors::plain(&error))
         })?;
         self.world()?.raise()?;
         added
     }
 
     /// Adds a script in Lua; returns its handle.
-    fn _add_lua_script(&self, py: Python<'_>, kind: &str, name: String, code: Vec<u8>) -> PyResult<i64> {
+    fn _add_lua_script(
+        &self,
+        py: Python<'_>,
+        kind: &str,
+        name: String,
+        code: Vec<u8>,
+    ) -> PyResult<i64> {
         let kind = kind_of(kind)?;
-        let added = self.detached(py, move |simulator| simulator.add_script(kind, &name, &code).map(|s| s.handle()))?;
+        let added = self.detached(py, move |simulator| {
+            simulator.add_script(kind, &name, &code).map(|s| s.handle())
+        })?;
         self.world()?.raise()?;
         added.map_err(|error| errors::plain(&error))
     }
@@ -247,7 +304,10 @@ impl Simulator {
         args: &Bound<'_, PyTuple>,
     ) -> PyResult<Py<PyAny>> {
         let world = self.world()?;
-        let mut all = vec![swanilda::scene::Data::text(function), swanilda::scene::Data::Int(script)];
+        let mut all = vec![
+            swanilda::scene::Data::text(function),
+            swanilda::scene::Data::Int(script),
+        ];
         all.extend(crate::convert::arguments(args, &world.main.callables)?);
         let number = self.number;
         let result = py.detach(|| -> PyResult<_> {
@@ -256,7 +316,10 @@ impl Simulator {
             Ok(world.main.caller.call(&call, &all))
         })?;
         world.raise()?;
-        crate::convert::results(py, result.map_err(|error| errors::in_function(function, &error))?)
+        crate::convert::results(
+            py,
+            result.map_err(|error| errors::in_function(function, &error))?,
+        )
     }
 
     /// Width, height and the bytes of a picture, three for each point, from its upper left corner: of a camera or vision sensor, or of the
@@ -269,12 +332,22 @@ impl Simulator {
         resolution: Option<[u32; 2]>,
     ) -> PyResult<(usize, usize, Bound<'py, PyBytes>)> {
         let from = camera
-            .map(|raw| Handle::from_raw(raw).ok_or_else(|| Error::new_err("object does not exist.")))
+            .map(|raw| {
+                Handle::from_raw(raw).ok_or_else(|| Error::new_err("object does not exist."))
+            })
             .transpose()?;
-        let picture = self.detached(py, move |simulator| simulator.picture(from, resolution, Channels::COLOUR))?;
+        let picture = self.detached(py, move |simulator| {
+            simulator.picture(from, resolution, Channels::COLOUR)
+        })?;
         let picture = picture.map_err(|error| errors::plain(&error))?;
         let [width, height] = picture.resolution.map(|side| side as usize);
-        let rows: Vec<u8> = picture.colour.chunks(3 * width.max(1)).rev().flatten().copied().collect();
+        let rows: Vec<u8> = picture
+            .colour
+            .chunks(3 * width.max(1))
+            .rev()
+            .flatten()
+            .copied()
+            .collect();
         Ok((width, height, PyBytes::new(py, &rows)))
     }
 
@@ -297,7 +370,10 @@ fn steps_of(number: u64, count: u64) -> PyResult<u64> {
     let world = worlds::get(number)?;
     let mut simulator = world.borrow()?;
     let mut ran = 0;
-    while ran < count && simulator.state().is_advancing() && world.shared.exception.borrow().is_none() {
+    while ran < count
+        && simulator.state().is_advancing()
+        && world.shared.exception.borrow().is_none()
+    {
         let before = simulator.steps();
         simulator.iterate();
         world.show(&mut simulator, Duration::ZERO);
@@ -342,8 +418,12 @@ impl Simulator {
 
     fn check_running(world: &World) -> PyResult<()> {
         match world.main.caller.state() {
-            SimulationState::Stopped => Err(Error::new_err("the simulation is stopped: start() it first.")),
-            SimulationState::Paused => Err(Error::new_err("the simulation is paused: start() resumes it.")),
+            SimulationState::Stopped => Err(Error::new_err(
+                "the simulation is stopped: start() it first.",
+            )),
+            SimulationState::Paused => Err(Error::new_err(
+                "the simulation is paused: start() resumes it.",
+            )),
             _ => Ok(()),
         }
     }
@@ -362,7 +442,11 @@ impl Simulator {
         })
     }
 
-    fn run(&self, py: Python<'_>, work: impl FnOnce(&mut swanilda::Simulator) + Send) -> PyResult<()> {
+    fn run(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&mut swanilda::Simulator) + Send,
+    ) -> PyResult<()> {
         self.detached(py, work)?;
         self.world()?.raise()
     }

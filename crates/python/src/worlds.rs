@@ -61,7 +61,9 @@ impl World {
 
     /// The script with that handle; the main program for None.
     pub fn speaker(&self, script: Option<i64>) -> PyResult<Rc<Speaker>> {
-        let Some(handle) = script else { return Ok(Rc::clone(&self.main)) };
+        let Some(handle) = script else {
+            return Ok(Rc::clone(&self.main));
+        };
         let speaker = self.shared.speakers.borrow().get(&handle).cloned();
         speaker.ok_or_else(|| Error::new_err("the script has ended."))
     }
@@ -83,8 +85,11 @@ impl World {
 
     /// The simulator, to run it.
     pub fn borrow(&self) -> PyResult<std::cell::RefMut<'_, Simulator>> {
-        let busy = "the simulator is in the middle of a step: a function that it calls cannot run it.";
-        self.simulator.try_borrow_mut().map_err(|_| Error::new_err(busy))
+        let busy =
+            "the simulator is in the middle of a step: a function that it calls cannot run it.";
+        self.simulator
+            .try_borrow_mut()
+            .map_err(|_| Error::new_err(busy))
     }
 }
 
@@ -103,7 +108,12 @@ pub fn add(world: World) {
 /// # Errors
 /// When it is closed, or another thread's, or another process's.
 pub fn get(number: u64) -> PyResult<Rc<World>> {
-    let found = WORLDS.try_with(|worlds| worlds.try_borrow().ok().and_then(|worlds| worlds.get(&number).cloned()));
+    let found = WORLDS.try_with(|worlds| {
+        worlds
+            .try_borrow()
+            .ok()
+            .and_then(|worlds| worlds.get(&number).cloned())
+    });
     found.ok().flatten().ok_or_else(|| {
         Error::new_err(if FORGOTTEN.get() {
             "a simulator does not survive a fork: make it in the child process."
@@ -115,7 +125,9 @@ pub fn get(number: u64) -> PyResult<Rc<World>> {
 
 /// Ends a simulator; its scripts clean up. Nothing happens when it is closed, or another thread's.
 pub fn close(number: u64) -> PyResult<()> {
-    let Ok(world) = get(number) else { return Ok(()) };
+    let Ok(world) = get(number) else {
+        return Ok(());
+    };
     world.end()?;
     let removed = WORLDS.with_borrow_mut(|worlds| worlds.remove(&number));
     drop(removed);
@@ -127,8 +139,11 @@ pub fn close(number: u64) -> PyResult<()> {
 /// Ends all simulators of this thread: for the end of Python.
 #[pyfunction]
 pub fn close_all() {
-    let numbers =
-        WORLDS.try_with(|worlds| worlds.try_borrow().map(|worlds| worlds.keys().copied().collect::<Vec<_>>()));
+    let numbers = WORLDS.try_with(|worlds| {
+        worlds
+            .try_borrow()
+            .map(|worlds| worlds.keys().copied().collect::<Vec<_>>())
+    });
     for number in numbers.ok().and_then(Result::ok).unwrap_or_default() {
         // Nobody is left who could be told of exceptions; those of scripts are in the log.
         let _ = close(number);
@@ -139,7 +154,11 @@ pub fn close_all() {
 #[pyfunction]
 pub fn forget_after_fork() {
     host::forget_after_fork();
-    let forgotten = WORLDS.try_with(|worlds| worlds.try_borrow_mut().map(|mut worlds| std::mem::take(&mut *worlds)));
+    let forgotten = WORLDS.try_with(|worlds| {
+        worlds
+            .try_borrow_mut()
+            .map(|mut worlds| std::mem::take(&mut *worlds))
+    });
     if let Ok(Ok(worlds)) = forgotten {
         FORGOTTEN.set(FORGOTTEN.get() || !worlds.is_empty());
         std::mem::forget(worlds);

@@ -6,7 +6,8 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use geometry::Pose;
 use nalgebra::{Point3, Vector3};
 use rendering::{
-    Background, Camera, Channels, Instance, Light, LightKind, Material, Mesh, Picture, Projection, Renderer, World,
+    Background, Camera, Channels, Instance, Light, LightKind, Material, Mesh, Picture, Projection,
+    Renderer, World,
 };
 
 /// A closed surface of `4 * rings^2` triangles with a radius of about 0.5, with smooth normals.
@@ -21,19 +22,36 @@ fn bumpy_ball(rings: usize) -> Mesh {
         let around = std::f64::consts::TAU * (sector % sectors) as f64 / sectors as f64;
         let radius = 0.5 + 0.05 * (5.0 * polar).sin() * (6.0 * around).sin();
         let (sin, cos) = polar.sin_cos();
-        [radius * sin * around.cos(), radius * sin * around.sin(), radius * cos]
+        [
+            radius * sin * around.cos(),
+            radius * sin * around.sin(),
+            radius * cos,
+        ]
     };
-    let vertices: Vec<[f64; 3]> = (0..=rings).flat_map(|r| (0..sectors).map(move |s| point(r, s))).collect();
+    let vertices: Vec<[f64; 3]> = (0..=rings)
+        .flat_map(|r| (0..sectors).map(move |s| point(r, s)))
+        .collect();
     let at = |ring: usize, sector: usize| (ring * sectors + sector % sectors) as u32;
-    let quad =
-        |r: usize, s: usize| [[at(r, s), at(r + 1, s), at(r + 1, s + 1)], [at(r, s), at(r + 1, s + 1), at(r, s + 1)]];
-    let triangles: Vec<[u32; 3]> = (0..rings).flat_map(|r| (0..sectors).flat_map(move |s| quad(r, s))).collect();
-    let normals: Vec<[f64; 3]> = triangles.iter().flatten().map(|vertex| vertices[*vertex as usize]).collect();
+    let quad = |r: usize, s: usize| {
+        [
+            [at(r, s), at(r + 1, s), at(r + 1, s + 1)],
+            [at(r, s), at(r + 1, s + 1), at(r, s + 1)],
+        ]
+    };
+    let triangles: Vec<[u32; 3]> = (0..rings)
+        .flat_map(|r| (0..sectors).flat_map(move |s| quad(r, s)))
+        .collect();
+    let normals: Vec<[f64; 3]> = triangles
+        .iter()
+        .flatten()
+        .map(|vertex| vertices[*vertex as usize])
+        .collect();
     Mesh::new(&vertices, &triangles, &normals, &[]).expect("a ball has area")
 }
 
 fn cuboid(size: [f64; 3]) -> Mesh {
-    let mesh = geometry::primitive::tessellate(geometry::PrimitiveKind::Cuboid, size, false).expect("a size");
+    let mesh = geometry::primitive::tessellate(geometry::PrimitiveKind::Cuboid, size, false)
+        .expect("a size");
     Mesh::new(&mesh.vertices, &mesh.triangles, &mesh.normals, &[]).expect("a box has area")
 }
 
@@ -44,7 +62,9 @@ fn camera(width: u32, height: u32) -> Camera {
     let pose = Pose::face_towards(&eye, &Point3::new(0.0, 0.0, 0.15), &up);
     Camera {
         pose,
-        projection: Projection::Perspective { angle: 60f64.to_radians() },
+        projection: Projection::Perspective {
+            angle: 60f64.to_radians(),
+        },
         near: 0.01,
         far: 10.0,
         resolution: [width, height],
@@ -53,20 +73,43 @@ fn camera(width: u32, height: u32) -> Camera {
 
 fn pictures(c: &mut Criterion) {
     let (floor, brick) = (cuboid([6.0, 6.0, 0.1]), cuboid([0.15, 0.15, 0.3]));
-    let (grey, red, blue) = (Material::new([0.6; 3]), Material::new([0.8, 0.2, 0.1]), Material::new([0.2, 0.3, 0.8]));
+    let (grey, red, blue) = (
+        Material::new([0.6; 3]),
+        Material::new([0.8, 0.2, 0.1]),
+        Material::new([0.2, 0.3, 0.8]),
+    );
     let light = Light::new(
         LightKind::Directional,
-        Pose::face_towards(&Point3::new(1.0, -2.0, 3.0), &Point3::origin(), &Vector3::x()),
+        Pose::face_towards(
+            &Point3::new(1.0, -2.0, 3.0),
+            &Point3::origin(),
+            &Vector3::x(),
+        ),
     );
     for (name, rings) in [("1k", 16), ("20k", 71), ("200k", 224)] {
         let ball = bumpy_ball(rings);
         let mut instances = vec![
-            Instance { mesh: &floor, pose: Pose::translation(0.0, 0.0, -0.05), material: &grey, id: 1 },
-            Instance { mesh: &ball, pose: Pose::translation(0.0, 0.0, 0.6), material: &red, id: 2 },
+            Instance {
+                mesh: &floor,
+                pose: Pose::translation(0.0, 0.0, -0.05),
+                material: &grey,
+                id: 1,
+            },
+            Instance {
+                mesh: &ball,
+                pose: Pose::translation(0.0, 0.0, 0.6),
+                material: &red,
+                id: 2,
+            },
         ];
         instances.extend((0..49).map(|i| {
             let (x, y) = (f64::from(i % 7) * 0.4 - 1.2, f64::from(i / 7) * 0.4 - 1.2);
-            Instance { mesh: &brick, pose: Pose::translation(x, y, 0.15), material: &blue, id: 3 + i as u32 }
+            Instance {
+                mesh: &brick,
+                pose: Pose::translation(x, y, 0.15),
+                material: &blue,
+                id: 3 + i as u32,
+            }
         }));
         let world = World {
             instances: &instances,
@@ -76,7 +119,10 @@ fn pictures(c: &mut Criterion) {
             ..World::EMPTY
         };
         for (size, width, height) in [("256x256", 256, 256), ("640x480", 640, 480)] {
-            let both = Channels { colour: false, ..Channels::ALL };
+            let both = Channels {
+                colour: false,
+                ..Channels::ALL
+            };
             let cases = [
                 ("depth", Channels::DEPTH, 1),
                 ("ids", Channels::IDS, 1),
@@ -89,7 +135,9 @@ fn pictures(c: &mut Criterion) {
                 let (mut renderer, mut picture) = (Renderer::new(threads), Picture::default());
                 let camera = camera(width, height);
                 c.bench_function(&format!("{name} triangles, {size}, {what}"), |b| {
-                    b.iter(|| renderer.render_into(black_box(&world), &camera, channels, &mut picture));
+                    b.iter(|| {
+                        renderer.render_into(black_box(&world), &camera, channels, &mut picture)
+                    });
                 });
             }
         }

@@ -56,6 +56,10 @@ impl Material {
 
     /// The same colour from everywhere, whatever the light.
     pub fn unlit(colour: [f32; 3]) -> Self {
-        Self { emission: colour, specular: [0.0; 3], ..Self::new([0.0; 3]) }
+        Self {
+            emission: colour,
+            specular: [0.0; 3],
+            ..Self::new([0.0; 3])
+        }
     }
 }

@@ -7,7 +7,10 @@ use std::sync::Mutex;
 pub fn for_each<T: Send>(threads: usize, items: &mut [T], work: impl Fn(usize, &mut T) + Sync) {
     let threads = threads.min(items.len());
     if threads <= 1 {
-        return items.iter_mut().enumerate().for_each(|(at, item)| work(at, item));
+        return items
+            .iter_mut()
+            .enumerate()
+            .for_each(|(at, item)| work(at, item));
     }
     let queue = Mutex::new(items.iter_mut().enumerate());
     let run = || {
@@ -22,5 +25,8 @@ pub fn for_each<T: Send>(threads: usize, items: &mut [T], work: impl Fn(usize, &
 }
 
 fn next<T>(queue: &Mutex<impl Iterator<Item = T>>) -> Option<T> {
-    queue.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).next()
+    queue
+        .lock()
+        .unwrap_or_else(|poisoned| poisoned.into_inner())
+        .next()
 }

@@ -28,13 +28,29 @@ pub struct Picture {
 
 impl Channels {
     /// All channels.
-    pub const ALL: Self = Self { colour: true, depth: true, ids: true };
+    pub const ALL: Self = Self {
+        colour: true,
+        depth: true,
+        ids: true,
+    };
     /// Only colours.
-    pub const COLOUR: Self = Self { colour: true, depth: false, ids: false };
+    pub const COLOUR: Self = Self {
+        colour: true,
+        depth: false,
+        ids: false,
+    };
     /// Only depths.
-    pub const DEPTH: Self = Self { colour: false, depth: true, ids: false };
+    pub const DEPTH: Self = Self {
+        colour: false,
+        depth: true,
+        ids: false,
+    };
     /// Only ids.
-    pub const IDS: Self = Self { colour: false, depth: false, ids: true };
+    pub const IDS: Self = Self {
+        colour: false,
+        depth: false,
+        ids: true,
+    };
 }
 
 impl Picture {
@@ -57,8 +73,11 @@ impl Picture {
         self.depth.fill(1.0);
         self.ids.fill(Self::NOTHING);
         for (y, row) in self.colour.chunks_mut(3 * width).enumerate() {
-            let colour = background.row(y, height).map(|part| (part * 255.0 + 0.5) as u8);
-            row.chunks_exact_mut(3).for_each(|pixel| pixel.copy_from_slice(&colour));
+            let colour = background
+                .row(y, height)
+                .map(|part| (part * 255.0 + 0.5) as u8);
+            row.chunks_exact_mut(3)
+                .for_each(|pixel| pixel.copy_from_slice(&colour));
         }
     }
 }

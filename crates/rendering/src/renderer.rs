@@ -23,7 +23,10 @@ pub struct Renderer {
 impl Renderer {
     /// On up to `threads` threads; the pictures do not depend on their number.
     pub fn new(threads: usize) -> Self {
-        Self { threads: threads.max(1), ..Self::default() }
+        Self {
+            threads: threads.max(1),
+            ..Self::default()
+        }
     }
 
     /// A picture. Where the camera can see nothing (numbers that are not finite, `near` beyond `far`), it is empty.
@@ -34,15 +37,30 @@ impl Renderer {
     }
 
     /// The same into a picture whose memory is used again.
-    pub fn render_into(&mut self, world: &World, camera: &Camera, channels: Channels, picture: &mut Picture) {
-        picture.resize(camera.resolution.map(|side| side.min(Camera::MAX_RESOLUTION)), channels);
+    pub fn render_into(
+        &mut self,
+        world: &World,
+        camera: &Camera,
+        channels: Channels,
+        picture: &mut Picture,
+    ) {
+        picture.resize(
+            camera
+                .resolution
+                .map(|side| side.min(Camera::MAX_RESOLUTION)),
+            channels,
+        );
         if picture.resolution.contains(&0) {
             return;
         }
-        let Some(view) = View::new(camera) else { return picture.fill(&world.background) };
+        let Some(view) = View::new(camera) else {
+            return picture.fill(&world.background);
+        };
         let owners = owners(world, &view, channels);
         self.list_pieces(&owners, &view);
-        parallel::for_each(self.threads, self.chunks.all_mut(), |_, chunk| chunk.project(&owners, &view));
+        parallel::for_each(self.threads, self.chunks.all_mut(), |_, chunk| {
+            chunk.project(&owners, &view)
+        });
         let shading = Shading {
             view: &view,
             owners: &owners,
@@ -58,7 +76,11 @@ impl Renderer {
         self.chunks.clear();
         for (at, owner) in owners.iter().enumerate() {
             if owner.content.may_be_seen(view) {
-                owner.content.pieces().enumerate().for_each(|(piece, elements)| self.chunks.push(at, piece, elements));
+                owner
+                    .content
+                    .pieces()
+                    .enumerate()
+                    .for_each(|(piece, elements)| self.chunks.push(at, piece, elements));
             }
         }
     }
@@ -67,14 +89,19 @@ impl Renderer {
 /// Draws and shades all rows.
 fn fill(shading: &Shading, threads: usize, strips: &mut Vec<Strip>, picture: &mut Picture) {
     let [width, height] = picture.resolution.map(|side| side as usize);
-    let rows = height.div_ceil(if threads == 1 { 1 } else { 4 * threads }).min(STRIP_ROWS);
+    let rows = height
+        .div_ceil(if threads == 1 { 1 } else { 4 * threads })
+        .min(STRIP_ROWS);
     strips.resize_with(height.div_ceil(rows), Strip::default);
     let mut colour = picture.colour.chunks_mut(3 * width * rows);
     let mut depth = picture.depth.chunks_mut(width * rows);
     let mut ids = picture.ids.chunks_mut(width * rows);
     let parts = strips.iter_mut().map(|strip| {
-        let (colour, depth, ids) =
-            (colour.next().unwrap_or_default(), depth.next().unwrap_or_default(), ids.next().unwrap_or_default());
+        let (colour, depth, ids) = (
+            colour.next().unwrap_or_default(),
+            depth.next().unwrap_or_default(),
+            ids.next().unwrap_or_default(),
+        );
         (strip, Pixels { colour, depth, ids })
     });
     let mut parts: Vec<_> = parts.collect();

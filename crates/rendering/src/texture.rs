@@ -34,16 +34,24 @@ pub struct Image {
 impl Texture {
     /// An image that repeats, interpolated, multiplied with the colour below it.
     pub fn new(image: Arc<Image>) -> Self {
-        Self { image, repeat: [true; 2], interpolate: true, mode: TextureMode::Modulate }
+        Self {
+            image,
+            repeat: [true; 2],
+            interpolate: true,
+            mode: TextureMode::Modulate,
+        }
     }
 
     /// The image's colour and opacity at a place.
     pub(crate) fn sample(&self, uv: [f32; 2]) -> [f32; 4] {
         let size = self.image.size;
         if !self.interpolate {
-            return self.image.pixel([0, 1].map(|axis| nearest(uv[axis], size[axis], self.repeat[axis])));
+            return self
+                .image
+                .pixel([0, 1].map(|axis| nearest(uv[axis], size[axis], self.repeat[axis])));
         }
-        let [(columns, right), (rows, up)] = [0, 1].map(|axis| neighbours(uv[axis], size[axis], self.repeat[axis]));
+        let [(columns, right), (rows, up)] =
+            [0, 1].map(|axis| neighbours(uv[axis], size[axis], self.repeat[axis]));
         let [low, high] = rows.map(|row| {
             let [left, other] = columns.map(|column| self.image.pixel([column, row]));
             mix(left, other, right)
@@ -70,8 +78,13 @@ impl Image {
         if count == 0 || count.checked_mul(width)? != bytes.len() {
             return None;
         }
-        let pixels = bytes.chunks_exact(width).map(|p| [p[0], p[1], p[2], p.get(3).copied().unwrap_or(u8::MAX)]);
-        Some(Self { size, pixels: pixels.collect() })
+        let pixels = bytes
+            .chunks_exact(width)
+            .map(|p| [p[0], p[1], p[2], p.get(3).copied().unwrap_or(u8::MAX)]);
+        Some(Self {
+            size,
+            pixels: pixels.collect(),
+        })
     }
 
     /// Width and height, pixels.
@@ -87,7 +100,11 @@ impl Image {
 
 /// The two pixels around a coordinate along one axis, and how far it is from the first to the second.
 fn neighbours(coordinate: f32, size: u32, repeat: bool) -> ([u32; 2], f32) {
-    let within = if repeat { coordinate - coordinate.floor() } else { coordinate.clamp(0.0, 1.0) };
+    let within = if repeat {
+        coordinate - coordinate.floor()
+    } else {
+        coordinate.clamp(0.0, 1.0)
+    };
     let at = within * size as f32 - 0.5;
     let first = at.floor();
     let pixel = |at: i64| if repeat { at.rem_euclid(i64::from(size)) } else { at.clamp(0, i64::from(size) - 1) } as u32;
@@ -96,7 +113,11 @@ fn neighbours(coordinate: f32, size: u32, repeat: bool) -> ([u32; 2], f32) {
 
 /// The pixel at a coordinate along one axis.
 fn nearest(coordinate: f32, size: u32, repeat: bool) -> u32 {
-    let within = if repeat { coordinate - coordinate.floor() } else { coordinate.clamp(0.0, 1.0) };
+    let within = if repeat {
+        coordinate - coordinate.floor()
+    } else {
+        coordinate.clamp(0.0, 1.0)
+    };
     ((within * size as f32) as u32).min(size - 1)
 }
 

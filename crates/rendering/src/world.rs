@@ -142,7 +142,10 @@ pub struct Background {
 impl Background {
     /// A background of one colour.
     pub fn plain(colour: [f32; 3]) -> Self {
-        Self { bottom: colour, top: colour }
+        Self {
+            bottom: colour,
+            top: colour,
+        }
     }
 
     /// The colour of a row of a picture with that many rows.
@@ -158,10 +161,16 @@ impl Fog {
         let remains = match self.density {
             FogDensity::Linear { start, end } => (end - depth) / (end - start),
             FogDensity::Exponential(density) => libm::exp(-density * depth),
-            FogDensity::ExponentialSquared(density) => libm::exp(-(density * depth) * (density * depth)),
+            FogDensity::ExponentialSquared(density) => {
+                libm::exp(-(density * depth) * (density * depth))
+            }
         };
         // Where start and end are equal, there is no fog before and only fog behind.
-        let remains = if remains.is_nan() { 1.0 } else { remains.clamp(0.0, 1.0) as f32 };
+        let remains = if remains.is_nan() {
+            1.0
+        } else {
+            remains.clamp(0.0, 1.0) as f32
+        };
         [0, 1, 2].map(|i| self.colour[i] + (colour[i] - self.colour[i]) * remains)
     }
 }
@@ -169,7 +178,14 @@ impl Fog {
 impl Light {
     /// White, without attenuation, shining along +Z.
     pub fn new(kind: LightKind, pose: Pose) -> Self {
-        Self { kind, pose, diffuse: [1.0; 3], specular: [1.0; 3], attenuation: [1.0, 0.0, 0.0], casts_shadows: true }
+        Self {
+            kind,
+            pose,
+            diffuse: [1.0; 3],
+            specular: [1.0; 3],
+            attenuation: [1.0, 0.0, 0.0],
+            casts_shadows: true,
+        }
     }
 }
 
@@ -182,7 +198,10 @@ impl<'a> World<'a> {
         lights: &[],
         ambient: [0.0; 3],
         fog: None,
-        background: Background { bottom: [0.0; 3], top: [0.0; 3] },
+        background: Background {
+            bottom: [0.0; 3],
+            top: [0.0; 3],
+        },
         shadows: false,
     };
 }

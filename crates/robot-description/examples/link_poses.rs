@@ -42,7 +42,11 @@ impl Files for Beside {
         for part in &file.parts {
             let first = mesh.vertices.len() as u32;
             mesh.vertices.extend(part.vertices.iter().copied());
-            mesh.corners.extend(part.triangles.iter().map(|triangle| triangle.map(|corner| corner + first)));
+            mesh.corners.extend(
+                part.triangles
+                    .iter()
+                    .map(|triangle| triangle.map(|corner| corner + first)),
+            );
         }
         Ok(mesh)
     }
@@ -54,19 +58,44 @@ fn read(file: &str) -> Result<Parsed<Robot>, Box<dyn std::error::Error>> {
         return Ok(urdf::read(&bytes)?);
     }
     if mjcf::is_mjcf(&bytes) {
-        let folder = Path::new(&file).parent().unwrap_or(Path::new("")).to_owned();
+        let folder = Path::new(&file)
+            .parent()
+            .unwrap_or(Path::new(""))
+            .to_owned();
         let parsed = mjcf::read(&bytes, &mut Beside(folder))?;
-        let Parsed { value, warnings, further_warnings } = parsed;
-        return Ok(Parsed { value: value.robot, warnings, further_warnings });
+        let Parsed {
+            value,
+            warnings,
+            further_warnings,
+        } = parsed;
+        return Ok(Parsed {
+            value: value.robot,
+            warnings,
+            further_warnings,
+        });
     }
     let parsed = sdf::read(&bytes, &mut |name| Err(format!("{name}: not looked for")))?;
-    let model = parsed.value.models.into_iter().next().ok_or("the file has no model")?;
-    Ok(Parsed { value: model.robot, warnings: parsed.warnings, further_warnings: parsed.further_warnings })
+    let model = parsed
+        .value
+        .models
+        .into_iter()
+        .next()
+        .ok_or("the file has no model")?;
+    Ok(Parsed {
+        value: model.robot,
+        warnings: parsed.warnings,
+        further_warnings: parsed.further_warnings,
+    })
 }
 
 fn print_parts(robot: &Robot) {
     for joint in &robot.joints {
-        println!("joint\t{}\t{:?}\t{}", joint.name, joint.kind, joint.mimic.is_some());
+        println!(
+            "joint\t{}\t{:?}\t{}",
+            joint.name,
+            joint.kind,
+            joint.mimic.is_some()
+        );
     }
     for link in &robot.links {
         println!("line\t{}\t{}", link.name, link.line);
@@ -90,19 +119,33 @@ fn poses(robot: &Robot, line: &str) -> Result<String, Box<dyn std::error::Error>
     let mut positions = robot.zero_positions();
     for pair in line.split('\t').filter(|pair| !pair.is_empty()) {
         let (name, value) = pair.rsplit_once('=').ok_or("pairs are joint=position")?;
-        let index = robot.joint(name).ok_or_else(|| format!("no joint '{name}'"))?;
-        let start: usize = robot.joints[..index].iter().map(|joint| joint.kind.numbers()).sum();
+        let index = robot
+            .joint(name)
+            .ok_or_else(|| format!("no joint '{name}'"))?;
+        let start: usize = robot.joints[..index]
+            .iter()
+            .map(|joint| joint.kind.numbers())
+            .sum();
         for (place, number) in value.split(',').enumerate() {
             *positions.get_mut(start + place).ok_or("too many numbers")? = number.parse()?;
         }
     }
     let poses = robot.link_poses(&positions)?;
     let numbers = poses.iter().flat_map(|pose| {
-        pose.translation.vector.iter().chain(pose.rotation.coords.iter()).copied().collect::<Vec<f64>>()
+        pose.translation
+            .vector
+            .iter()
+            .chain(pose.rotation.coords.iter())
+            .copied()
+            .collect::<Vec<f64>>()
     });
     Ok(joined(&numbers.collect::<Vec<f64>>()))
 }
 
 fn joined(numbers: &[f64]) -> String {
-    numbers.iter().map(f64::to_string).collect::<Vec<String>>().join(" ")
+    numbers
+        .iter()
+        .map(f64::to_string)
+        .collect::<Vec<String>>()
+        .join(" ")
 }

@@ -36,8 +36,8 @@ pub mod urdf;
 mod xml;
 
 pub use model::{
-    Collision, Dynamics, Geometry, Inertial, Joint, JointKind, Limits, Link, Material, Mimic, Pose, Robot, Sensor,
-    SensorKind, Visual,
+    Collision, Dynamics, Geometry, Inertial, Joint, JointKind, Limits, Link, Material, Mimic, Pose,
+    Robot, Sensor, SensorKind, Visual,
 };
 pub use positions::PositionError;
 pub use report::{Parsed, ReadError, Warning, WarningKind};

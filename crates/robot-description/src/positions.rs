@@ -41,7 +41,11 @@ impl Robot {
     pub fn link_poses(&self, positions: &[f64]) -> Result<Vec<Pose>, PositionError> {
         let expected = self.position_count();
         if positions.len() != expected {
-            return Err(PositionError { robot: self.name.clone(), expected, found: positions.len() });
+            return Err(PositionError {
+                robot: self.name.clone(),
+                expected,
+                found: positions.len(),
+            });
         }
         let starts = self.position_starts();
         let parents = self.parent_joints();
@@ -75,18 +79,35 @@ impl Robot {
 
     /// The position that a chain of joints that mimic each other leads to.
     fn mimicked(&self, index: usize, positions: &[f64], starts: &[usize]) -> f64 {
-        let Ok(Mimic { joint, multiplier, offset }) = self.whole_mimic(index) else { return 0.0 };
-        let master = if self.joints[joint].kind.numbers() == 1 { positions[starts[joint]] } else { 0.0 };
+        let Ok(Mimic {
+            joint,
+            multiplier,
+            offset,
+        }) = self.whole_mimic(index)
+        else {
+            return 0.0;
+        };
+        let master = if self.joints[joint].kind.numbers() == 1 {
+            positions[starts[joint]]
+        } else {
+            0.0
+        };
         multiplier * master + offset
     }
 
     /// How a joint mimics the first of a chain of joints that mimic each other; one that mimics none, itself. An error says why there is no such relation.
     pub(crate) fn whole_mimic(&self, index: usize) -> Result<Mimic, &'static str> {
-        let mut whole = Mimic { joint: index, multiplier: 1.0, offset: 0.0 };
+        let mut whole = Mimic {
+            joint: index,
+            multiplier: 1.0,
+            offset: 0.0,
+        };
         for _ in 0..=limits::MIMIC_CHAIN {
             let Some(mimic) = self.joints[whole.joint].mimic else {
                 let is_finite = whole.multiplier.is_finite() && whole.offset.is_finite();
-                return is_finite.then_some(whole).ok_or("mimics joints by numbers that are too large");
+                return is_finite
+                    .then_some(whole)
+                    .ok_or("mimics joints by numbers that are too large");
             };
             whole.offset += whole.multiplier * mimic.offset;
             whole.multiplier *= mimic.multiplier;
@@ -109,11 +130,18 @@ impl Joint {
             (JointKind::Revolute | JointKind::Continuous, [angle]) => {
                 Pose::from_parts(Translation3::identity(), turn(&axis, *angle))
             }
-            (JointKind::Prismatic, [distance]) => Translation3::from(axis.into_inner() * *distance).into(),
+            (JointKind::Prismatic, [distance]) => {
+                Translation3::from(axis.into_inner() * *distance).into()
+            }
             (JointKind::Planar, [u, v, angle]) => {
                 let to_axis = UnitQuaternion::rotation_between(&Vector3::z(), &axis)
-                    .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI));
-                Pose::from_parts(Translation3::from(to_axis * Vector3::new(*u, *v, 0.0)), turn(&axis, *angle))
+                    .unwrap_or_else(|| {
+                        UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+                    });
+                Pose::from_parts(
+                    Translation3::from(to_axis * Vector3::new(*u, *v, 0.0)),
+                    turn(&axis, *angle),
+                )
             }
             (JointKind::Spherical, [x, y, z, w]) => {
                 Pose::from_parts(Translation3::identity(), rotation([*x, *y, *z, *w]))
@@ -147,7 +175,11 @@ pub fn to_rpy(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
     let across = libm::hypot(m[(0, 0)], m[(1, 0)]);
     let pitch = libm::atan2(-m[(2, 0)], across);
     if across > 1e-7 {
-        return [libm::atan2(m[(2, 1)], m[(2, 2)]), pitch, libm::atan2(m[(1, 0)], m[(0, 0)])];
+        return [
+            libm::atan2(m[(2, 1)], m[(2, 2)]),
+            pitch,
+            libm::atan2(m[(1, 0)], m[(0, 0)]),
+        ];
     }
     [libm::atan2(-m[(1, 2)], m[(1, 1)]), pitch, 0.0]
 }

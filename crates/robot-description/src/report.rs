@@ -37,7 +37,11 @@ pub enum WarningKind {
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "line {}, <{}>: {}", self.line, self.element, self.message)
+        write!(
+            f,
+            "line {}, <{}>: {}",
+            self.line, self.element, self.message
+        )
     }
 }
 

@@ -22,7 +22,8 @@ impl Robot {
     pub fn loop_joints(&self) -> Vec<usize> {
         let in_tree = self.parent_joints();
         let carries = |index: &usize| {
-            self.joints[*index].child >= in_tree.len() || in_tree[self.joints[*index].child] != Some(*index)
+            self.joints[*index].child >= in_tree.len()
+                || in_tree[self.joints[*index].child] != Some(*index)
         };
         (0..self.joints.len()).filter(carries).collect()
     }
@@ -34,7 +35,9 @@ impl Robot {
         for joint in parents.iter().flatten().map(|index| &self.joints[*index]) {
             children[joint.parent].push(joint.child);
         }
-        let mut order: Vec<usize> = (0..self.links.len()).filter(|link| parents[*link].is_none()).collect();
+        let mut order: Vec<usize> = (0..self.links.len())
+            .filter(|link| parents[*link].is_none())
+            .collect();
         let mut next = 0;
         while let Some(link) = order.get(next).copied() {
             order.append(&mut children[link]);

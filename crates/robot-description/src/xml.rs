@@ -15,23 +15,37 @@ pub fn text_of(bytes: &[u8]) -> Result<String, ReadError> {
     }
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches(|c: char| c == '\u{feff}' || c.is_whitespace());
-    Ok(text.trim_end_matches(|c: char| c == '\0' || c.is_whitespace()).to_owned())
+    Ok(text
+        .trim_end_matches(|c: char| c == '\0' || c.is_whitespace())
+        .to_owned())
 }
 
 /// How many lines [`text_of`] takes away.
 pub fn lines_before(bytes: &[u8]) -> u32 {
     let blank = |byte: &&u8| byte.is_ascii_whitespace() || [0xef, 0xbb, 0xbf].contains(*byte);
-    bytes.iter().take_while(blank).filter(|byte| **byte == b'\n').count() as u32
+    bytes
+        .iter()
+        .take_while(blank)
+        .filter(|byte| **byte == b'\n')
+        .count() as u32
 }
 
 /// The tree of elements. A document type is accepted, entities of its own are not.
 pub fn document(text: &str, lines_before: u32) -> Result<Document<'_>, ReadError> {
-    bounded_xml::parse(text, limits::NODES, DocumentType::WithoutEntities).map_err(|error| match error {
-        Error::TooManyAttributes { line } => ReadError::TooManyAttributes { line: line + lines_before },
-        Error::TooManyNamespaces => ReadError::TooManyNamespaces,
-        Error::TooManyNodes => ReadError::TooManyNodes,
-        Error::Entities { line } | Error::DocumentType { line } => ReadError::Entities { line: line + lines_before },
-        Error::Syntax { line, message } => ReadError::Xml(format!("line {}: {message}", line + lines_before)),
+    bounded_xml::parse(text, limits::NODES, DocumentType::WithoutEntities).map_err(|error| {
+        match error {
+            Error::TooManyAttributes { line } => ReadError::TooManyAttributes {
+                line: line + lines_before,
+            },
+            Error::TooManyNamespaces => ReadError::TooManyNamespaces,
+            Error::TooManyNodes => ReadError::TooManyNodes,
+            Error::Entities { line } | Error::DocumentType { line } => ReadError::Entities {
+                line: line + lines_before,
+            },
+            Error::Syntax { line, message } => {
+                ReadError::Xml(format!("line {}: {message}", line + lines_before))
+            }
+        }
     })
 }
 
@@ -46,19 +60,36 @@ pub struct Source {
 
 impl Source {
     pub fn new(text: &str, lines_before: u32) -> Self {
-        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at + 1);
-        Self { lines: std::iter::once(0).chain(ends).collect(), lines_before, warnings: Vec::new(), further: 0 }
+        let ends = text
+            .bytes()
+            .enumerate()
+            .filter(|(_, byte)| *byte == b'\n')
+            .map(|(at, _)| at + 1);
+        Self {
+            lines: std::iter::once(0).chain(ends).collect(),
+            lines_before,
+            warnings: Vec::new(),
+            further: 0,
+        }
     }
 
     pub fn finish<T>(self, value: T) -> Parsed<T> {
         let mut warnings = self.warnings;
         warnings.sort_by_key(|warning| warning.line);
-        Parsed { value, warnings, further_warnings: self.further }
+        Parsed {
+            value,
+            warnings,
+            further_warnings: self.further,
+        }
     }
 
     pub fn line(&self, node: Node) -> u32 {
-        let line = self.lines.partition_point(|start| *start <= node.range().start);
-        u32::try_from(line).unwrap_or(u32::MAX).saturating_add(self.lines_before)
+        let line = self
+            .lines
+            .partition_point(|start| *start <= node.range().start);
+        u32::try_from(line)
+            .unwrap_or(u32::MAX)
+            .saturating_add(self.lines_before)
     }
 
     /// Something is wrong, and was read as the message says.
@@ -77,11 +108,20 @@ impl Source {
             return;
         }
         let line = self.line(node);
-        self.warnings.push(Warning { line, element: short(node.tag_name().name()), message, kind });
+        self.warnings.push(Warning {
+            line,
+            element: short(node.tag_name().name()),
+            message,
+            kind,
+        });
     }
 
     /// The first child of that name; others are reported.
-    pub fn child<'a, 'input>(&mut self, node: Node<'a, 'input>, name: &str) -> Option<Node<'a, 'input>> {
+    pub fn child<'a, 'input>(
+        &mut self,
+        node: Node<'a, 'input>,
+        name: &str,
+    ) -> Option<Node<'a, 'input>> {
         let mut all = elements(node).filter(|child| child.tag_name().name() == name);
         let first = all.next();
         for further in all {
@@ -94,7 +134,13 @@ impl Source {
     pub fn expect_children(&mut self, node: Node, known: &[&str]) {
         for child in node.children() {
             if child.is_element() && !known.contains(&child.tag_name().name()) {
-                self.leave_out(child, format!("not understood inside of <{}>", short(node.tag_name().name())));
+                self.leave_out(
+                    child,
+                    format!(
+                        "not understood inside of <{}>",
+                        short(node.tag_name().name())
+                    ),
+                );
             } else if child.is_text() && child.text().is_some_and(|text| !text.trim().is_empty()) {
                 let text = short(child.text().unwrap_or_default().trim());
                 self.leave_out(node, format!("the text '{text}' has no meaning here"));
@@ -104,10 +150,12 @@ impl Source {
 
     /// An attribute; one that is not there is reported and empty.
     pub fn required(&mut self, node: Node, attribute: &str) -> String {
-        node.attribute(attribute).map(|text| text.trim().to_owned()).unwrap_or_else(|| {
-            self.warn(node, format!("has no {attribute}"));
-            String::new()
-        })
+        node.attribute(attribute)
+            .map(|text| text.trim().to_owned())
+            .unwrap_or_else(|| {
+                self.warn(node, format!("has no {attribute}"));
+                String::new()
+            })
     }
 
     /// A number of an attribute, if it is there and one.
@@ -117,7 +165,12 @@ impl Source {
     }
 
     /// Numbers of an attribute; those that are not there are the given ones.
-    pub fn numbers<const N: usize>(&mut self, node: Node, attribute: &str, otherwise: [f64; N]) -> [f64; N] {
+    pub fn numbers<const N: usize>(
+        &mut self,
+        node: Node,
+        attribute: &str,
+        otherwise: [f64; N],
+    ) -> [f64; N] {
         match node.attribute(attribute) {
             Some(text) => self.numbers_of(node, attribute, text, otherwise),
             None => otherwise,
@@ -125,10 +178,19 @@ impl Source {
     }
 
     /// Numbers of a text.
-    pub fn numbers_of<const N: usize>(&mut self, node: Node, what: &str, text: &str, otherwise: [f64; N]) -> [f64; N] {
+    pub fn numbers_of<const N: usize>(
+        &mut self,
+        node: Node,
+        what: &str,
+        text: &str,
+        otherwise: [f64; N],
+    ) -> [f64; N] {
         let found = self.numbers_in(node, what, text);
         if found.len() != N && !(found.is_empty() && text.trim().is_empty()) {
-            self.warn(node, format!("{what} has {} numbers instead of {N}", found.len()));
+            self.warn(
+                node,
+                format!("{what} has {} numbers instead of {N}", found.len()),
+            );
         }
         std::array::from_fn(|i| found.get(i).copied().unwrap_or(otherwise[i]))
     }
@@ -137,17 +199,27 @@ impl Source {
         let separator = |c: char| c.is_whitespace() || matches!(c, ',' | '[' | ']' | ';');
         let mut numbers = Vec::new();
         // Longer lists are no list of a robot; the rest is only counted as one too many.
-        for word in text.split(separator).filter(|word| !word.is_empty()).take(64) {
+        for word in text
+            .split(separator)
+            .filter(|word| !word.is_empty())
+            .take(64)
+        {
             match word.parse::<f64>() {
                 Ok(number) if number.abs() <= MAX_NUMBER => numbers.push(number),
                 _ => {
-                    self.warn(node, format!("{what} has '{}', which is no number", short(word)));
+                    self.warn(
+                        node,
+                        format!("{what} has '{}', which is no number", short(word)),
+                    );
                     return numbers;
                 }
             }
         }
         if text.contains([',', '[', ';']) {
-            self.warn(node, format!("{what} has more than spaces between its numbers"));
+            self.warn(
+                node,
+                format!("{what} has more than spaces between its numbers"),
+            );
         }
         numbers
     }
@@ -159,7 +231,10 @@ pub fn elements<'a, 'input>(node: Node<'a, 'input>) -> impl Iterator<Item = Node
 }
 
 /// The elements of that name inside of an element.
-pub fn named<'a, 'input: 'a>(node: Node<'a, 'input>, name: &'a str) -> impl Iterator<Item = Node<'a, 'input>> + 'a {
+pub fn named<'a, 'input: 'a>(
+    node: Node<'a, 'input>,
+    name: &'a str,
+) -> impl Iterator<Item = Node<'a, 'input>> + 'a {
     elements(node).filter(move |child| child.tag_name().name() == name)
 }
 

@@ -27,8 +27,20 @@ const MJCF: &str = r#"<mujoco model="m"><compiler angle="radian" eulerseq="XYZ" 
 
 /// The text with pieces of it missing, twice, elsewhere, or replaced by what is odd.
 fn damaged(random: &mut Random, text: &str) -> Vec<u8> {
-    const ODD: [&str; 12] =
-        ["", "\"", "<", ">", "nan", "1e999", "-1e99", "0", "\u{0}", "/>", " 1 1 1 1 1 1 1", "world"];
+    const ODD: [&str; 12] = [
+        "",
+        "\"",
+        "<",
+        ">",
+        "nan",
+        "1e999",
+        "-1e99",
+        "0",
+        "\u{0}",
+        "/>",
+        " 1 1 1 1 1 1 1",
+        "world",
+    ];
     let mut bytes = text.as_bytes().to_vec();
     for _ in 0..=random.below(4) {
         let from = random.below(bytes.len());
@@ -47,7 +59,9 @@ fn damaged(random: &mut Random, text: &str) -> Vec<u8> {
 }
 
 fn check(robot: &Robot) {
-    let poses = robot.link_poses(&robot.zero_positions()).expect("as many positions as the joints have");
+    let poses = robot
+        .link_poses(&robot.zero_positions())
+        .expect("as many positions as the joints have");
     assert_eq!(poses.len(), robot.links.len());
 }
 
@@ -57,7 +71,8 @@ fn urdf() {
     for _ in 0..ROUNDS {
         if let Ok(parsed) = urdf::read(&damaged(&mut random, URDF)) {
             check(&parsed.value);
-            let again = urdf::read(urdf::write(&parsed.value).as_bytes()).expect("what is written is read");
+            let again =
+                urdf::read(urdf::write(&parsed.value).as_bytes()).expect("what is written is read");
             assert_eq!(again.value.links.len(), parsed.value.links.len());
         }
     }
@@ -68,9 +83,18 @@ fn sdf() {
     let mut random = Random::new(2);
     for _ in 0..ROUNDS {
         let included = damaged(&mut random, SDF);
-        let mut include = |_: &str| Ok(Included { bytes: included.clone(), folder: String::new() });
+        let mut include = |_: &str| {
+            Ok(Included {
+                bytes: included.clone(),
+                folder: String::new(),
+            })
+        };
         if let Ok(parsed) = sdf::read(&damaged(&mut random, SDF), &mut include) {
-            parsed.value.models.iter().for_each(|model| check(&model.robot));
+            parsed
+                .value
+                .models
+                .iter()
+                .for_each(|model| check(&model.robot));
         }
     }
 }
@@ -84,7 +108,11 @@ impl Files for Damaged {
 
     fn triangles(&mut self, _: &str) -> Result<Triangles, String> {
         let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let corners = if self.1 { vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]] } else { vec![[0, 0, 9]] };
+        let corners = if self.1 {
+            vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+        } else {
+            vec![[0, 0, 9]]
+        };
         Ok(Triangles { vertices, corners })
     }
 }

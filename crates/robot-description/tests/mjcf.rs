@@ -55,7 +55,9 @@ struct Texts(Vec<(&'static str, String)>);
 impl Files for Texts {
     fn include(&mut self, name: &str) -> Result<Vec<u8>, String> {
         let found = self.0.iter().find(|(file, _)| *file == name);
-        found.map(|(_, text)| text.clone().into_bytes()).ok_or_else(|| "it is not there".to_owned())
+        found
+            .map(|(_, text)| text.clone().into_bytes())
+            .ok_or_else(|| "it is not there".to_owned())
     }
 
     fn triangles(&mut self, file: &str) -> Result<Triangles, String> {
@@ -63,7 +65,10 @@ impl Files for Texts {
             return Err(format!("{file} is not there"));
         }
         let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        Ok(Triangles { vertices, corners: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]] })
+        Ok(Triangles {
+            vertices,
+            corners: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+        })
     }
 }
 
@@ -86,14 +91,33 @@ fn messages(parsed: &Parsed<Model>) -> Vec<String> {
 #[test]
 fn an_arm_is_read_whole() {
     let parsed = read(ARM);
-    assert_eq!(messages(&parsed), ["line 37, <muscle>: an actuator of type 'muscle' is not read"]);
+    assert_eq!(
+        messages(&parsed),
+        ["line 37, <muscle>: an actuator of type 'muscle' is not read"]
+    );
     let model = parsed.value;
-    assert_eq!((model.robot.name.as_str(), model.gravity), ("arm", Some([0.0, 0.0, -1.62])));
-    let names: Vec<&str> = model.robot.links.iter().map(|link| link.name.as_str()).collect();
+    assert_eq!(
+        (model.robot.name.as_str(), model.gravity),
+        ("arm", Some([0.0, 0.0, -1.62]))
+    );
+    let names: Vec<&str> = model
+        .robot
+        .links
+        .iter()
+        .map(|link| link.name.as_str())
+        .collect();
     assert_eq!(names, ["world", "base", "upper_1", "upper", "hand", "ball"]);
     assert_eq!(model.fixed, [0, 1]);
-    assert!(matches!(model.robot.links[0].collisions[0].geometry, Geometry::Plane { .. }));
-    let joints: Vec<_> = model.robot.joints.iter().map(|joint| (joint.name.as_str(), joint.kind)).collect();
+    assert!(matches!(
+        model.robot.links[0].collisions[0].geometry,
+        Geometry::Plane { .. }
+    ));
+    let joints: Vec<_> = model
+        .robot
+        .joints
+        .iter()
+        .map(|joint| (joint.name.as_str(), joint.kind))
+        .collect();
     let expected = [
         ("base_fixed", JointKind::Fixed),
         ("shoulder", JointKind::Revolute),
@@ -102,7 +126,14 @@ fn an_arm_is_read_whole() {
     ];
     assert_eq!(joints, expected);
     let shoulder = &model.robot.joints[1];
-    assert_eq!((shoulder.limits.lower, shoulder.limits.upper, shoulder.reference), (Some(-1.0), Some(2.0), 0.5));
+    assert_eq!(
+        (
+            shoulder.limits.lower,
+            shoulder.limits.upper,
+            shoulder.reference
+        ),
+        (Some(-1.0), Some(2.0), 0.5)
+    );
     assert_eq!(shoulder.dynamics.damping, 3.0);
 }
 
@@ -110,14 +141,41 @@ fn an_arm_is_read_whole() {
 fn looks_and_collisions_are_told_apart() {
     let robot = read(ARM).value.robot;
     // Group 3 is not shown, contype and conaffinity 0 are not touched.
-    assert_eq!((robot.links[1].visuals.len(), robot.links[1].collisions.len()), (0, 1));
-    assert_eq!((robot.links[3].visuals.len(), robot.links[3].collisions.len()), (1, 0));
+    assert_eq!(
+        (
+            robot.links[1].visuals.len(),
+            robot.links[1].collisions.len()
+        ),
+        (0, 1)
+    );
+    assert_eq!(
+        (
+            robot.links[3].visuals.len(),
+            robot.links[3].collisions.len()
+        ),
+        (1, 0)
+    );
     let seen = &robot.links[3].visuals[0];
-    assert_eq!(seen.geometry, Geometry::Capsule { radius: 0.1, length: 1.0 });
+    assert_eq!(
+        seen.geometry,
+        Geometry::Capsule {
+            radius: 0.1,
+            length: 1.0
+        }
+    );
     assert!((seen.pose.translation.vector - Vector3::new(0.0, 0.0, 0.5)).norm() < 1e-15);
     // The default colour is nearer than that of the material.
-    assert_eq!(seen.material.as_ref().and_then(|material| material.color), Some([1.0, 0.0, 0.0, 1.0]));
-    assert_eq!(robot.links[4].visuals[0].geometry, Geometry::Mesh { file: "meshes/hand.stl".into(), scale: [2.0; 3] });
+    assert_eq!(
+        seen.material.as_ref().and_then(|material| material.color),
+        Some([1.0, 0.0, 0.0, 1.0])
+    );
+    assert_eq!(
+        robot.links[4].visuals[0].geometry,
+        Geometry::Mesh {
+            file: "meshes/hand.stl".into(),
+            scale: [2.0; 3]
+        }
+    );
 }
 
 #[test]
@@ -125,7 +183,9 @@ fn joints_turn_about_their_anchors_from_their_references() {
     let model = read(ARM).value;
     let robot = &model.robot;
     let poses = |shoulder: f64, lift: f64| {
-        robot.link_poses(&[shoulder, lift, 0.0, 0.0, 0.0, 1.0]).expect("as many positions as the joints have")
+        robot
+            .link_poses(&[shoulder, lift, 0.0, 0.0, 0.0, 1.0])
+            .expect("as many positions as the joints have")
     };
     // At the reference of the shoulder the arm is where the file has it; the base is turned by a quarter about z.
     let at_first = poses(0.5, 0.0);
@@ -133,7 +193,11 @@ fn joints_turn_about_their_anchors_from_their_references() {
     assert!((at_first[4].translation.vector - Vector3::new(-1.0, 1.0, 2.0)).norm() < 1e-12);
     // Half a turn about the anchor, then along the turned x axis.
     let turned = poses(0.5 + std::f64::consts::PI, 2.0);
-    assert!((turned[3].translation.vector - Vector3::new(-1.0, -1.0, 1.0)).norm() < 1e-12, "{}", turned[3]);
+    assert!(
+        (turned[3].translation.vector - Vector3::new(-1.0, -1.0, 1.0)).norm() < 1e-12,
+        "{}",
+        turned[3]
+    );
     assert_eq!(model.sites[0].link, 3);
 }
 
@@ -141,15 +205,25 @@ fn joints_turn_about_their_anchors_from_their_references() {
 fn bodies_weigh_what_is_said_or_what_their_geoms_do() {
     let robot = read(ARM).value.robot;
     let inertial = |link: usize| robot.links[link].inertial.clone().expect("it has mass");
-    assert_eq!((inertial(3).mass, inertial(3).inertia), (3.0, [1.0, 0.1, 0.2, 2.0, 0.3, 3.0]));
+    assert_eq!(
+        (inertial(3).mass, inertial(3).inertia),
+        (3.0, [1.0, 0.1, 0.2, 2.0, 0.3, 3.0])
+    );
     // A box of 0.2 x 0.4 x 0.6 with 2 kg.
     let base = inertial(1);
-    assert!((base.mass - 2.0).abs() < 1e-15 && (base.inertia[0] - 2.0 / 12.0 * (0.16 + 0.36)).abs() < 1e-15);
+    assert!(
+        (base.mass - 2.0).abs() < 1e-15
+            && (base.inertia[0] - 2.0 / 12.0 * (0.16 + 0.36)).abs() < 1e-15
+    );
     // A tetrahedron with edges of 2 m: a sixth of 8 m³ of water; its inertia about x at the centre is 3/80 m a² of the regular corner.
     let hand = inertial(4);
     assert!((hand.mass - 8000.0 / 6.0).abs() < 1e-9);
     assert!((hand.pose.translation.vector - Vector3::repeat(0.5)).norm() < 1e-12);
-    assert!((hand.inertia[0] - hand.mass * 4.0 * 3.0 / 40.0).abs() < 1e-9, "{}", hand.inertia[0]);
+    assert!(
+        (hand.inertia[0] - hand.mass * 4.0 * 3.0 / 40.0).abs() < 1e-9,
+        "{}",
+        hand.inertia[0]
+    );
     let ball = inertial(5);
     assert!((ball.mass - 500.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-3).abs() < 1e-12);
     assert_eq!(robot.links[2].inertial, None);
@@ -158,20 +232,41 @@ fn bodies_weigh_what_is_said_or_what_their_geoms_do() {
 #[test]
 fn actuators_and_constraints_name_what_they_act_on() {
     let model = read(ARM).value;
-    let drives: Vec<_> =
-        model.actuators.iter().map(|actuator| (actuator.joint, actuator.drive, actuator.effort)).collect();
+    let drives: Vec<_> = model
+        .actuators
+        .iter()
+        .map(|actuator| (actuator.joint, actuator.drive, actuator.effort))
+        .collect();
     let expected = [
-        (1, Drive::Position { stiffness: 50.0, damping: 0.0 }, Some(40.0)),
+        (
+            1,
+            Drive::Position {
+                stiffness: 50.0,
+                damping: 0.0,
+            },
+            Some(40.0),
+        ),
         (2, Drive::Velocity { damping: 7.0 }, None),
         (2, Drive::Force, Some(3.0)),
     ];
     assert_eq!(drives, expected);
-    let [Equality::Joint { joint, master, polynomial, .. }, Equality::Connect { links, points, .. }, weld] =
-        model.equalities.as_slice()
+    let [
+        Equality::Joint {
+            joint,
+            master,
+            polynomial,
+            ..
+        },
+        Equality::Connect { links, points, .. },
+        weld,
+    ] = model.equalities.as_slice()
     else {
         panic!("{:?}", model.equalities)
     };
-    assert_eq!((*joint, *master, *polynomial), (2, Some(1), [0.1, 2.0, 0.0, 0.0, 0.0]));
+    assert_eq!(
+        (*joint, *master, *polynomial),
+        (2, Some(1), [0.1, 2.0, 0.0, 0.0, 0.0])
+    );
     assert_eq!(*links, [4, 5]);
     // The hand is at (-1, 1, 2), the ball at (5, 0, 0).
     assert!((Vector3::from(points[1]) - Vector3::new(-6.0, 1.0, 2.0)).norm() < 1e-12);
@@ -181,11 +276,13 @@ fn actuators_and_constraints_name_what_they_act_on() {
 #[test]
 fn angles_and_orientations_are_read_as_the_settings_say() {
     let bodies = |settings: &str, text: &str| {
-        let text = format!("<mujoco><compiler {settings}/><worldbody><body {text}/></worldbody></mujoco>");
+        let text =
+            format!("<mujoco><compiler {settings}/><worldbody><body {text}/></worldbody></mujoco>");
         let robot = read(&text).value.robot;
         robot.link_poses(&[]).expect("no joints")[1].rotation
     };
-    let quarter = nalgebra::UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::FRAC_PI_2);
+    let quarter =
+        nalgebra::UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::FRAC_PI_2);
     for (settings, text) in [
         ("", "euler='0 0 90'"),
         ("angle='radian'", "axisangle='0 0 2 1.5707963267948966'"),
@@ -193,10 +290,16 @@ fn angles_and_orientations_are_read_as_the_settings_say() {
         ("", "quat='3 0 0 3'"),
         ("eulerseq='ZYX'", "euler='90 0 0'"),
     ] {
-        assert!(bodies(settings, text).angle_to(&quarter) < 1e-12, "{settings} {text}");
+        assert!(
+            bodies(settings, text).angle_to(&quarter) < 1e-12,
+            "{settings} {text}"
+        );
     }
     // Small letters: about turned axes; capital ones: about fixed ones.
-    let (turned, fixed) = (bodies("", "euler='90 90 0'"), bodies("eulerseq='XYZ'", "euler='90 90 0'"));
+    let (turned, fixed) = (
+        bodies("", "euler='90 90 0'"),
+        bodies("eulerseq='XYZ'", "euler='90 90 0'"),
+    );
     assert!((turned * Vector3::z() - Vector3::x()).norm() < 1e-12);
     assert!((fixed * Vector3::z() - Vector3::new(0.0, -1.0, 0.0)).norm() < 1e-12);
     let along = bodies("", "zaxis='1 0 0'");
@@ -215,7 +318,10 @@ fn files_are_included_within_limits() {
         "line 1, <geom>: a sphere with a size that is not positive; it is left out (in a.xml)",
     ];
     assert_eq!(messages(&parsed), expected);
-    let parsed = read_with(text, vec![("a.xml", "<x><include file='b.xml'/>".to_owned())]);
+    let parsed = read_with(
+        text,
+        vec![("a.xml", "<x><include file='b.xml'/>".to_owned())],
+    );
     assert!(messages(&parsed)[0].contains("no valid XML"));
 }
 
@@ -243,14 +349,18 @@ fn very_many_parts_are_read() {
     const COUNT: usize = 40_000;
     let all = |part: &dyn Fn(usize) -> String| (0..COUNT).map(part).collect::<String>();
     let defaults = all(&|n| format!("<geom a{n}='1'/>"));
-    let bodies = all(&|n| format!("<body name='b{n}'><joint name='j{n}'/><body/><geom size='1'/></body>"));
+    let bodies =
+        all(&|n| format!("<body name='b{n}'><joint name='j{n}'/><body/><geom size='1'/></body>"));
     let motors = all(&|n| format!("<motor joint='j{n}'/>"));
     let welds = all(&|n| format!("<weld body1='b{n}'/>"));
     let parsed = read(&format!(
         "<mujoco><default>{defaults}</default><worldbody>{bodies}</worldbody><actuator>{motors}</actuator><equality>{welds}</equality></mujoco>"
     ));
     let model = &parsed.value;
-    assert_eq!((model.robot.links.len(), model.actuators.len()), (2 * COUNT + 1, COUNT));
+    assert_eq!(
+        (model.robot.links.len(), model.actuators.len()),
+        (2 * COUNT + 1, COUNT)
+    );
     assert_eq!(model.equalities.len(), COUNT);
 }
 
@@ -258,7 +368,10 @@ fn very_many_parts_are_read() {
 fn a_mass_that_cannot_be_scaled_stays() {
     let text = "<mujoco>\n<compiler settotalmass='1e30'/><worldbody><body><inertial mass='1e-300'/></body></worldbody></mujoco>";
     let parsed = read(text);
-    let inertial = parsed.value.robot.links[1].inertial.as_ref().expect("an inertial");
+    let inertial = parsed.value.robot.links[1]
+        .inertial
+        .as_ref()
+        .expect("an inertial");
     assert_eq!((inertial.mass, inertial.inertia), (1e-300, [0.0; 6]));
     assert_eq!(
         messages(&parsed),
@@ -289,14 +402,28 @@ fn what_is_not_understood_has_a_line() {
 
 #[test]
 fn other_files_are_refused() {
-    let refused = |text: &str| mjcf::read(text.as_bytes(), &mut Texts(Vec::new())).expect_err("it is none");
-    assert!(matches!(refused("<robot/>"), ReadError::WrongRoot { line: 1, .. }));
+    let refused =
+        |text: &str| mjcf::read(text.as_bytes(), &mut Texts(Vec::new())).expect_err("it is none");
+    assert!(matches!(
+        refused("<robot/>"),
+        ReadError::WrongRoot { line: 1, .. }
+    ));
     assert!(matches!(refused("<mujoco>"), ReadError::Xml(_)));
     let bomb = "<!DOCTYPE m [<!ENTITY a 'aaaa'>]><mujoco>&a;</mujoco>";
     assert!(matches!(refused(bomb), ReadError::Entities { line: 1 }));
-    let deep = format!("<mujoco><worldbody>{}{}</worldbody></mujoco>", "<body>".repeat(300), "</body>".repeat(300));
+    let deep = format!(
+        "<mujoco><worldbody>{}{}</worldbody></mujoco>",
+        "<body>".repeat(300),
+        "</body>".repeat(300)
+    );
     let parsed = read(&deep);
     assert!(messages(&parsed)[0].contains("elements inside of each other"));
-    assert!(mjcf::is_mjcf(b"\xef\xbb\xbf<?xml version='1.0'?>\n<!-- > -->\n<mujoco model='a'>"));
-    assert!(mjcf::is_mjcf(b"<mujoco/>") && !mjcf::is_mjcf(b"<mujocoinclude/>") && !mjcf::is_mjcf(b"<!-- <mujoco>"));
+    assert!(mjcf::is_mjcf(
+        b"\xef\xbb\xbf<?xml version='1.0'?>\n<!-- > -->\n<mujoco model='a'>"
+    ));
+    assert!(
+        mjcf::is_mjcf(b"<mujoco/>")
+            && !mjcf::is_mjcf(b"<mujocoinclude/>")
+            && !mjcf::is_mjcf(b"<!-- <mujoco>")
+    );
 }

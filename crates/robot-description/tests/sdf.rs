@@ -48,7 +48,10 @@ fn a_world_is_read_whole() {
     let parsed = read(ARM);
     assert_eq!(parsed.warnings, []);
     let world = parsed.value;
-    assert_eq!((world.name.as_str(), world.gravity), ("w", Some([0.0, 0.0, -1.62])));
+    assert_eq!(
+        (world.name.as_str(), world.gravity),
+        ("w", Some([0.0, 0.0, -1.62]))
+    );
     let arm = &world.models[0];
     assert!((arm.pose.translation.vector - nalgebra::Vector3::new(1.0, 0.0, 1.0)).norm() < 1e-15);
     let robot = &arm.robot;
@@ -56,12 +59,29 @@ fn a_world_is_read_whole() {
     assert_eq!(names, ["base", "fore", "hand::palm", "wrist_cross"]);
     let base = &robot.links[0];
     let inertial = base.inertial.as_ref().expect("the base has one");
-    assert_eq!((inertial.mass, inertial.inertia), (2.0, [0.1, 0.0, 0.0, 0.2, 0.0, 0.3]));
-    assert_eq!(base.visuals[0].geometry, Geometry::Mesh { file: "meshes/a.dae".into(), scale: [1.0, 2.0, 3.0] });
-    assert_eq!(base.collisions[0].geometry, Geometry::Box { size: [1.0, 2.0, 3.0] });
+    assert_eq!(
+        (inertial.mass, inertial.inertia),
+        (2.0, [0.1, 0.0, 0.0, 0.2, 0.0, 0.3])
+    );
+    assert_eq!(
+        base.visuals[0].geometry,
+        Geometry::Mesh {
+            file: "meshes/a.dae".into(),
+            scale: [1.0, 2.0, 3.0]
+        }
+    );
+    assert_eq!(
+        base.collisions[0].geometry,
+        Geometry::Box {
+            size: [1.0, 2.0, 3.0]
+        }
+    );
     assert_eq!(robot.sensors[0].name, "eye");
     let elbow = &robot.joints[0];
-    assert_eq!((elbow.kind, elbow.limits.effort, elbow.dynamics.damping), (JointKind::Revolute, Some(5.0), 0.5));
+    assert_eq!(
+        (elbow.kind, elbow.limits.effort, elbow.dynamics.damping),
+        (JointKind::Revolute, Some(5.0), 0.5)
+    );
     assert_eq!(robot.joints[1].kind, JointKind::Continuous);
 }
 
@@ -71,14 +91,25 @@ fn links_are_where_their_poses_say() {
     let robot = &world.models[0].robot;
     let at_zero = robot.link_poses(&[0.0, 0.0, 0.0]).expect("three axes");
     for (link, pose) in robot.links.iter().zip(&at_zero) {
-        assert!((link.pose.inverse() * pose).translation.vector.norm() < 1e-14, "{}", link.name);
+        assert!(
+            (link.pose.inverse() * pose).translation.vector.norm() < 1e-14,
+            "{}",
+            link.name
+        );
     }
-    assert!((at_zero[1].translation.z - 2.5).abs() < 1e-14 && (at_zero[2].translation.z - 3.5).abs() < 1e-14);
+    assert!(
+        (at_zero[1].translation.z - 2.5).abs() < 1e-14
+            && (at_zero[2].translation.z - 3.5).abs() < 1e-14
+    );
     // The elbow turns about y of the model: z becomes x.
-    let bent = robot.link_poses(&[std::f64::consts::FRAC_PI_2, 0.0, 0.0]).expect("three axes");
+    let bent = robot
+        .link_poses(&[std::f64::consts::FRAC_PI_2, 0.0, 0.0])
+        .expect("three axes");
     assert!((bent[1].translation.vector - nalgebra::Vector3::new(0.5, 0.0, 2.0)).norm() < 1e-14);
     // The wrist is at the tip, 0.1 beside the palm.
-    let turned = robot.link_poses(&[0.0, 0.0, std::f64::consts::FRAC_PI_2]).expect("three axes");
+    let turned = robot
+        .link_poses(&[0.0, 0.0, std::f64::consts::FRAC_PI_2])
+        .expect("three axes");
     assert!((turned[2].translation.vector - nalgebra::Vector3::new(0.1, 0.0, 3.6)).norm() < 1e-14);
 }
 
@@ -86,19 +117,36 @@ fn links_are_where_their_poses_say() {
 fn files_are_included_with_other_names_poses_and_folders() {
     let inner = "<sdf version='1.6'><model name='box'><link name='l'><visual name='v'><geometry><mesh><uri>x.stl</uri></mesh></geometry></visual></link></model></sdf>";
     let mut include = |uri: &str| match uri {
-        "model://box" => Ok(Included { bytes: inner.into(), folder: "/models/box".into() }),
+        "model://box" => Ok(Included {
+            bytes: inner.into(),
+            folder: "/models/box".into(),
+        }),
         other => nothing(other),
     };
     let text = "<sdf version='1.9'><world name='w'><include><uri>model://box</uri><name>first</name><pose>1 0 0 0 0 0</pose><static>1</static></include>\n<include><uri>gone</uri></include></world></sdf>";
     let parsed = sdf::read(text.as_bytes(), &mut include).expect("it is SDF");
     let first = &parsed.value.models[0];
-    assert_eq!((first.robot.name.as_str(), first.is_static, first.pose.translation.x), ("first", true, 1.0));
     assert_eq!(
-        first.robot.links[0].visuals[0].geometry,
-        Geometry::Mesh { file: "/models/box/x.stl".into(), scale: [1.0; 3] }
+        (
+            first.robot.name.as_str(),
+            first.is_static,
+            first.pose.translation.x
+        ),
+        ("first", true, 1.0)
     );
     assert_eq!(
-        parsed.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        first.robot.links[0].visuals[0].geometry,
+        Geometry::Mesh {
+            file: "/models/box/x.stl".into(),
+            scale: [1.0; 3]
+        }
+    );
+    assert_eq!(
+        parsed
+            .warnings
+            .iter()
+            .map(ToString::to_string)
+            .collect::<Vec<_>>(),
         ["line 2, <include>: 'gone': gone is not there"]
     );
 }
@@ -106,14 +154,29 @@ fn files_are_included_with_other_names_poses_and_folders() {
 #[test]
 fn files_that_include_themselves_or_too_many_end() {
     let itself = model("<include><uri>x</uri></include>");
-    let mut include = |_: &str| Ok(Included { bytes: itself.clone().into(), folder: String::new() });
+    let mut include = |_: &str| {
+        Ok(Included {
+            bytes: itself.clone().into(),
+            folder: String::new(),
+        })
+    };
     let parsed = sdf::read(itself.as_bytes(), &mut include).expect("it is SDF");
-    assert!(parsed.warnings.iter().any(|warning| warning.message.contains("includes itself")));
+    assert!(
+        parsed
+            .warnings
+            .iter()
+            .any(|warning| warning.message.contains("includes itself"))
+    );
     let mut count = 0;
     let mut always_new = |_: &str| {
         count += 1;
-        let inside = format!("<include><uri>{count}</uri></include><include><uri>b{count}</uri></include>").repeat(20);
-        Ok(Included { bytes: model(&inside).into(), folder: String::new() })
+        let inside =
+            format!("<include><uri>{count}</uri></include><include><uri>b{count}</uri></include>")
+                .repeat(20);
+        Ok(Included {
+            bytes: model(&inside).into(),
+            folder: String::new(),
+        })
     };
     sdf::read(itself.as_bytes(), &mut always_new).expect("it is SDF");
     assert!(count <= 1000, "{count}");
@@ -124,28 +187,60 @@ fn frames_that_are_defined_in_themselves_or_in_nothing_are_reported() {
     let circle = model(
         "<link name='a'><pose relative_to='b'>1 0 0 0 0 0</pose></link><link name='b'><pose relative_to='a'/></link>",
     );
-    assert!(read(&circle).warnings.iter().any(|warning| warning.message.contains("defined in itself")));
-    let unknown = read(&model("<link name='a'><pose relative_to='x'>1 0 0 0 0 0</pose></link>"));
+    assert!(
+        read(&circle)
+            .warnings
+            .iter()
+            .any(|warning| warning.message.contains("defined in itself"))
+    );
+    let unknown = read(&model(
+        "<link name='a'><pose relative_to='x'>1 0 0 0 0 0</pose></link>",
+    ));
     assert!(unknown.warnings[0].message.contains("no frame 'x'"));
-    assert_eq!(unknown.value.models[0].robot.links[0].pose.translation.x, 1.0);
-    let lost = read(&model("<link name='a'/><joint name='j' type='fixed'><parent>a</parent><child>x</child></joint>"));
-    assert!(lost.warnings.iter().any(|warning| warning.message.contains("no link 'x'")));
+    assert_eq!(
+        unknown.value.models[0].robot.links[0].pose.translation.x,
+        1.0
+    );
+    let lost = read(&model(
+        "<link name='a'/><joint name='j' type='fixed'><parent>a</parent><child>x</child></joint>",
+    ));
+    assert!(
+        lost.warnings
+            .iter()
+            .any(|warning| warning.message.contains("no link 'x'"))
+    );
 }
 
 #[test]
 fn models_with_very_long_names_are_left_out() {
     let links = "<link name='a'/>".repeat(10_000);
     let long = "x".repeat(300_000);
-    let parsed = read(&format!("<sdf version='1.9'>\n<model name='{long}'>{links}</model>\n<model name='m'/></sdf>"));
-    assert_eq!(parsed.value.models.iter().map(|model| model.robot.name.as_str()).collect::<Vec<_>>(), ["m"]);
+    let parsed = read(&format!(
+        "<sdf version='1.9'>\n<model name='{long}'>{links}</model>\n<model name='m'/></sdf>"
+    ));
+    assert_eq!(
+        parsed
+            .value
+            .models
+            .iter()
+            .map(|model| model.robot.name.as_str())
+            .collect::<Vec<_>>(),
+        ["m"]
+    );
     assert_eq!(parsed.warnings[0].line, 2);
-    assert!(parsed.warnings[0].message.contains("name is too long"), "{}", parsed.warnings[0]);
+    assert!(
+        parsed.warnings[0].message.contains("name is too long"),
+        "{}",
+        parsed.warnings[0]
+    );
 }
 
 #[test]
 fn very_many_models_are_read_in_time_that_grows_with_their_number() {
     let models = |place: &str| -> String {
-        (0..50_000).map(|n| format!("<model name='m{n}'><link name='a'/>{place}</model>")).collect()
+        (0..50_000)
+            .map(|n| format!("<model name='m{n}'><link name='a'/>{place}</model>"))
+            .collect()
     };
     let worlds = read(&format!("<sdf version='1.9'>{}</sdf>", models("")));
     assert_eq!(worlds.value.models.len(), 50_000);
@@ -157,7 +252,11 @@ fn very_many_models_are_read_in_time_that_grows_with_their_number() {
 fn a_nested_model_of_the_same_name_changes_nothing_of_the_first() {
     let inner = |link: &str| format!("<model name='n'><link name='{link}'/></model>");
     let joint = "<joint name='j' type='fixed'><parent>a</parent><child>n</child></joint>";
-    let parsed = read(&model(&format!("<link name='a'/>{}{}{joint}", inner("b"), inner("c"))));
+    let parsed = read(&model(&format!(
+        "<link name='a'/>{}{}{joint}",
+        inner("b"),
+        inner("c")
+    )));
     let robot = &parsed.value.models[0].robot;
     assert_eq!(robot.links[robot.joints[0].child].name, "n::b");
 }
@@ -170,9 +269,20 @@ fn joints_that_mimic_each_other_are_reported() {
              <axis><mimic joint='{master}'><multiplier>2</multiplier></mimic></axis></joint>"
         )
     };
-    let parsed = read(&model(&format!("<link name='a'/>{}{}", joint("j", "b", "k"), joint("k", "c", "j"))));
+    let parsed = read(&model(&format!(
+        "<link name='a'/>{}{}",
+        joint("j", "b", "k"),
+        joint("k", "c", "j")
+    )));
     let message = "joint 'j' (line 1) mimics joints without end; it moves by itself";
-    assert_eq!(parsed.warnings.iter().map(|warning| warning.message.as_str()).collect::<Vec<_>>(), [message]);
+    assert_eq!(
+        parsed
+            .warnings
+            .iter()
+            .map(|warning| warning.message.as_str())
+            .collect::<Vec<_>>(),
+        [message]
+    );
     let joints = &parsed.value.models[0].robot.joints;
     assert!(joints[0].mimic.is_none());
     assert_eq!(joints[1].mimic.map(|mimic| mimic.joint), Some(0));
@@ -184,8 +294,19 @@ fn a_joint_may_hold_a_link_to_the_world() {
         "<pose>0 0 3 0 0 0</pose><link name='a'/><joint name='j' type='fixed'><parent>world</parent><child>a</child></joint>",
     ));
     let robot = &robot.value.models[0].robot;
-    assert_eq!((robot.links[1].name.as_str(), robot.links[1].pose.translation.z), ("world", -3.0));
-    assert_eq!(robot.link_poses(&[]).expect("no positions")[0].translation.z, 0.0);
+    assert_eq!(
+        (
+            robot.links[1].name.as_str(),
+            robot.links[1].pose.translation.z
+        ),
+        ("world", -3.0)
+    );
+    assert_eq!(
+        robot.link_poses(&[]).expect("no positions")[0]
+            .translation
+            .z,
+        0.0
+    );
 }
 
 #[test]
@@ -208,9 +329,15 @@ fn a_model_can_be_placed_by_one_of_its_frames() {
 
 #[test]
 fn what_is_no_sdf_is_refused_and_files_cut_anywhere_do_no_harm() {
-    assert!(matches!(sdf::read(b"<robot/>", &mut nothing), Err(ReadError::WrongRoot { .. })));
+    assert!(matches!(
+        sdf::read(b"<robot/>", &mut nothing),
+        Err(ReadError::WrongRoot { .. })
+    ));
     for end in 0..ARM.len() {
-        assert!(sdf::read(&ARM.as_bytes()[..end], &mut nothing).is_err(), "{end}");
+        assert!(
+            sdf::read(&ARM.as_bytes()[..end], &mut nothing).is_err(),
+            "{end}"
+        );
     }
     let mut random = Random::new(7);
     let mut below = |bound| random.below(bound);
@@ -224,10 +351,15 @@ fn what_is_no_sdf_is_refused_and_files_cut_anywhere_do_no_harm() {
             1 => drop(bytes.splice(at..at, piece)),
             _ => drop(bytes.drain(at..(at + length).min(bytes.len()))),
         }
-        let Ok(parsed) = sdf::read(&bytes, &mut nothing) else { continue };
+        let Ok(parsed) = sdf::read(&bytes, &mut nothing) else {
+            continue;
+        };
         read_ones += 1;
         for model in parsed.value.models {
-            let poses = model.robot.link_poses(&model.robot.zero_positions()).expect("as many as joints");
+            let poses = model
+                .robot
+                .link_poses(&model.robot.zero_positions())
+                .expect("as many as joints");
             assert_eq!(poses.len(), model.robot.links.len());
         }
     }

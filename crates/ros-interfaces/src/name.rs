@@ -62,9 +62,16 @@ impl TypeName {
     /// If a part is not a word of letters, digits and underscores.
     pub fn new(package: &str, kind: InterfaceKind, name: &str) -> Result<Self, InterfaceError> {
         if !(is_identifier(package) && is_identifier(name)) {
-            return Err(InterfaceError::Name(format!("{package}/{}/{name}", kind.word())));
+            return Err(InterfaceError::Name(format!(
+                "{package}/{}/{name}",
+                kind.word()
+            )));
         }
-        Ok(Self { package: package.into(), kind, name: name.into() })
+        Ok(Self {
+            package: package.into(),
+            kind,
+            name: name.into(),
+        })
     }
 
     /// From `package/msg/Name`, or `package/Name`, which is of the kind `otherwise`.

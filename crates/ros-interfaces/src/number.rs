@@ -265,7 +265,10 @@ impl NumberType {
     /// The type with this word.
     #[must_use]
     pub fn of_word(word: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|candidate| candidate.word() == word)
+        Self::ALL
+            .iter()
+            .copied()
+            .find(|candidate| candidate.word() == word)
     }
 
     /// The type of its values: `uint8` for bytes and characters, else itself.
@@ -325,8 +328,12 @@ fn parse_hexadecimal(text: &str) -> Option<i128> {
         Some(digits) => (-1, digits),
         None => (1, text.strip_prefix('+').unwrap_or(text)),
     };
-    let digits = digits.strip_prefix("0x").or_else(|| digits.strip_prefix("0X"))?;
-    u64::from_str_radix(digits, 16).ok().map(|magnitude| sign * i128::from(magnitude))
+    let digits = digits
+        .strip_prefix("0x")
+        .or_else(|| digits.strip_prefix("0X"))?;
+    u64::from_str_radix(digits, 16)
+        .ok()
+        .map(|magnitude| sign * i128::from(magnitude))
 }
 
 fn parse_bool(text: &str) -> Option<bool> {
@@ -351,18 +358,26 @@ mod tests {
                 assert_eq!(bytes.len(), kind.size());
                 assert_eq!(kind.read(&bytes, order), Some(number));
                 assert_eq!(kind.read(&bytes[1..], order), None);
-                let all = kind.read_all(&bytes.repeat(3), order).expect("three numbers");
+                let all = kind
+                    .read_all(&bytes.repeat(3), order)
+                    .expect("three numbers");
                 assert_eq!((all.len(), all.get(2)), (3, Some(number)));
             }
         }
-        assert_eq!(NumberType::UInt32.read(&[1, 2, 3, 4], ByteOrder::Big), Some(Number::UInt32(0x0102_0304)));
+        assert_eq!(
+            NumberType::UInt32.read(&[1, 2, 3, 4], ByteOrder::Big),
+            Some(Number::UInt32(0x0102_0304))
+        );
     }
 
     #[test]
     fn texts_of_numbers() {
         assert_eq!(NumberType::UInt8.parse("0x1F"), Some(Number::UInt8(31)));
         assert_eq!(NumberType::Int8.parse("-128"), Some(Number::Int8(-128)));
-        assert_eq!(NumberType::UInt64.parse("18446744073709551615"), Some(Number::UInt64(u64::MAX)));
+        assert_eq!(
+            NumberType::UInt64.parse("18446744073709551615"),
+            Some(Number::UInt64(u64::MAX))
+        );
         assert_eq!(NumberType::Bool.parse("True"), Some(Number::Bool(true)));
         for (kind, text) in [
             (NumberType::UInt8, "256"),

@@ -101,18 +101,37 @@ pub struct Layout {
 
 impl Layout {
     /// Sums over nested types are taken once for each type: a type may be nested in others in very many ways.
-    pub(crate) fn new(name: TypeName, constants: Vec<Constant>, fields: Vec<Field<Arc<Layout>>>) -> Self {
+    pub(crate) fn new(
+        name: TypeName,
+        constants: Vec<Constant>,
+        fields: Vec<Field<Arc<Layout>>>,
+    ) -> Self {
         let sum = |of_field: fn(&FieldType<Arc<Layout>>) -> usize, first: usize| {
-            fields.iter().map(|field| of_field(&field.field_type)).fold(first, usize::saturating_add)
+            fields
+                .iter()
+                .map(|field| of_field(&field.field_type))
+                .fold(first, usize::saturating_add)
         };
-        let (fixed_values, least_size) = (sum(FieldType::fixed_values, 1), sum(FieldType::least_size, 0));
-        Self { name, constants, fields, fixed_values, least_size }
+        let (fixed_values, least_size) = (
+            sum(FieldType::fixed_values, 1),
+            sum(FieldType::least_size, 0),
+        );
+        Self {
+            name,
+            constants,
+            fields,
+            fixed_values,
+            least_size,
+        }
     }
 
     /// The field with this name, and its place among the fields.
     #[must_use]
     pub fn field(&self, name: &str) -> Option<(usize, &Field<Arc<Layout>>)> {
-        self.fields.iter().enumerate().find(|(_, field)| field.name == name)
+        self.fields
+            .iter()
+            .enumerate()
+            .find(|(_, field)| field.name == name)
     }
 }
 

@@ -81,19 +81,25 @@ impl Array {
             Element::String(_) | Element::WString(_) => Self::Strings(vec![Vec::new(); length]),
             Element::Time => Self::Times(vec![Time::default(); length]),
             Element::Duration => Self::Durations(vec![Duration::default(); length]),
-            Element::Nested(layout) => Self::Records((0..length).map(|_| Record::new(layout)).collect()),
+            Element::Nested(layout) => {
+                Self::Records((0..length).map(|_| Record::new(layout)).collect())
+            }
         }
     }
 
     /// Whether all elements are of this type.
     fn is_of(&self, element: &Element<Arc<Layout>>) -> bool {
         match (self, element) {
-            (Self::Numbers(all), Element::Number(number)) => all.number_type() == number.of_values(),
+            (Self::Numbers(all), Element::Number(number)) => {
+                all.number_type() == number.of_values()
+            }
             (Self::Strings(all), Element::String(bound) | Element::WString(bound)) => {
                 all.iter().all(|text| is_within(text.len(), *bound))
             }
             (Self::Times(_), Element::Time) | (Self::Durations(_), Element::Duration) => true,
-            (Self::Records(all), Element::Nested(layout)) => all.iter().all(|record| record.is_of(layout)),
+            (Self::Records(all), Element::Nested(layout)) => {
+                all.iter().all(|record| record.is_of(layout))
+            }
             _ => false,
         }
     }
@@ -103,7 +109,10 @@ impl Value {
     /// The value that a field has if nothing else is said.
     #[must_use]
     pub fn of_field(field: &Field<Arc<Layout>>) -> Self {
-        field.default.clone().unwrap_or_else(|| Self::of_type(&field.field_type))
+        field
+            .default
+            .clone()
+            .unwrap_or_else(|| Self::of_type(&field.field_type))
     }
 
     /// Zero, an empty string, an empty sequence, or a record of defaults.
@@ -130,7 +139,9 @@ impl Value {
     #[must_use]
     pub fn is_of(&self, field_type: &FieldType<Arc<Layout>>) -> bool {
         match (self, field_type.shape) {
-            (Self::Array(array), Shape::Array(length)) => array.len() == length && array.is_of(&field_type.element),
+            (Self::Array(array), Shape::Array(length)) => {
+                array.len() == length && array.is_of(&field_type.element)
+            }
             (Self::Array(array), Shape::Sequence(bound)) => {
                 is_within(array.len(), bound) && array.is_of(&field_type.element)
             }
@@ -141,8 +152,12 @@ impl Value {
 
     fn is_of_element(&self, element: &Element<Arc<Layout>>) -> bool {
         match (self, element) {
-            (Self::Number(number), Element::Number(kind)) => number.number_type() == kind.of_values(),
-            (Self::String(text), Element::String(bound) | Element::WString(bound)) => is_within(text.len(), *bound),
+            (Self::Number(number), Element::Number(kind)) => {
+                number.number_type() == kind.of_values()
+            }
+            (Self::String(text), Element::String(bound) | Element::WString(bound)) => {
+                is_within(text.len(), *bound)
+            }
             (Self::Time(_), Element::Time) | (Self::Duration(_), Element::Duration) => true,
             (Self::Record(record), Element::Nested(layout)) => record.is_of(layout),
             _ => false,
@@ -165,7 +180,10 @@ impl Record {
     /// With default values.
     #[must_use]
     pub fn new(layout: &Arc<Layout>) -> Self {
-        Self { layout: layout.clone(), values: layout.fields.iter().map(Value::of_field).collect() }
+        Self {
+            layout: layout.clone(),
+            values: layout.fields.iter().map(Value::of_field).collect(),
+        }
     }
 
     /// With these values, one for each field.
@@ -175,17 +193,26 @@ impl Record {
     pub fn with_values(layout: &Arc<Layout>, values: Vec<Value>) -> Result<Self, ValueError> {
         if values.len() != layout.fields.len() {
             let field = format!("number {}", values.len().min(layout.fields.len()) + 1);
-            return Err(ValueError::Field { layout: layout.name.to_string(), field });
+            return Err(ValueError::Field {
+                layout: layout.name.to_string(),
+                field,
+            });
         }
         for (field, value) in layout.fields.iter().zip(&values) {
             check(layout, field, value)?;
         }
-        Ok(Self { layout: layout.clone(), values })
+        Ok(Self {
+            layout: layout.clone(),
+            values,
+        })
     }
 
     /// Of values that a codec has read by the layout.
     pub(crate) fn of_codec(layout: &Arc<Layout>, values: Vec<Value>) -> Self {
-        Self { layout: layout.clone(), values }
+        Self {
+            layout: layout.clone(),
+            values,
+        }
     }
 
     /// Its type.
@@ -208,7 +235,9 @@ impl Record {
     /// The value of a field.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&Value> {
-        self.layout.field(name).and_then(|(index, _)| self.values.get(index))
+        self.layout
+            .field(name)
+            .and_then(|(index, _)| self.values.get(index))
     }
 
     /// Sets a field.
@@ -217,7 +246,10 @@ impl Record {
     /// If there is no such field, or the value is of another type.
     pub fn set(&mut self, name: &str, value: Value) -> Result<(), ValueError> {
         let layout = self.layout.clone();
-        let unknown = || ValueError::Field { layout: layout.name.to_string(), field: name.into() };
+        let unknown = || ValueError::Field {
+            layout: layout.name.to_string(),
+            field: name.into(),
+        };
         let (index, field) = layout.field(name).ok_or_else(unknown)?;
         check(&layout, field, &value)?;
         self.values[index] = value;
@@ -242,5 +274,9 @@ fn check(layout: &Layout, field: &Field<Arc<Layout>>, value: &Value) -> Result<(
         return Ok(());
     }
     let expected = field.field_type.to_string();
-    Err(ValueError::Type { layout: layout.name.to_string(), field: field.name.clone(), expected })
+    Err(ValueError::Type {
+        layout: layout.name.to_string(),
+        field: field.name.clone(),
+        expected,
+    })
 }

@@ -9,9 +9,14 @@ const SUMS: &str = include_str!("md5.tsv");
 fn every_type_of_ros_1_has_the_md5_sum_that_its_nodes_expect() {
     let mut catalogue = Catalogue::new(Generation::Ros1);
     let mut wrong = Vec::new();
-    for (name, sum) in SUMS.lines().map(|line| line.split_once('\t').expect("name and sum")) {
+    for (name, sum) in SUMS
+        .lines()
+        .map(|line| line.split_once('\t').expect("name and sum"))
+    {
         let ours = if name.contains("/srv/") {
-            catalogue.service(name).map(|[request, response]| ros1::service_md5(&request, &response))
+            catalogue
+                .service(name)
+                .map(|[request, response]| ros1::service_md5(&request, &response))
         } else {
             catalogue.layout(name).map(|layout| ros1::md5(&layout))
         };

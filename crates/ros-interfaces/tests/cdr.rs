@@ -17,7 +17,8 @@ fn messages_of_every_type_are_read_and_written_as_by_rosbags() {
         let (name, hex) = line.split_once(' ').expect("a type and its bytes");
         let layout = catalogue.layout(name).expect("a type that is known");
         let message = bytes(hex);
-        let record = cdr::decode(&layout, &message).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let record =
+            cdr::decode(&layout, &message).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(cdr::encode(&record), message, "{name}");
         types.insert(name);
         for end in 0..message.len().min(300) {
@@ -31,8 +32,16 @@ fn messages_of_every_type_are_read_and_written_as_by_rosbags() {
 #[test]
 fn defaults_of_every_type_are_written_and_read() {
     let mut catalogue = Catalogue::new(Generation::Ros2);
-    for name in catalogue.names().iter().filter(|name| name.kind == ros_interfaces::InterfaceKind::Message) {
+    for name in catalogue
+        .names()
+        .iter()
+        .filter(|name| name.kind == ros_interfaces::InterfaceKind::Message)
+    {
         let record = Record::new(&catalogue.layout_of(name).expect("a type that is built in"));
-        assert_eq!(cdr::decode(record.layout(), &cdr::encode(&record)), Ok(record), "{name}");
+        assert_eq!(
+            cdr::decode(record.layout(), &cdr::encode(&record)),
+            Ok(record),
+            "{name}"
+        );
     }
 }

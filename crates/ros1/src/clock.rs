@@ -6,7 +6,10 @@ use std::time::{Duration, Instant};
 #[derive(Clone, Copy)]
 pub(crate) struct Deadline(Instant);
 
-#[allow(clippy::disallowed_methods, reason = "time limits of connections are times of the wall clock")]
+#[allow(
+    clippy::disallowed_methods,
+    reason = "time limits of connections are times of the wall clock"
+)]
 impl Deadline {
     pub(crate) fn after(timeout: Duration) -> Self {
         Self(Instant::now() + timeout)
@@ -14,6 +17,8 @@ impl Deadline {
 
     /// What is left. None if it is over.
     pub(crate) fn left(self) -> Option<Duration> {
-        self.0.checked_duration_since(Instant::now()).filter(|left| !left.is_zero())
+        self.0
+            .checked_duration_since(Instant::now())
+            .filter(|left| !left.is_zero())
     }
 }

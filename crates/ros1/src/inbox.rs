@@ -40,7 +40,10 @@ impl<M: AsRef<[u8]>> Inbox<M> {
             is_closed: false,
             problem: None,
         };
-        Self { waiting: Mutex::new(waiting), changed: Condvar::new() }
+        Self {
+            waiting: Mutex::new(waiting),
+            changed: Condvar::new(),
+        }
     }
 
     fn waiting(&self) -> MutexGuard<'_, Waiting<M>> {
@@ -76,7 +79,9 @@ impl<M: AsRef<[u8]>> Inbox<M> {
     /// The oldest message, as soon as there is one.
     pub(crate) fn wait(&self, timeout: Duration) -> Arrival<M> {
         let is_idle = |waiting: &mut Waiting<M>| waiting.messages.is_empty() && !waiting.is_closed;
-        let waited = self.changed.wait_timeout_while(self.waiting(), timeout, is_idle);
+        let waited = self
+            .changed
+            .wait_timeout_while(self.waiting(), timeout, is_idle);
         let (mut waiting, _) = waited.unwrap_or_else(PoisonError::into_inner);
         match waiting.pop() {
             Some(message) => Arrival::Message(message),
@@ -118,7 +123,11 @@ impl<M: AsRef<[u8]>> Waiting<M> {
 }
 
 fn bounded(capacity: usize) -> usize {
-    if capacity == 0 { limits::QUEUE } else { capacity.min(limits::QUEUE) }
+    if capacity == 0 {
+        limits::QUEUE
+    } else {
+        capacity.min(limits::QUEUE)
+    }
 }
 
 #[cfg(test)]
@@ -129,7 +138,10 @@ mod tests {
     fn the_newest_stay() {
         let inbox = Inbox::new(2);
         (0..5_u8).for_each(|n| inbox.push(vec![n]));
-        assert_eq!((inbox.len(), inbox.take(), inbox.take(), inbox.take()), (2, Some(vec![3]), Some(vec![4]), None));
+        assert_eq!(
+            (inbox.len(), inbox.take(), inbox.take(), inbox.take()),
+            (2, Some(vec![3]), Some(vec![4]), None)
+        );
         let large = Inbox::new(0);
         (0..3).for_each(|n: u8| large.push(vec![n; limits::WAITING / 2 + 1]));
         assert_eq!(large.len(), 1);
@@ -140,11 +152,20 @@ mod tests {
     #[test]
     fn a_closed_inbox_ends_waits() {
         let inbox = Inbox::new(1);
-        assert!(matches!(inbox.wait(Duration::from_millis(1)), Arrival::Nothing));
+        assert!(matches!(
+            inbox.wait(Duration::from_millis(1)),
+            Arrival::Nothing
+        ));
         inbox.push(vec![1]);
-        assert!(matches!(inbox.wait(Duration::from_secs(1)), Arrival::Message(_)));
+        assert!(matches!(
+            inbox.wait(Duration::from_secs(1)),
+            Arrival::Message(_)
+        ));
         inbox.close();
         inbox.push(vec![1]);
-        assert!(matches!(inbox.wait(Duration::from_secs(100)), Arrival::Closed));
+        assert!(matches!(
+            inbox.wait(Duration::from_secs(100)),
+            Arrival::Closed
+        ));
     }
 }

@@ -15,7 +15,12 @@ pub(crate) struct Master {
 
 impl Master {
     pub(crate) fn new(uri: &str, network: Network, caller: &str) -> Result<Self> {
-        Ok(Self { uri: uri.into(), place: Place::parse(uri, "http")?, network, caller: caller.into() })
+        Ok(Self {
+            uri: uri.into(),
+            place: Place::parse(uri, "http")?,
+            network,
+            caller: caller.into(),
+        })
     }
 
     pub(crate) fn place(&self) -> &Place {
@@ -24,14 +29,32 @@ impl Master {
 
     /// Calls a method in the name of the node.
     pub(crate) fn call(&self, method: &str, arguments: &[&str]) -> Result<Parameter> {
-        self.call_with(method, arguments.iter().map(|text| Parameter::text(text)).collect())
+        self.call_with(
+            method,
+            arguments.iter().map(|text| Parameter::text(text)).collect(),
+        )
     }
 
-    pub(crate) fn call_with(&self, method: &str, mut arguments: Vec<Parameter>) -> Result<Parameter> {
+    pub(crate) fn call_with(
+        &self,
+        method: &str,
+        mut arguments: Vec<Parameter>,
+    ) -> Result<Parameter> {
         arguments.insert(0, Parameter::text(&self.caller));
-        let answer = http::post(self.network, &self.place, &call_text(method, &arguments), limits::TIMEOUT)
-            .map_err(|error| Error::Master { uri: self.uri.clone(), problem: error.to_string() })?;
-        value_of(read_response(&answer)?).map_err(|reason| Error::Refused { method: method.into(), reason })
+        let answer = http::post(
+            self.network,
+            &self.place,
+            &call_text(method, &arguments),
+            limits::TIMEOUT,
+        )
+        .map_err(|error| Error::Master {
+            uri: self.uri.clone(),
+            problem: error.to_string(),
+        })?;
+        value_of(read_response(&answer)?).map_err(|reason| Error::Refused {
+            method: method.into(),
+            reason,
+        })
     }
 }
 
@@ -40,11 +63,15 @@ impl Master {
 /// # Errors
 /// The explanation, if the status is not 1.
 pub(crate) fn value_of(answer: Parameter) -> std::result::Result<Parameter, String> {
-    let Parameter::Array(parts) = answer else { return Err("an answer without status".into()) };
+    let Parameter::Array(parts) = answer else {
+        return Err("an answer without status".into());
+    };
     let mut parts = parts.into_iter();
     let (status, explanation, value) = (parts.next(), parts.next(), parts.next());
     match (status, value) {
         (Some(Parameter::Int(1)), Some(value)) => Ok(value),
-        _ => Err(explanation.and_then(|text| text.as_text().map(String::from)).unwrap_or_else(|| "no reason".into())),
+        _ => Err(explanation
+            .and_then(|text| text.as_text().map(String::from))
+            .unwrap_or_else(|| "no reason".into())),
     }
 }

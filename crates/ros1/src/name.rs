@@ -14,9 +14,20 @@ pub(crate) struct Place {
 impl Place {
     pub(crate) fn new(namespace: &str, node: &str) -> Result<Self> {
         let trimmed = namespace.trim_matches('/');
-        let namespace = if trimmed.is_empty() { String::new() } else { format!("/{trimmed}") };
-        let full = if node.starts_with('/') { node.to_string() } else { format!("{namespace}/{node}") };
-        Ok(Self { namespace, node: checked(full, node)? })
+        let namespace = if trimmed.is_empty() {
+            String::new()
+        } else {
+            format!("/{trimmed}")
+        };
+        let full = if node.starts_with('/') {
+            node.to_string()
+        } else {
+            format!("{namespace}/{node}")
+        };
+        Ok(Self {
+            namespace,
+            node: checked(full, node)?,
+        })
     }
 
     /// A name as all nodes know it: `/x` as it is, `x` in the namespace, `~x` below the node.
@@ -37,8 +48,13 @@ fn checked(full: String, name: &str) -> Result<String> {
         word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
             && word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
     };
-    let is_valid = full.len() <= 255 && full.starts_with('/') && full.split('/').skip(1).all(is_word);
-    if is_valid { Ok(full.to_string()) } else { Err(Error::Name(name.to_string())) }
+    let is_valid =
+        full.len() <= 255 && full.starts_with('/') && full.split('/').skip(1).all(is_word);
+    if is_valid {
+        Ok(full.to_string())
+    } else {
+        Err(Error::Name(name.to_string()))
+    }
 }
 
 #[cfg(test)]
@@ -53,7 +69,13 @@ mod tests {
         assert_eq!(resolve("cmd_vel"), "/robots/r1/cmd_vel");
         assert_eq!(resolve("/cmd_vel/"), "/cmd_vel");
         assert_eq!(resolve("~gain"), "/robots/r1/sim/gain");
-        assert_eq!(Place::new("", "sim").expect("a place").resolve("a/b").expect("a name"), "/a/b");
+        assert_eq!(
+            Place::new("", "sim")
+                .expect("a place")
+                .resolve("a/b")
+                .expect("a name"),
+            "/a/b"
+        );
         for bad in ["/", "a b", "1a", "a//b", "é", "~ ", "a=b", "a\n"] {
             assert!(place.resolve(bad).is_err(), "{bad}");
         }

@@ -25,13 +25,26 @@ impl Place {
     /// From `scheme://host:port`, with or without a slash at the end.
     pub(crate) fn parse(uri: &str, scheme: &'static str) -> Result<Self> {
         let wrong = || Error::Address(uri.to_string(), scheme);
-        let rest = uri.strip_prefix(scheme).and_then(|rest| rest.strip_prefix("://")).ok_or_else(wrong)?;
+        let rest = uri
+            .strip_prefix(scheme)
+            .and_then(|rest| rest.strip_prefix("://"))
+            .ok_or_else(wrong)?;
         let (place, _path) = rest.split_once('/').unwrap_or((rest, ""));
         let (host, port) = place.rsplit_once(':').ok_or_else(wrong)?;
         let host = host.trim_start_matches('[').trim_end_matches(']');
-        let is_host = !host.is_empty() && host.chars().all(|c| c.is_ascii_alphanumeric() || "-_.:".contains(c));
+        let is_host = !host.is_empty()
+            && host
+                .chars()
+                .all(|c| c.is_ascii_alphanumeric() || "-_.:".contains(c));
         let port = port.parse().map_err(|_| wrong())?;
-        if is_host { Ok(Self { host: host.into(), port }) } else { Err(wrong()) }
+        if is_host {
+            Ok(Self {
+                host: host.into(),
+                port,
+            })
+        } else {
+            Err(wrong())
+        }
     }
 }
 
@@ -81,13 +94,18 @@ impl Network {
 }
 
 pub(crate) fn timed_out() -> Error {
-    Error::Io(std::io::Error::new(std::io::ErrorKind::TimedOut, "no answer in time"))
+    Error::Io(std::io::Error::new(
+        std::io::ErrorKind::TimedOut,
+        "no answer in time",
+    ))
 }
 
 /// IPv4 first, as the servers of ROS 1 use it.
 fn addresses(place: &Place) -> Result<Vec<SocketAddr>> {
     let found = (place.host.as_str(), place.port).to_socket_addrs();
-    let mut found: Vec<SocketAddr> = found.map_err(|error| Error::Host(place.host.clone(), error))?.collect();
+    let mut found: Vec<SocketAddr> = found
+        .map_err(|error| Error::Host(place.host.clone(), error))?
+        .collect();
     found.sort_by_key(SocketAddr::is_ipv6);
     Ok(found)
 }
@@ -105,11 +123,31 @@ mod tests {
 
     #[test]
     fn addresses_are_read() {
-        let place = |host: &str, port| Place { host: host.into(), port };
-        assert_eq!(Place::parse("http://localhost:11311", "http").expect("a place"), place("localhost", 11311));
-        assert_eq!(Place::parse("http://10.0.0.1:80/", "http").expect("a place"), place("10.0.0.1", 80));
-        assert_eq!(Place::parse("rosrpc://a-b:1", "rosrpc").expect("a place"), place("a-b", 1));
-        for bad in ["", "http://x", "https://x:1", "http://x:99999", "http://:1", "http://a b:1", "http://x:1\r\n"] {
+        let place = |host: &str, port| Place {
+            host: host.into(),
+            port,
+        };
+        assert_eq!(
+            Place::parse("http://localhost:11311", "http").expect("a place"),
+            place("localhost", 11311)
+        );
+        assert_eq!(
+            Place::parse("http://10.0.0.1:80/", "http").expect("a place"),
+            place("10.0.0.1", 80)
+        );
+        assert_eq!(
+            Place::parse("rosrpc://a-b:1", "rosrpc").expect("a place"),
+            place("a-b", 1)
+        );
+        for bad in [
+            "",
+            "http://x",
+            "https://x:1",
+            "http://x:99999",
+            "http://:1",
+            "http://a b:1",
+            "http://x:1\r\n",
+        ] {
             assert!(Place::parse(bad, "http").is_err(), "{bad}");
         }
     }
@@ -117,9 +155,15 @@ mod tests {
     #[test]
     fn nothing_outside_of_this_machine_is_reached_unless_allowed() {
         // An address that no machine has.
-        let place = Place { host: "192.0.2.1".into(), port: 11311 };
+        let place = Place {
+            host: "192.0.2.1".into(),
+            port: 11311,
+        };
         let deadline = Deadline::after(Duration::from_millis(50));
-        assert!(matches!(Network::Loopback.connect(&place, deadline), Err(Error::Outside(_))));
+        assert!(matches!(
+            Network::Loopback.connect(&place, deadline),
+            Err(Error::Outside(_))
+        ));
         assert!(is_of_this_machine(IpAddr::V4(Ipv4Addr::new(127, 0, 1, 1))));
     }
 }

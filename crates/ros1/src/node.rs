@@ -61,19 +61,39 @@ impl Node {
     pub fn new(settings: &NodeSettings) -> Result<Self> {
         let place = Place::new(&settings.namespace, &settings.name)?;
         let master = Master::new(&settings.master, settings.network, &place.node)?;
-        let host = settings.network.own_host(master.place()).map_err(|error| no_master(&master, &error))?;
+        let host = settings
+            .network
+            .own_host(master.place())
+            .map_err(|error| no_master(&master, &error))?;
         // Before anything is bound: without a master there is no node.
         master.call("getPid", &[])?;
         let network = settings.network;
         let (ports, has_no_master) = (OnceLock::new(), AtomicBool::new(false));
-        let shared = Arc::new(Shared { network, master, host, ports, has_no_master, state: Mutex::default() });
+        let shared = Arc::new(Shared {
+            network,
+            master,
+            host,
+            ports,
+            has_no_master,
+            state: Mutex::default(),
+        });
         let (api, messages) = (Arc::downgrade(&shared), Arc::downgrade(&shared));
         let servers = [
-            Server::start(network.listen()?, "ROS API", move |stream| serve_api(&api, stream))?,
-            Server::start(network.listen()?, "ROS messages", move |stream| serve_messages(&messages, stream))?,
+            Server::start(network.listen()?, "ROS API", move |stream| {
+                serve_api(&api, stream)
+            })?,
+            Server::start(network.listen()?, "ROS messages", move |stream| {
+                serve_messages(&messages, stream)
+            })?,
         ];
-        shared.ports.get_or_init(|| [servers[0].port(), servers[1].port()]);
-        Ok(Self { shared, place, _servers: servers })
+        shared
+            .ports
+            .get_or_init(|| [servers[0].port(), servers[1].port()]);
+        Ok(Self {
+            shared,
+            place,
+            _servers: servers,
+        })
     }
 
     /// Its name, with the namespace.
@@ -97,17 +117,30 @@ impl Node {
         let name = self.place.resolve(topic)?;
         if let Some(known) = self.shared.topic(&name) {
             if known.message_type.md5 != message_type.md5 {
-                let problem = format!("topic {name} is published with type {} already", known.message_type.name);
+                let problem = format!(
+                    "topic {name} is published with type {} already",
+                    known.message_type.name
+                );
                 return Err(Error::Peer(problem));
             }
             known.widen(queue_size, is_latched);
             return Ok(Publisher::new(known));
         }
-        let topic = Arc::new(Topic::new(name.clone(), message_type.clone(), self.shared.clone()));
+        let topic = Arc::new(Topic::new(
+            name.clone(),
+            message_type.clone(),
+            self.shared.clone(),
+        ));
         topic.widen(queue_size, is_latched);
-        self.shared.state().topics.insert(name.clone(), Arc::downgrade(&topic));
+        self.shared
+            .state()
+            .topics
+            .insert(name.clone(), Arc::downgrade(&topic));
         let publisher = Publisher::new(topic);
-        self.shared.master.call("registerPublisher", &[&name, &message_type.name, &self.shared.api_uri()])?;
+        self.shared.master.call(
+            "registerPublisher",
+            &[&name, &message_type.name, &self.shared.api_uri()],
+        )?;
         Ok(publisher)
     }
 
@@ -115,14 +148,32 @@ impl Node {
     ///
     /// # Errors
     /// When the name is none, or the master cannot be asked.
-    pub fn subscribe(&self, topic: &str, message_type: &MessageType, queue_size: usize) -> Result<Subscriber> {
+    pub fn subscribe(
+        &self,
+        topic: &str,
+        message_type: &MessageType,
+        queue_size: usize,
+    ) -> Result<Subscriber> {
         let name = self.place.resolve(topic)?;
-        let subscriber = Subscriber::new(&self.shared, name.clone(), message_type.clone(), queue_size);
-        self.shared.state().subscriptions.push(subscriber.subscription.clone());
+        let subscriber =
+            Subscriber::new(&self.shared, name.clone(), message_type.clone(), queue_size);
+        self.shared
+            .state()
+            .subscriptions
+            .push(subscriber.subscription.clone());
         let arguments = [&name, &message_type.name, &self.shared.api_uri()];
-        let publishers = self.shared.master.call("registerSubscriber", &arguments.map(String::as_str))?;
-        let publishers = publishers.as_array().unwrap_or_default().iter().filter_map(Parameter::as_text);
-        subscriber.subscription.update(&publishers.map(String::from).collect::<Vec<_>>());
+        let publishers = self
+            .shared
+            .master
+            .call("registerSubscriber", &arguments.map(String::as_str))?;
+        let publishers = publishers
+            .as_array()
+            .unwrap_or_default()
+            .iter()
+            .filter_map(Parameter::as_text);
+        subscriber
+            .subscription
+            .update(&publishers.map(String::from).collect::<Vec<_>>());
         Ok(subscriber)
     }
 
@@ -136,9 +187,14 @@ impl Node {
             return Err(Error::Peer(format!("service {name} is offered already")));
         }
         let server = ServiceServer::new(&self.shared, name.clone(), service_type.clone());
-        self.shared.state().services.insert(name.clone(), Arc::downgrade(server.service()));
+        self.shared
+            .state()
+            .services
+            .insert(name.clone(), Arc::downgrade(server.service()));
         let uri = format!("rosrpc://{}:{}", self.shared.host, self.shared.ports()[1]);
-        self.shared.master.call("registerService", &[&name, &uri, &self.shared.api_uri()])?;
+        self.shared
+            .master
+            .call("registerService", &[&name, &uri, &self.shared.api_uri()])?;
         Ok(server)
     }
 
@@ -146,8 +202,18 @@ impl Node {
     ///
     /// # Errors
     /// When the name is none, or the system has no thread.
-    pub fn call(&self, service: &str, service_type: &ServiceType, request: Vec<u8>) -> Result<Call> {
-        Call::start(&self.shared, &self.place.resolve(service)?, service_type, request)
+    pub fn call(
+        &self,
+        service: &str,
+        service_type: &ServiceType,
+        request: Vec<u8>,
+    ) -> Result<Call> {
+        Call::start(
+            &self.shared,
+            &self.place.resolve(service)?,
+            service_type,
+            request,
+        )
     }
 
     /// The value of a parameter. None if there is none.
@@ -155,7 +221,11 @@ impl Node {
     /// # Errors
     /// When the name is none, or the master cannot be asked.
     pub fn parameter(&self, name: &str) -> Result<Option<Parameter>> {
-        match self.shared.master.call("getParam", &[&self.place.resolve(name)?]) {
+        match self
+            .shared
+            .master
+            .call("getParam", &[&self.place.resolve(name)?])
+        {
             Ok(value) => Ok(Some(value)),
             Err(Error::Refused { .. }) => Ok(None),
             Err(error) => Err(error),
@@ -168,7 +238,10 @@ impl Node {
     /// When the name is none, or the master cannot be asked.
     pub fn set_parameter(&self, name: &str, value: Parameter) -> Result<()> {
         let name = Parameter::String(self.place.resolve(name)?);
-        self.shared.master.call_with("setParam", vec![name, value]).map(drop)
+        self.shared
+            .master
+            .call_with("setParam", vec![name, value])
+            .map(drop)
     }
 
     /// Whether there is a parameter.
@@ -176,7 +249,11 @@ impl Node {
     /// # Errors
     /// When the name is none, or the master cannot be asked.
     pub fn has_parameter(&self, name: &str) -> Result<bool> {
-        Ok(self.shared.master.call("hasParam", &[&self.place.resolve(name)?])? == Parameter::Bool(true))
+        Ok(self
+            .shared
+            .master
+            .call("hasParam", &[&self.place.resolve(name)?])?
+            == Parameter::Bool(true))
     }
 
     /// Removes a parameter.
@@ -184,7 +261,10 @@ impl Node {
     /// # Errors
     /// When there is none, the name is none, or the master cannot be asked.
     pub fn delete_parameter(&self, name: &str) -> Result<()> {
-        self.shared.master.call("deleteParam", &[&self.place.resolve(name)?]).map(drop)
+        self.shared
+            .master
+            .call("deleteParam", &[&self.place.resolve(name)?])
+            .map(drop)
     }
 
     /// The full name of a parameter in the namespace of the node, or in one that contains it. None if there is none.
@@ -201,13 +281,19 @@ impl Node {
 }
 
 fn no_master(master: &Master, error: &Error) -> Error {
-    Error::Master { uri: master.uri.clone(), problem: error.to_string() }
+    Error::Master {
+        uri: master.uri.clone(),
+        problem: error.to_string(),
+    }
 }
 
 /// What is not understood ends the connection, which is what the other side needs to know.
 fn serve_api(node: &Weak<Shared>, mut stream: TcpStream) {
     let no_node = || crate::xmlrpc::fault_text(1, "the node has ended");
-    let _ = http::serve(&mut stream, |body| node.upgrade().map_or_else(no_node, |node| slave::answer(&node, body)));
+    let _ = http::serve(&mut stream, |body| {
+        node.upgrade()
+            .map_or_else(no_node, |node| slave::answer(&node, body))
+    });
 }
 
 fn serve_messages(node: &Weak<Shared>, stream: TcpStream) {
@@ -217,7 +303,9 @@ fn serve_messages(node: &Weak<Shared>, stream: TcpStream) {
 fn serve_connection(node: &Weak<Shared>, mut stream: TcpStream) -> Result<()> {
     stream.set_read_timeout(Some(limits::SILENCE_TIMEOUT))?;
     let head = read_head(&mut stream)?;
-    let Some(node) = node.upgrade() else { return Ok(()) };
+    let Some(node) = node.upgrade() else {
+        return Ok(());
+    };
     let caller = node.master.caller.clone();
     let (service, topic) = (field(&head, "service"), field(&head, "topic"));
     match (node.service(service), node.topic(topic)) {
@@ -231,7 +319,10 @@ fn serve_connection(node: &Weak<Shared>, mut stream: TcpStream) -> Result<()> {
         }
         (None, None) => {
             let what = if service.is_empty() { topic } else { service };
-            write_head(&mut stream, &[("error", &format!("there is no {what} at this node"))])
+            write_head(
+                &mut stream,
+                &[("error", &format!("there is no {what} at this node"))],
+            )
         }
     }
 }
@@ -263,30 +354,51 @@ impl Shared {
 
     pub(crate) fn publications(&self) -> Vec<(String, String)> {
         let topics = self.all_topics();
-        topics.iter().map(|topic| (topic.name.clone(), topic.message_type.name.clone())).collect()
+        topics
+            .iter()
+            .map(|topic| (topic.name.clone(), topic.message_type.name.clone()))
+            .collect()
     }
 
     pub(crate) fn subscriptions(&self) -> Vec<(String, String)> {
         let subscriptions = self.all_subscriptions();
-        subscriptions.iter().map(|one| (one.topic.clone(), one.message_type.name.clone())).collect()
+        subscriptions
+            .iter()
+            .map(|one| (one.topic.clone(), one.message_type.name.clone()))
+            .collect()
     }
 
     /// The other side, the direction and the topic of each connection.
     pub(crate) fn connections(&self) -> Vec<(String, &'static str, String)> {
         let out = |topic: &Arc<Topic>| {
             let name = topic.name.clone();
-            topic.callers().into_iter().map(move |caller| (caller, "o", name.clone())).collect::<Vec<_>>()
+            topic
+                .callers()
+                .into_iter()
+                .map(move |caller| (caller, "o", name.clone()))
+                .collect::<Vec<_>>()
         };
         let inward = |one: &Arc<Subscription>| {
             let name = one.topic.clone();
-            one.publishers().into_iter().map(move |uri| (uri, "i", name.clone())).collect::<Vec<_>>()
+            one.publishers()
+                .into_iter()
+                .map(move |uri| (uri, "i", name.clone()))
+                .collect::<Vec<_>>()
         };
         let (topics, subscriptions) = (self.all_topics(), self.all_subscriptions());
-        topics.iter().flat_map(out).chain(subscriptions.iter().flat_map(inward)).collect()
+        topics
+            .iter()
+            .flat_map(out)
+            .chain(subscriptions.iter().flat_map(inward))
+            .collect()
     }
 
     fn all_topics(&self) -> Vec<Arc<Topic>> {
-        self.state().topics.values().filter_map(Weak::upgrade).collect()
+        self.state()
+            .topics
+            .values()
+            .filter_map(Weak::upgrade)
+            .collect()
     }
 
     fn all_subscriptions(&self) -> Vec<Arc<Subscription>> {
@@ -295,7 +407,10 @@ impl Shared {
 
     pub(crate) fn update_publishers(&self, topic: &str, publishers: &[String]) {
         let subscriptions = self.all_subscriptions();
-        subscriptions.iter().filter(|one| one.topic == topic).for_each(|one| one.update(publishers));
+        subscriptions
+            .iter()
+            .filter(|one| one.topic == topic)
+            .for_each(|one| one.update(publishers));
     }
 
     /// Tells the master of an end. One that cannot be reached needs not know.
@@ -310,7 +425,10 @@ impl Shared {
     /// A topic has no publisher any more, unless there is a new one.
     pub(crate) fn forget_topic(&self, name: &str) {
         let mut state = self.state();
-        let is_gone = state.topics.get(name).is_some_and(|topic| topic.strong_count() == 0);
+        let is_gone = state
+            .topics
+            .get(name)
+            .is_some_and(|topic| topic.strong_count() == 0);
         if is_gone {
             state.topics.remove(name);
             drop(state);
@@ -322,7 +440,10 @@ impl Shared {
     pub(crate) fn forget_subscription(&self, ended: &Arc<Subscription>) {
         let mut state = self.state();
         state.subscriptions.retain(|one| !Arc::ptr_eq(one, ended));
-        let is_read = state.subscriptions.iter().any(|one| one.topic == ended.topic);
+        let is_read = state
+            .subscriptions
+            .iter()
+            .any(|one| one.topic == ended.topic);
         drop(state);
         if !is_read {
             self.unregister("unregisterSubscriber", &ended.topic, &self.api_uri());

@@ -51,7 +51,10 @@ impl Publisher {
     pub fn publish(&self, message: Vec<u8>) {
         let message: Message = message.into();
         let mut state = self.topic.state();
-        state.subscribers.iter().for_each(|subscriber| subscriber.queue.push(message.clone()));
+        state
+            .subscribers
+            .iter()
+            .for_each(|subscriber| subscriber.queue.push(message.clone()));
         if state.is_latched {
             state.last = Some(message);
         }
@@ -72,8 +75,18 @@ impl Publisher {
 
 impl Topic {
     pub(crate) fn new(name: String, message_type: MessageType, node: Arc<Shared>) -> Self {
-        let state = State { queue_size: 1, is_latched: false, last: None, subscribers: Vec::new() };
-        Self { name, message_type, node, state: Mutex::new(state) }
+        let state = State {
+            queue_size: 1,
+            is_latched: false,
+            last: None,
+            subscribers: Vec::new(),
+        };
+        Self {
+            name,
+            message_type,
+            node,
+            state: Mutex::new(state),
+        }
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -83,15 +96,26 @@ impl Topic {
     /// Another publisher of it.
     pub(crate) fn widen(&self, queue_size: usize, is_latched: bool) {
         let mut state = self.state();
-        let all = if queue_size == 0 { limits::QUEUE } else { queue_size };
+        let all = if queue_size == 0 {
+            limits::QUEUE
+        } else {
+            queue_size
+        };
         state.queue_size = state.queue_size.max(all);
         state.is_latched |= is_latched;
-        state.subscribers.iter().for_each(|subscriber| subscriber.queue.widen(all));
+        state
+            .subscribers
+            .iter()
+            .for_each(|subscriber| subscriber.queue.widen(all));
     }
 
     /// The names of those that are connected.
     pub(crate) fn callers(&self) -> Vec<String> {
-        self.state().subscribers.iter().map(|subscriber| subscriber.caller.clone()).collect()
+        self.state()
+            .subscribers
+            .iter()
+            .map(|subscriber| subscriber.caller.clone())
+            .collect()
     }
 
     /// Why a subscriber does not fit, if it does not.
@@ -99,11 +123,21 @@ impl Topic {
         let (md5, name) = (field(head, "md5sum"), field(head, "type"));
         let own = &self.message_type;
         let fits = md5.is_empty() || md5 == "*" || md5 == own.md5;
-        (!fits).then(|| format!("topic {} has type {} ({}), not {name} ({md5})", self.name, own.name, own.md5))
+        (!fits).then(|| {
+            format!(
+                "topic {} has type {} ({}), not {name} ({md5})",
+                self.name, own.name, own.md5
+            )
+        })
     }
 
     /// Sends messages until the connection or the topic ends.
-    pub(crate) fn serve(self: Arc<Self>, mut stream: Connection, head: &Head, caller: &str) -> Result<()> {
+    pub(crate) fn serve(
+        self: Arc<Self>,
+        mut stream: Connection,
+        head: &Head,
+        caller: &str,
+    ) -> Result<()> {
         if let Some(problem) = self.problem(head) {
             return write_head(&mut stream, &[("error", &problem)]);
         }
@@ -124,7 +158,10 @@ impl Topic {
         drop(self);
         let sent = send(&mut stream, &queue);
         if let Some(topic) = topic.upgrade() {
-            topic.state().subscribers.retain(|subscriber| !Arc::ptr_eq(&subscriber.queue, &queue));
+            topic
+                .state()
+                .subscribers
+                .retain(|subscriber| !Arc::ptr_eq(&subscriber.queue, &queue));
         }
         sent
     }
@@ -135,7 +172,11 @@ impl Topic {
         if let Some(last) = &state.last {
             queue.push(last.clone());
         }
-        let subscriber = Subscriber { queue: queue.clone(), stream: stream.try_clone()?, caller: caller.to_string() };
+        let subscriber = Subscriber {
+            queue: queue.clone(),
+            stream: stream.try_clone()?,
+            caller: caller.to_string(),
+        };
         state.subscribers.push(subscriber);
         Ok(queue)
     }
@@ -157,7 +198,10 @@ fn send(stream: &mut TcpStream, queue: &Inbox<Message>) -> Result<()> {
 fn has_ended(stream: &TcpStream) -> bool {
     match stream.peek(&mut [0]) {
         Ok(count) => count == 0,
-        Err(error) => !matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut | ErrorKind::Interrupted),
+        Err(error) => !matches!(
+            error.kind(),
+            ErrorKind::WouldBlock | ErrorKind::TimedOut | ErrorKind::Interrupted
+        ),
     }
 }
 

@@ -52,8 +52,16 @@ impl Request {
 impl ServiceServer {
     pub(crate) fn new(node: &Arc<Shared>, name: String, service_type: ServiceType) -> Self {
         let (sender, requests) = mpsc::sync_channel(limits::REQUESTS);
-        let service = Arc::new(Service { name, service_type, requests: sender });
-        Self { service, requests, node: node.clone() }
+        let service = Arc::new(Service {
+            name,
+            service_type,
+            requests: sender,
+        });
+        Self {
+            service,
+            requests,
+            node: node.clone(),
+        }
     }
 
     pub(crate) fn service(&self) -> &Arc<Service> {
@@ -78,10 +86,16 @@ impl Service {
     pub(crate) fn serve(&self, mut stream: Connection, head: &Head, caller: &str) -> Result<()> {
         let (md5, own) = (field(head, "md5sum"), &self.service_type);
         if !(md5.is_empty() || md5 == "*" || md5 == own.md5) {
-            let problem = format!("service {} has type {} ({}), not {md5}", self.name, own.name, own.md5);
+            let problem = format!(
+                "service {} has type {} ({}), not {md5}",
+                self.name, own.name, own.md5
+            );
             return write_head(&mut stream, &[("error", &problem)]);
         }
-        let (request, response) = (format!("{}Request", own.name), format!("{}Response", own.name));
+        let (request, response) = (
+            format!("{}Request", own.name),
+            format!("{}Response", own.name),
+        );
         let fields = [
             ("callerid", caller),
             ("type", &own.name),
@@ -105,8 +119,12 @@ impl Service {
     /// Waits for the answer of the service's owner.
     fn ask(&self, bytes: Vec<u8>) -> std::result::Result<Vec<u8>, String> {
         let (answer, answered) = mpsc::channel();
-        self.requests.try_send(Request { bytes, answer }).map_err(|_| "the service has too much to do".to_string())?;
-        answered.recv().map_err(|_| "the service has ended".to_string())?
+        self.requests
+            .try_send(Request { bytes, answer })
+            .map_err(|_| "the service has too much to do".to_string())?;
+        answered
+            .recv()
+            .map_err(|_| "the service has ended".to_string())?
     }
 }
 
@@ -118,15 +136,27 @@ pub struct Call {
 
 impl Call {
     /// Asks the service at the place that the master has said.
-    pub(crate) fn start(node: &Arc<Shared>, name: &str, service_type: &ServiceType, request: Vec<u8>) -> Result<Self> {
+    pub(crate) fn start(
+        node: &Arc<Shared>,
+        name: &str,
+        service_type: &ServiceType,
+        request: Vec<u8>,
+    ) -> Result<Self> {
         let (sender, answer) = mpsc::channel();
         let stream = Arc::new(Mutex::new(None));
-        let (theirs, node, name, service_type) = (stream.clone(), node.clone(), name.to_string(), service_type.clone());
-        thread::Builder::new().name(format!("ROS {name}")).spawn(move || {
-            let answer = perform(&node, &name, &service_type, &request, &theirs);
-            // If the caller has closed the connection, there is nobody to answer.
-            let _ = sender.send(answer);
-        })?;
+        let (theirs, node, name, service_type) = (
+            stream.clone(),
+            node.clone(),
+            name.to_string(),
+            service_type.clone(),
+        );
+        thread::Builder::new()
+            .name(format!("ROS {name}"))
+            .spawn(move || {
+                let answer = perform(&node, &name, &service_type, &request, &theirs);
+                // If the caller has closed the connection, there is nobody to answer.
+                let _ = sender.send(answer);
+            })?;
         Ok(Self { answer, stream })
     }
 
@@ -143,7 +173,12 @@ impl Call {
 
 impl Drop for Call {
     fn drop(&mut self) {
-        if let Some(stream) = self.stream.lock().unwrap_or_else(PoisonError::into_inner).take() {
+        if let Some(stream) = self
+            .stream
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .take()
+        {
             // Shutting down fails only if the connection is closed already.
             let _ = stream.shutdown(Shutdown::Both);
         }
@@ -162,11 +197,18 @@ fn perform(
         other => other?,
     };
     let place = Place::parse(uri.as_text().unwrap_or_default(), "rosrpc")?;
-    let mut stream = node.network.connect(&place, Deadline::after(limits::TIMEOUT))?;
+    let mut stream = node
+        .network
+        .connect(&place, Deadline::after(limits::TIMEOUT))?;
     *shared.lock().unwrap_or_else(PoisonError::into_inner) = Some(stream.try_clone()?);
     stream.set_read_timeout(Some(limits::TIMEOUT))?;
     let caller = node.master.caller.as_str();
-    let fields = [("callerid", caller), ("service", name), ("md5sum", &service_type.md5), ("type", &service_type.name)];
+    let fields = [
+        ("callerid", caller),
+        ("service", name),
+        ("md5sum", &service_type.md5),
+        ("type", &service_type.name),
+    ];
     write_head(&mut stream, &fields)?;
     let head = read_head(&mut stream)?;
     if let Some(problem) = head.get("error") {
@@ -177,6 +219,11 @@ fn perform(
     stream.set_read_timeout(None)?;
     let mut ok = [0];
     std::io::Read::read_exact(&mut stream, &mut ok)?;
-    let answer = read_frame(&mut stream, limits::MESSAGE)?.ok_or_else(|| Error::protocol("half an answer"))?;
-    if ok == [1] { Ok(answer) } else { Err(Error::Peer(String::from_utf8_lossy(&answer).into_owned())) }
+    let answer = read_frame(&mut stream, limits::MESSAGE)?
+        .ok_or_else(|| Error::protocol("half an answer"))?;
+    if ok == [1] {
+        Ok(answer)
+    } else {
+        Err(Error::Peer(String::from_utf8_lossy(&answer).into_owned()))
+    }
 }

@@ -9,7 +9,10 @@ pub(crate) fn answer(node: &Shared, body: &[u8]) -> String {
     match read_call(body) {
         Err(error) => fault_text(1, &error.to_string()),
         Ok((method, arguments)) => match perform(node, &method, &arguments) {
-            None => fault_text(2, &format!("there is no method {method} with these arguments")),
+            None => fault_text(
+                2,
+                &format!("there is no method {method} with these arguments"),
+            ),
             Some(Ok(value)) => response_text(&status(1, "", value)),
             Some(Err(reason)) => response_text(&status(0, &reason, Parameter::Int(0))),
         },
@@ -17,14 +20,23 @@ pub(crate) fn answer(node: &Shared, body: &[u8]) -> String {
 }
 
 fn status(status: i32, explanation: &str, value: Parameter) -> Parameter {
-    Parameter::Array(vec![Parameter::Int(status), Parameter::text(explanation), value])
+    Parameter::Array(vec![
+        Parameter::Int(status),
+        Parameter::text(explanation),
+        value,
+    ])
 }
 
 /// None for what is not understood.
-fn perform(node: &Shared, method: &str, arguments: &[Parameter]) -> Option<Result<Parameter, String>> {
+fn perform(
+    node: &Shared,
+    method: &str,
+    arguments: &[Parameter],
+) -> Option<Result<Parameter, String>> {
     let topics = |topics: Vec<(String, String)>| {
-        let pair =
-            |(name, kind): (String, String)| Parameter::Array(vec![Parameter::String(name), Parameter::String(kind)]);
+        let pair = |(name, kind): (String, String)| {
+            Parameter::Array(vec![Parameter::String(name), Parameter::String(kind)])
+        };
         Parameter::Array(topics.into_iter().map(pair).collect())
     };
     let nothing = || Parameter::Array(Vec::new());
@@ -37,14 +49,20 @@ fn perform(node: &Shared, method: &str, arguments: &[Parameter]) -> Option<Resul
         ("getBusStats", _) => Parameter::Array(vec![nothing(), nothing(), nothing()]),
         ("paramUpdate", [_, _, _]) => Parameter::Int(0),
         ("publisherUpdate", [_, Parameter::String(topic), Parameter::Array(publishers)]) => {
-            let publishers = publishers.iter().filter_map(|uri| uri.as_text().map(String::from));
+            let publishers = publishers
+                .iter()
+                .filter_map(|uri| uri.as_text().map(String::from));
             node.update_publishers(topic, &publishers.collect::<Vec<_>>());
             Parameter::Int(0)
         }
         ("requestTopic", [_, Parameter::String(topic), Parameter::Array(protocols)]) => {
             return Some(request_topic(node, topic, protocols));
         }
-        ("shutdown", _) => return Some(Err("a simulator does not end on request of other nodes".into())),
+        ("shutdown", _) => {
+            return Some(Err(
+                "a simulator does not end on request of other nodes".into()
+            ));
+        }
         _ => return None,
     }))
 }
@@ -61,7 +79,11 @@ fn request_topic(node: &Shared, topic: &str, protocols: &[Parameter]) -> Result<
         return Err("only TCPROS is supported".into());
     }
     let (host, port) = node.tcpros_place();
-    Ok(Parameter::Array(vec![Parameter::text("TCPROS"), Parameter::text(host), Parameter::Int(port.into())]))
+    Ok(Parameter::Array(vec![
+        Parameter::text("TCPROS"),
+        Parameter::text(host),
+        Parameter::Int(port.into()),
+    ]))
 }
 
 /// The connections: number, the other side, direction, protocol, topic, whether it is connected.

@@ -45,7 +45,12 @@ struct LinkState {
 }
 
 impl Subscriber {
-    pub(crate) fn new(node: &Arc<Shared>, topic: String, message_type: MessageType, queue_size: usize) -> Self {
+    pub(crate) fn new(
+        node: &Arc<Shared>,
+        topic: String,
+        message_type: MessageType,
+        queue_size: usize,
+    ) -> Self {
         let subscription = Subscription {
             topic,
             message_type,
@@ -54,7 +59,10 @@ impl Subscriber {
             inbox: Inbox::new(queue_size),
             links: Mutex::default(),
         };
-        Self { subscription: Arc::new(subscription), node: node.clone() }
+        Self {
+            subscription: Arc::new(subscription),
+            node: node.clone(),
+        }
     }
 
     /// The oldest message that waits.
@@ -131,11 +139,16 @@ impl Subscription {
                 Ok(()) => true,
                 Err(Error::Io(_)) => false,
                 Err(error) => {
-                    self.inbox.note_problem(format!("publisher {uri} of {}: {error}", self.topic));
+                    self.inbox
+                        .note_problem(format!("publisher {uri} of {}: {error}", self.topic));
                     false
                 }
             };
-            delay = if was_connected { limits::RETRY_DELAY[0] } else { (delay * 2).min(longest) };
+            delay = if was_connected {
+                limits::RETRY_DELAY[0]
+            } else {
+                (delay * 2).min(longest)
+            };
             if link.wait(delay) {
                 return;
             }
@@ -145,7 +158,9 @@ impl Subscription {
     /// Connects and reads until the connection ends.
     fn read_once(&self, uri: &str, link: &Link) -> Result<()> {
         let place = self.request(uri)?;
-        let mut stream = self.network.connect(&place, Deadline::after(limits::TIMEOUT))?;
+        let mut stream = self
+            .network
+            .connect(&place, Deadline::after(limits::TIMEOUT))?;
         link.set_stream(&stream)?;
         stream.set_read_timeout(Some(limits::TIMEOUT))?;
         let own = &self.message_type;
@@ -182,16 +197,27 @@ impl Subscription {
     /// Asks the publisher's node where the topic is served.
     fn request(&self, uri: &str) -> Result<Place> {
         let protocols = Parameter::Array(vec![Parameter::Array(vec![Parameter::text("TCPROS")])]);
-        let arguments = [Parameter::text(&self.caller), Parameter::text(&self.topic), protocols];
+        let arguments = [
+            Parameter::text(&self.caller),
+            Parameter::text(&self.topic),
+            protocols,
+        ];
         let node = Place::parse(uri, "http")?;
-        let answer = http::post(self.network, &node, &call_text("requestTopic", &arguments), limits::TIMEOUT)?;
+        let answer = http::post(
+            self.network,
+            &node,
+            &call_text("requestTopic", &arguments),
+            limits::TIMEOUT,
+        )?;
         let value = value_of(read_response(&answer)?).map_err(Error::Peer)?;
         match value.as_array() {
-            Some([Parameter::String(protocol), Parameter::String(host), Parameter::Int(port)])
-                if protocol == "TCPROS" =>
-            {
-                Place::parse(&format!("rosrpc://{host}:{port}"), "rosrpc")
-            }
+            Some(
+                [
+                    Parameter::String(protocol),
+                    Parameter::String(host),
+                    Parameter::Int(port),
+                ],
+            ) if protocol == "TCPROS" => Place::parse(&format!("rosrpc://{host}:{port}"), "rosrpc"),
             _ => Err(Error::protocol("no address of the topic")),
         }
     }
@@ -224,7 +250,9 @@ impl Link {
 
     /// Whether it has ended, after that time at the latest.
     fn wait(&self, timeout: Duration) -> bool {
-        let waited = self.ended.wait_timeout_while(self.state(), timeout, |state| !state.has_ended);
+        let waited = self
+            .ended
+            .wait_timeout_while(self.state(), timeout, |state| !state.has_ended);
         waited.unwrap_or_else(PoisonError::into_inner).0.has_ended
     }
 }

@@ -29,38 +29,68 @@ impl Master {
         let theirs = graph.clone();
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");
         let serve = move |mut stream| drop(http::serve(&mut stream, |body| answer(&theirs, body)));
-        Self { server: Server::start(listener, "master", serve).expect("a thread"), graph }
+        Self {
+            server: Server::start(listener, "master", serve).expect("a thread"),
+            graph,
+        }
     }
 
     fn node(&self, name: &str) -> Node {
         let master = format!("http://127.0.0.1:{}", self.server.port());
-        let settings = NodeSettings { master, network: Network::Loopback, namespace: String::new(), name: name.into() };
+        let settings = NodeSettings {
+            master,
+            network: Network::Loopback,
+            namespace: String::new(),
+            name: name.into(),
+        };
         Node::new(&settings).expect("a node")
     }
 
     fn publishers(&self, topic: &str) -> usize {
-        self.graph.lock().expect("no panic").publishers.get(topic).map_or(0, Vec::len)
+        self.graph
+            .lock()
+            .expect("no panic")
+            .publishers
+            .get(topic)
+            .map_or(0, Vec::len)
     }
 }
 
 fn answer(graph: &Mutex<Graph>, body: &[u8]) -> String {
     let (method, arguments) = read_call(body).expect("a call");
-    let texts: Vec<&str> = arguments.iter().map(|value| value.as_text().unwrap_or_default()).collect();
+    let texts: Vec<&str> = arguments
+        .iter()
+        .map(|value| value.as_text().unwrap_or_default())
+        .collect();
     let mut graph = graph.lock().expect("no panic");
     let refuse = || Err("no".to_string());
     let result = match (method.as_str(), &texts[1..]) {
         ("registerPublisher", [topic, _, api]) => {
-            graph.publishers.entry(topic.to_string()).or_default().push(api.to_string());
+            graph
+                .publishers
+                .entry(topic.to_string())
+                .or_default()
+                .push(api.to_string());
             update(&graph, topic);
             Ok(Parameter::Array(Vec::new()))
         }
         ("registerSubscriber", [topic, _, api]) => {
-            graph.subscribers.entry(topic.to_string()).or_default().push(api.to_string());
+            graph
+                .subscribers
+                .entry(topic.to_string())
+                .or_default()
+                .push(api.to_string());
             let publishers = graph.publishers.get(*topic).cloned().unwrap_or_default();
-            Ok(Parameter::Array(publishers.into_iter().map(Parameter::String).collect()))
+            Ok(Parameter::Array(
+                publishers.into_iter().map(Parameter::String).collect(),
+            ))
         }
         ("unregisterPublisher", [topic, api]) => {
-            graph.publishers.entry(topic.to_string()).or_default().retain(|known| known != api);
+            graph
+                .publishers
+                .entry(topic.to_string())
+                .or_default()
+                .retain(|known| known != api);
             update(&graph, topic);
             Ok(Parameter::Int(1))
         }
@@ -68,10 +98,19 @@ fn answer(graph: &Mutex<Graph>, body: &[u8]) -> String {
             graph.services.insert(name.to_string(), uri.to_string());
             Ok(Parameter::Int(1))
         }
-        ("unregisterService", [name, _]) => Ok(Parameter::Int(graph.services.remove(*name).is_some().into())),
-        ("lookupService", [name]) => graph.services.get(*name).cloned().map(Parameter::String).ok_or("no".to_string()),
+        ("unregisterService", [name, _]) => Ok(Parameter::Int(
+            graph.services.remove(*name).is_some().into(),
+        )),
+        ("lookupService", [name]) => graph
+            .services
+            .get(*name)
+            .cloned()
+            .map(Parameter::String)
+            .ok_or("no".to_string()),
         ("setParam", [name, _]) => {
-            graph.parameters.insert(name.to_string(), arguments[2].clone());
+            graph
+                .parameters
+                .insert(name.to_string(), arguments[2].clone());
             Ok(Parameter::Int(0))
         }
         ("getParam", [name]) => graph.parameters.get(*name).cloned().ok_or("no".to_string()),
@@ -82,19 +121,38 @@ fn answer(graph: &Mutex<Graph>, body: &[u8]) -> String {
         Ok(value) => (1, String::new(), value),
         Err(reason) => (-1, reason, Parameter::Int(0)),
     };
-    response_text(&Parameter::Array(vec![Parameter::Int(status), Parameter::String(explanation), value]))
+    response_text(&Parameter::Array(vec![
+        Parameter::Int(status),
+        Parameter::String(explanation),
+        value,
+    ]))
 }
 
 /// Tells subscribers, on a thread of its own, as the master does.
 fn update(graph: &Graph, topic: &str) {
-    let publishers =
-        graph.publishers.get(topic).cloned().unwrap_or_default().into_iter().map(Parameter::String).collect();
-    let arguments = [Parameter::text("/master"), Parameter::text(topic), Parameter::Array(publishers)];
+    let publishers = graph
+        .publishers
+        .get(topic)
+        .cloned()
+        .unwrap_or_default()
+        .into_iter()
+        .map(Parameter::String)
+        .collect();
+    let arguments = [
+        Parameter::text("/master"),
+        Parameter::text(topic),
+        Parameter::Array(publishers),
+    ];
     for api in graph.subscribers.get(topic).cloned().unwrap_or_default() {
         let text = call_text("publisherUpdate", &arguments);
         std::thread::spawn(move || {
             let place = Place::parse(&api, "http").expect("an address");
-            drop(http::post(Network::Loopback, &place, &text, Duration::from_secs(5)));
+            drop(http::post(
+                Network::Loopback,
+                &place,
+                &text,
+                Duration::from_secs(5),
+            ));
         });
     }
 }
@@ -120,16 +178,25 @@ fn text_type() -> MessageType {
 }
 
 fn service_type() -> ServiceType {
-    ServiceType { name: "std_srvs/Trigger".into(), md5: "937c9679a518e3a18d831e57125ea522".into() }
+    ServiceType {
+        name: "std_srvs/Trigger".into(),
+        md5: "937c9679a518e3a18d831e57125ea522".into(),
+    }
 }
 
 #[test]
 fn messages_go_from_node_to_node_whoever_is_first() {
     let master = Master::start();
     let (a, b) = (master.node("a"), master.node("b"));
-    let before = b.subscribe("chatter", &text_type(), 10).expect("a subscriber");
-    let publisher = a.publish("/chatter", &text_type(), 10, false).expect("a publisher");
-    let own = a.subscribe("/chatter", &text_type(), 10).expect("a subscriber of its own topic");
+    let before = b
+        .subscribe("chatter", &text_type(), 10)
+        .expect("a subscriber");
+    let publisher = a
+        .publish("/chatter", &text_type(), 10, false)
+        .expect("a publisher");
+    let own = a
+        .subscribe("/chatter", &text_type(), 10)
+        .expect("a subscriber of its own topic");
     until(|| (publisher.subscribers() == 2).then_some(()));
     publisher.publish(b"hello".to_vec());
     assert_eq!(until(|| before.take()), b"hello");
@@ -145,23 +212,40 @@ fn messages_go_from_node_to_node_whoever_is_first() {
 fn latched_topics_tell_the_last_message_and_other_types_are_a_problem() {
     let master = Master::start();
     let node = master.node("a");
-    let publisher = node.publish("/map", &text_type(), 1, true).expect("a publisher");
+    let publisher = node
+        .publish("/map", &text_type(), 1, true)
+        .expect("a publisher");
     (0..3).for_each(|n| publisher.publish(vec![n]));
-    let subscriber = node.subscribe("/map", &text_type(), 1).expect("a subscriber");
+    let subscriber = node
+        .subscribe("/map", &text_type(), 1)
+        .expect("a subscriber");
     assert_eq!(until(|| subscriber.take()), [2]);
-    let other = MessageType { md5: "0".repeat(32), ..text_type() };
-    assert!(matches!(node.publish("/map", &other, 1, true), Err(Error::Peer(_))));
+    let other = MessageType {
+        md5: "0".repeat(32),
+        ..text_type()
+    };
+    assert!(matches!(
+        node.publish("/map", &other, 1, true),
+        Err(Error::Peer(_))
+    ));
     let wrong = node.subscribe("/map", &other, 1).expect("a subscriber");
     let problem = until(|| wrong.problem());
-    assert!(problem.contains("topic /map has type std_msgs/String"), "{problem}");
+    assert!(
+        problem.contains("topic /map has type std_msgs/String"),
+        "{problem}"
+    );
 }
 
 #[test]
 fn a_publisher_waits_for_nobody_and_a_slow_subscriber_reads_the_newest() {
     let master = Master::start();
     let node = master.node("a");
-    let publisher = node.publish("/flood", &text_type(), 5, false).expect("a publisher");
-    let subscriber = node.subscribe("/flood", &text_type(), 3).expect("a subscriber");
+    let publisher = node
+        .publish("/flood", &text_type(), 5, false)
+        .expect("a publisher");
+    let subscriber = node
+        .subscribe("/flood", &text_type(), 3)
+        .expect("a subscriber");
     until(|| (publisher.subscribers() == 1).then_some(()));
     for n in 0..200_u8 {
         publisher.publish(vec![n; 1 << 18]);
@@ -176,7 +260,10 @@ fn services_answer_fail_and_end() {
     let (a, b) = (master.node("a"), master.node("b"));
     let server = a.offer("/do", &service_type()).expect("a service");
     assert!(a.offer("/do", &service_type()).is_err());
-    let ask = |request: &[u8]| b.call("/do", &service_type(), request.to_vec()).expect("a call");
+    let ask = |request: &[u8]| {
+        b.call("/do", &service_type(), request.to_vec())
+            .expect("a call")
+    };
     let call = ask(b"abc");
     let request = until(|| server.take());
     assert_eq!(request.bytes, b"abc");
@@ -184,19 +271,33 @@ fn services_answer_fail_and_end() {
     assert_eq!(until(|| call.poll()).expect("an answer"), b"def");
     let call = ask(b"");
     until(|| server.take()).answer(Err("not today".into()));
-    assert_eq!(until(|| call.poll()).expect_err("no answer").to_string(), "not today");
+    assert_eq!(
+        until(|| call.poll()).expect_err("no answer").to_string(),
+        "not today"
+    );
     let call = ask(b"");
     until(|| server.take()).answer(Err(String::new()));
     drop(call);
     let call = ask(b"");
     let waiting = until(|| server.take());
     drop((waiting, server));
-    assert_eq!(until(|| call.poll()).expect_err("no answer").to_string(), "the service has ended");
+    assert_eq!(
+        until(|| call.poll()).expect_err("no answer").to_string(),
+        "the service has ended"
+    );
     assert!(until(|| ask(b"").poll()).is_err());
-    let other = ServiceType { md5: "0".repeat(32), ..service_type() };
+    let other = ServiceType {
+        md5: "0".repeat(32),
+        ..service_type()
+    };
     let _again = a.offer("/do", &service_type()).expect("a service");
     let call = b.call("/do", &other, Vec::new()).expect("a call");
-    assert!(until(|| call.poll()).expect_err("another type").to_string().contains("has type std_srvs/Trigger"));
+    assert!(
+        until(|| call.poll())
+            .expect_err("another type")
+            .to_string()
+            .contains("has type std_srvs/Trigger")
+    );
 }
 
 #[test]
@@ -204,7 +305,8 @@ fn parameters_and_masters_that_are_not_there() {
     let master = Master::start();
     let node = master.node("a");
     let value = Parameter::Struct(vec![("x".into(), Parameter::Double(0.5))]);
-    node.set_parameter("~gain", value.clone()).expect("a parameter");
+    node.set_parameter("~gain", value.clone())
+        .expect("a parameter");
     assert_eq!(node.parameter("/a/gain").expect("an answer"), Some(value));
     assert_eq!(node.parameter("/none").expect("an answer"), None);
     let nobody = NodeSettings {
@@ -214,7 +316,10 @@ fn parameters_and_masters_that_are_not_there() {
         name: "a".into(),
     };
     assert!(matches!(Node::new(&nobody), Err(Error::Master { .. })));
-    let elsewhere = NodeSettings { master: "http://192.0.2.1:11311".into(), ..nobody };
+    let elsewhere = NodeSettings {
+        master: "http://192.0.2.1:11311".into(),
+        ..nobody
+    };
     let error = Node::new(&elsewhere).err().expect("no node").to_string();
     assert!(error.contains("outside of this machine"), "{error}");
 }

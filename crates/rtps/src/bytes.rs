@@ -27,12 +27,20 @@ impl<'a> Input<'a> {
 
     pub(crate) fn u16(&mut self) -> Option<u16> {
         let bytes = self.array()?;
-        Some(if self.little { u16::from_le_bytes(bytes) } else { u16::from_be_bytes(bytes) })
+        Some(if self.little {
+            u16::from_le_bytes(bytes)
+        } else {
+            u16::from_be_bytes(bytes)
+        })
     }
 
     pub(crate) fn u32(&mut self) -> Option<u32> {
         let bytes = self.array()?;
-        Some(if self.little { u32::from_le_bytes(bytes) } else { u32::from_be_bytes(bytes) })
+        Some(if self.little {
+            u32::from_le_bytes(bytes)
+        } else {
+            u32::from_be_bytes(bytes)
+        })
     }
 
     pub(crate) fn i32(&mut self) -> Option<i32> {

@@ -48,18 +48,27 @@ impl Composer {
         let padded = length.next_multiple_of(4);
         self.0.extend_from_slice(&[kind, flags | 1]);
         // A length that does not fit is zero: "until the end", so it is the last one.
-        self.0.extend_from_slice(&u16::try_from(padded).unwrap_or(0).to_le_bytes());
+        self.0
+            .extend_from_slice(&u16::try_from(padded).unwrap_or(0).to_le_bytes());
         parts.iter().for_each(|part| self.0.extend_from_slice(part));
         self.0.resize(self.0.len() + padded - length, 0);
     }
 
     pub(crate) fn timestamp(&mut self, time: Time) {
-        self.submessage(0x09, 0, &[&time.seconds.to_le_bytes(), &time.fraction.to_le_bytes()]);
+        self.submessage(
+            0x09,
+            0,
+            &[&time.seconds.to_le_bytes(), &time.fraction.to_le_bytes()],
+        );
     }
 
     pub(crate) fn data(&mut self, head: &DataHead, payload: &[u8]) {
         let inline = inline_qos(&head.beside);
-        let kind = if head.beside.ended.is_some() { 0x08 } else { 0x04 };
+        let kind = if head.beside.ended.is_some() {
+            0x08
+        } else {
+            0x04
+        };
         let flags = kind | if inline.is_empty() { 0 } else { 0x02 };
         let fixed = data_head(head, 16);
         self.submessage(0x15, flags, &[&fixed, &inline, payload]);
@@ -76,10 +85,21 @@ impl Composer {
         fixed.extend_from_slice(&(sample.len() as u32).to_le_bytes());
         let start = (number as usize - 1) * size;
         let end = (start + size).min(sample.len());
-        self.submessage(0x16, flags, &[&fixed, &inline, sample.get(start..end).unwrap_or_default()]);
+        self.submessage(
+            0x16,
+            flags,
+            &[&fixed, &inline, sample.get(start..end).unwrap_or_default()],
+        );
     }
 
-    pub(crate) fn heartbeat(&mut self, ends: (EntityId, EntityId), first: i64, last: i64, count: u32, is_final: bool) {
+    pub(crate) fn heartbeat(
+        &mut self,
+        ends: (EntityId, EntityId),
+        first: i64,
+        last: i64,
+        count: u32,
+        is_final: bool,
+    ) {
         let mut body = entities(ends);
         push_sequence(&mut body, first);
         push_sequence(&mut body, last);
@@ -87,7 +107,13 @@ impl Composer {
         self.submessage(0x07, u8::from(is_final) << 1, &[&body]);
     }
 
-    pub(crate) fn acknack(&mut self, ends: (EntityId, EntityId), base: i64, missing: &[i64], count: u32) {
+    pub(crate) fn acknack(
+        &mut self,
+        ends: (EntityId, EntityId),
+        base: i64,
+        missing: &[i64],
+        count: u32,
+    ) {
         let mut body = entities(ends);
         push_set(&mut body, base, missing);
         body.extend_from_slice(&count.to_le_bytes());
@@ -96,7 +122,13 @@ impl Composer {
         self.submessage(0x06, u8::from(is_final) << 1, &[&body]);
     }
 
-    pub(crate) fn nack_fragments(&mut self, ends: (EntityId, EntityId), sequence: i64, missing: &[u32], count: u32) {
+    pub(crate) fn nack_fragments(
+        &mut self,
+        ends: (EntityId, EntityId),
+        sequence: i64,
+        missing: &[u32],
+        count: u32,
+    ) {
         let mut body = entities(ends);
         push_sequence(&mut body, sequence);
         let base = missing.first().copied().unwrap_or(1);
@@ -150,7 +182,12 @@ fn inline_qos(beside: &Beside) -> Vec<u8> {
 /// A set of at most 256 sequence numbers from `base` on.
 fn push_set(body: &mut Vec<u8>, base: i64, members: &[i64]) {
     push_sequence(body, base);
-    push_bits(body, members.iter().filter_map(|member| u32::try_from(member - base).ok()));
+    push_bits(
+        body,
+        members
+            .iter()
+            .filter_map(|member| u32::try_from(member - base).ok()),
+    );
 }
 
 fn push_bits(body: &mut Vec<u8>, members: impl Iterator<Item = u32>) {
@@ -161,5 +198,7 @@ fn push_bits(body: &mut Vec<u8>, members: impl Iterator<Item = u32>) {
         words[(member / 32) as usize] |= 1 << (31 - member % 32);
     }
     body.extend_from_slice(&count.to_le_bytes());
-    words.iter().for_each(|word| body.extend_from_slice(&word.to_le_bytes()));
+    words
+        .iter()
+        .for_each(|word| body.extend_from_slice(&word.to_le_bytes()));
 }

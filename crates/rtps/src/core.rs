@@ -98,11 +98,19 @@ impl Core {
             now: Duration::ZERO,
             announced: BTreeMap::new(),
         };
-        for entity in [EntityId::PUBLICATIONS_WRITER, EntityId::SUBSCRIPTIONS_WRITER, EntityId::LIVELINESS_WRITER] {
+        for entity in [
+            EntityId::PUBLICATIONS_WRITER,
+            EntityId::SUBSCRIPTIONS_WRITER,
+            EntityId::LIVELINESS_WRITER,
+        ] {
             let writer = Writer::new(core.builtin(entity), usize::MAX);
             core.writers.insert(entity, writer);
         }
-        for entity in [EntityId::PUBLICATIONS_READER, EntityId::SUBSCRIPTIONS_READER, EntityId::LIVELINESS_READER] {
+        for entity in [
+            EntityId::PUBLICATIONS_READER,
+            EntityId::SUBSCRIPTIONS_READER,
+            EntityId::LIVELINESS_READER,
+        ] {
             let reader = Reader::new(core.builtin(entity), core.settings.limits);
             core.readers.insert(entity, reader);
         }
@@ -111,13 +119,27 @@ impl Core {
 
     /// An endpoint of the protocol's own topics: reliable, and late readers get everything.
     fn builtin(&self, entity: EntityId) -> Endpoint {
-        let qos = Qos { durability: Durability::TransientLocal, history: History::KeepAll, ..Qos::default() };
+        let qos = Qos {
+            durability: Durability::TransientLocal,
+            history: History::KeepAll,
+            ..Qos::default()
+        };
         self.endpoint(entity, "", "", qos, &[])
     }
 
-    fn endpoint(&self, entity: EntityId, topic: &str, type_name: &str, qos: Qos, user_data: &[u8]) -> Endpoint {
+    fn endpoint(
+        &self,
+        entity: EntityId,
+        topic: &str,
+        type_name: &str,
+        qos: Qos,
+        user_data: &[u8],
+    ) -> Endpoint {
         Endpoint {
-            guid: Guid { prefix: self.settings.prefix, entity },
+            guid: Guid {
+                prefix: self.settings.prefix,
+                entity,
+            },
             topic: topic.to_string(),
             type_name: type_name.to_string(),
             qos,
@@ -129,7 +151,10 @@ impl Core {
 
     /// The name of an endpoint of this participant.
     pub fn guid(&self, entity: EntityId) -> Guid {
-        Guid { prefix: self.settings.prefix, entity }
+        Guid {
+            prefix: self.settings.prefix,
+            entity,
+        }
     }
 
     /// What has to be sent.
@@ -138,18 +163,33 @@ impl Core {
     }
 
     /// A new writer; its readers are found in the background. `user_data` is for programs.
-    pub fn create_writer(&mut self, topic: &str, type_name: &str, qos: Qos, user_data: &[u8]) -> EntityId {
+    pub fn create_writer(
+        &mut self,
+        topic: &str,
+        type_name: &str,
+        qos: Qos,
+        user_data: &[u8],
+    ) -> EntityId {
         self.entities += 1;
         let entity = EntityId::user_writer(self.entities);
         let endpoint = self.endpoint(entity, topic, type_name, qos, user_data);
         self.announce_endpoint(&endpoint);
-        self.writers.insert(entity, Writer::new(endpoint, self.settings.limits.max_messages));
+        self.writers.insert(
+            entity,
+            Writer::new(endpoint, self.settings.limits.max_messages),
+        );
         self.match_own_writer(entity);
         entity
     }
 
     /// A new reader; its writers are found in the background.
-    pub fn create_reader(&mut self, topic: &str, type_name: &str, qos: Qos, user_data: &[u8]) -> EntityId {
+    pub fn create_reader(
+        &mut self,
+        topic: &str,
+        type_name: &str,
+        qos: Qos,
+        user_data: &[u8],
+    ) -> EntityId {
         self.entities += 1;
         let entity = EntityId::user_reader(self.entities);
         let endpoint = self.endpoint(entity, topic, type_name, qos, user_data);
@@ -157,7 +197,9 @@ impl Core {
         let mut reader = Reader::new(endpoint, self.settings.limits);
         for writer in self.writers.values().filter(|_| qos.is_durable()) {
             if fits(&writer.endpoint, &reader.endpoint) {
-                writer.durable_history().for_each(|change| reader.enqueue(change.sample(writer.endpoint.guid)));
+                writer
+                    .durable_history()
+                    .for_each(|change| reader.enqueue(change.sample(writer.endpoint.guid)));
             }
         }
         self.readers.insert(entity, reader);
@@ -167,7 +209,9 @@ impl Core {
 
     /// Ends a writer or reader.
     pub fn remove(&mut self, entity: EntityId) {
-        if entity.is_builtin() || (self.writers.remove(&entity).is_none() && self.readers.remove(&entity).is_none()) {
+        if entity.is_builtin()
+            || (self.writers.remove(&entity).is_none() && self.readers.remove(&entity).is_none())
+        {
             return;
         }
         let guid = self.guid(entity);
@@ -178,24 +222,42 @@ impl Core {
         {
             writer.forget(sequence);
         }
-        self.write_change(announcer, &Endpoint::key_payload(guid).into(), None, Time::default(), ended);
+        self.write_change(
+            announcer,
+            &Endpoint::key_payload(guid).into(),
+            None,
+            Time::default(),
+            ended,
+        );
     }
 
     fn announce_endpoint(&mut self, endpoint: &Endpoint) {
         let entity = endpoint.guid.entity;
         let payload = endpoint.payload().into();
-        if let Some(sequence) = self.write_change(announcer_of(entity), &payload, None, Time::default(), None) {
+        if let Some(sequence) =
+            self.write_change(announcer_of(entity), &payload, None, Time::default(), None)
+        {
             self.announced.insert(entity, sequence);
         }
     }
 
     /// Writes a message. Returns its number, `None` without such a writer.
     pub fn write(&mut self, writer: EntityId, written: &Written) -> Option<i64> {
-        let sequence = self.write_change(writer, &written.payload, written.call, written.time, None)?;
+        let sequence =
+            self.write_change(writer, &written.payload, written.call, written.time, None)?;
         let endpoint = &self.writers.get(&writer)?.endpoint;
-        let change =
-            Change { sequence, time: written.time, payload: written.payload.clone(), ended: None, call: written.call };
-        for reader in self.readers.values_mut().filter(|reader| fits(endpoint, &reader.endpoint)) {
+        let change = Change {
+            sequence,
+            time: written.time,
+            payload: written.payload.clone(),
+            ended: None,
+            call: written.call,
+        };
+        for reader in self
+            .readers
+            .values_mut()
+            .filter(|reader| fits(endpoint, &reader.endpoint))
+        {
             reader.enqueue(change.sample(endpoint.guid));
         }
         Some(sequence)
@@ -203,7 +265,9 @@ impl Core {
 
     /// The number of the next message of a writer.
     pub fn next_sequence(&self, writer: EntityId) -> i64 {
-        self.writers.get(&writer).map_or(1, |writer| writer.last + 1)
+        self.writers
+            .get(&writer)
+            .map_or(1, |writer| writer.last + 1)
     }
 
     fn write_change(
@@ -216,7 +280,16 @@ impl Core {
     ) -> Option<i64> {
         let writer = self.writers.get_mut(&writer)?;
         let sequence = writer.last + 1;
-        writer.write(Change { sequence, time, payload: payload.clone(), ended, call }, &mut self.outgoing);
+        writer.write(
+            Change {
+                sequence,
+                time,
+                payload: payload.clone(),
+                ended,
+                call,
+            },
+            &mut self.outgoing,
+        );
         Some(sequence)
     }
 
@@ -238,22 +311,42 @@ impl Core {
     /// How many readers a writer has, or writers a reader, here and elsewhere.
     pub fn matched(&self, entity: EntityId) -> usize {
         if let Some(writer) = self.writers.get(&entity) {
-            let here = self.readers.values().filter(|reader| fits(&writer.endpoint, &reader.endpoint)).count();
+            let here = self
+                .readers
+                .values()
+                .filter(|reader| fits(&writer.endpoint, &reader.endpoint))
+                .count();
             return writer.readers() + here;
         }
         self.readers.get(&entity).map_or(0, |reader| {
-            let here = self.writers.values().filter(|writer| fits(&writer.endpoint, &reader.endpoint)).count();
+            let here = self
+                .writers
+                .values()
+                .filter(|writer| fits(&writer.endpoint, &reader.endpoint))
+                .count();
             reader.writers() + here
         })
     }
 
     /// Whether a participant has both a reader of `writer` and a writer for `reader`: a server of a service, or a client.
     pub fn has_partner(&self, writer: EntityId, reader: EntityId) -> bool {
-        let (Some(writer), Some(reader)) = (self.writers.get(&writer), self.readers.get(&reader)) else { return false };
-        let answers_here = self.writers.values().any(|other| fits(&other.endpoint, &reader.endpoint));
-        let reads_here = self.readers.values().any(|other| fits(&writer.endpoint, &other.endpoint));
+        let (Some(writer), Some(reader)) = (self.writers.get(&writer), self.readers.get(&reader))
+        else {
+            return false;
+        };
+        let answers_here = self
+            .writers
+            .values()
+            .any(|other| fits(&other.endpoint, &reader.endpoint));
+        let reads_here = self
+            .readers
+            .values()
+            .any(|other| fits(&writer.endpoint, &other.endpoint));
         (answers_here && reads_here)
-            || self.peers.keys().any(|prefix| writer.has_reader_of(*prefix) && reader.has_writer_of(*prefix))
+            || self
+                .peers
+                .keys()
+                .any(|prefix| writer.has_reader_of(*prefix) && reader.has_writer_of(*prefix))
     }
 
     /// Does what is due. Returns the time of the next call.
@@ -276,14 +369,25 @@ impl Core {
     fn announce(&mut self) {
         self.announcements += 1;
         let is_first = self.announcements < FIRST_ANNOUNCEMENTS;
-        self.next_announcement = self.now + if is_first { FIRST_ANNOUNCE_PERIOD } else { ANNOUNCE_PERIOD };
+        self.next_announcement = self.now
+            + if is_first {
+                FIRST_ANNOUNCE_PERIOD
+            } else {
+                ANNOUNCE_PERIOD
+            };
         let bytes = self.announcement(None);
         let places = [vec![self.multicast()], self.settings.announce_to.clone()].concat();
-        self.outgoing.extend(places.into_iter().map(|to| Datagram { to, bytes: bytes.clone() }));
+        self.outgoing.extend(places.into_iter().map(|to| Datagram {
+            to,
+            bytes: bytes.clone(),
+        }));
     }
 
     pub(crate) fn multicast(&self) -> SocketAddrV4 {
-        SocketAddrV4::new(MULTICAST, u16::try_from(multicast_port(self.settings.domain)).unwrap_or(u16::MAX))
+        SocketAddrV4::new(
+            MULTICAST,
+            u16::try_from(multicast_port(self.settings.domain)).unwrap_or(u16::MAX),
+        )
     }
 
     pub(crate) fn description(&self) -> Vec<u8> {
@@ -301,16 +405,33 @@ impl Core {
 
     /// Writers that are alive by themselves say so as often as their leases demand. Returns when next.
     fn assert_liveliness(&mut self) -> Duration {
-        let leases = self.writers.values().filter_map(|writer| writer.endpoint.qos.liveliness_lease);
-        let Some(lease) = leases.min() else { return Duration::MAX };
+        let leases = self
+            .writers
+            .values()
+            .filter_map(|writer| writer.endpoint.qos.liveliness_lease);
+        let Some(lease) = leases.min() else {
+            return Duration::MAX;
+        };
         if self.now >= self.next_liveliness {
             self.next_liveliness = self.now + lease.div_f64(3.0).max(Duration::from_millis(10));
             // Kind 1: automatic; then a sequence of no bytes, behind the head of little-endian CDR.
-            let payload = [&[0, 1, 0, 0][..], &self.settings.prefix, &[0, 0, 0, 1], &[0; 4]].concat();
+            let payload = [
+                &[0, 1, 0, 0][..],
+                &self.settings.prefix,
+                &[0, 0, 0, 1],
+                &[0; 4],
+            ]
+            .concat();
             if let Some(writer) = self.writers.get_mut(&EntityId::LIVELINESS_WRITER) {
                 writer.forget(writer.last);
             }
-            self.write_change(EntityId::LIVELINESS_WRITER, &payload.into(), None, Time::default(), None);
+            self.write_change(
+                EntityId::LIVELINESS_WRITER,
+                &payload.into(),
+                None,
+                Time::default(),
+                None,
+            );
         }
         self.next_liveliness
     }
@@ -318,13 +439,24 @@ impl Core {
     /// Takes a datagram. What is no message of the protocol, or not for this participant, has no effect.
     pub fn receive(&mut self, datagram: &[u8], from: SocketAddrV4, now: Duration) {
         self.now = now;
-        let Some(message) = Message::parse(datagram) else { return };
-        let mut sender = Sender { prefix: message.prefix, vendor: message.vendor, from, time: None };
+        let Some(message) = Message::parse(datagram) else {
+            return;
+        };
+        let mut sender = Sender {
+            prefix: message.prefix,
+            vendor: message.vendor,
+            from,
+            time: None,
+        };
         let mut is_for_us = true;
         for submessage in message {
             match submessage {
-                Submessage::Destination(prefix) => is_for_us = prefix == self.settings.prefix || prefix == [0; 12],
-                Submessage::Source { vendor, prefix } => (sender.vendor, sender.prefix) = (vendor, prefix),
+                Submessage::Destination(prefix) => {
+                    is_for_us = prefix == self.settings.prefix || prefix == [0; 12]
+                }
+                Submessage::Source { vendor, prefix } => {
+                    (sender.vendor, sender.prefix) = (vendor, prefix)
+                }
                 Submessage::Timestamp(time) => sender.time = time,
                 _ if !is_for_us || sender.prefix == self.settings.prefix => {}
                 other => self.submessage(other, sender),
@@ -334,36 +466,68 @@ impl Core {
     }
 
     fn submessage(&mut self, submessage: Submessage, sender: Sender) {
-        let guid = |entity| Guid { prefix: sender.prefix, entity };
+        let guid = |entity| Guid {
+            prefix: sender.prefix,
+            entity,
+        };
         let out = &mut self.outgoing;
         match submessage {
             Submessage::Data(data) if data.writer == EntityId::PARTICIPANTS_WRITER => {
                 self.participant_data(&data, sender)
             }
             Submessage::Data(data) => {
-                let sample = sample(guid(data.writer), data.sequence, sender.time, data.payload.to_vec(), &data.inline);
+                let sample = sample(
+                    guid(data.writer),
+                    data.sequence,
+                    sender.time,
+                    data.payload.to_vec(),
+                    &data.inline,
+                );
                 let sample = if data.is_key { sample.of_key() } else { sample };
                 for reader in readers_of(&mut self.readers, data.reader, guid(data.writer)) {
                     reader.receive(guid(data.writer), sample.clone());
                 }
             }
             Submessage::DataFragments(data) => self.fragments(&data, sender),
-            Submessage::Heartbeat { reader, writer, first, last, is_final } => {
+            Submessage::Heartbeat {
+                reader,
+                writer,
+                first,
+                last,
+                is_final,
+            } => {
                 for reader in readers_of(&mut self.readers, reader, guid(writer)) {
                     reader.heartbeat(guid(writer), first, last, is_final, out);
                 }
             }
-            Submessage::Gap { reader, writer, first, base, more } => {
+            Submessage::Gap {
+                reader,
+                writer,
+                first,
+                base,
+                more,
+            } => {
                 for reader in readers_of(&mut self.readers, reader, guid(writer)) {
                     reader.gap(guid(writer), first, base, &more);
                 }
             }
-            Submessage::AckNack { reader, writer, base, missing, is_final } => {
+            Submessage::AckNack {
+                reader,
+                writer,
+                base,
+                missing,
+                is_final,
+            } => {
                 if let Some(writer) = self.writers.get_mut(&writer) {
                     writer.acknowledged(guid(reader), base, &missing, is_final, out);
                 }
             }
-            Submessage::NackFragments { reader, writer, sequence, missing } => {
+            Submessage::NackFragments {
+                reader,
+                writer,
+                sequence,
+                missing,
+            } => {
                 if let Some(writer) = self.writers.get_mut(&writer) {
                     writer.resend_fragments(guid(reader), sequence, &missing, out);
                 }
@@ -373,7 +537,10 @@ impl Core {
     }
 
     fn fragments(&mut self, data: &DataFragments, sender: Sender) {
-        let writer = Guid { prefix: sender.prefix, entity: data.writer };
+        let writer = Guid {
+            prefix: sender.prefix,
+            entity: data.writer,
+        };
         for reader in readers_of(&mut self.readers, data.reader, writer) {
             reader.receive_fragments(writer, data, sender.time);
         }
@@ -415,5 +582,9 @@ pub(crate) fn fits(writer: &Endpoint, reader: &Endpoint) -> bool {
 
 /// Which of the protocol's own writers announces an endpoint.
 fn announcer_of(entity: EntityId) -> EntityId {
-    if entity.is_reader() { EntityId::SUBSCRIPTIONS_WRITER } else { EntityId::PUBLICATIONS_WRITER }
+    if entity.is_reader() {
+        EntityId::SUBSCRIPTIONS_WRITER
+    } else {
+        EntityId::PUBLICATIONS_WRITER
+    }
 }

@@ -59,7 +59,14 @@ impl OwnParticipant<'_> {
         let mut list = ParameterList::default();
         list.push(pid::PROTOCOL_VERSION, &VERSION);
         list.push(pid::VENDOR_ID, &VENDOR);
-        list.push(pid::PARTICIPANT_GUID, &Guid { prefix: self.prefix, entity: EntityId::PARTICIPANT }.to_bytes());
+        list.push(
+            pid::PARTICIPANT_GUID,
+            &Guid {
+                prefix: self.prefix,
+                entity: EntityId::PARTICIPANT,
+            }
+            .to_bytes(),
+        );
         list.push(pid::DOMAIN_ID, &self.domain.to_le_bytes());
         list.push(pid::BUILTIN_ENDPOINT_SET, &BUILTIN_ENDPOINTS.to_le_bytes());
         list.push(pid::METATRAFFIC_UNICAST_LOCATOR, &locator(self.unicast));
@@ -75,29 +82,43 @@ impl OwnParticipant<'_> {
 impl ParticipantData {
     pub(crate) fn parse(payload: &[u8]) -> Option<Self> {
         let list = Parameters::parse(payload)?;
-        let addresses = |id| list.all(id).filter_map(|bytes| address(Input::new(bytes, list.little))).collect();
+        let addresses = |id| {
+            list.all(id)
+                .filter_map(|bytes| address(Input::new(bytes, list.little)))
+                .collect()
+        };
         Some(Self {
             prefix: Guid::from_bytes(list.bytes(pid::PARTICIPANT_GUID)?.try_into().ok()?).prefix,
             vendor: list.bytes(pid::VENDOR_ID)?.get(..2)?.try_into().ok()?,
-            builtin_endpoints: list.input(pid::BUILTIN_ENDPOINT_SET).and_then(|mut input| input.u32()).unwrap_or(0),
+            builtin_endpoints: list
+                .input(pid::BUILTIN_ENDPOINT_SET)
+                .and_then(|mut input| input.u32())
+                .unwrap_or(0),
             metatraffic: addresses(pid::METATRAFFIC_UNICAST_LOCATOR),
             unicast: addresses(pid::DEFAULT_UNICAST_LOCATOR),
             // The protocol's default is 100 s; with an infinite lease, participants that are gone would stay.
-            lease: parse_duration(list.input(pid::LEASE_DURATION)).flatten().unwrap_or(Duration::from_secs(100)),
+            lease: parse_duration(list.input(pid::LEASE_DURATION))
+                .flatten()
+                .unwrap_or(Duration::from_secs(100)),
         })
     }
 }
 
 impl Endpoint {
     pub(crate) fn payload(&self) -> Vec<u8> {
-        let participant = Guid { prefix: self.guid.prefix, entity: EntityId::PARTICIPANT };
+        let participant = Guid {
+            prefix: self.guid.prefix,
+            entity: EntityId::PARTICIPANT,
+        };
         let mut list = ParameterList::default();
         list.push(pid::ENDPOINT_GUID, &self.guid.to_bytes());
         list.push(pid::PARTICIPANT_GUID, &participant.to_bytes());
         list.push_text(pid::TOPIC_NAME, &self.topic);
         list.push_text(pid::TYPE_NAME, &self.type_name);
         push_qos(&mut list, &self.qos);
-        self.unicast.iter().for_each(|address| list.push(pid::UNICAST_LOCATOR, &locator(*address)));
+        self.unicast
+            .iter()
+            .for_each(|address| list.push(pid::UNICAST_LOCATOR, &locator(*address)));
         // One representation: XCDR1.
         list.push(pid::DATA_REPRESENTATION, &[1, 0, 0, 0, 0, 0, 0, 0]);
         if !self.user_data.is_empty() {
@@ -114,18 +135,28 @@ impl Endpoint {
             topic: list.text(pid::TOPIC_NAME)?,
             type_name: list.text(pid::TYPE_NAME)?,
             qos: parse_qos(&list, guid.entity.is_reader()),
-            user_data: list.input(pid::USER_DATA).and_then(octets).unwrap_or_default(),
+            user_data: list
+                .input(pid::USER_DATA)
+                .and_then(octets)
+                .unwrap_or_default(),
             unicast: list
                 .all(pid::UNICAST_LOCATOR)
                 .filter_map(|bytes| address(Input::new(bytes, list.little)))
                 .collect(),
-            is_plain_cdr: list.input(pid::DATA_REPRESENTATION).is_none_or(|input| has_plain_cdr(input).unwrap_or(true)),
+            is_plain_cdr: list
+                .input(pid::DATA_REPRESENTATION)
+                .is_none_or(|input| has_plain_cdr(input).unwrap_or(true)),
         })
     }
 
     /// Which endpoint has ended, by the key alone.
     pub(crate) fn parse_key(payload: &[u8]) -> Option<Guid> {
-        Some(Guid::from_bytes(Parameters::parse(payload)?.bytes(pid::ENDPOINT_GUID)?.try_into().ok()?))
+        Some(Guid::from_bytes(
+            Parameters::parse(payload)?
+                .bytes(pid::ENDPOINT_GUID)?
+                .try_into()
+                .ok()?,
+        ))
     }
 
     /// The key alone, as a payload.
@@ -150,7 +181,10 @@ fn has_plain_cdr(mut input: Input) -> Option<bool> {
 fn push_qos(list: &mut ParameterList, qos: &Qos) {
     let reliability: u32 = if qos.is_reliable() { 2 } else { 1 };
     let max_blocking = duration(Some(Duration::from_millis(100)));
-    list.push(pid::RELIABILITY, &[&reliability.to_le_bytes()[..], &max_blocking].concat());
+    list.push(
+        pid::RELIABILITY,
+        &[&reliability.to_le_bytes()[..], &max_blocking].concat(),
+    );
     let durability: u32 = match qos.durability {
         Durability::Volatile => 0,
         Durability::TransientLocal => 1,
@@ -165,7 +199,14 @@ fn push_qos(list: &mut ParameterList, qos: &Qos) {
         Liveliness::ManualByParticipant => 1,
         Liveliness::ManualByTopic => 2,
     };
-    list.push(pid::LIVELINESS, &[&liveliness.to_le_bytes()[..], &duration(qos.liveliness_lease)].concat());
+    list.push(
+        pid::LIVELINESS,
+        &[
+            &liveliness.to_le_bytes()[..],
+            &duration(qos.liveliness_lease),
+        ]
+        .concat(),
+    );
 }
 
 /// Policies that are not said have the protocol's defaults: writers are reliable, readers are not.
@@ -250,7 +291,10 @@ mod tests {
     #[test]
     fn what_is_said_of_an_endpoint_is_read_back() {
         let endpoint = Endpoint {
-            guid: Guid { prefix: [7; 12], entity: EntityId::user_writer(3) },
+            guid: Guid {
+                prefix: [7; 12],
+                entity: EntityId::user_writer(3),
+            },
             topic: "rt/chatter".into(),
             type_name: "std_msgs::msg::dds_::String_".into(),
             qos: Qos {
@@ -265,11 +309,20 @@ mod tests {
             unicast: vec![SocketAddrV4::new(Ipv4Addr::LOCALHOST, 7411)],
             is_plain_cdr: true,
         };
-        assert_eq!(Endpoint::parse(&endpoint.payload()).as_ref(), Some(&endpoint));
-        assert_eq!(Endpoint::parse_key(&Endpoint::key_payload(endpoint.guid)), Some(endpoint.guid));
+        assert_eq!(
+            Endpoint::parse(&endpoint.payload()).as_ref(),
+            Some(&endpoint)
+        );
+        assert_eq!(
+            Endpoint::parse_key(&Endpoint::key_payload(endpoint.guid)),
+            Some(endpoint.guid)
+        );
         let payload = endpoint.payload();
         for end in 0..payload.len() {
-            assert!(Endpoint::parse(&payload[..end]).is_none(), "cut after {end} bytes");
+            assert!(
+                Endpoint::parse(&payload[..end]).is_none(),
+                "cut after {end} bytes"
+            );
         }
     }
 }

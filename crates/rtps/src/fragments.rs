@@ -48,9 +48,15 @@ impl Assembly {
 
     /// The numbers of missing pieces, at most 256 after the first one.
     pub(crate) fn missing(&self) -> Vec<u32> {
-        let absent = (1u32..).zip(&self.here).filter(|(_, here)| !**here).map(|(number, _)| number);
+        let absent = (1u32..)
+            .zip(&self.here)
+            .filter(|(_, here)| !**here)
+            .map(|(number, _)| number);
         let numbers: Vec<u32> = absent.take(256).collect();
         let first = numbers.first().copied().unwrap_or(1);
-        numbers.into_iter().take_while(|number| number - first < 256).collect()
+        numbers
+            .into_iter()
+            .take_while(|number| number - first < 256)
+            .collect()
     }
 }

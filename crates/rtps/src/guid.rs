@@ -77,7 +77,10 @@ impl Guid {
         let (mut prefix, mut entity) = ([0; 12], [0; 4]);
         prefix.copy_from_slice(&bytes[..12]);
         entity.copy_from_slice(&bytes[12..]);
-        Self { prefix, entity: EntityId(entity) }
+        Self {
+            prefix,
+            entity: EntityId(entity),
+        }
     }
 }
 

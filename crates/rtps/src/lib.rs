@@ -57,6 +57,11 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { max_messages: 1000, max_bytes: 64 << 20, max_peers: 256, max_endpoints: 2048 }
+        Self {
+            max_messages: 1000,
+            max_bytes: 64 << 20,
+            max_peers: 256,
+            max_endpoints: 2048,
+        }
     }
 }

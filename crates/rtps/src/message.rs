@@ -102,7 +102,11 @@ impl<'a> Message<'a> {
         if input.take(4)? != b"RTPS" || input.take(2)?[0] != 2 {
             return None;
         }
-        Some(Self { vendor: input.array()?, prefix: input.array()?, rest: input.bytes })
+        Some(Self {
+            vendor: input.array()?,
+            prefix: input.array()?,
+            rest: input.bytes,
+        })
     }
 }
 
@@ -159,50 +163,88 @@ fn heartbeat(flags: u8, mut input: Input<'_>) -> Option<Submessage<'_>> {
     let (first, last) = (input.sequence()?, input.sequence()?);
     input.u32()?;
     let is_valid = first >= 1 && last >= 0 && last >= first - 1;
-    is_valid.then_some(Submessage::Heartbeat { reader, writer, first, last, is_final: flags & 2 != 0 })
+    is_valid.then_some(Submessage::Heartbeat {
+        reader,
+        writer,
+        first,
+        last,
+        is_final: flags & 2 != 0,
+    })
 }
 
 fn acknack(flags: u8, mut input: Input<'_>) -> Option<Submessage<'_>> {
     let (reader, writer) = entities(&mut input)?;
     let (base, missing) = sequence_set(&mut input)?;
     input.u32()?;
-    Some(Submessage::AckNack { reader, writer, base, missing, is_final: flags & 2 != 0 })
+    Some(Submessage::AckNack {
+        reader,
+        writer,
+        base,
+        missing,
+        is_final: flags & 2 != 0,
+    })
 }
 
 fn gap(mut input: Input<'_>) -> Option<Submessage<'_>> {
     let (reader, writer) = entities(&mut input)?;
     let first = input.sequence()?;
     let (base, more) = sequence_set(&mut input)?;
-    (first >= 1).then_some(Submessage::Gap { reader, writer, first, base, more })
+    (first >= 1).then_some(Submessage::Gap {
+        reader,
+        writer,
+        first,
+        base,
+        more,
+    })
 }
 
 fn nack_fragments(mut input: Input<'_>) -> Option<Submessage<'_>> {
     let (reader, writer) = entities(&mut input)?;
     let sequence = input.sequence()?;
     let base = input.u32()?;
-    let missing = bits(&mut input)?.into_iter().filter_map(|bit| base.checked_add(bit)).collect();
-    Some(Submessage::NackFragments { reader, writer, sequence, missing })
+    let missing = bits(&mut input)?
+        .into_iter()
+        .filter_map(|bit| base.checked_add(bit))
+        .collect();
+    Some(Submessage::NackFragments {
+        reader,
+        writer,
+        sequence,
+        missing,
+    })
 }
 
 /// A set of sequence numbers: its base, and its members.
 fn sequence_set(input: &mut Input) -> Option<(i64, Vec<i64>)> {
     let base = input.sequence().filter(|base| *base >= 0)?;
-    let members = bits(input)?.into_iter().filter_map(|bit| base.checked_add(i64::from(bit))).collect();
+    let members = bits(input)?
+        .into_iter()
+        .filter_map(|bit| base.checked_add(i64::from(bit)))
+        .collect();
     Some((base, members))
 }
 
 /// The bits that are set, of at most 256, the highest of each word first.
 fn bits(input: &mut Input) -> Option<Vec<u32>> {
     let count = input.u32().filter(|count| *count <= 256)?;
-    let words: Vec<u32> = (0..count.div_ceil(32)).map(|_| input.u32()).collect::<Option<_>>()?;
-    Some((0..count).filter(|bit| words[(bit / 32) as usize] & (1 << (31 - bit % 32)) != 0).collect())
+    let words: Vec<u32> = (0..count.div_ceil(32))
+        .map(|_| input.u32())
+        .collect::<Option<_>>()?;
+    Some(
+        (0..count)
+            .filter(|bit| words[(bit / 32) as usize] & (1 << (31 - bit % 32)) != 0)
+            .collect(),
+    )
 }
 
 fn timestamp(flags: u8, mut input: Input<'_>) -> Option<Submessage<'_>> {
     if flags & 2 != 0 {
         return Some(Submessage::Timestamp(None));
     }
-    Some(Submessage::Timestamp(Some(Time { seconds: input.u32()?, fraction: input.u32()? })))
+    Some(Submessage::Timestamp(Some(Time {
+        seconds: input.u32()?,
+        fraction: input.u32()?,
+    })))
 }
 
 fn destination(mut input: Input<'_>) -> Option<Submessage<'_>> {
@@ -211,7 +253,10 @@ fn destination(mut input: Input<'_>) -> Option<Submessage<'_>> {
 
 fn source(mut input: Input<'_>) -> Option<Submessage<'_>> {
     input.take(6)?;
-    Some(Submessage::Source { vendor: input.array()?, prefix: input.array()? })
+    Some(Submessage::Source {
+        vendor: input.array()?,
+        prefix: input.array()?,
+    })
 }
 
 /// Reader, writer and sequence number of data, and what follows the fixed part.
@@ -227,17 +272,32 @@ fn data_head<'a>(input: &mut Input<'a>) -> Option<(EntityId, EntityId, i64, Inpu
 
 fn data(flags: u8, mut input: Input<'_>) -> Option<Submessage<'_>> {
     let (reader, writer, sequence, mut rest) = data_head(&mut input)?;
-    let inline = if flags & 2 != 0 { inline_qos(&mut rest)? } else { InlineQos::default() };
+    let inline = if flags & 2 != 0 {
+        inline_qos(&mut rest)?
+    } else {
+        InlineQos::default()
+    };
     let has_payload = flags & 0x0c != 0;
     let payload = if has_payload { rest.bytes } else { &[] };
-    Some(Submessage::Data(Data { reader, writer, sequence, inline, payload, is_key: flags & 8 != 0 }))
+    Some(Submessage::Data(Data {
+        reader,
+        writer,
+        sequence,
+        inline,
+        payload,
+        is_key: flags & 8 != 0,
+    }))
 }
 
 fn data_fragments(flags: u8, mut input: Input<'_>) -> Option<Submessage<'_>> {
     let (reader, writer, sequence, mut rest) = data_head(&mut input)?;
     let (first, count) = (input.u32()?, u32::from(input.u16()?));
     let (fragment_size, sample_size) = (usize::from(input.u16()?), input.u32()? as usize);
-    let inline = if flags & 2 != 0 { inline_qos(&mut rest)? } else { InlineQos::default() };
+    let inline = if flags & 2 != 0 {
+        inline_qos(&mut rest)?
+    } else {
+        InlineQos::default()
+    };
     let payload = rest.bytes;
     let is_valid = first >= 1 && count >= 1 && fragment_size >= 1 && sample_size >= 1;
     is_valid.then_some(Submessage::DataFragments(DataFragments {
@@ -255,15 +315,31 @@ fn data_fragments(flags: u8, mut input: Input<'_>) -> Option<Submessage<'_>> {
 
 fn inline_qos(input: &mut Input) -> Option<InlineQos> {
     let parameters = Parameters::take(input)?;
-    let key = parameters.bytes(pid::KEY_HASH).and_then(|bytes| bytes.try_into().ok()).map(Guid::from_bytes);
+    let key = parameters
+        .bytes(pid::KEY_HASH)
+        .and_then(|bytes| bytes.try_into().ok())
+        .map(Guid::from_bytes);
     // The status is always in big-endian order.
-    let status = parameters.bytes(pid::STATUS_INFO).and_then(|bytes| Input::new(bytes, false).u32()).unwrap_or(0);
-    let related = [pid::RELATED_SAMPLE_IDENTITY, pid::RELATED_SAMPLE_IDENTITY_OF_FAST_DDS]
-        .into_iter()
-        .find_map(|id| identity(Input::new(parameters.bytes(id)?, input.little)));
-    Some(InlineQos { key, status, related })
+    let status = parameters
+        .bytes(pid::STATUS_INFO)
+        .and_then(|bytes| Input::new(bytes, false).u32())
+        .unwrap_or(0);
+    let related = [
+        pid::RELATED_SAMPLE_IDENTITY,
+        pid::RELATED_SAMPLE_IDENTITY_OF_FAST_DDS,
+    ]
+    .into_iter()
+    .find_map(|id| identity(Input::new(parameters.bytes(id)?, input.little)));
+    Some(InlineQos {
+        key,
+        status,
+        related,
+    })
 }
 
 fn identity(mut input: Input) -> Option<SampleIdentity> {
-    Some(SampleIdentity { guid: Guid::from_bytes(input.array()?), sequence: input.sequence()? })
+    Some(SampleIdentity {
+        guid: Guid::from_bytes(input.array()?),
+        sequence: input.sequence()?,
+    })
 }

@@ -65,10 +65,21 @@ impl Sockets {
             Network::Address(address) => address,
         };
         let is_loopback_only = network == Network::Loopback;
-        let refused = |error| OpenError::Socket { domain, address, error };
-        let (unicast, port) = unicast(domain, address).map_err(refused)?.ok_or(OpenError::TooMany(domain))?;
+        let refused = |error| OpenError::Socket {
+            domain,
+            address,
+            error,
+        };
+        let (unicast, port) = unicast(domain, address)
+            .map_err(refused)?
+            .ok_or(OpenError::TooMany(domain))?;
         let multicast = multicast(domain, address).map_err(refused)?;
-        Ok(Self { unicast, multicast, address: SocketAddrV4::new(address, port), is_loopback_only })
+        Ok(Self {
+            unicast,
+            multicast,
+            address: SocketAddrV4::new(address, port),
+            is_loopback_only,
+        })
     }
 
     /// Where other participants on this machine may be that are not found by multicast.
@@ -89,10 +100,16 @@ impl Sockets {
     }
 
     /// Reads a datagram, if there is one from an allowed address.
-    pub(crate) fn receive(&self, socket: &UdpSocket, buffer: &mut [u8]) -> Option<(usize, SocketAddrV4)> {
+    pub(crate) fn receive(
+        &self,
+        socket: &UdpSocket,
+        buffer: &mut [u8],
+    ) -> Option<(usize, SocketAddrV4)> {
         loop {
             match socket.recv_from(buffer) {
-                Ok((length, SocketAddr::V4(from))) if !self.is_loopback_only || from.ip().is_loopback() => {
+                Ok((length, SocketAddr::V4(from)))
+                    if !self.is_loopback_only || from.ip().is_loopback() =>
+                {
                     return Some((length, from));
                 }
                 Ok(_) => {}
@@ -107,7 +124,9 @@ impl Sockets {
 /// The socket with the first free port of the domain, by which everything is sent and most is received.
 fn unicast(domain: u32, address: Ipv4Addr) -> io::Result<Option<(UdpSocket, u16)>> {
     for number in 0..MAX_PARTICIPANTS {
-        let Ok(port) = u16::try_from(unicast_port(domain, number)) else { break };
+        let Ok(port) = u16::try_from(unicast_port(domain, number)) else {
+            break;
+        };
         let socket = Socket::new(Domain::IPV4, Type::DGRAM, Some(Protocol::UDP))?;
         match socket.bind(&SocketAddrV4::new(address, port).into()) {
             Ok(()) => {

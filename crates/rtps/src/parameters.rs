@@ -59,7 +59,10 @@ impl<'a> Parameters<'a> {
         loop {
             let (id, length) = (input.u16()?, input.u16()?);
             if id == pid::SENTINEL {
-                return Some(Self { entries, little: input.little });
+                return Some(Self {
+                    entries,
+                    little: input.little,
+                });
             }
             entries.push((id, input.take(usize::from(length))?));
         }
@@ -71,7 +74,10 @@ impl<'a> Parameters<'a> {
 
     /// All values of a parameter that may be there several times.
     pub(crate) fn all(&self, id: u16) -> impl Iterator<Item = &'a [u8]> {
-        self.entries.iter().filter(move |entry| entry.0 == id).map(|entry| entry.1)
+        self.entries
+            .iter()
+            .filter(move |entry| entry.0 == id)
+            .map(|entry| entry.1)
     }
 
     pub(crate) fn input(&self, id: u16) -> Option<Input<'a>> {
@@ -97,7 +103,8 @@ impl ParameterList {
         // Values are texts and fixed structures; a text longer than this is refused where it is made.
         let length = u16::try_from(value.len().next_multiple_of(4)).unwrap_or(0);
         self.0.extend_from_slice(&length.to_le_bytes());
-        self.0.extend_from_slice(&value[..value.len().min(usize::from(length))]);
+        self.0
+            .extend_from_slice(&value[..value.len().min(usize::from(length))]);
         pad4(&mut self.0);
     }
 

@@ -38,7 +38,12 @@ impl Participant {
     ///
     /// # Errors
     /// There is no such domain, or the system has no socket for it.
-    pub fn new(domain: u32, network: Network, name: &str, user_data: &[u8]) -> Result<Self, OpenError> {
+    pub fn new(
+        domain: u32,
+        network: Network,
+        name: &str,
+        user_data: &[u8],
+    ) -> Result<Self, OpenError> {
         let sockets = Sockets::open(domain, network)?;
         let settings = CoreSettings {
             prefix: new_prefix(),
@@ -51,11 +56,26 @@ impl Participant {
             limits: Limits::default(),
         };
         let (core, arrived) = (Mutex::new(Core::new(settings)), Condvar::new());
-        let shared = Arc::new(Shared { core, arrived, sockets, started: now(), is_ended: AtomicBool::new(false) });
+        let shared = Arc::new(Shared {
+            core,
+            arrived,
+            sockets,
+            started: now(),
+            is_ended: AtomicBool::new(false),
+        });
         let of_thread = shared.clone();
-        let thread = std::thread::Builder::new().name("rtps".into()).spawn(move || of_thread.serve());
-        let refused = |error| OpenError::Socket { domain, address: *shared.sockets.address.ip(), error };
-        Ok(Self { thread: Some(thread.map_err(refused)?), shared })
+        let thread = std::thread::Builder::new()
+            .name("rtps".into())
+            .spawn(move || of_thread.serve());
+        let refused = |error| OpenError::Socket {
+            domain,
+            address: *shared.sockets.address.ip(),
+            error,
+        };
+        Ok(Self {
+            thread: Some(thread.map_err(refused)?),
+            shared,
+        })
     }
 
     /// Does something with the core, and sends what that leads to.
@@ -92,7 +112,9 @@ impl Shared {
     fn send(&self, mut core: MutexGuard<Core>) {
         let outgoing = core.take_outgoing();
         // In order, so before another thread can send.
-        outgoing.iter().for_each(|datagram| self.sockets.send(datagram.to, &datagram.bytes));
+        outgoing
+            .iter()
+            .for_each(|datagram| self.sockets.send(datagram.to, &datagram.bytes));
     }
 
     fn serve(&self) {
@@ -115,9 +137,14 @@ impl Shared {
 
     /// Sleeps until something can be read.
     fn sleep(&self, time: Duration) {
-        let mut sockets =
-            [PollFd::new(&self.sockets.unicast, PollFlags::IN), PollFd::new(&self.sockets.multicast, PollFlags::IN)];
-        let timeout = Timespec { tv_sec: time.as_secs() as i64, tv_nsec: i64::from(time.subsec_nanos()) };
+        let mut sockets = [
+            PollFd::new(&self.sockets.unicast, PollFlags::IN),
+            PollFd::new(&self.sockets.multicast, PollFlags::IN),
+        ];
+        let timeout = Timespec {
+            tv_sec: time.as_secs() as i64,
+            tv_nsec: i64::from(time.subsec_nanos()),
+        };
         // An interrupted wait is treated as one that has timed out.
         poll(&mut sockets, Some(&timeout)).ok();
     }

@@ -107,11 +107,20 @@ mod tests {
     #[test]
     fn a_writer_offers_at_least_what_a_reader_requests() {
         let default = Qos::default();
-        let best_effort = Qos { reliability: Reliability::BestEffort, ..default };
+        let best_effort = Qos {
+            reliability: Reliability::BestEffort,
+            ..default
+        };
         assert!(default.offers(&best_effort) && !best_effort.offers(&default));
-        let durable = Qos { durability: Durability::TransientLocal, ..default };
+        let durable = Qos {
+            durability: Durability::TransientLocal,
+            ..default
+        };
         assert!(durable.offers(&default) && !default.offers(&durable));
-        let often = Qos { deadline: Some(Duration::from_millis(10)), ..default };
+        let often = Qos {
+            deadline: Some(Duration::from_millis(10)),
+            ..default
+        };
         assert!(often.offers(&default) && !default.offers(&often) && often.offers(&often));
     }
 }

@@ -62,7 +62,15 @@ impl Reader {
             History::KeepLast(depth) => depth.clamp(1, limits.max_messages),
             History::KeepAll => limits.max_messages,
         };
-        Self { endpoint, limits, depth, writers: BTreeMap::new(), queue: VecDeque::new(), queued_bytes: 0, dropped: 0 }
+        Self {
+            endpoint,
+            limits,
+            depth,
+            writers: BTreeMap::new(),
+            queue: VecDeque::new(),
+            queued_bytes: 0,
+            dropped: 0,
+        }
     }
 
     pub(crate) fn entity(&self) -> EntityId {
@@ -128,7 +136,9 @@ impl Reader {
     pub(crate) fn enqueue(&mut self, sample: Sample) {
         self.queued_bytes += sample.payload.len();
         self.queue.push_back(sample);
-        while self.queue.len() > self.depth || (self.queued_bytes > self.limits.max_bytes && self.queue.len() > 1) {
+        while self.queue.len() > self.depth
+            || (self.queued_bytes > self.limits.max_bytes && self.queue.len() > 1)
+        {
             self.take();
             self.dropped += 1;
         }
@@ -136,7 +146,9 @@ impl Reader {
 
     /// A message in one piece.
     pub(crate) fn receive(&mut self, writer: Guid, mut sample: Sample) {
-        let Some(proxy) = self.writers.get_mut(&writer) else { return };
+        let Some(proxy) = self.writers.get_mut(&writer) else {
+            return;
+        };
         sample.has_call_header = proxy.is_cyclone;
         let limits = self.limits;
         proxy.arrived(sample, &limits);
@@ -144,13 +156,23 @@ impl Reader {
     }
 
     /// Pieces of a message.
-    pub(crate) fn receive_fragments(&mut self, writer: Guid, data: &DataFragments, time: Option<Time>) {
+    pub(crate) fn receive_fragments(
+        &mut self,
+        writer: Guid,
+        data: &DataFragments,
+        time: Option<Time>,
+    ) {
         let limits = self.limits;
-        let Some(proxy) = self.writers.get_mut(&writer) else { return };
+        let Some(proxy) = self.writers.get_mut(&writer) else {
+            return;
+        };
         if data.sample_size > limits.max_bytes || proxy.has(data.sequence) {
             return;
         }
-        let assembly = proxy.assemblies.entry(data.sequence).or_insert_with(|| Assembly::new(data));
+        let assembly = proxy
+            .assemblies
+            .entry(data.sequence)
+            .or_insert_with(|| Assembly::new(data));
         let payload = assembly.add(data);
         proxy.limit_assemblies(&limits);
         if let Some(payload) = payload {
@@ -161,15 +183,32 @@ impl Reader {
     }
 
     /// A writer says what it has. Answers with what is missing.
-    pub(crate) fn heartbeat(&mut self, writer: Guid, first: i64, last: i64, is_final: bool, out: &mut Vec<Datagram>) {
-        let Some(proxy) = self.writers.get_mut(&writer).filter(|proxy| proxy.is_reliable) else { return };
+    pub(crate) fn heartbeat(
+        &mut self,
+        writer: Guid,
+        first: i64,
+        last: i64,
+        is_final: bool,
+        out: &mut Vec<Datagram>,
+    ) {
+        let Some(proxy) = self
+            .writers
+            .get_mut(&writer)
+            .filter(|proxy| proxy.is_reliable)
+        else {
+            return;
+        };
         let start = if proxy.wants_history { first } else { last + 1 };
         // Samples that the writer no longer has are not waited for.
         let before = proxy.skip_to(proxy.next.map_or(start, |next| next.max(first)));
         let is_first = proxy.acknacks <= 1;
         before.into_iter().for_each(|sample| self.enqueue(sample));
         self.deliver(writer);
-        let is_complete = self.writers.get(&writer).and_then(|proxy| proxy.next).is_some_and(|next| next > last);
+        let is_complete = self
+            .writers
+            .get(&writer)
+            .and_then(|proxy| proxy.next)
+            .is_some_and(|next| next > last);
         if is_first || !is_final || !is_complete {
             self.acknowledge(writer, Some(last), out);
         }
@@ -177,7 +216,9 @@ impl Reader {
 
     /// A writer says what will not come.
     pub(crate) fn gap(&mut self, writer: Guid, first: i64, base: i64, more: &[i64]) {
-        let Some(proxy) = self.writers.get_mut(&writer) else { return };
+        let Some(proxy) = self.writers.get_mut(&writer) else {
+            return;
+        };
         let mut before = Vec::new();
         if proxy.next.is_some_and(|next| first <= next) {
             before = proxy.skip_to(base);
@@ -193,7 +234,9 @@ impl Reader {
 
     /// Moves what is complete and in order into the queue.
     fn deliver(&mut self, writer: Guid) {
-        let Some(proxy) = self.writers.get_mut(&writer) else { return };
+        let Some(proxy) = self.writers.get_mut(&writer) else {
+            return;
+        };
         let mut ready = Vec::new();
         while let Some(sample) = proxy.next.and_then(|next| proxy.early.remove(&next)) {
             proxy.next = Some(sample.sequence + 1);
@@ -205,12 +248,17 @@ impl Reader {
     /// Says what is here and what is missing up to `last`.
     fn acknowledge(&mut self, writer: Guid, last: Option<i64>, out: &mut Vec<Datagram>) {
         let own = self.endpoint.guid;
-        let Some(proxy) = self.writers.get_mut(&writer) else { return };
+        let Some(proxy) = self.writers.get_mut(&writer) else {
+            return;
+        };
         let base = proxy.next.unwrap_or(1);
         let end = last.unwrap_or(0).min(base + 255);
-        let absent: Vec<i64> = (base..=end).filter(|sequence| !proxy.early.contains_key(sequence)).collect();
-        let (partial, missing): (Vec<i64>, Vec<i64>) =
-            absent.into_iter().partition(|sequence| proxy.assemblies.contains_key(sequence));
+        let absent: Vec<i64> = (base..=end)
+            .filter(|sequence| !proxy.early.contains_key(sequence))
+            .collect();
+        let (partial, missing): (Vec<i64>, Vec<i64>) = absent
+            .into_iter()
+            .partition(|sequence| proxy.assemblies.contains_key(sequence));
         proxy.acknacks = proxy.acknacks.wrapping_add(1);
         let ends = (own.entity, writer.entity);
         let mut message = Composer::to(own.prefix, writer.prefix);
@@ -220,7 +268,10 @@ impl Reader {
                 message.nack_fragments(ends, sequence, &assembly.missing(), proxy.acknacks);
             }
         }
-        out.push(Datagram { to: proxy.address, bytes: message.finish() });
+        out.push(Datagram {
+            to: proxy.address,
+            bytes: message.finish(),
+        });
     }
 }
 
@@ -236,7 +287,8 @@ impl WriterProxy {
         }
         self.assemblies.remove(&sample.sequence);
         // Where nothing is sent again, what comes is what there is. So it is at the beginning, if no history is wanted.
-        let is_unordered = !self.is_reliable || (self.next.is_none() && (!self.wants_history || sample.sequence == 1));
+        let is_unordered = !self.is_reliable
+            || (self.next.is_none() && (!self.wants_history || sample.sequence == 1));
         if is_unordered {
             self.next = Some(sample.sequence);
         }
@@ -255,7 +307,9 @@ impl WriterProxy {
         self.next = Some(sequence);
         self.assemblies = self.assemblies.split_off(&sequence);
         let later = self.early.split_off(&sequence);
-        std::mem::replace(&mut self.early, later).into_values().collect()
+        std::mem::replace(&mut self.early, later)
+            .into_values()
+            .collect()
     }
 
     fn limit_assemblies(&mut self, limits: &Limits) {
@@ -277,7 +331,25 @@ impl Sample {
     }
 }
 
-pub(crate) fn sample(writer: Guid, sequence: i64, time: Option<Time>, payload: Vec<u8>, inline: &InlineQos) -> Sample {
-    let ended = if inline.status & 3 != 0 { inline.key } else { None };
-    Sample { writer, sequence, time, payload, related: inline.related, has_call_header: false, ended }
+pub(crate) fn sample(
+    writer: Guid,
+    sequence: i64,
+    time: Option<Time>,
+    payload: Vec<u8>,
+    inline: &InlineQos,
+) -> Sample {
+    let ended = if inline.status & 3 != 0 {
+        inline.key
+    } else {
+        None
+    };
+    Sample {
+        writer,
+        sequence,
+        time,
+        payload,
+        related: inline.related,
+        has_call_header: false,
+        ended,
+    }
 }

@@ -101,7 +101,9 @@ impl Writer {
 
     /// What late readers get.
     pub(crate) fn durable_history(&self) -> impl Iterator<Item = &Change> {
-        self.history.iter().filter(|_| self.endpoint.qos.is_durable())
+        self.history
+            .iter()
+            .filter(|_| self.endpoint.qos.is_durable())
     }
 
     pub(crate) fn add_reader(
@@ -114,7 +116,13 @@ impl Writer {
         let is_late = self.endpoint.qos.is_durable() && reader.qos.is_durable();
         let first = if is_late { 1 } else { self.last + 1 };
         let is_reliable = self.endpoint.qos.is_reliable() && reader.qos.is_reliable();
-        let proxy = ReaderProxy { address, is_reliable, is_cyclone: vendor == CYCLONE, first, acknowledged: first - 1 };
+        let proxy = ReaderProxy {
+            address,
+            is_reliable,
+            is_cyclone: vendor == CYCLONE,
+            first,
+            acknowledged: first - 1,
+        };
         if self.readers.insert(reader.guid, proxy).is_some() {
             return;
         }
@@ -122,7 +130,9 @@ impl Writer {
             self.heartbeat(reader.guid, out);
         } else if is_late {
             let sequences: Vec<i64> = self.history.iter().map(|change| change.sequence).collect();
-            sequences.into_iter().for_each(|sequence| self.resend(reader.guid, sequence, None, out));
+            sequences
+                .into_iter()
+                .for_each(|sequence| self.resend(reader.guid, sequence, None, out));
         }
     }
 
@@ -136,14 +146,25 @@ impl Writer {
         self.last = change.sequence;
         let mut addressees: BTreeMap<Prefix, (SocketAddrV4, bool, bool)> = BTreeMap::new();
         for (guid, proxy) in &self.readers {
-            let entry = addressees.entry(guid.prefix).or_insert((proxy.address, proxy.is_cyclone, false));
+            let entry =
+                addressees
+                    .entry(guid.prefix)
+                    .or_insert((proxy.address, proxy.is_cyclone, false));
             entry.2 |= proxy.is_reliable;
         }
         self.heartbeats = self.heartbeats.wrapping_add(1);
-        let first = self.history.front().map_or(change.sequence, |oldest| oldest.sequence);
+        let first = self
+            .history
+            .front()
+            .map_or(change.sequence, |oldest| oldest.sequence);
         let heartbeat = (first, change.sequence, self.heartbeats);
         for (prefix, (address, is_cyclone, is_reliable)) in addressees {
-            let to = Addressee { prefix, reader: EntityId::UNKNOWN, address, is_cyclone };
+            let to = Addressee {
+                prefix,
+                reader: EntityId::UNKNOWN,
+                address,
+                is_cyclone,
+            };
             self.send(&change, to, is_reliable.then_some(heartbeat), None, out);
         }
         self.history.push_back(change);
@@ -159,8 +180,15 @@ impl Writer {
     fn trim(&mut self) {
         if !self.endpoint.qos.is_durable() {
             let reliable = self.readers.values().filter(|proxy| proxy.is_reliable);
-            let confirmed = reliable.map(|proxy| proxy.acknowledged).min().unwrap_or(self.last);
-            while self.history.front().is_some_and(|change| change.sequence <= confirmed) {
+            let confirmed = reliable
+                .map(|proxy| proxy.acknowledged)
+                .min()
+                .unwrap_or(self.last);
+            while self
+                .history
+                .front()
+                .is_some_and(|change| change.sequence <= confirmed)
+            {
                 self.history.pop_front();
             }
         }
@@ -179,7 +207,9 @@ impl Writer {
         out: &mut Vec<Datagram>,
     ) {
         let last = self.last;
-        let Some(proxy) = self.readers.get_mut(&reader) else { return };
+        let Some(proxy) = self.readers.get_mut(&reader) else {
+            return;
+        };
         let first = proxy.first;
         proxy.acknowledged = proxy.acknowledged.max((base - 1).min(last));
         if !is_final && missing.is_empty() {
@@ -188,16 +218,27 @@ impl Writer {
         if base < first && base >= 1 {
             self.say_gap(reader, base, first, &[], out);
         }
-        let wanted = missing.iter().copied().filter(|sequence| *sequence >= first && *sequence <= last);
-        let (kept, gone): (Vec<i64>, Vec<i64>) = wanted.partition(|sequence| self.kept(*sequence).is_some());
-        kept.into_iter().for_each(|sequence| self.resend(reader, sequence, None, out));
+        let wanted = missing
+            .iter()
+            .copied()
+            .filter(|sequence| *sequence >= first && *sequence <= last);
+        let (kept, gone): (Vec<i64>, Vec<i64>) =
+            wanted.partition(|sequence| self.kept(*sequence).is_some());
+        kept.into_iter()
+            .for_each(|sequence| self.resend(reader, sequence, None, out));
         if let Some(first_gone) = gone.first() {
             self.say_gap(reader, *first_gone, first_gone + 1, &gone[1..], out);
         }
         self.trim();
     }
 
-    pub(crate) fn resend_fragments(&self, reader: Guid, sequence: i64, missing: &[u32], out: &mut Vec<Datagram>) {
+    pub(crate) fn resend_fragments(
+        &self,
+        reader: Guid,
+        sequence: i64,
+        missing: &[u32],
+        out: &mut Vec<Datagram>,
+    ) {
         self.resend(reader, sequence, Some(missing), out);
     }
 
@@ -214,36 +255,73 @@ impl Writer {
         }
         if now >= self.next_heartbeat {
             self.next_heartbeat = now + HEARTBEAT_PERIOD;
-            behind.into_iter().for_each(|reader| self.heartbeat(reader, out));
+            behind
+                .into_iter()
+                .for_each(|reader| self.heartbeat(reader, out));
         }
         Some(self.next_heartbeat)
     }
 
     fn kept(&self, sequence: i64) -> Option<&Change> {
-        let index = self.history.binary_search_by_key(&sequence, |change| change.sequence).ok()?;
+        let index = self
+            .history
+            .binary_search_by_key(&sequence, |change| change.sequence)
+            .ok()?;
         self.history.get(index)
     }
 
     fn heartbeat(&mut self, reader: Guid, out: &mut Vec<Datagram>) {
         self.heartbeats = self.heartbeats.wrapping_add(1);
-        let Some(proxy) = self.readers.get(&reader) else { return };
-        let first = self.history.front().map_or(self.last + 1, |oldest| oldest.sequence);
+        let Some(proxy) = self.readers.get(&reader) else {
+            return;
+        };
+        let first = self
+            .history
+            .front()
+            .map_or(self.last + 1, |oldest| oldest.sequence);
         let mut message = Composer::to(self.endpoint.guid.prefix, reader.prefix);
-        message.heartbeat((reader.entity, self.entity()), first, self.last, self.heartbeats, false);
-        out.push(Datagram { to: proxy.address, bytes: message.finish() });
+        message.heartbeat(
+            (reader.entity, self.entity()),
+            first,
+            self.last,
+            self.heartbeats,
+            false,
+        );
+        out.push(Datagram {
+            to: proxy.address,
+            bytes: message.finish(),
+        });
     }
 
     fn say_gap(&self, reader: Guid, first: i64, base: i64, more: &[i64], out: &mut Vec<Datagram>) {
-        let Some(proxy) = self.readers.get(&reader) else { return };
+        let Some(proxy) = self.readers.get(&reader) else {
+            return;
+        };
         let mut message = Composer::to(self.endpoint.guid.prefix, reader.prefix);
         message.gap((reader.entity, self.entity()), first, base, more);
-        out.push(Datagram { to: proxy.address, bytes: message.finish() });
+        out.push(Datagram {
+            to: proxy.address,
+            bytes: message.finish(),
+        });
     }
 
-    fn resend(&self, reader: Guid, sequence: i64, fragments: Option<&[u32]>, out: &mut Vec<Datagram>) {
-        let (Some(proxy), Some(change)) = (self.readers.get(&reader), self.kept(sequence)) else { return };
+    fn resend(
+        &self,
+        reader: Guid,
+        sequence: i64,
+        fragments: Option<&[u32]>,
+        out: &mut Vec<Datagram>,
+    ) {
+        let (Some(proxy), Some(change)) = (self.readers.get(&reader), self.kept(sequence)) else {
+            return;
+        };
         let (address, is_cyclone) = (proxy.address, proxy.is_cyclone);
-        let to = Addressee { prefix: reader.prefix, reader: reader.entity, address, is_cyclone };
+        let to = Addressee {
+            prefix: reader.prefix,
+            reader: reader.entity,
+            address,
+            is_cyclone,
+        };
         self.send(change, to, None, fragments, out);
     }
 
@@ -256,10 +334,25 @@ impl Writer {
         out: &mut Vec<Datagram>,
     ) {
         let payload = change.payload_for(to.is_cyclone);
-        let related = change.call.filter(|_| !to.is_cyclone).map(|call| call.related);
-        let beside = Beside { ended: change.ended, related };
-        let head = DataHead { reader: to.reader, writer: self.entity(), sequence: change.sequence, beside };
-        let count = if payload.len() > FRAGMENT { payload.len().div_ceil(FRAGMENT) as u32 } else { 0 };
+        let related = change
+            .call
+            .filter(|_| !to.is_cyclone)
+            .map(|call| call.related);
+        let beside = Beside {
+            ended: change.ended,
+            related,
+        };
+        let head = DataHead {
+            reader: to.reader,
+            writer: self.entity(),
+            sequence: change.sequence,
+            beside,
+        };
+        let count = if payload.len() > FRAGMENT {
+            payload.len().div_ceil(FRAGMENT) as u32
+        } else {
+            0
+        };
         for number in if count == 0 { 0..=0 } else { 1..=count } {
             if fragments.is_some_and(|fragments| !fragments.contains(&number)) {
                 continue;
@@ -271,10 +364,20 @@ impl Writer {
             } else {
                 message.fragment(&head, &payload, FRAGMENT, number);
             }
-            if let Some((first, last, count_of_heartbeats)) = heartbeat.filter(|_| number == count) {
-                message.heartbeat((to.reader, self.entity()), first, last, count_of_heartbeats, true);
+            if let Some((first, last, count_of_heartbeats)) = heartbeat.filter(|_| number == count)
+            {
+                message.heartbeat(
+                    (to.reader, self.entity()),
+                    first,
+                    last,
+                    count_of_heartbeats,
+                    true,
+                );
             }
-            out.push(Datagram { to: to.address, bytes: message.finish() });
+            out.push(Datagram {
+                to: to.address,
+                bytes: message.finish(),
+            });
         }
     }
 }
@@ -304,10 +407,14 @@ impl Change {
     /// Requests and replies begin with the header of the call where that is expected. It is 16 bytes long, so nothing behind it
     /// is aligned differently.
     fn payload_for(&self, is_cyclone: bool) -> Arc<[u8]> {
-        let (Some(call), true, Some((head, body))) = (self.call, is_cyclone, self.payload.split_at_checked(4)) else {
+        let (Some(call), true, Some((head, body))) =
+            (self.call, is_cyclone, self.payload.split_at_checked(4))
+        else {
             return self.payload.clone();
         };
         let (client, number) = call.header;
-        [head, &client.to_le_bytes(), &number.to_le_bytes(), body].concat().into()
+        [head, &client.to_le_bytes(), &number.to_le_bytes(), body]
+            .concat()
+            .into()
     }
 }

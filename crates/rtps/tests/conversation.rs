@@ -3,7 +3,9 @@
 use std::net::{Ipv4Addr, SocketAddrV4};
 use std::time::Duration;
 
-use rtps::{Core, CoreSettings, Durability, EntityId, History, Limits, Qos, Reliability, Time, Written};
+use rtps::{
+    Core, CoreSettings, Durability, EntityId, History, Limits, Qos, Reliability, Time, Written,
+};
 use test_support::random::Random;
 
 const TYPE: &str = "std_msgs::msg::dds_::String_";
@@ -33,10 +35,19 @@ impl World {
                 name: String::new(),
                 user_data: Vec::new(),
                 is_loopback_only: true,
-                limits: Limits { max_messages: 100, max_bytes: 1 << 20, ..Limits::default() },
+                limits: Limits {
+                    max_messages: 100,
+                    max_bytes: 1 << 20,
+                    ..Limits::default()
+                },
             })
         });
-        Self { cores: cores.collect(), now: Duration::ZERO, random: Random::new(1), lost }
+        Self {
+            cores: cores.collect(),
+            now: Duration::ZERO,
+            random: Random::new(1),
+            lost,
+        }
     }
 
     /// Some time passes.
@@ -61,16 +72,28 @@ impl World {
 
     fn write(&mut self, core: usize, writer: EntityId, text: &[u8]) {
         let payload = [&[0, 1, 0, 0], text].concat().into();
-        self.cores[core].write(writer, &Written { payload, call: None, time: Time::default() });
+        self.cores[core].write(
+            writer,
+            &Written {
+                payload,
+                call: None,
+                time: Time::default(),
+            },
+        );
     }
 
     fn taken(&mut self, core: usize, reader: EntityId) -> Vec<Vec<u8>> {
-        std::iter::from_fn(|| self.cores[core].take(reader)).map(|sample| sample.payload[4..].to_vec()).collect()
+        std::iter::from_fn(|| self.cores[core].take(reader))
+            .map(|sample| sample.payload[4..].to_vec())
+            .collect()
     }
 }
 
 fn all() -> Qos {
-    Qos { history: History::KeepAll, ..Qos::default() }
+    Qos {
+        history: History::KeepAll,
+        ..Qos::default()
+    }
 }
 
 #[test]
@@ -79,7 +102,13 @@ fn reliable_messages_arrive_in_order_whatever_is_lost() {
     let writer = world.cores[0].create_writer("rt/a", TYPE, all(), &[]);
     let reader = world.cores[1].create_reader("rt/a", TYPE, all(), &[]);
     world.run(10_000);
-    assert_eq!((world.cores[0].matched(writer), world.cores[1].matched(reader)), (1, 1));
+    assert_eq!(
+        (
+            world.cores[0].matched(writer),
+            world.cores[1].matched(reader)
+        ),
+        (1, 1)
+    );
     for number in 0..90u8 {
         world.write(0, writer, &[number; 12]);
     }
@@ -87,14 +116,26 @@ fn reliable_messages_arrive_in_order_whatever_is_lost() {
     world.write(0, writer, &[200; 60_000]);
     world.run(10_000);
     let taken = world.taken(1, reader);
-    let expected: Vec<Vec<u8>> = (0..90u8).map(|number| vec![number; 12]).chain([vec![200; 60_000]]).collect();
-    assert!(taken == expected, "{} of {} messages", taken.len(), expected.len());
+    let expected: Vec<Vec<u8>> = (0..90u8)
+        .map(|number| vec![number; 12])
+        .chain([vec![200; 60_000]])
+        .collect();
+    assert!(
+        taken == expected,
+        "{} of {} messages",
+        taken.len(),
+        expected.len()
+    );
 }
 
 #[test]
 fn late_readers_get_what_is_durable() {
     let mut world = World::new(2, 10);
-    let durable = Qos { durability: Durability::TransientLocal, history: History::KeepLast(3), ..Qos::default() };
+    let durable = Qos {
+        durability: Durability::TransientLocal,
+        history: History::KeepLast(3),
+        ..Qos::default()
+    };
     let writer = world.cores[0].create_writer("rt/a", TYPE, durable, &[]);
     for number in 0..10 {
         world.write(0, writer, &[number; 4]);
@@ -106,7 +147,11 @@ fn late_readers_get_what_is_durable() {
     world.run(5000);
     world.write(0, writer, &[77; 4]);
     world.run(1000);
-    assert_eq!(world.taken(1, late), [[8; 4], [9; 4], [77; 4]], "the newest three");
+    assert_eq!(
+        world.taken(1, late),
+        [[8; 4], [9; 4], [77; 4]],
+        "the newest three"
+    );
     assert_eq!(world.taken(1, volatile), [[77; 4]]);
     assert_eq!(world.taken(0, here), [[8; 4], [9; 4], [77; 4]]);
 }
@@ -114,10 +159,14 @@ fn late_readers_get_what_is_durable() {
 #[test]
 fn policies_that_do_not_fit_find_no_partner() {
     let mut world = World::new(2, 0);
-    let best_effort = Qos { reliability: Reliability::BestEffort, ..Qos::default() };
+    let best_effort = Qos {
+        reliability: Reliability::BestEffort,
+        ..Qos::default()
+    };
     let writer = world.cores[0].create_writer("rt/a", TYPE, best_effort, &[]);
     let reader = world.cores[1].create_reader("rt/a", TYPE, Qos::default(), &[]);
-    let other_type = world.cores[1].create_reader("rt/a", "std_msgs::msg::dds_::Int32_", best_effort, &[]);
+    let other_type =
+        world.cores[1].create_reader("rt/a", "std_msgs::msg::dds_::Int32_", best_effort, &[]);
     let fitting = world.cores[1].create_reader("rt/a", TYPE, best_effort, &[]);
     world.run(3000);
     assert_eq!(world.cores[0].matched(writer), 1);
@@ -134,7 +183,15 @@ fn policies_that_do_not_fit_find_no_partner() {
 fn a_reader_that_is_flooded_keeps_the_newest() {
     let mut world = World::new(2, 0);
     let writer = world.cores[0].create_writer("rt/a", TYPE, all(), &[]);
-    let reader = world.cores[1].create_reader("rt/a", TYPE, Qos { history: History::KeepLast(3), ..all() }, &[]);
+    let reader = world.cores[1].create_reader(
+        "rt/a",
+        TYPE,
+        Qos {
+            history: History::KeepLast(3),
+            ..all()
+        },
+        &[],
+    );
     world.run(3000);
     for number in 0..50 {
         world.write(0, writer, &[number; 4]);
@@ -165,7 +222,11 @@ fn damaged_datagrams_do_no_harm() {
     let reader = world.cores[1].create_reader("rt/a", TYPE, all(), &[]);
     world.run(1000);
     for round in 0..300u64 {
-        world.write(0, writer, &vec![round as u8; (round * 97 % 40_000) as usize]);
+        world.write(
+            0,
+            writer,
+            &vec![round as u8; (round * 97 % 40_000) as usize],
+        );
         world.cores[0].tick(world.now);
         for datagram in world.cores[0].take_outgoing() {
             let mut bytes = datagram.bytes.clone();
@@ -190,7 +251,14 @@ fn datagram(from: u8, kind: u8, body: &[&[u8]]) -> Vec<u8> {
     let mut prefix = [0; 12];
     prefix[11] = from;
     let body = body.concat();
-    [b"RTPS\x02\x03\0\0", &prefix[..], &[kind, 5], &(body.len() as u16).to_le_bytes(), &body].concat()
+    [
+        b"RTPS\x02\x03\0\0",
+        &prefix[..],
+        &[kind, 5],
+        &(body.len() as u16).to_le_bytes(),
+        &body,
+    ]
+    .concat()
 }
 
 #[test]
@@ -200,7 +268,11 @@ fn sequence_numbers_at_the_end_of_their_range_do_no_harm() {
     let reader = world.cores[1].create_reader("rt/a", TYPE, all(), &[]);
     world.run(1000);
     for last in [i64::MAX, i64::MAX - 1, i64::MAX - 256, i64::MAX / 2] {
-        let number = [((last >> 32) as u32).to_le_bytes(), (last as u32).to_le_bytes()].concat();
+        let number = [
+            ((last >> 32) as u32).to_le_bytes(),
+            (last as u32).to_le_bytes(),
+        ]
+        .concat();
         let ends = [reader.0, writer.0].concat();
         let count = [1, 0, 0, 0];
         let messages = [

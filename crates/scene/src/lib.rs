@@ -34,7 +34,9 @@ pub use object::{Kind, MeasuredVelocity, Object};
 pub use pose::placement::{Frame, Placement};
 pub use simulation::settings::{Calculations, DynamicsSettings, Settings};
 pub use store::{FIRST_MESH_UID, Scene};
-pub use tree::collection::{Collection, CollectionItem, CollectionOptions, Collections, ItemOptions, Members};
+pub use tree::collection::{
+    Collection, CollectionItem, CollectionOptions, Collections, ItemOptions, Members,
+};
 pub use tree::copy::CopyOptions;
 pub use tree::old_names::{alternative_name, is_legal as is_legal_old_name, suffix as name_suffix};
 pub use tree::path::clean_alias;

@@ -70,7 +70,9 @@ impl Scene {
     /// Adds `object` as the last root, under a new handle and identifier and without family.
     pub(super) fn insert(&mut self, mut object: Object) -> SceneResult<Handle> {
         let handle = self.objects.free_handle()?;
-        object.old_name = self.old_names.claim(std::mem::take(&mut object.old_name), handle);
+        object.old_name = self
+            .old_names
+            .claim(std::mem::take(&mut object.old_name), handle);
         self.enlist(handle, object);
         Ok(handle)
     }
@@ -134,14 +136,28 @@ impl Scene {
     /// The shape a mesh belongs to, and which of its meshes it is.
     pub fn mesh(&self, uid: Uid) -> Option<(Handle, usize)> {
         let handle = self.mesh_owners.of(uid)?;
-        let index = self.object(handle).ok()?.shape().ok()?.parts.iter().position(|part| part.uid == uid)?;
+        let index = self
+            .object(handle)
+            .ok()?
+            .shape()
+            .ok()?
+            .parts
+            .iter()
+            .position(|part| part.uid == uid)?;
         Some((handle, index))
     }
 
     /// Changes one mesh of a shape as `field` says; None when there is no such mesh.
-    pub fn modify_mesh<R>(&mut self, uid: Uid, field: Field, change: impl FnOnce(&mut Part) -> R) -> Option<R> {
+    pub fn modify_mesh<R>(
+        &mut self,
+        uid: Uid,
+        field: Field,
+        change: impl FnOnce(&mut Part) -> R,
+    ) -> Option<R> {
         let (handle, index) = self.mesh(uid)?;
-        let Kind::Shape(shape) = &mut self.object_changing(handle, field).ok()?.kind else { return None };
+        let Kind::Shape(shape) = &mut self.object_changing(handle, field).ok()?.kind else {
+            return None;
+        };
         let result = change(shape.parts.get_mut(index)?);
         self.note_modified(handle, field);
         Some(result)
@@ -167,7 +183,12 @@ impl Scene {
     }
 
     /// Changes one aspect of an object. All changes except those of the tree go through here.
-    pub fn modify<R>(&mut self, handle: Handle, field: Field, change: impl FnOnce(&mut Object) -> R) -> SceneResult<R> {
+    pub fn modify<R>(
+        &mut self,
+        handle: Handle,
+        field: Field,
+        change: impl FnOnce(&mut Object) -> R,
+    ) -> SceneResult<R> {
         self.try_modify(handle, field, |object| Ok(change(object)))
     }
 
@@ -181,7 +202,10 @@ impl Scene {
         let object = self.object_changing(handle, field)?;
         let frames = cfg!(debug_assertions).then(|| object.frames());
         let result = change(object)?;
-        debug_assert!(field.can_move() || frames == Some(object.frames()), "a change of {field:?} moved an object");
+        debug_assert!(
+            field.can_move() || frames == Some(object.frames()),
+            "a change of {field:?} moved an object"
+        );
         self.note_modified(handle, field);
         Ok(result)
     }
@@ -206,7 +230,11 @@ impl Scene {
 
     /// The object, of which `field` is about to change.
     fn object_changing(&mut self, handle: Handle, field: Field) -> SceneResult<&mut Object> {
-        if field.can_move() { self.object_mut(handle) } else { self.object_in_place(handle) }
+        if field.can_move() {
+            self.object_mut(handle)
+        } else {
+            self.object_in_place(handle)
+        }
     }
 
     /// Notes a change in the journal.
@@ -216,7 +244,9 @@ impl Scene {
 
     /// Removes an object that no list contains any more.
     pub(super) fn erase(&mut self, handle: Handle) {
-        let Some(object) = self.objects.remove(handle) else { return };
+        let Some(object) = self.objects.remove(handle) else {
+            return;
+        };
         self.old_names.release(&object.old_name);
         if let Kind::Shape(shape) = &object.kind {
             self.mesh_owners.forget(shape);

@@ -49,7 +49,9 @@ pub enum ApiError {
     #[error("can only be called from the main script or a simulation script.")]
     MainOrSimulationScriptOnly,
     /// More calls between scripts are in progress than that many.
-    #[error("too many nested calls between scripts: {0} is the limit. Is a script calling itself without end?")]
+    #[error(
+        "too many nested calls between scripts: {0} is the limit. Is a script calling itself without end?"
+    )]
     TooDeep(usize),
     /// A table has more levels than can be copied.
     #[error("a table is nested deeper than {0} levels, and cannot be copied.")]
@@ -144,5 +146,9 @@ impl From<PoseError> for ApiError {
 }
 
 fn article(word: &str) -> &'static str {
-    if word.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" }
+    if word.starts_with(['a', 'e', 'i', 'o']) {
+        "an"
+    } else {
+        "a"
+    }
 }

@@ -28,7 +28,8 @@ pub(crate) mod video;
 
 pub use binding::ApiFn;
 pub use binding::args::{
-    Absence, Args, Bytes, FromScript, Handles, LuaNumber, LuaString, Number, ObjectRef, Rest, ScriptFunction, Table,
+    Absence, Args, Bytes, FromScript, Handles, LuaNumber, LuaString, Number, ObjectRef, Rest,
+    ScriptFunction, Table,
 };
 pub use binding::cx::Cx;
 pub use binding::hooks::{Hooks, Host, ModuleHook};
@@ -44,7 +45,10 @@ pub use lifecycle::instance::Script;
 pub use lifecycle::yields::LevelChange;
 pub use log::console::{Console, LogLine, OutputStream, Silent};
 pub use lua_runtime::coverage::executable;
-pub use property::{Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2, Vector3};
+pub use property::{
+    Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2,
+    Vector3,
+};
 pub use python_runtime::{EmbeddedScript, PythonHost, ScriptCalls};
 pub use ros_options::RosOptions;
 pub use runtime::FunctionRef;
@@ -70,7 +74,9 @@ pub use lifecycle::instance::Detached;
 pub use lifecycle::order::ScriptGroup;
 pub use lifecycle::yields::changed_level;
 pub use log::auxiliary_consoles::AuxiliaryConsole;
-pub use lua::{LuaObject, Stack, Type as LuaType, calls_begun, interrupt_running_code, place_of_interruption};
+pub use lua::{
+    LuaObject, Stack, Type as LuaType, calls_begun, interrupt_running_code, place_of_interruption,
+};
 pub use lua_runtime::LuaLanguage;
 pub use lua_runtime::reference_modules::ReferenceModule;
 pub use lua_runtime::user_modules::UserModule;
@@ -79,5 +85,7 @@ pub use present::{Present, Situation, Watcher};
 pub use property::{PropertyTarget, table as property_table};
 pub use python_runtime::{PythonLanguage, is_short, python_interpreter, python_parts};
 pub use runtime::Languages;
-pub use runtime::{CallError, CallbackResult, Callee, Interpreter, Language, Runtime, ScriptError, SourceText};
+pub use runtime::{
+    CallError, CallbackResult, Callee, Interpreter, Language, Runtime, ScriptError, SourceText,
+};
 pub use sim::Sim;

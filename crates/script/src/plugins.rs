@@ -41,7 +41,10 @@ impl Default for Marks {
 impl Marks {
     /// The bits of what has changed since the last call.
     fn changes(&mut self, journal: &Journal) -> i32 {
-        let changed = self.0.iter_mut().filter_map(|(mark, bit)| journal.changed_since(mark).then_some(*bit));
+        let changed = self
+            .0
+            .iter_mut()
+            .filter_map(|(mark, bit)| journal.changed_since(mark).then_some(*bit));
         changed.fold(0, |bits, bit| bits | bit)
     }
 }
@@ -58,19 +61,30 @@ const SIMULATION_ENDED: i32 = 1 << 12;
 impl Sim {
     /// The plugin of that name, `simX` or `simX-version`, which is loaded if it is not yet. None where it cannot be loaded; the log says
     /// why.
-    pub(crate) fn load_plugin(self: &Rc<Self>, script: &Rc<Script>, name: &str) -> Option<Rc<Plugin>> {
+    pub(crate) fn load_plugin(
+        self: &Rc<Self>,
+        script: &Rc<Script>,
+        name: &str,
+    ) -> Option<Rc<Plugin>> {
         let namespace = namespace(name);
         let loaded = self.modules.states.get::<LoadedPlugins>();
         let plugin = match loaded.plugins.get(namespace) {
             Some(plugin) => Ok(plugin),
             None => self.plugin_file(name).and_then(|file| {
                 loaded.plugins.note_calls(self.options.plugin_note.clone());
-                loaded.plugins.load(self.plugin_host(Some(script)), namespace, &file)
+                loaded
+                    .plugins
+                    .load(self.plugin_host(Some(script)), namespace, &file)
             }),
         };
         match plugin {
             Ok(plugin) => {
-                loaded.users.borrow_mut().entry(namespace.to_owned()).or_default().insert(script.id);
+                loaded
+                    .users
+                    .borrow_mut()
+                    .entry(namespace.to_owned())
+                    .or_default()
+                    .insert(script.id);
                 Some(plugin)
             }
             Err(reason) => {
@@ -91,15 +105,36 @@ impl Sim {
         if name.is_empty() || name.starts_with('.') || !name.chars().all(is_plain) {
             return Err("a plugin's name consists of letters, digits, `_`, `-` and `.`".into());
         }
-        let beside = std::env::current_exe().ok().and_then(|program| Some(program.parent()?.to_owned()));
+        let beside = std::env::current_exe()
+            .ok()
+            .and_then(|program| Some(program.parent()?.to_owned()));
         let options = &self.options;
-        let folders = options.package_dirs.iter().chain(&options.plugin_dirs).chain(&beside).chain(&options.resources);
-        let file = format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+        let folders = options
+            .package_dirs
+            .iter()
+            .chain(&options.plugin_dirs)
+            .chain(&beside)
+            .chain(&options.resources);
+        let file = format!(
+            "{}{name}{}",
+            std::env::consts::DLL_PREFIX,
+            std::env::consts::DLL_SUFFIX
+        );
         let folders: Vec<_> = folders.collect();
-        folders.iter().map(|folder| folder.join(&file)).find(|path| path.is_file()).ok_or_else(|| {
-            let searched: Vec<_> = folders.iter().map(|folder| folder.display().to_string()).collect();
-            format!("there is no file {file} in {}; name its folder with --plugin-path", searched.join(", "))
-        })
+        folders
+            .iter()
+            .map(|folder| folder.join(&file))
+            .find(|path| path.is_file())
+            .ok_or_else(|| {
+                let searched: Vec<_> = folders
+                    .iter()
+                    .map(|folder| folder.display().to_string())
+                    .collect();
+                format!(
+                    "there is no file {file} in {}; name its folder with --plugin-path",
+                    searched.join(", ")
+                )
+            })
     }
 
     /// Calls a function of a plugin, by its place, for a script.
@@ -115,9 +150,16 @@ impl Sim {
     ) -> ApiResult<Vec<Data>> {
         let loaded = self.modules.states.get::<LoadedPlugins>();
         let plugin = loaded.plugins.get(plugin);
-        let plugin = plugin.ok_or_else(|| ApiError::Other("the plugin is not loaded any more.".into()))?;
+        let plugin =
+            plugin.ok_or_else(|| ApiError::Other("the plugin is not loaded any more.".into()))?;
         let object = self.object_of(script);
-        let results = loaded.plugins.call(self.plugin_host(Some(script)), &plugin, function, (script.id, object), args);
+        let results = loaded.plugins.call(
+            self.plugin_host(Some(script)),
+            &plugin,
+            function,
+            (script.id, object),
+            args,
+        );
         results.map_err(ApiError::Plugin)
     }
 
@@ -125,17 +167,28 @@ impl Sim {
     fn object_of(&self, script: &Script) -> i64 {
         let scene = self.scene.borrow();
         let parent = |handle| scene.object(handle).ok().and_then(scene::Object::parent);
-        script.owner().or_else(|| script.object.and_then(parent)).map_or(-1, |object| object.raw())
+        script
+            .owner()
+            .or_else(|| script.object.and_then(parent))
+            .map_or(-1, |object| object.raw())
     }
 
     /// A script uses a plugin no longer. It is unloaded with its last user, or at once if that is forced.
     ///
     /// # Errors
     /// When the plugin is not loaded, or its code is running.
-    pub(crate) fn unload_plugin(self: &Rc<Self>, script: &Script, name: &str, is_forced: bool) -> ApiResult<()> {
+    pub(crate) fn unload_plugin(
+        self: &Rc<Self>,
+        script: &Script,
+        name: &str,
+        is_forced: bool,
+    ) -> ApiResult<()> {
         let loaded = self.modules.states.get::<LoadedPlugins>();
         let error = |text: &str| ApiError::Other(text.to_owned());
-        let plugin = loaded.plugins.get(namespace(name)).ok_or_else(|| error("the plugin is not loaded."))?;
+        let plugin = loaded
+            .plugins
+            .get(namespace(name))
+            .ok_or_else(|| error("the plugin is not loaded."))?;
         if plugin.is_running() {
             return Err(error("a function of the plugin is running."));
         }
@@ -149,11 +202,16 @@ impl Sim {
 
     /// A script's state is about to end, and with it what it uses.
     pub(super) fn release_plugins_of(self: &Rc<Self>, script: &Script) {
-        let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else { return };
+        let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else {
+            return;
+        };
         if script.current_runtime().is_none() {
             return;
         }
-        self.notify_plugins(Moment::ScriptStateAboutToBeDestroyed, [script.id as i32, script.id as i32, 0, 0]);
+        self.notify_plugins(
+            Moment::ScriptStateAboutToBeDestroyed,
+            [script.id as i32, script.id as i32, 0, 0],
+        );
         let names: Vec<String> = loaded.users.borrow().keys().cloned().collect();
         names.iter().for_each(|name| loaded.forget(name, script.id));
         self.unload_unused(&loaded);
@@ -171,36 +229,53 @@ impl Sim {
 
     /// Unloads all plugins, at the end of the simulator.
     pub fn unload_plugins(self: &Rc<Self>) {
-        let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else { return };
+        let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else {
+            return;
+        };
         loaded.users.borrow_mut().clear();
         self.unload_unused(&loaded);
     }
 
     /// Sends a message to the plugins.
     pub(crate) fn notify_plugins(self: &Rc<Self>, moment: Moment, values: [i32; 4]) {
-        let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else { return };
+        let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else {
+            return;
+        };
         loaded.changes.set(loaded.changes.get() | change(moment));
         loaded.plugins.send(self.plugin_host(None), moment, values);
     }
 
     /// The message of each turn of the application's loop.
     pub(crate) fn notify_plugins_of_pass(self: &Rc<Self>) {
-        let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else { return };
+        let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else {
+            return;
+        };
         self.unload_unused(&loaded);
-        let changes = loaded.changes.take() | loaded.marks.borrow_mut().changes(self.scene.borrow().journal());
+        let changes = loaded.changes.take()
+            | loaded
+                .marks
+                .borrow_mut()
+                .changes(self.scene.borrow().journal());
         self.notify_plugins(Moment::Pass, [changes, 0, 0, 0]);
     }
 
     fn plugin_host(self: &Rc<Self>, script: Option<&Rc<Script>>) -> Rc<dyn Host> {
-        let script = script.cloned().or_else(|| self.scripts.detached(ScriptType::Sandbox));
-        Rc::new(ScriptHost { sim: Rc::downgrade(self), script })
+        let script = script
+            .cloned()
+            .or_else(|| self.scripts.detached(ScriptType::Sandbox));
+        Rc::new(ScriptHost {
+            sim: Rc::downgrade(self),
+            script,
+        })
     }
 }
 
 impl LoadedPlugins {
     fn forget(&self, name: &str, script: i64) {
         let mut users = self.users.borrow_mut();
-        let Some(scripts) = users.get_mut(name) else { return };
+        let Some(scripts) = users.get_mut(name) else {
+            return;
+        };
         scripts.remove(&script);
         if scripts.is_empty() {
             users.remove(name);
@@ -231,7 +306,9 @@ struct ScriptHost {
 
 impl ScriptHost {
     fn sim(&self) -> Result<Rc<Sim>, String> {
-        self.sim.upgrade().ok_or_else(|| "the simulator is gone".to_owned())
+        self.sim
+            .upgrade()
+            .ok_or_else(|| "the simulator is gone".to_owned())
     }
 
     /// The script with that handle: -1 for the sandbox, -2 for the main script.
@@ -248,20 +325,26 @@ impl ScriptHost {
 impl Host for ScriptHost {
     fn call(&self, function: &str, args: &[Data]) -> Result<Vec<Data>, String> {
         let sim = self.sim()?;
-        let script = self.script.as_ref().ok_or_else(|| ApiError::NoSuchScript.to_string())?;
-        sim.call_api(script, function, args).map_err(|error| error.to_string())
+        let script = self
+            .script
+            .as_ref()
+            .ok_or_else(|| ApiError::NoSuchScript.to_string())?;
+        sim.call_api(script, function, args)
+            .map_err(|error| error.to_string())
     }
 
     fn call_script(&self, script: i64, function: &str, args: &[Data]) -> Result<Vec<Data>, String> {
         let sim = self.sim()?;
         let script = self.script(&sim, script)?;
-        sim.call_function(&script, function, args).map_err(|error| error.to_string())
+        sim.call_function(&script, function, args)
+            .map_err(|error| error.to_string())
     }
 
     fn execute(&self, script: i64, text: &[u8]) -> Result<Vec<Data>, String> {
         let sim = self.sim()?;
         let script = self.script(&sim, script)?;
-        sim.execute_string(&script, text).map_err(|error| error.to_string())
+        sim.execute_string(&script, text)
+            .map_err(|error| error.to_string())
     }
 
     fn log(&self, origin: &str, level: i64, text: &str) {

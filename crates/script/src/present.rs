@@ -61,13 +61,21 @@ impl Sim {
     pub fn with_present<T>(&self, observe: impl FnOnce(&Present<'_>) -> T) -> T {
         let (lines, broadcasts) = {
             let watching = &mut self.app.borrow_mut().watching;
-            (self.log.recent_since(&mut watching.lines), std::mem::take(&mut watching.broadcasts))
+            (
+                self.log.recent_since(&mut watching.lines),
+                std::mem::take(&mut watching.broadcasts),
+            )
         };
         let scene = self.scene.borrow();
         observe(&Present {
             now: self.situation(&scene),
             lines,
-            signals: scene.signals.names().chain(self.app.borrow().signals.names()).map(str::to_owned).collect(),
+            signals: scene
+                .signals
+                .names()
+                .chain(self.app.borrow().signals.names())
+                .map(str::to_owned)
+                .collect(),
             broadcasts,
             contacts: self.touching(),
         })
@@ -87,10 +95,18 @@ impl Sim {
 
     fn touching(&self) -> BTreeSet<[Handle; 2]> {
         let dynamics = self.dynamics.borrow();
-        let contacts: Vec<_> = dynamics.iter().flat_map(|dynamics| dynamics.contacts()).collect();
+        let contacts: Vec<_> = dynamics
+            .iter()
+            .flat_map(|dynamics| dynamics.contacts())
+            .collect();
         let last = contacts.last().map(|contact| contact.sub_step);
-        let of_last = contacts.iter().filter(|contact| Some(contact.sub_step) == last);
-        of_last.map(|contact| contact.shapes).map(|[a, b]| [a.min(b), a.max(b)]).collect()
+        let of_last = contacts
+            .iter()
+            .filter(|contact| Some(contact.sub_step) == last);
+        of_last
+            .map(|contact| contact.shapes)
+            .map(|[a, b]| [a.min(b), a.max(b)])
+            .collect()
     }
 
     /// Shows the state after a step to the watcher.

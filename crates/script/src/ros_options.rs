@@ -29,7 +29,11 @@ impl RosOptions {
     /// The address of ROS 1's master.
     #[must_use]
     pub fn master_uri(&self) -> &str {
-        if self.master.is_empty() { "http://localhost:11311" } else { &self.master }
+        if self.master.is_empty() {
+            "http://localhost:11311"
+        } else {
+            &self.master
+        }
     }
 
     /// Where interfaces are searched.

@@ -51,7 +51,11 @@ pub trait Interpreter {
     ///
     /// # Errors
     /// The script's.
-    fn call_with_integers(&self, call: SysCall, table: Integers<'_>) -> Result<CallbackResult, ScriptError> {
+    fn call_with_integers(
+        &self,
+        call: SysCall,
+        table: Integers<'_>,
+    ) -> Result<CallbackResult, ScriptError> {
         self.call_callback(call, &[table.to_data()])
     }
 
@@ -99,7 +103,12 @@ pub trait Interpreter {
     ///
     /// # Errors
     /// The function's.
-    fn call_library(&self, module: &str, function: &str, args: &[Data]) -> Result<Vec<Data>, ScriptError>;
+    fn call_library(
+        &self,
+        module: &str,
+        function: &str,
+        args: &[Data],
+    ) -> Result<Vec<Data>, ScriptError>;
 
     /// Releases a function that was passed to the host.
     fn release(&self, function: FunctionRef);
@@ -170,7 +179,11 @@ pub struct Integers<'a> {
 impl Integers<'_> {
     pub(crate) fn to_data(self) -> Data {
         let fields = self.names.iter().zip(self.values);
-        Data::Map(fields.map(|(name, &value)| (Key::Text(name.as_bytes().to_vec()), Data::Int(value))).collect())
+        Data::Map(
+            fields
+                .map(|(name, &value)| (Key::Text(name.as_bytes().to_vec()), Data::Int(value)))
+                .collect(),
+        )
     }
 }
 
@@ -211,7 +224,10 @@ pub struct ScriptError {
 impl ScriptError {
     /// An error that is logged.
     pub fn new(text: impl Into<String>) -> Self {
-        Self { text: text.into(), is_silent: false }
+        Self {
+            text: text.into(),
+            is_silent: false,
+        }
     }
 
     /// Several errors of one callback as one; None when there are none.
@@ -221,7 +237,10 @@ impl ScriptError {
         }
         let texts: Vec<&str> = errors.iter().map(|error| error.text.as_str()).collect();
         let is_silent = errors.iter().any(|error| error.is_silent);
-        Some(Self { text: texts.join("\n\n"), is_silent })
+        Some(Self {
+            text: texts.join("\n\n"),
+            is_silent,
+        })
     }
 }
 
@@ -264,9 +283,15 @@ impl Languages {
     fn find(&self, name: &str) -> Result<&dyn Language, ScriptError> {
         let named = self.0.iter().find(|language| language.name() == name);
         if named.is_none() && name == "python" {
-            return Err(ScriptError::new("scripts in Python are not implemented in Swanilda."));
+            return Err(ScriptError::new(
+                "scripts in Python are not implemented in Swanilda.",
+            ));
         }
-        let none = || ScriptError::new(format!("scripts in {name} are not implemented in Swanilda."));
+        let none = || {
+            ScriptError::new(format!(
+                "scripts in {name} are not implemented in Swanilda."
+            ))
+        };
         named.or(self.0.first()).map(Box::as_ref).ok_or_else(none)
     }
 

@@ -141,16 +141,27 @@ pub struct Sim {
 
 impl Sim {
     /// A simulator with an empty scene and without main script and sandbox.
-    pub fn new(options: Options, registry: Arc<Registry>, console: Box<dyn Console>, languages: Languages) -> Rc<Self> {
+    pub fn new(
+        options: Options,
+        registry: Arc<Registry>,
+        console: Box<dyn Console>,
+        languages: Languages,
+    ) -> Rc<Self> {
         let perception = RefCell::new(Perception::new(options.seed, options.render_threads));
         let dynamics = RefCell::new(Some(Dynamics::new(options.threads)));
         Rc::new(Self {
             perception,
             log: Log::new(console, options.verbosity),
             app: RefCell::new(AppData::new(&options)),
-            scripts: ScriptSet::new(languages, options.limits.map_or(usize::MAX, |limits| limits.memory)),
+            scripts: ScriptSet::new(
+                languages,
+                options.limits.map_or(usize::MAX, |limits| limits.memory),
+            ),
             options,
-            modules: Modules { registry, states: States::default() },
+            modules: Modules {
+                registry,
+                states: States::default(),
+            },
             scene: RefCell::new(Scene::new()),
             clock: Clock::new(),
             dynamics,
@@ -169,7 +180,14 @@ impl Sim {
             return Some(script);
         }
         let handle = Handle::from_raw(id)?;
-        let script_type = self.scene.borrow().object(handle).ok()?.script().ok()?.script_type;
+        let script_type = self
+            .scene
+            .borrow()
+            .object(handle)
+            .ok()?
+            .script()
+            .ok()?
+            .script_type;
         let script = Rc::new(Script::of_object(handle, script_type));
         self.scripts.add(&script);
         Some(script)
@@ -177,7 +195,14 @@ impl Sim {
 
     pub(crate) fn log_from(&self, script: &Script, level: i64, text: &str) {
         let origin = script.log_name(&self.scene.borrow());
-        let line = LogLine { origin: &origin, level, text, located: None, time: self.clock.time(), status: false };
+        let line = LogLine {
+            origin: &origin,
+            level,
+            text,
+            located: None,
+            time: self.clock.time(),
+            status: false,
+        };
         self.log_line(&line, Some(script.id));
     }
 
@@ -185,26 +210,45 @@ impl Sim {
     pub(crate) fn log_error(&self, script: &Script, text: &str) {
         let origin = script.log_name(&self.scene.borrow());
         let is_library = |name: &str| self.modules.registry.files.contains_key(name);
-        let located = self.log.files.borrow().locate(text, &self.hint(text), is_library);
+        let located = self
+            .log
+            .files
+            .borrow()
+            .locate(text, &self.hint(text), is_library);
         let (level, time) = (verbosity::SCRIPT_ERRORS, self.clock.time());
-        let line = LogLine { origin: &origin, level, text, located: Some(&located), time, status: false };
+        let line = LogLine {
+            origin: &origin,
+            level,
+            text,
+            located: Some(&located),
+            time,
+            status: false,
+        };
         self.log_line(&line, Some(script.id));
     }
 
     /// Suggestion where an error is about an object that does not exist; else empty.
     fn hint(&self, error: &str) -> String {
-        let Some(path) = self.log.take_missing_path().filter(|_| error.contains(&SceneError::NoSuchPath.to_string()))
+        let Some(path) = self
+            .log
+            .take_missing_path()
+            .filter(|_| error.contains(&SceneError::NoSuchPath.to_string()))
         else {
             return String::new();
         };
         let (scene, is_relative) = (self.scene.borrow(), !path.starts_with('/'));
-        let paths = scene.objects().filter_map(|object| scene.short_path(object.handle()).ok());
+        let paths = scene
+            .objects()
+            .filter_map(|object| scene.short_path(object.handle()).ok());
         // Relative paths have the name at their end in common with that of the object.
         let compared = |path: &str| match path.strip_prefix('/') {
             Some(rest) if !is_relative => rest.to_owned(),
             _ => path.rsplit('/').next().unwrap_or_default().to_owned(),
         };
-        match nearest(&compared(&path), paths.map(|known| (compared(&known), known))) {
+        match nearest(
+            &compared(&path),
+            paths.map(|known| (compared(&known), known)),
+        ) {
             Some(near) => format!("no object '{path}'; did you mean '{near}'?"),
             None => format!("no object '{path}'"),
         }
@@ -213,23 +257,58 @@ impl Sim {
     /// Logs in the name of the simulator itself: the one it has in the logs that existing tools read.
     pub(crate) fn log(&self, level: i64, text: &str) {
         let time = self.clock.time();
-        self.log_line(&LogLine { origin: "CoppeliaSim", level, text, located: None, time, status: false }, None);
+        self.log_line(
+            &LogLine {
+                origin: "CoppeliaSim",
+                level,
+                text,
+                located: None,
+                time,
+                status: false,
+            },
+            None,
+        );
     }
 
     /// Logs in the name of a plugin.
     pub(crate) fn log_as(&self, origin: &str, level: i64, text: &str) {
         let time = self.clock.time();
-        self.log_line(&LogLine { origin, level, text, located: None, time, status: false }, None);
+        self.log_line(
+            &LogLine {
+                origin,
+                level,
+                text,
+                located: None,
+                time,
+                status: false,
+            },
+            None,
+        );
     }
 
     /// Logs what the simulation does, in the sandbox's name as the original does.
     pub(crate) fn log_status(&self, text: &str) {
         let (level, time) = (verbosity::SCRIPT_INFOS, self.clock.time());
-        self.log_line(&LogLine { origin: "sandboxScript", level, text, located: None, time, status: true }, None);
+        self.log_line(
+            &LogLine {
+                origin: "sandboxScript",
+                level,
+                text,
+                located: None,
+                time,
+                status: true,
+            },
+            None,
+        );
     }
 
     fn log_line(&self, line: &LogLine<'_>, script: Option<i64>) {
-        let LogLine { origin, level, text, .. } = *line;
+        let LogLine {
+            origin,
+            level,
+            text,
+            ..
+        } = *line;
         if level & verbosity::ONCE != 0 && !self.log.is_first(origin, level, text) {
             return;
         }

@@ -36,7 +36,13 @@ pub struct ConsoleLine {
 impl ConsoleLine {
     fn printed(level: &'static str, text: &[u8], time: f64) -> Self {
         let text = String::from_utf8_lossy(text).into_owned();
-        Self { time, origin: None, level, text, located: None }
+        Self {
+            time,
+            origin: None,
+            level,
+            text,
+            located: None,
+        }
     }
 
     /// The line as it is shown.
@@ -72,7 +78,12 @@ pub struct Tolerances {
 
 impl Default for Tolerances {
     fn default() -> Self {
-        Self { absolute: 1e-6, relative: 1e-4, columns: BTreeMap::new(), time: 0.0 }
+        Self {
+            absolute: 1e-6,
+            relative: 1e-4,
+            columns: BTreeMap::new(),
+            time: 0.0,
+        }
     }
 }
 
@@ -186,7 +197,12 @@ pub struct TestBench {
 impl TestBench {
     /// A bench for the tests of `file`, each of which may simulate for `time_limit` seconds.
     pub fn new(file: String, time_limit: f64, run_apart: Option<RunApart>) -> Rc<Self> {
-        Rc::new(Self { file, time_limit, run_apart, ..Self::default() })
+        Rc::new(Self {
+            file,
+            time_limit,
+            run_apart,
+            ..Self::default()
+        })
     }
 
     /// A console that writes onto the bench.
@@ -196,14 +212,24 @@ impl TestBench {
 
     /// The output from line number `first` on.
     pub fn lines_from(&self, first: usize) -> Vec<ConsoleLine> {
-        self.lines.borrow().get(first..).unwrap_or_default().to_vec()
+        self.lines
+            .borrow()
+            .get(first..)
+            .unwrap_or_default()
+            .to_vec()
     }
 
     /// Lines that have no end so far.
     pub fn unfinished(&self, time: f64) -> Vec<ConsoleLine> {
-        let texts = self.unfinished.iter().map(|text| text.borrow().clone()).zip(LEVELS);
+        let texts = self
+            .unfinished
+            .iter()
+            .map(|text| text.borrow().clone())
+            .zip(LEVELS);
         let begun = texts.filter(|(text, _)| !text.is_empty());
-        begun.map(|(text, level)| ConsoleLine::printed(level, &text, time)).collect()
+        begun
+            .map(|(text, level)| ConsoleLine::printed(level, &text, time))
+            .collect()
     }
 
     /// Lua code was stopped; the first time counts, since code that catches the error is stopped again.
@@ -219,15 +245,25 @@ impl TestBench {
     /// Hands the console over, with a last line that counts what did not fit.
     pub fn take_lines(&self) -> Vec<ConsoleLine> {
         let time = self.lines.borrow().last().map_or(0.0, |line| line.time);
-        self.unfinished(time).into_iter().for_each(|line| self.write(line));
-        self.unfinished.iter().for_each(|text| text.borrow_mut().clear());
+        self.unfinished(time)
+            .into_iter()
+            .for_each(|line| self.write(line));
+        self.unfinished
+            .iter()
+            .for_each(|text| text.borrow_mut().clear());
         let mut lines = self.lines.take();
         self.size.set(0);
         let lost = self.lost.take();
         if lost > 0 {
             let plural = if lost == 1 { "" } else { "s" };
             let text = format!("{lost} more line{plural}: a test may write {CONSOLE_SIZE} bytes.");
-            lines.push(ConsoleLine { time, origin: None, level: "warning", text, located: None });
+            lines.push(ConsoleLine {
+                time,
+                origin: None,
+                level: "warning",
+                text,
+                located: None,
+            });
         }
         lines
     }
@@ -237,19 +273,30 @@ impl TestBench {
         let mut unfinished = self.unfinished[stream as usize].borrow_mut();
         while let Some(end) = text.iter().position(|&byte| byte == b'\n') {
             unfinished.extend_from_slice(&text[..end]);
-            self.write(ConsoleLine::printed(LEVELS[stream as usize], &std::mem::take(&mut *unfinished), time));
+            self.write(ConsoleLine::printed(
+                LEVELS[stream as usize],
+                &std::mem::take(&mut *unfinished),
+                time,
+            ));
             text = &text[end + 1..];
         }
         for part in text.chunks(LINE_SIZE) {
             if unfinished.len() + part.len() > LINE_SIZE {
-                self.write(ConsoleLine::printed(LEVELS[stream as usize], &std::mem::take(&mut *unfinished), time));
+                self.write(ConsoleLine::printed(
+                    LEVELS[stream as usize],
+                    &std::mem::take(&mut *unfinished),
+                    time,
+                ));
             }
             unfinished.extend_from_slice(part);
         }
     }
 
     fn write(&self, line: ConsoleLine) {
-        let size = self.size.get().saturating_add(line.text.len() + size_of::<ConsoleLine>());
+        let size = self
+            .size
+            .get()
+            .saturating_add(line.text.len() + size_of::<ConsoleLine>());
         if size > CONSOLE_SIZE {
             return self.lost.set(self.lost.get() + 1);
         }
@@ -263,8 +310,15 @@ struct Recorder(Rc<TestBench>);
 
 impl Console for Recorder {
     fn print(&mut self, line: &[u8], time: f64) {
-        if self.0.unfinished[OutputStream::Output as usize].borrow().is_empty() {
-            return self.0.write(ConsoleLine::printed(LEVELS[OutputStream::Output as usize], line, time));
+        if self.0.unfinished[OutputStream::Output as usize]
+            .borrow()
+            .is_empty()
+        {
+            return self.0.write(ConsoleLine::printed(
+                LEVELS[OutputStream::Output as usize],
+                line,
+                time,
+            ));
         }
         self.write(&[line, b"\n"].concat(), OutputStream::Output, time);
     }

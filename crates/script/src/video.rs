@@ -90,7 +90,13 @@ struct Film {
 
 impl Recorder {
     fn new(options: VideoOptions) -> Box<Self> {
-        Box::new(Self { options, elapsed: 0.0, shown: 0, film: None, failure: None })
+        Box::new(Self {
+            options,
+            elapsed: 0.0,
+            shown: 0,
+            film: None,
+            failure: None,
+        })
     }
 
     /// Takes the pictures of the time until the next step.
@@ -135,28 +141,61 @@ impl Film {
             VideoView::Everything => None,
         };
         let from = Viewpoint::new(&scene, camera).map_err(wrong_camera)?;
-        let size = options.size.or_else(|| from.resolution(&scene)).unwrap_or(DEFAULT_SIZE);
-        let size = from.shot(&scene, size).map_err(wrong_camera)?.view.resolution;
+        let size = options
+            .size
+            .or_else(|| from.resolution(&scene))
+            .unwrap_or(DEFAULT_SIZE);
+        let size = from
+            .shot(&scene, size)
+            .map_err(wrong_camera)?
+            .view
+            .resolution;
         let format = VideoFormat {
             size,
-            rate: options.rate.unwrap_or((1.0 / dt).min(DEFAULT_RATE)).clamp(MIN_RATE, video::MAX_RATE),
+            rate: options
+                .rate
+                .unwrap_or((1.0 / dt).min(DEFAULT_RATE))
+                .clamp(MIN_RATE, video::MAX_RATE),
         };
-        Ok(Self { file: video::create(&options.file, format)?, from, format })
+        Ok(Self {
+            file: video::create(&options.file, format)?,
+            from,
+            format,
+        })
     }
 
     /// RGB, rows from the top.
     fn picture(&self, sim: &Sim) -> Result<Vec<u8>, VideoFailure> {
         let scene = sim.scene.borrow();
-        let shot = self.from.shot(&scene, self.format.size).map_err(wrong_camera)?;
-        let picture = sim.perception.borrow_mut().vision.picture(&scene, &shot, Channels::COLOUR);
-        let rows: Vec<&[u8]> = picture.colour.chunks_exact(3 * self.format.size[0] as usize).rev().collect();
+        let shot = self
+            .from
+            .shot(&scene, self.format.size)
+            .map_err(wrong_camera)?;
+        let picture = sim
+            .perception
+            .borrow_mut()
+            .vision
+            .picture(&scene, &shot, Channels::COLOUR);
+        let rows: Vec<&[u8]> = picture
+            .colour
+            .chunks_exact(3 * self.format.size[0] as usize)
+            .rev()
+            .collect();
         Ok(rows.concat())
     }
 }
 
 fn find(scene: &Scene, name: &str) -> Result<Handle, VideoFailure> {
-    let by_handle = name.parse().ok().and_then(Handle::from_raw).filter(|handle| scene.exists(*handle));
-    let path = if name.starts_with('/') { name.to_owned() } else { format!("/{name}") };
+    let by_handle = name
+        .parse()
+        .ok()
+        .and_then(Handle::from_raw)
+        .filter(|handle| scene.exists(*handle));
+    let path = if name.starts_with('/') {
+        name.to_owned()
+    } else {
+        format!("/{name}")
+    };
     let found = by_handle.map_or_else(|| scene.find(&path, None, None), Ok);
     found.map_err(|_| VideoFailure(format!("there is no object {name}")))
 }
@@ -199,13 +238,22 @@ impl Sim {
     }
 
     fn film_for_scripts(&self, ends: bool) {
-        let wanted = self.app.borrow().idle_params.bools.get(&TRIGGERED).copied().unwrap_or_default() && !ends;
+        let wanted = self
+            .app
+            .borrow()
+            .idle_params
+            .bools
+            .get(&TRIGGERED)
+            .copied()
+            .unwrap_or_default()
+            && !ends;
         let recorder = self.app.borrow_mut().videos.of_scripts.take();
         match (recorder, wanted) {
             (None, false) => {}
-            (None, true) => {
-                self.continue_video(Recorder::new(VideoOptions { file: self.video_file(), ..Default::default() }))
-            }
+            (None, true) => self.continue_video(Recorder::new(VideoOptions {
+                file: self.video_file(),
+                ..Default::default()
+            })),
             (Some(recorder), true) => self.continue_video(recorder),
             (Some(recorder), false) => self.end_video(*recorder),
         }
@@ -214,9 +262,11 @@ impl Sim {
     /// Takes the next pictures of the video of scripts; it ends when that fails.
     fn continue_video(&self, mut recorder: Box<Recorder>) {
         let file = &recorder.options.file;
-        let may = self.options.permissions.check_write(file).and_then(|()| match video::needs_program(file) {
-            true => self.options.permissions.check_run(video::PROGRAM),
-            false => Ok(()),
+        let may = self.options.permissions.check_write(file).and_then(|()| {
+            match video::needs_program(file) {
+                true => self.options.permissions.check_run(video::PROGRAM),
+                false => Ok(()),
+            }
         });
         match may {
             Ok(()) => recorder.take(self),
@@ -237,17 +287,31 @@ impl Sim {
     }
 
     fn end_video(&self, recorder: Recorder) {
-        self.app.borrow_mut().idle_params.bools.insert(TRIGGERED, false);
+        self.app
+            .borrow_mut()
+            .idle_params
+            .bools
+            .insert(TRIGGERED, false);
         let file = recorder.options.file.display().to_string();
         if let Err(failure) = recorder.finish() {
-            self.log(verbosity::ERRORS, &format!("cannot write the video {file}: {failure}"));
+            self.log(
+                verbosity::ERRORS,
+                &format!("cannot write the video {file}: {failure}"),
+            );
         }
     }
 
     /// Where the video of scripts goes.
     fn video_file(&self) -> PathBuf {
         let app = self.app.borrow();
-        let name = app.idle_params.texts.get(&FILE_NAME).filter(|name| !name.is_empty());
-        name.map_or_else(|| DEFAULT_FILE.into(), |name| String::from_utf8_lossy(name).into_owned().into())
+        let name = app
+            .idle_params
+            .texts
+            .get(&FILE_NAME)
+            .filter(|name| !name.is_empty());
+        name.map_or_else(
+            || DEFAULT_FILE.into(),
+            |name| String::from_utf8_lossy(name).into_owned().into(),
+        )
     }
 }

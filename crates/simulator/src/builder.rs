@@ -4,7 +4,9 @@ use std::rc::Rc;
 
 use super::{NativeLanguage, NativeScripts, Simulator};
 use permissions::Permissions;
-use script::{Console, Languages, LuaLanguage, Options, PythonHost, PythonLanguage, Silent, Sim, UserModule};
+use script::{
+    Console, Languages, LuaLanguage, Options, PythonHost, PythonLanguage, Silent, Sim, UserModule,
+};
 
 /// Collects what a [`Simulator`] is made of; see [`Simulator::builder`].
 #[must_use = "nothing is made before `build`"]
@@ -17,7 +19,12 @@ pub struct Builder {
 
 impl Default for Builder {
     fn default() -> Self {
-        Self { options: Options::default(), console: Box::new(Silent), modules: Vec::new(), python: None }
+        Self {
+            options: Options::default(),
+            console: Box::new(Silent),
+            modules: Vec::new(),
+            python: None,
+        }
     }
 }
 
@@ -38,7 +45,13 @@ impl Builder {
     /// # Ok::<(), swanilda::Error>(())
     /// ```
     pub fn permissions(self, permissions: Permissions) -> Self {
-        Self { options: Options { permissions, ..self.options }, ..self }
+        Self {
+            options: Options {
+                permissions,
+                ..self.options
+            },
+            ..self
+        }
     }
 
     /// Where prints and log lines go; nowhere without this.
@@ -71,13 +84,19 @@ impl Builder {
         name: impl Into<String>,
         open: impl Fn(&mlua::Lua) -> mlua::Result<mlua::Table> + 'static,
     ) -> Self {
-        self.modules.push(UserModule { name: name.into(), open: Rc::new(open) });
+        self.modules.push(UserModule {
+            name: name.into(),
+            open: Rc::new(open),
+        });
         self
     }
 
     /// The Python of this program: scripts in Python run there instead of in processes of their own.
     pub fn python(self, host: Rc<dyn PythonHost>) -> Self {
-        Self { python: Some(host), ..self }
+        Self {
+            python: Some(host),
+            ..self
+        }
     }
 
     /// A simulator with an empty scene.

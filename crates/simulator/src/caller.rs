@@ -57,7 +57,9 @@ impl ApiFunction {
 
     /// Whether it returns at once: it reads or sets values, and runs no script.
     pub fn is_short(&self) -> bool {
-        self.member.as_ref().is_some_and(|member| is_short(&self.name, member))
+        self.member
+            .as_ref()
+            .is_some_and(|member| is_short(&self.name, member))
     }
 
     /// Whether it is written in Lua, so that it may wait for steps.
@@ -68,7 +70,10 @@ impl ApiFunction {
 
 impl Caller {
     pub(super) fn new(sim: &Rc<Sim>, script: &Rc<Script>) -> Self {
-        Self { sim: Rc::downgrade(sim), script: Rc::clone(script) }
+        Self {
+            sim: Rc::downgrade(sim),
+            script: Rc::clone(script),
+        }
     }
 
     /// The handle of the script.
@@ -88,7 +93,9 @@ impl Caller {
 
     /// Stopped when the simulator is gone.
     pub fn state(&self) -> SimulationState {
-        self.sim.upgrade().map_or(SimulationState::Stopped, |sim| sim.clock.state())
+        self.sim
+            .upgrade()
+            .map_or(SimulationState::Stopped, |sim| sim.clock.state())
     }
 
     /// Number of uncaught script errors.
@@ -102,8 +109,14 @@ impl Caller {
 
     /// The function of that name. Whether it exists is known when it is called.
     pub fn function(&self, name: &str) -> ApiFunction {
-        let member = self.sim.upgrade().and_then(|sim| sim.modules.registry.find(name));
-        ApiFunction { name: name.into(), member }
+        let member = self
+            .sim
+            .upgrade()
+            .and_then(|sim| sim.modules.registry.find(name));
+        ApiFunction {
+            name: name.into(),
+            member,
+        }
     }
 
     /// Calls a function. One that is written in Lua cannot wait for steps here.
@@ -162,8 +175,15 @@ impl Caller {
     pub fn member(&self, module: &str, name: &str) -> Result<Option<ModuleMember>, Error> {
         let full = format!("{module}.{name}");
         let sim = self.sim()?;
-        match sim.modules.registry.module(module).and_then(|namespace| namespace.get(name)) {
-            Some(Member::Constant(value)) => return Ok(Some(ModuleMember::Constant(Data::Int(value)))),
+        match sim
+            .modules
+            .registry
+            .module(module)
+            .and_then(|namespace| namespace.get(name))
+        {
+            Some(Member::Constant(value)) => {
+                return Ok(Some(ModuleMember::Constant(Data::Int(value))));
+            }
             Some(_) => return Ok(Some(ModuleMember::Function(self.function(&full)))),
             None => {}
         }
@@ -173,7 +193,9 @@ impl Caller {
         }
         let found = self.library("member", &[Data::text(module), Data::text(name)])?;
         Ok(match &found[..] {
-            [Data::Text(kind)] if kind == b"function" => Some(ModuleMember::Function(self.function(&full))),
+            [Data::Text(kind)] if kind == b"function" => {
+                Some(ModuleMember::Function(self.function(&full)))
+            }
             [_, value] => Some(ModuleMember::Constant(value.clone())),
             _ => None,
         })
@@ -185,16 +207,31 @@ impl Caller {
     /// When the module cannot be loaded.
     pub fn member_names(&self, module: &str) -> Result<Vec<String>, Error> {
         if let Some(namespace) = self.sim()?.modules.registry.module(module) {
-            return Ok(namespace.names().into_iter().filter(|name| !name.contains('.')).map(str::to_owned).collect());
+            return Ok(namespace
+                .names()
+                .into_iter()
+                .filter(|name| !name.contains('.'))
+                .map(str::to_owned)
+                .collect());
         }
         let names = self.library("members", &[Data::text(module)])?;
-        let Some(Data::Array(names)) = names.into_iter().next() else { return Ok(Vec::new()) };
-        let text = |name| if let Data::Text(name) = name { String::from_utf8(name).ok() } else { None };
+        let Some(Data::Array(names)) = names.into_iter().next() else {
+            return Ok(Vec::new());
+        };
+        let text = |name| {
+            if let Data::Text(name) = name {
+                String::from_utf8(name).ok()
+            } else {
+                None
+            }
+        };
         Ok(names.into_iter().filter_map(text).collect())
     }
 
     fn enumeration(&self, sim: &Sim, module: &str, name: &str) -> Vec<(String, i64)> {
-        let Some(namespace) = sim.modules.registry.module(module) else { return Vec::new() };
+        let Some(namespace) = sim.modules.registry.module(module) else {
+            return Vec::new();
+        };
         let prefix = format!("{name}.");
         let member = |full: &str| match namespace.get(full) {
             Some(Member::Constant(value)) => Some((full.strip_prefix(&prefix)?.to_owned(), value)),
@@ -206,12 +243,19 @@ impl Caller {
     /// Calls a function of the helper with the name of a function, split, and its arguments.
     fn helper(&self, how: &str, name: &str, args: &[Data]) -> Result<Vec<Data>, Error> {
         let (module, member) = name.rsplit_once('.').unwrap_or(("_G", name));
-        let names = [Data::Int(self.handle()), Data::text(module), Data::text(member), Data::Int(args.len() as i64)];
+        let names = [
+            Data::Int(self.handle()),
+            Data::text(module),
+            Data::text(member),
+            Data::Int(args.len() as i64),
+        ];
         self.library(how, &[&names[..], args].concat())
     }
 
     fn library(&self, function: &str, args: &[Data]) -> Result<Vec<Data>, Error> {
-        let results = self.sim()?.call_library_function(&self.script, HELPER, function, args);
+        let results = self
+            .sim()?
+            .call_library_function(&self.script, HELPER, function, args);
         results.map_err(|error| Error::Api(without_place(error)))
     }
 }
@@ -230,14 +274,22 @@ fn progress(mut results: Vec<Data>) -> Result<Progress, Error> {
 
 /// The reason alone: `17: in sim._getObject: ` before it is a place in the library.
 fn without_place(error: ApiError) -> ApiError {
-    let ApiError::Other(text) = &error else { return error };
+    let ApiError::Other(text) = &error else {
+        return error;
+    };
     let mut reason = text.as_str();
     if let Some((line, rest)) = reason.split_once(": ")
-        && line.rsplit(':').next().is_some_and(|line| line.parse::<u32>().is_ok())
+        && line
+            .rsplit(':')
+            .next()
+            .is_some_and(|line| line.parse::<u32>().is_ok())
     {
         reason = rest;
     }
-    if let Some((_, rest)) = reason.strip_prefix("in ").and_then(|rest| rest.split_once(": ")) {
+    if let Some((_, rest)) = reason
+        .strip_prefix("in ")
+        .and_then(|rest| rest.split_once(": "))
+    {
         reason = rest;
     }
     ApiError::Other(reason.to_owned())
@@ -250,11 +302,17 @@ mod tests {
     #[test]
     fn errors_of_the_library_lose_their_place() {
         for (text, reason) in [
-            ("17: in sim._getObject: object does not exist.", "object does not exist."),
+            (
+                "17: in sim._getObject: object does not exist.",
+                "object does not exist.",
+            ),
             ("sim/motion:3: there is no path", "there is no path"),
             ("sim.wait: cannot wait here", "sim.wait: cannot wait here"),
         ] {
-            assert_eq!(without_place(ApiError::Other(text.into())), ApiError::Other(reason.into()));
+            assert_eq!(
+                without_place(ApiError::Other(text.into())),
+                ApiError::Other(reason.into())
+            );
         }
     }
 }

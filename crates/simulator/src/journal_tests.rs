@@ -23,25 +23,35 @@ function placed() return place end
 fn simulator() -> (Simulator, Handle) {
     let mut sim = Simulator::new(Options::default());
     let dummy = Kind::Dummy(scene::object::dummy::Dummy::new(0.01));
-    let dummy = sim.scene_mut().add("watched", dummy).expect("there is room");
+    let dummy = sim
+        .scene_mut()
+        .add("watched", dummy)
+        .expect("there is room");
     (sim, dummy)
 }
 
 fn listener(sim: &mut Simulator) -> ScriptRef {
-    let script = sim.add_script(ScriptKind::Customization, "listener", LISTENER).expect("the script loads");
+    let script = sim
+        .add_script(ScriptKind::Customization, "listener", LISTENER)
+        .expect("the script loads");
     sim.iterate();
     script
 }
 
 fn counted(sim: &mut Simulator, listener: &ScriptRef, event: &str) -> i64 {
-    match sim.call(listener, "counted", &[Data::text(event)]).expect("the function is there")[..] {
+    match sim
+        .call(listener, "counted", &[Data::text(event)])
+        .expect("the function is there")[..]
+    {
         [Data::Int(count)] => count,
         ref other => panic!("no count: {other:?}"),
     }
 }
 
 fn move_to(sim: &mut Simulator, dummy: Handle, x: f64) {
-    sim.scene_mut().set_local_pose(dummy, Pose::translation(x, 0.0, 0.0)).expect("the dummy exists");
+    sim.scene_mut()
+        .set_local_pose(dummy, Pose::translation(x, 0.0, 0.0))
+        .expect("the dummy exists");
 }
 
 fn read(sim: &Simulator, cursor: &mut Cursor) -> Vec<Change> {
@@ -54,11 +64,18 @@ fn read(sim: &Simulator, cursor: &mut Cursor) -> Vec<Change> {
 #[test]
 fn a_reader_in_rust_learns_what_scripts_and_rust_change() {
     let (mut sim, dummy) = simulator();
-    let mut cursor = sim.scene().journal().follow(Topics::TREE.with_fields(&[Field::Pose]));
-    assert!(matches!(sim.scene().journal().read(&mut cursor), Unread::Everything));
+    let mut cursor = sim
+        .scene()
+        .journal()
+        .follow(Topics::TREE.with_fields(&[Field::Pose]));
+    assert!(matches!(
+        sim.scene().journal().read(&mut cursor),
+        Unread::Everything
+    ));
     move_to(&mut sim, dummy, 1.0);
     let code = b"sim = require 'sim' sim.setObjectPosition(sim.getObject('/watched'), {2, 0, 0}) sim.createDummy(0.01)";
-    sim.add_script(ScriptKind::Sandbox, "changes", code).expect("the script runs");
+    sim.add_script(ScriptKind::Sandbox, "changes", code)
+        .expect("the script runs");
     let changes = read(&sim, &mut cursor);
     let moved = Change::Modified(dummy, Field::Pose);
     assert!(
@@ -73,7 +90,9 @@ fn scripts_learn_what_rust_changes() {
     let listener = listener(&mut sim);
     move_to(&mut sim, dummy, 3.0);
     sim.iterate();
-    let place = sim.call(&listener, "placed", &[]).expect("the function is there");
+    let place = sim
+        .call(&listener, "placed", &[])
+        .expect("the function is there");
     assert_eq!(place, [Data::text(&format!("{} at 3.0", dummy.raw()))]);
 }
 
@@ -88,7 +107,13 @@ fn scripts_get_a_new_genesis_after_an_overflow() {
     assert_eq!(counted(&mut sim, &listener, "objectAdded"), 2 * world);
     move_to(&mut sim, dummy, 0.5);
     sim.iterate();
-    let place = sim.call(&listener, "placed", &[]).expect("the function is there");
-    assert_eq!(place, [Data::text(&format!("{} at 0.5", dummy.raw()))], "events go on");
+    let place = sim
+        .call(&listener, "placed", &[])
+        .expect("the function is there");
+    assert_eq!(
+        place,
+        [Data::text(&format!("{} at 0.5", dummy.raw()))],
+        "events go on"
+    );
     assert_eq!(counted(&mut sim, &listener, "objectAdded"), 2 * world);
 }

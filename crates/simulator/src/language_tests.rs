@@ -8,8 +8,9 @@ use crate::{ScriptRef, Simulator};
 use scene::object::script_object::{ScriptObject, ScriptType};
 use scene::{Data, Kind};
 use script::{
-    CallError, CallbackResult, Callee, Console, Env, FunctionRef, Handler, HeldFunction, Hook, Interpreter, Language,
-    Languages, Limits, LogLine, LuaLanguage, Options, Runtime, ScriptError, Sim, SourceText, SysCall,
+    CallError, CallbackResult, Callee, Console, Env, FunctionRef, Handler, HeldFunction, Hook,
+    Interpreter, Language, Languages, Limits, LogLine, LuaLanguage, Options, Runtime, ScriptError,
+    Sim, SourceText, SysCall,
 };
 
 type Lines = Rc<RefCell<Vec<String>>>;
@@ -24,20 +25,29 @@ const ROBOT: &[(&str, Function)] = &[
     ("sysCall_thread", |robot, _| robot.note("thread")),
     ("sysCall_cleanup", |robot, _| robot.note("cleanup")),
     ("before", |robot, _| robot.note("hook")),
-    ("position", |robot, args| robot.api("sim.getObjectPosition", args)),
+    ("position", |robot, args| {
+        robot.api("sim.getObjectPosition", args)
+    }),
     ("twice_the_half", |robot, args| {
         let lua = robot.api("sim.getObject", &[Data::text("/lua")])?;
-        let half = robot.api("sim.callScriptFunction", &[Data::text("half"), lua[0].clone(), args[0].clone()])?;
+        let half = robot.api(
+            "sim.callScriptFunction",
+            &[Data::text("half"), lua[0].clone(), args[0].clone()],
+        )?;
         Ok(vec![half[0].clone(), half[0].clone()])
     }),
-    ("fail", |_, _| Err(error("robot:3: out of order\nwhile calling fail"))),
+    ("fail", |_, _| {
+        Err(error("robot:3: out of order\nwhile calling fail"))
+    }),
     ("wait_for_ever", |robot, _| robot.wait_for_ever()),
 ];
 
 /// The text `broken`: its actuation fails.
 const BROKEN: &[(&str, Function)] = &[
     ("sysCall_init", |_, _| Ok(Vec::new())),
-    ("sysCall_actuation", |_, _| Err(error("broken:1: a wheel is off"))),
+    ("sysCall_actuation", |_, _| {
+        Err(error("broken:1: a wheel is off"))
+    }),
     ("sysCall_cleanup", |broken, _| broken.note("cleanup")),
 ];
 
@@ -87,12 +97,18 @@ impl Running {
     }
 
     fn sim(&self) -> Result<Rc<Sim>, ScriptError> {
-        self.shared.sim.get().and_then(Weak::upgrade).ok_or_else(|| error("the simulator is gone"))
+        self.shared
+            .sim
+            .get()
+            .and_then(Weak::upgrade)
+            .ok_or_else(|| error("the simulator is gone"))
     }
 
     /// Calls an API function with plain values.
     fn api(&self, name: &str, args: &[Data]) -> Outcome {
-        self.sim()?.call_api(&self.env.script, name, args).map_err(|reason| error(&reason.to_string()))
+        self.sim()?
+            .call_api(&self.env.script, name, args)
+            .map_err(|reason| error(&reason.to_string()))
     }
 
     fn lua(&self) -> Result<&Runtime, ScriptError> {
@@ -101,7 +117,10 @@ impl Running {
             lua.interpreter.start()?;
             let _ = self.lua.set(lua);
         }
-        self.lua.get().map(Rc::as_ref).ok_or_else(|| error("the interpreter was just set"))
+        self.lua
+            .get()
+            .map(Rc::as_ref)
+            .ok_or_else(|| error("the interpreter was just set"))
     }
 
     fn wait_for_ever(&self) -> Outcome {
@@ -117,7 +136,11 @@ impl Running {
     }
 
     fn find(&self, name: &str) -> Option<Function> {
-        self.functions.get().iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
+        self.functions
+            .get()
+            .iter()
+            .find(|(known, _)| *known == name)
+            .map(|(_, function)| *function)
     }
 }
 
@@ -169,7 +192,11 @@ impl Interpreter for Running {
     fn call(&self, function: Callee<'_>, args: &[Data]) -> Result<Vec<Data>, CallError> {
         let function = match function {
             Callee::Named(name) => self.find(name),
-            Callee::Function(function) => self.functions.get().get(function.number() as usize).map(|entry| entry.1),
+            Callee::Function(function) => self
+                .functions
+                .get()
+                .get(function.number() as usize)
+                .map(|entry| entry.1),
         };
         Ok(function.ok_or(CallError::NoSuchFunction)?(self, args)?)
     }
@@ -187,7 +214,10 @@ impl Interpreter for Running {
     }
 
     fn release(&self, function: FunctionRef) {
-        self.shared.lines.borrow_mut().push(format!("released {}", function.number()));
+        self.shared
+            .lines
+            .borrow_mut()
+            .push(format!("released {}", function.number()));
     }
 
     fn traceback(&self) -> String {
@@ -217,19 +247,34 @@ struct Fixture {
 impl Fixture {
     fn new(options: Options) -> Self {
         let (shared, errors) = (Rc::new(Shared::default()), Lines::default());
-        let languages: Vec<Box<dyn Language>> =
-            vec![Box::new(LuaLanguage::new(Vec::new())), Box::new(RustLanguage(Rc::clone(&shared)))];
+        let languages: Vec<Box<dyn Language>> = vec![
+            Box::new(LuaLanguage::new(Vec::new())),
+            Box::new(RustLanguage(Rc::clone(&shared))),
+        ];
         let console = Box::new(Errors(Rc::clone(&errors)));
-        let sim = Sim::new(options, modules::registry(), console, Languages::new(languages));
+        let sim = Sim::new(
+            options,
+            modules::registry(),
+            console,
+            Languages::new(languages),
+        );
         let _ = shared.sim.set(Rc::downgrade(&sim));
-        Self { simulator: Simulator::with_main_and_sandbox(sim, Rc::default()), shared, errors }
+        Self {
+            simulator: Simulator::with_main_and_sandbox(sim, Rc::default()),
+            shared,
+            errors,
+        }
     }
 
     fn add(&mut self, alias: &str, language: &str, text: &str) -> ScriptRef {
         let mut object = ScriptObject::new(ScriptType::Simulation, text.into(), language, false);
         object.disabled = false;
         let object = Kind::Script(Box::new(object));
-        let handle = self.simulator.scene_mut().add(alias, object).expect("there is room");
+        let handle = self
+            .simulator
+            .scene_mut()
+            .add(alias, object)
+            .expect("there is room");
         self.simulator.script(handle).expect("it is a script")
     }
 
@@ -253,7 +298,17 @@ fn a_script_lives_in_any_language() {
     let mut fixture = Fixture::new(Options::default());
     fixture.add("robot", "rust", "robot");
     fixture.simulator.step(2);
-    assert_eq!(fixture.take_lines(), ["start", "init", "thread", "actuation", "thread", "actuation"]);
+    assert_eq!(
+        fixture.take_lines(),
+        [
+            "start",
+            "init",
+            "thread",
+            "actuation",
+            "thread",
+            "actuation"
+        ]
+    );
     fixture.simulator.stop();
     let lines = fixture.take_lines();
     assert_eq!(lines[lines.len() - 2..], ["cleanup", "closed"]);
@@ -268,14 +323,28 @@ fn scripts_call_each_other_across_languages() {
     fixture.simulator.step(1);
     let errors = Rc::clone(&fixture.errors);
     let mut ask = |function: &str, args: &[Data]| {
-        fixture.simulator.call(&lua, function, args).unwrap_or_else(|_| panic!("{:?}", errors.borrow()))
+        fixture
+            .simulator
+            .call(&lua, function, args)
+            .unwrap_or_else(|_| panic!("{:?}", errors.borrow()))
     };
     let position = [Data::text("position"), Data::Int(lua.handle())];
-    assert_eq!(ask("ask", &position), [Data::Array(vec![Data::Float(0.0); 3])]);
-    assert_eq!(ask("ask", &[Data::text("twice_the_half"), Data::Int(5)]), [Data::Float(2.5), Data::Float(2.5)]);
-    assert_eq!(ask("length", &[Data::text("1234")]), [Data::Int(0), Data::Int(4)]);
+    assert_eq!(
+        ask("ask", &position),
+        [Data::Array(vec![Data::Float(0.0); 3])]
+    );
+    assert_eq!(
+        ask("ask", &[Data::text("twice_the_half"), Data::Int(5)]),
+        [Data::Float(2.5), Data::Float(2.5)]
+    );
+    assert_eq!(
+        ask("length", &[Data::text("1234")]),
+        [Data::Int(0), Data::Int(4)]
+    );
     assert_eq!(ask("trace", &[]), [Data::text("in robot")]);
-    let [Data::Bool(false), Data::Text(reason)] = &ask("try", &[Data::text("nothing")])[..] else { panic!("called") };
+    let [Data::Bool(false), Data::Text(reason)] = &ask("try", &[Data::text("nothing")])[..] else {
+        panic!("called")
+    };
     assert!(String::from_utf8_lossy(reason).ends_with("failed calling script function."));
     assert_eq!(fixture.simulator.errors(), 0);
 }
@@ -287,8 +356,13 @@ fn the_error_of_a_function_ends_its_script_and_reaches_the_caller() {
     let lua = fixture.add("lua", "lua", LUA);
     fixture.simulator.step(1);
     fixture.take_lines();
-    let caught = fixture.simulator.call(&lua, "try", &[Data::text("fail")]).expect("pcall catches it");
-    let [Data::Bool(false), Data::Text(reason)] = &caught[..] else { panic!("{caught:?}") };
+    let caught = fixture
+        .simulator
+        .call(&lua, "try", &[Data::text("fail")])
+        .expect("pcall catches it");
+    let [Data::Bool(false), Data::Text(reason)] = &caught[..] else {
+        panic!("{caught:?}")
+    };
     assert!(String::from_utf8_lossy(reason).ends_with("error in script function."));
     assert_eq!(fixture.take_lines(), ["cleanup", "closed"]);
     let logged = "[/robot:error]   robot:3: out of order\nwhile calling fail";
@@ -301,7 +375,10 @@ fn the_error_of_a_callback_ends_its_script() {
     fixture.add("robot", "rust", "broken");
     fixture.simulator.step(2);
     assert_eq!(fixture.take_lines(), ["start", "cleanup", "closed"]);
-    assert_eq!(*fixture.errors.borrow(), ["[/robot:error]   broken:1: a wheel is off"]);
+    assert_eq!(
+        *fixture.errors.borrow(),
+        ["[/robot:error]   broken:1: a wheel is off"]
+    );
 }
 
 #[test]
@@ -310,7 +387,10 @@ fn a_text_that_does_not_load_is_an_error() {
     fixture.add("robot", "rust", "else");
     fixture.simulator.step(1);
     assert_eq!(fixture.take_lines(), ["start", "closed"]);
-    assert_eq!(*fixture.errors.borrow(), ["[/robot:error]   /robot: unknown text"]);
+    assert_eq!(
+        *fixture.errors.borrow(),
+        ["[/robot:error]   /robot: unknown text"]
+    );
 }
 
 #[test]
@@ -325,11 +405,20 @@ fn a_language_that_is_not_there_is_an_error() {
 #[test]
 fn a_script_that_never_returns_is_interrupted() {
     let limits = Some(Limits { memory: usize::MAX });
-    let mut fixture = Fixture::new(Options { limits, ..Options::default() });
+    let mut fixture = Fixture::new(Options {
+        limits,
+        ..Options::default()
+    });
     let robot = fixture.add("robot", "rust", "robot");
     fixture.simulator.step(1);
-    fixture.simulator.call(&robot, "wait_for_ever", &[]).expect_err("it is interrupted");
-    assert_eq!(*fixture.errors.borrow(), ["[/robot:error]   interrupted. in turn 11"]);
+    fixture
+        .simulator
+        .call(&robot, "wait_for_ever", &[])
+        .expect_err("it is interrupted");
+    assert_eq!(
+        *fixture.errors.borrow(),
+        ["[/robot:error]   interrupted. in turn 11"]
+    );
 }
 
 #[test]
@@ -339,12 +428,20 @@ fn hooks_run_and_functions_are_released() {
     fixture.simulator.step(1);
     fixture.take_lines();
     let sim = Rc::clone(&fixture.simulator.sim);
-    let hook = [Data::text("sysCall_actuation"), Data::text("before"), Data::Bool(true)];
-    sim.call_api(&robot.0, "registerScriptFuncHook", &hook).expect("it is registered");
+    let hook = [
+        Data::text("sysCall_actuation"),
+        Data::text("before"),
+        Data::Bool(true),
+    ];
+    sim.call_api(&robot.0, "registerScriptFuncHook", &hook)
+        .expect("it is registered");
     fixture.simulator.step(1);
     assert_eq!(fixture.take_lines(), ["thread", "hook", "actuation"]);
 
-    let function = HeldFunction::new(&robot.0.current_runtime().expect("it runs").env, FunctionRef::new(1));
+    let function = HeldFunction::new(
+        &robot.0.current_runtime().expect("it runs").env,
+        FunctionRef::new(1),
+    );
     let handler = Handler::Function(function);
     assert_eq!(sim.call_handler(&robot.0, &handler, &[]), Some(Vec::new()));
     drop(handler);

@@ -39,8 +39,8 @@ pub use native_script::{NativeScript, NativeScriptFactory};
 pub use perception::vision::{Channels, Picture};
 pub use run::{RunLimits, RunObserver, RunTotals};
 pub use script::{
-    Console, EmbeddedScript, Limits, LogLine, Options, PythonHost, RosOptions, ScriptCalls, Silent, SimulationState,
-    VideoFailure, VideoOptions, VideoView,
+    Console, EmbeddedScript, Limits, LogLine, Options, PythonHost, RosOptions, ScriptCalls, Silent,
+    SimulationState, VideoFailure, VideoOptions, VideoView,
 };
 pub use viewing::PropertyRow;
 
@@ -121,11 +121,19 @@ impl Simulator {
 
     fn with_main_and_sandbox(sim: Rc<Sim>, native_scripts: Rc<NativeScripts>) -> Self {
         let main_text = sim.modules.registry.main_script();
-        sim.scripts.add_detached(ScriptType::Main, Detached::of_text("mainScript", main_text.as_bytes()));
-        let sandbox =
-            sim.scripts.add_detached(ScriptType::Sandbox, Detached::of_text("sandboxScript", b"sim = require 'sim'"));
+        sim.scripts.add_detached(
+            ScriptType::Main,
+            Detached::of_text("mainScript", main_text.as_bytes()),
+        );
+        let sandbox = sim.scripts.add_detached(
+            ScriptType::Sandbox,
+            Detached::of_text("sandboxScript", b"sim = require 'sim'"),
+        );
         sim.deliver(&sandbox, SysCall::Init, &[]);
-        Self { sim, native_scripts }
+        Self {
+            sim,
+            native_scripts,
+        }
     }
 
     /// A simulator with the default scene that runs tests: what they see of it and leave behind is on `bench`. They are chunks of the sandbox.
@@ -142,16 +150,24 @@ impl Simulator {
     ///
     /// # Errors
     /// When the server cannot start.
-    pub fn serve_zmq(&mut self, listener: TcpListener, stop: Arc<AtomicBool>) -> std::io::Result<SocketAddr> {
+    pub fn serve_zmq(
+        &mut self,
+        listener: TcpListener,
+        stop: Arc<AtomicBool>,
+    ) -> std::io::Result<SocketAddr> {
         let address = listener.local_addr()?;
         let server = ZmqServer::start(self.sim.event_loop.get()?, listener, stop)?;
         modules_messaging::remote::set_zmq_server(&self.sim.modules.states, server);
         let port = address.port().to_string().into_bytes();
-        self.sim.app.borrow_mut().named_params.insert("zmqRemoteApi.rpcPort".to_owned(), port);
-        let add_on = self
-            .sim
-            .scripts
-            .add_detached(ScriptType::AddOn, Detached::of_text("ZMQ remote API server@addOnScript", ZMQ_ADD_ON));
+        self.sim
+            .app
+            .borrow_mut()
+            .named_params
+            .insert("zmqRemoteApi.rpcPort".to_owned(), port);
+        let add_on = self.sim.scripts.add_detached(
+            ScriptType::AddOn,
+            Detached::of_text("ZMQ remote API server@addOnScript", ZMQ_ADD_ON),
+        );
         self.sim.start_detached(&add_on);
         Ok(address)
     }
@@ -164,11 +180,15 @@ impl Simulator {
         let address = listener.local_addr()?;
         modules_messaging::remote::set_web_socket_listener(&self.sim.modules.states, listener);
         let port = address.port().to_string().into_bytes();
-        self.sim.app.borrow_mut().named_params.insert("wsRemoteApi.port".to_owned(), port);
-        let add_on = self
-            .sim
-            .scripts
-            .add_detached(ScriptType::AddOn, Detached::of_text("WebSocket remote API server@addOnScript", WS_ADD_ON));
+        self.sim
+            .app
+            .borrow_mut()
+            .named_params
+            .insert("wsRemoteApi.port".to_owned(), port);
+        let add_on = self.sim.scripts.add_detached(
+            ScriptType::AddOn,
+            Detached::of_text("WebSocket remote API server@addOnScript", WS_ADD_ON),
+        );
         self.sim.start_detached(&add_on);
         Ok(address)
     }
@@ -180,18 +200,30 @@ impl Simulator {
     pub fn serve_legacy(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
         let event_loop = self.sim.event_loop.get()?;
         let age = Duration::from_secs_f64(self.sim.clock.wall_seconds());
-        modules_messaging::sim_remote_api::serve(&self.sim.modules.states, &event_loop, listener, age)
+        modules_messaging::sim_remote_api::serve(
+            &self.sim.modules.states,
+            &event_loop,
+            listener,
+            age,
+        )
     }
 
     /// Streams events (protocol 3) to those that connect by WebSocket, as CoppeliaSim's add-on "Visualization stream" does.
     ///
     /// # Errors
     /// When the listener cannot be used.
-    pub fn serve_visualization_stream(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
+    pub fn serve_visualization_stream(
+        &mut self,
+        listener: TcpListener,
+    ) -> std::io::Result<SocketAddr> {
         let address = listener.local_addr()?;
         modules_messaging::remote::set_visualization_listener(&self.sim.modules.states, listener);
         let port = address.port().to_string().into_bytes();
-        self.sim.app.borrow_mut().named_params.insert("visualizationStream.ws.port".to_owned(), port);
+        self.sim
+            .app
+            .borrow_mut()
+            .named_params
+            .insert("visualizationStream.ws.port".to_owned(), port);
         let detached = Detached::of_text("Visualization stream@addOnScript", VISUALIZATION_ADD_ON);
         let add_on = self.sim.scripts.add_detached(ScriptType::AddOn, detached);
         self.sim.start_detached(&add_on);
@@ -214,7 +246,12 @@ impl Simulator {
     ///
     /// # Errors
     /// When the scene is full, or the sandbox chunk fails.
-    pub fn add_script(&mut self, kind: ScriptKind, name: &str, code: &[u8]) -> Result<ScriptRef, Error> {
+    pub fn add_script(
+        &mut self,
+        kind: ScriptKind,
+        name: &str,
+        code: &[u8],
+    ) -> Result<ScriptRef, Error> {
         self.add_script_of_file(kind, name, code, None)
     }
 
@@ -232,11 +269,18 @@ impl Simulator {
         let language = script_file::language(file, code);
         let file = file.map(|file| file.display().to_string());
         match kind {
-            ScriptKind::Customization => self.add_object_script(ScriptType::Customization, language, code, file),
-            ScriptKind::Simulation => self.add_object_script(ScriptType::Simulation, language, code, file),
+            ScriptKind::Customization => {
+                self.add_object_script(ScriptType::Customization, language, code, file)
+            }
+            ScriptKind::Simulation => {
+                self.add_object_script(ScriptType::Simulation, language, code, file)
+            }
             ScriptKind::AddOn => {
                 let detached = Detached::of_text(&format!("{name}@addOnScript"), code);
-                let detached = Detached { language: language.into(), ..detached };
+                let detached = Detached {
+                    language: language.into(),
+                    ..detached
+                };
                 let script = self.sim.scripts.add_detached(ScriptType::AddOn, detached);
                 script.file.replace(file);
                 self.sim.start_detached(&script);
@@ -253,7 +297,9 @@ impl Simulator {
             }
             ScriptKind::Sandbox => {
                 let sandbox = self.the(ScriptType::Sandbox);
-                self.sim.run_in(&sandbox.0, code, name, file.as_deref()).map_err(Error::Script)?;
+                self.sim
+                    .run_in(&sandbox.0, code, name, file.as_deref())
+                    .map_err(Error::Script)?;
                 Ok(sandbox)
             }
             ScriptKind::Main => {
@@ -274,9 +320,16 @@ impl Simulator {
         file: Option<String>,
     ) -> Result<ScriptRef, Error> {
         let object = ScriptObject::new(script_type, code.to_vec(), language, false);
-        let handle =
-            self.sim.scene.borrow_mut().add("Script", Kind::Script(Box::new(object))).map_err(ApiError::from)?;
-        let script = self.sim.script(handle.raw()).ok_or(ApiError::NoSuchScript)?;
+        let handle = self
+            .sim
+            .scene
+            .borrow_mut()
+            .add("Script", Kind::Script(Box::new(object)))
+            .map_err(ApiError::from)?;
+        let script = self
+            .sim
+            .script(handle.raw())
+            .ok_or(ApiError::NoSuchScript)?;
         script.file.replace(file);
         if script_type == ScriptType::Customization {
             self.sim.init_script(&script);
@@ -285,7 +338,12 @@ impl Simulator {
     }
 
     fn the(&self, script_type: ScriptType) -> ScriptRef {
-        ScriptRef(self.sim.scripts.detached(script_type).expect("main and sandbox are made with the simulator"))
+        ScriptRef(
+            self.sim
+                .scripts
+                .detached(script_type)
+                .expect("main and sandbox are made with the simulator"),
+        )
     }
 
     /// The script object `handle`.
@@ -293,7 +351,11 @@ impl Simulator {
     /// # Errors
     /// When it is no script.
     pub fn script(&self, handle: Handle) -> Result<ScriptRef, Error> {
-        Ok(ScriptRef(self.sim.script(handle.raw()).ok_or(ApiError::NoSuchScript)?))
+        Ok(ScriptRef(
+            self.sim
+                .script(handle.raw())
+                .ok_or(ApiError::NoSuchScript)?,
+        ))
     }
 
     /// Path and text of the script whose errors read `[string "name"]:line:`.
@@ -336,7 +398,11 @@ impl Simulator {
 
     /// Removes every object.
     pub fn clear_scene(&mut self) {
-        let all: Vec<Handle> = self.scene().objects().map(::scene::Object::handle).collect();
+        let all: Vec<Handle> = self
+            .scene()
+            .objects()
+            .map(::scene::Object::handle)
+            .collect();
         // The handles were just read, so none is unknown or given twice.
         let _ = self.sim.remove_objects(&all);
     }
@@ -396,7 +462,10 @@ impl Simulator {
     pub fn named_params(&self) -> Vec<(String, String)> {
         let app = self.sim.app.borrow();
         let text = |value: &Vec<u8>| String::from_utf8_lossy(value).into_owned();
-        app.named_params.iter().map(|(name, value)| (name.clone(), text(value))).collect()
+        app.named_params
+            .iter()
+            .map(|(name, value)| (name.clone(), text(value)))
+            .collect()
     }
 
     /// The names of the parameters that scripts have read.
@@ -418,7 +487,12 @@ impl Simulator {
     ///
     /// # Errors
     /// When there is no such function or it fails.
-    pub fn call(&mut self, script: &ScriptRef, function: &str, args: &[Data]) -> Result<Vec<Data>, Error> {
+    pub fn call(
+        &mut self,
+        script: &ScriptRef,
+        function: &str,
+        args: &[Data],
+    ) -> Result<Vec<Data>, Error> {
         Ok(self.sim.call_function(&script.0, function, args)?)
     }
 
@@ -464,7 +538,9 @@ mod tests {
     fn a_simulator_goes_with_all_its_states() {
         let mut sim = Simulator::new(Options::default());
         let code = b"function sysCall_init() self = 1 end";
-        let script = sim.add_script(ScriptKind::Customization, "script", code).expect("the script loads");
+        let script = sim
+            .add_script(ScriptKind::Customization, "script", code)
+            .expect("the script loads");
         let gone = Rc::downgrade(&script.0);
         drop(script);
         drop(sim);

@@ -8,8 +8,8 @@ use super::{Caller, Error, ScriptKind, ScriptRef, Simulator};
 use scene::object::script_object::{ScriptObject, ScriptType};
 use scene::{Data, Kind};
 use script::{
-    ApiError, CallError, CallbackResult, Callee, Detached, Env, FunctionRef, Hook, Interpreter, Language, Runtime,
-    ScriptError, SourceText, SysCall,
+    ApiError, CallError, CallbackResult, Callee, Detached, Env, FunctionRef, Hook, Interpreter,
+    Language, Runtime, ScriptError, SourceText, SysCall,
 };
 
 /// The property `language` of these scripts.
@@ -65,8 +65,12 @@ impl NativeScripts {
         let number = self.count.get();
         // A scene that is saved and loaded elsewhere raises the error: Lua is what scripts of unknown languages are in.
         let name = name.replace(|c: char| c.is_control() || "'\\".contains(c), "_");
-        let text = format!("error('the program that added the script {name} (native {number}) is not there.', 0)");
-        self.factories.borrow_mut().insert(text.clone().into_bytes(), factory);
+        let text = format!(
+            "error('the program that added the script {name} (native {number}) is not there.', 0)"
+        );
+        self.factories
+            .borrow_mut()
+            .insert(text.clone().into_bytes(), factory);
         text.into_bytes()
     }
 }
@@ -96,8 +100,16 @@ impl Simulator {
         object.disabled = false;
         let object = Kind::Script(Box::new(object));
         let alias = if name.is_empty() { "Script" } else { name };
-        let handle = self.sim.scene.borrow_mut().add(alias, object).map_err(ApiError::from)?;
-        let script = self.sim.script(handle.raw()).ok_or(ApiError::NoSuchScript)?;
+        let handle = self
+            .sim
+            .scene
+            .borrow_mut()
+            .add(alias, object)
+            .map_err(ApiError::from)?;
+        let script = self
+            .sim
+            .script(handle.raw())
+            .ok_or(ApiError::NoSuchScript)?;
         if script_type == ScriptType::Customization {
             self.sim.init_script(&script);
         }
@@ -106,8 +118,10 @@ impl Simulator {
 
     fn add_native_add_on(&mut self, name: &str, create: Rc<NativeScriptFactory>) -> ScriptRef {
         let text = self.native_scripts.add(name, create);
-        let detached =
-            Detached { language: LANGUAGE.to_owned(), ..Detached::of_text(&format!("{name}@addOnScript"), &text) };
+        let detached = Detached {
+            language: LANGUAGE.to_owned(),
+            ..Detached::of_text(&format!("{name}@addOnScript"), &text)
+        };
         let script = self.sim.scripts.add_detached(ScriptType::AddOn, detached);
         self.sim.start_detached(&script);
         ScriptRef(script)
@@ -149,23 +163,35 @@ struct Running {
 
 impl Running {
     fn caller(&self) -> Result<Caller, ScriptError> {
-        let sim = self.env.simulator().ok_or_else(|| ScriptError::new("the simulator is gone."))?;
+        let sim = self
+            .env
+            .simulator()
+            .ok_or_else(|| ScriptError::new("the simulator is gone."))?;
         Ok(Caller::new(&sim, &self.env.script))
     }
 
     fn lua(&self) -> Result<&Runtime, ScriptError> {
         if self.lua.get().is_none() {
-            let sim = self.env.simulator().ok_or_else(|| ScriptError::new("the simulator is gone."))?;
+            let sim = self
+                .env
+                .simulator()
+                .ok_or_else(|| ScriptError::new("the simulator is gone."))?;
             let lua = sim.create_runtime(&self.env.script, "lua")?;
             lua.interpreter.start()?;
             // It was empty a moment ago, and nothing else sets it.
             let _ = self.lua.set(lua);
         }
-        self.lua.get().map(Rc::as_ref).ok_or_else(|| ScriptError::new("there is no Lua interpreter."))
+        self.lua
+            .get()
+            .map(Rc::as_ref)
+            .ok_or_else(|| ScriptError::new("there is no Lua interpreter."))
     }
 
     fn defined(&self, name: &str) -> Option<&dyn NativeScript> {
-        self.script.get().map(Box::as_ref).filter(|script| script.defines(name))
+        self.script
+            .get()
+            .map(Box::as_ref)
+            .filter(|script| script.defines(name))
     }
 }
 
@@ -188,26 +214,40 @@ impl Interpreter for Running {
     }
 
     fn call_callback(&self, call: SysCall, args: &[Data]) -> Result<CallbackResult, ScriptError> {
-        let Some(script) = self.defined(call.name()) else { return Ok(CallbackResult::NotDefined) };
+        let Some(script) = self.defined(call.name()) else {
+            return Ok(CallbackResult::NotDefined);
+        };
         let results = script.call(call.name(), args).map_err(ScriptError::new)?;
         Ok(CallbackResult::Returned(results.into_iter().last()))
     }
 
     fn call_hook(&self, hook: &Hook, args: &[Data]) -> Result<bool, ScriptError> {
-        let Some(script) = self.defined(&hook.name) else { return Ok(false) };
-        script.call(&hook.name, args).map(|_| true).map_err(ScriptError::new)
+        let Some(script) = self.defined(&hook.name) else {
+            return Ok(false);
+        };
+        script
+            .call(&hook.name, args)
+            .map(|_| true)
+            .map_err(ScriptError::new)
     }
 
     fn resume_thread(&self) -> Result<(), ScriptError> {
-        self.script.get().map_or(Ok(()), |script| script.resume_thread().map_err(ScriptError::new))
+        self.script.get().map_or(Ok(()), |script| {
+            script.resume_thread().map_err(ScriptError::new)
+        })
     }
 
     fn call(&self, function: Callee<'_>, args: &[Data]) -> Result<Vec<Data>, CallError> {
         // Its functions have names only: none was passed as a value.
-        let Callee::Named(name) = function else { return Err(CallError::NoSuchFunction) };
+        let Callee::Named(name) = function else {
+            return Err(CallError::NoSuchFunction);
+        };
         let results = match self.defined(SysCall::Ext.name()) {
             Some(script) => script.call(SysCall::Ext.name(), &[&[Data::text(name)], args].concat()),
-            None => self.defined(name).ok_or(CallError::NoSuchFunction)?.call(name, args),
+            None => self
+                .defined(name)
+                .ok_or(CallError::NoSuchFunction)?
+                .call(name, args),
         };
         results.map_err(|error| ScriptError::new(error).into())
     }
@@ -217,17 +257,28 @@ impl Interpreter for Running {
     }
 
     fn evaluate(&self, text: &[u8]) -> Result<Vec<Data>, ScriptError> {
-        let script = self.script.get().ok_or_else(|| ScriptError::new("the script has not started."))?;
+        let script = self
+            .script
+            .get()
+            .ok_or_else(|| ScriptError::new("the script has not started."))?;
         script.evaluate(text).map_err(ScriptError::new)
     }
 
-    fn call_library(&self, module: &str, function: &str, args: &[Data]) -> Result<Vec<Data>, ScriptError> {
+    fn call_library(
+        &self,
+        module: &str,
+        function: &str,
+        args: &[Data],
+    ) -> Result<Vec<Data>, ScriptError> {
         self.lua()?.interpreter.call_library(module, function, args)
     }
 
     fn release(&self, _: FunctionRef) {}
 
     fn traceback(&self) -> String {
-        self.script.get().map(|script| script.traceback()).unwrap_or_default()
+        self.script
+            .get()
+            .map(|script| script.traceback())
+            .unwrap_or_default()
     }
 }

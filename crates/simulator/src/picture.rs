@@ -19,7 +19,9 @@ impl Simulator {
         channels: Channels,
     ) -> Result<Picture, Error> {
         let mut perception = self.sim.perception.borrow_mut();
-        let picture = perception.vision.view(&self.sim.scene.borrow(), from, resolution, channels);
+        let picture = perception
+            .vision
+            .view(&self.sim.scene.borrow(), from, resolution, channels);
         Ok(picture.map_err(ApiError::from)?)
     }
 

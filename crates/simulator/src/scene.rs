@@ -14,16 +14,25 @@ impl Simulator {
     /// When it cannot be read, or there is no room for it.
     pub fn open(&mut self, path: &Path, kind: ScriptKind) -> Result<(), Error> {
         let input = SceneInput::read(path, &Permissions::all()).map_err(Error::Unreadable)?;
-        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned()).to_string_lossy().into_owned();
+        let absolute = std::path::absolute(path)
+            .unwrap_or_else(|_| path.to_owned())
+            .to_string_lossy()
+            .into_owned();
         match input {
             SceneInput::Script(code) => {
                 self.add_default_objects()?;
-                self.scene_mut().modify_settings(|settings| settings.path.clone_from(&absolute));
-                let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                self.scene_mut()
+                    .modify_settings(|settings| settings.path.clone_from(&absolute));
+                let name = path
+                    .file_stem()
+                    .unwrap_or_default()
+                    .to_string_lossy()
+                    .into_owned();
                 self.add_script_of_file(kind, &name, &code, Some(path))?;
             }
             SceneInput::File(file) => {
-                let unreadable = |error| Error::Unreadable(format!("cannot read {}: {error}", path.display()));
+                let unreadable =
+                    |error| Error::Unreadable(format!("cannot read {}: {error}", path.display()));
                 let file = file.scene().map_err(unreadable)?;
                 if file.is_model() {
                     self.add_default_objects()?;
@@ -31,7 +40,8 @@ impl Simulator {
                 self.load(file)?;
             }
         }
-        self.scene_mut().modify_settings(|settings| settings.path = absolute);
+        self.scene_mut()
+            .modify_settings(|settings| settings.path = absolute);
         Ok(())
     }
 
@@ -48,7 +58,9 @@ impl Simulator {
     /// # Errors
     /// When there is no room for them.
     pub fn add_default_objects(&mut self) -> Result<(), Error> {
-        self.scene_mut().add_default_objects().map_err(|error| Error::Api(error.into()))?;
+        self.scene_mut()
+            .add_default_objects()
+            .map_err(|error| Error::Api(error.into()))?;
         Ok(())
     }
 }

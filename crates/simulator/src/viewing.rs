@@ -86,18 +86,37 @@ impl Simulator {
         let target = sim.property_target(handle, &self.the(ScriptType::Sandbox).0)?;
         let (before, after) = sim.rows_of(&target)?;
         let is_shown = |name: &str| !NOT_SHOWN.contains(&name);
-        let statics = before.iter().chain(after).filter(|row| row.flags & flags::DEPRECATED == 0 && is_shown(row.name));
+        let statics = before
+            .iter()
+            .chain(after)
+            .filter(|row| row.flags & flags::DEPRECATED == 0 && is_shown(row.name));
         let mut rows: Vec<PropertyRow> = statics
             .filter_map(|row| {
                 let value = sim.read_row(&target, row).ok()?;
                 let is_writable = row.flags & flags::NOT_WRITABLE == 0;
-                Some(PropertyRow { name: row.name.to_owned(), class: row.class, ty: row.ty, value, is_writable })
+                Some(PropertyRow {
+                    name: row.name.to_owned(),
+                    class: row.class,
+                    ty: row.ty,
+                    value,
+                    is_writable,
+                })
             })
             .collect();
         for name in sim.stored_names(&target) {
-            let Some((ty, _)) = sim.property_info(&target, &name) else { continue };
-            let Ok(value) = sim.read_property(&target, &name, ty) else { continue };
-            rows.push(PropertyRow { name, class: "data", ty, value, is_writable: true });
+            let Some((ty, _)) = sim.property_info(&target, &name) else {
+                continue;
+            };
+            let Ok(value) = sim.read_property(&target, &name, ty) else {
+                continue;
+            };
+            rows.push(PropertyRow {
+                name,
+                class: "data",
+                ty,
+                value,
+                is_writable: true,
+            });
         }
         Ok(rows)
     }
@@ -107,8 +126,13 @@ impl Simulator {
     /// # Errors
     /// When there is nothing with that handle, or it has no such property.
     pub fn property_type(&self, handle: i64, name: &str) -> Result<ValueType, ApiError> {
-        let target = self.sim.property_target(handle, &self.the(ScriptType::Sandbox).0)?;
-        self.sim.property_info(&target, name).map(|(ty, _)| ty).ok_or(ApiError::UnknownProperty)
+        let target = self
+            .sim
+            .property_target(handle, &self.the(ScriptType::Sandbox).0)?;
+        self.sim
+            .property_info(&target, name)
+            .map(|(ty, _)| ty)
+            .ok_or(ApiError::UnknownProperty)
     }
 
     /// Name, language and text of a script.
@@ -155,7 +179,8 @@ impl Simulator {
     /// When the sandbox cannot run.
     pub fn evaluate(&mut self, code: &str) -> Result<(), super::Error> {
         let sandbox = self.the(ScriptType::Sandbox);
-        self.call(&sandbox, "_evalExec", &[Data::text(code)]).map(drop)
+        self.call(&sandbox, "_evalExec", &[Data::text(code)])
+            .map(drop)
     }
 
     /// The handle of the sandbox.
@@ -166,8 +191,13 @@ impl Simulator {
     /// The contacts of the last sub-step of the physics.
     pub fn last_contacts(&self) -> Vec<Contact> {
         let dynamics = self.sim.dynamics.borrow();
-        let all: Vec<Contact> = dynamics.iter().flat_map(|dynamics| dynamics.contacts()).collect();
+        let all: Vec<Contact> = dynamics
+            .iter()
+            .flat_map(|dynamics| dynamics.contacts())
+            .collect();
         let last = all.last().map(|contact| contact.sub_step);
-        all.into_iter().filter(|contact| Some(contact.sub_step) == last).collect()
+        all.into_iter()
+            .filter(|contact| Some(contact.sub_step) == last)
+            .collect()
     }
 }

@@ -5,7 +5,10 @@ use std::path::Path;
 /// Drops what is not a script's output: loading chatter, the sandbox's infos, tracebacks, addresses, the folder of the case; and
 /// in cases about the scene all warnings and infos.
 pub fn normalize(output: &str, case: &Path) -> String {
-    let folder = format!("{}/", case.parent().expect("a case lies in a folder").display());
+    let folder = format!(
+        "{}/",
+        case.parent().expect("a case lies in a folder").display()
+    );
     let about_scene = case.components().any(|part| part.as_os_str() == "scene");
     let lines = output.lines().filter(|line| {
         let chatter = line.contains(":loadinfo]")
@@ -13,14 +16,20 @@ pub fn normalize(output: &str, case: &Path) -> String {
             || (about_scene && is_log(line, &["warning", "info"]));
         !chatter && *line != "stack traceback:" && !line.starts_with('\t')
     });
-    let text: Vec<String> = lines.map(|line| mask_addresses(&line.replace(&folder, ""))).collect();
+    let text: Vec<String> = lines
+        .map(|line| mask_addresses(&line.replace(&folder, "")))
+        .collect();
     text.join("\n")
 }
 
 /// Whether `line` is a log line of one of these levels.
 fn is_log(line: &str, levels: &[&str]) -> bool {
-    let head = line.strip_prefix('[').and_then(|rest| rest.split_once(']')).map(|(head, _)| head);
-    head.and_then(|head| head.rsplit_once(':')).is_some_and(|(_, level)| levels.contains(&level))
+    let head = line
+        .strip_prefix('[')
+        .and_then(|rest| rest.split_once(']'))
+        .map(|(head, _)| head);
+    head.and_then(|head| head.rsplit_once(':'))
+        .is_some_and(|(_, level)| levels.contains(&level))
 }
 
 /// `0x` and at least six hexadecimal digits become `0xADDR`.
@@ -28,9 +37,16 @@ fn mask_addresses(line: &str) -> String {
     let mut out = String::new();
     let mut rest = line;
     while let Some(at) = rest.find("0x") {
-        let digits = rest[at + 2..].chars().take_while(char::is_ascii_hexdigit).count();
+        let digits = rest[at + 2..]
+            .chars()
+            .take_while(char::is_ascii_hexdigit)
+            .count();
         out += &rest[..at];
-        out += if digits >= 6 { "0xADDR" } else { &rest[at..at + 2 + digits] };
+        out += if digits >= 6 {
+            "0xADDR"
+        } else {
+            &rest[at..at + 2 + digits]
+        };
         rest = &rest[at + 2 + digits..];
     }
     out + rest
@@ -42,8 +58,16 @@ pub fn difference(expected: &str, actual: &str, tolerance: f64) -> Option<String
     let mut report = String::new();
     for i in 0..expected.len().max(actual.len()) {
         let (want, got) = (expected.get(i), actual.get(i));
-        if !want.zip(got).is_some_and(|(want, got)| lines_agree(want, got, tolerance)) {
-            report += &format!("  line {}:\n    expected {}\n    actual   {}\n", i + 1, shown(want), shown(got));
+        if !want
+            .zip(got)
+            .is_some_and(|(want, got)| lines_agree(want, got, tolerance))
+        {
+            report += &format!(
+                "  line {}:\n    expected {}\n    actual   {}\n",
+                i + 1,
+                shown(want),
+                shown(got)
+            );
         }
         if report.lines().count() > 24 {
             break;
@@ -53,7 +77,10 @@ pub fn difference(expected: &str, actual: &str, tolerance: f64) -> Option<String
 }
 
 fn lines(text: &str) -> Vec<&str> {
-    text.trim_end_matches('\n').split('\n').map(str::trim_end).collect()
+    text.trim_end_matches('\n')
+        .split('\n')
+        .map(str::trim_end)
+        .collect()
 }
 
 fn shown<'a>(line: Option<&&'a str>) -> &'a str {
@@ -67,11 +94,9 @@ fn lines_agree(want: &str, got: &str, tolerance: f64) -> bool {
     let (want, got) = (split_numbers(want), split_numbers(got));
     want.0 == got.0
         && want.1.len() == got.1.len()
-        && want
-            .1
-            .iter()
-            .zip(&got.1)
-            .all(|(a, b)| (a - b).abs() <= tolerance + 1e-12 || a == b || (a.is_nan() && b.is_nan()))
+        && want.1.iter().zip(&got.1).all(|(a, b)| {
+            (a - b).abs() <= tolerance + 1e-12 || a == b || (a.is_nan() && b.is_nan())
+        })
 }
 
 /// The text with every number replaced by `#`, and the numbers.
@@ -106,7 +131,9 @@ fn number_at(text: &str) -> Option<(usize, f64)> {
     let digits = |s: &str| s.len() - s.trim_start_matches(|c: char| c.is_ascii_digit()).len();
     let mut length = usize::from(text.starts_with(['-', '+']));
     let whole = digits(&text[length..]);
-    let special = ["nan", "inf"].iter().find(|word| text[length..].starts_with(**word));
+    let special = ["nan", "inf"]
+        .iter()
+        .find(|word| text[length..].starts_with(**word));
     if let Some(word) = special {
         length += word.len();
     } else {
@@ -116,8 +143,9 @@ fn number_at(text: &str) -> Option<(usize, f64)> {
             return None;
         }
         length += fraction.map_or(0, |n| n + 1);
-        let exponent =
-            text[length..].strip_prefix(['e', 'E']).map(|e| (e.len() - e.trim_start_matches(['-', '+']).len(), e));
+        let exponent = text[length..]
+            .strip_prefix(['e', 'E'])
+            .map(|e| (e.len() - e.trim_start_matches(['-', '+']).len(), e));
         if let Some((sign, e)) = exponent.filter(|(sign, e)| digits(&e[*sign..]) > 0) {
             length += 1 + sign + digits(&e[sign..]);
         }
@@ -125,5 +153,9 @@ fn number_at(text: &str) -> Option<(usize, f64)> {
     if text[length..].chars().next().is_some_and(is_word) {
         return None;
     }
-    text[..length].trim_end_matches('.').parse().ok().map(|number| (length, number))
+    text[..length]
+        .trim_end_matches('.')
+        .parse()
+        .ok()
+        .map(|number| (length, number))
 }

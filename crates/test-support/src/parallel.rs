@@ -14,14 +14,21 @@ pub fn map<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<
         let mut done = Vec::new();
         loop {
             let at = next.fetch_add(1, Ordering::Relaxed);
-            let Some(item) = items.get(at) else { return done };
+            let Some(item) = items.get(at) else {
+                return done;
+            };
             done.push((at, work(item)));
         }
     };
     let mut results: Vec<(usize, R)> = thread::scope(|scope| {
-        let count = thread::available_parallelism().map_or(2, usize::from).min(items.len());
+        let count = thread::available_parallelism()
+            .map_or(2, usize::from)
+            .min(items.len());
         let workers: Vec<_> = (0..count).map(|_| scope.spawn(worker)).collect();
-        workers.into_iter().flat_map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
+        workers
+            .into_iter()
+            .flat_map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic)))
+            .collect()
     });
     results.sort_by_key(|(at, _)| *at);
     results.into_iter().map(|(_, result)| result).collect()
@@ -34,7 +41,10 @@ mod tests {
     #[test]
     fn results_stand_in_the_order_of_the_items() {
         let items: Vec<usize> = (0..1000).collect();
-        assert_eq!(map(&items, |item| item * 2), (0..2000).step_by(2).collect::<Vec<_>>());
+        assert_eq!(
+            map(&items, |item| item * 2),
+            (0..2000).step_by(2).collect::<Vec<_>>()
+        );
         assert!(map(&[], |item: &usize| *item).is_empty());
     }
 

@@ -30,14 +30,27 @@ pub fn run_within(command: &mut Command, limit: Duration) -> Result<String, Stri
 /// When it does not end in time, or by a signal.
 pub fn run_for_code(command: &mut Command, limit: Duration) -> Result<(i32, String), String> {
     let mut output = tempfile();
-    let (out, err) =
-        (output.try_clone().expect("files can be cloned"), output.try_clone().expect("files can be cloned"));
-    let mut child = command.stdin(Stdio::null()).stdout(out).stderr(err).spawn().expect("the command starts");
+    let (out, err) = (
+        output.try_clone().expect("files can be cloned"),
+        output.try_clone().expect("files can be cloned"),
+    );
+    let mut child = command
+        .stdin(Stdio::null())
+        .stdout(out)
+        .stderr(err)
+        .spawn()
+        .expect("the command starts");
     let Some(status) = wait_within(&mut child, limit) else {
-        return Err(format!("did not end within {limit:?}; it said last:\n{}", last_lines(&mut output)));
+        return Err(format!(
+            "did not end within {limit:?}; it said last:\n{}",
+            last_lines(&mut output)
+        ));
     };
     let text = read(&mut output);
-    status.code().map(|code| (code, text.clone())).ok_or_else(|| format!("ended by a signal: {status}\n{text}"))
+    status
+        .code()
+        .map(|code| (code, text.clone()))
+        .ok_or_else(|| format!("ended by a signal: {status}\n{text}"))
 }
 
 /// Runs a command; what it wrote to standard output and to standard error.
@@ -47,13 +60,27 @@ pub fn run_for_code(command: &mut Command, limit: Duration) -> Result<(i32, Stri
 #[track_caller]
 pub fn output_of(command: &mut Command) -> Output {
     let (mut out, mut err) = (tempfile(), tempfile());
-    let (stdout, stderr) =
-        (out.try_clone().expect("files can be cloned"), err.try_clone().expect("files can be cloned"));
-    let mut child = command.stdin(Stdio::null()).stdout(stdout).stderr(stderr).spawn().expect("the command starts");
+    let (stdout, stderr) = (
+        out.try_clone().expect("files can be cloned"),
+        err.try_clone().expect("files can be cloned"),
+    );
+    let mut child = command
+        .stdin(Stdio::null())
+        .stdout(stdout)
+        .stderr(stderr)
+        .spawn()
+        .expect("the command starts");
     let Some(status) = wait_within(&mut child, LIMIT) else {
-        panic!("{command:?} did not end within {LIMIT:?}; it said last:\n{}", last_lines(&mut err));
+        panic!(
+            "{command:?} did not end within {LIMIT:?}; it said last:\n{}",
+            last_lines(&mut err)
+        );
     };
-    Output { status, stdout: bytes(&mut out), stderr: bytes(&mut err) }
+    Output {
+        status,
+        stdout: bytes(&mut out),
+        stderr: bytes(&mut err),
+    }
 }
 
 /// Waits for the end of a child. One that goes on is killed: None.
@@ -91,8 +118,12 @@ fn read(output: &mut File) -> String {
 
 fn bytes(output: &mut File) -> Vec<u8> {
     let mut bytes = Vec::new();
-    output.seek(SeekFrom::Start(0)).expect("files can be rewound");
-    output.read_to_end(&mut bytes).expect("our own file is readable");
+    output
+        .seek(SeekFrom::Start(0))
+        .expect("files can be rewound");
+    output
+        .read_to_end(&mut bytes)
+        .expect("our own file is readable");
     bytes
 }
 

@@ -70,6 +70,9 @@ mod tests {
         let mut random = Random::new(1);
         let mut counts = [0; 7];
         (0..7000).for_each(|_| counts[random.below(7)] += 1);
-        assert!(counts.iter().all(|count| (800..1200).contains(count)), "{counts:?}");
+        assert!(
+            counts.iter().all(|count| (800..1200).contains(count)),
+            "{counts:?}"
+        );
     }
 }

@@ -30,13 +30,24 @@ pub struct TestCase {
 impl TestCase {
     /// The case of a file itself.
     pub(super) fn of_file(file: &Path) -> Self {
-        Self { file: file.to_owned(), index: 0, name: vec!["(file)".into()], line: None, repetition: 0, seed: 0 }
+        Self {
+            file: file.to_owned(),
+            index: 0,
+            name: vec!["(file)".into()],
+            line: None,
+            repetition: 0,
+            seed: 0,
+        }
     }
 
     /// The names in one line.
     pub fn title(&self) -> String {
         let title = self.name.join(" ");
-        if self.repetition == 0 { title } else { format!("{title} (seed {})", self.seed) }
+        if self.repetition == 0 {
+            title
+        } else {
+            format!("{title} (seed {})", self.seed)
+        }
     }
 
     /// `file::title`, what filters look at.

@@ -14,7 +14,8 @@ const MAX_DEPTH: usize = 32;
 pub fn find_files(paths: &[PathBuf]) -> io::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for path in paths {
-        let about = |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
+        let about =
+            |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
         if std::fs::metadata(path).map_err(about)?.is_dir() {
             search(path, 0, &mut files).map_err(about)?;
         } else {
@@ -30,9 +31,17 @@ fn search(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) -> io::Result<(
     for entry in std::fs::read_dir(folder)? {
         let entry = entry?;
         let name = entry.file_name().to_string_lossy().into_owned();
-        let path = if folder == Path::new(".") { PathBuf::from(&name) } else { entry.path() };
+        let path = if folder == Path::new(".") {
+            PathBuf::from(&name)
+        } else {
+            entry.path()
+        };
         if path.is_dir() {
-            if depth < MAX_DEPTH && !name.starts_with('.') && name != "target" && name != "node_modules" {
+            if depth < MAX_DEPTH
+                && !name.starts_with('.')
+                && name != "target"
+                && name != "node_modules"
+            {
                 search(&path, depth + 1, files)?;
             }
         } else if is_test(&name) {
@@ -43,7 +52,8 @@ fn search(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) -> io::Result<(
 }
 
 fn is_test(name: &str) -> bool {
-    name.strip_suffix(".lua").is_some_and(|stem| stem.ends_with("_test") || stem.starts_with("test_"))
+    name.strip_suffix(".lua")
+        .is_some_and(|stem| stem.ends_with("_test") || stem.starts_with("test_"))
 }
 
 #[cfg(test)]
@@ -53,7 +63,12 @@ mod tests {
     #[test]
     fn tests_are_found_by_their_names() {
         assert!(is_test("drive_test.lua") && is_test("test_drive.lua"));
-        assert!(!is_test("drive.lua") && !is_test("test_drive.py") && !is_test("contest.lua") && !is_test("tests.lua"));
+        assert!(
+            !is_test("drive.lua")
+                && !is_test("test_drive.py")
+                && !is_test("contest.lua")
+                && !is_test("tests.lua")
+        );
     }
 
     #[test]
@@ -61,11 +76,20 @@ mod tests {
         let dir = tempfile::tempdir().expect("a folder");
         let path = |name: &str| dir.path().join(name);
         std::fs::create_dir_all(path("a/.git")).expect("folders");
-        for name in ["b_test.lua", "a/test_x.lua", "a/.git/y_test.lua", "other.lua"] {
+        for name in [
+            "b_test.lua",
+            "a/test_x.lua",
+            "a/.git/y_test.lua",
+            "other.lua",
+        ] {
             std::fs::write(path(name), "").expect("a file");
         }
-        let found = find_files(&[dir.path().to_owned(), path("other.lua"), path("b_test.lua")]).expect("readable");
-        assert_eq!(found, [path("a/test_x.lua"), path("b_test.lua"), path("other.lua")]);
+        let found = find_files(&[dir.path().to_owned(), path("other.lua"), path("b_test.lua")])
+            .expect("readable");
+        assert_eq!(
+            found,
+            [path("a/test_x.lua"), path("b_test.lua"), path("other.lua")]
+        );
         assert!(find_files(&[path("missing")]).is_err());
     }
 }

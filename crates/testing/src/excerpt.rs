@@ -26,14 +26,26 @@ impl Excerpt {
         let first = line.checked_sub(1)?.saturating_sub(CONTEXT) + 1;
         let source = String::from_utf8_lossy(source);
         let count = (line - first + CONTEXT + 1) as usize;
-        let lines: Vec<_> = source.lines().skip(first as usize - 1).take(count).map(cut).collect();
+        let lines: Vec<_> = source
+            .lines()
+            .skip(first as usize - 1)
+            .take(count)
+            .map(cut)
+            .collect();
         let has_line = lines.len() > (line - first) as usize;
-        has_line.then(|| Self { place: place.to_owned(), line, first, lines })
+        has_line.then(|| Self {
+            place: place.to_owned(),
+            line,
+            first,
+            lines,
+        })
     }
 
     /// Number and text of each line, and whether it is the one that is meant.
     pub fn numbered(&self) -> impl Iterator<Item = (u32, &str, bool)> {
-        (self.first..).zip(&self.lines).map(|(number, text)| (number, text.as_str(), number == self.line))
+        (self.first..)
+            .zip(&self.lines)
+            .map(|(number, text)| (number, text.as_str(), number == self.line))
     }
 
     /// Place and lines, with `mark` before the one that is meant.
@@ -57,12 +69,23 @@ fn cut(line: &str) -> String {
 
 /// The positions `[string "NAME"]:LINE:` of a message, before its traceback.
 pub(super) fn positions(message: &str) -> Vec<(&str, u32)> {
-    let text = message.split("\nstack traceback:").next().unwrap_or_default();
+    let text = message
+        .split("\nstack traceback:")
+        .next()
+        .unwrap_or_default();
     let mut found = Vec::new();
     for part in text.split("[string \"").skip(1) {
-        let Some((name, rest)) = part.split_once("\"]:") else { continue };
-        let line = rest.split(|c: char| !c.is_ascii_digit()).next().and_then(|digits| digits.parse().ok());
-        if let Some(position) = line.map(|line| (name, line)).filter(|position| !found.contains(position)) {
+        let Some((name, rest)) = part.split_once("\"]:") else {
+            continue;
+        };
+        let line = rest
+            .split(|c: char| !c.is_ascii_digit())
+            .next()
+            .and_then(|digits| digits.parse().ok());
+        if let Some(position) = line
+            .map(|line| (name, line))
+            .filter(|position| !found.contains(position))
+        {
             found.push(position);
         }
     }
@@ -78,8 +101,14 @@ mod tests {
     fn lines_around_one() {
         let source = b"a\nb\nc\nd\ne\nf";
         let excerpt = Excerpt::of("x.lua", source, 4).unwrap();
-        assert_eq!(excerpt.text(">"), "x.lua:4\n     2 | b\n     3 | c\n>    4 | d\n     5 | e\n     6 | f\n");
-        assert_eq!(Excerpt::of("x.lua", source, 1).unwrap().lines, ["a", "b", "c"]);
+        assert_eq!(
+            excerpt.text(">"),
+            "x.lua:4\n     2 | b\n     3 | c\n>    4 | d\n     5 | e\n     6 | f\n"
+        );
+        assert_eq!(
+            Excerpt::of("x.lua", source, 1).unwrap().lines,
+            ["a", "b", "c"]
+        );
         assert_eq!(Excerpt::of("x.lua", source, 6).unwrap().first, 4);
     }
 
@@ -99,10 +128,11 @@ mod tests {
 
     #[test]
     fn positions_of_scripts_are_found_in_messages() {
-        let message =
-            "[string \"/a/s\"]:12: [string \"/b\"]:3: oh\nstack traceback:\n\t[string \"/c\"]:4: in main chunk";
+        let message = "[string \"/a/s\"]:12: [string \"/b\"]:3: oh\nstack traceback:\n\t[string \"/c\"]:4: in main chunk";
         assert_eq!(positions(message), [("/a/s", 12), ("/b", 3)]);
         assert!(positions("x.lua:3: oh").is_empty());
-        assert!(positions("[string \"/a\"]:x: [string \"/b\"]:99999999999: [string \"/c").is_empty());
+        assert!(
+            positions("[string \"/a\"]:x: [string \"/b\"]:99999999999: [string \"/c").is_empty()
+        );
     }
 }

@@ -23,9 +23,13 @@ pub(super) fn run(mut command: Command, test: &Arc<TestCase>, stop: &AtomicBool)
     let ended = started.and_then(|child| wait(child, stop));
     let failed = |message: String| Outcome::new(Arc::clone(test), Status::Error, message);
     match ended {
-        Err(error) => failed(format!("the test could not be run in a process of its own: {error}")),
+        Err(error) => failed(format!(
+            "the test could not be run in a process of its own: {error}"
+        )),
         Ok((status, text)) => outcome(&text, test).unwrap_or_else(|| {
-            failed(format!("the test has ended its process, which ran nothing else (--isolate): {status}"))
+            failed(format!(
+                "the test has ended its process, which ran nothing else (--isolate): {status}"
+            ))
         }),
     }
 }
@@ -55,13 +59,19 @@ fn wait(mut child: Child, stop: &AtomicBool) -> std::io::Result<(ExitStatus, Str
         }
         crate::workers::rest(TICK);
     }
-    let text = if reader.is_finished() { reader.join().unwrap_or_default() } else { String::new() };
+    let text = if reader.is_finished() {
+        reader.join().unwrap_or_default()
+    } else {
+        String::new()
+    };
     Ok((status, text))
 }
 
 /// The outcome among the lines, as `report::json` writes it.
 fn outcome(text: &str, test: &Arc<TestCase>) -> Option<Outcome> {
-    let values = text.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
+    let values = text
+        .lines()
+        .filter_map(|line| serde_json::from_str::<Value>(line).ok());
     let value = values.into_iter().find(|value| value["type"] == "test")?;
     let status = match value["status"].as_str()? {
         "passed" => Status::Passed,
@@ -94,7 +104,10 @@ pub(super) fn printed(outcome: &Outcome, counts: &LineCounts) -> String {
             }
         };
         if let Some(functions) = counts.functions.get(text) {
-            value["functions"] = functions.iter().map(|f| json!([f.line, f.name, f.lines])).collect();
+            value["functions"] = functions
+                .iter()
+                .map(|f| json!([f.line, f.name, f.lines]))
+                .collect();
         }
         value
     });
@@ -108,13 +121,23 @@ fn line_counts(value: &Value) -> LineCounts {
         let text = match value["file"].as_str() {
             Some(file) => CountedText::File(file.into()),
             None => {
-                let text = string(&value["text"]).chars().filter_map(|c| u8::try_from(c).ok()).collect();
-                CountedText::Script { scene: string(&value["scene"]), path: string(&value["path"]), text }
+                let text = string(&value["text"])
+                    .chars()
+                    .filter_map(|c| u8::try_from(c).ok())
+                    .collect();
+                CountedText::Script {
+                    scene: string(&value["scene"]),
+                    path: string(&value["path"]),
+                    text,
+                }
             }
         };
         let counts: Vec<u64> = list(&value["counts"]).filter_map(Value::as_u64).collect();
         if value["functions"].is_array() {
-            all.functions.insert(text.clone(), list(&value["functions"]).map(function).collect());
+            all.functions.insert(
+                text.clone(),
+                list(&value["functions"]).map(function).collect(),
+            );
         }
         all.add(text, &counts);
     }
@@ -138,16 +161,32 @@ fn latin1(bytes: &[u8]) -> String {
 fn excerpt(value: &Value) -> Excerpt {
     let number = |name: &str| value[name].as_u64().unwrap_or_default() as u32;
     let lines = list(&value["lines"]).map(string).collect();
-    Excerpt { place: string(&value["place"]), line: number("line"), first: number("first"), lines }
+    Excerpt {
+        place: string(&value["place"]),
+        line: number("line"),
+        first: number("first"),
+        lines,
+    }
 }
 
 fn console_line(value: &Value) -> ConsoleLine {
-    const LEVELS: [&str; 9] = ["print", "stderr", "error", "warning", "loadinfo", "info", "debug", "trace", "tracelua"];
-    let level = LEVELS.into_iter().find(|level| value["level"] == *level).unwrap_or("unknown");
+    const LEVELS: [&str; 9] = [
+        "print", "stderr", "error", "warning", "loadinfo", "info", "debug", "trace", "tracelua",
+    ];
+    let level = LEVELS
+        .into_iter()
+        .find(|level| value["level"] == *level)
+        .unwrap_or("unknown");
     let origin = value["origin"].as_str().map(str::to_owned);
     let located = value["located"].as_str().map(str::to_owned);
     let time = value["time"].as_f64().unwrap_or_default();
-    ConsoleLine { time, origin, level, text: string(&value["text"]), located }
+    ConsoleLine {
+        time,
+        origin,
+        level,
+        text: string(&value["text"]),
+        located,
+    }
 }
 
 fn list(value: &Value) -> impl Iterator<Item = &Value> {
@@ -169,16 +208,37 @@ mod tests {
         let mut counts = LineCounts::default();
         counts.add(CountedText::File("lib/a.lua".into()), &[1, 0, 7]);
         let text = b"-- \xff\xc3\xa4\nx = 1".as_slice().into();
-        let script = CountedText::Script { scene: "s.ttt".into(), path: "/Arm".into(), text };
+        let script = CountedText::Script {
+            scene: "s.ttt".into(),
+            path: "/Arm".into(),
+            text,
+        };
         counts.add(script.clone(), &[0, 2]);
-        let inner = FunctionLines { line: 1, lines: vec![2], name: Some("f".into()) };
-        counts.functions.insert(script, vec![FunctionLines { line: 0, lines: vec![1], name: None }, inner]);
+        let inner = FunctionLines {
+            line: 1,
+            lines: vec![2],
+            name: Some("f".into()),
+        };
+        counts.functions.insert(
+            script,
+            vec![
+                FunctionLines {
+                    line: 0,
+                    lines: vec![1],
+                    name: None,
+                },
+                inner,
+            ],
+        );
         let test = Arc::new(TestCase::of_file(Path::new("a_test.lua")));
         let passed = Outcome::new(Arc::clone(&test), Status::Passed, "");
         let printed = printed(&passed, &counts);
         assert_eq!(printed.lines().count(), 1);
         let read = outcome(&printed, &test).expect("the line of a test");
-        assert_eq!((read.status, read.line_counts.texts), (Status::Passed, counts.texts));
+        assert_eq!(
+            (read.status, read.line_counts.texts),
+            (Status::Passed, counts.texts)
+        );
         assert_eq!(read.line_counts.functions, counts.functions);
     }
 }

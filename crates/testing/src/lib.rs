@@ -28,7 +28,10 @@ pub use case::{Outcome, Status, TestCase};
 pub use coverage::{Coverage, FileCoverage};
 pub use discover::find_files;
 pub use excerpt::Excerpt;
-pub use golden::{Comparison, ComparisonResult, Difference, Divergence, ImageDifference, RecordedImage, Recordings};
+pub use golden::{
+    Comparison, ComparisonResult, Difference, Divergence, ImageDifference, RecordedImage,
+    Recordings,
+};
 
 use permissions::Permissions;
 use plan::Plan;
@@ -81,7 +84,9 @@ impl Config {
     /// The permissions of scripts of a scene in `folder`.
     fn permissions_in(&self, folder: &std::path::Path) -> Permissions {
         let set = self.permissions.clone().of_scene(folder);
-        self.resources.iter().fold(set, |set, resources| set.of_scene(resources))
+        self.resources
+            .iter()
+            .fold(set, |set, resources| set.of_scene(resources))
     }
 
     /// Nothing chosen yet, everything once.
@@ -156,7 +161,10 @@ pub struct Summary {
 impl Summary {
     /// How many tests ended so.
     pub fn count(&self, status: Status) -> usize {
-        self.outcomes.iter().filter(|outcome| outcome.status == status).count()
+        self.outcomes
+            .iter()
+            .filter(|outcome| outcome.status == status)
+            .count()
     }
 
     /// Whether no test failed.
@@ -178,19 +186,28 @@ pub fn list(config: &Config) -> std::io::Result<Vec<Arc<TestCase>>> {
 /// # Errors
 /// When a path cannot be read.
 pub fn run(config: &Config, reporter: &mut dyn Reporter) -> std::io::Result<Summary> {
-    #[allow(clippy::disallowed_methods, reason = "how long tests take is what their user wants to know")]
+    #[allow(
+        clippy::disallowed_methods,
+        reason = "how long tests take is what their user wants to know"
+    )]
     let begun = std::time::Instant::now();
     let files = find_files(&config.paths)?;
     let plan = plan(config)?;
     reporter.begin(&plan.all());
     let (chosen, deselected) = (plan.tests.len(), plan.deselected);
     let (outcomes, counts) = run_plan(config, plan, reporter);
-    let ran = outcomes.iter().filter(|outcome| outcome.test.index > 0).count();
+    let ran = outcomes
+        .iter()
+        .filter(|outcome| outcome.test.index > 0)
+        .count();
     let summary = Summary {
         not_run: chosen.saturating_sub(ran),
         deselected,
         interrupted: config.interrupted.load(Ordering::Relaxed),
-        coverage: config.coverage.as_ref().map(|report| Coverage::new(report, &files, counts)),
+        coverage: config
+            .coverage
+            .as_ref()
+            .map(|report| Coverage::new(report, &files, counts)),
         outcomes,
         wall: begun.elapsed(),
     };
@@ -208,13 +225,22 @@ pub fn run_child(config: &Config) -> std::io::Result<String> {
         fn outcome(&mut self, _: &Outcome) {}
     }
     let (outcomes, counts) = run_plan(config, plan(config)?, &mut Quiet);
-    Ok(outcomes.first().map(|outcome| isolated::printed(outcome, &counts)).unwrap_or_default())
+    Ok(outcomes
+        .first()
+        .map(|outcome| isolated::printed(outcome, &counts))
+        .unwrap_or_default())
 }
 
 /// The outcomes in the order of the files, and what lines ran.
-fn run_plan(config: &Config, plan: Plan, reporter: &mut dyn Reporter) -> (Vec<Outcome>, LineCounts) {
+fn run_plan(
+    config: &Config,
+    plan: Plan,
+    reporter: &mut dyn Reporter,
+) -> (Vec<Outcome>, LineCounts) {
     let mut results = Results::new(config, &plan.tests, reporter);
-    plan.broken.into_iter().for_each(|outcome| results.add(outcome));
+    plan.broken
+        .into_iter()
+        .for_each(|outcome| results.add(outcome));
     let goes_on = |results: &Results<'_>| !(config.fail_fast && results.has_failure());
     if goes_on(&results) {
         let tasks = plan.jobs.into_iter().map(Task::Run).collect();

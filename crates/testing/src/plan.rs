@@ -22,13 +22,22 @@ pub(super) struct Collection {
 impl Collection {
     /// A file of which nothing is known yet.
     pub(super) fn new(file: &Path) -> Self {
-        Self { file: file.to_owned(), tests: Vec::new(), simulates: true, compiled: None, broken: None }
+        Self {
+            file: file.to_owned(),
+            tests: Vec::new(),
+            simulates: true,
+            compiled: None,
+            broken: None,
+        }
     }
 
     /// A file that could not be loaded.
     pub(super) fn broken(outcome: Outcome) -> Self {
         let file = Self::new(&outcome.test.file);
-        Self { broken: Some(outcome), ..file }
+        Self {
+            broken: Some(outcome),
+            ..file
+        }
     }
 }
 
@@ -49,7 +58,11 @@ pub(super) struct Job {
 
 impl Job {
     fn new(tests: Vec<Arc<TestCase>>, compiled: Option<&CompiledFile>) -> Self {
-        Self { tests: tests.into(), done: 0, compiled: compiled.cloned() }
+        Self {
+            tests: tests.into(),
+            done: 0,
+            compiled: compiled.cloned(),
+        }
     }
 
     /// Without any tests.
@@ -64,7 +77,10 @@ impl Job {
 
     /// The job without the first of the tests that are left.
     pub(super) fn rest(&self) -> Self {
-        Self { done: self.tests.len().min(self.done + 1), ..self.clone() }
+        Self {
+            done: self.tests.len().min(self.done + 1),
+            ..self.clone()
+        }
     }
 }
 
@@ -80,7 +96,12 @@ pub(super) struct Plan {
 impl Plan {
     pub(super) fn new(config: &Config, mut collected: Vec<Collection>) -> Self {
         collected.sort_by(|a, b| a.file.cmp(&b.file));
-        let mut plan = Self { tests: Vec::new(), jobs: Vec::new(), broken: Vec::new(), deselected: 0 };
+        let mut plan = Self {
+            tests: Vec::new(),
+            jobs: Vec::new(),
+            broken: Vec::new(),
+            deselected: 0,
+        };
         let mut number = 0;
         for collection in collected {
             let mut chosen = Vec::new();
@@ -101,7 +122,12 @@ impl Plan {
 
     /// All tests that will have an outcome.
     pub(super) fn all(&self) -> Vec<Arc<TestCase>> {
-        self.broken.iter().map(|outcome| &outcome.test).chain(&self.tests).cloned().collect()
+        self.broken
+            .iter()
+            .map(|outcome| &outcome.test)
+            .chain(&self.tests)
+            .cloned()
+            .collect()
     }
 }
 
@@ -109,14 +135,26 @@ impl Plan {
 fn cases(config: &Config, collection: &Collection) -> Vec<TestCase> {
     let repeat = |(i, found): (usize, &Found)| {
         let (file, name, line) = (collection.file.clone(), found.name.clone(), found.line);
-        let case = TestCase { file, index: i + 1, name, line, repetition: 0, seed: config.seed };
+        let case = TestCase {
+            file,
+            index: i + 1,
+            name,
+            line,
+            repetition: 0,
+            seed: config.seed,
+        };
         (0..config.repeat.max(1)).map(move |repetition| TestCase {
             repetition,
             seed: config.seed.wrapping_add(repetition),
             ..case.clone()
         })
     };
-    collection.tests.iter().enumerate().flat_map(repeat).collect()
+    collection
+        .tests
+        .iter()
+        .enumerate()
+        .flat_map(repeat)
+        .collect()
 }
 
 fn is_chosen(config: &Config, test: &TestCase, number: usize) -> bool {
@@ -124,8 +162,12 @@ fn is_chosen(config: &Config, test: &TestCase, number: usize) -> bool {
         return (test.index, test.repetition) == only;
     }
     let id = test.id();
-    let named = config.filters.is_empty() || config.filters.iter().any(|filter| id.contains(filter));
-    named && config.shard.is_none_or(|(part, parts)| number % parts + 1 == part)
+    let named =
+        config.filters.is_empty() || config.filters.iter().any(|filter| id.contains(filter));
+    named
+        && config
+            .shard
+            .is_none_or(|(part, parts)| number % parts + 1 == part)
 }
 
 /// Without a simulator, the tests of a file share their Lua state, each round one.
@@ -134,7 +176,15 @@ fn jobs(config: &Config, tests: Vec<Arc<TestCase>>, collection: &Collection) -> 
     if collection.simulates || config.isolate.is_some() {
         return tests.into_iter().map(|test| job(vec![test])).collect();
     }
-    let round = |n| tests.iter().filter(|test| test.repetition == n).cloned().collect::<Vec<_>>();
-    let rounds = (0..config.repeat.max(1)).map(round).filter(|round| !round.is_empty());
+    let round = |n| {
+        tests
+            .iter()
+            .filter(|test| test.repetition == n)
+            .cloned()
+            .collect::<Vec<_>>()
+    };
+    let rounds = (0..config.repeat.max(1))
+        .map(round)
+        .filter(|round| !round.is_empty());
     rounds.map(job).collect()
 }

@@ -34,10 +34,15 @@ impl TestRecording {
             return;
         }
         self.recorder.mark_failure(&outcome.message);
-        let kept = self.recorder.finish(sim).and_then(|_| keep(&self.file, &outcome.test, folder));
+        let kept = self
+            .recorder
+            .finish(sim)
+            .and_then(|_| keep(&self.file, &outcome.test, folder));
         match kept {
             Ok(page) => outcome.recording = Some(page),
-            Err(error) => outcome.message += &format!("\n(its recording cannot be written: {error})"),
+            Err(error) => {
+                outcome.message += &format!("\n(its recording cannot be written: {error})")
+            }
         }
     }
 }
@@ -47,7 +52,8 @@ fn keep(file: &NamedTempFile, test: &TestCase, folder: &Path) -> std::io::Result
     std::fs::create_dir_all(folder)?;
     let path = folder.join(file_name(test));
     write_whole(&path.with_extension("swr"), &std::fs::read(file.path())?)?;
-    let mut recording = Recording::open(BufReader::new(file.reopen()?)).map_err(std::io::Error::other)?;
+    let mut recording =
+        Recording::open(BufReader::new(file.reopen()?)).map_err(std::io::Error::other)?;
     let mut page = BufWriter::new(Vec::new());
     recording::html(&mut recording, &view::page_file, &mut page).map_err(std::io::Error::other)?;
     page.flush()?;
@@ -60,7 +66,14 @@ fn keep(file: &NamedTempFile, test: &TestCase, folder: &Path) -> std::io::Result
 fn file_name(test: &TestCase) -> String {
     const MAX_LENGTH: usize = 80;
     let stem = test.file.file_stem().unwrap_or_default().to_string_lossy();
-    let text = format!("{stem}-{}-{}-{}", test.index, test.repetition, test.name.join("-"));
-    let plain = text.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' });
+    let text = format!(
+        "{stem}-{}-{}-{}",
+        test.index,
+        test.repetition,
+        test.name.join("-")
+    );
+    let plain = text
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '-' });
     plain.take(MAX_LENGTH).collect::<String>() + ".swr"
 }

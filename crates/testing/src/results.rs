@@ -31,7 +31,11 @@ type Key = (PathBuf, usize, u32);
 
 impl<'a> Results<'a> {
     /// For these tests, of which none is over.
-    pub(super) fn new(config: &'a Config, tests: &[Arc<TestCase>], reporter: &'a mut dyn Reporter) -> Self {
+    pub(super) fn new(
+        config: &'a Config,
+        tests: &[Arc<TestCase>],
+        reporter: &'a mut dyn Reporter,
+    ) -> Self {
         let open = tests.iter().map(|test| test.key()).collect();
         Self {
             config,
@@ -59,18 +63,27 @@ impl<'a> Results<'a> {
         }
         let first_open = self.first_open(&file);
         self.report_waiting(|outcome| {
-            outcome.test.file == file && first_open.as_ref().is_none_or(|first| outcome.test.key() < *first)
+            outcome.test.file == file
+                && first_open
+                    .as_ref()
+                    .is_none_or(|first| outcome.test.key() < *first)
         });
     }
 
     /// The first test of a file that is not over.
     fn first_open(&self, file: &Path) -> Option<Key> {
-        self.open.range((file.to_owned(), 0, 0)..).next().filter(|(of, _, _)| of.as_path() == file).cloned()
+        self.open
+            .range((file.to_owned(), 0, 0)..)
+            .next()
+            .filter(|(of, _, _)| of.as_path() == file)
+            .cloned()
     }
 
     /// Reports the waiting outcomes whose turn it is, in the order of their files.
     fn report_waiting(&mut self, is_due: impl Fn(&Outcome) -> bool) {
-        let (mut due, waiting) = std::mem::take(&mut self.waiting).into_iter().partition::<Vec<_>, _>(is_due);
+        let (mut due, waiting) = std::mem::take(&mut self.waiting)
+            .into_iter()
+            .partition::<Vec<_>, _>(is_due);
         self.waiting = waiting;
         due.sort_by_key(|outcome| outcome.test.key());
         for mut outcome in due {

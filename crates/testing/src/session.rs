@@ -32,14 +32,19 @@ impl Session {
     pub(super) fn new(config: &Config, file: &Path, seed: u32, stop: Arc<AtomicBool>) -> Self {
         let name = file.to_string_lossy().into_owned();
         let bench = TestBench::new(name, config.allowance.simulated, Some(run_apart));
-        let folder = file.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+        let folder = file
+            .parent()
+            .filter(|folder| *folder != Path::new(""))
+            .unwrap_or(Path::new("."));
         // Without a folder of their own, tests share that of the user.
         let data = tempfile::tempdir().ok();
         let options = Options {
             seed,
             stop,
             threads: config.threads,
-            limits: Some(Limits { memory: config.allowance.memory }),
+            limits: Some(Limits {
+                memory: config.allowance.memory,
+            }),
             count_lines: config.coverage.is_some(),
             package_dirs: vec![folder.to_owned()],
             // The file itself is read by Lua.
@@ -51,7 +56,13 @@ impl Session {
         let mut sim = Simulator::for_test(options, &bench);
         let sandbox = sim.add_script(ScriptKind::Sandbox, "swanilda test", b"require('busted')");
         let sandbox = sandbox.expect("the embedded library loads");
-        Self { sim, sandbox, bench, recordings: config.record_failures.clone(), _data: data }
+        Self {
+            sim,
+            sandbox,
+            bench,
+            recordings: config.record_failures.clone(),
+            _data: data,
+        }
     }
 
     /// Loads the file and returns its tests.
@@ -59,7 +70,10 @@ impl Session {
         let name = Data::text(&file.to_string_lossy());
         let answer = self.call("package.loaded.busted.collect", &[name]);
         let mut collection = Collection::new(file);
-        match (&answer, answer.as_ref().and_then(|answer| answer.field("tests"))) {
+        match (
+            &answer,
+            answer.as_ref().and_then(|answer| answer.field("tests")),
+        ) {
             (Some(answer), Some(Data::Array(tests))) => {
                 collection.tests = tests.iter().map(found).collect();
                 collection.simulates = answer.field("simulates").is_some_and(Data::truthy);
@@ -79,7 +93,10 @@ impl Session {
     ) -> Result<(), Box<Outcome>> {
         self.bench.compiled.replace(compiled);
         let number = number.map_or(Data::Nil, |number| Data::Int(number as i64));
-        let answer = self.call("package.loaded.busted.load", &[Data::text(&file.to_string_lossy()), number]);
+        let answer = self.call(
+            "package.loaded.busted.load",
+            &[Data::text(&file.to_string_lossy()), number],
+        );
         match &answer {
             Some(answer) if answer.field("error").is_none() => Ok(()),
             answer => Err(Box::new(self.broken(file, answer.as_ref()))),
@@ -98,7 +115,9 @@ impl Session {
 
     /// Runs a test of the file, which has been collected.
     pub(super) fn run(&mut self, test: &Arc<TestCase>) -> Outcome {
-        let Some(folder) = self.recordings.clone() else { return self.run_unrecorded(test) };
+        let Some(folder) = self.recordings.clone() else {
+            return self.run_unrecorded(test);
+        };
         let recording = match TestRecording::start(&self.sim) {
             Ok(recording) => recording,
             Err(error) => {
@@ -113,12 +132,22 @@ impl Session {
 
     fn run_unrecorded(&mut self, test: &Arc<TestCase>) -> Outcome {
         let answer = self.call("package.loaded.busted.run", &[Data::Int(test.index as i64)]);
-        let mut outcome = Outcome::new(Arc::clone(test), Status::Error, "the test could not be run to its end.");
+        let mut outcome = Outcome::new(
+            Arc::clone(test),
+            Status::Error,
+            "the test could not be run to its end.",
+        );
         if let Some(answer) = answer {
             outcome.status = status(&answer);
             outcome.message.clear();
             self.explain(&mut outcome, &answer);
-        } else if let Some(line) = self.bench.lines_from(0).iter().rev().find(|line| line.level == "error") {
+        } else if let Some(line) = self
+            .bench
+            .lines_from(0)
+            .iter()
+            .rev()
+            .find(|line| line.level == "error")
+        {
             outcome.message.clone_from(&line.text);
         }
         (outcome.time, outcome.steps) = (self.sim.time(), self.sim.steps());
@@ -130,15 +159,23 @@ impl Session {
 
     /// A test that had to be stopped: where it was, as far as that is in its file or in a script of the scene.
     fn explain_interruption(&self, outcome: &mut Outcome) {
-        let Some(trace) = self.bench.take_interruption() else { return };
-        outcome.console.retain(|line| !(line.level == "error" && line.text.starts_with("interrupted.")));
+        let Some(trace) = self.bench.take_interruption() else {
+            return;
+        };
+        outcome
+            .console
+            .retain(|line| !(line.level == "error" && line.text.starts_with("interrupted.")));
         let own = format!("{}:", self.bench.file);
         let is_known = |frame: &&str| {
             let shown = positions(frame);
-            frame.starts_with(&own) || shown.iter().any(|(name, _)| self.sim.source_shown_as(name).is_some())
+            frame.starts_with(&own)
+                || shown
+                    .iter()
+                    .any(|(name, _)| self.sim.source_shown_as(name).is_some())
         };
         let frames = || trace.lines().map(str::trim);
-        outcome.line = frames().find_map(|frame| frame.strip_prefix(&own)?.split(':').next()?.parse().ok());
+        outcome.line =
+            frames().find_map(|frame| frame.strip_prefix(&own)?.split(':').next()?.parse().ok());
         outcome.message = frames().find(is_known).unwrap_or_default().to_owned();
         outcome.stopped_at = Some(outcome.message.clone()).filter(|place| !place.is_empty());
         outcome.excerpts.clear();
@@ -148,7 +185,9 @@ impl Session {
 
     /// Runs what is left to tear down after the last test, which fails when that does.
     pub(super) fn finish(&mut self, last: &mut Outcome) {
-        let Some(answer) = self.call("package.loaded.busted.finish", &[]) else { return };
+        let Some(answer) = self.call("package.loaded.busted.finish", &[]) else {
+            return;
+        };
         if status(&answer) != Status::Passed && !last.is_bad() {
             last.status = status(&answer);
             self.explain(last, &answer);
@@ -169,12 +208,16 @@ impl Session {
     /// Adds the source the outcome speaks of, as it is now.
     fn quote(&self, outcome: &mut Outcome) {
         for (name, line) in positions(&outcome.message) {
-            let Some((script, code)) = self.sim.source_shown_as(name) else { continue };
+            let Some((script, code)) = self.sim.source_shown_as(name) else {
+                continue;
+            };
             outcome.excerpts.extend(Excerpt::of(&script, &code, line));
             outcome.script.get_or_insert(script);
         }
         if let (Some(line), Ok(source)) = (outcome.line, std::fs::read(&outcome.test.file)) {
-            outcome.excerpts.extend(Excerpt::of(&self.bench.file, &source, line));
+            outcome
+                .excerpts
+                .extend(Excerpt::of(&self.bench.file, &source, line));
         }
     }
 
@@ -184,7 +227,11 @@ impl Session {
     }
 
     fn call(&mut self, function: &str, args: &[Data]) -> Option<Data> {
-        self.sim.call(&self.sandbox, function, args).ok()?.into_iter().next()
+        self.sim
+            .call(&self.sandbox, function, args)
+            .ok()?
+            .into_iter()
+            .next()
     }
 }
 
@@ -193,7 +240,10 @@ fn found(test: &Data) -> Found {
         Some(Data::Array(names)) => names.iter().map(as_text).collect(),
         _ => Vec::new(),
     };
-    Found { name: names, line: line(test) }
+    Found {
+        name: names,
+        line: line(test),
+    }
 }
 
 fn status(answer: &Data) -> Status {
@@ -210,9 +260,17 @@ fn text(answer: &Data, field: &str) -> String {
 }
 
 fn as_text(data: &Data) -> String {
-    if let Data::Text(bytes) = data { String::from_utf8_lossy(bytes).into_owned() } else { String::new() }
+    if let Data::Text(bytes) = data {
+        String::from_utf8_lossy(bytes).into_owned()
+    } else {
+        String::new()
+    }
 }
 
 fn line(answer: &Data) -> Option<u32> {
-    if let Some(Data::Int(line)) = answer.field("line") { u32::try_from(*line).ok() } else { None }
+    if let Some(Data::Int(line)) = answer.field("line") {
+        u32::try_from(*line).ok()
+    } else {
+        None
+    }
 }

@@ -2,7 +2,10 @@
 //!
 //! A test that takes too long is asked to stop, which ends Lua code wherever it is. One that does not, since it is inside a function written in
 //! C, is given up with its thread: another thread takes its place, and the process ends without it.
-#![allow(clippy::disallowed_methods, reason = "how long tests take is watched by the wall clock")]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "how long tests take is watched by the wall clock"
+)]
 
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -108,10 +111,25 @@ struct Watch<'a> {
 /// Does the tasks on `config.jobs` threads and hands over what comes back, until all is done or `receive` wants no more to be started.
 pub(super) fn work(config: &Config, tasks: Vec<Task>, receive: &mut dyn FnMut(Message) -> bool) {
     let count = config.jobs.clamp(1, tasks.len().max(1));
-    let queue = Mutex::new(Queue { tasks: tasks.into(), abandoned: HashSet::new() });
-    let shared = Arc::new(Shared { config: config.clone(), queue, cancelled: AtomicBool::new(false) });
+    let queue = Mutex::new(Queue {
+        tasks: tasks.into(),
+        abandoned: HashSet::new(),
+    });
+    let shared = Arc::new(Shared {
+        config: config.clone(),
+        queue,
+        cancelled: AtomicBool::new(false),
+    });
     let (sender, events) = mpsc::channel();
-    let mut watch = Watch { shared, workers: HashMap::new(), next: 0, sender, events, receive, interrupted: None };
+    let mut watch = Watch {
+        shared,
+        workers: HashMap::new(),
+        next: 0,
+        sender,
+        events,
+        receive,
+        interrupted: None,
+    };
     for _ in 0..count {
         watch.spawn();
     }
@@ -127,15 +145,21 @@ impl Watch<'_> {
     fn spawn(&mut self) {
         let (id, shared, sender) = (self.next, Arc::clone(&self.shared), self.sender.clone());
         self.next += 1;
-        let thread = std::thread::Builder::new().name(format!("tests {id}")).stack_size(Simulator::STACK_SIZE);
+        let thread = std::thread::Builder::new()
+            .name(format!("tests {id}"))
+            .stack_size(Simulator::STACK_SIZE);
         let worker = Worker { id, shared, sender };
-        thread.spawn(move || worker.work()).expect("the system has a thread for the tests");
+        thread
+            .spawn(move || worker.work())
+            .expect("the system has a thread for the tests");
         self.workers.insert(id, None);
     }
 
     fn receive(&mut self, worker: usize, event: WorkerEvent) {
         // Messages of workers that were given up are ignored.
-        let Some(running) = self.workers.get_mut(&worker) else { return };
+        let Some(running) = self.workers.get_mut(&worker) else {
+            return;
+        };
         match event {
             WorkerEvent::Started(started) => *running = Some(started),
             WorkerEvent::Ready(message) => {
@@ -178,7 +202,12 @@ impl Watch<'_> {
             }
         }
         let config = &self.shared.config;
-        let limit = config.allowance.wall + if config.isolate.is_some() { FOR_PROCESS } else { Duration::ZERO };
+        let limit = config.allowance.wall
+            + if config.isolate.is_some() {
+                FOR_PROCESS
+            } else {
+                Duration::ZERO
+            };
         let mut stuck = Vec::new();
         for (&worker, running) in &self.workers {
             let Some(running) = running else { continue };
@@ -202,7 +231,9 @@ impl Watch<'_> {
         }
         queue.abandoned.insert(worker);
         drop(queue);
-        let Some(Some(running)) = self.workers.remove(&worker) else { return };
+        let Some(Some(running)) = self.workers.remove(&worker) else {
+            return;
+        };
         let message = too_long(self.shared.config.allowance.wall)
             + " It could not be ended: it is in a finalizer (__gc), or in a function that is not written in Lua.";
         let mut outcome = Outcome::new(Arc::clone(&running.test), Status::Error, message);
@@ -216,7 +247,10 @@ impl Watch<'_> {
             self.shared.cancel();
         }
         if !running.rest.left().is_empty() {
-            self.shared.queue().tasks.push_front(Task::Run(running.rest));
+            self.shared
+                .queue()
+                .tasks
+                .push_front(Task::Run(running.rest));
         }
         self.spawn();
     }
@@ -227,7 +261,10 @@ pub(super) fn rest(time: Duration) {
 }
 
 fn too_long(limit: Duration) -> String {
-    format!("the test took longer than {} s (--timeout).", limit.as_secs_f64())
+    format!(
+        "the test took longer than {} s (--timeout).",
+        limit.as_secs_f64()
+    )
 }
 
 /// A thread with a simulator at a time.
@@ -259,19 +296,26 @@ impl Worker {
 
     /// The rest of a job is left to other workers, or dropped.
     fn is_to_end(&self) -> bool {
-        self.shared.cancelled.load(Ordering::Relaxed) || self.shared.queue().abandoned.contains(&self.id)
+        self.shared.cancelled.load(Ordering::Relaxed)
+            || self.shared.queue().abandoned.contains(&self.id)
     }
 
     fn begin(&self, test: &Arc<TestCase>, rest: Job, stop: &Arc<AtomicBool>) {
         let (test, stop) = (Arc::clone(test), Arc::clone(stop));
-        self.send(WorkerEvent::Started(Running { test, rest, stop, started: Instant::now() }));
+        self.send(WorkerEvent::Started(Running {
+            test,
+            rest,
+            stop,
+            started: Instant::now(),
+        }));
     }
 
     fn collect(&self, file: &Path) {
         let test = Arc::new(TestCase::of_file(file));
         let stop = Arc::new(AtomicBool::new(false));
         self.begin(&test, Job::none(), &stop);
-        let collect = || Session::new(&self.shared.config, file, self.shared.config.seed, stop).collect(file);
+        let collect =
+            || Session::new(&self.shared.config, file, self.shared.config.seed, stop).collect(file);
         let collection = catch_unwind(AssertUnwindSafe(collect))
             .unwrap_or_else(|_| Collection::broken(Outcome::new(test, Status::Error, CRASHED)));
         self.send(WorkerEvent::Ready(Message::Collected(Box::new(collection))));
@@ -284,7 +328,9 @@ impl Worker {
         {
             let stop = Arc::new(AtomicBool::new(false));
             self.begin(&first, job.rest(), &stop);
-            let left = catch_unwind(AssertUnwindSafe(|| self.run_until_stopped(job.clone(), &stop)));
+            let left = catch_unwind(AssertUnwindSafe(|| {
+                self.run_until_stopped(job.clone(), &stop)
+            }));
             job = left.unwrap_or_else(|_| {
                 self.finished(Outcome::new(first, Status::Error, CRASHED));
                 job.rest()
@@ -306,8 +352,15 @@ impl Worker {
 
     /// Returns the job with the tests that are left.
     fn run_until_stopped(&self, mut job: Job, stop: &Arc<AtomicBool>) -> Job {
-        let Some(first) = job.left().first().cloned() else { return job };
-        let mut session = Session::new(&self.shared.config, &first.file, first.seed, Arc::clone(stop));
+        let Some(first) = job.left().first().cloned() else {
+            return job;
+        };
+        let mut session = Session::new(
+            &self.shared.config,
+            &first.file,
+            first.seed,
+            Arc::clone(stop),
+        );
         let only = (job.left().len() == 1).then_some(first.index);
         let loaded = session.load(&first.file, job.compiled.clone(), only);
         while let Some(test) = job.left().first().cloned()
@@ -317,7 +370,10 @@ impl Worker {
             job = job.rest();
             self.begin(&test, job.clone(), stop);
             let mut outcome = match &loaded {
-                Err(broken) => Outcome { test, ..Outcome::clone(broken) },
+                Err(broken) => Outcome {
+                    test,
+                    ..Outcome::clone(broken)
+                },
                 Ok(()) => session.run(&test),
             };
             let is_last = job.left().is_empty();
@@ -339,8 +395,12 @@ impl Worker {
     fn simulate(&self, job: &batch::Job) {
         let stop = Arc::new(AtomicBool::new(false));
         self.begin(&job.case, Job::none(), &stop);
-        let outcome = catch_unwind(AssertUnwindSafe(|| batch::simulate(&self.shared.config, job, &stop)));
-        self.finished(outcome.unwrap_or_else(|_| Outcome::new(Arc::clone(&job.case), Status::Error, CRASHED)));
+        let outcome = catch_unwind(AssertUnwindSafe(|| {
+            batch::simulate(&self.shared.config, job, &stop)
+        }));
+        self.finished(
+            outcome.unwrap_or_else(|_| Outcome::new(Arc::clone(&job.case), Status::Error, CRASHED)),
+        );
     }
 
     fn finished(&self, outcome: Outcome) {

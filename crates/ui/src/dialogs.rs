@@ -110,7 +110,13 @@ impl Dialogs {
             self.shown.pop_front();
         }
         let (title, text) = (title.to_owned(), text.to_owned());
-        self.shown.push_back(ShownDialog { number: self.count, kind, title, text, answer });
+        self.shown.push_back(ShownDialog {
+            number: self.count,
+            kind,
+            title,
+            text,
+            answer,
+        });
     }
 
     /// The dialogs that were shown; the oldest ones may be gone.
@@ -121,7 +127,10 @@ impl Dialogs {
     /// Shows a banner; its id.
     pub fn add_banner(&mut self, banner: Banner) -> i64 {
         self.last_banner += 1;
-        self.banners.push(Banner { id: self.last_banner, ..banner });
+        self.banners.push(Banner {
+            id: self.last_banner,
+            ..banner
+        });
         self.last_banner
     }
 
@@ -143,7 +152,9 @@ impl Dialogs {
     /// When there is no such button.
     pub(super) fn press_banner(&mut self, id: i64, key: &str) -> Result<Option<Event>, String> {
         let found = self.banners.iter().find(|banner| banner.id == id);
-        let banner = found.ok_or_else(|| format!("there is no banner {id}"))?.clone();
+        let banner = found
+            .ok_or_else(|| format!("there is no banner {id}"))?
+            .clone();
         if !banner.buttons.iter().any(|[known, _]| known == key) {
             return Err(format!("banner {id} has no button '{key}'"));
         }
@@ -153,7 +164,14 @@ impl Dialogs {
         }
         let args = vec![Data::Int(id), Data::text(key)];
         let (script, handler) = (banner.owner, banner.callback);
-        Ok(Some(Event { window: None, widget: None, script, handler, args, evaluates: false }))
+        Ok(Some(Event {
+            window: None,
+            widget: None,
+            script,
+            handler,
+            args,
+            evaluates: false,
+        }))
     }
 
     pub(super) fn json(&self) -> Value {

@@ -36,12 +36,20 @@ impl Ui {
     pub fn open_editor(&mut self, text: &str, properties: &str, owner: i64) -> (i64, String) {
         let properties = xml::parse(properties).unwrap_or_default();
         let attribute = |names: &[&str]| {
-            let found = properties.attributes.iter().find(|(name, _)| names.contains(&name.as_str()));
+            let found = properties
+                .attributes
+                .iter()
+                .find(|(name, _)| names.contains(&name.as_str()));
             found.map(|(_, value)| value.as_str())
         };
         let pair = |name: &str| -> Option<[i64; 2]> {
-            let numbers: Vec<&str> = attribute(&[name])?.split([',', ' ']).filter(|part| !part.is_empty()).collect();
-            let [first, second] = numbers.as_slice() else { return None };
+            let numbers: Vec<&str> = attribute(&[name])?
+                .split([',', ' '])
+                .filter(|part| !part.is_empty())
+                .collect();
+            let [first, second] = numbers.as_slice() else {
+                return None;
+            };
             Some([first.parse().ok()?, second.parse().ok()?])
         };
         let kind = WidgetKind::TextBrowser(TextBrowser {
@@ -50,10 +58,17 @@ impl Ui {
             read_only: attribute(&["editable"]) == Some("false"),
             ..TextBrowser::default()
         });
-        let handle = self.add_single(WindowSource::Editor, attribute(&["title"]).unwrap_or("Editor"), kind, owner);
+        let handle = self.add_single(
+            WindowSource::Editor,
+            attribute(&["title"]).unwrap_or("Editor"),
+            kind,
+            owner,
+        );
         let changed = self.change(&handle, |window| {
             window.closeable = attribute(&["closeable", "closable"]) != Some("false");
-            window.on_close = attribute(&["on-close", "onclose", "onClose"]).unwrap_or_default().to_owned();
+            window.on_close = attribute(&["on-close", "onclose", "onClose"])
+                .unwrap_or_default()
+                .to_owned();
             window.position = pair("position").unwrap_or(window.position);
             window.size = pair("size").unwrap_or(window.size);
             Ok(())
@@ -69,12 +84,19 @@ impl Ui {
     pub fn editor(&self, number: i64) -> Option<EditorState> {
         let window = self.window(self.panes.editors.get(&number)?).ok()?;
         let text = window.get::<TextBrowser>(1).ok()?.text.clone();
-        Some(EditorState { text, position: window.position, size: window.size, visible: window.visible })
+        Some(EditorState {
+            text,
+            position: window.position,
+            size: window.size,
+            visible: window.visible,
+        })
     }
 
     /// Shows or hides an editor; false if there is none with that number.
     pub fn show_editor(&mut self, number: i64, visible: bool) -> bool {
-        let Some(handle) = self.panes.editors.get(&number).cloned() else { return false };
+        let Some(handle) = self.panes.editors.get(&number).cloned() else {
+            return false;
+        };
         self.set_visible(&handle, visible).is_ok()
     }
 
@@ -89,7 +111,12 @@ impl Ui {
     }
 
     /// Opens a console; the handle of its window.
-    pub fn open_console(&mut self, title: &str, position: Option<[i64; 2]>, size: Option<[i64; 2]>) -> String {
+    pub fn open_console(
+        &mut self,
+        title: &str,
+        position: Option<[i64; 2]>,
+        size: Option<[i64; 2]>,
+    ) -> String {
         let kind = WidgetKind::TextBrowser(TextBrowser {
             text_type: TextType::Plain,
             read_only: true,
@@ -110,7 +137,12 @@ impl Ui {
     ///
     /// # Errors
     /// When the window is gone.
-    pub fn print_to_console(&mut self, handle: &str, text: Option<&str>, lines: usize) -> UiResult<()> {
+    pub fn print_to_console(
+        &mut self,
+        handle: &str,
+        text: Option<&str>,
+        lines: usize,
+    ) -> UiResult<()> {
         self.change(handle, |window| {
             let shown = &mut window.get_mut::<TextBrowser>(1)?.text;
             match text {
@@ -118,9 +150,14 @@ impl Ui {
                 None => shown.clear(),
             }
             let ended = shown.strip_suffix('\n').unwrap_or(shown).len();
-            let place = shown[..ended].rmatch_indices('\n').nth(lines.max(1) - 1).map_or(0, |(at, _)| at + 1);
+            let place = shown[..ended]
+                .rmatch_indices('\n')
+                .nth(lines.max(1) - 1)
+                .map_or(0, |(at, _)| at + 1);
             let least = shown.len().saturating_sub(MAX_CONSOLE);
-            let place = (place.max(least)..=shown.len()).find(|at| shown.is_char_boundary(*at)).unwrap_or(0);
+            let place = (place.max(least)..=shown.len())
+                .find(|at| shown.is_char_boundary(*at))
+                .unwrap_or(0);
             shown.drain(..place);
             Ok(())
         })

@@ -1,8 +1,8 @@
 //! What a person does with a window, and what that changes. Handlers of scripts run later, when the queue of events is delivered.
 
 use super::widgets::{
-    Button, Checkbox, Combobox, Edit, Image, Plot, Properties, Radiobutton, Scene3d, Slider, Spinbox, Svg, Table, Tabs,
-    TextBrowser, Tree, WidgetKind,
+    Button, Checkbox, Combobox, Edit, Image, Plot, Properties, Radiobutton, Scene3d, Slider,
+    Spinbox, Svg, Table, Tabs, TextBrowser, Tree, WidgetKind,
 };
 use super::window::Window;
 use scene::Data;
@@ -150,17 +150,31 @@ impl Window {
             Input::Select(item) => self.select(id, item),
             Input::Cell(place, text) => return self.edit_cell(id, place, text).ok_or(refused)?,
             Input::Expand(item, expanded) => self.expand(id, item, expanded),
-            Input::Key { key, text, modifiers } => self.press_key(id, key, &text, modifiers),
-            Input::Mouse { mouse, at, modifiers } => self.move_mouse(id, mouse, at, modifiers),
+            Input::Key {
+                key,
+                text,
+                modifiers,
+            } => self.press_key(id, key, &text, modifiers),
+            Input::Mouse {
+                mouse,
+                at,
+                modifiers,
+            } => self.move_mouse(id, mouse, at, modifiers),
             Input::Link(href) => self.activate_link(id, &href),
             Input::Point { curve, index, at } => self.click_point(id, &curve, index, at),
             Input::Legend(curve) => self.click_legend(id, &curve),
             Input::Node(node) => self.click_node(id, node),
-            Input::Menu(key) => self.of_properties(id, "on-context-menu-triggered", [Data::text(&key)]),
-            Input::DoubleClick(place) => self.of_properties(id, "on-double-click", place.map(Data::Int)),
-            Input::Property { name, text } => {
-                self.of_properties(id, "on-property-edit", [Data::text(&name), Data::text(&text)])
+            Input::Menu(key) => {
+                self.of_properties(id, "on-context-menu-triggered", [Data::text(&key)])
             }
+            Input::DoubleClick(place) => {
+                self.of_properties(id, "on-double-click", place.map(Data::Int))
+            }
+            Input::Property { name, text } => self.of_properties(
+                id,
+                "on-property-edit",
+                [Data::text(&name), Data::text(&text)],
+            ),
         };
         done.ok_or(refused)
     }
@@ -189,8 +203,12 @@ impl Window {
     /// A new value; None where a widget has none of that type.
     fn enter(&mut self, id: i64, value: &InputValue) -> Option<InputResult> {
         match (self.kind(id).ok()?, value) {
-            (WidgetKind::Slider(_), InputValue::Number(value)) => self.set_slider(id, *value as i64, true).ok()?,
-            (WidgetKind::Spinbox(_), InputValue::Number(value)) => self.set_spinbox(id, *value, true).ok()?,
+            (WidgetKind::Slider(_), InputValue::Number(value)) => {
+                self.set_slider(id, *value as i64, true).ok()?
+            }
+            (WidgetKind::Spinbox(_), InputValue::Number(value)) => {
+                self.set_spinbox(id, *value, true).ok()?
+            }
             (WidgetKind::Edit(_), value) => self.set_edit(id, text_of(value), true).ok()?,
             (WidgetKind::TextBrowser(TextBrowser { read_only, .. }), InputValue::Text(text)) => {
                 if *read_only {
@@ -199,12 +217,21 @@ impl Window {
                 self.set_browser_text(id, text.clone(), true).ok()?;
             }
             (WidgetKind::Checkbox(_), value) => self.set_checkbox(id, switch(value)?, true).ok()?,
-            (WidgetKind::Button(Button { checkable: true, checked, .. }), value) => {
+            (
+                WidgetKind::Button(Button {
+                    checkable: true,
+                    checked,
+                    ..
+                }),
+                value,
+            ) => {
                 if (switch(value)? != 0) != *checked {
                     self.click(id)?;
                 }
             }
-            (WidgetKind::Radiobutton(Radiobutton { .. }), value) if switch(value)? != 0 => self.click(id)?,
+            (WidgetKind::Radiobutton(Radiobutton { .. }), value) if switch(value)? != 0 => {
+                self.click(id)?
+            }
             (WidgetKind::Combobox(Combobox { items, .. }), value) => {
                 return Some(self.choose(id, items.clone(), value));
             }
@@ -214,7 +241,11 @@ impl Window {
                     _ => String::new(),
                 });
                 let index = place_of(value, &titles.collect::<Vec<_>>());
-                return Some(index.and_then(|index| self.set_tab(id, index).map_err(|error| error.to_string())));
+                return Some(
+                    index.and_then(|index| {
+                        self.set_tab(id, index).map_err(|error| error.to_string())
+                    }),
+                );
             }
             _ => return None,
         }
@@ -224,11 +255,14 @@ impl Window {
     fn choose(&mut self, id: i64, items: Vec<String>, value: &InputValue) -> InputResult {
         let index = place_of(value, &items)?;
         let select = |combobox: &mut Combobox| combobox.selected = usize::try_from(index).ok();
-        self.change_combobox(id, true, select).map_err(|error| error.to_string())
+        self.change_combobox(id, true, select)
+            .map_err(|error| error.to_string())
     }
 
     fn finish_editing(&mut self, id: i64) -> Option<()> {
-        let Edit { value, evaluates, .. } = self.get::<Edit>(id).ok()?.clone();
+        let Edit {
+            value, evaluates, ..
+        } = self.get::<Edit>(id).ok()?.clone();
         self.raise_event(id, "on-editing-finished", [Data::text(&value)], evaluates);
         Some(())
     }
@@ -241,15 +275,28 @@ impl Window {
         }
     }
 
-    fn edit_cell(&mut self, id: i64, [row, column]: [i64; 2], text: Option<String>) -> Option<InputResult> {
+    fn edit_cell(
+        &mut self,
+        id: i64,
+        [row, column]: [i64; 2],
+        text: Option<String>,
+    ) -> Option<InputResult> {
         let table = self.get::<Table>(id).ok()?;
         if !table.contains(row, column) {
             return Some(Err(format!("table {id} has no cell {row}, {column}")));
         }
-        let editable = table.editable && table.cells.get(&(row, column)).is_none_or(|cell| cell.editable);
+        let editable = table.editable
+            && table
+                .cells
+                .get(&(row, column))
+                .is_none_or(|cell| cell.editable);
         let before = table.text(row, column).to_owned();
         match text {
-            Some(_) if !editable => return Some(Err(format!("cell {row}, {column} of table {id} cannot be changed"))),
+            Some(_) if !editable => {
+                return Some(Err(format!(
+                    "cell {row}, {column} of table {id} cannot be changed"
+                )));
+            }
             Some(text) => self.set_cell(id, [row, column], text, true).ok()?,
             None => self.raise_cell(id, [row, column], &before),
         }
@@ -257,29 +304,61 @@ impl Window {
     }
 
     fn expand(&mut self, id: i64, item: i64, expanded: bool) -> Option<()> {
-        self.get_mut::<Tree>(id).ok()?.items.get_mut(&item)?.expanded = expanded;
+        self.get_mut::<Tree>(id)
+            .ok()?
+            .items
+            .get_mut(&item)?
+            .expanded = expanded;
         Some(())
     }
 
     fn press_key(&mut self, id: i64, key: i64, text: &str, modifiers: Modifiers) -> Option<()> {
-        if !matches!(self.kind(id).ok()?, WidgetKind::Table(_) | WidgetKind::Properties(_)) {
+        if !matches!(
+            self.kind(id).ok()?,
+            WidgetKind::Table(_) | WidgetKind::Properties(_)
+        ) {
             return None;
         }
-        self.raise(id, "on-key-press", [Data::Int(key), Data::text(text), modifiers.data()]);
+        self.raise(
+            id,
+            "on-key-press",
+            [Data::Int(key), Data::text(text), modifiers.data()],
+        );
         Some(())
     }
 
-    fn move_mouse(&mut self, id: i64, mouse: MouseAction, [x, y]: [i64; 2], modifiers: Modifiers) -> Option<()> {
-        if !matches!(self.kind(id).ok()?, WidgetKind::Image(Image { .. }) | WidgetKind::Svg(Svg { .. })) {
+    fn move_mouse(
+        &mut self,
+        id: i64,
+        mouse: MouseAction,
+        [x, y]: [i64; 2],
+        modifiers: Modifiers,
+    ) -> Option<()> {
+        if !matches!(
+            self.kind(id).ok()?,
+            WidgetKind::Image(Image { .. }) | WidgetKind::Svg(Svg { .. })
+        ) {
             return None;
         }
         let (attribute, code) = mouse.described();
-        self.raise(id, attribute, [Data::Int(code), modifiers.data(), Data::Int(x), Data::Int(y)]);
+        self.raise(
+            id,
+            attribute,
+            [
+                Data::Int(code),
+                modifiers.data(),
+                Data::Int(x),
+                Data::Int(y),
+            ],
+        );
         Some(())
     }
 
     fn activate_link(&mut self, id: i64, href: &str) -> Option<()> {
-        if !matches!(self.kind(id).ok()?, WidgetKind::Label(_) | WidgetKind::TextBrowser(_)) {
+        if !matches!(
+            self.kind(id).ok()?,
+            WidgetKind::Label(_) | WidgetKind::TextBrowser(_)
+        ) {
             return None;
         }
         self.raise(id, "on-link-activated", [Data::text(href)]);
@@ -306,7 +385,12 @@ impl Window {
         Some(())
     }
 
-    fn of_properties<const N: usize>(&mut self, id: i64, attribute: &str, args: [Data; N]) -> Option<()> {
+    fn of_properties<const N: usize>(
+        &mut self,
+        id: i64,
+        attribute: &str,
+        args: [Data; N],
+    ) -> Option<()> {
         self.get::<Properties>(id).ok()?;
         self.raise(id, attribute, args);
         Some(())
@@ -315,18 +399,27 @@ impl Window {
     /// The value of a widget, as a person sees it; None for one without.
     pub fn value(&self, id: i64) -> Option<Data> {
         Some(match self.kind(id).ok()? {
-            WidgetKind::Slider(Slider { value, .. }) | WidgetKind::Checkbox(Checkbox { value, .. }) => {
-                Data::Int(*value)
-            }
-            WidgetKind::Spinbox(Spinbox { value, decimals: None, .. }) => Data::Int(*value as i64),
+            WidgetKind::Slider(Slider { value, .. })
+            | WidgetKind::Checkbox(Checkbox { value, .. }) => Data::Int(*value),
+            WidgetKind::Spinbox(Spinbox {
+                value,
+                decimals: None,
+                ..
+            }) => Data::Int(*value as i64),
             WidgetKind::Spinbox(Spinbox { value, .. }) => Data::Float(*value),
             WidgetKind::Edit(Edit { value, .. }) => Data::text(value),
             WidgetKind::Label(label) => Data::text(&label.text),
             WidgetKind::Radiobutton(button) => Data::Int(button.checked.into()),
-            WidgetKind::Button(Button { checkable: true, checked, .. }) => Data::Bool(*checked),
-            WidgetKind::Combobox(Combobox { items, selected }) => {
-                Data::text(selected.and_then(|selected| items.get(selected)).map_or("", String::as_str))
-            }
+            WidgetKind::Button(Button {
+                checkable: true,
+                checked,
+                ..
+            }) => Data::Bool(*checked),
+            WidgetKind::Combobox(Combobox { items, selected }) => Data::text(
+                selected
+                    .and_then(|selected| items.get(selected))
+                    .map_or("", String::as_str),
+            ),
             WidgetKind::ProgressBar(bar) => Data::Int(bar.value),
             WidgetKind::TextBrowser(browser) => Data::text(&browser.text),
             WidgetKind::Tabs(tabs) => Data::Int(tabs.current as i64),
@@ -341,7 +434,9 @@ impl From<Data> for InputValue {
     fn from(data: Data) -> Self {
         match data {
             Data::Bool(on) => Self::Bool(on),
-            Data::Text(bytes) | Data::Buffer(bytes) => Self::Text(String::from_utf8_lossy(&bytes).into_owned()),
+            Data::Text(bytes) | Data::Buffer(bytes) => {
+                Self::Text(String::from_utf8_lossy(&bytes).into_owned())
+            }
             other => Self::Number(other.as_f64().unwrap_or(f64::NAN)),
         }
     }
@@ -367,10 +462,13 @@ fn switch(value: &InputValue) -> Option<i64> {
 /// The place of a choice among texts, by its number or its text.
 fn place_of(value: &InputValue, texts: &[String]) -> Result<i64, String> {
     match value {
-        InputValue::Number(index) if (0..texts.len() as i64).contains(&(*index as i64)) => Ok(*index as i64),
-        InputValue::Text(text) if texts.contains(text) => {
-            Ok(texts.iter().position(|known| known == text).map_or(-1, |place| place as i64))
+        InputValue::Number(index) if (0..texts.len() as i64).contains(&(*index as i64)) => {
+            Ok(*index as i64)
         }
+        InputValue::Text(text) if texts.contains(text) => Ok(texts
+            .iter()
+            .position(|known| known == text)
+            .map_or(-1, |place| place as i64)),
         _ => Err(format!("there is no such choice: it is one of {texts:?}")),
     }
 }

@@ -36,7 +36,10 @@ impl Window {
 
     fn container_json(&self, container: &Container) -> Value {
         let item = |item: &Item| match item {
-            Item::Widget(id) => self.widgets.get(id).map_or(Value::Null, |widget| self.widget_json(widget)),
+            Item::Widget(id) => self
+                .widgets
+                .get(id)
+                .map_or(Value::Null, |widget| self.widget_json(widget)),
             Item::Break => json!({"kind": "br"}),
             Item::Stretch(factor) => json!({"kind": "stretch", "factor": factor}),
         };

@@ -103,8 +103,9 @@ pub use error::{UiError, UiResult};
 pub use input::{Input, InputValue, Modifiers};
 pub use question::{Question, QuestionDetails, answer_of_page};
 pub use widgets::{
-    Button, Cell, Checkbox, Combobox, Curve, CurveOptions, CurveType, Edit, Image, Label, Plot, Properties, Property,
-    Radiobutton, Scene3d, Slider, Spinbox, Svg, Table, Tabs, TextBrowser, Tree, WidgetKind,
+    Button, Cell, Checkbox, Combobox, Curve, CurveOptions, CurveType, Edit, Image, Label, Plot,
+    Properties, Property, Radiobutton, Scene3d, Slider, Spinbox, Svg, Table, Tabs, TextBrowser,
+    Tree, WidgetKind,
 };
 use widgets::{Container, Item, Widget};
 pub use window::{Event, Window, WindowSource};
@@ -146,12 +147,27 @@ impl Ui {
     ///
     /// # Errors
     /// When the text is wrong.
-    pub fn create(&mut self, text: &str, owner: i64, names: BTreeMap<String, i64>) -> UiResult<(String, Vec<String>)> {
-        let (mut window, warnings) = build::window(text, &mut self.anonymous).map_err(UiError::Xml)?;
-        window.names = names.into_iter().filter(|(_, id)| window.widgets.contains_key(id)).collect();
+    pub fn create(
+        &mut self,
+        text: &str,
+        owner: i64,
+        names: BTreeMap<String, i64>,
+    ) -> UiResult<(String, Vec<String>)> {
+        let (mut window, warnings) =
+            build::window(text, &mut self.anonymous).map_err(UiError::Xml)?;
+        window.names = names
+            .into_iter()
+            .filter(|(_, id)| window.widgets.contains_key(id))
+            .collect();
         window.visible = true;
         let handle = self.add(window, owner);
-        Ok((handle, warnings.into_iter().filter_map(|warning| self.first_time(&warning)).collect()))
+        Ok((
+            handle,
+            warnings
+                .into_iter()
+                .filter_map(|warning| self.first_time(&warning))
+                .collect(),
+        ))
     }
 
     /// The text of a warning; None for an old name that was warned of before.
@@ -174,11 +190,28 @@ impl Ui {
     }
 
     /// Opens a window with a single widget, whose id is 1; its handle.
-    pub(crate) fn add_single(&mut self, source: WindowSource, title: &str, kind: WidgetKind, owner: i64) -> String {
-        let mut window = Window { source, title: title.to_owned(), enabled: true, visible: true, ..Window::default() };
+    pub(crate) fn add_single(
+        &mut self,
+        source: WindowSource,
+        title: &str,
+        kind: WidgetKind,
+        owner: i64,
+    ) -> String {
+        let mut window = Window {
+            source,
+            title: title.to_owned(),
+            enabled: true,
+            visible: true,
+            ..Window::default()
+        };
         (window.resizable, window.closeable, window.activate) = (true, true, true);
         window.place([0; 2], [-1; 2]);
-        window.root = Container { items: vec![Item::Widget(1)], margins: [7; 4], spacing: -1, ..Container::default() };
+        window.root = Container {
+            items: vec![Item::Widget(1)],
+            margins: [7; 4],
+            spacing: -1,
+            ..Container::default()
+        };
         window.widgets.insert(
             1,
             Widget {
@@ -197,8 +230,14 @@ impl Ui {
     }
 
     fn number(&self, handle: &str) -> UiResult<u64> {
-        let number = handle.strip_suffix(":UI").and_then(|digits| u64::from_str_radix(digits, 16).ok());
-        let known = number.filter(|number| self.windows.get(number).is_some_and(|window| window.handle() == handle));
+        let number = handle
+            .strip_suffix(":UI")
+            .and_then(|digits| u64::from_str_radix(digits, 16).ok());
+        let known = number.filter(|number| {
+            self.windows
+                .get(number)
+                .is_some_and(|window| window.handle() == handle)
+        });
         known.ok_or(UiError::NoSuchWindow)
     }
 
@@ -220,7 +259,11 @@ impl Ui {
     ///
     /// # Errors
     /// When there is no such window, or those of `change`.
-    pub fn change<T>(&mut self, handle: &str, change: impl FnOnce(&mut Window) -> UiResult<T>) -> UiResult<T> {
+    pub fn change<T>(
+        &mut self,
+        handle: &str,
+        change: impl FnOnce(&mut Window) -> UiResult<T>,
+    ) -> UiResult<T> {
         let number = self.number(handle)?;
         let window = self.windows.get_mut(&number).ok_or(UiError::NoSuchWindow)?;
         let outcome = change(window);
@@ -240,7 +283,10 @@ impl Ui {
         self.revision += 1;
         self.removed.push_back((self.revision, number));
         if self.removed.len() > MAX_REMOVED {
-            self.forgotten = self.removed.pop_front().map_or(self.revision, |(revision, _)| revision);
+            self.forgotten = self
+                .removed
+                .pop_front()
+                .map_or(self.revision, |(revision, _)| revision);
         }
         Ok(())
     }
@@ -258,12 +304,22 @@ impl Ui {
     /// The next event; of those that are about something that is gone, the text of a warning.
     pub fn next_event(&mut self) -> Option<Result<Event, String>> {
         let event = self.events.pop_front()?;
-        let Some(window) = event.window else { return Some(Ok(event)) };
-        let exists = self
-            .windows
-            .get(&window)
-            .is_some_and(|window| event.widget.is_none_or(|widget| window.widgets.contains_key(&widget)));
-        Some(if exists { Ok(event) } else { Err(format!("event of a widget that is gone ('{}')", event.handler)) })
+        let Some(window) = event.window else {
+            return Some(Ok(event));
+        };
+        let exists = self.windows.get(&window).is_some_and(|window| {
+            event
+                .widget
+                .is_none_or(|widget| window.widgets.contains_key(&widget))
+        });
+        Some(if exists {
+            Ok(event)
+        } else {
+            Err(format!(
+                "event of a widget that is gone ('{}')",
+                event.handler
+            ))
+        })
     }
 
     /// Goes on with an edit whose text was evaluated: it becomes the result, and its handlers run.
@@ -295,8 +351,14 @@ impl Ui {
         }
         // A page that is ahead has seen another simulator.
         let complete = since < self.forgotten || since > self.revision;
-        let changed = self.windows.values().filter(|window| complete || window.revision > since);
-        let removed = self.removed.iter().filter(|(revision, _)| *revision > since);
+        let changed = self
+            .windows
+            .values()
+            .filter(|window| complete || window.revision > since);
+        let removed = self
+            .removed
+            .iter()
+            .filter(|(revision, _)| *revision > since);
         Some(json!({
             "revision": self.revision,
             "complete": complete,
@@ -314,10 +376,18 @@ impl Ui {
     /// What is wrong with the request, or why it is refused.
     pub fn input(&mut self, json: &Value) -> Result<(), String> {
         match action(json)? {
-            Action::Widget { window, widget, input } => self.widget_input(&window, widget, input),
+            Action::Widget {
+                window,
+                widget,
+                input,
+            } => self.widget_input(&window, widget, input),
             Action::Close { window, escape } => self.close(&window, escape),
-            Action::Move { window, position } => self.rearrange(&window, |window| window.position = position),
-            Action::Resize { window, size } => self.rearrange(&window, |window| window.size = size.map(|s| s.max(1))),
+            Action::Move { window, position } => {
+                self.rearrange(&window, |window| window.position = position)
+            }
+            Action::Resize { window, size } => {
+                self.rearrange(&window, |window| window.size = size.map(|s| s.max(1)))
+            }
             Action::Banner { banner, key } => {
                 let event = self.dialogs.press_banner(banner, &key)?;
                 self.touch();
@@ -336,8 +406,10 @@ impl Ui {
         if let Input::Key { modifiers, .. } | Input::Mouse { modifiers, .. } = &input {
             self.modifiers = *modifiers;
         }
-        self.change(window, |window| window.input(widget, input).map_err(UiError::Other))
-            .map_err(|error| error.to_string())
+        self.change(window, |window| {
+            window.input(widget, input).map_err(UiError::Other)
+        })
+        .map_err(|error| error.to_string())
     }
 
     /// Inputs reach visible windows; of those, only a modal one if there is one.
@@ -345,13 +417,21 @@ impl Ui {
         if self.events.len() >= MAX_WAITING {
             return Err("too many inputs are waiting for the simulator".into());
         }
-        let window = self.window(handle).map_err(|_| format!("there is no window '{handle}'"))?;
+        let window = self
+            .window(handle)
+            .map_err(|_| format!("there is no window '{handle}'"))?;
         if !window.is_visible() {
             return Err(format!("window '{}' is not visible", window.title));
         }
-        let modal = self.windows.values().rfind(|other| other.modal && other.is_visible() && other.id != window.id);
+        let modal = self
+            .windows
+            .values()
+            .rfind(|other| other.modal && other.is_visible() && other.id != window.id);
         match modal.filter(|_| !window.modal) {
-            Some(modal) => Err(format!("window '{}' waits for '{}'", window.title, modal.title)),
+            Some(modal) => Err(format!(
+                "window '{}' waits for '{}'",
+                window.title, modal.title
+            )),
             None => Ok(()),
         }
     }
@@ -364,7 +444,10 @@ impl Ui {
         self.check_reachable(handle)?;
         self.change(handle, |window| {
             if !escape && !window.closeable {
-                return Err(UiError::other(format!("window '{}' cannot be closed", window.title)));
+                return Err(UiError::other(format!(
+                    "window '{}' cannot be closed",
+                    window.title
+                )));
             }
             // An editor is closed for good: its handler gets the text.
             if (!window.raise_close() || window.source == WindowSource::Editor) && !escape {

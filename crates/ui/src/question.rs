@@ -59,7 +59,13 @@ impl QuestionDetails {
     /// A file to load, of any kind.
     pub fn any_file() -> Self {
         let none = String::new;
-        Self::Files { selects: 0, start_path: none(), initial_name: none(), extension_name: none(), extensions: none() }
+        Self::Files {
+            selects: 0,
+            start_path: none(),
+            initial_name: none(),
+            extension_name: none(),
+            extensions: none(),
+        }
     }
 }
 
@@ -78,14 +84,26 @@ impl Question {
     pub fn json(&self, number: u64) -> Value {
         let mut all = json!({"number": number, "kind": self.kind().name(), "title": self.title, "text": self.text});
         let details = match &self.details {
-            QuestionDetails::Message { buttons, default_button, level } => {
+            QuestionDetails::Message {
+                buttons,
+                default_button,
+                level,
+            } => {
                 json!({"buttons": buttons, "usual": default_button, "type": level})
             }
-            QuestionDetails::Files { selects, start_path, initial_name, extension_name, extensions } => json!({
+            QuestionDetails::Files {
+                selects,
+                start_path,
+                initial_name,
+                extension_name,
+                extensions,
+            } => json!({
                 "type": selects, "startPath": start_path, "initName": initial_name, "extName": extension_name,
                 "extensions": extensions,
             }),
-            QuestionDetails::Color { initial, alpha } => json!({"initial": initial, "alpha": alpha}),
+            QuestionDetails::Color { initial, alpha } => {
+                json!({"initial": initial, "alpha": alpha})
+            }
             QuestionDetails::Text { initial } => json!({"initial": initial}),
         };
         if let (Value::Object(all), Value::Object(details)) = (&mut all, details) {
@@ -99,8 +117,15 @@ impl Question {
 pub fn answer_of_page(answer: &Value) -> Option<Data> {
     match answer {
         Value::String(text) => Some(Data::text(text)),
-        Value::Number(number) => number.as_i64().map(Data::Int).or_else(|| number.as_f64().map(Data::Float)),
-        Value::Array(items) => items.iter().map(answer_of_page).collect::<Option<Vec<_>>>().map(Data::Array),
+        Value::Number(number) => number
+            .as_i64()
+            .map(Data::Int)
+            .or_else(|| number.as_f64().map(Data::Float)),
+        Value::Array(items) => items
+            .iter()
+            .map(answer_of_page)
+            .collect::<Option<Vec<_>>>()
+            .map(Data::Array),
         _ => None,
     }
 }
@@ -111,8 +136,16 @@ mod tests {
 
     #[test]
     fn pages_get_what_is_asked_for() {
-        let details = QuestionDetails::Message { buttons: vec!["yes", "no"], default_button: "no", level: 1 };
-        let question = Question { title: "a".into(), text: "<b>".into(), details };
+        let details = QuestionDetails::Message {
+            buttons: vec!["yes", "no"],
+            default_button: "no",
+            level: 1,
+        };
+        let question = Question {
+            title: "a".into(),
+            text: "<b>".into(),
+            details,
+        };
         let expected = json!({
             "number": 3, "kind": "msgBox", "title": "a", "text": "<b>", "buttons": ["yes", "no"], "usual": "no", "type": 1,
         });
@@ -122,7 +155,10 @@ mod tests {
     #[test]
     fn answers_are_texts_numbers_and_lists() {
         assert_eq!(answer_of_page(&json!("ok")), Some(Data::text("ok")));
-        assert_eq!(answer_of_page(&json!([0, 0.5])), Some(Data::Array(vec![Data::Int(0), Data::Float(0.5)])));
+        assert_eq!(
+            answer_of_page(&json!([0, 0.5])),
+            Some(Data::Array(vec![Data::Int(0), Data::Float(0.5)]))
+        );
         for wrong in [json!(null), json!(true), json!({"a": 1}), json!([1, null])] {
             assert_eq!(answer_of_page(&wrong), None, "{wrong}");
         }

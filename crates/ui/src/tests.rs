@@ -9,14 +9,19 @@ use super::*;
 fn opened(content: &str) -> (Ui, String) {
     let mut ui = Ui::default();
     let text = format!("<ui title=\"Panel\" closeable=\"true\" on-close=\"closed\">{content}</ui>");
-    let (handle, warnings) = ui.create(&text, 7, BTreeMap::new()).expect("the text is right");
+    let (handle, warnings) = ui
+        .create(&text, 7, BTreeMap::new())
+        .expect("the text is right");
     assert!(warnings.is_empty(), "{warnings:?}");
     (ui, handle)
 }
 
 fn wrong(text: &str) -> String {
     let mut ui = Ui::default();
-    let error = ui.create(text, 7, BTreeMap::new()).expect_err("the text is wrong").to_string();
+    let error = ui
+        .create(text, 7, BTreeMap::new())
+        .expect_err("the text is wrong")
+        .to_string();
     assert!(ui.windows().next().is_none());
     error
 }
@@ -44,38 +49,70 @@ fn mistakes_in_texts_name_the_elements_around_them() {
         ("", "XML parse error"),
         ("<window/>", "root element must be <ui>"),
         ("<ui><foo/></ui>", "invalid element <foo>"),
-        ("<ui><group><foo/></group></ui>", "group: invalid element <foo>"),
+        (
+            "<ui><group><foo/></group></ui>",
+            "group: invalid element <foo>",
+        ),
         ("<ui><tab/></ui>", "invalid element <tab>"),
         ("<ui><br/></ui>", "invalid element <br>"),
-        ("<ui layout='grid'><stretch/></ui>", "stretch must be placed in a widget with vbox/hbox layout"),
-        ("<ui><tabs id='7'><button/></tabs></ui>", "tabs[id=7]: element must be <tab>"),
+        (
+            "<ui layout='grid'><stretch/></ui>",
+            "stretch must be placed in a widget with vbox/hbox layout",
+        ),
+        (
+            "<ui><tabs id='7'><button/></tabs></ui>",
+            "tabs[id=7]: element must be <tab>",
+        ),
         (
             "<ui><button id='1'/><label id='1'/></ui>",
             "label[id=1]: id must be unique (within ui scope). duplicate id: 1",
         ),
-        ("<ui><button id='0'/></ui>", "button: id must be a positive integer"),
+        (
+            "<ui><button id='0'/></ui>",
+            "button: id must be a positive integer",
+        ),
         (
             "<ui><tabs id='7'><tab><button id='3' enabled='1'/></tab></tabs></ui>",
             "tabs[id=7]: tab: button[id=3]: invalid value '1' for attribute 'enabled': must be true or false",
         ),
-        ("<ui layout='form'><label/></ui>", "extra elements in layout"),
-        ("<ui position='1'/>", "attribute 'position' must have exactly 2 elements"),
-        ("<ui><label geometry='1,2,3,4'/></ui>", "label: cannot set geometry with current layout"),
+        (
+            "<ui layout='form'><label/></ui>",
+            "extra elements in layout",
+        ),
+        (
+            "<ui position='1'/>",
+            "attribute 'position' must have exactly 2 elements",
+        ),
+        (
+            "<ui><label geometry='1,2,3,4'/></ui>",
+            "label: cannot set geometry with current layout",
+        ),
     ] {
         assert_eq!(wrong(text), error, "{text}");
     }
     let cast = "bad lexical cast: source type value could not be interpreted as target";
-    for text in ["<ui position='50, 50'/>", "<ui><button id='x'/></ui>", "<ui><hslider value='1.5'/></ui>"] {
+    for text in [
+        "<ui position='50, 50'/>",
+        "<ui><button id='x'/></ui>",
+        "<ui><hslider value='1.5'/></ui>",
+    ] {
         assert!(wrong(text).ends_with(cast), "{text}");
     }
     let modes = wrong("<ui><table selection-mode='rows'/></ui>");
-    assert!(modes.ends_with("(must be one of: 'item', 'row', 'column')"), "{modes}");
+    assert!(
+        modes.ends_with("(must be one of: 'item', 'row', 'column')"),
+        "{modes}"
+    );
 }
 
 #[test]
 fn old_names_of_attributes_are_warned_of_once() {
     let mut ui = Ui::default();
-    let mut warnings = |text: &str| ui.create(text, 1, BTreeMap::new()).expect("the text is right").1;
+    let mut warnings = |text: &str| {
+        ui.create(text, 1, BTreeMap::new())
+            .expect("the text is right")
+            .1
+    };
     let text = "<ui onclose='x'><button onclick='f' colour='red'/></ui>";
     assert_eq!(
         warnings(text),
@@ -85,7 +122,10 @@ fn old_names_of_attributes_are_warned_of_once() {
             "unknown UI XML attribute 'colour' in widget 'button'",
         ]
     );
-    assert_eq!(warnings(text), ["unknown UI XML attribute 'colour' in widget 'button'"]);
+    assert_eq!(
+        warnings(text),
+        ["unknown UI XML attribute 'colour' in widget 'button'"]
+    );
 }
 
 #[test]
@@ -95,14 +135,20 @@ fn values_are_clamped_and_rounded() {
          <spinbox id='3' decimals='2' value='1.236'/><spinbox id='4' step='0.5'/>",
     );
     let value = |ui: &Ui, id| ui.window(&window).unwrap().value(id).unwrap();
-    assert_eq!([value(&ui, 2), value(&ui, 3)], [Data::Int(3), Data::Float(1.24)]);
+    assert_eq!(
+        [value(&ui, 2), value(&ui, 3)],
+        [Data::Int(3), Data::Float(1.24)]
+    );
     ui.change(&window, |window| {
         window.set_slider(1, 99, false)?;
         window.set_spinbox(4, 2.25, false)?;
         window.set_spinbox(2, f64::NAN, false)
     })
     .unwrap();
-    assert_eq!([value(&ui, 1), value(&ui, 4), value(&ui, 2)], [Data::Int(5), Data::Float(2.25), Data::Int(0)]);
+    assert_eq!(
+        [value(&ui, 1), value(&ui, 4), value(&ui, 2)],
+        [Data::Int(5), Data::Float(2.25), Data::Int(0)]
+    );
 }
 
 #[test]
@@ -138,7 +184,10 @@ fn inputs_change_values_and_queue_events() {
         ("ticked", vec![Data::Int(8), Data::Int(2)]),
         ("closed", vec![]),
     ];
-    assert_eq!(events(&mut ui), expected.map(|(handler, args)| (handler.to_owned(), args)));
+    assert_eq!(
+        events(&mut ui),
+        expected.map(|(handler, args)| (handler.to_owned(), args))
+    );
 }
 
 #[test]
@@ -148,38 +197,66 @@ fn what_takes_no_inputs_refuses_them() {
          <label id='3'/><table id='4' editable='false'><row><item/></row></table>",
     );
     for (fields, error) in [
-        (json!({"type": "click", "widget": 1}), "widget 1 is disabled"),
-        (json!({"type": "click", "widget": 2}), "widget 2 is not visible"),
-        (json!({"type": "click", "widget": 3}), "label 3 does not take this input"),
+        (
+            json!({"type": "click", "widget": 1}),
+            "widget 1 is disabled",
+        ),
+        (
+            json!({"type": "click", "widget": 2}),
+            "widget 2 is not visible",
+        ),
+        (
+            json!({"type": "click", "widget": 3}),
+            "label 3 does not take this input",
+        ),
         (
             json!({"type": "cell", "widget": 4, "row": 0, "column": 0, "text": "x"}),
             "cell 0, 0 of table 4 cannot be changed",
         ),
-        (json!({"type": "cell", "widget": 4, "row": 9, "column": 0}), "table 4 has no cell 9, 0"),
-        (json!({"type": "click", "widget": 99}), "invalid widget id: 99"),
+        (
+            json!({"type": "cell", "widget": 4, "row": 9, "column": 0}),
+            "table 4 has no cell 9, 0",
+        ),
+        (
+            json!({"type": "click", "widget": 99}),
+            "invalid widget id: 99",
+        ),
         (json!({"type": "click"}), "the field 'widget' is missing"),
-        (json!({"type": "dance", "widget": 1}), "there is no input of type 'dance'"),
+        (
+            json!({"type": "dance", "widget": 1}),
+            "there is no input of type 'dance'",
+        ),
         (json!([]), "the field 'type' is missing"),
     ] {
-        let outcome = if fields.is_object() { input(&mut ui, &window, fields) } else { ui.input(&fields) };
+        let outcome = if fields.is_object() {
+            input(&mut ui, &window, fields)
+        } else {
+            ui.input(&fields)
+        };
         assert_eq!(outcome, Err(error.to_owned()));
     }
     assert!(events(&mut ui).is_empty());
     let modal = "<ui modal='true' title='First me'/>";
     ui.create(modal, 7, BTreeMap::new()).unwrap();
     let refused = input(&mut ui, &window, json!({"type": "close"}));
-    assert_eq!(refused, Err("window 'Panel' waits for 'First me'".to_owned()));
+    assert_eq!(
+        refused,
+        Err("window 'Panel' waits for 'First me'".to_owned())
+    );
 }
 
 #[test]
 fn pages_get_what_has_changed() {
     let (mut ui, window) = opened("<label id='1' text='a'/>");
-    let (other, _) = ui.create("<ui title='Other'/>", 7, BTreeMap::new()).unwrap();
+    let (other, _) = ui
+        .create("<ui title='Other'/>", 7, BTreeMap::new())
+        .unwrap();
     let snapshot = ui.snapshot();
     let seen = snapshot["revision"].as_u64().unwrap();
     assert_eq!(snapshot["windows"][0]["content"]["items"][0]["text"], "a");
     assert_eq!(ui.changes_since(seen), None);
-    ui.change(&window, |window| window.set_label(1, "b".into())).unwrap();
+    ui.change(&window, |window| window.set_label(1, "b".into()))
+        .unwrap();
     let changes = ui.changes_since(seen).unwrap();
     assert_eq!(changes["windows"].as_array().unwrap().len(), 1);
     assert_eq!(changes["windows"][0]["content"]["items"][0]["text"], "b");
@@ -190,13 +267,24 @@ fn pages_get_what_has_changed() {
         ui.destroy(&handle).unwrap();
     }
     let changes = ui.changes_since(seen).unwrap();
-    assert_eq!((&changes["complete"], changes["windows"].as_array().unwrap().len()), (&json!(true), 1));
+    assert_eq!(
+        (
+            &changes["complete"],
+            changes["windows"].as_array().unwrap().len()
+        ),
+        (&json!(true), 1)
+    );
 }
 
 #[test]
 fn curves_keep_as_many_points_as_their_buffers() {
-    for (cyclic, expected) in [("false", vec![1.0, 2.0, 3.0]), ("true", vec![4.0, 5.0, 6.0])] {
-        let (mut ui, window) = opened(&format!("<plot id='1' max-buffer-size='3' cyclic-buffer='{cyclic}'/>"));
+    for (cyclic, expected) in [
+        ("false", vec![1.0, 2.0, 3.0]),
+        ("true", vec![4.0, 5.0, 6.0]),
+    ] {
+        let (mut ui, window) = opened(&format!(
+            "<plot id='1' max-buffer-size='3' cyclic-buffer='{cyclic}'/>"
+        ));
         ui.change(&window, |window| {
             let plot = window.get_mut::<Plot>(1)?;
             let options = CurveOptions::default();
@@ -213,7 +301,12 @@ fn curves_keep_as_many_points_as_their_buffers() {
             for x in [vec![2.0, 1.0, 3.0, 5.0, 4.0], vec![6.0]] {
                 plot.add_points("a", CurveType::Time, x.into_iter().map(|x| [x, x, 0.0]))?;
             }
-            let found: Vec<f64> = plot.curve("a")?.points.iter().map(|point| point[1]).collect();
+            let found: Vec<f64> = plot
+                .curve("a")?
+                .points
+                .iter()
+                .map(|point| point[1])
+                .collect();
             assert_eq!(found, expected);
             plot.rescale(None, [false; 2])
         })
@@ -242,13 +335,25 @@ fn trees_have_no_loops() {
 
 #[test]
 fn tables_may_be_large_and_open_lines_keep_texts() {
-    let (mut ui, window) =
-        opened("<table id='1'><row><item>a</item></row><row><item>b</item><item>c</item></row></table>");
+    let (mut ui, window) = opened(
+        "<table id='1'><row><item>a</item></row><row><item>b</item><item>c</item></row></table>",
+    );
     ui.change(&window, |window| {
         let table = window.get_mut::<Table>(1)?;
-        assert_eq!((table.row_count, table.column_count, table.text(1, 1), table.text(9, 9)), (2, 2, "c", ""));
+        assert_eq!(
+            (
+                table.row_count,
+                table.column_count,
+                table.text(1, 1),
+                table.text(9, 9)
+            ),
+            (2, 2, "c", "")
+        );
         table.insert_row(1);
-        assert_eq!([table.text(0, 0), table.text(1, 0), table.text(2, 0)], ["a", "b", "b"]);
+        assert_eq!(
+            [table.text(0, 0), table.text(1, 0), table.text(2, 0)],
+            ["a", "b", "b"]
+        );
         table.remove_column(0);
         assert_eq!([table.text(1, 0), table.text(2, 0)], ["c", "c"]);
         table.resize(i64::MAX, i64::MAX);
@@ -256,7 +361,10 @@ fn tables_may_be_large_and_open_lines_keep_texts() {
         Ok(())
     })
     .unwrap();
-    assert_eq!(ui.snapshot()["windows"][0]["content"]["items"][0]["rowCount"], json!(i64::MAX));
+    assert_eq!(
+        ui.snapshot()["windows"][0]["content"]["items"][0]["rowCount"],
+        json!(i64::MAX)
+    );
 }
 
 #[test]
@@ -283,7 +391,13 @@ fn widgets_are_found_by_what_a_person_sees() {
     let names = BTreeMap::from([("entry".to_owned(), 3), ("other".to_owned(), 44)]);
     ui.create(text, 7, names).unwrap();
     let window = ui.window(&ui.find_window("Robot").unwrap()).unwrap();
-    for (name, id) in [("Speed", 5), ("setSpeed", 5), ("5", 5), ("Start", 9), ("entry", 3)] {
+    for (name, id) in [
+        ("Speed", 5),
+        ("setSpeed", 5),
+        ("5", 5),
+        ("Start", 9),
+        ("entry", 3),
+    ] {
         assert_eq!(window.find_widget(name), Ok(id), "{name}");
     }
     assert_eq!(
@@ -291,7 +405,10 @@ fn widgets_are_found_by_what_a_person_sees() {
         Err("window 'Robot' has no widget 'Stop'; it has: label 'Speed', hslider 5, button 'Start', edit 'entry'."
             .into())
     );
-    assert_eq!(ui.find_window("Arm"), Err("there is no window 'Arm'; there are: 'Robot'.".into()));
+    assert_eq!(
+        ui.find_window("Arm"),
+        Err("there is no window 'Arm'; there are: 'Robot'.".into())
+    );
 }
 
 #[test]

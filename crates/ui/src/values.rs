@@ -2,8 +2,8 @@
 
 use super::error::{UiError, UiResult};
 use super::widgets::{
-    Button, Cell, Checkbox, Combobox, Edit, Label, ProgressBar, Properties, Radiobutton, Slider, Spinbox, Table, Tabs,
-    TextBrowser, TextType, Tree, WidgetKind,
+    Button, Cell, Checkbox, Combobox, Edit, Label, ProgressBar, Properties, Radiobutton, Slider,
+    Spinbox, Table, Tabs, TextBrowser, TextType, Tree, WidgetKind,
 };
 use super::window::Window;
 use scene::Data;
@@ -26,8 +26,13 @@ impl Window {
     }
 
     fn release_neighbours(&mut self, id: i64) {
-        let Ok(parent) = self.widget(id).map(|widget| widget.parent) else { return };
-        let neighbours = self.widgets.values_mut().filter(|widget| widget.parent == parent && widget.id != id);
+        let Ok(parent) = self.widget(id).map(|widget| widget.parent) else {
+            return;
+        };
+        let neighbours = self
+            .widgets
+            .values_mut()
+            .filter(|widget| widget.parent == parent && widget.id != id);
         for neighbour in neighbours {
             match &mut neighbour.kind {
                 WidgetKind::Button(button) if button.auto_exclusive => button.checked = false,
@@ -93,7 +98,11 @@ impl Window {
         let spinbox = self.get_mut::<Spinbox>(id)?;
         let value = spinbox.clamped(value);
         let changes = std::mem::replace(&mut spinbox.value, value) != value;
-        let data = if spinbox.decimals.is_some() { Data::Float(value) } else { Data::Int(value as i64) };
+        let data = if spinbox.decimals.is_some() {
+            Data::Float(value)
+        } else {
+            Data::Int(value as i64)
+        };
         self.raise_change(id, changes && raise, data);
         Ok(())
     }
@@ -145,7 +154,12 @@ impl Window {
     ///
     /// # Errors
     /// When it is no combo box.
-    pub fn change_combobox(&mut self, id: i64, raise: bool, change: impl FnOnce(&mut Combobox)) -> UiResult<()> {
+    pub fn change_combobox(
+        &mut self,
+        id: i64,
+        raise: bool,
+        change: impl FnOnce(&mut Combobox),
+    ) -> UiResult<()> {
         let combobox = self.get_mut::<Combobox>(id)?;
         let before = combobox.selected;
         change(combobox);
@@ -161,7 +175,10 @@ impl Window {
     /// When they are no tabs.
     pub fn set_tab(&mut self, id: i64, index: i64) -> UiResult<()> {
         let tabs = self.get_mut::<Tabs>(id)?;
-        if let Some(index) = usize::try_from(index).ok().filter(|index| *index < tabs.pages.len()) {
+        if let Some(index) = usize::try_from(index)
+            .ok()
+            .filter(|index| *index < tabs.pages.len())
+        {
             tabs.current = index;
         }
         Ok(())
@@ -200,7 +217,13 @@ impl Window {
     ///
     /// # Errors
     /// When it is no table.
-    pub fn set_cell(&mut self, id: i64, [row, column]: [i64; 2], text: String, raise: bool) -> UiResult<()> {
+    pub fn set_cell(
+        &mut self,
+        id: i64,
+        [row, column]: [i64; 2],
+        text: String,
+        raise: bool,
+    ) -> UiResult<()> {
         let table = self.get_mut::<Table>(id)?;
         let changes = table.set_text(row, column, text.clone());
         if changes && raise {
@@ -210,7 +233,11 @@ impl Window {
     }
 
     pub(super) fn raise_cell(&mut self, id: i64, [row, column]: [i64; 2], text: &str) {
-        self.raise(id, "on-cell-activate", [Data::Int(row), Data::Int(column), Data::text(text)]);
+        self.raise(
+            id,
+            "on-cell-activate",
+            [Data::Int(row), Data::Int(column), Data::text(text)],
+        );
     }
 
     /// Sets the texts of a table from its first cell on: the rows become as many as there are, columns only more.
@@ -223,7 +250,10 @@ impl Window {
         table.resize(rows.len() as i64, table.column_count.max(longest));
         for (row, texts) in (0..).zip(rows) {
             for (column, text) in (0..).zip(texts) {
-                let cell = table.cells.entry((row, column)).or_insert_with(|| Cell::of_text(String::new()));
+                let cell = table
+                    .cells
+                    .entry((row, column))
+                    .or_insert_with(|| Cell::of_text(String::new()));
                 cell.text = text;
             }
         }
@@ -250,7 +280,11 @@ impl Window {
     /// When it is no tree.
     pub fn select_item(&mut self, id: i64, item: i64, raise: bool) -> UiResult<()> {
         let tree = self.get_mut::<Tree>(id)?;
-        let item = if tree.items.contains_key(&item) { item } else { 0 };
+        let item = if tree.items.contains_key(&item) {
+            item
+        } else {
+            0
+        };
         let changes = std::mem::replace(&mut tree.selected, item) != item;
         if changes && raise {
             self.raise(id, "on-selection-change", [Data::Int(item)]);
@@ -264,7 +298,11 @@ impl Window {
     /// When they are no properties.
     pub fn select_property(&mut self, id: i64, row: i64, raise: bool) -> UiResult<()> {
         let properties = self.get_mut::<Properties>(id)?;
-        let row = if (0..properties.rows.len() as i64).contains(&row) { row } else { -1 };
+        let row = if (0..properties.rows.len() as i64).contains(&row) {
+            row
+        } else {
+            -1
+        };
         let changes = std::mem::replace(&mut properties.selected, row) != row;
         if changes && raise {
             self.raise(id, "on-selection-change", [Data::Int(row)]);
@@ -275,5 +313,7 @@ impl Window {
 
 /// A text as a whole document, as handlers get it.
 fn html_document(text: &str) -> String {
-    format!("<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\" /></head><body>{text}</body></html>")
+    format!(
+        "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\" /></head><body>{text}</body></html>"
+    )
 }

@@ -27,9 +27,19 @@ pub struct FloatingViews {
 impl FloatingViews {
     /// Adds one; its handle. Numbers that are none, or beyond the main view, become the nearest place in it.
     pub fn add(&mut self, position: [f64; 2], size: [f64; 2]) -> i64 {
-        let part = |number: f64| if number.is_finite() { number.clamp(0.0, 1.0) } else { 0.5 };
-        let view =
-            FloatingView { position: position.map(part), size: size.map(part), object: -1, label: String::new() };
+        let part = |number: f64| {
+            if number.is_finite() {
+                number.clamp(0.0, 1.0)
+            } else {
+                0.5
+            }
+        };
+        let view = FloatingView {
+            position: position.map(part),
+            size: size.map(part),
+            object: -1,
+            label: String::new(),
+        };
         self.last += 1;
         self.by_handle.insert(self.last, view);
         self.last

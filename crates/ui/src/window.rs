@@ -121,10 +121,16 @@ impl Window {
 
     /// Sets size and position from what the text of the window says.
     pub(super) fn place(&mut self, position: [i64; 2], size: [i64; 2]) {
-        self.size = if size[0] > 0 && size[1] > 0 { size } else { DEFAULT_SIZE };
+        self.size = if size[0] > 0 && size[1] > 0 {
+            size
+        } else {
+            DEFAULT_SIZE
+        };
         self.position = std::array::from_fn(|axis| match self.placement {
             Placement::Center => (SCREEN[axis] - self.size[axis]) / 2,
-            Placement::Relative if position[axis] < 0 => SCREEN[axis] + position[axis] - self.size[axis],
+            Placement::Relative if position[axis] < 0 => {
+                SCREEN[axis] + position[axis] - self.size[axis]
+            }
             Placement::Relative | Placement::Absolute => position[axis],
         });
     }
@@ -168,7 +174,9 @@ impl Window {
 
     /// The widgets of a kind, in the order of their ids.
     pub fn all<'a, T: WidgetType + 'a>(&'a self) -> impl Iterator<Item = (i64, &'a T)> {
-        self.widgets.iter().filter_map(|(id, widget)| Some((*id, T::of(&widget.kind)?)))
+        self.widgets
+            .iter()
+            .filter_map(|(id, widget)| Some((*id, T::of(&widget.kind)?)))
     }
 
     /// Whether a widget is seen, with all that is around it.
@@ -182,7 +190,9 @@ impl Window {
     }
 
     fn with_parents(&self, id: i64) -> impl Iterator<Item = &Widget> {
-        std::iter::successors(self.widgets.get(&id), |widget| self.widgets.get(&widget.parent?))
+        std::iter::successors(self.widgets.get(&id), |widget| {
+            self.widgets.get(&widget.parent?)
+        })
     }
 
     /// All widgets in the order of reading: those in a container after it.
@@ -211,7 +221,11 @@ impl Window {
         args: impl IntoIterator<Item = Data>,
         evaluates: bool,
     ) {
-        let handler = self.widgets.get(&id).and_then(|widget| widget.handlers.get(attribute)).cloned();
+        let handler = self
+            .widgets
+            .get(&id)
+            .and_then(|widget| widget.handlers.get(attribute))
+            .cloned();
         if handler.is_none() && !evaluates {
             return;
         }
@@ -219,7 +233,14 @@ impl Window {
         all.extend(args);
         let (window, script) = (Some(self.id), self.owner);
         let handler = handler.unwrap_or_default();
-        self.raised.push(Event { window, widget: Some(id), script, handler, args: all, evaluates });
+        self.raised.push(Event {
+            window,
+            widget: Some(id),
+            script,
+            handler,
+            args: all,
+            evaluates,
+        });
     }
 
     /// Queues a call of the handler of the close button; false without one.
@@ -230,11 +251,22 @@ impl Window {
         let (window, script, handler) = (Some(self.id), self.owner, self.on_close.clone());
         let args = match (self.source, self.get::<TextBrowser>(1)) {
             (WindowSource::Editor, Ok(editor)) => {
-                vec![Data::text(&editor.text), self.position.into(), self.size.into()]
+                vec![
+                    Data::text(&editor.text),
+                    self.position.into(),
+                    self.size.into(),
+                ]
             }
             _ => vec![Data::text(&self.handle())],
         };
-        self.raised.push(Event { window, widget: None, script, handler, args, evaluates: false });
+        self.raised.push(Event {
+            window,
+            widget: None,
+            script,
+            handler,
+            args,
+            evaluates: false,
+        });
         true
     }
 

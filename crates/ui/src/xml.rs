@@ -38,10 +38,16 @@ pub(super) fn parse(text: &str) -> Option<Element> {
         let end = reader.buffer_position() as usize;
         let closed = match event {
             Event::Start(start) => {
-                open.push(Open { begin, element: element(&start)? });
+                open.push(Open {
+                    begin,
+                    element: element(&start)?,
+                });
                 None
             }
-            Event::Empty(start) => Some(Open { begin, element: element(&start)? }),
+            Event::Empty(start) => Some(Open {
+                begin,
+                element: element(&start)?,
+            }),
             Event::End(_) => Some(open.pop()?),
             Event::Eof => return None,
             other => {
@@ -79,18 +85,26 @@ impl Open {
         match event {
             Event::Text(piece) => text.push_str(piece),
             Event::CData(piece) => text.push_str(piece),
-            Event::GeneralRef(reference) => text.push_str(&unescaped(&format!("&{};", &**reference))),
+            Event::GeneralRef(reference) => {
+                text.push_str(&unescaped(&format!("&{};", &**reference)))
+            }
             _ => {}
         }
     }
 }
 
 fn element(start: &BytesStart<'_>) -> Option<Element> {
-    let mut element = Element { name: start.name().as_ref().to_owned(), ..Element::default() };
+    let mut element = Element {
+        name: start.name().as_ref().to_owned(),
+        ..Element::default()
+    };
     // The check for doubles would compare each with each.
     for attribute in start.attributes().with_checks(false) {
         let attribute = attribute.ok()?;
-        element.attributes.push((attribute.key.as_ref().to_owned(), unescaped(&attribute.value)));
+        element.attributes.push((
+            attribute.key.as_ref().to_owned(),
+            unescaped(&attribute.value),
+        ));
     }
     Some(element)
 }
@@ -102,7 +116,10 @@ fn unescaped(text: &str) -> String {
     while let Some(at) = rest.find('&') {
         out.push_str(&rest[..at]);
         rest = &rest[at + 1..];
-        match rest.split_once(';').and_then(|(name, after)| Some((entity(name)?, after))) {
+        match rest
+            .split_once(';')
+            .and_then(|(name, after)| Some((entity(name)?, after)))
+        {
             Some((character, after)) => {
                 out.push(character);
                 rest = after;
@@ -139,17 +156,38 @@ mod tests {
 
     #[test]
     fn elements_have_attributes_children_and_texts() {
-        let root =
-            parse("<!-- a --><ui title='a &amp; b & c &nbsp;'><item>1 &lt; 2<br/>x</item></ui><b/>").expect("XML");
-        assert_eq!(root.attributes, [("title".to_owned(), "a & b & c &nbsp;".to_owned())]);
-        assert_eq!((root.children[0].text.as_str(), root.children[0].children[0].name.as_str()), ("1 < 2x", "br"));
+        let root = parse(
+            "<!-- a --><ui title='a &amp; b & c &nbsp;'><item>1 &lt; 2<br/>x</item></ui><b/>",
+        )
+        .expect("XML");
+        assert_eq!(
+            root.attributes,
+            [("title".to_owned(), "a & b & c &nbsp;".to_owned())]
+        );
+        assert_eq!(
+            (
+                root.children[0].text.as_str(),
+                root.children[0].children[0].name.as_str()
+            ),
+            ("1 < 2x", "br")
+        );
         let svg = parse("<ui><svg><svg a='1'><g/></svg></svg></ui>").expect("XML");
         assert_eq!(svg.children[0].children[0].source, "<svg a='1'><g/></svg>");
     }
 
     #[test]
     fn what_is_no_xml_is_none() {
-        for text in ["", "<ui", "<ui>", "<ui></b>", "<!-- -->", "x", "<ui a=1/>", "</ui>", "<ui a='1/>"] {
+        for text in [
+            "",
+            "<ui",
+            "<ui>",
+            "<ui></b>",
+            "<!-- -->",
+            "x",
+            "<ui a=1/>",
+            "</ui>",
+            "<ui a='1/>",
+        ] {
             assert_eq!(parse(text), None, "{text}");
         }
         assert_eq!(parse(&"<a>".repeat(1_000_000)), None);

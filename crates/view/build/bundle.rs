@@ -7,7 +7,11 @@ use std::fmt::Write as _;
 
 /// The text of `main` and all modules it imports; None where one is missing or not in the form.
 pub fn join(main: &str, read: &dyn Fn(&str) -> Option<String>) -> Option<String> {
-    let mut bundle = Bundle { read, numbers: BTreeMap::new(), text: String::new() };
+    let mut bundle = Bundle {
+        read,
+        numbers: BTreeMap::new(),
+        text: String::new(),
+    };
     bundle.add(main, &mut Vec::new())?;
     Some(bundle.text)
 }
@@ -19,7 +23,11 @@ pub fn stripped(program: &str) -> String {
     for line in program.lines().map(str::trim) {
         is_comment |= line.starts_with("/**");
         let ends = is_comment && line.contains("*/");
-        let rest = if ends { line.rsplit_once("*/").map_or("", |(_, rest)| rest.trim()) } else { line };
+        let rest = if ends {
+            line.rsplit_once("*/").map_or("", |(_, rest)| rest.trim())
+        } else {
+            line
+        };
         if (!is_comment || ends) && !rest.is_empty() && !rest.starts_with("//") {
             text += without_remark(rest);
             text.push('\n');
@@ -33,7 +41,8 @@ pub fn stripped(program: &str) -> String {
 fn without_remark(line: &str) -> &str {
     match line.rsplit_once(" // ") {
         Some((code, remark))
-            if code.ends_with([';', ',', '{', '}', ')', ']']) && !remark.contains(['\'', '"', '`']) =>
+            if code.ends_with([';', ',', '{', '}', ')', ']'])
+                && !remark.contains(['\'', '"', '`']) =>
         {
             code
         }
@@ -77,7 +86,11 @@ impl Bundle<'_> {
         let number = self.numbers.len();
         self.numbers.insert(name.to_owned(), number);
         let exports = exports.join(", ");
-        writeln!(self.text, "// {name}\nconst m{number} = (() => {{\n{body}return {{ {exports} }};\n}})();").ok()?;
+        writeln!(
+            self.text,
+            "// {name}\nconst m{number} = (() => {{\n{body}return {{ {exports} }};\n}})();"
+        )
+        .ok()?;
         Some(number)
     }
 }
@@ -93,10 +106,16 @@ fn import(line: &str) -> Option<(&str, &str)> {
 fn export(line: &str) -> Option<(&str, Vec<String>)> {
     let rest = line.strip_prefix("export ")?;
     if let Some(names) = rest.strip_prefix('{') {
-        let names = names.split_once('}')?.0.split(',').map(|name| name.trim().to_owned());
+        let names = names
+            .split_once('}')?
+            .0
+            .split(',')
+            .map(|name| name.trim().to_owned());
         return Some(("", names.filter(|name| !name.is_empty()).collect()));
     }
-    let mut words = rest.split([' ', '(', '*', '=']).filter(|word| !word.is_empty());
+    let mut words = rest
+        .split([' ', '(', '*', '='])
+        .filter(|word| !word.is_empty());
     let name = words.find(|word| !["async", "function", "class", "const", "let"].contains(word))?;
     Some((rest, vec![name.to_owned()]))
 }
@@ -120,15 +139,26 @@ mod tests {
     use super::*;
 
     fn joined(files: &[(&str, &str)]) -> Option<String> {
-        let read = |name: &str| files.iter().find(|(file, _)| *file == name).map(|(_, text)| (*text).to_owned());
+        let read = |name: &str| {
+            files
+                .iter()
+                .find(|(file, _)| *file == name)
+                .map(|(_, text)| (*text).to_owned())
+        };
         join("main.js", &read)
     }
 
     #[test]
     fn modules_come_after_those_they_import() {
         let text = joined(&[
-            ("main.js", "import { a, b as c } from './gl/one.js';\nimport { two } from './two.js';\nstart(a, c);"),
-            ("gl/one.js", "import { two } from '../two.js';\nexport const a = two;\nexport async function b() {}"),
+            (
+                "main.js",
+                "import { a, b as c } from './gl/one.js';\nimport { two } from './two.js';\nstart(a, c);",
+            ),
+            (
+                "gl/one.js",
+                "import { two } from '../two.js';\nexport const a = two;\nexport async function b() {}",
+            ),
             ("two.js", "export class two {}\nexport { three };\n"),
         ]);
         let expected = "// two.js\nconst m0 = (() => {\nclass two {}\n\nreturn { two, three };\n})();\n\
@@ -139,16 +169,24 @@ mod tests {
 
     #[test]
     fn comments_and_indentation_go_and_texts_stay() {
-        let program =
-            "// a\n/** b\n * c */\nf( // d\n  'x // y', // e\n  2); // don't\n/** @type {A} */ g();\n\nh('/** i');\n";
-        assert_eq!(stripped(program), "f( // d\n'x // y',\n2); // don't\ng();\nh('/** i');\n");
+        let program = "// a\n/** b\n * c */\nf( // d\n  'x // y', // e\n  2); // don't\n/** @type {A} */ g();\n\nh('/** i');\n";
+        assert_eq!(
+            stripped(program),
+            "f( // d\n'x // y',\n2); // don't\ng();\nh('/** i');\n"
+        );
     }
 
     #[test]
     fn what_is_missing_or_a_cycle_is_noticed() {
         assert_eq!(joined(&[]), None);
         assert_eq!(joined(&[("main.js", "import { a } from './a.js';")]), None);
-        assert_eq!(joined(&[("main.js", "import { a } from '../../a.js';")]), None);
-        assert_eq!(joined(&[("main.js", "import { a } from './main.js';")]), None);
+        assert_eq!(
+            joined(&[("main.js", "import { a } from '../../a.js';")]),
+            None
+        );
+        assert_eq!(
+            joined(&[("main.js", "import { a } from './main.js';")]),
+            None
+        );
     }
 }

@@ -6,7 +6,10 @@ mod page;
 use std::env;
 use std::path::PathBuf;
 
-#[allow(clippy::disallowed_methods, reason = "cargo tells a build script its folders through the environment")]
+#[allow(
+    clippy::disallowed_methods,
+    reason = "cargo tells a build script its folders through the environment"
+)]
 fn main() {
     println!("cargo:rerun-if-changed=src/page");
     println!("cargo:rerun-if-changed=build");

@@ -18,8 +18,8 @@ const MAIN: &str = "main.js";
 pub fn compress(root: &Path, out: &Path) {
     let read = |name: &str| fs::read_to_string(root.join(name)).ok();
     let text = |name: &str| read(name).unwrap_or_else(|| panic!("{name} is part of the page"));
-    let program =
-        bundle::join(MAIN, &read).expect("the modules of the page can be joined (docs/VIEW_PROTOCOL.md, One file)");
+    let program = bundle::join(MAIN, &read)
+        .expect("the modules of the page can be joined (docs/VIEW_PROTOCOL.md, One file)");
     let files = [
         ("index.html", text("index.html")),
         (MAIN, bundle::stripped(&program)),
@@ -31,9 +31,15 @@ pub fn compress(root: &Path, out: &Path) {
         fs::write(&path, gzip(content.as_bytes())).expect("the output folder is writable");
         let mut hasher = DefaultHasher::new();
         hasher.write(content.as_bytes());
-        let (path, tag) = (path.display().to_string(), format!("{:016x}", hasher.finish()));
-        writeln!(table, "Asset {{ name: {name:?}, gzip: include_bytes!({path:?}), tag: {tag:?} }},")
-            .expect("strings take all");
+        let (path, tag) = (
+            path.display().to_string(),
+            format!("{:016x}", hasher.finish()),
+        );
+        writeln!(
+            table,
+            "Asset {{ name: {name:?}, gzip: include_bytes!({path:?}), tag: {tag:?} }},"
+        )
+        .expect("strings take all");
     }
     table.push(']');
     fs::write(out.join("page_files.rs"), table).expect("the output folder is writable");

@@ -27,7 +27,10 @@ pub(crate) struct Blob {
 
 impl Blob {
     fn new(bytes: Vec<u8>) -> Arc<Self> {
-        Arc::new(Self { hash: Hash::of(&bytes), bytes })
+        Arc::new(Self {
+            hash: Hash::of(&bytes),
+            bytes,
+        })
     }
 
     /// A mesh in the frame of its shape; with the edges between faces that meet at more than `edge_angle` (radians).
@@ -38,21 +41,44 @@ impl Blob {
         // Scripts may set too few texture coordinates: the mesh is then drawn without them.
         let has_coordinates = coordinates.len() == 3 * triangles.len() && !coordinates.is_empty();
         let edges = edge_angle.map_or_else(Vec::new, |angle| mesh.sharp_edges(angle));
-        let mut bytes = Vec::with_capacity(20 + 12 * vertices.len() + 72 * triangles.len() + 8 * edges.len());
+        let mut bytes =
+            Vec::with_capacity(20 + 12 * vertices.len() + 72 * triangles.len() + 8 * edges.len());
         bytes.extend_from_slice(b"MESH");
-        let counts = [vertices.len() as u32, triangles.len() as u32, edges.len() as u32, u32::from(has_coordinates)];
-        counts.iter().for_each(|count| bytes.extend_from_slice(&count.to_le_bytes()));
+        let counts = [
+            vertices.len() as u32,
+            triangles.len() as u32,
+            edges.len() as u32,
+            u32::from(has_coordinates),
+        ];
+        counts
+            .iter()
+            .for_each(|count| bytes.extend_from_slice(&count.to_le_bytes()));
         for vertex in vertices {
-            push_numbers(&mut bytes, (part.pose * Point3::from(*vertex)).coords.into());
+            push_numbers(
+                &mut bytes,
+                (part.pose * Point3::from(*vertex)).coords.into(),
+            );
         }
-        triangles.iter().flatten().for_each(|index| bytes.extend_from_slice(&index.to_le_bytes()));
+        triangles
+            .iter()
+            .flatten()
+            .for_each(|index| bytes.extend_from_slice(&index.to_le_bytes()));
         for normal in &mesh.normals {
-            push_numbers(&mut bytes, (part.pose.rotation * nalgebra::Vector3::from(*normal)).into());
+            push_numbers(
+                &mut bytes,
+                (part.pose.rotation * nalgebra::Vector3::from(*normal)).into(),
+            );
         }
         if has_coordinates {
-            coordinates.iter().flatten().for_each(|number| bytes.extend_from_slice(&number.to_le_bytes()));
+            coordinates
+                .iter()
+                .flatten()
+                .for_each(|number| bytes.extend_from_slice(&number.to_le_bytes()));
         }
-        edges.iter().flatten().for_each(|index| bytes.extend_from_slice(&index.to_le_bytes()));
+        edges
+            .iter()
+            .flatten()
+            .for_each(|index| bytes.extend_from_slice(&index.to_le_bytes()));
         Self::new(bytes)
     }
 
@@ -65,7 +91,8 @@ impl Blob {
     pub(crate) fn image(size: [u32; 2], rgba: &[u8]) -> Arc<Self> {
         let mut bytes = Vec::with_capacity(12 + rgba.len());
         bytes.extend_from_slice(b"TEXR");
-        size.iter().for_each(|side| bytes.extend_from_slice(&side.to_le_bytes()));
+        size.iter()
+            .for_each(|side| bytes.extend_from_slice(&side.to_le_bytes()));
         bytes.extend_from_slice(rgba);
         Self::new(bytes)
     }
@@ -75,14 +102,20 @@ impl Blob {
         let mut bytes = Vec::with_capacity(8 + 16 * points.len());
         bytes.extend_from_slice(b"PNTS");
         bytes.extend_from_slice(&(points.len() as u32).to_le_bytes());
-        points.iter().for_each(|(position, _)| push_numbers(&mut bytes, *position));
-        points.iter().for_each(|(_, [r, g, b])| bytes.extend_from_slice(&[*r, *g, *b, u8::MAX]));
+        points
+            .iter()
+            .for_each(|(position, _)| push_numbers(&mut bytes, *position));
+        points
+            .iter()
+            .for_each(|(_, [r, g, b])| bytes.extend_from_slice(&[*r, *g, *b, u8::MAX]));
         Self::new(bytes)
     }
 }
 
 fn push_numbers(bytes: &mut Vec<u8>, numbers: [f64; 3]) {
-    numbers.iter().for_each(|number| bytes.extend_from_slice(&(*number as f32).to_le_bytes()));
+    numbers
+        .iter()
+        .for_each(|number| bytes.extend_from_slice(&(*number as f32).to_le_bytes()));
 }
 
 #[cfg(test)]
@@ -110,6 +143,9 @@ mod tests {
         assert_eq!(&blob.bytes[..8], b"PNTS\x02\0\0\0");
         assert_eq!(blob.bytes[8..12], 1f32.to_le_bytes());
         assert_eq!(blob.bytes[32..], [4, 5, 6, 255, 7, 7, 7, 255]);
-        assert_eq!(blob.hash, Blob::points(&[([1.0, 2.0, 3.0], [4, 5, 6]), ([0.0; 3], [7; 3])]).hash);
+        assert_eq!(
+            blob.hash,
+            Blob::points(&[([1.0, 2.0, 3.0], [4, 5, 6]), ([0.0; 3], [7; 3])]).hash
+        );
     }
 }

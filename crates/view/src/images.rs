@@ -23,9 +23,17 @@ impl Images {
 
     /// The image of a sensor, if it is another one than was shown.
     pub(super) fn new_image(&mut self, scene: &Scene, sensor: i64, time: f64) -> Option<Vec<u8>> {
-        let object = scene.object(Handle::from_raw(sensor)?).ok()?.vision_sensor().ok()?;
+        let object = scene
+            .object(Handle::from_raw(sensor)?)
+            .ok()?
+            .vision_sensor()
+            .ok()?;
         let pixels = object.image();
-        if self.shown.get(&sensor).is_some_and(|shown| **shown == *pixels) {
+        if self
+            .shown
+            .get(&sensor)
+            .is_some_and(|shown| **shown == *pixels)
+        {
             return None;
         }
         self.shown.insert(sensor, pixels.to_vec());
@@ -36,7 +44,10 @@ impl Images {
         message.extend_from_slice(&height.to_le_bytes());
         message.extend_from_slice(&time.to_le_bytes());
         let row = 3 * width as usize;
-        pixels.chunks_exact(row).rev().for_each(|row| message.extend_from_slice(row));
+        pixels
+            .chunks_exact(row)
+            .rev()
+            .for_each(|row| message.extend_from_slice(row));
         Some(message)
     }
 
@@ -47,6 +58,9 @@ impl Images {
             .filter(|object| object.vision_sensor().is_ok())
             .map(|object| object.handle().raw())
             .collect();
-        sensors.into_iter().filter_map(|sensor| self.new_image(scene, sensor, time)).collect()
+        sensors
+            .into_iter()
+            .filter_map(|sensor| self.new_image(scene, sensor, time))
+            .collect()
     }
 }

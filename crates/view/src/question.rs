@@ -32,9 +32,16 @@ pub(super) fn ask(
     answer
 }
 
-fn wait(shared: &Shared, waker: &SiteWaker, number: u64, is_ending: &dyn Fn() -> bool) -> Option<Data> {
+fn wait(
+    shared: &Shared,
+    waker: &SiteWaker,
+    number: u64,
+    is_ending: &dyn Fn() -> bool,
+) -> Option<Data> {
     while shared.has_persons() && !is_ending() {
-        let Some(pending) = shared.next_request(POLL_INTERVAL) else { continue };
+        let Some(pending) = shared.next_request(POLL_INTERVAL) else {
+            continue;
+        };
         let answered = answer_to(&pending, number);
         let waits = || "a script waits for the answer to its dialog".to_owned();
         pending.answer(answered.map(|_| json!(true)).ok_or_else(waits));

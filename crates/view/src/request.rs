@@ -65,7 +65,14 @@ pub(crate) struct Refusal {
 impl Action {
     /// Whether it may change something, which pages that only read must not.
     pub(crate) fn changes_something(&self) -> bool {
-        !matches!(self, Self::Inspect(_) | Self::Script(_) | Self::Watch(_) | Self::Show { .. } | Self::Graph(_))
+        !matches!(
+            self,
+            Self::Inspect(_)
+                | Self::Script(_)
+                | Self::Watch(_)
+                | Self::Show { .. }
+                | Self::Graph(_)
+        )
     }
 }
 
@@ -75,10 +82,15 @@ impl Request {
     /// # Errors
     /// When it is no JSON object with a number and known, well-formed members.
     pub(crate) fn parse(message: &[u8]) -> Result<Self, Refusal> {
-        let refuse = |id: Value, reason: &str| Refusal { id, reason: reason.to_owned() };
-        let value: Value =
-            serde_json::from_slice(message).map_err(|_| refuse(Value::Null, "a request is a JSON object"))?;
-        let Value::Object(members) = value else { return Err(refuse(Value::Null, "a request is a JSON object")) };
+        let refuse = |id: Value, reason: &str| Refusal {
+            id,
+            reason: reason.to_owned(),
+        };
+        let value: Value = serde_json::from_slice(message)
+            .map_err(|_| refuse(Value::Null, "a request is a JSON object"))?;
+        let Value::Object(members) = value else {
+            return Err(refuse(Value::Null, "a request is a JSON object"));
+        };
         let id = members.get("id").filter(|id| id.is_number()).cloned();
         let id = id.ok_or_else(|| refuse(Value::Null, "a request has an `id`, a number"))?;
         match action(&members) {
@@ -91,7 +103,10 @@ impl Request {
 type Members = Map<String, Value>;
 
 fn action(members: &Members) -> Result<Action, String> {
-    let name = members.get("do").and_then(Value::as_str).ok_or("a request says in `do` what to do")?;
+    let name = members
+        .get("do")
+        .and_then(Value::as_str)
+        .ok_or("a request says in `do` what to do")?;
     Ok(match name {
         "play" => Action::Play,
         "pause" => Action::Pause,
@@ -108,30 +123,46 @@ fn action(members: &Members) -> Result<Action, String> {
         "script" => Action::Script(handle(members)?),
         "configure" => Action::Configure(handle(members)?),
         "watch" => Action::Watch(handles(members)?),
-        "show" => Action::Show { contacts: flag(members, "contacts")? },
+        "show" => Action::Show {
+            contacts: flag(members, "contacts")?,
+        },
         "graph" => Action::Graph(handle(members)?),
         "ui" => {
             let member = |name: &str| members.get(name).cloned().unwrap_or(Value::Null);
-            Action::Ui { window: member("window"), widget: member("widget"), input: member("input") }
+            Action::Ui {
+                window: member("window"),
+                widget: member("widget"),
+                input: member("input"),
+            }
         }
         "run" => Action::Run(text(members, "code")?),
         "answer" => {
-            let question = members.get("question").and_then(Value::as_u64).ok_or("`question` is a number")?;
-            Action::Answer { question, answer: members.get("answer").cloned().unwrap_or(Value::Null) }
+            let question = members
+                .get("question")
+                .and_then(Value::as_u64)
+                .ok_or("`question` is a number")?;
+            Action::Answer {
+                question,
+                answer: members.get("answer").cloned().unwrap_or(Value::Null),
+            }
         }
         other => return Err(format!("unknown request: {}", shortened(other))),
     })
 }
 
 fn shortened(text: &str) -> &str {
-    text.char_indices().nth(50).map_or(text, |(end, _)| &text[..end])
+    text.char_indices()
+        .nth(50)
+        .map_or(text, |(end, _)| &text[..end])
 }
 
 fn count(members: &Members) -> Result<u64, String> {
     match members.get("count") {
         None => Ok(1),
         Some(count) => {
-            let count = count.as_u64().filter(|count| (1..=MAX_STEPS).contains(count));
+            let count = count
+                .as_u64()
+                .filter(|count| (1..=MAX_STEPS).contains(count));
             count.ok_or_else(|| format!("`count` is a whole number, 1 to {MAX_STEPS}"))
         }
     }
@@ -144,20 +175,32 @@ fn factor(members: &Members) -> Result<f64, String> {
 }
 
 fn handle(members: &Members) -> Result<i64, String> {
-    members.get("handle").and_then(Value::as_i64).ok_or_else(|| "`handle` is a whole number".to_owned())
+    members
+        .get("handle")
+        .and_then(Value::as_i64)
+        .ok_or_else(|| "`handle` is a whole number".to_owned())
 }
 
 fn handles(members: &Members) -> Result<Vec<i64>, String> {
     let wrong = || "`handles` is a list of whole numbers".to_owned();
-    let list = members.get("handles").and_then(Value::as_array).ok_or_else(wrong)?;
+    let list = members
+        .get("handles")
+        .and_then(Value::as_array)
+        .ok_or_else(wrong)?;
     if list.len() > MAX_HANDLES {
         return Err(format!("`handles` has at most {MAX_HANDLES} items"));
     }
-    list.iter().map(Value::as_i64).collect::<Option<_>>().ok_or_else(wrong)
+    list.iter()
+        .map(Value::as_i64)
+        .collect::<Option<_>>()
+        .ok_or_else(wrong)
 }
 
 fn text(members: &Members, name: &str) -> Result<String, String> {
-    let text = members.get(name).and_then(Value::as_str).ok_or_else(|| format!("`{name}` is a text"))?;
+    let text = members
+        .get(name)
+        .and_then(Value::as_str)
+        .ok_or_else(|| format!("`{name}` is a text"))?;
     if text.len() > MAX_TEXT_LENGTH {
         return Err(format!("`{name}` is too long"));
     }
@@ -165,7 +208,10 @@ fn text(members: &Members, name: &str) -> Result<String, String> {
 }
 
 fn flag(members: &Members, name: &str) -> Result<bool, String> {
-    members.get(name).and_then(Value::as_bool).ok_or_else(|| format!("`{name}` is true or false"))
+    members
+        .get(name)
+        .and_then(Value::as_bool)
+        .ok_or_else(|| format!("`{name}` is true or false"))
 }
 
 #[cfg(test)]
@@ -173,19 +219,36 @@ mod tests {
     use super::*;
 
     fn parse(text: &str) -> Result<Action, String> {
-        Request::parse(text.as_bytes()).map(|request| request.action).map_err(|refusal| refusal.reason)
+        Request::parse(text.as_bytes())
+            .map(|request| request.action)
+            .map_err(|refusal| refusal.reason)
     }
 
     #[test]
     fn requests_of_the_protocol() {
         assert_eq!(parse(r#"{"id":1,"do":"play"}"#), Ok(Action::Play));
         assert_eq!(parse(r#"{"id":1,"do":"step"}"#), Ok(Action::Step(1)));
-        assert_eq!(parse(r#"{"id":1,"do":"speed","factor":0}"#), Ok(Action::Speed(0.0)));
-        assert_eq!(parse(r#"{"id":1,"do":"select","handles":[3,4]}"#), Ok(Action::Select(vec![3, 4])));
-        assert_eq!(parse(r#"{"id":1,"do":"inspect","handle":-1}"#), Ok(Action::Inspect(None)));
-        assert_eq!(parse(r#"{"id":1,"do":"inspect","handle":-13}"#), Ok(Action::Inspect(Some(-13))));
+        assert_eq!(
+            parse(r#"{"id":1,"do":"speed","factor":0}"#),
+            Ok(Action::Speed(0.0))
+        );
+        assert_eq!(
+            parse(r#"{"id":1,"do":"select","handles":[3,4]}"#),
+            Ok(Action::Select(vec![3, 4]))
+        );
+        assert_eq!(
+            parse(r#"{"id":1,"do":"inspect","handle":-1}"#),
+            Ok(Action::Inspect(None))
+        );
+        assert_eq!(
+            parse(r#"{"id":1,"do":"inspect","handle":-13}"#),
+            Ok(Action::Inspect(Some(-13)))
+        );
         let refusal = Request::parse(br#"{"id":7.5,"do":"explode"}"#).unwrap_err();
-        assert_eq!((refusal.id, refusal.reason.as_str()), (7.5.into(), "unknown request: explode"));
+        assert_eq!(
+            (refusal.id, refusal.reason.as_str()),
+            (7.5.into(), "unknown request: explode")
+        );
     }
 
     #[test]
@@ -209,7 +272,11 @@ mod tests {
             r#"{"id":1,"do":"set","handle":1,"name":"a"}"#,
             r#"{"id":1,"do":"run"}"#,
         ] {
-            assert!(parse(text).is_err_and(|reason| !reason.is_empty()), "{}", shortened(text));
+            assert!(
+                parse(text).is_err_and(|reason| !reason.is_empty()),
+                "{}",
+                shortened(text)
+            );
         }
         assert!(Request::parse(&[0xff, 0xfe]).is_err());
     }

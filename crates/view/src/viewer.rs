@@ -69,7 +69,9 @@ impl Viewer {
         let server = SiteServer::start(listener, |_| site)?;
         sim.keep_recent_lines();
         let (asks, waker) = (Arc::clone(&shared), server.waker());
-        sim.set_person(Rc::new(move |question, is_ending| ask(&asks, &waker, question, is_ending)));
+        sim.set_person(Rc::new(move |question, is_ending| {
+            ask(&asks, &waker, question, is_ending)
+        }));
         Ok(Self {
             observer: Observer::default(),
             shared,
@@ -124,7 +126,10 @@ impl Viewer {
         let lines = std::mem::take(&mut self.lines);
         let seen = {
             let scene = sim.scene();
-            let source = Source { is_read_only: self.is_read_only, ..Source::of(sim, &scene) };
+            let source = Source {
+                is_read_only: self.is_read_only,
+                ..Source::of(sim, &scene)
+            };
             self.observer.observe(&source, &lines)
         };
         let windows = self.windows.observe(sim);
@@ -148,15 +153,29 @@ impl Viewer {
         if !demand.sensors.is_empty() && self.images.is_due(now, IMAGE) {
             self.images_shown.keep(&demand.sensors);
             let scene = sim.scene();
-            let mut new_image = |sensor: i64| Some((sensor, self.images_shown.new_image(&scene, sensor, sim.time())?));
-            found.images = demand.sensors.iter().filter_map(|sensor| new_image(*sensor)).collect();
+            let mut new_image = |sensor: i64| {
+                Some((
+                    sensor,
+                    self.images_shown.new_image(&scene, sensor, sim.time())?,
+                ))
+            };
+            found.images = demand
+                .sensors
+                .iter()
+                .filter_map(|sensor| new_image(*sensor))
+                .collect();
         }
         if demand.contacts {
             found.contacts = Some(contacts(sim));
         }
         if self.values.is_due(now, VALUES) {
-            self.shared.mirror().forget_unwanted(&inspected, &demand.sensors);
-            found.rows = inspected.iter().filter_map(|handle| Some((*handle, values(sim, *handle)?))).collect();
+            self.shared
+                .mirror()
+                .forget_unwanted(&inspected, &demand.sensors);
+            found.rows = inspected
+                .iter()
+                .filter_map(|handle| Some((*handle, values(sim, *handle)?)))
+                .collect();
         }
         found
     }
@@ -179,7 +198,12 @@ fn contacts(sim: &Simulator) -> Vec<u8> {
         for shape in contact.shapes {
             message.extend_from_slice(&(shape.raw() as i32).to_le_bytes());
         }
-        for number in contact.point.iter().chain(&contact.normal).chain(&contact.force) {
+        for number in contact
+            .point
+            .iter()
+            .chain(&contact.normal)
+            .chain(&contact.force)
+        {
             message.extend_from_slice(&(*number as f32).to_le_bytes());
         }
     }
@@ -189,7 +213,11 @@ fn contacts(sim: &Simulator) -> Vec<u8> {
 /// Names and rows of the properties of an object that is inspected; None when it is gone.
 fn values(sim: &Simulator, handle: i64) -> Option<Vec<(String, String)>> {
     let rows = rows(sim, handle).ok()?;
-    Some(rows.into_iter().map(|(name, row)| (name, row.to_string())).collect())
+    Some(
+        rows.into_iter()
+            .map(|(name, row)| (name, row.to_string()))
+            .collect(),
+    )
 }
 
 /// Shows a recording to pages, as long as this is there.
@@ -209,7 +237,10 @@ impl RecordedViewer {
     ) -> io::Result<Self> {
         let token = ViewSite::new_token()?;
         let site = RecordedSite::new(recording, token.clone());
-        Ok(Self { server: SiteServer::start(listener, |_| site)?, token })
+        Ok(Self {
+            server: SiteServer::start(listener, |_| site)?,
+            token,
+        })
     }
 
     /// Where the page is.
@@ -221,7 +252,11 @@ impl RecordedViewer {
 /// The address of a page, one that a browser can connect to also where the server listens at all of the machine's.
 fn url(mut address: SocketAddr, token: &str) -> String {
     if address.ip().is_unspecified() {
-        address.set_ip(if address.is_ipv4() { [127, 0, 0, 1].into() } else { [0, 0, 0, 0, 0, 0, 0, 1].into() });
+        address.set_ip(if address.is_ipv4() {
+            [127, 0, 0, 1].into()
+        } else {
+            [0, 0, 0, 0, 0, 0, 0, 1].into()
+        });
     }
     format!("http://{address}/{token}/")
 }

@@ -7,7 +7,9 @@ use ciborium_io::Read;
 use ciborium_ll::{Decoder, Header, simple};
 
 use super::Unreadable;
-use super::cbor_head::{BREAK, FALSE, INDEFINITE, NULL, TRUE, major, push_float, push_head, push_int};
+use super::cbor_head::{
+    BREAK, FALSE, INDEFINITE, NULL, TRUE, major, push_float, push_head, push_int,
+};
 use scene::{Data, Key};
 
 /// How deep arrays and maps may be nested.
@@ -67,7 +69,11 @@ fn write_bytes(out: &mut Vec<u8>, major: u8, bytes: &[u8]) {
 /// # Errors
 /// When they are not CBOR, nested too deeply, or of more than [`Data::MAX_ITEMS`] elements.
 pub fn decode(bytes: &[u8]) -> Result<Data, Unreadable> {
-    let mut input = Input { decoder: Decoder::from(bytes), size: bytes.len(), items: 0 };
+    let mut input = Input {
+        decoder: Decoder::from(bytes),
+        size: bytes.len(),
+        items: 0,
+    };
     let header = input.pull()?;
     input.value(header, 0)
 }
@@ -95,7 +101,9 @@ impl Input<'_> {
         self.items += 1;
         Ok(match header {
             Header::Positive(n) => i64::try_from(n).map_or(Data::Float(n as f64), Data::Int),
-            Header::Negative(n) => i64::try_from(n).map_or(Data::Float(-1.0 - n as f64), |n| Data::Int(!n)),
+            Header::Negative(n) => {
+                i64::try_from(n).map_or(Data::Float(-1.0 - n as f64), |n| Data::Int(!n))
+            }
             Header::Float(f) => Data::Float(f),
             Header::Simple(simple::TRUE) => Data::Bool(true),
             Header::Simple(simple::FALSE) => Data::Bool(false),
@@ -121,7 +129,9 @@ impl Input<'_> {
         loop {
             match self.pull()? {
                 Header::Break => return Ok(bytes),
-                Header::Text(Some(len)) | Header::Bytes(Some(len)) => bytes.extend(self.piece(len)?),
+                Header::Text(Some(len)) | Header::Bytes(Some(len)) => {
+                    bytes.extend(self.piece(len)?)
+                }
                 _ => return Err(Unreadable::Malformed),
             }
         }
@@ -132,7 +142,9 @@ impl Input<'_> {
             return Err(Unreadable::Malformed);
         }
         let mut bytes = vec![0; len];
-        self.decoder.read_exact(&mut bytes).map_err(|_| Unreadable::Malformed)?;
+        self.decoder
+            .read_exact(&mut bytes)
+            .map_err(|_| Unreadable::Malformed)?;
         Ok(bytes)
     }
 
@@ -178,8 +190,14 @@ mod tests {
 
     #[test]
     fn tables_are_written_open_ended() {
-        assert_eq!(encode(&Data::Array(vec![1.into(), 2.into(), Data::text("a")])), b"\x9f\x01\x02\x61a\xff");
-        assert_eq!(encode(&Data::map([("k", true.into())])), b"\xbf\x61k\xf5\xff");
+        assert_eq!(
+            encode(&Data::Array(vec![1.into(), 2.into(), Data::text("a")])),
+            b"\x9f\x01\x02\x61a\xff"
+        );
+        assert_eq!(
+            encode(&Data::map([("k", true.into())])),
+            b"\xbf\x61k\xf5\xff"
+        );
     }
 
     #[test]
@@ -188,7 +206,10 @@ mod tests {
             (Key::Int(-3), Data::Float(0.1)),
             (Key::Text(b"s".to_vec()), Data::Text(vec![0xff, 0])),
             (Key::Bool(true), Data::Buffer(vec![0, 1])),
-            (Key::Text(b"list".to_vec()), Data::Array(vec![Data::Int(i64::MIN), Data::Array(Vec::new())])),
+            (
+                Key::Text(b"list".to_vec()),
+                Data::Array(vec![Data::Int(i64::MIN), Data::Array(Vec::new())]),
+            ),
         ];
         let data = Data::Map(entries);
         assert_eq!(decode(&encode(&data)), Ok(data));
@@ -197,7 +218,10 @@ mod tests {
     #[test]
     fn nonsense_is_refused() {
         assert_eq!(decode(b""), Err(Unreadable::Malformed));
-        assert_eq!(decode(b"\x7b\xff\xff\xff\xff\xff\xff\xff\xff"), Err(Unreadable::Malformed));
+        assert_eq!(
+            decode(b"\x7b\xff\xff\xff\xff\xff\xff\xff\xff"),
+            Err(Unreadable::Malformed)
+        );
         assert_eq!(decode(&[0x81; 5000]), Err(Unreadable::Malformed));
     }
 

@@ -67,14 +67,26 @@ impl Head {
         let next = at + 1;
         let (argument, end) = match info {
             0..24 => (u64::from(info), next),
-            24 => (u64::from(*bytes.get(next).ok_or(HeadError::NoMoreInput)?), next + 1),
+            24 => (
+                u64::from(*bytes.get(next).ok_or(HeadError::NoMoreInput)?),
+                next + 1,
+            ),
             25 => (u64::from(u16::from_be_bytes(fixed(bytes, next)?)), next + 2),
             26 => (u64::from(u32::from_be_bytes(fixed(bytes, next)?)), next + 4),
             27 => (u64::from_be_bytes(fixed(bytes, next)?), next + 8),
-            INDEFINITE if !matches!(major, major::UNSIGNED | major::NEGATIVE | major::TAG) => (0, next),
+            INDEFINITE if !matches!(major, major::UNSIGNED | major::NEGATIVE | major::TAG) => {
+                (0, next)
+            }
             _ => return Err(HeadError::Reserved(first)),
         };
-        Ok((Self { major, info, argument }, end))
+        Ok((
+            Self {
+                major,
+                info,
+                argument,
+            },
+            end,
+        ))
     }
 
     /// Whether this is the break that ends an item of indefinite length.
@@ -97,7 +109,11 @@ impl Head {
 }
 
 fn fixed<const N: usize>(bytes: &[u8], at: usize) -> Result<[u8; N], HeadError> {
-    bytes.get(at..).and_then(|rest| rest.first_chunk()).copied().ok_or(HeadError::NoMoreInput)
+    bytes
+        .get(at..)
+        .and_then(|rest| rest.first_chunk())
+        .copied()
+        .ok_or(HeadError::NoMoreInput)
 }
 
 /// A half-precision number (IEEE 754 binary16).
@@ -109,7 +125,11 @@ fn half(bits: u16) -> f64 {
         31 => f64::NAN,
         exponent => (1024.0 + fraction) * 2f64.powi(i32::from(exponent) - 25),
     };
-    if bits & 0x8000 == 0 { magnitude } else { -magnitude }
+    if bits & 0x8000 == 0 {
+        magnitude
+    } else {
+        -magnitude
+    }
 }
 
 /// Appends a head in as few bytes as hold `argument`.
@@ -139,7 +159,9 @@ pub fn push_int(out: &mut Vec<u8>, value: i64) {
 
 /// Appends a float in the shortest of the three precisions that keeps its value.
 pub fn push_float(out: &mut Vec<u8>, value: f64) {
-    Encoder::from(out).push(Header::Float(value)).expect("writing to memory cannot fail");
+    Encoder::from(out)
+        .push(Header::Float(value))
+        .expect("writing to memory cannot fail");
 }
 
 /// Whether CoppeliaSim's library writes these bytes as text: UTF-8 without most control characters. Others become a byte string.
@@ -155,17 +177,36 @@ mod tests {
 
     #[test]
     fn heads_come_back() {
-        for argument in [0, 23, 24, 255, 256, 65535, 65536, u64::from(u32::MAX), 1 << 32, u64::MAX] {
+        for argument in [
+            0,
+            23,
+            24,
+            255,
+            256,
+            65535,
+            65536,
+            u64::from(u32::MAX),
+            1 << 32,
+            u64::MAX,
+        ] {
             let mut bytes = Vec::new();
             push_head(&mut bytes, major::ARRAY, argument);
             let (head, end) = Head::read(&bytes, 0).expect("just written");
-            assert_eq!((head.major, head.argument, end), (major::ARRAY, argument, bytes.len()));
+            assert_eq!(
+                (head.major, head.argument, end),
+                (major::ARRAY, argument, bytes.len())
+            );
         }
     }
 
     #[test]
     fn what_is_no_head_is_refused() {
-        for bytes in [&b""[..], b"\x18", b"\x19\x01", b"\x1b\x01\x02\x03\x04\x05\x06\x07"] {
+        for bytes in [
+            &b""[..],
+            b"\x18",
+            b"\x19\x01",
+            b"\x1b\x01\x02\x03\x04\x05\x06\x07",
+        ] {
             assert_eq!(Head::read(bytes, 0), Err(HeadError::NoMoreInput));
         }
         for first in [0x1c, 0x1f, 0x3f, 0x5e, 0xdf, 0xfd] {
@@ -183,7 +224,15 @@ mod tests {
         assert_eq!(written(-0.0), [0xf9, 0x80, 0]);
         assert_eq!(written(65505.0), [0xfa, 0x47, 0x7f, 0xe1, 0]);
         assert_eq!(written(0.1).len(), 9);
-        for value in [0.0, 1.5, -65504.0, 2f64.powi(-24), 1e300, f64::INFINITY, f64::NEG_INFINITY] {
+        for value in [
+            0.0,
+            1.5,
+            -65504.0,
+            2f64.powi(-24),
+            1e300,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+        ] {
             let (head, _) = Head::read(&written(value), 0).expect("just written");
             assert_eq!(head.float(), Some(value));
         }
@@ -193,9 +242,10 @@ mod tests {
 
     #[test]
     fn integers_are_exact() {
-        for (value, expected) in
-            [(i64::MAX, b"\x1b\x7f\xff\xff\xff\xff\xff\xff\xff"), (i64::MIN, b"\x3b\x7f\xff\xff\xff\xff\xff\xff\xff")]
-        {
+        for (value, expected) in [
+            (i64::MAX, b"\x1b\x7f\xff\xff\xff\xff\xff\xff\xff"),
+            (i64::MIN, b"\x3b\x7f\xff\xff\xff\xff\xff\xff\xff"),
+        ] {
             let mut bytes = Vec::new();
             push_int(&mut bytes, value);
             assert_eq!(bytes, expected);
@@ -207,7 +257,15 @@ mod tests {
         for text in ["", "a\tb\n", "é", "\u{1f600}", "\u{7ff}\u{ffff}"] {
             assert!(is_text(text.as_bytes()), "{text:?}");
         }
-        for bytes in [&b"a\0b"[..], b"\x1b[0m", b"\x7f", b"\xff", b"\xf4\x8f\xbf\xbf", b"\x06", b"\x0e"] {
+        for bytes in [
+            &b"a\0b"[..],
+            b"\x1b[0m",
+            b"\x7f",
+            b"\xff",
+            b"\xf4\x8f\xbf\xbf",
+            b"\x06",
+            b"\x0e",
+        ] {
             assert!(!is_text(bytes), "{bytes:?}");
         }
     }

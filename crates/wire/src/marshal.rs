@@ -52,7 +52,11 @@ type Result<T> = std::result::Result<T, MarshalError>;
 pub fn decode(bytes: &[u8]) -> Result<Data> {
     let mut reader = Reader { bytes, items: 0 };
     let value = reader.value(0)?;
-    if reader.bytes.is_empty() { Ok(value) } else { Err(MarshalError::Trailing) }
+    if reader.bytes.is_empty() {
+        Ok(value)
+    } else {
+        Err(MarshalError::Trailing)
+    }
 }
 
 struct Reader<'a> {
@@ -62,13 +66,19 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     fn take(&mut self, count: usize) -> Result<&'a [u8]> {
-        let (taken, rest) = self.bytes.split_at_checked(count).ok_or(MarshalError::Truncated)?;
+        let (taken, rest) = self
+            .bytes
+            .split_at_checked(count)
+            .ok_or(MarshalError::Truncated)?;
         self.bytes = rest;
         Ok(taken)
     }
 
     fn array<const N: usize>(&mut self) -> Result<[u8; N]> {
-        let (taken, rest) = self.bytes.split_first_chunk().ok_or(MarshalError::Truncated)?;
+        let (taken, rest) = self
+            .bytes
+            .split_first_chunk()
+            .ok_or(MarshalError::Truncated)?;
         self.bytes = rest;
         Ok(*taken)
     }
@@ -127,7 +137,9 @@ impl<'a> Reader<'a> {
             if digit >> DIGIT_BITS != 0 {
                 return Err(MarshalError::Digit);
             }
-            exact = exact.filter(|_| place < DIGITS_OF_I64).map(|sum| sum | i128::from(digit) << (DIGIT_BITS * place));
+            exact = exact
+                .filter(|_| place < DIGITS_OF_I64)
+                .map(|sum| sum | i128::from(digit) << (DIGIT_BITS * place));
             if digit != 0 {
                 rough += f64::from(digit) * power_of_two(DIGIT_BITS.saturating_mul(place));
             }
@@ -216,8 +228,14 @@ impl Encoder {
             match value {
                 Data::Array(items) if declared.results => self.items(items),
                 Data::Map(entries) if declared.results && entries.is_empty() => self.head(b'[', 0),
-                Data::Text(text) if place == 0 && declared.first == "buffer" => self.bytes(b's', text),
-                Data::Text(text) if place == 0 && declared.first == "string" && std::str::from_utf8(text).is_ok() => {
+                Data::Text(text) if place == 0 && declared.first == "buffer" => {
+                    self.bytes(b's', text)
+                }
+                Data::Text(text)
+                    if place == 0
+                        && declared.first == "string"
+                        && std::str::from_utf8(text).is_ok() =>
+                {
                     self.bytes(b'u', text);
                 }
                 _ => self.value(value),
@@ -274,9 +292,11 @@ impl Encoder {
         let mut rest = number.unsigned_abs();
         let count = (u64::BITS - rest.leading_zeros()).div_ceil(DIGIT_BITS) as i32;
         self.0.push(b'l');
-        self.0.extend_from_slice(&(if number < 0 { -count } else { count }).to_le_bytes());
+        self.0
+            .extend_from_slice(&(if number < 0 { -count } else { count }).to_le_bytes());
         while rest != 0 {
-            self.0.extend_from_slice(&((rest & 0x7fff) as u16).to_le_bytes());
+            self.0
+                .extend_from_slice(&((rest & 0x7fff) as u16).to_le_bytes());
             rest >>= DIGIT_BITS;
         }
     }
@@ -289,7 +309,8 @@ impl Encoder {
     /// Lengths fit, since [`Data`] is bounded far below 2 GiB wherever it comes from.
     fn head(&mut self, kind: u8, length: usize) {
         self.0.push(kind);
-        self.0.extend_from_slice(&i32::try_from(length).unwrap_or(i32::MAX).to_le_bytes());
+        self.0
+            .extend_from_slice(&i32::try_from(length).unwrap_or(i32::MAX).to_le_bytes());
     }
 }
 
@@ -316,7 +337,10 @@ mod tests {
         for number in [0, 1, -1, 1 << 31, -(1 << 31), i64::MAX, i64::MIN, 32768] {
             assert_eq!(decode(&encoded(&Data::Int(number))), Ok(Data::Int(number)));
         }
-        let map = Data::map([("a", Data::Array(vec![Data::Nil, Data::Bool(true)])), ("b", Data::Buffer(vec![0, 255]))]);
+        let map = Data::map([
+            ("a", Data::Array(vec![Data::Nil, Data::Bool(true)])),
+            ("b", Data::Buffer(vec![0, 255])),
+        ]);
         assert_eq!(decode(&encoded(&map)), Ok(map));
         assert_eq!(decode(&encoded(&Data::Float(0.1))), Ok(Data::Float(0.1)));
     }
@@ -326,7 +350,13 @@ mod tests {
         // marshal.dumps([1, 2.5, 'ä', b'x', None, 1 << 40], 2)
         let expected =
             b"[\x06\0\0\0i\x01\0\0\0g\0\0\0\0\0\0\x04@u\x02\0\0\0\xc3\xa4s\x01\0\0\0xNl\x03\0\0\0\0\0\0\0\0\x04";
-        let values = [Data::Int(1), Data::Float(2.5), Data::text("ä"), Data::Buffer(b"x".into()), Data::Nil];
+        let values = [
+            Data::Int(1),
+            Data::Float(2.5),
+            Data::text("ä"),
+            Data::Buffer(b"x".into()),
+            Data::Nil,
+        ];
         let values = [&values[..], &[Data::Int(1 << 40)]].concat();
         assert_eq!(encoded(&Data::Array(values.clone())), expected);
         assert_eq!(decode(expected), Ok(Data::Array(values)));
@@ -335,8 +365,14 @@ mod tests {
     #[test]
     fn integers_that_are_too_large_are_floats() {
         // marshal.dumps(1 << 64, 2), marshal.dumps(-(1 << 63) - 1, 2)
-        assert_eq!(decode(b"l\x05\0\0\0\0\0\0\0\0\0\0\0\x10\0"), Ok(Data::Float(2_f64.powi(64))));
-        assert_eq!(decode(b"l\xfb\xff\xff\xff\x01\0\0\0\0\0\0\0\x08\0"), Ok(Data::Float(-2_f64.powi(63))));
+        assert_eq!(
+            decode(b"l\x05\0\0\0\0\0\0\0\0\0\0\0\x10\0"),
+            Ok(Data::Float(2_f64.powi(64)))
+        );
+        assert_eq!(
+            decode(b"l\xfb\xff\xff\xff\x01\0\0\0\0\0\0\0\x08\0"),
+            Ok(Data::Float(-2_f64.powi(63)))
+        );
         // 1 << 1500: the digits below the last one are zeros, some of them of places that are no finite numbers.
         let huge = [&b"l\x65\0\0\0"[..], &[0; 200], &[1, 0]].concat();
         assert_eq!(decode(&huge), Ok(Data::Float(f64::INFINITY)));
@@ -351,20 +387,34 @@ mod tests {
             Data::Buffer(vec![0; 4]),
             Data::Nil,
         ]);
-        let whole = encoded(&Data::map([("list", list), ("map", Data::map([("on", Data::Bool(true))]))]));
+        let whole = encoded(&Data::map([
+            ("list", list),
+            ("map", Data::map([("on", Data::Bool(true))])),
+        ]));
         let mut random = Random::new(1);
         let mut below = |end| random.below(end);
         let mut read = 0;
         for _ in 0..20_000 {
             let mut bytes = whole.clone();
-            bytes.truncate(if below(4) == 0 { below(whole.len()) + 1 } else { whole.len() });
+            bytes.truncate(if below(4) == 0 {
+                below(whole.len()) + 1
+            } else {
+                whole.len()
+            });
             for _ in 0..=below(3) {
                 let place = below(bytes.len());
-                bytes[place] = if below(2) == 0 { below(256) as u8 } else { whole[below(whole.len())] };
+                bytes[place] = if below(2) == 0 {
+                    below(256) as u8
+                } else {
+                    whole[below(whole.len())]
+                };
             }
             if let Ok(value) = decode(&bytes) {
                 let written = encoded(&value);
-                assert_eq!(encoded(&decode(&written).expect("what was written can be read")), written);
+                assert_eq!(
+                    encoded(&decode(&written).expect("what was written can be read")),
+                    written
+                );
                 read += 1;
             }
         }
@@ -382,12 +432,39 @@ mod tests {
         };
         let empty = [Data::Array(Vec::new())];
         assert_eq!(results(&empty, Declared::default()), b"[\x01\0\0\0{0");
-        assert_eq!(results(&empty, Declared { results: true, first: "" }), b"[\x01\0\0\0[\0\0\0\0");
-        let text = [Data::text("\0")];
-        assert_eq!(results(&text, Declared { results: true, first: "string" }), b"[\x01\0\0\0u\x01\0\0\0\0");
-        assert_eq!(results(&text, Declared::default()), b"[\x01\0\0\0s\x01\0\0\0\0");
         assert_eq!(
-            results(&[Data::text("a")], Declared { results: true, first: "buffer" }),
+            results(
+                &empty,
+                Declared {
+                    results: true,
+                    first: ""
+                }
+            ),
+            b"[\x01\0\0\0[\0\0\0\0"
+        );
+        let text = [Data::text("\0")];
+        assert_eq!(
+            results(
+                &text,
+                Declared {
+                    results: true,
+                    first: "string"
+                }
+            ),
+            b"[\x01\0\0\0u\x01\0\0\0\0"
+        );
+        assert_eq!(
+            results(&text, Declared::default()),
+            b"[\x01\0\0\0s\x01\0\0\0\0"
+        );
+        assert_eq!(
+            results(
+                &[Data::text("a")],
+                Declared {
+                    results: true,
+                    first: "buffer"
+                }
+            ),
             b"[\x01\0\0\0s\x01\0\0\0a"
         );
     }

@@ -61,17 +61,30 @@ impl Format {
     /// The channels of a pixel; None for numbers.
     fn channels(self) -> Option<Channels> {
         match self {
-            Self::Rgb => Some(Channels { colours: [0, 1, 2], alpha: None }),
-            Self::Bgr => Some(Channels { colours: [2, 1, 0], alpha: None }),
-            Self::Rgba => Some(Channels { colours: [0, 1, 2], alpha: Some(3) }),
-            Self::Argb => Some(Channels { colours: [1, 2, 3], alpha: Some(0) }),
+            Self::Rgb => Some(Channels {
+                colours: [0, 1, 2],
+                alpha: None,
+            }),
+            Self::Bgr => Some(Channels {
+                colours: [2, 1, 0],
+                alpha: None,
+            }),
+            Self::Rgba => Some(Channels {
+                colours: [0, 1, 2],
+                alpha: Some(3),
+            }),
+            Self::Argb => Some(Channels {
+                colours: [1, 2, 3],
+                alpha: Some(0),
+            }),
             _ => None,
         }
     }
 
     fn read(self, item: &[u8]) -> f64 {
         fn array<const N: usize>(item: &[u8]) -> [u8; N] {
-            item.try_into().expect("items are cut to the size of their format")
+            item.try_into()
+                .expect("items are cut to the size of their format")
         }
         match self {
             Self::I8 => f64::from(item[0] as i8),
@@ -89,7 +102,11 @@ impl Format {
     fn write(self, number: f64, clamp: bool, out: &mut Vec<u8>) {
         macro_rules! integer {
             ($ty:ty) => {{
-                let item = if clamp { number as $ty } else { number as i64 as $ty };
+                let item = if clamp {
+                    number as $ty
+                } else {
+                    number as i64 as $ty
+                };
                 out.extend(item.to_le_bytes())
             }};
         }
@@ -107,7 +124,11 @@ impl Format {
 
     /// The format of the numbers pixels consist of.
     fn numbers(self) -> Self {
-        if self.channels().is_some() { Self::U8 } else { self }
+        if self.channels().is_some() {
+            Self::U8
+        } else {
+            self
+        }
     }
 }
 
@@ -141,14 +162,22 @@ pub fn transform(bytes: &[u8], from: Format, mapping: Mapping, to: Format) -> Op
         _ => {
             let (from, to) = (from.numbers(), to.numbers());
             for item in bytes.chunks_exact(from.size()) {
-                to.write(from.read(item) * mapping.multiplier + mapping.offset, mapping.clamp, &mut out);
+                to.write(
+                    from.read(item) * mapping.multiplier + mapping.offset,
+                    mapping.clamp,
+                    &mut out,
+                );
             }
         }
     }
     Some(out)
 }
 
-fn write_pixel((from, channels): (&[u8], Channels), (to, places): (&mut [u8], Channels), mapping: Mapping) {
+fn write_pixel(
+    (from, channels): (&[u8], Channels),
+    (to, places): (&mut [u8], Channels),
+    mapping: Mapping,
+) {
     for (channel, place) in channels.colours.into_iter().zip(places.colours) {
         to[place] = mapped_byte(from[channel], mapping);
     }
@@ -159,39 +188,82 @@ fn write_pixel((from, channels): (&[u8], Channels), (to, places): (&mut [u8], Ch
 
 fn mapped_byte(byte: u8, mapping: Mapping) -> u8 {
     let number = f64::from(byte) * mapping.multiplier + mapping.offset;
-    if mapping.clamp { number as u8 } else { number as i64 as u8 }
+    if mapping.clamp {
+        number as u8
+    } else {
+        number as i64 as u8
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::{Format, Mapping, transform};
 
-    const SAME: Mapping = Mapping { multiplier: 1.0, offset: 0.0, clamp: false };
+    const SAME: Mapping = Mapping {
+        multiplier: 1.0,
+        offset: 0.0,
+        clamp: false,
+    };
 
     #[test]
     fn numbers_are_mapped_and_cut_or_clamped() {
-        let half = Mapping { multiplier: 0.5, ..SAME };
+        let half = Mapping {
+            multiplier: 0.5,
+            ..SAME
+        };
         assert_eq!(
             transform(&[2, 255], Format::U8, half, Format::F32),
             Some([1.0_f32, 127.5].map(f32::to_le_bytes).concat())
         );
-        let more = Mapping { offset: 10.0, ..SAME };
-        assert_eq!(transform(&[250], Format::U8, more, Format::U8), Some(vec![4]));
-        assert_eq!(transform(&[250], Format::U8, Mapping { clamp: true, ..more }, Format::U8), Some(vec![255]));
-        assert_eq!(transform(&[0xff], Format::I8, SAME, Format::I16), Some(vec![0xff, 0xff]));
+        let more = Mapping {
+            offset: 10.0,
+            ..SAME
+        };
+        assert_eq!(
+            transform(&[250], Format::U8, more, Format::U8),
+            Some(vec![4])
+        );
+        assert_eq!(
+            transform(
+                &[250],
+                Format::U8,
+                Mapping {
+                    clamp: true,
+                    ..more
+                },
+                Format::U8
+            ),
+            Some(vec![255])
+        );
+        assert_eq!(
+            transform(&[0xff], Format::I8, SAME, Format::I16),
+            Some(vec![0xff, 0xff])
+        );
     }
 
     #[test]
     fn pixels_keep_their_colours() {
-        assert_eq!(transform(&[1, 2, 3], Format::Rgb, SAME, Format::Argb), Some(vec![255, 1, 2, 3]));
-        assert_eq!(transform(&[9, 1, 2, 3], Format::Argb, SAME, Format::Bgr), Some(vec![3, 2, 1]));
-        assert_eq!(transform(&[1, 2, 3, 9], Format::Rgba, SAME, Format::Argb), Some(vec![9, 1, 2, 3]));
+        assert_eq!(
+            transform(&[1, 2, 3], Format::Rgb, SAME, Format::Argb),
+            Some(vec![255, 1, 2, 3])
+        );
+        assert_eq!(
+            transform(&[9, 1, 2, 3], Format::Argb, SAME, Format::Bgr),
+            Some(vec![3, 2, 1])
+        );
+        assert_eq!(
+            transform(&[1, 2, 3, 9], Format::Rgba, SAME, Format::Argb),
+            Some(vec![9, 1, 2, 3])
+        );
     }
 
     #[test]
     fn parts_of_items_are_refused() {
         assert_eq!(transform(&[1, 2], Format::Rgb, SAME, Format::Rgb), None);
-        assert_eq!(transform(&[], Format::F64, SAME, Format::U8), Some(Vec::new()));
+        assert_eq!(
+            transform(&[], Format::F64, SAME, Format::U8),
+            Some(Vec::new())
+        );
         assert_eq!(Format::from_number(12), None);
     }
 }

@@ -45,7 +45,10 @@ pub fn is_packed(bytes: &[u8]) -> bool {
 
 /// `table` packed. None if a string or table in it is longer than the format allows.
 pub fn encode(table: &Data) -> Option<Vec<u8>> {
-    let mut out = Writer { bytes: Vec::with_capacity(USUAL_SIZE), flags: Vec::new() };
+    let mut out = Writer {
+        bytes: Vec::with_capacity(USUAL_SIZE),
+        flags: Vec::new(),
+    };
     out.bytes.push(VERSION);
     out.table(table)?;
     let Writer { mut bytes, flags } = out;
@@ -152,7 +155,10 @@ pub fn decode(bytes: &[u8]) -> Result<Data, Unreadable> {
     if !is_packed(bytes) {
         return Err(Unreadable::Malformed);
     }
-    let mut input = Input { bytes: rest, items: 0 };
+    let mut input = Input {
+        bytes: rest,
+        items: 0,
+    };
     let mut table = input.table(0)?;
     if version != OLD_VERSION {
         mark_buffers(&mut table, &mut input.bytes.iter());
@@ -175,8 +181,14 @@ impl Input<'_> {
         let kind = self.byte()?;
         let count = self.length()?;
         match kind {
-            LIST => (0..count).map(|_| self.item(depth)).collect::<Result<_, _>>().map(Data::Array),
-            MAP if count % 2 == 0 => (0..count / 2).map(|_| self.entry(depth)).collect::<Result<_, _>>().map(Data::Map),
+            LIST => (0..count)
+                .map(|_| self.item(depth))
+                .collect::<Result<_, _>>()
+                .map(Data::Array),
+            MAP if count % 2 == 0 => (0..count / 2)
+                .map(|_| self.entry(depth))
+                .collect::<Result<_, _>>()
+                .map(Data::Map),
             _ => Err(Unreadable::Malformed),
         }
     }
@@ -217,18 +229,29 @@ impl Input<'_> {
 
     /// A length; what it is the length of has at least as many bytes.
     fn length(&mut self) -> Result<usize, Unreadable> {
-        let length = usize::try_from(i32::from_le_bytes(self.array()?)).map_err(|_| Unreadable::Malformed)?;
-        if length <= self.bytes.len() { Ok(length) } else { Err(Unreadable::Malformed) }
+        let length = usize::try_from(i32::from_le_bytes(self.array()?))
+            .map_err(|_| Unreadable::Malformed)?;
+        if length <= self.bytes.len() {
+            Ok(length)
+        } else {
+            Err(Unreadable::Malformed)
+        }
     }
 
     fn array<const N: usize>(&mut self) -> Result<[u8; N], Unreadable> {
-        let (array, rest) = self.bytes.split_first_chunk().ok_or(Unreadable::Malformed)?;
+        let (array, rest) = self
+            .bytes
+            .split_first_chunk()
+            .ok_or(Unreadable::Malformed)?;
         self.bytes = rest;
         Ok(*array)
     }
 
     fn take(&mut self, length: usize) -> Result<&[u8], Unreadable> {
-        let (taken, rest) = self.bytes.split_at_checked(length).ok_or(Unreadable::Malformed)?;
+        let (taken, rest) = self
+            .bytes
+            .split_at_checked(length)
+            .ok_or(Unreadable::Malformed)?;
         self.bytes = rest;
         Ok(taken)
     }
@@ -237,7 +260,11 @@ impl Input<'_> {
 /// Makes buffers of the strings whose flag says so. Missing flags leave strings.
 fn mark_buffers<'a>(data: &mut Data, flags: &mut impl Iterator<Item = &'a u8>) {
     match data {
-        Data::Text(text) if flags.next().is_some_and(|&flag| flag != END_OF_FLAGS && flag & BUFFER_FLAG != 0) => {
+        Data::Text(text)
+            if flags
+                .next()
+                .is_some_and(|&flag| flag != END_OF_FLAGS && flag & BUFFER_FLAG != 0) =>
+        {
             *data = Data::Buffer(std::mem::take(text));
         }
         Data::Array(items) => items.iter_mut().for_each(|item| mark_buffers(item, flags)),
@@ -280,16 +307,28 @@ mod tests {
                 assert_eq!(encode(&table).as_deref(), Some(bytes));
             }
         }
-        assert_eq!(decode(SAVED[0].0), Ok(Data::map([("sizes", [25.0, 25.0].into()), ("version", 0.0.into())])));
+        assert_eq!(
+            decode(SAVED[0].0),
+            Ok(Data::map([
+                ("sizes", [25.0, 25.0].into()),
+                ("version", 0.0.into())
+            ]))
+        );
         assert_eq!(decode(SAVED[1].0), Ok([1, 1, 2].into()));
     }
 
     #[test]
     fn flags_follow_the_order_of_the_strings() {
-        let table = Data::map([("type", Data::text("color")), ("name", Data::Buffer(b"Color".to_vec()))]);
+        let table = Data::map([
+            ("type", Data::text("color")),
+            ("name", Data::Buffer(b"Color".to_vec())),
+        ]);
         let bytes = encode(&table).expect("it is short");
         assert_eq!(bytes[bytes.len() - 5..], [2, 1, 2, 0, 255]);
-        assert_eq!(decode(&bytes).map(|data| data.field("name").cloned()), Ok(table.field("name").cloned()));
+        assert_eq!(
+            decode(&bytes).map(|data| data.field("name").cloned()),
+            Ok(table.field("name").cloned())
+        );
     }
 
     #[test]
@@ -298,10 +337,19 @@ mod tests {
             (Key::Bool(true), Data::Array(Vec::new())),
             (Key::Int(-3), Data::Float(0.1)),
             (Key::Float(2.5), Data::Bool(false)),
-            (Key::Text(b"list".to_vec()), Data::Array(vec![Data::Int(i64::MIN), Data::Nil, Data::Text(vec![0xff, 0])])),
+            (
+                Key::Text(b"list".to_vec()),
+                Data::Array(vec![
+                    Data::Int(i64::MIN),
+                    Data::Nil,
+                    Data::Text(vec![0xff, 0]),
+                ]),
+            ),
         ];
         let table = Data::Map(entries);
-        let Some(Ok(Data::Map(read))) = encode(&table).map(|bytes| decode(&bytes)) else { panic!("a map was packed") };
+        let Some(Ok(Data::Map(read))) = encode(&table).map(|bytes| decode(&bytes)) else {
+            panic!("a map was packed")
+        };
         let Data::Map(entries) = table else { return };
         assert!(read.len() == entries.len() && entries.iter().all(|entry| read.contains(entry)));
     }
@@ -310,7 +358,14 @@ mod tests {
     fn nonsense_is_refused() {
         let nested = [&[5][..], &[1, 1, 0, 0, 0, 4].repeat(MAX_DEPTH + 2)].concat();
         let huge_count = [5, 1, 0xff, 0xff, 0xff, 0x7f, 0];
-        for bytes in [&b""[..], b"\x05", b"\x05\0\x01\0\0\0\0\0", b"\x05\x02\0\0\0\0", &nested, &huge_count] {
+        for bytes in [
+            &b""[..],
+            b"\x05",
+            b"\x05\0\x01\0\0\0\0\0",
+            b"\x05\x02\0\0\0\0",
+            &nested,
+            &huge_count,
+        ] {
             assert_eq!(decode(bytes), Err(Unreadable::Malformed), "{bytes:?}");
         }
         assert_eq!(encode(&Data::Int(1)), None);

@@ -28,7 +28,9 @@ impl GraphArgs {
 
 /// A graph's path and the file: what is before and after the last equals sign.
 fn graph_file(text: &str) -> Result<(String, PathBuf), String> {
-    let parts = text.rsplit_once('=').filter(|(path, file)| !path.is_empty() && !file.is_empty());
+    let parts = text
+        .rsplit_once('=')
+        .filter(|(path, file)| !path.is_empty() && !file.is_empty());
     let (path, file) = parts.ok_or("PATH=FILE is needed, such as /Graph=speeds.svg")?;
     kind_of(&PathBuf::from(file)).map(|_| (path.to_owned(), file.into()))
 }
@@ -47,9 +49,20 @@ pub(in crate::cli) fn write(data: &GraphData, file: &std::path::Path) -> Result<
 }
 
 fn find(scene: &Scene, path: &str) -> Option<GraphData> {
-    let by_handle = path.parse().ok().and_then(Handle::from_raw).filter(|handle| scene.exists(*handle));
-    let full = if path.starts_with('/') { path.to_owned() } else { format!("/{path}") };
+    let by_handle = path
+        .parse()
+        .ok()
+        .and_then(Handle::from_raw)
+        .filter(|handle| scene.exists(*handle));
+    let full = if path.starts_with('/') {
+        path.to_owned()
+    } else {
+        format!("/{path}")
+    };
     let handle = by_handle.or_else(|| scene.find(&full, None, None).ok())?;
     let graph = scene.object(handle).ok()?.graph().ok()?;
-    Some(GraphData::new(graph, &scene.short_path(handle).unwrap_or(full)))
+    Some(GraphData::new(
+        graph,
+        &scene.short_path(handle).unwrap_or(full),
+    ))
 }

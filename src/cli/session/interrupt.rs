@@ -37,11 +37,18 @@ impl Interrupt {
 
     /// The same for scripts that run on this thread, which are interrupted.
     pub(in crate::cli) fn of_scripts_here() -> Self {
-        Self::listen(Some(InterruptibleThread::current(interrupt_running_code)), None)
+        Self::listen(
+            Some(InterruptibleThread::current(interrupt_running_code)),
+            None,
+        )
     }
 
     fn listen(scripts: Option<InterruptibleThread>, code: Option<u8>) -> Self {
-        let interrupt = Self { requested: Arc::default(), signal: Arc::default(), scripts };
+        let interrupt = Self {
+            requested: Arc::default(),
+            signal: Arc::default(),
+            scripts,
+        };
         let handler = interrupt.clone();
         let listening = ctrlc::set_handler(move || {
             if handler.is_requested() {

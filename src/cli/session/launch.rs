@@ -35,13 +35,23 @@ impl<'a> Launch<'a> {
         let sources = setup.sources(scene)?;
         let interrupt = Interrupt::of_scripts_here();
         let output = setup.output(progress, &interrupt);
-        let options = Options { plugin_note, ..setup.options(scene, &interrupt) };
+        let options = Options {
+            plugin_note,
+            ..setup.options(scene, &interrupt)
+        };
         let options = match remote {
             Some(remote) => remote.guard(options),
             None => options,
         };
         let sim = Simulator::with_console(options, Box::new(output.clone()));
-        Ok(Self { setup, scene, sources, sim, output, interrupt })
+        Ok(Self {
+            setup,
+            scene,
+            sources,
+            sim,
+            output,
+            interrupt,
+        })
     }
 
     /// Fills the scene; `kind` is that of a script that is the scene.
@@ -55,6 +65,12 @@ impl<'a> Launch<'a> {
     /// # Errors
     /// When a port is not free.
     pub(in crate::cli) fn serve(&mut self, remote: &Remote, zmq: bool) -> Result<(), String> {
-        remote.serve(zmq, self.setup, &mut self.sim, &self.output, &self.interrupt)
+        remote.serve(
+            zmq,
+            self.setup,
+            &mut self.sim,
+            &self.output,
+            &self.interrupt,
+        )
     }
 }

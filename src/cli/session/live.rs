@@ -37,8 +37,16 @@ impl Live {
         let steps = sim.steps();
         sim.iterate();
         let timeout = if !sim.state().is_advancing() {
-            let idle = if self.viewer.is_some() { FRAME_INTERVAL } else { POLL_INTERVAL };
-            if sim.has_zmq_sockets() { SHORT_POLL_INTERVAL } else { idle }
+            let idle = if self.viewer.is_some() {
+                FRAME_INTERVAL
+            } else {
+                POLL_INTERVAL
+            };
+            if sim.has_zmq_sockets() {
+                SHORT_POLL_INTERVAL
+            } else {
+                idle
+            }
         } else if sim.steps() == steps {
             SHORT_POLL_INTERVAL
         } else {

@@ -44,13 +44,21 @@ pub(super) struct Reminder {
 impl Reminder {
     /// A run that `has_end` needs none.
     pub(super) fn new(has_end: bool) -> Self {
-        Self { begun: (!has_end).then(Instant::now) }
+        Self {
+            begun: (!has_end).then(Instant::now),
+        }
     }
 
     fn remind(&mut self, output: &Output, time: f64) {
-        if self.begun.is_some_and(|begun| begun.elapsed() > REMINDER_DELAY) {
+        if self
+            .begun
+            .is_some_and(|begun| begun.elapsed() > REMINDER_DELAY)
+        {
             self.begun = None;
-            output.note("This run has no end so far: ctrl-c stops it, --time and --steps limit it.", time);
+            output.note(
+                "This run has no end so far: ctrl-c stops it, --time and --steps limit it.",
+                time,
+            );
         }
     }
 }

@@ -54,9 +54,23 @@ enum Aftermath {
 }
 
 impl Output {
-    pub(in crate::cli) fn new(format: Format, quiet: bool, bar: ProgressBar, interrupt: Interrupt) -> Self {
-        let reserved = (format == Format::Json).then(reserve_standard_output).flatten();
-        Self { format, quiet, bar, aftermath: Rc::new(Cell::new(Aftermath::None)), interrupt, reserved }
+    pub(in crate::cli) fn new(
+        format: Format,
+        quiet: bool,
+        bar: ProgressBar,
+        interrupt: Interrupt,
+    ) -> Self {
+        let reserved = (format == Format::Json)
+            .then(reserve_standard_output)
+            .flatten();
+        Self {
+            format,
+            quiet,
+            bar,
+            aftermath: Rc::new(Cell::new(Aftermath::None)),
+            interrupt,
+            reserved,
+        }
     }
 
     /// A message of the command line itself, under the simulator's name in the log.
@@ -76,7 +90,10 @@ impl Output {
         if self.aftermath.get() == Aftermath::Paused {
             return self.aftermath.set(Aftermath::Stopping);
         }
-        self.note("The simulation is paused and nobody resumes it: it is stopped.", time);
+        self.note(
+            "The simulation is paused and nobody resumes it: it is stopped.",
+            time,
+        );
     }
 
     /// Line to show; None if it is left out or delayed.
@@ -93,7 +110,10 @@ impl Output {
             (Aftermath::Stopping, status::STOPPED) => (Aftermath::None, Some(STOPPED_AFTER_ERROR)),
             (Aftermath::Paused, text) => {
                 // The simulation was resumed, so the pause is reported after all.
-                self.write_error(&LogLine { text: status::PAUSED, ..*line });
+                self.write_error(&LogLine {
+                    text: status::PAUSED,
+                    ..*line
+                });
                 (Aftermath::None, Some(text))
             }
             (_, text) => (Aftermath::None, Some(text)),
@@ -105,7 +125,9 @@ impl Output {
     /// Reports the address of a server.
     pub(in crate::cli) fn listening(&self, api: &str, address: SocketAddr) {
         match self.format {
-            Format::Text | Format::OriginalText => self.write_line(format!("{api} remote API at {address}").as_bytes()),
+            Format::Text | Format::OriginalText => {
+                self.write_line(format!("{api} remote API at {address}").as_bytes())
+            }
             Format::Json => self.write_json(&json!({
                 "type": "listening", "api": api, "address": address.ip(), "port": address.port(),
             })),
@@ -127,13 +149,21 @@ impl Output {
     /// Reports where the page of the viewer is.
     pub(in crate::cli) fn viewing(&self, url: &str) {
         match self.format {
-            Format::Text | Format::OriginalText => self.write_line(format!("Viewer at {url}").as_bytes()),
+            Format::Text | Format::OriginalText => {
+                self.write_line(format!("Viewer at {url}").as_bytes())
+            }
             Format::Json => self.write_json(&json!({ "type": "viewing", "url": url })),
         }
     }
 
     /// The last line: steps, times and errors of the run.
-    pub(in crate::cli) fn summary(&self, totals: RunTotals, wall: Duration, errors: u64, exit_code: u8) {
+    pub(in crate::cli) fn summary(
+        &self,
+        totals: RunTotals,
+        wall: Duration,
+        errors: u64,
+        exit_code: u8,
+    ) {
         if self.quiet || self.interrupt.is_quiet() {
             return;
         }
@@ -171,7 +201,11 @@ impl Output {
     }
 
     fn write_error(&self, line: &LogLine<'_>) {
-        let text = if self.format == Format::OriginalText { line.original() } else { line.located() };
+        let text = if self.format == Format::OriginalText {
+            line.original()
+        } else {
+            line.located()
+        };
         self.bar.suspend(|| {
             let _ = writeln!(std::io::stderr().lock(), "{text}");
         });
@@ -186,7 +220,10 @@ impl Output {
         let line = [line, b"\n"].concat();
         let written = match self.reserved {
             Some(mut out) => out.write_all(&line),
-            None => std::io::stdout().lock().write_all(&line).and_then(|()| std::io::stdout().flush()),
+            None => std::io::stdout()
+                .lock()
+                .write_all(&line)
+                .and_then(|()| std::io::stdout().flush()),
         };
         if written.is_err_and(|error| error.kind() == std::io::ErrorKind::BrokenPipe) {
             self.interrupt.request_quietly();
@@ -201,7 +238,9 @@ impl Console for Output {
     fn print(&mut self, line: &[u8], _: f64) {
         match self.format {
             Format::Text | Format::OriginalText => self.bar.suspend(|| self.write_line(line)),
-            Format::Json => self.write_json(&json!({"type": "print", "text": String::from_utf8_lossy(line)})),
+            Format::Json => {
+                self.write_json(&json!({"type": "print", "text": String::from_utf8_lossy(line)}))
+            }
         }
     }
 

@@ -6,7 +6,8 @@ use std::str::FromStr;
 use permissions::{HostRule, Permissions};
 
 /// Where the help text lists them.
-pub(in crate::cli) const HEADING: &str = "Permissions of scripts and remote clients (default: everything)";
+pub(in crate::cli) const HEADING: &str =
+    "Permissions of scripts and remote clients (default: everything)";
 
 /// Permissions of scripts and remote clients: all without these options.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -48,14 +49,19 @@ fn scope<T: FromStr<Err: std::fmt::Display>>(text: &str) -> Result<Scope<T>, Str
     match text {
         EVERYTHING => Ok(Scope::Everything),
         "" => Err("a value is needed after '='".into()),
-        _ => text.parse().map(Scope::Only).map_err(|error: T::Err| error.to_string()),
+        _ => text
+            .parse()
+            .map(Scope::Only)
+            .map_err(|error: T::Err| error.to_string()),
     }
 }
 
 impl PermissionArgs {
     /// Whether some option was given.
     pub(in crate::cli) fn is_restricted(&self) -> bool {
-        let is_listed = !(self.allow_read.is_empty() && self.allow_write.is_empty() && self.allow_net.is_empty());
+        let is_listed = !(self.allow_read.is_empty()
+            && self.allow_write.is_empty()
+            && self.allow_net.is_empty());
         self.no_unsafe || self.deny_all || is_listed || self.allow_run || self.allow_native
     }
 
@@ -64,13 +70,35 @@ impl PermissionArgs {
         if !self.is_restricted() {
             return Permissions::all();
         }
-        let set = if self.deny_all { Permissions::none() } else { Permissions::strict() };
-        let set = add(set, &self.allow_read, Permissions::allow_read_everywhere, |set, folder| set.allow_read(folder));
-        let set =
-            add(set, &self.allow_write, Permissions::allow_write_everywhere, |set, folder| set.allow_write(folder));
-        let set = add(set, &self.allow_net, Permissions::allow_net_everywhere, |set, host| set.allow_net(host.clone()));
+        let set = if self.deny_all {
+            Permissions::none()
+        } else {
+            Permissions::strict()
+        };
+        let set = add(
+            set,
+            &self.allow_read,
+            Permissions::allow_read_everywhere,
+            |set, folder| set.allow_read(folder),
+        );
+        let set = add(
+            set,
+            &self.allow_write,
+            Permissions::allow_write_everywhere,
+            |set, folder| set.allow_write(folder),
+        );
+        let set = add(
+            set,
+            &self.allow_net,
+            Permissions::allow_net_everywhere,
+            |set, host| set.allow_net(host.clone()),
+        );
         let set = if self.allow_run { set.allow_run() } else { set };
-        if self.allow_native { set.allow_native() } else { set }
+        if self.allow_native {
+            set.allow_native()
+        } else {
+            set
+        }
     }
 }
 

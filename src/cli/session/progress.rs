@@ -25,7 +25,12 @@ impl Progress {
         let length = limits.steps.or(limits.time.map(milliseconds));
         let bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::hidden());
         let waiting = !hidden && length.is_some() && std::io::stderr().is_terminal();
-        Self { bar, limits, begun: Instant::now(), waiting }
+        Self {
+            bar,
+            limits,
+            begun: Instant::now(),
+            waiting,
+        }
     }
 
     /// The bar, for callers that write to the terminal while it shows.
@@ -37,11 +42,16 @@ impl Progress {
         if self.waiting && self.begun.elapsed() > SHOW_DELAY {
             self.waiting = false;
             let style = ProgressStyle::with_template("{bar:40} {percent}% {msg}, {eta} left");
-            self.bar.set_style(style.expect("the template is well-formed"));
+            self.bar
+                .set_style(style.expect("the template is well-formed"));
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
         if !self.bar.is_hidden() {
-            let done = if self.limits.steps.is_some() { sim.steps() } else { milliseconds(sim.time()) };
+            let done = if self.limits.steps.is_some() {
+                sim.steps()
+            } else {
+                milliseconds(sim.time())
+            };
             self.bar.set_message(format!("{:.2} s", sim.time()));
             self.bar.set_position(done);
         }

@@ -22,9 +22,18 @@ impl RecordArgs {
     ///
     /// # Errors
     /// When it cannot be written.
-    pub(in crate::cli) fn start(&self, sim: &Simulator) -> Result<Option<RunRecorder<File>>, String> {
-        let recorded = if self.record_images { Recorded::SceneAndImages } else { Recorded::Scene };
-        let start = |path: &PathBuf| File::create(path).and_then(|file| RunRecorder::start(sim, file, recorded));
+    pub(in crate::cli) fn start(
+        &self,
+        sim: &Simulator,
+    ) -> Result<Option<RunRecorder<File>>, String> {
+        let recorded = if self.record_images {
+            Recorded::SceneAndImages
+        } else {
+            Recorded::Scene
+        };
+        let start = |path: &PathBuf| {
+            File::create(path).and_then(|file| RunRecorder::start(sim, file, recorded))
+        };
         let recorder = self.record.as_ref().map(start);
         recorder.transpose().map_err(|error| self.failed(&error))
     }
@@ -33,7 +42,11 @@ impl RecordArgs {
     ///
     /// # Errors
     /// When it could not be written, at any time.
-    pub(in crate::cli) fn finish(&self, sim: &Simulator, recorder: Option<RunRecorder<File>>) -> Result<(), String> {
+    pub(in crate::cli) fn finish(
+        &self,
+        sim: &Simulator,
+        recorder: Option<RunRecorder<File>>,
+    ) -> Result<(), String> {
         let finished = recorder.map(|recorder| recorder.finish(sim)).transpose();
         finished.map(drop).map_err(|error| self.failed(&error))
     }

@@ -43,17 +43,31 @@ function sysCall_sensing() bridge.publish() end
 impl RosArgs {
     /// The add-ons that the options ask for: names and texts.
     pub(in crate::cli) fn add_ons(&self) -> impl Iterator<Item = (&'static str, &'static [u8])> {
-        self.ros2_bridge.then_some(("ros2Bridge", BRIDGE)).into_iter()
+        self.ros2_bridge
+            .then_some(("ros2Bridge", BRIDGE))
+            .into_iter()
     }
 
     /// For a scene in this folder, beside which interfaces are searched too.
     pub(in crate::cli) fn options(&self, folder: Option<&Path>) -> RosOptions {
         let beside = folder.map(Path::to_path_buf);
-        let folders = self.ros_interfaces.iter().cloned().chain(beside).chain(self.ament_prefix_path.iter().cloned());
+        let folders = self
+            .ros_interfaces
+            .iter()
+            .cloned()
+            .chain(beside)
+            .chain(self.ament_prefix_path.iter().cloned());
         RosOptions {
             network: self.ros_network,
-            interfaces: folders.filter(|folder| !folder.as_os_str().is_empty()).collect(),
-            packages: self.ros_package_path.iter().filter(|folder| !folder.as_os_str().is_empty()).cloned().collect(),
+            interfaces: folders
+                .filter(|folder| !folder.as_os_str().is_empty())
+                .collect(),
+            packages: self
+                .ros_package_path
+                .iter()
+                .filter(|folder| !folder.as_os_str().is_empty())
+                .cloned()
+                .collect(),
             master: self.ros_master_uri.clone(),
             domain: self.ros_domain_id.clone(),
             namespace: self.ros_namespace.clone(),

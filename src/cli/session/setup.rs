@@ -103,7 +103,10 @@ impl Setup {
     /// # Errors
     /// When one cannot be read.
     pub(in crate::cli) fn sources(&self, scene: Option<&Path>) -> Result<Sources, String> {
-        let add_ons = self.addon.iter().map(|path| read(path).map(|source| self.up_to_date(source)));
+        let add_ons = self
+            .addon
+            .iter()
+            .map(|path| read(path).map(|source| self.up_to_date(source)));
         let add_ons = add_ons.collect::<Result<_, _>>()?;
         let scene = scene.map(read_scene).transpose()?.map(|scene| match scene {
             Scene::Script(source) => Scene::Script(self.up_to_date(source)),
@@ -114,12 +117,23 @@ impl Setup {
 
     fn up_to_date(&self, source: Source) -> Source {
         let is_lua = script_file::language(Some(&source.path), &source.code) == "lua";
-        if self.compat && is_lua { Source { code: scene_file::with_compat(source.code), ..source } } else { source }
+        if self.compat && is_lua {
+            Source {
+                code: scene_file::with_compat(source.code),
+                ..source
+            }
+        } else {
+            source
+        }
     }
 
     /// The named parameter of the command line.
     pub(in crate::cli) fn param(&self, name: &str) -> Option<&str> {
-        self.define.iter().rev().find(|(defined, _)| defined == name).map(|(_, value)| value.as_str())
+        self.define
+            .iter()
+            .rev()
+            .find(|(defined, _)| defined == name)
+            .map(|(_, value)| value.as_str())
     }
 
     pub(in crate::cli) fn output(&self, progress: &Progress, interrupt: &Interrupt) -> Output {
@@ -140,19 +154,31 @@ impl Setup {
             plugin_dirs: self.plugin_path.clone(),
             stop: interrupt.flag(),
             original_errors: self.original_errors,
-            ros: self.ros.options(scene.map(Simulator::folder_of_scene).as_deref()),
+            ros: self
+                .ros
+                .options(scene.map(Simulator::folder_of_scene).as_deref()),
             ..Options::default()
         };
         options.seed = self.seed.unwrap_or(options.seed);
-        options.instructions_per_ms = self.instructions_per_ms.unwrap_or(options.instructions_per_ms);
-        options.render_threads = self.threads.and_then(|threads| NonZero::new(usize::from(threads)));
+        options.instructions_per_ms = self
+            .instructions_per_ms
+            .unwrap_or(options.instructions_per_ms);
+        options.render_threads = self
+            .threads
+            .and_then(|threads| NonZero::new(usize::from(threads)));
         options.threads = options.render_threads.unwrap_or(options.threads);
         options.verbosity = self.verbosity.unwrap_or(options.verbosity);
         options
     }
 
     /// Add-ons come with the application, so they start first; then the scene and its script.
-    pub(in crate::cli) fn fill(&self, sim: &mut Simulator, sources: Sources, kind: ScriptKind, scene: Option<&Path>) {
+    pub(in crate::cli) fn fill(
+        &self,
+        sim: &mut Simulator,
+        sources: Sources,
+        kind: ScriptKind,
+        scene: Option<&Path>,
+    ) {
         for source in &sources.add_ons {
             // A script that fails has said so in the log, and is counted.
             let _ = source.add(sim, ScriptKind::AddOn);
@@ -197,7 +223,10 @@ impl Setup {
             settings.time_step = self.dt.unwrap_or(settings.time_step);
             settings.real_time |= self.realtime;
             if let Some(scene) = scene {
-                settings.path = std::path::absolute(scene).unwrap_or_default().to_string_lossy().into_owned();
+                settings.path = std::path::absolute(scene)
+                    .unwrap_or_default()
+                    .to_string_lossy()
+                    .into_owned();
             }
         });
     }
@@ -208,20 +237,33 @@ fn read(path: impl AsRef<Path>) -> Result<Source, String> {
     let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
     let code = read_bounded(path).map_err(|error| unreadable(error.to_string()))?;
     script_file::check(path, &code).map_err(|reason| unreadable(reason.to_string()))?;
-    Ok(Source { name: name_of(path), code, path: path.to_owned() })
+    Ok(Source {
+        name: name_of(path),
+        code,
+        path: path.to_owned(),
+    })
 }
 
 /// Name of a script that is read from a file.
 fn name_of(path: &Path) -> String {
-    path.file_stem().map_or_else(|| "Script".into(), |stem| stem.to_string_lossy().into_owned())
+    path.file_stem().map_or_else(
+        || "Script".into(),
+        |stem| stem.to_string_lossy().into_owned(),
+    )
 }
 
 fn read_scene(path: &Path) -> Result<Scene, String> {
     let unreadable = |error: FileError| format!("cannot read {}: {error}", path.display());
     match SceneInput::read(path, &Permissions::all())? {
-        SceneInput::Script(code) => Ok(Scene::Script(Source { name: name_of(path), code, path: path.to_owned() })),
+        SceneInput::Script(code) => Ok(Scene::Script(Source {
+            name: name_of(path),
+            code,
+            path: path.to_owned(),
+        })),
         SceneInput::File(file) => {
-            file.messages().iter().for_each(|message| complain(&format!("{}: {message}", path.display())));
+            file.messages()
+                .iter()
+                .for_each(|message| complain(&format!("{}: {message}", path.display())));
             Ok(Scene::File(Box::new(file.scene().map_err(unreadable)?)))
         }
     }
@@ -237,7 +279,11 @@ pub(in crate::cli) fn seconds(text: &str) -> Result<f64, String> {
 
 fn step_length(text: &str) -> Result<f64, String> {
     let dt = seconds(text)?;
-    if (0.0001..=10.0).contains(&dt) { Ok(dt) } else { Err("a step lasts 0.0001 to 10 seconds".into()) }
+    if (0.0001..=10.0).contains(&dt) {
+        Ok(dt)
+    } else {
+        Err("a step lasts 0.0001 to 10 seconds".into())
+    }
 }
 
 pub(in crate::cli) fn named_param(text: &str) -> Result<(String, String), String> {
@@ -249,6 +295,13 @@ pub(in crate::cli) fn named_param(text: &str) -> Result<(String, String), String
 
 fn level(text: &str) -> Result<i64, String> {
     let number = || text.parse().ok().filter(|level| (0..=1000).contains(level));
-    let unknown = || format!("the levels are {}", verbosity::NAMES.map(|(name, _)| name).join(", "));
-    verbosity::from_name(text).or_else(number).ok_or_else(unknown)
+    let unknown = || {
+        format!(
+            "the levels are {}",
+            verbosity::NAMES.map(|(name, _)| name).join(", ")
+        )
+    };
+    verbosity::from_name(text)
+        .or_else(number)
+        .ok_or_else(unknown)
 }

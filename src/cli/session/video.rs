@@ -29,15 +29,24 @@ pub(in crate::cli) struct VideoArgs {
 impl VideoArgs {
     /// The video begins with the simulation.
     pub(in crate::cli) fn start(&self, sim: &mut Simulator, scene: &Path) {
-        let Some(file) = self.video.clone() else { return };
+        let Some(file) = self.video.clone() else {
+            return;
+        };
         // The camera of the default scene does not look at models.
-        let is_model = scene.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ttm"));
+        let is_model = scene
+            .extension()
+            .is_some_and(|extension| extension.eq_ignore_ascii_case("ttm"));
         let from = match &self.video_camera {
             Some(camera) => VideoView::Object(camera.clone()),
             None if is_model => VideoView::Everything,
             None => VideoView::FirstCamera,
         };
-        sim.start_video(VideoOptions { file, from, size: self.video_size, rate: self.video_fps });
+        sim.start_video(VideoOptions {
+            file,
+            from,
+            size: self.video_size,
+            rate: self.video_fps,
+        });
     }
 
     /// Completes the file.
@@ -46,19 +55,27 @@ impl VideoArgs {
     /// When there is none, or not all of it.
     pub(in crate::cli) fn finish(&self, sim: &mut Simulator) -> Result<(), String> {
         let file = self.video.as_deref().unwrap_or(Path::new(""));
-        sim.finish_video().map_err(|failure| format!("cannot write {}: {failure}", file.display()))
+        sim.finish_video()
+            .map_err(|failure| format!("cannot write {}: {failure}", file.display()))
     }
 }
 
 /// Width and height: two whole numbers with an x between them.
 pub(in crate::cli) fn picture_size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.parse().ok().filter(|side| (1..=4096).contains(side));
-    let sides = text.split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]));
-    sides.ok_or_else(|| "width and height are needed, such as 640x480, each from 1 to 4096".to_owned())
+    let sides = text
+        .split_once('x')
+        .and_then(|(width, height)| Some([side(width)?, side(height)?]));
+    sides.ok_or_else(|| {
+        "width and height are needed, such as 640x480, each from 1 to 4096".to_owned()
+    })
 }
 
 fn rate(text: &str) -> Result<f64, String> {
-    let rate = text.parse().ok().filter(|rate| (0.001..=MAX_RATE).contains(rate));
+    let rate = text
+        .parse()
+        .ok()
+        .filter(|rate| (0.001..=MAX_RATE).contains(rate));
     rate.ok_or_else(|| "a number of pictures per second is needed, 0.001 to 100".to_owned())
 }
 
@@ -69,7 +86,9 @@ mod tests {
     #[test]
     fn sizes_are_two_sides() {
         assert_eq!(picture_size("640x480"), Ok([640, 480]));
-        for wrong in ["", "640", "640x", "x480", "0x1", "1x4097", "-1x5", "1x2x3", "1.5x2"] {
+        for wrong in [
+            "", "640", "640x", "x480", "0x1", "1x4097", "-1x5", "1x2x3", "1.5x2",
+        ] {
             assert!(picture_size(wrong).is_err(), "{wrong}");
         }
     }

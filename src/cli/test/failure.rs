@@ -27,7 +27,11 @@ fn excerpt(excerpt: &Excerpt, paint: Paint) -> String {
     let mut text = format!("    --> {}:{}\n", harmless(&excerpt.place), excerpt.line);
     for (number, code, is_meant) in excerpt.numbered() {
         let line = harmless(&format!("{number:>4} | {code}"));
-        let line = if is_meant { paint.paint(RED, &format!("> {line}")) } else { format!("  {line}") };
+        let line = if is_meant {
+            paint.paint(RED, &format!("> {line}"))
+        } else {
+            format!("  {line}")
+        };
         text += &indented("    ", &line);
     }
     text
@@ -41,7 +45,10 @@ fn console(outcome: &Outcome, paint: Paint) -> String {
     let hidden = outcome.console.len().saturating_sub(CONSOLE_LINES);
     let mut text = "    console:\n".to_owned();
     if hidden > 0 {
-        text += &format!("      {}\n", paint.paint(DIM, &format!("... {hidden} lines before")));
+        text += &format!(
+            "      {}\n",
+            paint.paint(DIM, &format!("... {hidden} lines before"))
+        );
     }
     for line in &outcome.console[hidden..] {
         text += &indented("      ", &harmless(&console_line(line)));
@@ -51,5 +58,8 @@ fn console(outcome: &Outcome, paint: Paint) -> String {
 
 /// Empty lines are left out, so that a block is one.
 fn indented(indent: &str, text: &str) -> String {
-    text.lines().filter(|line| !line.trim().is_empty()).map(|line| format!("{indent}{line}\n")).collect()
+    text.lines()
+        .filter(|line| !line.trim().is_empty())
+        .map(|line| format!("{indent}{line}\n"))
+        .collect()
 }

@@ -6,7 +6,10 @@ use std::path::{Path, PathBuf};
 
 const FILES: [(&str, &str); 2] = [
     ("tests/robot_test.lua", include_str!("init/robot_test.lua")),
-    (".github/workflows/robot-tests.yml", include_str!("init/workflow.yml")),
+    (
+        ".github/workflows/robot-tests.yml",
+        include_str!("init/workflow.yml"),
+    ),
 ];
 
 /// Writes the files below `folder`; returns what was written. What is there stays as it is.
@@ -16,13 +19,19 @@ const FILES: [(&str, &str); 2] = [
 pub(super) fn write(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let files = FILES.map(|(path, text)| (folder.join(path), text));
     if let Some((path, _)) = files.iter().find(|(path, _)| path.exists()) {
-        return Err(io::Error::new(io::ErrorKind::AlreadyExists, format!("{} exists already", path.display())));
+        return Err(io::Error::new(
+            io::ErrorKind::AlreadyExists,
+            format!("{} exists already", path.display()),
+        ));
     }
     for (path, text) in &files {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder)?;
         }
-        fs::write(path, text.replace("vVERSION", concat!("v", env!("CARGO_PKG_VERSION"))))?;
+        fs::write(
+            path,
+            text.replace("vVERSION", concat!("v", env!("CARGO_PKG_VERSION"))),
+        )?;
     }
     Ok(files.map(|(path, _)| path).into())
 }

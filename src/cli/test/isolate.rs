@@ -22,22 +22,32 @@ pub(super) fn command(test: &TestCase) -> Command {
 
 /// When a test crashes the process, it begins anew with a child for each test.
 pub(super) fn after_crash() {
-    let Ok(program) = std::env::current_exe() else { return };
+    let Ok(program) = std::env::current_exe() else {
+        return;
+    };
     let mut args: Vec<_> = std::env::args_os().collect();
-    let Some(subcommand) = args.iter().position(|arg| arg == "test") else { return };
+    let Some(subcommand) = args.iter().position(|arg| arg == "test") else {
+        return;
+    };
     args[0] = program.into_os_string();
     args.insert(subcommand + 1, "--isolate".into());
-    let message =
-        "\nswanilda: native code crashed in a test. All tests run again, each in a child process (--isolate).\n";
+    let message = "\nswanilda: native code crashed in a test. All tests run again, each in a child process (--isolate).\n";
     run_on_crash(message.to_owned(), args);
 }
 
 /// In a child: restricts the tests to the one.
 pub(super) fn restrict(config: &mut Config) -> bool {
-    let Some(which) = std::env::var_os(TEST) else { return false };
+    let Some(which) = std::env::var_os(TEST) else {
+        return false;
+    };
     let which = which.to_string_lossy().into_owned();
     let mut parts = which.splitn(3, ' ');
-    let mut number = || parts.next().and_then(|part| part.parse::<usize>().ok()).unwrap_or_default();
+    let mut number = || {
+        parts
+            .next()
+            .and_then(|part| part.parse::<usize>().ok())
+            .unwrap_or_default()
+    };
     config.only = Some((number(), number() as u32));
     config.paths = parts.next().map(PathBuf::from).into_iter().collect();
     config.isolate = None;

@@ -131,7 +131,8 @@ pub(super) fn test(args: &Args) -> ExitCode {
 }
 
 fn run(args: &Args, config: &Config) -> Result<u8, String> {
-    let summary = testing::run(config, &mut args.reports.reporter()).map_err(|error| error.to_string())?;
+    let summary =
+        testing::run(config, &mut args.reports.reporter()).map_err(|error| error.to_string())?;
     args.reports.write(&summary)?;
     if let (Some(coverage), Some(file)) = (&summary.coverage, &config.coverage) {
         coverage.write(file).map_err(|error| error.to_string())?;
@@ -153,7 +154,9 @@ fn watch(args: &Args, config: &Config, interrupt: &Interrupt) -> Result<u8, Stri
 fn init() -> ExitCode {
     match init::write(Path::new("")) {
         Ok(written) => {
-            written.iter().for_each(|path| super::say(format!("wrote {}\n", path.display()).as_bytes()));
+            written
+                .iter()
+                .for_each(|path| super::say(format!("wrote {}\n", path.display()).as_bytes()));
             ExitCode::SUCCESS
         }
         Err(error) => refuse(&error.to_string()),
@@ -215,6 +218,10 @@ fn refuse(reason: &str) -> ExitCode {
 }
 
 fn shard(text: &str) -> Result<(usize, usize), String> {
-    let parts = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
-    parts.filter(|&(i, n)| 1 <= i && i <= n).ok_or_else(|| "I/N is needed, such as 1/3".into())
+    let parts = text
+        .split_once('/')
+        .and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+    parts
+        .filter(|&(i, n)| 1 <= i && i <= n)
+        .ok_or_else(|| "I/N is needed, such as 1/3".into())
 }

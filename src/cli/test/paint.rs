@@ -33,7 +33,11 @@ impl Paint {
     }
 
     pub(super) fn paint(self, style: u8, text: &str) -> String {
-        if self.0 { format!("\x1b[{style}m{text}\x1b[0m") } else { text.to_owned() }
+        if self.0 {
+            format!("\x1b[{style}m{text}\x1b[0m")
+        } else {
+            text.to_owned()
+        }
     }
 
     pub(super) fn status(self, status: Status) -> String {
@@ -51,7 +55,9 @@ impl Paint {
 pub(super) fn harmless(text: &str) -> String {
     let sign = |c: char| match c {
         '\n' | '\t' => c,
-        '\0'..='\x1f' => char::from_u32(0x2400 + u32::from(c)).unwrap_or(char::REPLACEMENT_CHARACTER),
+        '\0'..='\x1f' => {
+            char::from_u32(0x2400 + u32::from(c)).unwrap_or(char::REPLACEMENT_CHARACTER)
+        }
         c if c.is_control() => char::REPLACEMENT_CHARACTER,
         c => c,
     };
@@ -64,13 +70,25 @@ mod tests {
 
     #[test]
     fn commands_to_the_terminal_become_signs() {
-        assert_eq!(harmless("a\x1b[31mb\r\n\tc\u{9b}\x7f"), "a␛[31mb␍\n\tc\u{fffd}\u{fffd}");
+        assert_eq!(
+            harmless("a\x1b[31mb\r\n\tc\u{9b}\x7f"),
+            "a␛[31mb␍\n\tc\u{fffd}\u{fffd}"
+        );
     }
 
     #[test]
     fn colours_are_a_choice() {
-        assert_eq!(Paint::new(ColorChoice::Always, false).paint(RED, "x"), "\x1b[31mx\x1b[0m");
-        assert_eq!(Paint::new(ColorChoice::Never, true).status(Status::Failed), "FAIL");
-        assert_eq!(Paint::new(ColorChoice::Auto, false).status(Status::Pending), "PENDING");
+        assert_eq!(
+            Paint::new(ColorChoice::Always, false).paint(RED, "x"),
+            "\x1b[31mx\x1b[0m"
+        );
+        assert_eq!(
+            Paint::new(ColorChoice::Never, true).status(Status::Failed),
+            "FAIL"
+        );
+        assert_eq!(
+            Paint::new(ColorChoice::Auto, false).status(Status::Pending),
+            "PENDING"
+        );
     }
 }

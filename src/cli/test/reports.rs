@@ -34,7 +34,13 @@ pub(super) struct ReportArgs {
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     durations: usize,
     /// When to use colours
-    #[arg(long, value_name = "WHEN", value_enum, default_value = "auto", alias = "colour")]
+    #[arg(
+        long,
+        value_name = "WHEN",
+        value_enum,
+        default_value = "auto",
+        alias = "colour"
+    )]
     color: ColorChoice,
 }
 
@@ -44,7 +50,10 @@ impl ReportArgs {
     /// # Errors
     /// The reason why one cannot.
     pub(super) fn check(&self) -> Result<(), String> {
-        [&self.junit, &self.html].into_iter().flatten().try_for_each(|file| check(file))
+        [&self.junit, &self.html]
+            .into_iter()
+            .flatten()
+            .try_for_each(|file| check(file))
     }
 
     /// Whether results go to standard output for programs, which cannot be asked to forget them.
@@ -54,7 +63,11 @@ impl ReportArgs {
 
     /// Output while the tests run.
     pub(super) fn reporter(&self) -> Reports {
-        let stream = if self.tap { Some(Stream::Tap(0)) } else { self.json.then_some(Stream::Json) };
+        let stream = if self.tap {
+            Some(Stream::Tap(0))
+        } else {
+            self.json.then_some(Stream::Json)
+        };
         // A terminal that shows the report already has no place for a second one.
         let is_silent = stream.is_some() && std::io::stdout().is_terminal();
         let options = TerminalOptions {
@@ -63,7 +76,10 @@ impl ReportArgs {
             durations: self.durations,
             on_stderr: stream.is_some(),
         };
-        Reports { terminal: (!is_silent).then(|| Terminal::new(options)), stream }
+        Reports {
+            terminal: (!is_silent).then(|| Terminal::new(options)),
+            stream,
+        }
     }
 
     /// Prints a message that belongs to no report, without disturbing one.
@@ -85,7 +101,10 @@ impl ReportArgs {
             write(file, &junit::report(summary))?;
         }
         if let Some(file) = &self.html {
-            write(file, html::report(summary, file.parent().unwrap_or(Path::new(""))).as_bytes())?;
+            write(
+                file,
+                html::report(summary, file.parent().unwrap_or(Path::new(""))).as_bytes(),
+            )?;
         }
         Ok(())
     }
@@ -111,7 +130,9 @@ impl Reporter for Reports {
             Some(Stream::Json) => say(&json::begin(tests)),
             None => {}
         }
-        self.terminal.iter_mut().for_each(|terminal| terminal.begin(tests));
+        self.terminal
+            .iter_mut()
+            .for_each(|terminal| terminal.begin(tests));
     }
 
     fn outcome(&mut self, outcome: &Outcome) {
@@ -123,7 +144,9 @@ impl Reporter for Reports {
             Some(Stream::Json) => say(&json::test(outcome)),
             None => {}
         }
-        self.terminal.iter_mut().for_each(|terminal| terminal.outcome(outcome));
+        self.terminal
+            .iter_mut()
+            .for_each(|terminal| terminal.outcome(outcome));
     }
 
     fn end(&mut self, summary: &Summary) {
@@ -132,7 +155,9 @@ impl Reporter for Reports {
             Some(Stream::Json) => say(&json::end(summary)),
             None => {}
         }
-        self.terminal.iter_mut().for_each(|terminal| terminal.end(summary));
+        self.terminal
+            .iter_mut()
+            .for_each(|terminal| terminal.end(summary));
     }
 }
 
@@ -151,8 +176,14 @@ fn check(file: &Path) -> Result<(), String> {
         return Ok(());
     }
     let target = link_target(file);
-    let folder = target.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-    fs::create_dir_all(folder).and_then(|()| tempfile::NamedTempFile::new_in(folder)).map(drop).map_err(failed)
+    let folder = target
+        .parent()
+        .filter(|folder| *folder != Path::new(""))
+        .unwrap_or(Path::new("."));
+    fs::create_dir_all(folder)
+        .and_then(|()| tempfile::NamedTempFile::new_in(folder))
+        .map(drop)
+        .map_err(failed)
 }
 
 fn write(file: &Path, bytes: &[u8]) -> Result<(), String> {

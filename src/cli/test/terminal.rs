@@ -48,10 +48,19 @@ struct Tally {
 
 impl Terminal {
     pub(super) fn new(options: TerminalOptions) -> Self {
-        let is_terminal =
-            if options.on_stderr { std::io::stderr().is_terminal() } else { std::io::stdout().is_terminal() };
+        let is_terminal = if options.on_stderr {
+            std::io::stderr().is_terminal()
+        } else {
+            std::io::stdout().is_terminal()
+        };
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-        Self { options, paint: Paint::new(options.color, is_terminal), bar, bad: 0, open: BTreeMap::new() }
+        Self {
+            options,
+            paint: Paint::new(options.color, is_terminal),
+            bar,
+            bad: 0,
+            open: BTreeMap::new(),
+        }
     }
 
     /// Writes text between the frames of the progress bar. A reader that closes the pipe has seen enough, which is no error.
@@ -70,7 +79,8 @@ impl Terminal {
             return;
         }
         let style = ProgressStyle::with_template("{bar:40} {pos}/{len} tests{msg}, {elapsed}");
-        self.bar.set_style(style.expect("the template is well-formed"));
+        self.bar
+            .set_style(style.expect("the template is well-formed"));
         self.bar.set_length(count as u64);
         self.bar.set_draw_target(ProgressDrawTarget::stderr());
         // A long test should not look like a standstill.
@@ -95,16 +105,33 @@ impl Terminal {
             return None;
         }
         let (_, tally) = self.open.remove(file)?;
-        let status = if tally.bad > 0 { Status::Failed } else { Status::Passed };
-        Some(format!("{} {} ({tally})\n", self.paint.status(status), harmless(&file.to_string_lossy())))
+        let status = if tally.bad > 0 {
+            Status::Failed
+        } else {
+            Status::Passed
+        };
+        Some(format!(
+            "{} {} ({tally})\n",
+            self.paint.status(status),
+            harmless(&file.to_string_lossy())
+        ))
     }
 
     fn test_line(&self, outcome: &Outcome) -> String {
         let title = harmless(&outcome.test.id());
-        let reason =
-            if outcome.message.is_empty() { String::new() } else { format!(": {}", harmless(&outcome.message)) };
-        let wall = self.paint.paint(DIM, &format!("({:.1} ms)", outcome.wall.as_secs_f64() * 1e3));
-        format!("{} {title}{reason} {wall}\n", self.paint.status(outcome.status))
+        let reason = if outcome.message.is_empty() {
+            String::new()
+        } else {
+            format!(": {}", harmless(&outcome.message))
+        };
+        let wall = self.paint.paint(
+            DIM,
+            &format!("({:.1} ms)", outcome.wall.as_secs_f64() * 1e3),
+        );
+        format!(
+            "{} {title}{reason} {wall}\n",
+            self.paint.status(outcome.status)
+        )
     }
 
     fn failure(&self, outcome: &Outcome) -> String {
@@ -115,12 +142,24 @@ impl Terminal {
 
     /// Failed tests, one per line, in the order of the files.
     fn failures(&self, summary: &Summary) -> String {
-        let bad: String = files(summary).flatten().filter(|outcome| outcome.is_bad()).map(|o| self.short(o)).collect();
-        if bad.is_empty() { bad } else { format!("Failures:\n{bad}\n") }
+        let bad: String = files(summary)
+            .flatten()
+            .filter(|outcome| outcome.is_bad())
+            .map(|o| self.short(o))
+            .collect();
+        if bad.is_empty() {
+            bad
+        } else {
+            format!("Failures:\n{bad}\n")
+        }
     }
 
     fn short(&self, outcome: &Outcome) -> String {
-        let line = outcome.line.or(outcome.test.line).map(|line| format!(":{line}")).unwrap_or_default();
+        let line = outcome
+            .line
+            .or(outcome.test.line)
+            .map(|line| format!(":{line}"))
+            .unwrap_or_default();
         let place = outcome.test.file.display().to_string() + &line;
         let first = outcome.message.lines().next().unwrap_or_default();
         // Lua's messages begin with the place.
@@ -133,10 +172,19 @@ impl Terminal {
         let mut slowest: Vec<_> = summary.outcomes.iter().collect();
         slowest.sort_by_key(|outcome| std::cmp::Reverse(outcome.wall));
         slowest.truncate(self.options.durations);
-        let line =
-            |outcome: &&Outcome| format!("  {:>8.3} s  {}\n", outcome.wall.as_secs_f64(), harmless(&outcome.test.id()));
+        let line = |outcome: &&Outcome| {
+            format!(
+                "  {:>8.3} s  {}\n",
+                outcome.wall.as_secs_f64(),
+                harmless(&outcome.test.id())
+            )
+        };
         let lines: String = slowest.iter().map(line).collect();
-        if lines.is_empty() { lines } else { format!("Slowest tests:\n{lines}\n") }
+        if lines.is_empty() {
+            lines
+        } else {
+            format!("Slowest tests:\n{lines}\n")
+        }
     }
 
     /// The last line: counts and time.
@@ -150,21 +198,34 @@ impl Terminal {
             (summary.not_run, "not run", YELLOW),
             (summary.deselected, "deselected", DIM),
         ];
-        let counts = counts.into_iter().filter(|(count, word, _)| *count > 0 || *word == "passed");
-        let parts: Vec<_> =
-            counts.map(|(count, word, colour)| self.paint.paint(colour, &format!("{count} {word}"))).collect();
-        let interrupted = if summary.interrupted { "interrupted: " } else { "" };
+        let counts = counts
+            .into_iter()
+            .filter(|(count, word, _)| *count > 0 || *word == "passed");
+        let parts: Vec<_> = counts
+            .map(|(count, word, colour)| self.paint.paint(colour, &format!("{count} {word}")))
+            .collect();
+        let interrupted = if summary.interrupted {
+            "interrupted: "
+        } else {
+            ""
+        };
         if summary.outcomes.is_empty() && !summary.interrupted {
             return no_tests(summary.deselected);
         }
-        format!("{interrupted}{} in {:.2} s\n", parts.join(", "), summary.wall.as_secs_f64())
+        format!(
+            "{interrupted}{} in {:.2} s\n",
+            parts.join(", "),
+            summary.wall.as_secs_f64()
+        )
     }
 }
 
 /// Advice when nothing was run.
 fn no_tests(deselected: usize) -> String {
     if deselected > 0 {
-        return format!("no tests run: --filter and --shard leave out all {deselected}; --list shows names\n");
+        return format!(
+            "no tests run: --filter and --shard leave out all {deselected}; --list shows names\n"
+        );
     }
     "no tests found: they are in files named *_test.lua or test_*.lua; `swanilda test --init` writes an example\n"
         .into()
@@ -212,7 +273,12 @@ impl std::fmt::Display for Tally {
         if self.bad > 0 {
             write!(f, "{} of ", self.bad)?;
         }
-        write!(f, "{} test{plural}{}", self.total, if self.bad > 0 { " failed" } else { "" })?;
+        write!(
+            f,
+            "{} test{plural}{}",
+            self.total,
+            if self.bad > 0 { " failed" } else { "" }
+        )?;
         if self.pending > 0 {
             write!(f, ", {} pending", self.pending)?;
         }

@@ -29,14 +29,29 @@ impl Watch {
         let mut watcher = notify::recommended_watcher(move |event: notify::Result<Event>| {
             let Ok(event) = event else { return };
             let changes = !event.kind.is_access();
-            event.paths.into_iter().filter(|path| changes && matters(path)).for_each(|path| drop(sender.send(path)));
+            event
+                .paths
+                .into_iter()
+                .filter(|path| changes && matters(path))
+                .for_each(|path| drop(sender.send(path)));
         })?;
         for path in paths {
-            let folder = if path.is_dir() { path } else { path.parent().unwrap_or(path) };
-            let folder = if folder == Path::new("") { Path::new(".") } else { folder };
+            let folder = if path.is_dir() {
+                path
+            } else {
+                path.parent().unwrap_or(path)
+            };
+            let folder = if folder == Path::new("") {
+                Path::new(".")
+            } else {
+                folder
+            };
             watcher.watch(folder, RecursiveMode::Recursive)?;
         }
-        Ok(Self { events, _watcher: watcher })
+        Ok(Self {
+            events,
+            _watcher: watcher,
+        })
     }
 
     /// Waits for the next change and until all is quiet; None when the user wants an end.
@@ -58,5 +73,9 @@ impl Watch {
 
 /// Whether a file is a source of tests, not an output of theirs.
 fn matters(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| ["lua", "ttt", "ttm", "xml"].iter().any(|known| extension == *known))
+    path.extension().is_some_and(|extension| {
+        ["lua", "ttt", "ttm", "xml"]
+            .iter()
+            .any(|known| extension == *known)
+    })
 }

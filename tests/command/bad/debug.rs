@@ -11,13 +11,21 @@ fn run(code: &str, args: &[&str]) -> String {
     let scene = folder.path().join("scene.lua");
     fs::write(&scene, format!("sim = require 'sim'\n{code}")).expect("our own folder is writable");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.current_dir(folder.path()).arg("run").arg(&scene).args(["--empty", "--steps", "2"]).args(args);
+    command
+        .current_dir(folder.path())
+        .arg("run")
+        .arg(&scene)
+        .args(["--empty", "--steps", "2"])
+        .args(args);
     run_bounded(&mut command).unwrap_or_else(|error| panic!("{error}\nof {code}"))
 }
 
 /// The scene prints `alive` at its end, after these lines.
 fn assert_prints(code: &str, args: &[&str], expected: &[&str]) {
-    let output = run(&format!("{code}\nprint('alive')"), &[&["--quiet"], args].concat());
+    let output = run(
+        &format!("{code}\nprint('alive')"),
+        &[&["--quiet"], args].concat(),
+    );
     let expected = [expected, &["alive"]].concat();
     assert_eq!(output.lines().collect::<Vec<_>>(), expected, "of {code}");
 }

@@ -13,7 +13,12 @@ fn run(code: &str, args: &[&str]) -> String {
     fs::write(&scene, code).expect("our own folder is writable");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
     // Functions that write files do so where nobody minds.
-    command.current_dir(folder.path()).arg("run").arg(&scene).args(["--data-dir", "."]).args(args);
+    command
+        .current_dir(folder.path())
+        .arg("run")
+        .arg(&scene)
+        .args(["--data-dir", "."])
+        .args(args);
     let output = run_bounded(&mut command).unwrap_or_else(|error| panic!("{error}\nof {code}"));
     assert!(!output.contains("panicked"), "{output}");
     output
@@ -25,7 +30,15 @@ fn run_briefly(code: &str) -> String {
 
 #[test]
 fn text_that_is_no_lua() {
-    for code in ["x = = 1", "(", "\u{1b}Lua garbage", "\0\0\0", "goto nowhere", "return return", "'unfinished"] {
+    for code in [
+        "x = = 1",
+        "(",
+        "\u{1b}Lua garbage",
+        "\0\0\0",
+        "goto nowhere",
+        "return return",
+        "'unfinished",
+    ] {
         let output = run_briefly(code);
         assert!(output.contains("[/Script:error]"), "{code:?}: {output}");
     }
@@ -45,8 +58,10 @@ fn errors_in_every_callback() {
         "error(setmetatable({}, {__tostring = error}))",
         "local x = nil + 1",
     ];
-    let cases: Vec<_> =
-        callbacks.split_whitespace().flat_map(|callback| errors.map(|error| (callback, error))).collect();
+    let cases: Vec<_> = callbacks
+        .split_whitespace()
+        .flat_map(|callback| errors.map(|error| (callback, error)))
+        .collect();
     parallel::map(&cases, |(callback, error)| {
         run_briefly(&format!(
             "sim = require 'sim'
@@ -66,14 +81,17 @@ fn errors_in_every_callback() {
 fn recursion_without_end() {
     let within = run_briefly("local function f() return 1 + f() end f()");
     assert!(within.contains("stack overflow"), "{within}");
-    let metamethods =
-        run_briefly("t = setmetatable({}, {}) getmetatable(t).__index = function(t, k) return t[k] end print(t.x)");
+    let metamethods = run_briefly(
+        "t = setmetatable({}, {}) getmetatable(t).__index = function(t, k) return t[k] end print(t.x)",
+    );
     assert!(metamethods.contains(":error]"), "{metamethods}");
     run_briefly("local f f = function() return pcall(f) end f()");
     run_briefly("local co co = function() coroutine.wrap(co)() end co()");
     run_briefly("x = string.rep('(', 1e5) .. '1' .. string.rep(')', 1e5) load('return ' .. x)");
     run_briefly("t = {} t.t = t print(t) sim = require 'sim' sim.broadcastMsg(t)");
-    run_briefly("t = {} for i = 1, 1e5 do t = {t} end print(#tostring(t)) sim = require 'sim' sim.broadcastMsg(t)");
+    run_briefly(
+        "t = {} for i = 1, 1e5 do t = {t} end print(#tostring(t)) sim = require 'sim' sim.broadcastMsg(t)",
+    );
 }
 
 #[test]
@@ -118,7 +136,10 @@ fn recursion_across_scripts() {
             print('alive')
         end",
     );
-    assert!(across.contains("false") && across.contains("alive"), "{across}");
+    assert!(
+        across.contains("false") && across.contains("alive"),
+        "{across}"
+    );
     run_briefly(
         "sim = require 'sim' function f() sim.callScriptFunction('f', sim.handle_self) end function sysCall_init() f() end",
     );
@@ -134,16 +155,27 @@ fn recursion_across_scripts() {
 
 #[test]
 fn threads_that_never_yield() {
-    let output =
-        run_briefly("function sysCall_thread() while true do end end function sysCall_sensing() print('step') end");
+    let output = run_briefly(
+        "function sysCall_thread() while true do end end function sysCall_sensing() print('step') end",
+    );
     assert!(output.contains("step"), "{output}");
-    run_briefly("function sysCall_thread() while true do coroutine.wrap(function() coroutine.yield() end)() end end");
+    run_briefly(
+        "function sysCall_thread() while true do coroutine.wrap(function() coroutine.yield() end)() end end",
+    );
 }
 
 #[test]
 fn scripts_that_remove_themselves() {
-    let callbacks =
-        ["init", "actuation", "sensing", "cleanup", "beforeSimulation", "afterSimulation", "thread", "nonSimulation"];
+    let callbacks = [
+        "init",
+        "actuation",
+        "sensing",
+        "cleanup",
+        "beforeSimulation",
+        "afterSimulation",
+        "thread",
+        "nonSimulation",
+    ];
     let removals = [
         "sim.removeObjects({sim_script_handle})",
         "sim.removeObjects({sim_script_handle}, true)",
@@ -153,9 +185,14 @@ fn scripts_that_remove_themselves() {
         "sim.loadScene('')",
         "sim.stopSimulation() sim.startSimulation() sim.pauseSimulation() sim.startSimulation()",
     ];
-    let cases: Vec<_> = callbacks.iter().flat_map(|callback| removals.map(|code| (callback, code))).collect();
+    let cases: Vec<_> = callbacks
+        .iter()
+        .flat_map(|callback| removals.map(|code| (callback, code)))
+        .collect();
     parallel::map(&cases, |(callback, code)| {
-        run_briefly(&format!("sim = require 'sim' function sysCall_{callback}() {code} end"))
+        run_briefly(&format!(
+            "sim = require 'sim' function sysCall_{callback}() {code} end"
+        ))
     });
 }
 
@@ -183,7 +220,10 @@ fn numbers_beyond_reason() {
 
 #[test]
 fn odd_values_for_every_property() {
-    let output = run(include_str!("../../support/odd_properties.lua"), &["--steps", "5"]);
+    let output = run(
+        include_str!("../../support/odd_properties.lua"),
+        &["--steps", "5"],
+    );
     assert!(output.contains("every property was written"), "{output}");
 }
 

@@ -11,8 +11,20 @@ fn run(code: &str) -> String {
     let scene = folder.path().join("scene.lua");
     fs::write(&scene, format!("sim = require 'sim'\n{code}")).expect("our own folder is writable");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.current_dir(folder.path()).arg("run").arg(&scene).args(["--data-dir", ".", "--as", "sandbox"]);
-    command.args(["--empty", "--quiet", "--no-start", "--loops", "3", "--verbosity", "scripterrors"]);
+    command
+        .current_dir(folder.path())
+        .arg("run")
+        .arg(&scene)
+        .args(["--data-dir", ".", "--as", "sandbox"]);
+    command.args([
+        "--empty",
+        "--quiet",
+        "--no-start",
+        "--loops",
+        "3",
+        "--verbosity",
+        "scripterrors",
+    ]);
     let output = run_bounded(&mut command).unwrap_or_else(|error| panic!("{error}\nof {code}"));
     assert!(!output.contains("panicked"), "{output}");
     output
@@ -33,7 +45,12 @@ fn long_strings() {
         print(pcall(sim.transformBuffer, long, sim.buffer_uint8, 0, 1, sim.buffer_split))");
     let lines: Vec<&str> = output.lines().collect();
     assert_eq!(lines[..5], ["100000000"; 5], "{output}");
-    assert!(lines[5..7].iter().all(|line| line.ends_with("the data is too large.")), "{output}");
+    assert!(
+        lines[5..7]
+            .iter()
+            .all(|line| line.ends_with("the data is too large.")),
+        "{output}"
+    );
 }
 
 #[test]
@@ -44,7 +61,13 @@ fn more_elements_than_memory() {
         for _, decode in ipairs{sim.unpackTable, require('org.conman.cbor').decode} do print(pcall(decode, lists)) end
         print(pcall(sim.unpackTable, packed))");
     let lines: Vec<&str> = output.lines().collect();
-    assert!(lines.len() == 3 && lines.iter().all(|line| line.contains("more than 16777216 elements")), "{output}");
+    assert!(
+        lines.len() == 3
+            && lines
+                .iter()
+                .all(|line| line.contains("more than 16777216 elements")),
+        "{output}"
+    );
 }
 
 #[test]
@@ -68,7 +91,11 @@ fn strange_tables() {
         print(pcall(sim.packTable, deep))");
     let (good, deep) = output.split_at("table, table\n".len() * 4);
     assert_eq!(good, "table, table\n".repeat(4));
-    assert_eq!(deep.matches("nested deeper than 100 levels").count(), 3, "{deep}");
+    assert_eq!(
+        deep.matches("nested deeper than 100 levels").count(),
+        3,
+        "{deep}"
+    );
 }
 
 #[test]
@@ -92,16 +119,21 @@ fn spoilt_packed_tables() {
 
 #[test]
 fn broadcasts_without_end() {
-    for again in
-        ["sim.broadcastMsg(m)", "pcall(sim.broadcastMsg, m)", "pcall(sim.broadcastMsg, m) pcall(sim.broadcastMsg, m)"]
-    {
+    for again in [
+        "sim.broadcastMsg(m)",
+        "pcall(sim.broadcastMsg, m)",
+        "pcall(sim.broadcastMsg, m) pcall(sim.broadcastMsg, m)",
+    ] {
         let output = run(&format!(
             "local code = \"sim = require 'sim' function sysCall_msg(m) if m.id == 'again' then {again} end end\"
             for _ = 1, 6 do sim.initScript(sim.createScript(sim.scripttype_customization, code, 0, 'lua')) end
             sim.broadcastMsg({{id = 'again'}})
             print('over')"
         ));
-        assert!(output.contains("too many nested calls between scripts"), "{output}");
+        assert!(
+            output.contains("too many nested calls between scripts"),
+            "{output}"
+        );
         assert!(output.ends_with("over\n"), "{output}");
     }
 }
@@ -158,7 +190,11 @@ fn spoilt_remote_requests() {
         print(answer{{uuid = 'n', func = 'string.rep', args = {{'ab', 2}}, argsL = 2}}.ret[1])"
     ));
     let lines: Vec<&str> = output.lines().collect();
-    assert_eq!(lines[..3], ["true", "the uuid is too long", "too many arguments"], "{output}");
+    assert_eq!(
+        lines[..3],
+        ["true", "the uuid is too long", "too many arguments"],
+        "{output}"
+    );
     assert!(lines[3].contains("value expected"), "{output}");
     assert_eq!(lines[4..], ["true", "abab"], "{output}");
 }

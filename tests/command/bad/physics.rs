@@ -16,10 +16,22 @@ const SELF_REMOVAL: &str = "object removal can't be triggered from within the ob
 fn run(scene: &str, args: &[&str]) -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_physics");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.current_dir(folder).args(["run", scene, "--empty", "--data-dir", env!("CARGO_TARGET_TMPDIR")]).args(args);
+    command
+        .current_dir(folder)
+        .args([
+            "run",
+            scene,
+            "--empty",
+            "--data-dir",
+            env!("CARGO_TARGET_TMPDIR"),
+        ])
+        .args(args);
     let output = run_within(&mut command, LIMIT).unwrap_or_else(|error| panic!("{scene}: {error}"));
     let complains = |line: &str| line.contains(":error]") && !line.contains(SELF_REMOVAL);
-    assert!(!output.contains("panicked") && !output.lines().any(complains), "{scene}: {output}");
+    assert!(
+        !output.contains("panicked") && !output.lines().any(complains),
+        "{scene}: {output}"
+    );
     assert!(output.contains("all is well"), "{scene}: {output}");
     output
 }
@@ -32,7 +44,13 @@ fn masses_inertias_forces_and_speeds_nobody_has() {
 #[test]
 fn a_body_without_a_next_state_stops_and_is_reported() {
     let output = run("frozen.lua", &["--steps", "10"]);
-    assert_eq!(output.matches("/victim: its motion has no finite values").count(), 1, "{output}");
+    assert_eq!(
+        output
+            .matches("/victim: its motion has no finite values")
+            .count(),
+        1,
+        "{output}"
+    );
     assert!(output.contains("falls again, true, true"), "{output}");
 }
 

@@ -18,13 +18,24 @@ end";
 fn graphs_become_tables_and_pictures() {
     let scene = Scene::new(GRAPH);
     let file = |name: &str| scene.folder.path().join(name).display().to_string();
-    let (table, picture) = (format!("/Graph={}", file("g.csv")), format!("Graph={}", file("g.svg")));
-    let output = scene.run(&["--steps", "4", "--quiet", "--graph", &table, "--graph", &picture]);
+    let (table, picture) = (
+        format!("/Graph={}", file("g.csv")),
+        format!("Graph={}", file("g.svg")),
+    );
+    let output = scene.run(&[
+        "--steps", "4", "--quiet", "--graph", &table, "--graph", &picture,
+    ]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = std::fs::read_to_string(file("g.csv")).expect("it was written");
-    assert!(text.starts_with("time [s],height [m]\n0,0\n0.05,0.1\n0.1,0.2\n"), "{text}");
+    assert!(
+        text.starts_with("time [s],height [m]\n0,0\n0.05,0.1\n0.1,0.2\n"),
+        "{text}"
+    );
     let text = std::fs::read_to_string(file("g.svg")).expect("it was written");
-    assert!(text.starts_with("<svg") && text.contains("height [m]") && text.contains("/Graph"), "{text}");
+    assert!(
+        text.starts_with("<svg") && text.contains("height [m]") && text.contains("/Graph"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -40,6 +51,10 @@ fn graphs_that_are_not_there_are_errors() {
     ] {
         let output = scene.run(&["--steps", "1", "--quiet", "--graph", graph]);
         assert_eq!(output.status.code(), Some(2), "{graph}");
-        assert!(stderr(&output).contains(reason), "{graph}: {}", stderr(&output));
+        assert!(
+            stderr(&output).contains(reason),
+            "{graph}: {}",
+            stderr(&output)
+        );
     }
 }

@@ -43,10 +43,17 @@ fn one_interrupt_ends_lua_code_wherever_it_is() {
             "sim = require 'sim' a, b = sim.createDummy(0.1), sim.createDummy(0.1) print('ready')\n{code}"
         ));
         let output = interrupt(&scene, &[], 1);
-        assert_eq!(output.status.code(), Some(130), "{code}: {}", stderr(&output));
+        assert_eq!(
+            output.status.code(),
+            Some(130),
+            "{code}: {}",
+            stderr(&output)
+        );
         let line = if code.contains('\n') { 3 } else { 2 };
         // A process that had to end itself shows what Lua calls the text.
-        let is_said = [".lua", "/Script\"]"].iter().any(|name| stderr(&output).contains(&format!("{name}:{line}")));
+        let is_said = [".lua", "/Script\"]"]
+            .iter()
+            .any(|name| stderr(&output).contains(&format!("{name}:{line}")));
         assert!(is_said, "{code}: {}", stderr(&output));
     }
 }
@@ -61,24 +68,40 @@ fn a_script_that_was_interrupted_cleans_up() {
     let output = interrupt(&scene, &["--as", "simulation", "--quiet"], 1);
     assert_eq!(output.status.code(), Some(130));
     assert_eq!(stdout(&output), "ready\ncleanup\n", "{}", stderr(&output));
-    assert!(stderr(&output).contains("interrupted at ") && stderr(&output).contains(".lua:2"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("interrupted at ") && stderr(&output).contains(".lua:2"),
+        "{}",
+        stderr(&output)
+    );
 }
 
 #[test]
 fn functions_that_cannot_be_interrupted_end_with_the_process() {
     let pattern = "(('a'):rep(40)):find(('a?'):rep(40) .. ('a'):rep(40))";
-    let output = interrupt(&Scene::new(&format!("print('ready')\nlocal x = 1\n{pattern}")), &["--empty"], 1);
+    let output = interrupt(
+        &Scene::new(&format!("print('ready')\nlocal x = 1\n{pattern}")),
+        &["--empty"],
+        1,
+    );
     assert_eq!(output.status.code(), Some(130));
     let log = stderr(&output);
-    assert!(log.contains("ended in the middle of a script, at ") && log.contains("/Script\"]:3"), "{log}");
+    assert!(
+        log.contains("ended in the middle of a script, at ") && log.contains("/Script\"]:3"),
+        "{log}"
+    );
 }
 
 #[test]
 fn a_blocked_open_is_interrupted() {
     let scene = Scene::new("");
-    let made = Command::new("mkfifo").arg(scene.path().with_file_name("fifo")).status();
+    let made = Command::new("mkfifo")
+        .arg(scene.path().with_file_name("fifo"))
+        .status();
     assert!(made.expect("mkfifo is there").success());
-    let code = format!("print('ready')\nio.open('{}')", scene.path().with_file_name("fifo").display());
+    let code = format!(
+        "print('ready')\nio.open('{}')",
+        scene.path().with_file_name("fifo").display()
+    );
     std::fs::write(scene.path(), code).expect("our own folder is writable");
     let output = interrupt(&scene, &["--empty"], 1);
     assert_eq!(output.status.code(), Some(130));
@@ -88,9 +111,15 @@ fn a_blocked_open_is_interrupted() {
 #[test]
 fn a_termination_has_its_own_exit_code() {
     let endless = Scene::new("print('ready') while true do end");
-    assert_eq!(signal(&endless, &["--empty"], "-TERM", 1).status.code(), Some(143));
+    assert_eq!(
+        signal(&endless, &["--empty"], "-TERM", 1).status.code(),
+        Some(143)
+    );
     let simulating = Scene::new("print('ready')");
-    assert_eq!(signal(&simulating, &["--empty"], "-TERM", 1).status.code(), Some(143));
+    assert_eq!(
+        signal(&simulating, &["--empty"], "-TERM", 1).status.code(),
+        Some(143)
+    );
 }
 
 #[test]
@@ -106,9 +135,17 @@ fn a_run_ends_quietly_when_nobody_reads_its_output() {
         let (child, out) = start(&scene, &["--empty"]);
         drop(out);
         let output = end_of(child);
-        assert_eq!(output.status.code(), Some(141), "{code}: {}", stderr(&output));
+        assert_eq!(
+            output.status.code(),
+            Some(141),
+            "{code}: {}",
+            stderr(&output)
+        );
         let log = stderr(&output);
-        assert!(!log.contains("interrupted") && !log.contains("traceback") && !log.contains("panic"), "{code}: {log}");
+        assert!(
+            !log.contains("interrupted") && !log.contains("traceback") && !log.contains("panic"),
+            "{code}: {log}"
+        );
     }
 }
 
@@ -118,21 +155,35 @@ fn tests_that_cannot_be_interrupted_do_not_hold_up_the_end() {
     let code = "it('hangs', function() os.remove('begun'); (('a'):rep(40)):find(('a?'):rep(40) .. ('a'):rep(40)) end)";
     let begun = scene.path().with_file_name("begun");
     std::fs::write(&begun, "").expect("our own folder is writable");
-    std::fs::write(scene.path().with_file_name("hang_test.lua"), code).expect("our own folder is writable");
+    std::fs::write(scene.path().with_file_name("hang_test.lua"), code)
+        .expect("our own folder is writable");
     let mut command = swanilda();
-    command.arg("test").current_dir(begun.parent().expect("the folder")).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+        .arg("test")
+        .current_dir(begun.parent().expect("the folder"))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
     let child = command.spawn().expect("the command starts");
     wait_until("the test has begun", || !begun.exists());
     send(&child, "-INT");
     let output = end_of(child);
     assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
-    assert!(stdout(&output).contains("interrupted"), "{}", stdout(&output));
+    assert!(
+        stdout(&output).contains("interrupted"),
+        "{}",
+        stdout(&output)
+    );
 }
 
 /// Starts a scene and waits until it has printed its first line.
 fn start(scene: &Scene, args: &[&str]) -> (Child, BufReader<ChildStdout>) {
     let mut command = swanilda();
-    command.arg("run").arg(scene.path()).args(args).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+        .arg("run")
+        .arg(scene.path())
+        .args(args)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
     let mut child = command.spawn().expect("the command starts");
     let mut out = BufReader::new(child.stdout.take().expect("piped"));
     let mut line = String::new();
@@ -163,11 +214,16 @@ fn signal(scene: &Scene, args: &[&str], signal: &str, times: u32) -> Output {
 
 /// Waits for the end, which must come; what is piped has room for what is said until then.
 fn end_of(mut child: Child) -> Output {
-    assert!(wait_within(&mut child, LIMIT).is_some(), "the process goes on");
+    assert!(
+        wait_within(&mut child, LIMIT).is_some(),
+        "the process goes on"
+    );
     child.wait_with_output().expect("the child is ours")
 }
 
 fn send(child: &Child, signal: &str) {
-    let killed = Command::new("kill").args([signal, &child.id().to_string()]).status();
+    let killed = Command::new("kill")
+        .args([signal, &child.id().to_string()])
+        .status();
     assert!(killed.expect("kill is there").success());
 }

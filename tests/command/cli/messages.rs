@@ -19,21 +19,46 @@ fn said_about(command: &str, name: &str, content: &[u8]) -> String {
 
 #[test]
 fn files_of_other_kinds_are_not_run_as_lua() {
-    let noise: Vec<u8> = (0..3000u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
+    let noise: Vec<u8> = (0..3000u32)
+        .map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8)
+        .collect();
     for (name, content, reason) in [
         ("r.ttt", &noise[..], "not a scene or model of CoppeliaSim"),
         ("r", &noise, "neither a script in Lua or Python nor a scene"),
         ("empty.ttt", b"", "the file is empty"),
         ("empty.urdf", b"", "no valid XML"),
-        ("robot.urdf", b"<?xml version='1.0'?><robot name='a'/>", "the robot has no links"),
-        ("robot.urdf.xacro", b"<?xml version='1.0'?><robot name='a'/>", "xacro FILE > robot.urdf"),
-        ("robot.sdf", b"<?xml version='1.0'?><sdf/>", "the robot has no links"),
-        ("other.world", b"<robot/>", "line 1: the file begins with <robot> instead of <sdf>"),
-        ("robot.xml", b"<mujoco><worldbody></mujoco>", "no valid XML: line 1"),
+        (
+            "robot.urdf",
+            b"<?xml version='1.0'?><robot name='a'/>",
+            "the robot has no links",
+        ),
+        (
+            "robot.urdf.xacro",
+            b"<?xml version='1.0'?><robot name='a'/>",
+            "xacro FILE > robot.urdf",
+        ),
+        (
+            "robot.sdf",
+            b"<?xml version='1.0'?><sdf/>",
+            "the robot has no links",
+        ),
+        (
+            "other.world",
+            b"<robot/>",
+            "line 1: the file begins with <robot> instead of <sdf>",
+        ),
+        (
+            "robot.xml",
+            b"<mujoco><worldbody></mujoco>",
+            "no valid XML: line 1",
+        ),
         ("robot.mjcf", b"<mujoco/>", "the robot has no links"),
     ] {
         let said = said_about("run", name, content);
-        assert!(said.contains(reason) && said.contains(name), "{name}: {said}");
+        assert!(
+            said.contains(reason) && said.contains(name),
+            "{name}: {said}"
+        );
     }
 }
 
@@ -44,15 +69,28 @@ fn run(args: &[&str]) -> Output {
 #[test]
 fn options_say_what_they_need() {
     for (args, needed) in [
-        (&["--time", "-1"][..], "a number of seconds is needed, zero or more"),
+        (
+            &["--time", "-1"][..],
+            "a number of seconds is needed, zero or more",
+        ),
         (&["--steps", "-1"], "a whole number is needed"),
-        (&["--verbosity", "loud"], "the levels are none, errors, warnings"),
+        (
+            &["--verbosity", "loud"],
+            "the levels are none, errors, warnings",
+        ),
         (&["--bind", "1.2.3"], "an IP address is needed"),
-        (&["--remote-api", "--bind", "192.0.2.1", "--unsafe"], "it is not an address of this machine"),
+        (
+            &["--remote-api", "--bind", "192.0.2.1", "--unsafe"],
+            "it is not an address of this machine",
+        ),
     ] {
         let output = run(args);
         assert_eq!(output.status.code(), Some(2), "{args:?}");
-        assert!(stderr(&output).contains(needed), "{args:?}: {}", stderr(&output));
+        assert!(
+            stderr(&output).contains(needed),
+            "{args:?}: {}",
+            stderr(&output)
+        );
     }
 }
 
@@ -65,7 +103,11 @@ fn a_folder_without_tests_says_how_to_begin() {
         stdout(&output)
     };
     assert!(test(&[]).contains("--init"));
-    fs::write(folder.path().join("a_test.lua"), "it('passes', function() end)").expect("our own folder is writable");
+    fs::write(
+        folder.path().join("a_test.lua"),
+        "it('passes', function() end)",
+    )
+    .expect("our own folder is writable");
     let filtered = test(&["--filter", "nothing is named so"]);
     assert!(filtered.contains("leave out all 1"), "{filtered}");
 }
@@ -84,48 +126,96 @@ fn a_run_without_an_end_says_so_once() {
     let scene = Scene::new("");
     let log = scene.path().with_file_name("log");
     let mut child = swanilda();
-    let child = child.arg("run").arg(scene.path()).args(["--realtime", "--empty"]).stdout(Stdio::null());
-    let mut child = child.stderr(fs::File::create(&log).expect("our own folder")).spawn().expect("the command starts");
-    let said = || fs::read_to_string(&log).expect("our own file").matches("This run has no end so far").count();
+    let child = child
+        .arg("run")
+        .arg(scene.path())
+        .args(["--realtime", "--empty"])
+        .stdout(Stdio::null());
+    let mut child = child
+        .stderr(fs::File::create(&log).expect("our own folder"))
+        .spawn()
+        .expect("the command starts");
+    let said = || {
+        fs::read_to_string(&log)
+            .expect("our own file")
+            .matches("This run has no end so far")
+            .count()
+    };
     wait_until("it is said", || said() > 0);
     let signal = ["-INT", &child.id().to_string()].map(str::to_owned);
-    Command::new("kill").args(signal).status().expect("kill exists");
-    assert!(wait_within(&mut child, LIMIT).is_some(), "the process goes on");
+    Command::new("kill")
+        .args(signal)
+        .status()
+        .expect("kill exists");
+    assert!(
+        wait_within(&mut child, LIMIT).is_some(),
+        "the process goes on"
+    );
     assert_eq!(said(), 1);
 }
 
 #[test]
 fn a_missing_plugin_is_named_in_one_line() {
-    let said = "simCHAI3D is a plugin of CoppeliaSim that Swanilda does not have yet (docs/PLUGINS.md)";
-    for code in
-        ["print(select(2, pcall(require, 'simCHAI3D')))", "print(select(2, pcall(function() simCHAI3D.start() end)))"]
-    {
+    let said =
+        "simCHAI3D is a plugin of CoppeliaSim that Swanilda does not have yet (docs/PLUGINS.md)";
+    for code in [
+        "print(select(2, pcall(require, 'simCHAI3D')))",
+        "print(select(2, pcall(function() simCHAI3D.start() end)))",
+    ] {
         let output = Scene::new(code).run(&["--steps", "1", "--empty", "--quiet"]);
-        assert_eq!(stdout(&output), format!("{said}\n"), "{code}: {}", stderr(&output));
+        assert_eq!(
+            stdout(&output),
+            format!("{said}\n"),
+            "{code}: {}",
+            stderr(&output)
+        );
     }
-    let library = Scene::new("print(select(2, pcall(require, 'gcode')))").run(&["--steps", "1", "--empty", "--quiet"]);
-    assert!(stdout(&library).starts_with("gcode is a Lua module of CoppeliaSim"), "{}", stdout(&library));
+    let library = Scene::new("print(select(2, pcall(require, 'gcode')))")
+        .run(&["--steps", "1", "--empty", "--quiet"]);
+    assert!(
+        stdout(&library).starts_with("gcode is a Lua module of CoppeliaSim"),
+        "{}",
+        stdout(&library)
+    );
     let unknown = Scene::new("require 'nobody.has.this'").run(&["--steps", "1", "--empty"]);
-    assert!(stderr(&unknown).contains("no file"), "other names list the places: {}", stderr(&unknown));
+    assert!(
+        stderr(&unknown).contains("no file"),
+        "other names list the places: {}",
+        stderr(&unknown)
+    );
 }
 
 #[test]
 fn original_errors_list_the_places_where_a_plugin_was_searched() {
-    let scene =
-        Scene::new("local _, text = pcall(require, 'simCHAI3D') print((text:gsub('\\n.*', '')))\nrequire 'simCHAI3D'");
+    let scene = Scene::new(
+        "local _, text = pcall(require, 'simCHAI3D') print((text:gsub('\\n.*', '')))\nrequire 'simCHAI3D'",
+    );
     let output = scene.run(&["--steps", "1", "--empty", "--quiet", "--original-errors"]);
     assert_eq!(stdout(&output), "module 'simCHAI3D' not found:\n");
     let log = stderr(&output);
-    assert!(log.contains("[/Script:error]   module 'simCHAI3D' not found:\n"), "{log}");
-    assert!(log.contains("no field package.preload['simCHAI3D']\n"), "{log}");
+    assert!(
+        log.contains("[/Script:error]   module 'simCHAI3D' not found:\n"),
+        "{log}"
+    );
+    assert!(
+        log.contains("no field package.preload['simCHAI3D']\n"),
+        "{log}"
+    );
     assert!(!log.contains("PLUGINS.md"), "{log}");
 }
 
 #[test]
 fn a_scene_s_own_module_goes_before_a_missing_plugin() {
     let scene = Scene::new("print(require('simCHAI3D').mine)");
-    fs::write(scene.folder.path().join("simCHAI3D.lua"), "return {mine = 7}").expect("our own folder is writable");
-    assert_eq!(stdout(&scene.run(&["--steps", "1", "--empty", "--quiet"])), "7\n");
+    fs::write(
+        scene.folder.path().join("simCHAI3D.lua"),
+        "return {mine = 7}",
+    )
+    .expect("our own folder is writable");
+    assert_eq!(
+        stdout(&scene.run(&["--steps", "1", "--empty", "--quiet"])),
+        "7\n"
+    );
 }
 
 /// Standard error of a run of this code, and the path of its file.
@@ -142,16 +232,32 @@ fn errors_name_file_line_and_object() {
         "sim = require 'sim'\nfor i = 1, 6 do sim.setObjectAlias(sim.createDummy(0.1), 'joint' .. i) end\n\
          print(select(2, pcall(sim.getObject, '/joint9')))\nsim.getObject('/joint7')",
     );
-    let error = format!("{path}:4: in sim._getObject: object does not exist, or alias/path is ill formatted.\n");
+    let error = format!(
+        "{path}:4: in sim._getObject: object does not exist, or alias/path is ill formatted.\n"
+    );
     assert!(log.contains(&error), "{log}");
-    assert!(log.contains("\nno object '/joint7'; did you mean '/joint6'?\nstack traceback:\n"), "{log}");
+    assert!(
+        log.contains("\nno object '/joint7'; did you mean '/joint6'?\nstack traceback:\n"),
+        "{log}"
+    );
     assert!(!log.contains("sim/script"), "no line of the library: {log}");
     let (log, path) = log_of("function sysCall_init()\n    self.x = 1\nend");
-    assert!(log.contains(&format!("[/Script:error]   {path}:2: attempt to index a nil value")), "{log}");
+    assert!(
+        log.contains(&format!(
+            "[/Script:error]   {path}:2: attempt to index a nil value"
+        )),
+        "{log}"
+    );
     let (log, path) = log_of("x = 1\ny = = 2");
-    assert!(log.contains(&format!("{path}:2: unexpected symbol")), "{log}");
+    assert!(
+        log.contains(&format!("{path}:2: unexpected symbol")),
+        "{log}"
+    );
     let (log, path) = log_of("sim = require 'sim'\nrequire 'simCHAI3D'");
-    assert!(log.contains(&format!("{path}:2: simCHAI3D is a plugin")) && !log.contains("\"base\""), "{log}");
+    assert!(
+        log.contains(&format!("{path}:2: simCHAI3D is a plugin")) && !log.contains("\"base\""),
+        "{log}"
+    );
 }
 
 #[test]
@@ -159,6 +265,14 @@ fn scripts_catch_the_original_text() {
     let code = "sim = require 'sim'\nprint(select(2, pcall(sim.getObject, '/a')))\nprint(select(2, pcall(error, 'x')))\n\
                 print(select(2, pcall(function() local y = z.w end)))";
     let output = Scene::new(code).run(&["--steps", "1", "--empty", "--quiet"]);
-    assert!(stdout(&output).contains("in sim._getObject: object does not exist"), "{}", stdout(&output));
-    assert!(stdout(&output).contains("[string \"/Script\"]:4: attempt to index"), "{}", stdout(&output));
+    assert!(
+        stdout(&output).contains("in sim._getObject: object does not exist"),
+        "{}",
+        stdout(&output)
+    );
+    assert!(
+        stdout(&output).contains("[string \"/Script\"]:4: attempt to index"),
+        "{}",
+        stdout(&output)
+    );
 }

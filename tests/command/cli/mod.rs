@@ -1,5 +1,8 @@
 //! The command line as its users meet it: exit codes, streams, formats.
-#![allow(clippy::disallowed_methods, reason = "every wait of a test is bounded by the clock")]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "every wait of a test is bounded by the clock"
+)]
 
 mod commands;
 mod graphs;
@@ -75,18 +78,37 @@ fn steps_end_the_run_as_a_stop_from_outside() {
     assert_eq!(output.status.code(), Some(0));
     // A stop asked for between two passes lets three more run.
     assert_eq!(stdout(&output), "0.\n0.05\n0.1\n0.15\n0.2\ncleanup\n");
-    assert!(stderr(&output).contains("5 steps, 0.250 s simulated"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("5 steps, 0.250 s simulated"),
+        "{}",
+        stderr(&output)
+    );
 }
 
 #[test]
 fn time_and_step_length() {
-    let output = Scene::new(PRINTS_TIME).run(&["--time", "0.04", "--dt", "0.02", "--as", "simulation", "--empty"]);
-    assert_eq!(stdout(&output).lines().count(), 2 + 3 + 1, "{}", stdout(&output));
+    let output = Scene::new(PRINTS_TIME).run(&[
+        "--time",
+        "0.04",
+        "--dt",
+        "0.02",
+        "--as",
+        "simulation",
+        "--empty",
+    ]);
+    assert_eq!(
+        stdout(&output).lines().count(),
+        2 + 3 + 1,
+        "{}",
+        stdout(&output)
+    );
 }
 
 #[test]
 fn quiet_leaves_only_what_scripts_say() {
-    let scene = Scene::new("sim = require 'sim' addLog(sim.verbosity_scriptwarnings, 'mine') print('hello')");
+    let scene = Scene::new(
+        "sim = require 'sim' addLog(sim.verbosity_scriptwarnings, 'mine') print('hello')",
+    );
     let output = scene.run(&["--steps", "1", "--quiet", "--empty"]);
     assert_eq!(stdout(&output), "hello\n");
     assert_eq!(stderr(&output).lines().count(), 1, "{}", stderr(&output));
@@ -96,7 +118,14 @@ fn quiet_leaves_only_what_scripts_say() {
 #[test]
 fn verbosity_hides_log_lines() {
     let scene = Scene::new("sim = require 'sim' addLog(sim.verbosity_scriptwarnings, 'mine')");
-    let output = scene.run(&["--steps", "1", "--verbosity", "errors", "--quiet", "--empty"]);
+    let output = scene.run(&[
+        "--steps",
+        "1",
+        "--verbosity",
+        "errors",
+        "--quiet",
+        "--empty",
+    ]);
     assert_eq!(stderr(&output), "");
 }
 
@@ -104,15 +133,27 @@ fn verbosity_hides_log_lines() {
 fn an_error_names_script_and_line() {
     let output = Scene::new("\n\nerror('broken')").run(&["--steps", "1", "--empty"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stderr(&output).contains("[/Script:error]"), "{}", stderr(&output));
-    assert!(stderr(&output).contains("scene.lua:3: broken"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("[/Script:error]"),
+        "{}",
+        stderr(&output)
+    );
+    assert!(
+        stderr(&output).contains("scene.lua:3: broken"),
+        "{}",
+        stderr(&output)
+    );
 }
 
 #[test]
 fn a_syntax_error_names_script_and_line() {
     let output = Scene::new("x = 1\ny = = 2").run(&["--steps", "1", "--empty"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stderr(&output).contains("scene.lua:2:"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("scene.lua:2:"),
+        "{}",
+        stderr(&output)
+    );
 }
 
 #[test]
@@ -123,16 +164,29 @@ fn a_caught_error_is_none() {
 
 #[test]
 fn a_pause_nobody_ends_is_ended() {
-    let scene = Scene::new("sim = require 'sim' function sysCall_actuation() sim.pauseSimulation() end");
+    let scene =
+        Scene::new("sim = require 'sim' function sysCall_actuation() sim.pauseSimulation() end");
     let output = scene.run(&["--empty"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(stderr(&output).matches("nobody resumes it").count(), 1, "{}", stderr(&output));
+    assert_eq!(
+        stderr(&output).matches("nobody resumes it").count(),
+        1,
+        "{}",
+        stderr(&output)
+    );
     let scene = Scene::new("function sysCall_actuation() error('x') end");
     let output = scene.run(&["--empty"]);
     assert_eq!(output.status.code(), Some(1));
     let log = stderr(&output);
-    assert_eq!(log.matches("Simulation ").count(), 2, "the start and, after the error, one line: {log}");
-    assert!(log.contains("Simulation stopped because of the error."), "{log}");
+    assert_eq!(
+        log.matches("Simulation ").count(),
+        2,
+        "the start and, after the error, one line: {log}"
+    );
+    assert!(
+        log.contains("Simulation stopped because of the error."),
+        "{log}"
+    );
 }
 
 #[test]
@@ -146,7 +200,11 @@ fn scripts_read_parameters_of_the_command_line() {
 #[test]
 fn modules_are_found_next_to_the_scene() {
     let scene = Scene::new("print(require('neighbour').answer)");
-    fs::write(scene.folder.path().join("neighbour.lua"), "return {answer = 42}").expect("our own folder is writable");
+    fs::write(
+        scene.folder.path().join("neighbour.lua"),
+        "return {answer = 42}",
+    )
+    .expect("our own folder is writable");
     let output = scene.run(&["--steps", "1", "--empty", "--quiet"]);
     assert_eq!(stdout(&output), "42\n", "{}", stderr(&output));
 }
@@ -158,8 +216,11 @@ fn a_scene_has_its_own_files_where_the_library_has_some_for_itself() {
         print(sim.moveToConfig_init{pos = {0}, targetPos = {1}}.timeLeft)",
     );
     for name in ["trajectory", "main"] {
-        fs::write(scene.folder.path().join(format!("{name}.lua")), "return 'mine'")
-            .expect("our own folder is writable");
+        fs::write(
+            scene.folder.path().join(format!("{name}.lua")),
+            "return 'mine'",
+        )
+        .expect("our own folder is writable");
     }
     let output = scene.run(&["--no-start", "--loops", "1", "--empty"]);
     assert_eq!(stdout(&output), "mine, mine\n0\n");
@@ -169,7 +230,8 @@ fn a_scene_has_its_own_files_where_the_library_has_some_for_itself() {
 fn add_ons_start_before_the_scene() {
     let scene = Scene::new("print('scene')");
     let add_on = scene.folder.path().join("extra.lua");
-    fs::write(&add_on, "function sysCall_init() print('add-on') end").expect("our own folder is writable");
+    fs::write(&add_on, "function sysCall_init() print('add-on') end")
+        .expect("our own folder is writable");
     let add_on = add_on.to_string_lossy();
     let output = scene.run(&["--addon", &add_on, "--steps", "1", "--empty", "--quiet"]);
     assert_eq!(stdout(&output), "add-on\nscene\n", "{}", stderr(&output));
@@ -187,9 +249,22 @@ fn json_is_one_object_per_line() {
     let scene = Scene::new("print('\"quoted\"\\n\\255') error('broken')");
     let output = scene.run(&["--json", "--steps", "1", "--empty"]);
     let text = stdout(&output);
-    let objects: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect(line)).collect();
-    let of_type = |ty: &str| objects.iter().find(|object| object["type"] == ty).expect(ty);
-    assert!(of_type("print")["text"].as_str().expect("a text").starts_with("\"quoted\"\n"));
+    let objects: Vec<Value> = text
+        .lines()
+        .map(|line| serde_json::from_str(line).expect(line))
+        .collect();
+    let of_type = |ty: &str| {
+        objects
+            .iter()
+            .find(|object| object["type"] == ty)
+            .expect(ty)
+    };
+    assert!(
+        of_type("print")["text"]
+            .as_str()
+            .expect("a text")
+            .starts_with("\"quoted\"\n")
+    );
     assert_eq!(of_type("log")["origin"], "/Script");
     assert_eq!(of_type("log")["level"], "error");
     let summary = objects.last().expect("at least a summary");
@@ -226,10 +301,17 @@ fn a_port_in_use_is_refused() {
     let taken = std::net::TcpListener::bind(("127.0.0.1", 0)).expect("a port is free");
     let port = taken.local_addr().expect("it has an address").port();
     let legacy = format!("--legacy-remote-api={port}");
-    for option in [format!("--remote-api={port}"), legacy, "-DzmqRemoteApi.rpcPort=nonsense".to_owned()] {
+    for option in [
+        format!("--remote-api={port}"),
+        legacy,
+        "-DzmqRemoteApi.rpcPort=nonsense".to_owned(),
+    ] {
         let refused = output_of(swanilda().args(["serve", &option]));
         assert_eq!(refused.status.code(), Some(2), "{option}");
-        assert!(stderr(&refused).contains("port") || stderr(&refused).contains(&port.to_string()), "{option}");
+        assert!(
+            stderr(&refused).contains("port") || stderr(&refused).contains(&port.to_string()),
+            "{option}"
+        );
     }
 }
 
@@ -251,7 +333,10 @@ end
 print(sim.getBoolParam(sim.boolparam_execunsafe), sim.getBoolProperty(sim.handle_app, 'execUnsafeExt'))
 sim.quitSimulator()";
     let refused = Scene::new(tells).run(&["--no-unsafe", "--no-start", "--empty"]);
-    assert_eq!(stdout(&refused), "false, true\nfalse, true\nfalse, true\nfalse, false\n");
+    assert_eq!(
+        stdout(&refused),
+        "false, true\nfalse, true\nfalse, true\nfalse, false\n"
+    );
     let allowed = Scene::new("print(os.execute('true'))").run(&["--no-start", "--empty"]);
     assert_eq!(stdout(&allowed), "true, exit, 0\n");
 }
@@ -271,9 +356,19 @@ fn listening_at_other_addresses_switches_programs_off() {
             "{args:?}"
         );
     }
-    for restricted in ["--no-unsafe", "--deny-all", "--allow-read", "--allow-write=x", "--allow-run", "--allow-net=x:1"]
-    {
-        assert_eq!(scene.run(&["--unsafe", restricted]).status.code(), Some(2), "{restricted}");
+    for restricted in [
+        "--no-unsafe",
+        "--deny-all",
+        "--allow-read",
+        "--allow-write=x",
+        "--allow-run",
+        "--allow-net=x:1",
+    ] {
+        assert_eq!(
+            scene.run(&["--unsafe", restricted]).status.code(),
+            Some(2),
+            "{restricted}"
+        );
     }
 }
 
@@ -291,11 +386,17 @@ print(open(own), open(outside), open(own .. '.new', 'w'), (pcall(os.execute, 'ex
         (&[][..], "true, true, true, true"),
         (&["--no-unsafe"], "true, false, false, false"),
         (&["--bind", "0.0.0.0"], "true, false, false, false"),
-        (&["--bind", "0.0.0.0", "--allow-run"], "true, false, false, true"),
+        (
+            &["--bind", "0.0.0.0", "--allow-run"],
+            "true, false, false, true",
+        ),
         (&["--deny-all"], "false, false, false, false"),
         (&["--deny-all", "--allow-run"], "false, false, false, true"),
         (&["--allow-read"], "true, true, false, false"),
-        (&["--allow-read=/etc", "--allow-read=C:/Windows"], "true, true, false, false"),
+        (
+            &["--allow-read=/etc", "--allow-read=C:/Windows"],
+            "true, true, false, false",
+        ),
         (&["--allow-write"], "true, false, true, false"),
         (&["--allow-net=127.0.0.1:80"], "true, false, false, false"),
         (&["--unsafe"], "true, true, true, true"),
@@ -303,9 +404,14 @@ print(open(own), open(outside), open(own .. '.new', 'w'), (pcall(os.execute, 'ex
         let output = scene.run(&[&["--no-start", "--empty", "--loops", "1"], args].concat());
         assert_eq!(stdout(&output).lines().next(), Some(expected), "{args:?}");
     }
-    for wrong in
-        ["--allow-net=host:port", "--allow-net=:1", "--allow-net=", "--allow-read=", "--allow-write=", "--allow-run=ls"]
-    {
+    for wrong in [
+        "--allow-net=host:port",
+        "--allow-net=:1",
+        "--allow-net=",
+        "--allow-read=",
+        "--allow-write=",
+        "--allow-run=ls",
+    ] {
         assert_eq!(scene.run(&[wrong]).status.code(), Some(2), "{wrong}");
     }
 }
@@ -321,7 +427,11 @@ fn compat_brings_old_code_up_to_date() {
     let output = Scene::new(old).run(&[&args[..], &["--compat"]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(stdout(&output).lines().count() >= 2, "{}", stdout(&output));
-    assert_eq!(stdout(&Scene::new(old).run(&args)), "", "nobody calls sysCall_threadmain today");
+    assert_eq!(
+        stdout(&Scene::new(old).run(&args)),
+        "",
+        "nobody calls sysCall_threadmain today"
+    );
 }
 
 #[test]
@@ -332,5 +442,9 @@ fn texts_that_ask_for_the_call_are_called_by_number() {
     let output = Scene::new(old).run(&["--steps", "2", "--as", "simulation", "--empty"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(stdout(&output), "5\n");
-    assert!(stderr(&output).contains("compatibility mode"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("compatibility mode"),
+        "{}",
+        stderr(&output)
+    );
 }

@@ -42,7 +42,9 @@ fn installation() -> TempDir {
     for place in ["models/robots", "lua/deprecated", "lua/folder"] {
         fs::create_dir_all(root.join(place)).expect("our own folder is writable");
     }
-    let write = |file: &str, text: &str| fs::write(root.join(file), text).expect("our own folder is writable");
+    let write = |file: &str, text: &str| {
+        fs::write(root.join(file), text).expect("our own folder is writable")
+    };
     write("lua/mylib.lua", "return 'from lua'");
     write("lua/deprecated/oldlib.lua", "return 'from deprecated'");
     write("lua/folder/init.lua", "return 'a folder'");
@@ -61,7 +63,18 @@ fn save_model(file: &Path) {
 fn run(installation: &TempDir, args: &[&str]) -> Output {
     let root = installation.path().join("CoppeliaSim");
     let resources = format!("--resources={}", root.display());
-    let all = [&["--no-start", "--loops", "1", "--empty", "--quiet", resources.as_str()], args].concat();
+    let all = [
+        &[
+            "--no-start",
+            "--loops",
+            "1",
+            "--empty",
+            "--quiet",
+            resources.as_str(),
+        ],
+        args,
+    ]
+    .concat();
     Scene::new(USES_IT).run(&all)
 }
 
@@ -72,7 +85,12 @@ fn models_and_modules_are_found() {
     let installation = installation();
     let output = run(&installation, &[]);
     let expected = format!("{FOUND}true, /models, /lua\n");
-    assert_eq!(stdout(&output).replace('\\', "/"), expected, "{}", stderr(&output));
+    assert_eq!(
+        stdout(&output).replace('\\', "/"),
+        expected,
+        "{}",
+        stderr(&output)
+    );
 }
 
 #[test]
@@ -83,14 +101,19 @@ fn they_are_readable_with_no_unsafe_and_nothing_beside_them() {
         output.starts_with("true, /Arm\nfalse, -1: in sim.loadModel: reading 'models/../../secret.ttm' is not allowed"),
         "{output}"
     );
-    assert!(output.contains("mylib, from lua\noldlib, from deprecated\n"), "{output}");
+    assert!(
+        output.contains("mylib, from lua\noldlib, from deprecated\n"),
+        "{output}"
+    );
 }
 
 #[test]
 fn they_are_not_with_deny_all() {
     let output = stdout(&run(&installation(), &["--deny-all"]));
     assert!(
-        output.starts_with("false, -1: in sim.loadModel: reading 'models/robots/arm.ttm' is not allowed"),
+        output.starts_with(
+            "false, -1: in sim.loadModel: reading 'models/robots/arm.ttm' is not allowed"
+        ),
         "{output}"
     );
     assert!(output.contains("mylib, none\n"), "{output}");
@@ -102,7 +125,10 @@ fn without_them_a_model_is_missing() {
         "sim = require 'sim' print(pcall(sim.loadModel, 'models/robots/arm.ttm')) print(sim.getStringParam(141) == '')",
     )
     .run(&["--no-start", "--loops", "1", "--quiet"]);
-    assert_eq!(stdout(&output), "false, -1: in sim.loadModel: file does not exist.\ntrue\n");
+    assert_eq!(
+        stdout(&output),
+        "false, -1: in sim.loadModel: file does not exist.\ntrue\n"
+    );
 }
 
 #[test]
@@ -110,10 +136,20 @@ fn the_environment_names_them_and_a_missing_folder_is_an_error() {
     let installation = installation();
     let scene = Scene::new("sim = require 'sim' print(require 'mylib')");
     let mut command = swanilda();
-    command.arg("run").arg(scene.path()).args(["--no-start", "--loops", "1", "--quiet"]);
-    let found = output_of(command.env("SWANILDA_RESOURCES", installation.path().join("CoppeliaSim")));
+    command
+        .arg("run")
+        .arg(scene.path())
+        .args(["--no-start", "--loops", "1", "--quiet"]);
+    let found = output_of(command.env(
+        "SWANILDA_RESOURCES",
+        installation.path().join("CoppeliaSim"),
+    ));
     assert_eq!(stdout(&found), "from lua\n");
     let missing = output_of(command.env("SWANILDA_RESOURCES", installation.path().join("nothing")));
     assert_eq!(missing.status.code(), Some(2));
-    assert!(stderr(&missing).contains("there is no such folder"), "{}", stderr(&missing));
+    assert!(
+        stderr(&missing).contains("there is no such folder"),
+        "{}",
+        stderr(&missing)
+    );
 }

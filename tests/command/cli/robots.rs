@@ -64,7 +64,18 @@ fn a_robot_in_mjcf_is_run_and_converted() {
     let said = said_by(folder, &["run", "crane.xml", "--steps", "2"]);
     assert!(said.contains("line 20, <odd>: <odd> is not read"), "{said}");
     said_by(folder, &["convert", "crane.xml", "crane.ttm"]);
-    let said = said_by(folder, &["run", "look.lua", "--time", "2", "-q", "-D", "model=crane.ttm"]);
+    let said = said_by(
+        folder,
+        &[
+            "run",
+            "look.lua",
+            "--time",
+            "2",
+            "-q",
+            "-D",
+            "model=crane.ttm",
+        ],
+    );
     let expected = [
         "/post_respondable, 80.000, 1",
         "/boom_respondable, 4.000, 0",
@@ -76,5 +87,8 @@ fn a_robot_in_mjcf_is_run_and_converted() {
     assert!(found, "{said}");
     said_by(folder, &["convert", "crane.ttm", "crane.urdf"]);
     let text = fs::read_to_string(folder.join("crane.urdf")).expect("it was written");
-    assert!(text.contains("<joint name=\"lift\" type=\"revolute\">"), "{text}");
+    assert!(
+        text.contains("<joint name=\"lift\" type=\"revolute\">"),
+        "{text}"
+    );
 }

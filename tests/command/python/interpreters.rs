@@ -12,7 +12,10 @@ use test_support::process::run_bounded;
 
 /// Whether that Python is there and runs this code.
 fn works(python: &str, code: &str) -> bool {
-    Command::new(python).args(["-c", code]).output().is_ok_and(|output| output.status.success())
+    Command::new(python)
+        .args(["-c", code])
+        .output()
+        .is_ok_and(|output| output.status.success())
 }
 
 fn has_python() -> bool {
@@ -37,7 +40,11 @@ fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
 /// What `swanilda run` of a file in the folder prints, without the folder's name.
 fn run(folder: &Path, file: &str, options: &[&str]) -> String {
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.arg("run").arg(folder.join(file)).args(["--quiet", "--steps", "2"]).args(options);
+    command
+        .arg("run")
+        .arg(folder.join(file))
+        .args(["--quiet", "--steps", "2"])
+        .args(options);
     let output = run_bounded(&mut command).expect("it ends");
     output.replace(&format!("{}/", folder.display()), "")
 }
@@ -52,22 +59,37 @@ fn included_files_are_a_part_of_the_script() {
     let files = folder(&[("scene.py", scene), ("robot.py", robot)]);
     let output = run(files.path(), "scene.py", &[]);
     assert!(
-        output.contains("begins, 1.5") && output.contains("File \"scene.py\", line 9, in sysCall_sensing"),
+        output.contains("begins, 1.5")
+            && output.contains("File \"scene.py\", line 9, in sysCall_sensing"),
         "{output}"
     );
 
-    let failing = folder(&[("scene.py", scene), ("robot.py", &robot.replace("speed()", "no_speed()"))]);
+    let failing = folder(&[
+        ("scene.py", scene),
+        ("robot.py", &robot.replace("speed()", "no_speed()")),
+    ]);
     let output = run(failing.path(), "scene.py", &[]);
-    assert!(output.contains("File \"robot.py\", line 4, in sysCall_init"), "{output}");
+    assert!(
+        output.contains("File \"robot.py\", line 4, in sysCall_init"),
+        "{output}"
+    );
 
-    let elsewhere = "#luaExec additionalIncludePaths = {PLACE}\ninclude robot\ndef speed(): return 2\n";
+    let elsewhere =
+        "#luaExec additionalIncludePaths = {PLACE}\ninclude robot\ndef speed(): return 2\n";
     let files = folder(&[("more/robot.py", robot)]);
     let place = format!("'{}/more'", files.path().display());
-    fs::write(files.path().join("scene.py"), elsewhere.replace("PLACE", &place)).expect("it can be written");
+    fs::write(
+        files.path().join("scene.py"),
+        elsewhere.replace("PLACE", &place),
+    )
+    .expect("it can be written");
     assert!(run(files.path(), "scene.py", &[]).contains("begins, 2"));
 
     let output = run(folder(&[("scene.py", scene)]).path(), "scene.py", &[]);
-    assert!(output.contains("the included file 'robot.py' was not found."), "{output}");
+    assert!(
+        output.contains("the included file 'robot.py' was not found."),
+        "{output}"
+    );
 }
 
 #[test]
@@ -75,7 +97,8 @@ fn imports_are_found_beside_the_scene_and_in_additional_paths() {
     if !has_python() {
         return;
     }
-    let scene = "#luaExec additionalPaths = {PLACE}\nimport beside, further\nfrom package import inner\n
+    let scene =
+        "#luaExec additionalPaths = {PLACE}\nimport beside, further\nfrom package import inner\n
 def sysCall_init():
     s = require('sim')
     assert s is sim and require('sim-1') is not None and require('simIK').createEnvironment() >= 0
@@ -93,15 +116,26 @@ def sysCall_init():
         ("package/inner.py", inner),
     ]);
     let place = format!("'{}/more'", files.path().display());
-    fs::write(files.path().join("scene.py"), scene.replace("PLACE", &place)).expect("it can be written");
+    fs::write(
+        files.path().join("scene.py"),
+        scene.replace("PLACE", &place),
+    )
+    .expect("it can be written");
     let output = run(files.path(), "scene.py", &[]);
-    assert!(output.contains("beside, further, 0.0") && output.contains("refused, True"), "{output}");
+    assert!(
+        output.contains("beside, further, 0.0") && output.contains("refused, True"),
+        "{output}"
+    );
 }
 
 /// A Python that says who it is.
 fn named_python(folder: &Path, name: &str) -> String {
     let path = folder.join(name);
-    fs::write(&path, format!("#!/bin/sh\nINTERPRETER={name} exec python3 \"$@\"\n")).expect("it can be written");
+    fs::write(
+        &path,
+        format!("#!/bin/sh\nINTERPRETER={name} exec python3 \"$@\"\n"),
+    )
+    .expect("it can be written");
     fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).expect("it is ours");
     path.to_str().expect("its path is text").to_owned()
 }
@@ -115,8 +149,11 @@ fn the_interpreter_is_chosen_by_the_script_then_the_parameter_then_an_environmen
     let [own, named] = ["own", "named"].map(|name| named_python(files.path(), name));
     let text = "import os, sys\ndef sysCall_init(): print('by', os.environ.get('INTERPRETER'), sys.flags.utf8_mode, sys.prefix)\n";
     fs::write(files.path().join("plain.py"), text).expect("it can be written");
-    fs::write(files.path().join("chosen.py"), format!("#luaExec pythonExecutable='{own} -X utf8'\n{text}"))
-        .expect("it can be written");
+    fs::write(
+        files.path().join("chosen.py"),
+        format!("#luaExec pythonExecutable='{own} -X utf8'\n{text}"),
+    )
+    .expect("it can be written");
     let parameter = format!("python={named}");
     assert!(run(files.path(), "plain.py", &[]).contains("by, None, "));
     assert!(run(files.path(), "plain.py", &["-D", &parameter]).contains("by, named, "));
@@ -126,10 +163,14 @@ fn the_interpreter_is_chosen_by_the_script_then_the_parameter_then_an_environmen
         return;
     }
     let environment = files.path().join(".venv");
-    let made = Command::new("python3").args(["-m", "venv", "--without-pip"]).arg(&environment).status();
+    let made = Command::new("python3")
+        .args(["-m", "venv", "--without-pip"])
+        .arg(&environment)
+        .status();
     assert!(made.expect("it starts").success());
     assert!(
-        run(files.path(), "plain.py", &[]).contains("/.venv") || run(files.path(), "plain.py", &[]).contains(", .venv")
+        run(files.path(), "plain.py", &[]).contains("/.venv")
+            || run(files.path(), "plain.py", &[]).contains(", .venv")
     );
     assert!(run(files.path(), "plain.py", &["-D", &parameter]).contains("by, named, "));
     assert!(run(files.path(), "chosen.py", &[]).contains("by, own, 1, "));
@@ -139,12 +180,18 @@ fn the_interpreter_is_chosen_by_the_script_then_the_parameter_then_an_environmen
 fn pythons() -> Vec<(String, String)> {
     let home = std::env::var("HOME").unwrap_or_default();
     let on_path = (9..20).map(|minor| format!("python3.{minor}"));
-    let of_pyenv = fs::read_dir(Path::new(&home).join(".pyenv/versions")).into_iter().flatten().flatten();
+    let of_pyenv = fs::read_dir(Path::new(&home).join(".pyenv/versions"))
+        .into_iter()
+        .flatten()
+        .flatten();
     let of_pyenv = of_pyenv.map(|version| version.path().join("bin/python3").display().to_string());
     let mut found: Vec<(String, String)> = Vec::new();
     for python in on_path.chain(of_pyenv) {
-        let code = "import sys; assert sys.version_info >= (3, 9); print('%d.%d' % sys.version_info[:2])";
-        let Ok(output) = Command::new(&python).args(["-c", code]).output() else { continue };
+        let code =
+            "import sys; assert sys.version_info >= (3, 9); print('%d.%d' % sys.version_info[:2])";
+        let Ok(output) = Command::new(&python).args(["-c", code]).output() else {
+            continue;
+        };
         let version = String::from_utf8_lossy(&output.stdout).trim().to_owned();
         if output.status.success() && found.iter().all(|(known, _)| *known != version) {
             found.push((version, python));
@@ -168,8 +215,11 @@ fn every_python_at_hand_prints_the_same() {
                 .arg("run")
                 .arg(cases.join(format!("{case}.py")))
                 .args(["--quiet", "--steps", "12", "-D", &parameter]);
-            let output = run_bounded(&mut command).expect("it ends").replace(&format!("{}/", cases.display()), "");
-            let expected = fs::read_to_string(cases.join(format!("{case}.expected"))).expect("it is there");
+            let output = run_bounded(&mut command)
+                .expect("it ends")
+                .replace(&format!("{}/", cases.display()), "");
+            let expected =
+                fs::read_to_string(cases.join(format!("{case}.expected"))).expect("it is there");
             assert_eq!(output, expected, "{case} with Python {version}");
         }
     }
@@ -184,8 +234,13 @@ fn python_with_numpy() -> Option<String> {
     let python = environment.join("bin/python").display().to_string();
     if !works(&python, "import numpy") && works("python3", "import ensurepip, venv") {
         // Whether these worked is seen below.
-        let _ = Command::new("python3").args(["-m", "venv", "--clear"]).arg(&environment).status();
-        let _ = Command::new(&python).args(["-m", "pip", "install", "--quiet", "numpy"]).status();
+        let _ = Command::new("python3")
+            .args(["-m", "venv", "--clear"])
+            .arg(&environment)
+            .status();
+        let _ = Command::new(&python)
+            .args(["-m", "pip", "install", "--quiet", "numpy"])
+            .status();
     }
     works(&python, "import numpy").then_some(python)
 }
@@ -193,7 +248,9 @@ fn python_with_numpy() -> Option<String> {
 #[test]
 fn arrays_of_numpy_are_lists() {
     let Some(python) = python_with_numpy() else {
-        return test_support::skipped_outside_of_ci("there is no Python with numpy, and none can be made");
+        return test_support::skipped_outside_of_ci(
+            "there is no Python with numpy, and none can be made",
+        );
     };
     let scene = "#luaExec function echo(...) return ... end
 import numpy as np
@@ -215,7 +272,11 @@ def sysCall_sensing():
     require('sim').quitSimulator()
 ";
     let files = folder(&[("scene.py", scene)]);
-    let output = run(files.path(), "scene.py", &["-D", &format!("python={python}")]);
+    let output = run(
+        files.path(),
+        "scene.py",
+        &["-D", &format!("python={python}")],
+    );
     let expected = "[1.0, 2.0, 3.0], float32\n0.5, [[0, 1, 2], [3, 4, 5]], True\n[-1, {'a': [0.0, 0.0]}], 7, []\n";
     assert!(output.starts_with(expected), "{output}");
 }
@@ -260,6 +321,7 @@ end
         assert!(output.contains(line), "{output}");
     }
     let mut inspect = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    let output = run_bounded(inspect.arg("inspect").arg(files.path().join("saved.ttt"))).expect("it ends");
+    let output =
+        run_bounded(inspect.arg("inspect").arg(files.path().join("saved.ttt"))).expect("it ends");
     assert!(output.to_lowercase().contains("python"), "{output}");
 }

@@ -10,7 +10,10 @@ use std::process::{Command, Stdio};
 use test_support::process::{LIMIT, run_bounded, wait_until, wait_within};
 
 fn has_python() -> bool {
-    let found = Command::new("python3").arg("--version").output().is_ok_and(|output| output.status.success());
+    let found = Command::new("python3")
+        .arg("--version")
+        .output()
+        .is_ok_and(|output| output.status.success());
     if !found {
         test_support::skipped_outside_of_ci("there is no python3");
     }
@@ -38,18 +41,28 @@ fn cases_print_what_is_expected() {
         return;
     }
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/cases");
-    let mut cases: Vec<PathBuf> =
-        fs::read_dir(&folder).expect("the folder is there").flatten().map(|entry| entry.path()).collect();
-    cases.retain(|path| path.extension().is_some_and(|extension| extension == "py" || extension == "lua"));
+    let mut cases: Vec<PathBuf> = fs::read_dir(&folder)
+        .expect("the folder is there")
+        .flatten()
+        .map(|entry| entry.path())
+        .collect();
+    cases.retain(|path| {
+        path.extension()
+            .is_some_and(|extension| extension == "py" || extension == "lua")
+    });
     cases.sort();
     assert!(cases.len() >= 7);
-    let wrong: Vec<String> = cases.iter().filter_map(|case| difference(case, &folder)).collect();
+    let wrong: Vec<String> = cases
+        .iter()
+        .filter_map(|case| difference(case, &folder))
+        .collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// What a case printed, if that is not what was expected. `UPDATE` writes new expectations.
 fn difference(case: &Path, folder: &Path) -> Option<String> {
-    let output = run_bounded(&mut swanilda(case, &["--steps", "12"])).unwrap_or_else(|reason| reason);
+    let output =
+        run_bounded(&mut swanilda(case, &["--steps", "12"])).unwrap_or_else(|reason| reason);
     let output = output.replace(&format!("{}/", folder.display()), "");
     let expected_file = case.with_extension("expected");
     if std::env::var_os("UPDATE").is_some() {
@@ -95,19 +108,54 @@ fn a_process_that_fails_is_an_error_of_its_script() {
     }
     for (body, options, error) in [
         ("os._exit(3)", &[][..], "has ended: exit status 3."),
-        ("os.kill(os.getpid(), signal.SIGKILL)", &[], "has ended: signal 9."),
-        ("time.sleep(1000)", &["-D", "python.callTimeout=2"], "did nothing for 2 seconds"),
-        ("while True: pass", &["-D", "python.callTimeout=2"], "did nothing for 2 seconds"),
-        ("import swanilda_link; os.write(swanilda_link.fd, b'\\xff' * 100)", &[], "longer than 256 MiB"),
-        ("import swanilda_link; os.write(swanilda_link.fd, b'\\x01\\0\\0\\0?'); time.sleep(9)", &[], "cannot be read"),
-        ("os.close(__import__('swanilda_link').fd); time.sleep(9)", &[], "it closed its connection"),
+        (
+            "os.kill(os.getpid(), signal.SIGKILL)",
+            &[],
+            "has ended: signal 9.",
+        ),
+        (
+            "time.sleep(1000)",
+            &["-D", "python.callTimeout=2"],
+            "did nothing for 2 seconds",
+        ),
+        (
+            "while True: pass",
+            &["-D", "python.callTimeout=2"],
+            "did nothing for 2 seconds",
+        ),
+        (
+            "import swanilda_link; os.write(swanilda_link.fd, b'\\xff' * 100)",
+            &[],
+            "longer than 256 MiB",
+        ),
+        (
+            "import swanilda_link; os.write(swanilda_link.fd, b'\\x01\\0\\0\\0?'); time.sleep(9)",
+            &[],
+            "cannot be read",
+        ),
+        (
+            "os.close(__import__('swanilda_link').fd); time.sleep(9)",
+            &[],
+            "it closed its connection",
+        ),
         ("os.write(2, b'from C\\n'); os._exit(1)", &[], "from C"),
-        ("while True: print('x' * 10000000)", &["--verbosity", "errors"], "wrote more than 64 MiB in one call"),
+        (
+            "while True: print('x' * 10000000)",
+            &["--verbosity", "errors"],
+            "wrote more than 64 MiB in one call",
+        ),
     ] {
         let output = output_of(&failing(body), &[&["--steps", "8"], options].concat());
-        let output: String = output.lines().filter(|line| line.len() < 1000).collect::<Vec<_>>().join("\n");
+        let output: String = output
+            .lines()
+            .filter(|line| line.len() < 1000)
+            .collect::<Vec<_>>()
+            .join("\n");
         let is_reported = output.contains(error) || options.contains(&"errors");
-        assert!(is_reported && output.contains("the simulation goes on"), "{body}:\n{output}");
+        assert!(
+            is_reported && output.contains("the simulation goes on"),
+            "{body}:\n{output}"
+        );
     }
 }
 
@@ -127,28 +175,51 @@ fn a_forked_process_cannot_call() {
         time.sleep(0.1)
         print('the script goes on', sim.getSimulationTime() > 0)";
     let output = output_of(&failing(body), &["--steps", "8"]);
-    assert!(output.contains("a process that a script has forked cannot call the simulator"), "{output}");
+    assert!(
+        output.contains("a process that a script has forked cannot call the simulator"),
+        "{output}"
+    );
     assert!(output.contains("the script goes on, True"), "{output}");
 }
 
 #[test]
 fn without_python_the_error_says_what_to_install() {
-    let output = output_of("def sysCall_init(): pass", &["-D", "python=/no/such/python", "--loops", "1", "--no-start"]);
-    assert!(output.contains("The Python interpreter could not be called. It is currently set as: '/no/such/python'"));
+    let output = output_of(
+        "def sysCall_init(): pass",
+        &["-D", "python=/no/such/python", "--loops", "1", "--no-start"],
+    );
+    assert!(output.contains(
+        "The Python interpreter could not be called. It is currently set as: '/no/such/python'"
+    ));
     assert!(output.contains("Install Python 3.9 or newer"), "{output}");
 }
 
 #[test]
 fn what_may_not_start_programs_may_not_run_python() {
-    let output = output_of("def sysCall_init(): print('ran')", &["--no-unsafe", "--loops", "1", "--no-start"]);
-    assert!(output.contains("is not allowed: run with --allow-run") && !output.contains("ran\n"), "{output}");
+    let output = output_of(
+        "def sysCall_init(): print('ran')",
+        &["--no-unsafe", "--loops", "1", "--no-start"],
+    );
+    assert!(
+        output.contains("is not allowed: run with --allow-run") && !output.contains("ran\n"),
+        "{output}"
+    );
 }
 
 /// The number of processes with that word in their environment.
 fn processes_with(word: &str) -> usize {
-    let processes = fs::read_dir("/proc").expect("there are processes").flatten();
-    let environments = processes.filter_map(|process| fs::read(process.path().join("environ")).ok());
-    environments.filter(|environment| environment.windows(word.len()).any(|part| part == word.as_bytes())).count()
+    let processes = fs::read_dir("/proc")
+        .expect("there are processes")
+        .flatten();
+    let environments =
+        processes.filter_map(|process| fs::read(process.path().join("environ")).ok());
+    environments
+        .filter(|environment| {
+            environment
+                .windows(word.len())
+                .any(|part| part == word.as_bytes())
+        })
+        .count()
 }
 
 #[cfg(target_os = "linux")]
@@ -173,14 +244,23 @@ def sysCall_nonSimulation():
     for signal in ["KILL", "TERM"] {
         let mut command = swanilda(&file, &["--no-start", "--loops", "1000000"]);
         let (name, value) = word.split_once('=').expect("it has a value");
-        let mut child = command.env(name, value).stdout(Stdio::piped()).spawn().expect("it starts");
+        let mut child = command
+            .env(name, value)
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("it starts");
         let mut lines = BufReader::new(child.stdout.take().expect("it is piped")).lines();
         while lines.next().expect("it says so").expect("it is text") != "ready" {}
         // Simulator, guardian, script, and what the script started; the last one may still be starting.
         wait_until("four processes", || processes_with(&word) >= 4);
-        Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().expect("there is a kill");
+        Command::new("kill")
+            .args(["-s", signal, &child.id().to_string()])
+            .status()
+            .expect("there is a kill");
         wait_within(&mut child, LIMIT).expect("it ends");
-        wait_until(&format!("no process is left after SIG{signal}"), || processes_with(&word) == 0);
+        wait_until(&format!("no process is left after SIG{signal}"), || {
+            processes_with(&word) == 0
+        });
     }
 }
 
@@ -254,7 +334,11 @@ end)
 /// A folder with a robot in Python and its tests.
 fn robot_folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("there is a folder for temporary files");
-    for (name, text) in [("robot.py", ROBOT), ("helper.py", HELPER), ("robot_test.lua", TESTS)] {
+    for (name, text) in [
+        ("robot.py", ROBOT),
+        ("helper.py", HELPER),
+        ("robot_test.lua", TESTS),
+    ] {
         fs::write(folder.path().join(name), text).expect("it can be written");
     }
     folder
@@ -267,23 +351,40 @@ fn tests_call_replace_and_count_python() {
     }
     let folder = robot_folder();
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.current_dir(folder.path()).args(["test", "--coverage=lcov.info", "robot_test.lua"]);
+    command
+        .current_dir(folder.path())
+        .args(["test", "--coverage=lcov.info", "robot_test.lua"]);
     let output = run_bounded(&mut command).expect("it ends");
     assert!(output.contains("3 passed"), "{output}");
     let lcov = fs::read_to_string(folder.path().join("lcov.info")).expect("there is a report");
     let record = |file: &str| {
-        let at = lcov.find(&format!("SF:{file}")).unwrap_or_else(|| panic!("{file} is not in {lcov}"));
-        lcov[at..].split("end_of_record").next().unwrap_or_default().to_owned()
+        let at = lcov
+            .find(&format!("SF:{file}"))
+            .unwrap_or_else(|| panic!("{file} is not in {lcov}"));
+        lcov[at..]
+            .split("end_of_record")
+            .next()
+            .unwrap_or_default()
+            .to_owned()
     };
     let robot = record("robot.py");
     let count = |record: &str, line: u32| {
         let prefix = format!("DA:{line},");
-        let found = record.lines().find_map(|row| row.strip_prefix(&prefix)).map(|count| count != "0");
+        let found = record
+            .lines()
+            .find_map(|row| row.strip_prefix(&prefix))
+            .map(|count| count != "0");
         found.unwrap_or_else(|| panic!("line {line} does not run in {record}"))
     };
-    assert!(count(&robot, 3) && count(&robot, 12) && count(&robot, 15), "{robot}");
+    assert!(
+        count(&robot, 3) && count(&robot, 12) && count(&robot, 15),
+        "{robot}"
+    );
     assert!(!count(&robot, 18) && !count(&robot, 19), "{robot}");
-    assert!(robot.contains("FN:17,never") && !robot.contains("\nDA:2,"), "{robot}");
+    assert!(
+        robot.contains("FN:17,never") && !robot.contains("\nDA:2,"),
+        "{robot}"
+    );
     let helper = record("helper.py");
     assert!(count(&helper, 4) && !count(&helper, 7), "{helper}");
 }
@@ -299,13 +400,25 @@ fn doctor_reads_python() {
     fs::write(&file, text).expect("it can be written");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
     let output = run_bounded(command.arg("doctor").arg(&file)).expect("it ends");
-    assert!(output.contains("missing      sim.frobnicate: line 1"), "{output}");
-    assert!(output.contains("missing      sim.nothing: line 6"), "{output}");
-    assert!(output.contains("call 3 functions: 1 work, 0 are approximated, 2 are missing"), "{output}");
+    assert!(
+        output.contains("missing      sim.frobnicate: line 1"),
+        "{output}"
+    );
+    assert!(
+        output.contains("missing      sim.nothing: line 6"),
+        "{output}"
+    );
+    assert!(
+        output.contains("call 3 functions: 1 work, 0 are approximated, 2 are missing"),
+        "{output}"
+    );
     fs::write(&file, "def f(:\n").expect("it can be written");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
     let output = run_bounded(command.arg("doctor").arg(&file)).expect("it ends");
-    assert!(output.contains("a script that cannot be read (line 1: "), "{output}");
+    assert!(
+        output.contains("a script that cannot be read (line 1: "),
+        "{output}"
+    );
 }
 
 #[test]
@@ -317,7 +430,8 @@ fn the_example_prints_the_same_in_every_run() {
     let run = || run_bounded(&mut swanilda(&scene, &["--time", "3"])).expect("it ends");
     let output = run();
     assert!(
-        output.contains("  90 degrees: arm at 0.000, 0.200") && output.contains("between -45.0 and 90.0"),
+        output.contains("  90 degrees: arm at 0.000, 0.200")
+            && output.contains("between -45.0 and 90.0"),
         "{output}"
     );
     assert_eq!(output, run());

@@ -137,9 +137,15 @@ end_of_record
 
 fn project() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
-    let files =
-        [("scenes/drive.lua", SCENE.as_bytes()), ("scenes/robot.ttt", ROBOT), ("lib/pid.lua", MODULE.as_bytes())];
-    for (name, bytes) in files.into_iter().chain([("robot_test.lua", TESTS.as_bytes())]) {
+    let files = [
+        ("scenes/drive.lua", SCENE.as_bytes()),
+        ("scenes/robot.ttt", ROBOT),
+        ("lib/pid.lua", MODULE.as_bytes()),
+    ];
+    for (name, bytes) in files
+        .into_iter()
+        .chain([("robot_test.lua", TESTS.as_bytes())])
+    {
         let path = folder.path().join(name);
         std::fs::create_dir_all(path.parent().expect("below the folder")).expect("folders");
         std::fs::write(path, bytes).expect("a file");
@@ -161,7 +167,9 @@ fn read(folder: &Path, name: &str) -> String {
 
 /// Whether a line of the output has these words.
 fn has_row(output: &str, row: &str) -> bool {
-    output.lines().any(|line| line.split_whitespace().eq(row.split_whitespace()))
+    output
+        .lines()
+        .any(|line| line.split_whitespace().eq(row.split_whitespace()))
 }
 
 #[test]
@@ -171,7 +179,10 @@ fn lines_of_scenes_scripts_and_modules_are_counted() {
     assert_eq!(read(project.path(), "lcov.info"), REPORT);
     let copy = read(project.path(), "coverage/scenes/robot.ttt/robot/script.lua");
     assert!(copy.starts_with("function sysCall_init()"), "{copy}");
-    for row in ["lib/pid.lua 8 7 87.5 12", "scenes/drive.lua 17 15 88.2 6, 24"] {
+    for row in [
+        "lib/pid.lua 8 7 87.5 12",
+        "scenes/drive.lua 17 15 88.2 6, 24",
+    ] {
         assert!(has_row(&output, row), "{output}");
     }
     assert!(output.contains("counting makes Lua code up to"), "{output}");
@@ -189,9 +200,15 @@ fn children_report_their_lines_to_the_parent() {
 #[test]
 fn the_report_does_not_depend_on_the_number_of_threads() {
     let project = project();
-    run(project.path(), &["--coverage=report.info", "-j", "3", "--repeat", "2"]);
+    run(
+        project.path(),
+        &["--coverage=report.info", "-j", "3", "--repeat", "2"],
+    );
     let report = read(project.path(), "report.info");
-    assert!(report.starts_with("TN:\nSF:coverage/scenes/robot.ttt/robot/script.lua\n"), "{report}");
+    assert!(
+        report.starts_with("TN:\nSF:coverage/scenes/robot.ttt/robot/script.lua\n"),
+        "{report}"
+    );
     // Each test ran twice.
     let doubled = REPORT.lines().map(|line| match line.rsplit_once(',') {
         Some((start, count)) if start.starts_with("DA:") => {
@@ -199,8 +216,12 @@ fn the_report_does_not_depend_on_the_number_of_threads() {
         }
         _ => format!("{line}\n"),
     });
-    let counts =
-        |text: &str| text.lines().filter(|line| line.starts_with("DA:")).map(str::to_owned).collect::<Vec<_>>();
+    let counts = |text: &str| {
+        text.lines()
+            .filter(|line| line.starts_with("DA:"))
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    };
     assert_eq!(counts(&report), counts(&doubled.collect::<String>()));
 }
 
@@ -264,15 +285,22 @@ end)
 ";
     std::fs::write(folder.path().join("loop_test.lua"), test).expect("a file");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.args(["test", "--coverage", "--timeout", "1"]).current_dir(folder.path());
+    command
+        .args(["test", "--coverage", "--timeout", "1"])
+        .current_dir(folder.path());
     let (code, output) = run_for_code(&mut command, Duration::from_secs(120)).expect("it ends");
     assert_eq!(code, 1, "{output}");
-    assert!(output.contains("took longer than 1 s") && !output.contains("could not be ended"), "{output}");
+    assert!(
+        output.contains("took longer than 1 s") && !output.contains("could not be ended"),
+        "{output}"
+    );
 }
 
 /// A text with every kind of jump, and with more constants than an instruction can name.
 fn odd_text() -> String {
-    let many: String = (0..300).map(|i| format!("    t.field{i} = {i}.5 + #t\n")).collect();
+    let many: String = (0..300)
+        .map(|i| format!("    t.field{i} = {i}.5 + #t\n"))
+        .collect();
     include_str!("../../coverage/odd.lua").replace("    -- MANY\n", &many)
 }
 
@@ -297,13 +325,22 @@ end)";
     std::fs::write(folder.path().join("odd.lua"), odd_text()).expect("a file");
     std::fs::write(folder.path().join("odd_test.lua"), test).expect("a file");
     run(folder.path(), &["--coverage"]);
-    let seen: std::collections::BTreeSet<u32> =
-        read(folder.path(), "seen.txt").lines().map(|line| line.parse().expect("a line")).collect();
+    let seen: std::collections::BTreeSet<u32> = read(folder.path(), "seen.txt")
+        .lines()
+        .map(|line| line.parse().expect("a line"))
+        .collect();
     let report = read(folder.path(), "lcov.info");
-    let lines = report.lines().filter_map(|line| line.strip_prefix("DA:")?.split_once(','));
-    let wrong: Vec<_> =
-        lines.filter(|(line, count)| seen.contains(&line.parse().expect("a line")) != (*count != "0")).collect();
-    assert!(wrong.is_empty() && seen.len() > 350, "{wrong:?}, {} lines", seen.len());
+    let lines = report
+        .lines()
+        .filter_map(|line| line.strip_prefix("DA:")?.split_once(','));
+    let wrong: Vec<_> = lines
+        .filter(|(line, count)| seen.contains(&line.parse().expect("a line")) != (*count != "0"))
+        .collect();
+    assert!(
+        wrong.is_empty() && seen.len() > 350,
+        "{wrong:?}, {} lines",
+        seen.len()
+    );
 }
 
 /// What a script can notice of the probes: nothing, short of the debug library.
@@ -339,7 +376,11 @@ return M
     local _, problem = pcall(require, 'broken')
     assert.equal(\"error loading module 'broken' from file './broken.lua'\", problem:match('^(.-):'))
 end)";
-    for (name, text) in [("parts.lua", module), ("parts_test.lua", test), ("broken.lua", "if")] {
+    for (name, text) in [
+        ("parts.lua", module),
+        ("parts_test.lua", test),
+        ("broken.lua", "if"),
+    ] {
         std::fs::write(folder.path().join(name), text).expect("a file");
     }
     run(folder.path(), &[]);

@@ -54,7 +54,10 @@ end
 #[test]
 fn exit_codes_are_those_of_pytest() {
     let pass = [("a_test.lua", "it('passes', function() end)")];
-    let fail = [("a_test.lua", "it('fails', function() assert.equal(1, 2) end)")];
+    let fail = [(
+        "a_test.lua",
+        "it('fails', function() assert.equal(1, 2) end)",
+    )];
     assert_eq!(run(&pass, &[]).0, 0);
     assert_eq!(run(&fail, &[]).0, 1);
     assert_eq!(run(&[("a_test.lua", "it(")], &[]).0, 1);
@@ -69,20 +72,46 @@ fn exit_codes_are_those_of_pytest() {
 #[test]
 fn tests_are_found_listed_filtered_and_shared_out() {
     let files = [
-        ("a/drive_test.lua", "describe('car', function() it('one', function() end) it('two', function() end) end)"),
-        ("test_plain.lua", "function test_b() end function test_a() end"),
+        (
+            "a/drive_test.lua",
+            "describe('car', function() it('one', function() end) it('two', function() end) end)",
+        ),
+        (
+            "test_plain.lua",
+            "function test_b() end function test_a() end",
+        ),
         ("other.lua", "error('not a test')"),
     ];
     let all = "a/drive_test.lua::car one\na/drive_test.lua::car two\ntest_plain.lua::test_a\ntest_plain.lua::test_b\n";
     let listed = run(&files, &["--list"]).1;
     let mut lines: Vec<&str> = listed.lines().collect();
     lines.sort_unstable();
-    assert_eq!(lines.join("\n") + "\n", all, "both plain tests are in one line of the file");
-    assert_eq!(run(&files, &["--list", "--filter", "car t", "--filter", "plain"]).1.lines().count(), 3);
+    assert_eq!(
+        lines.join("\n") + "\n",
+        all,
+        "both plain tests are in one line of the file"
+    );
+    assert_eq!(
+        run(
+            &files,
+            &["--list", "--filter", "car t", "--filter", "plain"]
+        )
+        .1
+        .lines()
+        .count(),
+        3
+    );
     assert_eq!(run(&files, &["--list", "a"]).1.lines().count(), 2);
-    let shares = [run(&files, &["--list", "--shard", "1/2"]).1, run(&files, &["--list", "--shard", "2/2"]).1];
+    let shares = [
+        run(&files, &["--list", "--shard", "1/2"]).1,
+        run(&files, &["--list", "--shard", "2/2"]).1,
+    ];
     assert!(shares.iter().all(|share| share.lines().count() == 2) && shares[0] != shares[1]);
-    assert!(run(&files, &["--fail-fast", "-v", "--repeat", "2"]).1.contains("8 passed"));
+    assert!(
+        run(&files, &["--fail-fast", "-v", "--repeat", "2"])
+            .1
+            .contains("8 passed")
+    );
 }
 
 #[test]
@@ -139,7 +168,10 @@ fn a_test_of_a_robot_finds_all_that_its_file_has_beside_tests() {
     );
     let (code, output) = run(&[("a_test.lua", &suite)], &["-v"]);
     assert_eq!(code, 1, "{output}");
-    assert!(output.contains("9 passed, 1 failed") && output.contains("a_test.lua:15"), "{output}");
+    assert!(
+        output.contains("9 passed, 1 failed") && output.contains("a_test.lua:15"),
+        "{output}"
+    );
 }
 
 #[test]
@@ -260,26 +292,50 @@ fn errors_of_scripts_fail_the_test_and_tell_where() {
     let (code, output) = run(&[("a_test.lua", &suite)], &["-v"]);
     assert_eq!(code, 1, "{output}");
     assert!(
-        has_line(&output, "ERROR a_test.lua::is told") && has_line(&output, "PASS a_test.lua::is allowed"),
+        has_line(&output, "ERROR a_test.lua::is told")
+            && has_line(&output, "PASS a_test.lua::is allowed"),
         "{output}"
     );
-    assert!(output.contains("script /broken raised an error") && output.contains("simulated time 0.050 s"), "{output}");
+    assert!(
+        output.contains("script /broken raised an error")
+            && output.contains("simulated time 0.050 s"),
+        "{output}"
+    );
 }
 
 /// Each of `tests`, name and code, is one error with its message, while a test beside them passes.
 fn fail_alone(tests: &[(&str, &str, &str)], args: &[&str]) {
-    let code: String = tests.iter().map(|(name, code, _)| format!("it('{name}', function() {code} end)\n")).collect();
+    let code: String = tests
+        .iter()
+        .map(|(name, code, _)| format!("it('{name}', function() {code} end)\n"))
+        .collect();
     let suite = simulating(&(code + "it('goes on', function() t.step() end)"));
-    let (code, output) = run(&[("bad_test.lua", &suite)], &[&["-v", "-j", "2"], args].concat());
+    let (code, output) = run(
+        &[("bad_test.lua", &suite)],
+        &[&["-v", "-j", "2"], args].concat(),
+    );
     assert_eq!(code, 1, "{output}");
     for (name, _, message) in tests {
         let start = format!("ERROR bad_test.lua::{name}\n");
-        let rest = output.split_once(&start).unwrap_or_else(|| panic!("{name} is no error:\n{output}")).1;
-        let block: Vec<&str> = rest.lines().take_while(|line| line.starts_with(' ')).collect();
-        assert!(block.join("\n").contains(message), "{name}:\n{}", block.join("\n"));
+        let rest = output
+            .split_once(&start)
+            .unwrap_or_else(|| panic!("{name} is no error:\n{output}"))
+            .1;
+        let block: Vec<&str> = rest
+            .lines()
+            .take_while(|line| line.starts_with(' '))
+            .collect();
+        assert!(
+            block.join("\n").contains(message),
+            "{name}:\n{}",
+            block.join("\n")
+        );
     }
     let total = format!("1 passed, {} errors", tests.len());
-    assert!(output.contains("PASS bad_test.lua::goes on") && output.contains(&total), "{output}");
+    assert!(
+        output.contains("PASS bad_test.lua::goes on") && output.contains(&total),
+        "{output}"
+    );
 }
 
 #[test]
@@ -287,8 +343,16 @@ fn tests_that_do_not_end_are_ended() {
     let late = "longer than 3 s";
     let tests = [
         ("loops", "while true do end", late),
-        ("loops in a thread", "coroutine.wrap(function() while true do end end)()", late),
-        ("catches all", "while true do pcall(function() while true do end end) end", late),
+        (
+            "loops in a thread",
+            "coroutine.wrap(function() while true do end end)()",
+            late,
+        ),
+        (
+            "catches all",
+            "while true do pcall(function() while true do end end) end",
+            late,
+        ),
         (
             "wakes up",
             "local c = coroutine.wrap(function() while true do coroutine.yield() end end) while true do c() end",
@@ -302,12 +366,32 @@ fn tests_that_do_not_end_are_ended() {
 #[test]
 fn tests_that_take_too_much_or_crash_fail_alone() {
     let tests = [
-        ("simulates forever", "while true do t.step() end", "simulated for more than 20 s"),
-        ("eats memory", "local all = {} while true do all[#all + 1] = {} end", "not enough memory"),
-        ("eats it at once", "local s = 'x' while true do s = s .. s end", "not enough memory"),
+        (
+            "simulates forever",
+            "while true do t.step() end",
+            "simulated for more than 20 s",
+        ),
+        (
+            "eats memory",
+            "local all = {} while true do all[#all + 1] = {} end",
+            "not enough memory",
+        ),
+        (
+            "eats it at once",
+            "local s = 'x' while true do s = s .. s end",
+            "not enough memory",
+        ),
         ("exits", "os.exit(0)", "os.exit"),
-        ("recurses", "local function f() return f() + 1 end f()", "stack overflow"),
-        ("crashes", "local nothing nothing.x = 1", "attempt to index a nil value"),
+        (
+            "recurses",
+            "local function f() return f() + 1 end f()",
+            "stack overflow",
+        ),
+        (
+            "crashes",
+            "local nothing nothing.x = 1",
+            "attempt to index a nil value",
+        ),
         ("raises a table", "error({})", "table"),
         ("raises nothing", "error()", "nil"),
         (
@@ -315,7 +399,11 @@ fn tests_that_take_too_much_or_crash_fail_alone() {
             "for i = 1, 100000 do print('again and again and again') end error('enough')",
             "more lines: a test may write",
         ),
-        ("steps in a step", STEP_IN_STEP, "a step cannot be made from within a step"),
+        (
+            "steps in a step",
+            STEP_IN_STEP,
+            "a step cannot be made from within a step",
+        ),
     ];
     fail_alone(&tests, &["--sim-timeout", "20", "--memory", "256"]);
 }
@@ -329,10 +417,19 @@ const STEP_IN_STEP: &str = "
 
 #[test]
 fn a_test_that_hangs_outside_of_lua_is_given_up() {
-    let suite =
-        simulating("it('sleeps', function() os.execute('sleep 20') end) it('goes on', function() t.step() end)");
-    let (code, output) = run(&[("a_test.lua", &suite)], &["--timeout", "5", "-j", "1", "-v"]);
-    assert!(code == 1 && output.contains("It could not be ended") && output.contains("1 passed, 1 error "), "{output}");
+    let suite = simulating(
+        "it('sleeps', function() os.execute('sleep 20') end) it('goes on', function() t.step() end)",
+    );
+    let (code, output) = run(
+        &[("a_test.lua", &suite)],
+        &["--timeout", "5", "-j", "1", "-v"],
+    );
+    assert!(
+        code == 1
+            && output.contains("It could not be ended")
+            && output.contains("1 passed, 1 error "),
+        "{output}"
+    );
 }
 
 #[test]
@@ -341,9 +438,15 @@ fn results_do_not_depend_on_the_number_of_threads() {
         "{BOX} for i = 1, 6 do it('t' .. i, function() t.run_for(0.2) print(i, math.random(), t.gauss()) error('show') end) end"
     );
     let run = |jobs: &str| {
-        let (_, output) = run(&[("a_test.lua", &simulating(&code))], &["-j", jobs, "--seed", "7"]);
-        let mut lines: Vec<String> =
-            output.lines().filter(|line| line.starts_with("      0.2")).map(str::to_owned).collect();
+        let (_, output) = run(
+            &[("a_test.lua", &simulating(&code))],
+            &["-j", jobs, "--seed", "7"],
+        );
+        let mut lines: Vec<String> = output
+            .lines()
+            .filter(|line| line.starts_with("      0.2"))
+            .map(str::to_owned)
+            .collect();
         lines.sort();
         lines
     };
@@ -355,10 +458,18 @@ fn results_do_not_depend_on_the_number_of_threads() {
 fn the_first_test_that_init_writes_passes() {
     let dir = tempfile::tempdir().expect("a folder");
     assert_eq!(run_in(dir.path(), &[], &["--init"]).0, 0);
-    assert!(dir.path().join(".github/workflows/robot-tests.yml").exists());
+    assert!(
+        dir.path()
+            .join(".github/workflows/robot-tests.yml")
+            .exists()
+    );
     let (code, output) = run_in(dir.path(), &[], &[]);
     assert!(code == 0 && output.contains("3 passed"), "{output}");
-    assert_eq!(run_in(dir.path(), &[], &["--init"]).0, 4, "nothing is overwritten");
+    assert_eq!(
+        run_in(dir.path(), &[], &["--init"]).0,
+        4,
+        "nothing is overwritten"
+    );
 }
 
 /// Scripts of tests have the permissions of the command line; the scene's folder is that of the test's file.
@@ -378,11 +489,27 @@ fn permissions_of_tests() {
         ("elsewhere.txt", "elsewhere"),
     ];
     let (code, output) = run(&files, &["--no-unsafe"]);
-    assert!(code == 1 && output.contains("2 passed, 2 failed, 1 error"), "{output}");
+    assert!(
+        code == 1 && output.contains("2 passed, 2 failed, 1 error"),
+        "{output}"
+    );
     for option in ["--allow-read=", "--allow-write=", "--allow-run"] {
-        assert!(output.contains(&format!("is not allowed: run with {option}")), "{option}: {output}");
+        assert!(
+            output.contains(&format!("is not allowed: run with {option}")),
+            "{option}: {output}"
+        );
     }
-    let (_, output) = run(&files, &["--allow-write", "--allow-run", "--filter", "writes", "--filter", "runs"]);
+    let (_, output) = run(
+        &files,
+        &[
+            "--allow-write",
+            "--allow-run",
+            "--filter",
+            "writes",
+            "--filter",
+            "runs",
+        ],
+    );
     assert!(output.contains("3 passed"), "{output}");
     let (_, output) = run(&files, &["--deny-all"]);
     assert!(output.contains("0 passed, 2 failed, 3 errors"), "{output}");

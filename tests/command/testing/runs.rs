@@ -70,11 +70,17 @@ fn a_scene_that_does_not_end_is_ended() {
     it('goes on', function() t.run('idle.lua') end)";
     let files = [
         ("long_test.lua", suite),
-        ("loop.lua", "function sysCall_sensing() while true do end end"),
+        (
+            "loop.lua",
+            "function sysCall_sensing() while true do end end",
+        ),
         ("idle.lua", "function sysCall_sensing() end"),
     ];
     let (code, output) = run(&files, &["--timeout", "4", "--sim-timeout", "2"]);
-    assert!(code == 1 && output.contains("longer than 4 s") && output.contains("more than 2 s"), "{output}");
+    assert!(
+        code == 1 && output.contains("longer than 4 s") && output.contains("more than 2 s"),
+        "{output}"
+    );
 }
 
 #[test]
@@ -92,7 +98,11 @@ fn a_test_that_is_stopped_tells_where_it_was() {
     end)";
     let (code, output) = run(&[("loop_test.lua", suite)], &["--timeout", "3"]);
     assert_eq!(code, 1);
-    for place in ["It was at loop_test.lua:5:", "It was at [string \"/robot\"]:2:", "--> /robot:2"] {
+    for place in [
+        "It was at loop_test.lua:5:",
+        "It was at [string \"/robot\"]:2:",
+        "--> /robot:2",
+    ] {
         assert!(output.contains(place), "{place}:\n{output}");
     }
 }
@@ -110,8 +120,14 @@ fn a_test_that_hangs_while_it_is_closed_fails_alone() {
     end)";
     let (code, output) = run(&[("close_test.lua", suite)], &["-v", "--timeout", "3"]);
     assert_eq!(code, 1, "{output}");
-    assert!(output.contains("ERROR close_test.lua::hangs") && output.contains("in a finalizer (__gc)"), "{output}");
-    assert!(output.contains("PASS close_test.lua::goes on") && output.contains("1 error"), "{output}");
+    assert!(
+        output.contains("ERROR close_test.lua::hangs") && output.contains("in a finalizer (__gc)"),
+        "{output}"
+    );
+    assert!(
+        output.contains("PASS close_test.lua::goes on") && output.contains("1 error"),
+        "{output}"
+    );
 }
 
 #[test]
@@ -125,11 +141,23 @@ fn isolated_tests_crash_alone() {
     it('fails', function() print('last words') assert.equal(1, 2) end)
     it('loops', function() while true do end end)
     pending('is to be written')";
-    let (code, output) = run(&[("crash_test.lua", suite)], &["-v", "--isolate", "--timeout", "3", "-j", "2"]);
+    let (code, output) = run(
+        &[("crash_test.lua", suite)],
+        &["-v", "--isolate", "--timeout", "3", "-j", "2"],
+    );
     assert_eq!(code, 1, "{output}");
-    assert!(output.contains("the test has ended its process") && output.contains("SIGABRT"), "{output}");
-    assert!(output.contains("1 passed, 1 failed, 2 errors, 1 pending"), "{output}");
-    assert!(output.contains("last words") && output.contains("longer than 3 s"), "{output}");
+    assert!(
+        output.contains("the test has ended its process") && output.contains("SIGABRT"),
+        "{output}"
+    );
+    assert!(
+        output.contains("1 passed, 1 failed, 2 errors, 1 pending"),
+        "{output}"
+    );
+    assert!(
+        output.contains("last words") && output.contains("longer than 3 s"),
+        "{output}"
+    );
     assert!(output.contains("crash_test.lua:6"), "{output}");
 }
 
@@ -144,7 +172,13 @@ fn after_a_crash_all_tests_run_again_in_children() {
         let suite = suite.replace("SIGNAL", signal);
         let (code, output) = run(&[("crash_test.lua", &suite)], &["-v", "-j", "1"]);
         assert_eq!(code, 1, "{output}");
-        assert_eq!(output.matches("All tests run again, each in a child process").count(), 1, "{output}");
+        assert_eq!(
+            output
+                .matches("All tests run again, each in a child process")
+                .count(),
+            1,
+            "{output}"
+        );
         assert!(output.contains(&format!("SIG{signal}")), "{output}");
         assert!(output.contains("1 passed, 1 failed, 1 error"), "{output}");
     }
@@ -154,7 +188,8 @@ fn after_a_crash_all_tests_run_again_in_children() {
 #[cfg(unix)]
 fn a_stream_of_results_is_not_begun_twice() {
     let suite = "it('crashes', function() os.execute('kill -ABRT $PPID; exec sleep 1 >/dev/null 2>&1') end)";
-    let output = try_run(&[("crash_test.lua", suite)], &["--json", "-j", "1"]).expect_err("a crash");
+    let output =
+        try_run(&[("crash_test.lua", suite)], &["--json", "-j", "1"]).expect_err("a crash");
     assert!(output.starts_with("ended by a signal"), "{output}");
     assert_eq!(output.matches("\"begin\"").count(), 1, "{output}");
     assert!(!output.contains("All tests run again"), "{output}");
@@ -189,7 +224,11 @@ fn a_hook_of_a_script_runs_beside_the_time_limit() {
     let (code, output) = run(&[("hook_test.lua", suite)], &["-v", "--timeout", "3"]);
     assert_eq!(code, 1, "{output}");
     assert!(output.contains("1 passed, 4 errors"), "{output}");
-    assert_eq!(output.matches("It was at hook_test.lua").count(), 4, "each is stopped where it is: {output}");
+    assert_eq!(
+        output.matches("It was at hook_test.lua").count(),
+        4,
+        "each is stopped where it is: {output}"
+    );
 }
 
 #[test]
@@ -217,11 +256,27 @@ fn what_scripts_write_belongs_to_their_test() {
     end)";
     let (code, output) = run(&[("write_test.lua", suite)], &["--tap"]);
     assert_eq!(code, 1, "{output}");
-    for line in ["second 2 0.5", "third is one line", "fourth", "fifth", "sixth", "seventh has no end"] {
-        let lines: Vec<_> = output.lines().filter(|shown| shown.contains(line)).collect();
-        assert!(lines.iter().all(|line| line.starts_with(' ')) && !lines.is_empty(), "{line}: {output}");
+    for line in [
+        "second 2 0.5",
+        "third is one line",
+        "fourth",
+        "fifth",
+        "sixth",
+        "seventh has no end",
+    ] {
+        let lines: Vec<_> = output
+            .lines()
+            .filter(|shown| shown.contains(line))
+            .collect();
+        assert!(
+            lines.iter().all(|line| line.starts_with(' ')) && !lines.is_empty(),
+            "{line}: {output}"
+        );
     }
-    assert!(output.contains("ok 2") || output.contains("ok 1 - write_test.lua::writes files as ever"), "{output}");
+    assert!(
+        output.contains("ok 2") || output.contains("ok 1 - write_test.lua::writes files as ever"),
+        "{output}"
+    );
 }
 
 #[test]
@@ -233,11 +288,24 @@ fn results_with_recordings_are_reported_as_they_come() {
     it('a', function() record('one') end)
     it('b', function() while true do end end)
     it('c', function() record('one') end)";
-    let (code, output) = run(&[("a_test.lua", suite)], &["--update-golden", "-v", "-j", "3", "--timeout", "3"]);
-    let at = |text: &str| output.find(text).unwrap_or_else(|| panic!("{text} is missing:\n{output}"));
+    let (code, output) = run(
+        &[("a_test.lua", suite)],
+        &["--update-golden", "-v", "-j", "3", "--timeout", "3"],
+    );
+    let at = |text: &str| {
+        output
+            .find(text)
+            .unwrap_or_else(|| panic!("{text} is missing:\n{output}"))
+    };
     assert_eq!(code, 1);
-    assert!(at("PASS a_test.lua::a") < at("ERROR a_test.lua::b"), "a waits for nobody: {output}");
-    assert!(at("ERROR a_test.lua::b") < at("FAIL a_test.lua::c"), "c waits for those before it: {output}");
+    assert!(
+        at("PASS a_test.lua::a") < at("ERROR a_test.lua::b"),
+        "a waits for nobody: {output}"
+    );
+    assert!(
+        at("ERROR a_test.lua::b") < at("FAIL a_test.lua::c"),
+        "c waits for those before it: {output}"
+    );
 }
 
 /// With coverage, which must not change what a script does.
@@ -245,20 +313,33 @@ fn results_with_recordings_are_reported_as_they_come() {
 fn the_conformance_suite_runs_through_the_runner() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let cases = cases_below(&root.join("tests/conformance"));
-    let known = std::fs::read_to_string(root.join("tests/conformance/KNOWN.md")).expect("the list is there");
+    let known = std::fs::read_to_string(root.join("tests/conformance/KNOWN.md"))
+        .expect("the list is there");
     let pending = known.lines().filter(|line| line.starts_with("| `")).count();
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
     let dir = tempfile::tempdir().expect("a folder");
     let coverage = format!("--coverage={}", dir.path().join("lcov.info").display());
-    command.args(["test", "tests/conformance", &coverage]).current_dir(root);
+    command
+        .args(["test", "tests/conformance", &coverage])
+        .current_dir(root);
     let output = run_within(&mut command, Duration::from_secs(300)).expect("it ends");
-    assert!(output.contains(&format!("{} passed, {pending} pending", cases - pending)), "{output}");
+    assert!(
+        output.contains(&format!("{} passed, {pending} pending", cases - pending)),
+        "{output}"
+    );
 }
 
 fn cases_below(folder: &Path) -> usize {
-    let entries = std::fs::read_dir(folder).expect("the folder is readable").flatten().map(|entry| entry.path());
+    let entries = std::fs::read_dir(folder)
+        .expect("the folder is readable")
+        .flatten()
+        .map(|entry| entry.path());
     let count = |path: std::path::PathBuf| {
-        if path.is_dir() { cases_below(&path) } else { usize::from(path.extension().is_some_and(|e| e == "expected")) }
+        if path.is_dir() {
+            cases_below(&path)
+        } else {
+            usize::from(path.extension().is_some_and(|e| e == "expected"))
+        }
     };
     entries.map(count).sum()
 }
@@ -273,7 +354,13 @@ fn suites_of_busted_run_unchanged() {
 
 #[test]
 fn a_table_raised_as_an_error_is_shown_with_its_elements() {
-    let (code, output) = run(&[("a_test.lua", "it('raises', function() error({code = 7}) end)")], &[]);
+    let (code, output) = run(
+        &[(
+            "a_test.lua",
+            "it('raises', function() error({code = 7}) end)",
+        )],
+        &[],
+    );
     assert_eq!(code, 1);
     assert!(output.contains("[code] = 7"), "{output}");
 }
@@ -281,7 +368,9 @@ fn a_table_raised_as_an_error_is_shown_with_its_elements() {
 #[test]
 fn the_scenes_of_the_project_pass_their_tests() {
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.args(["test", "scenes", "--timeout", "500"]).current_dir(env!("CARGO_MANIFEST_DIR"));
+    command
+        .args(["test", "scenes", "--timeout", "500"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"));
     let (code, output) = run_for_code(&mut command, Duration::from_secs(500)).expect("it ends");
     assert_eq!(code, 0, "{output}");
 }

@@ -28,9 +28,13 @@ pub struct Reply {
 
 /// Gets what is at an address below the secret.
 pub fn get(served: &Served, path: &str, headers: &[(&str, &str)]) -> Reply {
-    let mut request =
-        format!("GET /{}/{path} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n", served.token, served.port);
-    headers.iter().for_each(|(name, value)| request.push_str(&format!("{name}: {value}\r\n")));
+    let mut request = format!(
+        "GET /{}/{path} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n",
+        served.token, served.port
+    );
+    headers
+        .iter()
+        .for_each(|(name, value)| request.push_str(&format!("{name}: {value}\r\n")));
     request_at(served.port, &(request + "\r\n"))
 }
 
@@ -40,9 +44,16 @@ pub fn request_at(port: u16, request: &str) -> Reply {
     stream.write_all(request.as_bytes()).expect("it listens");
     let mut reply = Vec::new();
     stream.read_to_end(&mut reply).expect("it answers");
-    let end = reply.windows(4).position(|four| four == b"\r\n\r\n").expect("a head");
+    let end = reply
+        .windows(4)
+        .position(|four| four == b"\r\n\r\n")
+        .expect("a head");
     let head = String::from_utf8(reply[..end].to_vec()).expect("it is text");
-    Reply { status: status(&head), head, body: reply[end + 4..].to_vec() }
+    Reply {
+        status: status(&head),
+        head,
+        body: reply[end + 4..].to_vec(),
+    }
 }
 
 /// A connection that has sent some bytes.
@@ -55,7 +66,9 @@ pub fn send(port: u16, bytes: &str) -> TcpStream {
 /// The status of the answer to bytes that end like a request.
 pub fn raw(port: u16, request: &str) -> u16 {
     let mut stream = send(port, request);
-    stream.set_read_timeout(Some(PATIENCE)).expect("a time limit");
+    stream
+        .set_read_timeout(Some(PATIENCE))
+        .expect("a time limit");
     let mut head = [0; 12];
     stream.read_exact(&mut head).expect("it answers in time");
     status(std::str::from_utf8(&head).expect("it is text"))
@@ -90,24 +103,47 @@ impl Page {
     }
 
     fn connect(port: u16, path: &str, headers: &[(&str, &str)]) -> Result<Self, String> {
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
-        let mut request = format!("ws://127.0.0.1:{port}/{path}").into_client_request().expect("a request");
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_all()
+            .build()
+            .expect("a runtime");
+        let mut request = format!("ws://127.0.0.1:{port}/{path}")
+            .into_client_request()
+            .expect("a request");
         for (name, value) in headers {
             let name: HeaderName = name.parse().expect("a name");
-            request.headers_mut().insert(name, HeaderValue::from_str(value).expect("a value"));
+            request
+                .headers_mut()
+                .insert(name, HeaderValue::from_str(value).expect("a value"));
         }
         let socket = runtime.block_on(async {
-            let stream =
-                tokio::net::TcpStream::connect(("127.0.0.1", port)).await.map_err(|error| error.to_string())?;
-            client_async(request, stream).await.map_err(|error| error.to_string())
+            let stream = tokio::net::TcpStream::connect(("127.0.0.1", port))
+                .await
+                .map_err(|error| error.to_string())?;
+            client_async(request, stream)
+                .await
+                .map_err(|error| error.to_string())
         })?;
-        Ok(Self { runtime, socket: socket.0, asked: 0, texts: VecDeque::new(), poses: Vec::new() })
+        Ok(Self {
+            runtime,
+            socket: socket.0,
+            asked: 0,
+            texts: VecDeque::new(),
+            poses: Vec::new(),
+        })
     }
 
     /// The next message; None at the end.
     fn next(&mut self) -> Option<Message> {
-        let next = async { timeout(PATIENCE, self.socket.next()).await.expect("a message comes in time") };
-        self.runtime.block_on(next).and_then(Result::ok).filter(|message| !message.is_close())
+        let next = async {
+            timeout(PATIENCE, self.socket.next())
+                .await
+                .expect("a message comes in time")
+        };
+        self.runtime
+            .block_on(next)
+            .and_then(Result::ok)
+            .filter(|message| !message.is_close())
     }
 
     /// The next text; poses before it are kept.
@@ -211,7 +247,9 @@ fn read_poses(bytes: &[u8]) -> Vec<(i64, [f32; 7])> {
     let row = |row: &[u8]| {
         let handle = i32::from_le_bytes(row[..4].try_into().expect("four bytes"));
         let mut pose = [0.0; 7];
-        pose.iter_mut().zip(row[4..].chunks_exact(4)).for_each(|(part, bytes)| *part = number(bytes));
+        pose.iter_mut()
+            .zip(row[4..].chunks_exact(4))
+            .for_each(|(part, bytes)| *part = number(bytes));
         (i64::from(handle), pose)
     };
     bytes[16..].chunks_exact(32).map(row).collect()

@@ -16,7 +16,16 @@ fn served() -> Served {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("scene.lua"), SCRIPT).expect("the scene is written");
     let mut run = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    run.args(["run", "scene.lua", "--quiet", "--steps", "50", "--record", "run.swr"]).current_dir(folder.path());
+    run.args([
+        "run",
+        "scene.lua",
+        "--quiet",
+        "--steps",
+        "50",
+        "--record",
+        "run.swr",
+    ])
+    .current_dir(folder.path());
     assert!(output_of(&mut run).status.success());
     Served::start_file("view", folder, "run.swr", &["--no-open"])
 }
@@ -32,7 +41,9 @@ fn messages(served: &Served, number: usize) -> Vec<(f64, u8, Vec<u8>)> {
     let reply = get(served, &format!("recording/{number}"), &[]);
     assert_eq!(reply.status, 200);
     let mut chunk = Vec::new();
-    GzDecoder::new(&*reply.body).read_to_end(&mut chunk).expect("it is compressed");
+    GzDecoder::new(&*reply.body)
+        .read_to_end(&mut chunk)
+        .expect("it is compressed");
     let (mut rest, mut messages) = (&*chunk, Vec::new());
     while let Some((head, after)) = rest.split_first_chunk::<13>() {
         let length = u32::from_le_bytes(head[9..].try_into().expect("four bytes")) as usize;
@@ -49,31 +60,57 @@ fn a_recording_is_served_with_its_chunks_and_blobs() {
     let served = served();
     assert_eq!(get(&served, "", &[]).status, 200);
     let index = index(&served);
-    assert_eq!((&index["name"], &index["version"]), (&json!("scene.lua"), &json!(1)));
+    assert_eq!(
+        (&index["name"], &index["version"]),
+        (&json!("scene.lua"), &json!(1))
+    );
     let chunks = index["chunks"].as_array().expect("a list");
     assert!(chunks.len() >= 2, "a chunk lasts a second");
     let mut last = 0.0;
     for (number, chunk) in chunks.iter().enumerate() {
         let messages = messages(&served, number);
         assert_eq!(chunk["time"], messages[0].0);
-        let (_, kind, text) = messages.iter().find(|(_, kind, _)| *kind != 2).expect("not only blobs");
+        let (_, kind, text) = messages
+            .iter()
+            .find(|(_, kind, _)| *kind != 2)
+            .expect("not only blobs");
         let first: Value = serde_json::from_slice(text).expect("it is JSON");
-        assert_eq!((*kind, &first["type"], &first["scene"]["mode"]), (0, &json!("snapshot"), &json!("recording")));
-        assert!(messages.iter().all(|(time, _, _)| std::mem::replace(&mut last, *time) <= *time), "times never fall");
+        assert_eq!(
+            (*kind, &first["type"], &first["scene"]["mode"]),
+            (0, &json!("snapshot"), &json!("recording"))
+        );
+        assert!(
+            messages
+                .iter()
+                .all(|(time, _, _)| std::mem::replace(&mut last, *time) <= *time),
+            "times never fall"
+        );
     }
     assert_eq!(index["end"], last);
     let blobs = index["blobs"].as_object().expect("there are blobs");
     assert!(!blobs.is_empty());
     for address in blobs.values() {
-        assert_eq!(&get(&served, address.as_str().expect("an address"), &[]).body[..4], b"MESH");
+        assert_eq!(
+            &get(&served, address.as_str().expect("an address"), &[]).body[..4],
+            b"MESH"
+        );
     }
 }
 
 #[test]
 fn there_is_nothing_beside_a_recording() {
     let served = served();
-    for path in ["recording/99", "recording/-1", "recording/x", "blob/00000000000000000000000000000000", "run.swr"] {
+    for path in [
+        "recording/99",
+        "recording/-1",
+        "recording/x",
+        "blob/00000000000000000000000000000000",
+        "run.swr",
+    ] {
         assert_eq!(get(&served, path, &[]).status, 404, "{path}");
     }
-    assert!(Page::try_open(&served, "stream", &[]).is_err(), "nobody runs");
+    assert!(
+        Page::try_open(&served, "stream", &[]).is_err(),
+        "nobody runs"
+    );
 }

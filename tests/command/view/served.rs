@@ -31,7 +31,12 @@ impl Served {
     }
 
     /// The same with a file of a folder, which is removed at the end.
-    pub fn start_file(command: &str, folder: tempfile::TempDir, file: &str, options: &[&str]) -> Self {
+    pub fn start_file(
+        command: &str,
+        folder: tempfile::TempDir,
+        file: &str,
+        options: &[&str],
+    ) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_swanilda"))
             .arg(command)
             .arg(folder.path().join(file))
@@ -42,15 +47,25 @@ impl Served {
             .expect("the program starts");
         let mut lines = BufReader::new(child.stdout.take().expect("it is piped")).lines();
         let url = loop {
-            let line = lines.next().expect("the address is printed").expect("it is text");
+            let line = lines
+                .next()
+                .expect("the address is printed")
+                .expect("it is text");
             if let Some(url) = line.strip_prefix("Viewer at http://127.0.0.1:") {
                 break url.to_owned();
             }
         };
         // Somebody must read on, or a full pipe stops the scripts.
         let (sender, received) = channel();
-        std::thread::spawn(move || lines.map_while(Result::ok).for_each(|line| drop(sender.send(line))));
-        let (port, token) = url.trim_end_matches('/').split_once('/').expect("a port and a secret");
+        std::thread::spawn(move || {
+            lines
+                .map_while(Result::ok)
+                .for_each(|line| drop(sender.send(line)))
+        });
+        let (port, token) = url
+            .trim_end_matches('/')
+            .split_once('/')
+            .expect("a port and a secret");
         Self {
             child,
             port: port.parse().expect("a port"),
@@ -66,19 +81,28 @@ impl Served {
         loop {
             let line = lines.recv_timeout(LIMIT).expect("the address is printed");
             if let Some(address) = line.strip_prefix(words) {
-                return address.rsplit(':').next().expect("a port").parse().expect("a port");
+                return address
+                    .rsplit(':')
+                    .next()
+                    .expect("a port")
+                    .parse()
+                    .expect("a port");
             }
         }
     }
 
     pub fn interrupt(&mut self) {
-        let kill = Command::new("kill").args(["-INT", &self.child.id().to_string()]).status();
+        let kill = Command::new("kill")
+            .args(["-INT", &self.child.id().to_string()])
+            .status();
         assert!(kill.expect("there is kill").success());
     }
 
     /// Waits for the end; whether it was a good one.
     pub fn wait(&mut self) -> bool {
-        wait_within(&mut self.child, LIMIT).expect("it ends").success()
+        wait_within(&mut self.child, LIMIT)
+            .expect("it ends")
+            .success()
     }
 }
 

@@ -17,7 +17,10 @@ end
 ";
 
 fn served(options: &[&str]) -> (Served, u16) {
-    let served = Served::start(SCRIPT, &[&["--paused", "--visualization-stream=0"], options].concat());
+    let served = Served::start(
+        SCRIPT,
+        &[&["--paused", "--visualization-stream=0"], options].concat(),
+    );
     let port = served.address_of("Visualization stream at ");
     (served, port)
 }
@@ -36,7 +39,9 @@ fn read(rest: &mut &[u8]) -> Value {
     *rest = after;
     let (kind, short) = (first >> 5, first & 31);
     if first == 0xfa {
-        return json!(f32::from_be_bytes(take(rest, 4).try_into().expect("so many bytes")));
+        return json!(f32::from_be_bytes(
+            take(rest, 4).try_into().expect("so many bytes")
+        ));
     }
     if matches!(first, 0x9f | 0xbf) {
         return read_open(rest, first == 0xbf);
@@ -44,8 +49,12 @@ fn read(rest: &mut &[u8]) -> Value {
     let number = match short {
         0..=23 => u64::from(short),
         24 => u64::from(take(rest, 1)[0]),
-        25 => u64::from(u16::from_be_bytes(take(rest, 2).try_into().expect("so many bytes"))),
-        26 => u64::from(u32::from_be_bytes(take(rest, 4).try_into().expect("so many bytes"))),
+        25 => u64::from(u16::from_be_bytes(
+            take(rest, 2).try_into().expect("so many bytes"),
+        )),
+        26 => u64::from(u32::from_be_bytes(
+            take(rest, 4).try_into().expect("so many bytes"),
+        )),
         27 => u64::from_be_bytes(take(rest, 8).try_into().expect("so many bytes")),
         _ => panic!("no head of CBOR: {first:#x}"),
     };
@@ -55,7 +64,14 @@ fn read(rest: &mut &[u8]) -> Value {
         2 => json!({ "bytes": take(rest, number as usize).len() }),
         3 => json!(String::from_utf8_lossy(take(rest, number as usize))),
         4 => (0..number).map(|_| read(rest)).collect(),
-        5 => (0..number).map(|_| (read(rest).as_str().expect("keys are texts").to_owned(), read(rest))).collect(),
+        5 => (0..number)
+            .map(|_| {
+                (
+                    read(rest).as_str().expect("keys are texts").to_owned(),
+                    read(rest),
+                )
+            })
+            .collect(),
         6 => panic!("a tag: {number}"),
         _ => match short {
             20 | 21 => json!(short == 21),
@@ -76,7 +92,11 @@ fn read_open(rest: &mut &[u8], is_map: bool) -> Value {
         }
     }
     *rest = &rest[1..];
-    if is_map { Value::Object(members) } else { Value::Array(items) }
+    if is_map {
+        Value::Object(members)
+    } else {
+        Value::Array(items)
+    }
 }
 
 fn take<'a>(rest: &mut &'a [u8], count: usize) -> &'a [u8] {
@@ -98,13 +118,28 @@ fn a_client_begins_with_a_snapshot() {
         (&genesis[0]["event"], &genesis.last().unwrap()["event"]),
         (&json!("genesisBegin"), &json!("genesisEnd"))
     );
-    let app = genesis.iter().find(|event| event["handle"] == -13).expect("the application");
+    let app = genesis
+        .iter()
+        .find(|event| event["handle"] == -13)
+        .expect("the application");
     assert_eq!(app["data"]["protocolVersion"], 3);
     assert!(app["data"]["sessionId"].is_string());
-    assert!(genesis.iter().any(|event| event["handle"] == -12 && !event["data"]["sceneUid"].is_null()));
-    assert!(genesis.windows(2).all(|two| seq(&two[1]) == seq(&two[0]) + 1), "numbers follow each other");
+    assert!(
+        genesis
+            .iter()
+            .any(|event| event["handle"] == -12 && !event["data"]["sceneUid"].is_null())
+    );
+    assert!(
+        genesis
+            .windows(2)
+            .all(|two| seq(&two[1]) == seq(&two[0]) + 1),
+        "numbers follow each other"
+    );
     let mut announced = vec![-1];
-    for event in genesis.iter().filter(|event| event["event"] == "objectAdded") {
+    for event in genesis
+        .iter()
+        .filter(|event| event["event"] == "objectAdded")
+    {
         if let Some(parent) = event["data"]["parentUid"].as_i64() {
             assert!(announced.contains(&parent), "{event}");
         }
@@ -120,7 +155,11 @@ fn changes_continue_the_numbers_of_each_client() {
     let mut last = seq(events(&first.binary()).last().unwrap());
     first.send_bytes(b"who are you?");
     let mut commander = Page::open(&served);
-    let mut run = |code: &str| commander.ask(json!({"do": "run", "code": code})).expect("it runs");
+    let mut run = |code: &str| {
+        commander
+            .ask(json!({"do": "run", "code": code}))
+            .expect("it runs")
+    };
     run("d = sim.createDummy(0.01)");
     let mut seen: Vec<Value> = Vec::new();
     let mut follow = |seen: &mut Vec<Value>, wanted: &dyn Fn(&Value) -> bool| {
@@ -132,21 +171,36 @@ fn changes_continue_the_numbers_of_each_client() {
             }
         }
     };
-    follow(&mut seen, &|event| event["event"] == "objectAdded" && event["data"]["objectType"] == "dummy");
+    follow(&mut seen, &|event| {
+        event["event"] == "objectAdded" && event["data"]["objectType"] == "dummy"
+    });
     let mut second = Page::open_at(port, "");
     assert_eq!(events(&second.binary())[0]["event"], "genesisBegin");
     run("for i = 1, 10 do sim.setObjectPosition(d, {i, 0, 0}) end");
     seen.clear();
     follow(&mut seen, &|event| event["data"]["pose"][0] == json!(10.0));
-    assert_eq!(seen.iter().filter(|event| !event["data"]["pose"].is_null()).count(), 1, "poses of a batch are one");
+    assert_eq!(
+        seen.iter()
+            .filter(|event| !event["data"]["pose"].is_null())
+            .count(),
+        1,
+        "poses of a batch are one"
+    );
     run("sim.removeObjects({d})");
     seen.clear();
     follow(&mut seen, &|event| event["event"] == "objectRemoved");
-    let removed = seen.iter().find(|event| event["event"] == "objectRemoved").unwrap();
+    let removed = seen
+        .iter()
+        .find(|event| event["event"] == "objectRemoved")
+        .unwrap();
     assert_eq!(removed["data"], json!({}));
     run("sim.startSimulation()");
     seen.clear();
-    follow(&mut seen, &|event| event["data"]["stepCount"].as_i64().is_some_and(|count| count > 2));
+    follow(&mut seen, &|event| {
+        event["data"]["stepCount"]
+            .as_i64()
+            .is_some_and(|count| count > 2)
+    });
     assert_eq!(seen.last().unwrap()["event"], "msgDispatchTime");
 }
 
@@ -158,26 +212,43 @@ fn another_scene_replaces_the_one_before() {
     let mut client = Page::open_at(port, "");
     let genesis = events(&client.binary());
     let uid_of = |events: &[Value]| {
-        let scene = events.iter().rfind(|event| event["handle"] == -12 && !event["data"]["sceneUid"].is_null());
+        let scene = events
+            .iter()
+            .rfind(|event| event["handle"] == -12 && !event["data"]["sceneUid"].is_null());
         scene.map(|event| event["data"]["sceneUid"].clone())
     };
     let before = uid_of(&genesis).expect("a scene has a number");
     let mut commander = Page::open(&served);
-    let mut run = |code: String| commander.ask(json!({"do": "run", "code": code})).expect("it runs");
+    let mut run = |code: String| {
+        commander
+            .ask(json!({"do": "run", "code": code}))
+            .expect("it runs")
+    };
     run(format!("sim.saveScene([[{}]])", path.display()));
     run(format!("sim.loadScene([[{}]])", path.display()));
     let mut seen = Vec::new();
     while uid_of(&seen).is_none_or(|uid| uid == before) {
         let batch = events(&client.binary());
         let first = seen.last().or(genesis.last()).map(seq).unwrap();
-        assert!(batch.iter().zip(first + 1..).all(|(event, number)| seq(event) == number), "no gap");
+        assert!(
+            batch
+                .iter()
+                .zip(first + 1..)
+                .all(|(event, number)| seq(event) == number),
+            "no gap"
+        );
         seen.extend(batch);
     }
     // Every object of the scene before is gone, or everything begins anew.
     let begins_anew = seen.iter().any(|event| event["event"] == "genesisBegin");
-    let removed: Vec<&Value> = seen.iter().filter(|event| event["event"] == "objectRemoved").collect();
+    let removed: Vec<&Value> = seen
+        .iter()
+        .filter(|event| event["event"] == "objectRemoved")
+        .collect();
     let added = |events: &[Value]| -> Vec<Value> {
-        let objects = events.iter().filter(|event| event["event"] == "objectAdded" && event["data"]["pose"].is_array());
+        let objects = events
+            .iter()
+            .filter(|event| event["event"] == "objectAdded" && event["data"]["pose"].is_array());
         objects.map(|event| event["uid"].clone()).collect()
     };
     let gone = |uid: &Value| removed.iter().any(|event| event["uid"] == *uid);
@@ -188,19 +259,37 @@ fn another_scene_replaces_the_one_before() {
 #[test]
 fn files_of_the_front_end_are_served_from_a_folder() {
     let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("index.html"), "<script>const wsPort = 23020;</script>").unwrap();
+    std::fs::write(
+        folder.path().join("index.html"),
+        "<script>const wsPort = 23020;</script>",
+    )
+    .unwrap();
     std::fs::write(folder.path().join("main.js"), "1").unwrap();
     std::fs::write(folder.path().join("x.exe"), "1").unwrap();
-    let option = format!("-DvisualizationStream.resources={}", folder.path().display());
+    let option = format!(
+        "-DvisualizationStream.resources={}",
+        folder.path().display()
+    );
     let (_served, port) = served(&[&option]);
-    let get = |path: &str| -> Reply { request_at(port, &format!("GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n")) };
+    let get = |path: &str| -> Reply {
+        request_at(
+            port,
+            &format!("GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n"),
+        )
+    };
     let page = get("/");
     assert_eq!(page.status, 200);
     assert!(page.head.contains("text/html"));
     assert!(String::from_utf8_lossy(&page.body).contains(&format!("const wsPort = {port};")));
     let script = get("/main.js");
     assert!(script.status == 200 && script.head.contains("application/javascript"));
-    for path in ["/x.exe", "/../index.html", "/%2e%2e/index.html", "/none.js", "/main.js/"] {
+    for path in [
+        "/x.exe",
+        "/../index.html",
+        "/%2e%2e/index.html",
+        "/none.js",
+        "/main.js/",
+    ] {
         assert_eq!(get(path).status, 404, "{path}");
     }
 }

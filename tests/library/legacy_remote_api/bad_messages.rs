@@ -17,7 +17,9 @@ fn spoilt_legacy_messages() {
         command(0x102e, 1, &ints(&[0]), &ints(&[0])),
     ];
     let mut message = vec![0; 18];
-    commands.iter().for_each(|command| command.write(&mut message));
+    commands
+        .iter()
+        .for_each(|command| command.write(&mut message));
     let mut count = 0;
     for at in 0..message.len() {
         for byte in [0, 1, 0x1a, 0x7f, 0x80, 0xff] {
@@ -38,14 +40,26 @@ fn spoilt_legacy_messages() {
 #[test]
 fn legacy_sizes_that_lie() {
     let server = Server::start("sim = require 'sim'");
-    let huge = Command { full: i32::MAX as usize, ..command(0x3015, 3, &text("x"), b"data") };
-    let part = Command { full: 200 << 20, ..command(0x3015, 3, &text("x"), b"data") };
-    let outside = Command { offset: i32::MAX as usize, ..command(0x3015, 3, &text("x"), b"data") };
+    let huge = Command {
+        full: i32::MAX as usize,
+        ..command(0x3015, 3, &text("x"), b"data")
+    };
+    let part = Command {
+        full: 200 << 20,
+        ..command(0x3015, 3, &text("x"), b"data")
+    };
+    let outside = Command {
+        offset: i32::MAX as usize,
+        ..command(0x3015, 3, &text("x"), b"data")
+    };
     for lie in [huge, outside] {
         let mut message = vec![0; 18];
         lie.write(&mut message);
         let mut client = Client::connect(server.address);
-        assert!(client.exchange_bytes(&packets(&message)).is_err(), "{lie:?}");
+        assert!(
+            client.exchange_bytes(&packets(&message)).is_err(),
+            "{lie:?}"
+        );
     }
     let mut client = Client::connect(server.address);
     assert!(client.exchange(&[part]).commands.is_empty());
@@ -60,9 +74,16 @@ fn legacy_sizes_that_lie() {
 #[test]
 fn too_many_legacy_commands() {
     let server = Server::start("sim = require 'sim'");
-    let log = Command { status: 1, ..command(0x3012, 0, &text("x"), &[]) };
+    let log = Command {
+        status: 1,
+        ..command(0x3012, 0, &text("x"), &[])
+    };
     let mut message = vec![0; 18];
     (0..10_001).for_each(|_| log.write(&mut message));
-    assert!(Client::connect(server.address).exchange_bytes(&packets(&message)).is_err());
+    assert!(
+        Client::connect(server.address)
+            .exchange_bytes(&packets(&message))
+            .is_err()
+    );
     Client::connect(server.address).handle("/Floor");
 }

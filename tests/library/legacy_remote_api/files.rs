@@ -4,9 +4,11 @@ use super::simx::{BLOCKING, Server, command, ints, text};
 
 #[test]
 fn a_scene_that_was_sent_is_loaded_and_erased() {
-    let server = Server::start("sim = require 'sim' sim.setObjectAlias(sim.createDummy(0.1), 'old')");
+    let server =
+        Server::start("sim = require 'sim' sim.setObjectAlias(sim.createDummy(0.1), 'old')");
     let mut client = server.connect();
-    let scene = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/robot.ttt")).expect("it is there");
+    let scene = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/robot.ttt"))
+        .expect("it is there");
     let name = text("REMOTE_API_TEMPFILE_1234.ttt");
     client.get(0x3004, &name, &scene);
     client.handle("old");
@@ -26,10 +28,16 @@ fn names_lead_nowhere_else() {
     }
     client.get(0x3004, &text("plain"), b"data");
     let folder = client.get(0x1025, &ints(&[16]), &[]);
-    let path = format!("{}/plain", String::from_utf8_lossy(&folder[..folder.len() - 1]));
+    let path = format!(
+        "{}/plain",
+        String::from_utf8_lossy(&folder[..folder.len() - 1])
+    );
     assert_eq!(std::fs::read(&path).ok().as_deref(), Some(&b"data"[..]));
     drop((client, server));
-    assert!(!std::path::Path::new(&path).exists(), "files go with the server");
+    assert!(
+        !std::path::Path::new(&path).exists(),
+        "files go with the server"
+    );
 }
 
 #[test]

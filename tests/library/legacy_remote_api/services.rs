@@ -28,7 +28,10 @@ fn script(client: &mut Client, function: &str, port: u16) -> (Vec<i32>, String) 
     let counts = read_ints(&data[..16]);
     let (numbers, texts) = data[16..].split_at(4 * counts[0] as usize);
     let name = texts.split(|&byte| byte == 0).next().unwrap_or_default();
-    (read_ints(numbers), String::from_utf8_lossy(name).into_owned())
+    (
+        read_ints(numbers),
+        String::from_utf8_lossy(name).into_owned(),
+    )
 }
 
 fn free_port() -> u16 {
@@ -46,13 +49,29 @@ fn scripts_start_and_stop_servers() {
     let (mut client, port) = (server.connect(), free_port());
     assert_eq!(script(&mut client, "status", port).0, [-1, 11, -1, -1]);
     assert_eq!(script(&mut client, "start", port).0, [1]);
-    assert_eq!(script(&mut client, "start", port).0, [-1], "the port is taken");
-    assert_eq!(script(&mut client, "status", port), (vec![1, 11, -1, 5], "NONE (reception line is not open)".into()));
+    assert_eq!(
+        script(&mut client, "start", port).0,
+        [-1],
+        "the port is taken"
+    );
+    assert_eq!(
+        script(&mut client, "status", port),
+        (
+            vec![1, 11, -1, 5],
+            "NONE (reception line is not open)".into()
+        )
+    );
     let mut second = Client::connect(at(port));
     second.handle("/Floor");
-    assert_eq!(script(&mut client, "status", port), (vec![3, 11, 11, 5], "127.0.0.1".into()));
+    assert_eq!(
+        script(&mut client, "status", port),
+        (vec![3, 11, 11, 5], "127.0.0.1".into())
+    );
     assert_eq!(script(&mut client, "reset", port).0, [1]);
-    assert!(second.exchange_bytes(&[]).is_err(), "its connection is closed");
+    assert!(
+        second.exchange_bytes(&[]).is_err(),
+        "its connection is closed"
+    );
     Client::connect(at(port)).handle("/Floor");
     assert_eq!(script(&mut client, "stop", port).0, [1]);
     assert_eq!(script(&mut client, "stop", port).0, [-1]);
@@ -86,10 +105,15 @@ fn servers_of_simulation_scripts_end_with_the_simulation() {
     });
     let mut theirs = Client::connect(at(port));
     theirs.exchange(&[]);
-    assert!(theirs.fails(0x0001, &[], &[]), "the synchronous mode was not enabled");
+    assert!(
+        theirs.fails(0x0001, &[], &[]),
+        "the synchronous mode was not enabled"
+    );
     client.get(0x1007, &ints(&[2]), &[]);
     let asked = command(0x1021, BLOCKING, &ints(&[1]), &[]);
-    wait_until("the simulation stops", || client.exchange(std::slice::from_ref(&asked)).state == 0);
+    wait_until("the simulation stops", || {
+        client.exchange(std::slice::from_ref(&asked)).state == 0
+    });
     assert!(std::net::TcpStream::connect(at(port)).is_err());
 }
 
@@ -99,7 +123,11 @@ fn all_synchronous_clients_must_trigger() {
     let (mut first, port) = (server.connect(), free_port());
     script(&mut first, "start", port);
     let mut second = Client::connect(at(port));
-    let time = |client: &mut Client| client.call(command(0x1021, BLOCKING, &ints(&[1]), &[])).time;
+    let time = |client: &mut Client| {
+        client
+            .call(command(0x1021, BLOCKING, &ints(&[1]), &[]))
+            .time
+    };
     first.get(0x0001, &[], &[]);
     second.get(0x0001, &[], &[]);
     first.get(0x1007, &ints(&[0]), &[]);

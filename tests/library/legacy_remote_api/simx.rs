@@ -30,24 +30,35 @@ impl Server {
     pub fn start(code: &'static str) -> Self {
         let stop = Arc::<AtomicBool>::default();
         let (their_stop, (sender, receiver)) = (stop.clone(), mpsc::channel());
-        let thread = std::thread::Builder::new().stack_size(Simulator::STACK_SIZE).spawn(move || {
-            let mut sim = Simulator::new(Options::default());
-            sim.scene_mut().add_default_objects().expect("there is room");
-            sim.add_script(ScriptKind::Customization, "test", code.as_bytes()).expect("there is room");
-            assert_eq!(sim.errors(), 0, "the script fails");
-            let listener = TcpListener::bind("127.0.0.1:0").expect("a port is free");
-            sender.send(sim.serve_legacy(listener).expect("the listener is good")).expect("the test waits");
-            while !their_stop.load(Ordering::Relaxed) {
-                let steps = sim.steps();
-                sim.iterate();
-                if sim.steps() == steps {
-                    sim.wait_for_request(Duration::from_millis(5));
+        let thread = std::thread::Builder::new()
+            .stack_size(Simulator::STACK_SIZE)
+            .spawn(move || {
+                let mut sim = Simulator::new(Options::default());
+                sim.scene_mut()
+                    .add_default_objects()
+                    .expect("there is room");
+                sim.add_script(ScriptKind::Customization, "test", code.as_bytes())
+                    .expect("there is room");
+                assert_eq!(sim.errors(), 0, "the script fails");
+                let listener = TcpListener::bind("127.0.0.1:0").expect("a port is free");
+                sender
+                    .send(sim.serve_legacy(listener).expect("the listener is good"))
+                    .expect("the test waits");
+                while !their_stop.load(Ordering::Relaxed) {
+                    let steps = sim.steps();
+                    sim.iterate();
+                    if sim.steps() == steps {
+                        sim.wait_for_request(Duration::from_millis(5));
+                    }
                 }
-            }
-        });
+            });
         let thread = thread.expect("a thread can be made");
         let address = receiver.recv_timeout(LIMIT).expect("the server starts");
-        Self { address, stop, thread: Some(thread) }
+        Self {
+            address,
+            stop,
+            thread: Some(thread),
+        }
     }
 
     pub fn connect(&self) -> Client {
@@ -58,8 +69,14 @@ impl Server {
 impl Drop for Server {
     fn drop(&mut self) {
         self.stop.store(true, Ordering::Relaxed);
-        let ended = self.thread.take().is_none_or(|thread| thread.join().is_ok());
-        assert!(ended || std::thread::panicking(), "the simulator has panicked");
+        let ended = self
+            .thread
+            .take()
+            .is_none_or(|thread| thread.join().is_ok());
+        assert!(
+            ended || std::thread::panicking(),
+            "the simulator has panicked"
+        );
     }
 }
 
@@ -82,7 +99,17 @@ pub struct Command {
 pub fn command(id: u16, mode: u32, key: &[u8], data: &[u8]) -> Command {
     let full = 26 + key.len() + data.len();
     let (key, data) = (key.to_vec(), data.to_vec());
-    Command { id, mode, key, data, delay: 0, status: 0, time: 0, offset: 0, full }
+    Command {
+        id,
+        mode,
+        key,
+        data,
+        delay: 0,
+        status: 0,
+        time: 0,
+        offset: 0,
+        full,
+    }
 }
 
 impl Command {
@@ -126,7 +153,9 @@ impl Client {
     pub fn connect(address: SocketAddr) -> Self {
         let stream = TcpStream::connect(address).expect("the server listens");
         stream.set_nodelay(true).expect("it is a socket");
-        stream.set_read_timeout(Some(LIMIT)).expect("it is a socket");
+        stream
+            .set_read_timeout(Some(LIMIT))
+            .expect("it is a socket");
         Self { stream, last: -1 }
     }
 
@@ -136,8 +165,11 @@ impl Client {
         self.last += 1;
         message.extend(self.last.to_le_bytes());
         message.extend([0; 11]);
-        commands.iter().for_each(|command| command.write(&mut message));
-        self.exchange_bytes(&packets(&message)).expect("the server replies")
+        commands
+            .iter()
+            .for_each(|command| command.write(&mut message));
+        self.exchange_bytes(&packets(&message))
+            .expect("the server replies")
     }
 
     /// Sends bytes and reads the reply.
@@ -162,7 +194,10 @@ impl Client {
         let (id, begun) = (self.last, Instant::now());
         loop {
             if reply.id >= id && !reply.commands.is_empty() {
-                let found = reply.commands.into_iter().find(|answer| (answer.id, &answer.key) == (sent.id, &sent.key));
+                let found = reply
+                    .commands
+                    .into_iter()
+                    .find(|answer| (answer.id, &answer.key) == (sent.id, &sent.key));
                 return found.unwrap_or_else(|| panic!("no reply to {sent:?}"));
             }
             assert!(begun.elapsed() < LIMIT, "no reply to {sent:?}");
@@ -184,13 +219,17 @@ impl Client {
 
     /// The handle of an object.
     pub fn handle(&mut self, name: &str) -> [u8; 4] {
-        self.get(0x3001, &text(name), &[]).try_into().expect("a handle has four bytes")
+        self.get(0x3001, &text(name), &[])
+            .try_into()
+            .expect("a handle has four bytes")
     }
 
     /// The texts of the last errors.
     pub fn errors(&mut self) -> Vec<String> {
         let data = self.call(command(0x0004, BLOCKING, &[], &[])).data;
-        let texts = data[4..].split(|&byte| byte == 0).map(|text| String::from_utf8_lossy(text).into_owned());
+        let texts = data[4..]
+            .split(|&byte| byte == 0)
+            .map(|text| String::from_utf8_lossy(text).into_owned());
         texts.take(int(&data, 0) as usize).collect()
     }
 }
@@ -200,19 +239,31 @@ pub fn text(text: &str) -> Vec<u8> {
 }
 
 pub fn ints(values: &[i32]) -> Vec<u8> {
-    values.iter().flat_map(|value| value.to_le_bytes()).collect()
+    values
+        .iter()
+        .flat_map(|value| value.to_le_bytes())
+        .collect()
 }
 
 pub fn floats(values: &[f32]) -> Vec<u8> {
-    values.iter().flat_map(|value| value.to_le_bytes()).collect()
+    values
+        .iter()
+        .flat_map(|value| value.to_le_bytes())
+        .collect()
 }
 
 pub fn read_floats(bytes: &[u8]) -> Vec<f32> {
-    bytes.chunks_exact(4).map(|chunk| f32::from_le_bytes(chunk.try_into().expect("four bytes"))).collect()
+    bytes
+        .chunks_exact(4)
+        .map(|chunk| f32::from_le_bytes(chunk.try_into().expect("four bytes")))
+        .collect()
 }
 
 pub fn read_ints(bytes: &[u8]) -> Vec<i32> {
-    bytes.chunks_exact(4).map(|chunk| i32::from_le_bytes(chunk.try_into().expect("four bytes"))).collect()
+    bytes
+        .chunks_exact(4)
+        .map(|chunk| i32::from_le_bytes(chunk.try_into().expect("four bytes")))
+        .collect()
 }
 
 /// A message in packets, as the usual clients cut it.
@@ -243,5 +294,10 @@ fn parse(bytes: Vec<u8>) -> Reply {
         });
         at += size;
     }
-    Reply { id: int(&bytes, 3), state: bytes[17], commands, bytes }
+    Reply {
+        id: int(&bytes, 3),
+        state: bytes[17],
+        commands,
+        bytes,
+    }
 }

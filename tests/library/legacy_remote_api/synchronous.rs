@@ -18,7 +18,9 @@ fn control(client: &mut Client, what: i32) {
 
 /// What `simxGetPingTime` does; returns the time of the simulation in milliseconds.
 fn ping(client: &mut Client) -> i32 {
-    client.call(command(0x1021, BLOCKING, &ints(&[1]), &[])).time
+    client
+        .call(command(0x1021, BLOCKING, &ints(&[1]), &[]))
+        .time
 }
 
 fn trigger_fails(client: &mut Client) -> bool {
@@ -32,7 +34,9 @@ fn waits(client: &mut Client) -> bool {
 /// Until the state of the simulation is that: bit 0 not stopped, bit 1 paused.
 fn wait_for_state(client: &mut Client, state: u8) {
     let asked = command(0x1021, BLOCKING, &ints(&[1]), &[]);
-    wait_until("the state comes", || client.exchange(std::slice::from_ref(&asked)).state == state);
+    wait_until("the state comes", || {
+        client.exchange(std::slice::from_ref(&asked)).state == state
+    });
 }
 
 fn wait_until_steps_run_freely(client: &mut Client) {
@@ -52,7 +56,11 @@ fn each_trigger_makes_one_step() {
         client.get(0x0003, &[], &[]);
         assert_eq!(ping(&mut client), 50 * step);
         std::thread::sleep(Duration::from_millis(10));
-        assert_eq!(ping(&mut client), 50 * step, "nothing happens without a trigger");
+        assert_eq!(
+            ping(&mut client),
+            50 * step,
+            "nothing happens without a trigger"
+        );
     }
 }
 
@@ -108,7 +116,13 @@ fn streams_go_on_over_stop_and_start() {
     control(&mut client, START);
     control(&mut client, STOP);
     wait_for_state(&mut client, 0);
-    wait_until("the stream goes on", || client.exchange(&[]).commands.iter().any(|answer| answer.id == 0x200e));
+    wait_until("the stream goes on", || {
+        client
+            .exchange(&[])
+            .commands
+            .iter()
+            .any(|answer| answer.id == 0x200e)
+    });
 }
 
 #[test]

@@ -11,7 +11,9 @@ struct Exchange {
 }
 
 fn bytes(hex: &str) -> Vec<u8> {
-    let byte = |pair: &[u8]| u8::from_str_radix(std::str::from_utf8(pair).expect("ASCII"), 16).expect("hexadecimal");
+    let byte = |pair: &[u8]| {
+        u8::from_str_radix(std::str::from_utf8(pair).expect("ASCII"), 16).expect("hexadecimal")
+    };
     hex.as_bytes().chunks(2).map(byte).collect()
 }
 
@@ -41,11 +43,18 @@ fn comparable(packet: &[u8]) -> Vec<u8> {
 fn the_replies_are_those_of_the_original() {
     let server = Server::start("sim = require 'sim'");
     let mut client = server.connect();
-    for Exchange { function, sent, reply: expected } in EXCHANGES {
+    for Exchange {
+        function,
+        sent,
+        reply: expected,
+    } in EXCHANGES
+    {
         let (sent, expected) = (bytes(sent), bytes(expected));
         let mut reply = client.exchange_bytes(&sent).expect("the server replies");
         while reply.commands.is_empty() {
-            reply = client.exchange_bytes(&empty(&sent)).expect("the server replies");
+            reply = client
+                .exchange_bytes(&empty(&sent))
+                .expect("the server replies");
         }
         let reply = super::simx::packets(&reply.bytes);
         assert_eq!(comparable(&reply), comparable(&expected), "{function}");

@@ -13,19 +13,34 @@ pub struct Route {
 }
 
 const fn route(name: &'static str, code: &'static str) -> Route {
-    Route { name, code, needs_more: false, listens: false, is_vague: false }
+    Route {
+        name,
+        code,
+        needs_more: false,
+        listens: false,
+        is_vague: false,
+    }
 }
 
 const fn half(name: &'static str, code: &'static str) -> Route {
-    Route { needs_more: true, ..route(name, code) }
+    Route {
+        needs_more: true,
+        ..route(name, code)
+    }
 }
 
 const fn server(name: &'static str, code: &'static str) -> Route {
-    Route { listens: true, ..route(name, code) }
+    Route {
+        listens: true,
+        ..route(name, code)
+    }
 }
 
 const fn vague(name: &'static str, code: &'static str) -> Route {
-    Route { is_vague: true, ..route(name, code) }
+    Route {
+        is_vague: true,
+        ..route(name, code)
+    }
 }
 
 /// They read a file of `FOLDER`, or what is known of it.
@@ -171,8 +186,14 @@ pub const RUNS: &[Route] = &[
 
 /// They load what is no text of Lua.
 pub const NATIVE: &[Route] = &[
-    route("load", "return load(string.dump(function() end), 'name', 'b')"),
-    half("package.loadlib", "return package.loadlib('no such library', '*')"),
+    route(
+        "load",
+        "return load(string.dump(function() end), 'name', 'b')",
+    ),
+    half(
+        "package.loadlib",
+        "return package.loadlib('no such library', '*')",
+    ),
     route(
         "loadfile",
         "local file = io.open(FOLDER .. '/code', 'wb')

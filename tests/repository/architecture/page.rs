@@ -6,9 +6,21 @@ use std::path::{Path, PathBuf};
 use super::imports::{read, relative, root};
 
 /// What would make HTML or code from text.
-const FORBIDDEN: &[&str] =
-    &["innerHTML", "outerHTML", "insertAdjacentHTML", "document.write", "eval(", "new Function", "DOMParser"];
-const EXPORTS: &[&str] = &["export function ", "export async function ", "export class ", "export const "];
+const FORBIDDEN: &[&str] = &[
+    "innerHTML",
+    "outerHTML",
+    "insertAdjacentHTML",
+    "document.write",
+    "eval(",
+    "new Function",
+    "DOMParser",
+];
+const EXPORTS: &[&str] = &[
+    "export function ",
+    "export async function ",
+    "export class ",
+    "export const ",
+];
 
 fn modules() -> Vec<PathBuf> {
     let mut found = Vec::new();
@@ -41,7 +53,8 @@ fn modules_can_be_joined_by_text() {
     for file in modules() {
         for line in read(&file).lines() {
             let is_import = line.starts_with("import") && imported(line).is_none();
-            let is_export = line.starts_with("export") && !EXPORTS.iter().any(|form| line.starts_with(form));
+            let is_export =
+                line.starts_with("export") && !EXPORTS.iter().any(|form| line.starts_with(form));
             if is_import || is_export {
                 wrong.push(format!("{}: {line}", relative(&file).display()));
             }
@@ -52,20 +65,38 @@ fn modules_can_be_joined_by_text() {
 
 #[test]
 fn modules_import_without_cycles() {
-    let mut imports: BTreeMap<PathBuf, Vec<PathBuf>> =
-        modules().into_iter().map(|file| (file.clone(), targets(&file))).collect();
-    while let Some(leaf) = imports.iter().find(|(_, targets)| targets.is_empty()).map(|(file, _)| file.clone()) {
+    let mut imports: BTreeMap<PathBuf, Vec<PathBuf>> = modules()
+        .into_iter()
+        .map(|file| (file.clone(), targets(&file)))
+        .collect();
+    while let Some(leaf) = imports
+        .iter()
+        .find(|(_, targets)| targets.is_empty())
+        .map(|(file, _)| file.clone())
+    {
         imports.remove(&leaf);
-        imports.values_mut().for_each(|targets| targets.retain(|target| *target != leaf));
+        imports
+            .values_mut()
+            .for_each(|targets| targets.retain(|target| *target != leaf));
     }
-    assert!(imports.is_empty(), "these import each other, or what is not there: {imports:#?}");
+    assert!(
+        imports.is_empty(),
+        "these import each other, or what is not there: {imports:#?}"
+    );
 }
 
 fn targets(file: &Path) -> Vec<PathBuf> {
     let folder = file.parent().expect("files are in folders");
     let text = read(file);
     let paths = text.lines().filter_map(imported);
-    paths.map(|path| folder.join(path).canonicalize().expect("what is imported is there")).collect()
+    paths
+        .map(|path| {
+            folder
+                .join(path)
+                .canonicalize()
+                .expect("what is imported is there")
+        })
+        .collect()
 }
 
 #[test]

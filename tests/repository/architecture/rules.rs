@@ -4,8 +4,13 @@
 pub type Rooms = &'static [(&'static str, &'static [&'static str])];
 
 /// The crates that consist of rooms.
-pub const ROOMS: &[(&str, Rooms)] =
-    &[("scene", SCENE), ("dynamics", DYNAMICS), ("perception", PERCEPTION), ("format", FORMAT), ("script", SCRIPT)];
+pub const ROOMS: &[(&str, Rooms)] = &[
+    ("scene", SCENE),
+    ("dynamics", DYNAMICS),
+    ("perception", PERCEPTION),
+    ("format", FORMAT),
+    ("script", SCRIPT),
+];
 
 const SCENE: Rooms = &[
     ("error", &[]),
@@ -21,11 +26,55 @@ const SCENE: Rooms = &[
     ("shape", &["appearance", "voxels"]),
     ("joint", &["parameters"]),
     ("pose", &["joint"]),
-    ("simulation", &["appearance", "joint", "parameters", "pose", "shape"]),
-    ("object", &["appearance", "graph", "joint", "path_object", "pose", "sensor", "shape", "simulation", "voxels"]),
-    ("tree", &["appearance", "drawing", "graph", "joint", "object", "pose", "sensor", "shape", "simulation", "voxels"]),
-    ("parameters", &["appearance", "joint", "object", "sensor", "shape"]),
-    ("store", &["appearance", "drawing", "joint", "object", "pose", "shape", "tree"]),
+    (
+        "simulation",
+        &["appearance", "joint", "parameters", "pose", "shape"],
+    ),
+    (
+        "object",
+        &[
+            "appearance",
+            "graph",
+            "joint",
+            "path_object",
+            "pose",
+            "sensor",
+            "shape",
+            "simulation",
+            "voxels",
+        ],
+    ),
+    (
+        "tree",
+        &[
+            "appearance",
+            "drawing",
+            "graph",
+            "joint",
+            "object",
+            "pose",
+            "sensor",
+            "shape",
+            "simulation",
+            "voxels",
+        ],
+    ),
+    (
+        "parameters",
+        &["appearance", "joint", "object", "sensor", "shape"],
+    ),
+    (
+        "store",
+        &[
+            "appearance",
+            "drawing",
+            "joint",
+            "object",
+            "pose",
+            "shape",
+            "tree",
+        ],
+    ),
 ];
 
 const DYNAMICS: Rooms = &[
@@ -39,14 +88,48 @@ const DYNAMICS: Rooms = &[
     ("bodies", &["colliders", "convert", "plan", "world"]),
     ("flat_faces", &[]),
     ("contacts", &["bodies", "convert", "flat_faces", "world"]),
-    ("exact_contacts", &["bodies", "contacts", "convert", "world"]),
-    ("contact_log", &["bodies", "convert", "exact_contacts", "world"]),
+    (
+        "exact_contacts",
+        &["bodies", "contacts", "convert", "world"],
+    ),
+    (
+        "contact_log",
+        &["bodies", "convert", "exact_contacts", "world"],
+    ),
     ("load", &["convert", "plan", "world"]),
-    ("links", &["bodies", "convert", "load", "motors", "plan", "world"]),
+    (
+        "links",
+        &["bodies", "convert", "load", "motors", "plan", "world"],
+    ),
     ("reach", &[]),
-    ("linked", &["bodies", "convert", "exact_contacts", "links", "reach", "world"]),
-    ("mechanisms", &["bodies", "contacts", "exact_contacts", "linked", "links", "plan", "workers", "world"]),
-    ("report", &["bodies", "convert", "links", "load", "plan", "world"]),
+    (
+        "linked",
+        &[
+            "bodies",
+            "convert",
+            "exact_contacts",
+            "links",
+            "reach",
+            "world",
+        ],
+    ),
+    (
+        "mechanisms",
+        &[
+            "bodies",
+            "contacts",
+            "exact_contacts",
+            "linked",
+            "links",
+            "plan",
+            "workers",
+            "world",
+        ],
+    ),
+    (
+        "report",
+        &["bodies", "convert", "links", "load", "plan", "world"],
+    ),
 ];
 
 const PERCEPTION: Rooms = &[
@@ -75,20 +158,58 @@ const FORMAT: Rooms = &[
     ("scene_folder", &["scene_file", "ttt"]),
     ("scene_outline", &["scene_file", "ttt"]),
     ("script_file", &[]),
-    ("scene_input", &["gltf_file", "robot_file", "scene_file", "scene_folder", "script_file", "ttt"]),
+    (
+        "scene_input",
+        &[
+            "gltf_file",
+            "robot_file",
+            "scene_file",
+            "scene_folder",
+            "script_file",
+            "ttt",
+        ],
+    ),
 ];
 
 /// `sim` is the simulator that consists of all, `error` and `log` are for all. The host speaks to `runtime`; the languages are behind it.
 const SCRIPT: Rooms = &[
     ("error", &[]),
     ("log", &[]),
-    ("runtime", &["calls", "coverage", "error", "lifecycle", "sim"]),
+    (
+        "runtime",
+        &["calls", "coverage", "error", "lifecycle", "sim"],
+    ),
     // A state carries the environment of its script.
     ("lua", &["lifecycle", "runtime"]),
-    ("lua_runtime", &["binding", "calls", "coverage", "lifecycle", "log", "lua", "runtime", "sim", "test_bench"]),
+    (
+        "lua_runtime",
+        &[
+            "binding",
+            "calls",
+            "coverage",
+            "lifecycle",
+            "log",
+            "lua",
+            "runtime",
+            "sim",
+            "test_bench",
+        ],
+    ),
     (
         "python_runtime",
-        &["binding", "calls", "coverage", "error", "lifecycle", "log", "lua", "lua_runtime", "runtime", "sim", "step"],
+        &[
+            "binding",
+            "calls",
+            "coverage",
+            "error",
+            "lifecycle",
+            "log",
+            "lua",
+            "lua_runtime",
+            "runtime",
+            "sim",
+            "step",
+        ],
     ),
     (
         "binding",
@@ -109,15 +230,51 @@ const SCRIPT: Rooms = &[
             "test_bench",
         ],
     ),
-    ("calls", &["binding", "error", "lifecycle", "log", "runtime", "sim"]),
+    (
+        "calls",
+        &["binding", "error", "lifecycle", "log", "runtime", "sim"],
+    ),
     ("event_loop", &[]),
     ("coverage", &["error", "lifecycle", "log", "runtime", "sim"]),
     ("ros_options", &[]),
-    ("events", &["calls", "error", "lifecycle", "log", "property", "sim", "step"]),
-    ("files", &["calls", "error", "lifecycle", "log", "sim", "step"]),
-    ("lifecycle", &["binding", "calls", "coverage", "error", "events", "log", "runtime", "sim"]),
+    (
+        "events",
+        &[
+            "calls",
+            "error",
+            "lifecycle",
+            "log",
+            "property",
+            "sim",
+            "step",
+        ],
+    ),
+    (
+        "files",
+        &["calls", "error", "lifecycle", "log", "sim", "step"],
+    ),
+    (
+        "lifecycle",
+        &[
+            "binding", "calls", "coverage", "error", "events", "log", "runtime", "sim",
+        ],
+    ),
     ("plugins", &["error", "lifecycle", "log", "sim"]),
-    ("property", &["binding", "error", "events", "files", "lifecycle", "log", "person", "present", "sim", "video"]),
+    (
+        "property",
+        &[
+            "binding",
+            "error",
+            "events",
+            "files",
+            "lifecycle",
+            "log",
+            "person",
+            "present",
+            "sim",
+            "video",
+        ],
+    ),
     ("person", &["sim"]),
     ("present", &["log", "sim", "step"]),
     (
@@ -148,8 +305,17 @@ const SCRIPT: Rooms = &[
 pub const LUA_ROOMS: &[&str] = &["binding", "lua", "lua_runtime", "python_runtime"];
 
 /// What belongs to Lua: names that code in the other rooms must not use.
-pub const LUA_NAMES: &[&str] =
-    &["mlua", "lua", "lua_runtime", "Stack", "LuaType", "LuaError", "LuaLanguage", "LuaInterpreter", "UserModule"];
+pub const LUA_NAMES: &[&str] = &[
+    "mlua",
+    "lua",
+    "lua_runtime",
+    "Stack",
+    "LuaType",
+    "LuaError",
+    "LuaLanguage",
+    "LuaInterpreter",
+    "UserModule",
+];
 
 /// Crates with functions for scripts, by the begin of their names. What the functions may touch is in their signature: `&Cx` reads,
 /// `&mut Cx` changes something or calls scripts.
@@ -171,5 +337,7 @@ pub const SYSTEM_CALLS: &[&str] = &[
 ];
 
 /// Files that contain such words and ask nobody, with the reason.
-pub const NO_PERMISSION_NEEDED: &[(&str, &str)] =
-    &[("crates/script/src/coverage/text.rs", "what is read shows in the report for the user only, as line numbers")];
+pub const NO_PERMISSION_NEEDED: &[(&str, &str)] = &[(
+    "crates/script/src/coverage/text.rs",
+    "what is read shows in the report for the user only, as line numbers",
+)];

@@ -63,7 +63,11 @@ fn write_custom_string_data(
         write_app_storage(cx, &tag_name, bytes);
         return Ok(());
     }
-    let edit = if tag_name.is_empty() { Edit::Clear } else { Edit::Tag(&tag_name, bytes.map(Data::Buffer)) };
+    let edit = if tag_name.is_empty() {
+        Edit::Clear
+    } else {
+        Edit::Tag(&tag_name, bytes.map(Data::Buffer))
+    };
     match owner {
         Owner::Scene(target) => drop(cx.edit_named_values(&target, Namespace::CustomData, edit)?),
         Owner::App | Owner::AppStorage => drop(cx.app_mut().raw_data.edit(edit)),
@@ -76,8 +80,13 @@ fn write_app_storage(cx: &mut Cx, tag: &str, bytes: Option<Vec<u8>>) {
         if !tag.is_empty() {
             return storage.set_block(StorageSection::Tags, tag, bytes);
         }
-        let tags: Vec<String> = storage.blocks(StorageSection::Tags).keys().cloned().collect();
-        tags.iter().for_each(|tag| storage.set_block(StorageSection::Tags, tag, None));
+        let tags: Vec<String> = storage
+            .blocks(StorageSection::Tags)
+            .keys()
+            .cloned()
+            .collect();
+        tags.iter()
+            .for_each(|tag| storage.set_block(StorageSection::Tags, tag, None));
     });
 }
 
@@ -92,7 +101,9 @@ fn read_custom_string_data(cx: &Cx, object_handle: Number, tag_name: String) -> 
         Some(Data::Buffer(bytes)) => Some(bytes.clone()),
         _ => None,
     };
-    let Ok(owner) = owner(cx, object_handle.0) else { return Ok(Data::Nil) };
+    let Ok(owner) = owner(cx, object_handle.0) else {
+        return Ok(Data::Nil);
+    };
     let bytes = match owner {
         Owner::Scene(target) => cx.named_values(&target, Namespace::CustomData, read)?,
         Owner::App => read(&cx.app().raw_data),

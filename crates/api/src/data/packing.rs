@@ -127,7 +127,11 @@ fn pack_table(_cx: &Cx, a_table: Table, #[default(0)] scheme: Number) -> Result<
 /// @return aTable
 #[api("sim.unpackTable")]
 fn unpack_table(_cx: &Cx, data: Bytes, #[default(0)] _scheme: Number) -> Result<Data> {
-    let table = if pack::is_packed(&data.0) { pack::decode(&data.0) } else { cbor::decode(&data.0) };
+    let table = if pack::is_packed(&data.0) {
+        pack::decode(&data.0)
+    } else {
+        cbor::decode(&data.0)
+    };
     table.map_err(|why| ApiError::Other(why.to_string()))
 }
 
@@ -149,14 +153,20 @@ fn transform_buffer(
     offset: f64,
     out_format: Number,
 ) -> Result<Data> {
-    let mapping = Mapping { multiplier, offset, clamp: out_format.0 & format::CLAMP != 0 };
+    let mapping = Mapping {
+        multiplier,
+        offset,
+        clamp: out_format.0 & format::CLAMP != 0,
+    };
     let (bytes, from) = match in_format.0 {
         format::BASE64 => (from_base64(&in_buffer.0)?, Format::U8),
         number => (in_buffer.0, number_format(number)?),
     };
     match out_format.0 & !format::CLAMP {
         format::SPLIT => split(&bytes, offset),
-        format::BASE64 => Ok(Data::Buffer(base64::prelude::BASE64_STANDARD.encode(bytes).into_bytes())),
+        format::BASE64 => Ok(Data::Buffer(
+            base64::prelude::BASE64_STANDARD.encode(bytes).into_bytes(),
+        )),
         number => convert(&bytes, from, mapping, number_format(number)?),
     }
 }
@@ -166,7 +176,9 @@ fn convert(bytes: &[u8], from: Format, mapping: Mapping, to: Format) -> Result<D
         return Err(too_large());
     }
     let out = transform(bytes, from, mapping, to);
-    Ok(Data::Buffer(out.ok_or_else(|| ApiError::Other("incorrect buffer size.".into()))?))
+    Ok(Data::Buffer(out.ok_or_else(|| {
+        ApiError::Other("incorrect buffer size.".into())
+    })?))
 }
 
 fn number_format(number: i64) -> Result<Format> {
@@ -174,7 +186,9 @@ fn number_format(number: i64) -> Result<Format> {
 }
 
 fn from_base64(text: &[u8]) -> Result<Vec<u8>> {
-    Ok(base64::prelude::BASE64_STANDARD.decode(text).map_err(|_| SceneError::InvalidData)?)
+    Ok(base64::prelude::BASE64_STANDARD
+        .decode(text)
+        .map_err(|_| SceneError::InvalidData)?)
 }
 
 /// Parts of `size` bytes; the last one may be shorter.
@@ -182,7 +196,12 @@ fn split(bytes: &[u8], size: f64) -> Result<Data> {
     match size as usize {
         0 => Err(SceneError::InvalidArgument.into()),
         size if bytes.len().div_ceil(size) > MAX_PARTS => Err(too_large()),
-        size => Ok(Data::Array(bytes.chunks(size).map(|part| Data::Buffer(part.to_vec())).collect())),
+        size => Ok(Data::Array(
+            bytes
+                .chunks(size)
+                .map(|part| Data::Buffer(part.to_vec()))
+                .collect(),
+        )),
     }
 }
 

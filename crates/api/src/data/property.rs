@@ -6,7 +6,8 @@ use crate::{ApiError, ApiFn, Args, Cx, FromScript, Result, functions};
 use scene::{Data, Key};
 use script::Source;
 use script::{
-    Bytes, Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Table, Text, Vector2, Vector3,
+    Bytes, Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Table, Text,
+    Vector2, Vector3,
 };
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -71,7 +72,10 @@ impl FromScript for Options {
             Some(Data::Text(prefix)) => String::from_utf8_lossy(prefix).into_owned(),
             _ => String::new(),
         };
-        Ok(Self { no_error: table.field("noError").is_some_and(Data::truthy), prefix })
+        Ok(Self {
+            no_error: table.field("noError").is_some_and(Data::truthy),
+            prefix,
+        })
     }
 }
 
@@ -160,7 +164,9 @@ fn remove_property(
     #[default(Options::default())] options: Options,
 ) -> Result<()> {
     let target = cx.property_target(target)?;
-    options.apply(cx.remove_property(&target, property_name.as_str())).map(drop)
+    options
+        .apply(cx.remove_property(&target, property_name.as_str()))
+        .map(drop)
 }
 
 /// Type, flags and description of a property; nothing if unknown.
@@ -177,7 +183,9 @@ fn get_property_info(
     #[default(Options::default())] _options: Options,
 ) -> Result<Option<(i64, i64, &'static str)>> {
     let target = cx.property_target(target)?;
-    Ok(cx.property_info(&target, property_name.as_str()).map(|(ty, flags)| (ty as i64, flags, "")))
+    Ok(cx
+        .property_info(&target, property_name.as_str())
+        .map(|(ty, flags)| (ty as i64, flags, "")))
 }
 
 /// The properties of a target one by one; nothing past the last one.
@@ -194,6 +202,8 @@ fn get_property_name(
     #[default(Options::default())] options: Options,
 ) -> Result<Option<(String, &'static str)>> {
     let target = cx.property_target(target)?;
-    let Ok(index) = usize::try_from(index) else { return Ok(None) };
+    let Ok(index) = usize::try_from(index) else {
+        return Ok(None);
+    };
     Ok(cx.property_name(&target, index, &options.prefix))
 }

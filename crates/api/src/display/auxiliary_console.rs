@@ -47,7 +47,12 @@ fn auxiliary_console_open(
     let pixels = |pair: Option<[f64; 2]>| pair.map(|pair| pair.map(|number| number as i64));
     let window = cx.change_ui(|ui| ui.open_console(&title, pixels(position), pixels(size)));
     let lines = usize::try_from(max_lines.0).unwrap_or(0);
-    let console = AuxiliaryConsole { title, closes_at_end: mode.0 & CLOSES_AT_END != 0, lines, window };
+    let console = AuxiliaryConsole {
+        title,
+        closes_at_end: mode.0 & CLOSES_AT_END != 0,
+        lines,
+        window,
+    };
     Ok(cx.app_mut().consoles.open(console))
 }
 
@@ -57,13 +62,22 @@ fn auxiliary_console_open(
 /// @param text nil to clear the window
 /// @return result 1, or 0 if there is no such console
 #[api("sim.auxiliaryConsolePrint")]
-fn auxiliary_console_print(cx: &mut Cx, console_handle: i64, #[default(None)] text: Option<Bytes>) -> Result<i64> {
-    let Some(console) = cx.app().consoles.get(console_handle).cloned() else { return Ok(0) };
+fn auxiliary_console_print(
+    cx: &mut Cx,
+    console_handle: i64,
+    #[default(None)] text: Option<Bytes>,
+) -> Result<i64> {
+    let Some(console) = cx.app().consoles.get(console_handle).cloned() else {
+        return Ok(0);
+    };
     let text = text.map(|Bytes(text)| String::from_utf8_lossy(&text).into_owned());
     cx.change_ui(|ui| ui.print_to_console(&console.window, text.as_deref(), console.lines))?;
     if let Some(text) = text {
         let title = console.title;
-        cx.env().log(verbosity::INFOS, &format!("{title}: {}", text.trim_end_matches('\n')));
+        cx.env().log(
+            verbosity::INFOS,
+            &format!("{title}: {}", text.trim_end_matches('\n')),
+        );
     }
     Ok(1)
 }
@@ -75,7 +89,11 @@ fn auxiliary_console_print(cx: &mut Cx, console_handle: i64, #[default(None)] te
 /// @return result 0, as in the original without a display
 #[api("sim.auxiliaryConsoleShow")]
 fn auxiliary_console_show(cx: &mut Cx, console_handle: Number, show_state: bool) -> Result<i64> {
-    let window = cx.app().consoles.get(console_handle.0).map(|console| console.window.clone());
+    let window = cx
+        .app()
+        .consoles
+        .get(console_handle.0)
+        .map(|console| console.window.clone());
     if let Some(window) = window {
         cx.change_ui(|ui| ui.set_visible(&window, show_state))?;
     }

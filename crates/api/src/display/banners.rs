@@ -28,7 +28,13 @@ struct Banners(RefCell<BTreeSet<i64>>);
 /// @param options bits
 /// @return bannerID the smallest free number from 1
 #[api("sim.addBanner")]
-fn add_banner(cx: &mut Cx, text: String, size: f64, options: Number, #[name("...")] further: Rest) -> Result<i64> {
+fn add_banner(
+    cx: &mut Cx,
+    text: String,
+    size: f64,
+    options: Number,
+    #[name("...")] further: Rest,
+) -> Result<i64> {
     let _ = (text, size, options, further);
     let state = cx.module_state::<Banners>();
     let mut banners = state.0.borrow_mut();
@@ -72,25 +78,44 @@ fn camera_fit_to_view(
     if view_handle_or_index.0 & IS_CAMERA == 0 {
         return Ok(0);
     }
-    let camera = Handle::from_raw(view_handle_or_index.0 & !IS_CAMERA).ok_or(SceneError::NoSuchObject)?;
+    let camera =
+        Handle::from_raw(view_handle_or_index.0 & !IS_CAMERA).ok_or(SceneError::NoSuchObject)?;
     let pose = {
         let scene = cx.scene();
         let view = scene.object(camera)?.camera()?.view.clone();
         let (centre, radius) = ball_around(&scene, &shown(&scene, camera, &object_handles)?)?;
-        let scaling = if scaling.is_finite() && scaling > 0.0 { scaling } else { 1.0 };
+        let scaling = if scaling.is_finite() && scaling > 0.0 {
+            scaling
+        } else {
+            1.0
+        };
         let distance = radius / scaling / (0.5 * view.angle.clamp(0.01, 3.0)).sin();
         let rotation = scene.world_pose(camera)?.rotation;
-        Pose::from_parts((centre.coords - rotation * Vector3::z() * distance).into(), rotation)
+        Pose::from_parts(
+            (centre.coords - rotation * Vector3::z() * distance).into(),
+            rotation,
+        )
     };
     cx.scene_mut().set_world_pose(camera, pose)?;
     Ok(1)
 }
 
 fn shown(scene: &Scene, camera: Handle, handles: &Data) -> Result<Vec<Handle>> {
-    let all = || scene.objects().map(|object| object.handle()).filter(|handle| *handle != camera).collect();
-    let Data::Array(list) = handles else { return Ok(all()) };
+    let all = || {
+        scene
+            .objects()
+            .map(|object| object.handle())
+            .filter(|handle| *handle != camera)
+            .collect()
+    };
+    let Data::Array(list) = handles else {
+        return Ok(all());
+    };
     let one = |value: &Data| {
-        let raw = value.as_f64().map(|number| number as i64).and_then(Handle::from_raw);
+        let raw = value
+            .as_f64()
+            .map(|number| number as i64)
+            .and_then(Handle::from_raw);
         Ok(scene.object(raw.ok_or(SceneError::NoSuchObject)?)?.handle())
     };
     let listed = list.iter().map(one).collect::<Result<Vec<_>>>()?;
@@ -106,10 +131,18 @@ fn ball_around(scene: &Scene, objects: &[Handle]) -> Result<(Point3<f64>, f64)> 
         let half = Vector3::from(bounding_box.size) / 2.0;
         for corner in 0..8 {
             let sign = |axis: usize| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 };
-            let point = pose * Point3::from(half.component_mul(&Vector3::new(sign(0), sign(1), sign(2))));
-            bounds = Some(bounds.map_or((point, point), |(low, high)| (low.inf(&point), high.sup(&point))));
+            let point =
+                pose * Point3::from(half.component_mul(&Vector3::new(sign(0), sign(1), sign(2))));
+            bounds = Some(bounds.map_or((point, point), |(low, high)| {
+                (low.inf(&point), high.sup(&point))
+            }));
         }
     }
-    let Some((low, high)) = bounds else { return Ok((Point3::origin(), 1.0)) };
-    Ok((nalgebra::center(&low, &high), (nalgebra::distance(&low, &high) / 2.0).max(MIN_RADIUS)))
+    let Some((low, high)) = bounds else {
+        return Ok((Point3::origin(), 1.0));
+    };
+    Ok((
+        nalgebra::center(&low, &high),
+        (nalgebra::distance(&low, &high) / 2.0).max(MIN_RADIUS),
+    ))
 }

@@ -9,7 +9,11 @@ use scene::drawing::options::{DrawingFlags, DrawingKind};
 use scene::{Data, Handle, SceneError, flag, special};
 use script::Number;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![add_drawing_object, add_drawing_object_item, remove_drawing_object];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    add_drawing_object,
+    add_drawing_object_item,
+    remove_drawing_object
+];
 
 /// Bits above the handle of a drawing object.
 const HANDLE_BITS: i64 = 0x000f_ffff;
@@ -96,10 +100,16 @@ fn add_drawing_object_item(
 fn numbers(data: &Data) -> Result<Vec<f64>> {
     match data {
         Data::Nil => Ok(Vec::new()),
-        Data::Array(items) => items.iter().map(|item| item.as_f64().ok_or(ApiError::ArgumentType)).collect(),
-        Data::Buffer(bytes) | Data::Text(bytes) => {
-            Ok(bytes.as_chunks().0.iter().map(|number| f32::from_le_bytes(*number).into()).collect())
-        }
+        Data::Array(items) => items
+            .iter()
+            .map(|item| item.as_f64().ok_or(ApiError::ArgumentType))
+            .collect(),
+        Data::Buffer(bytes) | Data::Text(bytes) => Ok(bytes
+            .as_chunks()
+            .0
+            .iter()
+            .map(|number| f32::from_le_bytes(*number).into())
+            .collect()),
         _ => Err(ApiError::ArgumentType),
     }
 }

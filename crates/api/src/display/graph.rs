@@ -6,7 +6,9 @@ use api_macro::api;
 use geometry::Finite;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
-use scene::graph::{CurveStyle, Graph, GraphCurve, GraphOptions, GraphStream, Transformation, TransformationKind};
+use scene::graph::{
+    CurveStyle, Graph, GraphCurve, GraphOptions, GraphStream, Transformation, TransformationKind,
+};
 use scene::{Data, Field, Handle, Kind, Object, SceneError, special};
 use script::{Number, Results};
 
@@ -30,7 +32,11 @@ fn change<R>(
     handle: Handle,
     change: impl FnOnce(&mut Graph) -> std::result::Result<R, SceneError>,
 ) -> Result<R> {
-    Ok(cx.scene_mut().try_modify(handle, Field::Measured, |object| change(object.graph_mut()?))?)
+    Ok(cx
+        .scene_mut()
+        .try_modify(handle, Field::Measured, |object| {
+            change(object.graph_mut()?)
+        })?)
 }
 
 fn style(name: String, unit: String, options: GraphOptions, colour: [f64; 3]) -> CurveStyle {
@@ -83,7 +89,12 @@ fn add_graph_stream(
 /// @param streamId from sim.addGraphStream
 /// @param value number
 #[api("sim.setGraphStreamValue")]
-fn set_graph_stream_value(cx: &mut Cx, graph_handle: Handle, stream_id: Number, value: f64) -> Result<()> {
+fn set_graph_stream_value(
+    cx: &mut Cx,
+    graph_handle: Handle,
+    stream_id: Number,
+    value: f64,
+) -> Result<()> {
     change(cx, graph_handle, |graph| {
         graph.stream_mut(stream_id.0)?.next = Some(value).filter(|value| value.is_finite());
         Ok(())
@@ -113,7 +124,13 @@ fn set_graph_stream_transformation(
     let period = mov_avg_period.0.max(1);
     change(cx, graph_handle, |graph| {
         let own = &mut graph.stream_mut(stream_id.0)?.transformation;
-        *own = Transformation { kind, multiplier, offset, period, cyclic_range: own.cyclic_range };
+        *own = Transformation {
+            kind,
+            multiplier,
+            offset,
+            period,
+            cyclic_range: own.cyclic_range,
+        };
         Ok(())
     })
 }
@@ -144,12 +161,17 @@ fn add_graph_curve(
     #[default([1.0, 1.0, 0.0])] color: [f64; 3],
     #[default(2)] curve_width: Number,
 ) -> Result<i64> {
-    let dimensions = usize::try_from(dim.0).ok().filter(|dim| [2, 3].contains(dim));
+    let dimensions = usize::try_from(dim.0)
+        .ok()
+        .filter(|dim| [2, 3].contains(dim));
     let dimensions = dimensions.ok_or(SceneError::InvalidArgument)?;
     if stream_ids.len() < dimensions || default_values.len() < dimensions {
         return Err(ApiError::TableSize);
     }
-    default_values.as_slice().finite().ok_or(SceneError::InvalidArgument)?;
+    default_values
+        .as_slice()
+        .finite()
+        .ok_or(SceneError::InvalidArgument)?;
     let options = GraphOptions::from_bits_retain(options.0);
     let curve = GraphCurve {
         style: style(curve_name, unit_str, options, color),
@@ -186,7 +208,9 @@ fn duplicate_graph_curve_to_static(
     curve_id: Number,
     #[default(String::new())] curve_name: String,
 ) -> Result<i64> {
-    change(cx, graph_handle, |graph| graph.fix_curve(curve_id.0, &curve_name))
+    change(cx, graph_handle, |graph| {
+        graph.fix_curve(curve_id.0, &curve_name)
+    })
 }
 
 /// A curve with its points. Streams that are not shown, and slots with gaps, are left out.
@@ -198,39 +222,84 @@ fn duplicate_graph_curve_to_static(
 /// zData after yData. Attributes are 2: with label, 4: points are linked, 16: recording does not change it. minMax: the smallest and the
 /// largest x, then of y and z
 #[api("sim.getGraphCurve")]
-fn get_graph_curve(cx: &Cx, graph_handle: Handle, graph_type: Number, curve_index: Number) -> Result<Results> {
+fn get_graph_curve(
+    cx: &Cx,
+    graph_handle: Handle,
+    graph_type: Number,
+    curve_index: Number,
+) -> Result<Results> {
     let scene = cx.scene();
     let graph = scene.object(graph_handle)?.graph()?;
-    let Ok(index) = usize::try_from(curve_index.0) else { return Ok(Results(Vec::new())) };
+    let Ok(index) = usize::try_from(curve_index.0) else {
+        return Ok(Results(Vec::new()));
+    };
     let dimensions = match graph_type.0 {
         0 => return Ok(Results(shown_stream(graph, index).unwrap_or_default())),
         1 => 2,
         2 => 3,
         _ => return Err(SceneError::InvalidArgument.into()),
     };
-    let curve = graph.curves.iter().filter(|curve| curve.dimensions == dimensions).nth(index);
+    let curve = graph
+        .curves
+        .iter()
+        .filter(|curve| curve.dimensions == dimensions)
+        .nth(index);
     Ok(Results(curve.map_or_else(Vec::new, |curve| {
         let points = graph.points(curve);
-        described(&curve.style, curve.fixed.is_some(), &points, dimensions, curve.width)
+        described(
+            &curve.style,
+            curve.fixed.is_some(),
+            &points,
+            dimensions,
+            curve.width,
+        )
     })))
 }
 
 fn shown_stream(graph: &Graph, index: usize) -> Option<Vec<Data>> {
-    let stream = graph.streams().iter().filter(|stream| stream.visible).nth(index)?;
-    let points: Vec<[f64; 3]> = graph.values(stream).into_iter().map(|[time, value]| [time, value, 0.0]).collect();
-    Some(described(&stream.style, stream.fixed.is_some(), &points, 2, 1))
+    let stream = graph
+        .streams()
+        .iter()
+        .filter(|stream| stream.visible)
+        .nth(index)?;
+    let points: Vec<[f64; 3]> = graph
+        .values(stream)
+        .into_iter()
+        .map(|[time, value]| [time, value, 0.0])
+        .collect();
+    Some(described(
+        &stream.style,
+        stream.fixed.is_some(),
+        &points,
+        2,
+        1,
+    ))
 }
 
-fn described(style: &CurveStyle, fixed: bool, points: &[[f64; 3]], dimensions: usize, width: i64) -> Vec<Data> {
-    let attributes = i64::from(style.label) << 1 | i64::from(style.linked) << 2 | i64::from(fixed) << 4;
+fn described(
+    style: &CurveStyle,
+    fixed: bool,
+    points: &[[f64; 3]],
+    dimensions: usize,
+    width: i64,
+) -> Vec<Data> {
+    let attributes =
+        i64::from(style.label) << 1 | i64::from(style.linked) << 2 | i64::from(fixed) << 4;
     let axis = |axis: usize| points.iter().map(|point| point[axis]).collect::<Vec<f64>>();
     let extremes = |axis: usize| {
         let values = points.iter().map(|point| point[axis]);
-        let span = values
-            .fold(None, |span, v| span.map_or(Some([v, v]), |[low, high]: [f64; 2]| Some([low.min(v), high.max(v)])));
+        let span = values.fold(None, |span, v| {
+            span.map_or(Some([v, v]), |[low, high]: [f64; 2]| {
+                Some([low.min(v), high.max(v)])
+            })
+        });
         span.unwrap_or_default()
     };
-    let mut all = vec![Data::text(&style.name), attributes.into(), style.colour.map(f64::from).into()];
+    let mut all = vec![
+        Data::text(&style.name),
+        attributes.into(),
+        style.colour.map(f64::from).into(),
+    ];
     all.extend((0..dimensions).map(|i| axis(i).into()));
     let min_max: Vec<f64> = (0..3).flat_map(extremes).collect();
     all.extend([min_max.into(), style.id.into(), width.into()]);
@@ -248,7 +317,11 @@ fn get_graph_info(cx: &Cx, graph_handle: Handle) -> Result<(i64, [f64; 3], [f64;
     let scene = cx.scene();
     let graph = scene.object(graph_handle)?.graph()?;
     let bits = i64::from(graph.cyclic) | 0xe | i64::from(graph.explicit) << 4;
-    Ok((bits, graph.background.map(f64::from), graph.foreground.map(f64::from)))
+    Ok((
+        bits,
+        graph.background.map(f64::from),
+        graph.foreground.map(f64::from),
+    ))
 }
 
 /// The value a stream of an old graph records next.
@@ -257,9 +330,17 @@ fn get_graph_info(cx: &Cx, graph_handle: Handle) -> Result<(i64, [f64; 3], [f64;
 /// @param dataStreamName name of the stream
 /// @param data number
 #[api("sim.setGraphUserData")]
-fn set_graph_user_data(cx: &mut Cx, graph_handle: Handle, data_stream_name: String, data: f64) -> Result<()> {
+fn set_graph_user_data(
+    cx: &mut Cx,
+    graph_handle: Handle,
+    data_stream_name: String,
+    data: f64,
+) -> Result<()> {
     change(cx, graph_handle, |graph| {
-        let named = graph.streams().iter().find(|stream| stream.style.name == data_stream_name);
+        let named = graph
+            .streams()
+            .iter()
+            .find(|stream| stream.style.name == data_stream_name);
         let id = named.map_or(-1, |stream| stream.style.id);
         graph.stream_mut(id)?.next = Some(data).filter(|data| data.is_finite());
         Ok(())
@@ -272,7 +353,9 @@ fn set_graph_user_data(cx: &mut Cx, graph_handle: Handle, data_stream_name: Stri
 /// @param simulationTime of the values
 #[api("sim.handleGraph")]
 fn handle_graph(cx: &mut Cx, object_handle: Number, simulation_time: f64) -> Result<()> {
-    let time = simulation_time.finite().ok_or(SceneError::InvalidArgument)?;
+    let time = simulation_time
+        .finite()
+        .ok_or(SceneError::InvalidArgument)?;
     for handle in graphs(cx, object_handle)? {
         change(cx, handle, |graph| {
             graph.record(time);
@@ -308,6 +391,11 @@ fn graphs(cx: &Cx, handle: Number) -> Result<Vec<Handle>> {
             return Ok(vec![handle]);
         }
     };
-    let is_meant = |o: &&Object| matches!(&o.kind, Kind::Graph(graph) if explicit_too || !graph.explicit);
-    Ok(scene.objects().filter(is_meant).map(Object::handle).collect())
+    let is_meant =
+        |o: &&Object| matches!(&o.kind, Kind::Graph(graph) if explicit_too || !graph.explicit);
+    Ok(scene
+        .objects()
+        .filter(is_meant)
+        .map(Object::handle)
+        .collect())
 }

@@ -10,7 +10,8 @@ use format::scene_file::write_whole;
 use permissions::read_bounded;
 use script::{Bytes, IntPair};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_image, save_image, get_scaled_image, transform_image];
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![load_image, save_image, get_scaled_image, transform_image];
 
 /// Default quality of JPEG files.
 const QUALITY: u8 = 90;
@@ -51,7 +52,8 @@ fn load_image(cx: &Cx, options: i64, filename: Bytes) -> Result<(Bytes, IntPair)
 pub(crate) fn read_file(cx: &Cx, name: &[u8]) -> Result<Vec<u8>> {
     let name = String::from_utf8_lossy(name);
     cx.permissions().check_read(Path::new(&*name))?;
-    read_bounded(Path::new(&*name)).map_err(|error| ApiError::Other(format!("cannot read {name}: {error}.")))
+    read_bounded(Path::new(&*name))
+        .map_err(|error| ApiError::Other(format!("cannot read {name}: {error}.")))
 }
 
 /// Writes an image to a file.
@@ -79,8 +81,13 @@ fn save_image(
     };
     let picture = Picture::new(image.0, whole(resolution), layout).map_err(failure)?;
     let (stem, extension) = filename.rsplit_once('.').unwrap_or((&filename, ""));
-    let quality = u8::try_from(quality).ok().filter(|quality| (1..=100).contains(quality)).unwrap_or(QUALITY);
-    let file = picture.encode(&extension.to_lowercase(), quality).map_err(failure)?;
+    let quality = u8::try_from(quality)
+        .ok()
+        .filter(|quality| (1..=100).contains(quality))
+        .unwrap_or(QUALITY);
+    let file = picture
+        .encode(&extension.to_lowercase(), quality)
+        .map_err(failure)?;
     if stem.is_empty() {
         return Ok(Some(Bytes(file)));
     }
@@ -90,7 +97,8 @@ fn save_image(
 
 fn write_file(cx: &Cx, name: &str, content: &[u8]) -> Result<()> {
     cx.permissions().check_write(Path::new(name))?;
-    write_whole(Path::new(name), content).map_err(|error| ApiError::Other(format!("cannot write {name}: {error}.")))
+    write_whole(Path::new(name), content)
+        .map_err(|error| ApiError::Other(format!("cannot write {name}: {error}.")))
 }
 
 /// An image in another size.
@@ -109,9 +117,16 @@ fn get_scaled_image(
     options: i64,
 ) -> Result<(Bytes, IntPair)> {
     let has = |bit: i64| options & bit != 0;
-    let picture = Picture::new(image_in.0, whole(resolution_in), layout(has(option::RGBA))).map_err(failure)?;
+    let picture = Picture::new(image_in.0, whole(resolution_in), layout(has(option::RGBA)))
+        .map_err(failure)?;
     let wished = whole(desired_resolution_out);
-    let scaled = picture.scaled(wished, has(option::KEEP_ASPECT), layout(has(option::RGBA_OUT))).map_err(failure)?;
+    let scaled = picture
+        .scaled(
+            wished,
+            has(option::KEEP_ASPECT),
+            layout(has(option::RGBA_OUT)),
+        )
+        .map_err(failure)?;
     let resolution = IntPair(scaled.resolution());
     Ok((Bytes(scaled.into_bytes()), resolution))
 }
@@ -125,8 +140,13 @@ fn get_scaled_image(
 #[api("sim.transformImage")]
 fn transform_image(_cx: &Cx, image: Bytes, resolution: [f64; 2], options: i64) -> Result<Bytes> {
     let has = |bit: i64| options & bit != 0;
-    let picture = Picture::new(image.0, whole(resolution), layout(has(option::RGBA))).map_err(failure)?;
-    Ok(Bytes(picture.flipped(has(option::FLIP_X), has(option::FLIP_Y)).into_bytes()))
+    let picture =
+        Picture::new(image.0, whole(resolution), layout(has(option::RGBA))).map_err(failure)?;
+    Ok(Bytes(
+        picture
+            .flipped(has(option::FLIP_X), has(option::FLIP_Y))
+            .into_bytes(),
+    ))
 }
 
 fn whole(resolution: [f64; 2]) -> [i64; 2] {

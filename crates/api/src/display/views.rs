@@ -27,7 +27,14 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// @param options bits
 /// @return floatingViewHandle its handle
 #[api("sim.floatingViewAdd")]
-fn floating_view_add(cx: &mut Cx, pos_x: f64, pos_y: f64, size_x: f64, size_y: f64, options: Number) -> Result<i64> {
+fn floating_view_add(
+    cx: &mut Cx,
+    pos_x: f64,
+    pos_y: f64,
+    size_x: f64,
+    size_y: f64,
+    options: Number,
+) -> Result<i64> {
     let _ = options;
     let view = cx.change_ui(|ui| {
         ui.touch();
@@ -101,8 +108,17 @@ fn add_particle_object(
     max_item_count: Number,
     #[name("...")] colour: Rest,
 ) -> Result<i64> {
-    let _ = (object_type, size, density, params, life_time, max_item_count, colour);
-    cx.env().warn_once("sim.addParticleObject", "particles are not simulated.");
+    let _ = (
+        object_type,
+        size,
+        density,
+        params,
+        life_time,
+        max_item_count,
+        colour,
+    );
+    cx.env()
+        .warn_once("sim.addParticleObject", "particles are not simulated.");
     Ok(particles(cx).borrow_mut().add(Particles))
 }
 
@@ -118,7 +134,11 @@ fn add_particle_object_item(
     #[default(Data::Nil)] item_data: Data,
 ) -> Result<i64> {
     let _ = item_data;
-    particles(cx).borrow_mut().get_mut(particle_object_handle.0).map(|_| 1).ok_or_else(no_particles)
+    particles(cx)
+        .borrow_mut()
+        .get_mut(particle_object_handle.0)
+        .map(|_| 1)
+        .ok_or_else(no_particles)
 }
 
 /// Removes a source of particles.
@@ -126,7 +146,11 @@ fn add_particle_object_item(
 /// @param particleObjectHandle from sim.addParticleObject, or sim.handle_all
 #[api("sim.removeParticleObject")]
 fn remove_particle_object(cx: &mut Cx, particle_object_handle: Number) -> Result<()> {
-    remove(&mut particles(cx).borrow_mut(), particle_object_handle, no_particles)
+    remove(
+        &mut particles(cx).borrow_mut(),
+        particle_object_handle,
+        no_particles,
+    )
 }
 
 /// A source of particles.

@@ -20,8 +20,15 @@ fn launch_executable(
     #[default(1)] _show_status: i64,
 ) -> Result<()> {
     cx.permissions().check_run(&filename)?;
-    let program = Program { path: filename, args: words(&parameters), search_path: true, ..Program::default() };
-    program.launch().map_err(|error| ApiError::Other(format!("cannot launch {}: {error}.", program.path)))
+    let program = Program {
+        path: filename,
+        args: words(&parameters),
+        search_path: true,
+        ..Program::default()
+    };
+    program
+        .launch()
+        .map_err(|error| ApiError::Other(format!("cannot launch {}: {error}.", program.path)))
 }
 
 /// The words of a command line.
@@ -49,7 +56,10 @@ mod tests {
 
     #[test]
     fn quotes_hold_words_together() {
-        assert_eq!(words(r#" -a "two words" c"d e"f "" "#), ["-a", "two words", "cd ef", ""]);
+        assert_eq!(
+            words(r#" -a "two words" c"d e"f "" "#),
+            ["-a", "two words", "cd ef", ""]
+        );
         assert_eq!(words(r#"left "open"#), ["left", "open"]);
         assert!(words(" ").is_empty());
     }

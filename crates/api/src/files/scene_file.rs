@@ -13,7 +13,8 @@ use permissions::read_bounded;
 use scene::{Data, Handle, SceneError, special};
 use script::{SceneSource, readable_bytes};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, save_scene, close_scene, load_model, save_model];
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![load_scene, save_scene, close_scene, load_model, save_model];
 
 /// The suffix of a file name that loads a scene in addition to the current one.
 const KEEP_CURRENT: &str = "@keepCurrent";
@@ -31,7 +32,8 @@ fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
     let (source, path) = match FileOrBytes::new(filename_or_buffer)? {
         FileOrBytes::Name(name) if name.ends_with(KEEP_CURRENT) => {
             return Err(ApiError::Other(
-                "scenes beside the current one (@keepCurrent) are not implemented in Swanilda.".into(),
+                "scenes beside the current one (@keepCurrent) are not implemented in Swanilda."
+                    .into(),
             ));
         }
         FileOrBytes::Name(name) if name.is_empty() => (SceneSource::Default, None),
@@ -52,9 +54,15 @@ fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
 /// @param onlyThumbnails of no use: nothing is shown
 /// @return objectHandle the base of the model
 #[api("sim.loadModel")]
-fn load_model(cx: &mut Cx, filename_or_buffer: Data, #[default(false)] only_thumbnails: bool) -> Result<i64> {
+fn load_model(
+    cx: &mut Cx,
+    filename_or_buffer: Data,
+    #[default(false)] only_thumbnails: bool,
+) -> Result<i64> {
     if only_thumbnails {
-        return Err(ApiError::Other("thumbnails of models are not implemented in Swanilda.".into()));
+        return Err(ApiError::Other(
+            "thumbnails of models are not implemented in Swanilda.".into(),
+        ));
     }
     let file = match FileOrBytes::new(filename_or_buffer)? {
         FileOrBytes::Name(name) => named_model(cx, &located(cx, &name))?,
@@ -70,7 +78,9 @@ fn load_model(cx: &mut Cx, filename_or_buffer: Data, #[default(false)] only_thum
 /// @return result 1, or a buffer with the bytes
 #[api("sim.saveScene")]
 fn save_scene(cx: &mut Cx, #[default(None)] filename: Option<String>) -> Result<Data> {
-    let Some(filename) = filename else { return Ok(Data::Buffer(readable_bytes(&cx.scene_file()?, None)?)) };
+    let Some(filename) = filename else {
+        return Ok(Data::Buffer(readable_bytes(&cx.scene_file()?, None)?));
+    };
     cx.save_scene(&filename)?;
     Ok(Data::Int(1))
 }
@@ -81,12 +91,18 @@ fn save_scene(cx: &mut Cx, #[default(None)] filename: Option<String>) -> Result<
 /// @param filename a `.ttm` file, or a `.simmodel.xml` file, with `@simpleXml` behind it for the simple variant; nothing for the bytes
 /// @return result 1, or a buffer with the bytes
 #[api("sim.saveModel")]
-fn save_model(cx: &mut Cx, model_base_handle: Handle, #[default(None)] filename: Option<String>) -> Result<Data> {
+fn save_model(
+    cx: &mut Cx,
+    model_base_handle: Handle,
+    #[default(None)] filename: Option<String>,
+) -> Result<Data> {
     if !cx.scene().object(model_base_handle)?.is_model() {
         return Err(SceneError::NotAModel.into());
     }
     let file = cx.model_file(model_base_handle)?;
-    let Some(filename) = filename else { return Ok(Data::Buffer(readable_bytes(&file, None)?)) };
+    let Some(filename) = filename else {
+        return Ok(Data::Buffer(readable_bytes(&file, None)?));
+    };
     cx.save_model(&file, &filename)?;
     Ok(Data::Int(1))
 }
@@ -118,7 +134,11 @@ fn read(cx: &Cx, name: &str) -> Result<Vec<u8>> {
 
 /// A relative name that is no file here is one of the user's installation of CoppeliaSim.
 fn located(cx: &Cx, name: &str) -> String {
-    let installed = cx.options().resources.as_ref().and_then(|resources| installed_file(resources, name));
+    let installed = cx
+        .options()
+        .resources
+        .as_ref()
+        .and_then(|resources| installed_file(resources, name));
     let is_there = |path: &Path| cx.permissions().check_read(path).is_ok() && path.exists();
     match installed.filter(|path| !is_there(Path::new(name)) && is_there(path)) {
         Some(path) => path.to_string_lossy().into_owned(),
@@ -128,7 +148,9 @@ fn located(cx: &Cx, name: &str) -> String {
 
 /// Where an installation has a file, for names that do not lead out of it.
 fn installed_file(resources: &Path, name: &str) -> Option<PathBuf> {
-    let is_inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+    let is_inside = Path::new(name)
+        .components()
+        .all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
     is_inside.then(|| resources.join(name))
 }
 
@@ -140,7 +162,11 @@ fn named_scene(cx: &Cx, name: &str) -> Result<SceneSource> {
 }
 
 fn named_model(cx: &Cx, name: &str) -> Result<SceneFile> {
-    if is_folder(cx, name)? { unpacked(cx, name) } else { scene_file(cx, name, &read(cx, name)?, folder_of(name)) }
+    if is_folder(cx, name)? {
+        unpacked(cx, name)
+    } else {
+        scene_file(cx, name, &read(cx, name)?, folder_of(name))
+    }
 }
 
 fn is_folder(cx: &Cx, name: &str) -> Result<bool> {
@@ -151,17 +177,30 @@ fn is_folder(cx: &Cx, name: &str) -> Result<bool> {
 /// A folder made by `swanilda unpack`.
 fn unpacked(cx: &Cx, name: &str) -> Result<SceneFile> {
     match SceneInput::read(Path::new(name), cx.permissions()).map_err(ApiError::Other)? {
-        SceneInput::File(file) => file.scene().map_err(|error| ApiError::Other(format!("{name}: {error}"))),
+        SceneInput::File(file) => file
+            .scene()
+            .map_err(|error| ApiError::Other(format!("{name}: {error}"))),
         SceneInput::Script(_) => Err(ApiError::Other(format!("{name} is no scene."))),
     }
 }
 
 /// A scene of CoppeliaSim is known by its bytes, one that is a script by its name.
 fn scene_source(cx: &Cx, name: &str, bytes: Vec<u8>, folder: Option<&Path>) -> Result<SceneSource> {
-    match Path::new(name).extension().and_then(|extension| extension.to_str()) {
-        Some("lua") => Ok(SceneSource::Script { code: bytes, python_file: None }),
-        Some("py") => Ok(SceneSource::Script { code: bytes, python_file: Some(absolute(name)) }),
-        _ => Ok(SceneSource::File(Box::new(scene_file(cx, name, &bytes, folder)?))),
+    match Path::new(name)
+        .extension()
+        .and_then(|extension| extension.to_str())
+    {
+        Some("lua") => Ok(SceneSource::Script {
+            code: bytes,
+            python_file: None,
+        }),
+        Some("py") => Ok(SceneSource::Script {
+            code: bytes,
+            python_file: Some(absolute(name)),
+        }),
+        _ => Ok(SceneSource::File(Box::new(scene_file(
+            cx, name, &bytes, folder,
+        )?))),
     }
 }
 
@@ -177,7 +216,10 @@ fn folder_of(name: &str) -> Option<&Path> {
 
 /// The path as scripts read it as the scene's.
 fn absolute(filename: &str) -> String {
-    std::path::absolute(filename).map_or_else(|_| filename.to_owned(), |path| path.to_string_lossy().into_owned())
+    std::path::absolute(filename).map_or_else(
+        |_| filename.to_owned(),
+        |path| path.to_string_lossy().into_owned(),
+    )
 }
 
 /// Closes the scene and opens the default scene. For add-ons and the sandbox, while the simulation is stopped.

@@ -32,7 +32,12 @@ impl Held {
         }
         let path = path_of(key);
         let failed = |error| format!("cannot use {}: {error}", path.display());
-        let file = File::options().create(true).truncate(false).write(true).open(&path).map_err(failed)?;
+        let file = File::options()
+            .create(true)
+            .truncate(false)
+            .write(true)
+            .open(&path)
+            .map_err(failed)?;
         match FileExt::try_lock(&file) {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => return Ok(None),
@@ -73,7 +78,11 @@ mod tests {
         let key = format!("test of {}", std::process::id()).into_bytes();
         let (first, second) = (Held::default(), Held::default());
         assert_eq!(first.try_acquire(&key), Ok(Some(())));
-        assert_eq!(first.try_acquire(&key), Ok(Some(())), "the holder acquires it again");
+        assert_eq!(
+            first.try_acquire(&key),
+            Ok(Some(())),
+            "the holder acquires it again"
+        );
         assert_eq!(second.try_acquire(&key), Ok(None));
         first.0.borrow_mut().clear();
         assert_eq!(second.try_acquire(&key), Ok(Some(())));

@@ -12,8 +12,14 @@ use crate::{ApiError, ApiFn, Cx, Result, functions};
 use io::SerialPort;
 use script::{ByHandle, Bytes, Host, Number};
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![serial_open, serial_close, serial_send, serial_check, serial_read, serial_rest];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    serial_open,
+    serial_close,
+    serial_send,
+    serial_check,
+    serial_read,
+    serial_rest
+];
 
 /// The open ports of a simulator.
 #[derive(Default)]
@@ -33,19 +39,26 @@ const NOTHING_TO_SEND: i64 = -5;
 
 #[api("sim._serialOpen")]
 fn serial_open(cx: &mut Cx, port_string: String, baud_rate: Number) -> Result<i64> {
-    cx.permissions().check_device(&SerialPort::file(&port_string))?;
+    cx.permissions()
+        .check_device(&SerialPort::file(&port_string))?;
     let ports = cx.module_state::<Ports>();
     let mut ports = ports.0.borrow_mut();
     if ports.values().any(|port| port.path() == port_string) {
         return Ok(FAILED);
     }
-    let port = SerialPort::open(&port_string, baud_rate.0).map_err(|reason| ApiError::Other(reason.into()))?;
+    let port = SerialPort::open(&port_string, baud_rate.0)
+        .map_err(|reason| ApiError::Other(reason.into()))?;
     Ok(port.map_or(FAILED, |port| ports.add(port)))
 }
 
 #[api("sim._serialClose")]
 fn serial_close(cx: &mut Cx, port_handle: Number) -> Result<()> {
-    cx.module_state::<Ports>().0.borrow_mut().remove(port_handle.0).map(drop).ok_or_else(unknown)
+    cx.module_state::<Ports>()
+        .0
+        .borrow_mut()
+        .remove(port_handle.0)
+        .map(drop)
+        .ok_or_else(unknown)
 }
 
 /// Sends bytes through a serial port.
@@ -59,11 +72,16 @@ fn serial_send(cx: &mut Cx, port_handle: Number, data: Bytes) -> Result<i64> {
     let ports = cx.module_state::<Ports>();
     let mut ports = ports.0.borrow_mut();
     let port = ports.get_mut(port_handle.0).ok_or_else(unknown)?;
-    Ok(match (data.0.len(), port.write(&data.0, || stop.load(Ordering::Relaxed))) {
-        (0, _) => NOTHING_TO_SEND,
-        (_, 0) => FAILED,
-        (_, written) => written as i64,
-    })
+    Ok(
+        match (
+            data.0.len(),
+            port.write(&data.0, || stop.load(Ordering::Relaxed)),
+        ) {
+            (0, _) => NOTHING_TO_SEND,
+            (_, 0) => FAILED,
+            (_, written) => written as i64,
+        },
+    )
 }
 
 /// Number of bytes available at a serial port.
@@ -83,7 +101,9 @@ fn serial_check(cx: &mut Cx, port_handle: Number) -> Result<i64> {
 fn serial_read(cx: &mut Cx, port_handle: Number, length: Number) -> Result<Option<Bytes>> {
     let ports = cx.module_state::<Ports>();
     let mut ports = ports.0.borrow_mut();
-    let bytes = ports.get_mut(port_handle.0).map(|port| port.read(usize::try_from(length.0).unwrap_or(0)));
+    let bytes = ports
+        .get_mut(port_handle.0)
+        .map(|port| port.read(usize::try_from(length.0).unwrap_or(0)));
     Ok(bytes.filter(|bytes| !bytes.is_empty()).map(Bytes))
 }
 
@@ -93,7 +113,8 @@ fn serial_rest(cx: &Cx) -> Result<()> {
     if cx.can_yield() {
         return Ok(());
     }
-    cx.wait_for(Some(std::time::Duration::from_millis(1)), || None::<()>).map(drop)
+    cx.wait_for(Some(std::time::Duration::from_millis(1)), || None::<()>)
+        .map(drop)
 }
 
 fn unknown() -> ApiError {

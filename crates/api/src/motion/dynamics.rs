@@ -24,10 +24,18 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// @param position where the force acts, relative to the centre of mass, in the axes of the shape, metres
 /// @param force in the axes of the shape, newtons
 #[api("sim.addForce")]
-fn add_force(cx: &mut Cx, shape_handle: ObjectRef, position: [f64; 3], force: [f64; 3]) -> Result<i64> {
+fn add_force(
+    cx: &mut Cx,
+    shape_handle: ObjectRef,
+    position: [f64; 3],
+    force: [f64; 3],
+) -> Result<i64> {
     let rotation = cx.scene().world_pose(shape_handle.handle)?.rotation;
     let world = |v: nalgebra::Vector3<f64>| -> [f64; 3] { (rotation * v).into() };
-    let (lever, force) = (nalgebra::Vector3::from(position), nalgebra::Vector3::from(force));
+    let (lever, force) = (
+        nalgebra::Vector3::from(position),
+        nalgebra::Vector3::from(force),
+    );
     accumulate(cx, shape_handle, world(force), world(lever.cross(&force)))
 }
 
@@ -47,21 +55,25 @@ fn add_force_and_torque(
 }
 
 fn accumulate(cx: &mut Cx, target: ObjectRef, force: [f64; 3], torque: [f64; 3]) -> Result<i64> {
-    let resets = (target.has(flag::RESET_FORCE), target.has(flag::RESET_TORQUE));
-    cx.scene_mut().try_modify(target.handle, Field::Pose, |object| {
-        let shape = object.shape_mut()?;
-        if resets.0 {
-            shape.force = [0.0; 3];
-        }
-        if resets.1 {
-            shape.torque = [0.0; 3];
-        }
-        for axis in 0..3 {
-            shape.force[axis] += force[axis];
-            shape.torque[axis] += torque[axis];
-        }
-        Ok(())
-    })?;
+    let resets = (
+        target.has(flag::RESET_FORCE),
+        target.has(flag::RESET_TORQUE),
+    );
+    cx.scene_mut()
+        .try_modify(target.handle, Field::Pose, |object| {
+            let shape = object.shape_mut()?;
+            if resets.0 {
+                shape.force = [0.0; 3];
+            }
+            if resets.1 {
+                shape.torque = [0.0; 3];
+            }
+            for axis in 0..3 {
+                shape.force[axis] += force[axis];
+                shape.torque[axis] += torque[axis];
+            }
+            Ok(())
+        })?;
     Ok(1)
 }
 
@@ -89,7 +101,9 @@ fn reset_dynamic_object(cx: &mut Cx, object_handle: i64) -> Result<i64> {
         None => return Err(SceneError::NoSuchObject.into()),
     };
     for handle in objects {
-        scene.modify(handle, Field::Dynamics, |object| object.dynamics_reset = true)?;
+        scene.modify(handle, Field::Dynamics, |object| {
+            object.dynamics_reset = true
+        })?;
     }
     Ok(1)
 }
@@ -104,7 +118,9 @@ const MODEL: i64 = 0x80_0000;
 #[api("sim.isDynamicallyEnabled")]
 fn is_dynamically_enabled(cx: &Cx, object_handle: Handle) -> Result<bool> {
     cx.scene().object(object_handle)?;
-    Ok(cx.dynamics().is_some_and(|dynamics| dynamics.simulates(object_handle)))
+    Ok(cx
+        .dynamics()
+        .is_some_and(|dynamics| dynamics.simulates(object_handle)))
 }
 
 /// A contact of the last dynamics call. Four empty tables when there is none with that index.
@@ -117,17 +133,35 @@ fn is_dynamically_enabled(cx: &Cx, object_handle: Handle) -> Result<bool> {
 /// @return reactionForce what the second shape does to the first, world axes, newtons
 /// @return normalVector points to the first shape, world axes
 #[api("sim.getContactInfo")]
-fn get_contact_info(cx: &Cx, dynamic_pass: i64, object_handle: i64, index: i64) -> Result<ContactInfo> {
-    let shape = if object_handle == special::ALL { None } else { Some(existing(cx, object_handle)?) };
+fn get_contact_info(
+    cx: &Cx,
+    dynamic_pass: i64,
+    object_handle: i64,
+    index: i64,
+) -> Result<ContactInfo> {
+    let shape = if object_handle == special::ALL {
+        None
+    } else {
+        Some(existing(cx, object_handle)?)
+    };
     let dynamics = cx.dynamics();
     let contacts = dynamics.iter().flat_map(|dynamics| dynamics.contacts());
     let found = contacts
-        .filter(|contact| dynamic_pass == special::ALL || dynamic_pass == i64::from(contact.sub_step))
+        .filter(|contact| {
+            dynamic_pass == special::ALL || dynamic_pass == i64::from(contact.sub_step)
+        })
         .filter(|contact| shape.is_none_or(|shape| contact.shapes.contains(&shape)))
         .nth(usize::try_from(index).unwrap_or(usize::MAX));
-    let Some(contact) = found else { return Ok(Default::default()) };
+    let Some(contact) = found else {
+        return Ok(Default::default());
+    };
     let contact = shape.map_or(contact, |shape| contact.seen_from(shape));
-    Ok((contact.shapes.to_vec(), contact.point.to_vec(), contact.force.to_vec(), contact.normal.to_vec()))
+    Ok((
+        contact.shapes.to_vec(),
+        contact.point.to_vec(),
+        contact.force.to_vec(),
+        contact.normal.to_vec(),
+    ))
 }
 
 type ContactInfo = (Vec<Handle>, Vec<f64>, Vec<f64>, Vec<f64>);
@@ -149,11 +183,19 @@ fn read_force_sensor(cx: &Cx, object_handle: ObjectRef) -> Result<(i64, [f64; 3]
     let scene = cx.scene();
     let object = scene.object(object_handle.handle)?;
     let sensor = object.force_sensor()?;
-    let reading = if object_handle.has(flag::RAW_VALUE) { sensor.raw } else { sensor.filtered };
+    let reading = if object_handle.has(flag::RAW_VALUE) {
+        sensor.raw
+    } else {
+        sensor.filtered
+    };
     let running = !cx.clock().is_stopped();
     let broken = running && object.children().is_empty();
     let (force, torque) = reading.unwrap_or_default();
-    Ok((i64::from(reading.is_some()) | i64::from(broken) << 1, force, torque))
+    Ok((
+        i64::from(reading.is_some()) | i64::from(broken) << 1,
+        force,
+        torque,
+    ))
 }
 
 /// Breaks a force sensor: what it holds becomes a root of the scene, where it is.
@@ -178,6 +220,10 @@ fn break_force_sensor(cx: &mut Cx, object_handle: Handle) -> Result<i64> {
 fn get_joint_force(cx: &Cx, joint_handle: ObjectRef) -> Result<f64> {
     let scene = cx.scene();
     let joint = scene.object(joint_handle.handle)?.joint()?;
-    let force = if joint_handle.has(flag::RAW_VALUE) { joint.raw_force } else { joint.force };
+    let force = if joint_handle.has(flag::RAW_VALUE) {
+        joint.raw_force
+    } else {
+        joint.force
+    };
     Ok(force.unwrap_or(0.0))
 }

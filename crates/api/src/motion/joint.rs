@@ -84,7 +84,12 @@ fn get_joint_mode(cx: &Cx, joint_handle: Handle) -> Result<(i64, i64)> {
 /// @param options bit 0, with sim.jointmode_ik: the physics moves the joint to where inverse kinematics wants it
 /// @return result 1
 #[api("sim.setJointMode")]
-fn set_joint_mode(cx: &mut Cx, joint_handle: Handle, joint_mode: Number, #[default(0)] options: Number) -> Result<i64> {
+fn set_joint_mode(
+    cx: &mut Cx,
+    joint_handle: Handle,
+    joint_mode: Number,
+    #[default(0)] options: Number,
+) -> Result<i64> {
     let mode = JointMode::from_code(joint_mode.0).ok_or(SceneError::InvalidArgument)?;
     let mut scene = cx.scene_mut();
     scene.set_joint_mode(joint_handle, mode)?;
@@ -101,7 +106,9 @@ fn set_joint_mode(cx: &mut Cx, joint_handle: Handle, joint_mode: Number, #[defau
 /// @return interval lower limit and range (not the upper limit), rad or metres
 #[api("sim.getJointInterval")]
 fn get_joint_interval(cx: &Cx, object_handle: Handle) -> Result<(bool, [f64; 2])> {
-    joint(cx, object_handle, |joint| (joint.cyclic, [joint.min, joint.range]))
+    joint(cx, object_handle, |joint| {
+        (joint.cyclic, [joint.min, joint.range])
+    })
 }
 
 /// Changes the interval of a joint; the position follows.
@@ -110,8 +117,15 @@ fn get_joint_interval(cx: &Cx, object_handle: Handle) -> Result<(bool, [f64; 2])
 /// @param cyclic whether it has no limits
 /// @param interval lower limit and range (not the upper limit), rad or metres
 #[api("sim.setJointInterval")]
-fn set_joint_interval(cx: &mut Cx, object_handle: Handle, cyclic: bool, interval: [f64; 2]) -> Result<()> {
-    Ok(cx.scene_mut().set_joint_interval(object_handle, cyclic, interval)?)
+fn set_joint_interval(
+    cx: &mut Cx,
+    object_handle: Handle,
+    cyclic: bool,
+    interval: [f64; 2],
+) -> Result<()> {
+    Ok(cx
+        .scene_mut()
+        .set_joint_interval(object_handle, cyclic, interval)?)
 }
 
 /// Position of a joint.
@@ -120,7 +134,10 @@ fn set_joint_interval(cx: &mut Cx, object_handle: Handle, cyclic: bool, interval
 /// @return position rad or metres
 #[api("sim.getJointPosition")]
 fn get_joint_position(cx: &Cx, object_handle: Handle) -> Result<f64> {
-    joint(cx, object_handle, |joint| joint.single_axis().map(|()| joint.position))?.map_err(Into::into)
+    joint(cx, object_handle, |joint| {
+        joint.single_axis().map(|()| joint.position)
+    })?
+    .map_err(Into::into)
 }
 
 /// Moves a joint, within its interval.
@@ -130,7 +147,9 @@ fn get_joint_position(cx: &Cx, object_handle: Handle) -> Result<f64> {
 /// @return result 1, or 0 when the joint is moving towards a target and was left alone
 #[api("sim.setJointPosition")]
 fn set_joint_position(cx: &mut Cx, object_handle: Handle, position: f64) -> Result<i64> {
-    Ok(i64::from(cx.scene_mut().set_joint_position(object_handle, position)?))
+    Ok(i64::from(
+        cx.scene_mut().set_joint_position(object_handle, position)?,
+    ))
 }
 
 /// Velocity of a joint.
@@ -151,7 +170,9 @@ fn get_joint_velocity(cx: &Cx, joint_handle: Handle) -> Result<f64> {
 #[api("sim.getJointDependency")]
 fn get_joint_dependency(cx: &Cx, joint_handle: Handle) -> Result<(i64, f64, f64)> {
     let law = joint(cx, joint_handle, |joint| joint.dependency)?;
-    Ok(law.map_or((-1, 0.0, 1.0), |law| (law.master.raw(), law.offset, law.coefficient)))
+    Ok(law.map_or((-1, 0.0, 1.0), |law| {
+        (law.master.raw(), law.offset, law.coefficient)
+    }))
 }
 
 /// Makes a joint in dependent mode follow another.
@@ -170,8 +191,11 @@ fn set_joint_dependency(
     mult_coeff: f64,
 ) -> Result<i64> {
     let master = Some(master_joint_handle.0).filter(|&raw| raw >= 0);
-    let master = master.map(|raw| Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)).transpose()?;
-    cx.scene_mut().set_joint_dependency(joint_handle, master, offset, mult_coeff)?;
+    let master = master
+        .map(|raw| Handle::from_raw(raw).ok_or(SceneError::NoSuchObject))
+        .transpose()?;
+    cx.scene_mut()
+        .set_joint_dependency(joint_handle, master, offset, mult_coeff)?;
     Ok(0)
 }
 
@@ -181,7 +205,10 @@ fn set_joint_dependency(
 /// @return targetPosition rad or metres
 #[api("sim.getJointTargetPosition")]
 fn get_joint_target_position(cx: &Cx, object_handle: Handle) -> Result<f64> {
-    joint(cx, object_handle, |joint| joint.single_axis().map(|()| joint.target_position))?.map_err(Into::into)
+    joint(cx, object_handle, |joint| {
+        joint.single_axis().map(|()| joint.target_position)
+    })?
+    .map_err(Into::into)
 }
 
 /// Sets the target position of a joint. A kinematic joint starts to move there.
@@ -197,7 +224,8 @@ fn set_joint_target_position(
     target_position: f64,
     #[default(Vec::new())] motion_params: Vec<f64>,
 ) -> Result<i64> {
-    cx.scene_mut().set_joint_target_position(object_handle, target_position, &motion_params)?;
+    cx.scene_mut()
+        .set_joint_target_position(object_handle, target_position, &motion_params)?;
     Ok(1)
 }
 
@@ -207,7 +235,10 @@ fn set_joint_target_position(
 /// @return targetVelocity rad/s or m/s
 #[api("sim.getJointTargetVelocity")]
 fn get_joint_target_velocity(cx: &Cx, object_handle: Handle) -> Result<f64> {
-    joint(cx, object_handle, |joint| joint.single_axis().map(|()| joint.target_velocity))?.map_err(Into::into)
+    joint(cx, object_handle, |joint| {
+        joint.single_axis().map(|()| joint.target_velocity)
+    })?
+    .map_err(Into::into)
 }
 
 /// Sets the target velocity of a joint. A kinematic joint starts to move.
@@ -225,7 +256,12 @@ fn set_joint_target_velocity(
     #[default(Vec::new())] motion_params: Vec<f64>,
     #[default(None)] init_vel: Option<f64>,
 ) -> Result<i64> {
-    cx.scene_mut().set_joint_target_velocity(object_handle, target_velocity, &motion_params, init_vel)?;
+    cx.scene_mut().set_joint_target_velocity(
+        object_handle,
+        target_velocity,
+        &motion_params,
+        init_vel,
+    )?;
     Ok(1)
 }
 
@@ -253,5 +289,7 @@ fn set_joint_target_force(
     if force_or_torque.is_nan() {
         return Err(SceneError::InvalidData.into());
     }
-    Ok(cx.scene_mut().control_joint(object_handle, |joint| joint.set_target_force(force_or_torque, signed_value))?)
+    Ok(cx.scene_mut().control_joint(object_handle, |joint| {
+        joint.set_target_force(force_or_torque, signed_value)
+    })?)
 }

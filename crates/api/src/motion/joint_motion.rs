@@ -6,7 +6,8 @@ use crate::{ApiFn, Cx, Result, functions};
 use scene::{Handle, Object, SceneError, special};
 use script::Number;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![handle_joint_motion, sim_handle_joint, sim_reset_joint];
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![handle_joint_motion, sim_handle_joint, sim_reset_joint];
 
 /// Moves kinematic joints towards their targets by one step. For the main script.
 #[api("sim.handleJointMotion")]
@@ -20,7 +21,9 @@ fn handle_joint_motion(cx: &mut Cx) -> Result<()> {
 fn handled_joints(cx: &Cx, number: i64) -> Result<Vec<Handle>> {
     let scene = cx.scene();
     let joints = |with_explicit: bool| {
-        let joints = scene.objects().filter(move |object| object.joint().is_ok_and(|j| with_explicit || !j.explicit));
+        let joints = scene
+            .objects()
+            .filter(move |object| object.joint().is_ok_and(|j| with_explicit || !j.explicit));
         joints.map(Object::handle).collect()
     };
     Ok(match number {

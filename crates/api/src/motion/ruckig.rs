@@ -11,7 +11,8 @@ use motion::ruckig::{BAD_CYCLE_TIME, RuckigError, Trajectory};
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use script::{ByHandle, Number};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![ruckig_pos, ruckig_vel, ruckig_step, ruckig_remove];
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![ruckig_pos, ruckig_vel, ruckig_step, ruckig_remove];
 
 /// Plans a motion to positions.
 ///
@@ -44,7 +45,9 @@ fn ruckig_pos(
         &selection,
         &target_pos_vel,
     );
-    Ok(trajectories(cx).borrow_mut().add(trajectory.map_err(refusal)?))
+    Ok(trajectories(cx)
+        .borrow_mut()
+        .add(trajectory.map_err(refusal)?))
 }
 
 /// Plans a change of velocities.
@@ -78,7 +81,9 @@ fn ruckig_vel(
         &selection,
         &target_vel,
     );
-    Ok(trajectories(cx).borrow_mut().add(trajectory.map_err(refusal)?))
+    Ok(trajectories(cx)
+        .borrow_mut()
+        .add(trajectory.map_err(refusal)?))
 }
 
 /// Follows a trajectory.
@@ -92,9 +97,14 @@ fn ruckig_vel(
 fn ruckig_step(cx: &mut Cx, handle: Number, cycle_time: f64) -> Result<(i64, Vec<f64>, f64)> {
     let trajectories = trajectories(cx);
     let mut trajectories = trajectories.borrow_mut();
-    let step = trajectories.get_mut(handle.0).ok_or_else(unknown)?.step(cycle_time);
+    let step = trajectories
+        .get_mut(handle.0)
+        .ok_or_else(unknown)?
+        .step(cycle_time);
     match step.code {
-        BAD_CYCLE_TIME => Err(ApiError::Other("specified cycle time is not a multiple of the base cycle time.".into())),
+        BAD_CYCLE_TIME => Err(ApiError::Other(
+            "specified cycle time is not a multiple of the base cycle time.".into(),
+        )),
         code => Ok((code.into(), step.pva, step.sync)),
     }
 }
@@ -104,7 +114,11 @@ fn ruckig_step(cx: &mut Cx, handle: Number, cycle_time: f64) -> Result<(i64, Vec
 /// @param handle from sim.ruckigPos or sim.ruckigVel
 #[api("sim.ruckigRemove")]
 fn ruckig_remove(cx: &mut Cx, handle: Number) -> Result<()> {
-    trajectories(cx).borrow_mut().remove(handle.0).map(drop).ok_or_else(unknown)
+    trajectories(cx)
+        .borrow_mut()
+        .remove(handle.0)
+        .map(drop)
+        .ok_or_else(unknown)
 }
 
 /// The trajectories of the calling script.

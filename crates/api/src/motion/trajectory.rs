@@ -39,20 +39,34 @@ fn generate_time_optimal_trajectory(
     #[default(None)] calculation_script_handle: Option<Number>,
 ) -> Result<(Vec<f64>, Vec<f64>, Option<i64>)> {
     let _ = (cx, timeout);
-    let boundary = Boundary::from_name(&boundary_condition).ok_or_else(|| unknown(&boundary_condition))?;
+    let boundary =
+        Boundary::from_name(&boundary_condition).ok_or_else(|| unknown(&boundary_condition))?;
     let axes = path.len() / path_lengths.len().max(1);
-    let samples = usize::try_from(traj_pt_samples.0).ok().filter(|n| *n >= 2 && n.saturating_mul(axes) <= MAX_NUMBERS);
+    let samples = usize::try_from(traj_pt_samples.0)
+        .ok()
+        .filter(|n| *n >= 2 && n.saturating_mul(axes) <= MAX_NUMBERS);
     let samples = samples.ok_or_else(|| too_many(traj_pt_samples.0))?;
     let (velocity, acceleration) = (limits(&min_max_vel, axes)?, limits(&min_max_accel, axes)?);
-    let timed = TimedPath::new(&path, &path_lengths, &velocity, &acceleration, boundary).map_err(refusal)?;
-    let times: Vec<f64> = (0..samples).map(|i| timed.duration() * i as f64 / (samples - 1) as f64).collect();
+    let timed = TimedPath::new(&path, &path_lengths, &velocity, &acceleration, boundary)
+        .map_err(refusal)?;
+    let times: Vec<f64> = (0..samples)
+        .map(|i| timed.duration() * i as f64 / (samples - 1) as f64)
+        .collect();
     let points = times.iter().flat_map(|time| timed.at(*time)).collect();
-    Ok((points, times, calculation_script_handle.map(|handle| handle.0)))
+    Ok((
+        points,
+        times,
+        calculation_script_handle.map(|handle| handle.0),
+    ))
 }
 
 /// Pairs of minimum and maximum; more of them than axes are accepted.
 fn limits(pairs: &[f64], axes: usize) -> Result<Limits> {
-    let pairs = pairs.as_chunks().0.get(..axes).ok_or_else(|| refusal(TimeOptimalError::Sizes))?;
+    let pairs = pairs
+        .as_chunks()
+        .0
+        .get(..axes)
+        .ok_or_else(|| refusal(TimeOptimalError::Sizes))?;
     Ok(pairs.to_vec())
 }
 
@@ -63,7 +77,9 @@ fn unknown(boundary: &str) -> ApiError {
 }
 
 fn too_many(samples: i64) -> ApiError {
-    ApiError::Other(format!("cannot make {samples} points: at least 2, and at most {MAX_NUMBERS} numbers in all."))
+    ApiError::Other(format!(
+        "cannot make {samples} points: at least 2, and at most {MAX_NUMBERS} numbers in all."
+    ))
 }
 
 fn refusal(error: TimeOptimalError) -> ApiError {

@@ -7,8 +7,14 @@ use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::{Data, Handle, SceneError, special};
 use script::{Bytes, Table};
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![get_object, get_object_handle, get_object_alias, set_object_alias, get_object_name, set_object_name,];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    get_object,
+    get_object_handle,
+    get_object_alias,
+    set_object_alias,
+    get_object_name,
+    set_object_name,
+];
 
 /// Object at a path; the native part of `sim.getObject`.
 ///
@@ -43,7 +49,12 @@ pub(crate) fn get_object_handle(
         Data::Int(special::SELF) => return Ok(own_object(cx)),
         Data::Text(path) => text(&Bytes(path)),
         Data::Int(number) => number.to_string(),
-        _ => return Err(ApiError::NotA { position: 1, expected: "string/buffer" }),
+        _ => {
+            return Err(ApiError::NotA {
+                position: 1,
+                expected: "string/buffer",
+            });
+        }
     };
     if path.starts_with(['/', '.', ':']) {
         let emitter = options.emitter(cx)?;
@@ -75,8 +86,14 @@ fn not_found(name: &str) -> String {
 /// The object a script is attached to, the script itself where it is an object at the top.
 fn own_object(cx: &Cx) -> i64 {
     let script = cx.script();
-    let parent = script.object.and_then(|object| cx.scene().object(object).ok()?.parent());
-    script.owner().or(parent).or(script.object).map_or(special::WORLD, Handle::raw)
+    let parent = script
+        .object
+        .and_then(|object| cx.scene().object(object).ok()?.parent());
+    script
+        .owner()
+        .or(parent)
+        .or(script.object)
+        .map_or(special::WORLD, Handle::raw)
 }
 
 fn text(bytes: &Bytes) -> String {
@@ -107,13 +124,24 @@ impl Lookup {
             let proxy = Handle::from_raw(raw).filter(|&handle| cx.scene().exists(handle));
             return Ok(Some(proxy.ok_or(SceneError::NoSuchProxy)?));
         }
-        let Some(script) = cx.script().object else { return Ok(cx.script().owner()) };
+        let Some(script) = cx.script().object else {
+            return Ok(cx.script().owner());
+        };
         let scene = cx.scene();
         let object = scene.object(script)?;
-        Ok(if object.script()?.parent_is_proxy { object.parent() } else { Some(script) })
+        Ok(if object.script()?.parent_is_proxy {
+            object.parent()
+        } else {
+            Some(script)
+        })
     }
 
-    fn answer(&self, cx: &Cx, path: &str, found: std::result::Result<Handle, SceneError>) -> Result<i64> {
+    fn answer(
+        &self,
+        cx: &Cx,
+        path: &str,
+        found: std::result::Result<Handle, SceneError>,
+    ) -> Result<i64> {
         match found {
             Err(SceneError::NoSuchPath) if self.no_error => Ok(-1),
             Err(error) => {

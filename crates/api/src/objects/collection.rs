@@ -5,8 +5,8 @@ use api_macro::api;
 use crate::old::calculation_objects::handle_of;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::{
-    CollectionItem, CollectionOptions, Data, Handle, ItemOptions, Members, Object, Scene, SceneError,
-    is_legal_old_name, special,
+    CollectionItem, CollectionOptions, Data, Handle, ItemOptions, Members, Object, Scene,
+    SceneError, is_legal_old_name, special,
 };
 use script::Number;
 
@@ -36,7 +36,9 @@ fn create_collection(
     #[default(Data::Nil)] options: Data,
     #[default(0)] old_options: Number,
 ) -> Result<i64> {
-    let overrides = |bits: i64| CollectionOptions::from_bits_retain(bits).contains(CollectionOptions::OVERRIDES);
+    let overrides = |bits: i64| {
+        CollectionOptions::from_bits_retain(bits).contains(CollectionOptions::OVERRIDES)
+    };
     if let Data::Text(name) = &options {
         let name = legal_name(&cx.scene(), &String::from_utf8_lossy(name))?;
         let mut scene = cx.scene_mut();
@@ -46,10 +48,16 @@ fn create_collection(
     }
     let bits = match options {
         Data::Nil => 0,
-        number => number.as_f64().ok_or(ApiError::NotA { position: 1, expected: "integer" })? as i64,
+        number => number.as_f64().ok_or(ApiError::NotA {
+            position: 1,
+            expected: "integer",
+        })? as i64,
     };
     let owner = cx.script().id;
-    Ok(cx.scene_mut().collections_mut().add(overrides(bits), Some(owner)))
+    Ok(cx
+        .scene_mut()
+        .collections_mut()
+        .add(overrides(bits), Some(owner)))
 }
 
 fn legal_name(scene: &Scene, name: &str) -> Result<String> {
@@ -65,7 +73,12 @@ fn legal_name(scene: &Scene, name: &str) -> Result<String> {
 /// @return collectionHandle its handle
 #[api("sim.getCollectionHandle")]
 fn get_collection_handle(cx: &Cx, collection_name: String) -> Result<i64> {
-    handle_of(cx, &collection_name, |scene, name| scene.collections().named(name), SceneError::NoSuchCollection)
+    handle_of(
+        cx,
+        &collection_name,
+        |scene, name| scene.collections().named(name),
+        SceneError::NoSuchCollection,
+    )
 }
 
 /// The name of a collection of an old scene.
@@ -74,7 +87,12 @@ fn get_collection_handle(cx: &Cx, collection_name: String) -> Result<i64> {
 /// @return collectionName empty without one
 #[api("sim.getCollectionName")]
 fn get_collection_name(cx: &Cx, collection_handle: Number) -> Result<String> {
-    Ok(cx.scene().collections().get(collection_handle.0)?.name.clone())
+    Ok(cx
+        .scene()
+        .collections()
+        .get(collection_handle.0)?
+        .name
+        .clone())
 }
 
 /// Names a collection, as in old scenes.
@@ -83,11 +101,22 @@ fn get_collection_name(cx: &Cx, collection_handle: Number) -> Result<String> {
 /// @param collectionName a legal name that no other collection has
 /// @return result 1
 #[api("sim.setCollectionName")]
-fn set_collection_name(cx: &mut Cx, collection_handle: Number, collection_name: String) -> Result<i64> {
-    let present = cx.scene().collections().get(collection_handle.0)?.name.clone();
+fn set_collection_name(
+    cx: &mut Cx,
+    collection_handle: Number,
+    collection_name: String,
+) -> Result<i64> {
+    let present = cx
+        .scene()
+        .collections()
+        .get(collection_handle.0)?
+        .name
+        .clone();
     if present != collection_name {
         let name = legal_name(&cx.scene(), &collection_name)?;
-        cx.scene_mut().collections_mut().set_name(collection_handle.0, name)?;
+        cx.scene_mut()
+            .collections_mut()
+            .set_name(collection_handle.0, name)?;
     }
     Ok(1)
 }
@@ -111,7 +140,10 @@ fn remove_collection(cx: &mut Cx, collection_handle: Number) -> Result<i64> {
 /// @param collectionHandle the collection
 #[api("sim.destroyCollection")]
 fn destroy_collection(cx: &mut Cx, collection_handle: Number) -> Result<()> {
-    Ok(cx.scene_mut().collections_mut().remove(collection_handle.0)?)
+    Ok(cx
+        .scene_mut()
+        .collections_mut()
+        .remove(collection_handle.0)?)
 }
 
 /// Removes all items from a collection.
@@ -119,7 +151,11 @@ fn destroy_collection(cx: &mut Cx, collection_handle: Number) -> Result<()> {
 /// @param collectionHandle the collection
 #[api("sim.emptyCollection")]
 fn empty_collection(cx: &mut Cx, collection_handle: Number) -> Result<()> {
-    cx.scene_mut().collections_mut().get_mut(collection_handle.0)?.items.clear();
+    cx.scene_mut()
+        .collections_mut()
+        .get_mut(collection_handle.0)?
+        .items
+        .clear();
     Ok(())
 }
 
@@ -149,7 +185,11 @@ fn add_item_to_collection(
         _ => return Err(SceneError::InvalidArgument.into()),
     };
     let item = CollectionItem::new(members, ItemOptions::from_bits_retain(options.0));
-    cx.scene_mut().collections_mut().get_mut(collection_handle.0)?.items.push(item);
+    cx.scene_mut()
+        .collections_mut()
+        .get_mut(collection_handle.0)?
+        .items
+        .push(item);
     Ok(())
 }
 

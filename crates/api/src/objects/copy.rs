@@ -9,7 +9,10 @@ use script::{Handles, Number};
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![copy_paste_objects, scale_objects, scale_object];
 
 fn handles(raw: &Handles) -> Result<Vec<Handle>> {
-    raw.0.iter().map(|&raw| Handle::from_raw(raw).ok_or(SceneError::NoSuchObject.into())).collect()
+    raw.0
+        .iter()
+        .map(|&raw| Handle::from_raw(raw).ok_or(SceneError::NoSuchObject.into()))
+        .collect()
 }
 
 /// Copies objects. Copies whose ancestors are not copied become roots; all keep their world poses.
@@ -18,10 +21,16 @@ fn handles(raw: &Handles) -> Result<Vec<Handle>> {
 /// @param options 1: whole models; without 2: scripts; 4: custom data; 8: referenced handles; 32: being models
 /// @return copiedObjectHandles the copies, in the order of the originals; nothing if none was copied
 #[api("sim.copyPasteObjects")]
-fn copy_paste_objects(cx: &mut Cx, object_handles: Handles, #[default(0)] options: Number) -> Result<Option<Vec<i64>>> {
+fn copy_paste_objects(
+    cx: &mut Cx,
+    object_handles: Handles,
+    #[default(0)] options: Number,
+) -> Result<Option<Vec<i64>>> {
     let handles = handles(&object_handles)?;
     let copies = cx.copy_objects(&handles, CopyOptions::from_bits_retain(options.0))?;
-    let aligned = handles.iter().map(|original| copies.get(original).map_or(-1, |copy| copy.raw()));
+    let aligned = handles
+        .iter()
+        .map(|original| copies.get(original).map_or(-1, |copy| copy.raw()));
     Ok((!copies.is_empty()).then(|| aligned.collect()))
 }
 
@@ -31,9 +40,16 @@ fn copy_paste_objects(cx: &mut Cx, object_handles: Handles, #[default(0)] option
 /// @param scalingFactor at least 0.0001
 /// @param scalePositionsToo also where they are in their parents' frames
 #[api("sim.scaleObjects")]
-fn scale_objects(cx: &mut Cx, object_handles: Handles, scaling_factor: f64, scale_positions_too: bool) -> Result<()> {
+fn scale_objects(
+    cx: &mut Cx,
+    object_handles: Handles,
+    scaling_factor: f64,
+    scale_positions_too: bool,
+) -> Result<()> {
     let handles = handles(&object_handles)?;
-    Ok(cx.scene_mut().scale_objects(&handles, scaling_factor, scale_positions_too)?)
+    Ok(cx
+        .scene_mut()
+        .scale_objects(&handles, scaling_factor, scale_positions_too)?)
 }
 
 /// Scales an object along its axes; mass and inertia stay.
@@ -52,5 +68,7 @@ fn scale_object(
     z_scale: f64,
     #[default(0)] _options: Number,
 ) -> Result<()> {
-    Ok(cx.scene_mut().scale_object(object_handle, [x_scale, y_scale, z_scale])?)
+    Ok(cx
+        .scene_mut()
+        .scale_object(object_handle, [x_scale, y_scale, z_scale])?)
 }

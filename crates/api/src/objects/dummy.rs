@@ -33,6 +33,10 @@ fn get_link_dummy(cx: &Cx, dummy_handle: Handle) -> Result<i64> {
 /// @param linkDummyHandle its new partner, -1 for none
 #[api("sim.setLinkDummy")]
 fn set_link_dummy(cx: &mut Cx, dummy_handle: Handle, link_dummy_handle: f64) -> Result<()> {
-    let partner = if link_dummy_handle < 0.0 { None } else { Handle::from_raw(link_dummy_handle as i64) };
+    let partner = if link_dummy_handle < 0.0 {
+        None
+    } else {
+        Handle::from_raw(link_dummy_handle as i64)
+    };
     Ok(cx.scene_mut().link_dummies(dummy_handle, partner)?)
 }

@@ -18,13 +18,25 @@ impl OldName {
     pub(crate) fn read(text: &str, suffix: i64) -> Self {
         let (name, _) = text.split_once('@').unwrap_or((text, ""));
         let is_alternative = text.contains("@alt");
-        let name = if is_alternative { name.to_owned() } else { name_with_suffix(name, suffix) };
-        Self { name, no_error: text.contains("@silentError"), is_alternative }
+        let name = if is_alternative {
+            name.to_owned()
+        } else {
+            name_with_suffix(name, suffix)
+        };
+        Self {
+            name,
+            no_error: text.contains("@silentError"),
+            is_alternative,
+        }
     }
 
     /// The object of that name.
     pub(crate) fn find(&self, scene: &Scene) -> SceneResult<Handle> {
-        if self.is_alternative { scene.find_alternative_name(&self.name) } else { scene.find_old_name(&self.name) }
+        if self.is_alternative {
+            scene.find_alternative_name(&self.name)
+        } else {
+            scene.find_old_name(&self.name)
+        }
     }
 }
 
@@ -40,7 +52,11 @@ pub(crate) fn name_with_suffix(name: &str, suffix: i64) -> String {
 /// The number in the old name of the calling script's object; -1 without one.
 pub(crate) fn suffix_of_script(cx: &Cx) -> i64 {
     let scene = cx.scene();
-    let object = cx.script().owner().or(cx.script().object).and_then(|object| scene.object(object).ok());
+    let object = cx
+        .script()
+        .owner()
+        .or(cx.script().object)
+        .and_then(|object| scene.object(object).ok());
     object.map_or(-1, |object| name_suffix(object.old_name()).0)
 }
 
@@ -53,7 +69,10 @@ mod tests {
         let name = |text, suffix| OldName::read(text, suffix).name;
         assert_eq!(name("arm", -1), "arm");
         assert_eq!(name("arm", 3), "arm#3");
-        assert_eq!([name("arm#", 3), name("arm#0", 3), name("arm#", -1)], ["arm", "arm#0", "arm"]);
+        assert_eq!(
+            [name("arm#", 3), name("arm#0", 3), name("arm#", -1)],
+            ["arm", "arm#0", "arm"]
+        );
         assert_eq!(name("arm@silentError", 3), "arm#3");
         assert!(OldName::read("arm@silentError", 3).no_error);
     }

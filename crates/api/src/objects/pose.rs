@@ -40,7 +40,10 @@ fn get_object_position(
     object_handle: ObjectRef,
     #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: PositionFrame,
 ) -> Result<[f64; 3]> {
-    Ok(pose_in(cx, object_handle, relative_to_object_handle)?.translation.vector.into())
+    Ok(pose_in(cx, object_handle, relative_to_object_handle)?
+        .translation
+        .vector
+        .into())
 }
 
 /// Moves an object; its orientation stays.
@@ -53,13 +56,21 @@ fn set_object_position(
     cx: &mut Cx,
     object_handle: ObjectRef,
     position: Operand<3, LegacyFrame>,
-    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<3, PositionFrame>,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<
+        3,
+        PositionFrame,
+    >,
 ) -> Result<()> {
     let (position, frame) = arrange(position, relative_to_object_handle)?;
     if frame == Frame::Inverse {
         return Err(SceneError::NoSuchObject.into());
     }
-    place(cx, object_handle, Placement::Position(position.into()), frame)
+    place(
+        cx,
+        object_handle,
+        Placement::Position(position.into()),
+        frame,
+    )
 }
 
 /// Rotation of an object.
@@ -91,13 +102,21 @@ fn set_object_quaternion(
     cx: &mut Cx,
     object_handle: ObjectRef,
     quaternion: Operand<4, LegacyFrame>,
-    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<4, StrictFrame>,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<
+        4,
+        StrictFrame,
+    >,
 ) -> Result<()> {
     let (mut quaternion, frame) = arrange(quaternion, relative_to_object_handle)?;
     if object_handle.has(flag::WXYZ_QUATERNION) {
         quaternion.rotate_left(1);
     }
-    place(cx, object_handle, Placement::Rotation(pose::quaternion_from_array(&quaternion)), frame)
+    place(
+        cx,
+        object_handle,
+        Placement::Rotation(pose::quaternion_from_array(&quaternion)),
+        frame,
+    )
 }
 
 /// Euler angles of an object.
@@ -111,7 +130,9 @@ fn get_object_orientation(
     object_handle: ObjectRef,
     #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: StrictFrame,
 ) -> Result<[f64; 3]> {
-    Ok(euler::rotation_to_euler(&pose_in(cx, object_handle, relative_to_object_handle)?.rotation))
+    Ok(euler::rotation_to_euler(
+        &pose_in(cx, object_handle, relative_to_object_handle)?.rotation,
+    ))
 }
 
 /// Turns an object; its position stays.
@@ -124,10 +145,18 @@ fn set_object_orientation(
     cx: &mut Cx,
     object_handle: ObjectRef,
     euler_angles: Operand<3, LegacyFrame>,
-    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<3, StrictFrame>,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<
+        3,
+        StrictFrame,
+    >,
 ) -> Result<()> {
     let (euler, frame) = arrange(euler_angles, relative_to_object_handle)?;
-    place(cx, object_handle, Placement::Rotation(euler::rotation_from_euler(&euler)), frame)
+    place(
+        cx,
+        object_handle,
+        Placement::Rotation(euler::rotation_from_euler(&euler)),
+        frame,
+    )
 }
 
 /// Pose of an object.
@@ -158,13 +187,21 @@ fn set_object_pose(
     cx: &mut Cx,
     object_handle: ObjectRef,
     pose: Operand<7, LegacyFrame>,
-    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<7, StrictFrame>,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<
+        7,
+        StrictFrame,
+    >,
 ) -> Result<()> {
     let (mut pose, frame) = arrange(pose, relative_to_object_handle)?;
     if object_handle.has(flag::WXYZ_QUATERNION) {
         pose[3..].rotate_left(1);
     }
-    place(cx, object_handle, Placement::Pose(pose::pose_from_array(&pose)), frame)
+    place(
+        cx,
+        object_handle,
+        Placement::Pose(pose::pose_from_array(&pose)),
+        frame,
+    )
 }
 
 /// Pose of an object as a matrix.
@@ -178,7 +215,11 @@ fn get_object_matrix(
     object_handle: ObjectRef,
     #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: StrictFrame,
 ) -> Result<[f64; 12]> {
-    Ok(pose::pose_to_matrix(&pose_in(cx, object_handle, relative_to_object_handle)?))
+    Ok(pose::pose_to_matrix(&pose_in(
+        cx,
+        object_handle,
+        relative_to_object_handle,
+    )?))
 }
 
 /// Places an object.
@@ -191,10 +232,18 @@ fn set_object_matrix(
     cx: &mut Cx,
     object_handle: ObjectRef,
     matrix: Operand<12, LegacyFrame>,
-    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<12, StrictFrame>,
+    #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<
+        12,
+        StrictFrame,
+    >,
 ) -> Result<()> {
     let (matrix, frame) = arrange(matrix, relative_to_object_handle)?;
-    place(cx, object_handle, Placement::Pose(pose::pose_from_matrix(&matrix)), frame)
+    place(
+        cx,
+        object_handle,
+        Placement::Pose(pose::pose_from_matrix(&matrix)),
+        frame,
+    )
 }
 
 /// From an object to the frame its children live in: the motion of a joint, the identity for most others.
@@ -204,7 +253,9 @@ fn set_object_matrix(
 #[api("sim.getObjectChildPose")]
 fn get_object_child_pose(cx: &Cx, object_handle: Handle) -> Result<[f64; 7]> {
     let intrinsic = cx.scene().object(object_handle)?.intrinsic_pose();
-    Ok(pose::pose_to_array(&intrinsic.unwrap_or_else(Pose::identity)))
+    Ok(pose::pose_to_array(
+        &intrinsic.unwrap_or_else(Pose::identity),
+    ))
 }
 
 /// Turns the moving side of a spherical joint. Other objects are left as they are.
@@ -215,7 +266,16 @@ fn get_object_child_pose(cx: &Cx, object_handle: Handle) -> Result<[f64; 7]> {
 #[api("sim.setObjectChildPose")]
 fn set_object_child_pose(cx: &mut Cx, object_handle: Handle, pose: [f64; 7]) -> Result<i64> {
     let pose = pose::pose_from_array(&checked(pose)?);
-    Ok(if cx.scene_mut().set_spherical_rotation(object_handle, pose.rotation)? { 1 } else { -1 })
+    Ok(
+        if cx
+            .scene_mut()
+            .set_spherical_rotation(object_handle, pose.rotation)?
+        {
+            1
+        } else {
+            -1
+        },
+    )
 }
 
 /// From a joint to its moving side.
@@ -224,7 +284,9 @@ fn set_object_child_pose(cx: &mut Cx, object_handle: Handle, pose: [f64; 7]) -> 
 /// @return matrix upper 3 by 4 block, row by row
 #[api("sim.getJointMatrix")]
 fn get_joint_matrix(cx: &Cx, object_handle: Handle) -> Result<[f64; 12]> {
-    Ok(pose::pose_to_matrix(&cx.scene().object(object_handle)?.joint()?.intrinsic_pose()))
+    Ok(pose::pose_to_matrix(
+        &cx.scene().object(object_handle)?.joint()?.intrinsic_pose(),
+    ))
 }
 
 /// Turns the moving side of a spherical joint.
@@ -233,9 +295,22 @@ fn get_joint_matrix(cx: &Cx, object_handle: Handle) -> Result<[f64; 12]> {
 /// @param matrix of which the rotation is taken
 /// @return result 1, or -1 if it is no spherical joint
 #[api("sim.setSphericalJointMatrix")]
-fn set_spherical_joint_matrix(cx: &mut Cx, object_handle: Handle, matrix: [f64; 12]) -> Result<i64> {
+fn set_spherical_joint_matrix(
+    cx: &mut Cx,
+    object_handle: Handle,
+    matrix: [f64; 12],
+) -> Result<i64> {
     let pose = pose::pose_from_matrix(&checked(matrix)?);
-    Ok(if cx.scene_mut().set_spherical_rotation(object_handle, pose.rotation)? { 1 } else { -1 })
+    Ok(
+        if cx
+            .scene_mut()
+            .set_spherical_rotation(object_handle, pose.rotation)?
+        {
+            1
+        } else {
+            -1
+        },
+    )
 }
 
 /// Measured velocity of an object, between the last two simulation steps, world axes.
@@ -247,16 +322,29 @@ fn set_spherical_joint_matrix(cx: &mut Cx, object_handle: Handle, matrix: [f64; 
 fn get_object_velocity(cx: &Cx, object_handle: ObjectRef) -> Result<([f64; 3], [f64; 3])> {
     let scene = cx.scene();
     let measured = &scene.object(object_handle.handle)?.measured;
-    let angular = if object_handle.has(flag::AXIS) { measured.angular } else { measured.euler_rate };
+    let angular = if object_handle.has(flag::AXIS) {
+        measured.angular
+    } else {
+        measured.euler_rate
+    };
     Ok((measured.linear, angular))
 }
 
 fn pose_in(cx: &Cx, object: ObjectRef, frame: impl Into<Frame>) -> Result<Pose> {
-    Ok(cx.scene().pose_in(object.handle, frame.into(), object.has(flag::REL_JOINT_BASE_FRAME))?)
+    Ok(cx.scene().pose_in(
+        object.handle,
+        frame.into(),
+        object.has(flag::REL_JOINT_BASE_FRAME),
+    )?)
 }
 
 fn place(cx: &mut Cx, object: ObjectRef, placement: Placement, frame: Frame) -> Result<()> {
-    Ok(cx.scene_mut().place(object.handle, placement, frame, object.has(flag::REL_JOINT_BASE_FRAME))?)
+    Ok(cx.scene_mut().place(
+        object.handle,
+        placement,
+        frame,
+        object.has(flag::REL_JOINT_BASE_FRAME),
+    )?)
 }
 
 /// Second or third argument of a setter.
@@ -274,9 +362,12 @@ where
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         match <[f64; N]>::from_script(args) {
             Ok(numbers) => Ok(Self::Numbers(numbers)),
-            Err(ApiError::NotA { expected: "table", .. } | ApiError::ArgumentType) => {
-                F::from_script(args).map(Self::Frame)
-            }
+            Err(
+                ApiError::NotA {
+                    expected: "table", ..
+                }
+                | ApiError::ArgumentType,
+            ) => F::from_script(args).map(Self::Frame),
             Err(error) => Err(error),
         }
     }
@@ -305,14 +396,24 @@ fn arrange<const N: usize>(
     match (first, second) {
         (Operand::Numbers(numbers), Operand::Frame(frame)) => Ok((checked(numbers)?, frame.into())),
         (Operand::Frame(frame), Operand::Numbers(numbers)) => Ok((checked(numbers)?, frame.into())),
-        (Operand::Numbers(_), Operand::Numbers(_)) => Err(ApiError::NotA { position: 3, expected: "number" }),
-        (Operand::Frame(_), Operand::Frame(_)) => Err(ApiError::NotA { position: 3, expected: "table" }),
+        (Operand::Numbers(_), Operand::Numbers(_)) => Err(ApiError::NotA {
+            position: 3,
+            expected: "number",
+        }),
+        (Operand::Frame(_), Operand::Frame(_)) => Err(ApiError::NotA {
+            position: 3,
+            expected: "table",
+        }),
     }
 }
 
 /// Refuses what is not a number; infinity passes.
 pub(crate) fn checked<const N: usize>(numbers: [f64; N]) -> Result<[f64; N]> {
-    if numbers.iter().any(|number| number.is_nan()) { Err(SceneError::InvalidData.into()) } else { Ok(numbers) }
+    if numbers.iter().any(|number| number.is_nan()) {
+        Err(SceneError::InvalidData.into())
+    } else {
+        Ok(numbers)
+    }
 }
 
 /// A frame, as the position functions read it: a float is the world, and the inverse is not known to them.

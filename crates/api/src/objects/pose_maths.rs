@@ -45,7 +45,10 @@ fn build_identity_matrix(_cx: &Cx) -> Result<[f64; 12]> {
 /// @return matrix upper 3 by 4 block, row by row
 #[api("sim.buildMatrix")]
 fn build_matrix(_cx: &Cx, position: [f64; 3], euler_angles: [f64; 3]) -> Result<[f64; 12]> {
-    Ok(euler::build_matrix(&checked(position)?, &checked(euler_angles)?))
+    Ok(euler::build_matrix(
+        &checked(position)?,
+        &checked(euler_angles)?,
+    ))
 }
 
 /// Matrix of a position and a quaternion.
@@ -56,7 +59,10 @@ fn build_matrix(_cx: &Cx, position: [f64; 3], euler_angles: [f64; 3]) -> Result<
 #[api("sim.buildMatrixQ")]
 fn build_matrix_q(_cx: &Cx, position: [f64; 3], quaternion: [f64; 4]) -> Result<[f64; 12]> {
     let rotation = pose::quaternion_from_array(&checked(quaternion)?);
-    Ok(pose::pose_to_matrix(&Pose::from_parts(checked(position)?.into(), rotation)))
+    Ok(pose::pose_to_matrix(&Pose::from_parts(
+        checked(position)?.into(),
+        rotation,
+    )))
 }
 
 /// Pose of a position, and Euler angles or axes.
@@ -74,7 +80,12 @@ fn build_pose(
     #[default(0)] mode: i64,
     #[default(None)] axis2: Option<[f64; 3]>,
 ) -> Result<[f64; 7]> {
-    let pose = pose::build_pose(&checked(position)?, &checked(euler_angles_or_axis)?, mode, axis2.as_ref())?;
+    let pose = pose::build_pose(
+        &checked(position)?,
+        &checked(euler_angles_or_axis)?,
+        mode,
+        axis2.as_ref(),
+    )?;
     Ok(pose::pose_to_array(&pose))
 }
 
@@ -94,7 +105,10 @@ fn copy_matrix(_cx: &Cx, matrix_in: [f64; 12]) -> Result<[f64; 12]> {
 /// @return resultMatrix upper 3 by 4 block, row by row
 #[api("sim.multiplyMatrices")]
 fn multiply_matrices(_cx: &Cx, matrix_in1: [f64; 12], matrix_in2: [f64; 12]) -> Result<[f64; 12]> {
-    Ok(pose::multiply_matrices(&checked(matrix_in1)?, &checked(matrix_in2)?))
+    Ok(pose::multiply_matrices(
+        &checked(matrix_in1)?,
+        &checked(matrix_in2)?,
+    ))
 }
 
 /// Product of two poses.
@@ -104,7 +118,10 @@ fn multiply_matrices(_cx: &Cx, matrix_in1: [f64; 12], matrix_in2: [f64; 12]) -> 
 /// @return resultPose x, y, z, qx, qy, qz, qw
 #[api("sim.multiplyPoses")]
 fn multiply_poses(_cx: &Cx, pose_in1: [f64; 7], pose_in2: [f64; 7]) -> Result<[f64; 7]> {
-    Ok(pose::multiply_poses(&checked(pose_in1)?, &checked(pose_in2)?))
+    Ok(pose::multiply_poses(
+        &checked(pose_in1)?,
+        &checked(pose_in2)?,
+    ))
 }
 
 /// Transforms vectors. Nothing is normalised.
@@ -141,7 +158,9 @@ fn get_pose_inverse(_cx: &Cx, pose: [f64; 7]) -> Result<[f64; 7]> {
 /// @return pose x, y, z, qx, qy, qz, qw
 #[api("sim.matrixToPose")]
 fn matrix_to_pose(_cx: &Cx, matrix: [f64; 12]) -> Result<[f64; 7]> {
-    Ok(pose::pose_to_array(&pose::pose_from_matrix(&checked(matrix)?)))
+    Ok(pose::pose_to_array(&pose::pose_from_matrix(&checked(
+        matrix,
+    )?)))
 }
 
 /// Matrix of a pose.
@@ -150,7 +169,9 @@ fn matrix_to_pose(_cx: &Cx, matrix: [f64; 12]) -> Result<[f64; 7]> {
 /// @return matrix upper 3 by 4 block, row by row
 #[api("sim.poseToMatrix")]
 fn pose_to_matrix(_cx: &Cx, pose: [f64; 7]) -> Result<[f64; 12]> {
-    Ok(pose::pose_to_matrix(&pose::pose_from_array(&checked(pose)?)))
+    Ok(pose::pose_to_matrix(&pose::pose_from_array(&checked(
+        pose,
+    )?)))
 }
 
 /// Euler angles of a matrix.
@@ -168,7 +189,9 @@ fn get_euler_angles_from_matrix(_cx: &Cx, matrix: [f64; 12]) -> Result<[f64; 3]>
 /// @return quaternion qx, qy, qz, qw
 #[api("sim.getQuaternionFromMatrix")]
 fn get_quaternion_from_matrix(_cx: &Cx, matrix: [f64; 12]) -> Result<[f64; 4]> {
-    Ok(pose::quaternion_to_array(&pose::pose_from_matrix(&checked(matrix)?).rotation))
+    Ok(pose::quaternion_to_array(
+        &pose::pose_from_matrix(&checked(matrix)?).rotation,
+    ))
 }
 
 /// Matrix between two others: positions on the line, rotations on the shortest arc.
@@ -184,8 +207,15 @@ fn interpolate_matrices(
     matrix_in2: [f64; 12],
     interpol_factor: f64,
 ) -> Result<[f64; 12]> {
-    let (a, b) = (pose::pose_from_matrix(&checked(matrix_in1)?), pose::pose_from_matrix(&checked(matrix_in2)?));
-    Ok(pose::pose_to_matrix(&pose::interpolate(&a, &b, interpol_factor)))
+    let (a, b) = (
+        pose::pose_from_matrix(&checked(matrix_in1)?),
+        pose::pose_from_matrix(&checked(matrix_in2)?),
+    );
+    Ok(pose::pose_to_matrix(&pose::interpolate(
+        &a,
+        &b,
+        interpol_factor,
+    )))
 }
 
 /// Pose between two others: positions on the line, rotations on the shortest arc.
@@ -195,9 +225,21 @@ fn interpolate_matrices(
 /// @param interpolFactor not limited to 0 to 1
 /// @return resultPose x, y, z, qx, qy, qz, qw
 #[api("sim.interpolatePoses")]
-fn interpolate_poses(_cx: &Cx, pose_in1: [f64; 7], pose_in2: [f64; 7], interpol_factor: f64) -> Result<[f64; 7]> {
-    let (a, b) = (pose::pose_from_array(&checked(pose_in1)?), pose::pose_from_array(&checked(pose_in2)?));
-    Ok(pose::pose_to_array(&pose::interpolate(&a, &b, interpol_factor)))
+fn interpolate_poses(
+    _cx: &Cx,
+    pose_in1: [f64; 7],
+    pose_in2: [f64; 7],
+    interpol_factor: f64,
+) -> Result<[f64; 7]> {
+    let (a, b) = (
+        pose::pose_from_array(&checked(pose_in1)?),
+        pose::pose_from_array(&checked(pose_in2)?),
+    );
+    Ok(pose::pose_to_array(&pose::interpolate(
+        &a,
+        &b,
+        interpol_factor,
+    )))
 }
 
 /// Axis and angle that turn one orientation into another.
@@ -207,8 +249,15 @@ fn interpolate_poses(_cx: &Cx, pose_in1: [f64; 7], pose_in2: [f64; 7], interpol_
 /// @return axis in the frame both are expressed in
 /// @return angle 0 to pi, radians
 #[api("sim.getRotationAxis")]
-fn get_rotation_axis(_cx: &Cx, matrix_start: Transform, matrix_goal: Transform) -> Result<([f64; 3], f64)> {
-    Ok(pose::rotation_axis(&matrix_start.pose(), &matrix_goal.pose()))
+fn get_rotation_axis(
+    _cx: &Cx,
+    matrix_start: Transform,
+    matrix_goal: Transform,
+) -> Result<([f64; 3], f64)> {
+    Ok(pose::rotation_axis(
+        &matrix_start.pose(),
+        &matrix_goal.pose(),
+    ))
 }
 
 /// Turns a matrix or pose around an axis.
@@ -226,7 +275,12 @@ fn rotate_around_axis(
     axis_pos: [f64; 3],
     angle: f64,
 ) -> Result<Vec<f64>> {
-    let turned = pose::rotate_around_axis(&matrix_in.pose(), &checked(axis)?, &checked(axis_pos)?, angle);
+    let turned = pose::rotate_around_axis(
+        &matrix_in.pose(),
+        &checked(axis)?,
+        &checked(axis_pos)?,
+        angle,
+    );
     Ok(match matrix_in {
         Transform::Matrix(_) => pose::pose_to_matrix(&turned).to_vec(),
         Transform::Pose(_) => pose::pose_to_array(&turned).to_vec(),

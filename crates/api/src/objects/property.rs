@@ -5,7 +5,8 @@ use api_macro::api;
 use crate::{ApiFn, Cx, Result, functions};
 use scene::values::extension_string;
 use scene::{
-    Field, Handle, Kind, ModelFlags, Object, ObjectFlags, References, Scene, SceneError, SpecialFlags, flag, special,
+    Field, Handle, Kind, ModelFlags, Object, ObjectFlags, References, Scene, SceneError,
+    SpecialFlags, flag, special,
 };
 use script::{Handles, Number, ObjectRef};
 
@@ -42,9 +43,11 @@ fn get_object_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
 /// @param property sim.objectproperty_* bits
 #[api("sim.setObjectProperty")]
 fn set_object_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<()> {
-    Ok(cx.scene_mut().modify(object_handle, Field::ObjectProperty, |object| {
-        object.object_property = ObjectFlags::from_bits_retain(property.0)
-    })?)
+    Ok(cx
+        .scene_mut()
+        .modify(object_handle, Field::ObjectProperty, |object| {
+            object.object_property = ObjectFlags::from_bits_retain(property.0)
+        })?)
 }
 
 /// Special properties of an object: collidable, measurable, detectable; its own flags, without those of models.
@@ -62,7 +65,9 @@ fn get_object_special_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
 /// @param property sim.objectspecialproperty_* bits
 #[api("sim.setObjectSpecialProperty")]
 fn set_object_special_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<()> {
-    Ok(cx.scene_mut().set_special_property(object_handle, SpecialFlags::from_bits_retain(property.0))?)
+    Ok(cx
+        .scene_mut()
+        .set_special_property(object_handle, SpecialFlags::from_bits_retain(property.0))?)
 }
 
 /// Flags of a model.
@@ -80,8 +85,11 @@ fn get_model_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
 /// @param property sim.modelproperty_* bits
 #[api("sim.setModelProperty")]
 fn set_model_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<()> {
-    let change = |object: &mut Object| object.set_model_property(ModelFlags::from_bits_retain(property.0));
-    Ok(cx.scene_mut().modify(object_handle, Field::ModelProperty, change)?)
+    let change =
+        |object: &mut Object| object.set_model_property(ModelFlags::from_bits_retain(property.0));
+    Ok(cx
+        .scene_mut()
+        .modify(object_handle, Field::ModelProperty, change)?)
 }
 
 fn explicit_flag(object: &mut Object) -> std::result::Result<&mut bool, SceneError> {
@@ -112,7 +120,9 @@ fn get_extension_string(
     let text = match (object_handle.0, usize::try_from(index.0)) {
         (special::SCENE, _) => &scene.settings().environment.extension_string,
         (raw, Err(_)) => &object(&scene, raw)?.extension_string,
-        (raw, Ok(index)) => colour_extension(object(&scene, raw)?, index).ok_or(SceneError::InvalidArgument)?,
+        (raw, Ok(index)) => {
+            colour_extension(object(&scene, raw)?, index).ok_or(SceneError::InvalidArgument)?
+        }
     };
     Ok(match key {
         None => Some(text.clone()),
@@ -126,25 +136,41 @@ fn object(scene: &Scene, raw: i64) -> Result<&Object> {
 
 fn colour_extension(object: &Object, index: usize) -> Option<&String> {
     match &object.kind {
-        Kind::Shape(shape) => shape.parts.get(index).map(|part| &part.appearance.colour_extension),
+        Kind::Shape(shape) => shape
+            .parts
+            .get(index)
+            .map(|part| &part.appearance.colour_extension),
         _ => (index == 0).then_some(&object.colour_extension),
     }
 }
 
 /// The object with a handle. Negative numbers are none.
 fn handled(scene: &Scene, raw: i64) -> Result<&Object> {
-    if raw < 0 { Err(SceneError::InvalidArgument.into()) } else { object(scene, raw) }
+    if raw < 0 {
+        Err(SceneError::InvalidArgument.into())
+    } else {
+        object(scene, raw)
+    }
 }
 
 /// The tag of a collision or distance object or IK group of an old scene.
 fn explicit_calculation(scene: &mut Scene, handle: i64) -> Option<&mut bool> {
     if scene.collision_objects().get(handle).is_some() {
-        return scene.collision_objects_mut().get_mut(handle).map(|object| &mut object.explicit);
+        return scene
+            .collision_objects_mut()
+            .get_mut(handle)
+            .map(|object| &mut object.explicit);
     }
     if scene.distance_objects().get(handle).is_some() {
-        return scene.distance_objects_mut().get_mut(handle).map(|object| &mut object.explicit);
+        return scene
+            .distance_objects_mut()
+            .get_mut(handle)
+            .map(|object| &mut object.explicit);
     }
-    scene.ik_groups_mut().get_mut(handle).map(|group| &mut group.explicit)
+    scene
+        .ik_groups_mut()
+        .get_mut(handle)
+        .map(|group| &mut group.explicit)
 }
 
 /// Whether an object is handled explicitly, so that handling all leaves it out.
@@ -154,9 +180,18 @@ fn explicit_calculation(scene: &mut Scene, handle: i64) -> Option<&mut bool> {
 #[api("sim.getExplicitHandling")]
 fn get_explicit_handling(cx: &Cx, object_handle: Number) -> Result<i64> {
     let scene = cx.scene();
-    let of_collision = scene.collision_objects().get(object_handle.0).map(|object| object.explicit);
-    let of_distance = scene.distance_objects().get(object_handle.0).map(|object| object.explicit);
-    let of_group = scene.ik_groups().get(object_handle.0).map(|group| group.explicit);
+    let of_collision = scene
+        .collision_objects()
+        .get(object_handle.0)
+        .map(|object| object.explicit);
+    let of_distance = scene
+        .distance_objects()
+        .get(object_handle.0)
+        .map(|object| object.explicit);
+    let of_group = scene
+        .ik_groups()
+        .get(object_handle.0)
+        .map(|group| group.explicit);
     if let Some(explicit) = of_collision.or(of_distance).or(of_group) {
         return Ok(i64::from(explicit));
     }
@@ -177,7 +212,11 @@ fn get_explicit_handling(cx: &Cx, object_handle: Number) -> Result<i64> {
 /// @param explicitHandlingFlags 1 if so
 /// @return result 1
 #[api("sim.setExplicitHandling")]
-fn set_explicit_handling(cx: &mut Cx, object_handle: Number, explicit_handling_flags: Number) -> Result<i64> {
+fn set_explicit_handling(
+    cx: &mut Cx,
+    object_handle: Number,
+    explicit_handling_flags: Number,
+) -> Result<i64> {
     let explicit = explicit_handling_flags.0 & 1 != 0;
     let mut scene = cx.scene_mut();
     if let Some(flag) = explicit_calculation(&mut scene, object_handle.0) {
@@ -216,8 +255,15 @@ fn get_object_size_values(cx: &Cx, object_handle: Handle) -> Result<[f64; 3]> {
 /// @param sizeValues one for each axis
 /// @return result 1
 #[api("sim.setObjectSizeValues")]
-fn set_object_size_values(cx: &mut Cx, object_handle: Handle, size_values: [f64; 3]) -> Result<i64> {
-    cx.scene_mut().modify(object_handle, Field::Other, |object| object.size_values = size_values)?;
+fn set_object_size_values(
+    cx: &mut Cx,
+    object_handle: Handle,
+    size_values: [f64; 3],
+) -> Result<i64> {
+    cx.scene_mut()
+        .modify(object_handle, Field::Other, |object| {
+            object.size_values = size_values
+        })?;
     Ok(1)
 }
 
@@ -227,8 +273,16 @@ fn set_object_size_values(cx: &mut Cx, object_handle: Handle, size_values: [f64;
 /// @param tag name of the list
 /// @return referencedHandles -1 for objects that are gone
 #[api("sim.getReferencedHandles")]
-fn get_referenced_handles(cx: &Cx, object_handle: ObjectRef, #[default("")] tag: String) -> Result<Vec<i64>> {
-    Ok(cx.scene().object(object_handle.handle)?.referenced(references(object_handle), &tag).to_vec())
+fn get_referenced_handles(
+    cx: &Cx,
+    object_handle: ObjectRef,
+    #[default("")] tag: String,
+) -> Result<Vec<i64>> {
+    Ok(cx
+        .scene()
+        .object(object_handle.handle)?
+        .referenced(references(object_handle), &tag)
+        .to_vec())
 }
 
 /// Makes an object refer to others; copies then refer to the copies.
@@ -244,7 +298,9 @@ fn set_referenced_handles(
     #[default("")] tag: String,
 ) -> Result<()> {
     let kind = references(object_handle);
-    Ok(cx.scene_mut().set_references(object_handle.handle, kind, &tag, &referenced_handles.0)?)
+    Ok(cx
+        .scene_mut()
+        .set_references(object_handle.handle, kind, &tag, &referenced_handles.0)?)
 }
 
 /// Names of the lists of handles an object refers to.
@@ -254,10 +310,16 @@ fn set_referenced_handles(
 #[api("sim.getReferencedHandlesTags")]
 fn get_referenced_handles_tags(cx: &Cx, object_handle: ObjectRef) -> Result<Vec<String>> {
     let scene = cx.scene();
-    let lists = scene.object(object_handle.handle)?.reference_lists(references(object_handle));
+    let lists = scene
+        .object(object_handle.handle)?
+        .reference_lists(references(object_handle));
     Ok(lists.iter().map(|(tag, _)| tag.clone()).collect())
 }
 
 fn references(object: ObjectRef) -> References {
-    if object.has(flag::KEEP_ORIGINAL) { References::Original } else { References::Following }
+    if object.has(flag::KEEP_ORIGINAL) {
+        References::Original
+    } else {
+        References::Following
+    }
 }

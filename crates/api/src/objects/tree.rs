@@ -38,7 +38,11 @@ const ASSEMBLE: i64 = 0x40_0000;
 /// @return parentObjectHandle -1 for roots
 #[api("sim.getObjectParent")]
 fn get_object_parent(cx: &Cx, object_handle: Handle) -> Result<i64> {
-    Ok(cx.scene().object(object_handle)?.parent().map_or(-1, Handle::raw))
+    Ok(cx
+        .scene()
+        .object(object_handle)?
+        .parent()
+        .map_or(-1, Handle::raw))
 }
 
 /// Makes an object the last child of another.
@@ -63,7 +67,8 @@ fn set_object_parent(
         // Assembly tags are not kept, so that no two objects match.
         return Err(ApiError::Other("invalid assembly.".into()));
     }
-    cx.scene_mut().set_parent(object_handle.handle, parent, keep_in_place)?;
+    cx.scene_mut()
+        .set_parent(object_handle.handle, parent, keep_in_place)?;
     Ok(1)
 }
 
@@ -77,9 +82,13 @@ fn get_object_child(cx: &Cx, object_handle: Number, index: i64) -> Result<i64> {
     let scene = cx.scene();
     let children = match object_handle.0 {
         special::SCENE => scene.roots(),
-        raw => scene.object(Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?)?.children(),
+        raw => scene
+            .object(Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?)?
+            .children(),
     };
-    let child = usize::try_from(index).ok().and_then(|index| children.get(index));
+    let child = usize::try_from(index)
+        .ok()
+        .and_then(|index| children.get(index));
     Ok(child.map_or(-1, |child| child.raw()))
 }
 
@@ -91,8 +100,12 @@ fn get_object_child(cx: &Cx, object_handle: Number, index: i64) -> Result<i64> {
 #[api("sim.getObjects")]
 fn get_objects(cx: &Cx, index: i64, object_type: i64) -> Result<i64> {
     let scene = cx.scene();
-    let mut objects = scene.objects().filter(|object| object.is_of_type(object_type));
-    let object = usize::try_from(index).ok().and_then(|index| objects.nth(index));
+    let mut objects = scene
+        .objects()
+        .filter(|object| object.is_of_type(object_type));
+    let object = usize::try_from(index)
+        .ok()
+        .and_then(|index| objects.nth(index));
     Ok(object.map_or(-1, |object| object.handle().raw()))
 }
 
@@ -117,7 +130,10 @@ fn get_objects_in_tree(
     let mut objects = scene.tree(base, options & 2 != 0)?;
     objects.retain(|&handle| {
         let is_base = options & 1 != 0 && Some(handle) == base;
-        !is_base && scene.object(handle).is_ok_and(|object| object.is_of_type(object_type))
+        !is_base
+            && scene
+                .object(handle)
+                .is_ok_and(|object| object.is_of_type(object_type))
     });
     Ok(objects)
 }
@@ -131,7 +147,10 @@ fn get_objects_in_tree(
 fn get_object_hierarchy_order(cx: &Cx, object_handle: Handle) -> Result<(i64, i64)> {
     let scene = cx.scene();
     let siblings = scene.siblings(object_handle)?;
-    let position = siblings.iter().position(|&h| h == object_handle).unwrap_or_default();
+    let position = siblings
+        .iter()
+        .position(|&h| h == object_handle)
+        .unwrap_or_default();
     Ok((position as i64, siblings.len() as i64))
 }
 
@@ -205,8 +224,15 @@ fn get_object_from_uid(cx: &Cx, uid: i64, #[default(None)] options: Option<Table
 /// @param objectHandles the objects
 /// @param delayedRemoval remove them when the scripts have run
 #[api("sim.removeObjects")]
-fn remove_objects(cx: &mut Cx, object_handles: Handles, #[default(false)] delayed_removal: bool) -> Result<()> {
-    let handles = object_handles.0.iter().map(|&raw| Handle::from_raw(raw).ok_or(SceneError::InvalidHandles));
+fn remove_objects(
+    cx: &mut Cx,
+    object_handles: Handles,
+    #[default(false)] delayed_removal: bool,
+) -> Result<()> {
+    let handles = object_handles
+        .0
+        .iter()
+        .map(|&raw| Handle::from_raw(raw).ok_or(SceneError::InvalidHandles));
     let handles = handles.collect::<std::result::Result<Vec<_>, _>>()?;
     remove(cx, &handles, delayed_removal)
 }
@@ -239,7 +265,11 @@ fn remove_object(cx: &mut Cx, object_handle: Handle) -> Result<i64> {
 /// @param delayedRemoval remove it when the scripts have run
 /// @return objectCount how many objects it had
 #[api("sim.removeModel")]
-fn remove_model(cx: &mut Cx, object_handle: Handle, #[default(false)] delayed_removal: bool) -> Result<i64> {
+fn remove_model(
+    cx: &mut Cx,
+    object_handle: Handle,
+    #[default(false)] delayed_removal: bool,
+) -> Result<i64> {
     let is_model = cx.scene().object(object_handle)?.is_model();
     if !is_model {
         return Err(SceneError::NotAModel.into());
@@ -262,7 +292,11 @@ fn get_object_sel(cx: &Cx) -> Result<Vec<Handle>> {
 /// @param objectHandles unknown ones are left out
 #[api("sim.setObjectSel")]
 fn set_object_sel(cx: &mut Cx, object_handles: Handles) -> Result<()> {
-    let handles: Vec<Handle> = object_handles.0.iter().filter_map(|&raw| Handle::from_raw(raw)).collect();
+    let handles: Vec<Handle> = object_handles
+        .0
+        .iter()
+        .filter_map(|&raw| Handle::from_raw(raw))
+        .collect();
     cx.scene_mut().select(&handles);
     Ok(())
 }
@@ -272,18 +306,32 @@ fn objects_of(cx: &Cx, what: &Data, handle: Number) -> Result<Vec<i64>> {
     let scene = cx.scene();
     let what = match what {
         Data::Nil => return Ok(Vec::new()),
-        Data::Array(list) => return Ok(list.iter().filter_map(Data::as_f64).map(|raw| raw as i64).collect()),
-        what => what.as_f64().ok_or(ApiError::NotA { position: 1, expected: "number" })? as i64,
+        Data::Array(list) => {
+            return Ok(list
+                .iter()
+                .filter_map(Data::as_f64)
+                .map(|raw| raw as i64)
+                .collect());
+        }
+        what => what.as_f64().ok_or(ApiError::NotA {
+            position: 1,
+            expected: "number",
+        })? as i64,
     };
     if what == special::ALL {
-        return Ok(scene.objects().map(|object| object.handle().raw()).collect());
+        return Ok(scene
+            .objects()
+            .map(|object| object.handle().raw())
+            .collect());
     }
     let handle = Handle::from_raw(handle.0).ok_or(SceneError::NoSuchObject)?;
     scene.object(handle)?;
     let objects: Vec<Handle> = match what {
         special::SINGLE => vec![handle],
         special::TREE => scene.subtree(handle),
-        special::CHAIN => std::iter::once(handle).chain(scene.ancestors(handle)).collect(),
+        special::CHAIN => std::iter::once(handle)
+            .chain(scene.ancestors(handle))
+            .collect(),
         _ => return Err(SceneError::InvalidArgument.into()),
     };
     Ok(objects.into_iter().map(Handle::raw).collect())
@@ -302,7 +350,13 @@ fn add_object_to_selection(
 ) -> Result<i64> {
     let added = objects_of(cx, &what, object_handle)?;
     let added = added.into_iter().filter_map(Handle::from_raw);
-    let selection: Vec<Handle> = cx.scene().selection().iter().copied().chain(added).collect();
+    let selection: Vec<Handle> = cx
+        .scene()
+        .selection()
+        .iter()
+        .copied()
+        .chain(added)
+        .collect();
     cx.scene_mut().select(&selection);
     Ok(1)
 }
@@ -319,7 +373,10 @@ fn remove_object_from_selection(
     #[default(special::WORLD, "sim.handle_world")] object_handle: Number,
 ) -> Result<i64> {
     let removed = objects_of(cx, &what, object_handle)?;
-    if removed.iter().any(|&raw| Handle::from_raw(raw).is_none_or(|handle| !cx.scene().exists(handle))) {
+    if removed
+        .iter()
+        .any(|&raw| Handle::from_raw(raw).is_none_or(|handle| !cx.scene().exists(handle)))
+    {
         return Err(SceneError::NoSuchObject.into());
     }
     let mut selection = cx.scene().selection().to_vec();

@@ -33,7 +33,10 @@ fn interface<'a>(scene: &'a Ref<'_, Scene>, handle: Number) -> Result<&'a Button
     Ok(scene.button_interfaces().get(handle.0)?)
 }
 
-fn interface_mut<'a>(scene: &'a mut RefMut<'_, Scene>, handle: Number) -> Result<&'a mut ButtonInterface> {
+fn interface_mut<'a>(
+    scene: &'a mut RefMut<'_, Scene>,
+    handle: Number,
+) -> Result<&'a mut ButtonInterface> {
     Ok(scene.button_interfaces_mut().get_mut(handle.0)?)
 }
 
@@ -41,7 +44,11 @@ fn button<'a>(scene: &'a Ref<'_, Scene>, handle: Number, number: Number) -> Resu
     Ok(interface(scene, handle)?.button(number.0)?)
 }
 
-fn button_mut<'a>(scene: &'a mut RefMut<'_, Scene>, handle: Number, number: Number) -> Result<&'a mut Button> {
+fn button_mut<'a>(
+    scene: &'a mut RefMut<'_, Scene>,
+    handle: Number,
+    number: Number,
+) -> Result<&'a mut Button> {
     Ok(interface_mut(scene, handle)?.button_mut(number.0)?)
 }
 
@@ -52,7 +59,11 @@ fn button_mut<'a>(scene: &'a mut RefMut<'_, Scene>, handle: Number, number: Numb
 #[api("simGetUIHandle")]
 fn sim_get_ui_handle(cx: &Cx, element_name: String) -> Result<i64> {
     let name = name_with_suffix(&element_name, suffix_of_script(cx));
-    Ok(cx.scene().button_interfaces().named(&name).ok_or(SceneError::NoSuchInterface)?)
+    Ok(cx
+        .scene()
+        .button_interfaces()
+        .named(&name)
+        .ok_or(SceneError::NoSuchInterface)?)
 }
 
 /// Properties of a user interface.
@@ -70,7 +81,11 @@ fn sim_get_ui_property(cx: &Cx, element_handle: Number) -> Result<i64> {
 /// @param elementProperty sim.ui_property_*
 /// @return result 1
 #[api("simSetUIProperty")]
-fn sim_set_ui_property(cx: &mut Cx, element_handle: Number, element_property: Number) -> Result<i64> {
+fn sim_set_ui_property(
+    cx: &mut Cx,
+    element_handle: Number,
+    element_property: Number,
+) -> Result<i64> {
     interface_mut(&mut cx.scene_mut(), element_handle)?.attributes = element_property.0 as i32;
     Ok(1)
 }
@@ -81,8 +96,14 @@ fn sim_set_ui_property(cx: &mut Cx, element_handle: Number, element_property: Nu
 /// @param buttonHandle number of the button
 /// @return buttonProperty bits 0 and 1: 0 button, 1 label, 2 slider, 3 edit box; 0x8 stays down, 0x10 enabled, 0x20 borderless, 0x100 is down
 #[api("simGetUIButtonProperty")]
-fn sim_get_ui_button_property(cx: &Cx, element_handle: Number, button_handle: Number) -> Result<i64> {
-    Ok(button(&cx.scene(), element_handle, button_handle)?.attributes.into())
+fn sim_get_ui_button_property(
+    cx: &Cx,
+    element_handle: Number,
+    button_handle: Number,
+) -> Result<i64> {
+    Ok(button(&cx.scene(), element_handle, button_handle)?
+        .attributes
+        .into())
 }
 
 /// Sets properties of a button.
@@ -98,7 +119,8 @@ fn sim_set_ui_button_property(
     button_handle: Number,
     button_property: Number,
 ) -> Result<i64> {
-    button_mut(&mut cx.scene_mut(), element_handle, button_handle)?.attributes = button_property.0 as i32;
+    button_mut(&mut cx.scene_mut(), element_handle, button_handle)?.attributes =
+        button_property.0 as i32;
     Ok(1)
 }
 
@@ -108,8 +130,14 @@ fn sim_set_ui_button_property(
 /// @param buttonHandle number of the button
 /// @return buttonLabel what it shows when it is up
 #[api("simGetUIButtonLabel")]
-fn sim_get_ui_button_label(cx: &Cx, element_handle: Number, button_handle: Number) -> Result<String> {
-    Ok(button(&cx.scene(), element_handle, button_handle)?.label.clone())
+fn sim_get_ui_button_label(
+    cx: &Cx,
+    element_handle: Number,
+    button_handle: Number,
+) -> Result<String> {
+    Ok(button(&cx.scene(), element_handle, button_handle)?
+        .label
+        .clone())
 }
 
 /// Sets the text of a button, label or edit box.
@@ -155,8 +183,14 @@ fn sim_get_ui_slider(cx: &Cx, element_handle: Number, button_handle: Number) -> 
 /// @param position 0 to 1000
 /// @return result 1
 #[api("simSetUISlider")]
-fn sim_set_ui_slider(cx: &mut Cx, element_handle: Number, button_handle: Number, position: Number) -> Result<i64> {
-    button_mut(&mut cx.scene_mut(), element_handle, button_handle)?.set_slider_position(position.0)?;
+fn sim_set_ui_slider(
+    cx: &mut Cx,
+    element_handle: Number,
+    button_handle: Number,
+    position: Number,
+) -> Result<i64> {
+    button_mut(&mut cx.scene_mut(), element_handle, button_handle)?
+        .set_slider_position(position.0)?;
     Ok(1)
 }
 
@@ -170,7 +204,10 @@ fn sim_get_ui_event_button(cx: &Cx, element_handle: Number) -> Result<(i64, Opti
     let scene = cx.scene();
     interface(&scene, element_handle)?;
     Ok(match scene.button_interfaces().event(element_handle.0) {
-        Some(event) => (event.number.into(), Some(vec![event.attributes.into(), event.slider])),
+        Some(event) => (
+            event.number.into(),
+            Some(vec![event.attributes.into(), event.slider]),
+        ),
         None => (-1, None),
     })
 }
@@ -181,7 +218,10 @@ fn sim_get_ui_event_button(cx: &Cx, element_handle: Number) -> Result<(i64, Opti
 /// @return position x and y, pixels
 #[api("simGetUIPosition")]
 fn sim_get_ui_position(cx: &Cx, element_handle: Number) -> Result<Vec<i64>> {
-    Ok(interface(&cx.scene(), element_handle)?.position.map(i64::from).to_vec())
+    Ok(interface(&cx.scene(), element_handle)?
+        .position
+        .map(i64::from)
+        .to_vec())
 }
 
 /// Moves a user interface.
@@ -191,7 +231,8 @@ fn sim_get_ui_position(cx: &Cx, element_handle: Number) -> Result<Vec<i64>> {
 /// @return result 1
 #[api("simSetUIPosition")]
 fn sim_set_ui_position(cx: &mut Cx, element_handle: Number, position: [f64; 2]) -> Result<i64> {
-    interface_mut(&mut cx.scene_mut(), element_handle)?.position = position.map(|pixels| pixels as i32);
+    interface_mut(&mut cx.scene_mut(), element_handle)?.position =
+        position.map(|pixels| pixels as i32);
     Ok(1)
 }
 
@@ -201,8 +242,14 @@ fn sim_set_ui_position(cx: &mut Cx, element_handle: Number, position: [f64; 2]) 
 /// @param buttonHandle number of the button
 /// @return size width and height, pixels
 #[api("simGetUIButtonSize")]
-fn sim_get_ui_button_size(cx: &Cx, element_handle: Number, button_handle: Number) -> Result<Vec<i64>> {
-    Ok(interface(&cx.scene(), element_handle)?.button_size(button_handle.0)?.to_vec())
+fn sim_get_ui_button_size(
+    cx: &Cx,
+    element_handle: Number,
+    button_handle: Number,
+) -> Result<Vec<i64>> {
+    Ok(interface(&cx.scene(), element_handle)?
+        .button_size(button_handle.0)?
+        .to_vec())
 }
 
 /// Sets colours of a button, each red, green, blue from 0 to 1.
@@ -224,9 +271,19 @@ fn sim_set_ui_button_color(
 ) -> Result<i64> {
     let mut scene = cx.scene_mut();
     let colours = &mut button_mut(&mut scene, element_handle, button_handle)?.colours;
-    for (old, new) in colours.chunks_exact_mut(3).zip([up_state_color, down_state_color, label_color]) {
+    for (old, new) in
+        colours
+            .chunks_exact_mut(3)
+            .zip([up_state_color, down_state_color, label_color])
+    {
         if let Some(new) = new {
-            old.copy_from_slice(&new.map(|value| if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) as f32 }));
+            old.copy_from_slice(&new.map(|value| {
+                if value.is_nan() {
+                    0.0
+                } else {
+                    value.clamp(0.0, 1.0) as f32
+                }
+            }));
         }
     }
     Ok(1)

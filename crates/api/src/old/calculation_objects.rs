@@ -42,11 +42,15 @@ pub(super) fn with_explicit(number: i64) -> Option<bool> {
 }
 
 fn collision(pair: Option<[Handle; 2]>) -> Results {
-    Results(pair.map_or(vec![0.into()], |pair| vec![1.into(), pair.map(Handle::raw).to_vec().into()]))
+    Results(pair.map_or(vec![0.into()], |pair| {
+        vec![1.into(), pair.map(Handle::raw).to_vec().into()]
+    }))
 }
 
 fn distance(distance: Option<f64>) -> Results {
-    Results(distance.map_or(vec![0.into()], |distance| vec![1.into(), Data::from(distance)]))
+    Results(distance.map_or(vec![0.into()], |distance| {
+        vec![1.into(), Data::from(distance)]
+    }))
 }
 
 /// A collision object of an old scene.
@@ -55,7 +59,12 @@ fn distance(distance: Option<f64>) -> Results {
 /// @return collisionHandle its handle
 #[api("sim.getCollisionHandle")]
 fn get_collision_handle(cx: &Cx, object_name: String) -> Result<i64> {
-    handle_of(cx, &object_name, |scene, name| scene.collision_objects().named(name), SceneError::NoSuchCollisionObject)
+    handle_of(
+        cx,
+        &object_name,
+        |scene, name| scene.collision_objects().named(name),
+        SceneError::NoSuchCollisionObject,
+    )
 }
 
 /// Computes collision objects of old scenes. The usual main script does it for those that are not tagged for explicit handling.
@@ -66,7 +75,9 @@ fn get_collision_handle(cx: &Cx, object_name: String) -> Result<i64> {
 fn handle_collision(cx: &mut Cx, collision_handle: Number) -> Result<Results> {
     match with_explicit(collision_handle.0) {
         Some(explicit) => Ok(Results(vec![cx.handle_collision_objects(explicit).into()])),
-        None => cx.handle_collision_object(collision_handle.0).map(collision),
+        None => cx
+            .handle_collision_object(collision_handle.0)
+            .map(collision),
     }
 }
 
@@ -77,7 +88,10 @@ fn handle_collision(cx: &mut Cx, collision_handle: Number) -> Result<Results> {
 #[api("sim.readCollision")]
 fn read_collision(cx: &Cx, collision_handle: Number) -> Result<Results> {
     let scene = cx.scene();
-    let object = scene.collision_objects().get(collision_handle.0).ok_or(SceneError::NoSuchCollisionObject)?;
+    let object = scene
+        .collision_objects()
+        .get(collision_handle.0)
+        .ok_or(SceneError::NoSuchCollisionObject)?;
     Ok(collision(object.result.flatten()))
 }
 
@@ -106,7 +120,12 @@ fn reset_collision(cx: &mut Cx, collision_handle: Number) -> Result<i64> {
 /// @return distanceHandle its handle
 #[api("sim.getDistanceHandle")]
 fn get_distance_handle(cx: &Cx, object_name: String) -> Result<i64> {
-    handle_of(cx, &object_name, |scene, name| scene.distance_objects().named(name), SceneError::NoSuchDistanceObject)
+    handle_of(
+        cx,
+        &object_name,
+        |scene, name| scene.distance_objects().named(name),
+        SceneError::NoSuchDistanceObject,
+    )
 }
 
 /// Computes distance objects of old scenes. The usual main script does it for those that are not tagged for explicit handling.
@@ -128,7 +147,10 @@ fn handle_distance(cx: &mut Cx, distance_handle: Number) -> Result<Results> {
 #[api("sim.readDistance")]
 fn read_distance(cx: &Cx, distance_handle: Number) -> Result<Results> {
     let scene = cx.scene();
-    let object = scene.distance_objects().get(distance_handle.0).ok_or(SceneError::NoSuchDistanceObject)?;
+    let object = scene
+        .distance_objects()
+        .get(distance_handle.0)
+        .ok_or(SceneError::NoSuchDistanceObject)?;
     Ok(distance(object.result.flatten()))
 }
 

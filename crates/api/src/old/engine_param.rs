@@ -39,7 +39,9 @@ fn set(cx: &mut Cx, number: i64, target: Option<Handle>, value: f64) -> Result<(
 /// @return floatParam the value
 #[api("sim.getEngineFloatParam")]
 fn get_engine_float_param(cx: &Cx, param_id: Number, object_handle: Number) -> Result<f64> {
-    Ok(cx.scene().engine_param(param_id.0, target(object_handle)?)?)
+    Ok(cx
+        .scene()
+        .engine_param(param_id.0, target(object_handle)?)?)
 }
 
 /// Sets a float parameter of a physics engine. The step size changes only while the simulation is stopped.
@@ -48,7 +50,12 @@ fn get_engine_float_param(cx: &Cx, param_id: Number, object_handle: Number) -> R
 /// @param objectHandle a shape, joint or dummy; -1 for a global parameter
 /// @param floatParam the value
 #[api("sim.setEngineFloatParam")]
-fn set_engine_float_param(cx: &mut Cx, param_id: Number, object_handle: Number, float_param: f64) -> Result<()> {
+fn set_engine_float_param(
+    cx: &mut Cx,
+    param_id: Number,
+    object_handle: Number,
+    float_param: f64,
+) -> Result<()> {
     let target = target(object_handle)?;
     set(cx, param_id.0, target, float_param)
 }
@@ -60,7 +67,9 @@ fn set_engine_float_param(cx: &mut Cx, param_id: Number, object_handle: Number, 
 /// @return int32Param the value
 #[api("sim.getEngineInt32Param")]
 fn get_engine_int32_param(cx: &Cx, param_id: Number, object_handle: Number) -> Result<i64> {
-    Ok(cx.scene().engine_param(param_id.0, target(object_handle)?)? as i64)
+    Ok(cx
+        .scene()
+        .engine_param(param_id.0, target(object_handle)?)? as i64)
 }
 
 /// Sets an integer parameter of a physics engine.
@@ -69,7 +78,12 @@ fn get_engine_int32_param(cx: &Cx, param_id: Number, object_handle: Number) -> R
 /// @param objectHandle a shape, joint or dummy; -1 for a global parameter
 /// @param int32Param the value
 #[api("sim.setEngineInt32Param")]
-fn set_engine_int32_param(cx: &mut Cx, param_id: Number, object_handle: Number, int32_param: Number) -> Result<()> {
+fn set_engine_int32_param(
+    cx: &mut Cx,
+    param_id: Number,
+    object_handle: Number,
+    int32_param: Number,
+) -> Result<()> {
     let target = target(object_handle)?;
     set(cx, param_id.0, target, int32_param.0 as f64)
 }
@@ -81,7 +95,10 @@ fn set_engine_int32_param(cx: &mut Cx, param_id: Number, object_handle: Number, 
 /// @return boolParam the value
 #[api("sim.getEngineBoolParam")]
 fn get_engine_bool_param(cx: &Cx, param_id: Number, object_handle: Number) -> Result<bool> {
-    Ok(cx.scene().engine_param(param_id.0, target(object_handle)?)? != 0.0)
+    Ok(cx
+        .scene()
+        .engine_param(param_id.0, target(object_handle)?)?
+        != 0.0)
 }
 
 /// Sets a switch of a physics engine.
@@ -90,7 +107,12 @@ fn get_engine_bool_param(cx: &Cx, param_id: Number, object_handle: Number) -> Re
 /// @param objectHandle a shape, joint or dummy; -1 for a global parameter
 /// @param boolParam the value
 #[api("sim.setEngineBoolParam")]
-fn set_engine_bool_param(cx: &mut Cx, param_id: Number, object_handle: Number, bool_param: bool) -> Result<()> {
+fn set_engine_bool_param(
+    cx: &mut Cx,
+    param_id: Number,
+    object_handle: Number,
+    bool_param: bool,
+) -> Result<()> {
     let target = target(object_handle)?;
     set(cx, param_id.0, target, f64::from(u8::from(bool_param)))
 }

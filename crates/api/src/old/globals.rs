@@ -33,7 +33,11 @@ fn read(cx: &Cx, target: &PropertyTarget, tag: &str) -> Result<Data> {
         Some(Data::Buffer(bytes)) => bytes.clone(),
         _ => Vec::new(),
     };
-    Ok(Data::Text(cx.named_values(target, Namespace::CustomData, bytes)?))
+    Ok(Data::Text(cx.named_values(
+        target,
+        Namespace::CustomData,
+        bytes,
+    )?))
 }
 
 fn object(cx: &Cx, handle: Handle) -> Result<PropertyTarget> {
@@ -48,7 +52,12 @@ fn object(cx: &Cx, handle: Handle) -> Result<PropertyTarget> {
 /// @param data empty: removes the data
 /// @return result 1
 #[api("simAddObjectCustomData")]
-fn sim_add_object_custom_data(cx: &mut Cx, object_handle: Handle, header: Number, data: Bytes) -> Result<i64> {
+fn sim_add_object_custom_data(
+    cx: &mut Cx,
+    object_handle: Handle,
+    header: Number,
+    data: Bytes,
+) -> Result<i64> {
     let target = object(cx, object_handle)?;
     write(cx, &target, &object_tag(header.0), data.0)
 }
@@ -87,7 +96,10 @@ fn sim_get_scene_custom_data(cx: &Cx, header: Number) -> Result<Data> {
 /// @param before an earlier time: the difference is returned
 /// @return time whole milliseconds
 #[api("simGetSystemTimeInMilliseconds")]
-fn sim_get_system_time_in_milliseconds(cx: &Cx, #[default(None)] before: Option<Number>) -> Result<i64> {
+fn sim_get_system_time_in_milliseconds(
+    cx: &Cx,
+    #[default(None)] before: Option<Number>,
+) -> Result<i64> {
     let now = (cx.clock().wall_seconds() * 1000.0) as i64;
     Ok(before.map_or(now, |before| now.saturating_sub(before.0)))
 }

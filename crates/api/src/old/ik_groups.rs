@@ -30,7 +30,12 @@ const NAME: &str = "IK_Group";
 /// @return ikGroupHandle its handle
 #[api("sim.getIkGroupHandle")]
 fn get_ik_group_handle(cx: &Cx, ik_group_name: String) -> Result<i64> {
-    handle_of(cx, &ik_group_name, |scene, name| scene.ik_groups().named(name), SceneError::NoSuchIkGroup)
+    handle_of(
+        cx,
+        &ik_group_name,
+        |scene, name| scene.ik_groups().named(name),
+        SceneError::NoSuchIkGroup,
+    )
 }
 
 /// Computes groups of inverse kinematics of V-REP, and moves their joints. The usual main script does it for those that are not
@@ -56,7 +61,10 @@ fn handle_ik_group(cx: &mut Cx, ik_group_handle: Number) -> Result<i64> {
 pub(crate) fn handle_ik_groups(cx: &mut Cx, with_explicit: bool) -> Result<i64> {
     let handles: Vec<i64> = {
         let scene = cx.scene();
-        let groups = scene.ik_groups().iter().filter(|(_, group)| with_explicit || !group.explicit);
+        let groups = scene
+            .ik_groups()
+            .iter()
+            .filter(|(_, group)| with_explicit || !group.explicit);
         groups.map(|(handle, _)| handle).collect()
     };
     let mut performed = 0;
@@ -72,9 +80,14 @@ fn compute(cx: &mut Cx, handle: i64) -> Result<IkResult> {
         if !scene.settings().calculations.inverse_kinematics {
             return Ok(IkResult::NotPerformed);
         }
-        let group = scene.ik_groups().get(handle).ok_or(SceneError::NoSuchIkGroup)?;
+        let group = scene
+            .ik_groups()
+            .get(handle)
+            .ok_or(SceneError::NoSuchIkGroup)?;
         // A file may name a tip that is no dummy.
-        let Ok(mut copy) = GroupCopy::new(&scene, group, 0) else { return Ok(IkResult::NotPerformed) };
+        let Ok(mut copy) = GroupCopy::new(&scene, group, 0) else {
+            return Ok(IkResult::NotPerformed);
+        };
         let result = copy.solve()?;
         (result, copy.jacobian(false)?, copy)
     };
@@ -90,14 +103,26 @@ fn compute(cx: &mut Cx, handle: i64) -> Result<IkResult> {
 
 fn dynamic_joints(cx: &Cx) -> BTreeSet<Handle> {
     let (scene, dynamics) = (cx.scene(), cx.dynamics());
-    let joints = scene.objects().filter(|object| object.joint().is_ok()).map(scene::Object::handle);
-    joints.filter(|joint| dynamics.as_ref().is_some_and(|dynamics| dynamics.simulates(*joint))).collect()
+    let joints = scene
+        .objects()
+        .filter(|object| object.joint().is_ok())
+        .map(scene::Object::handle);
+    joints
+        .filter(|joint| {
+            dynamics
+                .as_ref()
+                .is_some_and(|dynamics| dynamics.simulates(*joint))
+        })
+        .collect()
 }
 
 /// # Errors
 /// When there is no such group.
 pub(super) fn group(scene: &Scene, handle: Number) -> Result<&IkGroup> {
-    Ok(scene.ik_groups().get(handle.0).ok_or(SceneError::NoSuchIkGroup)?)
+    Ok(scene
+        .ik_groups()
+        .get(handle.0)
+        .ok_or(SceneError::NoSuchIkGroup)?)
 }
 
 /// Removes a group of inverse kinematics of V-REP.
@@ -109,7 +134,12 @@ fn remove_ik_group(cx: &mut Cx, ik_group_handle: Number) -> Result<i64> {
     let mut scene = cx.scene_mut();
     match with_explicit(ik_group_handle.0) {
         Some(_) => scene.ik_groups_mut().clear(),
-        None => drop(scene.ik_groups_mut().remove(ik_group_handle.0).ok_or(SceneError::NoSuchIkGroup)?),
+        None => drop(
+            scene
+                .ik_groups_mut()
+                .remove(ik_group_handle.0)
+                .ok_or(SceneError::NoSuchIkGroup)?,
+        ),
     }
     Ok(1)
 }
@@ -154,7 +184,9 @@ fn iterations_of(raw: i64) -> i32 {
 }
 
 fn finite(number: f64) -> Result<f64> {
-    Some(number).filter(|number| number.is_finite()).ok_or(SceneError::InvalidArgument.into())
+    Some(number)
+        .filter(|number| number.is_finite())
+        .ok_or(SceneError::InvalidArgument.into())
 }
 
 /// Adds a tip to a group of inverse kinematics of V-REP. The dummy that is linked with it is its target.
@@ -177,7 +209,13 @@ fn create_ik_element(
     group(&scene, ik_group_handle)?;
     let tip = existing(&scene, tip)?;
     scene.object(tip)?.dummy()?;
-    let optional = |raw| if raw == special::WORLD { Ok(None) } else { existing(&scene, raw).map(Some) };
+    let optional = |raw| {
+        if raw == special::WORLD {
+            Ok(None)
+        } else {
+            existing(&scene, raw).map(Some)
+        }
+    };
     let mut element = IkElement {
         base: optional(base)?,
         constraint_base: optional(frame)?,
@@ -186,12 +224,16 @@ fn create_ik_element(
         ..IkElement::new(tip)
     };
     if let Some(params) = float_params {
-        let [linear, angular, position, orientation] = *params.first_chunk().ok_or(ApiError::TableSize)?;
+        let [linear, angular, position, orientation] =
+            *params.first_chunk().ok_or(ApiError::TableSize)?;
         element.precisions = [finite(angular)?, finite(linear)?];
         element.weights = [finite(position)?, finite(orientation)?];
     }
     let all = scene.ik_groups_mut();
-    all.get_mut(ik_group_handle.0).ok_or(SceneError::NoSuchIkGroup)?.elements.push(element);
+    all.get_mut(ik_group_handle.0)
+        .ok_or(SceneError::NoSuchIkGroup)?
+        .elements
+        .push(element);
     Ok(1)
 }
 
@@ -216,9 +258,13 @@ fn set_ik_group_properties(
     damping: f64,
 ) -> Result<i64> {
     let mut scene = cx.scene_mut();
-    let group = scene.ik_groups_mut().get_mut(ik_group_handle.0).ok_or(SceneError::NoSuchIkGroup)?;
+    let group = scene
+        .ik_groups_mut()
+        .get_mut(ik_group_handle.0)
+        .ok_or(SceneError::NoSuchIkGroup)?;
     let (method, damping) = (method_of(resolution_method.0)?, finite(damping)?);
-    (group.method, group.max_iterations, group.damping) = (method, iterations_of(max_iterations.0), damping);
+    (group.method, group.max_iterations, group.damping) =
+        (method, iterations_of(max_iterations.0), damping);
     Ok(1)
 }
 
@@ -240,15 +286,24 @@ fn set_ik_element_properties(
     #[default(None)] weight: Option<[f64; 2]>,
 ) -> Result<i64> {
     let mut scene = cx.scene_mut();
-    let group = scene.ik_groups_mut().get_mut(ik_group_handle.0).ok_or(SceneError::NoSuchIkGroup)?;
+    let group = scene
+        .ik_groups_mut()
+        .get_mut(ik_group_handle.0)
+        .ok_or(SceneError::NoSuchIkGroup)?;
     let is_meant = |element: &&mut IkElement| element.tip.raw() == tip_dummy_handle.0;
     let element = group.elements.iter_mut().find(is_meant);
     let element = element.ok_or_else(|| ApiError::Other("IK element does not exist.".into()))?;
-    if precision.iter().chain(&weight).flatten().any(|number| !number.is_finite()) {
+    if precision
+        .iter()
+        .chain(&weight)
+        .flatten()
+        .any(|number| !number.is_finite())
+    {
         return Err(SceneError::InvalidArgument.into());
     }
     element.constraints = groups::constraints(constraints.0);
-    element.precisions = precision.map_or(element.precisions, |[linear, angular]| [angular, linear]);
+    element.precisions =
+        precision.map_or(element.precisions, |[linear, angular]| [angular, linear]);
     element.weights = weight.unwrap_or(element.weights);
     Ok(1)
 }

@@ -54,12 +54,21 @@ impl Task {
         searches.0.set(searches.0.get().wrapping_add(1));
         let seed = (u64::from(cx.options().seed) << 32) | (searches.0.get() & 0xffff_ffff);
         let copy = GroupCopy::new(&scene, group(&scene, handle)?, seed)?;
-        let joints = joints.iter().map(|raw| Handle::from_raw(*raw).ok_or(SceneError::NoSuchObject));
+        let joints = joints
+            .iter()
+            .map(|raw| Handle::from_raw(*raw).ok_or(SceneError::NoSuchObject));
         let joints = joints.collect::<std::result::Result<Vec<_>, _>>()?;
         copy.config(&scene, &joints)?;
-        let pairs = pairs.chunks_exact(2).map(|pair| entities(&scene, [pair[0], pair[1]]));
+        let pairs = pairs
+            .chunks_exact(2)
+            .map(|pair| entities(&scene, [pair[0], pair[1]]));
         let pairs = pairs.collect::<Result<Vec<_>>>()?;
-        Ok(Self { original: copy.clone(), copy, joints, pairs })
+        Ok(Self {
+            original: copy.clone(),
+            copy,
+            joints,
+            pairs,
+        })
     }
 
     fn config(&self, cx: &Cx) -> Result<Vec<f64>> {
@@ -72,7 +81,9 @@ impl Task {
             return Ok(false);
         }
         self.copy.apply(&mut cx.scene_mut(), |_| false)?;
-        let collide = |entities: &[Entity; 2]| cx.query(|perception, scene| perception.collision(scene, *entities));
+        let collide = |entities: &[Entity; 2]| {
+            cx.query(|perception, scene| perception.collision(scene, *entities))
+        };
         let found = self.pairs.iter().any(|pair| collide(pair).is_some());
         self.original.apply(&mut cx.scene_mut(), |_| false)?;
         Ok(found)
@@ -80,7 +91,10 @@ impl Task {
 }
 
 fn entities(scene: &Scene, [first, second]: [i64; 2]) -> Result<[Entity; 2]> {
-    Ok([Entity::named(scene, first)?, Entity::named_or_all(scene, second)?])
+    Ok([
+        Entity::named(scene, first)?,
+        Entity::named_or_all(scene, second)?,
+    ])
 }
 
 /// An optional list with a number for each joint.
@@ -141,7 +155,12 @@ fn get_config_for_tip_pose(
     for_joints(joint_options, &joint_handles)?;
     let low_limits = for_joints(low_limits, &joint_handles)?;
     let ranges = for_joints(ranges, &joint_handles)?;
-    let mut task = Task::new(cx, ik_group_handle, &joint_handles, &collision_pairs.unwrap_or_default())?;
+    let mut task = Task::new(
+        cx,
+        ik_group_handle,
+        &joint_handles,
+        &collision_pairs.unwrap_or_default(),
+    )?;
     for (i, joint) in task.joints.iter().enumerate() {
         if let (Some(low), Some(range)) = (&low_limits, &ranges)
             && (low[i].is_finite() && range[i].is_finite() && range[i] > 0.0)
@@ -188,7 +207,12 @@ fn generate_ik_path(
     if !(2..=MAX_POINTS).contains(&pt_cnt.0) {
         return Err(SceneError::InvalidArgument.into());
     }
-    let mut task = Task::new(cx, ik_group_handle, &joint_handles, &collision_pairs.unwrap_or_default())?;
+    let mut task = Task::new(
+        cx,
+        ik_group_handle,
+        &joint_handles,
+        &collision_pairs.unwrap_or_default(),
+    )?;
     // Without targets there is nothing to compute.
     if !task.copy.is_complete() {
         return Ok(None);
@@ -197,7 +221,10 @@ fn generate_ik_path(
     let mut path = Vec::new();
     for i in 0..pt_cnt.0 {
         let share = i as f64 / (pt_cnt.0 - 1) as f64;
-        task.copy.set_targets(ends.iter().map(|[tip, target]| interpolate(tip, target, share)))?;
+        task.copy.set_targets(
+            ends.iter()
+                .map(|[tip, target]| interpolate(tip, target, share)),
+        )?;
         if task.copy.solve()? != IkResult::Success || task.collides(cx)? {
             return Ok(None);
         }
@@ -218,7 +245,10 @@ fn compute_jacobian(cx: &mut Cx, ik_group_handle: Number, options: Number) -> Re
         GroupCopy::new(&scene, group(&scene, ik_group_handle)?, 0)?.jacobian(options.0 & 1 == 1)?
     };
     let mut scene = cx.scene_mut();
-    let group = scene.ik_groups_mut().get_mut(ik_group_handle.0).ok_or(SceneError::NoSuchIkGroup)?;
+    let group = scene
+        .ik_groups_mut()
+        .get_mut(ik_group_handle.0)
+        .ok_or(SceneError::NoSuchIkGroup)?;
     group.jacobian = jacobian;
     Ok(group.jacobian.is_some().into())
 }
@@ -242,7 +272,9 @@ fn get_ik_group_matrix(
     }
     let scene = cx.scene();
     let jacobian = group(&scene, ik_group_handle)?.jacobian.clone();
-    let size = jacobian.as_ref().map(|jacobian| vec![jacobian.columns as i64, jacobian.rows as i64]);
+    let size = jacobian
+        .as_ref()
+        .map(|jacobian| vec![jacobian.columns as i64, jacobian.rows as i64]);
     Ok((jacobian.map(|jacobian| jacobian.values), size))
 }
 

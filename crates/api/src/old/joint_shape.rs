@@ -24,7 +24,9 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// @return matrix rows of rotation and position
 #[api("sim.getJointMatrix")]
 fn get_joint_matrix(cx: &Cx, object_handle: Handle) -> Result<[f64; 12]> {
-    Ok(pose_to_matrix(&cx.scene().object(object_handle)?.joint()?.intrinsic_pose()))
+    Ok(pose_to_matrix(
+        &cx.scene().object(object_handle)?.joint()?.intrinsic_pose(),
+    ))
 }
 
 /// Turns a spherical joint.
@@ -34,14 +36,16 @@ fn get_joint_matrix(cx: &Cx, object_handle: Handle) -> Result<[f64; 12]> {
 #[api("sim.setSphericalJointMatrix")]
 fn set_spherical_joint_matrix(cx: &mut Cx, object_handle: Handle, matrix: [f64; 12]) -> Result<()> {
     let rotation = pose_from_matrix(&matrix).rotation;
-    Ok(cx.scene_mut().try_modify(object_handle, Field::JointPosition, |object| {
-        let joint = object.joint_mut()?;
-        if joint.single_axis().is_ok() {
-            return Err(SceneError::WrongType("spherical joint"));
-        }
-        joint.spherical = rotation;
-        Ok(())
-    })?)
+    Ok(cx
+        .scene_mut()
+        .try_modify(object_handle, Field::JointPosition, |object| {
+            let joint = object.joint_mut()?;
+            if joint.single_axis().is_ok() {
+                return Err(SceneError::WrongType("spherical joint"));
+            }
+            joint.spherical = rotation;
+            Ok(())
+        })?)
 }
 
 /// Target force of a joint.
@@ -62,7 +66,9 @@ fn set_joint_max_force(cx: &mut Cx, joint_handle: Handle, force_or_torque: f64) 
     if force_or_torque.is_nan() {
         return Err(SceneError::InvalidData.into());
     }
-    Ok(cx.scene_mut().control_joint(joint_handle, |joint| joint.set_target_force(force_or_torque, false))?)
+    Ok(cx.scene_mut().control_joint(joint_handle, |joint| {
+        joint.set_target_force(force_or_torque, false)
+    })?)
 }
 
 /// Pose of a shape in the requested frame: the world unless a matrix is passed.
@@ -109,7 +115,10 @@ fn set_shape_mass_and_inertia(
     let placed = pose_in(cx, shape_handle, transformation)?;
     let mut given = MassProperties::default();
     given.set_mass(mass);
-    given.set_absolute_inertia(&inertia_matrix, &pose_to_matrix(&Pose::translation(x, y, z)));
+    given.set_absolute_inertia(
+        &inertia_matrix,
+        &pose_to_matrix(&Pose::translation(x, y, z)),
+    );
     let own = given.reexpressed(&placed.inverse());
     Ok(cx.scene_mut().reshape(shape_handle, |shape| {
         shape.mass = own;
@@ -123,10 +132,19 @@ fn set_shape_mass_and_inertia(
 /// @param relativeToHandle the object, -1 for the world
 /// @return result 1, or 0 for a single primitive, which keeps its box
 #[api("sim.reorientShapeBoundingBox")]
-fn reorient_shape_bounding_box(cx: &mut Cx, shape_handle: Handle, relative_to_handle: Number) -> Result<i64> {
+fn reorient_shape_bounding_box(
+    cx: &mut Cx,
+    shape_handle: Handle,
+    relative_to_handle: Number,
+) -> Result<i64> {
     let frame = match relative_to_handle.0 {
         ..0 => Pose::identity(),
-        raw => cx.scene().world_pose(Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?)?,
+        raw => cx
+            .scene()
+            .world_pose(Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?)?,
     };
-    Ok(i64::from(cx.scene_mut().align_shape_box(shape_handle, Some(frame.rotation))?))
+    Ok(i64::from(
+        cx.scene_mut()
+            .align_shape_box(shape_handle, Some(frame.rotation))?,
+    ))
 }

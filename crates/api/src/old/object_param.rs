@@ -27,7 +27,10 @@ const SCRIPT_PARAMS: std::ops::RangeInclusive<i64> = 10_100..=10_112;
 
 /// The script a number names, where the parameter is one of scripts: the functions here take scripts that are no objects as well.
 fn script(cx: &Cx, raw: i64, parameter: i64) -> Option<Rc<Script>> {
-    SCRIPT_PARAMS.contains(&parameter).then(|| cx.script_by_handle(raw)).flatten()
+    SCRIPT_PARAMS
+        .contains(&parameter)
+        .then(|| cx.script_by_handle(raw))
+        .flatten()
 }
 
 fn object(raw: i64) -> Result<Handle> {
@@ -47,7 +50,9 @@ fn get_object_int32_param(
 ) -> Result<Option<i64>> {
     match script(cx, object_handle.0, parameter_id.0) {
         Some(script) => script::int_param(cx, &script, parameter_id.0).map(Some),
-        None => Ok(cx.scene().int_param(object(object_handle.0)?, parameter_id.0)?),
+        None => Ok(cx
+            .scene()
+            .int_param(object(object_handle.0)?, parameter_id.0)?),
     }
 }
 
@@ -69,7 +74,11 @@ fn set_object_int32_param(
         return Ok(1);
     }
     let object_handle = object(object_handle.0)?;
-    Ok(i64::from(cx.scene_mut().set_int_param(object_handle, parameter_id.0, parameter.0)?))
+    Ok(i64::from(cx.scene_mut().set_int_param(
+        object_handle,
+        parameter_id.0,
+        parameter.0,
+    )?))
 }
 
 /// Float parameter of an object.
@@ -99,7 +108,11 @@ fn set_object_float_param(
     #[name("parameterID")] parameter_id: Number,
     parameter: f64,
 ) -> Result<i64> {
-    Ok(i64::from(cx.scene_mut().set_kind_float_param(object_handle, parameter_id.0, parameter)?))
+    Ok(i64::from(cx.scene_mut().set_kind_float_param(
+        object_handle,
+        parameter_id.0,
+        parameter,
+    )?))
 }
 
 /// Parameter of an object that is a list of numbers. No object has one.
@@ -146,7 +159,10 @@ fn get_object_string_param(
 ) -> Result<Option<Text>> {
     match script(cx, object_handle.0, parameter_id.0) {
         Some(script) => script::string_param(cx, &script, parameter_id.0),
-        None => Ok(cx.scene().string_param(object(object_handle.0)?, parameter_id.0)?.map(Text)),
+        None => Ok(cx
+            .scene()
+            .string_param(object(object_handle.0)?, parameter_id.0)?
+            .map(Text)),
     }
 }
 
@@ -166,6 +182,7 @@ fn set_object_string_param(
         return script::set_param(cx, &script, parameter_id.0, Data::Text(parameter.0));
     }
     let object_handle = object(object_handle.0)?;
-    cx.scene_mut().set_string_param(object_handle, parameter_id.0, &parameter.0)?;
+    cx.scene_mut()
+        .set_string_param(object_handle, parameter_id.0, &parameter.0)?;
     Ok(())
 }

@@ -13,7 +13,9 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 ];
 
 fn no_such_task<T>() -> Result<T> {
-    Err(ApiError::Other("path planning object does not exist.".into()))
+    Err(ApiError::Other(
+        "path planning object does not exist.".into(),
+    ))
 }
 
 /// A path planning task of V-REP; none is kept.
@@ -32,7 +34,11 @@ fn sim_get_path_planning_handle(_cx: &Cx, path_planning_object_name: String) -> 
 /// @param maximumSearchTime seconds
 /// @return result
 #[api("simSearchPath")]
-fn sim_search_path(_cx: &Cx, path_planning_object_handle: Number, maximum_search_time: f64) -> Result<i64> {
+fn sim_search_path(
+    _cx: &Cx,
+    path_planning_object_handle: Number,
+    maximum_search_time: f64,
+) -> Result<i64> {
     let _ = (path_planning_object_handle, maximum_search_time);
     no_such_task()
 }
@@ -50,7 +56,11 @@ fn sim_initialize_path_search(
     maximum_search_time: f64,
     search_time_step: f64,
 ) -> Result<i64> {
-    let _ = (path_planning_object_handle, maximum_search_time, search_time_step);
+    let _ = (
+        path_planning_object_handle,
+        maximum_search_time,
+        search_time_step,
+    );
     no_such_task()
 }
 

@@ -6,7 +6,8 @@ use nalgebra::Translation3;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::path_object::{
-    ControlPoint, LengthMethod, LinePoint, PathAttributes, PathMeasures, PathObject, Travel, TravelLimits,
+    ControlPoint, LengthMethod, LinePoint, PathAttributes, PathMeasures, PathObject, Travel,
+    TravelLimits,
 };
 use scene::{Data, Handle, Kind, Pose, SceneError, special};
 use script::Number;
@@ -45,7 +46,10 @@ fn of_path<R>(cx: &Cx, handle: Handle, read: impl FnOnce(&PathObject) -> R) -> R
 /// The error of functions that do not distinguish what is no path.
 fn check_path(cx: &Cx, handle: Handle) -> Result<()> {
     let scene = cx.scene();
-    let found = scene.object(handle).and_then(|object| object.path()).map(drop);
+    let found = scene
+        .object(handle)
+        .and_then(|object| object.path())
+        .map(drop);
     found.map_err(|_| ApiError::Other("path does not exist.".into()))
 }
 
@@ -59,9 +63,13 @@ fn pose_on_path(path: &PathObject, relative: f64) -> Result<Pose> {
         return Err(is_empty());
     }
     if relative > -0.5 {
-        return path.at(relative * path.length()).map(|point| point.pose).ok_or_else(is_empty);
+        return path
+            .at(relative * path.length())
+            .map(|point| point.pose)
+            .ok_or_else(is_empty);
     }
-    path.control_pose((-relative - 0.5) as usize).ok_or_else(|| ApiError::Other("invalid control point.".into()))
+    path.control_pose((-relative - 0.5) as usize)
+        .ok_or_else(|| ApiError::Other("invalid control point.".into()))
 }
 
 fn world_pose_on_path(cx: &Cx, handle: Handle, relative: f64) -> Result<Pose> {
@@ -92,7 +100,8 @@ fn create_path_object(
     let mut measures = PathMeasures::default();
     let finite = |value: f64, other: f64| if value.is_finite() { value } else { other };
     if let Some([_, method, _]) = int_params {
-        measures.length_method = LengthMethod::from_number(method as i64).ok_or(SceneError::InvalidArgument)?;
+        measures.length_method =
+            LengthMethod::from_number(method as i64).ok_or(SceneError::InvalidArgument)?;
     }
     if let Some([_, angle, on_spot]) = float_params {
         measures.angle_coefficient = finite(angle, measures.angle_coefficient);
@@ -144,7 +153,10 @@ fn set_path_position(cx: &mut Cx, path_handle: Handle, position: f64) -> Result<
 /// @return position metres
 #[api("sim.getPositionOnPath")]
 fn get_position_on_path(cx: &Cx, path_handle: Handle, relative_distance: f64) -> Result<[f64; 3]> {
-    Ok(world_pose_on_path(cx, path_handle, relative_distance)?.translation.vector.into())
+    Ok(world_pose_on_path(cx, path_handle, relative_distance)?
+        .translation
+        .vector
+        .into())
 }
 
 /// Orientation of a point of a path of V-REP in the world.
@@ -153,8 +165,14 @@ fn get_position_on_path(cx: &Cx, path_handle: Handle, relative_distance: f64) ->
 /// @param relativeDistance as in sim.getPositionOnPath
 /// @return eulerAngles alpha, beta, gamma, radians
 #[api("sim.getOrientationOnPath")]
-fn get_orientation_on_path(cx: &Cx, path_handle: Handle, relative_distance: f64) -> Result<[f64; 3]> {
-    Ok(euler::rotation_to_euler(&world_pose_on_path(cx, path_handle, relative_distance)?.rotation))
+fn get_orientation_on_path(
+    cx: &Cx,
+    path_handle: Handle,
+    relative_distance: f64,
+) -> Result<[f64; 3]> {
+    Ok(euler::rotation_to_euler(
+        &world_pose_on_path(cx, path_handle, relative_distance)?.rotation,
+    ))
 }
 
 /// Auxiliary data of a point of a path of V-REP.
@@ -164,9 +182,16 @@ fn get_orientation_on_path(cx: &Cx, path_handle: Handle, relative_distance: f64)
 /// @return auxFlags those of the nearer point of the line
 /// @return auxChannels four numbers, interpolated
 #[api("sim.getDataOnPath")]
-fn get_data_on_path(cx: &Cx, path_handle: Handle, relative_distance: f64) -> Result<(i64, [f64; 4])> {
+fn get_data_on_path(
+    cx: &Cx,
+    path_handle: Handle,
+    relative_distance: f64,
+) -> Result<(i64, [f64; 4])> {
     let data = |point: LinePoint| (point.flags.into(), point.channels);
-    of_path(cx, path_handle, |path| path.at(relative_distance * path.length()).map(data))?.ok_or_else(is_empty)
+    of_path(cx, path_handle, |path| {
+        path.at(relative_distance * path.length()).map(data)
+    })?
+    .ok_or_else(is_empty)
 }
 
 /// The place on a path of V-REP that is closest to a point.
@@ -176,7 +201,8 @@ fn get_data_on_path(cx: &Cx, path_handle: Handle, relative_distance: f64) -> Res
 /// @return relativeDistance part of the length, from 0 to 1
 #[api("sim.getClosestPositionOnPath")]
 fn get_closest_position_on_path(cx: &Cx, path_handle: Handle, position: [f64; 3]) -> Result<f64> {
-    let closest = |path: &PathObject| Some((path.closest_position(&position.into())?, path.length()));
+    let closest =
+        |path: &PathObject| Some((path.closest_position(&position.into())?, path.length()));
     let (position, length) = of_path(cx, path_handle, closest)?.ok_or_else(is_empty)?;
     Ok(if length > 0.0 { position / length } else { 0.0 })
 }
@@ -187,11 +213,16 @@ fn get_closest_position_on_path(cx: &Cx, path_handle: Handle, position: [f64; 3]
 /// @param velocity m/s, limited to 1000
 /// @return result 1
 #[api("sim.setPathTargetNominalVelocity")]
-fn set_path_target_nominal_velocity(cx: &mut Cx, path_handle: Handle, velocity: f64) -> Result<i64> {
+fn set_path_target_nominal_velocity(
+    cx: &mut Cx,
+    path_handle: Handle,
+    velocity: f64,
+) -> Result<i64> {
     if velocity.is_nan() {
         return Err(SceneError::InvalidArgument.into());
     }
-    cx.scene_mut().modify_path(path_handle, |path| path.set_target_velocity(velocity))?;
+    cx.scene_mut()
+        .modify_path(path_handle, |path| path.set_target_velocity(velocity))?;
     Ok(1)
 }
 
@@ -213,30 +244,70 @@ fn insert_path_ctrl_points(
     pt_data: Vec<f64>,
 ) -> Result<i64> {
     check_path(cx, path_handle)?;
-    let size = if options.0 & WITH_DATA != 0 { POINT_SIZE_WITH_DATA } else { POINT_SIZE };
+    let size = if options.0 & WITH_DATA != 0 {
+        POINT_SIZE_WITH_DATA
+    } else {
+        POINT_SIZE
+    };
     let count = usize::try_from(pt_cnt.0).map_err(|_| SceneError::InvalidArgument)?;
     if count > pt_data.len() / size {
         return Err(ApiError::TableSize);
     }
-    let points = pt_data.chunks_exact(size).take(count).map(control_point).collect::<Result<Vec<_>>>()?;
+    let points = pt_data
+        .chunks_exact(size)
+        .take(count)
+        .map(control_point)
+        .collect::<Result<Vec<_>>>()?;
     let index = usize::try_from(start_index.0).unwrap_or(0);
-    cx.scene_mut().modify_path(path_handle, |path| path.insert(index, points, options.0 & CLOSED != 0))??;
+    cx.scene_mut().modify_path(path_handle, |path| {
+        path.insert(index, points, options.0 & CLOSED != 0)
+    })??;
     Ok(1)
 }
 
 fn control_point(numbers: &[f64]) -> Result<ControlPoint> {
-    let &[x, y, z, alpha, beta, gamma, velocity, on_spot, count, before, after, ref data @ ..] = numbers else {
+    let &[
+        x,
+        y,
+        z,
+        alpha,
+        beta,
+        gamma,
+        velocity,
+        on_spot,
+        count,
+        before,
+        after,
+        ref data @ ..,
+    ] = numbers
+    else {
         return Err(ApiError::TableSize);
     };
-    if ![x, y, z, alpha, beta, gamma].iter().all(|number| number.is_finite()) {
+    if ![x, y, z, alpha, beta, gamma]
+        .iter()
+        .all(|number| number.is_finite())
+    {
         return Err(SceneError::InvalidData.into());
     }
     let (flags, channels) = match *data {
         [flags, a, b, c, d] => (flags as u16, [a, b, c, d]),
         _ => (0, [0.0; 4]),
     };
-    let pose = Pose::from_parts(Translation3::new(x, y, z), euler::rotation_from_euler(&[alpha, beta, gamma]));
-    Ok(ControlPoint { pose, before, after, count: count as usize, velocity, on_spot, flags, channels }.limited())
+    let pose = Pose::from_parts(
+        Translation3::new(x, y, z),
+        euler::rotation_from_euler(&[alpha, beta, gamma]),
+    );
+    Ok(ControlPoint {
+        pose,
+        before,
+        after,
+        count: count as usize,
+        velocity,
+        on_spot,
+        flags,
+        channels,
+    }
+    .limited())
 }
 
 /// Removes control points of a path of V-REP.
@@ -246,11 +317,18 @@ fn control_point(numbers: &[f64]) -> Result<ControlPoint> {
 /// @param ptCnt how many; negative: all
 /// @return result 1
 #[api("sim.cutPathCtrlPoints")]
-fn cut_path_ctrl_points(cx: &mut Cx, path_handle: Handle, start_index: Number, pt_cnt: Number) -> Result<i64> {
+fn cut_path_ctrl_points(
+    cx: &mut Cx,
+    path_handle: Handle,
+    start_index: Number,
+    pt_cnt: Number,
+) -> Result<i64> {
     check_path(cx, path_handle)?;
-    let range = usize::try_from(start_index.0).and_then(|start| Ok((start, usize::try_from(pt_cnt.0)?)));
+    let range =
+        usize::try_from(start_index.0).and_then(|start| Ok((start, usize::try_from(pt_cnt.0)?)));
     let (start, count) = range.unwrap_or((0, usize::MAX));
-    cx.scene_mut().modify_path(path_handle, |path| path.cut(start, count))?;
+    cx.scene_mut()
+        .modify_path(path_handle, |path| path.cut(start, count))?;
     Ok(1)
 }
 
@@ -260,7 +338,9 @@ fn handled_paths(cx: &Cx, number: i64) -> Result<Vec<Handle>> {
     let all = scene.paths().into_iter();
     Ok(match number {
         special::ALL => all.collect(),
-        special::ALL_EXCEPT_EXPLICIT => all.filter(|path| scene.explicit_path(*path).is_err()).collect(),
+        special::ALL_EXCEPT_EXPLICIT => all
+            .filter(|path| scene.explicit_path(*path).is_err())
+            .collect(),
         _ => {
             let path = Handle::from_raw(number).ok_or(SceneError::NoSuchObject)?;
             scene.explicit_path(path)?;
@@ -304,7 +384,9 @@ fn sim_reset_path(cx: &mut Cx, path_handle: Number) -> Result<i64> {
 /// @return pose position and quaternion; nothing without points
 #[api("sim._getPathPose")]
 fn path_pose(cx: &Cx, path_handle: Handle, position: f64) -> Result<Vec<f64>> {
-    let Some(point) = of_path(cx, path_handle, |path| path.at(position))? else { return Ok(Vec::new()) };
+    let Some(point) = of_path(cx, path_handle, |path| path.at(position))? else {
+        return Ok(Vec::new());
+    };
     let pose = cx.scene().on_path_in_world(path_handle, point.pose)?;
     Ok(geometry::pose::pose_to_array(&pose).to_vec())
 }
@@ -329,9 +411,18 @@ fn travel_on_path(
     acceleration: Option<f64>,
     delta_time: f64,
 ) -> Result<(f64, f64)> {
-    let start = Travel { position, nominal_velocity: velocity, target_velocity };
-    let limits = TravelLimits { acceleration, inverts_at_ends: false };
-    let end = of_path(cx, path_handle, |path| path.travel(start, limits, delta_time))?;
+    let start = Travel {
+        position,
+        nominal_velocity: velocity,
+        target_velocity,
+    };
+    let limits = TravelLimits {
+        acceleration,
+        inverts_at_ends: false,
+    };
+    let end = of_path(cx, path_handle, |path| {
+        path.travel(start, limits, delta_time)
+    })?;
     Ok((end.position, end.nominal_velocity))
 }
 
@@ -343,7 +434,13 @@ fn travel_on_path(
 /// @param angleCoefficient metres per radian
 /// @return length metres
 #[api("sim._getPathDistance")]
-fn path_distance(_cx: &Cx, from: [f64; 7], to: [f64; 7], method: Number, angle_coefficient: f64) -> Result<f64> {
+fn path_distance(
+    _cx: &Cx,
+    from: [f64; 7],
+    to: [f64; 7],
+    method: Number,
+    angle_coefficient: f64,
+) -> Result<f64> {
     let method = LengthMethod::from_number(method.0).ok_or(SceneError::InvalidArgument)?;
     let [from, to] = [from, to].map(|pose| geometry::pose::pose_from_array(&pose));
     Ok(method.length(&from, &to, angle_coefficient))

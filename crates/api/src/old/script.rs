@@ -87,7 +87,10 @@ impl Attribute {
 }
 
 fn target_of(script: &Rc<Script>) -> PropertyTarget {
-    script.object.map_or_else(|| PropertyTarget::Script(Rc::clone(script)), PropertyTarget::Object)
+    script.object.map_or_else(
+        || PropertyTarget::Script(Rc::clone(script)),
+        PropertyTarget::Object,
+    )
 }
 
 fn read(cx: &Cx, script: &Rc<Script>, attribute: Attribute) -> Result<Data> {
@@ -101,14 +104,20 @@ fn read(cx: &Cx, script: &Rc<Script>, attribute: Attribute) -> Result<Data> {
         return Ok(Data::Int(handle.unwrap_or(special::WORLD)));
     };
     let value = cx.read_property(&target_of(script), name, ty)?;
-    Ok(if attribute == Attribute::Enabled { Data::Bool(!value.truthy()) } else { value })
+    Ok(if attribute == Attribute::Enabled {
+        Data::Bool(!value.truthy())
+    } else {
+        value
+    })
 }
 
 fn write(cx: &mut Cx, script: &Rc<Script>, attribute: Attribute, value: Data) -> Result<()> {
     match attribute {
         Attribute::Forgotten => return Ok(()),
         Attribute::ExecutionCount => {
-            script.execution_count.set(value.as_f64().unwrap_or_default() as i64);
+            script
+                .execution_count
+                .set(value.as_f64().unwrap_or_default() as i64);
             return Ok(());
         }
         _ => {}
@@ -139,7 +148,10 @@ fn object(cx: &Cx, raw: i64) -> Result<Handle> {
 #[api("sim.getObjectAssociatedWithScript")]
 fn get_object_associated_with_script(cx: &Cx, script_handle: Number) -> Result<i64> {
     let script = script_of(cx, script_handle.0)?;
-    Ok(script.object.or(script.owner()).map_or(special::WORLD, Handle::raw))
+    Ok(script
+        .object
+        .or(script.owner())
+        .map_or(special::WORLD, Handle::raw))
 }
 
 /// The simulation script of an object.
@@ -149,7 +161,9 @@ fn get_object_associated_with_script(cx: &Cx, script_handle: Number) -> Result<i
 #[api("sim.getScriptAssociatedWithObject")]
 fn get_script_associated_with_object(cx: &Cx, object_handle: Number) -> Result<i64> {
     let object = object(cx, object_handle.0)?;
-    Ok(cx.script_attached_to(object, ScriptType::Simulation).unwrap_or(special::WORLD))
+    Ok(cx
+        .script_attached_to(object, ScriptType::Simulation)
+        .unwrap_or(special::WORLD))
 }
 
 /// The customization script of an object.
@@ -159,7 +173,9 @@ fn get_script_associated_with_object(cx: &Cx, object_handle: Number) -> Result<i
 #[api("sim.getCustomizationScriptAssociatedWithObject")]
 fn get_customization_script_associated_with_object(cx: &Cx, object_handle: Number) -> Result<i64> {
     let object = object(cx, object_handle.0)?;
-    Ok(cx.script_attached_to(object, ScriptType::Customization).unwrap_or(special::WORLD))
+    Ok(cx
+        .script_attached_to(object, ScriptType::Customization)
+        .unwrap_or(special::WORLD))
 }
 
 /// Handle of a script.
@@ -179,13 +195,21 @@ fn get_script_handle(
         Data::Nil | Data::Int(special::SELF) => return Ok(cx.script().id),
         Data::Int(number) => ScriptType::from_number(number).ok_or(ApiError::NoSuchScript)?,
         Data::Text(name) => return script_of_name(cx, &String::from_utf8_lossy(&name)),
-        _ => return Err(ApiError::NotA { position: 1, expected: "integer" }),
+        _ => {
+            return Err(ApiError::NotA {
+                position: 1,
+                expected: "integer",
+            });
+        }
     };
     let name = match &script_name {
         Data::Text(name) => String::from_utf8_lossy(name).into_owned(),
         _ => String::new(),
     };
-    if matches!(script_type, ScriptType::Main | ScriptType::Sandbox | ScriptType::AddOn) {
+    if matches!(
+        script_type,
+        ScriptType::Main | ScriptType::Sandbox | ScriptType::AddOn
+    ) {
         return cx.script_by_name(script_type, &name);
     }
     let handle = match script_name {
@@ -196,7 +220,9 @@ fn get_script_handle(
     if handle == special::WORLD {
         return Ok(handle);
     }
-    Ok(cx.script_attached_to(object(cx, handle)?, script_type).unwrap_or(special::WORLD))
+    Ok(cx
+        .script_attached_to(object(cx, handle)?, script_type)
+        .unwrap_or(special::WORLD))
 }
 
 /// The object at a path or with an old-style name; -1 with `@silentError`.
@@ -216,9 +242,13 @@ fn script_of_name(cx: &Cx, name: &str) -> Result<i64> {
     if handle == special::WORLD {
         return Ok(handle);
     }
-    let script = cx.script_attached_to(object(cx, handle)?, script_type).and_then(|id| cx.script_by_handle(id));
+    let script = cx
+        .script_attached_to(object(cx, handle)?, script_type)
+        .and_then(|id| cx.script_by_handle(id));
     let attached = script.filter(|script| script.object.is_none());
-    attached.map(|script| script.id).ok_or(ApiError::NoSuchScript)
+    attached
+        .map(|script| script.id)
+        .ok_or(ApiError::NoSuchScript)
 }
 
 /// A new script without an object; sim.associateScriptWithObject attaches it to one.
@@ -228,7 +258,8 @@ fn script_of_name(cx: &Cx, name: &str) -> Result<i64> {
 #[api("sim.addScript")]
 fn add_script(cx: &mut Cx, script_type: Number) -> Result<i64> {
     let script_type = ScriptType::from_number(script_type.0);
-    let script_type = script_type.filter(|t| matches!(t, ScriptType::Simulation | ScriptType::Customization));
+    let script_type =
+        script_type.filter(|t| matches!(t, ScriptType::Simulation | ScriptType::Customization));
     Ok(cx.add_script_without_object(script_type.ok_or(SceneError::InvalidArgument)?))
 }
 
@@ -238,17 +269,30 @@ fn add_script(cx: &mut Cx, script_type: Number) -> Result<i64> {
 /// @param objectHandle the object; -1 detaches it
 /// @return result 1
 #[api("sim.associateScriptWithObject")]
-fn associate_script_with_object(cx: &mut Cx, script_handle: Number, object_handle: Number) -> Result<i64> {
+fn associate_script_with_object(
+    cx: &mut Cx,
+    script_handle: Number,
+    object_handle: Number,
+) -> Result<i64> {
     let script = script_of(cx, script_handle.0)?;
-    let is_embedded = matches!(script.script_type, ScriptType::Simulation | ScriptType::Customization);
+    let is_embedded = matches!(
+        script.script_type,
+        ScriptType::Simulation | ScriptType::Customization
+    );
     if script.object.is_some() || !is_embedded {
         return Err(ApiError::NoSuchScript);
     }
-    let owner = if object_handle.0 == special::WORLD { None } else { Some(object(cx, object_handle.0)?) };
+    let owner = if object_handle.0 == special::WORLD {
+        None
+    } else {
+        Some(object(cx, object_handle.0)?)
+    };
     if let Some(owner) = owner.filter(|owner| script.owner() != Some(*owner))
         && cx.script_attached_to(owner, script.script_type).is_some()
     {
-        return Err(ApiError::Other("object is already associated with such a script type.".into()));
+        return Err(ApiError::Other(
+            "object is already associated with such a script type.".into(),
+        ));
     }
     cx.reattach_script(&script, owner);
     Ok(1)
@@ -269,8 +313,16 @@ fn get_script_name(cx: &Cx, script_handle: Number) -> Result<Data> {
 /// @param attributeID sim.scriptattribute_*
 /// @return attribute
 #[api("sim.getScriptAttribute")]
-fn get_script_attribute(cx: &Cx, script_handle: Number, #[name("attributeID")] attribute_id: Number) -> Result<Data> {
-    read(cx, &script_of(cx, script_handle.0)?, Attribute::from_number(attribute_id.0)?)
+fn get_script_attribute(
+    cx: &Cx,
+    script_handle: Number,
+    #[name("attributeID")] attribute_id: Number,
+) -> Result<Data> {
+    read(
+        cx,
+        &script_of(cx, script_handle.0)?,
+        Attribute::from_number(attribute_id.0)?,
+    )
 }
 
 /// Execution count of the calling script, as last set by sim.setScriptAttribute in old scenes.
@@ -293,7 +345,12 @@ fn set_script_attribute(
     #[name("attributeID")] attribute_id: Number,
     attribute: Data,
 ) -> Result<()> {
-    write(cx, &script_of(cx, script_handle.0)?, Attribute::from_number(attribute_id.0)?, attribute)
+    write(
+        cx,
+        &script_of(cx, script_handle.0)?,
+        Attribute::from_number(attribute_id.0)?,
+        attribute,
+    )
 }
 
 /// An integer parameter of a script.
@@ -302,7 +359,11 @@ fn set_script_attribute(
 /// @param parameterID sim.scriptintparam_*
 /// @return parameter
 #[api("sim.getScriptInt32Param")]
-fn get_script_int32_param(cx: &Cx, script_handle: Number, #[name("parameterID")] parameter_id: Number) -> Result<i64> {
+fn get_script_int32_param(
+    cx: &Cx,
+    script_handle: Number,
+    #[name("parameterID")] parameter_id: Number,
+) -> Result<i64> {
     int_param(cx, &script_of(cx, script_handle.0)?, parameter_id.0)
 }
 
@@ -320,7 +381,12 @@ pub(crate) fn string_param(cx: &Cx, script: &Rc<Script>, parameter: i64) -> Resu
     }
 }
 
-pub(crate) fn set_param(cx: &mut Cx, script: &Rc<Script>, parameter: i64, value: Data) -> Result<()> {
+pub(crate) fn set_param(
+    cx: &mut Cx,
+    script: &Rc<Script>,
+    parameter: i64,
+    value: Data,
+) -> Result<()> {
     write(cx, script, Attribute::from_number(parameter)?, value)
 }
 
@@ -337,7 +403,12 @@ fn set_script_int32_param(
     parameter: Number,
 ) -> Result<()> {
     let attribute = Attribute::from_number(parameter_id.0)?;
-    write(cx, &script_of(cx, script_handle.0)?, attribute, Data::Int(parameter.0))
+    write(
+        cx,
+        &script_of(cx, script_handle.0)?,
+        attribute,
+        Data::Int(parameter.0),
+    )
 }
 
 /// A string parameter of a script.
@@ -351,7 +422,11 @@ fn get_script_string_param(
     script_handle: Number,
     #[name("parameterID")] parameter_id: Number,
 ) -> Result<Data> {
-    read(cx, &script_of(cx, script_handle.0)?, Attribute::from_number(parameter_id.0)?)
+    read(
+        cx,
+        &script_of(cx, script_handle.0)?,
+        Attribute::from_number(parameter_id.0)?,
+    )
 }
 
 /// Sets a string parameter of a script.
@@ -367,7 +442,12 @@ fn set_script_string_param(
     parameter: Bytes,
 ) -> Result<()> {
     let attribute = Attribute::from_number(parameter_id.0)?;
-    write(cx, &script_of(cx, script_handle.0)?, attribute, Data::Text(parameter.0))
+    write(
+        cx,
+        &script_of(cx, script_handle.0)?,
+        attribute,
+        Data::Text(parameter.0),
+    )
 }
 
 /// Replaces the code of a script. A running script keeps executing the old one.
@@ -376,7 +456,12 @@ fn set_script_string_param(
 /// @param scriptText the new code
 #[api("sim.setScriptText")]
 fn set_script_text(cx: &mut Cx, script_handle: Number, script_text: Bytes) -> Result<()> {
-    write(cx, &script_of(cx, script_handle.0)?, Attribute::Text, Data::Text(script_text.0))
+    write(
+        cx,
+        &script_of(cx, script_handle.0)?,
+        Attribute::Text,
+        Data::Text(script_text.0),
+    )
 }
 
 /// Reason of the last call of this script that was refused; it is forgotten.

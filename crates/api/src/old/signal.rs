@@ -39,7 +39,13 @@ fn set<T: PropertyValue>(cx: &mut Cx, kind: &str, name: &str, value: T) -> i64 {
 }
 
 fn get<T: PropertyValue>(cx: &Cx, kind: &str, name: &str) -> Option<T> {
-    let data = cx.read_property(&PropertyTarget::Scene, &format!("signal.{kind}{name}"), T::TYPE).ok()?;
+    let data = cx
+        .read_property(
+            &PropertyTarget::Scene,
+            &format!("signal.{kind}{name}"),
+            T::TYPE,
+        )
+        .ok()?;
     T::from_data(data)
 }
 
@@ -49,14 +55,18 @@ fn clear(cx: &mut Cx, kind: &str, name: Option<&str>) -> i64 {
         Some(name) => vec![name.to_owned()],
         None => names_of(cx, kind),
     };
-    let removed = names.iter().map(|name| cx.remove_property(&PropertyTarget::Scene, &format!("signal.{kind}{name}")));
+    let removed = names
+        .iter()
+        .map(|name| cx.remove_property(&PropertyTarget::Scene, &format!("signal.{kind}{name}")));
     removed.filter(Result::is_ok).count() as i64
 }
 
 /// Names of the signals of a kind in alphabetical order.
 fn names_of(cx: &Cx, kind: &str) -> Vec<String> {
     let scene = cx.scene();
-    let Ok(signals) = scene.named_values(None, Namespace::Signal) else { return Vec::new() };
+    let Ok(signals) = scene.named_values(None, Namespace::Signal) else {
+        return Vec::new();
+    };
     let names = signals.names().filter_map(|name| name.strip_prefix(kind));
     let mut names: Vec<String> = names.map(str::to_owned).collect();
     names.sort();
@@ -116,7 +126,11 @@ signals! {
 /// @return signalName
 #[api("sim.getSignalName")]
 fn get_signal_name(cx: &Cx, signal_index: Number, signal_type: Number) -> Result<Option<String>> {
-    let kind = usize::try_from(signal_type.0).ok().and_then(|at| KINDS.get(at));
-    let (Some(kind), Ok(index)) = (kind, usize::try_from(signal_index.0)) else { return Ok(None) };
+    let kind = usize::try_from(signal_type.0)
+        .ok()
+        .and_then(|at| KINDS.get(at));
+    let (Some(kind), Ok(index)) = (kind, usize::try_from(signal_index.0)) else {
+        return Ok(None);
+    };
     Ok(names_of(cx, kind).into_iter().nth(index))
 }

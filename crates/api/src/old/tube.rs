@@ -10,7 +10,8 @@ use script::{Bytes, Number, Text};
 
 use super::tubes::Tubes;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![tube_open, tube_write, tube_read, tube_status, tube_close];
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![tube_open, tube_write, tube_read, tube_status, tube_close];
 
 /// No such tube.
 const FAILED: i64 = -1;
@@ -38,11 +39,21 @@ impl Drop for OwnTubes {
 /// @param readBufferSize packets that wait at most, the oldest one makes room; 0: any number
 /// @return tubeHandle
 #[api("sim.tubeOpen")]
-fn tube_open(cx: &mut Cx, data_header: Number, data_name: Bytes, read_buffer_size: Number) -> Result<i64> {
+fn tube_open(
+    cx: &mut Cx,
+    data_header: Number,
+    data_name: Bytes,
+    read_buffer_size: Number,
+) -> Result<i64> {
     let capacity = usize::try_from(read_buffer_size.0).unwrap_or(0);
     let (tubes, script) = (cx.module_state::<SharedTubes>(), cx.script().id);
-    cx.script_state::<OwnTubes>().0.replace(Some((tubes.clone(), script)));
-    let handle = tubes.0.borrow_mut().open(data_header.0, data_name.0, capacity, script);
+    cx.script_state::<OwnTubes>()
+        .0
+        .replace(Some((tubes.clone(), script)));
+    let handle = tubes
+        .0
+        .borrow_mut()
+        .open(data_header.0, data_name.0, capacity, script);
     Ok(handle)
 }
 
@@ -53,7 +64,12 @@ fn tube_open(cx: &mut Cx, data_header: Number, data_name: Bytes, read_buffer_siz
 /// @return result 1, 0 if the other end is not open (the packet is lost), -1 if there is no such tube
 #[api("sim.tubeWrite")]
 fn tube_write(cx: &mut Cx, tube_handle: Number, data: Bytes) -> Result<i64> {
-    Ok(cx.module_state::<SharedTubes>().0.borrow_mut().write(tube_handle.0, data.0).map_or(FAILED, i64::from))
+    Ok(cx
+        .module_state::<SharedTubes>()
+        .0
+        .borrow_mut()
+        .write(tube_handle.0, data.0)
+        .map_or(FAILED, i64::from))
 }
 
 /// Reads and removes the oldest packet of a tube.
@@ -62,7 +78,12 @@ fn tube_write(cx: &mut Cx, tube_handle: Number, data: Bytes) -> Result<i64> {
 /// @return data nothing if no packet waits
 #[api("sim.tubeRead")]
 fn tube_read(cx: &mut Cx, tube_handle: Number) -> Result<Option<Text>> {
-    Ok(cx.module_state::<SharedTubes>().0.borrow_mut().read(tube_handle.0).map(Text))
+    Ok(cx
+        .module_state::<SharedTubes>()
+        .0
+        .borrow_mut()
+        .read(tube_handle.0)
+        .map(Text))
 }
 
 /// The state of a tube.
@@ -73,8 +94,14 @@ fn tube_read(cx: &mut Cx, tube_handle: Number) -> Result<Option<Text>> {
 /// @return writePacketsCount packets that wait at the other end
 #[api("sim.tubeStatus")]
 fn tube_status(cx: &Cx, tube_handle: Number) -> Result<(i64, i64, i64)> {
-    let status = cx.module_state::<SharedTubes>().0.borrow().status(tube_handle.0);
-    Ok(status.map_or((FAILED, 0, 0), |s| (i64::from(s.connected), s.to_read as i64, s.written as i64)))
+    let status = cx
+        .module_state::<SharedTubes>()
+        .0
+        .borrow()
+        .status(tube_handle.0);
+    Ok(status.map_or((FAILED, 0, 0), |s| {
+        (i64::from(s.connected), s.to_read as i64, s.written as i64)
+    }))
 }
 
 /// Closes one end of a tube.
@@ -83,5 +110,16 @@ fn tube_status(cx: &Cx, tube_handle: Number) -> Result<(i64, i64, i64)> {
 /// @return result 1, or -1 if there is no such tube
 #[api("sim.tubeClose")]
 fn tube_close(cx: &mut Cx, tube_handle: Number) -> Result<i64> {
-    Ok(if cx.module_state::<SharedTubes>().0.borrow_mut().close(tube_handle.0) { 1 } else { FAILED })
+    Ok(
+        if cx
+            .module_state::<SharedTubes>()
+            .0
+            .borrow_mut()
+            .close(tube_handle.0)
+        {
+            1
+        } else {
+            FAILED
+        },
+    )
 }

@@ -37,17 +37,35 @@ impl Tubes {
         let handle = self.opened;
         self.opened += 1;
         let key = (header, name);
-        let partner = self.ends.iter().find(|(_, end)| end.partner.is_none() && end.key == key).map(|(&h, _)| h);
+        let partner = self
+            .ends
+            .iter()
+            .find(|(_, end)| end.partner.is_none() && end.key == key)
+            .map(|(&h, _)| h);
         if let Some(other) = partner.and_then(|partner| self.ends.get_mut(&partner)) {
             other.partner = Some(handle);
         }
-        self.ends.insert(handle, End { key, owner, capacity, partner, packets: VecDeque::new() });
+        self.ends.insert(
+            handle,
+            End {
+                key,
+                owner,
+                capacity,
+                partner,
+                packets: VecDeque::new(),
+            },
+        );
         handle
     }
 
     /// Sends a packet to the other end; None if there is no such tube, false if it has no other end.
     pub(super) fn write(&mut self, handle: i64, packet: Vec<u8>) -> Option<bool> {
-        let Some(partner) = self.ends.get(&handle)?.partner.and_then(|partner| self.ends.get_mut(&partner)) else {
+        let Some(partner) = self
+            .ends
+            .get(&handle)?
+            .partner
+            .and_then(|partner| self.ends.get_mut(&partner))
+        else {
             return Some(false);
         };
         if partner.capacity > 0 && partner.packets.len() >= partner.capacity {
@@ -66,12 +84,18 @@ impl Tubes {
         let end = self.ends.get(&handle)?;
         let partner = end.partner.and_then(|partner| self.ends.get(&partner));
         let written = partner.map_or(0, |partner| partner.packets.len());
-        Some(TubeStatus { connected: partner.is_some(), to_read: end.packets.len(), written })
+        Some(TubeStatus {
+            connected: partner.is_some(),
+            to_read: end.packets.len(),
+            written,
+        })
     }
 
     /// Closes an end and disconnects the other one. False if there was none.
     pub(super) fn close(&mut self, handle: i64) -> bool {
-        let Some(end) = self.ends.remove(&handle) else { return false };
+        let Some(end) = self.ends.remove(&handle) else {
+            return false;
+        };
         if let Some(partner) = end.partner.and_then(|partner| self.ends.get_mut(&partner)) {
             partner.partner = None;
         }
@@ -79,7 +103,12 @@ impl Tubes {
     }
 
     pub(super) fn close_those_of(&mut self, script: i64) {
-        let owned: Vec<i64> = self.ends.iter().filter(|(_, end)| end.owner == script).map(|(&h, _)| h).collect();
+        let owned: Vec<i64> = self
+            .ends
+            .iter()
+            .filter(|(_, end)| end.owner == script)
+            .map(|(&h, _)| h)
+            .collect();
         for handle in owned {
             self.close(handle);
         }
@@ -95,12 +124,28 @@ mod tests {
         let mut tubes = Tubes::default();
         let a = tubes.open(7, b"name".to_vec(), 2, 1);
         assert_eq!(tubes.write(a, vec![0]), Some(false));
-        let (_, b) = (tubes.open(7, b"other".to_vec(), 0, 1), tubes.open(7, b"name".to_vec(), 0, 2));
+        let (_, b) = (
+            tubes.open(7, b"other".to_vec(), 0, 1),
+            tubes.open(7, b"name".to_vec(), 0, 2),
+        );
         (1..=3).for_each(|n| assert_eq!(tubes.write(b, vec![n]), Some(true)));
-        assert_eq!(tubes.status(b), Some(TubeStatus { connected: true, to_read: 0, written: 2 }));
-        assert_eq!([tubes.read(a), tubes.read(a), tubes.read(a)], [Some(vec![2]), Some(vec![3]), None]);
+        assert_eq!(
+            tubes.status(b),
+            Some(TubeStatus {
+                connected: true,
+                to_read: 0,
+                written: 2
+            })
+        );
+        assert_eq!(
+            [tubes.read(a), tubes.read(a), tubes.read(a)],
+            [Some(vec![2]), Some(vec![3]), None]
+        );
         tubes.close_those_of(2);
         assert_eq!(tubes.status(a).map(|status| status.connected), Some(false));
-        assert_eq!((tubes.close(b), tubes.write(b, vec![]), tubes.read(b)), (false, None, None));
+        assert_eq!(
+            (tubes.close(b), tubes.write(b, vec![]), tubes.read(b)),
+            (false, None, None)
+        );
     }
 }

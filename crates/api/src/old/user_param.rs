@@ -32,7 +32,9 @@ fn get_script_simulation_parameter(
     }
     let hosts = hosts(cx, script_handle)?;
     let scene = cx.scene();
-    let text = hosts.into_iter().find_map(|object| find(&scene, object, &parameter_name));
+    let text = hosts
+        .into_iter()
+        .find_map(|object| find(&scene, object, &parameter_name));
     let text = text.ok_or(SceneError::InvalidHandle)?;
     Ok(Results(vec![value(Some(text), force_string_return)]))
 }
@@ -94,7 +96,8 @@ fn set_user_parameter(
 /// The objects that may hold the parameters of a script: its own, and the one it is attached to; or the object a number names.
 fn hosts(cx: &Cx, script_or_object: Number) -> Result<Vec<Handle>> {
     let Ok(script) = script_of(cx, script_or_object.0) else {
-        let object = Handle::from_raw(script_or_object.0).filter(|&object| cx.scene().object(object).is_ok());
+        let object = Handle::from_raw(script_or_object.0)
+            .filter(|&object| cx.scene().object(object).is_ok());
         return Ok(vec![object.ok_or(SceneError::InvalidHandle)?]);
     };
     let attached_to = match script.object {
@@ -106,14 +109,23 @@ fn hosts(cx: &Cx, script_or_object: Number) -> Result<Vec<Handle>> {
 
 /// The object of the calling script with all below it, or with all above it.
 fn around(cx: &Cx, below: bool) -> Result<Vec<Handle>> {
-    let Some(&own) = hosts(cx, Number(special::SELF))?.last() else { return Ok(Vec::new()) };
+    let Some(&own) = hosts(cx, Number(special::SELF))?.last() else {
+        return Ok(Vec::new());
+    };
     let scene = cx.scene();
-    Ok(if below { scene.tree(Some(own), false)? } else { scene.ancestors(own).chain([own]).collect() })
+    Ok(if below {
+        scene.tree(Some(own), false)?
+    } else {
+        scene.ancestors(own).chain([own]).collect()
+    })
 }
 
 fn find(scene: &Scene, object: Handle, name: &str) -> Option<String> {
     let params = &scene.object(object).ok()?.user_params;
-    params.iter().find(|(known, _)| known == name).map(|(_, text)| text.clone())
+    params
+        .iter()
+        .find(|(known, _)| known == name)
+        .map(|(_, text)| text.clone())
 }
 
 fn set(cx: &mut Cx, object: Handle, name: String, text: String) -> Result<i64> {
@@ -134,6 +146,10 @@ fn value(text: Option<String>, as_text: bool) -> Data {
         "nil" => Data::Nil,
         "true" => Data::Bool(true),
         "false" => Data::Bool(false),
-        _ => text.parse().ok().filter(|number: &f64| number.is_finite()).map_or_else(|| Data::text(&text), Data::Float),
+        _ => text
+            .parse()
+            .ok()
+            .filter(|number: &f64| number.is_finite())
+            .map_or_else(|| Data::text(&text), Data::Float),
     }
 }

@@ -28,7 +28,9 @@ fn read<R>(
     read: impl FnOnce(&VisionSensor, Area) -> R,
 ) -> Result<R> {
     let scene = cx.scene();
-    let sensor = scene.object(handle.handle).and_then(|object| object.vision_sensor());
+    let sensor = scene
+        .object(handle.handle)
+        .and_then(|object| object.vision_sensor());
     let sensor = sensor.map_err(|_| ApiError::Other("vision sensor does not exist.".into()))?;
     Ok(read(sensor, area(sensor, position, size)?))
 }
@@ -55,14 +57,24 @@ fn get_vision_sensor_image(
 ) -> Result<Data> {
     let grey = sensor_handle.has(flag::GREYSCALE);
     let bytes = return_type.0 == 1;
-    read(cx, sensor_handle, [pos_x, pos_y], [size_x, size_y], |sensor, area| {
-        let image = sensor.image_part(area, grey && bytes, None);
-        match (bytes, grey) {
-            (true, _) => Data::Text(image),
-            (false, true) => image.chunks_exact(3).map(mean).collect::<Vec<_>>().into(),
-            (false, false) => image.iter().map(|&level| f64::from(level) / 255.0).collect::<Vec<_>>().into(),
-        }
-    })
+    read(
+        cx,
+        sensor_handle,
+        [pos_x, pos_y],
+        [size_x, size_y],
+        |sensor, area| {
+            let image = sensor.image_part(area, grey && bytes, None);
+            match (bytes, grey) {
+                (true, _) => Data::Text(image),
+                (false, true) => image.chunks_exact(3).map(mean).collect::<Vec<_>>().into(),
+                (false, false) => image
+                    .iter()
+                    .map(|&level| f64::from(level) / 255.0)
+                    .collect::<Vec<_>>()
+                    .into(),
+            }
+        },
+    )
 }
 
 /// Mean of the parts of a colour, 0 to 1.
@@ -93,11 +105,17 @@ fn get_vision_sensor_char_image(
     #[default(0.0)] rgba_cut_off: f64,
 ) -> Result<(Bytes, i64, i64)> {
     let alpha = (rgba_cut_off > 0.0).then_some(rgba_cut_off as f32);
-    read(cx, sensor_handle, [pos_x, pos_y], [size_x, size_y], |sensor, area| {
-        let image = sensor.image_part(area, sensor_handle.has(flag::GREYSCALE), alpha);
-        let [width, height] = sensor.view.resolution.map(i64::from);
-        (Bytes(image), width, height)
-    })
+    read(
+        cx,
+        sensor_handle,
+        [pos_x, pos_y],
+        [size_x, size_y],
+        |sensor, area| {
+            let image = sensor.image_part(area, sensor_handle.has(flag::GREYSCALE), alpha);
+            let [width, height] = sensor.view.resolution.map(i64::from);
+            (Bytes(image), width, height)
+        },
+    )
 }
 
 /// The depths of a vision sensor, from the lowest row, or a part of them. Add sim.handleflag_depthbuffermeters to the handle for metres
@@ -118,13 +136,19 @@ fn get_vision_sensor_depth_buffer(
     #[default(0.0)] size_x: f64,
     #[default(0.0)] size_y: f64,
 ) -> Result<Data> {
-    read(cx, sensor_handle, [pos_x, pos_y], [size_x, size_y], |sensor, area| {
-        let depth = sensor.depth_part(area, sensor_handle.has(flag::DEPTH_METRES));
-        match sensor_handle.has(flag::PACKED) {
-            true => Data::Text(packed(&depth)),
-            false => depth.into_iter().map(f64::from).collect::<Vec<_>>().into(),
-        }
-    })
+    read(
+        cx,
+        sensor_handle,
+        [pos_x, pos_y],
+        [size_x, size_y],
+        |sensor, area| {
+            let depth = sensor.depth_part(area, sensor_handle.has(flag::DEPTH_METRES));
+            match sensor_handle.has(flag::PACKED) {
+                true => Data::Text(packed(&depth)),
+                false => depth.into_iter().map(f64::from).collect::<Vec<_>>().into(),
+            }
+        },
+    )
 }
 
 /// Replaces the image of a vision sensor and calls the sensor's scripts. Bits of the handle: 0x400000 for a grey level per pixel, 0x800000
@@ -137,12 +161,16 @@ fn get_vision_sensor_depth_buffer(
 fn set_vision_sensor_image(cx: &mut Cx, sensor_handle: ObjectRef, image: Data) -> Result<i64> {
     match image {
         Data::Array(values) => {
-            let numbers = values.iter().map(|value| value.as_f64().ok_or(ApiError::ArgumentType));
+            let numbers = values
+                .iter()
+                .map(|value| value.as_f64().ok_or(ApiError::ArgumentType));
             let numbers = numbers.collect::<Result<Vec<f64>>>()?;
             set_picture(cx, sensor_handle, &Pixels::Numbers(numbers))
         }
         Data::Map(_) => Err(ApiError::TableSize),
-        Data::Text(bytes) | Data::Buffer(bytes) => set_picture(cx, sensor_handle, &Pixels::Bytes(bytes)),
+        Data::Text(bytes) | Data::Buffer(bytes) => {
+            set_picture(cx, sensor_handle, &Pixels::Bytes(bytes))
+        }
         _ => Err(ApiError::ArgumentType),
     }
 }
@@ -153,7 +181,11 @@ fn set_vision_sensor_image(cx: &mut Cx, sensor_handle: ObjectRef, image: Data) -
 /// @param image bytes (32-bit floats for depths)
 /// @return result 1
 #[api("sim.setVisionSensorCharImage")]
-fn set_vision_sensor_char_image(cx: &mut Cx, sensor_handle: ObjectRef, image: Bytes) -> Result<i64> {
+fn set_vision_sensor_char_image(
+    cx: &mut Cx,
+    sensor_handle: ObjectRef,
+    image: Bytes,
+) -> Result<i64> {
     set_picture(cx, sensor_handle, &Pixels::Bytes(image.0))
 }
 
@@ -175,7 +207,10 @@ impl Pixels {
 
     fn levels(&self) -> Vec<u8> {
         match self {
-            Self::Numbers(numbers) => numbers.iter().map(|&number| (number * LEVELS) as u8).collect(),
+            Self::Numbers(numbers) => numbers
+                .iter()
+                .map(|&number| (number * LEVELS) as u8)
+                .collect(),
             Self::Bytes(bytes) => bytes.clone(),
         }
     }
@@ -191,7 +226,9 @@ impl Pixels {
 
 fn set_picture(cx: &mut Cx, target: ObjectRef, pixels: &Pixels) -> Result<i64> {
     let handle: Handle = target.handle;
-    cx.scene().object(handle).and_then(|object| object.vision_sensor().map(drop))?;
+    cx.scene()
+        .object(handle)
+        .and_then(|object| object.vision_sensor().map(drop))?;
     let (grey, depth) = (target.has(flag::GREYSCALE), target.has(flag::DEPTH));
     let set = |sensor: &mut VisionSensor| {
         let whole = Area::whole(sensor.view.resolution);
@@ -201,7 +238,8 @@ fn set_picture(cx: &mut Cx, target: ObjectRef, pixels: &Pixels) -> Result<i64> {
             sensor.set_image_part(whole, &pixels.levels(), grey)
         }
     };
-    cx.change_picture(handle, set).map_err(|_| pixels.wrong_size())?;
+    cx.change_picture(handle, set)
+        .map_err(|_| pixels.wrong_size())?;
     if !target.has(flag::NO_CALLBACK) {
         cx.evaluate_set_picture(handle)?;
     }

@@ -84,7 +84,11 @@ mod string {
 }
 
 fn known(number: i64, last: i64) -> Result<i64> {
-    if (0..=last).contains(&number) { Ok(number) } else { Err(SceneError::InvalidArgument.into()) }
+    if (0..=last).contains(&number) {
+        Ok(number)
+    } else {
+        Err(SceneError::InvalidArgument.into())
+    }
 }
 
 /// An integer parameter.
@@ -103,7 +107,12 @@ fn get_int32_param(cx: &Cx, parameter: Number) -> Result<i64> {
         int::DYNAMIC_ENGINE => cx.scene().settings().dynamics.engine.engine.number(),
         other => {
             let number = known(other, int::LAST)?;
-            cx.app().idle_params.integers.get(&number).copied().unwrap_or_default()
+            cx.app()
+                .idle_params
+                .integers
+                .get(&number)
+                .copied()
+                .unwrap_or_default()
         }
     })
 }
@@ -150,14 +159,24 @@ fn get_bool_param(cx: &Cx, parameter: Number) -> Result<bool> {
         other => {
             let number = known(other, switch::LAST)?;
             let initially = [switch::CLOSED_LOOPS, switch::VISION_SENSORS].contains(&number);
-            cx.app().idle_params.bools.get(&number).copied().unwrap_or(initially)
+            cx.app()
+                .idle_params
+                .bools
+                .get(&number)
+                .copied()
+                .unwrap_or(initially)
         }
     })
 }
 
 /// Whether sensors are handled at all: `parameter` is one of sim.boolparam_*_sensor_handling_enabled.
 pub(crate) fn sensors_are_handled(cx: &Cx, parameter: i64) -> bool {
-    cx.app().idle_params.bools.get(&parameter).copied().unwrap_or(true)
+    cx.app()
+        .idle_params
+        .bools
+        .get(&parameter)
+        .copied()
+        .unwrap_or(true)
 }
 
 /// Turns a switch on or off.
@@ -174,7 +193,9 @@ fn set_bool_param(cx: &mut Cx, parameter: Number, bool_state: bool) -> Result<()
         switch::COLLISION => switch_calculation(cx, |on| on.collision = bool_state),
         switch::DISTANCE => switch_calculation(cx, |on| on.distance = bool_state),
         switch::PROXIMITY_SENSORS => switch_calculation(cx, |on| on.proximity_sensors = bool_state),
-        switch::INVERSE_KINEMATICS => switch_calculation(cx, |on| on.inverse_kinematics = bool_state),
+        switch::INVERSE_KINEMATICS => {
+            switch_calculation(cx, |on| on.inverse_kinematics = bool_state)
+        }
         other => {
             let number = known(other, switch::LAST)?;
             cx.app_mut().idle_params.bools.insert(number, bool_state);
@@ -184,7 +205,8 @@ fn set_bool_param(cx: &mut Cx, parameter: Number, bool_state: bool) -> Result<()
 }
 
 fn switch_calculation(cx: &mut Cx, switch: impl FnOnce(&mut Calculations)) {
-    cx.scene_mut().modify_settings(|settings| switch(&mut settings.calculations));
+    cx.scene_mut()
+        .modify_settings(|settings| switch(&mut settings.calculations));
 }
 
 /// A float parameter.
@@ -200,7 +222,12 @@ fn get_float_param(cx: &Cx, parameter: Number) -> Result<f64> {
         float::RANDOM => cx.env().random.borrow_mut().next(),
         other => {
             let number = known(other, float::LAST)?;
-            cx.app().idle_params.floats.get(&number).copied().unwrap_or_default()
+            cx.app()
+                .idle_params
+                .floats
+                .get(&number)
+                .copied()
+                .unwrap_or_default()
         }
     })
 }
@@ -213,7 +240,10 @@ fn get_float_param(cx: &Cx, parameter: Number) -> Result<f64> {
 fn set_float_param(cx: &mut Cx, parameter: Number, parameter_value: f64) -> Result<()> {
     if !param_property::write(cx, FLOATS, parameter.0, parameter_value)? {
         let number = known(parameter.0, float::LAST)?;
-        cx.app_mut().idle_params.floats.insert(number, parameter_value);
+        cx.app_mut()
+            .idle_params
+            .floats
+            .insert(number, parameter_value);
     }
     Ok(())
 }
@@ -226,13 +256,17 @@ fn set_float_param(cx: &mut Cx, parameter: Number, parameter_value: f64) -> Resu
 fn get_array_param(cx: &Cx, parameter: Number) -> Result<[f64; 3]> {
     Ok(match parameter.0 {
         array::GRAVITY => cx.scene().settings().dynamics.gravity.map(f64::from),
-        array::AMBIENT_LIGHT => {
-            param_property::read(cx, LIGHT, array::AMBIENT_LIGHT)?.map_or([0.0; 3], |light: Color| light.0)
-        }
+        array::AMBIENT_LIGHT => param_property::read(cx, LIGHT, array::AMBIENT_LIGHT)?
+            .map_or([0.0; 3], |light: Color| light.0),
         array::RANDOM_EULER => euler::rotation_to_euler(&cx.env().random.borrow_mut().rotation()),
         other => {
             let number = known(other, array::LAST)?;
-            cx.app().idle_params.arrays.get(&number).copied().unwrap_or_default()
+            cx.app()
+                .idle_params
+                .arrays
+                .get(&number)
+                .copied()
+                .unwrap_or_default()
         }
     })
 }
@@ -249,11 +283,15 @@ fn set_array_param(cx: &mut Cx, parameter: Number, parameter_values: [f64; 3]) -
         }
         array::GRAVITY => {
             let gravity = parameter_values.map(|value| value as f32);
-            cx.scene_mut().modify_settings(|settings| settings.dynamics.gravity = gravity);
+            cx.scene_mut()
+                .modify_settings(|settings| settings.dynamics.gravity = gravity);
         }
         other => {
             let number = known(other, array::LAST)?;
-            cx.app_mut().idle_params.arrays.insert(number, parameter_values);
+            cx.app_mut()
+                .idle_params
+                .arrays
+                .insert(number, parameter_values);
         }
     }
     Ok(())
@@ -270,12 +308,22 @@ fn get_string_param(cx: &Cx, parameter: Number) -> Result<Text> {
     }
     let number = known(parameter.0, string::LAST)?;
     let path = |part: fn(&Path) -> Option<&OsStr>| {
-        part(Path::new(&cx.scene().settings().path)).map(|part| Text(part.as_encoded_bytes().to_vec()))
+        part(Path::new(&cx.scene().settings().path))
+            .map(|part| Text(part.as_encoded_bytes().to_vec()))
     };
     Ok(match number {
-        string::SCENE_FOLDER => path(|path| path.parent().map(Path::as_os_str)).unwrap_or(Text(Vec::new())),
+        string::SCENE_FOLDER => {
+            path(|path| path.parent().map(Path::as_os_str)).unwrap_or(Text(Vec::new()))
+        }
         string::SCENE_NAME => path(Path::file_name).unwrap_or(Text(Vec::new())),
-        _ => Text(cx.app().idle_params.texts.get(&number).cloned().unwrap_or_default()),
+        _ => Text(
+            cx.app()
+                .idle_params
+                .texts
+                .get(&number)
+                .cloned()
+                .unwrap_or_default(),
+        ),
     })
 }
 
@@ -290,7 +338,10 @@ fn set_string_param(cx: &mut Cx, parameter: Number, parameter_value: Bytes) -> R
         return Ok(());
     }
     param_property::write(cx, LEVELS, number, Text(parameter_value.0.clone()))?;
-    cx.app_mut().idle_params.texts.insert(number, parameter_value.0);
+    cx.app_mut()
+        .idle_params
+        .texts
+        .insert(number, parameter_value.0);
     Ok(())
 }
 
@@ -300,7 +351,11 @@ fn set_string_param(cx: &mut Cx, parameter: Number, parameter_value: Bytes) -> R
 /// @return stringParam nothing if there is none
 #[api("sim.getNamedStringParam")]
 fn get_named_string_param(cx: &Cx, param_name: String) -> Result<Option<Text>> {
-    let value = cx.read_property(&PropertyTarget::App, &format!("namedParam.{param_name}"), Text::TYPE);
+    let value = cx.read_property(
+        &PropertyTarget::App,
+        &format!("namedParam.{param_name}"),
+        Text::TYPE,
+    );
     Ok(value.ok().and_then(Text::from_data))
 }
 
@@ -311,7 +366,11 @@ fn get_named_string_param(cx: &Cx, param_name: String) -> Result<Option<Text>> {
 #[api("sim.setNamedStringParam")]
 fn set_named_string_param(cx: &mut Cx, param_name: String, string_param: Text) -> Result<()> {
     let value = (Text::TYPE, string_param.into_data());
-    cx.write_property(&PropertyTarget::App, &format!("namedParam.{param_name}"), value)
+    cx.write_property(
+        &PropertyTarget::App,
+        &format!("namedParam.{param_name}"),
+        value,
+    )
 }
 
 /// Calls the handlers of what came from outside: what persons did with windows (simUI). It happens at the end of each loop iteration anyway.

@@ -40,8 +40,11 @@ pub(crate) const SWITCHES: &[PropertyParam] = &[
 ];
 
 /// `sim.floatparam_*`.
-pub(crate) const FLOATS: &[PropertyParam] =
-    &[(1, SCENE, "timeStep"), (3, SCENE, "dynamicsStepSize"), (5, SCENE, "dynamicsStepSize")];
+pub(crate) const FLOATS: &[PropertyParam] = &[
+    (1, SCENE, "timeStep"),
+    (3, SCENE, "dynamicsStepSize"),
+    (5, SCENE, "dynamicsStepSize"),
+];
 
 /// `sim.arrayparam_*` that are colours.
 pub(crate) const LIGHT: &[PropertyParam] = &[(5, SCENE, "ambientLight")];
@@ -82,23 +85,46 @@ pub(crate) const TEXTS: &[PropertyParam] = &[
 ];
 
 /// Texts that set a level by its name.
-pub(crate) const LEVELS: &[PropertyParam] =
-    &[(121, APP, "consoleVerbosityStr"), (122, APP, "statusbarVerbosityStr"), (123, APP, "dialogVerbosityStr")];
+pub(crate) const LEVELS: &[PropertyParam] = &[
+    (121, APP, "consoleVerbosityStr"),
+    (122, APP, "statusbarVerbosityStr"),
+    (123, APP, "dialogVerbosityStr"),
+];
 
 fn property_of(params: &[PropertyParam], number: i64) -> Option<(PropertyTarget, &'static str)> {
     let &(_, target, name) = params.iter().find(|(known, ..)| *known == number)?;
-    Some((if target == APP { PropertyTarget::App } else { PropertyTarget::Scene }, name))
+    Some((
+        if target == APP {
+            PropertyTarget::App
+        } else {
+            PropertyTarget::Scene
+        },
+        name,
+    ))
 }
 
 /// The value of the property that `number` is; None when it is none.
-pub(crate) fn read<T: PropertyValue>(cx: &Cx, params: &[PropertyParam], number: i64) -> Result<Option<T>> {
-    let Some((target, name)) = property_of(params, number) else { return Ok(None) };
+pub(crate) fn read<T: PropertyValue>(
+    cx: &Cx,
+    params: &[PropertyParam],
+    number: i64,
+) -> Result<Option<T>> {
+    let Some((target, name)) = property_of(params, number) else {
+        return Ok(None);
+    };
     Ok(T::from_data(cx.read_property(&target, name, T::TYPE)?))
 }
 
 /// Sets the property with that parameter number; returns whether there is one.
-pub(crate) fn write<T: PropertyValue>(cx: &mut Cx, params: &[PropertyParam], number: i64, value: T) -> Result<bool> {
-    let Some((target, name)) = property_of(params, number) else { return Ok(false) };
+pub(crate) fn write<T: PropertyValue>(
+    cx: &mut Cx,
+    params: &[PropertyParam],
+    number: i64,
+    value: T,
+) -> Result<bool> {
+    let Some((target, name)) = property_of(params, number) else {
+        return Ok(false);
+    };
     cx.write_property(&target, name, (T::TYPE, value.into_data()))?;
     Ok(true)
 }

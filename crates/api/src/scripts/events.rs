@@ -6,7 +6,8 @@ use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::Data;
 use script::{Bytes, EventFilters, Table};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![set_event_filters, get_genesis_events, push_user_event];
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![set_event_filters, get_genesis_events, push_user_event];
 
 /// Selects the events delivered to `sysCall_event` of this script. The filter ends with the script's Lua state.
 ///

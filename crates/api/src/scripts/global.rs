@@ -43,13 +43,19 @@ fn register_script_func_hook(
     exec_before: bool,
 ) -> Result<i64> {
     let mut hooks = cx.env().hooks.borrow_mut();
-    let list = if exec_before { &mut hooks.before } else { &mut hooks.after };
+    let list = if exec_before {
+        &mut hooks.before
+    } else {
+        &mut hooks.after
+    };
     if system_callback.is_empty() {
-        std::mem::take(list).into_values().for_each(|entries| release(cx, &entries));
+        std::mem::take(list)
+            .into_values()
+            .for_each(|entries| release(cx, &entries));
         return Ok(0);
     }
-    let call =
-        SysCall::from_name(&system_callback).ok_or_else(|| ApiError::Other("invalid system callback.".into()))?;
+    let call = SysCall::from_name(&system_callback)
+        .ok_or_else(|| ApiError::Other("invalid system callback.".into()))?;
     cx.note_callback(call);
     cx.env().note_hook(call);
     let entries = Rc::make_mut(list.entry(call).or_default());
@@ -57,7 +63,10 @@ fn register_script_func_hook(
         ScriptFunction::Name(name) if name.is_empty() => release(cx, &std::mem::take(entries)),
         ScriptFunction::Name(name) => return Ok(toggle(entries, name)),
         ScriptFunction::Value(function) => {
-            entries.push(Hook { name: String::new(), function: Some(function) });
+            entries.push(Hook {
+                name: String::new(),
+                function: Some(function),
+            });
             return Ok(1);
         }
     }
@@ -66,13 +75,19 @@ fn register_script_func_hook(
 
 /// Adds the hook of that name, or removes it when it is there already; 1 or 0.
 fn toggle(entries: &mut Vec<Hook>, name: String) -> i64 {
-    match entries.iter().position(|hook| hook.function.is_none() && hook.name == name) {
+    match entries
+        .iter()
+        .position(|hook| hook.function.is_none() && hook.name == name)
+    {
         Some(at) => {
             entries.remove(at);
             0
         }
         None => {
-            entries.push(Hook { name, function: None });
+            entries.push(Hook {
+                name,
+                function: None,
+            });
             1
         }
     }
@@ -80,7 +95,10 @@ fn toggle(entries: &mut Vec<Hook>, name: String) -> i64 {
 
 /// Lets go of the functions of hooks that are gone.
 fn release(cx: &Cx, entries: &[Hook]) {
-    entries.iter().filter_map(|hook| hook.function).for_each(|function| cx.release_function(function));
+    entries
+        .iter()
+        .filter_map(|hook| hook.function)
+        .for_each(|function| cx.release_function(function));
 }
 
 /// Allows or forbids that the running coroutine is pre-empted.
@@ -152,14 +170,16 @@ fn add_statusbar_message(cx: &Cx, #[default(None)] message: Option<String>) -> R
 #[api("auxFunc")]
 fn aux_func(cx: &Cx, cmd: String, #[name("...")] arguments: Rest) -> Result<Results> {
     let _ = cx;
-    Ok(Results(match (cmd.as_str(), arguments.0.first().and_then(Data::as_f64)) {
-        ("headless" | "useBuffers", _) => vec![Data::Bool(true)],
-        ("frexp", Some(number)) => {
-            let (mantissa, exponent) = mantissa_and_exponent(number);
-            vec![Data::Float(mantissa), Data::Int(exponent)]
-        }
-        _ => Vec::new(),
-    }))
+    Ok(Results(
+        match (cmd.as_str(), arguments.0.first().and_then(Data::as_f64)) {
+            ("headless" | "useBuffers", _) => vec![Data::Bool(true)],
+            ("frexp", Some(number)) => {
+                let (mantissa, exponent) = mantissa_and_exponent(number);
+                vec![Data::Float(mantissa), Data::Int(exponent)]
+            }
+            _ => Vec::new(),
+        },
+    ))
 }
 
 /// `number` = m 2^e, where m is between 0.5 and 1.
@@ -216,14 +236,24 @@ fn load_plugin(cx: &mut Cx, name: String) -> Result<Option<Data>> {
     if cx.has_module_for_plugin(&name) {
         return Ok(Some(Data::text(&name)));
     }
-    let Some(plugin) = cx.load_plugin(&name)? else { return Ok(None) };
-    let functions = plugin.functions().iter().map(|name| Data::text(name)).collect();
+    let Some(plugin) = cx.load_plugin(&name)? else {
+        return Ok(None);
+    };
+    let functions = plugin
+        .functions()
+        .iter()
+        .map(|name| Data::text(name))
+        .collect();
     let variables = plugin.variables().into_iter().map(|(name, variable)| {
         let (value, is_expression) = match variable {
             Variable::Expression(text) => (Data::text(&text), true),
             Variable::Value(value) => (value, false),
         };
-        Data::map([("name", Data::text(&name)), ("value", value), ("isExpression", is_expression.into())])
+        Data::map([
+            ("name", Data::text(&name)),
+            ("value", value),
+            ("isExpression", is_expression.into()),
+        ])
     });
     Ok(Some(Data::map([
         ("name", Data::text(&plugin.name)),
@@ -239,7 +269,12 @@ fn load_plugin(cx: &mut Cx, name: String) -> Result<Option<Data>> {
 /// @param ... what the function gets
 /// @return results what the function has left on its stack
 #[api("_callPlugin")]
-fn call_plugin(cx: &mut Cx, plugin: String, place: i64, #[name("...")] values: Rest) -> Result<Results> {
+fn call_plugin(
+    cx: &mut Cx,
+    plugin: String,
+    place: i64,
+    #[name("...")] values: Rest,
+) -> Result<Results> {
     // A place that is none is no function of the plugin.
     let place = usize::try_from(place).unwrap_or(usize::MAX);
     cx.call_plugin(&plugin, place, values.0).map(Results)
@@ -259,7 +294,11 @@ fn unload_plugin(cx: &mut Cx, name: String, #[default(false)] force: bool) -> Re
 /// @param moduleName ignored
 /// @param ... ignored
 #[api("registerCodeEditorInfos")]
-fn register_code_editor_infos(cx: &Cx, _module_name: String, #[name("...")] _infos: Rest) -> Result<()> {
+fn register_code_editor_infos(
+    cx: &Cx,
+    _module_name: String,
+    #[name("...")] _infos: Rest,
+) -> Result<()> {
     let _ = cx;
     Ok(())
 }

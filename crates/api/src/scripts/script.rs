@@ -35,10 +35,12 @@ fn create_script(
     #[default(0)] options: i64,
     #[default("lua")] lang: String,
 ) -> Result<Handle> {
-    let script_type =
-        ScriptType::from_number(script_type).ok_or_else(|| ApiError::Other("invalid script type.".into()))?;
+    let script_type = ScriptType::from_number(script_type)
+        .ok_or_else(|| ApiError::Other("invalid script type.".into()))?;
     let script = ScriptObject::new(script_type, script_text.0, &lang, options & 1 != 0);
-    let handle = cx.scene_mut().add("script", Kind::Script(Box::new(script)))?;
+    let handle = cx
+        .scene_mut()
+        .add("script", Kind::Script(Box::new(script)))?;
     cx.notify_created(&[handle]);
     Ok(handle)
 }
@@ -103,11 +105,15 @@ fn get_script(
         Data::Int(raw) if raw >= 0 => {
             let object = Handle::from_raw(raw).filter(|&handle| cx.scene().exists(handle));
             let object = object.ok_or(SceneError::NoSuchObject)?;
-            Ok(cx.script_attached_to(object, script_type).unwrap_or(special::WORLD))
+            Ok(cx
+                .script_attached_to(object, script_type)
+                .unwrap_or(special::WORLD))
         }
         Data::Text(name) => cx.script_by_name(script_type, &String::from_utf8_lossy(&name)),
         _ => match names.0.first() {
-            Some(Data::Text(name)) => cx.script_by_name(script_type, &String::from_utf8_lossy(name)),
+            Some(Data::Text(name)) => {
+                cx.script_by_name(script_type, &String::from_utf8_lossy(name))
+            }
             _ => cx.script_by_name(script_type, ""),
         },
     }
@@ -128,9 +134,20 @@ fn call_script_function(
     #[name("...")] arguments: Rest,
 ) -> Result<Results> {
     let (name, raw) = match (function_name.0, script_handle.0) {
-        (Data::Int(raw), Data::Text(name)) | (Data::Text(name) | Data::Buffer(name), Data::Int(raw)) => (name, raw),
-        (Data::Text(_) | Data::Buffer(_), _) => return Err(ApiError::NotA { position: 2, expected: "integer" }),
-        _ => return Err(ApiError::NotA { position: 1, expected: "string/buffer" }),
+        (Data::Int(raw), Data::Text(name))
+        | (Data::Text(name) | Data::Buffer(name), Data::Int(raw)) => (name, raw),
+        (Data::Text(_) | Data::Buffer(_), _) => {
+            return Err(ApiError::NotA {
+                position: 2,
+                expected: "integer",
+            });
+        }
+        _ => {
+            return Err(ApiError::NotA {
+                position: 1,
+                expected: "string/buffer",
+            });
+        }
     };
     let function = String::from_utf8_lossy(&name);
     let script = script_of(cx, raw)?;
@@ -158,7 +175,11 @@ impl crate::FromScript for Callee {
 /// @param scriptHandle the script
 /// @return ... 0, then what the code gave, or an empty table if nothing
 #[api("sim.executeScriptString")]
-fn execute_script_string(cx: &mut Cx, string_to_execute: Bytes, script_handle: i64) -> Result<Results> {
+fn execute_script_string(
+    cx: &mut Cx,
+    string_to_execute: Bytes,
+    script_handle: i64,
+) -> Result<Results> {
     let script = script_of(cx, script_handle)?;
     let code = match string_to_execute.0.iter().rposition(|&byte| byte == b'@') {
         Some(at) => &string_to_execute.0[..at],

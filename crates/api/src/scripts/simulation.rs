@@ -70,7 +70,11 @@ fn get_simulation_time_step(cx: &Cx) -> Result<f64> {
 }
 
 pub(crate) fn main_script_only(cx: &Cx) -> Result<()> {
-    if cx.script().script_type == ScriptType::Main { Ok(()) } else { Err(ApiError::MainScriptOnly) }
+    if cx.script().script_type == ScriptType::Main {
+        Ok(())
+    } else {
+        Err(ApiError::MainScriptOnly)
+    }
 }
 
 /// Result of functions that have nothing to tell.
@@ -92,7 +96,10 @@ fn handle_simulation_start(cx: &mut Cx) -> Result<i64> {
 /// script does
 /// @return result -1
 #[api("sim.handleSensingStart")]
-fn handle_sensing_start(cx: &mut Cx, #[default(Number(0))] calculation_objects: Number) -> Result<i64> {
+fn handle_sensing_start(
+    cx: &mut Cx,
+    #[default(Number(0))] calculation_objects: Number,
+) -> Result<i64> {
     main_script_only(cx)?;
     // No time has passed before the sensing part of the first step.
     let dt = (cx.clock().steps() > 0).then(|| cx.scene().settings().time_step);
@@ -106,7 +113,10 @@ fn handle_sensing_start(cx: &mut Cx, #[default(Number(0))] calculation_objects: 
 
 /// The callback with that number, `sim.syscb_*`.
 fn callback(number: i64) -> Result<SysCall> {
-    let known = SysCall::ALL.iter().copied().find(|call| *call as i64 == number);
+    let known = SysCall::ALL
+        .iter()
+        .copied()
+        .find(|call| *call as i64 == number);
     known.ok_or_else(|| ApiError::Other("invalid callback.".into()))
 }
 
@@ -115,7 +125,11 @@ fn callback(number: i64) -> Result<SysCall> {
 /// @param callType sim.syscb_*
 /// @return count how many scripts ran it
 #[api("sim.handleEmbeddedScripts")]
-fn handle_embedded_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<i64> {
+fn handle_embedded_scripts(
+    cx: &mut Cx,
+    call_type: i64,
+    #[name("...")] arguments: Rest,
+) -> Result<i64> {
     main_script_only(cx)?;
     let simulation = call_group(cx, ScriptGroup::Simulation, call_type, &arguments)?;
     Ok(simulation + call_group(cx, ScriptGroup::Customization, call_type, &arguments)?)
@@ -126,7 +140,11 @@ fn handle_embedded_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments
 /// @param callType sim.syscb_*
 /// @return count how many scripts ran it
 #[api("sim.handleSimulationScripts")]
-fn handle_simulation_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<i64> {
+fn handle_simulation_scripts(
+    cx: &mut Cx,
+    call_type: i64,
+    #[name("...")] arguments: Rest,
+) -> Result<i64> {
     if main_script_only(cx).is_err() {
         return Ok(-1);
     }
@@ -138,7 +156,11 @@ fn handle_simulation_scripts(cx: &mut Cx, call_type: i64, #[name("...")] argumen
 /// @param callType sim.syscb_*
 /// @return count how many scripts ran it
 #[api("sim.handleCustomizationScripts")]
-fn handle_customization_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<i64> {
+fn handle_customization_scripts(
+    cx: &mut Cx,
+    call_type: i64,
+    #[name("...")] arguments: Rest,
+) -> Result<i64> {
     main_script_only(cx)?;
     call_group(cx, ScriptGroup::Customization, call_type, &arguments)
 }
@@ -148,7 +170,11 @@ fn handle_customization_scripts(cx: &mut Cx, call_type: i64, #[name("...")] argu
 /// @param callType sim.syscb_*
 /// @return count how many add-ons ran it
 #[api("sim.handleAddOnScripts")]
-fn handle_add_on_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<i64> {
+fn handle_add_on_scripts(
+    cx: &mut Cx,
+    call_type: i64,
+    #[name("...")] arguments: Rest,
+) -> Result<i64> {
     main_script_only(cx)?;
     call_group(cx, ScriptGroup::AddOn, call_type, &arguments)
 }
@@ -157,7 +183,11 @@ fn handle_add_on_scripts(cx: &mut Cx, call_type: i64, #[name("...")] arguments: 
 ///
 /// @param callType sim.syscb_*
 #[api("sim.handleSandboxScript")]
-fn handle_sandbox_script(cx: &mut Cx, call_type: i64, #[name("...")] arguments: Rest) -> Result<()> {
+fn handle_sandbox_script(
+    cx: &mut Cx,
+    call_type: i64,
+    #[name("...")] arguments: Rest,
+) -> Result<()> {
     main_script_only(cx)?;
     call_group(cx, ScriptGroup::Sandbox, call_type, &arguments).map(drop)
 }
@@ -173,10 +203,14 @@ fn call_group(cx: &mut Cx, group: ScriptGroup, call_type: i64, arguments: &Rest)
 /// @return passes number of sub-steps
 #[api("sim.handleDynamics")]
 fn handle_dynamics(cx: &mut Cx, delta_time: f64, #[default(0)] ik_groups: Number) -> Result<i64> {
-    if !matches!(cx.script().script_type, ScriptType::Main | ScriptType::Simulation) {
+    if !matches!(
+        cx.script().script_type,
+        ScriptType::Main | ScriptType::Simulation
+    ) {
         return Err(ApiError::MainOrSimulationScriptOnly);
     }
-    if ik_groups.0 == special::ALL_EXCEPT_EXPLICIT && cx.scene().ik_groups().iter().next().is_some() {
+    if ik_groups.0 == special::ALL_EXCEPT_EXPLICIT && cx.scene().ik_groups().iter().next().is_some()
+    {
         crate::old::ik_groups::handle_ik_groups(cx, false)?;
     }
     cx.handle_dynamics(delta_time)

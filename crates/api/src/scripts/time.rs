@@ -7,8 +7,12 @@ use crate::{ApiFn, Cx, Result, functions};
 use scene::special;
 use script::Number;
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![get_system_time, get_system_time_in_ms, get_random, get_stack_traceback];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    get_system_time,
+    get_system_time_in_ms,
+    get_random,
+    get_stack_traceback
+];
 
 /// Time by the wall clock, from a moment before the simulator started.
 ///
@@ -25,7 +29,11 @@ fn get_system_time(cx: &Cx) -> Result<f64> {
 #[api("sim.getSystemTimeInMs")]
 fn get_system_time_in_ms(cx: &Cx, previous_time: Number) -> Result<i64> {
     let now = (cx.clock().wall_seconds() * 1000.0) as i64;
-    Ok(if previous_time.0 < 0 { now } else { now.saturating_sub(previous_time.0) })
+    Ok(if previous_time.0 < 0 {
+        now
+    } else {
+        now.saturating_sub(previous_time.0)
+    })
 }
 
 /// A random number of this script's own sequence, which restarts with each start of the script.
@@ -46,7 +54,10 @@ fn get_random(cx: &mut Cx, #[default(None)] seed: Option<Number>) -> Result<f64>
 /// @param scriptHandle the script
 /// @return stackTraceback
 #[api("sim.getStackTraceback")]
-fn get_stack_traceback(cx: &Cx, #[default(special::SELF, "sim.handle_self")] script_handle: Number) -> Result<String> {
+fn get_stack_traceback(
+    cx: &Cx,
+    #[default(special::SELF, "sim.handle_self")] script_handle: Number,
+) -> Result<String> {
     let script = script_of(cx, script_handle.0)?;
     cx.traceback(&script)
 }

@@ -23,7 +23,9 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 
 /// The first `N` elements of a table that may be missing.
 fn leading<T: Copy, const N: usize>(table: Option<&Vec<T>>) -> Result<Option<[T; N]>> {
-    table.map(|values| values.first_chunk().copied().ok_or(ApiError::TableSize)).transpose()
+    table
+        .map(|values| values.first_chunk().copied().ok_or(ApiError::TableSize))
+        .transpose()
 }
 
 /// A new proximity sensor at the world's origin; it looks along z.
@@ -85,7 +87,8 @@ fn create_octree(
     #[default(4.0)] point_size: f64,
 ) -> Result<Handle> {
     let mut octree = OcTree::new(voxel_size, point_size);
-    octree.random_colours = StorageOptions::from_bits_retain(options.0).contains(StorageOptions::RANDOM_COLOURS);
+    octree.random_colours =
+        StorageOptions::from_bits_retain(options.0).contains(StorageOptions::RANDOM_COLOURS);
     cx.add_object("octree", Kind::OcTree(Box::new(octree)))
 }
 
@@ -157,15 +160,20 @@ fn set_light_parameters(
     #[default(None)] specular_part: Option<[f64; 3]>,
 ) -> Result<()> {
     let _ = reserved;
-    Ok(cx.scene_mut().try_modify(light_handle, Field::Appearance, |object| {
-        let light = object.light_mut()?;
-        light.enabled = state.0 != 0;
-        let parts = [(ColourComponent::AmbientDiffuse, diffuse_part), (ColourComponent::Specular, specular_part)];
-        for (component, part) in parts {
-            if let Some(part) = part {
-                light.colour.set_component(component, &part);
+    Ok(cx
+        .scene_mut()
+        .try_modify(light_handle, Field::Appearance, |object| {
+            let light = object.light_mut()?;
+            light.enabled = state.0 != 0;
+            let parts = [
+                (ColourComponent::AmbientDiffuse, diffuse_part),
+                (ColourComponent::Specular, specular_part),
+            ];
+            for (component, part) in parts {
+                if let Some(part) = part {
+                    light.colour.set_component(component, &part);
+                }
             }
-        }
-        Ok(())
-    })?)
+            Ok(())
+        })?)
 }

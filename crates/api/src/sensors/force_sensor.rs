@@ -16,13 +16,25 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![create_force_sensor];
 /// @param floatParams size in metres, force threshold in N, torque threshold in N m, 0, 0
 /// @return sensorHandle the sensor
 #[api("sim.createForceSensor")]
-fn create_force_sensor(cx: &mut Cx, options: Number, int_params: Vec<i64>, float_params: Vec<f64>) -> Result<Handle> {
-    let [filter, samples, consecutive, _, _] = int_params.first_chunk().ok_or(ApiError::TableSize)?;
+fn create_force_sensor(
+    cx: &mut Cx,
+    options: Number,
+    int_params: Vec<i64>,
+    float_params: Vec<f64>,
+) -> Result<Handle> {
+    let [filter, samples, consecutive, _, _] =
+        int_params.first_chunk().ok_or(ApiError::TableSize)?;
     let [size, force, torque, _, _] = float_params.first_chunk().ok_or(ApiError::TableSize)?;
     let sensor = ForceSensor {
         size: *size,
-        filter: if *filter == 1 { ForceFilter::Median } else { ForceFilter::Average },
-        sample_size: usize::try_from(*samples).unwrap_or(0).clamp(1, ForceSensor::MAX_SAMPLES),
+        filter: if *filter == 1 {
+            ForceFilter::Median
+        } else {
+            ForceFilter::Average
+        },
+        sample_size: usize::try_from(*samples)
+            .unwrap_or(0)
+            .clamp(1, ForceSensor::MAX_SAMPLES),
         consecutive_violations: u32::try_from(*consecutive).unwrap_or(0).max(1),
         force_threshold: *force,
         force_threshold_enabled: options.0 & 1 != 0,

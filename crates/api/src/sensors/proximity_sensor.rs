@@ -40,7 +40,11 @@ fn reading_at(found: &Detection, distance: f64) -> Reading {
 
 /// The proximity sensor a script means by a number, if it is one.
 fn sensor(scene: &Scene, raw: i64) -> Option<Handle> {
-    Handle::from_raw(raw).filter(|&handle| scene.object(handle).is_ok_and(|object| object.proximity_sensor().is_ok()))
+    Handle::from_raw(raw).filter(|&handle| {
+        scene
+            .object(handle)
+            .is_ok_and(|object| object.proximity_sensor().is_ok())
+    })
 }
 
 /// Measures with a sensor that is tagged for explicit handling, or with all sensors. Scripts of a sensor that detects something are called
@@ -53,12 +57,19 @@ fn sensor(scene: &Scene, raw: i64) -> Option<Handle> {
 /// @return detectedObjectHandle -1 if nothing is detected
 /// @return normalVector of the surface, in the frame of the sensor
 #[api("sim.handleProximitySensor")]
-fn handle_proximity_sensor(cx: &mut Cx, sensor_handle: Number) -> Result<(i64, f64, [f64; 3], i64, [f64; 3])> {
+fn handle_proximity_sensor(
+    cx: &mut Cx,
+    sensor_handle: Number,
+) -> Result<(i64, f64, [f64; 3], i64, [f64; 3])> {
     if let special::ALL | special::ALL_EXCEPT_EXPLICIT = sensor_handle.0 {
-        return Ok(reading(cx.handle_proximity_sensors(sensor_handle.0 == special::ALL)));
+        return Ok(reading(
+            cx.handle_proximity_sensors(sensor_handle.0 == special::ALL),
+        ));
     }
     let sensor = sensor(&cx.scene(), sensor_handle.0);
-    sensor.map_or(Ok(nothing(-1)), |sensor| cx.handle_proximity_sensor(sensor).map(reading))
+    sensor.map_or(Ok(nothing(-1)), |sensor| {
+        cx.handle_proximity_sensor(sensor).map(reading)
+    })
 }
 
 /// Result of the last handling of a sensor.
@@ -70,11 +81,18 @@ fn handle_proximity_sensor(cx: &mut Cx, sensor_handle: Number) -> Result<(i64, f
 /// @return detectedObjectHandle -1 if nothing was detected
 /// @return normalVector of the surface, in the frame of the sensor
 #[api("sim.readProximitySensor")]
-fn read_proximity_sensor(cx: &Cx, sensor_handle: Handle) -> Result<(i64, f64, [f64; 3], i64, [f64; 3])> {
+fn read_proximity_sensor(
+    cx: &Cx,
+    sensor_handle: Handle,
+) -> Result<(i64, f64, [f64; 3], i64, [f64; 3])> {
     let scene = cx.scene();
     let sensor = scene.object(sensor_handle)?.proximity_sensor()?;
     let never = !sensor.handled && cx.clock().state() != SimulationState::Stopped;
-    Ok(if never { nothing(-1) } else { reading(sensor.detection) })
+    Ok(if never {
+        nothing(-1)
+    } else {
+        reading(sensor.detection)
+    })
 }
 
 /// Measures without storing the result and without calling scripts.
@@ -103,7 +121,13 @@ fn check_proximity_sensor(
         let group = Entity::named_or_all(scene, entity_handle.0)?.group(scene, Purpose::Detection);
         perception.detect(scene, sensor, &group, mode)
     })?;
-    Ok(found.map_or(nothing(0), |Detected { detection, distance }| reading_at(&detection, distance)))
+    Ok(found.map_or(
+        nothing(0),
+        |Detected {
+             detection,
+             distance,
+         }| reading_at(&detection, distance),
+    ))
 }
 
 /// The same with all parameters.
@@ -158,7 +182,9 @@ fn check_proximity_sensor_ex2(
     let (sensor, mode) = sensor_and_mode(cx, sensor_handle, mode, threshold, max_angle)?;
     let items = Items::new(&vertices, item_type.0, item_count.0)?;
     let hit = cx.query(|perception, scene| perception.detect_items(scene, sensor, &items, mode))?;
-    Ok(hit.map_or((0, 0.0, [0.0; 3], [0.0; 3]), |hit| (1, hit.distance, hit.point, hit.normal)))
+    Ok(hit.map_or((0, 0.0, [0.0; 3], [0.0; 3]), |hit| {
+        (1, hit.distance, hit.point, hit.normal)
+    }))
 }
 
 /// The sensor, and how it is to look.

@@ -7,11 +7,15 @@ use perception::entity::Entity;
 use scene::{Handle, Scene, special};
 use script::Number;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![check_collision, check_collision_ex, check_distance];
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![check_collision, check_collision_ex, check_distance];
 
 /// Entities for the two handles of a script.
 fn entities(scene: &Scene, [first, second]: [Number; 2]) -> Result<[Entity; 2]> {
-    Ok([Entity::named(scene, first.0)?, Entity::named_or_all(scene, second.0)?])
+    Ok([
+        Entity::named(scene, first.0)?,
+        Entity::named_or_all(scene, second.0)?,
+    ])
 }
 
 fn raw(objects: Option<[Handle; 2]>) -> Vec<i64> {
@@ -33,7 +37,11 @@ fn check_collision(
     let found = cx.query(|perception, scene| {
         let entities = entities(scene, [entity1_handle, entity2_handle])?;
         let is_on = scene.settings().calculations.collision;
-        Ok::<_, crate::ApiError>(if is_on { perception.collision(scene, entities) } else { None })
+        Ok::<_, crate::ApiError>(if is_on {
+            perception.collision(scene, entities)
+        } else {
+            None
+        })
     })?;
     Ok((i64::from(found.is_some()), raw(found)))
 }
@@ -45,13 +53,24 @@ fn check_collision(
 /// @return segmentCount how many
 /// @return segmentData x, y, z of both ends of each, in the world
 #[api("sim.checkCollisionEx")]
-fn check_collision_ex(cx: &Cx, entity1_handle: Number, entity2_handle: Number) -> Result<(i64, Vec<f64>)> {
+fn check_collision_ex(
+    cx: &Cx,
+    entity1_handle: Number,
+    entity2_handle: Number,
+) -> Result<(i64, Vec<f64>)> {
     let segments = cx.query(|perception, scene| {
         let entities = entities(scene, [entity1_handle, entity2_handle])?;
         let is_on = scene.settings().calculations.collision;
-        Ok::<_, crate::ApiError>(if is_on { perception.intersections(scene, entities) } else { Vec::new() })
+        Ok::<_, crate::ApiError>(if is_on {
+            perception.intersections(scene, entities)
+        } else {
+            Vec::new()
+        })
     })?;
-    Ok((segments.len() as i64, segments.as_flattened().as_flattened().to_vec()))
+    Ok((
+        segments.len() as i64,
+        segments.as_flattened().as_flattened().to_vec(),
+    ))
 }
 
 /// The smallest distance between the surfaces of two entities. Flags of objects that are named alone do not count.
@@ -69,13 +88,32 @@ fn check_distance(
     #[default(special::ALL, "sim.handle_all")] entity2_handle: Number,
     #[default(0.0)] threshold: f64,
 ) -> Result<(i64, Vec<f64>, Vec<i64>)> {
-    let below = if threshold > 0.0 { threshold } else { f64::INFINITY };
+    let below = if threshold > 0.0 {
+        threshold
+    } else {
+        f64::INFINITY
+    };
     let found = cx.query(|perception, scene| {
         let entities = entities(scene, [entity1_handle, entity2_handle])?;
         let is_on = scene.settings().calculations.distance;
-        Ok::<_, crate::ApiError>(if is_on { perception.distance(scene, entities, below) } else { None })
+        Ok::<_, crate::ApiError>(if is_on {
+            perception.distance(scene, entities, below)
+        } else {
+            None
+        })
     })?;
-    let data = found
-        .map_or(vec![0.0; 7], |found| found.points.as_flattened().iter().copied().chain([found.distance]).collect());
-    Ok((i64::from(found.is_some()), data, raw(found.map(|found| found.objects))))
+    let data = found.map_or(vec![0.0; 7], |found| {
+        found
+            .points
+            .as_flattened()
+            .iter()
+            .copied()
+            .chain([found.distance])
+            .collect()
+    });
+    Ok((
+        i64::from(found.is_some()),
+        data,
+        raw(found.map(|found| found.objects)),
+    ))
 }

@@ -62,7 +62,11 @@ fn handle_sensors(cx: &mut Cx) -> Result<()> {
 fn take_pictures(cx: &mut Cx, sensor_handle: Number) -> Result<(i64, Vec<Vec<f32>>)> {
     let (mut count, mut packets) = (0, Vec::new());
     let handled = sensors(cx, sensor_handle)?;
-    let handled = if sensors_are_handled(cx, HANDLING_ENABLED) { handled } else { Vec::new() };
+    let handled = if sensors_are_handled(cx, HANDLING_ENABLED) {
+        handled
+    } else {
+        Vec::new()
+    };
     for sensor in handled {
         // The scripts of another sensor may have removed it.
         if let Ok(reading) = cx.handle_vision_sensor(sensor) {
@@ -80,7 +84,11 @@ fn take_pictures(cx: &mut Cx, sensor_handle: Number) -> Result<(i64, Vec<Vec<f32
 /// @param entityHandle an object, which need not be renderable, a collection, or sim.handle_all
 /// @return result, packets 1: triggered, 0: not; then the packets of numbers, at least two
 #[api("sim.checkVisionSensor")]
-fn check_vision_sensor(cx: &mut Cx, sensor_handle: Handle, entity_handle: Number) -> Result<Results> {
+fn check_vision_sensor(
+    cx: &mut Cx,
+    sensor_handle: Handle,
+    entity_handle: Number,
+) -> Result<Results> {
     let (reading, _) = cx.check_vision_sensor(sensor_handle, entity(cx, entity_handle)?)?;
     let mut packets = reading.packets;
     packets.resize(packets.len().max(2), Vec::new());
@@ -102,21 +110,37 @@ fn check_vision_sensor_ex(
 ) -> Result<Vec<f64>> {
     let (_, sensor) = cx.check_vision_sensor(sensor_handle, entity(cx, entity_handle)?)?;
     Ok(match return_image {
-        true => sensor.image().iter().map(|&level| f64::from(level) / 255.0).collect(),
-        false => sensor.depth().iter().map(|&depth| f64::from(depth)).collect(),
+        true => sensor
+            .image()
+            .iter()
+            .map(|&level| f64::from(level) / 255.0)
+            .collect(),
+        false => sensor
+            .depth()
+            .iter()
+            .map(|&depth| f64::from(depth))
+            .collect(),
     })
 }
 
 /// Entity for the handle of a script.
 fn entity(cx: &Cx, handle: Number) -> Result<Entity> {
     let scene = cx.scene();
-    let entity = Entity::from_raw(if handle.0 == special::ALL { Entity::ALL.raw() } else { handle.0 });
+    let entity = Entity::from_raw(if handle.0 == special::ALL {
+        Entity::ALL.raw()
+    } else {
+        handle.0
+    });
     let known = match entity.object() {
         _ if entity == Entity::ALL => true,
         Some(object) => scene.exists(object),
         None => scene.collections().get(entity.raw()).is_ok(),
     };
-    if known { Ok(entity) } else { Err(ApiError::Other("entity does not exist.".into())) }
+    if known {
+        Ok(entity)
+    } else {
+        Err(ApiError::Other("entity does not exist.".into()))
+    }
 }
 
 /// The results of the last handling: whether a script found what it looks for, and packets of numbers. The first packet has the smallest,
@@ -127,16 +151,28 @@ fn entity(cx: &Cx, handle: Number) -> Result<Entity> {
 #[api("sim.readVisionSensor")]
 fn read_vision_sensor(cx: &Cx, sensor_handle: Handle) -> Result<Results> {
     let scene = cx.scene();
-    let reading = scene.object(sensor_handle)?.vision_sensor()?.reading.as_ref();
-    Ok(Results(
-        reading.map_or_else(|| vec![Data::Int(-1)], |reading| results(reading.triggered.into(), &reading.packets)),
-    ))
+    let reading = scene
+        .object(sensor_handle)?
+        .vision_sensor()?
+        .reading
+        .as_ref();
+    Ok(Results(reading.map_or_else(
+        || vec![Data::Int(-1)],
+        |reading| results(reading.triggered.into(), &reading.packets),
+    )))
 }
 
 /// Result and packets as scripts receive them.
 fn results(result: i64, packets: &[Vec<f32>]) -> Vec<Data> {
-    let packets = packets.iter().map(|packet| packet.iter().map(|&value| f64::from(value)).collect::<Vec<_>>());
-    std::iter::once(Data::Int(result)).chain(packets.map(Data::from)).collect()
+    let packets = packets.iter().map(|packet| {
+        packet
+            .iter()
+            .map(|&value| f64::from(value))
+            .collect::<Vec<_>>()
+    });
+    std::iter::once(Data::Int(result))
+        .chain(packets.map(Data::from))
+        .collect()
 }
 
 /// Clears the results of vision sensors.
@@ -160,7 +196,9 @@ fn sensors(cx: &Cx, handle: Number) -> Result<Vec<Handle>> {
             let handle = Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?;
             return match scene.object(handle)?.vision_sensor()?.explicit {
                 true => Ok(vec![handle]),
-                false => Err(ApiError::Other("object not tagged for explicit handling.".into())),
+                false => Err(ApiError::Other(
+                    "object not tagged for explicit handling.".into(),
+                )),
             };
         }
     };
@@ -168,7 +206,11 @@ fn sensors(cx: &Cx, handle: Number) -> Result<Vec<Handle>> {
         return Ok(Vec::new());
     }
     let is_meant = |o: &&Object| matches!(&o.kind, Kind::VisionSensor(sensor) if explicit_too || !sensor.explicit);
-    Ok(scene.objects().filter(is_meant).map(Object::handle).collect())
+    Ok(scene
+        .objects()
+        .filter(is_meant)
+        .map(Object::handle)
+        .collect())
 }
 
 /// The part of a sensor's picture that a script means.
@@ -199,7 +241,11 @@ fn get_vision_sensor_img(
     let scene = cx.scene();
     let sensor = scene.object(sensor_handle)?.vision_sensor()?;
     let alpha = (options.0 & option::ALPHA != 0).then_some(rgba_cut_off as f32);
-    let image = sensor.image_part(area(sensor, pos, size)?, options.0 & option::GREY != 0, alpha);
+    let image = sensor.image_part(
+        area(sensor, pos, size)?,
+        options.0 & option::GREY != 0,
+        alpha,
+    );
     Ok((Bytes(image), IntPair(sensor.view.resolution.map(i64::from))))
 }
 
@@ -222,17 +268,26 @@ fn get_vision_sensor_depth(
     let scene = cx.scene();
     let sensor = scene.object(sensor_handle)?.vision_sensor()?;
     let depth = sensor.depth_part(area(sensor, pos, size)?, options.0 & option::METRES != 0);
-    Ok((Bytes(packed(&depth)), IntPair(sensor.view.resolution.map(i64::from))))
+    Ok((
+        Bytes(packed(&depth)),
+        IntPair(sensor.view.resolution.map(i64::from)),
+    ))
 }
 
 /// 32-bit floats as bytes.
 pub(crate) fn packed(values: &[f32]) -> Vec<u8> {
-    values.iter().flat_map(|value| value.to_le_bytes()).collect()
+    values
+        .iter()
+        .flat_map(|value| value.to_le_bytes())
+        .collect()
 }
 
 /// 32-bit floats from bytes.
 pub(crate) fn unpacked(bytes: &[u8]) -> Vec<f32> {
-    bytes.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect()
+    bytes
+        .chunks_exact(4)
+        .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+        .collect()
 }
 
 /// Replaces the image of a vision sensor, or a part of it, and calls the sensor's scripts (`sysCall_vision`).
@@ -251,13 +306,21 @@ fn set_vision_sensor_img(
     #[default([0.0; 2])] pos: [f64; 2],
     #[default([0.0; 2])] size: [f64; 2],
 ) -> Result<()> {
-    let part = area(cx.scene().object(sensor_handle)?.vision_sensor()?, pos, size)?;
+    let part = area(
+        cx.scene().object(sensor_handle)?.vision_sensor()?,
+        pos,
+        size,
+    )?;
     let has = |bit: i64| options.0 & bit != 0;
     cx.change_picture(sensor_handle, |sensor| match has(option::DEPTH) {
         true => image.0.len().is_multiple_of(4) && sensor.set_depth_part(part, &unpacked(&image.0)),
         false => sensor.set_image_part(part, &image.0, has(option::GREY)),
     })?;
-    if has(option::NO_CALLBACK) { Ok(()) } else { cx.evaluate_set_picture(sensor_handle) }
+    if has(option::NO_CALLBACK) {
+        Ok(())
+    } else {
+        cx.evaluate_set_picture(sensor_handle)
+    }
 }
 
 /// Resolution of a vision sensor.
@@ -266,5 +329,12 @@ fn set_vision_sensor_img(
 /// @return resolution pixels along x and y
 #[api("sim.getVisionSensorRes")]
 fn get_vision_sensor_res(cx: &Cx, sensor_handle: Handle) -> Result<Vec<i64>> {
-    Ok(cx.scene().object(sensor_handle)?.vision_sensor()?.view.resolution.map(i64::from).to_vec())
+    Ok(cx
+        .scene()
+        .object(sensor_handle)?
+        .vision_sensor()?
+        .view
+        .resolution
+        .map(i64::from)
+        .to_vec())
 }

@@ -19,7 +19,11 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// The colour passed by the script, or that of the octree or point cloud.
 fn colour(scene: &Scene, handle: Handle, given: Option<&[f64]>) -> Result<[u8; 3]> {
     match given {
-        None | Some([]) => Ok(scene.object(handle)?.colour.ambient_diffuse.map(|part| (255.0 * part) as u8)),
+        None | Some([]) => Ok(scene
+            .object(handle)?
+            .colour
+            .ambient_diffuse
+            .map(|part| (255.0 * part) as u8)),
         Some(&[red, green, blue, ..]) => Ok([red, green, blue].map(|part| part as u8)),
         Some(_) => Err(ApiError::TableSize),
     }
@@ -45,7 +49,10 @@ fn insert_object_into_octree(
     let _ = options;
     let mut scene = cx.scene_mut();
     let edge = scene.object(octree_handle)?.octree()?.voxel_size();
-    let voxel = Voxel { colour: colour(&scene, octree_handle, color.as_deref())?, tag: tag.0 as u32 };
+    let voxel = Voxel {
+        colour: colour(&scene, octree_handle, color.as_deref())?,
+        tag: tag.0 as u32,
+    };
     let cells = scene.cells_of(object_handle, octree_handle, edge)?;
     Ok(scene.try_modify(octree_handle, Field::Geometry, |object| {
         let tree = object.octree_mut()?;
@@ -102,8 +109,12 @@ fn insert_object_into_cloud(
     scene.object(point_cloud_handle)?.point_cloud()?;
     let colour = colour(&scene, point_cloud_handle, color.as_deref())?;
     let points = scene.points_of(object_handle, point_cloud_handle, cell_size(grid_size))?;
-    let points = points.into_iter().map(|position| CloudPoint { position, colour });
-    change_cloud(&mut scene, point_cloud_handle, |cloud| cloud.insert(points, duplicate_tolerance.unwrap_or(0.0)))
+    let points = points
+        .into_iter()
+        .map(|position| CloudPoint { position, colour });
+    change_cloud(&mut scene, point_cloud_handle, |cloud| {
+        cloud.insert(points, duplicate_tolerance.unwrap_or(0.0))
+    })
 }
 
 /// Removes the points that lie near an object: near the triangles of a shape, near voxels, points or a dummy.

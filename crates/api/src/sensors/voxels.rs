@@ -54,10 +54,19 @@ fn colours(
     count: usize,
 ) -> Result<Vec<[u8; 3]>> {
     let Some(given) = given.filter(|given| !given.is_empty()) else {
-        let own = scene.object(handle)?.colour.ambient_diffuse.map(|part| (255.0 * part) as u8);
+        let own = scene
+            .object(handle)?
+            .colour
+            .ambient_diffuse
+            .map(|part| (255.0 * part) as u8);
         return Ok(vec![own; count]);
     };
-    let colours: Vec<[u8; 3]> = given.as_chunks().0.iter().map(|c: &Point| c.map(|part| part as u8)).collect();
+    let colours: Vec<[u8; 3]> = given
+        .as_chunks()
+        .0
+        .iter()
+        .map(|c: &Point| c.map(|part| part as u8))
+        .collect();
     let each = point_options(options).contains(PointOptions::EACH);
     match colours.as_slice() {
         all if each && all.len() >= count => Ok(colours),
@@ -90,7 +99,13 @@ fn insert_voxels(
     let mut scene = cx.scene_mut();
     scene.object(octree_handle)?.octree()?;
     let points = points_in(&scene, octree_handle, options, &points)?;
-    let colours = colours(&scene, octree_handle, options, color.as_deref(), points.len())?;
+    let colours = colours(
+        &scene,
+        octree_handle,
+        options,
+        color.as_deref(),
+        points.len(),
+    )?;
     let tags = tags(tag.filter(|_| color.is_some()), points.len())?;
     Ok(scene.try_modify(octree_handle, Field::Geometry, |object| {
         let tree = object.octree_mut()?;
@@ -106,8 +121,12 @@ fn tags(given: Option<Data>, count: usize) -> Result<Vec<u32>> {
     let number = |value: &Data| value.as_f64().map(|number| number as u32);
     match given {
         None | Some(Data::Nil) => Ok(vec![0; count]),
-        Some(Data::Array(items)) if items.len() == 1 => Ok(vec![number(&items[0]).unwrap_or(0); count]),
-        Some(Data::Array(items)) if items.len() >= count => Ok(items.iter().filter_map(number).collect()),
+        Some(Data::Array(items)) if items.len() == 1 => {
+            Ok(vec![number(&items[0]).unwrap_or(0); count])
+        }
+        Some(Data::Array(items)) if items.len() >= count => {
+            Ok(items.iter().filter_map(number).collect())
+        }
         Some(Data::Array(_)) => Err(ApiError::TableSize),
         Some(value) => Ok(vec![number(&value).unwrap_or(0); count]),
     }
@@ -127,7 +146,9 @@ fn remove_voxels(
     #[default(None)] points: Option<Vec<f64>>,
 ) -> Result<i64> {
     let mut scene = cx.scene_mut();
-    let points = points.map(|points| points_in(&scene, octree_handle, options, &points)).transpose()?;
+    let points = points
+        .map(|points| points_in(&scene, octree_handle, options, &points))
+        .transpose()?;
     Ok(scene.try_modify(octree_handle, Field::Geometry, |object| {
         let tree = object.octree_mut()?;
         match points {
@@ -144,7 +165,13 @@ fn remove_voxels(
 /// @return voxels x, y, z of each
 #[api("sim.getOctreeVoxels")]
 fn octree_voxels(cx: &Cx, octree_handle: Handle) -> Result<Vec<f64>> {
-    Ok(cx.scene().object(octree_handle)?.octree()?.voxels().flat_map(|(centre, _)| centre).collect())
+    Ok(cx
+        .scene()
+        .object(octree_handle)?
+        .octree()?
+        .voxels()
+        .flat_map(|(centre, _)| centre)
+        .collect())
 }
 
 /// Whether points are in voxels.
@@ -157,11 +184,19 @@ fn octree_voxels(cx: &Cx, octree_handle: Handle) -> Result<Vec<f64>> {
 /// @return locationLow 0
 /// @return locationHigh 0
 #[api("sim.checkOctreePointOccupancy")]
-fn check_occupancy(cx: &Cx, octree_handle: Handle, options: Number, points: Vec<f64>) -> Result<(i64, i64, i64, i64)> {
+fn check_occupancy(
+    cx: &Cx,
+    octree_handle: Handle,
+    options: Number,
+    points: Vec<f64>,
+) -> Result<(i64, i64, i64, i64)> {
     let scene = cx.scene();
     let tree = scene.object(octree_handle)?.octree()?;
     let points = points_in(&scene, octree_handle, options, &points)?;
-    let found: Vec<Option<&Voxel>> = points.into_iter().map(|point| tree.voxel_at(point)).collect();
+    let found: Vec<Option<&Voxel>> = points
+        .into_iter()
+        .map(|point| tree.voxel_at(point))
+        .collect();
     let tag = match found.as_slice() {
         [Some(voxel)] => voxel.tag.into(),
         _ => 0,
@@ -189,14 +224,27 @@ fn insert_points(
     let mut scene = cx.scene_mut();
     scene.object(point_cloud_handle)?.point_cloud()?;
     let points = points_in(&scene, point_cloud_handle, options, &points)?;
-    let colours = colours(&scene, point_cloud_handle, options, color.as_deref(), points.len())?;
-    let points = points.into_iter().zip(colours).map(|(position, colour)| CloudPoint { position, colour });
+    let colours = colours(
+        &scene,
+        point_cloud_handle,
+        options,
+        color.as_deref(),
+        points.len(),
+    )?;
+    let points = points
+        .into_iter()
+        .zip(colours)
+        .map(|(position, colour)| CloudPoint { position, colour });
     change_cloud(&mut scene, point_cloud_handle, |cloud| {
         cloud.insert(points, duplicate_tolerance.unwrap_or(DUPLICATE_TOLERANCE));
     })
 }
 
-pub(crate) fn change_cloud(scene: &mut Scene, handle: Handle, change: impl FnOnce(&mut PointCloud)) -> Result<i64> {
+pub(crate) fn change_cloud(
+    scene: &mut Scene,
+    handle: Handle,
+    change: impl FnOnce(&mut PointCloud),
+) -> Result<i64> {
     Ok(scene.try_modify(handle, Field::Geometry, |object| {
         let cloud = object.point_cloud_mut()?;
         change(cloud);
@@ -220,7 +268,9 @@ fn remove_points(
     #[default(0.0)] tolerance: f64,
 ) -> Result<i64> {
     let mut scene = cx.scene_mut();
-    let points = points.map(|points| points_in(&scene, point_cloud_handle, options, &points)).transpose()?;
+    let points = points
+        .map(|points| points_in(&scene, point_cloud_handle, options, &points))
+        .transpose()?;
     change_cloud(&mut scene, point_cloud_handle, |cloud| match points {
         Some(points) => cloud.remove(points.into_iter(), tolerance),
         None => cloud.points.clear(),
@@ -244,7 +294,9 @@ fn intersect_points(
 ) -> Result<i64> {
     let mut scene = cx.scene_mut();
     let points = points_in(&scene, point_cloud_handle, options, &points)?;
-    change_cloud(&mut scene, point_cloud_handle, |cloud| cloud.intersect(points.into_iter(), tolerance))
+    change_cloud(&mut scene, point_cloud_handle, |cloud| {
+        cloud.intersect(points.into_iter(), tolerance)
+    })
 }
 
 /// The points, in the frame of the point cloud, in the order they came.
@@ -254,7 +306,13 @@ fn intersect_points(
 #[api("sim.getPointCloudPoints")]
 fn cloud_points(cx: &Cx, point_cloud_handle: Handle) -> Result<Vec<f64>> {
     let scene = cx.scene();
-    Ok(scene.object(point_cloud_handle)?.point_cloud()?.points.iter().flat_map(|point| point.position).collect())
+    Ok(scene
+        .object(point_cloud_handle)?
+        .point_cloud()?
+        .points
+        .iter()
+        .flat_map(|point| point.position)
+        .collect())
 }
 
 /// Options of a point cloud.
@@ -271,7 +329,12 @@ fn cloud_options(cx: &Cx, point_cloud_handle: Handle) -> Result<(f64, i64, i64, 
     let mut options = StorageOptions::empty();
     options.set(StorageOptions::RANDOM_COLOURS, cloud.random_colours);
     options.set(StorageOptions::WITHOUT_OCTREE, !cloud.uses_octree);
-    Ok((cloud.max_cell_size, cloud.max_points_in_cell, options.bits(), cloud.point_size as f64))
+    Ok((
+        cloud.max_cell_size,
+        cloud.max_points_in_cell,
+        options.bits(),
+        cloud.point_size as f64,
+    ))
 }
 
 /// Changes how a point cloud keeps and shows its points.

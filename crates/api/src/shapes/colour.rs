@@ -7,7 +7,12 @@ use scene::appearance::colour::{ColourComponent, ColourName};
 use scene::{Data, Handle, SceneError};
 use script::Number;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![get_shape_color, set_shape_color, get_object_color, set_object_color];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    get_shape_color,
+    set_shape_color,
+    get_object_color,
+    set_object_color
+];
 
 fn component(code: Number) -> Result<ColourComponent> {
     ColourComponent::from_code(code.0).ok_or(ApiError::Scene(SceneError::InvalidArgument))
@@ -28,7 +33,11 @@ fn get_shape_color(
     color_component: Number,
 ) -> Result<(i64, Vec<f64>)> {
     let component = component(color_component)?;
-    let colour = cx.scene().object(shape_handle)?.shape()?.colour(&ColourName::from_script(color_name), component);
+    let colour = cx
+        .scene()
+        .object(shape_handle)?
+        .shape()?
+        .colour(&ColourName::from_script(color_name), component);
     Ok(colour.map_or_else(|| (0, vec![0.0; component.width()]), |colour| (1, colour)))
 }
 
@@ -52,7 +61,12 @@ fn set_shape_color(
         return Err(ApiError::TableSize);
     }
     let shape_handle = marked_shape(cx, &shape_handle)?;
-    cx.scene_mut().set_shape_colour(shape_handle, &ColourName::from_script(color_name), component, &rgb_data)?;
+    cx.scene_mut().set_shape_colour(
+        shape_handle,
+        &ColourName::from_script(color_name),
+        component,
+        &rgb_data,
+    )?;
     Ok(1)
 }
 
@@ -69,8 +83,12 @@ fn get_object_color(
     index: Number,
     color_component: Number,
 ) -> Result<Option<Vec<f64>>> {
-    let Ok(index) = usize::try_from(index.0) else { return Ok(None) };
-    Ok(cx.scene().object_colour(object_handle, index, component(color_component)?)?)
+    let Ok(index) = usize::try_from(index.0) else {
+        return Ok(None);
+    };
+    Ok(cx
+        .scene()
+        .object_colour(object_handle, index, component(color_component)?)?)
 }
 
 /// Colours an object.
@@ -92,19 +110,29 @@ fn set_object_color(
     if rgb_data.len() < component.width() {
         return Err(ApiError::TableSize);
     }
-    let Ok(index) = usize::try_from(index.0) else { return Ok(false) };
-    Ok(cx.scene_mut().set_object_colour(object_handle, index, component, &rgb_data)?)
+    let Ok(index) = usize::try_from(index.0) else {
+        return Ok(false);
+    };
+    Ok(cx
+        .scene_mut()
+        .set_object_colour(object_handle, index, component, &rgb_data)?)
 }
 
 /// The shape a handle means, which scripts of old scenes mark.
 fn marked_shape(cx: &Cx, handle: &Data) -> Result<Handle> {
     let number = match handle {
-        Data::Text(text) => std::str::from_utf8(text)
-            .ok()
-            .and_then(|text| text.strip_prefix("@backCompatibility1:").unwrap_or(text).parse::<f64>().ok()),
+        Data::Text(text) => std::str::from_utf8(text).ok().and_then(|text| {
+            text.strip_prefix("@backCompatibility1:")
+                .unwrap_or(text)
+                .parse::<f64>()
+                .ok()
+        }),
         other => other.as_f64(),
     };
-    let number = number.ok_or(ApiError::NotA { position: 1, expected: "number" })?;
+    let number = number.ok_or(ApiError::NotA {
+        position: 1,
+        expected: "number",
+    })?;
     let handle = Handle::from_raw(number as i64).ok_or(SceneError::NoSuchObject)?;
     Ok(cx.scene().object(handle)?.handle())
 }

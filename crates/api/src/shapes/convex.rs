@@ -13,8 +13,12 @@ use scene::shape::options::{DecompositionOptions, PathShapeOptions};
 use scene::{Handle, Kind, SceneError};
 use script::{Number, Rest};
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![get_q_hull, get_decimated_mesh, convex_decompose, generate_shape_from_path];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    get_q_hull,
+    get_decimated_mesh,
+    convex_decompose,
+    generate_shape_from_path
+];
 
 /// Convex hull of points.
 ///
@@ -26,8 +30,8 @@ fn get_q_hull(_cx: &Cx, vertices_in: Vec<f64>) -> Result<(Vec<f64>, Vec<i64>)> {
     if !vertices_in.iter().all(|c| c.is_finite()) {
         return Err(SceneError::InvalidData.into());
     }
-    let hull =
-        Mesh::convex_hull(vertices_in.as_chunks().0).ok_or_else(|| refused("the points do not span a volume."))?;
+    let hull = Mesh::convex_hull(vertices_in.as_chunks().0)
+        .ok_or_else(|| refused("the points do not span a volume."))?;
     Ok((hull.flat_vertices(), hull.flat_indices()))
 }
 
@@ -46,11 +50,17 @@ fn get_decimated_mesh(
     decimation_percentage: f64,
 ) -> Result<(Vec<f64>, Vec<i64>)> {
     if !(0.1..=0.9).contains(&decimation_percentage) {
-        return Err(refused("the share of triangles that remain lies between 0.1 and 0.9."));
+        return Err(refused(
+            "the share of triangles that remain lies between 0.1 and 0.9.",
+        ));
     }
-    let mesh = Mesh::from_flat(&vertices_in, &indices_in, None).map_err(|error| refused(&error.to_string()))?;
+    let mesh = Mesh::from_flat(&vertices_in, &indices_in, None)
+        .map_err(|error| refused(&error.to_string()))?;
     let triangles = (mesh.triangles.len() as f64 * decimation_percentage).ceil() as usize;
-    let target = Target { triangles, ..Target::default() };
+    let target = Target {
+        triangles,
+        ..Target::default()
+    };
     let mesh = decimated_mesh(mesh, target).ok_or_else(|| refused("the mesh has no area."))?;
     Ok((mesh.flat_vertices(), mesh.flat_indices()))
 }
@@ -97,17 +107,24 @@ fn generate_shape_from_path(
     if path.len() < 14 || section.len() < 4 {
         return Err(ApiError::TableSize);
     }
-    if !path.iter().chain(&section).chain(&up_vector).all(|x| x.is_finite()) {
+    if !path
+        .iter()
+        .chain(&section)
+        .chain(&up_vector)
+        .all(|x| x.is_finite())
+    {
         return Err(SceneError::InvalidData.into());
     }
     let poses: Vec<_> = path.as_chunks().0.iter().map(pose_from_array).collect();
     let up = Some(up_vector).filter(|up| up.iter().any(|c| *c != 0.0));
     let closed = PathShapeOptions::from_bits_retain(options.0).contains(PathShapeOptions::CLOSED);
     let extrusion = Extrusion { closed, up };
-    let mesh = extrusion.mesh(&poses, section.as_chunks().0).map_err(|error| match error {
-        MeshError::Empty => refused("the path or the section has no extent."),
-        other => refused(&other.to_string()),
-    })?;
+    let mesh = extrusion
+        .mesh(&poses, section.as_chunks().0)
+        .map_err(|error| match error {
+            MeshError::Empty => refused("the path or the section has no extent."),
+            other => refused(&other.to_string()),
+        })?;
     let shape = Shape::from_mesh(mesh, Shape::mesh_appearance())?;
     cx.add_object("shape", Kind::Shape(Box::new(shape)))
 }

@@ -14,7 +14,11 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![group_shapes, ungroup_shape];
 /// @param merge whether the result is one mesh instead of a compound
 /// @return shapeHandle the new shape
 #[api("sim.groupShapes")]
-fn group_shapes(cx: &mut Cx, shape_handles: Handles, #[default(false)] merge: bool) -> Result<Handle> {
+fn group_shapes(
+    cx: &mut Cx,
+    shape_handles: Handles,
+    #[default(false)] merge: bool,
+) -> Result<Handle> {
     let (group, members) = cx.scene_mut().group_shapes(&shape_handles.0, merge)?;
     replace(cx, &members, vec![group])?;
     Ok(group)
@@ -26,9 +30,17 @@ fn group_shapes(cx: &mut Cx, shape_handles: Handles, #[default(false)] merge: bo
 /// @return simpleShapeHandles the new shapes, or the shape itself when there is nothing to take apart
 #[api("sim.ungroupShape")]
 fn ungroup_shape(cx: &mut Cx, shape_handle: Number) -> Result<Vec<Handle>> {
-    let (raw, divide) = if shape_handle.0 < -1 { (-2 - shape_handle.0, true) } else { (shape_handle.0, false) };
+    let (raw, divide) = if shape_handle.0 < -1 {
+        (-2 - shape_handle.0, true)
+    } else {
+        (shape_handle.0, false)
+    };
     let handle = Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?;
-    let pieces = if divide { cx.scene_mut().divide_shape(handle) } else { cx.scene_mut().ungroup_shape(handle) };
+    let pieces = if divide {
+        cx.scene_mut().divide_shape(handle)
+    } else {
+        cx.scene_mut().ungroup_shape(handle)
+    };
     match pieces? {
         Some(pieces) => replace(cx, &[handle], pieces),
         None => Ok(vec![handle]),

@@ -53,9 +53,16 @@ fn get_shape_inertia(cx: &Cx, shape_handle: Handle) -> Result<(Vec<f64>, [f64; 1
 /// @param inertiaMatrix kg m2, about the centre of mass, along the axes of comMatrix; the upper triangle counts
 /// @param comMatrix frame at the centre of mass, in the shape's frame
 #[api("sim.setShapeInertia")]
-fn set_shape_inertia(cx: &mut Cx, shape_handle: Handle, inertia_matrix: [f64; 9], com_matrix: [f64; 12]) -> Result<()> {
+fn set_shape_inertia(
+    cx: &mut Cx,
+    shape_handle: Handle,
+    inertia_matrix: [f64; 9],
+    com_matrix: [f64; 12],
+) -> Result<()> {
     Ok(cx.scene_mut().reshape(shape_handle, |shape| {
-        shape.mass.set_absolute_inertia(&inertia_matrix, &com_matrix);
+        shape
+            .mass
+            .set_absolute_inertia(&inertia_matrix, &com_matrix);
         Ok(())
     })?)
 }
@@ -67,7 +74,11 @@ fn set_shape_inertia(cx: &mut Cx, shape_handle: Handle, inertia_matrix: [f64; 9]
 /// @return result 1, or 0 when the shape has no volume
 #[api("sim.computeMassAndInertia")]
 fn compute_mass_and_inertia(cx: &mut Cx, shape_handle: Handle, density: f64) -> Result<i64> {
-    Ok(i64::from(cx.scene_mut().reshape(shape_handle, |shape| Ok(shape.set_mass_from_density(density)))?))
+    Ok(i64::from(
+        cx.scene_mut().reshape(shape_handle, |shape| {
+            Ok(shape.set_mass_from_density(density))
+        })?,
+    ))
 }
 
 /// Assigns a preset material to a shape, or the material of another shape.
@@ -76,7 +87,13 @@ fn compute_mass_and_inertia(cx: &mut Cx, shape_handle: Handle, density: f64) -> 
 /// @param materialIdOrShapeHandle sim.dynmat_* or a shape
 /// @return result -1 for a preset, 1 for another shape
 #[api("sim.setShapeMaterial")]
-fn set_shape_material(cx: &mut Cx, shape_handle: Handle, material_id_or_shape_handle: Number) -> Result<i64> {
-    let copied = cx.scene_mut().set_shape_material(shape_handle, material_id_or_shape_handle.0)?;
+fn set_shape_material(
+    cx: &mut Cx,
+    shape_handle: Handle,
+    material_id_or_shape_handle: Number,
+) -> Result<i64> {
+    let copied = cx
+        .scene_mut()
+        .set_shape_material(shape_handle, material_id_or_shape_handle.0)?;
     Ok(if copied { 1 } else { -1 })
 }

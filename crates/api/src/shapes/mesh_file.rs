@@ -5,7 +5,8 @@ use mesh_files::{ExportFormat, MeshFile};
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use format::mesh_file::{
-    self, ImportedAppearance, MeshFileError, MeshImportOptions, Up, load, store, to_lists, to_parts, to_shapes,
+    self, ImportedAppearance, MeshFileError, MeshImportOptions, Up, load, store, to_lists,
+    to_parts, to_shapes,
 };
 use scene::shape::Shape;
 use scene::{Data, Handle, Kind};
@@ -114,7 +115,10 @@ fn export_mesh(
         _ => return Err(MeshFileError::UnknownFormat.into()),
     };
     let parts = to_parts(&vertices.0, &indices.0).ok_or(ApiError::TableSize)?;
-    let mut file = MeshFile { parts, ..MeshFile::default() };
+    let mut file = MeshFile {
+        parts,
+        ..MeshFile::default()
+    };
     file.scale(mesh_file::scaling_factor(scaling_factor)?);
     Ok(store(&file, format, &path_and_filename, cx.permissions())?)
 }
@@ -122,7 +126,11 @@ fn export_mesh(
 fn import_options(options: i64, scaling: f64, textures: bool) -> Result<MeshImportOptions> {
     Ok(MeshImportOptions {
         scaling: mesh_file::scaling_factor(scaling)?,
-        up: if options & option::IGNORE_UP_AXIS != 0 { Up::Z } else { Up::OfFile },
+        up: if options & option::IGNORE_UP_AXIS != 0 {
+            Up::Z
+        } else {
+            Up::OfFile
+        },
         keep_identical: options & option::KEEP_IDENTICAL != 0,
         merge_parts: false,
         textures,

@@ -42,7 +42,9 @@ fn create_primitive_shape(
     #[default(0)] options: Number,
 ) -> Result<i64> {
     let makeable = |kind: &PrimitiveKind| *kind != PrimitiveKind::Heightfield;
-    let Some(kind) = PrimitiveKind::from_code(primitive_type.0).filter(makeable) else { return Ok(-1) };
+    let Some(kind) = PrimitiveKind::from_code(primitive_type.0).filter(makeable) else {
+        return Ok(-1);
+    };
     let shape = Shape::primitive(kind, sizes, PrimitiveOptions::from_bits_retain(options.0))?;
     Ok(add(cx, kind.alias(), shape)?.raw())
 }
@@ -65,11 +67,22 @@ fn create_pure_shape(
     #[default(None)] precision: Option<[f64; 2]>,
 ) -> Result<Handle> {
     let _ = precision;
-    let kinds = [PrimitiveKind::Cuboid, PrimitiveKind::Spheroid, PrimitiveKind::Cylinder, PrimitiveKind::Cone];
-    let kind = usize::try_from(primitive_type.0).ok().and_then(|i| kinds.get(i).copied());
+    let kinds = [
+        PrimitiveKind::Cuboid,
+        PrimitiveKind::Spheroid,
+        PrimitiveKind::Cylinder,
+        PrimitiveKind::Cone,
+    ];
+    let kind = usize::try_from(primitive_type.0)
+        .ok()
+        .and_then(|i| kinds.get(i).copied());
     let kind = kind.ok_or(SceneError::InvalidArgument)?;
     let options = PureShapeOptions::from_bits_retain(options.0);
-    let sizes = if kind == PrimitiveKind::Spheroid { [sizes[0]; 3] } else { sizes };
+    let sizes = if kind == PrimitiveKind::Spheroid {
+        [sizes[0]; 3]
+    } else {
+        sizes
+    };
     let mut shape = Shape::primitive(kind, sizes, options.primitive())?;
     shape.mass.set_mass(mass);
     shape.dynamics.respondable = options.contains(PureShapeOptions::RESPONDABLE);
@@ -117,7 +130,8 @@ fn create_shape(
     }
     let mut shape = Shape::from_mesh(mesh, appearance)?;
     if let Some((coordinates, (pixels, size))) = texture {
-        let mapping = texture::of_mesh(cx, options, &coordinates[..], indices.len(), pixels.0, size)?;
+        let mapping =
+            texture::of_mesh(cx, options, &coordinates[..], indices.len(), pixels.0, size)?;
         shape.parts[0].texture = Some(Box::new(mapping));
     }
     add(cx, "shape", shape)
@@ -151,16 +165,25 @@ fn create_heightfield_shape(
     let plain_mesh = options.contains(HeightfieldOptions::PLAIN_MESH);
     let mut shape = Shape::terrain(columns, rows, x_size, &heights, appearance, plain_mesh)?;
     shape.dynamics.respondable = !options.contains(HeightfieldOptions::NOT_RESPONDABLE);
-    let handle = cx.scene_mut().add("heightfield", Kind::Shape(Box::new(shape)))?;
-    cx.scene_mut().modify(handle, Field::SpecialProperty, |object| {
-        object.special_property.remove(SpecialFlags::COLLIDABLE | SpecialFlags::MEASURABLE);
-    })?;
+    let handle = cx
+        .scene_mut()
+        .add("heightfield", Kind::Shape(Box::new(shape)))?;
+    cx.scene_mut()
+        .modify(handle, Field::SpecialProperty, |object| {
+            object
+                .special_property
+                .remove(SpecialFlags::COLLIDABLE | SpecialFlags::MEASURABLE);
+        })?;
     cx.notify_created(&[handle]);
     Ok(handle)
 }
 
 fn shaded(mut appearance: Appearance, shading_angle: f64) -> Appearance {
-    appearance.shading_angle = if shading_angle.is_finite() { shading_angle } else { 0.0 };
+    appearance.shading_angle = if shading_angle.is_finite() {
+        shading_angle
+    } else {
+        0.0
+    };
     appearance
 }
 
@@ -184,7 +207,11 @@ fn add(cx: &mut Cx, alias: &str, shape: Shape) -> Result<Handle> {
 #[api("sim.getShapeMesh")]
 fn get_shape_mesh(cx: &Cx, shape_handle: Handle) -> Result<(Vec<f64>, Vec<i64>, Vec<f64>)> {
     let mesh = cx.scene().object(shape_handle)?.shape()?.mesh();
-    Ok((mesh.flat_vertices(), mesh.flat_indices(), mesh.flat_normals()))
+    Ok((
+        mesh.flat_vertices(),
+        mesh.flat_indices(),
+        mesh.flat_normals(),
+    ))
 }
 
 /// The bounding box of a shape.
@@ -208,12 +235,16 @@ fn get_shape_bb(cx: &Cx, shape_handle: Handle) -> Result<([f64; 3], [f64; 7])> {
 fn get_shape_geom_info(cx: &Cx, shape_handle: Handle) -> Result<(i64, i64, [f64; 4])> {
     let scene = cx.scene();
     let shape = scene.object(shape_handle)?.shape()?;
-    let mask = i64::from(shape.is_compound()) | i64::from(shape.is_pure()) << 1 | i64::from(shape.is_convex()) << 2;
+    let mask = i64::from(shape.is_compound())
+        | i64::from(shape.is_pure()) << 1
+        | i64::from(shape.is_convex()) << 2;
     let primitive = match shape.parts.as_slice() {
         [part] => part.primitive.as_ref(),
         _ => None,
     };
-    let (kind, [x, y, z]) = primitive.map_or((0, [0.0; 3]), |primitive| (primitive.kind.code(), primitive.size));
+    let (kind, [x, y, z]) = primitive.map_or((0, [0.0; 3]), |primitive| {
+        (primitive.kind.code(), primitive.size)
+    });
     Ok((mask, kind, [x, y, z, 0.0]))
 }
 
@@ -226,24 +257,44 @@ fn get_shape_geom_info(cx: &Cx, shape_handle: Handle) -> Result<(i64, i64, [f64;
 fn get_shape_viz(cx: &Cx, shape_handle: Handle, item_index: Number) -> Result<Option<Data>> {
     let scene = cx.scene();
     let shape = scene.object(shape_handle)?.shape()?;
-    Ok(usize::try_from(item_index.0).ok().and_then(|index| shape.parts.get(index)).map(|part| viz(&scene, part)))
+    Ok(usize::try_from(item_index.0)
+        .ok()
+        .and_then(|index| shape.parts.get(index))
+        .map(|part| viz(&scene, part)))
 }
 
 fn viz(scene: &Scene, part: &Part) -> Data {
     let mut mesh = Mesh::default();
     mesh.append(&part.mesh, &part.pose);
     let appearance = &part.appearance;
-    let colours = [appearance.colour.ambient_diffuse, appearance.colour.specular, appearance.colour.emission]
-        .as_flattened()
-        .to_vec();
+    let colours = [
+        appearance.colour.ambient_diffuse,
+        appearance.colour.specular,
+        appearance.colour.emission,
+    ]
+    .as_flattened()
+    .to_vec();
     let mut viz = Data::map([
         ("vertices", mesh.flat_vertices().into()),
         ("indices", mesh.flat_indices().into()),
         ("normals", mesh.flat_normals().into()),
-        ("colors", colours.into_iter().map(f64::from).collect::<Vec<f64>>().into()),
+        (
+            "colors",
+            colours
+                .into_iter()
+                .map(f64::from)
+                .collect::<Vec<f64>>()
+                .into(),
+        ),
         ("shadingAngle", appearance.shading_angle.into()),
-        ("transparency", (1.0 - f64::from(appearance.colour.opacity)).into()),
-        ("options", (i64::from(appearance.culling) | i64::from(appearance.wireframe) << 1).into()),
+        (
+            "transparency",
+            (1.0 - f64::from(appearance.colour.opacity)).into(),
+        ),
+        (
+            "options",
+            (i64::from(appearance.culling) | i64::from(appearance.wireframe) << 1).into(),
+        ),
     ]);
     if let (Data::Map(entries), Some(texture)) = (&mut viz, texture::viz(scene, part)) {
         entries.push((Key::Text(b"texture".to_vec()), texture));

@@ -10,14 +10,22 @@ use crate::display::images::{failure, read_file};
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use format::picture::{Layout, Picture};
 use scene::appearance::texture::Texture;
-use scene::appearance::texture_mapping::{ApplyMode, MappingMode, TextureMapping, TextureOptions, TextureSource};
+use scene::appearance::texture_mapping::{
+    ApplyMode, MappingMode, TextureMapping, TextureOptions, TextureSource,
+};
 use scene::shape::options::MeshOptions;
 use scene::shape::{Part, Shape};
 use scene::{Data, Handle, Kind, Pose, Scene, SceneError};
 use script::{Bytes, IntPair, Number};
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![create_texture, get_texture_id, get_shape_texture_id, set_shape_texture, read_texture, write_texture];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    create_texture,
+    get_texture_id,
+    get_shape_texture_id,
+    set_shape_texture,
+    read_texture,
+    write_texture
+];
 
 /// Default size of a new texture in pixels.
 const DEFAULT_SIDE: f64 = 256.0;
@@ -59,15 +67,34 @@ fn create_texture(
     };
     let [width, height] = texture.size();
     let plane = plane_sizes.unwrap_or([1.0, f64::from(height) / f64::from(width)]);
-    let shape = Shape::primitive(PrimitiveKind::Plane, [plane[0], plane[1], 0.0], Default::default())?;
-    let [x, y, angle] = std::array::from_fn(|i| xy_g.as_ref().and_then(|xy_g| xy_g.get(i)).copied().unwrap_or(0.0));
-    let (scale, frame) =
-        (scaling_uv.unwrap_or(plane).finite().ok_or(SceneError::InvalidData)?, frame([x, y, 0.0], [0.0, 0.0, angle])?);
+    let shape = Shape::primitive(
+        PrimitiveKind::Plane,
+        [plane[0], plane[1], 0.0],
+        Default::default(),
+    )?;
+    let [x, y, angle] = std::array::from_fn(|i| {
+        xy_g.as_ref()
+            .and_then(|xy_g| xy_g.get(i))
+            .copied()
+            .unwrap_or(0.0)
+    });
+    let (scale, frame) = (
+        scaling_uv
+            .unwrap_or(plane)
+            .finite()
+            .ok_or(SceneError::InvalidData)?,
+        frame([x, y, 0.0], [0.0, 0.0, angle])?,
+    );
     let id = cx.scene_mut().textures_mut().add(texture)?;
     let options = TextureOptions::from_bits_retain(options.0);
-    let mapping =
-        TextureMapping { scale, frame, ..TextureMapping::new(TextureSource::Texture(id)).with_options(options) };
-    let handle = cx.scene_mut().add(PrimitiveKind::Plane.alias(), Kind::Shape(Box::new(shape)))?;
+    let mapping = TextureMapping {
+        scale,
+        frame,
+        ..TextureMapping::new(TextureSource::Texture(id)).with_options(options)
+    };
+    let handle = cx
+        .scene_mut()
+        .add(PrimitiveKind::Plane.alias(), Kind::Shape(Box::new(shape)))?;
     cx.scene_mut().set_shape_texture(handle, Some(mapping))?;
     cx.notify_created(&[handle]);
     Ok((handle, id, IntPair([width.into(), height.into()])))
@@ -77,18 +104,27 @@ fn blank(resolution: [f64; 2]) -> Result<Texture> {
     let size = resolution.map(|side| side as u32);
     let refused = || ApiError::Other("invalid arguments.".into());
     let bytes = u64::from(size[0]) * u64::from(size[1]) * 3;
-    let bytes = usize::try_from(bytes).ok().filter(|_| size.iter().all(|side| *side <= Texture::MAX_SIDE));
+    let bytes = usize::try_from(bytes)
+        .ok()
+        .filter(|_| size.iter().all(|side| *side <= Texture::MAX_SIDE));
     Texture::new(NAME, size, false, &vec![WHITE; bytes.ok_or_else(refused)?]).ok_or_else(refused)
 }
 
 /// The image of a file, named after it; files begin with the top row.
 fn of_file(cx: &Cx, name: &str, resolution: Option<[f64; 2]>) -> Result<Texture> {
-    let picture = Picture::decode(&read_file(cx, name.as_bytes())?, Layout::Rgba).map_err(failure)?;
+    let picture =
+        Picture::decode(&read_file(cx, name.as_bytes())?, Layout::Rgba).map_err(failure)?;
     let picture = match resolution {
-        Some(size) => picture.scaled(size.map(|side| side as i64), false, Layout::Rgba).map_err(failure)?,
+        Some(size) => picture
+            .scaled(size.map(|side| side as i64), false, Layout::Rgba)
+            .map_err(failure)?,
         None => picture,
     };
-    let stem = std::path::Path::new(name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let stem = std::path::Path::new(name)
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
     of_picture(&stem, picture.flipped(false, true), true)
 }
 
@@ -98,8 +134,13 @@ fn of_picture(name: &str, picture: Picture, has_alpha: bool) -> Result<Texture> 
 }
 
 fn frame(position: [f64; 3], orientation: [f64; 3]) -> Result<Pose> {
-    [position, orientation].finite().ok_or(SceneError::InvalidData)?;
-    Ok(Pose::from_parts(position.into(), rotation_from_euler(&orientation)))
+    [position, orientation]
+        .finite()
+        .ok_or(SceneError::InvalidData)?;
+    Ok(Pose::from_parts(
+        position.into(),
+        rotation_from_euler(&orientation),
+    ))
 }
 
 /// The texture with a name: that of its file, without folder and ending.
@@ -110,8 +151,13 @@ fn frame(position: [f64; 3], orientation: [f64; 3]) -> Result<Pose> {
 #[api("sim.getTextureId")]
 fn get_texture_id(cx: &Cx, texture_name: String) -> Result<(i64, Option<IntPair>)> {
     let scene = cx.scene();
-    let found = scene.textures().iter().find(|(_, texture)| texture.name == texture_name);
-    Ok(found.map_or((-1, None), |(id, texture)| (id, Some(IntPair(texture.size().map(i64::from))))))
+    let found = scene
+        .textures()
+        .iter()
+        .find(|(_, texture)| texture.name == texture_name);
+    Ok(found.map_or((-1, None), |(id, texture)| {
+        (id, Some(IntPair(texture.size().map(i64::from))))
+    }))
 }
 
 /// The texture on a shape.
@@ -122,7 +168,9 @@ fn get_texture_id(cx: &Cx, texture_name: String) -> Result<(i64, Option<IntPair>
 fn get_shape_texture_id(cx: &Cx, shape_handle: Handle) -> Result<i64> {
     let scene = cx.scene();
     let first = scene.object(shape_handle)?.shape()?.parts.first();
-    Ok(first.and_then(|part| part.texture.as_ref()).map_or(-1, |texture| texture.source.raw()))
+    Ok(first
+        .and_then(|part| part.texture.as_ref())
+        .map_or(-1, |texture| texture.source.raw()))
 }
 
 /// Puts an image on all meshes of a shape.
@@ -153,10 +201,15 @@ fn set_shape_texture(
     let mapping = TextureMapping {
         mode: MappingMode::from_raw(mapping_mode.0).ok_or(SceneError::InvalidArgument)?,
         scale: uv_scaling.finite().ok_or(SceneError::InvalidData)?,
-        frame: frame(position.unwrap_or_default(), orientation.unwrap_or_default())?,
+        frame: frame(
+            position.unwrap_or_default(),
+            orientation.unwrap_or_default(),
+        )?,
         ..TextureMapping::new(source).with_options(TextureOptions::from_bits_retain(options.0))
     };
-    Ok(cx.scene_mut().set_shape_texture(shape_handle, Some(mapping))?)
+    Ok(cx
+        .scene_mut()
+        .set_shape_texture(shape_handle, Some(mapping))?)
 }
 
 /// Reads a part of a texture.
@@ -226,10 +279,17 @@ pub(crate) fn of_mesh(
 ) -> Result<TextureMapping> {
     let coordinates = coordinates.get(..2 * corners).ok_or(ApiError::TableSize)?;
     let coordinates: Rc<[f32]> = single_precision(coordinates)?;
-    let layout = if options.contains(MeshOptions::TEXTURE_HAS_ALPHA) { Layout::Rgba } else { Layout::Rgb };
-    let picture = Picture::new(pixels, resolution.map(|side| side as i64), layout).map_err(failure)?;
-    let picture = picture
-        .flipped(options.contains(MeshOptions::FLIP_TEXTURE_X), !options.contains(MeshOptions::TEXTURE_FROM_BOTTOM));
+    let layout = if options.contains(MeshOptions::TEXTURE_HAS_ALPHA) {
+        Layout::Rgba
+    } else {
+        Layout::Rgb
+    };
+    let picture =
+        Picture::new(pixels, resolution.map(|side| side as i64), layout).map_err(failure)?;
+    let picture = picture.flipped(
+        options.contains(MeshOptions::FLIP_TEXTURE_X),
+        !options.contains(MeshOptions::TEXTURE_FROM_BOTTOM),
+    );
     let id = cx.scene_mut().textures_mut().add(of_picture(
         NAME,
         picture,
@@ -245,7 +305,11 @@ pub(crate) fn of_mesh(
 
 fn single_precision(numbers: &[f64]) -> Result<Rc<[f32]>> {
     let singles: Rc<[f32]> = numbers.iter().map(|n| *n as f32).collect();
-    if singles.is_finite() { Ok(singles) } else { Err(SceneError::InvalidData.into()) }
+    if singles.is_finite() {
+        Ok(singles)
+    } else {
+        Err(SceneError::InvalidData.into())
+    }
 }
 
 /// The texture of a mesh as `sim.getShapeViz` returns it; nothing without a texture or image.

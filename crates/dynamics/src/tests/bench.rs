@@ -18,7 +18,10 @@ pub(super) struct Bench {
 
 impl Bench {
     pub(super) fn new() -> Self {
-        Self { scene: Scene::new(), dynamics: Dynamics::default() }
+        Self {
+            scene: Scene::new(),
+            dynamics: Dynamics::default(),
+        }
     }
 
     pub(super) fn shape(
@@ -29,12 +32,22 @@ impl Bench {
         dynamic: bool,
         respondable: bool,
     ) -> Handle {
-        let mut shape = Shape::primitive(PrimitiveKind::Cuboid, size, Default::default()).expect("a cuboid");
-        shape.mass = MassProperties { mass, com: [0.0; 3], ..MassProperties::diagonal(mass, [0.01; 3]) };
+        let mut shape =
+            Shape::primitive(PrimitiveKind::Cuboid, size, Default::default()).expect("a cuboid");
+        shape.mass = MassProperties {
+            mass,
+            com: [0.0; 3],
+            ..MassProperties::diagonal(mass, [0.01; 3])
+        };
         shape.dynamics.is_static = !dynamic;
         shape.dynamics.respondable = respondable;
-        let handle = self.scene.add("body", Kind::Shape(Box::new(shape))).expect("room");
-        self.scene.set_world_pose(handle, Pose::translation(at[0], at[1], at[2])).expect("exists");
+        let handle = self
+            .scene
+            .add("body", Kind::Shape(Box::new(shape)))
+            .expect("room");
+        self.scene
+            .set_world_pose(handle, Pose::translation(at[0], at[1], at[2]))
+            .expect("exists");
         handle
     }
 
@@ -45,16 +58,21 @@ impl Bench {
     pub(super) fn object(&mut self, kind: Kind, pose: Pose, parent: Handle) -> Handle {
         let handle = self.scene.add("link", kind).expect("room");
         self.scene.set_world_pose(handle, pose).expect("exists");
-        self.scene.set_parent(handle, Some(parent), true).expect("no cycle");
+        self.scene
+            .set_parent(handle, Some(parent), true)
+            .expect("no cycle");
         handle
     }
 
     pub(super) fn hang(&mut self, child: Handle, parent: Handle) {
-        self.scene.set_parent(child, Some(parent), true).expect("no cycle");
+        self.scene
+            .set_parent(child, Some(parent), true)
+            .expect("no cycle");
     }
 
     pub(super) fn gravity(&mut self, z: f32) {
-        self.scene.modify_settings(|settings| settings.dynamics.gravity = [0.0, 0.0, z]);
+        self.scene
+            .modify_settings(|settings| settings.dynamics.gravity = [0.0, 0.0, z]);
     }
 
     pub(super) fn run(&mut self, steps: usize) {
@@ -64,12 +82,24 @@ impl Bench {
     /// Steps with a script that decides about contacts.
     pub(super) fn run_asking(&mut self, steps: usize, callback: Option<ContactCallback<'_>>) {
         for _ in 0..steps {
-            let Some(call) = self.dynamics.begin(&mut self.scene, STEP).expect("not busy") else { continue };
+            let Some(call) = self
+                .dynamics
+                .begin(&mut self.scene, STEP)
+                .expect("not busy")
+            else {
+                continue;
+            };
             for number in 1..=call.sub_steps {
                 self.dynamics.prepare(&self.scene, number);
-                let verdicts = callback.map_or_else(Verdicts::default, |asked| ask(self.dynamics.pairs_near(), asked));
-                let script_access = ScriptAccess { possible: callback.is_some() };
-                let started = self.dynamics.start_sub_step(&self.scene, number, script_access, verdicts);
+                let verdicts = callback.map_or_else(Verdicts::default, |asked| {
+                    ask(self.dynamics.pairs_near(), asked)
+                });
+                let script_access = ScriptAccess {
+                    possible: callback.is_some(),
+                };
+                let started =
+                    self.dynamics
+                        .start_sub_step(&self.scene, number, script_access, verdicts);
                 let mut sub_step = started.expect("there is a world");
                 sub_step.run(callback);
                 self.dynamics.finish_sub_step(sub_step, &mut self.scene);
@@ -95,11 +125,19 @@ impl Bench {
     }
 
     pub(super) fn joint(&self, handle: Handle) -> &Joint {
-        self.scene.object(handle).and_then(|object| object.joint()).expect("a joint")
+        self.scene
+            .object(handle)
+            .and_then(|object| object.joint())
+            .expect("a joint")
     }
 
     /// Static base, joint along world +y at (0, 0, 1), arm of 1 kg whose centre is `reach` along x.
-    pub(super) fn arm(&mut self, own_inertia: f64, reach: f64, change: impl FnOnce(&mut Joint)) -> (Handle, Handle) {
+    pub(super) fn arm(
+        &mut self,
+        own_inertia: f64,
+        reach: f64,
+        change: impl FnOnce(&mut Joint),
+    ) -> (Handle, Handle) {
         let base = self.ghost([0.0, 0.0, 1.0], false);
         let mut joint = Joint::new(JointType::Revolute, JointMode::Dynamic);
         change(&mut joint);
@@ -124,11 +162,17 @@ pub(super) fn along_y(at: [f64; 3]) -> Pose {
 }
 
 pub(super) fn near(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value} is not {expected}");
+    assert!(
+        (value - expected).abs() <= tolerance,
+        "{value} is not {expected}"
+    );
 }
 
 /// Asks about pairs of shapes, in their order.
 pub(super) fn ask(pairs: Vec<(Handle, Handle)>, callback: ContactCallback<'_>) -> Verdicts {
-    let responses = pairs.iter().map(|&(first, second)| callback(first, second)).collect();
+    let responses = pairs
+        .iter()
+        .map(|&(first, second)| callback(first, second))
+        .collect();
     Verdicts::new(pairs, responses)
 }

@@ -9,13 +9,18 @@ fn tower() -> (Bench, Vec<Handle>) {
     let mut bench = Bench::new();
     bench.shape([10.0, 10.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
     let at = |i: i32| [0.01 * f64::from(i % 2), 0.0, 0.05 + 0.1 * f64::from(i)];
-    let mut boxes: Vec<Handle> = (0..10).map(|i| bench.shape([0.1; 3], at(i), 1.0, true, true)).collect();
+    let mut boxes: Vec<Handle> = (0..10)
+        .map(|i| bench.shape([0.1; 3], at(i), 1.0, true, true))
+        .collect();
     let thrown = bench.shape([0.1; 3], [-3.0, 0.02, 0.7], 1.0, true, true);
     let change = |object: &mut scene::Object| {
         object.shape_mut()?.dynamics.initial_velocity.linear = [6.0, 0.0, 0.5];
         Ok(())
     };
-    bench.scene.try_modify(thrown, Field::Dynamics, change).expect("a shape");
+    bench
+        .scene
+        .try_modify(thrown, Field::Dynamics, change)
+        .expect("a shape");
     boxes.push(thrown);
     (bench, boxes)
 }
@@ -32,7 +37,8 @@ fn a_callback_that_decides_nothing_changes_no_bit() {
     alone.run(40);
     observed.run_asking(40, Some(&callback));
     for &handle in &boxes {
-        let [a, b] = [&alone, &observed].map(|bench| bench.scene.world_pose(handle).expect("exists"));
+        let [a, b] =
+            [&alone, &observed].map(|bench| bench.scene.world_pose(handle).expect("exists"));
         assert_eq!(format!("{a:?}"), format!("{b:?}"));
     }
     assert!(calls.get() > 4000, "{}", calls.get());
@@ -48,21 +54,37 @@ fn bodies_in_contact_are_solved_in_parts() {
     let upper = bench.shape([0.1; 3], [1.0, 0.0, 0.15], 1.0, true, true);
     bench.run(2);
     let world = bench.dynamics.world.as_ref().expect("there is a world");
-    let parts =
-        [falling, alone, lower, upper].map(|shape| world.parts_of(bench.dynamics.bodies.get(shape).expect("is").rigid));
+    let parts = [falling, alone, lower, upper]
+        .map(|shape| world.parts_of(bench.dynamics.bodies.get(shape).expect("is").rigid));
     assert_eq!(parts, [1, 4, 4, 4]);
     near(bench.height(alone), 0.05, 1e-5);
 }
 
 #[test]
 fn answers_of_scripts_about_pairs_are_found_again() {
-    let pairs: Vec<(Handle, Handle)> = [(3, 1), (2, 9), (1, 3), (2, 4)].map(|(a, b)| (Handle(a), Handle(b))).into();
-    let refuse = |_, second| if second == Handle(9) { ContactResponse::NoCollision } else { ContactResponse::Default };
+    let pairs: Vec<(Handle, Handle)> = [(3, 1), (2, 9), (1, 3), (2, 4)]
+        .map(|(a, b)| (Handle(a), Handle(b)))
+        .into();
+    let refuse = |_, second| {
+        if second == Handle(9) {
+            ContactResponse::NoCollision
+        } else {
+            ContactResponse::Default
+        }
+    };
     let verdicts = ask(pairs, &refuse);
-    let tag = |shape| Tag { shape: Handle(shape), root: Handle(shape), mask: u16::MAX };
+    let tag = |shape| Tag {
+        shape: Handle(shape),
+        root: Handle(shape),
+        mask: u16::MAX,
+    };
     let response = |a, b| verdicts.response(tag(a), tag(b));
     assert_eq!(response(2, 9), ContactResponse::NoCollision);
-    assert_eq!(response(9, 2), ContactResponse::Default, "the other way round was not asked about");
+    assert_eq!(
+        response(9, 2),
+        ContactResponse::Default,
+        "the other way round was not asked about"
+    );
     assert_eq!(response(3, 1), ContactResponse::Default);
 }
 
@@ -83,10 +105,18 @@ fn a_light_foot_bears_a_heavy_trunk_and_its_contacts_are_logged() {
     let (foot, sensor) = on_a_light_foot(&mut bench, 100.0, 0.0);
     bench.run(40);
     near(bench.height(foot), 0.05, 2e-5);
-    let force: f64 = bench.dynamics.contacts().map(|contact| contact.seen_from(foot).force[2]).sum();
+    let force: f64 = bench
+        .dynamics
+        .contacts()
+        .map(|contact| contact.seen_from(foot).force[2])
+        .sum();
     near(force / 10.0, 100.1 * 9.81, 0.01);
     let object = bench.scene.object(sensor).expect("exists");
-    let (force, _) = object.force_sensor().expect("a sensor").filtered.expect("data");
+    let (force, _) = object
+        .force_sensor()
+        .expect("a sensor")
+        .filtered
+        .expect("data");
     near(force[2].abs(), 100.0 * 9.81, 0.01);
 }
 
@@ -117,7 +147,11 @@ fn two_mechanisms_push_each_other() {
     bench.shape([10.0, 10.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
     let (lower, _) = on_a_light_foot(&mut bench, 10.0, 0.0);
     let table = bench.shape([0.3, 0.3, 0.1], [0.0, 0.0, 0.75], 1.0, true, true);
-    let sensor = bench.object(Kind::ForceSensor(Box::default()), Pose::translation(0.0, 0.0, 0.75), table);
+    let sensor = bench.object(
+        Kind::ForceSensor(Box::default()),
+        Pose::translation(0.0, 0.0, 0.75),
+        table,
+    );
     let weight = bench.ghost([0.0, 0.0, 0.9], true);
     bench.hang(weight, sensor);
     bench.run(20);

@@ -15,7 +15,11 @@ fn position_control_decays_geometrically() {
         joint.target_position = 0.1;
     });
     bench.run(1);
-    near(bench.joint(joint).position, 0.1 * (1.0 - 0.9f64.powi(10)), 1e-5);
+    near(
+        bench.joint(joint).position,
+        0.1 * (1.0 - 0.9f64.powi(10)),
+        1e-5,
+    );
 }
 
 #[test]
@@ -24,11 +28,15 @@ fn a_cyclic_joint_asked_for_half_a_turn_turns_the_way_of_its_sign() {
         let mut bench = Bench::new();
         bench.gravity(0.0);
         let (joint, _) = bench.arm(0.01, 0.0, |joint| {
-            (joint.control, joint.target_force, joint.target_position) = (Control::Position, 1000.0, target);
+            (joint.control, joint.target_force, joint.target_position) =
+                (Control::Position, 1000.0, target);
         });
         bench.run(1);
         let turned = bench.joint(joint).position;
-        assert!(turned / target > 0.05, "on the way to {target} it is at {turned}");
+        assert!(
+            turned / target > 0.05,
+            "on the way to {target} it is at {turned}"
+        );
     }
 }
 
@@ -57,7 +65,12 @@ fn a_free_arm_swings() {
 fn two_joints_in_series_do_not_act() {
     let mut bench = Bench::new();
     let base = bench.ghost([0.0, 0.0, 2.0], false);
-    let joint = || Kind::Joint(Box::new(Joint::new(JointType::Revolute, JointMode::Dynamic)));
+    let joint = || {
+        Kind::Joint(Box::new(Joint::new(
+            JointType::Revolute,
+            JointMode::Dynamic,
+        )))
+    };
     let first = bench.object(joint(), Pose::translation(0.0, 0.0, 2.0), base);
     let second = bench.object(joint(), Pose::translation(0.0, 0.0, 2.0), first);
     let body = bench.ghost([0.0, 0.0, 2.0], true);
@@ -73,15 +86,28 @@ fn a_screw_moves_along_while_it_turns() {
     let base = bench.ghost([0.0, 0.0, 1.0], false);
     let mut screw = Joint::new(JointType::Revolute, JointMode::Dynamic);
     (screw.cyclic, screw.min, screw.range, screw.screw_lead) = (false, -100.0, 200.0, 0.01);
-    (screw.control, screw.target_velocity, screw.target_force) = (Control::Velocity, std::f64::consts::TAU, 100.0);
-    let screw = bench.object(Kind::Joint(Box::new(screw)), Pose::translation(0.0, 0.0, 1.0), base);
+    (screw.control, screw.target_velocity, screw.target_force) =
+        (Control::Velocity, std::f64::consts::TAU, 100.0);
+    let screw = bench.object(
+        Kind::Joint(Box::new(screw)),
+        Pose::translation(0.0, 0.0, 1.0),
+        base,
+    );
     let nut = bench.ghost([0.0, 0.0, 1.0], true);
     bench.hang(nut, screw);
     bench.run(40);
-    near(bench.joint(screw).position, 2.0 * std::f64::consts::TAU, 1e-6);
+    near(
+        bench.joint(screw).position,
+        2.0 * std::f64::consts::TAU,
+        1e-6,
+    );
     near(bench.height(nut), 1.02, 1e-6);
     // Torque of the weight on the motor: mass, gravity, lead per radian.
-    near(bench.joint(screw).force.expect("simulated"), -9.81 * 0.01 / std::f64::consts::TAU, 1e-6);
+    near(
+        bench.joint(screw).force.expect("simulated"),
+        -9.81 * 0.01 / std::f64::consts::TAU,
+        1e-6,
+    );
 }
 
 #[test]
@@ -101,7 +127,8 @@ fn a_propeller_makes_several_turns_in_a_sub_step() {
     let mut bench = Bench::new();
     for speed in [1000.0, 5000.0] {
         let (joint, _) = bench.arm(0.01, 0.0, |joint| {
-            (joint.control, joint.target_velocity, joint.target_force) = (Control::Velocity, speed, 1e6);
+            (joint.control, joint.target_velocity, joint.target_force) =
+                (Control::Velocity, speed, 1e6);
         });
         bench.run(10);
         near(bench.joint(joint).velocity, speed, 1e-3);
@@ -118,30 +145,52 @@ fn a_joint_that_is_placed_takes_its_body_along() {
     let start = bench.scene.world_pose(body).expect("exists");
     for _ in 0..3 {
         let pose = bench.scene.object(joint).expect("exists").pose();
-        bench.scene.set_local_pose(joint, Pose::from_parts(pose.translation, turn * pose.rotation)).expect("a place");
+        bench
+            .scene
+            .set_local_pose(
+                joint,
+                Pose::from_parts(pose.translation, turn * pose.rotation),
+            )
+            .expect("a place");
         bench.run(1);
     }
     let end = bench.scene.world_pose(body).expect("exists");
     near(start.rotation.angle_to(&end.rotation), 0.3, 1e-6);
     // The engine has this one joint only, not those of the places before.
-    assert_eq!(bench.dynamics.world.as_ref().expect("a world").joints.len(), 1);
+    assert_eq!(
+        bench.dynamics.world.as_ref().expect("a world").joints.len(),
+        1
+    );
 }
 
 #[test]
 fn a_chain_of_which_a_joint_asks_for_it_is_left_to_rapier() {
     let mut bench = Bench::new();
     let (joint, arm) = bench.arm(0.01, 0.1, |joint| {
-        (joint.control, joint.target_force, joint.solver) = (Control::Position, 50.0, JointSolver::Impulse);
+        (joint.control, joint.target_force, joint.solver) =
+            (Control::Position, 50.0, JointSolver::Impulse);
     });
-    let sensor = bench.object(Kind::ForceSensor(Box::<ForceSensor>::default()), Pose::translation(0.2, 0.0, 1.0), arm);
+    let sensor = bench.object(
+        Kind::ForceSensor(Box::<ForceSensor>::default()),
+        Pose::translation(0.2, 0.0, 1.0),
+        arm,
+    );
     let tip = bench.ghost([0.3, 0.0, 1.0], true);
     bench.hang(tip, sensor);
     bench.run(40);
     assert!(bench.dynamics.mechanisms.is_empty());
     near(bench.height(arm), 1.0, 1e-2);
-    near(bench.joint(joint).force.expect("simulated"), 9.81 * (0.1 + 0.3), 0.05);
+    near(
+        bench.joint(joint).force.expect("simulated"),
+        9.81 * (0.1 + 0.3),
+        0.05,
+    );
     let object = bench.scene.object(sensor).expect("exists");
-    let (force, torque) = object.force_sensor().expect("a sensor").filtered.expect("data");
+    let (force, torque) = object
+        .force_sensor()
+        .expect("a sensor")
+        .filtered
+        .expect("data");
     near(force[2], -9.81, 0.05);
     near(torque[1], 0.981, 0.05);
     let changed = bench.scene.try_modify(joint, Field::Joint, |object| {
@@ -157,7 +206,9 @@ fn a_chain_of_which_a_joint_asks_for_it_is_left_to_rapier() {
 #[test]
 fn a_screw_keeps_its_chain_exact() {
     let mut bench = Bench::new();
-    bench.arm(0.01, 0.1, |joint| (joint.solver, joint.screw_lead) = (JointSolver::Impulse, 0.01));
+    bench.arm(0.01, 0.1, |joint| {
+        (joint.solver, joint.screw_lead) = (JointSolver::Impulse, 0.01)
+    });
     bench.run(1);
     assert!(!bench.dynamics.mechanisms.is_empty());
 }

@@ -33,7 +33,11 @@ fn a_box_rests_on_a_box() {
     let body = bench.shape([0.1; 3], [0.0, 0.0, 0.055], 1.0, true, true);
     bench.run(60);
     near(bench.height(body), 0.05, 5e-4);
-    let force: f64 = bench.dynamics.contacts().map(|contact| contact.seen_from(body).force[2]).sum();
+    let force: f64 = bench
+        .dynamics
+        .contacts()
+        .map(|contact| contact.seen_from(body).force[2])
+        .sum();
     near(force / 10.0, 9.81, 0.01);
 }
 
@@ -47,7 +51,11 @@ fn a_force_sensor_feels_force_and_lever() {
     bench.hang(body, sensor);
     bench.run(20);
     let object = bench.scene.object(sensor).expect("exists");
-    let (force, torque) = object.force_sensor().expect("a sensor").filtered.expect("data");
+    let (force, torque) = object
+        .force_sensor()
+        .expect("a sensor")
+        .filtered
+        .expect("data");
     near(force[2], -9.81, 0.01);
     near(force[0].abs() + force[1].abs(), 0.0, 0.01);
     near(torque[1], 0.981, 2e-3);
@@ -60,17 +68,33 @@ fn a_moving_platform_carries_a_box() {
     let platform = bench.shape([1.0, 1.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
     let body = bench.shape([0.1; 3], [0.0, 0.0, 0.05], 1.0, true, true);
     for step in 1..=40 {
-        bench.scene.set_world_pose(platform, Pose::translation(0.01 * f64::from(step), 0.0, -0.05)).expect("exists");
+        bench
+            .scene
+            .set_world_pose(
+                platform,
+                Pose::translation(0.01 * f64::from(step), 0.0, -0.05),
+            )
+            .expect("exists");
         bench.run(1);
     }
-    near(bench.scene.world_pose(body).expect("exists").translation.x, 0.4, 0.02);
+    near(
+        bench.scene.world_pose(body).expect("exists").translation.x,
+        0.4,
+        0.02,
+    );
 }
 
 #[test]
 fn a_call_within_a_call_is_refused() {
     let mut bench = Bench::new();
     bench.ghost([0.0, 0.0, 1.0], true);
-    assert!(bench.dynamics.begin(&mut bench.scene, STEP).expect("free").is_some());
+    assert!(
+        bench
+            .dynamics
+            .begin(&mut bench.scene, STEP)
+            .expect("free")
+            .is_some()
+    );
     assert_eq!(bench.dynamics.begin(&mut bench.scene, STEP), Err(Busy));
 }
 
@@ -78,8 +102,17 @@ fn a_call_within_a_call_is_refused() {
 fn a_stack_stands_still() {
     let mut bench = Bench::new();
     bench.shape([10.0, 10.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
-    let boxes: Vec<Handle> =
-        (0..8).map(|i| bench.shape([0.1; 3], [0.0, 0.0, 0.05 + 0.102 * f64::from(i)], 1.0, true, true)).collect();
+    let boxes: Vec<Handle> = (0..8)
+        .map(|i| {
+            bench.shape(
+                [0.1; 3],
+                [0.0, 0.0, 0.05 + 0.102 * f64::from(i)],
+                1.0,
+                true,
+                true,
+            )
+        })
+        .collect();
     bench.run(100);
     for (i, &handle) in boxes.iter().enumerate() {
         let pose = bench.scene.world_pose(handle).expect("exists");

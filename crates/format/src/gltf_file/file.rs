@@ -16,7 +16,9 @@ impl GltfFile {
     /// Whether a file's name is that of a glTF file.
     pub fn has_name_of(path: &Path) -> bool {
         let extension = path.extension().unwrap_or_default();
-        ["glb", "gltf"].iter().any(|known| extension.eq_ignore_ascii_case(known))
+        ["glb", "gltf"]
+            .iter()
+            .any(|known| extension.eq_ignore_ascii_case(known))
     }
 
     /// Reads a file, and those beside it that it names.
@@ -24,7 +26,9 @@ impl GltfFile {
     /// # Errors
     /// When it may not or cannot be read, or is damaged; in words.
     pub fn open(path: &Path, permissions: &Permissions) -> Result<Self, String> {
-        let bytes = permissions.read_file(path).map_err(|error| error.to_string())?;
+        let bytes = permissions
+            .read_file(path)
+            .map_err(|error| error.to_string())?;
         Self::parse(&bytes, path, permissions)
     }
 
@@ -34,7 +38,11 @@ impl GltfFile {
     /// When they are damaged; in words.
     pub fn parse(bytes: &[u8], path: &Path, permissions: &Permissions) -> Result<Self, String> {
         let folder = path.parent().unwrap_or(Path::new(""));
-        let mut resolve = |name: &str| permissions.read_file(&folder.join(name)).map_err(|error| error.to_string());
+        let mut resolve = |name: &str| {
+            permissions
+                .read_file(&folder.join(name))
+                .map_err(|error| error.to_string())
+        };
         Self::read(bytes, &mut resolve).map_err(|error| error.to_string())
     }
 
@@ -51,7 +59,10 @@ impl GltfFile {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         let base = base(&mut scene, &handles, &name).map_err(|error| error.to_string())?;
         let file = save::model(&scene, base, &[]).map_err(|error| error.to_string())?;
-        Ok((file, self.asset.warnings.into_iter().chain(warnings).collect()))
+        Ok((
+            file,
+            self.asset.warnings.into_iter().chain(warnings).collect(),
+        ))
     }
 
     /// All objects of a scene.
@@ -70,23 +81,39 @@ impl GltfFile {
     /// # Errors
     /// When it is too large, or the file cannot be written; in words.
     pub fn write(&self, path: &Path) -> Result<(), String> {
-        let is_text = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gltf"));
-        let bytes = if is_text { self.asset.to_text().map(String::into_bytes) } else { self.asset.to_binary() };
-        write_whole(path, &bytes.map_err(|error| error.to_string())?).map_err(|error| error.to_string())
+        let is_text = path
+            .extension()
+            .is_some_and(|extension| extension.eq_ignore_ascii_case("gltf"));
+        let bytes = if is_text {
+            self.asset.to_text().map(String::into_bytes)
+        } else {
+            self.asset.to_binary()
+        };
+        write_whole(path, &bytes.map_err(|error| error.to_string())?)
+            .map_err(|error| error.to_string())
     }
 }
 
 /// The only object without a parent, or a dummy above all of them; as the base of a model.
 fn base(scene: &mut Scene, handles: &[Handle], name: &str) -> SceneResult<Handle> {
-    let is_root = |handle: &Handle| scene.object(*handle).is_ok_and(|object| object.parent().is_none());
+    let is_root = |handle: &Handle| {
+        scene
+            .object(*handle)
+            .is_ok_and(|object| object.parent().is_none())
+    };
     let roots: Vec<Handle> = handles.iter().copied().filter(is_root).collect();
     let base = match roots.as_slice() {
         [base] => *base,
-        _ => scene.add(&clean_alias(name.as_bytes()), Kind::Dummy(Dummy::new(DUMMY)))?,
+        _ => scene.add(
+            &clean_alias(name.as_bytes()),
+            Kind::Dummy(Dummy::new(DUMMY)),
+        )?,
     };
     for root in roots.into_iter().filter(|root| *root != base) {
         scene.set_parent(root, Some(base), true)?;
     }
-    scene.modify(base, Field::ObjectProperty, |object| object.set_model_property(ModelFlags::empty()))?;
+    scene.modify(base, Field::ObjectProperty, |object| {
+        object.set_model_property(ModelFlags::empty())
+    })?;
     Ok(base)
 }

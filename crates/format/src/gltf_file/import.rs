@@ -27,7 +27,9 @@ impl GltfFile {
         let mut placed: Vec<(Option<Handle>, Pose)> = Vec::with_capacity(self.asset.nodes.len());
         let mut handles = Vec::new();
         for node in &self.asset.nodes {
-            let (parent, above) = node.parent.map_or((None, upright().inverse()), |parent| placed[parent]);
+            let (parent, above) = node
+                .parent
+                .map_or((None, upright().inverse()), |parent| placed[parent]);
             let frame = above * pose_of(node);
             let Some((alias, kind)) = content(node, &mut shapes) else {
                 placed.push((parent, frame));
@@ -52,7 +54,11 @@ impl GltfFile {
             ..MeshFile::default()
         };
         file.merge_identical();
-        let imported = ImportedAppearance { colours: true, transparency: true, textures: Some(MAX_TEXTURE_SIDE) };
+        let imported = ImportedAppearance {
+            colours: true,
+            transparency: true,
+            textures: Some(MAX_TEXTURE_SIDE),
+        };
         let mut parts = to_shapes(&mut file, imported, scene)?.into_iter();
         let mut shapes = Vec::new();
         for mesh in &self.asset.meshes {
@@ -74,5 +80,12 @@ fn content(node: &Node, shapes: &mut [Option<Shape>]) -> Option<(String, Kind)> 
         (None, None, None) if node.name.is_empty() => return None,
         (None, None, None) => ("", Kind::Dummy(Dummy::new(DUMMY))),
     };
-    Some((if node.name.is_empty() { usual.to_owned() } else { node.name.clone() }, kind))
+    Some((
+        if node.name.is_empty() {
+            usual.to_owned()
+        } else {
+            node.name.clone()
+        },
+        kind,
+    ))
 }

@@ -20,7 +20,11 @@ pub use recording::Recording;
 use scene::{Handle, Kind, Scene, SceneResult};
 
 /// How much a file may contain: no scene could hold more.
-const LIMITS: Limits = Limits { vertices: 12_000_000, triangles: 4_000_000, parts: 10_000 };
+const LIMITS: Limits = Limits {
+    vertices: 12_000_000,
+    triangles: 4_000_000,
+    parts: 10_000,
+};
 
 /// A glTF file in memory, and which objects became which nodes.
 #[derive(Debug)]
@@ -52,7 +56,12 @@ struct Placed {
 impl Default for GltfFile {
     /// Without objects: a node that turns z up.
     fn default() -> Self {
-        let mut file = Self { asset: Asset::default(), root: None, exported: Vec::new(), nodes: BTreeMap::new() };
+        let mut file = Self {
+            asset: Asset::default(),
+            root: None,
+            exported: Vec::new(),
+            nodes: BTreeMap::new(),
+        };
         file.root();
         file
     }
@@ -65,13 +74,21 @@ impl GltfFile {
     /// Where it is damaged or too large.
     pub(crate) fn read(bytes: &[u8], resolve: mesh_files::Resolve) -> Result<Self, ReadError> {
         let asset = Asset::read(bytes, LIMITS, resolve)?;
-        Ok(Self { asset, root: None, exported: Vec::new(), nodes: BTreeMap::new() })
+        Ok(Self {
+            asset,
+            root: None,
+            exported: Vec::new(),
+            nodes: BTreeMap::new(),
+        })
     }
 
     /// The node of the world.
     fn root(&mut self) -> usize {
         *self.root.get_or_insert_with(|| {
-            self.asset.nodes.push(Node { rotation: upright().rotation.coords.into(), ..Node::default() });
+            self.asset.nodes.push(Node {
+                rotation: upright().rotation.coords.into(),
+                ..Node::default()
+            });
             self.asset.nodes.len() - 1
         })
     }
@@ -94,17 +111,27 @@ fn turned() -> Pose {
 
 /// Cameras and lights look the other way.
 fn is_turned(kind: &Kind) -> bool {
-    matches!(kind, Kind::Camera(_) | Kind::VisionSensor(_) | Kind::Light(_))
+    matches!(
+        kind,
+        Kind::Camera(_) | Kind::VisionSensor(_) | Kind::Light(_)
+    )
 }
 
 impl Placed {
     fn new(scene: &Scene, handle: Handle) -> SceneResult<Self> {
-        Ok(Self { handle, is_turned: is_turned(&scene.object(handle)?.kind) })
+        Ok(Self {
+            handle,
+            is_turned: is_turned(&scene.object(handle)?.kind),
+        })
     }
 
     /// The frame of the node of an object at a pose.
     fn node_frame(self, pose: Pose) -> Pose {
-        if self.is_turned { pose * turned() } else { pose }
+        if self.is_turned {
+            pose * turned()
+        } else {
+            pose
+        }
     }
 }
 

@@ -26,7 +26,10 @@ pub struct Recording {
 impl Recording {
     /// Begins a new recording.
     pub fn start(&mut self) {
-        *self = Self { is_on: true, ..Self::default() };
+        *self = Self {
+            is_on: true,
+            ..Self::default()
+        };
     }
 
     /// Ends the recording; its frames stay.
@@ -47,12 +50,19 @@ impl Recording {
     /// Adds a frame. False if there is no room for more: the recording ends.
     pub fn record(&mut self, scene: &Scene, simulation_time: f64, time_step: f64) -> bool {
         // A simulation that was started again begins at 0.
-        let step = if simulation_time > self.clock { simulation_time - self.clock } else { time_step };
-        self.times.push(self.times.last().map_or(0.0, |last| last + step));
+        let step = if simulation_time > self.clock {
+            simulation_time - self.clock
+        } else {
+            time_step
+        };
+        self.times
+            .push(self.times.last().map_or(0.0, |last| last + step));
         self.clock = simulation_time;
         let frame = self.times.len() - 1;
         for object in scene.objects() {
-            let Ok(pose) = scene.world_pose(object.handle()) else { continue };
+            let Ok(pose) = scene.world_pose(object.handle()) else {
+                continue;
+            };
             let poses = self.poses.entry(object.handle()).or_default();
             if poses.last().is_none_or(|(_, last)| *last != pose) {
                 poses.push((frame, pose));
@@ -89,31 +99,50 @@ impl GltfFile {
     pub fn add_animation(&mut self, recording: &Recording) {
         let mut tracks: BTreeMap<usize, Track> = BTreeMap::new();
         for exported in &self.exported {
-            let poses = recording.frames_of(exported.object, exported.parent).into_iter().filter_map(|frame| {
-                let above =
-                    exported.parent.map_or(Some(Pose::identity()), |parent| recording.node_frame(parent, frame))?;
-                Some((recording.times[frame], above.inverse() * recording.node_frame(exported.object, frame)?))
-            });
+            let poses = recording
+                .frames_of(exported.object, exported.parent)
+                .into_iter()
+                .filter_map(|frame| {
+                    let above = exported.parent.map_or(Some(Pose::identity()), |parent| {
+                        recording.node_frame(parent, frame)
+                    })?;
+                    Some((
+                        recording.times[frame],
+                        above.inverse() * recording.node_frame(exported.object, frame)?,
+                    ))
+                });
             tracks.extend(track(exported.node, poses).map(|track| (exported.node, track)));
         }
         let tracks: Vec<Track> = tracks.into_values().collect();
         if !tracks.is_empty() {
-            self.asset.animations.push(Animation { name: "animation".into(), tracks });
+            self.asset.animations.push(Animation {
+                name: "animation".into(),
+                tracks,
+            });
         }
     }
 }
 
 /// None if the node stays where it is.
 fn track(node: usize, poses: impl Iterator<Item = (f64, Pose)>) -> Option<Track> {
-    let mut track = Track { node, ..Track::default() };
+    let mut track = Track {
+        node,
+        ..Track::default()
+    };
     for (time, pose) in poses {
         let rotation: [f64; 4] = pose.rotation.coords.into();
         // Of the two quaternions of a rotation, the one near the last: some viewers do not look for the shorter way.
-        let turns_back =
-            track.rotations.last().is_some_and(|last| last.iter().zip(rotation).map(|(a, b)| a * b).sum::<f64>() < 0.0);
+        let turns_back = track
+            .rotations
+            .last()
+            .is_some_and(|last| last.iter().zip(rotation).map(|(a, b)| a * b).sum::<f64>() < 0.0);
         track.times.push(time);
         track.translations.push(pose.translation.vector.into());
-        track.rotations.push(if turns_back { rotation.map(|x| -x) } else { rotation });
+        track.rotations.push(if turns_back {
+            rotation.map(|x| -x)
+        } else {
+            rotation
+        });
     }
     if is_constant(&track.translations) {
         track.translations.clear();
@@ -126,5 +155,9 @@ fn track(node: usize, poses: impl Iterator<Item = (f64, Pose)>) -> Option<Track>
 
 /// Whether all are the same in the 32 bits of a file, or nearly, as rounding leaves them.
 fn is_constant<const N: usize>(rows: &[[f64; N]]) -> bool {
-    rows.iter().all(|row| row.iter().zip(&rows[0]).all(|(a, b)| (a - b).abs() <= 1e-9 * (1.0 + b.abs())))
+    rows.iter().all(|row| {
+        row.iter()
+            .zip(&rows[0])
+            .all(|(a, b)| (a - b).abs() <= 1e-9 * (1.0 + b.abs()))
+    })
 }

@@ -20,12 +20,17 @@ pub(super) fn camera(view: &View) -> gltf::Camera {
         true => Extent::Angle(2.0 * half_height.atan()),
         false => Extent::Height(2.0 * half_height),
     };
-    gltf::Camera { extent, aspect_ratio: width / height, clipping: [near, view.clipping[1].max(2.0 * near)] }
+    gltf::Camera {
+        extent,
+        aspect_ratio: width / height,
+        clipping: [near, view.clipping[1].max(2.0 * near)],
+    }
 }
 
 pub(super) fn camera_object(camera: &gltf::Camera) -> Camera {
     let aspect = camera.aspect_ratio.clamp(1.0 / PIXELS, PIXELS);
-    let resolution = [PIXELS * aspect.min(1.0), PIXELS / aspect.max(1.0)].map(|pixels| pixels.round() as i64);
+    let resolution =
+        [PIXELS * aspect.min(1.0), PIXELS / aspect.max(1.0)].map(|pixels| pixels.round() as i64);
     let mut object = Camera::default();
     object.view.set_resolution(resolution);
     // Ours are those of the larger side.
@@ -34,7 +39,9 @@ pub(super) fn camera_object(camera: &gltf::Camera) -> Camera {
             let half = (angle.min(3.0) / 2.0).tan() * aspect.max(1.0);
             object.view.angle = 2.0 * half.atan();
         }
-        Extent::Height(height) => (object.view.perspective, object.view.ortho_size) = (false, height * aspect.max(1.0)),
+        Extent::Height(height) => {
+            (object.view.perspective, object.view.ortho_size) = (false, height * aspect.max(1.0))
+        }
     }
     let [near, far] = camera.clipping;
     object.view.clipping = [near, if far > 1e6 { FAR.max(2.0 * near) } else { far }];
@@ -47,7 +54,14 @@ pub(super) fn light(light: &Light) -> gltf::Light {
         LightType::Directional => LightKind::Directional,
         LightType::Spot => LightKind::Spot(light.spot_cutoff.clamp(1e-3, FRAC_PI_2)),
     };
-    gltf::Light { kind, color: light.colour.ambient_diffuse.map(|x| f64::from(x).clamp(0.0, 1.0)), intensity: 1.0 }
+    gltf::Light {
+        kind,
+        color: light
+            .colour
+            .ambient_diffuse
+            .map(|x| f64::from(x).clamp(0.0, 1.0)),
+        intensity: 1.0,
+    }
 }
 
 pub(super) fn light_object(light: &gltf::Light) -> Light {

@@ -15,7 +15,11 @@ use super::scene_file::write_whole;
 use permissions::Permissions;
 
 /// What is read for scripts: their tables, and the physics, could not hold more.
-const LIMITS: Limits = Limits { vertices: 12_000_000, triangles: 4_000_000, parts: 10_000 };
+const LIMITS: Limits = Limits {
+    vertices: 12_000_000,
+    triangles: 4_000_000,
+    parts: 10_000,
+};
 
 /// Why a mesh file is not read or written.
 #[derive(Debug, thiserror::Error)]
@@ -82,13 +86,19 @@ pub struct MeshImportOptions {
 }
 
 /// Reads a mesh file and what it refers to, as far as permitted: metres, z up.
-pub fn load(name: &str, options: MeshImportOptions, permissions: &Permissions) -> Result<MeshFile, MeshFileError> {
+pub fn load(
+    name: &str,
+    options: MeshImportOptions,
+    permissions: &Permissions,
+) -> Result<MeshFile, MeshFileError> {
     let format = MeshFormat::of_name(name).ok_or(MeshFileError::UnknownFormat)?;
     let path = Path::new(name);
-    let bytes = permissions.read_file(path).map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => MeshFileError::NotFound,
-        _ => MeshFileError::Read(name.into(), error),
-    })?;
+    let bytes = permissions
+        .read_file(path)
+        .map_err(|error| match error.kind() {
+            std::io::ErrorKind::NotFound => MeshFileError::NotFound,
+            _ => MeshFileError::Read(name.into(), error),
+        })?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut resolve = |reference: &str| beside(folder, reference, options.textures, permissions);
     let file = mesh_files::read(&bytes, format, LIMITS, &mut resolve);
@@ -109,14 +119,26 @@ pub fn load(name: &str, options: MeshImportOptions, permissions: &Permissions) -
 }
 
 /// A file that a mesh file names: at its path, else of the same name beside the mesh file, since paths come from other machines.
-fn beside(folder: &Path, reference: &str, with_textures: bool, permissions: &Permissions) -> Result<Vec<u8>, String> {
+fn beside(
+    folder: &Path,
+    reference: &str,
+    with_textures: bool,
+    permissions: &Permissions,
+) -> Result<Vec<u8>, String> {
     let path = reference.replace('\\', "/");
-    let is_geometry = ["bin", "mtl"].iter().any(|kind| path.to_lowercase().ends_with(&format!(".{kind}")));
+    let is_geometry = ["bin", "mtl"]
+        .iter()
+        .any(|kind| path.to_lowercase().ends_with(&format!(".{kind}")));
     if !with_textures && !is_geometry {
         return Err("left out".into());
     }
-    let paths: [PathBuf; 2] = [folder.join(&path), folder.join(path.rsplit('/').next().unwrap_or(&path))];
-    let found = permissions.read_file(&paths[0]).or_else(|first| permissions.read_file(&paths[1]).map_err(|_| first));
+    let paths: [PathBuf; 2] = [
+        folder.join(&path),
+        folder.join(path.rsplit('/').next().unwrap_or(&path)),
+    ];
+    let found = permissions
+        .read_file(&paths[0])
+        .or_else(|first| permissions.read_file(&paths[1]).map_err(|_| first));
     found.map_err(|error| error.to_string())
 }
 
@@ -129,12 +151,20 @@ pub fn store(
 ) -> Result<(), MeshFileError> {
     let path = Path::new(name);
     let last = path.file_name().unwrap_or_default().to_string_lossy();
-    let written =
-        mesh_files::write(file, format, &last).map_err(|error| MeshFileError::NotWritable(name.into(), error))?;
+    let written = mesh_files::write(file, format, &last)
+        .map_err(|error| MeshFileError::NotWritable(name.into(), error))?;
     for (number, file) in written.iter().enumerate() {
-        let path = if number == 0 { path.to_owned() } else { path.with_file_name(&file.name) };
-        let written = permissions.check_write(&path).map_err(Into::into).and_then(|()| write_whole(&path, &file.bytes));
-        written.map_err(|error| MeshFileError::Write(path.to_string_lossy().into_owned(), error))?;
+        let path = if number == 0 {
+            path.to_owned()
+        } else {
+            path.with_file_name(&file.name)
+        };
+        let written = permissions
+            .check_write(&path)
+            .map_err(Into::into)
+            .and_then(|()| write_whole(&path, &file.bytes));
+        written
+            .map_err(|error| MeshFileError::Write(path.to_string_lossy().into_owned(), error))?;
     }
     Ok(())
 }
@@ -143,8 +173,13 @@ pub fn store(
 pub fn turn_to_y_up(file: &mut MeshFile) {
     let turn = |[x, y, z]: [f64; 3]| [x, z, -y];
     for part in &mut file.parts {
-        part.vertices.iter_mut().for_each(|vertex| *vertex = turn(*vertex));
-        part.normals.as_flattened_mut().iter_mut().for_each(|normal| *normal = turn(*normal));
+        part.vertices
+            .iter_mut()
+            .for_each(|vertex| *vertex = turn(*vertex));
+        part.normals
+            .as_flattened_mut()
+            .iter_mut()
+            .for_each(|normal| *normal = turn(*normal));
     }
     file.up = Some(UpAxis::Y);
 }

@@ -23,8 +23,16 @@ impl Import<'_> {
 
     /// Whether a link carries joints that move.
     fn carries_motion(&self, link: usize) -> bool {
-        let moves = |kind: JointKind| !matches!(kind, JointKind::Fixed | JointKind::Floating | JointKind::Planar);
-        self.robot.joints.iter().any(|joint| joint.parent == link && moves(joint.kind))
+        let moves = |kind: JointKind| {
+            !matches!(
+                kind,
+                JointKind::Fixed | JointKind::Floating | JointKind::Planar
+            )
+        };
+        self.robot
+            .joints
+            .iter()
+            .any(|joint| joint.parent == link && moves(joint.kind))
     }
 
     /// A body for a link that has nothing to touch and no mass, where joints need one. URDF's links stay as they are: scripts know them so.
@@ -37,7 +45,10 @@ impl Import<'_> {
         if !shape.dynamics.is_static {
             shape.mass = light(self.next_inertial(index));
             let name = &self.robot.links[index].name;
-            self.message(format!("link '{name}' is between two joints: it gets a mass of {:.3e} kg", shape.mass.mass));
+            self.message(format!(
+                "link '{name}' is between two joints: it gets a mass of {:.3e} kg",
+                shape.mass.mass
+            ));
         }
         Ok(Some((Pose::identity(), shape)))
     }
@@ -47,9 +58,16 @@ impl Import<'_> {
         let mut link = index;
         // A chain is no longer than there are joints.
         for _ in 0..=self.robot.joints.len() {
-            let joint = self.robot.joints.iter().find(|joint| joint.parent == link && joint.child != link)?;
+            let joint = self
+                .robot
+                .joints
+                .iter()
+                .find(|joint| joint.parent == link && joint.child != link)?;
             link = joint.child;
-            let inertial = self.robot.links[link].inertial.clone().or_else(|| self.usual_inertial(link));
+            let inertial = self.robot.links[link]
+                .inertial
+                .clone()
+                .or_else(|| self.usual_inertial(link));
             if inertial.is_some() {
                 return inertial;
             }
@@ -74,6 +92,9 @@ fn light(next: Option<Inertial>) -> MassProperties {
         let [xx, _, _, yy, _, zz] = next.inertia;
         (next.mass * MASS_RATIO, (xx + yy + zz) / 3.0 * MASS_RATIO)
     });
-    let (mass, moment) = (mass.max(MIN_MASS_AND_INERTIA.0), moment.max(MIN_MASS_AND_INERTIA.1));
+    let (mass, moment) = (
+        mass.max(MIN_MASS_AND_INERTIA.0),
+        moment.max(MIN_MASS_AND_INERTIA.1),
+    );
     MassProperties::diagonal(mass, [moment / mass; 3])
 }

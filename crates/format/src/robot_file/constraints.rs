@@ -26,7 +26,12 @@ impl Import<'_> {
     pub(super) fn add_constraints(&mut self) -> SceneResult<()> {
         if self.format != RobotFormat::Urdf {
             for (index, joint) in self.robot.joints.iter().enumerate() {
-                if let Some(Mimic { joint: master, multiplier, offset }) = joint.mimic {
+                if let Some(Mimic {
+                    joint: master,
+                    multiplier,
+                    offset,
+                }) = joint.mimic
+                {
                     self.lead(index, master, offset, multiplier)?;
                 }
             }
@@ -34,14 +39,32 @@ impl Import<'_> {
         }
         for equality in &self.model.equalities {
             match equality {
-                Equality::Joint { joint, master, polynomial, line } => {
+                Equality::Joint {
+                    joint,
+                    master,
+                    polynomial,
+                    line,
+                } => {
                     self.add_equal_joint(*joint, *master, *polynomial, *line)?;
                 }
-                Equality::Connect { links, points, line } => {
+                Equality::Connect {
+                    links,
+                    points,
+                    line,
+                } => {
                     let frames = points.map(|[x, y, z]| Pose::translation(x, y, z));
-                    self.connect(&format!("connect_{line}"), *links, frames, Some(JointType::Spherical))?;
+                    self.connect(
+                        &format!("connect_{line}"),
+                        *links,
+                        frames,
+                        Some(JointType::Spherical),
+                    )?;
                 }
-                Equality::Weld { links, frames, line } => {
+                Equality::Weld {
+                    links,
+                    frames,
+                    line,
+                } => {
                     self.connect(&format!("weld_{line}"), *links, *frames, None)?;
                 }
             }
@@ -52,8 +75,17 @@ impl Import<'_> {
     /// Joints whose links are connected by others already.
     fn close_loops(&mut self) -> SceneResult<()> {
         for index in self.robot.loop_joints() {
-            let JointDescription { name, parent, child, line, .. } = &self.robot.joints[index];
-            let (parent, child) = (&self.robot.links[*parent].name, &self.robot.links[*child].name);
+            let JointDescription {
+                name,
+                parent,
+                child,
+                line,
+                ..
+            } = &self.robot.joints[index];
+            let (parent, child) = (
+                &self.robot.links[*parent].name,
+                &self.robot.links[*child].name,
+            );
             self.message(format!(
                 "line {line}: joint '{name}' closes a loop from '{parent}' to '{child}', and is not imported"
             ));
@@ -70,8 +102,14 @@ impl Import<'_> {
     ) -> SceneResult<()> {
         let [constant, factor, rest @ ..] = polynomial;
         let (Some(master), true) = (master, rest == [0.0; 3]) else {
-            let what = if master.is_none() { "to a constant" } else { "by a curve" };
-            self.message(format!("line {line}: a joint that is bound {what} is not imported"));
+            let what = if master.is_none() {
+                "to a constant"
+            } else {
+                "by a curve"
+            };
+            self.message(format!(
+                "line {line}: a joint that is bound {what} is not imported"
+            ));
             return Ok(());
         };
         let [own, other] = [joint, master].map(|joint| self.robot.joints[joint].reference);
@@ -79,13 +117,21 @@ impl Import<'_> {
     }
 
     fn lead(&mut self, joint: usize, master: usize, offset: f64, factor: f64) -> SceneResult<()> {
-        let (Some(joint), Some(master)) = (self.joints[joint], self.joints[master]) else { return Ok(()) };
-        if [joint, master].iter().any(|handle| self.scene.object(*handle).and_then(|o| o.joint().map(|_| ())).is_err())
-        {
+        let (Some(joint), Some(master)) = (self.joints[joint], self.joints[master]) else {
+            return Ok(());
+        };
+        if [joint, master].iter().any(|handle| {
+            self.scene
+                .object(*handle)
+                .and_then(|o| o.joint().map(|_| ()))
+                .is_err()
+        }) {
             return Ok(());
         }
-        self.scene.modify_joint(joint, |joint| joint.set_mode(JointMode::Dependent))?;
-        self.scene.set_joint_dependency(joint, Some(master), offset, factor)
+        self.scene
+            .modify_joint(joint, |joint| joint.set_mode(JointMode::Dependent))?;
+        self.scene
+            .set_joint_dependency(joint, Some(master), offset, factor)
     }
 
     /// Holds a frame of a link at one of another link, or lets a joint be between them.
@@ -105,7 +151,9 @@ impl Import<'_> {
         if let Some(joint_type) = joint {
             let joint = Kind::Joint(Box::new(Joint::new(joint_type, JointMode::Dynamic)));
             parent = self.add(name, joint, first, Some(one))?;
-            self.scene.modify(parent, Field::Layer, |object| object.layer = Layers::JOINTS.hidden())?;
+            self.scene.modify(parent, Field::Layer, |object| {
+                object.layer = Layers::JOINTS.hidden()
+            })?;
         }
         let tip = self.add_dummy(&format!("{name}_tip"), first, Some(parent))?;
         let target = self.add_dummy(&format!("{name}_target"), second, Some(other))?;

@@ -23,7 +23,11 @@ pub(super) const DUMMY: f64 = 0.01;
 
 impl Import<'_> {
     /// Adds a joint below what carries its parent.
-    pub(super) fn add_joint(&mut self, index: usize, parent: Option<Handle>) -> SceneResult<Handle> {
+    pub(super) fn add_joint(
+        &mut self,
+        index: usize,
+        parent: Option<Handle>,
+    ) -> SceneResult<Handle> {
         let joint = &self.robot.joints[index];
         let origin = self.placed[joint.parent] * joint.origin;
         let kind = match joint.kind {
@@ -32,8 +36,12 @@ impl Import<'_> {
             JointKind::Revolute | JointKind::Continuous => {
                 return self.add_motor(index, JointType::Revolute, origin, parent);
             }
-            JointKind::Prismatic => return self.add_motor(index, JointType::Prismatic, origin, parent),
-            JointKind::Spherical => return self.add_motor(index, JointType::Spherical, origin, parent),
+            JointKind::Prismatic => {
+                return self.add_motor(index, JointType::Prismatic, origin, parent);
+            }
+            JointKind::Spherical => {
+                return self.add_motor(index, JointType::Spherical, origin, parent);
+            }
         };
         self.add(&joint.name, kind, origin, parent)
     }
@@ -50,7 +58,9 @@ impl Import<'_> {
         if joint_type != JointType::Spherical {
             set_limits(&mut joint, description);
             match &self.model.actuators {
-                _ if self.options.contains(RobotImportOptions::FREE_JOINTS) => joint.set_control(Control::Free),
+                _ if self.options.contains(RobotImportOptions::FREE_JOINTS) => {
+                    joint.set_control(Control::Free)
+                }
                 None => joint.set_control(Control::Position),
                 Some(actuators) => {
                     let actuator = actuators.iter().find(|actuator| actuator.joint == index);
@@ -59,9 +69,16 @@ impl Import<'_> {
             }
         }
         let pose = origin * along_axis(description);
-        let handle = self.add(&description.name, Kind::Joint(Box::new(joint)), pose, parent)?;
+        let handle = self.add(
+            &description.name,
+            Kind::Joint(Box::new(joint)),
+            pose,
+            parent,
+        )?;
         if !self.options.contains(RobotImportOptions::SHOW_JOINTS) {
-            self.scene.modify(handle, Field::Layer, |object| object.layer = Layers::JOINTS.hidden())?;
+            self.scene.modify(handle, Field::Layer, |object| {
+                object.layer = Layers::JOINTS.hidden()
+            })?;
         }
         Ok(handle)
     }
@@ -70,7 +87,8 @@ impl Import<'_> {
 /// The smallest rotation that takes z to the axis; about x, if it is half a turn.
 fn along_axis(joint: &Description) -> Pose {
     let half_turn = || UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
-    let rotation = UnitQuaternion::rotation_between(&Vector3::z(), &joint.unit_axis()).unwrap_or_else(half_turn);
+    let rotation = UnitQuaternion::rotation_between(&Vector3::z(), &joint.unit_axis())
+        .unwrap_or_else(half_turn);
     Pose::from_parts(Default::default(), rotation)
 }
 
@@ -90,20 +108,31 @@ pub(super) fn first_positions(robot: &Robot) -> Vec<f64> {
 /// Where the file has it at first, or the limit that is nearest to it.
 fn first_position(joint: &Description) -> f64 {
     match (joint.limits.lower, joint.limits.upper, joint.kind) {
-        (Some(lower), Some(upper), JointKind::Revolute | JointKind::Prismatic) => joint.reference.min(upper).max(lower),
+        (Some(lower), Some(upper), JointKind::Revolute | JointKind::Prismatic) => {
+            joint.reference.min(upper).max(lower)
+        }
         _ => joint.reference,
     }
 }
 
 fn set_limits(joint: &mut Joint, description: &Description) {
-    let Limits { lower, upper, effort, velocity } = description.limits;
+    let Limits {
+        lower,
+        upper,
+        effort,
+        velocity,
+    } = description.limits;
     let is_limited = description.kind != JointKind::Continuous;
     if let (Some(lower), Some(upper), true) = (lower, upper, is_limited) {
         joint.set_interval(false, lower, upper - lower);
     }
     joint.position = first_position(description);
     joint.target_position = joint.position;
-    let usual = if description.kind == JointKind::Revolute { TORQUE } else { FORCE };
+    let usual = if description.kind == JointKind::Revolute {
+        TORQUE
+    } else {
+        FORCE
+    };
     joint.set_target_force(effort.unwrap_or(usual), false);
     joint.max_vel = velocity.unwrap_or(VELOCITY);
 }
@@ -113,7 +142,12 @@ fn set_actuator(joint: &mut Joint, description: &Description, actuator: Option<&
     if let Some(actuator) = actuator {
         joint.set_target_force(actuator.effort.unwrap_or(ANY_EFFORT), false);
     }
-    let Dynamics { damping, stiffness, rest, .. } = description.dynamics;
+    let Dynamics {
+        damping,
+        stiffness,
+        rest,
+        ..
+    } = description.dynamics;
     match actuator.map(|actuator| actuator.drive) {
         Some(Drive::Position { .. }) => joint.set_control(Control::Position),
         Some(Drive::Velocity { .. }) => joint.set_control(Control::Velocity),
@@ -123,7 +157,11 @@ fn set_actuator(joint: &mut Joint, description: &Description, actuator: Option<&
         }
         None if damping > 0.0 || stiffness > 0.0 => {
             joint.spring = [stiffness, damping];
-            joint.target_position = if stiffness > 0.0 { rest } else { joint.position };
+            joint.target_position = if stiffness > 0.0 {
+                rest
+            } else {
+                joint.position
+            };
             joint.target_velocity = SPRING_SPEED;
             joint.set_control(Control::Spring);
         }
@@ -132,5 +170,10 @@ fn set_actuator(joint: &mut Joint, description: &Description, actuator: Option<&
 }
 
 fn rigid_link() -> ForceSensor {
-    ForceSensor { size: 0.02, filter: ForceFilter::Median, sample_size: 4, ..ForceSensor::default() }
+    ForceSensor {
+        size: 0.02,
+        filter: ForceFilter::Median,
+        sample_size: 4,
+        ..ForceSensor::default()
+    }
 }

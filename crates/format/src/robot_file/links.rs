@@ -22,7 +22,8 @@ impl Import<'_> {
     pub(super) fn add_links(&mut self) -> SceneResult<()> {
         let parents = self.robot.parent_joints();
         for link in self.robot.links_from_the_roots() {
-            let parent = parents[link].map(|joint| (joint, self.nodes[self.robot.joints[joint].parent]));
+            let parent =
+                parents[link].map(|joint| (joint, self.nodes[self.robot.joints[joint].parent]));
             let (joint, depth) = match parent {
                 // What is fixed to something that never moves needs no force sensor.
                 Some((_, node)) if self.is_fixed(link) => (node.carrier, node.depth + 1),
@@ -34,18 +35,28 @@ impl Import<'_> {
                 None => (None, 0),
             };
             let shape = self.add_link(link, joint, depth)?;
-            self.nodes[link] = Node { carrier: shape.or(joint), depth };
+            self.nodes[link] = Node {
+                carrier: shape.or(joint),
+                depth,
+            };
         }
         Ok(())
     }
 
     /// Adds the shapes of a link below its joint. The result is the one that carries what hangs on the link.
-    fn add_link(&mut self, index: usize, joint: Option<Handle>, depth: usize) -> SceneResult<Option<Handle>> {
+    fn add_link(
+        &mut self,
+        index: usize,
+        joint: Option<Handle>,
+        depth: usize,
+    ) -> SceneResult<Option<Handle>> {
         let link = &self.robot.links[index];
         let (frame, hull) = (self.placed[index], self.collision_form());
         let collisions = self.shapes_of(
             link,
-            link.collisions.iter().map(|part| (part.pose, &part.geometry, None, part.line)),
+            link.collisions
+                .iter()
+                .map(|part| (part.pose, &part.geometry, None, part.line)),
             hull,
             false,
         );
@@ -56,7 +67,11 @@ impl Import<'_> {
         {
             touched = Some((self.carrier_pose(inertial), super::shapes::ball(CARRIER)?));
         }
-        let between = if touched.is_none() { self.body_between(index)? } else { None };
+        let between = if touched.is_none() {
+            self.body_between(index)?
+        } else {
+            None
+        };
         let mut seen = self.visual(link, touched.as_ref().filter(|_| !collisions.is_empty()))?;
         let body = match touched {
             Some((pose, mut shape)) => {
@@ -66,25 +81,47 @@ impl Import<'_> {
                 Some(self.add_body(&link.name, frame * pose, shape, joint)?)
             }
             None => match between {
-                Some((pose, shape)) => Some(self.add_body(&link.name, frame * pose, shape, joint)?),
+                Some((pose, shape)) => {
+                    Some(self.add_body(&link.name, frame * pose, shape, joint)?)
+                }
                 None => None,
             },
         };
-        if seen.is_none() && body.is_none() && self.options.contains(RobotImportOptions::CREATE_VISUALS) {
+        if seen.is_none()
+            && body.is_none()
+            && self.options.contains(RobotImportOptions::CREATE_VISUALS)
+        {
             let mut speck = super::shapes::cube(SPECK.0)?;
             speck.mass.set_mass(SPECK.1);
             seen = Some((Pose::identity(), speck));
         }
-        let Some((pose, shape)) = seen else { return Ok(body) };
-        let visual =
-            self.add(&format!("{}_visual", link.name), Kind::Shape(Box::new(shape)), frame * pose, body.or(joint))?;
+        let Some((pose, shape)) = seen else {
+            return Ok(body);
+        };
+        let visual = self.add(
+            &format!("{}_visual", link.name),
+            Kind::Shape(Box::new(shape)),
+            frame * pose,
+            body.or(joint),
+        )?;
         Ok(body.or(Some(visual)))
     }
 
     /// What is seen of a link: its visuals, or a copy of what is touched.
-    fn visual(&mut self, link: &Link, touched: Option<&(Pose, Shape)>) -> SceneResult<Option<(Pose, Shape)>> {
+    fn visual(
+        &mut self,
+        link: &Link,
+        touched: Option<&(Pose, Shape)>,
+    ) -> SceneResult<Option<(Pose, Shape)>> {
         let robot = self.robot;
-        let visuals = link.visuals.iter().map(|part| (part.pose, &part.geometry, robot.material_of(part), part.line));
+        let visuals = link.visuals.iter().map(|part| {
+            (
+                part.pose,
+                &part.geometry,
+                robot.material_of(part),
+                part.line,
+            )
+        });
         let shapes = self.shapes_of(link, visuals, super::shapes::Form::AsItIs, true);
         let own = self.joined(shapes);
         let copies = self.options.contains(RobotImportOptions::CREATE_VISUALS);
@@ -99,16 +136,32 @@ impl Import<'_> {
     }
 
     /// Adds the shape that has the mass of a link.
-    fn add_body(&mut self, link: &str, pose: Pose, shape: Shape, joint: Option<Handle>) -> SceneResult<Handle> {
-        let body = self.add(&format!("{link}_respondable"), Kind::Shape(Box::new(shape)), pose, joint)?;
+    fn add_body(
+        &mut self,
+        link: &str,
+        pose: Pose,
+        shape: Shape,
+        joint: Option<Handle>,
+    ) -> SceneResult<Handle> {
+        let body = self.add(
+            &format!("{link}_respondable"),
+            Kind::Shape(Box::new(shape)),
+            pose,
+            joint,
+        )?;
         if !self.options.contains(RobotImportOptions::SHOW_COLLISIONS) {
-            self.scene.modify(body, Field::Layer, |object| object.layer = Layers::SHAPES.hidden())?;
+            self.scene.modify(body, Field::Layer, |object| {
+                object.layer = Layers::SHAPES.hidden()
+            })?;
         }
         Ok(body)
     }
 
     fn local_mask(&self, depth: usize) -> i64 {
-        match (self.options.contains(RobotImportOptions::ALTERNATE_MASKS), depth % 2) {
+        match (
+            self.options.contains(RobotImportOptions::ALTERNATE_MASKS),
+            depth % 2,
+        ) {
             (false, _) => 0,
             (true, 0) => 1,
             (true, _) => 2,
@@ -116,31 +169,62 @@ impl Import<'_> {
     }
 
     /// A link without inertia is static, unless its format says otherwise. `pose` is that of the shape in the link's frame.
-    fn set_inertia(&mut self, index: usize, inertial: Option<&Inertial>, pose: Pose, shape: &mut Shape) {
+    fn set_inertia(
+        &mut self,
+        index: usize,
+        inertial: Option<&Inertial>,
+        pose: Pose,
+        shape: &mut Shape,
+    ) {
         let link = &self.robot.links[index];
         let is_fixed = self.is_fixed(index);
-        shape.dynamics.is_static = is_fixed || inertial.is_none() && self.format != RobotFormat::Mjcf;
+        shape.dynamics.is_static =
+            is_fixed || inertial.is_none() && self.format != RobotFormat::Mjcf;
         match inertial {
-            Some(inertial) => self.set_mass(link, inertial, pose.inverse() * inertial.pose, &mut shape.mass),
+            Some(inertial) => self.set_mass(
+                link,
+                inertial,
+                pose.inverse() * inertial.pose,
+                &mut shape.mass,
+            ),
             None if is_fixed => {}
             None if shape.dynamics.is_static => {
                 self.message(format!("link '{}' has no inertia: it is static", link.name));
             }
-            None => self.message(format!("link '{}' has no mass: that of its shape is taken", link.name)),
+            None => self.message(format!(
+                "link '{}' has no mass: that of its shape is taken",
+                link.name
+            )),
         }
     }
 
     /// Mass and inertia as the file says, where they are possible.
-    fn set_mass(&mut self, link: &Link, inertial: &Inertial, in_shape: Pose, mass: &mut MassProperties) {
+    fn set_mass(
+        &mut self,
+        link: &Link,
+        inertial: &Inertial,
+        in_shape: Pose,
+        mass: &mut MassProperties,
+    ) {
         if inertial.mass > 0.0 {
             mass.set_mass(inertial.mass);
         } else {
-            self.message(format!("link '{}' has no mass: that of its shape is taken", link.name));
+            self.message(format!(
+                "link '{}' has no mass: that of its shape is taken",
+                link.name
+            ));
         }
         let [mut xx, xy, xz, mut yy, yz, mut zz] = inertial.inertia;
-        if inertial.inertia.iter().all(|number| number.abs() < NO_INERTIA) {
+        if inertial
+            .inertia
+            .iter()
+            .all(|number| number.abs() < NO_INERTIA)
+        {
             (xx, yy, zz) = (SMALL_INERTIA, SMALL_INERTIA, SMALL_INERTIA);
-            self.message(format!("link '{}' has no inertia: {SMALL_INERTIA} is taken", link.name));
+            self.message(format!(
+                "link '{}' has no inertia: {SMALL_INERTIA} is taken",
+                link.name
+            ));
         }
         let frame = geometry::pose::pose_to_matrix(&in_shape);
         mass.set_absolute_inertia(&[xx, xy, xz, xy, yy, yz, xz, yz, zz], &frame);
@@ -149,9 +233,16 @@ impl Import<'_> {
     fn collision_form(&self) -> super::shapes::Form {
         use super::shapes::Form;
         // MuJoCo lets the hulls of meshes touch.
-        if self.format == RobotFormat::Mjcf || self.options.contains(RobotImportOptions::HULLS_OF_COLLISIONS) {
+        if self.format == RobotFormat::Mjcf
+            || self
+                .options
+                .contains(RobotImportOptions::HULLS_OF_COLLISIONS)
+        {
             Form::Hull
-        } else if self.options.contains(RobotImportOptions::DECOMPOSE_COLLISIONS) {
+        } else if self
+            .options
+            .contains(RobotImportOptions::DECOMPOSE_COLLISIONS)
+        {
             Form::Pieces
         } else {
             Form::AsItIs
@@ -160,4 +251,9 @@ impl Import<'_> {
 }
 
 /// A geometry of a link: its pose in the link's frame, how it looks, its line.
-pub(super) type Part<'a> = (Pose, &'a Geometry, Option<&'a robot_description::Material>, u32);
+pub(super) type Part<'a> = (
+    Pose,
+    &'a Geometry,
+    Option<&'a robot_description::Material>,
+    u32,
+);

@@ -29,7 +29,12 @@ impl MeshFiles {
     pub(super) fn new(path: &Path, replacement: Option<String>, permissions: &Permissions) -> Self {
         let mut search = Search::beside(path).with_variables(|name| variable(name, permissions));
         search.replacement = replacement;
-        Self { search, permissions: permissions.clone(), warnings: Vec::new(), last: None }
+        Self {
+            search,
+            permissions: permissions.clone(),
+            warnings: Vec::new(),
+            last: None,
+        }
     }
 
     /// What was left out of the files that were read since the last call.
@@ -59,8 +64,14 @@ impl MeshFiles {
             transparency: false,
             textures: with_textures.then_some(MAX_TEXTURE_SIDE),
         };
-        let shapes = to_shapes(&mut stretched, imported, scene).map_err(|error| failed(error.to_string()))?;
-        self.warnings.extend(stretched.warnings.iter().map(|warning| failed(warning.to_string())));
+        let shapes = to_shapes(&mut stretched, imported, scene)
+            .map_err(|error| failed(error.to_string()))?;
+        self.warnings.extend(
+            stretched
+                .warnings
+                .iter()
+                .map(|warning| failed(warning.to_string())),
+        );
         joined(shapes).map_err(failed)
     }
 
@@ -70,12 +81,15 @@ impl MeshFiles {
     /// As [`shape`](Self::shape).
     pub(super) fn named(&mut self, name: &str) -> Result<Rc<MeshFile>, String> {
         let path = self.find(name)?;
-        self.read(&path).map_err(|reason| format!("mesh '{}': {reason}", path.display()))
+        self.read(&path)
+            .map_err(|reason| format!("mesh '{}': {reason}", path.display()))
     }
 
     fn find(&self, name: &str) -> Result<PathBuf, String> {
         let may_be_read = |path: &Path| self.permissions.check_read(path).is_ok() && path.is_file();
-        self.search.find(name, &may_be_read).map_err(|missing| missing.to_string())
+        self.search
+            .find(name, &may_be_read)
+            .map_err(|missing| missing.to_string())
     }
 
     fn read(&mut self, path: &Path) -> Result<Rc<MeshFile>, String> {
@@ -84,12 +98,20 @@ impl MeshFiles {
         {
             return Ok(file.clone());
         }
-        let format = MeshFormat::of_name(&path.to_string_lossy()).ok_or("its format is not known")?;
-        let bytes = self.permissions.read_file(path).map_err(|error| error.to_string())?;
+        let format =
+            MeshFormat::of_name(&path.to_string_lossy()).ok_or("its format is not known")?;
+        let bytes = self
+            .permissions
+            .read_file(path)
+            .map_err(|error| error.to_string())?;
         let mut beside = |name: &str| self.read_beside(path, name);
-        let file =
-            mesh_files::read(&bytes, format, Limits::default(), &mut beside).map_err(|error| error.to_string())?;
-        self.warnings.extend(file.warnings.iter().map(|warning| format!("mesh '{}': {warning}", path.display())));
+        let file = mesh_files::read(&bytes, format, Limits::default(), &mut beside)
+            .map_err(|error| error.to_string())?;
+        self.warnings.extend(
+            file.warnings
+                .iter()
+                .map(|warning| format!("mesh '{}': {warning}", path.display())),
+        );
         let file = Rc::new(file);
         self.last = Some((path.to_owned(), file.clone()));
         Ok(file)
@@ -97,13 +119,21 @@ impl MeshFiles {
 
     /// A file that a mesh file names.
     fn read_beside(&self, mesh: &Path, name: &str) -> Result<Vec<u8>, String> {
-        let path = mesh.parent().unwrap_or(Path::new("")).join(name.replace('\\', "/"));
-        self.permissions.read_file(&path).map_err(|error| error.to_string())
+        let path = mesh
+            .parent()
+            .unwrap_or(Path::new(""))
+            .join(name.replace('\\', "/"));
+        self.permissions
+            .read_file(&path)
+            .map_err(|error| error.to_string())
     }
 }
 
 /// What says where the packages of ROS are. It only decides where files are found.
-#[allow(clippy::disallowed_methods, reason = "ROS says by its environment where packages are")]
+#[allow(
+    clippy::disallowed_methods,
+    reason = "ROS says by its environment where packages are"
+)]
 pub(super) fn variable(name: &str, permissions: &Permissions) -> Option<String> {
     permissions.check_environment().ok()?;
     std::env::var(name).ok()
@@ -111,16 +141,23 @@ pub(super) fn variable(name: &str, permissions: &Permissions) -> Option<String> 
 
 /// A file with its coordinates multiplied by a factor for each axis. Triangles that are mirrored by that keep their outer sides.
 fn stretched(file: &MeshFile, scale: [f64; 3]) -> MeshFile {
-    let mut file = MeshFile { warnings: Vec::new(), ..file.clone() };
+    let mut file = MeshFile {
+        warnings: Vec::new(),
+        ..file.clone()
+    };
     let [x, y, z] = scale;
     for part in &mut file.parts {
         part.merge_identical();
-        part.vertices.iter_mut().for_each(|vertex| *vertex = [vertex[0] * x, vertex[1] * y, vertex[2] * z]);
+        part.vertices
+            .iter_mut()
+            .for_each(|vertex| *vertex = [vertex[0] * x, vertex[1] * y, vertex[2] * z]);
         if !(x == y && y == z && x > 0.0) {
             part.normals.clear();
         }
         if x * y * z < 0.0 {
-            part.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+            part.triangles
+                .iter_mut()
+                .for_each(|triangle| triangle.swap(1, 2));
             part.uv.iter_mut().for_each(|corners| corners.swap(1, 2));
         }
     }
@@ -133,7 +170,10 @@ fn joined(mut shapes: Vec<Shape>) -> Result<Shape, String> {
         [] => Err("it has no triangles".into()),
         [_] => Ok(shapes.remove(0)),
         [first, ..] => {
-            let placed: Vec<(Pose, &Shape)> = shapes.iter().map(|shape| (Pose::identity(), shape)).collect();
+            let placed: Vec<(Pose, &Shape)> = shapes
+                .iter()
+                .map(|shape| (Pose::identity(), shape))
+                .collect();
             Shape::from_placed(&placed, first).map_err(|error| error.to_string())
         }
     }

@@ -118,16 +118,23 @@ impl RobotFile {
             RobotFormat::Urdf => RobotImportOptions::default(),
             RobotFormat::Sdf | RobotFormat::Mjcf => RobotImportOptions::KEEP_POSITION,
         };
-        let gravity =
-            self.gravity.filter(|gravity| gravity.map(|part| part as f32) != scene.settings().dynamics.gravity);
-        let mut imported = self.add_to(&mut scene, options).map_err(|error| error.to_string())?;
+        let gravity = self
+            .gravity
+            .filter(|gravity| gravity.map(|part| part as f32) != scene.settings().dynamics.gravity);
+        let mut imported = self
+            .add_to(&mut scene, options)
+            .map_err(|error| error.to_string())?;
         if let Some(gravity) = gravity {
-            imported.messages.push(format!("its gravity, {gravity:?}, is not a part of a model"));
+            imported.messages.push(format!(
+                "its gravity, {gravity:?}, is not a part of a model"
+            ));
         }
         let base = match imported.roots.as_slice() {
             [base] => *base,
             [] => return Err("the robot has no links".into()),
-            several => gathered(&mut scene, several, &imported.name).map_err(|error| error.to_string())?,
+            several => {
+                gathered(&mut scene, several, &imported.name).map_err(|error| error.to_string())?
+            }
         };
         let file = save::model(&scene, base, &[]).map_err(|error| error.to_string())?;
         Ok((file, imported.messages))
@@ -137,10 +144,26 @@ impl RobotFile {
     ///
     /// # Errors
     /// When all handles are in use.
-    pub fn add_to(mut self, scene: &mut Scene, options: RobotImportOptions) -> SceneResult<Imported> {
-        let mut all = Imported { name: self.name, roots: Vec::new(), objects: Vec::new(), messages: self.warnings };
+    pub fn add_to(
+        mut self,
+        scene: &mut Scene,
+        options: RobotImportOptions,
+    ) -> SceneResult<Imported> {
+        let mut all = Imported {
+            name: self.name,
+            roots: Vec::new(),
+            objects: Vec::new(),
+            messages: self.warnings,
+        };
         for model in &self.models {
-            let mut import = Import::new(scene, self.format, model, &mut self.meshes, options, &mut all.messages);
+            let mut import = Import::new(
+                scene,
+                self.format,
+                model,
+                &mut self.meshes,
+                options,
+                &mut all.messages,
+            );
             import.add_links()?;
             import.add_sensors()?;
             import.add_sites()?;
@@ -155,8 +178,13 @@ impl RobotFile {
 
 /// A model of several trees: below a dummy.
 fn gathered(scene: &mut Scene, roots: &[Handle], name: &str) -> SceneResult<Handle> {
-    let base = scene.add(&clean_alias(name.as_bytes()), Kind::Dummy(Dummy::new(joints::DUMMY)))?;
-    scene.modify(base, Field::ObjectProperty, |object| object.set_model_property(ModelFlags::empty()))?;
+    let base = scene.add(
+        &clean_alias(name.as_bytes()),
+        Kind::Dummy(Dummy::new(joints::DUMMY)),
+    )?;
+    scene.modify(base, Field::ObjectProperty, |object| {
+        object.set_model_property(ModelFlags::empty())
+    })?;
     for root in roots {
         scene.set_parent(*root, Some(base), true)?;
     }
@@ -199,7 +227,9 @@ impl<'a> Import<'a> {
         messages: &'a mut Vec<String>,
     ) -> Self {
         let robot = &model.robot;
-        let placed = robot.link_poses(&joints::first_positions(robot)).unwrap_or_default();
+        let placed = robot
+            .link_poses(&joints::first_positions(robot))
+            .unwrap_or_default();
         Self {
             scene,
             format,
@@ -220,7 +250,13 @@ impl<'a> Import<'a> {
     }
 
     /// Adds an object at a pose in the world.
-    fn add(&mut self, alias: &str, kind: Kind, pose: Pose, parent: Option<Handle>) -> SceneResult<Handle> {
+    fn add(
+        &mut self,
+        alias: &str,
+        kind: Kind,
+        pose: Pose,
+        parent: Option<Handle>,
+    ) -> SceneResult<Handle> {
         let handle = self.scene.add(&clean_alias(alias.as_bytes()), kind)?;
         self.scene.set_world_pose(handle, pose)?;
         self.scene.set_parent(handle, parent, true)?;
@@ -229,12 +265,19 @@ impl<'a> Import<'a> {
     }
 
     fn finish(mut self) -> SceneResult<(Vec<Handle>, Vec<Handle>)> {
-        let is_root = |handle: &Handle| self.scene.object(*handle).is_ok_and(|object| object.parent().is_none());
+        let is_root = |handle: &Handle| {
+            self.scene
+                .object(*handle)
+                .is_ok_and(|object| object.parent().is_none())
+        };
         let roots: Vec<Handle> = self.objects.iter().copied().filter(is_root).collect();
         if !self.options.contains(RobotImportOptions::KEEP_POSITION) {
             lift_to_ground(self.scene, &self.objects, &roots)?;
         }
-        if let ([base], false) = (roots.as_slice(), self.options.contains(RobotImportOptions::NO_MODEL)) {
+        if let ([base], false) = (
+            roots.as_slice(),
+            self.options.contains(RobotImportOptions::NO_MODEL),
+        ) {
             self.make_model(*base)?;
         }
         Ok((roots, self.objects))
@@ -246,7 +289,12 @@ impl<'a> Import<'a> {
             object.set_model_property(ModelFlags::empty());
             object.object_property |= ObjectFlags::COLLAPSED;
         })?;
-        for handle in self.objects.iter().copied().filter(|handle| *handle != base) {
+        for handle in self
+            .objects
+            .iter()
+            .copied()
+            .filter(|handle| *handle != base)
+        {
             self.scene.modify(handle, Field::ObjectProperty, |object| {
                 object.object_property |= ObjectFlags::SELECT_MODEL;
             })?;

@@ -5,8 +5,14 @@ use nalgebra::{Point3, Vector3};
 use scene::{Handle, Scene, SceneResult};
 
 /// Moves objects so that their shapes are centred on the z axis of the world and stand on its ground.
-pub(super) fn lift_to_ground(scene: &mut Scene, objects: &[Handle], roots: &[Handle]) -> SceneResult<()> {
-    let Some((low, high)) = extent(scene, objects)? else { return Ok(()) };
+pub(super) fn lift_to_ground(
+    scene: &mut Scene,
+    objects: &[Handle],
+    roots: &[Handle],
+) -> SceneResult<()> {
+    let Some((low, high)) = extent(scene, objects)? else {
+        return Ok(());
+    };
     let offset = Vector3::new(-(low.x + high.x) / 2.0, -(low.y + high.y) / 2.0, -low.z);
     for root in roots {
         let mut pose = scene.world_pose(*root)?;
@@ -20,7 +26,9 @@ pub(super) fn lift_to_ground(scene: &mut Scene, objects: &[Handle], roots: &[Han
 fn extent(scene: &Scene, objects: &[Handle]) -> SceneResult<Option<(Point3<f64>, Point3<f64>)>> {
     let mut extent: Option<(Point3<f64>, Point3<f64>)> = None;
     for handle in objects {
-        let Ok(shape) = scene.object(*handle)?.shape() else { continue };
+        let Ok(shape) = scene.object(*handle)?.shape() else {
+            continue;
+        };
         let pose = scene.world_pose(*handle)?;
         for part in &shape.parts {
             let placed = pose * part.pose;

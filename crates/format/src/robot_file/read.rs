@@ -13,7 +13,9 @@ use permissions::Permissions;
 impl RobotFormat {
     /// The format that a file's name says, or its beginning.
     fn of(path: &Path, start: &[u8]) -> Option<Self> {
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let ending = path
+            .extension()
+            .map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
             Some("urdf") => Some(Self::Urdf),
             Some("sdf" | "world") => Some(Self::Sdf),
@@ -27,9 +29,15 @@ impl RobotFormat {
 impl RobotFile {
     /// Whether a file is a robot, or a world, that can be imported: by its name, or as MJCF by its first element.
     pub fn is_one(path: &Path, permissions: &Permissions) -> bool {
-        let is_xml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xml"));
+        let is_xml = path
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("xml"));
         // What cannot be read is no robot; whoever reads it then says why.
-        let start = if is_xml && path.is_file() { permissions.read_file(path).unwrap_or_default() } else { Vec::new() };
+        let start = if is_xml && path.is_file() {
+            permissions.read_file(path).unwrap_or_default()
+        } else {
+            Vec::new()
+        };
         RobotFormat::of(path, &start).is_some()
     }
 
@@ -56,10 +64,18 @@ impl RobotFile {
         replacement: Option<String>,
         permissions: &Permissions,
     ) -> Result<Self, String> {
-        let bytes = permissions.read_file(path).map_err(|error| error.to_string())?;
+        let bytes = permissions
+            .read_file(path)
+            .map_err(|error| error.to_string())?;
         let path = std::path::absolute(path).map_err(|error| error.to_string())?;
         let said = format.or_else(|| RobotFormat::of(&path, &bytes));
-        Self::parse(&bytes, said.unwrap_or(RobotFormat::Urdf), &path, replacement, permissions)
+        Self::parse(
+            &bytes,
+            said.unwrap_or(RobotFormat::Urdf),
+            &path,
+            replacement,
+            permissions,
+        )
     }
 
     /// Reads the text of a file. Relative names in it mean files beside `path`.
@@ -79,13 +95,28 @@ impl RobotFile {
             RobotFormat::Sdf => read_sdf(text, path, permissions),
             RobotFormat::Mjcf => read_mjcf(text, path, &mut meshes, permissions),
         };
-        let Parsed { value: contents, warnings, further_warnings } = read.map_err(|error| error.to_string())?;
+        let Parsed {
+            value: contents,
+            warnings,
+            further_warnings,
+        } = read.map_err(|error| error.to_string())?;
         let mut warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
         if further_warnings > 0 {
             warnings.push(format!("and {further_warnings} other warnings"));
         }
-        let Contents { name, models, gravity } = contents;
-        Ok(Self { format, name, models, gravity, meshes, warnings })
+        let Contents {
+            name,
+            models,
+            gravity,
+        } = contents;
+        Ok(Self {
+            format,
+            name,
+            models,
+            gravity,
+            meshes,
+            warnings,
+        })
     }
 
     /// Whether its models have places in a world.
@@ -97,15 +128,30 @@ impl RobotFile {
     pub fn summary(&self) -> Vec<String> {
         let mut lines = vec![format!("'{}': {} models", self.name, self.models.len())];
         for robot in self.models.iter().map(|model| &model.robot) {
-            lines.push(format!("model '{}': {} links, {} joints", robot.name, robot.links.len(), robot.joints.len()));
+            lines.push(format!(
+                "model '{}': {} links, {} joints",
+                robot.name,
+                robot.links.len(),
+                robot.joints.len()
+            ));
             for link in &robot.links {
-                let mass = link.inertial.as_ref().map_or_else(|| "no mass".to_owned(), |i| format!("{} kg", i.mass));
+                let mass = link
+                    .inertial
+                    .as_ref()
+                    .map_or_else(|| "no mass".to_owned(), |i| format!("{} kg", i.mass));
                 let (seen, touched) = (link.visuals.len(), link.collisions.len());
-                lines.push(format!("  link '{}': {mass}, {seen} visuals, {touched} collisions", link.name));
+                lines.push(format!(
+                    "  link '{}': {mass}, {seen} visuals, {touched} collisions",
+                    link.name
+                ));
             }
             for joint in &robot.joints {
-                let [parent, child] = [joint.parent, joint.child].map(|link| robot.links[link].name.as_str());
-                lines.push(format!("  joint '{}' ({:?}): '{parent}' to '{child}'", joint.name, joint.kind));
+                let [parent, child] =
+                    [joint.parent, joint.child].map(|link| robot.links[link].name.as_str());
+                lines.push(format!(
+                    "  joint '{}' ({:?}): '{parent}' to '{child}'",
+                    joint.name, joint.kind
+                ));
             }
         }
         lines.extend(self.warnings.iter().cloned());
@@ -124,44 +170,84 @@ fn read_urdf(text: &[u8]) -> Result<Parsed<Contents>, ReadError> {
     let parsed = urdf::read(text)?;
     Ok(with(parsed, |robot| Contents {
         name: robot.name.clone(),
-        models: vec![Description { robot, ..Description::default() }],
+        models: vec![Description {
+            robot,
+            ..Description::default()
+        }],
         gravity: None,
     }))
 }
 
-fn read_sdf(text: &[u8], path: &Path, permissions: &Permissions) -> Result<Parsed<Contents>, ReadError> {
+fn read_sdf(
+    text: &[u8],
+    path: &Path,
+    permissions: &Permissions,
+) -> Result<Parsed<Contents>, ReadError> {
     let search = Search::beside(path).with_variables(|name| variable(name, permissions));
     let mut include = |uri: &str| included(uri, &search, permissions);
     let parsed = sdf::read(text, &mut include)?;
     Ok(with(parsed, |world| {
-        let first = world.models.first().map(|model| model.robot.name.clone()).unwrap_or_default();
-        let name = if world.name.is_empty() { first } else { world.name };
-        Contents { name, models: world.models.into_iter().map(of_sdf).collect(), gravity: world.gravity }
+        let first = world
+            .models
+            .first()
+            .map(|model| model.robot.name.clone())
+            .unwrap_or_default();
+        let name = if world.name.is_empty() {
+            first
+        } else {
+            world.name
+        };
+        Contents {
+            name,
+            models: world.models.into_iter().map(of_sdf).collect(),
+            gravity: world.gravity,
+        }
     }))
 }
 
 /// A model of a world. What its joints fix to the world is fixed; of a static one, all is.
 fn of_sdf(model: sdf::Model) -> Description {
-    let sdf::Model { robot, pose, is_static } = model;
+    let sdf::Model {
+        robot,
+        pose,
+        is_static,
+    } = model;
     let is_world = |link: usize| robot.links[link].line == 0 && robot.links[link].name == "world";
     let parents = robot.parent_joints();
     let mut is_fixed = vec![false; robot.links.len()];
     for link in robot.links_from_the_roots() {
         let parent = parents[link].map(|joint| &robot.joints[joint]);
-        let is_held = parent.is_some_and(|joint| joint.kind == JointKind::Fixed && is_fixed[joint.parent]);
+        let is_held =
+            parent.is_some_and(|joint| joint.kind == JointKind::Fixed && is_fixed[joint.parent]);
         is_fixed[link] = is_static || is_world(link) || is_held;
     }
     let fixed = (0..is_fixed.len()).filter(|link| is_fixed[*link]).collect();
-    Description { robot, pose, fixed, ..Description::default() }
+    Description {
+        robot,
+        pose,
+        fixed,
+        ..Description::default()
+    }
 }
 
 /// The file of an `<include>`: of a folder, that of its `model.sdf`.
 fn included(uri: &str, search: &Search, permissions: &Permissions) -> Result<Included, String> {
     let may_be_read = |path: &Path| permissions.check_read(path).is_ok() && path.exists();
-    let found = search.find(uri, &may_be_read).map_err(|missing| missing.to_string())?;
-    let file = if found.is_dir() { found.join("model.sdf") } else { found };
-    let bytes = permissions.read_file(&file).map_err(|error| error.to_string())?;
-    let folder = file.parent().map(|folder| folder.to_string_lossy().into_owned()).unwrap_or_default();
+    let found = search
+        .find(uri, &may_be_read)
+        .map_err(|missing| missing.to_string())?;
+    let file = if found.is_dir() {
+        found.join("model.sdf")
+    } else {
+        found
+    };
+    let bytes = permissions
+        .read_file(&file)
+        .map_err(|error| error.to_string())?;
+    let folder = file
+        .parent()
+        .map(|folder| folder.to_string_lossy().into_owned())
+        .unwrap_or_default();
     Ok(Included { bytes, folder })
 }
 
@@ -172,22 +258,55 @@ fn read_mjcf(
     permissions: &Permissions,
 ) -> Result<Parsed<Contents>, ReadError> {
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let parsed = mjcf::read(text, &mut Beside { folder, meshes, permissions })?;
+    let parsed = mjcf::read(
+        text,
+        &mut Beside {
+            folder,
+            meshes,
+            permissions,
+        },
+    )?;
     Ok(with(parsed, |model| {
         let name = model.robot.name.clone();
         let gravity = model.gravity;
-        Contents { name, models: vec![of_mjcf(model)], gravity }
+        Contents {
+            name,
+            models: vec![of_mjcf(model)],
+            gravity,
+        }
     }))
 }
 
 fn of_mjcf(model: mjcf::Model) -> Description {
-    let mjcf::Model { robot, fixed, actuators, sites, equalities, .. } = model;
-    Description { robot, fixed, actuators: Some(actuators), sites, equalities, ..Description::default() }
+    let mjcf::Model {
+        robot,
+        fixed,
+        actuators,
+        sites,
+        equalities,
+        ..
+    } = model;
+    Description {
+        robot,
+        fixed,
+        actuators: Some(actuators),
+        sites,
+        equalities,
+        ..Description::default()
+    }
 }
 
 fn with<T, U>(parsed: Parsed<T>, change: impl FnOnce(T) -> U) -> Parsed<U> {
-    let Parsed { value, warnings, further_warnings } = parsed;
-    Parsed { value: change(value), warnings, further_warnings }
+    let Parsed {
+        value,
+        warnings,
+        further_warnings,
+    } = parsed;
+    Parsed {
+        value: change(value),
+        warnings,
+        further_warnings,
+    }
 }
 
 /// The files beside one in MJCF.
@@ -199,7 +318,9 @@ struct Beside<'a> {
 
 impl Files for Beside<'_> {
     fn include(&mut self, name: &str) -> Result<Vec<u8>, String> {
-        self.permissions.read_file(&self.folder.join(name)).map_err(|error| error.to_string())
+        self.permissions
+            .read_file(&self.folder.join(name))
+            .map_err(|error| error.to_string())
     }
 
     fn triangles(&mut self, file: &str) -> Result<Triangles, String> {
@@ -207,7 +328,11 @@ impl Files for Beside<'_> {
         for part in &self.meshes.named(file)?.parts {
             let first = mesh.vertices.len() as u32;
             mesh.vertices.extend(part.vertices.iter().copied());
-            mesh.corners.extend(part.triangles.iter().map(|triangle| triangle.map(|corner| corner + first)));
+            mesh.corners.extend(
+                part.triangles
+                    .iter()
+                    .map(|triangle| triangle.map(|corner| corner + first)),
+            );
         }
         Ok(mesh)
     }

@@ -21,7 +21,9 @@ impl Import<'_> {
     pub(super) fn add_sensors(&mut self) -> SceneResult<()> {
         for sensor in &self.robot.sensors {
             match &sensor.kind {
-                SensorKind::Camera { resolution, clip, .. } => self.add_sensor(sensor, camera(*resolution, *clip))?,
+                SensorKind::Camera {
+                    resolution, clip, ..
+                } => self.add_sensor(sensor, camera(*resolution, *clip))?,
                 SensorKind::Ray => self.add_sensor(sensor, cone())?,
                 SensorKind::Other(kind) => {
                     self.message(format!(
@@ -36,25 +38,50 @@ impl Import<'_> {
 
     fn add_sensor(&mut self, sensor: &Sensor, kind: Kind) -> SceneResult<()> {
         let half_turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::PI);
-        let pose = self.placed[sensor.link] * sensor.pose * Pose::from_parts(Default::default(), half_turn);
+        let pose = self.placed[sensor.link]
+            * sensor.pose
+            * Pose::from_parts(Default::default(), half_turn);
         let parent = self.nodes[sensor.link].carrier;
         let handle = self.add(&sensor.name, kind, pose, parent)?;
-        self.scene
-            .modify(handle, Field::ObjectProperty, |object| object.object_property |= ObjectFlags::HIDE_FROM_MODEL_BOX)
+        self.scene.modify(handle, Field::ObjectProperty, |object| {
+            object.object_property |= ObjectFlags::HIDE_FROM_MODEL_BOX
+        })
     }
 }
 
 fn camera(resolution: [u32; 2], [near, far]: [f64; 2]) -> Kind {
     let options = VisionOptions::EXPLICIT_HANDLING | VisionOptions::PERSPECTIVE;
     let near = near.max(1e-4);
-    let floats = [near, far.max(near * 1.01), CAMERA_ANGLE, SIZE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-    Kind::VisionSensor(Box::new(VisionSensor::new(options, resolution.map(i64::from), Some(floats))))
+    let floats = [
+        near,
+        far.max(near * 1.01),
+        CAMERA_ANGLE,
+        SIZE,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+    ];
+    Kind::VisionSensor(Box::new(VisionSensor::new(
+        options,
+        resolution.map(i64::from),
+        Some(floats),
+    )))
 }
 
 fn cone() -> Kind {
     let [range, radius, angle] = CONE;
-    let floats = [0.0, range, 0.0, 0.0, 0.0, 0.0, 0.0, radius, 0.0, angle, 0.0, 0.0, SIZE, 0.0, 0.0];
-    let sensor =
-        ProximitySensor::new(VolumeType::Cone, ProximityOptions::empty(), ProximitySensor::INTEGERS, Some(floats));
+    let floats = [
+        0.0, range, 0.0, 0.0, 0.0, 0.0, 0.0, radius, 0.0, angle, 0.0, 0.0, SIZE, 0.0, 0.0,
+    ];
+    let sensor = ProximitySensor::new(
+        VolumeType::Cone,
+        ProximityOptions::empty(),
+        ProximitySensor::INTEGERS,
+        Some(floats),
+    );
     Kind::ProximitySensor(Box::new(sensor))
 }

@@ -57,18 +57,33 @@ impl Import<'_> {
     }
 
     /// The shape of a geometry, and where it lies in the geometry's frame.
-    fn shape(&mut self, geometry: &Geometry, form: Form, with_textures: bool) -> Result<(Pose, Shape), String> {
+    fn shape(
+        &mut self,
+        geometry: &Geometry,
+        form: Form,
+        with_textures: bool,
+    ) -> Result<(Pose, Shape), String> {
         let (kind, size) = match geometry {
             Geometry::Box { size } => (PrimitiveKind::Cuboid, *size),
             Geometry::Sphere { radius } => (PrimitiveKind::Spheroid, [2.0 * radius; 3]),
-            Geometry::Cylinder { radius, length } => (PrimitiveKind::Cylinder, [2.0 * radius, 2.0 * radius, *length]),
-            Geometry::Capsule { radius, length } => {
-                (PrimitiveKind::Capsule, [2.0 * radius, 2.0 * radius, length + 2.0 * radius])
+            Geometry::Cylinder { radius, length } => (
+                PrimitiveKind::Cylinder,
+                [2.0 * radius, 2.0 * radius, *length],
+            ),
+            Geometry::Capsule { radius, length } => (
+                PrimitiveKind::Capsule,
+                [2.0 * radius, 2.0 * radius, length + 2.0 * radius],
+            ),
+            Geometry::Ellipsoid { radii } => {
+                (PrimitiveKind::Spheroid, radii.map(|radius| 2.0 * radius))
             }
-            Geometry::Ellipsoid { radii } => (PrimitiveKind::Spheroid, radii.map(|radius| 2.0 * radius)),
             Geometry::Plane { normal } => return plane(*normal).map_err(|error| error.to_string()),
             Geometry::Mesh { file, scale } => {
-                let scale = if self.format == RobotFormat::Urdf { usual_scale(*scale) } else { *scale };
+                let scale = if self.format == RobotFormat::Urdf {
+                    usual_scale(*scale)
+                } else {
+                    *scale
+                };
                 let shape = self.meshes.shape(file, scale, self.scene, with_textures)?;
                 self.messages.append(&mut self.meshes.take_warnings());
                 return formed(shape, form)
@@ -76,7 +91,8 @@ impl Import<'_> {
                     .map_err(|error| format!("mesh '{file}': {error}"));
             }
         };
-        let shape = Shape::primitive(kind, size, Default::default()).map_err(|error| error.to_string())?;
+        let shape =
+            Shape::primitive(kind, size, Default::default()).map_err(|error| error.to_string())?;
         Ok((Pose::identity(), shape))
     }
 
@@ -84,7 +100,11 @@ impl Import<'_> {
     pub(super) fn joined(&mut self, shapes: Vec<(Pose, Shape)>) -> Option<(Pose, Shape)> {
         let at_joint = self.options.contains(RobotImportOptions::FRAMES_AT_JOINTS);
         let (first_pose, first) = shapes.first()?;
-        let frame = if at_joint { Pose::identity() } else { *first_pose };
+        let frame = if at_joint {
+            Pose::identity()
+        } else {
+            *first_pose
+        };
         if shapes.len() == 1 {
             let mut shape = first.clone();
             // The frame of a primitive is that of its form.
@@ -94,7 +114,10 @@ impl Import<'_> {
             shape.reframe(first_pose);
             return Some((frame, shape));
         }
-        let placed: Vec<(Pose, &Shape)> = shapes.iter().map(|(pose, shape)| (frame.inverse() * pose, shape)).collect();
+        let placed: Vec<(Pose, &Shape)> = shapes
+            .iter()
+            .map(|(pose, shape)| (frame.inverse() * pose, shape))
+            .collect();
         match Shape::from_placed(&placed, first) {
             Ok(shape) => Some((frame, shape)),
             Err(error) => {
@@ -107,16 +130,25 @@ impl Import<'_> {
 
 /// The factors that simURDF takes: of those that enlarge, it takes none (spec: import 1).
 fn usual_scale([x, y, z]: [f64; 3]) -> [f64; 3] {
-    if x * y * z > 0.99999 && x > 0.0 && y > 0.0 { [1.0; 3] } else { [x, y, z] }
+    if x * y * z > 0.99999 && x > 0.0 && y > 0.0 {
+        [1.0; 3]
+    } else {
+        [x, y, z]
+    }
 }
 
 /// A flat box whose upper side is the plane.
 fn plane(normal: [f64; 3]) -> SceneResult<(Pose, Shape)> {
     let (edge, thickness) = PLANE;
     let up = nalgebra::Vector3::z();
-    let rotation = nalgebra::UnitQuaternion::rotation_between(&up, &normal.into()).unwrap_or_default();
+    let rotation =
+        nalgebra::UnitQuaternion::rotation_between(&up, &normal.into()).unwrap_or_default();
     let offset = rotation * up * (-thickness / 2.0);
-    let shape = Shape::primitive(PrimitiveKind::Cuboid, [edge, edge, thickness], Default::default())?;
+    let shape = Shape::primitive(
+        PrimitiveKind::Cuboid,
+        [edge, edge, thickness],
+        Default::default(),
+    )?;
     Ok((Pose::from_parts(offset.into(), rotation), shape))
 }
 
@@ -139,17 +171,23 @@ fn formed(shape: Shape, form: Form) -> SceneResult<Shape> {
         [] => Err(SceneError::Refused("it has no volume".into())),
         [one] => Ok(one.clone()),
         [first, ..] => {
-            let placed: Vec<(Pose, &Shape)> = shapes.iter().map(|shape| (Pose::identity(), shape)).collect();
+            let placed: Vec<(Pose, &Shape)> = shapes
+                .iter()
+                .map(|shape| (Pose::identity(), shape))
+                .collect();
             Shape::from_placed(&placed, first)
         }
     }
 }
 
 fn paint(shape: &mut Shape, material: &Material) {
-    let Some([red, green, blue, _]) = material.color else { return };
+    let Some([red, green, blue, _]) = material.color else {
+        return;
+    };
     for part in &mut shape.parts {
         let colour = &mut part.appearance.colour;
-        colour.ambient_diffuse = [red, green, blue].map(|component| component.clamp(0.0, 1.0) as f32);
+        colour.ambient_diffuse =
+            [red, green, blue].map(|component| component.clamp(0.0, 1.0) as f32);
         colour.specular = SPECULAR;
     }
 }

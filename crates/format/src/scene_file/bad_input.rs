@@ -35,12 +35,19 @@ fn load(bytes: &[u8]) -> Result<(), FileError> {
 
 #[test]
 fn every_shortened_file_is_an_error() {
-    let (file, body) = (super::save::scene(&scene::Scene::new(), &[]).unwrap().write(), body());
+    let (file, body) = (
+        super::save::scene(&scene::Scene::new(), &[])
+            .unwrap()
+            .write(),
+        body(),
+    );
     for end in 0..file.len() - 1 {
         assert!(File::read(&file[..end]).is_err(), "{end}");
     }
     for end in 0..body.len() {
-        let error = File::read(&plain(&body[..end])).err().unwrap_or_else(|| panic!("{end} is enough"));
+        let error = File::read(&plain(&body[..end]))
+            .err()
+            .unwrap_or_else(|| panic!("{end} is enough"));
         assert!(
             matches!(&error, FileError::Chunk { offset, path, .. } if *offset <= end && !path.is_empty()),
             "{error}"
@@ -66,12 +73,20 @@ fn flipped_bits_do_no_harm() {
 #[test]
 fn an_object_at_no_place_is_an_error() {
     let mut scene = Scene::new();
-    scene.add("far", scene::Kind::Dummy(scene::object::dummy::Dummy::new(0.1))).unwrap();
+    scene
+        .add(
+            "far",
+            scene::Kind::Dummy(scene::object::dummy::Dummy::new(0.1)),
+        )
+        .unwrap();
     let mut file = super::save::scene(&scene, &[]).unwrap();
     let far = scene::Pose::translation(1e300, 0.0, 0.0);
     file.contents.objects[0].common.pose = Some(far.into());
     let error = SceneFile::read(&file.write()).err().unwrap().to_string();
-    assert!(error.contains("far") && error.contains("no place"), "{error}");
+    assert!(
+        error.contains("far") && error.contains("no place"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -87,10 +102,23 @@ fn lengths_that_lie_are_errors_with_their_place() {
 fn streams_within_streams_end() {
     let mut chunk = b"EOO".to_vec();
     for _ in 0..5000 {
-        chunk = [&b"Wrp"[..], &(chunk.len() as i32).to_le_bytes(), &chunk, b"EOO"].concat();
+        chunk = [
+            &b"Wrp"[..],
+            &(chunk.len() as i32).to_le_bytes(),
+            &chunk,
+            b"EOO",
+        ]
+        .concat();
     }
-    let shape = [&b"3do\x03\0\0\0\x39\x3a\x3bNXT"[..], &wrapped(b"Ge2", &wrapped(b"Gsg", &chunk)), b"EOO"].concat();
-    let error = SceneFile::read(&plain(&[wrapped(b"SHP", &shape), b"EOF".to_vec()].concat())).err().unwrap();
+    let shape = [
+        &b"3do\x03\0\0\0\x39\x3a\x3bNXT"[..],
+        &wrapped(b"Ge2", &wrapped(b"Gsg", &chunk)),
+        b"EOO",
+    ]
+    .concat();
+    let error = SceneFile::read(&plain(&[wrapped(b"SHP", &shape), b"EOF".to_vec()].concat()))
+        .err()
+        .unwrap();
     assert!(error.to_string().contains("nested too deeply"), "{error}");
 }
 

@@ -15,8 +15,16 @@ pub fn is_scene(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// Describes the fault in the bytes, and its position.
-pub fn read_file(bytes: &[u8], folder: Option<&Path>, permissions: &Permissions) -> FileResult<File> {
-    if xml::is_xml(bytes) { xml::read(bytes, folder, permissions) } else { File::read(bytes) }
+pub fn read_file(
+    bytes: &[u8],
+    folder: Option<&Path>,
+    permissions: &Permissions,
+) -> FileResult<File> {
+    if xml::is_xml(bytes) {
+        xml::read(bytes, folder, permissions)
+    } else {
+        File::read(bytes)
+    }
 }
 
 /// The file at a path.
@@ -25,5 +33,6 @@ pub fn read_file(bytes: &[u8], folder: Option<&Path>, permissions: &Permissions)
 /// In words.
 pub fn read_path(path: &Path) -> Result<File, String> {
     let bytes = read_bounded(path).map_err(|error| error.to_string())?;
-    read_file(&bytes, path.parent(), &Permissions::all()).map_err(|error: FileError| error.to_string())
+    read_file(&bytes, path.parent(), &Permissions::all())
+        .map_err(|error: FileError| error.to_string())
 }

@@ -24,10 +24,15 @@ pub(crate) fn real_files() -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(folder) else {
         let thread = std::thread::current();
         let name = thread.name().unwrap_or("a test");
-        let _ = writeln!(std::io::stderr(), "{name}: scenes of other people are skipped: there is no ../shared");
+        let _ = writeln!(
+            std::io::stderr(),
+            "{name}: scenes of other people are skipped: there is no ../shared"
+        );
         return Vec::new();
     };
-    let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("a readable folder").path()).collect();
+    let mut files: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("a readable folder").path())
+        .collect();
     files.retain(|path| path.metadata().is_ok_and(|file| file.len() < 240_000));
     files.sort();
     files
@@ -41,7 +46,10 @@ pub(crate) fn own_files() -> [PathBuf; 4] {
 
 pub(crate) fn load(bytes: &[u8]) -> (Scene, Loaded) {
     let mut scene = Scene::new();
-    let loaded = SceneFile::read(bytes).unwrap().add_to(&mut scene, true).unwrap();
+    let loaded = SceneFile::read(bytes)
+        .unwrap()
+        .add_to(&mut scene, true)
+        .unwrap();
     (scene, loaded)
 }
 
@@ -51,20 +59,38 @@ fn saved(scene: &Scene, loaded: &Loaded) -> Vec<u8> {
 
 /// Where an object is: the places among its siblings from the root down.
 fn place(scene: &Scene, handle: Handle) -> String {
-    let order = |h: Handle| scene.siblings(h).unwrap().iter().position(|s| *s == h).unwrap();
+    let order = |h: Handle| {
+        scene
+            .siblings(h)
+            .unwrap()
+            .iter()
+            .position(|s| *s == h)
+            .unwrap()
+    };
     let above: Vec<usize> = scene.ancestors(handle).map(order).collect();
-    above.iter().rev().chain([&order(handle)]).map(|at| format!("/{at}")).collect()
+    above
+        .iter()
+        .rev()
+        .chain([&order(handle)])
+        .map(|at| format!("/{at}"))
+        .collect()
 }
 
 /// All that is known of an object, handles and identifiers of the session apart; meshes by their numbers and extents.
 fn description(scene: &Scene, object: &Object) -> String {
     let mut slim = object.clone();
     let mut text = String::new();
-    let engines = |values: &dyn Fn(Engine) -> (Vec<f64>, Vec<i32>)| format!("{:?}", Engine::ALL.map(values));
+    let engines =
+        |values: &dyn Fn(Engine) -> (Vec<f64>, Vec<i32>)| format!("{:?}", Engine::ALL.map(values));
     match &mut slim.kind {
         Kind::Shape(shape) => {
             for part in &mut shape.parts {
-                text += &format!("{} {} {:?} ", part.mesh.vertices.len(), part.mesh.triangles.len(), part.mesh.aabb());
+                text += &format!(
+                    "{} {} {:?} ",
+                    part.mesh.vertices.len(),
+                    part.mesh.triangles.len(),
+                    part.mesh.aabb()
+                );
                 part.mesh = Rc::default();
             }
             text += &engines(&|engine| shape.material.engine_rows(engine));
@@ -103,8 +129,13 @@ fn cached_poses_are_right_after_loading() {
         }
         // Changes accumulate for the objects that are not read now.
         let all: Vec<Handle> = scene.objects().map(Object::handle).collect();
-        let read = if turn % 50 == 0 { all } else { vec![all[random.below(all.len())]] };
-        read.into_iter().for_each(|handle| check_pose(&scene, handle));
+        let read = if turn % 50 == 0 {
+            all
+        } else {
+            vec![all[random.below(all.len())]]
+        };
+        read.into_iter()
+            .for_each(|handle| check_pose(&scene, handle));
     }
     assert!(loads > 100, "{loads}");
 }
@@ -114,7 +145,11 @@ fn move_something(scene: &mut Scene, random: &mut Random) {
     let all: Vec<Handle> = scene.objects().map(Object::handle).collect();
     if all.is_empty() || all.len() < 40 && random.below(4) == 0 {
         let joint = Joint::new(JointType::Revolute, JointMode::Kinematic);
-        let kind = if random.below(2) == 0 { Kind::Joint(Box::new(joint)) } else { Kind::Dummy(Dummy::new(0.01)) };
+        let kind = if random.below(2) == 0 {
+            Kind::Joint(Box::new(joint))
+        } else {
+            Kind::Dummy(Dummy::new(0.01))
+        };
         scene.add("o", kind).unwrap();
         return;
     }
@@ -133,7 +168,11 @@ fn move_something(scene: &mut Scene, random: &mut Random) {
 fn reloaded(mut scene: Scene, random: &mut Random) -> Scene {
     let all: Vec<Handle> = scene.objects().map(Object::handle).collect();
     let is_model = all.len() < 60 && random.below(2) == 0;
-    let file = if is_model { save::model(&scene, all[random.below(all.len())], &[]) } else { save::scene(&scene, &[]) };
+    let file = if is_model {
+        save::model(&scene, all[random.below(all.len())], &[])
+    } else {
+        save::scene(&scene, &[])
+    };
     let file = SceneFile::read(&file.unwrap().write()).unwrap();
     if !is_model {
         scene = Scene::new();
@@ -149,13 +188,17 @@ fn check_pose(scene: &Scene, handle: Handle) {
 }
 
 fn descriptions(scene: &Scene) -> BTreeMap<String, String> {
-    scene.objects().map(|object| (place(scene, object.handle()), description(scene, object))).collect()
+    scene
+        .objects()
+        .map(|object| (place(scene, object.handle()), description(scene, object)))
+        .collect()
 }
 
 /// Words and numbers; what identifies an object in a session only is left out.
 fn words(text: &str) -> Vec<&str> {
-    let all =
-        text.split(|c: char| !(c.is_alphanumeric() || matches!(c, '.' | '-' | '_' | '/'))).filter(|w| !w.is_empty());
+    let all = text
+        .split(|c: char| !(c.is_alphanumeric() || matches!(c, '.' | '-' | '_' | '/')))
+        .filter(|w| !w.is_empty());
     let mut words: Vec<&str> = Vec::new();
     for word in all {
         match words.last() {
@@ -177,19 +220,34 @@ pub(crate) fn assert_same(a: &Scene, b: &Scene, what: &str) {
     assert!(first.keys().eq(second.keys()), "{what}: other objects");
     for (place, text) in &first {
         let (x, y) = (words(text), words(&second[place]));
-        let differ =
-            x.iter().zip(&y).position(|(x, y)| !same(x, y)).or((x.len() != y.len()).then_some(x.len().min(y.len())));
+        let differ = x
+            .iter()
+            .zip(&y)
+            .position(|(x, y)| !same(x, y))
+            .or((x.len() != y.len()).then_some(x.len().min(y.len())));
         if let Some(at) = differ {
             let around = |w: &[&str]| w[at.saturating_sub(12)..(at + 6).min(w.len())].join(" ");
-            panic!("{what} {place}:\n{}\n{}\n{}", &text[..text.len().min(160)], around(&x), around(&y));
+            panic!(
+                "{what} {place}:\n{}\n{}\n{}",
+                &text[..text.len().min(160)],
+                around(&x),
+                around(&y)
+            );
         }
     }
-    let rows = |scene: &Scene| Engine::ALL.map(|engine| scene.settings().dynamics.engine_rows(engine));
+    let rows =
+        |scene: &Scene| Engine::ALL.map(|engine| scene.settings().dynamics.engine_rows(engine));
     assert_eq!(rows(a), rows(b), "{what}");
     let plain = |scene: &Scene| {
         let settings = scene.settings().clone();
-        let dynamics = DynamicsSettings { engine_values: InertValues::default(), ..settings.dynamics };
-        Settings { dynamics, ..settings }
+        let dynamics = DynamicsSettings {
+            engine_values: InertValues::default(),
+            ..settings.dynamics
+        };
+        Settings {
+            dynamics,
+            ..settings
+        }
     };
     assert_eq!(plain(a), plain(b), "{what}");
     assert_eq!(a.custom_data, b.custom_data, "{what}");
@@ -208,7 +266,15 @@ fn real_scenes_come_back_from_the_saver() {
         let texts = |l: &Loaded| {
             l.scripts
                 .iter()
-                .map(|s| (s.script_type, s.code.clone(), s.language.clone(), s.disabled, s.exec_order))
+                .map(|s| {
+                    (
+                        s.script_type,
+                        s.code.clone(),
+                        s.language.clone(),
+                        s.disabled,
+                        s.exec_order,
+                    )
+                })
                 .collect::<Vec<_>>()
         };
         assert_eq!(texts(&loaded), texts(&again), "{what}");
@@ -228,7 +294,10 @@ fn a_model_comes_back_where_it_stood() {
         let mut scene = Scene::new();
         let root = file.add_to(&mut scene, false).unwrap().root.unwrap();
         assert_eq!(scene.len(), first.subtree(base).len());
-        let (there, here) = (first.world_pose(base).unwrap(), scene.world_pose(root).unwrap());
+        let (there, here) = (
+            first.world_pose(base).unwrap(),
+            scene.world_pose(root).unwrap(),
+        );
         assert!((there.translation.vector - here.translation.vector).norm() < 1e-12);
     }
 }
@@ -237,9 +306,12 @@ fn a_model_comes_back_where_it_stood() {
 fn groups_in_groups_come_apart_level_by_level_after_loading() {
     let mut scene = Scene::new();
     let mut cube = |x: f64| {
-        let shape = Shape::primitive(PrimitiveKind::Cuboid, [0.1, 0.2, 0.3], Default::default()).unwrap();
+        let shape =
+            Shape::primitive(PrimitiveKind::Cuboid, [0.1, 0.2, 0.3], Default::default()).unwrap();
         let cube = scene.add("c", Kind::Shape(Box::new(shape))).unwrap();
-        scene.set_world_pose(cube, Pose::translation(x, 2.0 * x, 0.0)).unwrap();
+        scene
+            .set_world_pose(cube, Pose::translation(x, 2.0 * x, 0.0))
+            .unwrap();
         cube.raw()
     };
     let cubes = [cube(0.0), cube(1.0), cube(2.0), cube(3.0)];
@@ -254,8 +326,13 @@ fn groups_in_groups_come_apart_level_by_level_after_loading() {
     let (mut scene, loaded) = load(&saved(&scene, &Loaded::default()));
     let mut taken = |group| {
         let pieces = scene.ungroup_shape(group).unwrap().unwrap();
-        let parts = pieces.iter().map(|h| scene.object(*h).unwrap().shape().unwrap().parts.len()).collect::<Vec<_>>();
-        let places = pieces.iter().map(|h| scene.world_pose(*h).unwrap().translation.x.round());
+        let parts = pieces
+            .iter()
+            .map(|h| scene.object(*h).unwrap().shape().unwrap().parts.len())
+            .collect::<Vec<_>>();
+        let places = pieces
+            .iter()
+            .map(|h| scene.world_pose(*h).unwrap().translation.x.round());
         (pieces[0], parts, places.collect::<Vec<_>>())
     };
     let (three, parts, places) = taken(loaded.root.unwrap());
@@ -269,7 +346,9 @@ fn groups_in_groups_come_apart_level_by_level_after_loading() {
 #[test]
 fn what_v_rep_had_is_kept() {
     use scene::object::dummy::Dummy;
-    use scene::path_object::{ControlPoint, PathAttributes, PathFollowing, PathMeasures, PathObject, Shaping};
+    use scene::path_object::{
+        ControlPoint, PathAttributes, PathFollowing, PathMeasures, PathObject, Shaping,
+    };
     use scene::tree::ik_groups::{IkElement, IkGroup};
 
     let mut scene = Scene::new();
@@ -284,7 +363,8 @@ fn what_v_rep_had_is_kept() {
         flags: 6,
         channels: [1.0, 2.0, 3.0, 4.0],
     };
-    path.insert(0, vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)], true).unwrap();
+    path.insert(0, vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)], true)
+        .unwrap();
     path.set_motion(0.5, 0.02, 0.1, 0.2);
     path.explicit = true;
     path.shaping = Some(Shaping {
@@ -295,8 +375,14 @@ fn what_v_rep_had_is_kept() {
         colour: scene::appearance::colour::Colour::new([0.5, 0.25, 0.125]),
     });
     let path = scene.add("path", Kind::Path(Box::new(path))).unwrap();
-    let following = PathFollowing { bits: 2, offsets: [0.25, 0.5] };
-    let dummy = Dummy { path_following: following, ..Dummy::new(0.01) };
+    let following = PathFollowing {
+        bits: 2,
+        offsets: [0.25, 0.5],
+    };
+    let dummy = Dummy {
+        path_following: following,
+        ..Dummy::new(0.01)
+    };
     let pad = scene.add("pad", Kind::Dummy(dummy)).unwrap();
     scene.set_parent(pad, Some(path), true).unwrap();
     scene.ik_groups_mut().add(IkGroup {
@@ -321,16 +407,49 @@ fn what_v_rep_had_is_kept() {
         ..IkGroup::new("")
     });
     let collection = scene.collections_mut().add(false, None);
-    scene.collections_mut().set_name(collection, "goods".into()).unwrap();
+    scene
+        .collections_mut()
+        .set_name(collection, "goods".into())
+        .unwrap();
 
-    let loaded = Loaded { objects: vec![path, pad], root: None, scripts: Vec::new() };
+    let loaded = Loaded {
+        objects: vec![path, pad],
+        root: None,
+        scripts: Vec::new(),
+    };
     let (again, loaded) = load(&saved(&scene, &loaded));
-    let [path_again, pad_again] = loaded.objects[..] else { panic!("there are two") };
-    assert_eq!(again.object(path_again).unwrap().path(), scene.object(path).unwrap().path());
-    assert_eq!(again.object(pad_again).unwrap().dummy().unwrap().path_following, following);
+    let [path_again, pad_again] = loaded.objects[..] else {
+        panic!("there are two")
+    };
+    assert_eq!(
+        again.object(path_again).unwrap().path(),
+        scene.object(path).unwrap().path()
+    );
+    assert_eq!(
+        again
+            .object(pad_again)
+            .unwrap()
+            .dummy()
+            .unwrap()
+            .path_following,
+        following
+    );
     assert!(again.collections().named("goods").is_some());
-    let group = again.ik_groups().get(again.ik_groups().named("reach").unwrap()).unwrap();
-    assert_eq!((group.elements[0].tip, group.elements[0].base), (pad_again, Some(path_again)));
+    let group = again
+        .ik_groups()
+        .get(again.ik_groups().named("reach").unwrap())
+        .unwrap();
+    assert_eq!(
+        (group.elements[0].tip, group.elements[0].base),
+        (pad_again, Some(path_again))
+    );
     assert!(group.explicit);
-    assert_eq!((group.damping, group.max_iterations, group.elements[0].constraints), (0.25, 5, 7));
+    assert_eq!(
+        (
+            group.damping,
+            group.max_iterations,
+            group.elements[0].constraints
+        ),
+        (0.25, 5, 7)
+    );
 }

@@ -45,11 +45,17 @@ impl WholeFile {
     /// When the folder is not there or cannot be written.
     pub fn create(path: &Path) -> std::io::Result<Self> {
         if is_special(path) {
-            return Ok(Self { file: File::create(path)?, part: None });
+            return Ok(Self {
+                file: File::create(path)?,
+                part: None,
+            });
         }
         let path = link_target(path);
         let (file, part) = part_of(&path)?.into_parts();
-        Ok(Self { file, part: Some((part, path)) })
+        Ok(Self {
+            file,
+            part: Some((part, path)),
+        })
     }
 
     /// Gives the file its name.
@@ -57,7 +63,8 @@ impl WholeFile {
     /// # Errors
     /// When it cannot be renamed.
     pub fn finish(self) -> std::io::Result<()> {
-        self.part.map_or(Ok(()), |(part, path)| Ok(part.persist(path)?))
+        self.part
+            .map_or(Ok(()), |(part, path)| Ok(part.persist(path)?))
     }
 }
 
@@ -82,7 +89,10 @@ impl Seek for WholeFile {
 /// # Errors
 /// When the folder is not there or cannot be written.
 pub fn part_of(path: &Path) -> std::io::Result<NamedTempFile> {
-    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    let folder = path
+        .parent()
+        .filter(|folder| *folder != Path::new(""))
+        .unwrap_or(Path::new("."));
     remove_abandoned(folder, TIME_TO_LOCK);
     let file = new_file().tempfile_in(folder)?;
     // Where files cannot be locked, this one may be taken for abandoned if writing lasts longer than a minute.
@@ -110,11 +120,17 @@ fn remove_abandoned(folder: &Path, age: Duration) {
 
 fn is_abandoned(entry: &DirEntry, age: Duration) -> std::io::Result<bool> {
     let name = entry.file_name();
-    let is_ours = name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
+    let is_ours = name
+        .to_str()
+        .is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
     if !is_ours || !entry.file_type()?.is_file() {
         return Ok(false);
     }
-    let is_old = entry.metadata()?.modified()?.elapsed().is_ok_and(|elapsed| elapsed >= age);
+    let is_old = entry
+        .metadata()?
+        .modified()?
+        .elapsed()
+        .is_ok_and(|elapsed| elapsed >= age);
     Ok(is_old && FileExt::try_lock(&File::open(entry.path())?).is_ok())
 }
 
@@ -147,7 +163,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let file = |name: &str| File::create(folder.path().join(name)).unwrap();
         let names = || {
-            let mut names: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
+            let mut names: Vec<_> = std::fs::read_dir(folder.path())
+                .unwrap()
+                .map(|e| e.unwrap().file_name())
+                .collect();
             names.sort();
             names
         };
@@ -159,7 +178,10 @@ mod tests {
         remove_abandoned(folder.path(), TIME_TO_LOCK);
         assert_eq!(names().len(), 4);
         remove_abandoned(folder.path(), Duration::ZERO);
-        assert_eq!(names(), [".swanilda-2.part", ".swanilda-mine", "other.part"]);
+        assert_eq!(
+            names(),
+            [".swanilda-2.part", ".swanilda-mine", "other.part"]
+        );
         drop(in_use);
         remove_abandoned(folder.path(), Duration::ZERO);
         assert_eq!(names(), [".swanilda-mine", "other.part"]);

@@ -37,23 +37,46 @@ pub fn is_scene(folder: &Path) -> bool {
 pub fn unpack(file: &File, folder: &Path) -> NodeResult<()> {
     let is_new = std::fs::read_dir(folder).map_or(true, |mut entries| entries.next().is_none());
     if !is_new && !is_scene(folder) {
-        return Err(format!("{} is not empty, and no unpacked scene", folder.display()));
+        return Err(format!(
+            "{} is not empty, and no unpacked scene",
+            folder.display()
+        ));
     }
-    for part in PARTS.map(|part| folder.join(part)).iter().filter(|part| part.is_dir()) {
+    for part in PARTS
+        .map(|part| folder.join(part))
+        .iter()
+        .filter(|part| part.is_dir())
+    {
         std::fs::remove_dir_all(part).map_err(|error| format!("{}: {error}", part.display()))?;
     }
-    let mut outside = Outside { folder, names: Names::default(), blobs: 0 };
+    let mut outside = Outside {
+        folder,
+        names: Names::default(),
+        blobs: 0,
+    };
     let mut file = file.clone();
     let scripts = names::of_scripts(&file);
     for (number, text) in take_meshes(&mut file)?.into_iter().enumerate() {
         outside.write(&mesh_name(number as i32), text.as_bytes())?;
     }
     let mut tree = file.to_node();
-    if let Some(Node::List(objects)) = tree.get_mut("contents").and_then(|contents| contents.get_mut("objects")) {
-        objects.iter_mut().zip(&scripts.objects).try_for_each(|(object, name)| outside.put(object, name))?;
+    if let Some(Node::List(objects)) = tree
+        .get_mut("contents")
+        .and_then(|contents| contents.get_mut("objects"))
+    {
+        objects
+            .iter_mut()
+            .zip(&scripts.objects)
+            .try_for_each(|(object, name)| outside.put(object, name))?;
     }
-    if let Some(Node::List(attached)) = tree.get_mut("contents").and_then(|contents| contents.get_mut("scripts")) {
-        attached.iter_mut().zip(&scripts.attached).try_for_each(|(script, name)| outside.put(script, name))?;
+    if let Some(Node::List(attached)) = tree
+        .get_mut("contents")
+        .and_then(|contents| contents.get_mut("scripts"))
+    {
+        attached
+            .iter_mut()
+            .zip(&scripts.attached)
+            .try_for_each(|(script, name)| outside.put(script, name))?;
     }
     outside.put(&mut tree, "file")?;
     outside.write(TREE, (tree.print() + "\n").as_bytes())
@@ -64,7 +87,10 @@ pub fn unpack(file: &File, folder: &Path) -> NodeResult<()> {
 /// # Errors
 /// Describes the fault and its place in the tree.
 pub fn pack(folder: &Path, permissions: &Permissions) -> NodeResult<File> {
-    let inside = Inside { folder, permissions };
+    let inside = Inside {
+        folder,
+        permissions,
+    };
     let mut tree = inside.tree()?;
     inside.bring_in(&mut tree)?;
     let mut file = at(TREE, File::from_node(&tree))?;
@@ -77,12 +103,22 @@ pub fn pack(folder: &Path, permissions: &Permissions) -> NodeResult<File> {
 /// # Errors
 /// When the tree of the folder may not or cannot be read.
 pub fn sources(folder: &Path, permissions: &Permissions) -> NodeResult<ScriptSources> {
-    let tree = Inside { folder, permissions }.tree()?;
+    let tree = Inside {
+        folder,
+        permissions,
+    }
+    .tree()?;
     let list = |name: &str| match tree.get("contents").and_then(|contents| contents.get(name)) {
-        Some(Node::List(items)) => items.iter().map(|item| Some(path_of(folder, source(item)?))).collect(),
+        Some(Node::List(items)) => items
+            .iter()
+            .map(|item| Some(path_of(folder, source(item)?)))
+            .collect(),
         _ => Vec::new(),
     };
-    Ok(ScriptSources { objects: list("objects"), attached: list("scripts") })
+    Ok(ScriptSources {
+        objects: list("objects"),
+        attached: list("scripts"),
+    })
 }
 
 fn path_of(folder: &Path, name: &str) -> String {
@@ -91,7 +127,9 @@ fn path_of(folder: &Path, name: &str) -> String {
 
 /// The file of the script of an object.
 fn source(node: &Node) -> Option<&str> {
-    let Node::Table(entries) = node else { return None };
+    let Node::Table(entries) = node else {
+        return None;
+    };
     entries.iter().find_map(|(key, item)| match item {
         Node::Text(name) if key == "file" && name.starts_with(SCRIPTS) => Some(name.as_str()),
         _ => source(item),
@@ -125,7 +163,9 @@ impl Outside<'_> {
                 *node = Node::table([("file", Node::Text(file))]);
             }
             Node::List(items) => items.iter_mut().try_for_each(|item| self.put(item, name))?,
-            Node::Table(entries) => entries.iter_mut().try_for_each(|(_, item)| self.put(item, name))?,
+            Node::Table(entries) => entries
+                .iter_mut()
+                .try_for_each(|(_, item)| self.put(item, name))?,
             _ => {}
         }
         Ok(())
@@ -148,11 +188,16 @@ struct Inside<'a> {
 impl Inside<'_> {
     /// A file of the folder; never one outside of it, except by a link to what may be read.
     fn read(&self, name: &str) -> NodeResult<Vec<u8>> {
-        if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
+        if !Path::new(name)
+            .components()
+            .all(|part| matches!(part, Component::Normal(_)))
+        {
             return Err(format!("`{name}` is not in the folder"));
         }
         let path = self.folder.join(name);
-        self.permissions.read_file(&path).map_err(|error| format!("{}: {error}", path.display()))
+        self.permissions
+            .read_file(&path)
+            .map_err(|error| format!("{}: {error}", path.display()))
     }
 
     fn tree(&self) -> NodeResult<Node> {
@@ -170,7 +215,9 @@ impl Inside<'_> {
                     *node = Node::Bytes(self.read(name)?);
                     return Ok(());
                 }
-                entries.iter_mut().try_for_each(|(_, item)| self.bring_in(item))
+                entries
+                    .iter_mut()
+                    .try_for_each(|(_, item)| self.bring_in(item))
             }
             Node::List(items) => items.iter_mut().try_for_each(|item| self.bring_in(item)),
             _ => Ok(()),
@@ -182,17 +229,27 @@ impl Inside<'_> {
         let mut known = std::collections::HashMap::new();
         let mut any = false;
         for_each_mesh(file, &mut |data| {
-            let Some(number) = data.vertices_at else { return Ok(()) };
+            let Some(number) = data.vertices_at else {
+                return Ok(());
+            };
             any = true;
             let places = match known.get(&number) {
                 Some(places) => *places,
                 None => {
                     let name = mesh_name(number);
-                    let places = arrays.add(at(&name, self.read(&name).and_then(|text| obj::read(&text)))?);
+                    let places = arrays.add(at(
+                        &name,
+                        self.read(&name).and_then(|text| obj::read(&text)),
+                    )?);
                     *known.entry(number).or_insert(places)
                 }
             };
-            [data.vertices_at, data.indices_at, data.normals_at, data.edges_at] = places;
+            [
+                data.vertices_at,
+                data.indices_at,
+                data.normals_at,
+                data.edges_at,
+            ] = places;
             Ok(())
         })?;
         file.contents.mesh_pool = any.then_some(arrays.pool);
@@ -201,28 +258,51 @@ impl Inside<'_> {
 }
 
 /// All meshes of a file, in its order.
-fn for_each_mesh(file: &mut File, visit: &mut impl FnMut(&mut MeshData) -> NodeResult<()>) -> NodeResult<()> {
-    fn of_group(group: &mut MeshNode, visit: &mut impl FnMut(&mut MeshData) -> NodeResult<()>) -> NodeResult<()> {
+fn for_each_mesh(
+    file: &mut File,
+    visit: &mut impl FnMut(&mut MeshData) -> NodeResult<()>,
+) -> NodeResult<()> {
+    fn of_group(
+        group: &mut MeshNode,
+        visit: &mut impl FnMut(&mut MeshData) -> NodeResult<()>,
+    ) -> NodeResult<()> {
         group.children.iter_mut().try_for_each(|child| match child {
             MeshTree::Mesh(mesh) => visit(&mut mesh.data),
             MeshTree::Group(group) => of_group(group, visit),
         })
     }
     for object in &mut file.contents.objects {
-        let Class::Shape(shape) = &mut object.class else { continue };
-        let Some(geometry) = &mut shape.geometry else { continue };
-        geometry.mesh.iter_mut().try_for_each(|mesh| visit(&mut mesh.data))?;
-        geometry.group.iter_mut().try_for_each(|group| of_group(group, visit))?;
+        let Class::Shape(shape) = &mut object.class else {
+            continue;
+        };
+        let Some(geometry) = &mut shape.geometry else {
+            continue;
+        };
+        geometry
+            .mesh
+            .iter_mut()
+            .try_for_each(|mesh| visit(&mut mesh.data))?;
+        geometry
+            .group
+            .iter_mut()
+            .try_for_each(|group| of_group(group, visit))?;
     }
     Ok(())
 }
 
 /// Takes the shared arrays out of a file. Each mesh then has the number of a text in OBJ format as that of its vertices.
 fn take_meshes(file: &mut File) -> NodeResult<Vec<String>> {
-    let Some(pool) = file.contents.mesh_pool.take() else { return Ok(Vec::new()) };
+    let Some(pool) = file.contents.mesh_pool.take() else {
+        return Ok(Vec::new());
+    };
     let (mut known, mut texts) = (std::collections::HashMap::new(), Vec::new());
     for_each_mesh(file, &mut |data| {
-        let places = [data.vertices_at.take(), data.indices_at.take(), data.normals_at.take(), data.edges_at.take()];
+        let places = [
+            data.vertices_at.take(),
+            data.indices_at.take(),
+            data.normals_at.take(),
+            data.edges_at.take(),
+        ];
         let number = match known.get(&places) {
             Some(number) => *number,
             None => {
@@ -253,11 +333,19 @@ mod tests {
             let file = File::read(&std::fs::read(&path).unwrap()).unwrap();
             let folder = tempfile::tempdir().unwrap();
             unpack(&file, folder.path()).unwrap_or_else(|e| panic!("{what}: {e}"));
-            let packed = pack(folder.path(), &Permissions::all()).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let packed =
+                pack(folder.path(), &Permissions::all()).unwrap_or_else(|e| panic!("{what}: {e}"));
             let (mut a, mut b) = (file, packed.clone());
-            assert_eq!(take_meshes(&mut a).unwrap(), take_meshes(&mut b).unwrap(), "{what}: other meshes");
+            assert_eq!(
+                take_meshes(&mut a).unwrap(),
+                take_meshes(&mut b).unwrap(),
+                "{what}: other meshes"
+            );
             // As text, since numbers that are none differ from themselves.
-            assert!(a.to_node().print() == b.to_node().print(), "{what}: another tree");
+            assert!(
+                a.to_node().print() == b.to_node().print(),
+                "{what}: another tree"
+            );
             let again = tempfile::tempdir().unwrap();
             unpack(&packed, again.path()).unwrap();
             let tree = |folder: &Path| std::fs::read(folder.join(TREE)).unwrap();
@@ -270,15 +358,25 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("mine.txt"), "x").unwrap();
         let file = File::read(&std::fs::read(&own_files()[0]).unwrap()).unwrap();
-        assert!(unpack(&file, folder.path()).unwrap_err().contains("not empty"));
+        assert!(
+            unpack(&file, folder.path())
+                .unwrap_err()
+                .contains("not empty")
+        );
         assert!(pack(folder.path(), &Permissions::all()).is_err());
     }
 
     #[test]
     fn nothing_outside_of_the_folder_is_read() {
         for name in ["/etc/passwd", "../scene.json", "a/../../b", "."] {
-            let inside = Inside { folder: Path::new("."), permissions: &Permissions::all() };
-            assert!(inside.read(name).unwrap_err().contains("not in the folder"), "{name}");
+            let inside = Inside {
+                folder: Path::new("."),
+                permissions: &Permissions::all(),
+            };
+            assert!(
+                inside.read(name).unwrap_err().contains("not in the folder"),
+                "{name}"
+            );
         }
     }
 }

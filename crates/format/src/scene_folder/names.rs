@@ -21,9 +21,16 @@ impl Names {
     /// The name with an extension; with a number where it has been given already. Some systems do not tell capitals apart.
     pub(super) fn free(&mut self, name: &str, extension: &str) -> String {
         let numbered = |n: usize| {
-            if n == 1 { format!("scripts/{name}.{extension}") } else { format!("scripts/{name}-{n}.{extension}") }
+            if n == 1 {
+                format!("scripts/{name}.{extension}")
+            } else {
+                format!("scripts/{name}-{n}.{extension}")
+            }
         };
-        (1..).map(numbered).find(|name| self.taken.insert(name.to_lowercase())).unwrap_or_default()
+        (1..)
+            .map(numbered)
+            .find(|name| self.taken.insert(name.to_lowercase()))
+            .unwrap_or_default()
     }
 }
 
@@ -35,12 +42,16 @@ pub(super) struct ScriptNames {
 
 pub(super) fn of_scripts(file: &File) -> ScriptNames {
     let objects = &file.contents.objects;
-    let by_handle: BTreeMap<i32, &Object> =
-        objects.iter().filter_map(|object| Some((object.common.handles?[0], object))).collect();
+    let by_handle: BTreeMap<i32, &Object> = objects
+        .iter()
+        .filter_map(|object| Some((object.common.handles?[0], object)))
+        .collect();
     let attached = file.contents.scripts.iter().map(|script| {
         let [_, owner, kind] = script.ids.unwrap_or([-1; 3]);
-        let owner =
-            by_handle.get(&owner).or_else(|| by_handle.get(&script.cust_obj_handle?)).map(|o| path(o, &by_handle));
+        let owner = by_handle
+            .get(&owner)
+            .or_else(|| by_handle.get(&script.cust_obj_handle?))
+            .map(|o| path(o, &by_handle));
         match (kind, owner) {
             (0, _) => "main".to_owned(),
             (6, Some(owner)) => format!("{owner}/customization"),
@@ -49,7 +60,10 @@ pub(super) fn of_scripts(file: &File) -> ScriptNames {
         }
     });
     ScriptNames {
-        objects: objects.iter().map(|object| path(object, &by_handle)).collect(),
+        objects: objects
+            .iter()
+            .map(|object| path(object, &by_handle))
+            .collect(),
         attached: attached.collect(),
     }
 }
@@ -57,8 +71,11 @@ pub(super) fn of_scripts(file: &File) -> ScriptNames {
 fn path(object: &Object, by_handle: &BTreeMap<i32, &Object>) -> String {
     let mut names = vec![alias(object)];
     let mut above = object;
-    while let Some(parent) =
-        above.common.handles.and_then(|[_, parent]| by_handle.get(&parent)).filter(|_| names.len() < MAX_DEPTH)
+    while let Some(parent) = above
+        .common
+        .handles
+        .and_then(|[_, parent]| by_handle.get(&parent))
+        .filter(|_| names.len() < MAX_DEPTH)
     {
         names.push(alias(parent));
         above = parent;
@@ -69,7 +86,12 @@ fn path(object: &Object, by_handle: &BTreeMap<i32, &Object>) -> String {
 
 fn alias(object: &Object) -> String {
     let common = &object.common;
-    let name = common.alias.as_ref().or(common.name.as_ref()).map(|name| name.decode()).unwrap_or_default();
+    let name = common
+        .alias
+        .as_ref()
+        .or(common.name.as_ref())
+        .map(|name| name.decode())
+        .unwrap_or_default();
     let mut name = clean_alias(name.split('#').next().unwrap_or_default().as_bytes());
     name.truncate(MAX_NAME_LENGTH);
     name

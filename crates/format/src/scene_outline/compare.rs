@@ -14,10 +14,18 @@ pub fn differences(a: &Outline, b: &Outline) -> String {
     let pairs = pairs(a, b);
     let paired: BTreeSet<&str> = pairs.iter().map(|(old, _)| old.path.as_str()).collect();
     let found: BTreeSet<&str> = pairs.iter().map(|(_, new)| new.path.as_str()).collect();
-    for item in a.objects.iter().filter(|item| !paired.contains(item.path.as_str())) {
+    for item in a
+        .objects
+        .iter()
+        .filter(|item| !paired.contains(item.path.as_str()))
+    {
         out += &format!("removed {} ({})\n", item.path, item.kind);
     }
-    for item in b.objects.iter().filter(|item| !found.contains(item.path.as_str())) {
+    for item in b
+        .objects
+        .iter()
+        .filter(|item| !found.contains(item.path.as_str()))
+    {
         out += &format!("added   {} ({})\n", item.path, item.kind);
         scripts(&mut out, &item.path, &[], &item.scripts);
     }
@@ -40,12 +48,24 @@ pub fn differences(a: &Outline, b: &Outline) -> String {
 
 /// The same object in both: of the same path, or else of the same identity.
 fn pairs<'a>(a: &'a Outline, b: &'a Outline) -> Vec<(&'a OutlineItem, &'a OutlineItem)> {
-    let new: BTreeMap<&str, &OutlineItem> = b.objects.iter().map(|item| (item.path.as_str(), item)).collect();
+    let new: BTreeMap<&str, &OutlineItem> = b
+        .objects
+        .iter()
+        .map(|item| (item.path.as_str(), item))
+        .collect();
     let old: BTreeSet<&str> = a.objects.iter().map(|item| item.path.as_str()).collect();
-    let strays = b.objects.iter().filter(|item| !old.contains(item.path.as_str()));
-    let mut strays: BTreeMap<&str, &OutlineItem> = strays.map(|item| (item.persistent_id.as_str(), item)).collect();
+    let strays = b
+        .objects
+        .iter()
+        .filter(|item| !old.contains(item.path.as_str()));
+    let mut strays: BTreeMap<&str, &OutlineItem> = strays
+        .map(|item| (item.persistent_id.as_str(), item))
+        .collect();
     let pair = |item: &'a OutlineItem| {
-        let other = new.get(item.path.as_str()).copied().or_else(|| strays.remove(item.persistent_id.as_str()))?;
+        let other = new
+            .get(item.path.as_str())
+            .copied()
+            .or_else(|| strays.remove(item.persistent_id.as_str()))?;
         Some((item, other))
     };
     a.objects.iter().filter_map(pair).collect()
@@ -59,7 +79,10 @@ fn fields(
     b: &[(String, String)],
     is_same: impl Fn(&str) -> bool,
 ) {
-    let new: BTreeMap<&str, &str> = b.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
+    let new: BTreeMap<&str, &str> = b
+        .iter()
+        .map(|(name, value)| (name.as_str(), value.as_str()))
+        .collect();
     let old: BTreeSet<&str> = a.iter().map(|(name, _)| name.as_str()).collect();
     for (name, value) in a {
         let word = if name == "pose" { "moved  " } else { "changed" };
@@ -79,7 +102,10 @@ fn fields(
 /// The same but for rounding.
 fn same(a: &str, b: &str) -> bool {
     let words = |text: &str| -> Vec<String> {
-        text.split(['[', ']', ',', ' ']).filter(|w| !w.is_empty()).map(str::to_owned).collect()
+        text.split(['[', ']', ',', ' '])
+            .filter(|w| !w.is_empty())
+            .map(str::to_owned)
+            .collect()
     };
     let near = |a: &String, b: &String| match (a.parse::<f64>(), b.parse::<f64>()) {
         (Ok(a), Ok(b)) => (a - b).abs() <= SAME * (1.0 + a.abs()),
@@ -92,7 +118,8 @@ fn same(a: &str, b: &str) -> bool {
 impl Mesh {
     /// The same but for rounding, which changes the sums.
     fn is_near(&self, other: &Self) -> bool {
-        let near = |(a, b): (&f32, &f32)| f64::from((a - b).abs()) <= SAME * f64::from(1.0 + a.abs());
+        let near =
+            |(a, b): (&f32, &f32)| f64::from((a - b).abs()) <= SAME * f64::from(1.0 + a.abs());
         self.indices == other.indices
             && self.vertices.len() == other.vertices.len()
             && self.vertices.iter().zip(&other.vertices).all(near)
@@ -102,12 +129,17 @@ impl Mesh {
 fn scripts(out: &mut String, path: &str, a: &[(String, String)], b: &[(String, String)]) {
     let names: BTreeSet<&str> = a.iter().chain(b).map(|(name, _)| name.as_str()).collect();
     let find = |list: &[(String, String)], name: &str| {
-        list.iter().find(|(own, _)| own == name).map(|(_, text)| text.clone()).unwrap_or_default()
+        list.iter()
+            .find(|(own, _)| own == name)
+            .map(|(_, text)| text.clone())
+            .unwrap_or_default()
     };
     for name in names {
         let difference = lines::unified(&find(a, name), &find(b, name));
         if !difference.is_empty() {
-            out.push_str(&format!("--- a{path} {name}\n+++ b{path} {name}\n{difference}"));
+            out.push_str(&format!(
+                "--- a{path} {name}\n+++ b{path} {name}\n{difference}"
+            ));
         }
     }
 }
@@ -131,15 +163,26 @@ mod tests {
 
     #[test]
     fn a_scene_is_the_same_as_itself() {
-        for path in own_files().into_iter().chain(real_files().into_iter().take(6)) {
+        for path in own_files()
+            .into_iter()
+            .chain(real_files().into_iter().take(6))
+        {
             let file = File::read(&std::fs::read(&path).unwrap()).unwrap();
-            assert_eq!(differences(&outline(file.clone()), &outline(file)), "", "{}", path.display());
+            assert_eq!(
+                differences(&outline(file.clone()), &outline(file)),
+                "",
+                "{}",
+                path.display()
+            );
         }
     }
 
     #[test]
     fn a_scene_that_is_saved_again_is_the_same() {
-        for path in own_files().into_iter().chain(real_files().into_iter().take(6)) {
+        for path in own_files()
+            .into_iter()
+            .chain(real_files().into_iter().take(6))
+        {
             let file = File::read(&std::fs::read(&path).unwrap()).unwrap();
             let (mut scene, source) = (Scene::new(), SceneFile::new(file.clone()).unwrap());
             let as_scene = !source.is_model();
@@ -159,11 +202,16 @@ mod tests {
         let moved = |metres: f32| {
             let mut file = robot();
             let pool = file.contents.mesh_pool.as_mut().unwrap();
-            pool.vertices.iter_mut().for_each(|Rest(vertices)| vertices[0] += metres);
+            pool.vertices
+                .iter_mut()
+                .for_each(|Rest(vertices)| vertices[0] += metres);
             outline(file)
         };
         assert_eq!(differences(&moved(0.0), &moved(1e-7)), "");
-        assert!(differences(&moved(0.0), &moved(1e-3)).contains(".triangles: "), "a millimetre counts");
+        assert!(
+            differences(&moved(0.0), &moved(1e-3)).contains(".triangles: "),
+            "a millimetre counts"
+        );
     }
 
     #[test]
@@ -182,9 +230,22 @@ mod tests {
             }
         }
         let report = differences(&outline(robot()), &outline(other));
-        assert!(report.contains("moved   /robot/joint/arm/tip -> /robot/joint/arm/end\n"), "{report}");
-        assert!(report.contains("changed /robot/joint: Joint.motor: [0.0, 2.5] -> [0.5, 7.0]\n"), "{report}");
+        assert!(
+            report.contains("moved   /robot/joint/arm/tip -> /robot/joint/arm/end\n"),
+            "{report}"
+        );
+        assert!(
+            report.contains("changed /robot/joint: Joint.motor: [0.0, 2.5] -> [0.5, 7.0]\n"),
+            "{report}"
+        );
         assert!(report.contains("+-- more\n"), "{report}");
-        assert_eq!(report.lines().filter(|line| line.starts_with("changed")).count(), 1, "{report}");
+        assert_eq!(
+            report
+                .lines()
+                .filter(|line| line.starts_with("changed"))
+                .count(),
+            1,
+            "{report}"
+        );
     }
 }

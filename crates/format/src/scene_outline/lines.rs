@@ -18,7 +18,11 @@ pub(super) fn unified(a: &str, b: &str) -> String {
     let script = script(&a, &b);
     let mut out = String::new();
     let mut from = 0;
-    while let Some(first) = script[from..].iter().position(|(mark, ..)| *mark != Mark::Same).map(|at| at + from) {
+    while let Some(first) = script[from..]
+        .iter()
+        .position(|(mark, ..)| *mark != Mark::Same)
+        .map(|at| at + from)
+    {
         let start = first.saturating_sub(AROUND).max(from);
         let end = end_of_hunk(&script, first);
         out += &hunk(&script[start..end]);
@@ -45,7 +49,13 @@ fn end_of_hunk(script: &[Step<'_>], first: usize) -> usize {
 fn hunk(steps: &[Step<'_>]) -> String {
     let count = |other: Mark| steps.iter().filter(|(mark, ..)| *mark != other).count();
     let (_, _, a, b) = steps[0];
-    let mut out = format!("@@ -{},{} +{},{} @@\n", a + 1, count(Mark::Added), b + 1, count(Mark::Removed));
+    let mut out = format!(
+        "@@ -{},{} +{},{} @@\n",
+        a + 1,
+        count(Mark::Added),
+        b + 1,
+        count(Mark::Removed)
+    );
     for (mark, line, ..) in steps {
         let sign = match mark {
             Mark::Same => ' ',
@@ -61,15 +71,26 @@ fn hunk(steps: &[Step<'_>]) -> String {
 fn script<'a>(a: &[&'a str], b: &[&'a str]) -> Vec<Step<'a>> {
     let head = a.iter().zip(b).take_while(|(x, y)| x == y).count();
     let (a_rest, b_rest) = (&a[head..], &b[head..]);
-    let tail = a_rest.iter().rev().zip(b_rest.iter().rev()).take_while(|(x, y)| x == y).count();
-    let (a_mid, b_mid) = (&a_rest[..a_rest.len() - tail], &b_rest[..b_rest.len() - tail]);
+    let tail = a_rest
+        .iter()
+        .rev()
+        .zip(b_rest.iter().rev())
+        .take_while(|(x, y)| x == y)
+        .count();
+    let (a_mid, b_mid) = (
+        &a_rest[..a_rest.len() - tail],
+        &b_rest[..b_rest.len() - tail],
+    );
     let mut marks = vec![Mark::Same; head];
     marks.extend(middle(a_mid, b_mid));
     marks.extend(vec![Mark::Same; tail]);
     let (mut i, mut j) = (0, 0);
     let step = |mark: Mark| {
         let step = (mark, if mark == Mark::Added { b[j] } else { a[i] }, i, j);
-        (i, j) = (i + usize::from(mark != Mark::Added), j + usize::from(mark != Mark::Removed));
+        (i, j) = (
+            i + usize::from(mark != Mark::Added),
+            j + usize::from(mark != Mark::Removed),
+        );
         step
     };
     marks.into_iter().map(step).collect()
@@ -94,7 +115,8 @@ fn middle(a: &[&str], b: &[&str]) -> Vec<Mark> {
     }
     let (mut i, mut j, mut marks) = (0, 0, Vec::new());
     while i < a.len() || j < b.len() {
-        let removal = j == b.len() || (i < a.len() && common[(i + 1) * width + j] >= common[i * width + j + 1]);
+        let removal = j == b.len()
+            || (i < a.len() && common[(i + 1) * width + j] >= common[i * width + j + 1]);
         if i < a.len() && j < b.len() && a[i] == b[j] {
             marks.push(Mark::Same);
             (i, j) = (i + 1, j + 1);
@@ -116,7 +138,10 @@ mod tests {
     #[test]
     fn differences_are_shown_with_their_context() {
         assert_eq!(unified("a\nb\n", "a\nb"), "");
-        assert_eq!(unified("a\nb\nc", "a\nx\nc"), "@@ -1,3 +1,3 @@\n a\n-b\n+x\n c\n");
+        assert_eq!(
+            unified("a\nb\nc", "a\nx\nc"),
+            "@@ -1,3 +1,3 @@\n a\n-b\n+x\n c\n"
+        );
         assert_eq!(unified("", "a"), "@@ -1,0 +1,1 @@\n+a\n");
         let far: String = (0..30).map(|i| format!("{i}\n")).collect();
         let changed = far.replace("\n2\n", "\ntwo\n").replace("\n25\n", "\n");

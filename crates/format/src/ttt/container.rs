@@ -42,12 +42,22 @@ pub struct Header {
 impl Header {
     /// Of a file this program writes.
     pub fn current(kind: FileKind) -> Self {
-        Self { serialization: CURRENT, version: PROGRAM_VERSION, revision: 0, kind: kind as u8 }
+        Self {
+            serialization: CURRENT,
+            version: PROGRAM_VERSION,
+            revision: 0,
+            kind: kind as u8,
+        }
     }
 
     /// The version as people write it, such as 4.1.0.
     pub fn version_text(&self) -> String {
-        format!("{}.{}.{}", self.version / 10000, self.version / 100 % 100, self.version % 100)
+        format!(
+            "{}.{}.{}",
+            self.version / 10000,
+            self.version / 100 % 100,
+            self.version % 100
+        )
     }
 }
 
@@ -64,14 +74,17 @@ pub fn unpack(file: &[u8]) -> FileResult<(Header, Vec<u8>)> {
     let serialization = int(file, 4)?;
     let oldest_reader = int(file, 8)?;
     let long = serialization >= LONG_HEADER_SINCE;
-    let body = file.get(if long { HEADER } else { SHORT_HEADER }..).ok_or(FileError::ShortHeader)?;
+    let body = file
+        .get(if long { HEADER } else { SHORT_HEADER }..)
+        .ok_or(FileError::ShortHeader)?;
     if serialization < OLDEST {
         return Err(FileError::TooOld(serialization));
     }
     if oldest_reader > CURRENT {
         return Err(FileError::TooNew(oldest_reader));
     }
-    let size = usize::try_from(int(file, 13)?).map_err(|_| FileError::Inflate("their size is negative"))?;
+    let size = usize::try_from(int(file, 13)?)
+        .map_err(|_| FileError::Inflate("their size is negative"))?;
     let header = Header {
         serialization,
         version: u16::from_le_bytes([file[21], file[22]]),
@@ -127,7 +140,10 @@ mod tests {
 
     #[test]
     fn what_is_not_a_scene_is_said() {
-        assert_eq!(unpack(b"sim = require 'sim'").unwrap_err(), FileError::NotAScene);
+        assert_eq!(
+            unpack(b"sim = require 'sim'").unwrap_err(),
+            FileError::NotAScene
+        );
         let mut file = pack(&Header::current(FileKind::Scene), b"body");
         file[4] = 15;
         assert_eq!(unpack(&file).unwrap_err(), FileError::TooOld(15));

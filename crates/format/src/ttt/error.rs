@@ -17,7 +17,9 @@ pub enum FileError {
     /// The format is older than those that are read; its number.
     TooOld(i32),
     /// The format is newer than those that are read; the number it needs.
-    #[error("the file can be read by newer programs only (serialization {0} at least; this program knows 25).")]
+    #[error(
+        "the file can be read by newer programs only (serialization {0} at least; this program knows 25)."
+    )]
     TooNew(i32),
     /// An unknown method of compression; its number.
     #[error("the file is compressed by an unknown method, {0}.")]

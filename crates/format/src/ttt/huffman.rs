@@ -24,7 +24,9 @@ pub fn inflate(data: &[u8], size: usize) -> FileResult<Vec<u8>> {
     let mut bits = Bits { data, at: 0 };
     let tree = Tree::read(&mut bits)?;
     if size > data.len().saturating_mul(8) {
-        return Err(FileError::Inflate("they are shorter than their announced size"));
+        return Err(FileError::Inflate(
+            "they are shorter than their announced size",
+        ));
     }
     if let Node::Leaf(symbol) = tree.nodes[0] {
         return Ok(vec![symbol; size]);
@@ -39,7 +41,10 @@ struct Bits<'a> {
 
 impl Bits<'_> {
     fn next(&mut self) -> FileResult<bool> {
-        let byte = self.data.get(self.at / 8).ok_or(FileError::Inflate("they end too early"))?;
+        let byte = self
+            .data
+            .get(self.at / 8)
+            .ok_or(FileError::Inflate("they end too early"))?;
         let bit = byte >> (7 - self.at % 8) & 1 == 1;
         self.at += 1;
         Ok(bit)
@@ -54,7 +59,10 @@ impl Bits<'_> {
         let rest = self.data.get(self.at / 8..).unwrap_or(&[]);
         let word = match rest.first_chunk::<8>() {
             Some(bytes) => u64::from_be_bytes(*bytes),
-            None => rest.iter().rev().fold(0, |word, byte| word >> 8 | u64::from(*byte) << 56),
+            None => rest
+                .iter()
+                .rev()
+                .fold(0, |word, byte| word >> 8 | u64::from(*byte) << 56),
         };
         word << (self.at % 8)
     }
@@ -154,7 +162,9 @@ impl Tree {
         let mut entry = Entry::default();
         let mut node = 0;
         for used in 1..=PEEK {
-            let Node::Inner(children) = self.nodes[node] else { break };
+            let Node::Inner(children) = self.nodes[node] else {
+                break;
+            };
             node = usize::from(children[peeked >> (PEEK - used) & 1]);
             if let Node::Leaf(symbol) = self.nodes[node] {
                 entry.symbols[usize::from(entry.count)] = symbol;
@@ -175,13 +185,17 @@ pub fn deflate(data: &[u8]) -> Vec<u8> {
     data.iter().for_each(|byte| counts[usize::from(*byte)] += 1);
     let (mut out, mut codes) = (BitWriter::default(), vec![(0, 0); 256]);
     loop {
-        let Some(tree) = Branch::of_counts(&counts) else { return Vec::new() };
+        let Some(tree) = Branch::of_counts(&counts) else {
+            return Vec::new();
+        };
         if tree.depth() <= MAX_CODE {
             tree.write(&mut out, 0, 0, &mut codes);
             break;
         }
         // Flatter counts give a flatter tree, at the price of a few bits.
-        counts.iter_mut().for_each(|count| *count = count.div_ceil(2));
+        counts
+            .iter_mut()
+            .for_each(|count| *count = count.div_ceil(2));
     }
     for byte in data {
         let (code, length) = codes[usize::from(*byte)];
@@ -200,13 +214,26 @@ impl Branch {
     fn of_counts(counts: &[u64; 256]) -> Option<Self> {
         let used = (0..=255).filter(|byte| counts[usize::from(*byte)] > 0);
         // The number breaks ties, so that the same data give the same file.
-        let mut heap: BinaryHeap<_> =
-            used.map(|byte| Reverse((counts[usize::from(byte)], usize::from(byte), Self::Leaf(byte)))).collect();
+        let mut heap: BinaryHeap<_> = used
+            .map(|byte| {
+                Reverse((
+                    counts[usize::from(byte)],
+                    usize::from(byte),
+                    Self::Leaf(byte),
+                ))
+            })
+            .collect();
         let mut number = 256;
         loop {
             let Reverse((count, _, rarest)) = heap.pop()?;
-            let Some(Reverse((other_count, _, other))) = heap.pop() else { return Some(rarest) };
-            heap.push(Reverse((count + other_count, number, Self::Inner(Box::new([rarest, other])))));
+            let Some(Reverse((other_count, _, other))) = heap.pop() else {
+                return Some(rarest);
+            };
+            heap.push(Reverse((
+                count + other_count,
+                number,
+                Self::Inner(Box::new([rarest, other])),
+            )));
             number += 1;
         }
     }
@@ -265,8 +292,17 @@ mod tests {
 
     #[test]
     fn what_was_compressed_comes_back() {
-        let many: Vec<u8> = (0..5000u32).map(|n| (n * n % 251 / (1 + n % 7)) as u8).collect();
-        for data in [&b"abracadabra"[..], b"", b"x", b"xxxxxxxxxxxxxxxxx", b"ab", &many] {
+        let many: Vec<u8> = (0..5000u32)
+            .map(|n| (n * n % 251 / (1 + n % 7)) as u8)
+            .collect();
+        for data in [
+            &b"abracadabra"[..],
+            b"",
+            b"x",
+            b"xxxxxxxxxxxxxxxxx",
+            b"ab",
+            &many,
+        ] {
             assert_eq!(inflate(&deflate(data), data.len()).unwrap(), data);
         }
     }
@@ -280,7 +316,9 @@ mod tests {
             fibonacci = (fibonacci.1, fibonacci.0 + fibonacci.1);
         }
         assert!(Branch::of_counts(&counts).unwrap().depth() > MAX_CODE);
-        let data: Vec<u8> = (0..24).flat_map(|n| vec![n as u8; counts[n] as usize]).collect();
+        let data: Vec<u8> = (0..24)
+            .flat_map(|n| vec![n as u8; counts[n] as usize])
+            .collect();
         assert_eq!(inflate(&deflate(&data), data.len()).unwrap(), data);
     }
 

@@ -30,12 +30,30 @@ pub struct MeshArrays {
 impl MeshArrays {
     /// Where the arrays are, after those that were not there yet were added.
     pub fn add(&mut self, mesh: Arrays) -> Places {
-        let Self { pool, vertices, indices, normals, edges } = self;
+        let Self {
+            pool,
+            vertices,
+            indices,
+            normals,
+            edges,
+        } = self;
         [
-            Some(place(vertices, bits(&mesh.vertices), &mut pool.vertices, Rest(mesh.vertices))),
-            Some(place(indices, mesh.indices.clone(), &mut pool.indices, Indices(mesh.indices))),
-            mesh.normals.map(|list| place(normals, bits(&list), &mut pool.normals, Normals(list))),
-            mesh.edges.map(|list| place(edges, list.clone(), &mut pool.edges, Rest(list))),
+            Some(place(
+                vertices,
+                bits(&mesh.vertices),
+                &mut pool.vertices,
+                Rest(mesh.vertices),
+            )),
+            Some(place(
+                indices,
+                mesh.indices.clone(),
+                &mut pool.indices,
+                Indices(mesh.indices),
+            )),
+            mesh.normals
+                .map(|list| place(normals, bits(&list), &mut pool.normals, Normals(list))),
+            mesh.edges
+                .map(|list| place(edges, list.clone(), &mut pool.edges, Rest(list))),
         ]
     }
 }
@@ -57,11 +75,29 @@ mod tests {
 
     #[test]
     fn equal_arrays_are_kept_once() {
-        let mesh = |z, edges| Arrays { vertices: vec![0.0, 0.0, z], indices: vec![0, 0, 0], normals: None, edges };
+        let mesh = |z, edges| Arrays {
+            vertices: vec![0.0, 0.0, z],
+            indices: vec![0, 0, 0],
+            normals: None,
+            edges,
+        };
         let mut arrays = MeshArrays::default();
         assert_eq!(arrays.add(mesh(1.0, None)), [Some(0), Some(0), None, None]);
-        assert_eq!(arrays.add(mesh(2.0, Some(vec![7]))), [Some(1), Some(0), None, Some(0)]);
-        assert_eq!(arrays.add(mesh(1.0, Some(vec![7]))), [Some(0), Some(0), None, Some(0)]);
-        assert_eq!((arrays.pool.vertices.len(), arrays.pool.indices.len(), arrays.pool.edges.len()), (2, 1, 1));
+        assert_eq!(
+            arrays.add(mesh(2.0, Some(vec![7]))),
+            [Some(1), Some(0), None, Some(0)]
+        );
+        assert_eq!(
+            arrays.add(mesh(1.0, Some(vec![7]))),
+            [Some(0), Some(0), None, Some(0)]
+        );
+        assert_eq!(
+            (
+                arrays.pool.vertices.len(),
+                arrays.pool.indices.len(),
+                arrays.pool.edges.len()
+            ),
+            (2, 1, 1)
+        );
     }
 }

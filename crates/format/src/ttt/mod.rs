@@ -22,8 +22,8 @@ pub(crate) use container::{FileKind, is_binary};
 pub use error::{FileError, FileResult};
 pub use read::Skipped;
 pub(crate) use value::{
-    Counted, EngineBlock, Heights, Indices, Normals, OriginalReference, PositionFirst, Rest, ScriptText, Text, decode,
-    unit_quaternion,
+    Counted, EngineBlock, Heights, Indices, Normals, OriginalReference, PositionFirst, Rest,
+    ScriptText, Text, decode, unit_quaternion,
 };
 
 pub(crate) use node::{Node, NodeResult};
@@ -54,7 +54,11 @@ impl File {
         let (header, body) = container::unpack(bytes)?;
         let skipped = RefCell::default();
         let contents = contents(&mut Reader::new(&body, &skipped))?;
-        Ok(Self { header, contents, skipped: skipped.into_inner() })
+        Ok(Self {
+            header,
+            contents,
+            skipped: skipped.into_inner(),
+        })
     }
 
     /// The bytes of a file of serialization 25, compressed.
@@ -90,7 +94,11 @@ impl File {
             revision: number("revision")?.try_into().map_err(range)?,
             kind: number("kind")?.try_into().map_err(range)?,
         };
-        Ok(Self { header, contents: Value::from_node(node.need("contents")?)?, skipped: Vec::new() })
+        Ok(Self {
+            header,
+            contents: Value::from_node(node.need("contents")?)?,
+            skipped: Vec::new(),
+        })
     }
 }
 
@@ -111,7 +119,9 @@ fn contents(body: &mut Reader<'_>) -> FileResult<Contents> {
         if contents.take(&mut chunk)? {
             chunk.finish()?;
         } else if chunk.is_object() {
-            contents.objects.push(Value::read(&mut chunk, Real::Double)?);
+            contents
+                .objects
+                .push(Value::read(&mut chunk, Real::Double)?);
         } else {
             chunk.skip();
         }
@@ -127,15 +137,24 @@ mod tests {
     #[test]
     fn real_files_come_back_as_they_were() {
         for path in own_files().into_iter().chain(real_files()) {
-            let read = |bytes: &[u8]| File::read(bytes).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+            let read = |bytes: &[u8]| {
+                File::read(bytes).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+            };
             let file = read(&std::fs::read(&path).unwrap());
             assert_eq!(file.skipped, [], "{}", path.display());
             let written = file.write();
             // Bytes, since numbers that are none differ from themselves.
             assert!(read(&written).write() == written, "{}", path.display());
-            assert_eq!(read(&written).contents.objects.len(), file.contents.objects.len());
+            assert_eq!(
+                read(&written).contents.objects.len(),
+                file.contents.objects.len()
+            );
             let tree = Node::parse(&file.to_node().print()).and_then(|node| File::from_node(&node));
-            assert!(tree.unwrap_or_else(|what| panic!("{}: {what}", path.display())).write() == written);
+            assert!(
+                tree.unwrap_or_else(|what| panic!("{}: {what}", path.display()))
+                    .write()
+                    == written
+            );
         }
     }
 }

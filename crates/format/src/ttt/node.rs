@@ -28,19 +28,34 @@ const MAX_DEPTH: usize = 400;
 
 impl Node {
     pub fn table(entries: impl IntoIterator<Item = (&'static str, Self)>) -> Self {
-        Self::Table(entries.into_iter().map(|(name, node)| (name.to_owned(), node)).collect())
+        Self::Table(
+            entries
+                .into_iter()
+                .map(|(name, node)| (name.to_owned(), node))
+                .collect(),
+        )
     }
 
     /// The entry of a table.
     pub fn get(&self, name: &str) -> Option<&Self> {
-        let Self::Table(entries) = self else { return None };
-        entries.iter().find(|(key, _)| key == name).map(|(_, node)| node)
+        let Self::Table(entries) = self else {
+            return None;
+        };
+        entries
+            .iter()
+            .find(|(key, _)| key == name)
+            .map(|(_, node)| node)
     }
 
     /// The entry of a table, to be changed.
     pub fn get_mut(&mut self, name: &str) -> Option<&mut Self> {
-        let Self::Table(entries) = self else { return None };
-        entries.iter_mut().find(|(key, _)| key == name).map(|(_, node)| node)
+        let Self::Table(entries) = self else {
+            return None;
+        };
+        entries
+            .iter_mut()
+            .find(|(key, _)| key == name)
+            .map(|(_, node)| node)
     }
 
     /// The entry of a table.
@@ -54,7 +69,11 @@ impl Node {
     /// # Errors
     /// When it is no list.
     pub fn list(&self) -> NodeResult<&[Self]> {
-        if let Self::List(items) = self { Ok(items) } else { Err("a list is needed".into()) }
+        if let Self::List(items) = self {
+            Ok(items)
+        } else {
+            Err("a list is needed".into())
+        }
     }
 
     /// As many items as a thing has.
@@ -63,11 +82,17 @@ impl Node {
     /// When there are more or fewer.
     pub fn items<const N: usize>(&self) -> NodeResult<&[Self; N]> {
         let items = self.list()?;
-        items.try_into().map_err(|_| format!("{N} items are needed, {} are there", items.len()))
+        items
+            .try_into()
+            .map_err(|_| format!("{N} items are needed, {} are there", items.len()))
     }
 
     pub fn int(&self) -> NodeResult<i64> {
-        if let Self::Int(int) = self { Ok(*int) } else { Err("a whole number is needed".into()) }
+        if let Self::Int(int) = self {
+            Ok(*int)
+        } else {
+            Err("a whole number is needed".into())
+        }
     }
 
     /// A number, or the word for one that is none.
@@ -114,7 +139,9 @@ impl Node {
                 print_items(out, indent, ['[', ']'], items.collect());
             }
             Self::Table(entries) => {
-                let entries = entries.iter().map(|(name, node)| (Some(name.as_str()), node));
+                let entries = entries
+                    .iter()
+                    .map(|(name, node)| (Some(name.as_str()), node));
                 print_items(out, indent, ['{', '}'], entries.collect());
             }
         }
@@ -122,9 +149,9 @@ impl Node {
 
     fn is_leaf(&self) -> bool {
         match self {
-            Self::List(items) => {
-                items.iter().all(|item| matches!(item, Self::Int(_) | Self::Real(_) | Self::Single(_)))
-            }
+            Self::List(items) => items
+                .iter()
+                .all(|item| matches!(item, Self::Int(_) | Self::Real(_) | Self::Single(_))),
             Self::Table(entries) => entries.is_empty(),
             _ => true,
         }
@@ -149,9 +176,12 @@ impl Node {
                 None => Self::Real(number.as_f64().ok_or("a number is out of range")?),
             },
             Json::String(text) => Self::Text(text),
-            Json::Array(items) => {
-                Self::List(items.into_iter().map(|item| Self::of_json(item, depth + 1)).collect::<NodeResult<_>>()?)
-            }
+            Json::Array(items) => Self::List(
+                items
+                    .into_iter()
+                    .map(|item| Self::of_json(item, depth + 1))
+                    .collect::<NodeResult<_>>()?,
+            ),
             Json::Object(entries) => match entries.get("base64") {
                 Some(Json::String(text)) => {
                     use base64::Engine;
@@ -159,25 +189,43 @@ impl Node {
                     Self::Bytes(bytes.map_err(|error| error.to_string())?)
                 }
                 _ => {
-                    let entries = entries.into_iter().map(|(name, item)| Ok((name, Self::of_json(item, depth + 1)?)));
+                    let entries = entries
+                        .into_iter()
+                        .map(|(name, item)| Ok((name, Self::of_json(item, depth + 1)?)));
                     Self::Table(entries.collect::<NodeResult<_>>()?)
                 }
             },
-            Json::Null | Json::Bool(_) => return Err("null, true and false mean nothing here".into()),
+            Json::Null | Json::Bool(_) => {
+                return Err("null, true and false mean nothing here".into());
+            }
         })
     }
 }
 
 fn number(value: f64, digits: &str) -> String {
-    if value.is_finite() { digits.to_owned() } else { format!("\"{value}\"") }
+    if value.is_finite() {
+        digits.to_owned()
+    } else {
+        format!("\"{value}\"")
+    }
 }
 
-fn print_items(out: &mut String, indent: usize, [open, close]: [char; 2], items: Vec<(Option<&str>, &Node)>) {
-    let in_line = items.iter().all(|(name, node)| name.is_none() && node.is_leaf() && !matches!(node, Node::List(_)));
+fn print_items(
+    out: &mut String,
+    indent: usize,
+    [open, close]: [char; 2],
+    items: Vec<(Option<&str>, &Node)>,
+) {
+    let in_line = items
+        .iter()
+        .all(|(name, node)| name.is_none() && node.is_leaf() && !matches!(node, Node::List(_)));
     let (before, after) = if in_line {
         (" ".to_owned(), String::new())
     } else {
-        (format!("\n{}", "  ".repeat(indent + 1)), format!("\n{}", "  ".repeat(indent)))
+        (
+            format!("\n{}", "  ".repeat(indent + 1)),
+            format!("\n{}", "  ".repeat(indent)),
+        )
     };
     out.push(open);
     for (at, (name, node)) in items.iter().enumerate() {
@@ -200,7 +248,13 @@ fn print_items(out: &mut String, indent: usize, [open, close]: [char; 2], items:
 
 /// Puts the name of a place before what is wrong there.
 pub fn at<T>(name: &str, result: NodeResult<T>) -> NodeResult<T> {
-    result.map_err(|what| if what.contains(": ") { format!("{name}/{what}") } else { format!("{name}: {what}") })
+    result.map_err(|what| {
+        if what.contains(": ") {
+            format!("{name}/{what}")
+        } else {
+            format!("{name}: {what}")
+        }
+    })
 }
 
 #[cfg(test)]
@@ -210,7 +264,15 @@ mod tests {
     #[test]
     fn trees_come_back_from_json() {
         let tree = Node::table([
-            ("pose", Node::List(vec![Node::Real(0.1), Node::Real(-0.0), Node::Real(1e300), Node::Int(3)])),
+            (
+                "pose",
+                Node::List(vec![
+                    Node::Real(0.1),
+                    Node::Real(-0.0),
+                    Node::Real(1e300),
+                    Node::Int(3),
+                ]),
+            ),
             ("names", Node::List(vec![Node::Text("a \"b\"\n".into())])),
             ("blob", Node::Bytes(vec![0, 255])),
             ("inner", Node::Table(vec![])),
@@ -218,11 +280,20 @@ mod tests {
         let text = tree.print();
         let mut back = Node::parse(&text).unwrap();
         if let Node::Table(entries) = &mut back {
-            entries.sort_by_key(|(name, _)| ["pose", "names", "blob", "inner"].iter().position(|n| n == name));
+            entries.sort_by_key(|(name, _)| {
+                ["pose", "names", "blob", "inner"]
+                    .iter()
+                    .position(|n| n == name)
+            });
         }
         assert_eq!(back, tree);
         assert_eq!(Node::Single(0.69).print(), "0.69");
-        assert_eq!(Node::parse(&Node::Real(f64::NEG_INFINITY).print()).unwrap().real(), Ok(f64::NEG_INFINITY));
+        assert_eq!(
+            Node::parse(&Node::Real(f64::NEG_INFINITY).print())
+                .unwrap()
+                .real(),
+            Ok(f64::NEG_INFINITY)
+        );
     }
 
     #[test]

@@ -39,7 +39,10 @@ struct Trail<'a> {
 impl Trail<'_> {
     fn path(&self) -> String {
         let tag = String::from_utf8_lossy(&self.tag);
-        self.outer.map_or_else(|| tag.to_string(), |outer| format!("{}/{tag}", outer.path()))
+        self.outer.map_or_else(
+            || tag.to_string(),
+            |outer| format!("{}/{tag}", outer.path()),
+        )
     }
 }
 
@@ -53,7 +56,16 @@ pub struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     pub fn new(body: &'a [u8], skipped: &'a RefCell<Vec<Skipped>>) -> Self {
-        Self { bytes: body, offset: 0, trail: Trail { tag: *b"TOP", depth: 0, outer: None }, skipped }
+        Self {
+            bytes: body,
+            offset: 0,
+            trail: Trail {
+                tag: *b"TOP",
+                depth: 0,
+                outer: None,
+            },
+            skipped,
+        }
     }
 
     /// The tag of the chunk this is the payload of.
@@ -66,15 +78,21 @@ impl<'a> Reader<'a> {
     }
 
     pub fn error(&self, what: impl Into<String>) -> FileError {
-        FileError::Chunk { offset: self.offset, path: self.trail.path(), what: what.into() }
+        FileError::Chunk {
+            offset: self.offset,
+            path: self.trail.path(),
+            what: what.into(),
+        }
     }
 
     /// The next bytes.
     pub fn take(&mut self, count: usize) -> FileResult<&'a [u8]> {
-        let (head, tail) = self
-            .bytes
-            .split_at_checked(count)
-            .ok_or_else(|| self.error(format!("{count} bytes are announced, {} are left", self.bytes.len())))?;
+        let (head, tail) = self.bytes.split_at_checked(count).ok_or_else(|| {
+            self.error(format!(
+                "{count} bytes are announced, {} are left",
+                self.bytes.len()
+            ))
+        })?;
         self.bytes = tail;
         self.offset += count;
         Ok(head)
@@ -93,8 +111,14 @@ impl<'a> Reader<'a> {
     /// A number of things of `size` bytes each, checked against what is left: safe to allocate.
     pub fn count(&mut self, size: usize) -> FileResult<usize> {
         let count = self.int()?;
-        let fits = usize::try_from(count).ok().filter(|n| n.saturating_mul(size) <= self.bytes.len());
-        fits.ok_or_else(|| self.error(format!("{count} items of at least {size} bytes do not fit into what is left")))
+        let fits = usize::try_from(count)
+            .ok()
+            .filter(|n| n.saturating_mul(size) <= self.bytes.len());
+        fits.ok_or_else(|| {
+            self.error(format!(
+                "{count} items of at least {size} bytes do not fit into what is left"
+            ))
+        })
     }
 
     /// The next chunk: its payload, or nothing where the stream ends with `end`.
@@ -111,8 +135,17 @@ impl<'a> Reader<'a> {
         }
         let size = self.count(1)?;
         let bytes = self.take(size)?;
-        let trail = Trail { tag, depth, outer: Some(&self.trail) };
-        Ok(Some(Reader { bytes, offset: offset + 7, trail, skipped: self.skipped }))
+        let trail = Trail {
+            tag,
+            depth,
+            outer: Some(&self.trail),
+        };
+        Ok(Some(Reader {
+            bytes,
+            offset: offset + 7,
+            trail,
+            skipped: self.skipped,
+        }))
     }
 
     /// True where the payload is a scene object, of a type known or not: it begins with a chunk `3do` of 57, 58, 59.
@@ -122,7 +155,11 @@ impl<'a> Reader<'a> {
 
     /// Records an unknown chunk.
     pub fn skip(&self) {
-        let note = Skipped { offset: self.offset, path: self.trail.path(), size: self.bytes.len() };
+        let note = Skipped {
+            offset: self.offset,
+            path: self.trail.path(),
+            size: self.bytes.len(),
+        };
         self.skipped.borrow_mut().push(note);
     }
 
@@ -133,6 +170,10 @@ impl<'a> Reader<'a> {
 
     /// An error if something is left.
     pub fn finish(&self) -> FileResult<()> {
-        if self.bytes.is_empty() { Ok(()) } else { Err(self.error(format!("{} bytes too many", self.bytes.len()))) }
+        if self.bytes.is_empty() {
+            Ok(())
+        } else {
+            Err(self.error(format!("{} bytes too many", self.bytes.len())))
+        }
     }
 }

@@ -79,7 +79,8 @@ impl<T: Value> Slot for Vec<T> {
     }
 
     fn write(&self, tag: Tag, out: &mut Writer) {
-        self.iter().for_each(|value| out.chunk(value.tag(tag), |out| value.write(out)));
+        self.iter()
+            .for_each(|value| out.chunk(value.tag(tag), |out| value.write(out)));
     }
 
     fn to_node(&self) -> Option<Node> {
@@ -88,7 +89,9 @@ impl<T: Value> Slot for Vec<T> {
 
     fn fill_from_node(&mut self, node: &Node) -> NodeResult<()> {
         let items = node.list()?.iter().enumerate();
-        *self = items.map(|(i, item)| at(&i.to_string(), T::from_node(item))).collect::<NodeResult<_>>()?;
+        *self = items
+            .map(|(i, item)| at(&i.to_string(), T::from_node(item)))
+            .collect::<NodeResult<_>>()?;
         Ok(())
     }
 }
@@ -96,7 +99,11 @@ impl<T: Value> Slot for Vec<T> {
 /// # Errors
 /// When the node is no table.
 pub fn entries_of(node: &Node) -> NodeResult<&[(String, Node)]> {
-    if let Node::Table(entries) = node { Ok(entries) } else { Err("a table is needed".into()) }
+    if let Node::Table(entries) = node {
+        Ok(entries)
+    } else {
+        Err("a table is needed".into())
+    }
 }
 
 /// Declares streams: each field stands with its tag and, after `/`, the tag of its predecessor with single precision. Tags after `|`

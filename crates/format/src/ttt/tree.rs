@@ -1,10 +1,11 @@
 //! The content of a file, in file order: objects, their geometry, and the rest of the top level.
 
 use super::chunks::{
-    Camera, Collection, Collision, Common, CustomData, CustomObjects, CustomSceneObject, Distance, Dummy, Dynamics,
-    Environment, ForceSensor, Ghosts, Graph, IkGroup, Joint, Light, Marker, Material, MeshData, MeshNode, MeshPool,
-    Mill, Mirror, ModelInfo, ModuleSettings, OcTree, OldCustomData, Path, PathPlanning, PointCloud, ProximitySensor,
-    Script, ScriptObject, Shape, Simulation, Texture, Thumbnail, Views, VisionSensor,
+    Camera, Collection, Collision, Common, CustomData, CustomObjects, CustomSceneObject, Distance,
+    Dummy, Dynamics, Environment, ForceSensor, Ghosts, Graph, IkGroup, Joint, Light, Marker,
+    Material, MeshData, MeshNode, MeshPool, Mill, Mirror, ModelInfo, ModuleSettings, OcTree,
+    OldCustomData, Path, PathPlanning, PointCloud, ProximitySensor, Script, ScriptObject, Shape,
+    Simulation, Texture, Thumbnail, Views, VisionSensor,
 };
 use super::error::FileResult;
 use super::node::{Node, NodeResult, at};
@@ -23,7 +24,10 @@ pub struct Mesh {
 
 impl Value for Mesh {
     fn read(input: &mut Reader<'_>, _: Real) -> FileResult<Self> {
-        Ok(Self { node: MeshNode::read_stream(input)?, data: MeshData::read_stream(input)? })
+        Ok(Self {
+            node: MeshNode::read_stream(input)?,
+            data: MeshData::read_stream(input)?,
+        })
     }
 
     fn write(&self, out: &mut Writer) {
@@ -36,7 +40,10 @@ impl Value for Mesh {
     }
 
     fn from_node(node: &Node) -> NodeResult<Self> {
-        Ok(Self { node: Value::from_node(node.need("node")?)?, data: Value::from_node(node.need("mesh")?)? })
+        Ok(Self {
+            node: Value::from_node(node.need("node")?)?,
+            data: Value::from_node(node.need("mesh")?)?,
+        })
     }
 }
 
@@ -171,7 +178,11 @@ classes! {
 impl Value for Object {
     fn read(input: &mut Reader<'_>, _: Real) -> FileResult<Self> {
         let offset = input.offset();
-        Ok(Self { offset, common: Common::read_stream(input)?, class: Class::read(input)? })
+        Ok(Self {
+            offset,
+            common: Common::read_stream(input)?,
+            class: Class::read(input)?,
+        })
     }
 
     fn write(&self, out: &mut Writer) {
@@ -189,9 +200,15 @@ impl Value for Object {
 
     fn from_node(node: &Node) -> NodeResult<Self> {
         let common = at("Object", Value::from_node(node.need("Object")?))?;
-        let class =
-            entries_of(node)?.iter().find(|(name, _)| name != "Object").ok_or("the type of an object is missing")?;
-        Ok(Self { offset: 0, common, class: Class::of_entry(&class.0, &class.1)? })
+        let class = entries_of(node)?
+            .iter()
+            .find(|(name, _)| name != "Object")
+            .ok_or("the type of an object is missing")?;
+        Ok(Self {
+            offset: 0,
+            common,
+            class: Class::of_entry(&class.0, &class.1)?,
+        })
     }
 }
 

@@ -14,12 +14,20 @@ use crate::scene_file::{link_target, part_of};
 pub const PROGRAM: &str = "ffmpeg";
 
 /// Extensions of files, and what ffmpeg calls the kind.
-pub(super) const KINDS: [(&str, &str); 5] =
-    [("mp4", "mp4"), ("mkv", "matroska"), ("mov", "mov"), ("webm", "webm"), ("avi", "avi")];
+pub(super) const KINDS: [(&str, &str); 5] = [
+    ("mp4", "mp4"),
+    ("mkv", "matroska"),
+    ("mov", "mov"),
+    ("webm", "webm"),
+    ("avi", "avi"),
+];
 
 /// What ffmpeg calls files with that extension.
 pub(super) fn kind(extension: &str) -> Option<&'static str> {
-    KINDS.iter().find(|(known, _)| *known == extension).map(|(_, kind)| *kind)
+    KINDS
+        .iter()
+        .find(|(known, _)| *known == extension)
+        .map(|(_, kind)| *kind)
 }
 
 pub(super) struct Ffmpeg {
@@ -37,31 +45,56 @@ impl Ffmpeg {
         let errors = tempfile::tempfile()?;
         let mut command = Command::new(PROGRAM);
         command.args(arguments(kind, format)).arg(part.path());
-        command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(errors.try_clone()?);
+        command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .stderr(errors.try_clone()?);
         // Ctrl-c is for the simulator, which then ends the video.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let extension = super::extension(&path);
-        let child = command.spawn().map_err(|error| VideoError::NoFfmpeg(extension, error))?;
-        Ok(Self { child, errors, part, path })
+        let child = command
+            .spawn()
+            .map_err(|error| VideoError::NoFfmpeg(extension, error))?;
+        Ok(Self {
+            child,
+            errors,
+            part,
+            path,
+        })
     }
 
     /// The last line that it wrote about errors.
     fn reason(&mut self) -> VideoError {
         let mut text = Vec::new();
-        let read = self.errors.rewind().and_then(|()| self.errors.read_to_end(&mut text));
+        let read = self
+            .errors
+            .rewind()
+            .and_then(|()| self.errors.read_to_end(&mut text));
         let text = String::from_utf8_lossy(&text);
-        let line = text.lines().rfind(|line| !line.trim().is_empty()).filter(|_| read.is_ok());
+        let line = text
+            .lines()
+            .rfind(|line| !line.trim().is_empty())
+            .filter(|_| read.is_ok());
         VideoError::Ffmpeg(line.unwrap_or("it does not say why").trim().to_owned())
     }
 }
 
 /// Everything but the file. Sides are made even by black pixels, since most players show no video otherwise.
-fn arguments(kind: &str, VideoFormat { size: [width, height], rate }: VideoFormat) -> Vec<String> {
-    let input = format!("-f rawvideo -pixel_format rgb24 -video_size {width}x{height} -framerate {rate} -i -");
+fn arguments(
+    kind: &str,
+    VideoFormat {
+        size: [width, height],
+        rate,
+    }: VideoFormat,
+) -> Vec<String> {
+    let input = format!(
+        "-f rawvideo -pixel_format rgb24 -video_size {width}x{height} -framerate {rate} -i -"
+    );
     let even = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
     // No dates in the file: the same pictures are the same bytes.
-    let output = format!("-an -vf {even} -pix_fmt yuv420p -fflags +bitexact -flags:v +bitexact -f {kind}");
+    let output =
+        format!("-an -vf {even} -pix_fmt yuv420p -fflags +bitexact -flags:v +bitexact -f {kind}");
     let all = format!("-hide_banner -loglevel error -y {input} {output}");
     all.split(' ').map(str::to_owned).collect()
 }
@@ -69,7 +102,11 @@ fn arguments(kind: &str, VideoFormat { size: [width, height], rate }: VideoForma
 impl VideoFile for Ffmpeg {
     fn add(&mut self, picture: &[u8], periods: u64) -> Result<(), VideoError> {
         for _ in 0..periods {
-            let stdin = self.child.stdin.as_mut().expect("it is a pipe until the end");
+            let stdin = self
+                .child
+                .stdin
+                .as_mut()
+                .expect("it is a pipe until the end");
             if stdin.write_all(picture).is_err() {
                 // It has ended, and said why.
                 let _ = self.child.wait();

@@ -34,7 +34,12 @@ pub(super) struct Frames {
 impl Frames {
     /// Frames are shown for `longest` seconds at most.
     pub(super) fn new(width: u32, rate: f64, longest: f64) -> Self {
-        Self { width, longest: ((longest * rate) as u64).max(1), last: Vec::new(), frame: None }
+        Self {
+            width,
+            longest: ((longest * rate) as u64).max(1),
+            last: Vec::new(),
+            frame: None,
+        }
     }
 
     /// Adds a picture; the frame before it, if that is complete now.
@@ -50,7 +55,13 @@ impl Frames {
         let (place, size) = self.changed(picture);
         let pixels = crop(picture, self.width, place, size);
         picture.clone_into(&mut self.last);
-        self.frame.replace(Frame { place, size, pixels, begin, end: begin + periods })
+        self.frame.replace(Frame {
+            place,
+            size,
+            pixels,
+            begin,
+            end: begin + periods,
+        })
     }
 
     /// The last frame.
@@ -66,10 +77,24 @@ impl Frames {
             return ([0, 0], [self.width, height]);
         }
         let (mut low, mut high) = ([u32::MAX; 2], [0; 2]);
-        for (y, (new, old)) in picture.chunks_exact(row).zip(self.last.chunks_exact(row)).enumerate() {
-            let mut differing = new.iter().zip(old).enumerate().filter(|(_, (new, old))| new != old).map(|(at, _)| at);
-            let Some(first) = differing.next() else { continue };
-            let last = (first..row).rev().find(|at| new[*at] != old[*at]).unwrap_or(first);
+        for (y, (new, old)) in picture
+            .chunks_exact(row)
+            .zip(self.last.chunks_exact(row))
+            .enumerate()
+        {
+            let mut differing = new
+                .iter()
+                .zip(old)
+                .enumerate()
+                .filter(|(_, (new, old))| new != old)
+                .map(|(at, _)| at);
+            let Some(first) = differing.next() else {
+                continue;
+            };
+            let last = (first..row)
+                .rev()
+                .find(|at| new[*at] != old[*at])
+                .unwrap_or(first);
             low = [low[0].min(first as u32 / 3), low[1].min(y as u32)];
             high = [high[0].max(last as u32 / 3), y as u32];
         }
@@ -80,6 +105,11 @@ impl Frames {
 
 fn crop(picture: &[u8], width: u32, place: [u32; 2], size: [u32; 2]) -> Vec<u8> {
     let (first, length) = (3 * place[0] as usize, 3 * size[0] as usize);
-    let rows = picture.chunks_exact(3 * width as usize).skip(place[1] as usize).take(size[1] as usize);
-    rows.flat_map(|row| &row[first..first + length]).copied().collect()
+    let rows = picture
+        .chunks_exact(3 * width as usize)
+        .skip(place[1] as usize)
+        .take(size[1] as usize);
+    rows.flat_map(|row| &row[first..first + length])
+        .copied()
+        .collect()
 }

@@ -21,12 +21,21 @@ pub(super) struct Gif {
 }
 
 impl Gif {
-    pub(super) fn create(path: &Path, VideoFormat { size, rate }: VideoFormat) -> Result<Self, VideoError> {
-        let side = |side| u16::try_from(side).map_err(|_| super::super::picture::PictureError::Resolution);
+    pub(super) fn create(
+        path: &Path,
+        VideoFormat { size, rate }: VideoFormat,
+    ) -> Result<Self, VideoError> {
+        let side =
+            |side| u16::try_from(side).map_err(|_| super::super::picture::PictureError::Resolution);
         let (width, height) = (side(size[0])?, side(size[1])?);
-        let mut encoder = Encoder::new(BufWriter::new(WholeFile::create(path)?), width, height, &[])?;
+        let mut encoder =
+            Encoder::new(BufWriter::new(WholeFile::create(path)?), width, height, &[])?;
         encoder.set_repeat(Repeat::Infinite)?;
-        Ok(Self { encoder, frames: Frames::new(size[0], rate, MAX_FRAME_DURATION), rate })
+        Ok(Self {
+            encoder,
+            frames: Frames::new(size[0], rate, MAX_FRAME_DURATION),
+            rate,
+        })
     }
 
     fn write(&mut self, frame: &Frame) -> Result<(), VideoError> {
@@ -41,12 +50,20 @@ impl Gif {
 
 impl VideoFile for Gif {
     fn add(&mut self, picture: &[u8], periods: u64) -> Result<(), VideoError> {
-        self.frames.add(picture, periods).map_or(Ok(()), |frame| self.write(&frame))
+        self.frames
+            .add(picture, periods)
+            .map_or(Ok(()), |frame| self.write(&frame))
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), VideoError> {
-        self.frames.finish().map_or(Ok(()), |frame| self.write(&frame))?;
-        let file = self.encoder.into_inner()?.into_inner().map_err(std::io::IntoInnerError::into_error)?;
+        self.frames
+            .finish()
+            .map_or(Ok(()), |frame| self.write(&frame))?;
+        let file = self
+            .encoder
+            .into_inner()?
+            .into_inner()
+            .map_err(std::io::IntoInnerError::into_error)?;
         Ok(file.finish()?)
     }
 }

@@ -122,5 +122,8 @@ pub fn create(path: &Path, format: VideoFormat) -> Result<Box<dyn VideoFile>, Vi
 }
 
 fn extension(path: &Path) -> String {
-    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
+    path.extension()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .to_lowercase()
 }

@@ -5,7 +5,8 @@ use std::path::Path;
 use mp4::{AvcConfig, Bytes, MediaConfig, Mp4Config, Mp4Sample, Mp4Writer, TrackConfig, TrackType};
 use openh264::OpenH264API;
 use openh264::encoder::{
-    EncodedBitStream, Encoder, EncoderConfig, FrameRate, FrameType, IntraFramePeriod, RateControlMode,
+    EncodedBitStream, Encoder, EncoderConfig, FrameRate, FrameType, IntraFramePeriod,
+    RateControlMode,
 };
 use openh264::formats::{RgbSliceU8, YUVBuffer};
 
@@ -45,7 +46,13 @@ impl Mp4 {
             // With one thread the same pictures are the same bytes.
             .num_threads(1);
         let encoder = Encoder::with_api_config(OpenH264API::from_source(), config)?;
-        Ok(Self { encoder, file: Some(WholeFile::create(path)?), writer: None, format, periods: 0 })
+        Ok(Self {
+            encoder,
+            file: Some(WholeFile::create(path)?),
+            writer: None,
+            format,
+            periods: 0,
+        })
     }
 
     /// Place of a period in time.
@@ -68,7 +75,13 @@ impl VideoFile for Mp4 {
         self.periods += periods;
         let duration = u32::try_from(end - start).unwrap_or(u32::MAX);
         let bytes = Bytes::from(units.picture);
-        let sample = Mp4Sample { start_time: start, duration, rendering_offset: 0, is_sync, bytes };
+        let sample = Mp4Sample {
+            start_time: start,
+            duration,
+            rendering_offset: 0,
+            is_sync,
+            bytes,
+        };
         if let Some(writer) = &mut self.writer {
             writer.write_sample(TRACK, &sample)?;
         }
@@ -76,7 +89,9 @@ impl VideoFile for Mp4 {
     }
 
     fn finish(self: Box<Self>) -> Result<(), VideoError> {
-        let Some(mut writer) = self.writer else { return Ok(()) };
+        let Some(mut writer) = self.writer else {
+            return Ok(());
+        };
         writer.write_end()?;
         Ok(writer.into_writer().finish()?)
     }
@@ -86,7 +101,10 @@ impl VideoFile for Mp4 {
 fn even(picture: &[u8], [width, height]: [u32; 2]) -> (Vec<u8>, [usize; 2]) {
     let [wide, high] = [width, height].map(|side| side.next_multiple_of(2).max(MIN_SIDE) as usize);
     let mut pixels = vec![0; wide * high * 3];
-    for (from, to) in picture.chunks_exact(width as usize * 3).zip(pixels.chunks_exact_mut(wide * 3)) {
+    for (from, to) in picture
+        .chunks_exact(width as usize * 3)
+        .zip(pixels.chunks_exact_mut(wide * 3))
+    {
         to[..from.len()].copy_from_slice(from);
     }
     (pixels, [wide, high])
@@ -131,8 +149,14 @@ fn without_start_code(unit: &[u8]) -> &[u8] {
     unit.get(zeros + 1..).unwrap_or_default()
 }
 
-fn begin(file: WholeFile, size: [usize; 2], units: &Units) -> Result<Mp4Writer<WholeFile>, VideoError> {
-    let brands = [*b"isom", *b"iso2", *b"avc1", *b"mp41"].map(Into::into).to_vec();
+fn begin(
+    file: WholeFile,
+    size: [usize; 2],
+    units: &Units,
+) -> Result<Mp4Writer<WholeFile>, VideoError> {
+    let brands = [*b"isom", *b"iso2", *b"avc1", *b"mp41"]
+        .map(Into::into)
+        .to_vec();
     let config = Mp4Config {
         major_brand: (*b"isom").into(),
         minor_version: 512,
@@ -164,7 +188,14 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let write = |name: &str| {
             let path = folder.path().join(name);
-            let mut video = Mp4::create(&path, VideoFormat { size: [35, 21], rate: 20.0 }).unwrap();
+            let mut video = Mp4::create(
+                &path,
+                VideoFormat {
+                    size: [35, 21],
+                    rate: 20.0,
+                },
+            )
+            .unwrap();
             for (shade, periods) in [(0, 1), (90, 3), (200, 2)] {
                 video.add(&[shade; 35 * 21 * 3], periods).unwrap();
             }
@@ -173,10 +204,16 @@ mod tests {
         };
         let bytes = write("a.mp4");
         assert_eq!(bytes, write("b.mp4"));
-        let mut reader = mp4::Mp4Reader::read_header(std::io::Cursor::new(&bytes), bytes.len() as u64).unwrap();
+        let mut reader =
+            mp4::Mp4Reader::read_header(std::io::Cursor::new(&bytes), bytes.len() as u64).unwrap();
         let track = &reader.tracks()[&TRACK];
-        assert_eq!((track.width(), track.height(), track.sample_count()), (36, 22, 3));
-        let starts: Vec<u64> = (1..=3).map(|n| reader.read_sample(TRACK, n).unwrap().unwrap().start_time).collect();
+        assert_eq!(
+            (track.width(), track.height(), track.sample_count()),
+            (36, 22, 3)
+        );
+        let starts: Vec<u64> = (1..=3)
+            .map(|n| reader.read_sample(TRACK, n).unwrap().unwrap().start_time)
+            .collect();
         assert_eq!(starts, [0, 4500, 18_000]);
         assert_eq!(reader.tracks()[&TRACK].duration().as_millis(), 300);
     }

@@ -26,21 +26,44 @@ impl Name {
     fn parse(name: &str) -> Option<Self> {
         let (before, rest) = name.split_once('%')?;
         let (digits, after) = rest.split_once('d')?;
-        let digits = if digits.is_empty() { 1 } else { digits.parse().ok()? };
-        let is_sound = (1..=20).contains(&digits) && !after.contains('%') && !after.contains(['/', '\\']);
-        is_sound.then(|| Self { before: before.to_owned(), digits, after: after.to_owned() })
+        let digits = if digits.is_empty() {
+            1
+        } else {
+            digits.parse().ok()?
+        };
+        let is_sound =
+            (1..=20).contains(&digits) && !after.contains('%') && !after.contains(['/', '\\']);
+        is_sound.then(|| Self {
+            before: before.to_owned(),
+            digits,
+            after: after.to_owned(),
+        })
     }
 
     fn path(&self, number: u64) -> PathBuf {
-        let Self { before, digits, after } = self;
+        let Self {
+            before,
+            digits,
+            after,
+        } = self;
         format!("{before}{number:0digits$}{after}").into()
     }
 }
 
 impl Series {
-    pub(super) fn create(path: &Path, VideoFormat { size, .. }: VideoFormat) -> Result<Self, VideoError> {
-        let name = path.to_str().and_then(Name::parse).ok_or(VideoError::Series)?;
-        Ok(Self { name, size, count: 0 })
+    pub(super) fn create(
+        path: &Path,
+        VideoFormat { size, .. }: VideoFormat,
+    ) -> Result<Self, VideoError> {
+        let name = path
+            .to_str()
+            .and_then(Name::parse)
+            .ok_or(VideoError::Series)?;
+        Ok(Self {
+            name,
+            size,
+            count: 0,
+        })
     }
 }
 
@@ -66,10 +89,18 @@ mod tests {
 
     #[test]
     fn names_have_one_place_for_a_number() {
-        let name = |text: &str| Name::parse(text).map(|name| name.path(7).to_string_lossy().into_owned());
+        let name =
+            |text: &str| Name::parse(text).map(|name| name.path(7).to_string_lossy().into_owned());
         assert_eq!(name("a/out-%05d.png").as_deref(), Some("a/out-00007.png"));
         assert_eq!(name("%d.png").as_deref(), Some("7.png"));
-        for wrong in ["out.png", "out-%s.png", "%d%d.png", "%99d.png", "%-5d.png", "%d/a.png"] {
+        for wrong in [
+            "out.png",
+            "out-%s.png",
+            "%d%d.png",
+            "%99d.png",
+            "%-5d.png",
+            "%d/a.png",
+        ] {
             assert_eq!(name(wrong), None, "{wrong}");
         }
     }

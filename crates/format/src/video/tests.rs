@@ -29,14 +29,21 @@ fn a_webp_has_all_pictures_and_times() {
     let path = folder.path().join("a.webp");
     write(&path, 30.0).unwrap();
     let file = std::fs::read(&path).unwrap();
-    assert_eq!(u32::from_le_bytes([file[4], file[5], file[6], file[7]]) as usize + 8, file.len());
+    assert_eq!(
+        u32::from_le_bytes([file[4], file[5], file[6], file[7]]) as usize + 8,
+        file.len()
+    );
     let mut decoder = image_webp::WebPDecoder::new(std::io::Cursor::new(&file)).unwrap();
     assert_eq!((decoder.dimensions(), decoder.num_frames()), ((7, 5), 3));
     let mut pixels = vec![0; decoder.output_buffer_size().unwrap()];
     let bytes = pixels.len() / 35;
     for (at, duration) in [(3, 33), (33, 67), (0, 33)] {
         assert_eq!(decoder.read_frame(&mut pixels).unwrap(), duration);
-        let rgb: Vec<u8> = pixels.chunks(bytes).flat_map(|pixel| &pixel[..3]).copied().collect();
+        let rgb: Vec<u8> = pixels
+            .chunks(bytes)
+            .flat_map(|pixel| &pixel[..3])
+            .copied()
+            .collect();
         assert_eq!(rgb, picture(at), "{at}");
     }
 }
@@ -48,7 +55,9 @@ fn a_gif_has_all_pictures_and_times() {
     write(&path, 20.0).unwrap();
     let mut options = ::gif::DecodeOptions::new();
     options.set_color_output(::gif::ColorOutput::RGBA);
-    let mut decoder = options.read_info(std::fs::File::open(&path).unwrap()).unwrap();
+    let mut decoder = options
+        .read_info(std::fs::File::open(&path).unwrap())
+        .unwrap();
     assert_eq!((decoder.width(), decoder.height()), (7, 5));
     let mut delays = Vec::new();
     let mut shown = Vec::new();
@@ -60,7 +69,11 @@ fn a_gif_has_all_pictures_and_times() {
         }
     }
     assert_eq!(delays, [5, 10, 5]);
-    let rgb: Vec<u8> = shown.chunks(4).flat_map(|pixel| &pixel[..3]).copied().collect();
+    let rgb: Vec<u8> = shown
+        .chunks(4)
+        .flat_map(|pixel| &pixel[..3])
+        .copied()
+        .collect();
     assert_eq!(rgb, picture(3));
 }
 
@@ -91,7 +104,14 @@ fn the_same_pictures_are_the_same_bytes() {
 #[test]
 fn what_is_not_finished_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    let mut video = create(&folder.path().join("a.webp"), VideoFormat { size: SIZE, rate: 25.0 }).unwrap();
+    let mut video = create(
+        &folder.path().join("a.webp"),
+        VideoFormat {
+            size: SIZE,
+            rate: 25.0,
+        },
+    )
+    .unwrap();
     video.add(&picture(0), 1).unwrap();
     drop(video);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -99,12 +119,26 @@ fn what_is_not_finished_leaves_nothing() {
 
 #[test]
 fn wrong_names_are_errors() {
-    let format = VideoFormat { size: SIZE, rate: 25.0 };
-    let reason = |name: &str| create(Path::new(name), format).map(|_| ()).unwrap_err().to_string();
+    let format = VideoFormat {
+        size: SIZE,
+        rate: 25.0,
+    };
+    let reason = |name: &str| {
+        create(Path::new(name), format)
+            .map(|_| ())
+            .unwrap_err()
+            .to_string()
+    };
     assert!(reason("a.xyz").starts_with("unknown kind of video: xyz (known: webp, gif, "));
     assert!(reason("a").starts_with("unknown kind of video: "));
-    assert_eq!(reason("a.png"), "the name of a series has one place for the number, such as out-%05d.png");
-    assert!(matches!(create(Path::new("/no/such/folder/a.gif"), format), Err(VideoError::Io(_))));
+    assert_eq!(
+        reason("a.png"),
+        "the name of a series has one place for the number, such as out-%05d.png"
+    );
+    assert!(matches!(
+        create(Path::new("/no/such/folder/a.gif"), format),
+        Err(VideoError::Io(_))
+    ));
 }
 
 /// Without ffmpeg the error says what to install; with it there is a file.
@@ -116,7 +150,13 @@ fn ffmpeg_makes_other_files() {
     let is_there = Command::new(PROGRAM).arg("-version").output().is_ok();
     match result {
         Ok(()) => assert!(is_there && std::fs::metadata(&path).unwrap().len() > 100),
-        Err(error) => assert!(!is_there && error.to_string().contains("apt install ffmpeg"), "{error}"),
+        Err(error) => assert!(
+            !is_there && error.to_string().contains("apt install ffmpeg"),
+            "{error}"
+        ),
     }
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), usize::from(is_there));
+    assert_eq!(
+        std::fs::read_dir(folder.path()).unwrap().count(),
+        usize::from(is_there)
+    );
 }

@@ -26,14 +26,24 @@ type Words<T> = Result<T, String>;
 impl Reading<'_> {
     /// The geometry of a shape, and all its triangles in the frame of the shape, which mass and inertia are found by.
     pub(super) fn geometry(&mut self, shape: Element<'_>) -> FileResult<Node> {
-        let mut found = shape.children().filter(|child| GEOMETRIES.contains(&child.name()));
+        let mut found = shape
+            .children()
+            .filter(|child| GEOMETRIES.contains(&child.name()));
         let (Some(one), None) = (found.next(), found.next()) else {
             return Err(shape.error("a shape needs one primitive, heightfield, mesh or compound"));
         };
         let mut all = Mesh::default();
         let mut tree = self.part(one, &Pose::identity(), &mut all, 0)?;
-        let name = if one.name() == "compound" { "group" } else { "mesh" };
-        let root = if name == "group" { tree.get_mut("group") } else { tree.get_mut("node") };
+        let name = if one.name() == "compound" {
+            "group"
+        } else {
+            "mesh"
+        };
+        let root = if name == "group" {
+            tree.get_mut("group")
+        } else {
+            tree.get_mut("node")
+        };
         if let Some(root) = root {
             mass(root, shape, &all).map_err(|what| shape.error(what))?;
             if name == "mesh" {
@@ -41,12 +51,22 @@ impl Reading<'_> {
                 put(root, &[Step::Name("frame")], pose_node(&Pose::identity()));
             }
         }
-        let inner = if name == "group" { tree.get("group").cloned().unwrap_or(tree) } else { tree };
+        let inner = if name == "group" {
+            tree.get("group").cloned().unwrap_or(tree)
+        } else {
+            tree
+        };
         Ok(Node::table([(name, inner)]))
     }
 
     /// A child of a compound whose frame in the shape is `frame`.
-    fn part(&mut self, element: Element<'_>, frame: &Pose, all: &mut Mesh, depth: usize) -> FileResult<Node> {
+    fn part(
+        &mut self,
+        element: Element<'_>,
+        frame: &Pose,
+        all: &mut Mesh,
+        depth: usize,
+    ) -> FileResult<Node> {
         element.mark();
         let own = pose(element).map_err(|what| element.error(what))?;
         let in_shape = frame * own;
@@ -55,11 +75,24 @@ impl Reading<'_> {
         }
         let mut data = self.section("MeshData", element)?;
         let mesh = triangles(element, &mut data).map_err(|what| element.error(what))?;
-        let mesh = Mesh { normals: Vec::new(), ..mesh };
+        let mesh = Mesh {
+            normals: Vec::new(),
+            ..mesh
+        };
         all.append(&mesh, &in_shape);
         let arrays = Arrays {
-            vertices: mesh.vertices.as_flattened().iter().map(|c| *c as f32).collect(),
-            indices: mesh.triangles.as_flattened().iter().map(|i| *i as i32).collect(),
+            vertices: mesh
+                .vertices
+                .as_flattened()
+                .iter()
+                .map(|c| *c as f32)
+                .collect(),
+            indices: mesh
+                .triangles
+                .as_flattened()
+                .iter()
+                .map(|i| *i as i32)
+                .collect(),
             ..Arrays::default()
         };
         let place = self.add(arrays).map_err(|what| element.error(what))?;
@@ -67,11 +100,23 @@ impl Reading<'_> {
         // In a compound the node is where the vertices are; alone it is the box.
         let mut node = Node::table([]);
         let alone = depth == 0;
-        put(&mut node, &[Step::Name("frame")], pose_node(&if alone { Pose::identity() } else { own }));
-        put(&mut node, &[Step::Name("box_frame")], pose_node(&if alone { own } else { Pose::identity() }));
+        put(
+            &mut node,
+            &[Step::Name("frame")],
+            pose_node(&if alone { Pose::identity() } else { own }),
+        );
+        put(
+            &mut node,
+            &[Step::Name("box_frame")],
+            pose_node(&if alone { own } else { Pose::identity() }),
+        );
         if let (true, Some((low, high))) = (data.get("primitive").is_some(), mesh.aabb()) {
             let size = (0..3).map(|axis| Node::Real(high[axis] - low[axis]));
-            put(&mut node, &[Step::Name("box_size")], Node::List(size.collect()));
+            put(
+                &mut node,
+                &[Step::Name("box_size")],
+                Node::List(size.collect()),
+            );
         }
         Ok(Node::table([("node", node), ("mesh", data)]))
     }
@@ -87,8 +132,12 @@ impl Reading<'_> {
         if depth >= MAX_GROUPS {
             return Err(element.error("compounds are nested too deeply"));
         }
-        let parts = element.children().filter(|child| GEOMETRIES.contains(&child.name()));
-        let parts = parts.map(|child| self.part(child, in_shape, all, depth + 1)).collect::<FileResult<Vec<_>>>()?;
+        let parts = element
+            .children()
+            .filter(|child| GEOMETRIES.contains(&child.name()));
+        let parts = parts
+            .map(|child| self.part(child, in_shape, all, depth + 1))
+            .collect::<FileResult<Vec<_>>>()?;
         if parts.len() < 2 {
             return Err(element.error("a compound has two parts or more"));
         }
@@ -103,7 +152,8 @@ fn triangles(element: Element<'_>, data: &mut Node) -> Words<Mesh> {
         "primitive" => {
             let code = word("primitive", &text(element, "type")?)?;
             let size = numbers(&text(element, "size")?)?;
-            let kind = PrimitiveKind::from_code(code).filter(|kind| *kind != PrimitiveKind::Heightfield);
+            let kind =
+                PrimitiveKind::from_code(code).filter(|kind| *kind != PrimitiveKind::Heightfield);
             let kind = kind.ok_or("the type of a primitive is unknown")?;
             if !size.iter().all(|side: &f64| (0.0..1e9).contains(side)) {
                 return Err("the size of a primitive is out of range".into());
@@ -118,7 +168,10 @@ fn triangles(element: Element<'_>, data: &mut Node) -> Words<Mesh> {
 }
 
 fn set_primitive(data: &mut Node, code: i64, size: [f64; 3]) {
-    let primitive = Node::List(vec![Node::Int(code), Node::List(size.map(Node::Real).to_vec())]);
+    let primitive = Node::List(vec![
+        Node::Int(code),
+        Node::List(size.map(Node::Real).to_vec()),
+    ]);
     put(data, &[Step::Name("primitive")], primitive);
 }
 
@@ -127,20 +180,30 @@ fn terrain(element: Element<'_>, data: &mut Node) -> Words<Mesh> {
     let [columns, rows] = counts.map(|count| count as usize);
     let heights: Vec<f64> = list(element, "data")?;
     if columns < 2 || rows < 2 || columns.checked_mul(rows) != Some(heights.len()) {
-        return Err("a heightfield needs two columns and rows or more, and a height for each point".into());
+        return Err(
+            "a heightfield needs two columns and rows or more, and a height for each point".into(),
+        );
     }
     // The step is divided by the number of steps when it is read: it is the whole width.
     let [width] = numbers(&text(element, "gridStep")?)?;
     if !(heights.iter().all(|height| height.is_finite()) && width > 0.0 && width < 1e9) {
         return Err("a heightfield has numbers out of range".into());
     }
-    let mesh = heightfield(columns, rows, width, &heights).ok_or("a heightfield is too large or empty")?;
+    let mesh =
+        heightfield(columns, rows, width, &heights).ok_or("a heightfield is too large or empty")?;
     let (low, high) = mesh.aabb().unwrap_or_default();
-    set_primitive(data, PrimitiveKind::Heightfield.code(), std::array::from_fn(|axis| high[axis] - low[axis]));
+    set_primitive(
+        data,
+        PrimitiveKind::Heightfield.code(),
+        std::array::from_fn(|axis| high[axis] - low[axis]),
+    );
     let field = Node::table([
         ("columns", Node::Int(columns as i64)),
         ("rows", Node::Int(rows as i64)),
-        ("heights", Node::List(heights.into_iter().map(Node::Real).collect())),
+        (
+            "heights",
+            Node::List(heights.into_iter().map(Node::Real).collect()),
+        ),
     ]);
     put(data, &[Step::Name("heightfield")], field);
     Ok(mesh)
@@ -150,17 +213,25 @@ fn terrain(element: Element<'_>, data: &mut Node) -> Words<Mesh> {
 fn mesh(element: Element<'_>) -> Words<Mesh> {
     if let Some(file) = element.find(&["fileName"]) {
         let name = file.text();
-        return Err(format!("meshes in files ('{}') are not implemented in Swanilda", name.trim()));
+        return Err(format!(
+            "meshes in files ('{}') are not implemented in Swanilda",
+            name.trim()
+        ));
     }
     let vertices: Vec<f64> = list(element, "vertices")?;
     let count = (vertices.len() / 3) as i64;
     let indices: Vec<i64> = list(element, "indices")?;
-    let indices: Vec<i64> = indices.into_iter().map(|at| if at < 0 { at + count } else { at }).collect();
+    let indices: Vec<i64> = indices
+        .into_iter()
+        .map(|at| if at < 0 { at + count } else { at })
+        .collect();
     Mesh::from_flat(&vertices, &indices, None).map_err(|error| error.to_string())
 }
 
 fn text(element: Element<'_>, name: &str) -> Words<String> {
-    let found = element.find(&[name]).ok_or_else(|| format!("`{name}` is missing"))?;
+    let found = element
+        .find(&[name])
+        .ok_or_else(|| format!("`{name}` is missing"))?;
     Ok(found.mark().text())
 }
 
@@ -170,7 +241,9 @@ fn pose(element: Element<'_>) -> Words<Pose> {
 }
 
 fn frame(element: Element<'_>, name: &str) -> Words<Pose> {
-    let Some(frame) = element.find(&[name]) else { return Ok(Pose::identity()) };
+    let Some(frame) = element.find(&[name]) else {
+        return Ok(Pose::identity());
+    };
     frame.mark();
     let part = |name: &str| frame.find(&[name]).map(|found| found.mark().text());
     let position: [f64; 3] = part("position").map_or(Ok([0.0; 3]), |text| numbers(&text))?;
@@ -179,7 +252,11 @@ fn frame(element: Element<'_>, name: &str) -> Words<Pose> {
         (None, Some(rotation)) => unit_quaternion(numbers(&rotation)?),
         (None, None) => Default::default(),
     };
-    if !position.iter().chain(rotation.coords.iter()).all(|number| number.is_finite()) {
+    if !position
+        .iter()
+        .chain(rotation.coords.iter())
+        .all(|number| number.is_finite())
+    {
         return Err("a frame has numbers that are not finite".into());
     }
     Ok(Pose::from_parts(position.into(), rotation))
@@ -193,8 +270,16 @@ fn mass(root: &mut Node, shape: Element<'_>, all: &Mesh) -> Words<()> {
     }
     let inertia = (0..9).map(|at| Node::Real(properties.inertia[(at / 3, at % 3)]));
     put(root, &[Step::Name("mass")], Node::Real(properties.mass));
-    put(root, &[Step::Name("centre_of_mass")], Node::List(properties.com.map(Node::Real).to_vec()));
-    put(root, &[Step::Name("inertia")], Node::List(inertia.collect()));
+    put(
+        root,
+        &[Step::Name("centre_of_mass")],
+        Node::List(properties.com.map(Node::Real).to_vec()),
+    );
+    put(
+        root,
+        &[Step::Name("inertia")],
+        Node::List(inertia.collect()),
+    );
     Ok(())
 }
 
@@ -217,7 +302,10 @@ fn read_mass(properties: &mut MassProperties, dynamics: Element<'_>) -> Words<()
         let axes = frame(dynamics, "localInertiaFrame")?;
         let turn = axes.rotation.to_rotation_matrix().into_inner();
         let moments = Matrix3::from_diagonal(&Vector3::from(numbers::<3>(&text)?));
-        (properties.com, properties.inertia) = (axes.translation.vector.into(), turn * moments * turn.transpose());
+        (properties.com, properties.inertia) = (
+            axes.translation.vector.into(),
+            turn * moments * turn.transpose(),
+        );
     }
     Ok(())
 }
@@ -227,8 +315,12 @@ fn pose_node(pose: &Pose) -> Node {
 }
 
 fn pose_of(node: Option<&Node>) -> Pose {
-    let Some(items) = node.and_then(|node| node.items::<7>().ok()) else { return Pose::identity() };
-    PositionFirst(items.each_ref().map(|item| item.real().unwrap_or(f64::NAN))).pose().unwrap_or_default()
+    let Some(items) = node.and_then(|node| node.items::<7>().ok()) else {
+        return Pose::identity();
+    };
+    PositionFirst(items.each_ref().map(|item| item.real().unwrap_or(f64::NAN)))
+        .pose()
+        .unwrap_or_default()
 }
 
 impl Writing<'_> {
@@ -236,7 +328,11 @@ impl Writing<'_> {
     pub(super) fn geometry(&self, geometry: &Node, out: &mut Item) {
         let root = match (geometry.get("mesh"), geometry.get("group")) {
             (Some(mesh), _) => {
-                self.mesh(mesh, &pose_of(mesh.get("node").and_then(|node| node.get("box_frame"))), out);
+                self.mesh(
+                    mesh,
+                    &pose_of(mesh.get("node").and_then(|node| node.get("box_frame"))),
+                    out,
+                );
                 mesh.get("node")
             }
             (None, Some(group)) => {
@@ -253,7 +349,11 @@ impl Writing<'_> {
     fn group(&self, group: &Node, out: &mut Item) {
         let item = out.push("compound");
         write_pose(&pose_of(group.get("frame")), item);
-        for child in group.get("children").and_then(|children| children.list().ok()).unwrap_or_default() {
+        for child in group
+            .get("children")
+            .and_then(|children| children.list().ok())
+            .unwrap_or_default()
+        {
             match (child.get("group"), child.get("node")) {
                 (Some(group), _) => self.group(group, item),
                 (None, Some(node)) => {
@@ -267,8 +367,14 @@ impl Writing<'_> {
 
     fn mesh(&self, mesh: &Node, frame: &Pose, out: &mut Item) {
         let Some(data) = mesh.get("mesh") else { return };
-        let primitive = data.get("primitive").and_then(|primitive| primitive.list().ok()).unwrap_or_default();
-        let code = primitive.first().and_then(|code| code.int().ok()).unwrap_or(0);
+        let primitive = data
+            .get("primitive")
+            .and_then(|primitive| primitive.list().ok())
+            .unwrap_or_default();
+        let code = primitive
+            .first()
+            .and_then(|code| code.int().ok())
+            .unwrap_or(0);
         let terrain = PrimitiveKind::Heightfield.code();
         let item = out.push(match code {
             0 => "mesh",
@@ -281,7 +387,9 @@ impl Writing<'_> {
             None if code == 0 => arrays::write_triangles(self.pool, data, item),
             None => {
                 item.leaf("type", word_of("primitive", code).unwrap_or_default());
-                let size = primitive.get(1).and_then(|size| self.numbers(Unit::Real, size, data));
+                let size = primitive
+                    .get(1)
+                    .and_then(|size| self.numbers(Unit::Real, size, data));
                 item.leaf("size", size.unwrap_or_default());
             }
         }
@@ -289,11 +397,29 @@ impl Writing<'_> {
     }
 
     fn terrain(&self, field: &Node, size: Option<&Node>, item: &mut Item) {
-        let count = |name: &str| field.get(name).and_then(|count| count.int().ok()).unwrap_or(0);
-        let heights = field.get("heights").and_then(|heights| heights.list().ok()).unwrap_or_default();
-        let width = size.and_then(|size| size.list().ok()?.first()?.real().ok()).unwrap_or(0.0);
+        let count = |name: &str| {
+            field
+                .get(name)
+                .and_then(|count| count.int().ok())
+                .unwrap_or(0)
+        };
+        let heights = field
+            .get("heights")
+            .and_then(|heights| heights.list().ok())
+            .unwrap_or_default();
+        let width = size
+            .and_then(|size| size.list().ok()?.first()?.real().ok())
+            .unwrap_or(0.0);
         item.leaf("size", joined(&[count("columns"), count("rows")]));
-        item.leaf("data", joined(&heights.iter().map(|height| height.real().unwrap_or(0.0)).collect::<Vec<f64>>()));
+        item.leaf(
+            "data",
+            joined(
+                &heights
+                    .iter()
+                    .map(|height| height.real().unwrap_or(0.0))
+                    .collect::<Vec<f64>>(),
+            ),
+        );
         item.leaf("gridStep", number(width));
     }
 }
@@ -302,15 +428,27 @@ fn write_pose(pose: &Pose, out: &mut Item) {
     let [x, y, z]: [f64; 3] = pose.translation.vector.into();
     let frame = out.push("localFrame");
     frame.leaf("position", [x, y, z].map(number).join(" "));
-    frame.leaf("euler", rotation_to_euler(&pose.rotation).map(|angle| number(angle.to_degrees())).join(" "));
+    frame.leaf(
+        "euler",
+        rotation_to_euler(&pose.rotation)
+            .map(|angle| number(angle.to_degrees()))
+            .join(" "),
+    );
 }
 
 fn write_mass(root: &Node, out: &mut Item) {
-    let Some(mass) = root.get("mass").and_then(|mass| mass.real().ok()) else { return };
+    let Some(mass) = root.get("mass").and_then(|mass| mass.real().ok()) else {
+        return;
+    };
     out.leaf("mass", number(mass));
     let reals = |name: &str, factor: f64| {
         let items = root.get(name)?.list().ok()?.iter();
-        Some(items.map(|item| number(item.real().unwrap_or(0.0) * factor)).collect::<Vec<String>>().join(" "))
+        Some(
+            items
+                .map(|item| number(item.real().unwrap_or(0.0) * factor))
+                .collect::<Vec<String>>()
+                .join(" "),
+        )
     };
     if let (Some(inertia), Some(com)) = (reals("inertia", mass), reals("centre_of_mass", 1.0)) {
         out.leaf("inertiaMatrix", inertia);

@@ -53,7 +53,13 @@ pub fn is_xml(bytes: &[u8]) -> bool {
 /// # Errors
 /// Describes the fault, with line, column and the names of the elements.
 pub fn read(bytes: &[u8], folder: Option<&Path>, permissions: &Permissions) -> FileResult<File> {
-    scene::read(&Document::parse(bytes)?, SideFiles { folder, permissions })
+    scene::read(
+        &Document::parse(bytes)?,
+        SideFiles {
+            folder,
+            permissions,
+        },
+    )
 }
 
 /// A file of the savers as XML.

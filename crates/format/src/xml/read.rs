@@ -35,7 +35,10 @@ impl Reading<'_> {
     pub(super) fn section(&mut self, name: &str, element: Element<'_>) -> FileResult<Node> {
         element.mark();
         let mut node = Node::Table(Vec::new());
-        let rows: Vec<&Row> = rows(name).iter().filter(|row| row.is_in(self.simple)).collect();
+        let rows: Vec<&Row> = rows(name)
+            .iter()
+            .filter(|row| row.is_in(self.simple))
+            .collect();
         let mut missing = Vec::new();
         for row in rows {
             if !self.row(row, element, &mut node)? {
@@ -46,7 +49,9 @@ impl Reading<'_> {
             if let Some((text, always)) = row.default
                 && (always || has_root(&node, &row.field))
             {
-                let value = self.value(row.kind, text, &node).map_err(|what| element.error(what))?;
+                let value = self
+                    .value(row.kind, text, &node)
+                    .map_err(|what| element.error(what))?;
                 put_value(&mut node, row, value);
             }
         }
@@ -59,7 +64,9 @@ impl Reading<'_> {
             return self.sections(section, row, element, node);
         }
         let found = row.elements.iter().find_map(|way| element.find(way));
-        let Some(found) = found.or_else(|| coded(row, element)) else { return Ok(false) };
+        let Some(found) = found.or_else(|| coded(row, element)) else {
+            return Ok(false);
+        };
         match row.kind {
             Kind::Section(section) => put(node, &row.field, self.section(section, found)?),
             Kind::Children => self.children(found, node)?,
@@ -73,12 +80,16 @@ impl Reading<'_> {
                     return Ok(true);
                 }
             }
-            Kind::Pixels if found.attribute("name").is_some() || found.named("file").next().is_some() => {
+            Kind::Pixels
+                if found.attribute("name").is_some() || found.named("file").next().is_some() =>
+            {
                 self.picture(found, node)?;
             }
             Kind::Text if found.name().ends_with(CODED) => put(node, &row.field, of_base64(found)?),
             kind => {
-                let value = self.value(kind, &found.text(), node).map_err(|what| found.error(what))?;
+                let value = self
+                    .value(kind, &found.text(), node)
+                    .map_err(|what| found.error(what))?;
                 put_value(node, row, value);
             }
         }
@@ -86,10 +97,24 @@ impl Reading<'_> {
         Ok(true)
     }
 
-    fn sections(&mut self, section: &str, row: &Row, element: Element<'_>, node: &mut Node) -> FileResult<bool> {
-        let Some((last, groups)) = row.elements.first().and_then(|way| way.split_last()) else { return Ok(false) };
-        let Some(group) = element.find(groups) else { return Ok(false) };
-        let items = group.mark().named(last).map(|item| self.section(section, item)).collect::<FileResult<Vec<_>>>()?;
+    fn sections(
+        &mut self,
+        section: &str,
+        row: &Row,
+        element: Element<'_>,
+        node: &mut Node,
+    ) -> FileResult<bool> {
+        let Some((last, groups)) = row.elements.first().and_then(|way| way.split_last()) else {
+            return Ok(false);
+        };
+        let Some(group) = element.find(groups) else {
+            return Ok(false);
+        };
+        let items = group
+            .mark()
+            .named(last)
+            .map(|item| self.section(section, item))
+            .collect::<FileResult<Vec<_>>>()?;
         let any = !items.is_empty();
         if any || row.field.is_empty() {
             put(node, &row.field, Node::List(items));
@@ -106,7 +131,9 @@ impl Reading<'_> {
         for child in group.children() {
             match child.name() {
                 "mesh" => items.push(self.section("Mesh", child)?),
-                "compound" => items.push(Node::table([("group", self.section("MeshNode", child)?)])),
+                "compound" => {
+                    items.push(Node::table([("group", self.section("MeshNode", child)?)]))
+                }
                 _ => {}
             }
         }
@@ -129,7 +156,9 @@ impl Reading<'_> {
             Kind::Numbers(unit, count) => self.numbers(unit, count, text, node)?,
             Kind::Bits(..) => Node::Int(truth(text)?.into()),
             Kind::Word(words) => Node::Int(word(words, text)?),
-            Kind::Alias if self.simple => Node::Text(text.trim().split('*').next().unwrap_or_default().to_owned()),
+            Kind::Alias if self.simple => {
+                Node::Text(text.trim().split('*').next().unwrap_or_default().to_owned())
+            }
             Kind::Alias | Kind::Text => Node::Text(text.to_owned()),
             Kind::Texts => {
                 let texts = text.split(';').filter(|text| !text.is_empty());
@@ -149,23 +178,40 @@ impl Reading<'_> {
     }
 
     fn numbers(&self, unit: Unit, count: Count, text: &str, node: &Node) -> Result<Node, String> {
-        let turns = node.get("joint_type").is_none_or(|found| *found == Node::Int(REVOLUTE));
+        let turns = node
+            .get("joint_type")
+            .is_none_or(|found| *found == Node::Int(REVOLUTE));
         let one = |text: &str| {
             Ok(match unit {
                 Unit::Int => Node::Int(whole(text)?),
                 Unit::Real => Node::Real(real(text)?),
                 Unit::Degrees => Node::Real(real(text)?.to_radians()),
-                Unit::Motion => Node::Real(if turns { real(text)?.to_radians() } else { real(text)? }),
-                Unit::Colour => Node::Real(if self.simple { real(text)? / 255.0 } else { real(text)? }),
+                Unit::Motion => Node::Real(if turns {
+                    real(text)?.to_radians()
+                } else {
+                    real(text)?
+                }),
+                Unit::Colour => Node::Real(if self.simple {
+                    real(text)? / 255.0
+                } else {
+                    real(text)?
+                }),
             })
         };
-        let all = || text.split_ascii_whitespace().map(one).collect::<Result<Vec<Node>, String>>();
+        let all = || {
+            text.split_ascii_whitespace()
+                .map(one)
+                .collect::<Result<Vec<Node>, String>>()
+        };
         match count {
             Count::One => one(text.trim()),
             Count::Any => all().map(Node::List),
             Count::Exactly(count) => match all()? {
                 items if items.len() == count => Ok(Node::List(items)),
-                items => Err(format!("{count} numbers are needed, {} are there", items.len())),
+                items => Err(format!(
+                    "{count} numbers are needed, {} are there",
+                    items.len()
+                )),
             },
         }
     }
@@ -173,8 +219,15 @@ impl Reading<'_> {
 
 /// Text that XML cannot represent is in an element of its own.
 fn coded<'a>(row: &Row, element: Element<'a>) -> Option<Element<'a>> {
-    let (last, groups) = row.elements.first().filter(|_| row.kind == Kind::Text)?.split_last()?;
-    element.find(groups)?.named(&format!("{last}{CODED}")).next()
+    let (last, groups) = row
+        .elements
+        .first()
+        .filter(|_| row.kind == Kind::Text)?
+        .split_last()?;
+    element
+        .find(groups)?
+        .named(&format!("{last}{CODED}"))
+        .next()
 }
 
 /// Whether anything of a field is there.
@@ -187,21 +240,31 @@ fn has_root(node: &Node, field: &[Step]) -> bool {
 
 /// Puts a value; of bits, those of the row.
 fn put_value(node: &mut Node, row: &Row, value: Node) {
-    let Kind::Bits(mask, inverted) = row.kind else { return put(node, &row.field, value) };
-    let before = get(node, &row.field).and_then(|bits| bits.int().ok()).unwrap_or(0);
+    let Kind::Bits(mask, inverted) = row.kind else {
+        return put(node, &row.field, value);
+    };
+    let before = get(node, &row.field)
+        .and_then(|bits| bits.int().ok())
+        .unwrap_or(0);
     let on = (value == Node::Int(1)) != inverted;
-    put(node, &row.field, Node::Int(if on { before | mask } else { before & !mask }));
+    put(
+        node,
+        &row.field,
+        Node::Int(if on { before | mask } else { before & !mask }),
+    );
 }
 
 /// The part of a node.
 pub(super) fn get(node: &Node, field: &[Step]) -> Option<Node> {
-    let Some((step, rest)) = field.split_first() else { return Some(node.clone()) };
+    let Some((step, rest)) = field.split_first() else {
+        return Some(node.clone());
+    };
     match (step, node) {
         (Step::Name(name), node) => get(node.get(name)?, rest),
         (Step::Item(at), Node::List(items)) => get(items.get(*at)?, rest),
-        (Step::Items(first, count), Node::List(items)) => {
-            items.get(*first..first + count).map(|items| Node::List(items.to_vec()))
-        }
+        (Step::Items(first, count), Node::List(items)) => items
+            .get(*first..first + count)
+            .map(|items| Node::List(items.to_vec())),
         _ => None,
     }
 }
@@ -238,7 +301,10 @@ pub(super) fn put(node: &mut Node, field: &[Step], value: Node) {
     items.resize(items.len().max(first + count), Node::Int(0));
     match (step, value) {
         (Step::Items(..), Node::List(values)) => {
-            items[first..first + count].iter_mut().zip(values).for_each(|(item, value)| *item = value);
+            items[first..first + count]
+                .iter_mut()
+                .zip(values)
+                .for_each(|(item, value)| *item = value);
         }
         (_, value) => put(&mut items[first], rest, value),
     }
@@ -254,17 +320,25 @@ fn truth(text: &str) -> Result<bool, String> {
 
 fn whole(text: &str) -> Result<i64, String> {
     let number = text.trim().parse::<i32>();
-    number.map(i64::from).map_err(|_| format!("'{}' is no whole number", short(text.trim())))
+    number
+        .map(i64::from)
+        .map_err(|_| format!("'{}' is no whole number", short(text.trim())))
 }
 
 fn real(text: &str) -> Result<f64, String> {
-    text.trim().parse().map_err(|_| format!("'{}' is no number", short(text.trim())))
+    text.trim()
+        .parse()
+        .map_err(|_| format!("'{}' is no number", short(text.trim())))
 }
 
 /// As many numbers as a thing has.
 pub(super) fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
-    let all = text.split_ascii_whitespace().map(real).collect::<Result<Vec<f64>, String>>()?;
-    all.try_into().map_err(|all: Vec<f64>| format!("{N} numbers are needed, {} are there", all.len()))
+    let all = text
+        .split_ascii_whitespace()
+        .map(real)
+        .collect::<Result<Vec<f64>, String>>()?;
+    all.try_into()
+        .map_err(|all: Vec<f64>| format!("{N} numbers are needed, {} are there", all.len()))
 }
 
 /// A word of an enumeration, or any number in its place.
@@ -280,9 +354,13 @@ fn short(text: &str) -> String {
 
 fn bytes_of(text: &str) -> Result<Vec<u8>, String> {
     let text: String = text.split_ascii_whitespace().collect();
-    base64::engine::general_purpose::STANDARD.decode(text).map_err(|error| format!("it is not in base64: {error}"))
+    base64::engine::general_purpose::STANDARD
+        .decode(text)
+        .map_err(|error| format!("it is not in base64: {error}"))
 }
 
 pub(super) fn of_base64(element: Element<'_>) -> Result<Node, FileError> {
-    bytes_of(&element.text()).map(Node::Bytes).map_err(|what| element.error(what))
+    bytes_of(&element.text())
+        .map(Node::Bytes)
+        .map_err(|what| element.error(what))
 }

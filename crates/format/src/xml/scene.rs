@@ -48,8 +48,12 @@ type Placed<'a> = (Element<'a>, Option<usize>);
 /// Describes the fault, with line, column and the names of the elements.
 pub(super) fn read(document: &Document, side_files: SideFiles<'_>) -> FileResult<File> {
     let root = document.root().mark();
-    let what = root.find(&["filetype"]).filter(|_| root.name() == "CoppeliaSim");
-    let what = what.ok_or_else(|| root.error("this is no scene or model of CoppeliaSim: `filetype` is missing"))?;
+    let what = root
+        .find(&["filetype"])
+        .filter(|_| root.name() == "CoppeliaSim");
+    let what = what.ok_or_else(|| {
+        root.error("this is no scene or model of CoppeliaSim: `filetype` is missing")
+    })?;
     let (simple, kind) = match what.mark().text().trim() {
         "simpleScene" => (true, FileKind::Scene),
         "simpleModel" => (true, FileKind::Model),
@@ -59,16 +63,35 @@ pub(super) fn read(document: &Document, side_files: SideFiles<'_>) -> FileResult
     };
     let header = header(root, kind, simple)?;
     let (references, pool) = (BTreeMap::new(), MeshPool::default());
-    let mut reading = Reading { simple, references, side_files, pool, groups: 0 };
-    let (objects, attached) =
-        if simple { simple_objects(&mut reading, root)? } else { (objects(&mut reading, root)?, Vec::new()) };
+    let mut reading = Reading {
+        simple,
+        references,
+        side_files,
+        pool,
+        groups: 0,
+    };
+    let (objects, attached) = if simple {
+        simple_objects(&mut reading, root)?
+    } else {
+        (objects(&mut reading, root)?, Vec::new())
+    };
     let mut contents = reading.section("Contents", root)?;
-    let own = contents.get("scripts").and_then(|scripts| scripts.list().ok()).unwrap_or_default();
+    let own = contents
+        .get("scripts")
+        .and_then(|scripts| scripts.list().ok())
+        .unwrap_or_default();
     let scripts = own.iter().cloned().chain(attached).collect();
     put(&mut contents, &[Step::Name("scripts")], Node::List(scripts));
     number_collections(&mut contents, simple);
-    if let Some(camera) = placed(root).iter().position(|(element, _)| simple && is_main_camera(*element)) {
-        put(&mut contents, &[Step::Name("views")], view_of(camera as i64));
+    if let Some(camera) = placed(root)
+        .iter()
+        .position(|(element, _)| simple && is_main_camera(*element))
+    {
+        put(
+            &mut contents,
+            &[Step::Name("views")],
+            view_of(camera as i64),
+        );
     }
     let tree = Node::table([("header", header), ("contents", contents)]);
     let mut file = File::from_node(&tree).map_err(|what| root.error(what))?;
@@ -79,34 +102,60 @@ pub(super) fn read(document: &Document, side_files: SideFiles<'_>) -> FileResult
 
 /// Whether a camera of the simple variant is what the window shows.
 fn is_main_camera(element: Element<'_>) -> bool {
-    let flag = element.find(&["mainCamera"]).filter(|_| element.name() == "camera");
+    let flag = element
+        .find(&["mainCamera"])
+        .filter(|_| element.name() == "camera");
     flag.is_some_and(|flag| flag.mark().text().trim() == "true")
 }
 
 /// The pages of a window with one view.
 fn view_of(camera: i64) -> Node {
     let view = Node::table([("linked_object", Node::Int(camera))]);
-    let page = Node::table([("page_type", Node::Int(0)), ("views", Node::List(vec![view]))]);
-    Node::table([("pages", Node::List(vec![page])), ("active_page", Node::Int(0))])
+    let page = Node::table([
+        ("page_type", Node::Int(0)),
+        ("views", Node::List(vec![view])),
+    ]);
+    Node::table([
+        ("pages", Node::List(vec![page])),
+        ("active_page", Node::Int(0)),
+    ])
 }
 
 fn skipped(element: Element<'_>) -> Skipped {
-    Skipped { offset: element.offset(), path: element.path(), size: element.size() }
+    Skipped {
+        offset: element.offset(),
+        path: element.path(),
+        size: element.size(),
+    }
 }
 
 /// Header with the version of the program that wrote the file: a number such as 41000, or 4.10.0.
 fn header(root: Element<'_>, kind: FileKind, simple: bool) -> FileResult<Node> {
     let current = Header::current(kind);
-    let _ = ["xmlSerializationNb", "prgFlavor", "modelThumbnail"].map(|name| root.find(&[name]).map(Element::mark));
+    let _ = ["xmlSerializationNb", "prgFlavor", "modelThumbnail"]
+        .map(|name| root.find(&[name]).map(Element::mark));
     let version = match root.find(&["prgVer"]) {
-        Some(element) => version(element.mark().text().trim()).ok_or_else(|| element.error("this is no version"))?,
+        Some(element) => version(element.mark().text().trim())
+            .ok_or_else(|| element.error("this is no version"))?,
         None if simple => current.version.into(),
         None => return Err(root.error("`prgVer` is missing")),
     };
-    let revision = root.find(&["prgRev"]).and_then(|element| element.mark().text().trim().parse().ok()).unwrap_or(0);
+    let revision = root
+        .find(&["prgRev"])
+        .and_then(|element| element.mark().text().trim().parse().ok())
+        .unwrap_or(0);
     // The serializations that releases began to write.
-    let known = [(40_600, 25), (40_501, 24), (40_200, 23), (30_601, 22), (30_400, 21)];
-    let serialization = known.iter().find(|(since, _)| version >= *since).map_or(18, |(_, number)| *number);
+    let known = [
+        (40_600, 25),
+        (40_501, 24),
+        (40_200, 23),
+        (30_601, 22),
+        (30_400, 21),
+    ];
+    let serialization = known
+        .iter()
+        .find(|(since, _)| version >= *since)
+        .map_or(18, |(_, number)| *number);
     Ok(Node::table([
         ("serialization", Node::Int(serialization)),
         ("version", Node::Int(version)),
@@ -116,11 +165,16 @@ fn header(root: Element<'_>, kind: FileKind, simple: bool) -> FileResult<Node> {
 }
 
 fn version(text: &str) -> Option<i64> {
-    let parts = text.split('.').map(|part| part.parse::<u16>().ok()).collect::<Option<Vec<u16>>>()?;
+    let parts = text
+        .split('.')
+        .map(|part| part.parse::<u16>().ok())
+        .collect::<Option<Vec<u16>>>()?;
     let number = match parts.as_slice() {
         [number] => i64::from(*number),
         [major, minor, rest @ ..] if rest.len() < 2 => {
-            10_000 * i64::from(*major) + 100 * i64::from(*minor) + rest.first().map_or(0, |patch| i64::from(*patch))
+            10_000 * i64::from(*major)
+                + 100 * i64::from(*minor)
+                + rest.first().map_or(0, |patch| i64::from(*patch))
         }
         _ => return None,
     };
@@ -128,14 +182,21 @@ fn version(text: &str) -> Option<i64> {
 }
 
 fn class_of(element: &Element<'_>) -> Option<&'static str> {
-    CLASSES.iter().find(|(name, _)| *name == element.name()).map(|(_, class)| *class)
+    CLASSES
+        .iter()
+        .find(|(name, _)| *name == element.name())
+        .map(|(_, class)| *class)
 }
 
 fn objects(reading: &mut Reading<'_>, root: Element<'_>) -> FileResult<Vec<Object>> {
     let mut objects = Vec::new();
     for wrapper in root.named("sceneObject") {
-        let element = wrapper.mark().children().find(|child| child.find(&["common"]).is_some());
-        let element = element.ok_or_else(|| wrapper.error("an object needs an element of its type with `common`"))?;
+        let element = wrapper
+            .mark()
+            .children()
+            .find(|child| child.find(&["common"]).is_some());
+        let element = element
+            .ok_or_else(|| wrapper.error("an object needs an element of its type with `common`"))?;
         let common = element.find(&["common"]).unwrap_or(element);
         let common = reading.section("Object", common)?;
         objects.push(object(reading, element, common)?);
@@ -148,7 +209,11 @@ fn object(reading: &mut Reading<'_>, element: Element<'_>, common: Node) -> File
         Some(class) => {
             let mut node = reading.section(class, element)?;
             if class == "Shape" && reading.simple {
-                put(&mut node, &[Step::Name("geometry")], reading.geometry(element)?);
+                put(
+                    &mut node,
+                    &[Step::Name("geometry")],
+                    reading.geometry(element)?,
+                );
             }
             (class, node)
         }
@@ -157,14 +222,20 @@ fn object(reading: &mut Reading<'_>, element: Element<'_>, common: Node) -> File
     if class == "Shape" && node.get("geometry").is_none() {
         return Err(element.error("a shape needs a `meshProxy` with a mesh or compound"));
     }
-    let tree = Node::Table(vec![("Object".to_owned(), common), (class.to_owned(), node)]);
+    let tree = Node::Table(vec![
+        ("Object".to_owned(), common),
+        (class.to_owned(), node),
+    ]);
     let mut object = object_of_node(&tree).map_err(|what| element.error(what))?;
     object.offset = element.offset();
     Ok(object)
 }
 
 /// Objects within objects, and the scripts attached to them.
-fn simple_objects(reading: &mut Reading<'_>, root: Element<'_>) -> FileResult<(Vec<Object>, Vec<Node>)> {
+fn simple_objects(
+    reading: &mut Reading<'_>,
+    root: Element<'_>,
+) -> FileResult<(Vec<Object>, Vec<Node>)> {
     let placed = placed(root);
     reading.references = references(root, &placed);
     let (mut objects, mut scripts) = (Vec::new(), Vec::new());
@@ -174,9 +245,17 @@ fn simple_objects(reading: &mut Reading<'_>, root: Element<'_>) -> FileResult<(V
             None => Node::table([]),
         };
         let parent = parent.map_or(-1, |parent| parent as i64);
-        put(&mut common, &[Step::Name("handles")], Node::List(vec![Node::Int(handle as i64), Node::Int(parent)]));
+        put(
+            &mut common,
+            &[Step::Name("handles")],
+            Node::List(vec![Node::Int(handle as i64), Node::Int(parent)]),
+        );
         if common.get("alias").is_none() && common.get("name").is_none() {
-            put(&mut common, &[Step::Name("alias")], Node::Text(element.name().to_owned()));
+            put(
+                &mut common,
+                &[Step::Name("alias")],
+                Node::Text(element.name().to_owned()),
+            );
         }
         objects.push(object(reading, *element, common)?);
         for (name, code) in ATTACHED {
@@ -193,9 +272,14 @@ fn simple_objects(reading: &mut Reading<'_>, root: Element<'_>) -> FileResult<(V
 
 /// All objects, parents before children.
 fn placed(root: Element<'_>) -> Vec<Placed<'_>> {
-    let is_object = |element: &Element<'_>| class_of(element).is_some() || GONE.contains(&element.name());
+    let is_object =
+        |element: &Element<'_>| class_of(element).is_some() || GONE.contains(&element.name());
     let mut placed = Vec::new();
-    let mut pending: Vec<Placed<'_>> = root.children().filter(is_object).map(|element| (element, None)).collect();
+    let mut pending: Vec<Placed<'_>> = root
+        .children()
+        .filter(is_object)
+        .map(|element| (element, None))
+        .collect();
     pending.reverse();
     while let Some((element, parent)) = pending.pop() {
         let at = placed.len();
@@ -210,16 +294,27 @@ fn placed(root: Element<'_>) -> Vec<Placed<'_>> {
 fn references(root: Element<'_>, placed: &[Placed<'_>]) -> BTreeMap<String, i32> {
     let mut references = BTreeMap::new();
     for (handle, (element, _)) in placed.iter().enumerate() {
-        let text = |name| element.find(&["common", name]).map(|found| found.text().trim().to_owned());
+        let text = |name| {
+            element
+                .find(&["common", name])
+                .map(|found| found.text().trim().to_owned())
+        };
         let alias = text("alias");
-        let short = alias.as_ref().and_then(|alias| alias.split('*').next().map(str::to_owned));
+        let short = alias
+            .as_ref()
+            .and_then(|alias| alias.split('*').next().map(str::to_owned));
         for name in [alias, text("name"), short].into_iter().flatten() {
             references.entry(name).or_insert(handle as i32);
         }
     }
     for (collection, handle) in root.named("collection").zip(FIRST_COLLECTION..) {
-        let name = collection.find(&["name"]).map(|name| name.text()).unwrap_or_default();
-        references.entry(format!("@collection@{}", name.trim())).or_insert(handle);
+        let name = collection
+            .find(&["name"])
+            .map(|name| name.text())
+            .unwrap_or_default();
+        references
+            .entry(format!("@collection@{}", name.trim()))
+            .or_insert(handle);
     }
     references
 }
@@ -227,7 +322,11 @@ fn references(root: Element<'_>, placed: &[Placed<'_>]) -> BTreeMap<String, i32>
 fn number_collections(contents: &mut Node, simple: bool) {
     if let Some(Node::List(collections)) = contents.get_mut("collections").filter(|_| simple) {
         for (collection, handle) in collections.iter_mut().zip(FIRST_COLLECTION..) {
-            put(collection, &[Step::Name("handle")], Node::Int(handle.into()));
+            put(
+                collection,
+                &[Step::Name("handle")],
+                Node::Int(handle.into()),
+            );
         }
     }
 }
@@ -236,22 +335,43 @@ fn number_collections(contents: &mut Node, simple: bool) {
 pub(super) fn write(file: &File, simple: bool) -> String {
     let mut file = file.clone();
     let pool = file.contents.mesh_pool.take().unwrap_or_default();
-    let objects: Vec<Node> = std::mem::take(&mut file.contents.objects).iter().map(object_node).collect();
+    let objects: Vec<Node> = std::mem::take(&mut file.contents.objects)
+        .iter()
+        .map(object_node)
+        .collect();
     let mut tree = file.to_node();
     let mut root = Item::new("CoppeliaSim");
-    let what = if file.contents.model_info.is_some() { "Model" } else { "Scene" };
-    root.leaf("filetype", format!("{}{what}", if simple { "simple" } else { "exhaustive" }));
+    let what = if file.contents.model_info.is_some() {
+        "Model"
+    } else {
+        "Scene"
+    };
+    root.leaf(
+        "filetype",
+        format!("{}{what}", if simple { "simple" } else { "exhaustive" }),
+    );
     root.leaf("xmlSerializationNb", "2");
     root.leaf("prgFlavor", "0");
     root.leaf("prgVer", file.header.version.to_string());
     root.leaf("prgRev", file.header.revision.to_string());
-    let Some(contents) = tree.get_mut("contents") else { return root.print() };
-    let writing =
-        Writing { simple, pool: &pool, names: if simple { names(&objects, contents) } else { BTreeMap::new() } };
+    let Some(contents) = tree.get_mut("contents") else {
+        return root.print();
+    };
+    let writing = Writing {
+        simple,
+        pool: &pool,
+        names: if simple {
+            names(&objects, contents)
+        } else {
+            BTreeMap::new()
+        },
+    };
     if simple {
         let scripts = take_scripts(contents);
         let mut children = Children::new();
-        objects.iter().for_each(|object| children.entry(handles(object)[1]).or_default().push(object));
+        objects
+            .iter()
+            .for_each(|object| children.entry(handles(object)[1]).or_default().push(object));
         write_children(&writing, -1, &mut children, &scripts, &mut root);
     } else {
         for object in &objects {
@@ -267,12 +387,25 @@ fn names(objects: &[Node], contents: &Node) -> BTreeMap<i64, String> {
     let mut names = BTreeMap::new();
     for object in objects {
         let [handle, _] = handles(object);
-        let alias = object.get("Object").and_then(|common| common.get("alias")?.bytes().ok()).unwrap_or_default();
+        let alias = object
+            .get("Object")
+            .and_then(|common| common.get("alias")?.bytes().ok())
+            .unwrap_or_default();
         names.insert(handle, format!("{}*{handle}", crate::ttt::decode(&alias)));
     }
-    for collection in contents.get("collections").and_then(|list| list.list().ok()).unwrap_or_default() {
-        let name = collection.get("name").and_then(|name| name.bytes().ok()).unwrap_or_default();
-        if let Some(handle) = collection.get("handle").and_then(|handle| handle.int().ok()) {
+    for collection in contents
+        .get("collections")
+        .and_then(|list| list.list().ok())
+        .unwrap_or_default()
+    {
+        let name = collection
+            .get("name")
+            .and_then(|name| name.bytes().ok())
+            .unwrap_or_default();
+        if let Some(handle) = collection
+            .get("handle")
+            .and_then(|handle| handle.int().ok())
+        {
             names.insert(handle, format!("@collection@{}", crate::ttt::decode(&name)));
         }
     }
@@ -280,24 +413,39 @@ fn names(objects: &[Node], contents: &Node) -> BTreeMap<i64, String> {
 }
 
 fn handles(object: &Node) -> [i64; 2] {
-    let pair = object.get("Object").and_then(|common| common.get("handles")?.items::<2>().ok());
-    pair.map_or([-1; 2], |pair| pair.each_ref().map(|handle| handle.int().unwrap_or(-1)))
+    let pair = object
+        .get("Object")
+        .and_then(|common| common.get("handles")?.items::<2>().ok());
+    pair.map_or([-1; 2], |pair| {
+        pair.each_ref().map(|handle| handle.int().unwrap_or(-1))
+    })
 }
 
 /// Takes the scripts attached to objects out of the contents, and a main script that is the usual one.
 fn take_scripts(contents: &mut Node) -> Vec<Attached> {
-    let Some(Node::List(scripts)) = contents.get_mut("scripts") else { return Vec::new() };
+    let Some(Node::List(scripts)) = contents.get_mut("scripts") else {
+        return Vec::new();
+    };
     let ids = |script: &Node| {
         let ids = script.get("ids").and_then(|ids| ids.items::<3>().ok());
-        ids.map_or([-1; 3], |ids| ids.each_ref().map(|id| id.int().unwrap_or(-1)))
+        ids.map_or([-1; 3], |ids| {
+            ids.each_ref().map(|id| id.int().unwrap_or(-1))
+        })
     };
     let is_own = |script: &Node| {
-        script.get("switches").and_then(|bits| bits.int().ok()).is_some_and(|bits| bits & OWN_MAIN_SCRIPT != 0)
+        script
+            .get("switches")
+            .and_then(|bits| bits.int().ok())
+            .is_some_and(|bits| bits & OWN_MAIN_SCRIPT != 0)
     };
-    let (mains, attached): (Vec<Node>, Vec<Node>) =
-        std::mem::take(scripts).into_iter().partition(|script| ids(script)[2] == MAIN_SCRIPT);
+    let (mains, attached): (Vec<Node>, Vec<Node>) = std::mem::take(scripts)
+        .into_iter()
+        .partition(|script| ids(script)[2] == MAIN_SCRIPT);
     *scripts = mains.into_iter().filter(is_own).collect();
-    attached.into_iter().map(|script| (ids(&script)[1], ids(&script)[2], script)).collect()
+    attached
+        .into_iter()
+        .map(|script| (ids(&script)[1], ids(&script)[2], script))
+        .collect()
 }
 
 /// Objects by the handle of their parent.
@@ -323,11 +471,20 @@ fn write_children(
 }
 
 fn write_object<'a>(writing: &Writing<'_>, object: &Node, out: &'a mut Item) -> &'a mut Item {
-    let Node::Table(entries) = object else { return out };
+    let Node::Table(entries) = object else {
+        return out;
+    };
     let of_class = entries.iter().find(|(name, _)| name != "Object");
     let (class, node) = of_class.map_or(("Dummy", object), |(name, node)| (name.as_str(), node));
-    let mut names = CLASSES.iter().filter(|(_, known)| *known == class).map(|(name, _)| *name);
-    let name = if writing.simple { names.next_back() } else { names.next() };
+    let mut names = CLASSES
+        .iter()
+        .filter(|(_, known)| *known == class)
+        .map(|(name, _)| *name);
+    let name = if writing.simple {
+        names.next_back()
+    } else {
+        names.next()
+    };
     let item = out.push(name.unwrap_or("dummy"));
     if let Some(common) = object.get("Object") {
         writing.section("Object", common, item.push("common"));

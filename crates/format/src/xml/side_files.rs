@@ -17,10 +17,18 @@ impl SideFiles<'_> {
     /// # Errors
     /// In words.
     pub(super) fn read(self, name: &str) -> Result<Vec<u8>, String> {
-        let folder = self.folder.ok_or_else(|| format!("the file '{name}' beside the scene is not in the buffer"))?;
+        let folder = self
+            .folder
+            .ok_or_else(|| format!("the file '{name}' beside the scene is not in the buffer"))?;
         let path = Path::new(name);
-        if name.is_empty() || !path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
-            return Err(format!("the file '{name}' is not in the folder of the scene"));
+        if name.is_empty()
+            || !path
+                .components()
+                .all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
+        {
+            return Err(format!(
+                "the file '{name}' is not in the folder of the scene"
+            ));
         }
         let read = self.permissions.read_file(&folder.join(path));
         read.map_err(|error| format!("the file '{name}' cannot be read: {error}"))
@@ -32,7 +40,10 @@ pub(super) struct Bytes<'a>(pub &'a [u8]);
 
 impl<'a> Bytes<'a> {
     fn take(&mut self, count: usize) -> Result<&'a [u8], String> {
-        let (taken, rest) = self.0.split_at_checked(count).ok_or("the file is too short for what it announces")?;
+        let (taken, rest) = self
+            .0
+            .split_at_checked(count)
+            .ok_or("the file is too short for what it announces")?;
         self.0 = rest;
         Ok(taken)
     }
@@ -60,21 +71,37 @@ mod tests {
         std::fs::create_dir(folder.path().join("inner")).unwrap();
         std::fs::write(folder.path().join("mesh.bin"), "x").unwrap();
         let all = Permissions::all();
-        let of = |folder| SideFiles { folder, permissions: &all };
+        let of = |folder| SideFiles {
+            folder,
+            permissions: &all,
+        };
         assert_eq!(of(Some(folder.path())).read("./mesh.bin").unwrap(), b"x");
         let inner = folder.path().join("inner");
         for name in ["../mesh.bin", "", "/etc/passwd", "a/../../mesh.bin"] {
-            assert!(of(Some(&inner)).read(name).unwrap_err().contains("not in the folder"), "{name}");
+            assert!(
+                of(Some(&inner))
+                    .read(name)
+                    .unwrap_err()
+                    .contains("not in the folder"),
+                "{name}"
+            );
         }
         assert!(of(None).read("mesh.bin").is_err());
-        let none = SideFiles { folder: Some(folder.path()), permissions: &Permissions::none() };
+        let none = SideFiles {
+            folder: Some(folder.path()),
+            permissions: &Permissions::none(),
+        };
         assert!(none.read("mesh.bin").unwrap_err().contains("--allow-read"));
     }
 
     #[test]
     fn lengths_that_lie_are_errors() {
         for length in [i32::MAX, -1, 2] {
-            assert!(Bytes(&[&length.to_le_bytes()[..], &[0; 7]].concat()).counted::<4>().is_err());
+            assert!(
+                Bytes(&[&length.to_le_bytes()[..], &[0; 7]].concat())
+                    .counted::<4>()
+                    .is_err()
+            );
         }
         assert_eq!(Bytes(&[1, 0, 0, 0, 7]).counted::<1>().unwrap(), [[7]]);
     }

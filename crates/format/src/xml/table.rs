@@ -82,9 +82,17 @@ type Sections = BTreeMap<&'static str, Vec<Row>>;
 static SECTIONS: LazyLock<Sections> = LazyLock::new(|| {
     let mut sections = Sections::new();
     let mut rows = Vec::new();
-    let lines = include_str!("fields.tsv").lines().chain(include_str!("engines.tsv").lines());
-    for line in lines.rev().filter(|line| !line.is_empty() && !line.starts_with('#')) {
-        match line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
+    let lines = include_str!("fields.tsv")
+        .lines()
+        .chain(include_str!("engines.tsv").lines());
+    for line in lines
+        .rev()
+        .filter(|line| !line.is_empty() && !line.starts_with('#'))
+    {
+        match line
+            .strip_prefix('[')
+            .and_then(|line| line.strip_suffix(']'))
+        {
             Some(name) => {
                 rows.reverse();
                 sections.insert(name, std::mem::take(&mut rows));
@@ -96,11 +104,19 @@ static SECTIONS: LazyLock<Sections> = LazyLock::new(|| {
 });
 
 static WORDS: LazyLock<BTreeMap<&'static str, Vec<(&'static str, i64)>>> = LazyLock::new(|| {
-    let lines = include_str!("words.tsv").lines().filter(|line| !line.starts_with('#'));
+    let lines = include_str!("words.tsv")
+        .lines()
+        .filter(|line| !line.starts_with('#'));
     let words = lines.map(|line| {
         let mut columns = line.split('\t');
         let name = columns.next().unwrap_or_default();
-        (name, columns.filter_map(|word| word.split_once('=')).map(|(word, n)| (word, number(n) as i64)).collect())
+        (
+            name,
+            columns
+                .filter_map(|word| word.split_once('='))
+                .map(|(word, n)| (word, number(n) as i64))
+                .collect(),
+        )
     });
     words.collect()
 });
@@ -112,31 +128,54 @@ pub(super) fn rows(section: &str) -> &'static [Row] {
 
 /// The number of a word.
 pub(super) fn number_of(enumeration: &str, word: &str) -> Option<i64> {
-    WORDS.get(enumeration)?.iter().find(|(known, _)| *known == word).map(|(_, number)| *number)
+    WORDS
+        .get(enumeration)?
+        .iter()
+        .find(|(known, _)| *known == word)
+        .map(|(_, number)| *number)
 }
 
 /// The word of a number.
 pub(super) fn word_of(enumeration: &str, number: i64) -> Option<&'static str> {
-    WORDS.get(enumeration)?.iter().find(|(_, known)| *known == number).map(|(word, _)| *word)
+    WORDS
+        .get(enumeration)?
+        .iter()
+        .find(|(_, known)| *known == number)
+        .map(|(word, _)| *word)
 }
 
 fn row(line: &'static str) -> Row {
     let mut columns = line.split('\t');
     let mut next = || columns.next().unwrap_or_default();
     let (variant, elements, field, kind) = (next(), next(), next(), kind(next()));
-    let default = columns.next().map(|text| text.strip_prefix('!').map_or((text, false), |text| (text, true)));
+    let default = columns.next().map(|text| {
+        text.strip_prefix('!')
+            .map_or((text, false), |text| (text, true))
+    });
     Row {
         exhaustive: variant != "s",
         simple: variant != "x",
-        elements: if elements == "-" { Vec::new() } else { elements.split('|').map(way).collect() },
-        field: if field == "." { Vec::new() } else { field.split('/').map(step).collect() },
+        elements: if elements == "-" {
+            Vec::new()
+        } else {
+            elements.split('|').map(way).collect()
+        },
+        field: if field == "." {
+            Vec::new()
+        } else {
+            field.split('/').map(step).collect()
+        },
         kind,
         default,
     }
 }
 
 fn way(element: &'static str) -> Vec<&'static str> {
-    if element == "." { Vec::new() } else { element.split('/').collect() }
+    if element == "." {
+        Vec::new()
+    } else {
+        element.split('/').collect()
+    }
 }
 
 fn step(text: &'static str) -> Step {
@@ -197,7 +236,10 @@ mod tests {
                 if let Kind::Word(words) = row.kind {
                     assert!(WORDS.contains_key(words), "{name}: {words}");
                 }
-                assert!(!row.elements.is_empty() || row.default.is_some(), "{name}: {row:?}");
+                assert!(
+                    !row.elements.is_empty() || row.default.is_some(),
+                    "{name}: {row:?}"
+                );
             }
         }
     }

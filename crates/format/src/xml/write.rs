@@ -24,7 +24,10 @@ pub(super) struct Item {
 
 impl Item {
     pub(super) fn new(name: &str) -> Self {
-        Self { name: name.to_owned(), ..Self::default() }
+        Self {
+            name: name.to_owned(),
+            ..Self::default()
+        }
     }
 
     /// A new child.
@@ -39,7 +42,9 @@ impl Item {
 
     /// The element at the end of a way, with those on the way.
     pub(super) fn at(&mut self, way: &[&str]) -> &mut Item {
-        let Some((first, rest)) = way.split_first() else { return self };
+        let Some((first, rest)) = way.split_first() else {
+            return self;
+        };
         let known = self.children.iter().position(|child| child.name == *first);
         let at = known.unwrap_or(self.children.len());
         if known.is_none() {
@@ -57,24 +62,36 @@ impl Item {
     fn print_at(&self, out: &mut String, depth: usize) {
         let (indent, name) = ("  ".repeat(depth), &self.name);
         if self.children.is_empty() {
-            let text = if self.is_data { data(&self.text) } else { escaped(&self.text) };
+            let text = if self.is_data {
+                data(&self.text)
+            } else {
+                escaped(&self.text)
+            };
             out.push_str(&format!("{indent}<{name}>{text}</{name}>\n"));
             return;
         }
         out.push_str(&format!("{indent}<{name}>\n"));
-        self.children.iter().for_each(|child| child.print_at(out, depth + 1));
+        self.children
+            .iter()
+            .for_each(|child| child.print_at(out, depth + 1));
         out.push_str(&format!("{indent}</{name}>\n"));
     }
 }
 
 /// In a CDATA section. An end mark in the text is written outside of it.
 fn data(text: &str) -> String {
-    let pieces: Vec<String> = text.split("]]>").map(|piece| format!("<![CDATA[\n{piece}\n]]>")).collect();
+    let pieces: Vec<String> = text
+        .split("]]>")
+        .map(|piece| format!("<![CDATA[\n{piece}\n]]>"))
+        .collect();
     pieces.join("]]&gt;")
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('\r', "&#13;")
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('\r', "&#13;")
 }
 
 /// State while a file is written.
@@ -102,7 +119,9 @@ impl Writing<'_> {
             (Kind::Section(section), _) => self.section(section, value, out.at(way)),
             (Kind::Sections(section), Some((last, groups))) => {
                 let items = value.list().unwrap_or_default();
-                items.iter().for_each(|item| self.section(section, item, out.at(groups).push(last)));
+                items
+                    .iter()
+                    .for_each(|item| self.section(section, item, out.at(groups).push(last)));
             }
             (Kind::Text, Some((last, groups))) => text(value, last, out.at(groups)),
             (kind, Some((last, groups))) => {
@@ -128,13 +147,26 @@ impl Writing<'_> {
         Some(match kind {
             Kind::Numbers(unit, _) => self.numbers(unit, value, node)?,
             Kind::Bits(mask, inverted) => ((value.int().ok()? & mask != 0) != inverted).to_string(),
-            Kind::Word(words) => word_of(words, value.int().ok()?).map_or(value.int().ok()?.to_string(), str::to_owned),
+            Kind::Word(words) => word_of(words, value.int().ok()?)
+                .map_or(value.int().ok()?.to_string(), str::to_owned),
             Kind::Alias if self.simple => self.names.get(&handle(node)?)?.clone(),
             Kind::Alias => string(value)?,
-            Kind::Texts => value.list().ok()?.iter().filter_map(string).collect::<Vec<_>>().join(";"),
-            Kind::Blob | Kind::Pixels => base64::engine::general_purpose::STANDARD.encode(value.bytes().ok()?),
+            Kind::Texts => value
+                .list()
+                .ok()?
+                .iter()
+                .filter_map(string)
+                .collect::<Vec<_>>()
+                .join(";"),
+            Kind::Blob | Kind::Pixels => {
+                base64::engine::general_purpose::STANDARD.encode(value.bytes().ok()?)
+            }
             Kind::Euler => {
-                let [w, x, y, z] = value.items().ok()?.each_ref().map(|part| part.real().unwrap_or(0.0));
+                let [w, x, y, z] = value
+                    .items()
+                    .ok()?
+                    .each_ref()
+                    .map(|part| part.real().unwrap_or(0.0));
                 let angles = rotation_to_euler(&unit_quaternion([w, x, y, z]));
                 angles.map(|angle| number(angle.to_degrees())).join(" ")
             }
@@ -142,16 +174,23 @@ impl Writing<'_> {
                 handle if handle < 0 => handle.to_string(),
                 handle => self.names.get(&handle)?.clone(),
             },
-            Kind::Text | Kind::Section(_) | Kind::Sections(_) | Kind::Children | Kind::Arrays => return None,
+            Kind::Text | Kind::Section(_) | Kind::Sections(_) | Kind::Children | Kind::Arrays => {
+                return None;
+            }
         })
     }
 
     pub(super) fn numbers(&self, unit: Unit, value: &Node, node: &Node) -> Option<String> {
         if let Node::List(items) = value {
-            let all = items.iter().map(|item| self.numbers(unit, item, node)).collect::<Option<Vec<String>>>()?;
+            let all = items
+                .iter()
+                .map(|item| self.numbers(unit, item, node))
+                .collect::<Option<Vec<String>>>()?;
             return Some(all.join(" "));
         }
-        let turns = node.get("joint_type").is_none_or(|found| *found == Node::Int(REVOLUTE));
+        let turns = node
+            .get("joint_type")
+            .is_none_or(|found| *found == Node::Int(REVOLUTE));
         let real = value.real().ok()?;
         Some(match unit {
             Unit::Int => value.int().ok()?.to_string(),
@@ -184,13 +223,20 @@ pub(super) fn number(value: f64) -> String {
 /// The texts of scripts are CDATA sections; bytes that XML cannot contain are encoded.
 fn text(value: &Node, name: &str, out: &mut Item) {
     let Ok(bytes) = value.bytes() else { return };
-    let holdable = |text: &str| !text.chars().any(|c| c.is_control() && !matches!(c, '\t' | '\n' | '\r'));
+    let holdable = |text: &str| {
+        !text
+            .chars()
+            .any(|c| c.is_control() && !matches!(c, '\t' | '\n' | '\r'))
+    };
     match String::from_utf8(bytes) {
         Ok(text) if holdable(&text) => {
             let item = out.push(name);
             (item.text, item.is_data) = (text, matches!(value, Node::Script(_)));
         }
-        Ok(text) => out.leaf(&format!("{name}{CODED}"), base64::engine::general_purpose::STANDARD.encode(text)),
+        Ok(text) => out.leaf(
+            &format!("{name}{CODED}"),
+            base64::engine::general_purpose::STANDARD.encode(text),
+        ),
         Err(error) => {
             let coded = base64::engine::general_purpose::STANDARD.encode(error.as_bytes());
             out.leaf(&format!("{name}{CODED}"), coded);

@@ -34,9 +34,16 @@ impl Mesh {
         let source = hull.as_ref().unwrap_or(self);
         let points = source.points();
         let identity = box_around(&points, &UnitQuaternion::identity())?;
-        let frames = source.face_directions().into_iter().filter_map(|d| flush_frame(&points, &d));
-        let boxes = frames.filter_map(|f| box_around(&points, &UnitQuaternion::from_rotation_matrix(&f)));
-        let tightest = boxes.fold(identity, |best, b| if tighter(&b, &best) { b } else { best });
+        let frames = source
+            .face_directions()
+            .into_iter()
+            .filter_map(|d| flush_frame(&points, &d));
+        let boxes =
+            frames.filter_map(|f| box_around(&points, &UnitQuaternion::from_rotation_matrix(&f)));
+        let tightest = boxes.fold(
+            identity,
+            |best, b| if tighter(&b, &best) { b } else { best },
+        );
         let ordered = sorted_axes(&tightest);
         self.bounding_box(&ordered)
     }
@@ -63,7 +70,10 @@ fn box_around(points: &[Vector3<f64>], orientation: &UnitQuaternion<f64>) -> Opt
         Some(range.map_or((p, p), |(low, high)| (low.inf(&p), high.sup(&p))))
     })?;
     let centre = orientation * (low + (high - low) * 0.5);
-    Some(BoundingBox { size: (high - low).into(), pose: Pose::from_parts(centre.into(), *orientation) })
+    Some(BoundingBox {
+        size: (high - low).into(),
+        pose: Pose::from_parts(centre.into(), *orientation),
+    })
 }
 
 /// Smaller volume by more than rounding, or among flat boxes the smaller surface.
@@ -84,14 +94,19 @@ fn sorted_axes(b: &BoundingBox) -> UnitQuaternion<f64> {
         return b.pose.rotation;
     }
     let axes = b.pose.rotation.to_rotation_matrix();
-    let (x, y) = (axes.matrix().column(order[0]).into_owned(), axes.matrix().column(order[1]).into_owned());
+    let (x, y) = (
+        axes.matrix().column(order[0]).into_owned(),
+        axes.matrix().column(order[1]).into_owned(),
+    );
     let sorted = Matrix3::from_columns(&[x, y, x.cross(&y)]);
     UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(sorted))
 }
 
 /// Axes of the tightest box with one axis along `direction`.
 fn flush_frame(points: &[Vector3<f64>], direction: &Vector3<f64>) -> Option<Rotation3<f64>> {
-    let u = direction.cross(&Vector3::ith(direction.iamin(), 1.0)).try_normalize(0.0)?;
+    let u = direction
+        .cross(&Vector3::ith(direction.iamin(), 1.0))
+        .try_normalize(0.0)?;
     let v = direction.cross(&u);
     let hull = planar_hull(points.iter().map(|p| [p.dot(&u), p.dot(&v)]).collect());
     let area = |s: &[f64; 2]| {
@@ -107,17 +122,29 @@ fn flush_frame(points: &[Vector3<f64>], direction: &Vector3<f64>) -> Option<Rota
         let length = x.hypot(y);
         (length > 0.0).then(|| [x / length, y / length])
     };
-    let sides = hull.iter().zip(hull.iter().cycle().skip(1)).filter_map(side);
-    let best = sides.map(|s| (area(&s), s)).min_by(|a, b| a.0.total_cmp(&b.0))?.1;
+    let sides = hull
+        .iter()
+        .zip(hull.iter().cycle().skip(1))
+        .filter_map(side);
+    let best = sides
+        .map(|s| (area(&s), s))
+        .min_by(|a, b| a.0.total_cmp(&b.0))?
+        .1;
     let x = u * best[0] + v * best[1];
-    Some(Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, direction.cross(&x), *direction])))
+    Some(Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[
+        x,
+        direction.cross(&x),
+        *direction,
+    ])))
 }
 
 /// Convex hull of points in a plane, counter-clockwise (A. M. Andrew's monotone chain).
 fn planar_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     leave_out_inner(&mut points);
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let turn = |a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    let turn = |a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]| {
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    };
     let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
         let mut chain: Vec<[f64; 2]> = Vec::new();
         for p in points {
@@ -152,10 +179,17 @@ fn leave_out_inner(points: &mut Vec<[f64; 2]>) {
             }
         }
     }
-    let margin = 1e-12 * high.iter().chain(&low).fold(0.0_f64, |size, x| size.max(x.abs())).powi(2);
+    let margin = 1e-12
+        * high
+            .iter()
+            .chain(&low)
+            .fold(0.0_f64, |size, x| size.max(x.abs()))
+            .powi(2);
     let sides = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| (corners[k], corners[(k + 1) % 8]));
     let is_inner = |p: &[f64; 2]| {
-        sides.iter().all(|(a, b)| a == b || (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > margin)
+        sides.iter().all(|(a, b)| {
+            a == b || (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > margin
+        })
     };
     points.retain(|p| !is_inner(p));
 }
@@ -173,8 +207,14 @@ mod tests {
         mesh.transform(&frame);
         let found = mesh.oriented_box().expect("not empty");
         close(&found.size, &[1., 2., 4.]);
-        close(&<[f64; 3]>::from(found.pose.translation.vector), &[2., 1.5, 3.]);
-        close(&mesh.bounding_box(&frame.rotation).expect("not empty").size, &[2., 1., 4.]);
+        close(
+            &<[f64; 3]>::from(found.pose.translation.vector),
+            &[2., 1.5, 3.],
+        );
+        close(
+            &mesh.bounding_box(&frame.rotation).expect("not empty").size,
+            &[2., 1., 4.],
+        );
     }
 
     #[test]

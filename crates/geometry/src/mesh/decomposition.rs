@@ -65,20 +65,30 @@ impl Mesh {
         if self.is_convex() {
             return Mesh::convex_hull(&self.vertices).into_iter().collect();
         }
-        let Some((low, high)) = self.aabb() else { return Vec::new() };
+        let Some((low, high)) = self.aabb() else {
+            return Vec::new();
+        };
         let (low, size) = (Vector3::from(low), Vector3::from(high) - Vector3::from(low));
         if !size.max().is_finite() || size.min() <= MIN_RELATIVE_THICKNESS * size.max() {
             return Vec::new();
         }
         // parry's tolerances are absolute: it gets a mesh of unit size.
         let scale = size.max();
-        let points: Vec<Vector> =
-            self.points().iter().map(|p| Vector::from_array(((p - low) / scale).into())).collect();
+        let points: Vec<Vector> = self
+            .points()
+            .iter()
+            .map(|p| Vector::from_array(((p - low) / scale).into()))
+            .collect();
         let parameters = fineness.parameters();
         let parts = VHACD::decompose(&parameters, &points, &self.triangles, false);
         let back = |p: &Vector| <[f64; 3]>::from(Vector3::from(p.to_array()) * scale + low);
         let hulls = parts.compute_convex_hulls(parameters.convex_hull_downsampling);
-        hulls.iter().filter_map(|(points, _)| Mesh::convex_hull(&points.iter().map(back).collect::<Vec<_>>())).collect()
+        hulls
+            .iter()
+            .filter_map(|(points, _)| {
+                Mesh::convex_hull(&points.iter().map(back).collect::<Vec<_>>())
+            })
+            .collect()
     }
 }
 
@@ -100,8 +110,20 @@ mod tests {
 
     #[test]
     fn what_is_convex_or_flat() {
-        assert_eq!(tetrahedron().convex_pieces(DecompositionParameters::default()).len(), 1);
-        let flat = Mesh::new(vec![[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]], vec![[0, 1, 2]]).unwrap();
-        assert!(flat.convex_pieces(DecompositionParameters::default()).is_empty());
+        assert_eq!(
+            tetrahedron()
+                .convex_pieces(DecompositionParameters::default())
+                .len(),
+            1
+        );
+        let flat = Mesh::new(
+            vec![[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]],
+            vec![[0, 1, 2]],
+        )
+        .unwrap();
+        assert!(
+            flat.convex_pieces(DecompositionParameters::default())
+                .is_empty()
+        );
     }
 }

@@ -26,21 +26,36 @@ impl Mesh {
         let mut known: HashMap<[u32; 2], usize> = HashMap::new();
         for triangle in &self.triangles {
             let [a, b, c] = self.corners(triangle);
-            let Some(normal) = (b - a).cross(&(c - a)).try_normalize(0.0) else { continue };
+            let Some(normal) = (b - a).cross(&(c - a)).try_normalize(0.0) else {
+                continue;
+            };
             let corners = triangle.map(|vertex| places[vertex as usize]);
-            for ends in [[corners[0], corners[1]], [corners[1], corners[2]], [corners[2], corners[0]]] {
+            for ends in [
+                [corners[0], corners[1]],
+                [corners[1], corners[2]],
+                [corners[2], corners[0]],
+            ] {
                 let key = [ends[0].min(ends[1]), ends[0].max(ends[1])];
                 match known.get(&key) {
                     Some(&at) => edges[at].meet(&normal),
                     None => {
                         known.insert(key, edges.len());
-                        edges.push(Edge { ends, normal, faces: 1, cosine: 1.0 });
+                        edges.push(Edge {
+                            ends,
+                            normal,
+                            faces: 1,
+                            cosine: 1.0,
+                        });
                     }
                 }
             }
         }
         let limit = angle.cos();
-        edges.into_iter().filter(|edge| edge.faces != 2 || edge.cosine < limit).map(|edge| edge.ends).collect()
+        edges
+            .into_iter()
+            .filter(|edge| edge.faces != 2 || edge.cosine < limit)
+            .map(|edge| edge.ends)
+            .collect()
     }
 
     /// For each vertex the first one at the same place.
@@ -48,7 +63,10 @@ impl Mesh {
         let mut first: HashMap<[u64; 3], u32> = HashMap::new();
         // Adding zero makes the two zeros one.
         let key = |vertex: &[f64; 3]| vertex.map(|x| (x + 0.0).to_bits());
-        (0..).zip(&self.vertices).map(|(at, vertex)| *first.entry(key(vertex)).or_insert(at)).collect()
+        (0..)
+            .zip(&self.vertices)
+            .map(|(at, vertex)| *first.entry(key(vertex)).or_insert(at))
+            .collect()
     }
 }
 
@@ -72,7 +90,8 @@ mod tests {
 
     #[test]
     fn vertices_at_one_place_are_one_and_borders_are_edges() {
-        let flat = |vertices: Vec<[f64; 3]>| Mesh::new(vertices, vec![[0, 1, 2], [3, 4, 5]]).unwrap();
+        let flat =
+            |vertices: Vec<[f64; 3]>| Mesh::new(vertices, vec![[0, 1, 2], [3, 4, 5]]).unwrap();
         let square = flat(vec![
             [0.0, 0.0, 0.0],
             [1.0, 0.0, 0.0],

@@ -31,12 +31,21 @@ impl Enclosure {
             (normal, normal.dot(&(mesh.corners(t)[0] - centre)))
         };
         let faces: Vec<_> = mesh.triangles.iter().map(face).collect();
-        if faces.iter().any(|(normal, distance)| *distance <= 0.0 && normal.norm_squared() > 0.0) {
+        if faces
+            .iter()
+            .any(|(normal, distance)| *distance <= 0.0 && normal.norm_squared() > 0.0)
+        {
             return None;
         }
-        let neighbour = |t: &[u32; 3]| [0, 1, 2].map(|k| edges.triangle(t[(k + 1) % 3], t[k]).unwrap_or(0));
+        let neighbour =
+            |t: &[u32; 3]| [0, 1, 2].map(|k| edges.triangle(t[(k + 1) % 3], t[k]).unwrap_or(0));
         let neighbours = mesh.triangles.iter().map(neighbour).collect();
-        Some(Self { centre, faces, neighbours, last: 0 })
+        Some(Self {
+            centre,
+            faces,
+            neighbours,
+            last: 0,
+        })
     }
 
     /// How far a point is outside of the face through which the way from the centre to it leaves; negative inside.
@@ -55,7 +64,11 @@ impl Enclosure {
 
     fn share(&self, face: u32, offset: &Vector3<f64>) -> f64 {
         let (normal, distance) = self.faces[face as usize];
-        if distance > 0.0 { normal.dot(offset) / distance } else { f64::MIN }
+        if distance > 0.0 {
+            normal.dot(offset) / distance
+        } else {
+            f64::MIN
+        }
     }
 
     /// A face with a larger share: a neighbour, or a neighbour of those in the same plane.

@@ -29,18 +29,34 @@ impl Extrusion {
         }
         let mut frames = match self.up {
             Some(up) => self.directed(path, Vector3::from(up)),
-            None => {
-                path.iter().map(|pose| axes(pose, pose.rotation * Vector3::x(), pose.rotation * Vector3::y())).collect()
-            }
+            None => path
+                .iter()
+                .map(|pose| {
+                    axes(
+                        pose,
+                        pose.rotation * Vector3::x(),
+                        pose.rotation * Vector3::y(),
+                    )
+                })
+                .collect(),
         };
         if self.closed {
             frames.push(frames[0]);
         }
-        let place = |[origin, x, y]: &[Vector3<f64>; 3], [u, v]: &[f64; 2]| (origin + x * *u + y * *v).into();
-        let vertices = frames.iter().flat_map(|frame| section.iter().map(move |point| place(frame, point))).collect();
+        let place = |[origin, x, y]: &[Vector3<f64>; 3], [u, v]: &[f64; 2]| {
+            (origin + x * *u + y * *v).into()
+        };
+        let vertices = frames
+            .iter()
+            .flat_map(|frame| section.iter().map(move |point| place(frame, point)))
+            .collect();
         let mut mesh = Mesh::new(vertices, bands(frames.len(), section.len()))?;
         mesh.merge_duplicates(SAME_POINT);
-        if mesh.triangles.is_empty() { Err(MeshError::Empty) } else { Ok(mesh) }
+        if mesh.triangles.is_empty() {
+            Err(MeshError::Empty)
+        } else {
+            Ok(mesh)
+        }
     }
 
     /// Origin, x and y of the section at each pose, with its z along the path.
@@ -64,9 +80,14 @@ impl Extrusion {
             } else {
                 last
             };
-            let along = (at(after) - at(before)).try_normalize(0.0).unwrap_or_else(Vector3::z);
+            let along = (at(after) - at(before))
+                .try_normalize(0.0)
+                .unwrap_or_else(Vector3::z);
             // Where the path goes straight up, the section keeps its side.
-            side = up.cross(&along).try_normalize(1e-9 * up.norm()).unwrap_or(side);
+            side = up
+                .cross(&along)
+                .try_normalize(1e-9 * up.norm())
+                .unwrap_or(side);
             frames.push(axes(pose, side, along.cross(&side)));
         }
         frames
@@ -82,7 +103,12 @@ fn bands(sections: usize, points: usize) -> Vec<[u32; 3]> {
     let index = |section: usize, point: usize| (section * points + point) as u32;
     let quads = (0..sections - 1).flat_map(|s| (0..points - 1).map(move |p| (s, p)));
     let triangles = |(s, p)| {
-        let (a, b, c, d) = (index(s, p), index(s, p + 1), index(s + 1, p + 1), index(s + 1, p));
+        let (a, b, c, d) = (
+            index(s, p),
+            index(s, p + 1),
+            index(s + 1, p + 1),
+            index(s + 1, p),
+        );
         [[a, b, c], [a, c, d]]
     };
     quads.flat_map(triangles).collect()
@@ -92,12 +118,26 @@ fn bands(sections: usize, points: usize) -> Vec<[u32; 3]> {
 mod tests {
     use super::*;
 
-    const SQUARE: [[f64; 2]; 5] = [[0.1, -0.1], [0.1, 0.1], [-0.1, 0.1], [-0.1, -0.1], [0.1, -0.1]];
+    const SQUARE: [[f64; 2]; 5] = [
+        [0.1, -0.1],
+        [0.1, 0.1],
+        [-0.1, 0.1],
+        [-0.1, -0.1],
+        [0.1, -0.1],
+    ];
 
     #[test]
     fn a_straight_tube() {
-        let path = [Pose::translation(0.0, 0.0, 0.0), Pose::translation(2.0, 0.0, 0.0)];
-        let mesh = Extrusion { closed: false, up: Some([0.0, 0.0, 1.0]) }.mesh(&path, &SQUARE).unwrap();
+        let path = [
+            Pose::translation(0.0, 0.0, 0.0),
+            Pose::translation(2.0, 0.0, 0.0),
+        ];
+        let mesh = Extrusion {
+            closed: false,
+            up: Some([0.0, 0.0, 1.0]),
+        }
+        .mesh(&path, &SQUARE)
+        .unwrap();
         assert_eq!((mesh.vertices.len(), mesh.triangles.len()), (8, 8));
         let (low, high) = mesh.aabb().unwrap();
         assert_eq!((low, high), ([0.0, -0.1, -0.1], [2.0, 0.1, 0.1]));
@@ -112,10 +152,25 @@ mod tests {
             Pose::translation(angle.cos(), angle.sin(), 0.0)
         };
         let path: Vec<Pose> = (0..64).map(pose).collect();
-        let mesh = Extrusion { closed: true, up: Some([0.0, 0.0, 1.0]) }.mesh(&path, &SQUARE).unwrap();
-        assert!((mesh.volume() - 0.04 * std::f64::consts::TAU).abs() < 1e-3, "{}", mesh.volume());
-        let flat = Extrusion { closed: false, up: None };
+        let mesh = Extrusion {
+            closed: true,
+            up: Some([0.0, 0.0, 1.0]),
+        }
+        .mesh(&path, &SQUARE)
+        .unwrap();
+        assert!(
+            (mesh.volume() - 0.04 * std::f64::consts::TAU).abs() < 1e-3,
+            "{}",
+            mesh.volume()
+        );
+        let flat = Extrusion {
+            closed: false,
+            up: None,
+        };
         assert_eq!(flat.mesh(&path[..1], &SQUARE), Err(MeshError::Empty));
-        assert_eq!(flat.mesh(&path, &[[f64::NAN, 0.0]; 3]), Err(MeshError::NotFinite));
+        assert_eq!(
+            flat.mesh(&path, &[[f64::NAN, 0.0]; 3]),
+            Err(MeshError::NotFinite)
+        );
     }
 }

@@ -12,7 +12,10 @@ impl HalfEdges {
     /// Of triangles whose corners are below `vertices`.
     pub(super) fn new(vertices: usize, triangles: &[[u32; 3]]) -> Self {
         let mut starts = vec![0_u32; vertices + 1];
-        triangles.as_flattened().iter().for_each(|from| starts[*from as usize + 1] += 1);
+        triangles
+            .as_flattened()
+            .iter()
+            .for_each(|from| starts[*from as usize + 1] += 1);
         (1..starts.len()).for_each(|i| starts[i] += starts[i - 1]);
         let mut next = starts.clone();
         let mut edges = vec![(0, 0); 3 * triangles.len()];
@@ -23,19 +26,25 @@ impl HalfEdges {
                 *slot += 1;
             }
         }
-        starts.windows(2).for_each(|range| edges[range[0] as usize..range[1] as usize].sort_unstable());
+        starts
+            .windows(2)
+            .for_each(|range| edges[range[0] as usize..range[1] as usize].sort_unstable());
         Self { starts, edges }
     }
 
     fn from(&self, vertex: u32) -> &[(u32, u32)] {
-        &self.edges[self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize]
+        &self.edges
+            [self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize]
     }
 
     /// The triangle that goes from one vertex to another, the first of several.
     pub(super) fn triangle(&self, from: u32, to: u32) -> Option<u32> {
         let edges = self.from(from);
         let first = edges.partition_point(|(other, _)| *other < to);
-        edges.get(first).filter(|(other, _)| *other == to).map(|(_, triangle)| *triangle)
+        edges
+            .get(first)
+            .filter(|(other, _)| *other == to)
+            .map(|(_, triangle)| *triangle)
     }
 
     /// Whether no two triangles have the same edge in the same direction.

@@ -24,12 +24,14 @@ impl Mesh {
             return None;
         }
         let (cloud, numbers) = outer(spread(points)?, (0..points.len()).collect());
-        let hulls = [0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3].into_iter().filter_map(|grid| {
-            let (source, hull) = hull_of_cloud(&cloud, grid)?;
-            let vertices = source.iter().map(|i| points[numbers[*i]]).collect();
-            let mesh = Mesh::new(vertices, hull.triangles.clone()).ok()?;
-            (hull.encloses(&cloud, 1e-9 + 4.0 * grid) && mesh.volume() > 0.0).then_some(mesh)
-        });
+        let hulls = [0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3]
+            .into_iter()
+            .filter_map(|grid| {
+                let (source, hull) = hull_of_cloud(&cloud, grid)?;
+                let vertices = source.iter().map(|i| points[numbers[*i]]).collect();
+                let mesh = Mesh::new(vertices, hull.triangles.clone()).ok()?;
+                (hull.encloses(&cloud, 1e-9 + 4.0 * grid) && mesh.volume() > 0.0).then_some(mesh)
+            });
         hulls.into_iter().next()
     }
 
@@ -40,7 +42,11 @@ impl Mesh {
             return Some(hull);
         }
         let moved = |triangle: &[u32; 3]| {
-            let shift = hull.area_vector(triangle).try_normalize(0.0).unwrap_or_default() * growth;
+            let shift = hull
+                .area_vector(triangle)
+                .try_normalize(0.0)
+                .unwrap_or_default()
+                * growth;
             hull.corners(triangle)
                 .into_iter()
                 .flat_map(move |corner| [corner + shift, corner - shift].map(<[f64; 3]>::from))
@@ -50,8 +56,12 @@ impl Mesh {
 
     /// Whether the mesh is closed and has the points inside, to within `tolerance` (m).
     fn encloses(&self, points: &[[f64; 3]], tolerance: f64) -> bool {
-        let Some(mut enclosure) = Enclosure::new(self) else { return false };
-        points.iter().all(|point| enclosure.outside(point) <= tolerance)
+        let Some(mut enclosure) = Enclosure::new(self) else {
+            return false;
+        };
+        points
+            .iter()
+            .all(|point| enclosure.outside(point) <= tolerance)
     }
 }
 
@@ -62,11 +72,14 @@ fn outer(cloud: Vec<[f64; 3]>, numbers: Vec<usize>) -> (Vec<[f64; 3]>, Vec<usize
     }
     let stride = cloud.len().div_ceil(SAMPLE);
     let sample: Vec<[f64; 3]> = cloud.iter().step_by(stride).copied().collect();
-    let Some(mut enclosure) = hull_of_cloud(&sample, 0.0).and_then(|(_, hull)| Enclosure::new(&hull)) else {
+    let Some(mut enclosure) =
+        hull_of_cloud(&sample, 0.0).and_then(|(_, hull)| Enclosure::new(&hull))
+    else {
         return (cloud, numbers);
     };
     let both = cloud.into_iter().zip(numbers);
-    both.filter(|(point, _)| enclosure.outside(point) > -1e-9).unzip()
+    both.filter(|(point, _)| enclosure.outside(point) > -1e-9)
+        .unzip()
 }
 
 /// The points in skewed axes in which the cloud is about as wide in all directions, which leaves hulls as
@@ -81,7 +94,10 @@ fn spread(points: &[[f64; 3]]) -> Option<Vec<[f64; 3]>> {
     let (x, length) = farthest(&|d| d)?;
     let (y, width) = farthest(&|d| d - x * x.dot(&d))?;
     let z = x.cross(&y);
-    let thickness = points.iter().map(|p| z.dot(&offset(p)).abs()).fold(0.0, f64::max);
+    let thickness = points
+        .iter()
+        .map(|p| z.dot(&offset(p)).abs())
+        .fold(0.0, f64::max);
     let spatial = length.is_finite() && width.min(thickness) > MIN_RELATIVE_THICKNESS * length;
     let scaled = |d: Vector3<f64>| [x.dot(&d) / length, y.dot(&d) / width, z.dot(&d) / thickness];
     spatial.then(|| points.iter().map(|p| scaled(offset(p))).collect())
@@ -90,13 +106,22 @@ fn spread(points: &[[f64; 3]]) -> Option<Vec<[f64; 3]>> {
 /// Hull of the points of a cloud that differ on a grid, and which points its vertices are.
 fn hull_of_cloud(cloud: &[[f64; 3]], grid: f64) -> Option<(Vec<usize>, Mesh)> {
     let mut seen = FastSet::default();
-    let cells = cloud.iter().map(|p| p.map(|c| (c / grid.max(1e-9)).round() as i64)).enumerate();
-    let kept: Vec<usize> = cells.filter(|(_, cell)| seen.insert(*cell)).map(|(i, _)| i).collect();
+    let cells = cloud
+        .iter()
+        .map(|p| p.map(|c| (c / grid.max(1e-9)).round() as i64))
+        .enumerate();
+    let kept: Vec<usize> = cells
+        .filter(|(_, cell)| seen.insert(*cell))
+        .map(|(i, _)| i)
+        .collect();
     let distinct: Vec<Vector> = kept.iter().map(|i| shaken(cloud[*i], grid)).collect();
     let (vertices, triangles) = try_convex_hull(&distinct).ok()?;
     let key = |v: &Vector| v.to_array().map(f64::to_bits);
     let index: FastMap<_, _> = distinct.iter().map(key).zip(kept).collect();
-    let source = vertices.iter().map(|v| index.get(&key(v)).copied()).collect::<Option<_>>()?;
+    let source = vertices
+        .iter()
+        .map(|v| index.get(&key(v)).copied())
+        .collect::<Option<_>>()?;
     let mesh = Mesh::new(vertices.iter().map(Vector::to_array).collect(), triangles).ok()?;
     Some((source, mesh))
 }
@@ -114,22 +139,35 @@ mod tests {
 
     #[test]
     fn hulls_need_volume() {
-        let hull = Mesh::convex_hull(&[&CORNER[..], &[[0.1, 0.1, 0.1], [1., 0., 0.]]].concat()).expect("spans space");
+        let hull = Mesh::convex_hull(&[&CORNER[..], &[[0.1, 0.1, 0.1], [1., 0., 0.]]].concat())
+            .expect("spans space");
         assert_eq!((hull.vertices.len(), hull.triangles.len()), (4, 4));
         let bad = [[f64::NAN, 0., 0.], [f64::INFINITY, 0., 0.], [0.5, 0.5, 0.0]];
         for fourth in bad {
-            assert_eq!(Mesh::convex_hull(&[CORNER[0], CORNER[1], CORNER[2], fourth]), None);
+            assert_eq!(
+                Mesh::convex_hull(&[CORNER[0], CORNER[1], CORNER[2], fourth]),
+                None
+            );
         }
         assert_eq!(Mesh::convex_hull(&[]), None);
     }
 
     #[test]
     fn a_grown_cube_is_larger_by_its_growth() {
-        let corners: Vec<_> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect();
+        let corners: Vec<_> = (0..8)
+            .map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from))
+            .collect();
         let grown = Mesh::grown_hull(&corners, 0.5).expect("a cube");
         assert_eq!(grown.aabb(), Some(([-0.5; 3], [1.5; 3])));
         // The faces are moved, the edges are cut off: 1 + 6 / 2 + 12 / 8 + 8 / 48.
-        assert!((grown.volume() - (1.0 + 3.0 + 1.5 + 1.0 / 6.0)).abs() < 1e-6, "{}", grown.volume());
-        assert_eq!(Mesh::grown_hull(&corners, -1.0).map(|hull| hull.vertices.len()), Some(8));
+        assert!(
+            (grown.volume() - (1.0 + 3.0 + 1.5 + 1.0 / 6.0)).abs() < 1e-6,
+            "{}",
+            grown.volume()
+        );
+        assert_eq!(
+            Mesh::grown_hull(&corners, -1.0).map(|hull| hull.vertices.len()),
+            Some(8)
+        );
     }
 }

@@ -9,7 +9,10 @@ impl Mesh {
     /// The connected pieces, in the order of their first triangles: lists of triangles.
     pub fn islands(&self) -> Vec<Vec<usize>> {
         let mut islands: Vec<Vec<usize>> = Vec::new();
-        for (triangle, island) in partition(self.triangles.iter().copied()).into_iter().enumerate() {
+        for (triangle, island) in partition(self.triangles.iter().copied())
+            .into_iter()
+            .enumerate()
+        {
             islands.resize(islands.len().max(island + 1), Vec::new());
             islands[island].push(triangle);
         }
@@ -28,7 +31,11 @@ impl Mesh {
                 })
             });
             part.triangles.push(corners);
-            part.normals.extend(self.normals.get(3 * index..3 * index + 3).unwrap_or_default());
+            part.normals.extend(
+                self.normals
+                    .get(3 * index..3 * index + 3)
+                    .unwrap_or_default(),
+            );
         }
         part
     }
@@ -44,8 +51,15 @@ mod tests {
         let mut mesh = tessellate(PrimitiveKind::Cuboid, [1.0; 3], false).unwrap();
         let other = mesh.clone();
         mesh.append(&other, &Pose::translation(3.0, 0.0, 0.0));
-        let islands: Vec<_> = mesh.islands().iter().map(|triangles| mesh.of_triangles(triangles)).collect();
+        let islands: Vec<_> = mesh
+            .islands()
+            .iter()
+            .map(|triangles| mesh.of_triangles(triangles))
+            .collect();
         assert_eq!(islands.len(), 2);
-        assert_eq!((islands[1].vertices.len(), islands[1].normals.len()), (8, 36));
+        assert_eq!(
+            (islands[1].vertices.len(), islands[1].normals.len()),
+            (8, 36)
+        );
     }
 }

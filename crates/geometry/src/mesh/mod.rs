@@ -68,7 +68,9 @@ pub enum MeshError {
     #[error("invalid data.")]
     NotFinite,
     /// A coordinate is beyond [`MAX_COORDINATE`].
-    #[error("invalid data: a coordinate is beyond {MAX_COORDINATE:e}, which scene files cannot hold.")]
+    #[error(
+        "invalid data: a coordinate is beyond {MAX_COORDINATE:e}, which scene files cannot hold."
+    )]
     TooLarge,
 }
 
@@ -83,7 +85,11 @@ fn check_coordinates(coordinates: &[f64]) -> Result<(), MeshError> {
     if !coordinates.iter().all(|c| c.is_finite()) {
         return Err(MeshError::NotFinite);
     }
-    if coordinates.iter().all(|c| c.abs() <= MAX_COORDINATE) { Ok(()) } else { Err(MeshError::TooLarge) }
+    if coordinates.iter().all(|c| c.abs() <= MAX_COORDINATE) {
+        Ok(())
+    } else {
+        Err(MeshError::TooLarge)
+    }
 }
 
 impl Mesh {
@@ -97,10 +103,21 @@ impl Mesh {
             return Err(MeshError::Empty);
         }
         check_coordinates(vertices.as_flattened())?;
-        if let Some(index) = triangles.as_flattened().iter().find(|i| **i as usize >= count) {
-            return Err(MeshError::IndexOutOfRange { index: i64::from(*index), vertices: count });
+        if let Some(index) = triangles
+            .as_flattened()
+            .iter()
+            .find(|i| **i as usize >= count)
+        {
+            return Err(MeshError::IndexOutOfRange {
+                index: i64::from(*index),
+                vertices: count,
+            });
         }
-        let mut mesh = Self { vertices, triangles, normals: Vec::new() };
+        let mut mesh = Self {
+            vertices,
+            triangles,
+            normals: Vec::new(),
+        };
         mesh.compute_normals(0.0);
         Ok(mesh)
     }
@@ -110,7 +127,11 @@ impl Mesh {
     ///
     /// # Errors
     /// Every variant of [`MeshError`].
-    pub fn from_flat(vertices: &[f64], indices: &[i64], normals: Option<&[f64]>) -> Result<Self, MeshError> {
+    pub fn from_flat(
+        vertices: &[f64],
+        indices: &[i64],
+        normals: Option<&[f64]>,
+    ) -> Result<Self, MeshError> {
         let points = vertices.as_chunks().0.to_vec();
         if !vertices.len().is_multiple_of(3) {
             return Err(MeshError::VertexCount(vertices.len()));
@@ -118,8 +139,13 @@ impl Mesh {
         if !indices.len().is_multiple_of(3) {
             return Err(MeshError::IndexCount(indices.len()));
         }
-        let error = |index| MeshError::IndexOutOfRange { index, vertices: points.len() };
-        let corners = indices.iter().map(|i| u32::try_from(*i).map_err(|_| error(*i)));
+        let error = |index| MeshError::IndexOutOfRange {
+            index,
+            vertices: points.len(),
+        };
+        let corners = indices
+            .iter()
+            .map(|i| u32::try_from(*i).map_err(|_| error(*i)));
         let corners = corners.collect::<Result<Vec<u32>, _>>()?;
         let mut mesh = Self::new(points, corners.as_chunks().0.to_vec())?;
         if let Some(normals) = normals {
@@ -134,7 +160,9 @@ impl Mesh {
     /// [`MeshError::NormalCount`] when there are too few, [`MeshError::NotFinite`], [`MeshError::TooLarge`].
     pub fn set_normals(&mut self, normals: &[f64]) -> Result<(), MeshError> {
         let (found, expected) = (normals.len(), 9 * self.triangles.len());
-        let used = normals.get(..expected).ok_or(MeshError::NormalCount { found, expected })?;
+        let used = normals
+            .get(..expected)
+            .ok_or(MeshError::NormalCount { found, expected })?;
         check_coordinates(used)?;
         self.normals = used.as_chunks().0.to_vec();
         Ok(())
@@ -147,7 +175,11 @@ impl Mesh {
 
     /// 3m indices.
     pub fn flat_indices(&self) -> Vec<i64> {
-        self.triangles.as_flattened().iter().map(|i| i64::from(*i)).collect()
+        self.triangles
+            .as_flattened()
+            .iter()
+            .map(|i| i64::from(*i))
+            .collect()
     }
 
     /// 9m normal coordinates.
@@ -158,14 +190,20 @@ impl Mesh {
     /// Makes one vertex of those closer than about `tolerance` (m; 0: equal ones), drops triangles that
     /// collapse and repeated triangles of the same winding. Vertices keep the order of their first use.
     pub fn merge_duplicates(&mut self, tolerance: f64) {
-        let cell = |c: f64| Some((c / tolerance).round()).filter(|k| tolerance > 0.0 && k.is_finite()).unwrap_or(c);
+        let cell = |c: f64| {
+            Some((c / tolerance).round())
+                .filter(|k| tolerance > 0.0 && k.is_finite())
+                .unwrap_or(c)
+        };
         let mut kept = Vec::new();
         let mut seen = FastMap::default();
         let mut place = |v: &[f64; 3]| {
-            *seen.entry(v.map(|c| (cell(c) + 0.0).to_bits())).or_insert_with(|| {
-                kept.push(*v);
-                kept.len() as u32 - 1
-            })
+            *seen
+                .entry(v.map(|c| (cell(c) + 0.0).to_bits()))
+                .or_insert_with(|| {
+                    kept.push(*v);
+                    kept.len() as u32 - 1
+                })
         };
         let map: Vec<u32> = self.vertices.iter().map(&mut place).collect();
         self.vertices = kept;
@@ -174,21 +212,33 @@ impl Mesh {
 
     /// Turns the inside out.
     pub fn flip(&mut self) {
-        self.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
-        self.normals.iter_mut().for_each(|normal| *normal = normal.map(|c| -c));
-        self.normals.as_chunks_mut::<3>().0.iter_mut().for_each(|corners| corners.swap(1, 2));
+        self.triangles
+            .iter_mut()
+            .for_each(|triangle| triangle.swap(1, 2));
+        self.normals
+            .iter_mut()
+            .for_each(|normal| *normal = normal.map(|c| -c));
+        self.normals
+            .as_chunks_mut::<3>()
+            .0
+            .iter_mut()
+            .for_each(|corners| corners.swap(1, 2));
     }
 
     /// Moves the mesh: `pose` is where its frame goes.
     pub fn transform(&mut self, pose: &Pose) {
         self.vertices.iter_mut().for_each(|v| *v = moved(pose, v));
-        self.normals.iter_mut().for_each(|n| *n = (pose.rotation * Vector3::from(*n)).into());
+        self.normals
+            .iter_mut()
+            .for_each(|n| *n = (pose.rotation * Vector3::from(*n)).into());
     }
 
     /// Scales about the origin; a mirroring keeps the outside outside. The normals become flat when the
     /// factors differ.
     pub fn scale(&mut self, factors: [f64; 3]) {
-        self.vertices.iter_mut().for_each(|v| *v = [0, 1, 2].map(|i| v[i] * factors[i]));
+        self.vertices
+            .iter_mut()
+            .for_each(|v| *v = [0, 1, 2].map(|i| v[i] * factors[i]));
         if factors.iter().product::<f64>() < 0.0 {
             self.triangles.iter_mut().for_each(|t| t.swap(1, 2));
         }
@@ -200,8 +250,10 @@ impl Mesh {
     /// Adds `other`, whose frame lies at `pose`.
     pub fn append(&mut self, other: &Mesh, pose: &Pose) {
         let first = self.vertices.len() as u32;
-        self.vertices.extend(other.vertices.iter().map(|v| moved(pose, v)));
-        self.triangles.extend(other.triangles.iter().map(|t| t.map(|i| i + first)));
+        self.vertices
+            .extend(other.vertices.iter().map(|v| moved(pose, v)));
+        self.triangles
+            .extend(other.triangles.iter().map(|t| t.map(|i| i + first)));
         let rotated = |n: &[f64; 3]| <[f64; 3]>::from(pose.rotation * Vector3::from(*n));
         self.normals.extend(other.normals.iter().map(rotated));
     }
@@ -210,24 +262,42 @@ impl Mesh {
     pub fn aabb(&self) -> Option<([f64; 3], [f64; 3])> {
         let first = *self.vertices.first()?;
         let grow = |(low, high): ([f64; 3], [f64; 3]), v: &[f64; 3]| {
-            ([0, 1, 2].map(|i| low[i].min(v[i])), [0, 1, 2].map(|i| high[i].max(v[i])))
+            (
+                [0, 1, 2].map(|i| low[i].min(v[i])),
+                [0, 1, 2].map(|i| high[i].max(v[i])),
+            )
         };
         Some(self.vertices.iter().fold((first, first), grow))
     }
 
     /// Enclosed volume (m3): positive for a closed mesh that winds outward.
     pub fn volume(&self) -> f64 {
-        let origin = self.vertices.first().map_or(Vector3::zeros(), |v| Vector3::from(*v));
-        let corners = self.triangles.iter().map(|t| self.corners(t).map(|c| c - origin));
+        let origin = self
+            .vertices
+            .first()
+            .map_or(Vector3::zeros(), |v| Vector3::from(*v));
+        let corners = self
+            .triangles
+            .iter()
+            .map(|t| self.corners(t).map(|c| c - origin));
         corners.map(|[a, b, c]| a.dot(&b.cross(&c)) / 6.0).sum()
     }
 
     /// Whether the mesh is closed, in one piece without holes, and nowhere dented.
     pub fn is_convex(&self) -> bool {
         let mut is_used = vec![false; self.vertices.len()];
-        self.triangles.as_flattened().iter().for_each(|vertex| is_used[*vertex as usize] = true);
-        let (used, faces) = (is_used.iter().filter(|is_used| **is_used).count(), self.triangles.len());
-        if used + faces != 3 * faces / 2 + 2 || self.is_dented_widely(&is_used) || self.volume() <= 0.0 {
+        self.triangles
+            .as_flattened()
+            .iter()
+            .for_each(|vertex| is_used[*vertex as usize] = true);
+        let (used, faces) = (
+            is_used.iter().filter(|is_used| **is_used).count(),
+            self.triangles.len(),
+        );
+        if used + faces != 3 * faces / 2 + 2
+            || self.is_dented_widely(&is_used)
+            || self.volume() <= 0.0
+        {
             return false;
         }
         let edges = HalfEdges::new(self.vertices.len(), &self.triangles);
@@ -238,9 +308,15 @@ impl Mesh {
     fn is_dented_widely(&self, is_used: &[bool]) -> bool {
         let stride = self.triangles.len().div_ceil(SAMPLED_FACES).max(1);
         self.triangles.iter().step_by(stride).any(|t| {
-            let Some(normal) = self.area_vector(t).try_normalize(0.0) else { return true };
+            let Some(normal) = self.area_vector(t).try_normalize(0.0) else {
+                return true;
+            };
             let [a, ..] = self.corners(t);
-            let used = self.vertices.iter().zip(is_used).filter(|(_, is_used)| **is_used);
+            let used = self
+                .vertices
+                .iter()
+                .zip(is_used)
+                .filter(|(_, is_used)| **is_used);
             used.into_iter().any(|(vertex, _)| {
                 let offset = Vector3::from(*vertex) - a;
                 normal.dot(&offset) > 1e-2 * offset.norm()
@@ -256,7 +332,8 @@ impl Mesh {
             let kept = turned;
             let lowest = (0..3).min_by_key(|i| turned[*i]).unwrap_or(0);
             turned.rotate_left(lowest);
-            if kept[0] != kept[1] && kept[1] != kept[2] && kept[2] != kept[0] && seen.insert(turned) {
+            if kept[0] != kept[1] && kept[1] != kept[2] && kept[2] != kept[0] && seen.insert(turned)
+            {
                 triangles.push(kept);
                 normals.extend(n);
             }
@@ -280,12 +357,20 @@ impl Mesh {
 
     /// Whether the neighbours of a triangle bend away from its outside.
     fn is_ridge(&self, t: &[u32; 3], edges: &HalfEdges) -> bool {
-        let Some(normal) = self.area_vector(t).try_normalize(0.0) else { return false };
+        let Some(normal) = self.area_vector(t).try_normalize(0.0) else {
+            return false;
+        };
         let [a, ..] = self.corners(t);
         (0..3).all(|i| {
-            let Some(neighbour) = edges.triangle(t[(i + 1) % 3], t[i]) else { return false };
-            let far = self.triangles[neighbour as usize].into_iter().find(|c| *c != t[i] && *c != t[(i + 1) % 3]);
-            let offset = far.map_or(Vector3::zeros(), |far| Vector3::from(self.vertices[far as usize]) - a);
+            let Some(neighbour) = edges.triangle(t[(i + 1) % 3], t[i]) else {
+                return false;
+            };
+            let far = self.triangles[neighbour as usize]
+                .into_iter()
+                .find(|c| *c != t[i] && *c != t[(i + 1) % 3]);
+            let offset = far.map_or(Vector3::zeros(), |far| {
+                Vector3::from(self.vertices[far as usize]) - a
+            });
             normal.dot(&offset) <= 1e-6 * offset.norm()
         })
     }
@@ -303,7 +388,11 @@ pub(crate) mod samples {
     pub const CORNER: [[f64; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
 
     pub fn tetrahedron() -> Mesh {
-        Mesh::new(CORNER.to_vec(), vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]).expect("valid")
+        Mesh::new(
+            CORNER.to_vec(),
+            vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+        )
+        .expect("valid")
     }
 
     pub fn block(size: [f64; 3]) -> Mesh {
@@ -313,7 +402,10 @@ pub(crate) mod samples {
 
     #[track_caller]
     pub fn close(a: &[f64], b: &[f64]) {
-        assert!(a.len() == b.len() && a.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-9), "{a:?} is not {b:?}");
+        assert!(
+            a.len() == b.len() && a.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-9),
+            "{a:?} is not {b:?}"
+        );
     }
 }
 
@@ -329,12 +421,33 @@ mod tests {
         assert_eq!(new(&v, &[0, 1, 2]), Ok(1));
         assert_eq!(new(&v[..8], &[0, 1, 2]), Err(MeshError::VertexCount(8)));
         assert_eq!(new(&v, &[0, 1]), Err(MeshError::IndexCount(2)));
-        assert_eq!(new(&v, &[0, 1, 3]), Err(MeshError::IndexOutOfRange { index: 3, vertices: 3 }));
-        assert_eq!(new(&v, &[0, 1, -1]), Err(MeshError::IndexOutOfRange { index: -1, vertices: 3 }));
+        assert_eq!(
+            new(&v, &[0, 1, 3]),
+            Err(MeshError::IndexOutOfRange {
+                index: 3,
+                vertices: 3
+            })
+        );
+        assert_eq!(
+            new(&v, &[0, 1, -1]),
+            Err(MeshError::IndexOutOfRange {
+                index: -1,
+                vertices: 3
+            })
+        );
         assert_eq!(new(&[], &[]), Err(MeshError::Empty));
-        assert_eq!(new(&[f64::NAN, 0., 0.], &[0, 0, 0]), Err(MeshError::NotFinite));
+        assert_eq!(
+            new(&[f64::NAN, 0., 0.], &[0, 0, 0]),
+            Err(MeshError::NotFinite)
+        );
         let normals = Mesh::from_flat(&v, &[0, 1, 2], Some(&[1.0; 8])).err();
-        assert_eq!(normals, Some(MeshError::NormalCount { found: 8, expected: 9 }));
+        assert_eq!(
+            normals,
+            Some(MeshError::NormalCount {
+                found: 8,
+                expected: 9
+            })
+        );
     }
 
     #[test]
@@ -342,7 +455,14 @@ mod tests {
         let mut soup = tetrahedron();
         soup.append(&tetrahedron(), &Pose::translation(1e-9, 0.0, 0.0));
         soup.merge_duplicates(1e-6);
-        assert_eq!((soup.vertices.len(), soup.triangles.len(), soup.normals.len()), (4, 4, 12));
+        assert_eq!(
+            (
+                soup.vertices.len(),
+                soup.triangles.len(),
+                soup.normals.len()
+            ),
+            (4, 4, 12)
+        );
         soup.vertices[0] = [-0.0, 0.0, 0.0];
         soup.append(&tetrahedron(), &Pose::identity());
         soup.merge_duplicates(0.0);
@@ -353,7 +473,10 @@ mod tests {
 
     #[test]
     fn convexity_and_volume() {
-        close(&[tetrahedron().volume(), block([1., 2., 4.]).volume()], &[1.0 / 6.0, 8.0]);
+        close(
+            &[tetrahedron().volume(), block([1., 2., 4.]).volume()],
+            &[1.0 / 6.0, 8.0],
+        );
         assert!(tetrahedron().is_convex() && block([1., 2., 4.]).is_convex());
         let mut two = tetrahedron();
         two.append(&tetrahedron(), &Pose::translation(3., 0., 0.));

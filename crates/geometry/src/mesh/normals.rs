@@ -14,7 +14,10 @@ impl Mesh {
     /// `shading_angle` (rad) get the mean of their face normals, weighted by area; 0 means flat normals.
     pub fn compute_normals(&mut self, shading_angle: f64) {
         let areas: Vec<_> = self.triangles.iter().map(|t| self.area_vector(t)).collect();
-        let faces: Vec<_> = areas.iter().map(|a| a.try_normalize(0.0).unwrap_or_default()).collect();
+        let faces: Vec<_> = areas
+            .iter()
+            .map(|a| a.try_normalize(0.0).unwrap_or_default())
+            .collect();
         self.normals = faces.iter().flat_map(|face| [(*face).into(); 3]).collect();
         if shading_angle > 0.0 {
             self.smooth(&areas, &faces, shading_angle.cos());
@@ -25,13 +28,18 @@ impl Mesh {
         let (starts, corners) = self.corners_of_vertices();
         for range in starts.windows(2) {
             let around = &corners[range[0] as usize..range[1] as usize];
-            let tree = (around.len() > MAX_LINEAR_SEARCH).then(|| NormalTree::new(around, areas, faces));
+            let tree =
+                (around.len() > MAX_LINEAR_SEARCH).then(|| NormalTree::new(around, areas, faces));
             for corner in around {
                 let own = faces[*corner as usize / 3];
                 let near = |other: &&u32| own.dot(&faces[**other as usize / 3]) > least;
                 let sum = match &tree {
                     Some(tree) => tree.sum(&own, least),
-                    None => around.iter().filter(near).map(|other| areas[*other as usize / 3]).sum(),
+                    None => around
+                        .iter()
+                        .filter(near)
+                        .map(|other| areas[*other as usize / 3])
+                        .sum(),
                 };
                 self.normals[*corner as usize] = sum.try_normalize(0.0).unwrap_or(own).into();
             }
@@ -42,7 +50,8 @@ impl Mesh {
     fn corners_of_vertices(&self) -> (Vec<u32>, Vec<u32>) {
         let flat = self.triangles.as_flattened();
         let mut starts = vec![0_u32; self.vertices.len() + 1];
-        flat.iter().for_each(|vertex| starts[*vertex as usize + 1] += 1);
+        flat.iter()
+            .for_each(|vertex| starts[*vertex as usize + 1] += 1);
         (1..starts.len()).for_each(|i| starts[i] += starts[i - 1]);
         let mut next = starts.clone();
         let mut corners = vec![0; flat.len()];
@@ -75,7 +84,10 @@ struct Node {
 impl NormalTree {
     fn new(corners: &[u32], areas: &[Vector3<f64>], faces: &[Vector3<f64>]) -> Self {
         let of = |corner: &u32| (faces[*corner as usize / 3], areas[*corner as usize / 3]);
-        let mut tree = Self { faces: corners.iter().map(of).collect(), nodes: Vec::new() };
+        let mut tree = Self {
+            faces: corners.iter().map(of).collect(),
+            nodes: Vec::new(),
+        };
         tree.add(0..corners.len());
         tree
     }
@@ -83,8 +95,16 @@ impl NormalTree {
     /// Adds the node of a part, and those below it.
     fn add(&mut self, part: std::ops::Range<usize>) {
         let faces = &mut self.faces[part.clone()];
-        let low = faces.iter().fold(Vector3::repeat(f64::MAX), |low, (normal, _)| low.inf(normal));
-        let high = faces.iter().fold(Vector3::repeat(f64::MIN), |high, (normal, _)| high.sup(normal));
+        let low = faces
+            .iter()
+            .fold(Vector3::repeat(f64::MAX), |low, (normal, _)| {
+                low.inf(normal)
+            });
+        let high = faces
+            .iter()
+            .fold(Vector3::repeat(f64::MIN), |high, (normal, _)| {
+                high.sup(normal)
+            });
         let sum = faces.iter().map(|(_, area)| area).sum();
         let number = self.nodes.len();
         let axis = (high - low).imax();
@@ -95,11 +115,19 @@ impl NormalTree {
                 let along = a.0[axis].total_cmp(&b.0[axis]);
                 // All of a face decides, so that the sums do not depend on the order of equals.
                 along.then_with(|| {
-                    (0..3).fold(std::cmp::Ordering::Equal, |order, k| order.then(a.1[k].total_cmp(&b.1[k])))
+                    (0..3).fold(std::cmp::Ordering::Equal, |order, k| {
+                        order.then(a.1[k].total_cmp(&b.1[k]))
+                    })
                 })
             });
         }
-        self.nodes.push(Node { low, high, sum, part: part.clone(), second: 0 });
+        self.nodes.push(Node {
+            low,
+            high,
+            sum,
+            part: part.clone(),
+            second: 0,
+        });
         if !is_leaf {
             self.add(part.start..part.start + middle);
             self.nodes[number].second = self.nodes.len();
@@ -114,7 +142,9 @@ impl NormalTree {
         while let Some(number) = pending.pop() {
             let node = &self.nodes[number];
             let bound = |pick: fn(f64, f64) -> f64| -> f64 {
-                (0..3).map(|k| pick(own[k] * node.low[k], own[k] * node.high[k])).sum()
+                (0..3)
+                    .map(|k| pick(own[k] * node.low[k], own[k] * node.high[k]))
+                    .sum()
             };
             if bound(f64::max) <= least {
                 continue;
@@ -122,7 +152,9 @@ impl NormalTree {
             if bound(f64::min) > least {
                 sum += node.sum;
             } else if node.second == 0 {
-                let near = self.faces[node.part.clone()].iter().filter(|(normal, _)| own.dot(normal) > least);
+                let near = self.faces[node.part.clone()]
+                    .iter()
+                    .filter(|(normal, _)| own.dot(normal) > least);
                 sum += near.map(|(_, area)| area).sum::<Vector3<f64>>();
             } else {
                 pending.extend([node.second, number + 1]);
@@ -141,9 +173,17 @@ mod tests {
     fn shading_smooths_below_the_angle() {
         let mut cube = block([1., 1., 1.]);
         cube.compute_normals(0.5);
-        assert!(cube.normals.iter().all(|n| n.iter().any(|c| c.abs() > 0.999)));
+        assert!(
+            cube.normals
+                .iter()
+                .all(|n| n.iter().any(|c| c.abs() > 0.999))
+        );
         cube.compute_normals(2.0);
-        assert!(cube.normals.iter().all(|n| n.iter().all(|c| c.abs() < 0.95)));
+        assert!(
+            cube.normals
+                .iter()
+                .all(|n| n.iter().all(|c| c.abs() < 0.95))
+        );
     }
 
     /// A cone of `n` triangles, whose tip has all of them, with a wave in its rim.
@@ -153,7 +193,11 @@ mod tests {
             [angle.cos(), angle.sin(), 0.2 * (5.0 * angle).sin()]
         });
         let vertices = std::iter::once([0.0, 0.0, 0.4]).chain(rim).collect();
-        Mesh::new(vertices, (0..n).map(|k| [0, k + 1, (k + 1) % n + 1]).collect()).expect("valid")
+        Mesh::new(
+            vertices,
+            (0..n).map(|k| [0, k + 1, (k + 1) % n + 1]).collect(),
+        )
+        .expect("valid")
     }
 
     #[test]
@@ -163,7 +207,9 @@ mod tests {
             mesh.compute_normals(angle);
             let areas: Vec<_> = mesh.triangles.iter().map(|t| mesh.area_vector(t)).collect();
             for (face, area) in areas.iter().enumerate() {
-                let near = areas.iter().filter(|other| other.normalize().dot(&area.normalize()) > angle.cos());
+                let near = areas
+                    .iter()
+                    .filter(|other| other.normalize().dot(&area.normalize()) > angle.cos());
                 let expected = near.sum::<Vector3<f64>>().normalize();
                 close(&mesh.normals[3 * face], expected.as_slice());
             }
@@ -174,6 +220,10 @@ mod tests {
     fn a_hundred_thousand_triangles_at_a_vertex_are_no_obstacle() {
         let mut mesh = cone(100_000);
         mesh.compute_normals(0.5);
-        assert!(mesh.normals.iter().all(|n| (Vector3::from(*n).norm() - 1.0).abs() < 1e-9));
+        assert!(
+            mesh.normals
+                .iter()
+                .all(|n| (Vector3::from(*n).norm() - 1.0).abs() < 1e-9)
+        );
     }
 }

@@ -8,7 +8,11 @@ use super::{orthonormal_block, quaternion_from_array, rotation_matrix, to_matrix
 
 /// The same angle within -pi to pi; both ends are unchanged.
 pub fn wrap_angle(angle: f64) -> f64 {
-    if angle.abs() <= PI { angle } else { angle - TAU * ((angle + PI) / TAU).floor() }
+    if angle.abs() <= PI {
+        angle
+    } else {
+        angle - TAU * ((angle + PI) / TAU).floor()
+    }
 }
 
 /// Rotation from Euler angles: `Rx(alpha) Ry(beta) Rz(gamma)`.
@@ -24,7 +28,10 @@ pub fn rotation_to_euler(q: &UnitQuaternion<f64>) -> [f64; 3] {
 
 /// Matrix from a position and Euler angles, `sim.buildMatrix`.
 pub fn build_matrix(position: &[f64; 3], euler: &[f64; 3]) -> [f64; 12] {
-    to_matrix(&rotation_matrix(&rotation_from_euler(euler)), &Vector3::from(*position))
+    to_matrix(
+        &rotation_matrix(&rotation_from_euler(euler)),
+        &Vector3::from(*position),
+    )
 }
 
 /// Euler angles of a matrix, which is orthonormalised first: `sim.getEulerAnglesFromMatrix`.
@@ -41,7 +48,11 @@ fn axis_quaternion(axis: usize, angle: f64) -> Quaternion<f64> {
 fn euler_of(r: &Matrix3<f64>) -> [f64; 3] {
     let beta = r[(0, 2)].clamp(-1.0, 1.0).asin();
     if r[(0, 2)].abs() < 0.999995 {
-        [(-r[(1, 2)]).atan2(r[(2, 2)]), beta, (-r[(0, 1)]).atan2(r[(0, 0)])]
+        [
+            (-r[(1, 2)]).atan2(r[(2, 2)]),
+            beta,
+            (-r[(0, 1)]).atan2(r[(0, 0)]),
+        ]
     } else {
         [0.0, beta, r[(1, 0)].atan2(r[(1, 1)])]
     }
@@ -70,7 +81,11 @@ mod tests {
         for (sign, gamma) in [(1.0, 0.7), (-1.0, -0.1)] {
             let m = build_matrix(&[0.; 3], &[0.4, sign * FRAC_PI_2, 0.3]);
             let e = matrix_to_euler(&m);
-            assert!(e[0] == 0.0 && (e[1] - sign * FRAC_PI_2).abs() < 1e-6 && (e[2] - gamma).abs() < 1e-6);
+            assert!(
+                e[0] == 0.0
+                    && (e[1] - sign * FRAC_PI_2).abs() < 1e-6
+                    && (e[2] - gamma).abs() < 1e-6
+            );
         }
         let folded = matrix_to_euler(&build_matrix(&[0.; 3], &[0.1, 2.0, 0.3]));
         close(&folded, &[-3.041592654, 1.141592654, -2.841592654]);

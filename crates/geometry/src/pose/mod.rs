@@ -115,7 +115,10 @@ pub fn interpolate(a: &Pose, b: &Pose, t: f64) -> Pose {
     let position = pa + (pb - pa) * t;
     let turn = shortest(a.rotation.inverse() * b.rotation).scaled_axis() * t;
     let rotation = a.rotation * UnitQuaternion::from_scaled_axis(turn);
-    Pose::from_parts(position.into(), quaternion_from_array(&quaternion_to_array(&rotation)))
+    Pose::from_parts(
+        position.into(),
+        quaternion_from_array(&quaternion_to_array(&rotation)),
+    )
 }
 
 /// Axis and angle (rad, in [0, pi]) that turn `a` into `b`, the axis in the frame of `a` and `b`.
@@ -123,14 +126,20 @@ pub fn interpolate(a: &Pose, b: &Pose, t: f64) -> Pose {
 pub fn rotation_axis(a: &Pose, b: &Pose) -> ([f64; 3], f64) {
     let q = shortest(b.rotation * a.rotation.inverse());
     let sine = q.imag().norm();
-    let axis = if sine < 5e-5 { q.imag() } else { q.imag() / sine };
+    let axis = if sine < 5e-5 {
+        q.imag()
+    } else {
+        q.imag() / sine
+    };
     (axis.into(), 2.0 * sine.atan2(q.w))
 }
 
 /// `t` turned by `angle` (right-handed) about the line through `axis_pos` along `axis`.
 /// An axis without direction turns nothing.
 pub fn rotate_around_axis(t: &Pose, axis: &[f64; 3], axis_pos: &[f64; 3], angle: f64) -> Pose {
-    let Some(direction) = unit(Vector3::from(*axis)) else { return *t };
+    let Some(direction) = unit(Vector3::from(*axis)) else {
+        return *t;
+    };
     let half = direction * (0.5 * angle).sin();
     let turn = quaternion_from_array(&[half.x, half.y, half.z, (0.5 * angle).cos()]);
     let centre = Vector3::from(*axis_pos);
@@ -143,7 +152,12 @@ pub fn rotate_around_axis(t: &Pose, axis: &[f64; 3], axis_pos: &[f64; 3], angle:
 ///
 /// # Errors
 /// [`PoseError::MissingAxis2`] for modes 4 to 9 without `axis2`, [`PoseError::UnknownMode`] outside 0..=9.
-pub fn build_pose(position: &[f64; 3], v: &[f64; 3], mode: i64, axis2: Option<&[f64; 3]>) -> Result<Pose, PoseError> {
+pub fn build_pose(
+    position: &[f64; 3],
+    v: &[f64; 3],
+    mode: i64,
+    axis2: Option<&[f64; 3]>,
+) -> Result<Pose, PoseError> {
     let rotation = match mode {
         0 => rotation_from_euler(v),
         1..=3 => axes_rotation(v, None, (mode - 1) as usize, false),
@@ -178,7 +192,11 @@ pub fn multiply_vector(transform: &[f64], v: &[f64]) -> Result<Vec<f64>, PoseErr
 }
 
 pub(crate) fn shortest(q: UnitQuaternion<f64>) -> UnitQuaternion<f64> {
-    if q.w < 0.0 { UnitQuaternion::new_unchecked(-q.into_inner()) } else { q }
+    if q.w < 0.0 {
+        UnitQuaternion::new_unchecked(-q.into_inner())
+    } else {
+        q
+    }
 }
 
 /// `q v q*`, which scales by the squared length of `q` (`[x, y, z, w]`).
@@ -224,13 +242,30 @@ fn rotation_from_columns(r: &Matrix3<f64>) -> UnitQuaternion<f64> {
 
 /// Rotation whose axis `i` is `v`. `second` approximates the next axis, or the one after when `after`;
 /// without it world z (or x when v points up) takes its part. Parallel axes fall back to any normal.
-fn axes_rotation(v: &[f64; 3], second: Option<&[f64; 3]>, i: usize, after: bool) -> UnitQuaternion<f64> {
-    let Some(first) = unit(Vector3::from(*v)) else { return UnitQuaternion::identity() };
-    let up = if first.z < 0.8 { Vector3::z() } else { Vector3::x() };
+fn axes_rotation(
+    v: &[f64; 3],
+    second: Option<&[f64; 3]>,
+    i: usize,
+    after: bool,
+) -> UnitQuaternion<f64> {
+    let Some(first) = unit(Vector3::from(*v)) else {
+        return UnitQuaternion::identity();
+    };
+    let up = if first.z < 0.8 {
+        Vector3::z()
+    } else {
+        Vector3::x()
+    };
     let near = second.map_or(Some(up), |s| unit(Vector3::from(*s)));
     let spare = Vector3::ith(first.iamin(), 1.0);
-    let cross = near.and_then(|n| unit(first.cross(&n))).unwrap_or_else(|| first.cross(&spare).normalize());
-    let (j, k) = if after { (-cross, first.cross(&-cross)) } else { (cross.cross(&first), cross) };
+    let cross = near
+        .and_then(|n| unit(first.cross(&n)))
+        .unwrap_or_else(|| first.cross(&spare).normalize());
+    let (j, k) = if after {
+        (-cross, first.cross(&-cross))
+    } else {
+        (cross.cross(&first), cross)
+    };
     let mut columns = [first; 3];
     (columns[(i + 1) % 3], columns[(i + 2) % 3]) = (j, k);
     rotation_from_columns(&Matrix3::from_columns(&columns))
@@ -245,7 +280,10 @@ pub(crate) mod tests {
     #[track_caller]
     pub fn close(a: &[f64], b: &[f64]) {
         assert_eq!(a.len(), b.len());
-        assert!(a.iter().zip(b).all(|(x, y)| (x - y).abs() < 2e-9), "{a:?} is not {b:?}");
+        assert!(
+            a.iter().zip(b).all(|(x, y)| (x - y).abs() < 2e-9),
+            "{a:?} is not {b:?}"
+        );
     }
 
     #[track_caller]
@@ -258,23 +296,54 @@ pub(crate) mod tests {
 
     #[test]
     fn products_and_inverses_p4_p5() {
-        let p = multiply_poses(&[1., 2., 3., 0., 0., 2., 2.], &[0.5, 0., 0., 3., 0., 0., 3.]);
+        let p = multiply_poses(
+            &[1., 2., 3., 0., 0., 2., 2.],
+            &[0.5, 0., 0., 3., 0., 0., 3.],
+        );
         close(&p, &[1., 2.5, 3., 0.5, 0.5, 0.5, 0.5]);
-        close(&inverse_pose(&[1., 2., 3., 0., 0., S, S]), &[-2., 1., -3., 0., 0., -S, S]);
+        close(
+            &inverse_pose(&[1., 2., 3., 0., 0., S, S]),
+            &[-2., 1., -3., 0., 0., -S, S],
+        );
         let sheared = [1., 0.3, 0., 1., 0., 1., 0.2, 2., 0., 0., 1., 3.];
-        let c = [1., 0., 0., 1., 0., 0.980580676, 0.196116135, 2., 0., -0.196116135, 0.980580676, 3.];
+        let c = [
+            1.,
+            0.,
+            0.,
+            1.,
+            0.,
+            0.980580676,
+            0.196116135,
+            2.,
+            0.,
+            -0.196116135,
+            0.980580676,
+            3.,
+        ];
         close(&multiply_matrices(&sheared, &IDENTITY_MATRIX), &c);
         let m = build_matrix(&[1., 2., 3.], &[0., 0., FRAC_PI_2]);
-        close(&inverse_matrix(&m), &[0., 1., 0., -2., -1., 0., 0., 1., 0., 0., 1., -3.]);
+        close(
+            &inverse_matrix(&m),
+            &[0., 1., 0., -2., -1., 0., 0., 1., 0., 0., 1., -3.],
+        );
     }
 
     #[test]
     fn interpolation_p6_extrapolates_on_the_shortest_arc() {
-        let (a, b) = (Pose::identity(), pose_from_array(&[1., 2., 3., 0., 0., S, S]));
-        same_pose(&interpolate(&a, &b, 0.25), &[0.25, 0.5, 0.75, 0., 0., 0.195090322, 0.980785280]);
+        let (a, b) = (
+            Pose::identity(),
+            pose_from_array(&[1., 2., 3., 0., 0., S, S]),
+        );
+        same_pose(
+            &interpolate(&a, &b, 0.25),
+            &[0.25, 0.5, 0.75, 0., 0., 0.195090322, 0.980785280],
+        );
         same_pose(&interpolate(&a, &b, 2.0), &[2., 4., 6., 0., 0., 1., 0.]);
         let flipped = pose_from_array(&[0., 0., 0., 0., 0., -S, -S]);
-        same_pose(&interpolate(&a, &flipped, 0.5), &[0., 0., 0., 0., 0., 0.382683432, 0.923879533]);
+        same_pose(
+            &interpolate(&a, &flipped, 0.5),
+            &[0., 0., 0., 0., 0., 0.382683432, 0.923879533],
+        );
     }
 
     #[test]
@@ -285,14 +354,39 @@ pub(crate) mod tests {
         close(&axis, &[0., 1., 0.]);
         close(&[angle], &[PI / 3.0]);
         assert_eq!(rotation_axis(&a, &a).1, 0.0);
-        let build = |v: [f64; 3], mode, w: [f64; 3]| build_pose(&[0.; 3], &v, mode, Some(&w)).expect("known mode");
-        same_pose(&build([1., 0., 0.], 1, [0.; 3]), &[0., 0., 0., S, 0., 0., S]);
-        same_pose(&build([0., 0., 1.], 3, [0.; 3]), &[0., 0., 0., 0., 0., 0., 1.]);
-        same_pose(&build([0., 1., 0.], 4, [0., 0., 1.]), &[0., 0., 0., 0.5, 0.5, 0.5, 0.5]);
-        let q9 = [0., 0., 0., -0.306155995, -0.545123437, -0.779552472, 0.037508519];
+        let build = |v: [f64; 3], mode, w: [f64; 3]| {
+            build_pose(&[0.; 3], &v, mode, Some(&w)).expect("known mode")
+        };
+        same_pose(
+            &build([1., 0., 0.], 1, [0.; 3]),
+            &[0., 0., 0., S, 0., 0., S],
+        );
+        same_pose(
+            &build([0., 0., 1.], 3, [0.; 3]),
+            &[0., 0., 0., 0., 0., 0., 1.],
+        );
+        same_pose(
+            &build([0., 1., 0.], 4, [0., 0., 1.]),
+            &[0., 0., 0., 0.5, 0.5, 0.5, 0.5],
+        );
+        let q9 = [
+            0.,
+            0.,
+            0.,
+            -0.306155995,
+            -0.545123437,
+            -0.779552472,
+            0.037508519,
+        ];
         same_pose(&build([1., 2., 0.5], 9, [0.3, -1., 1.]), &q9);
-        assert_eq!(build_pose(&[0.; 3], &[0., 1., 0.], 4, None), Err(PoseError::MissingAxis2));
-        assert_eq!(build_pose(&[0.; 3], &[0., 1., 0.], 10, None), Err(PoseError::UnknownMode(10)));
+        assert_eq!(
+            build_pose(&[0.; 3], &[0., 1., 0.], 4, None),
+            Err(PoseError::MissingAxis2)
+        );
+        assert_eq!(
+            build_pose(&[0.; 3], &[0., 1., 0.], 10, None),
+            Err(PoseError::UnknownMode(10))
+        );
         let start = pose_from_array(&[1., 0., 0., 0., 0., 0., 1.]);
         let turned = rotate_around_axis(&start, &[0., 0., 2.], &[1., 1., 0.], FRAC_PI_2);
         same_pose(&turned, &[2., 1., 0., 0., 0., S, S]);
@@ -301,18 +395,36 @@ pub(crate) mod tests {
     #[test]
     fn vectors_p11_are_not_normalised() {
         let pose = [1., 2., 3., 0., 0., 0., 1.];
-        close(&multiply_vector(&pose, &[1., 1., 1., 0., 0., 0., 9.]).expect("pose"), &[2., 3., 4., 1., 2., 3.]);
-        close(&multiply_vector(&[0., 0., 2., 2.], &[1., 0., 0.]).expect("quaternion"), &[0., 8., 0.]);
+        close(
+            &multiply_vector(&pose, &[1., 1., 1., 0., 0., 0., 9.]).expect("pose"),
+            &[2., 3., 4., 1., 2., 3.],
+        );
+        close(
+            &multiply_vector(&[0., 0., 2., 2.], &[1., 0., 0.]).expect("quaternion"),
+            &[0., 8., 0.],
+        );
         let scaled = [2., 0., 0., 1., 0., 2., 0., 2., 0., 0., 2., 3.];
-        close(&multiply_vector(&scaled, &[1., 1., 1.]).expect("matrix"), &[3., 4., 5.]);
-        assert_eq!(multiply_vector(&[1., 2.], &[]), Err(PoseError::TransformSize(2)));
+        close(
+            &multiply_vector(&scaled, &[1., 1., 1.]).expect("matrix"),
+            &[3., 4., 5.],
+        );
+        assert_eq!(
+            multiply_vector(&[1., 2.], &[]),
+            Err(PoseError::TransformSize(2))
+        );
     }
 
     #[test]
     fn round_trips_keep_bits_and_bad_numbers_give_identity() {
-        let p = pose_to_array(&pose_from_array(&[123.456789, -1e-6, 1e4, 0.1, 0.3, 0.4, 0.5]));
+        let p = pose_to_array(&pose_from_array(&[
+            123.456789, -1e-6, 1e4, 0.1, 0.3, 0.4, 0.5,
+        ]));
         assert_eq!(pose_to_array(&pose_from_array(&p)), p);
-        for q in [[0.0; 4], [f64::NAN, 0., 0., 1.], [f64::INFINITY, 0., 0., 1.]] {
+        for q in [
+            [0.0; 4],
+            [f64::NAN, 0., 0., 1.],
+            [f64::INFINITY, 0., 0., 1.],
+        ] {
             assert_eq!(quaternion_from_array(&q), UnitQuaternion::identity());
         }
         for bad in [0.0, f64::NAN, f64::INFINITY] {
@@ -320,6 +432,8 @@ pub(crate) mod tests {
             assert!(rotation.coords.iter().all(|c| c.is_finite()));
             assert!((0..10).all(|m| build_pose(&[bad; 3], &[bad; 3], m, Some(&[bad; 3])).is_ok()));
         }
-        assert!(build_pose(&[0.; 3], &[0., 0., -1.], 1, None).is_ok_and(|p| p.rotation.w.is_finite()));
+        assert!(
+            build_pose(&[0.; 3], &[0., 0., -1.], 1, None).is_ok_and(|p| p.rotation.w.is_finite())
+        );
     }
 }

@@ -11,7 +11,14 @@ impl Matrix {
     }
 
     /// A line with a tip of two lines at its end, `tip_length` of the line's length.
-    pub fn draw_arrow(&mut self, from: PixelPosition, to: PixelPosition, pen: &Pen, thickness: u32, tip_length: f64) {
+    pub fn draw_arrow(
+        &mut self,
+        from: PixelPosition,
+        to: PixelPosition,
+        pen: &Pen,
+        thickness: u32,
+        tip_length: f64,
+    ) {
         let back = [from[0] - to[0], from[1] - to[1]];
         let length = back[0].hypot(back[1]) * tip_length;
         let angle = back[1].atan2(back[0]);
@@ -24,22 +31,41 @@ impl Matrix {
     }
 
     /// Lines from place to place, and back to the first if `is_closed`.
-    pub fn draw_lines(&mut self, places: &[PixelPosition], is_closed: bool, pen: &Pen, thickness: u32) {
-        let Some((&first, &last)) = places.first().zip(places.last()) else { return };
+    pub fn draw_lines(
+        &mut self,
+        places: &[PixelPosition],
+        is_closed: bool,
+        pen: &Pen,
+        thickness: u32,
+    ) {
+        let Some((&first, &last)) = places.first().zip(places.last()) else {
+            return;
+        };
         let closing = (is_closed || places.len() == 1).then_some([last, first]);
-        let lines = places.windows(2).map(|pair| [pair[0], pair[1]]).chain(closing);
+        let lines = places
+            .windows(2)
+            .map(|pair| [pair[0], pair[1]])
+            .chain(closing);
         if thickness == 1 && pen.line_type != LineType::Antialiased {
             lines.for_each(|[from, to]| self.draw_thin_line(from, to, pen));
             return;
         }
         let radius = f64::from(thickness) / 2.0;
-        let Some(mut mask) = Mask::around(self, places, radius) else { return };
+        let Some(mut mask) = Mask::around(self, places, radius) else {
+            return;
+        };
         lines.for_each(|[from, to]| mask.add_line(from, to, radius, pen.line_type));
         mask.paint(self, pen);
     }
 
     /// Draws or fills the rectangle between two opposite corners.
-    pub fn draw_rectangle(&mut self, from: PixelPosition, to: PixelPosition, pen: &Pen, stroke: Stroke) {
+    pub fn draw_rectangle(
+        &mut self,
+        from: PixelPosition,
+        to: PixelPosition,
+        pen: &Pen,
+        stroke: Stroke,
+    ) {
         let corners = [from, [to[0], from[1]], to, [from[0], to[1]]];
         match stroke {
             Stroke::Fill => self.fill_polygons(&[corners.to_vec()], pen),
@@ -49,7 +75,10 @@ impl Matrix {
 
     /// Bresenham's line between the nearest pixels, of what is inside.
     pub(super) fn draw_thin_line(&mut self, from: PixelPosition, to: PixelPosition, pen: &Pen) {
-        let Some([from, to]) = clip_line(self.size(), from.map(f64::round), to.map(f64::round)) else { return };
+        let Some([from, to]) = clip_line(self.size(), from.map(f64::round), to.map(f64::round))
+        else {
+            return;
+        };
         let [from, to] = [from, to].map(|place| place.map(|x| x.round() as i64));
         let step = [0, 1].map(|i| (to[i] - from[i]).signum());
         let [dx, dy] = [(to[0] - from[0]).abs(), (to[1] - from[1]).abs()];
@@ -78,7 +107,11 @@ impl Matrix {
 }
 
 /// The part of a line that is inside of an image (Liang and Barsky, 1984); None without one. Ends that are inside stay as they are.
-pub fn clip_line([width, height]: [usize; 2], from: PixelPosition, to: PixelPosition) -> Option<[PixelPosition; 2]> {
+pub fn clip_line(
+    [width, height]: [usize; 2],
+    from: PixelPosition,
+    to: PixelPosition,
+) -> Option<[PixelPosition; 2]> {
     let last = [width as f64 - 1.0, height as f64 - 1.0];
     let direction = [to[0] - from[0], to[1] - from[1]];
     let (mut begin, mut end) = (0f64, 1f64);
@@ -110,8 +143,24 @@ mod tests {
         image.draw_line([0.0, 0.0], [5.0, 2.0], &WHITE, 1);
         assert_eq!(shown(&image), ["##....", "..##..", "....##"]);
         let mut image = blank(3, 3);
-        image.draw_line([0.0, 2.0], [2.0, 0.0], &Pen { line_type: LineType::FourConnected, ..WHITE }, 1);
-        assert_eq!(image.bytes().unwrap().iter().filter(|byte| **byte > 0).count(), 5);
+        image.draw_line(
+            [0.0, 2.0],
+            [2.0, 0.0],
+            &Pen {
+                line_type: LineType::FourConnected,
+                ..WHITE
+            },
+            1,
+        );
+        assert_eq!(
+            image
+                .bytes()
+                .unwrap()
+                .iter()
+                .filter(|byte| **byte > 0)
+                .count(),
+            5
+        );
     }
 
     #[test]
@@ -129,16 +178,35 @@ mod tests {
     fn thick_lines_have_round_ends() {
         let mut image = blank(8, 5);
         image.draw_line([2.0, 2.0], [5.0, 2.0], &WHITE, 3);
-        assert_eq!(shown(&image), ["........", ".######.", ".######.", ".######.", "........"]);
+        assert_eq!(
+            shown(&image),
+            ["........", ".######.", ".######.", ".######.", "........"]
+        );
         let mut image = blank(5, 3);
-        image.draw_line([1.0, 1.0], [3.0, 1.0], &Pen { line_type: LineType::Antialiased, ..WHITE }, 1);
+        image.draw_line(
+            [1.0, 1.0],
+            [3.0, 1.0],
+            &Pen {
+                line_type: LineType::Antialiased,
+                ..WHITE
+            },
+            1,
+        );
         assert_eq!(shown(&image), [".....", ".###.", "....."]);
     }
 
     #[test]
     fn antialiased_lines_are_soft() {
         let mut image = blank(6, 3);
-        image.draw_line([0.0, 0.0], [5.0, 2.0], &Pen { line_type: LineType::Antialiased, ..WHITE }, 1);
+        image.draw_line(
+            [0.0, 0.0],
+            [5.0, 2.0],
+            &Pen {
+                line_type: LineType::Antialiased,
+                ..WHITE
+            },
+            1,
+        );
         assert!(shown(&image).concat().contains('+'));
     }
 
@@ -151,7 +219,16 @@ mod tests {
         assert_eq!(shown(&image), [".###.", ".###.", ".###.", "....."]);
         let mut image = blank(11, 5);
         image.draw_arrow([0.0, 2.0], [10.0, 2.0], &WHITE, 1, 0.25);
-        assert_eq!(shown(&image), ["........#..", ".........#.", "###########", ".........#.", "........#.."]);
+        assert_eq!(
+            shown(&image),
+            [
+                "........#..",
+                ".........#.",
+                "###########",
+                ".........#.",
+                "........#.."
+            ]
+        );
         let mut image = blank(3, 1);
         image.draw_lines(&[[1.0, 0.0]], false, &WHITE, 1);
         image.draw_lines(&[], true, &WHITE, 1);
@@ -160,8 +237,14 @@ mod tests {
 
     #[test]
     fn lines_are_clipped() {
-        assert_eq!(clip_line([10, 10], [-5.0, 5.0], [5.0, 5.0]), Some([[0.0, 5.0], [5.0, 5.0]]));
+        assert_eq!(
+            clip_line([10, 10], [-5.0, 5.0], [5.0, 5.0]),
+            Some([[0.0, 5.0], [5.0, 5.0]])
+        );
         assert_eq!(clip_line([10, 10], [-5.0, 5.0], [5.0, -9.0]), None);
-        assert_eq!(clip_line([10, 10], [1.0, 2.0], [3.0, 4.0]), Some([[1.0, 2.0], [3.0, 4.0]]));
+        assert_eq!(
+            clip_line([10, 10], [1.0, 2.0], [3.0, 4.0]),
+            Some([[1.0, 2.0], [3.0, 4.0]])
+        );
     }
 }

@@ -21,23 +21,47 @@ impl Mask {
             return None;
         }
         let [width, height] = [0, 1].map(|i| (last[i] - first[i]) as usize + 1);
-        Some(Self { corner: first.map(|at| at as i64), width, height, coverage: vec![0.0; width * height] })
+        Some(Self {
+            corner: first.map(|at| at as i64),
+            width,
+            height,
+            coverage: vec![0.0; width * height],
+        })
     }
 
     /// The region around places, with a margin.
     pub(super) fn around(image: &Matrix, places: &[PixelPosition], margin: f64) -> Option<Self> {
-        let low = [0, 1].map(|i| places.iter().map(|place| place[i]).fold(f64::INFINITY, f64::min) - margin);
-        let high = [0, 1].map(|i| places.iter().map(|place| place[i]).fold(f64::NEG_INFINITY, f64::max) + margin);
+        let low = [0, 1].map(|i| {
+            places
+                .iter()
+                .map(|place| place[i])
+                .fold(f64::INFINITY, f64::min)
+                - margin
+        });
+        let high = [0, 1].map(|i| {
+            places
+                .iter()
+                .map(|place| place[i])
+                .fold(f64::NEG_INFINITY, f64::max)
+                + margin
+        });
         Self::new(image, low, high)
     }
 
     /// Covers what is at most `radius` from the line between two places.
-    pub(super) fn add_line(&mut self, from: PixelPosition, to: PixelPosition, radius: f64, line_type: LineType) {
+    pub(super) fn add_line(
+        &mut self,
+        from: PixelPosition,
+        to: PixelPosition,
+        radius: f64,
+        line_type: LineType,
+    ) {
         let reach = radius + 1.0;
         let direction = [to[0] - from[0], to[1] - from[1]];
         let squared = direction[0] * direction[0] + direction[1] * direction[1];
         let first = (from[1].min(to[1]) - reach - self.corner[1] as f64).max(0.0);
-        let last = (from[1].max(to[1]) + reach - self.corner[1] as f64).min(self.height as f64 - 1.0);
+        let last =
+            (from[1].max(to[1]) + reach - self.corner[1] as f64).min(self.height as f64 - 1.0);
         for row in first as usize..=last.max(-1.0) as usize {
             let y = (row as i64 + self.corner[1]) as f64;
             let [left, right] = columns_near(from, direction, y, reach);
@@ -67,7 +91,10 @@ impl Mask {
             let y = (row as i64 + self.corner[1]) as f64;
             self.add_row(row, f64::NEG_INFINITY, f64::INFINITY, |x| {
                 let outside = (x - centre[0]).hypot(y - centre[1]) - ring;
-                coverage(radius - if is_disc { outside } else { outside.abs() }, line_type)
+                coverage(
+                    radius - if is_disc { outside } else { outside.abs() },
+                    line_type,
+                )
             });
         }
     }
@@ -83,20 +110,35 @@ impl Mask {
 
     fn add_row(&mut self, row: usize, left: f64, right: f64, coverage: impl Fn(f64) -> f64) {
         let first = (left - self.corner[0] as f64).floor().max(0.0);
-        let last = (right - self.corner[0] as f64).ceil().min(self.width as f64 - 1.0);
+        let last = (right - self.corner[0] as f64)
+            .ceil()
+            .min(self.width as f64 - 1.0);
         if first.is_nan() || last.is_nan() || first > last {
             return;
         }
         let pixels = &mut self.coverage[row * self.width..][..self.width];
-        for (column, covered) in pixels.iter_mut().enumerate().take(last as usize + 1).skip(first as usize) {
+        for (column, covered) in pixels
+            .iter_mut()
+            .enumerate()
+            .take(last as usize + 1)
+            .skip(first as usize)
+        {
             *covered = covered.max(coverage((column as i64 + self.corner[0]) as f64) as f32);
         }
     }
 
     /// Paints what is covered.
     pub(super) fn paint(&self, image: &mut Matrix, pen: &Pen) {
-        for (at, coverage) in self.coverage.iter().enumerate().filter(|(_, coverage)| **coverage > 0.0) {
-            let place = [self.corner[0] + (at % self.width) as i64, self.corner[1] + (at / self.width) as i64];
+        for (at, coverage) in self
+            .coverage
+            .iter()
+            .enumerate()
+            .filter(|(_, coverage)| **coverage > 0.0)
+        {
+            let place = [
+                self.corner[0] + (at % self.width) as i64,
+                self.corner[1] + (at / self.width) as i64,
+            ];
             image.paint(place, pen, f64::from(*coverage));
         }
     }

@@ -72,7 +72,11 @@ impl Matrix {
         let channels = self.format().channels;
         let first = (y as usize * width + x as usize) * channels;
         for (channel, new) in pen.colour.iter().enumerate().take(channels) {
-            let old = if coverage < 1.0 { self.value(first + channel).unwrap_or_default() } else { 0.0 };
+            let old = if coverage < 1.0 {
+                self.value(first + channel).unwrap_or_default()
+            } else {
+                0.0
+            };
             self.set_value(first + channel, old + (new - old) * coverage);
         }
     }
@@ -94,7 +98,10 @@ mod tests {
     use super::*;
     use crate::matrix::{Depth, PixelFormat};
 
-    pub(super) const WHITE: Pen = Pen { colour: [255.0; 4], line_type: LineType::EightConnected };
+    pub(super) const WHITE: Pen = Pen {
+        colour: [255.0; 4],
+        line_type: LineType::EightConnected,
+    };
 
     pub(super) fn blank(width: usize, height: usize) -> Matrix {
         Matrix::new([width, height], PixelFormat::new(Depth::Byte, 1), 0.0).unwrap()
@@ -118,7 +125,10 @@ mod tests {
     #[test]
     fn colours_are_mixed_inside_only() {
         let mut image = Matrix::from_bytes([1, 1], 3, vec![100, 0, 0]).unwrap();
-        let pen = Pen { colour: [200.0, 50.0, 1e9, 7.0], line_type: LineType::Antialiased };
+        let pen = Pen {
+            colour: [200.0, 50.0, 1e9, 7.0],
+            line_type: LineType::Antialiased,
+        };
         image.paint([0, 0], &pen, 0.5);
         image.paint([1, 0], &pen, 1.0);
         image.paint([0, i64::MIN], &pen, 1.0);

@@ -17,7 +17,9 @@ impl Matrix {
                 self.paint_span(row as i64, pair[0].ceil(), pair[1].floor(), pen);
             }
         }
-        polygons.iter().for_each(|polygon| self.draw_lines(polygon, true, pen, 1));
+        polygons
+            .iter()
+            .for_each(|polygon| self.draw_lines(polygon, true, pen, 1));
     }
 
     fn fill_softly(&mut self, polygons: &[Vec<PixelPosition>], pen: &Pen) {
@@ -28,8 +30,14 @@ impl Matrix {
             covered.fill(0.0);
             for pair in fine.iter().flat_map(|crossings| crossings.chunks_exact(2)) {
                 let [from, to] = [pair[0] + 0.5, pair[1] + 0.5].map(|x| x.clamp(0.0, width as f64));
-                for (column, part) in covered.iter_mut().enumerate().take(to.ceil() as usize).skip(from as usize) {
-                    *part += (to.min((column + 1) as f64) - from.max(column as f64)).max(0.0) / FINE as f64;
+                for (column, part) in covered
+                    .iter_mut()
+                    .enumerate()
+                    .take(to.ceil() as usize)
+                    .skip(from as usize)
+                {
+                    *part += (to.min((column + 1) as f64) - from.max(column as f64)).max(0.0)
+                        / FINE as f64;
                 }
             }
             for (column, part) in covered.iter().enumerate().filter(|(_, part)| **part > 0.0) {
@@ -44,11 +52,16 @@ impl Matrix {
         let mut rows = vec![Vec::new(); height * fine];
         // The place of a fine row, and the first one from a place on.
         let place = |row: usize| (row as f64 + 0.5) / fine as f64 - 0.5;
-        let row_from = |y: f64| (((y + 0.5) * fine as f64 - 0.5).ceil().max(0.0) as usize).min(height * fine);
+        let row_from =
+            |y: f64| (((y + 0.5) * fine as f64 - 0.5).ceil().max(0.0) as usize).min(height * fine);
         for polygon in polygons {
             for (at, from) in polygon.iter().enumerate() {
                 let to = polygon[(at + 1) % polygon.len()];
-                let (low, high) = if from[1] <= to[1] { (*from, to) } else { (to, *from) };
+                let (low, high) = if from[1] <= to[1] {
+                    (*from, to)
+                } else {
+                    (to, *from)
+                };
                 let (first, end) = (row_from(low[1]), row_from(high[1]));
                 for (row, crossings) in rows.iter_mut().enumerate().take(end).skip(first) {
                     let part = (place(row) - low[1]) / (high[1] - low[1]);
@@ -56,7 +69,8 @@ impl Matrix {
                 }
             }
         }
-        rows.iter_mut().for_each(|crossings| crossings.sort_by(f64::total_cmp));
+        rows.iter_mut()
+            .for_each(|crossings| crossings.sort_by(f64::total_cmp));
         rows
     }
 }
@@ -79,22 +93,38 @@ mod tests {
         let mut image = blank(7, 7);
         image.fill_polygons(&[square(0.0, 6.0), square(2.0, 4.0)], &WHITE);
         assert_eq!(image.value(3 * 7 + 3), Some(0.0));
-        assert_eq!((image.value(3 * 7 + 1), image.value(2 * 7 + 2)), (Some(255.0), Some(255.0)));
+        assert_eq!(
+            (image.value(3 * 7 + 1), image.value(2 * 7 + 2)),
+            (Some(255.0), Some(255.0))
+        );
     }
 
     #[test]
     fn soft_edges_cover_parts_of_pixels() {
         let mut image = blank(4, 3);
-        let pen = Pen { line_type: LineType::Antialiased, ..WHITE };
-        image.fill_polygons(&[vec![[0.5, -0.5], [2.0, -0.5], [2.0, 1.0], [0.5, 1.0]]], &pen);
-        assert_eq!(image.bytes().unwrap(), [0, 255, 128, 0, 0, 128, 64, 0, 0, 0, 0, 0]);
+        let pen = Pen {
+            line_type: LineType::Antialiased,
+            ..WHITE
+        };
+        image.fill_polygons(
+            &[vec![[0.5, -0.5], [2.0, -0.5], [2.0, 1.0], [0.5, 1.0]]],
+            &pen,
+        );
+        assert_eq!(
+            image.bytes().unwrap(),
+            [0, 255, 128, 0, 0, 128, 64, 0, 0, 0, 0, 0]
+        );
     }
 
     #[test]
     fn what_is_far_away_costs_nothing() {
         let mut image = blank(4, 4);
         image.fill_polygons(
-            &[vec![[-1e18, -1e18], [1e18, -1e18], [1e18, 1e18], [-1e18, 1e18]], vec![], vec![[9.0, 9.0]]],
+            &[
+                vec![[-1e18, -1e18], [1e18, -1e18], [1e18, 1e18], [-1e18, 1e18]],
+                vec![],
+                vec![[9.0, 9.0]],
+            ],
             &WHITE,
         );
         assert_eq!(shown(&image), ["####"; 4]);

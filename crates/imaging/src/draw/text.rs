@@ -97,17 +97,36 @@ impl Matrix {
         let font = font();
         let scale = pixel_scale(text.face, text.scale)?;
         let height = f64::from(scale.y);
-        let (glyphs, width) = glyphs(&font, text.text, scale, self.size()[0] as f64 - at[0] + height);
+        let (glyphs, width) = glyphs(
+            &font,
+            text.text,
+            scale,
+            self.size()[0] as f64 - at[0] + height,
+        );
         let margin = f64::from(text.thickness) + height;
         let ends = [at, [at[0] + width, at[1]]];
-        let Some(mut mask) = Mask::around(self, &ends, margin) else { return Ok(()) };
+        let Some(mut mask) = Mask::around(self, &ends, margin) else {
+            return Ok(());
+        };
         let direction = if text.is_from_bottom { -1.0 } else { 1.0 };
-        for glyph in glyphs.into_iter().filter_map(|glyph| font.outline_glyph(glyph)) {
+        for glyph in glyphs
+            .into_iter()
+            .filter_map(|glyph| font.outline_glyph(glyph))
+        {
             let bounds = glyph.px_bounds();
             glyph.draw(|x, y, part| {
-                let (x, y) = (f64::from(bounds.min.x) + f64::from(x), f64::from(bounds.min.y) + f64::from(y));
+                let (x, y) = (
+                    f64::from(bounds.min.x) + f64::from(x),
+                    f64::from(bounds.min.y) + f64::from(y),
+                );
                 let x = if text.is_italic { x - y * SLANT } else { x };
-                mask.add_pixel([(at[0] + x).round() as i64, (at[1] + y * direction).round() as i64], part.into());
+                mask.add_pixel(
+                    [
+                        (at[0] + x).round() as i64,
+                        (at[1] + y * direction).round() as i64,
+                    ],
+                    part.into(),
+                );
             });
         }
         thicken(&mut mask, text.thickness, pen.line_type)?;
@@ -123,7 +142,11 @@ fn font() -> FontRef<'static> {
 fn pixel_scale(face: FontFace, scale: f64) -> MatrixResult<PxScale> {
     let height = face.heights()[0] * scale / CAPITALS;
     let is_possible = (0.0..=MAX_LINE_HEIGHT).contains(&height);
-    if is_possible { Ok(PxScale::from(height as f32)) } else { Err(MatrixError::Range("the font scale")) }
+    if is_possible {
+        Ok(PxScale::from(height as f32))
+    } else {
+        Err(MatrixError::Range("the font scale"))
+    }
 }
 
 /// The glyphs of a text from a place (0, 0) on, as far as `limit`, and its width.
@@ -145,7 +168,11 @@ fn glyphs(font: &FontRef<'_>, text: &str, scale: PxScale, limit: f64) -> (Vec<Gl
 /// Letters of a thickness above 1 reach half of it farther. Without antialiasing a pixel is covered or not.
 fn thicken(mask: &mut Mask, thickness: u32, line_type: LineType) -> MatrixResult<()> {
     if thickness > 1 {
-        let inverse = mask.coverage_mut().iter().map(|part| u8::from(*part < 0.5)).collect();
+        let inverse = mask
+            .coverage_mut()
+            .iter()
+            .map(|part| u8::from(*part < 0.5))
+            .collect();
         let inverse = Matrix::from_bytes(mask.size(), 1, inverse)?;
         let distances = inverse.distance_transform(DistanceType::Euclidean, MaskSize::Precise)?;
         let radius = f64::from(thickness - 1) / 2.0;
@@ -153,7 +180,9 @@ fn thicken(mask: &mut Mask, thickness: u32, line_type: LineType) -> MatrixResult
             *part = coverage(radius - distances.value(at).unwrap_or_default(), line_type) as f32;
         }
     } else if line_type != LineType::Antialiased {
-        mask.coverage_mut().iter_mut().for_each(|part| *part = if *part >= 0.5 { 1.0 } else { 0.0 });
+        mask.coverage_mut()
+            .iter_mut()
+            .for_each(|part| *part = if *part >= 0.5 { 1.0 } else { 0.0 });
     }
     Ok(())
 }
@@ -163,32 +192,70 @@ mod tests {
     use super::super::tests::{WHITE, blank};
     use super::*;
 
-    const PLAIN: Text<'static> =
-        Text { text: "HI", face: FontFace::Simplex, scale: 1.0, thickness: 1, is_italic: false, is_from_bottom: false };
+    const PLAIN: Text<'static> = Text {
+        text: "HI",
+        face: FontFace::Simplex,
+        scale: 1.0,
+        thickness: 1,
+        is_italic: false,
+        is_from_bottom: false,
+    };
 
     /// First and last row with letters, and how many pixels they have.
     fn rows(text: &Text<'_>, pen: &Pen) -> (usize, usize, usize) {
         let mut image = blank(80, 80);
         image.draw_text([5.0, 40.0], text, pen).unwrap();
-        let white: Vec<usize> = (0..6400).filter(|at| image.value(*at) == Some(255.0)).map(|at| at / 80).collect();
+        let white: Vec<usize> = (0..6400)
+            .filter(|at| image.value(*at) == Some(255.0))
+            .map(|at| at / 80)
+            .collect();
         (white[0], *white.last().unwrap(), white.len())
     }
 
     #[test]
     fn capitals_stand_on_the_baseline() {
         let (first, last, _) = rows(&PLAIN, &WHITE);
-        assert!((18..=20).contains(&first) && (39..=40).contains(&last), "{first} {last}");
-        let (first, last, _) = rows(&Text { is_from_bottom: true, ..PLAIN }, &WHITE);
-        assert!((40..=41).contains(&first) && (60..=62).contains(&last), "{first} {last}");
+        assert!(
+            (18..=20).contains(&first) && (39..=40).contains(&last),
+            "{first} {last}"
+        );
+        let (first, last, _) = rows(
+            &Text {
+                is_from_bottom: true,
+                ..PLAIN
+            },
+            &WHITE,
+        );
+        assert!(
+            (40..=41).contains(&first) && (60..=62).contains(&last),
+            "{first} {last}"
+        );
     }
 
     #[test]
     fn thick_letters_are_larger() {
-        let (first, last, count) = rows(&Text { thickness: 5, ..PLAIN }, &WHITE);
+        let (first, last, count) = rows(
+            &Text {
+                thickness: 5,
+                ..PLAIN
+            },
+            &WHITE,
+        );
         let (_, _, thin) = rows(&PLAIN, &WHITE);
-        assert!(count > 2 * thin && first <= 18 && last >= 41, "{first} {last} {count} {thin}");
-        let (_, _, italic) =
-            rows(&Text { is_italic: true, ..PLAIN }, &Pen { line_type: LineType::Antialiased, ..WHITE });
+        assert!(
+            count > 2 * thin && first <= 18 && last >= 41,
+            "{first} {last} {count} {thin}"
+        );
+        let (_, _, italic) = rows(
+            &Text {
+                is_italic: true,
+                ..PLAIN
+            },
+            &Pen {
+                line_type: LineType::Antialiased,
+                ..WHITE
+            },
+        );
         assert!(italic > 0);
     }
 
@@ -196,7 +263,11 @@ mod tests {
     fn sizes() {
         let size = text_size("HI", FontFace::Simplex, 1.0, 1).unwrap();
         assert_eq!((size.height, size.baseline), (22, 10));
-        assert!(size.width > 20 && text_size("HIHI", FontFace::Simplex, 1.0, 1).unwrap().width >= 2 * size.width - 2);
+        assert!(
+            size.width > 20
+                && text_size("HIHI", FontFace::Simplex, 1.0, 1).unwrap().width
+                    >= 2 * size.width - 2
+        );
         assert!(text_size("x", FontFace::Plain, 1e9, 1).is_err());
         assert!(text_size("x", FontFace::Plain, f64::NAN, 1).is_err());
         assert_eq!(text_size("", FontFace::Plain, 1.0, 1).unwrap().width, 1);
@@ -206,10 +277,43 @@ mod tests {
     fn odd_texts_are_drawn() {
         for text in ["", "\0\n\u{10ffff}", &"W".repeat(10_000)] {
             let mut image = blank(20, 20);
-            image.draw_text([-1e9, 5.0], &Text { text, ..PLAIN }, &WHITE).unwrap();
-            image.draw_text([3.0, 1e9], &Text { text, thickness: 32_767, ..PLAIN }, &WHITE).unwrap();
-            image.draw_text([3.0, 10.0], &Text { text, scale: 0.0, ..PLAIN }, &WHITE).unwrap();
+            image
+                .draw_text([-1e9, 5.0], &Text { text, ..PLAIN }, &WHITE)
+                .unwrap();
+            image
+                .draw_text(
+                    [3.0, 1e9],
+                    &Text {
+                        text,
+                        thickness: 32_767,
+                        ..PLAIN
+                    },
+                    &WHITE,
+                )
+                .unwrap();
+            image
+                .draw_text(
+                    [3.0, 10.0],
+                    &Text {
+                        text,
+                        scale: 0.0,
+                        ..PLAIN
+                    },
+                    &WHITE,
+                )
+                .unwrap();
         }
-        assert!(blank(2, 2).draw_text([0.0, 0.0], &Text { scale: 1e300, ..PLAIN }, &WHITE).is_err());
+        assert!(
+            blank(2, 2)
+                .draw_text(
+                    [0.0, 0.0],
+                    &Text {
+                        scale: 1e300,
+                        ..PLAIN
+                    },
+                    &WHITE
+                )
+                .is_err()
+        );
     }
 }

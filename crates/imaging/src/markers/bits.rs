@@ -45,7 +45,9 @@ impl Homography {
         let solution = equations.lu().solve(&sides)?;
         let mut map = [1.0; 9];
         map[..8].copy_from_slice(solution.as_slice());
-        map.iter().all(|value| value.is_finite()).then_some(Self(map))
+        map.iter()
+            .all(|value| value.is_finite())
+            .then_some(Self(map))
     }
 
     pub(super) fn apply(&self, [x, y]: [f64; 2]) -> [f64; 2] {
@@ -61,12 +63,25 @@ const UNIT: Quad = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 pub(super) fn read(grey: &Matrix, quad: &Quad, side: usize) -> Option<Vec<bool>> {
     let map = Homography::from_unit_square(quad)?;
     let cells = side + 2;
-    let means: Vec<f64> = (0..cells * cells).map(|at| mean(grey, &map, at % cells, at / cells, cells)).collect();
+    let means: Vec<f64> = (0..cells * cells)
+        .map(|at| mean(grey, &map, at % cells, at / cells, cells))
+        .collect();
     let threshold = threshold(&means)?;
-    let is_border = |at: usize| [at % cells, at / cells].iter().any(|place| *place == 0 || *place == cells - 1);
+    let is_border = |at: usize| {
+        [at % cells, at / cells]
+            .iter()
+            .any(|place| *place == 0 || *place == cells - 1)
+    };
     let bright: Vec<bool> = means.iter().map(|mean| *mean > threshold).collect();
-    let is_dark = (0..cells * cells).filter(|at| is_border(*at)).all(|at| !bright[at]);
-    is_dark.then(|| (0..cells * cells).filter(|at| !is_border(*at)).map(|at| bright[at]).collect())
+    let is_dark = (0..cells * cells)
+        .filter(|at| is_border(*at))
+        .all(|at| !bright[at]);
+    is_dark.then(|| {
+        (0..cells * cells)
+            .filter(|at| !is_border(*at))
+            .map(|at| bright[at])
+            .collect()
+    })
 }
 
 fn mean(grey: &Matrix, map: &Homography, column: usize, row: usize, cells: usize) -> f64 {
@@ -78,7 +93,8 @@ fn mean(grey: &Matrix, map: &Homography, column: usize, row: usize, cells: usize
     let sample = |n: usize| {
         let [x, y] = map.apply([place(column, n % SAMPLES), place(row, n / SAMPLES)]);
         let index = |at: f64, size: usize| (at.round().max(0.0) as usize).min(size - 1);
-        grey.value(index(y, height) * width + index(x, width)).unwrap_or_default()
+        grey.value(index(y, height) * width + index(x, width))
+            .unwrap_or_default()
     };
     (0..SAMPLES * SAMPLES).map(sample).sum::<f64>() / (SAMPLES * SAMPLES) as f64
 }

@@ -62,13 +62,16 @@ fn quadrilateral(outline: &[Pixel]) -> Option<Quad> {
     let length = outline.len() as f64;
     let corners: [usize; 4] = corners(outline, MAX_DEVIATION * length).try_into().ok()?;
     let rough = corners.map(|at| place(outline[at]));
-    let is_wide = (0..4).all(|i| distance(rough[i], rough[(i + 1) % 4]) >= MIN_CORNER_DISTANCE * length);
+    let is_wide =
+        (0..4).all(|i| distance(rough[i], rough[(i + 1) % 4]) >= MIN_CORNER_DISTANCE * length);
     if !is_wide || !is_convex(&rough) {
         return None;
     }
     Some(
         refined(outline, corners)
-            .filter(|quad| (0..4).all(|i| distance(quad[i], rough[i]) < MAX_DUPLICATE_DISTANCE * length))
+            .filter(|quad| {
+                (0..4).all(|i| distance(quad[i], rough[i]) < MAX_DUPLICATE_DISTANCE * length)
+            })
             .unwrap_or(rough),
     )
 }
@@ -89,7 +92,9 @@ fn is_convex(quad: &Quad) -> bool {
 fn corners(outline: &[Pixel], deviation: f64) -> Vec<usize> {
     let farthest_from = |at: usize| {
         let far = |n: &usize| distance(place(outline[at]), place(outline[*n]));
-        (0..outline.len()).max_by(|a, b| far(a).total_cmp(&far(b)).then(b.cmp(a))).unwrap_or(0)
+        (0..outline.len())
+            .max_by(|a, b| far(a).total_cmp(&far(b)).then(b.cmp(a)))
+            .unwrap_or(0)
     };
     let first = farthest_from(0);
     let second = farthest_from(first);
@@ -106,10 +111,14 @@ fn split(outline: &[Pixel], first: usize, last: usize, deviation: f64, found: &m
     let at = |n: usize| place(outline[n % outline.len()]);
     let (a, b) = (at(first), at(last));
     let length = distance(a, b).max(1e-9);
-    let off = |n: usize| ((b[0] - a[0]) * (at(n)[1] - a[1]) - (b[1] - a[1]) * (at(n)[0] - a[0])).abs() / length;
+    let off = |n: usize| {
+        ((b[0] - a[0]) * (at(n)[1] - a[1]) - (b[1] - a[1]) * (at(n)[0] - a[0])).abs() / length
+    };
     let farthest = (first + 1..last).max_by(|m, n| off(*m).total_cmp(&off(*n)).then(n.cmp(m)));
     // More than four corners are no quadrilateral.
-    let Some(middle) = farthest.filter(|n| off(*n) > deviation && found.len() <= 4) else { return };
+    let Some(middle) = farthest.filter(|n| off(*n) > deviation && found.len() <= 4) else {
+        return;
+    };
     split(outline, first, middle, deviation, found);
     found.push(middle);
     split(outline, middle, last, deviation, found);
@@ -122,8 +131,9 @@ fn refined(outline: &[Pixel], corners: [usize; 4]) -> Option<Quad> {
         let (from, to) = (corners[i], corners[(i + 1) % 4]);
         let length = (to + count - from) % count;
         let bent = (length as f64 * CORNER_MARGIN) as usize + 1;
-        let places: Vec<[f64; 2]> =
-            (bent..length.saturating_sub(bent)).map(|n| place(outline[(from + n) % count])).collect();
+        let places: Vec<[f64; 2]> = (bent..length.saturating_sub(bent))
+            .map(|n| place(outline[(from + n) % count]))
+            .collect();
         fitted_line(&places)
     };
     let lines = [line(0)?, line(1)?, line(2)?, line(3)?];
@@ -141,7 +151,12 @@ fn fitted_line(places: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
     }
     let count = places.len() as f64;
     let middle = [0, 1].map(|i| places.iter().map(|place| place[i]).sum::<f64>() / count);
-    let moment = |i: usize, j: usize| places.iter().map(|p| (p[i] - middle[i]) * (p[j] - middle[j])).sum::<f64>();
+    let moment = |i: usize, j: usize| {
+        places
+            .iter()
+            .map(|p| (p[i] - middle[i]) * (p[j] - middle[j]))
+            .sum::<f64>()
+    };
     let angle = (2.0 * moment(0, 1)).atan2(moment(0, 0) - moment(1, 1)) / 2.0;
     Some([middle, [angle.cos(), angle.sin()]])
 }

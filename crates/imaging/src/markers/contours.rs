@@ -34,7 +34,16 @@ pub(super) fn dark_pixels(grey: &Matrix, window: usize) -> Vec<bool> {
 }
 
 /// The eight neighbours, clockwise in the image from the one to the right.
-const AROUND: [Pixel; 8] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
+const AROUND: [Pixel; 8] = [
+    [1, 0],
+    [1, 1],
+    [0, 1],
+    [-1, 1],
+    [-1, 0],
+    [-1, -1],
+    [0, -1],
+    [1, -1],
+];
 
 /// The outer outlines of regions that are connected over sides or corners, clockwise, in the order of their first pixels. Those longer
 /// than `longest` are left out.
@@ -58,7 +67,9 @@ fn mark_region(dark: &[bool], width: usize, first: usize, seen: &mut [bool]) {
     while let Some(at) = pending.pop() {
         let place = [(at % width) as i64, (at / width) as i64];
         for step in AROUND {
-            if let Some(next) = index(dark, width, place, step).filter(|next| dark[*next] && !seen[*next]) {
+            if let Some(next) =
+                index(dark, width, place, step).filter(|next| dark[*next] && !seen[*next])
+            {
                 seen[next] = true;
                 pending.push(next);
             }
@@ -77,12 +88,14 @@ fn index(dark: &[bool], width: usize, [x, y]: Pixel, [dx, dy]: Pixel) -> Option<
 /// Moore's neighbour tracing from the first pixel of a region, until its first step would be made again.
 fn outline(dark: &[bool], width: usize, start: Pixel, longest: usize) -> Option<Vec<Pixel>> {
     let step_from = |place: Pixel, back: usize| {
-        (1..=8)
-            .map(|n| (back + n) % 8)
-            .find(|direction| index(dark, width, place, AROUND[*direction]).is_some_and(|at| dark[at]))
+        (1..=8).map(|n| (back + n) % 8).find(|direction| {
+            index(dark, width, place, AROUND[*direction]).is_some_and(|at| dark[at])
+        })
     };
     // The pixel to the left of the first one is not dark.
-    let Some(first) = step_from(start, 4) else { return Some(vec![start]) };
+    let Some(first) = step_from(start, 4) else {
+        return Some(vec![start]);
+    };
     let (mut place, mut direction) = (start, first);
     let mut outline = Vec::new();
     loop {
@@ -90,7 +103,10 @@ fn outline(dark: &[bool], width: usize, start: Pixel, longest: usize) -> Option<
         if outline.len() > longest {
             return None;
         }
-        place = [place[0] + AROUND[direction][0], place[1] + AROUND[direction][1]];
+        place = [
+            place[0] + AROUND[direction][0],
+            place[1] + AROUND[direction][1],
+        ];
         // Begin behind where we came from: of a step along a side one further, since that pixel was looked at.
         let back = (direction + if direction % 2 == 0 { 6 } else { 5 }) % 8;
         direction = step_from(place, (back + 7) % 8)?;
@@ -105,14 +121,29 @@ mod tests {
     use super::*;
 
     fn dark(rows: &[&str]) -> (Vec<bool>, usize) {
-        (rows.concat().chars().map(|letter| letter == '#').collect(), rows[0].len())
+        (
+            rows.concat().chars().map(|letter| letter == '#').collect(),
+            rows[0].len(),
+        )
     }
 
     #[test]
     fn outlines_go_around_once() {
         let (pixels, width) = dark(&["......", ".###..", ".#.#..", ".###..", "......"]);
         let found = outlines(&pixels, width, 100);
-        assert_eq!(found, [vec![[1, 1], [2, 1], [3, 1], [3, 2], [3, 3], [2, 3], [1, 3], [1, 2]]]);
+        assert_eq!(
+            found,
+            [vec![
+                [1, 1],
+                [2, 1],
+                [3, 1],
+                [3, 2],
+                [3, 3],
+                [2, 3],
+                [1, 3],
+                [1, 2]
+            ]]
+        );
         assert_eq!(outlines(&pixels, width, 7), Vec::<Vec<Pixel>>::new());
     }
 

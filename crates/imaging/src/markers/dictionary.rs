@@ -17,7 +17,10 @@ impl Dictionary {
     pub fn aruco_original() -> Self {
         let row = |id: u32, n: u32| u64::from(ROWS[(id >> (8 - 2 * n) & 3) as usize]);
         let marker = |id: u32| (0..5).fold(0, |bits, n| bits << 5 | row(id, n));
-        Self { side: 5, markers: (0..1024).map(marker).collect() }
+        Self {
+            side: 5,
+            markers: (0..1024).map(marker).collect(),
+        }
     }
 
     /// Bits of a side.
@@ -41,7 +44,9 @@ impl Dictionary {
     /// The bits as they are read from the next corner.
     fn turned(&self, bits: &[bool]) -> Vec<bool> {
         let side = self.side;
-        (0..side * side).map(|at| bits[(at % side) * side + side - 1 - at / side]).collect()
+        (0..side * side)
+            .map(|at| bits[(at % side) * side + side - 1 - at / side])
+            .collect()
     }
 
     /// A picture of a marker with a black border of some bits.
@@ -49,15 +54,26 @@ impl Dictionary {
     /// # Errors
     /// When there is no such marker, when it has no border, or when a bit is smaller than a pixel.
     pub fn draw(&self, id: usize, size: usize, border: usize) -> MatrixResult<Matrix> {
-        let marker = *self.markers.get(id).ok_or(MatrixError::Range("the number of a marker"))?;
-        let cells = border.checked_mul(2).and_then(|both| both.checked_add(self.side));
-        let cells =
-            cells.filter(|cells| border > 0 && *cells <= size).ok_or(MatrixError::Range("the size of a marker"))?;
+        let marker = *self
+            .markers
+            .get(id)
+            .ok_or(MatrixError::Range("the number of a marker"))?;
+        let cells = border
+            .checked_mul(2)
+            .and_then(|both| both.checked_add(self.side));
+        let cells = cells
+            .filter(|cells| border > 0 && *cells <= size)
+            .ok_or(MatrixError::Range("the size of a marker"))?;
         let mut image = Matrix::new([size, size], PixelFormat::new(Depth::Byte, 1), 0.0)?;
-        let cell = |at: usize| (at * cells / size).checked_sub(border).filter(|cell| *cell < self.side);
+        let cell = |at: usize| {
+            (at * cells / size)
+                .checked_sub(border)
+                .filter(|cell| *cell < self.side)
+        };
         for at in 0..size * size {
             let place = cell(at % size).zip(cell(at / size));
-            let bit = place.map(|(column, row)| self.side * self.side - 1 - (row * self.side + column));
+            let bit =
+                place.map(|(column, row)| self.side * self.side - 1 - (row * self.side + column));
             if bit.is_some_and(|bit| marker >> bit & 1 == 1) {
                 image.set_value(at, 255.0);
             }
@@ -75,7 +91,9 @@ mod tests {
         let dictionary = Dictionary::aruco_original();
         let image = dictionary.draw(0b00_01_10_11_00, 7, 1).unwrap();
         let white = |row: usize| {
-            (0..7).map(|column| u32::from(image.value(row * 7 + column) == Some(255.0))).collect::<Vec<_>>()
+            (0..7)
+                .map(|column| u32::from(image.value(row * 7 + column) == Some(255.0)))
+                .collect::<Vec<_>>()
         };
         assert_eq!(white(0), [0; 7]);
         assert_eq!(white(1), [0, 1, 0, 0, 0, 0, 0]);
@@ -87,7 +105,13 @@ mod tests {
     #[test]
     fn impossible_pictures_are_refused() {
         let dictionary = Dictionary::aruco_original();
-        for (id, size, border) in [(1024, 70, 1), (0, 6, 1), (0, 70, 0), (0, 70, usize::MAX), (0, usize::MAX, 1)] {
+        for (id, size, border) in [
+            (1024, 70, 1),
+            (0, 6, 1),
+            (0, 70, 0),
+            (0, 70, usize::MAX),
+            (0, usize::MAX, 1),
+        ] {
             assert!(dictionary.draw(id, size, border).is_err());
         }
     }
@@ -95,9 +119,15 @@ mod tests {
     #[test]
     fn a_turn_is_found() {
         let dictionary = Dictionary::aruco_original();
-        let bits: Vec<bool> = (0..25).rev().map(|bit| dictionary.markers[33] >> bit & 1 == 1).collect();
+        let bits: Vec<bool> = (0..25)
+            .rev()
+            .map(|bit| dictionary.markers[33] >> bit & 1 == 1)
+            .collect();
         assert_eq!(dictionary.identify(&bits), Some((33, 0)));
-        assert_eq!(dictionary.identify(&dictionary.turned(&bits)), Some((33, 3)));
+        assert_eq!(
+            dictionary.identify(&dictionary.turned(&bits)),
+            Some((33, 3))
+        );
         assert_eq!(dictionary.identify(&[true; 25]), None);
     }
 }

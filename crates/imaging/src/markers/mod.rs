@@ -76,22 +76,47 @@ mod tests {
         let brightness = |x: f64, y: f64| {
             let [u, v] = to_marker.apply([x, y]);
             if (0.0..1.0).contains(&u) && (0.0..1.0).contains(&v) {
-                return 20.0 + 0.8 * marker.value((v * 280.0) as usize * 280 + (u * 280.0) as usize).unwrap();
+                return 20.0
+                    + 0.8
+                        * marker
+                            .value((v * 280.0) as usize * 280 + (u * 280.0) as usize)
+                            .unwrap();
             }
-            if (-0.2..1.2).contains(&u) && (-0.2..1.2).contains(&v) { 230.0 } else { 150.0 }
+            if (-0.2..1.2).contains(&u) && (-0.2..1.2).contains(&v) {
+                230.0
+            } else {
+                150.0
+            }
         };
         for at in 0..size[0] * size[1] {
             let (x, y) = ((at % size[0]) as f64, (at / size[0]) as f64);
             // Four samples for each pixel.
             let samples = [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]];
-            image.set_value(at, samples.iter().map(|[dx, dy]| brightness(x + dx, y + dy)).sum::<f64>() / 4.0);
+            image.set_value(
+                at,
+                samples
+                    .iter()
+                    .map(|[dx, dy]| brightness(x + dx, y + dy))
+                    .sum::<f64>()
+                    / 4.0,
+            );
         }
         image
     }
 
     fn assert_found(id: usize, corners: Quad) {
-        let found = Dictionary::aruco_original().detect(&scene(id, &corners, [200, 160])).unwrap();
-        assert_eq!(found.markers.iter().map(|marker| marker.id).collect::<Vec<_>>(), [id], "{found:?}");
+        let found = Dictionary::aruco_original()
+            .detect(&scene(id, &corners, [200, 160]))
+            .unwrap();
+        assert_eq!(
+            found
+                .markers
+                .iter()
+                .map(|marker| marker.id)
+                .collect::<Vec<_>>(),
+            [id],
+            "{found:?}"
+        );
         for (found, expected) in found.markers[0].corners.iter().zip(&corners) {
             let error = (found[0] - expected[0]).hypot(found[1] - expected[1]);
             assert!(error < 1.5, "{id}: {found:?} {expected:?}");
@@ -104,7 +129,14 @@ mod tests {
         let turned = [[120.0, 30.0], [120.0, 110.0], [40.0, 110.0], [40.0, 30.0]];
         let slanted = [[60.0, 20.0], [150.0, 45.0], [130.0, 130.0], [35.0, 115.0]];
         let tilted = [[60.0, 40.0], [140.0, 30.0], [160.0, 130.0], [30.0, 110.0]];
-        for (id, corners) in [(0, upright), (17, upright), (1023, turned), (372, slanted), (5, tilted), (800, tilted)] {
+        for (id, corners) in [
+            (0, upright),
+            (17, upright),
+            (1023, turned),
+            (372, slanted),
+            (5, tilted),
+            (800, tilted),
+        ] {
             assert_found(id, corners);
         }
     }
@@ -118,7 +150,10 @@ mod tests {
             image.set_value(at, 230.0);
         }
         let found = Dictionary::aruco_original().detect(&image).unwrap();
-        assert!(found.markers.is_empty() && !found.rejected.is_empty(), "{found:?}");
+        assert!(
+            found.markers.is_empty() && !found.rejected.is_empty(),
+            "{found:?}"
+        );
     }
 
     #[test]
@@ -126,7 +161,8 @@ mod tests {
         let dictionary = Dictionary::aruco_original();
         for (size, channels) in [([1, 1], 1), ([3, 2], 3), ([64, 1], 4), ([30, 30], 1)] {
             let mut random = Random::new(7);
-            let mut image = Matrix::new(size, PixelFormat::new(Depth::Byte, channels), 0.0).unwrap();
+            let mut image =
+                Matrix::new(size, PixelFormat::new(Depth::Byte, channels), 0.0).unwrap();
             for at in 0..size[0] * size[1] * channels {
                 image.set_value(at, f64::from(random.byte()));
             }

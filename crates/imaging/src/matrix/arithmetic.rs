@@ -98,11 +98,17 @@ impl Matrix {
     pub fn bitwise(&self, other: &Self, operation: Bitwise) -> MatrixResult<Self> {
         self.require_same(other)?;
         let values = match (&self.values, &other.values) {
-            (Values::Bytes(a), Values::Bytes(b)) => {
-                Values::Bytes(a.iter().zip(b).map(|(a, b)| operation.of((*a).into(), (*b).into()) as u8).collect())
-            }
+            (Values::Bytes(a), Values::Bytes(b)) => Values::Bytes(
+                a.iter()
+                    .zip(b)
+                    .map(|(a, b)| operation.of((*a).into(), (*b).into()) as u8)
+                    .collect(),
+            ),
             (Values::Floats(a), Values::Floats(b)) => Values::Floats(
-                a.iter().zip(b).map(|(a, b)| f32::from_bits(operation.of(a.to_bits(), b.to_bits()))).collect(),
+                a.iter()
+                    .zip(b)
+                    .map(|(a, b)| f32::from_bits(operation.of(a.to_bits(), b.to_bits())))
+                    .collect(),
             ),
             _ => return Err(MatrixError::Mismatch),
         };
@@ -113,9 +119,12 @@ impl Matrix {
     pub fn bitwise_not(&self) -> Self {
         self.with(match &self.values {
             Values::Bytes(values) => Values::Bytes(values.iter().map(|value| !value).collect()),
-            Values::Floats(values) => {
-                Values::Floats(values.iter().map(|value| f32::from_bits(!value.to_bits())).collect())
-            }
+            Values::Floats(values) => Values::Floats(
+                values
+                    .iter()
+                    .map(|value| f32::from_bits(!value.to_bits()))
+                    .collect(),
+            ),
         })
     }
 
@@ -153,7 +162,9 @@ impl Matrix {
     /// When the image has more than four channels.
     pub fn constant(&self, numbers: &[f64]) -> MatrixResult<Self> {
         self.require(self.channels <= SCALAR, "an operation with numbers")?;
-        let numbers: Vec<f64> = (0..self.channels).map(|i| numbers.get(i).copied().unwrap_or_default()).collect();
+        let numbers: Vec<f64> = (0..self.channels)
+            .map(|i| numbers.get(i).copied().unwrap_or_default())
+            .collect();
         fn repeated<T: Value>(numbers: &[f64], count: usize) -> Vec<T> {
             let pixel: Vec<T> = numbers.iter().map(|number| T::from_f64(*number)).collect();
             pixel.repeat(count)
@@ -166,13 +177,26 @@ impl Matrix {
     }
 
     /// Each value with the number of its channel; numbers are not limited to what a byte can be.
-    fn zip_numbers(&self, numbers: &[f64], operation: impl Fn(f64, f64) -> f64) -> MatrixResult<Self> {
+    fn zip_numbers(
+        &self,
+        numbers: &[f64],
+        operation: impl Fn(f64, f64) -> f64,
+    ) -> MatrixResult<Self> {
         self.require(self.channels <= SCALAR, "an operation with numbers")?;
         let number = |at: usize| numbers.get(at).copied().unwrap_or_default();
-        fn all<T: Value>(values: &[T], channels: usize, operation: impl Fn(usize, f64) -> f64) -> Vec<T> {
+        fn all<T: Value>(
+            values: &[T],
+            channels: usize,
+            operation: impl Fn(usize, f64) -> f64,
+        ) -> Vec<T> {
             let pixels = values.chunks_exact(channels);
             pixels
-                .flat_map(|pixel| pixel.iter().enumerate().map(|(i, v)| T::from_f64(operation(i, v.to_f64()))))
+                .flat_map(|pixel| {
+                    pixel
+                        .iter()
+                        .enumerate()
+                        .map(|(i, v)| T::from_f64(operation(i, v.to_f64())))
+                })
                 .collect()
         }
         let values = with_values!(self, values => all(values, self.channels, |i, value| operation(value, number(i))));
@@ -202,13 +226,19 @@ impl Matrix {
 
     /// As [`Matrix::compare`], with numbers.
     pub fn compare_numbers(&self, numbers: &[f64], comparison: Comparison) -> MatrixResult<Self> {
-        let holds = self.zip_numbers(numbers, |a, b| if comparison.holds(a, b) { 255.0 } else { 0.0 })?;
+        let holds = self.zip_numbers(
+            numbers,
+            |a, b| if comparison.holds(a, b) { 255.0 } else { 0.0 },
+        )?;
         Ok(holds.converted(Depth::Byte, 1.0))
     }
 
     fn map(&self, operation: impl Fn(f64) -> f64) -> Self {
         fn all<T: Value>(values: &[T], operation: impl Fn(f64) -> f64) -> Vec<T> {
-            values.iter().map(|value| T::from_f64(operation(value.to_f64()))).collect()
+            values
+                .iter()
+                .map(|value| T::from_f64(operation(value.to_f64())))
+                .collect()
         }
         self.with(with_values!(self, values => all(values, &operation)))
     }
@@ -218,16 +248,25 @@ impl Matrix {
         Ok(self.map(operation))
     }
 
-    pub(super) fn zip(&self, other: &Self, operation: impl Fn(f64, f64) -> f64) -> MatrixResult<Self> {
+    pub(super) fn zip(
+        &self,
+        other: &Self,
+        operation: impl Fn(f64, f64) -> f64,
+    ) -> MatrixResult<Self> {
         Ok(self.with(match self.values {
-            Values::Bytes(_) => Values::Bytes(self.zip_to(other, |a, b| u8::from_f64(operation(a, b)))?),
+            Values::Bytes(_) => {
+                Values::Bytes(self.zip_to(other, |a, b| u8::from_f64(operation(a, b)))?)
+            }
             Values::Floats(_) => Values::Floats(self.zip_to(other, |a, b| operation(a, b) as f32)?),
         }))
     }
 
     fn zip_to<T>(&self, other: &Self, operation: impl Fn(f64, f64) -> T) -> MatrixResult<Vec<T>> {
         fn all<A: Value, T>(a: &[A], b: &[A], operation: impl Fn(f64, f64) -> T) -> Vec<T> {
-            a.iter().zip(b).map(|(a, b)| operation(a.to_f64(), b.to_f64())).collect()
+            a.iter()
+                .zip(b)
+                .map(|(a, b)| operation(a.to_f64(), b.to_f64()))
+                .collect()
         }
         self.require_same(other)?;
         match (&self.values, &other.values) {
@@ -241,12 +280,22 @@ impl Matrix {
     /// Unless another image has the same size and format.
     pub(super) fn require_same(&self, other: &Self) -> MatrixResult<PixelFormat> {
         let is_same = self.size() == other.size() && self.format() == other.format();
-        if is_same { Ok(self.format()) } else { Err(MatrixError::Mismatch) }
+        if is_same {
+            Ok(self.format())
+        } else {
+            Err(MatrixError::Mismatch)
+        }
     }
 }
 
 fn quotient(depth: Depth) -> impl Fn(f64, f64) -> f64 {
-    move |a, b| if b == 0.0 && depth == Depth::Byte { 0.0 } else { a / b }
+    move |a, b| {
+        if b == 0.0 && depth == Depth::Byte {
+            0.0
+        } else {
+            a / b
+        }
+    }
 }
 
 #[cfg(test)]
@@ -280,14 +329,28 @@ mod tests {
     #[test]
     fn numbers_have_one_for_each_channel() {
         let image = bytes([1, 1], 3, &[0, 0, 255]);
-        assert_eq!(image.add_numbers(&[10.0, 10.0, 10.0]).unwrap(), bytes([1, 1], 3, &[10, 10, 255]));
-        assert_eq!(image.add_numbers(&[1e9, -5.0]).unwrap(), bytes([1, 1], 3, &[255, 0, 255]));
-        assert_eq!(image.divide_numbers(&[9.0, 9.0, 510.0]).unwrap(), bytes([1, 1], 3, &[0, 0, 2]));
         assert_eq!(
-            image.compare_numbers(&[0.0, 1.0, 300.0], Comparison::Less).unwrap(),
+            image.add_numbers(&[10.0, 10.0, 10.0]).unwrap(),
+            bytes([1, 1], 3, &[10, 10, 255])
+        );
+        assert_eq!(
+            image.add_numbers(&[1e9, -5.0]).unwrap(),
+            bytes([1, 1], 3, &[255, 0, 255])
+        );
+        assert_eq!(
+            image.divide_numbers(&[9.0, 9.0, 510.0]).unwrap(),
+            bytes([1, 1], 3, &[0, 0, 2])
+        );
+        assert_eq!(
+            image
+                .compare_numbers(&[0.0, 1.0, 300.0], Comparison::Less)
+                .unwrap(),
             bytes([1, 1], 3, &[0, 255, 255])
         );
-        assert_eq!(image.constant(&[f64::NAN, 2.0]).unwrap(), bytes([1, 1], 3, &[0, 2, 0]));
+        assert_eq!(
+            image.constant(&[f64::NAN, 2.0]).unwrap(),
+            bytes([1, 1], 3, &[0, 2, 0])
+        );
         assert!(bytes([1, 1], 5, &[0; 5]).add_numbers(&[]).is_err());
     }
 
@@ -299,14 +362,23 @@ mod tests {
         assert!(of(floats([1, 1], 1, &[-4.0]).sqrt()).is_nan());
         assert_eq!(of(b.exp()), 1.0);
         assert_eq!(of(a.log()), 0.0);
-        assert_eq!(a.compare(&b, Comparison::Greater).unwrap(), bytes([1, 1], 1, &[255]));
+        assert_eq!(
+            a.compare(&b, Comparison::Greater).unwrap(),
+            bytes([1, 1], 1, &[255])
+        );
     }
 
     #[test]
     fn mismatches_are_errors() {
         let (a, b) = pair(1, 2);
-        assert_eq!(a.add(&floats([1, 1], 1, &[0.0])), Err(MatrixError::Mismatch));
-        assert_eq!(a.add(&bytes([2, 1], 1, &[0, 0])), Err(MatrixError::Mismatch));
+        assert_eq!(
+            a.add(&floats([1, 1], 1, &[0.0])),
+            Err(MatrixError::Mismatch)
+        );
+        assert_eq!(
+            a.add(&bytes([2, 1], 1, &[0, 0])),
+            Err(MatrixError::Mismatch)
+        );
         assert_eq!(b.exp(), Err(MatrixError::Format("exp")));
         assert!(MatrixError::Mismatch.to_string().starts_with("OpenCV("));
     }

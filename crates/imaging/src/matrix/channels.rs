@@ -5,36 +5,65 @@ use super::{Matrix, MatrixError, MatrixResult, Value, Values, with_values};
 impl Matrix {
     /// One image for each channel.
     pub fn split(&self) -> Vec<Self> {
-        (0..self.channels).map(|channel| self.channel(channel)).collect()
+        (0..self.channels)
+            .map(|channel| self.channel(channel))
+            .collect()
     }
 
     fn channel(&self, channel: usize) -> Self {
-        let values =
-            with_values!(self, values => values.iter().skip(channel).step_by(self.channels).copied().collect());
-        Self { channels: 1, values, ..self.shape() }
+        let values = with_values!(self, values => values.iter().skip(channel).step_by(self.channels).copied().collect());
+        Self {
+            channels: 1,
+            values,
+            ..self.shape()
+        }
     }
 
     /// The channels of several images as those of one.
     pub fn merge(images: &[Self]) -> MatrixResult<Self> {
         let first = images.first().ok_or(MatrixError::Mismatch)?;
-        let is_alike = |image: &Self| image.size() == first.size() && image.format().depth == first.format().depth;
+        let is_alike = |image: &Self| {
+            image.size() == first.size() && image.format().depth == first.format().depth
+        };
         if !images.iter().all(is_alike) {
             return Err(MatrixError::Mismatch);
         }
         let channels: usize = images.iter().map(|image| image.channels).sum();
         super::value_count(first.size(), channels)?;
-        let parts = |pixel: usize| images.iter().map(move |image| (image, pixel * image.channels));
+        let parts = |pixel: usize| {
+            images
+                .iter()
+                .map(move |image| (image, pixel * image.channels))
+        };
         let pixels = 0..first.width * first.height;
         let values = match &first.values {
-            Values::Bytes(_) => Values::Bytes(pixels.flat_map(|at| parts(at).flat_map(bytes_of)).copied().collect()),
-            Values::Floats(_) => Values::Floats(pixels.flat_map(|at| parts(at).flat_map(floats_of)).copied().collect()),
+            Values::Bytes(_) => Values::Bytes(
+                pixels
+                    .flat_map(|at| parts(at).flat_map(bytes_of))
+                    .copied()
+                    .collect(),
+            ),
+            Values::Floats(_) => Values::Floats(
+                pixels
+                    .flat_map(|at| parts(at).flat_map(floats_of))
+                    .copied()
+                    .collect(),
+            ),
         };
-        Ok(Self { channels, values, ..first.shape() })
+        Ok(Self {
+            channels,
+            values,
+            ..first.shape()
+        })
     }
 
     /// Copies channels of some images to channels of others. Channels are counted over all images of a list; pairs are source and
     /// target, and a negative source clears.
-    pub fn mix_channels(inputs: &[Self], outputs: &mut [Self], pairs: &[[i64; 2]]) -> MatrixResult<()> {
+    pub fn mix_channels(
+        inputs: &[Self],
+        outputs: &mut [Self],
+        pairs: &[[i64; 2]],
+    ) -> MatrixResult<()> {
         let first = inputs.first().ok_or(MatrixError::Mismatch)?;
         let depth = first.format().depth;
         let is_alike = |image: &Self| image.size() == first.size() && image.format().depth == depth;
@@ -61,8 +90,12 @@ impl Matrix {
         }
         let step = self.channels;
         match (&mut self.values, source.map(|image| &image.values)) {
-            (Values::Bytes(values), Some(Values::Bytes(source))) => put(values, channel, step, Some(source)),
-            (Values::Floats(values), Some(Values::Floats(source))) => put(values, channel, step, Some(source)),
+            (Values::Bytes(values), Some(Values::Bytes(source))) => {
+                put(values, channel, step, Some(source))
+            }
+            (Values::Floats(values), Some(Values::Floats(source))) => {
+                put(values, channel, step, Some(source))
+            }
             (Values::Bytes(values), _) => put(values, channel, step, None),
             (Values::Floats(values), _) => put(values, channel, step, None),
         }
@@ -106,7 +139,12 @@ mod tests {
         let parts = image.split();
         assert_eq!(parts[1], bytes([2, 1], 1, &[2, 5]));
         assert_eq!(Matrix::merge(&parts).unwrap(), image);
-        assert_eq!(Matrix::merge(&[parts[0].clone(), image.clone()]).unwrap().channels, 4);
+        assert_eq!(
+            Matrix::merge(&[parts[0].clone(), image.clone()])
+                .unwrap()
+                .channels,
+            4
+        );
         assert!(Matrix::merge(&[image, floats([2, 1], 1, &[0.0; 2])]).is_err());
         assert!(Matrix::merge(&[]).is_err());
     }
@@ -115,9 +153,16 @@ mod tests {
     fn channels_are_mixed() {
         let image = bytes([1, 1], 3, &[1, 2, 3]);
         let mut outputs = [bytes([1, 1], 1, &[0]), bytes([1, 1], 2, &[9, 9])];
-        Matrix::mix_channels(std::slice::from_ref(&image), &mut outputs, &[[2, 0], [0, 2], [-1, 1]]).unwrap();
+        Matrix::mix_channels(
+            std::slice::from_ref(&image),
+            &mut outputs,
+            &[[2, 0], [0, 2], [-1, 1]],
+        )
+        .unwrap();
         assert_eq!(outputs, [bytes([1, 1], 1, &[3]), bytes([1, 1], 2, &[0, 1])]);
-        assert!(Matrix::mix_channels(std::slice::from_ref(&image), &mut outputs, &[[3, 0]]).is_err());
+        assert!(
+            Matrix::mix_channels(std::slice::from_ref(&image), &mut outputs, &[[3, 0]]).is_err()
+        );
         assert!(Matrix::mix_channels(&[image], &mut outputs, &[[0, i64::MIN]]).is_err());
     }
 }

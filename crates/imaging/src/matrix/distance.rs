@@ -36,13 +36,26 @@ impl Matrix {
     /// # Errors
     /// Unless the image has one channel of bytes.
     pub fn distance_transform(&self, distance: DistanceType, mask: MaskSize) -> MatrixResult<Self> {
-        self.require(self.format().depth == Depth::Byte && self.channels == 1, "distance transform")?;
-        let black = self.bytes().unwrap_or_default().iter().map(|byte| if *byte == 0 { 0.0 } else { FAR }).collect();
+        self.require(
+            self.format().depth == Depth::Byte && self.channels == 1,
+            "distance transform",
+        )?;
+        let black = self
+            .bytes()
+            .unwrap_or_default()
+            .iter()
+            .map(|byte| if *byte == 0 { 0.0 } else { FAR })
+            .collect();
         let distances = match (distance, mask) {
             (DistanceType::Euclidean, MaskSize::Precise) => self.exact_distances(black),
             _ => self.summed_distances(black, &steps(distance, mask)),
         };
-        Ok(self.with(Values::Floats(distances.into_iter().map(|distance| distance as f32).collect())))
+        Ok(self.with(Values::Floats(
+            distances
+                .into_iter()
+                .map(|distance| distance as f32)
+                .collect(),
+        )))
     }
 
     /// Distances as sums of steps, by a pass forward and one backward.
@@ -68,8 +81,13 @@ impl Matrix {
     fn exact_distances(&self, mut squares: Vec<f64>) -> Vec<f64> {
         let (width, height) = (self.width, self.height);
         for first in 0..width {
-            let column: Vec<f64> = (0..height).map(|row| squares[row * width + first]).collect();
-            envelope(&column).into_iter().enumerate().for_each(|(row, value)| squares[row * width + first] = value);
+            let column: Vec<f64> = (0..height)
+                .map(|row| squares[row * width + first])
+                .collect();
+            envelope(&column)
+                .into_iter()
+                .enumerate()
+                .for_each(|(row, value)| squares[row * width + first] = value);
         }
         for row in squares.chunks_exact_mut(width) {
             let values = envelope(row);
@@ -116,7 +134,12 @@ fn steps(distance: DistanceType, mask: MaskSize) -> Steps {
         (DistanceType::Euclidean, MaskSize::Three) => [0.955, 1.3693, FAR],
         (DistanceType::Euclidean, _) => [1.0, 1.4, 2.1969],
     };
-    let mut steps = vec![(-1, 0, straight), (0, -1, straight), (-1, -1, diagonal), (1, -1, diagonal)];
+    let mut steps = vec![
+        (-1, 0, straight),
+        (0, -1, straight),
+        (-1, -1, diagonal),
+        (1, -1, diagonal),
+    ];
     if knight < FAR {
         steps.extend([(-2, -1), (2, -1), (-1, -2), (1, -2)].map(|(x, y)| (x, y, knight)));
     }
@@ -135,7 +158,12 @@ mod tests {
     }
 
     fn nearest(places: &[usize], at: usize, length: impl Fn(f64, f64) -> f64) -> f64 {
-        let distance = |place: &usize| length((place % 9).abs_diff(at % 9) as f64, (place / 9).abs_diff(at / 9) as f64);
+        let distance = |place: &usize| {
+            length(
+                (place % 9).abs_diff(at % 9) as f64,
+                (place / 9).abs_diff(at / 9) as f64,
+            )
+        };
         places.iter().map(distance).fold(f64::INFINITY, f64::min)
     }
 
@@ -143,14 +171,22 @@ mod tests {
     fn distances_are_exact() {
         let places = [4, 20, 61, 62];
         for (kind, length) in [
-            (DistanceType::Euclidean, (|x, y| f64::hypot(x, y)) as fn(f64, f64) -> f64),
+            (
+                DistanceType::Euclidean,
+                (|x, y| f64::hypot(x, y)) as fn(f64, f64) -> f64,
+            ),
             (DistanceType::Manhattan, |x, y| x + y),
             (DistanceType::Chessboard, f64::max),
         ] {
-            let found = image(&places).distance_transform(kind, MaskSize::Precise).unwrap();
+            let found = image(&places)
+                .distance_transform(kind, MaskSize::Precise)
+                .unwrap();
             for at in 0..63 {
                 let (found, expected) = (found.value(at).unwrap(), nearest(&places, at, length));
-                assert!((found - expected).abs() < 1e-6, "{kind:?} {at}: {found} {expected}");
+                assert!(
+                    (found - expected).abs() < 1e-6,
+                    "{kind:?} {at}: {found} {expected}"
+                );
             }
         }
     }
@@ -158,18 +194,29 @@ mod tests {
     #[test]
     fn steps_come_close() {
         for (mask, error) in [(MaskSize::Three, 0.1), (MaskSize::Five, 0.03)] {
-            let found = image(&[0]).distance_transform(DistanceType::Euclidean, mask).unwrap();
+            let found = image(&[0])
+                .distance_transform(DistanceType::Euclidean, mask)
+                .unwrap();
             for at in 1..63 {
                 let expected = nearest(&[0], at, f64::hypot);
-                assert!((found.value(at).unwrap() - expected).abs() <= error * expected, "{mask:?} {at}");
+                assert!(
+                    (found.value(at).unwrap() - expected).abs() <= error * expected,
+                    "{mask:?} {at}"
+                );
             }
         }
     }
 
     #[test]
     fn without_black_everything_is_far() {
-        let found = image(&[]).distance_transform(DistanceType::Euclidean, MaskSize::Precise).unwrap();
+        let found = image(&[])
+            .distance_transform(DistanceType::Euclidean, MaskSize::Precise)
+            .unwrap();
         assert!(found.value(30).unwrap() > 1e4);
-        assert!(bytes([1, 1], 3, &[0; 3]).distance_transform(DistanceType::Euclidean, MaskSize::Five).is_err());
+        assert!(
+            bytes([1, 1], 3, &[0; 3])
+                .distance_transform(DistanceType::Euclidean, MaskSize::Five)
+                .is_err()
+        );
     }
 }

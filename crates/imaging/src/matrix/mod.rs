@@ -144,29 +144,52 @@ impl Matrix {
             Depth::Byte => Values::Bytes(with_first(count, format.channels, first)),
             Depth::Float => Values::Floats(with_first(count, format.channels, first)),
         };
-        Ok(Self { width, height, channels: format.channels, values })
+        Ok(Self {
+            width,
+            height,
+            channels: format.channels,
+            values,
+        })
     }
 
     /// An image of bytes.
     ///
     /// # Errors
     /// When their number is not that of the values.
-    pub fn from_bytes([width, height]: [usize; 2], channels: usize, bytes: Vec<u8>) -> MatrixResult<Self> {
+    pub fn from_bytes(
+        [width, height]: [usize; 2],
+        channels: usize,
+        bytes: Vec<u8>,
+    ) -> MatrixResult<Self> {
         if bytes.len() != value_count([width, height], channels)? {
             return Err(MatrixError::Size);
         }
-        Ok(Self { width, height, channels, values: Values::Bytes(bytes) })
+        Ok(Self {
+            width,
+            height,
+            channels,
+            values: Values::Bytes(bytes),
+        })
     }
 
     /// An image of floats.
     ///
     /// # Errors
     /// When their number is not that of the values.
-    pub fn from_floats([width, height]: [usize; 2], channels: usize, floats: Vec<f32>) -> MatrixResult<Self> {
+    pub fn from_floats(
+        [width, height]: [usize; 2],
+        channels: usize,
+        floats: Vec<f32>,
+    ) -> MatrixResult<Self> {
         if floats.len() != value_count([width, height], channels)? {
             return Err(MatrixError::Size);
         }
-        Ok(Self { width, height, channels, values: Values::Floats(floats) })
+        Ok(Self {
+            width,
+            height,
+            channels,
+            values: Values::Floats(floats),
+        })
     }
 
     /// Columns and rows.
@@ -180,7 +203,10 @@ impl Matrix {
             Values::Bytes(_) => Depth::Byte,
             Values::Floats(_) => Depth::Float,
         };
-        PixelFormat { depth, channels: self.channels }
+        PixelFormat {
+            depth,
+            channels: self.channels,
+        }
     }
 
     /// All values, row by row.
@@ -190,7 +216,11 @@ impl Matrix {
 
     /// The values when they are bytes.
     pub fn bytes(&self) -> Option<&[u8]> {
-        if let Values::Bytes(bytes) = &self.values { Some(bytes) } else { None }
+        if let Values::Bytes(bytes) = &self.values {
+            Some(bytes)
+        } else {
+            None
+        }
     }
 
     /// The value at an index.
@@ -204,15 +234,24 @@ impl Matrix {
     /// Sets the value at an index; bytes saturate. Nothing happens outside of the image.
     pub fn set_value(&mut self, at: usize, value: f64) {
         match &mut self.values {
-            Values::Bytes(bytes) => bytes.get_mut(at).into_iter().for_each(|byte| *byte = u8::from_f64(value)),
-            Values::Floats(floats) => floats.get_mut(at).into_iter().for_each(|float| *float = value as f32),
+            Values::Bytes(bytes) => bytes
+                .get_mut(at)
+                .into_iter()
+                .for_each(|byte| *byte = u8::from_f64(value)),
+            Values::Floats(floats) => floats
+                .get_mut(at)
+                .into_iter()
+                .for_each(|float| *float = value as f32),
         }
     }
 
     /// The image with values of another type, multiplied by a number.
     pub fn converted(&self, depth: Depth, scale: f64) -> Self {
         fn all<A: Value, B: Value>(values: &[A], scale: f64) -> Vec<B> {
-            values.iter().map(|value| B::from_f64(value.to_f64() * scale)).collect()
+            values
+                .iter()
+                .map(|value| B::from_f64(value.to_f64() * scale))
+                .collect()
         }
         let values = match (&self.values, depth) {
             (Values::Bytes(values), Depth::Byte) => Values::Bytes(all(values, scale)),
@@ -225,28 +264,47 @@ impl Matrix {
 
     /// An image of the same size and number of channels.
     fn with(&self, values: Values) -> Self {
-        Self { values, ..self.shape() }
+        Self {
+            values,
+            ..self.shape()
+        }
     }
 
     /// The sizes alone.
     fn shape(&self) -> Self {
-        Self { width: self.width, height: self.height, channels: self.channels, values: Values::Bytes(Vec::new()) }
+        Self {
+            width: self.width,
+            height: self.height,
+            channels: self.channels,
+            values: Values::Bytes(Vec::new()),
+        }
     }
 
     pub(crate) fn require(&self, possible: bool, operation: &'static str) -> MatrixResult<()> {
-        if possible { Ok(()) } else { Err(MatrixError::Format(operation)) }
+        if possible {
+            Ok(())
+        } else {
+            Err(MatrixError::Format(operation))
+        }
     }
 }
 
 fn with_first<T: Value>(count: usize, channels: usize, first: f64) -> Vec<T> {
     let mut values = vec![T::default(); count];
-    values.iter_mut().step_by(channels).for_each(|value| *value = T::from_f64(first));
+    values
+        .iter_mut()
+        .step_by(channels)
+        .for_each(|value| *value = T::from_f64(first));
     values
 }
 
 fn value_count([width, height]: [usize; 2], channels: usize) -> MatrixResult<usize> {
-    let count = width.checked_mul(height).and_then(|pixels| pixels.checked_mul(channels));
-    count.filter(|count| (1..=MAX_VALUES).contains(count)).ok_or(MatrixError::Size)
+    let count = width
+        .checked_mul(height)
+        .and_then(|pixels| pixels.checked_mul(channels));
+    count
+        .filter(|count| (1..=MAX_VALUES).contains(count))
+        .ok_or(MatrixError::Size)
 }
 
 #[cfg(test)]
@@ -272,7 +330,10 @@ mod tests {
     #[test]
     fn impossible_sizes_are_refused() {
         for size in [[0, 3], [usize::MAX, 2], [1 << 20, 1 << 20]] {
-            assert_eq!(Matrix::new(size, PixelFormat::new(Depth::Byte, 3), 0.0), Err(MatrixError::Size));
+            assert_eq!(
+                Matrix::new(size, PixelFormat::new(Depth::Byte, 3), 0.0),
+                Err(MatrixError::Size)
+            );
         }
         assert!(Matrix::from_bytes([2, 2], 1, vec![0; 5]).is_err());
     }
@@ -280,8 +341,16 @@ mod tests {
     #[test]
     fn conversions_saturate_and_round_to_even() {
         let image = floats([6, 1], 1, &[-3.0, 0.5, 1.5, 2.5, 254.7, 1e9]);
-        assert_eq!(image.converted(Depth::Byte, 1.0).bytes(), Some(&[0, 0, 2, 2, 255, 255][..]));
-        assert_eq!(floats([1, 1], 1, &[f32::NAN]).converted(Depth::Byte, 1.0).bytes(), Some(&[0][..]));
+        assert_eq!(
+            image.converted(Depth::Byte, 1.0).bytes(),
+            Some(&[0, 0, 2, 2, 255, 255][..])
+        );
+        assert_eq!(
+            floats([1, 1], 1, &[f32::NAN])
+                .converted(Depth::Byte, 1.0)
+                .bytes(),
+            Some(&[0][..])
+        );
         let back = bytes([2, 1], 1, &[0, 255]).converted(Depth::Float, 1.0 / 255.0);
         assert_eq!(back, floats([2, 1], 1, &[0.0, 1.0]));
     }

@@ -17,7 +17,11 @@ impl Matrix {
         self.zip(other, |x, y| {
             let angle = y.atan2(x);
             let angle = if angle < 0.0 { angle + TAU } else { angle };
-            if in_degrees { angle.to_degrees() } else { angle }
+            if in_degrees {
+                angle.to_degrees()
+            } else {
+                angle
+            }
         })
     }
 }
@@ -28,9 +32,16 @@ mod tests {
 
     #[test]
     fn vectors_have_length_and_angle() {
-        let (x, y) = (floats([2, 1], 1, &[3.0, 0.0]), floats([2, 1], 1, &[4.0, -2.0]));
+        let (x, y) = (
+            floats([2, 1], 1, &[3.0, 0.0]),
+            floats([2, 1], 1, &[4.0, -2.0]),
+        );
         assert_eq!(x.magnitude(&y).unwrap(), floats([2, 1], 1, &[5.0, 2.0]));
         assert_eq!(x.phase(&y, true).unwrap().value(1), Some(270.0));
-        assert!(bytes([1, 1], 1, &[0]).magnitude(&bytes([1, 1], 1, &[0])).is_err());
+        assert!(
+            bytes([1, 1], 1, &[0])
+                .magnitude(&bytes([1, 1], 1, &[0]))
+                .is_err()
+        );
     }
 }

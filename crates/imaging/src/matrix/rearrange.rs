@@ -31,7 +31,10 @@ impl Matrix {
     pub fn flipped(&self, flip: Flip) -> Self {
         let from = |at: usize, size: usize, turned: bool| if turned { size - 1 - at } else { at };
         self.rearranged(self.size(), |column, row| {
-            [from(column, self.width, flip != Flip::Rows), from(row, self.height, flip != Flip::Columns)]
+            [
+                from(column, self.width, flip != Flip::Rows),
+                from(row, self.height, flip != Flip::Columns),
+            ]
         })
     }
 
@@ -40,13 +43,20 @@ impl Matrix {
     /// # Errors
     /// When there is none, or more than an image can have.
     pub fn repeated(&self, counts: [usize; 2]) -> MatrixResult<Self> {
-        let size = [self.width.saturating_mul(counts[0]), self.height.saturating_mul(counts[1])];
+        let size = [
+            self.width.saturating_mul(counts[0]),
+            self.height.saturating_mul(counts[1]),
+        ];
         value_count(size, self.channels)?;
         Ok(self.rearranged(size, |column, row| [column % self.width, row % self.height]))
     }
 
     /// An image of pixels that are each taken from a place of this one.
-    pub(super) fn rearranged(&self, size: [usize; 2], source: impl Fn(usize, usize) -> [usize; 2]) -> Self {
+    pub(super) fn rearranged(
+        &self,
+        size: [usize; 2],
+        source: impl Fn(usize, usize) -> [usize; 2],
+    ) -> Self {
         let [width, height] = size;
         let channels = self.channels;
         let from = |column, row| {
@@ -62,14 +72,25 @@ impl Matrix {
             });
             out
         });
-        Self { width, height, channels, values }
+        Self {
+            width,
+            height,
+            channels,
+            values,
+        }
     }
 
     /// Copies a region of another image into this one.
     ///
     /// # Errors
     /// When the region is not inside of both, or their formats differ.
-    pub fn copy_from(&mut self, source: &Self, from: [i64; 2], to: [i64; 2], size: [i64; 2]) -> MatrixResult<()> {
+    pub fn copy_from(
+        &mut self,
+        source: &Self,
+        from: [i64; 2],
+        to: [i64; 2],
+        size: [i64; 2],
+    ) -> MatrixResult<()> {
         if self.format() != source.format() {
             return Err(MatrixError::Mismatch);
         }
@@ -96,9 +117,17 @@ impl Matrix {
     fn region(&self, corner: [i64; 2], size: [i64; 2]) -> MatrixResult<[usize; 2]> {
         let limits = [self.width as i64, self.height as i64];
         let is_inside = (0..2).all(|i| {
-            corner[i] >= 0 && size[i] >= 0 && corner[i].checked_add(size[i]).is_some_and(|end| end <= limits[i])
+            corner[i] >= 0
+                && size[i] >= 0
+                && corner[i]
+                    .checked_add(size[i])
+                    .is_some_and(|end| end <= limits[i])
         });
-        if is_inside { Ok(corner.map(|at| at as usize)) } else { Err(MatrixError::Region) }
+        if is_inside {
+            Ok(corner.map(|at| at as usize))
+        } else {
+            Err(MatrixError::Region)
+        }
     }
 
     /// All rows as one, or all columns.
@@ -106,10 +135,22 @@ impl Matrix {
     /// # Errors
     /// When bytes are to be summed: their sum would be no byte.
     pub fn reduced(&self, to_row: bool, reduction: Reduction) -> MatrixResult<Self> {
-        self.require(self.format().depth == Depth::Float || reduction != Reduction::Sum, "a sum")?;
-        let size = if to_row { [self.width, 1] } else { [1, self.height] };
+        self.require(
+            self.format().depth == Depth::Float || reduction != Reduction::Sum,
+            "a sum",
+        )?;
+        let size = if to_row {
+            [self.width, 1]
+        } else {
+            [1, self.height]
+        };
         let values = with_values!(self, values => self.reduced_values(values, to_row, reduction));
-        Ok(Self { width: size[0], height: size[1], channels: self.channels, values })
+        Ok(Self {
+            width: size[0],
+            height: size[1],
+            channels: self.channels,
+            values,
+        })
     }
 
     fn reduced_values<T: Value>(&self, values: &[T], to_row: bool, reduction: Reduction) -> Vec<T> {
@@ -118,7 +159,13 @@ impl Matrix {
             true => (row_length, self.height, row_length),
             false => (self.height * self.channels, self.width, self.channels),
         };
-        let first = |at: usize| if to_row { at } else { at / self.channels * row_length + at % self.channels };
+        let first = |at: usize| {
+            if to_row {
+                at
+            } else {
+                at / self.channels * row_length + at % self.channels
+            }
+        };
         let of = |at: usize| (0..count).map(move |n| values[first(at) + n * step].to_f64());
         let reduced = |at: usize| match reduction {
             Reduction::Sum => of(at).sum(),
@@ -138,7 +185,10 @@ mod tests {
     #[test]
     fn mirrors() {
         let image = bytes([2, 2], 1, &[1, 2, 3, 4]);
-        assert_eq!(image.flipped(Flip::Columns), bytes([2, 2], 1, &[2, 1, 4, 3]));
+        assert_eq!(
+            image.flipped(Flip::Columns),
+            bytes([2, 2], 1, &[2, 1, 4, 3])
+        );
         assert_eq!(image.flipped(Flip::Rows), bytes([2, 2], 1, &[3, 4, 1, 2]));
         assert_eq!(image.flipped(Flip::Both), bytes([2, 2], 1, &[4, 3, 2, 1]));
     }
@@ -146,9 +196,15 @@ mod tests {
     #[test]
     fn repeats() {
         let image = bytes([1, 1], 2, &[1, 2]);
-        assert_eq!(image.repeated([2, 1]).unwrap(), bytes([2, 1], 2, &[1, 2, 1, 2]));
+        assert_eq!(
+            image.repeated([2, 1]).unwrap(),
+            bytes([2, 1], 2, &[1, 2, 1, 2])
+        );
         assert_eq!(image.repeated([0, 1]), Err(MatrixError::Size));
-        assert_eq!(image.repeated([usize::MAX, usize::MAX]), Err(MatrixError::Size));
+        assert_eq!(
+            image.repeated([usize::MAX, usize::MAX]),
+            Err(MatrixError::Size)
+        );
     }
 
     #[test]
@@ -163,19 +219,37 @@ mod tests {
             ([-1, 0], [0, 0], [1, 1]),
             ([0, 0], [0, 0], [i64::MAX, 1]),
         ] {
-            assert_eq!(image.copy_from(&source, from, to, size), Err(MatrixError::Region));
+            assert_eq!(
+                image.copy_from(&source, from, to, size),
+                Err(MatrixError::Region)
+            );
         }
-        assert_eq!(image.copy_from(&floats([1, 1], 1, &[0.0]), [0, 0], [0, 0], [1, 1]), Err(MatrixError::Mismatch));
+        assert_eq!(
+            image.copy_from(&floats([1, 1], 1, &[0.0]), [0, 0], [0, 0], [1, 1]),
+            Err(MatrixError::Mismatch)
+        );
     }
 
     #[test]
     fn rows_and_columns_are_reduced() {
         let image = floats([2, 2], 1, &[1.0, 2.0, 5.0, 8.0]);
-        assert_eq!(image.reduced(true, Reduction::Sum).unwrap(), floats([2, 1], 1, &[6.0, 10.0]));
-        assert_eq!(image.reduced(false, Reduction::Average).unwrap(), floats([1, 2], 1, &[1.5, 6.5]));
+        assert_eq!(
+            image.reduced(true, Reduction::Sum).unwrap(),
+            floats([2, 1], 1, &[6.0, 10.0])
+        );
+        assert_eq!(
+            image.reduced(false, Reduction::Average).unwrap(),
+            floats([1, 2], 1, &[1.5, 6.5])
+        );
         let image = bytes([2, 1], 2, &[1, 9, 4, 2]);
-        assert_eq!(image.reduced(false, Reduction::Largest).unwrap(), bytes([1, 1], 2, &[4, 9]));
-        assert_eq!(image.reduced(false, Reduction::Smallest).unwrap(), bytes([1, 1], 2, &[1, 2]));
+        assert_eq!(
+            image.reduced(false, Reduction::Largest).unwrap(),
+            bytes([1, 1], 2, &[4, 9])
+        );
+        assert_eq!(
+            image.reduced(false, Reduction::Smallest).unwrap(),
+            bytes([1, 1], 2, &[1, 2])
+        );
         assert!(image.reduced(true, Reduction::Sum).is_err());
     }
 }

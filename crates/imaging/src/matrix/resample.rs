@@ -34,12 +34,21 @@ impl Matrix {
         value_count([size[0], self.height], self.channels)?;
         if interpolation == Interpolation::Nearest {
             let from = |at: usize, old: usize, new: usize| at * old / new;
-            return Ok(self.rearranged(size, |x, y| [from(x, self.width, size[0]), from(y, self.height, size[1])]));
+            return Ok(self.rearranged(size, |x, y| {
+                [from(x, self.width, size[0]), from(y, self.height, size[1])]
+            }));
         }
-        let [columns, rows] =
-            [sources(self.width, size[0], interpolation), sources(self.height, size[1], interpolation)];
+        let [columns, rows] = [
+            sources(self.width, size[0], interpolation),
+            sources(self.height, size[1], interpolation),
+        ];
         let values = with_values!(self, values => self.weighted(values, &columns, &rows));
-        Ok(Self { width: size[0], height: size[1], channels: self.channels, values })
+        Ok(Self {
+            width: size[0],
+            height: size[1],
+            channels: self.channels,
+            values,
+        })
     }
 
     fn weighted<T: Value>(&self, values: &[T], columns: &[Sources], rows: &[Sources]) -> Vec<T> {
@@ -50,8 +59,9 @@ impl Matrix {
             for source in columns {
                 for channel in 0..channels {
                     let weighted = source.weights.iter().enumerate();
-                    let value =
-                        |(n, weight): (usize, &f64)| row[(source.first + n) * channels + channel].to_f64() * weight;
+                    let value = |(n, weight): (usize, &f64)| {
+                        row[(source.first + n) * channels + channel].to_f64() * weight
+                    };
                     narrow.push(weighted.map(value).sum::<f64>());
                 }
             }
@@ -60,8 +70,14 @@ impl Matrix {
         let mut sums = vec![0.0; length];
         for source in rows {
             sums.fill(0.0);
-            for (row, weight) in narrow.chunks_exact(length).skip(source.first).zip(&source.weights) {
-                sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += value * weight);
+            for (row, weight) in narrow
+                .chunks_exact(length)
+                .skip(source.first)
+                .zip(&source.weights)
+            {
+                sums.iter_mut()
+                    .zip(row)
+                    .for_each(|(sum, value)| *sum += value * weight);
             }
             result.extend(sums.iter().map(|sum| T::from_f64(*sum)));
         }
@@ -84,7 +100,10 @@ fn covered(from: f64, to: f64, count: usize) -> Sources {
     let first = (from as usize).min(count - 1);
     let last = ((to.ceil() as usize).max(first + 1) - 1).min(count - 1);
     let part = |at: usize| (to.min((at + 1) as f64) - from.max(at as f64)).max(0.0) / (to - from);
-    Sources { first, weights: (first..=last).map(part).collect() }
+    Sources {
+        first,
+        weights: (first..=last).map(part).collect(),
+    }
 }
 
 /// The pixels around a place, weighted by a kernel; those outside count for the ones at the border.
@@ -144,7 +163,11 @@ mod tests {
         for interpolation in ALL {
             for size in [[5, 3], [2, 9], [13, 1], [1, 1]] {
                 let expected = bytes(size, 3, &[10, 20, 30].repeat(size[0] * size[1]));
-                assert_eq!(image.resized(size, interpolation).unwrap(), expected, "{interpolation:?} {size:?}");
+                assert_eq!(
+                    image.resized(size, interpolation).unwrap(),
+                    expected,
+                    "{interpolation:?} {size:?}"
+                );
             }
         }
     }
@@ -153,24 +176,44 @@ mod tests {
     fn the_same_size_is_the_same_image() {
         let image = bytes([4, 2], 1, &[1, 80, 3, 200, 5, 6, 90, 8]);
         for interpolation in ALL {
-            assert_eq!(image.resized([4, 2], interpolation).unwrap(), image, "{interpolation:?}");
+            assert_eq!(
+                image.resized([4, 2], interpolation).unwrap(),
+                image,
+                "{interpolation:?}"
+            );
         }
     }
 
     #[test]
     fn pixels_are_mixed() {
         let image = floats([2, 1], 1, &[0.0, 4.0]);
-        assert_eq!(image.resized([4, 1], Interpolation::Linear).unwrap(), floats([4, 1], 1, &[0.0, 1.0, 3.0, 4.0]));
-        assert_eq!(image.resized([4, 1], Interpolation::Nearest).unwrap(), floats([4, 1], 1, &[0.0, 0.0, 4.0, 4.0]));
+        assert_eq!(
+            image.resized([4, 1], Interpolation::Linear).unwrap(),
+            floats([4, 1], 1, &[0.0, 1.0, 3.0, 4.0])
+        );
+        assert_eq!(
+            image.resized([4, 1], Interpolation::Nearest).unwrap(),
+            floats([4, 1], 1, &[0.0, 0.0, 4.0, 4.0])
+        );
         let image = floats([3, 1], 1, &[0.0, 3.0, 9.0]);
-        assert_eq!(image.resized([2, 1], Interpolation::Area).unwrap(), floats([2, 1], 1, &[1.0, 7.0]));
-        assert_eq!(image.resized([1, 1], Interpolation::Area).unwrap(), floats([1, 1], 1, &[4.0]));
+        assert_eq!(
+            image.resized([2, 1], Interpolation::Area).unwrap(),
+            floats([2, 1], 1, &[1.0, 7.0])
+        );
+        assert_eq!(
+            image.resized([1, 1], Interpolation::Area).unwrap(),
+            floats([1, 1], 1, &[4.0])
+        );
     }
 
     #[test]
     fn sizes_are_limited() {
         let image = bytes([1, 1], 1, &[0]);
         assert!(image.resized([0, 1], Interpolation::Linear).is_err());
-        assert!(image.resized([1 << 20, 1 << 20], Interpolation::Linear).is_err());
+        assert!(
+            image
+                .resized([1 << 20, 1 << 20], Interpolation::Linear)
+                .is_err()
+        );
     }
 }

@@ -34,7 +34,10 @@ impl RgbImage {
 
     /// Limits all values to 0 and 1.
     pub fn clamp(&mut self) {
-        self.pixels.as_flattened_mut().iter_mut().for_each(|value| *value = value.clamp(0.0, 1.0));
+        self.pixels
+            .as_flattened_mut()
+            .iter_mut()
+            .for_each(|value| *value = value.clamp(0.0, 1.0));
     }
 
     /// Spreads the values over 0 to 1. The smallest counts as 1 at most and the largest as 0 at least, as in the original.
@@ -43,7 +46,9 @@ impl RgbImage {
         let smallest = values.iter().copied().fold(1.0, f64::min);
         let largest = values.iter().copied().fold(0.0, f64::max);
         if largest != smallest {
-            values.iter_mut().for_each(|value| *value = (*value - smallest) / (largest - smallest));
+            values
+                .iter_mut()
+                .for_each(|value| *value = (*value - smallest) / (largest - smallest));
         }
     }
 }
@@ -66,7 +71,11 @@ mod tests {
 
     #[test]
     fn normalized_values_reach_from_0_to_1() {
-        let mut image = RgbImage { width: 2, height: 1, pixels: vec![[0.25; 3], [0.25, 0.5, 0.75]] };
+        let mut image = RgbImage {
+            width: 2,
+            height: 1,
+            pixels: vec![[0.25; 3], [0.25, 0.5, 0.75]],
+        };
         image.normalize();
         assert_eq!(image.pixels(), [[0.0; 3], [0.0, 0.5, 1.0]]);
         let mut even = RgbImage::uniform([1, 1], [3.0; 3]);

@@ -43,11 +43,19 @@ impl RgbImage {
                 _ => {}
             }
         }
-        outlines.iter().filter(|outline| !is_small(outline)).map(Outline::smallest_box).collect()
+        outlines
+            .iter()
+            .filter(|outline| !is_small(outline))
+            .map(Outline::smallest_box)
+            .collect()
     }
 
     fn regions(&self, threshold: f64) -> Regions {
-        let is_bright: Vec<bool> = self.pixels.iter().map(|pixel| mean(*pixel) >= threshold).collect();
+        let is_bright: Vec<bool> = self
+            .pixels
+            .iter()
+            .map(|pixel| mean(*pixel) >= threshold)
+            .collect();
         let mut of_pixel = vec![None; is_bright.len()];
         let mut count = 0;
         let mut pending = Vec::new();
@@ -67,7 +75,10 @@ impl RgbImage {
             }
             count += 1;
         }
-        Regions { of_pixel, count: count as usize }
+        Regions {
+            of_pixel,
+            count: count as usize,
+        }
     }
 
     /// The pixels beside a pixel, over sides and corners, itself included.
@@ -86,7 +97,10 @@ impl RgbImage {
             let (sin, cos) = blob.orientation.sin_cos();
             let corner = |[x, y]: [f64; 2]| {
                 let (x, y) = (x * blob.extent[0] / 2.0, y * blob.extent[1] / 2.0);
-                [blob.centre[0] + x * cos - y * sin, blob.centre[1] + x * sin + y * cos]
+                [
+                    blob.centre[0] + x * cos - y * sin,
+                    blob.centre[1] + x * sin + y * cos,
+                ]
             };
             let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner);
             (0..4).for_each(|i| self.draw_line(corners[i], corners[(i + 1) % 4], colour));
@@ -191,7 +205,15 @@ mod tests {
     fn a_box_around_a_rectangle() {
         let mut image = white_at([8, 8], &RECTANGLE);
         let blobs = image.detect_blobs(0.5, 0.0, false);
-        assert_eq!(blobs, [Blob { count: 6, orientation: 0.0, centre: [3.0, 3.5], extent: [2.0, 1.0] }]);
+        assert_eq!(
+            blobs,
+            [Blob {
+                count: 6,
+                orientation: 0.0,
+                centre: [3.0, 3.5],
+                extent: [2.0, 1.0]
+            }]
+        );
         assert_eq!(white(&image), RECTANGLE);
     }
 
@@ -205,7 +227,11 @@ mod tests {
     #[test]
     fn corners_connect_and_the_first_pixel_orders() {
         let mut image = white_at([9, 4], &[(8, 0), (0, 1), (1, 2), (2, 1), (8, 3)]);
-        let counts: Vec<usize> = image.detect_blobs(0.5, 0.0, true).iter().map(|blob| blob.count).collect();
+        let counts: Vec<usize> = image
+            .detect_blobs(0.5, 0.0, true)
+            .iter()
+            .map(|blob| blob.count)
+            .collect();
         assert_eq!(counts, [1, 3, 1]);
         assert_eq!(image.get(8, 0), Some([0.8, 0.0, 0.0]));
         assert_eq!(image.get(1, 2), Some([0.0, 0.8, 0.0]));
@@ -217,9 +243,15 @@ mod tests {
         let places: Vec<_> = (0..20).flat_map(|k| [(k, k), (k + 1, k)]).collect();
         let blobs = white_at([32, 32], &places).detect_blobs(0.5, 0.0, false);
         assert!(
-            (blobs[0].orientation.rem_euclid(std::f64::consts::FRAC_PI_2) - std::f64::consts::FRAC_PI_4).abs() < 0.05
+            (blobs[0].orientation.rem_euclid(std::f64::consts::FRAC_PI_2)
+                - std::f64::consts::FRAC_PI_4)
+                .abs()
+                < 0.05
         );
-        assert!(blobs[0].extent[0].min(blobs[0].extent[1]) < 2.0, "{blobs:?}");
+        assert!(
+            blobs[0].extent[0].min(blobs[0].extent[1]) < 2.0,
+            "{blobs:?}"
+        );
     }
 
     #[test]

@@ -23,7 +23,12 @@ impl RgbImage {
         debug_assert_eq!(self.size(), reference.size());
         let width = self.width;
         let mut changes = Vec::new();
-        for (at, (pixel, old)) in self.pixels.iter_mut().zip(&mut reference.pixels).enumerate() {
+        for (at, (pixel, old)) in self
+            .pixels
+            .iter_mut()
+            .zip(&mut reference.pixels)
+            .enumerate()
+        {
             let (now, before) = (mean(*pixel), mean(*old));
             let difference = now - before;
             let base = if before == 0.0 { OF_BLACK } else { before };
@@ -35,7 +40,11 @@ impl RgbImage {
             let is_brighter = difference > 0.0;
             *old = [now; 3];
             *pixel = [if is_brighter { 1.0 } else { 0.0 }; 3];
-            changes.push(Change { is_brighter, column: at % width, row: at / width });
+            changes.push(Change {
+                is_brighter,
+                column: at % width,
+                row: at / width,
+            });
         }
         changes
     }
@@ -51,8 +60,18 @@ mod tests {
         let mut image = reference.clone();
         image.pixels[11] = [1.0; 3];
         let next = image.clone();
-        assert_eq!(image.detect_changes(&mut reference, 0.1), [Change { is_brighter: true, column: 3, row: 2 }]);
-        assert_eq!((image.get(3, 2), image.get(0, 0)), (Some([1.0; 3]), Some([0.5; 3])));
+        assert_eq!(
+            image.detect_changes(&mut reference, 0.1),
+            [Change {
+                is_brighter: true,
+                column: 3,
+                row: 2
+            }]
+        );
+        assert_eq!(
+            (image.get(3, 2), image.get(0, 0)),
+            (Some([1.0; 3]), Some([0.5; 3]))
+        );
         assert_eq!(reference, next);
         assert_eq!(next.clone().detect_changes(&mut reference, 0.1), []);
     }
@@ -60,7 +79,15 @@ mod tests {
     #[test]
     fn black_has_a_brightness() {
         let mut reference = RgbImage::uniform([1, 1], [0.0; 3]);
-        assert_eq!(RgbImage::uniform([1, 1], [0.0005; 3]).detect_changes(&mut reference, 1.0), []);
-        assert_eq!(RgbImage::uniform([1, 1], [0.001; 3]).detect_changes(&mut reference, 1.0).len(), 1);
+        assert_eq!(
+            RgbImage::uniform([1, 1], [0.0005; 3]).detect_changes(&mut reference, 1.0),
+            []
+        );
+        assert_eq!(
+            RgbImage::uniform([1, 1], [0.001; 3])
+                .detect_changes(&mut reference, 1.0)
+                .len(),
+            1
+        );
     }
 }

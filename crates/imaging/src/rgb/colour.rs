@@ -79,12 +79,22 @@ impl RgbImage {
     pub fn scale_intensity(&mut self, start: f64, end: f64, grey: bool) {
         for pixel in &mut self.pixels {
             let intensity = start + (end - start) * mean(*pixel);
-            *pixel = if grey { [intensity; 3] } else { false_colour(intensity) };
+            *pixel = if grey {
+                [intensity; 3]
+            } else {
+                false_colour(intensity)
+            };
         }
     }
 
     /// Blackens the pixels outside of `colour` ± `tolerance`, or with `keep` false those inside; returns what was removed, on black.
-    pub fn select_colour(&mut self, colour: [f64; 3], tolerance: [f64; 3], by: Component, keep: bool) -> Self {
+    pub fn select_colour(
+        &mut self,
+        colour: [f64; 3],
+        tolerance: [f64; 3],
+        by: Component,
+        keep: bool,
+    ) -> Self {
         let mut removed = Self::uniform(self.size(), BLACK);
         for (pixel, removed) in self.pixels.iter_mut().zip(&mut removed.pixels) {
             if is_within(by, by.of(*pixel), colour, tolerance) != keep {
@@ -95,10 +105,17 @@ impl RgbImage {
     }
 
     /// `after + (value + before) scale` of each component, limited to 0 and 1.
-    pub fn scale_and_offset(&mut self, before: [f64; 3], scale: [f64; 3], after: [f64; 3], by: Component) {
+    pub fn scale_and_offset(
+        &mut self,
+        before: [f64; 3],
+        scale: [f64; 3],
+        after: [f64; 3],
+        by: Component,
+    ) {
         for pixel in &mut self.pixels {
             let components = by.of(*pixel);
-            let scaled = |i: usize| (after[i] + (components[i] + before[i]) * scale[i]).clamp(0.0, 1.0);
+            let scaled =
+                |i: usize| (after[i] + (components[i] + before[i]) * scale[i]).clamp(0.0, 1.0);
             *pixel = by.to_rgb([0, 1, 2].map(scaled));
         }
     }
@@ -127,9 +144,20 @@ mod tests {
     fn hsl_and_back() {
         assert_eq!(hsl_from_rgb(RED), [0.0, 1.0, 0.5]);
         assert_eq!(hsl_from_rgb([0.5; 3]), [0.0, 0.0, 0.5]);
-        for colour in [RED, BLUE, [0.0, 1.0, 0.0], [0.25, 0.5, 0.75], [0.9, 0.1, 0.2], [1.0; 3], BLACK] {
+        for colour in [
+            RED,
+            BLUE,
+            [0.0, 1.0, 0.0],
+            [0.25, 0.5, 0.75],
+            [0.9, 0.1, 0.2],
+            [1.0; 3],
+            BLACK,
+        ] {
             let back = rgb_from_hsl(hsl_from_rgb(colour));
-            assert!(colour.iter().zip(back).all(|(a, b)| (a - b).abs() < 1e-12), "{colour:?} {back:?}");
+            assert!(
+                colour.iter().zip(back).all(|(a, b)| (a - b).abs() < 1e-12),
+                "{colour:?} {back:?}"
+            );
         }
     }
 
@@ -151,9 +179,16 @@ mod tests {
 
     #[test]
     fn a_colour_is_selected_by_its_hue() {
-        let mut image = RgbImage { width: 2, height: 1, pixels: vec![RED, BLUE] };
+        let mut image = RgbImage {
+            width: 2,
+            height: 1,
+            pixels: vec![RED, BLUE],
+        };
         let removed = image.select_colour([0.0, 0.5, 0.5], [0.05, 0.5, 0.5], Component::Hsl, true);
-        assert_eq!((image.pixels(), removed.pixels()), (&[RED, BLACK][..], &[BLACK, BLUE][..]));
+        assert_eq!(
+            (image.pixels(), removed.pixels()),
+            (&[RED, BLACK][..], &[BLACK, BLUE][..])
+        );
         // The hue beyond 1 is the same as the one above 0.
         let mut image = RgbImage::uniform([1, 1], rgb_from_hsl([0.98, 1.0, 0.5]));
         image.select_colour([0.0, 0.5, 0.5], [0.05, 0.5, 0.5], Component::Hsl, false);
@@ -163,7 +198,12 @@ mod tests {
     #[test]
     fn components_are_scaled_within_limits() {
         let mut image = RgbImage::uniform([1, 1], [0.25, 0.5, 1.0]);
-        image.scale_and_offset([0.25, 0.0, 0.0], [1.0, 2.0, -1.0], [0.0, 0.0, 0.5], Component::Rgb);
+        image.scale_and_offset(
+            [0.25, 0.0, 0.0],
+            [1.0, 2.0, -1.0],
+            [0.0, 0.0, 0.5],
+            Component::Rgb,
+        );
         assert_eq!(image.pixels(), [[0.5, 1.0, 0.0]]);
         let mut image = RgbImage::uniform([1, 1], RED);
         image.scale_and_offset([2.0 / 3.0, 0.0, 0.0], [1.0; 3], [0.0; 3], Component::Hsl);

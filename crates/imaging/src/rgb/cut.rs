@@ -11,7 +11,10 @@ impl RgbImage {
 
     /// Blackens pixels outside of a rectangle that has `sizes` of the image's sides; returns what was removed, on black.
     pub fn cut_rectangle(&mut self, sizes: [f64; 2]) -> Self {
-        let limits = [0.5 * sizes[0] * self.width as f64, 0.5 * sizes[1] * self.height as f64];
+        let limits = [
+            0.5 * sizes[0] * self.width as f64,
+            0.5 * sizes[1] * self.height as f64,
+        ];
         self.cut(|x, y| x.abs() > limits[0] || y.abs() > limits[1])
     }
 
@@ -21,7 +24,10 @@ impl RgbImage {
         let middle = [self.width as f64 / 2.0, self.height as f64 / 2.0];
         let width = self.width;
         for (at, (pixel, removed)) in self.pixels.iter_mut().zip(&mut removed.pixels).enumerate() {
-            let (x, y) = ((at % width) as f64 + 0.5 - middle[0], (at / width) as f64 + 0.5 - middle[1]);
+            let (x, y) = (
+                (at % width) as f64 + 0.5 - middle[0],
+                (at / width) as f64 + 0.5 - middle[1],
+            );
             if is_outside(x, y) {
                 *removed = std::mem::replace(pixel, BLACK);
             }

@@ -42,7 +42,10 @@ impl Kernel {
         };
         let weights: Vec<f64> = (0..side * side).map(weight).collect();
         let sum: f64 = weights.iter().sum();
-        Self { side, weights: weights.iter().map(|weight| weight / sum).collect() }
+        Self {
+            side,
+            weights: weights.iter().map(|weight| weight / sum).collect(),
+        }
     }
 
     /// A kernel of one weight in the middle and another around it.
@@ -74,7 +77,11 @@ impl Kernel {
         let (mut sum, mut present) = (BLACK, 0.0);
         for (at, weight) in self.weights.iter().enumerate() {
             let (x, y) = (column + at % self.side, row + at / self.side);
-            let Some(pixel) = x.checked_sub(reach).zip(y.checked_sub(reach)).and_then(|(x, y)| image.get(x, y)) else {
+            let Some(pixel) = x
+                .checked_sub(reach)
+                .zip(y.checked_sub(reach))
+                .and_then(|(x, y)| image.get(x, y))
+            else {
                 continue;
             };
             (0..3).for_each(|i| sum[i] += pixel[i] * weight);
@@ -101,7 +108,13 @@ impl RgbImage {
     /// White where the difference to the neighbours is larger than `threshold` in the mean, else black.
     pub fn detect_edges(&mut self, threshold: f64) {
         *self = self.convolved(&Kernel::centred(24.0, -3.0));
-        self.pixels.iter_mut().for_each(|pixel| *pixel = if mean(*pixel) > threshold { [1.0; 3] } else { BLACK });
+        self.pixels.iter_mut().for_each(|pixel| {
+            *pixel = if mean(*pixel) > threshold {
+                [1.0; 3]
+            } else {
+                BLACK
+            }
+        });
     }
 
     /// Raises the differences to neighbours.
@@ -120,14 +133,20 @@ mod tests {
     fn a_point_becomes_a_blur() {
         let blurred = white_at([4, 4], &[(1, 1)]).convolved(&Kernel::gaussian_3x3());
         let grey: Vec<u8> = blurred.to_bytes().chunks(3).map(|pixel| pixel[0]).collect();
-        assert_eq!(grey, [58, 44, 38, 0, 44, 33, 29, 0, 38, 29, 25, 0, 0, 0, 0, 0]);
+        assert_eq!(
+            grey,
+            [58, 44, 38, 0, 44, 33, 29, 0, 38, 29, 25, 0, 0, 0, 0, 0]
+        );
     }
 
     #[test]
     fn an_even_image_has_edges_at_its_border() {
         let even = RgbImage::uniform([4, 4], [0.5; 3]);
         let edges = even.convolved(&Kernel::centred(24.0, -3.0));
-        assert_eq!((edges.pixels()[0], edges.pixels()[1], edges.pixels()[5]), ([16.875; 3], [6.75; 3], [0.0; 3]));
+        assert_eq!(
+            (edges.pixels()[0], edges.pixels()[1], edges.pixels()[5]),
+            ([16.875; 3], [6.75; 3], [0.0; 3])
+        );
         let mut image = even;
         image.detect_edges(0.1);
         assert_eq!(white(&image).len(), 12);
@@ -145,10 +164,12 @@ mod tests {
 
     #[test]
     fn sums_stay_with_the_kernel_of_25() {
-        let even = RgbImage::uniform([9, 7], [0.25; 3]).convolved(&Kernel::gaussian_5x5().times(2.0));
+        let even =
+            RgbImage::uniform([9, 7], [0.25; 3]).convolved(&Kernel::gaussian_5x5().times(2.0));
         assert!((even.get(4, 3).unwrap()[0] - 0.5).abs() < 1e-12);
         // Images smaller than the kernel are all border.
-        let tiny = RgbImage::uniform([1, 1], [0.5; 3]).convolved(&Kernel::new(vec![1.0; 25]).unwrap());
+        let tiny =
+            RgbImage::uniform([1, 1], [0.5; 3]).convolved(&Kernel::new(vec![1.0; 25]).unwrap());
         assert_eq!(tiny.pixels(), [[12.5; 3]]);
     }
 }

@@ -34,7 +34,11 @@ pub struct RgbImage {
 impl RgbImage {
     /// An image of one colour.
     pub fn uniform([width, height]: [usize; 2], colour: Rgb) -> Self {
-        Self { width, height, pixels: vec![colour; width * height] }
+        Self {
+            width,
+            height,
+            pixels: vec![colour; width * height],
+        }
     }
 
     /// Three bytes for each pixel, 255 is 1. None unless there are as many as the resolution asks for.
@@ -44,24 +48,37 @@ impl RgbImage {
         fits.then(|| Self {
             width,
             height,
-            pixels: pixels.iter().map(|p| p.map(|byte| f64::from(byte) / 255.0)).collect(),
+            pixels: pixels
+                .iter()
+                .map(|p| p.map(|byte| f64::from(byte) / 255.0))
+                .collect(),
         })
     }
 
     /// A grey image of one value per pixel. None unless there are as many as the resolution asks for.
     pub fn from_values([width, height]: [usize; 2], values: &[f32]) -> Option<Self> {
         let grey = |&value: &f32| [f64::from(value); 3];
-        (values.len() == width * height).then(|| Self { width, height, pixels: values.iter().map(grey).collect() })
+        (values.len() == width * height).then(|| Self {
+            width,
+            height,
+            pixels: values.iter().map(grey).collect(),
+        })
     }
 
     /// Bytes of each pixel: 1 is 255. Values beyond 0 and 1 are limited.
     pub fn to_bytes(&self) -> Vec<u8> {
-        self.pixels.iter().flat_map(|pixel| pixel.map(byte)).collect()
+        self.pixels
+            .iter()
+            .flat_map(|pixel| pixel.map(byte))
+            .collect()
     }
 
     /// The mean of red, green and blue of each pixel.
     pub fn to_values(&self) -> Vec<f32> {
-        self.pixels.iter().map(|&pixel| mean(pixel) as f32).collect()
+        self.pixels
+            .iter()
+            .map(|&pixel| mean(pixel) as f32)
+            .collect()
     }
 
     /// Columns and rows.
@@ -92,7 +109,11 @@ impl RgbImage {
     fn map_places(&self, colour: impl Fn(usize, usize) -> Rgb) -> Self {
         let (width, height) = (self.width, self.height);
         let pixels = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
-        Self { width, height, pixels: pixels.map(|(column, row)| colour(column, row)).collect() }
+        Self {
+            width,
+            height,
+            pixels: pixels.map(|(column, row)| colour(column, row)).collect(),
+        }
     }
 }
 
@@ -124,7 +145,13 @@ mod tests {
     pub(super) fn white(image: &RgbImage) -> Vec<(usize, usize)> {
         let [width, _] = image.size();
         let is_white = |(_, pixel): &(usize, &Rgb)| **pixel == [1.0; 3];
-        image.pixels.iter().enumerate().filter(is_white).map(|(at, _)| (at % width, at / width)).collect()
+        image
+            .pixels
+            .iter()
+            .enumerate()
+            .filter(is_white)
+            .map(|(at, _)| (at % width, at / width))
+            .collect()
     }
 
     #[test]

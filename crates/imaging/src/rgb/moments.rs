@@ -34,9 +34,17 @@ impl Expected {
         let is_near = |a: f64, b: f64, tolerance: f64| (a - b).abs() < tolerance;
         let turned = self.moments.orientation - found.orientation;
         let wrapped = turned - (turned / std::f64::consts::TAU).round() * std::f64::consts::TAU;
-        is_near(self.moments.proportion, found.proportion, self.proportion_tolerance)
-            && (0..2).all(|i| is_near(self.moments.centre[i], found.centre[i], self.centre_tolerance[i]))
-            && wrapped.abs() < self.orientation_tolerance
+        is_near(
+            self.moments.proportion,
+            found.proportion,
+            self.proportion_tolerance,
+        ) && (0..2).all(|i| {
+            is_near(
+                self.moments.centre[i],
+                found.centre[i],
+                self.centre_tolerance[i],
+            )
+        }) && wrapped.abs() < self.orientation_tolerance
             && found.roundness <= self.moments.roundness
     }
 }
@@ -44,7 +52,13 @@ impl Expected {
 impl RgbImage {
     /// Makes pixels white where their mean reaches `threshold`, others black.
     pub fn make_binary(&mut self, threshold: f64) -> Moments {
-        self.pixels.iter_mut().for_each(|pixel| *pixel = if mean(*pixel) >= threshold { [1.0; 3] } else { BLACK });
+        self.pixels.iter_mut().for_each(|pixel| {
+            *pixel = if mean(*pixel) >= threshold {
+                [1.0; 3]
+            } else {
+                BLACK
+            }
+        });
         self.moments_of_white()
     }
 
@@ -75,7 +89,12 @@ impl RgbImage {
         });
         let (orientation, roundness) = axis(second);
         let centre = [middle[0] / size[0], middle[1] / size[1]];
-        Moments { proportion: count / (size[0] * size[1]), centre, orientation, roundness }
+        Moments {
+            proportion: count / (size[0] * size[1]),
+            centre,
+            orientation,
+            roundness,
+        }
     }
 
     /// Draws the axis of what is white, from the centre to both sides.
@@ -84,7 +103,12 @@ impl RgbImage {
         let size = [self.width as f64, self.height as f64];
         let reach = 0.25 * size[0].min(size[1]);
         let middle = [moments.centre[0] * size[0], moments.centre[1] * size[1]];
-        let end = |side: f64| [middle[0] + side * reach * cos, middle[1] + side * reach * sin];
+        let end = |side: f64| {
+            [
+                middle[0] + side * reach * cos,
+                middle[1] + side * reach * sin,
+            ]
+        };
         self.draw_line(end(-1.0), end(1.0), colour);
     }
 
@@ -133,18 +157,42 @@ mod tests {
     }
 
     fn is_near(found: Moments, expected: Moments) -> bool {
-        let numbers = |m: Moments| [m.proportion, m.centre[0], m.centre[1], m.orientation, m.roundness];
-        numbers(found).iter().zip(numbers(expected)).all(|(a, b)| (a - b).abs() < 1e-12)
+        let numbers = |m: Moments| {
+            [
+                m.proportion,
+                m.centre[0],
+                m.centre[1],
+                m.orientation,
+                m.roundness,
+            ]
+        };
+        numbers(found)
+            .iter()
+            .zip(numbers(expected))
+            .all(|(a, b)| (a - b).abs() < 1e-12)
     }
 
     #[test]
     fn a_rectangle_and_lines() {
         let rectangle = moments(&[(2, 3), (3, 3), (4, 3), (2, 4), (3, 4), (4, 4)]);
-        let expected = Moments { proportion: 0.09375, centre: [0.375, 0.4375], orientation: 0.0, roundness: 0.375 };
+        let expected = Moments {
+            proportion: 0.09375,
+            centre: [0.375, 0.4375],
+            orientation: 0.0,
+            roundness: 0.375,
+        };
         assert!(is_near(rectangle, expected), "{rectangle:?}");
-        let line = Moments { proportion: 0.0625, centre: [0.1875; 2], orientation: FRAC_PI_4, roundness: 0.0 };
+        let line = Moments {
+            proportion: 0.0625,
+            centre: [0.1875; 2],
+            orientation: FRAC_PI_4,
+            roundness: 0.0,
+        };
         assert!(is_near(moments(&[(0, 0), (1, 1), (2, 2), (3, 3)]), line));
-        let line = Moments { orientation: -FRAC_PI_4, ..line };
+        let line = Moments {
+            orientation: -FRAC_PI_4,
+            ..line
+        };
         assert!(is_near(moments(&[(0, 3), (1, 2), (2, 1), (3, 0)]), line));
         let upright = moments(&[(2, 0), (2, 1), (2, 2)]);
         assert!((upright.orientation - FRAC_PI_2).abs() < 1e-12 && upright.roundness == 0.0);
@@ -152,24 +200,49 @@ mod tests {
 
     #[test]
     fn nothing_and_a_point_are_round() {
-        let nothing = Moments { proportion: 0.0, centre: [0.0625; 2], orientation: 0.0, roundness: 1.0 };
+        let nothing = Moments {
+            proportion: 0.0,
+            centre: [0.0625; 2],
+            orientation: 0.0,
+            roundness: 1.0,
+        };
         assert_eq!(moments(&[]), nothing);
         assert_eq!(moments(&[(7, 0)]).roundness, 1.0);
     }
 
     #[test]
     fn expectations_have_tolerances() {
-        let found = Moments { proportion: 0.5, centre: [0.5; 2], orientation: 3.0, roundness: 0.5 };
+        let found = Moments {
+            proportion: 0.5,
+            centre: [0.5; 2],
+            orientation: 3.0,
+            roundness: 0.5,
+        };
         let expected = Expected {
-            moments: Moments { orientation: -3.0, ..found },
+            moments: Moments {
+                orientation: -3.0,
+                ..found
+            },
             proportion_tolerance: 0.1,
             centre_tolerance: [0.1; 2],
             orientation_tolerance: 0.3,
         };
         assert!(expected.matches(&found));
-        assert!(!Expected { proportion_tolerance: 0.0, ..expected }.matches(&found));
-        assert!(!expected.matches(&Moments { roundness: 0.6, ..found }));
-        assert!(!expected.matches(&Moments { orientation: 2.0, ..found }));
+        assert!(
+            !Expected {
+                proportion_tolerance: 0.0,
+                ..expected
+            }
+            .matches(&found)
+        );
+        assert!(!expected.matches(&Moments {
+            roundness: 0.6,
+            ..found
+        }));
+        assert!(!expected.matches(&Moments {
+            orientation: 2.0,
+            ..found
+        }));
     }
 
     #[test]

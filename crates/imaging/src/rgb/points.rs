@@ -43,7 +43,12 @@ pub struct Point {
 }
 
 /// The points of a depth image, row by row, `counts` columns and rows.
-pub fn coordinates(depth: &RgbImage, optics: &Optics, counts: [usize; 2], grid: Grid) -> Vec<Point> {
+pub fn coordinates(
+    depth: &RgbImage,
+    optics: &Optics,
+    counts: [usize; 2],
+    grid: Grid,
+) -> Vec<Point> {
     let sides = sides(depth.size());
     let places = (0..counts[1]).flat_map(|row| (0..counts[0]).map(move |column| (column, row)));
     let points = places.map(|(column, row)| {
@@ -52,14 +57,25 @@ pub fn coordinates(depth: &RgbImage, optics: &Optics, counts: [usize; 2], grid: 
             Opening::Orthographic(size) => {
                 let pixel = pixel_at(depth, parts);
                 let z = optics.depth(depth.pixels[pixel]);
-                Point { position: [parts[0] * size * sides[0], parts[1] * size * sides[1], z], distance: z, pixel }
+                Point {
+                    position: [parts[0] * size * sides[0], parts[1] * size * sides[1], z],
+                    distance: z,
+                    pixel,
+                }
             }
             Opening::Perspective(angle) => {
                 let slopes = [0, 1].map(|i| {
                     let edge = sides[i] * (angle / 2.0).tan();
-                    if grid == Grid::Angles { (parts[i] * 2.0 * edge.atan()).tan() } else { parts[i] * 2.0 * edge }
+                    if grid == Grid::Angles {
+                        (parts[i] * 2.0 * edge.atan()).tan()
+                    } else {
+                        parts[i] * 2.0 * edge
+                    }
                 });
-                let pixel = pixel_at(depth, [0, 1].map(|i| slopes[i] / (2.0 * sides[i] * (angle / 2.0).tan())));
+                let pixel = pixel_at(
+                    depth,
+                    [0, 1].map(|i| slopes[i] / (2.0 * sides[i] * (angle / 2.0).tan())),
+                );
                 optics.along(slopes, pixel, depth)
             }
         }
@@ -69,7 +85,12 @@ pub fn coordinates(depth: &RgbImage, optics: &Optics, counts: [usize; 2], grid: 
 
 /// The points a scanner of lines takes from a depth image, column by column: `counts` columns and rows, `vertical_angle` from the
 /// lowest to the highest row.
-pub fn scan_lines(depth: &RgbImage, optics: &Optics, counts: [usize; 2], vertical_angle: f64) -> Vec<Point> {
+pub fn scan_lines(
+    depth: &RgbImage,
+    optics: &Optics,
+    counts: [usize; 2],
+    vertical_angle: f64,
+) -> Vec<Point> {
     let sides = sides(depth.size());
     let angle = match optics.opening {
         Opening::Perspective(angle) => angle,
@@ -81,7 +102,10 @@ pub fn scan_lines(depth: &RgbImage, optics: &Optics, counts: [usize; 2], vertica
         let azimuth = part(column, counts[0]) * 2.0 * edges[0].atan();
         let elevation = part(row, counts[1]) * vertical_angle;
         let slopes = [azimuth.tan(), elevation.tan() / azimuth.cos()];
-        let pixel = pixel_at(depth, [slopes[0] / (2.0 * edges[0]), slopes[1] / (2.0 * edges[1])]);
+        let pixel = pixel_at(
+            depth,
+            [slopes[0] / (2.0 * edges[0]), slopes[1] / (2.0 * edges[1])],
+        );
         optics.along(slopes, pixel, depth)
     });
     points.collect()
@@ -89,7 +113,9 @@ pub fn scan_lines(depth: &RgbImage, optics: &Optics, counts: [usize; 2], vertica
 
 /// The bytes of the pixels the points come from, and three more, as the original has them.
 pub fn colours(points: &[Point], image: &RgbImage) -> Vec<u8> {
-    let of_points = points.iter().flat_map(|point| image.pixels[point.pixel].map(byte));
+    let of_points = points
+        .iter()
+        .flat_map(|point| image.pixels[point.pixel].map(byte));
     of_points.chain([0; 3]).collect()
 }
 
@@ -105,9 +131,17 @@ impl Optics {
         let position = [slopes[0] * z, slopes[1] * z, z];
         let distance = position.iter().map(|x| x * x).sum::<f64>().sqrt();
         if distance > self.far {
-            return Point { position: position.map(|x| x * self.far / distance), distance: self.far, pixel };
+            return Point {
+                position: position.map(|x| x * self.far / distance),
+                distance: self.far,
+                pixel,
+            };
         }
-        Point { position, distance, pixel }
+        Point {
+            position,
+            distance,
+            pixel,
+        }
     }
 }
 
@@ -119,7 +153,11 @@ fn sides([width, height]: [usize; 2]) -> [f64; 2] {
 
 /// From -1/2 to 1/2 in equal steps; a single one is in the middle.
 fn part(at: usize, count: usize) -> f64 {
-    if count < 2 { 0.0 } else { at as f64 / (count - 1) as f64 - 0.5 }
+    if count < 2 {
+        0.0
+    } else {
+        at as f64 / (count - 1) as f64 - 0.5
+    }
 }
 
 /// The pixel at parts of the image from its middle, +x to the left.
@@ -134,18 +172,34 @@ fn pixel_at(image: &RgbImage, [x, y]: [f64; 2]) -> usize {
 mod tests {
     use super::*;
 
-    const OPTICS: Optics = Optics { near: 0.1, far: 10.0, opening: Opening::Perspective(std::f64::consts::FRAC_PI_3) };
+    const OPTICS: Optics = Optics {
+        near: 0.1,
+        far: 10.0,
+        opening: Opening::Perspective(std::f64::consts::FRAC_PI_3),
+    };
 
     fn is_near(point: &Point, [x, y, z, d]: [f64; 4]) -> bool {
-        let found = [point.position[0], point.position[1], point.position[2], point.distance];
-        found.iter().zip([x, y, z, d]).all(|(a, b)| (a - b).abs() < 1e-6)
+        let found = [
+            point.position[0],
+            point.position[1],
+            point.position[2],
+            point.distance,
+        ];
+        found
+            .iter()
+            .zip([x, y, z, d])
+            .all(|(a, b)| (a - b).abs() < 1e-6)
     }
 
     #[test]
     fn a_plane_on_a_grid_of_angles() {
         let plane = RgbImage::uniform([64, 64], [0.5; 3]);
         let points = coordinates(&plane, &OPTICS, [3, 3], Grid::Angles);
-        assert!(is_near(&points[0], [-2.915619, -2.915619, 5.05, 6.519522]), "{:?}", points[0]);
+        assert!(
+            is_near(&points[0], [-2.915619, -2.915619, 5.05, 6.519522]),
+            "{:?}",
+            points[0]
+        );
         assert!(is_near(&points[4], [0.0, 0.0, 5.05, 5.05]));
         let nothing = RgbImage::uniform([64, 64], [1.0; 3]);
         let points = coordinates(&nothing, &OPTICS, [3, 3], Grid::Angles);
@@ -158,17 +212,32 @@ mod tests {
         // The upper left corner of the picture.
         image.pixels[3 * 8] = [0.25; 3];
         let points = coordinates(&image, &OPTICS, [2, 2], Grid::Image);
-        assert_eq!(points.iter().map(|point| point.pixel).collect::<Vec<_>>(), [7, 0, 31, 24]);
+        assert_eq!(
+            points.iter().map(|point| point.pixel).collect::<Vec<_>>(),
+            [7, 0, 31, 24]
+        );
         let [x, y, z] = points[3].position;
         let edge = 30f64.to_radians().tan();
-        assert!((z - 2.575).abs() < 1e-12 && (x - edge * z).abs() < 1e-12 && (y - edge * z / 2.0).abs() < 1e-12);
+        assert!(
+            (z - 2.575).abs() < 1e-12
+                && (x - edge * z).abs() < 1e-12
+                && (y - edge * z / 2.0).abs() < 1e-12
+        );
         assert_eq!(colours(&points[3..], &image), [63, 63, 63, 0, 0, 0]);
     }
 
     #[test]
     fn an_orthographic_sensor_sees_a_rectangle() {
-        let optics = Optics { opening: Opening::Orthographic(2.0), ..OPTICS };
-        let points = coordinates(&RgbImage::uniform([8, 4], [1.0; 3]), &optics, [2, 2], Grid::Angles);
+        let optics = Optics {
+            opening: Opening::Orthographic(2.0),
+            ..OPTICS
+        };
+        let points = coordinates(
+            &RgbImage::uniform([8, 4], [1.0; 3]),
+            &optics,
+            [2, 2],
+            Grid::Angles,
+        );
         assert!(is_near(&points[0], [-1.0, -0.5, 10.0, 10.0]));
     }
 

@@ -33,12 +33,17 @@ struct Palette {
 
 impl Palette {
     fn new(distance: f64) -> Self {
-        Self { colours: Vec::new(), cells: HashMap::new(), distance: distance.abs() }
+        Self {
+            colours: Vec::new(),
+            cells: HashMap::new(),
+            distance: distance.abs(),
+        }
     }
 
     fn first_near(&mut self, colour: Rgb) -> Rgb {
         // Nothing is near a colour that is not finite, and nothing is nearer than 0.
-        let can_match = self.distance * self.distance > 0.0 && colour.iter().all(|value| value.is_finite());
+        let can_match =
+            self.distance * self.distance > 0.0 && colour.iter().all(|value| value.is_finite());
         if !can_match {
             return colour;
         }
@@ -53,26 +58,40 @@ impl Palette {
     }
 
     fn join(&mut self, colour: Rgb) -> Rgb {
-        self.cells.entry(self.cell(colour, [0; 3])).or_default().push(self.colours.len());
+        self.cells
+            .entry(self.cell(colour, [0; 3]))
+            .or_default()
+            .push(self.colours.len());
         self.colours.push(colour);
         colour
     }
 
     fn is_near(&self, at: usize, colour: Rgb) -> bool {
-        let squared: f64 = self.colours[at].iter().zip(colour).map(|(a, b)| (a - b) * (a - b)).sum();
+        let squared: f64 = self.colours[at]
+            .iter()
+            .zip(colour)
+            .map(|(a, b)| (a - b) * (a - b))
+            .sum();
         squared < self.distance * self.distance
     }
 
     fn find_in_grid(&self, colour: Rgb) -> Option<usize> {
-        let cells =
-            (0..27).filter_map(|n: i8| self.cells.get(&self.cell(colour, [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1])));
-        cells.flatten().copied().filter(|&at| self.is_near(at, colour)).min()
+        let cells = (0..27).filter_map(|n: i8| {
+            self.cells
+                .get(&self.cell(colour, [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1]))
+        });
+        cells
+            .flatten()
+            .copied()
+            .filter(|&at| self.is_near(at, colour))
+            .min()
     }
 
     /// The cell beside that of a colour. Cells are floats, so that neither a tiny distance nor a huge value overflows.
     fn cell(&self, colour: Rgb, step: [i8; 3]) -> [u64; 3] {
         // Adding 0 makes -0 the same as 0.
-        [0, 1, 2].map(|i| ((colour[i] / self.distance).floor() + f64::from(step[i]) + 0.0).to_bits())
+        [0, 1, 2]
+            .map(|i| ((colour[i] / self.distance).floor() + f64::from(step[i]) + 0.0).to_bits())
     }
 }
 
@@ -85,18 +104,21 @@ mod tests {
     /// The definition, without a grid.
     fn by_definition(image: &RgbImage, distance: f64) -> Vec<Rgb> {
         let mut palette: Vec<Rgb> = Vec::new();
-        let near =
-            |a: &Rgb, b: &Rgb| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() < distance * distance;
+        let near = |a: &Rgb, b: &Rgb| {
+            a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() < distance * distance
+        };
         image
             .pixels()
             .iter()
-            .map(|pixel| match palette.iter().find(|colour| near(colour, pixel)) {
-                Some(colour) => *colour,
-                None => {
-                    palette.push(*pixel);
-                    *pixel
-                }
-            })
+            .map(
+                |pixel| match palette.iter().find(|colour| near(colour, pixel)) {
+                    Some(colour) => *colour,
+                    None => {
+                        palette.push(*pixel);
+                        *pixel
+                    }
+                },
+            )
             .collect()
     }
 
@@ -104,13 +126,27 @@ mod tests {
         let mut random = Random::new(1);
         let mut next = || f64::from(random.byte()) / 255.0;
         let mut image = RgbImage::uniform(size, [0.0; 3]);
-        image.pixels_mut().iter_mut().for_each(|pixel| *pixel = [next(), next(), next()]);
+        image
+            .pixels_mut()
+            .iter_mut()
+            .for_each(|pixel| *pixel = [next(), next(), next()]);
         image
     }
 
     #[test]
     fn small_and_large_palettes_are_searched_in_order() {
-        for distance in [0.0, 0.05, 0.12, -0.3, 0.5, 1.0, 3.0, f64::INFINITY, f64::NAN, 1e-300] {
+        for distance in [
+            0.0,
+            0.05,
+            0.12,
+            -0.3,
+            0.5,
+            1.0,
+            3.0,
+            f64::INFINITY,
+            f64::NAN,
+            1e-300,
+        ] {
             let mut image = noise([40, 30]);
             let expected = by_definition(&image, distance);
             image.segment_colours(distance);

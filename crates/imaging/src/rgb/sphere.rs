@@ -23,14 +23,21 @@ pub struct Source {
 /// The sources of all pixels of a picture of `size`, which spans `angles`, from square pictures of `resolution`.
 pub fn sources(size: [usize; 2], angles: [f64; 2], resolution: usize) -> Vec<Source> {
     let angles = [0, 1].map(|i| angles[i].max(MIN_ANGLE).min(MAX_ANGLES[i]));
-    let angle =
-        |at: usize, i: usize| -angles[i] / 2.0 + at as f64 * angles[i] / size[i].saturating_sub(1).max(1) as f64;
+    let angle = |at: usize, i: usize| {
+        -angles[i] / 2.0 + at as f64 * angles[i] / size[i].saturating_sub(1).max(1) as f64
+    };
     let places = (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| (column, row)));
-    places.map(|(column, row)| source(angle(column, 0), angle(row, 1), resolution)).collect()
+    places
+        .map(|(column, row)| source(angle(column, 0), angle(row, 1), resolution))
+        .collect()
 }
 
 fn source(azimuth: f64, elevation: f64, resolution: usize) -> Source {
-    let [x, y, z] = [azimuth.cos() * elevation.cos(), azimuth.sin() * elevation.cos(), elevation.sin()];
+    let [x, y, z] = [
+        azimuth.cos() * elevation.cos(),
+        azimuth.sin() * elevation.cos(),
+        elevation.sin(),
+    ];
     let largest = x.abs().max(y.abs()).max(z.abs());
     let [x, y, z] = [x / largest, y / largest, z / largest];
     let (face, u, v) = if x == 1.0 {
@@ -46,8 +53,14 @@ fn source(azimuth: f64, elevation: f64, resolution: usize) -> Source {
     } else {
         (5, -x, z)
     };
-    let index = |part: f64| (((part + 1.0) / 2.0 * resolution as f64 - 0.5) as usize).min(resolution.saturating_sub(1));
-    Source { face, pixel: index(v) * resolution + index(u), stretch: (1.0 + u * u).sqrt() * (1.0 + v * v).sqrt() }
+    let index = |part: f64| {
+        (((part + 1.0) / 2.0 * resolution as f64 - 0.5) as usize).min(resolution.saturating_sub(1))
+    };
+    Source {
+        face,
+        pixel: index(v) * resolution + index(u),
+        stretch: (1.0 + u * u).sqrt() * (1.0 + v * v).sqrt(),
+    }
 }
 
 /// A depth along the axis as length of the ray, both normalised between the planes.
@@ -62,17 +75,30 @@ mod tests {
 
     #[test]
     fn directions_lie_on_faces() {
-        let faces: Vec<usize> = sources([9, 3], [TAU, PI], 10).iter().map(|source| source.face).collect();
+        let faces: Vec<usize> = sources([9, 3], [TAU, PI], 10)
+            .iter()
+            .map(|source| source.face)
+            .collect();
         // The lowest row looks down, the middle one around from back over right, front and left to back, the highest one up.
         assert_eq!(faces[..9], [3; 9]);
-        assert_eq!([faces[9], faces[11], faces[13], faces[15], faces[17]], [2, 5, 0, 4, 2]);
+        assert_eq!(
+            [faces[9], faces[11], faces[13], faces[15], faces[17]],
+            [2, 5, 0, 4, 2]
+        );
         assert_eq!(faces[18..], [1; 9]);
     }
 
     #[test]
     fn the_middle_of_the_front_is_straight_ahead() {
         let middle = sources([3, 3], [0.2, 0.2], 11)[4];
-        assert_eq!(middle, Source { face: 0, pixel: 5 * 11 + 5, stretch: 1.0 });
+        assert_eq!(
+            middle,
+            Source {
+                face: 0,
+                pixel: 5 * 11 + 5,
+                stretch: 1.0
+            }
+        );
         let corner = source(PI / 4.0, 0.0, 10);
         assert!((corner.stretch - 2f64.sqrt()).abs() < 1e-12);
     }

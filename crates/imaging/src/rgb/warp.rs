@@ -5,7 +5,9 @@ use super::{BLACK, RgbImage};
 impl RgbImage {
     /// Mirrors columns.
     pub fn flip_horizontally(&mut self) {
-        self.pixels.chunks_exact_mut(self.width.max(1)).for_each(<[_]>::reverse);
+        self.pixels
+            .chunks_exact_mut(self.width.max(1))
+            .for_each(<[_]>::reverse);
     }
 
     /// Mirrors rows.
@@ -19,12 +21,17 @@ impl RgbImage {
         let [x, y] = [offset(parts[0], self.width), offset(parts[1], self.height)];
         let source = |at: usize, offset: i64, size: usize| {
             let from = at as i64 - offset;
-            let from = if wrap { from.rem_euclid(size as i64) } else { from };
+            let from = if wrap {
+                from.rem_euclid(size as i64)
+            } else {
+                from
+            };
             usize::try_from(from).ok()
         };
         *self = self.map_places(|column, row| {
             let from = source(column, x, self.width).zip(source(row, y, self.height));
-            from.and_then(|(column, row)| self.get(column, row)).unwrap_or(BLACK)
+            from.and_then(|(column, row)| self.get(column, row))
+                .unwrap_or(BLACK)
         });
     }
 
@@ -45,9 +52,13 @@ impl RgbImage {
         let middle = [self.width as f64 / 2.0, self.height as f64 / 2.0];
         let coordinate = |value: f64| (value > -1.0).then_some(value as usize);
         *self = self.map_places(|column, row| {
-            let [x, y] = source(column as f64 + 0.5 - middle[0], row as f64 + 0.5 - middle[1]);
+            let [x, y] = source(
+                column as f64 + 0.5 - middle[0],
+                row as f64 + 0.5 - middle[1],
+            );
             let from = coordinate(middle[0] + x).zip(coordinate(middle[1] + y));
-            from.and_then(|(column, row)| self.get(column, row)).unwrap_or(BLACK)
+            from.and_then(|(column, row)| self.get(column, row))
+                .unwrap_or(BLACK)
         });
     }
 }
@@ -71,17 +82,39 @@ mod tests {
 
     #[test]
     fn content_moves_right_and_up() {
-        assert_eq!(after(&[(0, 0)], |image| image.shift([0.25, 0.0], false)), [(1, 0)]);
-        assert_eq!(after(&[(3, 0)], |image| image.shift([0.25, 0.0], false)), []);
-        assert_eq!(after(&[(3, 0)], |image| image.shift([0.25, 0.0], true)), [(0, 0)]);
-        assert_eq!(after(&[(1, 1)], |image| image.shift([-0.25, 0.375], false)), [(0, 3)]);
-        assert_eq!(after(&[(1, 1)], |image| image.shift([9.0, 0.0], true)), [(1, 1)]);
-        assert_eq!(after(&[(1, 1)], |image| image.shift([f64::NAN, f64::NEG_INFINITY], false)), []);
+        assert_eq!(
+            after(&[(0, 0)], |image| image.shift([0.25, 0.0], false)),
+            [(1, 0)]
+        );
+        assert_eq!(
+            after(&[(3, 0)], |image| image.shift([0.25, 0.0], false)),
+            []
+        );
+        assert_eq!(
+            after(&[(3, 0)], |image| image.shift([0.25, 0.0], true)),
+            [(0, 0)]
+        );
+        assert_eq!(
+            after(&[(1, 1)], |image| image.shift([-0.25, 0.375], false)),
+            [(0, 3)]
+        );
+        assert_eq!(
+            after(&[(1, 1)], |image| image.shift([9.0, 0.0], true)),
+            [(1, 1)]
+        );
+        assert_eq!(
+            after(&[(1, 1)], |image| image
+                .shift([f64::NAN, f64::NEG_INFINITY], false)),
+            []
+        );
     }
 
     #[test]
     fn a_quarter_turn() {
-        assert_eq!(after(&[(0, 3)], |image| image.rotate(std::f64::consts::FRAC_PI_2)), [(0, 0)]);
+        assert_eq!(
+            after(&[(0, 3)], |image| image.rotate(std::f64::consts::FRAC_PI_2)),
+            [(0, 0)]
+        );
         assert_eq!(after(&[(0, 3)], |image| image.rotate(f64::NAN)), []);
     }
 

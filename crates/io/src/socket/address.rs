@@ -66,7 +66,9 @@ impl SocketAddress {
     }
 
     pub(super) fn of_any(address: Option<SocketAddrAny>) -> Self {
-        let Some(address) = address else { return Self::Path(Vec::new()) };
+        let Some(address) = address else {
+            return Self::Path(Vec::new());
+        };
         match SocketAddr::try_from(address.clone()) {
             Ok(address) => Self::Net(address),
             Err(_) => Self::Path(any_path_bytes(address)),
@@ -84,13 +86,17 @@ impl SocketAddress {
 #[cfg(unix)]
 fn path_bytes(address: &SockAddr) -> Vec<u8> {
     use std::os::unix::ffi::OsStrExt;
-    address.as_pathname().map(|path| path.as_os_str().as_bytes().to_vec()).unwrap_or_default()
+    address
+        .as_pathname()
+        .map(|path| path.as_os_str().as_bytes().to_vec())
+        .unwrap_or_default()
 }
 
 #[cfg(unix)]
 fn any_path_bytes(address: SocketAddrAny) -> Vec<u8> {
     let path = rustix::net::SocketAddrUnix::try_from(address).ok();
-    path.and_then(|address| address.path().map(|path| path.to_bytes().to_vec())).unwrap_or_default()
+    path.and_then(|address| address.path().map(|path| path.to_bytes().to_vec()))
+        .unwrap_or_default()
 }
 
 #[cfg(unix)]

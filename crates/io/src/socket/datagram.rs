@@ -25,8 +25,16 @@ pub struct Datagram {
 impl Datagram {
     /// A datagram socket for addresses of a family; opened at once unless the first address decides on the family.
     pub fn new(family: Family) -> Result<Self, Failure> {
-        let socket = family.domain().map(|domain| open(domain, Type::DGRAM)).transpose()?;
-        Ok(Self { connected: false, timeout: Timeout::default(), family, socket })
+        let socket = family
+            .domain()
+            .map(|domain| open(domain, Type::DGRAM))
+            .transpose()?;
+        Ok(Self {
+            connected: false,
+            timeout: Timeout::default(),
+            family,
+            socket,
+        })
     }
 
     /// The socket of the system; None before it is opened and after it was closed.
@@ -55,7 +63,9 @@ impl Datagram {
 
     /// Speaks to the first of these places only.
     pub fn connect(&mut self, places: &[SocketAddress]) -> Result<(), Failure> {
-        self.try_each(places, |socket, place| Ok(socket.connect(&place.address()?)?))?;
+        self.try_each(places, |socket, place| {
+            Ok(socket.connect(&place.address()?)?)
+        })?;
         self.connected = true;
         Ok(())
     }
@@ -71,7 +81,9 @@ impl Datagram {
             if i > 0 && !is_open {
                 self.socket = None;
             }
-            result = self.open_for(place).and_then(|()| attempt(self.opened()?, place));
+            result = self
+                .open_for(place)
+                .and_then(|()| attempt(self.opened()?, place));
             if result.is_ok() {
                 break;
             }
@@ -96,7 +108,12 @@ impl Datagram {
     }
 
     /// Sends to the peer, or to `place`.
-    pub fn send(&mut self, data: &[u8], place: Option<&SocketAddress>, wait: &Wait<'_>) -> Result<usize, Failure> {
+    pub fn send(
+        &mut self,
+        data: &[u8],
+        place: Option<&SocketAddress>,
+        wait: &Wait<'_>,
+    ) -> Result<usize, Failure> {
         let address = place.map(SocketAddress::address).transpose()?;
         if let Some(place) = place {
             self.open_for(place)?;
@@ -116,7 +133,11 @@ impl Datagram {
     }
 
     /// The next datagram and where it came from. What is longer than `size` is lost.
-    pub fn receive(&self, size: usize, wait: &Wait<'_>) -> Result<(Vec<u8>, SocketAddress), Failure> {
+    pub fn receive(
+        &self,
+        size: usize,
+        wait: &Wait<'_>,
+    ) -> Result<(Vec<u8>, SocketAddress), Failure> {
         let socket = self.socket.as_ref().ok_or(Failure::Closed)?;
         let mut data = vec![0; size.min(MAX_DATAGRAM)];
         loop {

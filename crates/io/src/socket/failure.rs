@@ -65,13 +65,18 @@ impl From<Errno> for Failure {
 /// The system's text of an error, without the number that Rust adds.
 pub(super) fn system_words(error: &io::Error) -> String {
     let text = error.to_string();
-    text.split(" (os error").next().unwrap_or_default().to_owned()
+    text.split(" (os error")
+        .next()
+        .unwrap_or_default()
+        .to_owned()
 }
 
 /// Whether a call that never blocks has to be repeated once the socket is ready.
 pub(super) fn is_pending(error: &io::Error) -> bool {
-    matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::Interrupted)
-        || Errno::from_io_error(error) == Some(Errno::INPROGRESS)
+    matches!(
+        error.kind(),
+        io::ErrorKind::WouldBlock | io::ErrorKind::Interrupted
+    ) || Errno::from_io_error(error) == Some(Errno::INPROGRESS)
 }
 
 #[cfg(test)]

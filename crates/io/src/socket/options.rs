@@ -56,16 +56,22 @@ pub fn option(socket: &Socket, name: &str) -> Option<io::Result<OptionValue>> {
             on: linger.is_some(),
             timeout: linger.unwrap_or_default().as_secs_f64(),
         }),
-        "error" => socket.take_error().map(|error| OptionValue::Error(error.map(|e| super::failure::system_words(&e)))),
+        "error" => socket
+            .take_error()
+            .map(|error| OptionValue::Error(error.map(|e| super::failure::system_words(&e)))),
         "ipv6-v6only" => socket.only_v6().map(Bool),
-        "ip-multicast-if" => socket.multicast_if_v4().map(|address| Text(address.to_string())),
+        "ip-multicast-if" => socket
+            .multicast_if_v4()
+            .map(|address| Text(address.to_string())),
         "ip-multicast-loop" => socket.multicast_loop_v4().map(Bool),
         "ip-multicast-ttl" => number(socket.multicast_ttl_v4()),
         "ipv6-multicast-loop" => socket.multicast_loop_v6().map(Bool),
         "ipv6-multicast-hops" => number(socket.multicast_hops_v6()),
         "ipv6-unicast-hops" => number(socket.unicast_hops_v6()),
         #[cfg(any(target_os = "android", target_os = "linux"))]
-        "bindtodevice" => socket.device().map(|name| Text(String::from_utf8_lossy(&name.unwrap_or_default()).into())),
+        "bindtodevice" => socket
+            .device()
+            .map(|name| Text(String::from_utf8_lossy(&name.unwrap_or_default()).into())),
         _ => return None,
     })
 }
@@ -81,7 +87,9 @@ pub fn set_option(socket: &Socket, name: &str, value: &OptionValue) -> Option<io
         ("ipv6-v6only", Bool(on)) => socket.set_only_v6(*on),
         ("ip-multicast-loop", Bool(on)) => socket.set_multicast_loop_v4(*on),
         ("ipv6-multicast-loop", Bool(on)) => socket.set_multicast_loop_v6(*on),
-        ("ip-multicast-if", Text(address)) => address_of(address).and_then(|a| socket.set_multicast_if_v4(&a)),
+        ("ip-multicast-if", Text(address)) => {
+            address_of(address).and_then(|a| socket.set_multicast_if_v4(&a))
+        }
         #[cfg(any(target_os = "android", target_os = "linux"))]
         ("bindtodevice", Text(name)) => {
             socket.bind_device((!name.is_empty() && name != "*").then_some(name.as_bytes()))
@@ -90,7 +98,9 @@ pub fn set_option(socket: &Socket, name: &str, value: &OptionValue) -> Option<io
             socket.set_linger(on.then_some(Duration::from_secs(whole(*timeout).into())))
         }
         (_, Number(number)) => return set_number(socket, name, whole(*number)),
-        (_, OptionValue::Membership { group, interface }) => return change_membership(socket, name, group, interface),
+        (_, OptionValue::Membership { group, interface }) => {
+            return change_membership(socket, name, group, interface);
+        }
         _ => return None,
     })
 }
@@ -110,7 +120,12 @@ fn set_number(socket: &Socket, name: &str, number: u32) -> Option<io::Result<()>
     })
 }
 
-fn change_membership(socket: &Socket, name: &str, group: &str, interface: &str) -> Option<io::Result<()>> {
+fn change_membership(
+    socket: &Socket,
+    name: &str,
+    group: &str,
+    interface: &str,
+) -> Option<io::Result<()>> {
     let v4 = || Ok::<_, io::Error>((address_of(group)?, address_of(interface)?));
     let v6 = || {
         let group = group.parse::<Ipv6Addr>().map_err(|_| invalid())?;
@@ -120,7 +135,9 @@ fn change_membership(socket: &Socket, name: &str, group: &str, interface: &str) 
         "ip-add-membership" => v4().and_then(|(group, at)| socket.join_multicast_v4(&group, &at)),
         "ip-drop-membership" => v4().and_then(|(group, at)| socket.leave_multicast_v4(&group, &at)),
         "ipv6-add-membership" => v6().and_then(|(group, at)| socket.join_multicast_v6(&group, at)),
-        "ipv6-drop-membership" => v6().and_then(|(group, at)| socket.leave_multicast_v6(&group, at)),
+        "ipv6-drop-membership" => {
+            v6().and_then(|(group, at)| socket.leave_multicast_v6(&group, at))
+        }
         _ => return None,
     })
 }
@@ -131,7 +148,11 @@ fn whole(number: f64) -> u32 {
 }
 
 fn address_of(text: &str) -> io::Result<Ipv4Addr> {
-    if text == "*" { Ok(Ipv4Addr::UNSPECIFIED) } else { text.parse().map_err(|_| invalid()) }
+    if text == "*" {
+        Ok(Ipv4Addr::UNSPECIFIED)
+    } else {
+        text.parse().map_err(|_| invalid())
+    }
 }
 
 fn invalid() -> io::Error {

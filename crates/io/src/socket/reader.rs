@@ -119,20 +119,28 @@ impl Reader {
     }
 
     /// Has something waiting.
-    fn ensure(&mut self, fill: &mut impl FnMut(&mut [u8]) -> Result<usize, Failure>) -> Result<(), Failure> {
+    fn ensure(
+        &mut self,
+        fill: &mut impl FnMut(&mut [u8]) -> Result<usize, Failure>,
+    ) -> Result<(), Failure> {
         if !self.is_empty() {
             return Ok(());
         }
         self.start = 0;
         self.buffer.resize(BUFFER_SIZE, 0);
         let filled = fill(&mut self.buffer);
-        self.buffer.truncate(filled.as_ref().map_or(0, |&count| count));
+        self.buffer
+            .truncate(filled.as_ref().map_or(0, |&count| count));
         filled.map(drop)
     }
 }
 
 fn within_bounds(out: &[u8]) -> Result<(), Failure> {
-    if out.len() > MAX_TEXT { Err(Failure::TooLong) } else { Ok(()) }
+    if out.len() > MAX_TEXT {
+        Err(Failure::TooLong)
+    } else {
+        Ok(())
+    }
 }
 
 fn push_without_cr(bytes: &[u8], out: &mut Vec<u8>) {
@@ -149,7 +157,11 @@ mod tests {
     use super::*;
 
     /// Reads from a peer that sends `parts` and closes.
-    fn read(reader: &mut Reader, parts: &mut Vec<&[u8]>, pattern: Pattern) -> (Vec<u8>, Result<(), Failure>) {
+    fn read(
+        reader: &mut Reader,
+        parts: &mut Vec<&[u8]>,
+        pattern: Pattern,
+    ) -> (Vec<u8>, Result<(), Failure>) {
         let mut out = Vec::new();
         let result = reader.read(pattern, &mut out, |space| {
             if parts.is_empty() {
@@ -165,20 +177,44 @@ mod tests {
     #[test]
     fn lines_lose_their_end_and_every_cr() {
         let (mut reader, mut parts) = (Reader::default(), vec![&b"ab\rc"[..], b"d\r", b"\n\nrest"]);
-        assert_eq!(read(&mut reader, &mut parts, Pattern::Line), (b"abcd".to_vec(), Ok(())));
-        assert_eq!(read(&mut reader, &mut parts, Pattern::Line), (Vec::new(), Ok(())));
-        assert_eq!(read(&mut reader, &mut parts, Pattern::Line), (b"rest".to_vec(), Err(Failure::Closed)));
+        assert_eq!(
+            read(&mut reader, &mut parts, Pattern::Line),
+            (b"abcd".to_vec(), Ok(()))
+        );
+        assert_eq!(
+            read(&mut reader, &mut parts, Pattern::Line),
+            (Vec::new(), Ok(()))
+        );
+        assert_eq!(
+            read(&mut reader, &mut parts, Pattern::Line),
+            (b"rest".to_vec(), Err(Failure::Closed))
+        );
         assert_eq!(reader.received, 12);
     }
 
     #[test]
     fn counts_and_rests_end_where_they_should() {
         let (mut reader, mut parts) = (Reader::default(), vec![&b"abc"[..], b"def"]);
-        assert_eq!(read(&mut reader, &mut parts, Pattern::Count(4)), (b"abcd".to_vec(), Ok(())));
-        assert_eq!(read(&mut reader, &mut parts, Pattern::Count(0)), (Vec::new(), Ok(())));
+        assert_eq!(
+            read(&mut reader, &mut parts, Pattern::Count(4)),
+            (b"abcd".to_vec(), Ok(()))
+        );
+        assert_eq!(
+            read(&mut reader, &mut parts, Pattern::Count(0)),
+            (Vec::new(), Ok(()))
+        );
         assert!(!reader.is_empty());
-        assert_eq!(read(&mut reader, &mut parts, Pattern::All), (b"ef".to_vec(), Ok(())));
-        assert_eq!(read(&mut reader, &mut parts, Pattern::All), (Vec::new(), Err(Failure::Closed)));
-        assert_eq!(read(&mut reader, &mut parts, Pattern::Count(usize::MAX)), (Vec::new(), Err(Failure::Closed)));
+        assert_eq!(
+            read(&mut reader, &mut parts, Pattern::All),
+            (b"ef".to_vec(), Ok(()))
+        );
+        assert_eq!(
+            read(&mut reader, &mut parts, Pattern::All),
+            (Vec::new(), Err(Failure::Closed))
+        );
+        assert_eq!(
+            read(&mut reader, &mut parts, Pattern::Count(usize::MAX)),
+            (Vec::new(), Err(Failure::Closed))
+        );
     }
 }

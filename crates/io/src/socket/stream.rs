@@ -80,7 +80,11 @@ impl Stream {
 
     /// Moves the stream to another object; this one has no socket any more.
     pub fn handed_over(&mut self) -> Self {
-        let empty = Self { role: self.role, timeout: self.timeout, ..Self::unopened(self.family) };
+        let empty = Self {
+            role: self.role,
+            timeout: self.timeout,
+            ..Self::unopened(self.family)
+        };
         std::mem::replace(self, empty)
     }
 
@@ -110,14 +114,18 @@ impl Stream {
 
     /// Binds to the first address that lets it.
     pub fn bind(&mut self, places: &[SocketAddress]) -> Result<(), Failure> {
-        self.try_each(places, false, |stream, address| Ok(stream.opened()?.bind(address)?))
+        self.try_each(places, false, |stream, address| {
+            Ok(stream.opened()?.bind(address)?)
+        })
     }
 
     /// Connects to the first address that answers.
     pub fn connect(&mut self, places: &[SocketAddress], wait: &Wait<'_>) -> Result<(), Failure> {
         // Set even when connecting times out: the system continues to establish the connection.
         self.role = Role::Client;
-        self.try_each(places, wait.is_zero(), |stream, address| stream.connect_to(address, wait))
+        self.try_each(places, wait.is_zero(), |stream, address| {
+            stream.connect_to(address, wait)
+        })
     }
 
     /// Tries one place after the other, each with a socket of its own if there was none. A time-out may be the last word.
@@ -134,7 +142,9 @@ impl Stream {
                 self.socket = None;
             }
             let address = place.address()?;
-            result = self.open_for(&address).and_then(|()| attempt(self, &address));
+            result = self
+                .open_for(&address)
+                .and_then(|()| attempt(self, &address));
             match result {
                 Ok(()) | Err(Failure::Interrupted) => break,
                 Err(Failure::Timeout) if is_hasty => break,
@@ -193,8 +203,18 @@ impl Stream {
     }
 
     /// Appends to `out` what `pattern` requests, or what came before a failure.
-    pub fn receive(&mut self, pattern: Pattern, out: &mut Vec<u8>, wait: &Wait<'_>) -> Result<(), Failure> {
-        let Self { reader, socket, tls, .. } = self;
+    pub fn receive(
+        &mut self,
+        pattern: Pattern,
+        out: &mut Vec<u8>,
+        wait: &Wait<'_>,
+    ) -> Result<(), Failure> {
+        let Self {
+            reader,
+            socket,
+            tls,
+            ..
+        } = self;
         let socket = socket.as_ref().ok_or(Failure::Closed)?;
         reader.read(pattern, out, |space| match tls {
             Some(tls) => tls.read(socket, space, wait),
@@ -204,7 +224,9 @@ impl Stream {
 
     /// Sends everything, or returns how much was sent.
     pub fn send(&mut self, data: &[u8], wait: &Wait<'_>) -> (usize, Result<(), Failure>) {
-        let Some(socket) = &self.socket else { return (0, Err(Failure::Closed)) };
+        let Some(socket) = &self.socket else {
+            return (0, Err(Failure::Closed));
+        };
         let mut count = 0;
         let mut result = Ok(());
         while count < data.len() && result.is_ok() {
@@ -231,7 +253,8 @@ impl Stream {
 
     /// Whether it has no address yet; the system chooses one when it becomes a server.
     pub fn is_unbound(&self) -> bool {
-        self.local().is_ok_and(|place| matches!(place, SocketAddress::Net(address) if address.port() == 0))
+        self.local()
+            .is_ok_and(|place| matches!(place, SocketAddress::Net(address) if address.port() == 0))
     }
 
     /// The own address.
@@ -247,7 +270,11 @@ impl Stream {
     /// Bytes received and sent, and seconds since the object was made.
     pub fn stats(&self) -> (f64, f64, f64) {
         let received = self.received_before + self.reader.received as f64;
-        (received, self.sent, self.age_before + self.birth.elapsed().as_secs_f64())
+        (
+            received,
+            self.sent,
+            self.age_before + self.birth.elapsed().as_secs_f64(),
+        )
     }
 
     /// Sets the values of [`stats`](Self::stats).

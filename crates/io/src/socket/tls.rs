@@ -10,8 +10,8 @@ use rustls::crypto::{CryptoProvider, ring};
 use rustls::pki_types::pem::PemObject;
 use rustls::pki_types::{CertificateDer, PrivateKeyDer, ServerName, UnixTime};
 use rustls::{
-    ClientConfig, ClientConnection, Connection, DigitallySignedStruct, RootCertStore, ServerConfig, ServerConnection,
-    SignatureScheme,
+    ClientConfig, ClientConnection, Connection, DigitallySignedStruct, RootCertStore, ServerConfig,
+    ServerConnection, SignatureScheme,
 };
 
 use super::failure::is_pending;
@@ -31,7 +31,12 @@ impl Tls {
     }
 
     /// Some bytes, at least one.
-    pub(super) fn read(&mut self, socket: &Socket, space: &mut [u8], wait: &Wait<'_>) -> Result<usize, Failure> {
+    pub(super) fn read(
+        &mut self,
+        socket: &Socket,
+        space: &mut [u8],
+        wait: &Wait<'_>,
+    ) -> Result<usize, Failure> {
         loop {
             match self.connection.reader().read(space) {
                 Ok(0) => return Err(Failure::Closed),
@@ -41,7 +46,9 @@ impl Tls {
                 }
                 Err(error) if error.kind() == io::ErrorKind::WouldBlock => {}
                 // Many servers close the connection without a TLS close_notify.
-                Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Err(Failure::Closed),
+                Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
+                    return Err(Failure::Closed);
+                }
                 Err(error) => return Err(error.into()),
             }
             self.flush(socket, wait)?;
@@ -50,7 +57,12 @@ impl Tls {
     }
 
     /// Sends some bytes, at least one.
-    pub(super) fn write(&mut self, socket: &Socket, data: &[u8], wait: &Wait<'_>) -> Result<usize, Failure> {
+    pub(super) fn write(
+        &mut self,
+        socket: &Socket,
+        data: &[u8],
+        wait: &Wait<'_>,
+    ) -> Result<usize, Failure> {
         // Bytes that were encrypted before are sent first; bytes that are encrypted now count as sent.
         self.flush(socket, wait)?;
         let count = self.connection.writer().write(data)?;
@@ -126,14 +138,20 @@ impl Tls {
 impl Stream {
     /// Switches the connection to TLS; the handshake comes next.
     pub fn wrap(&mut self, settings: &TlsSettings) -> Result<(), Failure> {
-        self.tls = Some(Box::new(Tls { connection: connection(settings)?, waiting: 0 }));
+        self.tls = Some(Box::new(Tls {
+            connection: connection(settings)?,
+            waiting: 0,
+        }));
         Ok(())
     }
 
     /// Agrees with the other side on keys.
     pub fn shake_hands(&mut self, wait: &Wait<'_>) -> Result<(), Failure> {
         let socket = self.socket().ok_or(Failure::Closed)?.clone();
-        let tls = self.tls.as_mut().ok_or_else(|| Failure::words("no TLS connection"))?;
+        let tls = self
+            .tls
+            .as_mut()
+            .ok_or_else(|| Failure::words("no TLS connection"))?;
         tls.shake_hands(&socket, wait)
     }
 
@@ -147,50 +165,77 @@ fn connection(settings: &TlsSettings) -> Result<Connection, Failure> {
     let provider = Arc::new(ring::default_provider());
     if settings.is_server {
         let config = server_config(settings, provider)?;
-        return Ok(ServerConnection::new(Arc::new(config)).map_err(tls_failure)?.into());
+        return Ok(ServerConnection::new(Arc::new(config))
+            .map_err(tls_failure)?
+            .into());
     }
     let config = client_config(settings, provider)?;
-    Ok(ClientConnection::new(Arc::new(config), server_name(settings)?).map_err(tls_failure)?.into())
+    Ok(
+        ClientConnection::new(Arc::new(config), server_name(settings)?)
+            .map_err(tls_failure)?
+            .into(),
+    )
 }
 
 /// Without a name there is nothing a certificate could be compared with.
 fn server_name(settings: &TlsSettings) -> Result<ServerName<'static>, Failure> {
     match (settings.host.as_str(), settings.verify) {
         ("", Verify::Nobody) => Ok(ServerName::IpAddress(IpAddr::from([0, 0, 0, 0]).into())),
-        ("", Verify::Peer) => Err(Failure::words("the name of the server is needed: sni(name) before dohandshake()")),
-        (host, _) => ServerName::try_from(host.to_owned()).map_err(|_| Failure::words("invalid server name")),
+        ("", Verify::Peer) => Err(Failure::words(
+            "the name of the server is needed: sni(name) before dohandshake()",
+        )),
+        (host, _) => {
+            ServerName::try_from(host.to_owned()).map_err(|_| Failure::words("invalid server name"))
+        }
     }
 }
 
-fn client_config(settings: &TlsSettings, provider: Arc<CryptoProvider>) -> Result<ClientConfig, Failure> {
+fn client_config(
+    settings: &TlsSettings,
+    provider: Arc<CryptoProvider>,
+) -> Result<ClientConfig, Failure> {
     let builder = ClientConfig::builder_with_provider(Arc::clone(&provider));
-    let builder = builder.with_safe_default_protocol_versions().map_err(tls_failure)?;
+    let builder = builder
+        .with_safe_default_protocol_versions()
+        .map_err(tls_failure)?;
     let builder = match settings.verify {
         Verify::Peer => builder.with_root_certificates(trusted(settings.ca_file.as_deref())?),
-        Verify::Nobody => {
-            builder.dangerous().with_custom_certificate_verifier(Arc::new(AcceptAnyCertificate(provider)))
-        }
+        Verify::Nobody => builder
+            .dangerous()
+            .with_custom_certificate_verifier(Arc::new(AcceptAnyCertificate(provider))),
     };
     match own_certificate(settings)? {
-        Some((chain, key)) => builder.with_client_auth_cert(chain, key).map_err(tls_failure),
+        Some((chain, key)) => builder
+            .with_client_auth_cert(chain, key)
+            .map_err(tls_failure),
         None => Ok(builder.with_no_client_auth()),
     }
 }
 
-fn server_config(settings: &TlsSettings, provider: Arc<CryptoProvider>) -> Result<ServerConfig, Failure> {
-    let (chain, key) =
-        own_certificate(settings)?.ok_or_else(|| Failure::words("a server needs a certificate and a key"))?;
+fn server_config(
+    settings: &TlsSettings,
+    provider: Arc<CryptoProvider>,
+) -> Result<ServerConfig, Failure> {
+    let (chain, key) = own_certificate(settings)?
+        .ok_or_else(|| Failure::words("a server needs a certificate and a key"))?;
     let builder = ServerConfig::builder_with_provider(provider);
-    let builder = builder.with_safe_default_protocol_versions().map_err(tls_failure)?;
-    builder.with_no_client_auth().with_single_cert(chain, key).map_err(tls_failure)
+    let builder = builder
+        .with_safe_default_protocol_versions()
+        .map_err(tls_failure)?;
+    builder
+        .with_no_client_auth()
+        .with_single_cert(chain, key)
+        .map_err(tls_failure)
 }
 
 type OwnCertificate = (Vec<CertificateDer<'static>>, PrivateKeyDer<'static>);
 
 fn own_certificate(settings: &TlsSettings) -> Result<Option<OwnCertificate>, Failure> {
-    let (Some(certificate), Some(key)) = (&settings.certificate, &settings.key) else { return Ok(None) };
-    let key =
-        PrivateKeyDer::from_pem_file(key).map_err(|_| Failure::Words(format!("error loading private key ({key})")))?;
+    let (Some(certificate), Some(key)) = (&settings.certificate, &settings.key) else {
+        return Ok(None);
+    };
+    let key = PrivateKeyDer::from_pem_file(key)
+        .map_err(|_| Failure::Words(format!("error loading private key ({key})")))?;
     Ok(Some((certificates(certificate)?, key)))
 }
 
@@ -198,7 +243,10 @@ fn certificates(file: &str) -> Result<Vec<CertificateDer<'static>>, Failure> {
     let failure = || Failure::Words(format!("error loading certificate ({file})"));
     let reader = BufReader::new(File::open(file).map_err(|_| failure())?);
     let certificates: Result<Vec<_>, _> = CertificateDer::pem_reader_iter(reader).collect();
-    certificates.ok().filter(|list| !list.is_empty()).ok_or_else(failure)
+    certificates
+        .ok()
+        .filter(|list| !list.is_empty())
+        .ok_or_else(failure)
 }
 
 /// The certificates of `file`, or those of the system.
@@ -210,7 +258,9 @@ fn trusted(file: Option<&str>) -> Result<RootCertStore, Failure> {
     };
     store.add_parsable_certificates(certificates);
     if store.is_empty() {
-        return Err(Failure::words("this system has no certificates to trust: name a file with 'cafile'"));
+        return Err(Failure::words(
+            "this system has no certificates to trust: name a file with 'cafile'",
+        ));
     }
     Ok(store)
 }

@@ -10,7 +10,12 @@ impl Tls {
         match *self {}
     }
 
-    pub(super) fn read(&mut self, _: &Socket, _: &mut [u8], _: &Wait<'_>) -> Result<usize, Failure> {
+    pub(super) fn read(
+        &mut self,
+        _: &Socket,
+        _: &mut [u8],
+        _: &Wait<'_>,
+    ) -> Result<usize, Failure> {
         match *self {}
     }
 

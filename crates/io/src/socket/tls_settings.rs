@@ -1,5 +1,11 @@
 //! How a connection of TLS is to be.
-#![cfg_attr(not(feature = "tls"), allow(dead_code, reason = "scripts set them, and learn later that there is no TLS"))]
+#![cfg_attr(
+    not(feature = "tls"),
+    allow(
+        dead_code,
+        reason = "scripts set them, and learn later that there is no TLS"
+    )
+)]
 
 /// Whether the other side must prove who it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

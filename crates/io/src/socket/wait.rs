@@ -24,7 +24,10 @@ pub struct Timeout {
 
 impl Default for Timeout {
     fn default() -> Self {
-        Self { block: -1.0, total: -1.0 }
+        Self {
+            block: -1.0,
+            total: -1.0,
+        }
     }
 }
 
@@ -39,7 +42,11 @@ pub struct Wait<'a> {
 impl<'a> Wait<'a> {
     /// An operation begins. Once `stop` is set, it waits no longer.
     pub fn begin(timeout: Timeout, stop: &'a AtomicBool) -> Self {
-        Self { timeout, began: (timeout.total >= 0.0).then(now), stop }
+        Self {
+            timeout,
+            began: (timeout.total >= 0.0).then(now),
+            stop,
+        }
     }
 
     /// Whether the operation may not wait at all.
@@ -67,7 +74,11 @@ impl<'a> Wait<'a> {
 
     fn until(&self, socket: &Socket, events: PollFlags) -> Result<(), Failure> {
         let mut waiting = [PollFd::new(socket, events)];
-        if wait_for(&mut waiting, self.limit(), self.stop)? { Ok(()) } else { Err(Failure::Timeout) }
+        if wait_for(&mut waiting, self.limit(), self.stop)? {
+            Ok(())
+        } else {
+            Err(Failure::Timeout)
+        }
     }
 }
 
@@ -78,11 +89,22 @@ pub fn select(
     limit: f64,
     stop: &AtomicBool,
 ) -> Result<(Vec<bool>, Vec<bool>), Failure> {
-    let readers = readers.iter().map(|socket| PollFd::new(socket, PollFlags::IN));
+    let readers = readers
+        .iter()
+        .map(|socket| PollFd::new(socket, PollFlags::IN));
     let count = readers.len();
-    let mut waiting: Vec<_> = readers.chain(writers.iter().map(|socket| PollFd::new(socket, PollFlags::OUT))).collect();
+    let mut waiting: Vec<_> = readers
+        .chain(
+            writers
+                .iter()
+                .map(|socket| PollFd::new(socket, PollFlags::OUT)),
+        )
+        .collect();
     wait_for(&mut waiting, duration(limit), stop)?;
-    let mut ready: Vec<bool> = waiting.iter().map(|one| !one.revents().is_empty()).collect();
+    let mut ready: Vec<bool> = waiting
+        .iter()
+        .map(|one| !one.revents().is_empty())
+        .collect();
     let writable = ready.split_off(count);
     Ok((ready, writable))
 }
@@ -90,16 +112,28 @@ pub fn select(
 /// Does nothing for that many seconds.
 pub fn sleep(seconds: f64, stop: &AtomicBool) -> Result<(), Failure> {
     let limit = duration(seconds).unwrap_or_default();
-    if limit.is_zero() { Ok(()) } else { wait_for(&mut [], Some(limit), stop).map(drop) }
+    if limit.is_zero() {
+        Ok(())
+    } else {
+        wait_for(&mut [], Some(limit), stop).map(drop)
+    }
 }
 
 /// Whether one of them got ready in time.
-fn wait_for(waiting: &mut [PollFd<'_>], limit: Option<Duration>, stop: &AtomicBool) -> Result<bool, Failure> {
+fn wait_for(
+    waiting: &mut [PollFd<'_>],
+    limit: Option<Duration>,
+    stop: &AtomicBool,
+) -> Result<bool, Failure> {
     let began = now();
     loop {
         let left = limit.map(|limit| limit.saturating_sub(began.elapsed()));
         let stopping = stop.load(Ordering::Relaxed);
-        let slice = if stopping { Duration::ZERO } else { left.unwrap_or(SLICE).min(SLICE) };
+        let slice = if stopping {
+            Duration::ZERO
+        } else {
+            left.unwrap_or(SLICE).min(SLICE)
+        };
         match poll(waiting, Some(&timespec(slice))) {
             Ok(0) if left.is_some_and(|left| left <= slice) => return Ok(false),
             Ok(0) if stopping => return Err(Failure::Interrupted),
@@ -111,7 +145,10 @@ fn wait_for(waiting: &mut [PollFd<'_>], limit: Option<Duration>, stop: &AtomicBo
 }
 
 fn timespec(duration: Duration) -> Timespec {
-    Timespec { tv_sec: duration.as_secs().cast_signed(), tv_nsec: duration.subsec_nanos().into() }
+    Timespec {
+        tv_sec: duration.as_secs().cast_signed(),
+        tv_nsec: duration.subsec_nanos().into(),
+    }
 }
 
 /// None: without limit.
@@ -120,7 +157,10 @@ fn duration(seconds: f64) -> Option<Duration> {
 }
 
 /// Timeouts are what scripts bring into a simulation from outside, like all that comes through a socket.
-#[allow(clippy::disallowed_methods, reason = "timeouts of sockets are times of the wall clock")]
+#[allow(
+    clippy::disallowed_methods,
+    reason = "timeouts of sockets are times of the wall clock"
+)]
 pub(super) fn now() -> Instant {
     Instant::now()
 }

@@ -25,12 +25,19 @@ impl Chunks {
         let mut taken = 0;
         let is_complete = loop {
             let rest = &received[taken..];
-            let step = if self.has_ended { trailer(rest)? } else { self.chunk(rest)? };
+            let step = if self.has_ended {
+                trailer(rest)?
+            } else {
+                self.chunk(rest)?
+            };
             match step {
                 Some(length) => taken += length,
                 None => break false,
             }
-            if self.has_ended && received[..taken].ends_with(LINE_END) && step == Some(LINE_END.len()) {
+            if self.has_ended
+                && received[..taken].ends_with(LINE_END)
+                && step == Some(LINE_END.len())
+            {
                 break true;
             }
         };
@@ -54,9 +61,13 @@ impl Chunks {
             return Ok(Some(head));
         }
         let room = (MAX_MESSAGE - self.body.len()) as u64;
-        let size = usize::try_from(size).ok().filter(|&size| size as u64 <= room);
+        let size = usize::try_from(size)
+            .ok()
+            .filter(|&size| size as u64 <= room);
         let end = head + size.ok_or(StatusCode::PAYLOAD_TOO_LARGE)?;
-        let Some(behind) = bytes.get(end..end + LINE_END.len()) else { return Ok(None) };
+        let Some(behind) = bytes.get(end..end + LINE_END.len()) else {
+            return Ok(None);
+        };
         if behind != LINE_END {
             return Err(StatusCode::BAD_REQUEST);
         }
@@ -67,7 +78,9 @@ impl Chunks {
 
 /// Length of the line at the front, of those behind the last chunk: headers that are ignored, and an empty one at the end.
 fn trailer(bytes: &[u8]) -> Result<Option<usize>, StatusCode> {
-    let end = bytes.windows(LINE_END.len()).position(|pair| pair == LINE_END);
+    let end = bytes
+        .windows(LINE_END.len())
+        .position(|pair| pair == LINE_END);
     match end {
         Some(end) => Ok(Some(end + LINE_END.len())),
         None if bytes.len() < MAX_HEAD => Ok(None),
@@ -85,7 +98,10 @@ mod tests {
         let mut pieces = text.as_bytes().chunks(piece);
         while let Some(bytes) = pieces.next() {
             received.extend_from_slice(bytes);
-            if chunks.take(&mut received).map_err(|status| status.as_u16())? {
+            if chunks
+                .take(&mut received)
+                .map_err(|status| status.as_u16())?
+            {
                 received.extend(pieces.flatten());
                 let text = |bytes| String::from_utf8(bytes).expect("it is text");
                 return Ok(Some((text(chunks.into_body()), text(received))));
@@ -99,13 +115,23 @@ mod tests {
         for (text, body) in [
             ("0\r\n\r\n", ""),
             ("5\r\nhello\r\n0\r\n\r\n", "hello"),
-            ("2;name=value\r\n\r\n\r\n00A\r\n0123456789\r\n0\r\nTrailer: x\r\n\r\n", "\r\n0123456789"),
+            (
+                "2;name=value\r\n\r\n\r\n00A\r\n0123456789\r\n0\r\nTrailer: x\r\n\r\n",
+                "\r\n0123456789",
+            ),
         ] {
             for piece in 1..=text.len() {
-                assert_eq!(read(text, piece), Ok(Some((body.to_owned(), String::new()))), "{text:?} by {piece}");
+                assert_eq!(
+                    read(text, piece),
+                    Ok(Some((body.to_owned(), String::new()))),
+                    "{text:?} by {piece}"
+                );
             }
             let more = format!("{text}GET");
-            assert_eq!(read(&more, more.len()), Ok(Some((body.to_owned(), "GET".to_owned()))));
+            assert_eq!(
+                read(&more, more.len()),
+                Ok(Some((body.to_owned(), "GET".to_owned())))
+            );
             assert_eq!(read(&text[..text.len() - 1], 1), Ok(None), "{text:?}");
         }
     }

@@ -25,20 +25,42 @@ impl Request {
     /// # Errors
     /// When the address or the user agent is invalid.
     pub fn new(uri: &str, user_agent: &str, connection: Connection) -> Result<Self, String> {
-        let mut handshake = uri.into_client_request().map_err(|error| error.to_string())?;
-        let agent = user_agent.parse().map_err(|_| format!("invalid user agent: {user_agent}"))?;
+        let mut handshake = uri
+            .into_client_request()
+            .map_err(|error| error.to_string())?;
+        let agent = user_agent
+            .parse()
+            .map_err(|_| format!("invalid user agent: {user_agent}"))?;
         handshake.headers_mut().insert(USER_AGENT, agent);
         if !matches!(uri_mode(handshake.uri()), Ok(Mode::Plain)) {
             return Err(format!("only ws:// is supported: {uri}"));
         }
-        let host = handshake.uri().host().filter(|host| !host.is_empty()).ok_or_else(|| format!("no host: {uri}"))?;
-        let host = host.trim_start_matches('[').trim_end_matches(']').to_owned();
+        let host = handshake
+            .uri()
+            .host()
+            .filter(|host| !host.is_empty())
+            .ok_or_else(|| format!("no host: {uri}"))?;
+        let host = host
+            .trim_start_matches('[')
+            .trim_end_matches(']')
+            .to_owned();
         let port = match handshake.uri().port_u16() {
             Some(port) => port,
-            None if handshake.uri().authority().is_some_and(|a| a.as_str().ends_with(a.host())) => 80,
+            None if handshake
+                .uri()
+                .authority()
+                .is_some_and(|a| a.as_str().ends_with(a.host())) =>
+            {
+                80
+            }
             None => return Err(format!("invalid port: {uri}")),
         };
-        Ok(Self { handshake, host, port, connection })
+        Ok(Self {
+            handshake,
+            host,
+            port,
+            connection,
+        })
     }
 
     /// Host and port.
@@ -60,10 +82,13 @@ pub(super) async fn connect(request: Request, reports: Reports) {
 
 async fn open(request: Request) -> Result<WebSocketStream<TcpStream>, WsEvent> {
     let unreachable = |error| WsEvent::Unreachable(request.connection, error);
-    let stream = TcpStream::connect((request.host.as_str(), request.port)).await.map_err(unreachable)?;
+    let stream = TcpStream::connect((request.host.as_str(), request.port))
+        .await
+        .map_err(unreachable)?;
     let _ = stream.set_nodelay(true);
     let answer = client_async_with_config(request.handshake, stream, Some(config())).await;
-    let (socket, _response) = answer.map_err(|error| WsEvent::Fail(request.connection, error.to_string()))?;
+    let (socket, _response) =
+        answer.map_err(|error| WsEvent::Fail(request.connection, error.to_string()))?;
     Ok(socket)
 }
 
@@ -77,9 +102,17 @@ mod tests {
         assert_eq!(place("ws://127.0.0.1:1"), Ok(("127.0.0.1".to_owned(), 1)));
         assert_eq!(place("ws://host/a?b=c"), Ok(("host".to_owned(), 80)));
         assert_eq!(place("ws://[::1]:2/"), Ok(("::1".to_owned(), 2)));
-        for bad in
-            ["", "::", "host", "http://host", "wss://localhost:9", "ws://", "ws://host:99999", "ws://a b", "ws:///x"]
-        {
+        for bad in [
+            "",
+            "::",
+            "host",
+            "http://host",
+            "wss://localhost:9",
+            "ws://",
+            "ws://host:99999",
+            "ws://a b",
+            "ws:///x",
+        ] {
             assert!(place(bad).is_err(), "{bad}");
         }
         assert!(Request::new("ws://host", "a\nb", 1).is_err());

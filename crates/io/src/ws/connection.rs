@@ -45,8 +45,14 @@ pub enum SendError {
 /// The message of an opcode as scripts know it.
 pub(super) fn message(data: Vec<u8>, opcode: i64) -> Result<Message, SendError> {
     match opcode {
-        0 => Ok(Message::Frame(Frame::message(data, OpCode::Data(Data::Continue), true))),
-        1 => Ok(Message::Text(Utf8Bytes::try_from(data).map_err(|_| SendError::Text)?)),
+        0 => Ok(Message::Frame(Frame::message(
+            data,
+            OpCode::Data(Data::Continue),
+            true,
+        ))),
+        1 => Ok(Message::Text(
+            Utf8Bytes::try_from(data).map_err(|_| SendError::Text)?,
+        )),
         2 => Ok(Message::Binary(data.into())),
         _ => Err(SendError::Opcode(opcode)),
     }
@@ -84,7 +90,13 @@ struct Queue {
 fn queue() -> (Outgoing, Queue) {
     let (sender, messages) = unbounded_channel();
     let bytes = Arc::<AtomicUsize>::default();
-    (Outgoing { queue: sender, bytes: bytes.clone() }, Queue { messages, bytes })
+    (
+        Outgoing {
+            queue: sender,
+            bytes: bytes.clone(),
+        },
+        Queue { messages, bytes },
+    )
 }
 
 type Socket = WebSocketStream<TcpStream>;
@@ -108,14 +120,29 @@ pub(super) async fn converse(socket: Socket, connection: Connection, reports: &R
 }
 
 /// Runs until the peer closes, disconnects or violates the protocol; returns the close frame to send.
-async fn read_all(source: &mut SplitStream<Socket>, connection: Connection, reports: &Reports) -> Option<CloseFrame> {
+async fn read_all(
+    source: &mut SplitStream<Socket>,
+    connection: Connection,
+    reports: &Reports,
+) -> Option<CloseFrame> {
     while let Some(message) = source.next().await {
         match message {
-            Ok(Message::Text(text)) => reports.report(WsEvent::Message(connection, text.as_bytes().to_vec())).await,
-            Ok(Message::Binary(bytes)) => reports.report(WsEvent::Message(connection, bytes.into())).await,
+            Ok(Message::Text(text)) => {
+                reports
+                    .report(WsEvent::Message(connection, text.as_bytes().to_vec()))
+                    .await
+            }
+            Ok(Message::Binary(bytes)) => {
+                reports
+                    .report(WsEvent::Message(connection, bytes.into()))
+                    .await
+            }
             Ok(Message::Close(_)) => {
                 // The reply to a close is sent while the end of the stream is awaited.
-                let _ = timeout(HANDSHAKE_TIMEOUT, async { while source.next().await.is_some() {} }).await;
+                let _ = timeout(HANDSHAKE_TIMEOUT, async {
+                    while source.next().await.is_some() {}
+                })
+                .await;
                 return None;
             }
             // Pings are answered by the library.
@@ -133,7 +160,10 @@ fn refusal(error: &Error) -> Option<CloseFrame> {
         Error::Protocol(_) => CloseCode::Protocol,
         _ => return None,
     };
-    Some(CloseFrame { code, reason: Utf8Bytes::default() })
+    Some(CloseFrame {
+        code,
+        reason: Utf8Bytes::default(),
+    })
 }
 
 async fn refuse(mut socket: Socket, refusal: CloseFrame) -> Result<(), Error> {
@@ -166,7 +196,11 @@ async fn write_all(sink: &mut SplitSink<Socket, Message>, mut queue: Queue) -> I
 }
 
 /// One message and those behind it, in as few packets as possible.
-async fn write(sink: &mut SplitSink<Socket, Message>, first: Message, queue: &mut Queue) -> Result<(), Error> {
+async fn write(
+    sink: &mut SplitSink<Socket, Message>,
+    first: Message,
+    queue: &mut Queue,
+) -> Result<(), Error> {
     let mut written = size(&first);
     sink.feed(first).await?;
     while let Ok(next) = queue.messages.try_recv() {
@@ -188,7 +222,10 @@ mod tests {
         assert!(matches!(message(vec![0, 255], 2), Ok(Message::Binary(_))));
         assert!(matches!(message(vec![], 0), Ok(Message::Frame(_))));
         assert_eq!(message(vec![0, 255], 1).err(), Some(SendError::Text));
-        assert_eq!(message(vec![], 3).err().map(|e| e.to_string()).as_deref(), Some("invalid opcode: 3"));
+        assert_eq!(
+            message(vec![], 3).err().map(|e| e.to_string()).as_deref(),
+            Some("invalid opcode: 3")
+        );
     }
 
     #[test]
@@ -198,6 +235,9 @@ mod tests {
         assert_eq!(outgoing.send(large()), Ok(()));
         assert_eq!(outgoing.send(large()), Err(SendError::Full));
         drop(queue);
-        assert_eq!(outgoing.send(Message::Binary(Vec::new().into())), Err(SendError::State));
+        assert_eq!(
+            outgoing.send(Message::Binary(Vec::new().into())),
+            Err(SendError::State)
+        );
     }
 }

@@ -2,7 +2,9 @@
 
 use tokio::sync::oneshot;
 use tokio_tungstenite::tungstenite::http::header::{CONTENT_LENGTH, TRANSFER_ENCODING, UPGRADE};
-use tokio_tungstenite::tungstenite::http::{HeaderMap, HeaderName, HeaderValue, Request, StatusCode};
+use tokio_tungstenite::tungstenite::http::{
+    HeaderMap, HeaderName, HeaderValue, Request, StatusCode,
+};
 
 use super::MAX_MESSAGE;
 
@@ -22,7 +24,10 @@ pub struct Reply {
 impl Reply {
     /// An answer without content.
     pub fn status(status: u16) -> Self {
-        Self { status, data: Vec::new() }
+        Self {
+            status,
+            data: Vec::new(),
+        }
     }
 }
 
@@ -69,8 +74,10 @@ impl Head {
     fn new(request: &httparse::Request<'_, '_>) -> Result<Self, StatusCode> {
         let mut headers = HeaderMap::new();
         for header in request.headers.iter() {
-            let name = HeaderName::from_bytes(header.name.as_bytes()).map_err(|_| StatusCode::BAD_REQUEST)?;
-            let value = HeaderValue::from_bytes(header.value).map_err(|_| StatusCode::BAD_REQUEST)?;
+            let name = HeaderName::from_bytes(header.name.as_bytes())
+                .map_err(|_| StatusCode::BAD_REQUEST)?;
+            let value =
+                HeaderValue::from_bytes(header.value).map_err(|_| StatusCode::BAD_REQUEST)?;
             headers.append(name, value);
         }
         Ok(Self {
@@ -83,7 +90,8 @@ impl Head {
 
     /// Whether this is the beginning of a WebSocket connection.
     pub(super) fn is_upgrade(&self) -> bool {
-        self.header(UPGRADE).is_some_and(|value| value.eq_ignore_ascii_case("websocket"))
+        self.header(UPGRADE)
+            .is_some_and(|value| value.eq_ignore_ascii_case("websocket"))
     }
 
     pub(super) fn header(&self, name: HeaderName) -> Option<&str> {
@@ -112,8 +120,12 @@ impl Head {
         let mut encodings = self.headers.get_all(TRANSFER_ENCODING).iter();
         match (encodings.next(), encodings.next()) {
             (None, _) => Ok(false),
-            (Some(_), _) if self.headers.contains_key(CONTENT_LENGTH) => Err(StatusCode::BAD_REQUEST),
-            (Some(encoding), None) if encoding.as_bytes().eq_ignore_ascii_case(b"chunked") => Ok(true),
+            (Some(_), _) if self.headers.contains_key(CONTENT_LENGTH) => {
+                Err(StatusCode::BAD_REQUEST)
+            }
+            (Some(encoding), None) if encoding.as_bytes().eq_ignore_ascii_case(b"chunked") => {
+                Ok(true)
+            }
             _ => Err(StatusCode::NOT_IMPLEMENTED),
         }
     }
@@ -123,9 +135,13 @@ impl Head {
     /// # Errors
     /// The status to answer with.
     pub(super) fn body_length(&self) -> Result<usize, StatusCode> {
-        let Some(value) = self.headers.get(CONTENT_LENGTH) else { return Ok(0) };
-        let digits =
-            value.to_str().ok().filter(|text| text.bytes().all(|byte| byte.is_ascii_digit()) && !text.is_empty());
+        let Some(value) = self.headers.get(CONTENT_LENGTH) else {
+            return Ok(0);
+        };
+        let digits = value
+            .to_str()
+            .ok()
+            .filter(|text| text.bytes().all(|byte| byte.is_ascii_digit()) && !text.is_empty());
         match digits.ok_or(StatusCode::BAD_REQUEST)?.parse() {
             Ok(length) if length <= MAX_MESSAGE => Ok(length),
             _ => Err(StatusCode::PAYLOAD_TOO_LARGE),
@@ -135,15 +151,21 @@ impl Head {
 
 /// The bytes of an answer to a request for `target`.
 pub(super) fn response(reply: &Reply, target: &str, with_body: bool) -> Vec<u8> {
-    let reason =
-        StatusCode::from_u16(reply.status).ok().and_then(|status| status.canonical_reason()).unwrap_or_default();
+    let reason = StatusCode::from_u16(reply.status)
+        .ok()
+        .and_then(|status| status.canonical_reason())
+        .unwrap_or_default();
     let head = format!(
         "HTTP/1.1 {} {reason}\r\nContent-Type: {}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
         reply.status,
         content_type(target),
         reply.data.len(),
     );
-    let body = if with_body { reply.data.as_slice() } else { &[] };
+    let body = if with_body {
+        reply.data.as_slice()
+    } else {
+        &[]
+    };
     [head.as_bytes(), body].concat()
 }
 
@@ -171,8 +193,12 @@ fn content_type(target: &str) -> &'static str {
     if path.is_empty() || path.ends_with('/') {
         return "text/html; charset=UTF-8";
     }
-    let known = CONTENT_TYPES.iter().find(|(extension, _)| path.ends_with(extension));
-    known.map_or("application/octet-stream", |&(_, content_type)| content_type)
+    let known = CONTENT_TYPES
+        .iter()
+        .find(|(extension, _)| path.ends_with(extension));
+    known.map_or("application/octet-stream", |&(_, content_type)| {
+        content_type
+    })
 }
 
 #[cfg(test)]
@@ -180,7 +206,9 @@ mod tests {
     use super::*;
 
     fn head(text: &str) -> Head {
-        let (head, length) = Head::parse(text.as_bytes()).expect("a good head").expect("a complete head");
+        let (head, length) = Head::parse(text.as_bytes())
+            .expect("a good head")
+            .expect("a complete head");
         assert_eq!(length, text.len());
         head
     }
@@ -188,13 +216,29 @@ mod tests {
     #[test]
     fn heads_of_requests() {
         let page = head("GET /a.js?x=1 HTTP/1.1\r\nHost: h\r\n\r\n");
-        assert_eq!((page.target.as_str(), page.is_upgrade(), page.body_length()), ("/a.js?x=1", false, Ok(0)));
+        assert_eq!(
+            (page.target.as_str(), page.is_upgrade(), page.body_length()),
+            ("/a.js?x=1", false, Ok(0))
+        );
         assert!(head("GET / HTTP/1.1\r\nUpgrade: WebSocket\r\n\r\n").is_upgrade());
-        assert_eq!(head("POST / HTTP/1.0\r\ncontent-length: 3\r\n\r\n").body_length(), Ok(3));
-        assert!(Head::parse(b"GET / HT").expect("so far it is good").is_none());
-        assert_eq!(Head::parse(b"\x16\x03\x01\x02\x00").err(), Some(StatusCode::BAD_REQUEST));
+        assert_eq!(
+            head("POST / HTTP/1.0\r\ncontent-length: 3\r\n\r\n").body_length(),
+            Ok(3)
+        );
+        assert!(
+            Head::parse(b"GET / HT")
+                .expect("so far it is good")
+                .is_none()
+        );
+        assert_eq!(
+            Head::parse(b"\x16\x03\x01\x02\x00").err(),
+            Some(StatusCode::BAD_REQUEST)
+        );
         let endless = vec![b'a'; MAX_HEAD];
-        assert_eq!(Head::parse(&endless).err(), Some(StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE));
+        assert_eq!(
+            Head::parse(&endless).err(),
+            Some(StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE)
+        );
     }
 
     #[test]
@@ -215,10 +259,21 @@ mod tests {
 
     #[test]
     fn lengths_that_cannot_be() {
-        for (value, status) in [("-1", 400), ("", 400), ("1, 1", 400), ("99999999999999999999", 413), ("32000001", 413)]
-        {
+        for (value, status) in [
+            ("-1", 400),
+            ("", 400),
+            ("1, 1", 400),
+            ("99999999999999999999", 413),
+            ("32000001", 413),
+        ] {
             let request = format!("POST / HTTP/1.1\r\nContent-Length: {value}\r\n\r\n");
-            assert_eq!(head(&request).body_length().map_err(|status| status.as_u16()), Err(status), "{value:?}");
+            assert_eq!(
+                head(&request)
+                    .body_length()
+                    .map_err(|status| status.as_u16()),
+                Err(status),
+                "{value:?}"
+            );
         }
     }
 
@@ -227,11 +282,24 @@ mod tests {
         for (headers, expected) in [
             ("", Ok(false)),
             ("Transfer-Encoding: Chunked\r\n", Ok(true)),
-            ("Transfer-Encoding: gzip, chunked\r\n", Err(StatusCode::NOT_IMPLEMENTED)),
-            ("Transfer-Encoding: chunked\r\nTransfer-Encoding: chunked\r\n", Err(StatusCode::NOT_IMPLEMENTED)),
-            ("Transfer-Encoding: chunked\r\nContent-Length: 1\r\n", Err(StatusCode::BAD_REQUEST)),
+            (
+                "Transfer-Encoding: gzip, chunked\r\n",
+                Err(StatusCode::NOT_IMPLEMENTED),
+            ),
+            (
+                "Transfer-Encoding: chunked\r\nTransfer-Encoding: chunked\r\n",
+                Err(StatusCode::NOT_IMPLEMENTED),
+            ),
+            (
+                "Transfer-Encoding: chunked\r\nContent-Length: 1\r\n",
+                Err(StatusCode::BAD_REQUEST),
+            ),
         ] {
-            assert_eq!(head(&format!("POST / HTTP/1.1\r\n{headers}\r\n")).is_chunked(), expected, "{headers}");
+            assert_eq!(
+                head(&format!("POST / HTTP/1.1\r\n{headers}\r\n")).is_chunked(),
+                expected,
+                "{headers}"
+            );
         }
     }
 
@@ -251,7 +319,10 @@ mod tests {
 
     #[test]
     fn answers() {
-        let reply = Reply { status: 200, data: b"1".to_vec() };
+        let reply = Reply {
+            status: 200,
+            data: b"1".to_vec(),
+        };
         let text = String::from_utf8(response(&reply, "/a.txt", true)).expect("it is text");
         assert!(
             text.starts_with("HTTP/1.1 200 OK\r\n")

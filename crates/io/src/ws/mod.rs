@@ -119,7 +119,13 @@ impl Reports {
     async fn put(&self, event: WsEvent, outgoing: Option<Outgoing>, size: usize) {
         let permits = u32::try_from(size.min(MAX_BYTES)).expect("the bound is small");
         let room = self.room.clone().acquire_many_owned(permits).await.ok();
-        self.deliver.deliver(Arrival { event, outgoing, _room: room }).await;
+        self.deliver
+            .deliver(Arrival {
+                event,
+                outgoing,
+                _room: room,
+            })
+            .await;
     }
 }
 
@@ -146,15 +152,20 @@ impl WsEndpoint {
     ) -> std::io::Result<Self> {
         listener.set_nonblocking(true)?;
         let port = listener.local_addr()?.port();
-        let listener = event_loop.block_on(async { tokio::net::TcpListener::from_std(listener) })?;
-        let mut server = Self::new(event_loop, numbers, |reports| server::accept_all(listener, pages, reports));
+        let listener =
+            event_loop.block_on(async { tokio::net::TcpListener::from_std(listener) })?;
+        let mut server = Self::new(event_loop, numbers, |reports| {
+            server::accept_all(listener, pages, reports)
+        });
         server.port = Some(port);
         Ok(server)
     }
 
     /// Connects to a server; how that ends is an event.
     pub fn connect(event_loop: Rc<EventLoop>, request: WsRequest, numbers: IdCounter) -> Self {
-        Self::new(event_loop, numbers, |reports| client::connect(request, reports))
+        Self::new(event_loop, numbers, |reports| {
+            client::connect(request, reports)
+        })
     }
 
     fn new<T: Future<Output = ()> + Send + 'static>(
@@ -163,9 +174,19 @@ impl WsEndpoint {
         task: impl FnOnce(Reports) -> T,
     ) -> Self {
         let (deliver, inbox) = event_loop.inbox(MAX_EVENTS);
-        let reports = Reports { deliver, room: Arc::new(Semaphore::new(MAX_BYTES)), numbers };
+        let reports = Reports {
+            deliver,
+            room: Arc::new(Semaphore::new(MAX_BYTES)),
+            numbers,
+        };
         let task = Some(event_loop.spawn(task(reports)));
-        Self { event_loop, inbox: RefCell::new(inbox), open: RefCell::default(), port: None, task }
+        Self {
+            event_loop,
+            inbox: RefCell::new(inbox),
+            open: RefCell::default(),
+            port: None,
+            task,
+        }
     }
 
     /// The port of a server; None for a client.
@@ -180,7 +201,9 @@ impl WsEndpoint {
 
     /// The next event, if there is one.
     pub fn next(&self) -> Option<WsEvent> {
-        let Arrival { event, outgoing, .. } = self.inbox.borrow_mut().fetch()?;
+        let Arrival {
+            event, outgoing, ..
+        } = self.inbox.borrow_mut().fetch()?;
         match (&event, outgoing) {
             (WsEvent::Open(connection), Some(outgoing)) => {
                 self.open.borrow_mut().insert(*connection, outgoing);
@@ -197,9 +220,18 @@ impl WsEndpoint {
     ///
     /// # Errors
     /// When the connection is gone or takes no more, or this is no message.
-    pub fn send(&self, connection: Connection, data: Vec<u8>, opcode: i64) -> Result<(), SendError> {
+    pub fn send(
+        &self,
+        connection: Connection,
+        data: Vec<u8>,
+        opcode: i64,
+    ) -> Result<(), SendError> {
         let message = connection::message(data, opcode)?;
-        self.open.borrow().get(&connection).ok_or(SendError::Expired)?.send(message)
+        self.open
+            .borrow()
+            .get(&connection)
+            .ok_or(SendError::Expired)?
+            .send(message)
     }
 }
 

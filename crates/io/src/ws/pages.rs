@@ -25,12 +25,19 @@ impl Pages {
 
 /// A page of a server on this machine. `null` is a page opened from the disk, but also a frame of any page.
 fn is_local(origin: &str) -> bool {
-    let Some((_, authority)) = origin.split_once("://") else { return false };
+    let Some((_, authority)) = origin.split_once("://") else {
+        return false;
+    };
     let host = match authority.strip_prefix('[') {
         Some(rest) => rest.split(']').next(),
         None => authority.split(':').next(),
     };
-    host.is_some_and(|host| host == "localhost" || host.parse::<IpAddr>().is_ok_and(|address| address.is_loopback()))
+    host.is_some_and(|host| {
+        host == "localhost"
+            || host
+                .parse::<IpAddr>()
+                .is_ok_and(|address| address.is_loopback())
+    })
 }
 
 #[cfg(test)]
@@ -40,7 +47,12 @@ mod tests {
     #[test]
     fn pages_of_this_machine_are_welcome() {
         let own = Pages::Own(vec!["https://lab.example".to_owned()]);
-        for origin in ["http://localhost:8000", "http://127.0.0.1", "https://[::1]:1", "https://lab.example"] {
+        for origin in [
+            "http://localhost:8000",
+            "http://127.0.0.1",
+            "https://[::1]:1",
+            "https://lab.example",
+        ] {
             assert!(own.admit(Some(origin)), "{origin}");
         }
         assert!(own.admit(None));
@@ -60,7 +72,11 @@ mod tests {
         ];
         for origin in others {
             assert!(!own.admit(Some(origin)), "{origin}");
-            assert!(Pages::All.admit(Some(origin)) && Pages::Own(vec!["*".to_owned()]).admit(Some(origin)), "{origin}");
+            assert!(
+                Pages::All.admit(Some(origin))
+                    && Pages::Own(vec!["*".to_owned()]).admit(Some(origin)),
+                "{origin}"
+            );
         }
     }
 }

@@ -11,7 +11,9 @@ use tokio::time::{sleep, timeout};
 use tokio_tungstenite::WebSocketStream;
 use tokio_tungstenite::tungstenite::handshake::server::{create_response, write_response};
 use tokio_tungstenite::tungstenite::http::StatusCode;
-use tokio_tungstenite::tungstenite::http::header::{EXPECT, HeaderValue, ORIGIN, SEC_WEBSOCKET_PROTOCOL};
+use tokio_tungstenite::tungstenite::http::header::{
+    EXPECT, HeaderValue, ORIGIN, SEC_WEBSOCKET_PROTOCOL,
+};
 use tokio_tungstenite::tungstenite::protocol::Role;
 
 use super::chunks::Chunks;
@@ -54,11 +56,23 @@ async fn serve(mut stream: TcpStream, pages: &Pages, reports: &Reports) {
         Ok(Ok(head)) if head.is_upgrade() && !pages.admit(head.header(ORIGIN)) => {
             let origin = head.header(ORIGIN).unwrap_or_default().to_owned();
             reports.report(WsEvent::Refused(connection, origin)).await;
-            return respond(&mut stream, &Reply::status(StatusCode::FORBIDDEN.as_u16()), "", true).await;
+            return respond(
+                &mut stream,
+                &Reply::status(StatusCode::FORBIDDEN.as_u16()),
+                "",
+                true,
+            )
+            .await;
         }
         Ok(Ok(head)) if head.is_upgrade() => match upgrade(&mut stream, &head).await {
             Ok(()) => {
-                let socket = WebSocketStream::from_partially_read(stream, received, Role::Server, Some(config())).await;
+                let socket = WebSocketStream::from_partially_read(
+                    stream,
+                    received,
+                    Role::Server,
+                    Some(config()),
+                )
+                .await;
                 return connection::converse(socket, connection, reports).await;
             }
             Err(status) => Some(status),
@@ -67,7 +81,10 @@ async fn serve(mut stream: TcpStream, pages: &Pages, reports: &Reports) {
         Ok(Err(refused)) => refused,
         Err(_) => Some(StatusCode::REQUEST_TIMEOUT),
     };
-    let reason = refused.map_or_else(|| "the connection ended".to_owned(), |status| status.to_string());
+    let reason = refused.map_or_else(
+        || "the connection ended".to_owned(),
+        |status| status.to_string(),
+    );
     let refuse = async {
         if let Some(status) = refused {
             respond(&mut stream, &Reply::status(status.as_u16()), "", true).await;
@@ -80,7 +97,10 @@ async fn serve(mut stream: TcpStream, pages: &Pages, reports: &Reports) {
 ///
 /// # Errors
 /// The status to answer with; none when the peer is gone.
-pub(super) async fn read_head(stream: &mut TcpStream, received: &mut Vec<u8>) -> Result<Head, Option<StatusCode>> {
+pub(super) async fn read_head(
+    stream: &mut TcpStream,
+    received: &mut Vec<u8>,
+) -> Result<Head, Option<StatusCode>> {
     loop {
         if let Some((head, length)) = Head::parse(received)? {
             received.drain(..length);
@@ -106,7 +126,9 @@ async fn read_some(stream: &mut TcpStream, received: &mut Vec<u8>) -> Option<()>
 pub(super) async fn upgrade(stream: &mut TcpStream, head: &Head) -> Result<(), StatusCode> {
     let mut answer = create_response(&head.handshake()?).map_err(|_| StatusCode::BAD_REQUEST)?;
     // Any sub-protocol is accepted; a browser fails unless the reply names one of its own.
-    let offered = head.header(SEC_WEBSOCKET_PROTOCOL).and_then(|list| list.split(',').next());
+    let offered = head
+        .header(SEC_WEBSOCKET_PROTOCOL)
+        .and_then(|list| list.split(',').next());
     if let Some(first) = offered.and_then(|name| HeaderValue::from_str(name.trim()).ok()) {
         answer.headers_mut().insert(SEC_WEBSOCKET_PROTOCOL, first);
     }
@@ -118,12 +140,25 @@ pub(super) async fn upgrade(stream: &mut TcpStream, head: &Head) -> Result<(), S
 }
 
 /// Lets the script answer an HTTP request.
-async fn answer(mut stream: TcpStream, connection: Connection, head: &Head, received: Vec<u8>, reports: &Reports) {
+async fn answer(
+    mut stream: TcpStream,
+    connection: Connection,
+    head: &Head,
+    received: Vec<u8>,
+    reports: &Reports,
+) {
     let reply = match read_body(&mut stream, head, received).await {
         Ok(body) => {
             let (sender, answered) = oneshot::channel();
             let resource = head.target.clone();
-            reports.report(WsEvent::Http { connection, resource, body, requester: Requester(sender) }).await;
+            reports
+                .report(WsEvent::Http {
+                    connection,
+                    resource,
+                    body,
+                    requester: Requester(sender),
+                })
+                .await;
             answered.await.ok()
         }
         Err(status) => status.map(|status| Reply::status(status.as_u16())),
@@ -137,11 +172,18 @@ async fn answer(mut stream: TcpStream, connection: Connection, head: &Head, rece
 ///
 /// # Errors
 /// The status to answer with; none when the peer is gone.
-async fn read_body(stream: &mut TcpStream, head: &Head, mut body: Vec<u8>) -> Result<Vec<u8>, Option<StatusCode>> {
+async fn read_body(
+    stream: &mut TcpStream,
+    head: &Head,
+    mut body: Vec<u8>,
+) -> Result<Vec<u8>, Option<StatusCode>> {
     let is_chunked = head.is_chunked()?;
     let length = head.body_length()?;
     if (is_chunked || body.len() < length) && head.header(EXPECT).is_some() {
-        stream.write_all(b"HTTP/1.1 100 Continue\r\n\r\n").await.map_err(|_| None)?;
+        stream
+            .write_all(b"HTTP/1.1 100 Continue\r\n\r\n")
+            .await
+            .map_err(|_| None)?;
     }
     if is_chunked {
         return read_chunks(stream, body).await;
@@ -153,7 +195,10 @@ async fn read_body(stream: &mut TcpStream, head: &Head, mut body: Vec<u8>) -> Re
     Ok(body)
 }
 
-async fn read_chunks(stream: &mut TcpStream, mut received: Vec<u8>) -> Result<Vec<u8>, Option<StatusCode>> {
+async fn read_chunks(
+    stream: &mut TcpStream,
+    mut received: Vec<u8>,
+) -> Result<Vec<u8>, Option<StatusCode>> {
     let mut chunks = Chunks::default();
     while !chunks.take(&mut received)? {
         read_more(stream, &mut received).await?;
@@ -162,7 +207,10 @@ async fn read_chunks(stream: &mut TcpStream, mut received: Vec<u8>) -> Result<Ve
 }
 
 /// Appends what comes next of a body.
-async fn read_more(stream: &mut TcpStream, received: &mut Vec<u8>) -> Result<(), Option<StatusCode>> {
+async fn read_more(
+    stream: &mut TcpStream,
+    received: &mut Vec<u8>,
+) -> Result<(), Option<StatusCode>> {
     let more = timeout(HANDSHAKE_TIMEOUT, read_some(stream, received)).await;
     more.map_err(|_| StatusCode::REQUEST_TIMEOUT)?.ok_or(None)
 }

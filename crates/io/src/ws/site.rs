@@ -101,10 +101,15 @@ impl SiteServer {
     ///
     /// # Errors
     /// When the listener cannot be used, or there is no thread for the server.
-    pub fn start<S: Site>(listener: TcpListener, site: impl FnOnce(SiteWaker) -> S) -> io::Result<Self> {
+    pub fn start<S: Site>(
+        listener: TcpListener,
+        site: impl FnOnce(SiteWaker) -> S,
+    ) -> io::Result<Self> {
         listener.set_nonblocking(true)?;
         let address = listener.local_addr()?;
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_all()
+            .build()?;
         let (wake, signals) = watch::channel(Signal::default());
         let wake = Arc::new(wake);
         let site = Arc::new(site(SiteWaker(Arc::clone(&wake))));
@@ -117,8 +122,14 @@ impl SiteServer {
                 runtime.block_on(accept_all(listener, site, signals));
             }
         };
-        let thread = std::thread::Builder::new().name("view server".into()).spawn(serve)?;
-        Ok(Self { address, wake, thread: Some(thread) })
+        let thread = std::thread::Builder::new()
+            .name("view server".into())
+            .spawn(serve)?;
+        Ok(Self {
+            address,
+            wake,
+            thread: Some(thread),
+        })
     }
 
     /// The address it listens at.
@@ -143,7 +154,11 @@ impl Drop for SiteServer {
     }
 }
 
-async fn accept_all<S: Site>(listener: tokio::net::TcpListener, site: Arc<S>, mut signals: watch::Receiver<Signal>) {
+async fn accept_all<S: Site>(
+    listener: tokio::net::TcpListener,
+    site: Arc<S>,
+    mut signals: watch::Receiver<Signal>,
+) {
     let places = Arc::new(Semaphore::new(MAX_CONNECTIONS));
     let mut tasks = JoinSet::new();
     loop {
@@ -167,7 +182,10 @@ async fn accept_all<S: Site>(listener: tokio::net::TcpListener, site: Arc<S>, mu
             _ => sleep(RETRY_DELAY).await,
         }
     }
-    let _ = timeout(CLOSE_TIMEOUT, async { while tasks.join_next().await.is_some() {} }).await;
+    let _ = timeout(CLOSE_TIMEOUT, async {
+        while tasks.join_next().await.is_some() {}
+    })
+    .await;
 }
 
 /// The requests of one connection, one after the other.
@@ -193,8 +211,10 @@ async fn serve<S: Site>(mut stream: TcpStream, site: &S, mut signals: watch::Rec
             return open(stream, site, &head, received, signals).await;
         }
         let reply = site.get(&head.target, head.header(IF_NONE_MATCH));
-        let goes_on =
-            head.is_current && head.header(CONNECTION).is_none_or(|value| !value.eq_ignore_ascii_case("close"));
+        let goes_on = head.is_current
+            && head
+                .header(CONNECTION)
+                .is_none_or(|value| !value.eq_ignore_ascii_case("close"));
         if !respond(&mut stream, &reply, &head.method, goes_on).await || !goes_on {
             return connection::linger(&mut stream).await;
         }
@@ -208,7 +228,11 @@ fn check(head: &Head, local: Option<IpAddr>) -> Result<(), StatusCode> {
     if !is_this_machine(host, local) {
         return Err(StatusCode::FORBIDDEN);
     }
-    let own = |origin: &str| origin.split_once("://").is_some_and(|(_, authority)| authority == host);
+    let own = |origin: &str| {
+        origin
+            .split_once("://")
+            .is_some_and(|(_, authority)| authority == host)
+    };
     if head.headers.contains_key(ORIGIN) && !head.header(ORIGIN).is_some_and(own) {
         return Err(StatusCode::FORBIDDEN);
     }
@@ -216,8 +240,14 @@ fn check(head: &Head, local: Option<IpAddr>) -> Result<(), StatusCode> {
         return Err(StatusCode::METHOD_NOT_ALLOWED);
     }
     let has_body = head.headers.contains_key(TRANSFER_ENCODING)
-        || head.header(CONTENT_LENGTH).is_some_and(|length| length.trim() != "0");
-    if has_body { Err(StatusCode::BAD_REQUEST) } else { Ok(()) }
+        || head
+            .header(CONTENT_LENGTH)
+            .is_some_and(|length| length.trim() != "0");
+    if has_body {
+        Err(StatusCode::BAD_REQUEST)
+    } else {
+        Ok(())
+    }
 }
 
 /// Whether a `Host` is this machine by a local name or by an address: its own, or the one connected to.
@@ -231,19 +261,29 @@ fn is_this_machine(host: &str, local: Option<IpAddr>) -> bool {
 }
 
 async fn refuse(stream: &mut TcpStream, status: StatusCode, method: &str) {
-    let reply = SiteReply { status: status.as_u16(), headers: Vec::new(), body: Arc::new(Vec::new()) };
+    let reply = SiteReply {
+        status: status.as_u16(),
+        headers: Vec::new(),
+        body: Arc::new(Vec::new()),
+    };
     respond(stream, &reply, method, false).await;
     connection::linger(stream).await;
 }
 
 /// Sends an answer; false when the browser is gone or too slow.
 async fn respond(stream: &mut TcpStream, reply: &SiteReply, method: &str, goes_on: bool) -> bool {
-    let reason =
-        StatusCode::from_u16(reply.status).ok().and_then(|status| status.canonical_reason()).unwrap_or_default();
+    let reason = StatusCode::from_u16(reply.status)
+        .ok()
+        .and_then(|status| status.canonical_reason())
+        .unwrap_or_default();
     let body = (*reply.body).as_ref();
     let connection = if goes_on { "keep-alive" } else { "close" };
-    let mut head = format!("HTTP/1.1 {} {reason}\r\nConnection: {connection}\r\n", reply.status);
-    let has_no_body = [StatusCode::NO_CONTENT, StatusCode::NOT_MODIFIED].map(|status| status.as_u16());
+    let mut head = format!(
+        "HTTP/1.1 {} {reason}\r\nConnection: {connection}\r\n",
+        reply.status
+    );
+    let has_no_body =
+        [StatusCode::NO_CONTENT, StatusCode::NOT_MODIFIED].map(|status| status.as_u16());
     if !has_no_body.contains(&reply.status) {
         head.push_str(&format!("Content-Length: {}\r\n", body.len()));
     }
@@ -279,7 +319,8 @@ async fn open<S: Site>(
         .read_buffer_size(READ_BUFFER)
         .max_message_size(Some(MAX_REQUEST))
         .max_frame_size(Some(MAX_REQUEST));
-    let socket = WebSocketStream::from_partially_read(stream, received, Role::Server, Some(config)).await;
+    let socket =
+        WebSocketStream::from_partially_read(stream, received, Role::Server, Some(config)).await;
     let (sink, source) = socket.split();
     converse(sink, source, visitor, signals).await;
 }
@@ -293,7 +334,10 @@ async fn converse(
     loop {
         let ends = signals.borrow_and_update().ends;
         // A closed page is detected here at the latest.
-        let Ok(Ok(())) = timeout(PAGE_TIMEOUT, send_all(&mut sink, visitor.messages())).await else { return };
+        let Ok(Ok(())) = timeout(PAGE_TIMEOUT, send_all(&mut sink, visitor.messages())).await
+        else {
+            return;
+        };
         if ends {
             let _ = timeout(HANDSHAKE_TIMEOUT, sink.close()).await;
             return;
@@ -330,31 +374,68 @@ mod tests {
     use super::*;
 
     fn head(text: &str) -> Head {
-        Head::parse(text.as_bytes()).expect("a good head").expect("a complete head").0
+        Head::parse(text.as_bytes())
+            .expect("a good head")
+            .expect("a complete head")
+            .0
     }
 
     fn status(request: &str) -> u16 {
-        check(&head(&format!("{request}\r\n\r\n")), "10.0.0.7".parse().ok())
-            .map_or_else(|status| status.as_u16(), |()| 200)
+        check(
+            &head(&format!("{request}\r\n\r\n")),
+            "10.0.0.7".parse().ok(),
+        )
+        .map_or_else(|status| status.as_u16(), |()| 200)
     }
 
     #[test]
     fn only_names_of_this_machine_are_answered() {
-        for host in ["127.0.0.1:80", "localhost:9", "LOCALHOST", "[::1]:7", "10.0.0.7:80"] {
-            assert_eq!(status(&format!("GET / HTTP/1.1\r\nHost: {host}")), 200, "{host}");
+        for host in [
+            "127.0.0.1:80",
+            "localhost:9",
+            "LOCALHOST",
+            "[::1]:7",
+            "10.0.0.7:80",
+        ] {
+            assert_eq!(
+                status(&format!("GET / HTTP/1.1\r\nHost: {host}")),
+                200,
+                "{host}"
+            );
         }
-        for host in ["evil.example", "127.0.0.1.evil.example", "localhost.evil.example:80", "10.0.0.8", "", "[", "[]:1"]
-        {
-            assert_eq!(status(&format!("GET / HTTP/1.1\r\nHost: {host}")), 403, "{host}");
+        for host in [
+            "evil.example",
+            "127.0.0.1.evil.example",
+            "localhost.evil.example:80",
+            "10.0.0.8",
+            "",
+            "[",
+            "[]:1",
+        ] {
+            assert_eq!(
+                status(&format!("GET / HTTP/1.1\r\nHost: {host}")),
+                403,
+                "{host}"
+            );
         }
         assert_eq!(status("GET / HTTP/1.1"), 400);
     }
 
     #[test]
     fn pages_of_others_are_not_answered() {
-        let with = |origin: &str| status(&format!("GET / HTTP/1.1\r\nHost: 127.0.0.1:80\r\nOrigin: {origin}"));
+        let with = |origin: &str| {
+            status(&format!(
+                "GET / HTTP/1.1\r\nHost: 127.0.0.1:80\r\nOrigin: {origin}"
+            ))
+        };
         assert_eq!(with("http://127.0.0.1:80"), 200);
-        for origin in ["http://127.0.0.1:81", "http://evil.example", "null", "", "http://localhost:80"] {
+        for origin in [
+            "http://127.0.0.1:81",
+            "http://evil.example",
+            "null",
+            "",
+            "http://localhost:80",
+        ] {
             assert_eq!(with(origin), 403, "{origin}");
         }
     }
@@ -362,8 +443,17 @@ mod tests {
     #[test]
     fn only_reading_is_allowed() {
         assert_eq!(status("POST / HTTP/1.1\r\nHost: localhost"), 405);
-        assert_eq!(status("GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3"), 400);
-        assert_eq!(status("GET / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked"), 400);
-        assert_eq!(status("HEAD / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0"), 200);
+        assert_eq!(
+            status("GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3"),
+            400
+        );
+        assert_eq!(
+            status("GET / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked"),
+            400
+        );
+        assert_eq!(
+            status("HEAD / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0"),
+            200
+        );
     }
 }

@@ -27,11 +27,15 @@ impl Context {
     /// # Errors
     /// When there are too many of them.
     pub fn new() -> ZmqResult<Self> {
-        Ok(Self { raw: Some(RawContext::new()?) })
+        Ok(Self {
+            raw: Some(RawContext::new()?),
+        })
     }
 
     fn raw(&self) -> &RawContext {
-        self.raw.as_ref().expect("only dropping a context takes it away")
+        self.raw
+            .as_ref()
+            .expect("only dropping a context takes it away")
     }
 
     pub(super) fn socket(&self, kind: c_int) -> ZmqResult<RawSocket> {
@@ -52,7 +56,11 @@ impl Context {
             ffi::ZMQ_THREAD_PRIORITY | ffi::ZMQ_THREAD_SCHED_POLICY => value >= 0,
             _ => false,
         };
-        if is_dangerous { Err(Errno::INVALID) } else { self.raw().set(option, value) }
+        if is_dangerous {
+            Err(Errno::INVALID)
+        } else {
+            self.raw().set(option, value)
+        }
     }
 
     /// From now on every call on its sockets fails with `ETERM`.
@@ -83,13 +91,15 @@ impl Termination {
     /// On a separate thread, so that callers need not wait until all messages are sent.
     fn start(context: Option<RawContext>) -> Self {
         let (sender, done) = mpsc::channel();
-        let thread = std::thread::Builder::new().name("zmq end".into()).spawn(move || {
-            if let Some(context) = context {
-                context.terminate();
-            }
-            // The caller may have stopped waiting for the result.
-            let _ = sender.send(());
-        });
+        let thread = std::thread::Builder::new()
+            .name("zmq end".into())
+            .spawn(move || {
+                if let Some(context) = context {
+                    context.terminate();
+                }
+                // The caller may have stopped waiting for the result.
+                let _ = sender.send(());
+            });
         // Without a thread the context stays: its sockets are closed all the same.
         drop(thread);
         Self { done }

@@ -57,9 +57,23 @@ unsafe extern "C" {
     safe fn zmq_unbind(socket: SocketRef<'_>, endpoint: Text<'_>) -> c_int;
     safe fn zmq_connect(socket: SocketRef<'_>, endpoint: Text<'_>) -> c_int;
     safe fn zmq_disconnect(socket: SocketRef<'_>, endpoint: Text<'_>) -> c_int;
-    safe fn zmq_socket_monitor(socket: SocketRef<'_>, endpoint: Option<Text<'_>>, events: c_int) -> c_int;
-    fn zmq_setsockopt(socket: SocketRef<'_>, option: c_int, value: *const u8, length: usize) -> c_int;
-    fn zmq_getsockopt(socket: SocketRef<'_>, option: c_int, value: *mut u8, length: &mut usize) -> c_int;
+    safe fn zmq_socket_monitor(
+        socket: SocketRef<'_>,
+        endpoint: Option<Text<'_>>,
+        events: c_int,
+    ) -> c_int;
+    fn zmq_setsockopt(
+        socket: SocketRef<'_>,
+        option: c_int,
+        value: *const u8,
+        length: usize,
+    ) -> c_int;
+    fn zmq_getsockopt(
+        socket: SocketRef<'_>,
+        option: c_int,
+        value: *mut u8,
+        length: &mut usize,
+    ) -> c_int;
     fn zmq_send(socket: SocketRef<'_>, bytes: *const u8, length: usize, flags: c_int) -> c_int;
     fn zmq_recv(socket: SocketRef<'_>, bytes: *mut u8, room: usize, flags: c_int) -> c_int;
     fn zmq_poll(items: *mut PollItem<'_>, count: c_int, milliseconds: c_long) -> c_int;
@@ -88,13 +102,19 @@ impl Errno {
 
 /// The result of a call; -1 if it failed.
 fn check(returned: c_int) -> ZmqResult<c_int> {
-    if returned == -1 { Err(Errno::last()) } else { Ok(returned) }
+    if returned == -1 {
+        Err(Errno::last())
+    } else {
+        Ok(returned)
+    }
 }
 
 /// The text of an error.
 pub fn strerror(errno: c_int) -> String {
     // SAFETY: the text is valid until the next call on this thread, and is copied before.
-    let text = unsafe { zmq_strerror(errno) }.map(Text::into_bytes).unwrap_or_default();
+    let text = unsafe { zmq_strerror(errno) }
+        .map(Text::into_bytes)
+        .unwrap_or_default();
     String::from_utf8_lossy(&text).into_owned()
 }
 
@@ -141,7 +161,9 @@ impl<'a> Text<'a> {
 
     fn into_bytes(self) -> Vec<u8> {
         // SAFETY: made of a `CStr`, or by libzmq as one that is valid for the lifetime.
-        unsafe { CStr::from_ptr(self.0.as_ptr()) }.to_bytes().to_vec()
+        unsafe { CStr::from_ptr(self.0.as_ptr()) }
+            .to_bytes()
+            .to_vec()
     }
 }
 
@@ -176,7 +198,9 @@ impl RawContext {
     /// Waits until all its sockets are closed and their messages are sent, and frees it.
     pub(super) fn terminate(self) {
         // SAFETY: the context is not used afterwards. A signal may interrupt the call, which then has to be repeated.
-        while unsafe { zmq_ctx_term(self.borrowed()) } == -1 && Errno::last() == Errno::INTERRUPTED {}
+        while unsafe { zmq_ctx_term(self.borrowed()) } == -1 && Errno::last() == Errno::INTERRUPTED
+        {
+        }
     }
 }
 
@@ -206,12 +230,18 @@ impl RawSocket {
 
     /// Publishes events of its connections at an endpoint; without one, no longer.
     pub(super) fn monitor(&self, endpoint: Option<&CStr>, events: c_int) -> ZmqResult<()> {
-        check(zmq_socket_monitor(self.borrowed(), endpoint.map(Text::new), events)).map(drop)
+        check(zmq_socket_monitor(
+            self.borrowed(),
+            endpoint.map(Text::new),
+            events,
+        ))
+        .map(drop)
     }
 
     pub(super) fn set(&self, option: c_int, value: &[u8]) -> ZmqResult<()> {
         // SAFETY: the value has that many bytes, which are copied.
-        check(unsafe { zmq_setsockopt(self.borrowed(), option, value.as_ptr(), value.len()) }).map(drop)
+        check(unsafe { zmq_setsockopt(self.borrowed(), option, value.as_ptr(), value.len()) })
+            .map(drop)
     }
 
     /// Writes the value of an option into `value`; returns its length.
@@ -231,7 +261,8 @@ impl RawSocket {
     /// Receives a message part into `bytes`, which may be too short; returns the length of the part.
     pub(super) fn receive(&self, bytes: &mut [u8], flags: c_int) -> ZmqResult<usize> {
         // SAFETY: libzmq writes at most `bytes.len()` bytes.
-        let length = check(unsafe { zmq_recv(self.borrowed(), bytes.as_mut_ptr(), bytes.len(), flags) })?;
+        let length =
+            check(unsafe { zmq_recv(self.borrowed(), bytes.as_mut_ptr(), bytes.len(), flags) })?;
         Ok(length as usize)
     }
 }
@@ -249,7 +280,14 @@ pub(super) struct PollItem<'a>(zmq_pollitem_t, PhantomData<&'a RawSocket>);
 
 impl<'a> PollItem<'a> {
     pub(super) fn new(socket: &'a RawSocket, events: c_short) -> Self {
-        Self(zmq_pollitem_t { socket: socket.0.as_ptr(), events, ..Default::default() }, PhantomData)
+        Self(
+            zmq_pollitem_t {
+                socket: socket.0.as_ptr(),
+                events,
+                ..Default::default()
+            },
+            PhantomData,
+        )
     }
 
     pub(super) fn is_for(&self, socket: &RawSocket) -> bool {
@@ -295,7 +333,11 @@ impl RawMessage {
         // SAFETY: libzmq does not change the message here. The content stays until the message changes, which borrows it.
         unsafe {
             let data = zmq_msg_data((&raw const *self).cast_mut());
-            if data.is_null() { &[] } else { std::slice::from_raw_parts(data, self.size()) }
+            if data.is_null() {
+                &[]
+            } else {
+                std::slice::from_raw_parts(data, self.size())
+            }
         }
     }
 
@@ -316,7 +358,9 @@ impl RawMessage {
     }
 
     pub(super) fn property(&self, name: &CStr) -> ZmqResult<Vec<u8>> {
-        zmq_msg_gets(self, Text::new(name)).map(Text::into_bytes).ok_or_else(Errno::last)
+        zmq_msg_gets(self, Text::new(name))
+            .map(Text::into_bytes)
+            .ok_or_else(Errno::last)
     }
 
     /// A second message that shares the content.

@@ -22,7 +22,10 @@ pub struct Message {
 impl Message {
     /// One that must be opened before it is used.
     pub fn closed() -> Self {
-        Self { raw: RawMessage::new(), is_open: false }
+        Self {
+            raw: RawMessage::new(),
+            is_open: false,
+        }
     }
 
     fn with(raw: RawMessage) -> Self {
@@ -39,7 +42,10 @@ impl Message {
     /// # Errors
     /// When it is too long.
     pub fn open_with_size(&mut self, size: i64) -> ZmqResult<()> {
-        let size = usize::try_from(size).ok().filter(|&size| size as i64 <= MAX_SIZE).ok_or(Errno::NO_MEMORY)?;
+        let size = usize::try_from(size)
+            .ok()
+            .filter(|&size| size as i64 <= MAX_SIZE)
+            .ok_or(Errno::NO_MEMORY)?;
         *self = Self::with(RawMessage::with_size(size)?);
         Ok(())
     }
@@ -55,7 +61,11 @@ impl Message {
     /// # Errors
     /// When it is closed.
     pub fn require_open(&self) -> ZmqResult<()> {
-        if self.is_open { Ok(()) } else { Err(Errno::NO_MESSAGE) }
+        if self.is_open {
+            Ok(())
+        } else {
+            Err(Errno::NO_MESSAGE)
+        }
     }
 
     /// The content; empty when it is closed.
@@ -130,10 +140,19 @@ mod tests {
     #[test]
     fn a_closed_message_is_empty_and_refuses_to_move() {
         let mut message = Message::closed();
-        assert_eq!((message.size(), message.bytes(), message.has_more()), (0, &[][..], false));
-        assert_eq!((message.close(), message.take().err()), (Err(Errno::NO_MESSAGE), Some(Errno::NO_MESSAGE)));
+        assert_eq!(
+            (message.size(), message.bytes(), message.has_more()),
+            (0, &[][..], false)
+        );
+        assert_eq!(
+            (message.close(), message.take().err()),
+            (Err(Errno::NO_MESSAGE), Some(Errno::NO_MESSAGE))
+        );
         message.open();
-        assert_eq!((message.close(), message.close()), (Ok(()), Err(Errno::NO_MESSAGE)));
+        assert_eq!(
+            (message.close(), message.close()),
+            (Ok(()), Err(Errno::NO_MESSAGE))
+        );
     }
 
     #[test]
@@ -142,7 +161,11 @@ mod tests {
         message.open_with_size(1000).expect("there is room");
         assert_eq!(message.bytes(), [0; 1000]);
         assert_eq!(
-            (message.copy().expect("open").size(), message.take().expect("open").size(), message.size()),
+            (
+                message.copy().expect("open").size(),
+                message.take().expect("open").size(),
+                message.size()
+            ),
             (1000, 1000, 0)
         );
         for size in [-1, i64::MIN, i64::MAX, MAX_SIZE + 1] {

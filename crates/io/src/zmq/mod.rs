@@ -76,11 +76,21 @@ mod tests {
         let bytes = [0x86, 0x4f, 0xd2, 0x6f, 0xb5, 0x59, 0xf7, 0x5b];
         assert_eq!(z85_encode(&bytes).as_deref(), Some(&b"HelloWorld"[..]));
         assert_eq!(z85_decode(b"HelloWorld").as_deref(), Some(&bytes[..]));
-        assert_eq!((z85_encode(b"abc"), z85_decode(b"abcd"), z85_decode(b"ab\xff\x01d")), (None, None, None));
+        assert_eq!(
+            (
+                z85_encode(b"abc"),
+                z85_decode(b"abcd"),
+                z85_decode(b"ab\xff\x01d")
+            ),
+            (None, None, None)
+        );
     }
 
     #[test]
     fn errors_have_texts() {
-        assert_eq!(strerror(ffi::errno::EFSM), "Operation cannot be accomplished in current state");
+        assert_eq!(
+            strerror(ffi::errno::EFSM),
+            "Operation cannot be accomplished in current state"
+        );
     }
 }

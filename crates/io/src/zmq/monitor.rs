@@ -45,19 +45,38 @@ impl Monitor {
     ///
     /// # Errors
     /// When the address is none of `inproc`, or in use.
-    pub(super) fn start(context: &Context, socket: &RawSocket, endpoint: &str, events: c_int) -> ZmqResult<Self> {
+    pub(super) fn start(
+        context: &Context,
+        socket: &RawSocket,
+        endpoint: &str,
+        events: c_int,
+    ) -> ZmqResult<Self> {
         let (input, output) = (context.socket(PAIR)?, context.socket(PAIR)?);
         let endpoint = c_text(endpoint)?;
         output.bind(&endpoint)?;
-        let address = c_text(&format!("inproc://swanilda.monitor.{}", RELAYS.fetch_add(1, Ordering::Relaxed)))?;
+        let address = c_text(&format!(
+            "inproc://swanilda.monitor.{}",
+            RELAYS.fetch_add(1, Ordering::Relaxed)
+        ))?;
         // Without a limit at the receiver libzmq has none on the way to it, and never blocks.
         input.set(ffi::ZMQ_RCVHWM as c_int, &0_i32.to_ne_bytes())?;
         socket.monitor(Some(&address), events | STOPPED)?;
         input.connect(&address)?;
         let lost = Arc::<AtomicBool>::default();
-        let relay = Relay { input, output, endpoint, events, queue: VecDeque::new(), lost: lost.clone() };
-        let thread = std::thread::Builder::new().name("zmq monitor".into()).stack_size(STACK_SIZE);
-        let relay = thread.spawn(move || relay.run()).map_err(|_| Errno::NO_MEMORY)?;
+        let relay = Relay {
+            input,
+            output,
+            endpoint,
+            events,
+            queue: VecDeque::new(),
+            lost: lost.clone(),
+        };
+        let thread = std::thread::Builder::new()
+            .name("zmq monitor".into())
+            .stack_size(STACK_SIZE);
+        let relay = thread
+            .spawn(move || relay.run())
+            .map_err(|_| Errno::NO_MEMORY)?;
         Ok(Self { relay, lost })
     }
 
@@ -128,7 +147,10 @@ impl Relay {
     /// When the context is terminated.
     fn wait(&self) -> ZmqResult<()> {
         let output_events = if self.queue.is_empty() { 0 } else { POLLOUT };
-        let mut items = [PollItem::new(&self.input, POLLIN), PollItem::new(&self.output, output_events)];
+        let mut items = [
+            PollItem::new(&self.input, POLLIN),
+            PollItem::new(&self.output, output_events),
+        ];
         match poll_items(&mut items, -1) {
             Err(error) if error != Errno::INTERRUPTED => Err(error),
             _ => Ok(()),
@@ -138,7 +160,10 @@ impl Relay {
     /// Reads events of the monitor; returns whether more may follow.
     fn read(&mut self) -> bool {
         while let Ok(head) = receive(&self.input, HEAD) {
-            let event = Event { head, address: receive(&self.input, MAX_ADDRESS).unwrap_or_default() };
+            let event = Event {
+                head,
+                address: receive(&self.input, MAX_ADDRESS).unwrap_or_default(),
+            };
             let number = event.number();
             if number & self.events != 0 {
                 self.enqueue(event);
@@ -197,9 +222,17 @@ mod tests {
         let socket = Socket::new(context, ffi::ZMQ_REP as c_int).expect("a socket");
         assert_eq!(socket.monitor("inproc://watch", ALL), Ok(()));
         assert_eq!(socket.bind("tcp://127.0.0.1:*"), Ok(()));
-        let endpoint = socket.get(ffi::ZMQ_LAST_ENDPOINT as c_int, 256).expect("it is bound");
+        let endpoint = socket
+            .get(ffi::ZMQ_LAST_ENDPOINT as c_int, 256)
+            .expect("it is bound");
         let address = String::from_utf8(endpoint).expect("it is text");
-        (socket, address.trim_start_matches("tcp://").trim_end_matches('\0').to_owned())
+        (
+            socket,
+            address
+                .trim_start_matches("tcp://")
+                .trim_end_matches('\0')
+                .to_owned(),
+        )
     }
 
     fn end(context: Rc<Context>) {
@@ -241,7 +274,13 @@ mod tests {
         drop(TcpStream::connect(&address).expect("it listens"));
         let reader = Rc::new(Socket::new(&context, ffi::ZMQ_PAIR as c_int).expect("a socket"));
         assert_eq!(reader.connect("inproc://watch"), Ok(()));
-        assert_eq!((next(&reader), next(&reader)), (ffi::ZMQ_EVENT_LISTENING as u16, ffi::ZMQ_EVENT_ACCEPTED as u16));
+        assert_eq!(
+            (next(&reader), next(&reader)),
+            (
+                ffi::ZMQ_EVENT_LISTENING as u16,
+                ffi::ZMQ_EVENT_ACCEPTED as u16
+            )
+        );
         drop(socket);
         while next(&reader) != STOPPED as u16 {}
         drop(reader);
@@ -256,7 +295,10 @@ mod tests {
             assert_eq!(socket.monitor(endpoint, STOPPED), Ok(()));
         }
         let other = Socket::new(&context, ffi::ZMQ_REP as c_int).expect("a socket");
-        assert_eq!(other.monitor("inproc://watch", ALL), Err(Errno(ffi::errno::EADDRINUSE)));
+        assert_eq!(
+            other.monitor("inproc://watch", ALL),
+            Err(Errno(ffi::errno::EADDRINUSE))
+        );
         drop((socket, other));
         end(context);
     }

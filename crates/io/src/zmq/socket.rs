@@ -66,7 +66,10 @@ impl Socket {
 
     /// Limits its lifetime, even if its messages are never delivered.
     pub fn limit_linger(&self) {
-        let linger = self.get(LINGER, size_of::<c_int>()).ok().and_then(|bytes| bytes.try_into().ok());
+        let linger = self
+            .get(LINGER, size_of::<c_int>())
+            .ok()
+            .and_then(|bytes| bytes.try_into().ok());
         if linger.is_some_and(|linger| !(0..=MAX_LINGER).contains(&c_int::from_ne_bytes(linger))) {
             self.set_linger(MAX_LINGER);
         }
@@ -103,13 +106,21 @@ impl Socket {
         if let Some(previous) = self.monitor.take() {
             previous.stop(&self.raw);
         }
-        self.monitor.replace(Some(Monitor::start(&self.context, &self.raw, endpoint, events)?));
+        self.monitor.replace(Some(Monitor::start(
+            &self.context,
+            &self.raw,
+            endpoint,
+            events,
+        )?));
         Ok(())
     }
 
     /// Whether unread events of its monitor were dropped since the last call.
     pub fn has_lost_events(&self) -> bool {
-        self.monitor.borrow().as_ref().is_some_and(Monitor::has_lost)
+        self.monitor
+            .borrow()
+            .as_ref()
+            .is_some_and(Monitor::has_lost)
     }
 
     /// Sets an option to a value of any type, as bytes.
@@ -120,7 +131,9 @@ impl Socket {
         }
         let names_connection = option == CONNECT_ROUTING_ID;
         // libzmq itself makes the names that begin with 0.
-        if names_connection && (value.first() == Some(&0) || self.connection_names.borrow().contains(value)) {
+        if names_connection
+            && (value.first() == Some(&0) || self.connection_names.borrow().contains(value))
+        {
             return Err(Errno::INVALID);
         }
         self.raw.set(option, value)?;
@@ -156,9 +169,16 @@ impl Drop for Socket {
 pub fn poll(sockets: &[(Rc<Socket>, c_short)], milliseconds: c_long) -> ZmqResult<Vec<c_short>> {
     let mut items = Vec::new();
     // Each socket once: the system limits the list to the number of open files, and libzmq aborts the program beyond it.
-    let places: Vec<_> = sockets.iter().map(|(socket, events)| place(&mut items, socket, *events)).collect();
+    let places: Vec<_> = sockets
+        .iter()
+        .map(|(socket, events)| place(&mut items, socket, *events))
+        .collect();
     poll_items(&mut items, milliseconds)?;
-    Ok(sockets.iter().zip(places).map(|((_, events), place)| items[place].ready() & events).collect())
+    Ok(sockets
+        .iter()
+        .zip(places)
+        .map(|((_, events), place)| items[place].ready() & events)
+        .collect())
 }
 
 /// The index of a socket in the list, to which it is added if necessary.

@@ -45,8 +45,18 @@ pub struct Outgoing {
 
 impl Connection {
     pub(super) fn new(stream: OwnedWriteHalf) -> Self {
-        let state = State { is_queued: false, has_more: false, is_asking: false, last_active: Instant::now() };
-        Self { stream, outgoing: Mutex::default(), more: Notify::new(), state: state.into() }
+        let state = State {
+            is_queued: false,
+            has_more: false,
+            is_asking: false,
+            last_active: Instant::now(),
+        };
+        Self {
+            stream,
+            outgoing: Mutex::default(),
+            more: Notify::new(),
+            state: state.into(),
+        }
     }
 
     pub(super) fn state(&self) -> MutexGuard<'_, State> {
@@ -55,7 +65,12 @@ impl Connection {
 
     /// A request is going to wait for the simulator.
     pub(super) fn enter_queue(&self) {
-        *self.state() = State { is_queued: true, has_more: false, is_asking: true, last_active: Instant::now() };
+        *self.state() = State {
+            is_queued: true,
+            has_more: false,
+            is_asking: true,
+            last_active: Instant::now(),
+        };
     }
 
     /// The simulator has the request.
@@ -101,7 +116,11 @@ impl Connection {
         if outgoing.unsent.len() > MAX_UNREAD {
             return Err(ErrorKind::OutOfMemory.into());
         }
-        let sent = if outgoing.unsent.is_empty() { self.write(bytes)? } else { 0 };
+        let sent = if outgoing.unsent.is_empty() {
+            self.write(bytes)?
+        } else {
+            0
+        };
         if sent < bytes.len() {
             outgoing.unsent.extend_from_slice(&bytes[sent..]);
             self.more.notify_one();
@@ -133,7 +152,11 @@ impl Connection {
     /// Whether something is stored.
     fn has_unsent(&self) -> io::Result<bool> {
         let outgoing = self.outgoing();
-        if outgoing.is_abandoned { Err(ErrorKind::ConnectionAborted.into()) } else { Ok(!outgoing.unsent.is_empty()) }
+        if outgoing.is_abandoned {
+            Err(ErrorKind::ConnectionAborted.into())
+        } else {
+            Ok(!outgoing.unsent.is_empty())
+        }
     }
 
     /// Waits until what is stored can be sent, or there is something to send.

@@ -25,7 +25,10 @@ use receiver::Receiver;
 /// Maximum number of entries that wait for the simulator: for each connection a request and its end.
 const MAX_ARRIVALS: usize = 2 * LIMITS.connections + 1;
 /// The limits of a server.
-const LIMITS: Limits = Limits { connections: 512, silence: Duration::from_secs(10) };
+const LIMITS: Limits = Limits {
+    connections: 512,
+    silence: Duration::from_secs(10),
+};
 /// Time limit of the handshake.
 const HANDSHAKE_TIMEOUT: Duration = Duration::from_secs(10);
 /// Pause after a connection that could not be accepted.
@@ -69,7 +72,11 @@ impl ZmqServer {
     ///
     /// # Errors
     /// When the listener cannot be used.
-    pub fn start(event_loop: Rc<EventLoop>, listener: TcpListener, stop: Arc<AtomicBool>) -> io::Result<Self> {
+    pub fn start(
+        event_loop: Rc<EventLoop>,
+        listener: TcpListener,
+        stop: Arc<AtomicBool>,
+    ) -> io::Result<Self> {
         Self::start_limited(event_loop, listener, stop, LIMITS)
     }
 
@@ -80,18 +87,30 @@ impl ZmqServer {
         limits: Limits,
     ) -> io::Result<Self> {
         listener.set_nonblocking(true)?;
-        let listener = event_loop.block_on(async { tokio::net::TcpListener::from_std(listener) })?;
+        let listener =
+            event_loop.block_on(async { tokio::net::TcpListener::from_std(listener) })?;
         let (deliver, inbox) = event_loop.inbox(MAX_ARRIVALS);
         let connections = Arc::<Connections>::default();
-        let accepting = event_loop.spawn(accept_all(listener, connections.clone(), deliver, limits));
-        Ok(Self { event_loop, inbox: inbox.into(), connections, stop, _accepting: accepting })
+        let accepting =
+            event_loop.spawn(accept_all(listener, connections.clone(), deliver, limits));
+        Ok(Self {
+            event_loop,
+            inbox: inbox.into(),
+            connections,
+            stop,
+            _accepting: accepting,
+        })
     }
 
     /// The next of what came in; waits for it at most that long. Requests of connections that are gone are dropped.
     pub fn receive(&self, timeout: Duration) -> Option<Incoming> {
         loop {
-            let incoming = self.event_loop.fetch(&mut self.inbox.borrow_mut(), timeout)?;
-            let Incoming::Request(peer, _) = &incoming else { return Some(incoming) };
+            let incoming = self
+                .event_loop
+                .fetch(&mut self.inbox.borrow_mut(), timeout)?;
+            let Incoming::Request(peer, _) = &incoming else {
+                return Some(incoming);
+            };
             if let Some(connection) = self.connections.lock().get(peer) {
                 connection.leave_queue();
                 return Some(incoming);
@@ -111,7 +130,9 @@ impl ZmqServer {
 
     /// Answers a connection; nothing happens when it is gone.
     pub fn reply(&self, peer: Peer, bytes: &[u8]) {
-        let Some(connection) = self.connections.lock().get(&peer).cloned() else { return };
+        let Some(connection) = self.connections.lock().get(&peer).cloned() else {
+            return;
+        };
         connection.answer(bytes);
     }
 }
@@ -125,7 +146,9 @@ impl Connections {
     fn end_silent(&self, silence: Duration) -> bool {
         let now = Instant::now();
         let connections = self.lock();
-        let silent = connections.values().filter_map(|connection| Some((connection.silent_since()?, connection)));
+        let silent = connections
+            .values()
+            .filter_map(|connection| Some((connection.silent_since()?, connection)));
         match silent.min_by_key(|(since, _)| *since) {
             Some((since, connection)) if now.duration_since(since) >= silence => {
                 connection.abandon();
@@ -162,13 +185,19 @@ async fn accept_all(
 }
 
 /// Serves one connection to its end.
-async fn serve(stream: TcpStream, peer: Peer, connections: Arc<Connections>, deliver: Deliver<Incoming>) {
+async fn serve(
+    stream: TcpStream,
+    peer: Peer,
+    connections: Arc<Connections>,
+    deliver: Deliver<Incoming>,
+) {
     // If this cannot be set, replies are slower.
     let _ = stream.set_nodelay(true);
     let (reading, writing) = stream.into_split();
     let connection = Arc::new(Connection::new(writing));
     let mut receiver = Receiver::new(reading);
-    let introduced = tokio::time::timeout(HANDSHAKE_TIMEOUT, receiver.shake_hands(&connection)).await;
+    let introduced =
+        tokio::time::timeout(HANDSHAKE_TIMEOUT, receiver.shake_hands(&connection)).await;
     if !matches!(introduced, Ok(Ok(()))) {
         return;
     }
@@ -176,7 +205,9 @@ async fn serve(stream: TcpStream, peer: Peer, connections: Arc<Connections>, del
     while let Ok(request) = receiver.next_request(&connection).await {
         connection.outgoing().envelope = request.envelope;
         connection.enter_queue();
-        deliver.deliver(Incoming::Request(peer, request.content)).await;
+        deliver
+            .deliver(Incoming::Request(peer, request.content))
+            .await;
         if receiver.wait_for_turn(&connection).await.is_err() {
             break;
         }
@@ -199,7 +230,11 @@ mod tests {
         let listener = TcpListener::bind("127.0.0.1:0").expect("a port is free");
         let address = listener.local_addr().expect("it is bound");
         let event_loop = Rc::new(EventLoop::new().expect("an event loop"));
-        (ZmqServer::start_limited(event_loop, listener, Arc::default(), limits).expect("the listener is good"), address)
+        (
+            ZmqServer::start_limited(event_loop, listener, Arc::default(), limits)
+                .expect("the listener is good"),
+            address,
+        )
     }
 
     fn connect(address: std::net::SocketAddr) -> std::net::TcpStream {
@@ -218,7 +253,9 @@ mod tests {
     fn a_request_an_answer_and_the_end() {
         let (server, address) = server();
         let mut client = connect(address);
-        client.write_all(b"\x01\0\0\x02hi").expect("the server reads");
+        client
+            .write_all(b"\x01\0\0\x02hi")
+            .expect("the server reads");
         assert_eq!(next(&server), Some(Incoming::Request(1, b"hi".to_vec())));
         server.reply(1, b"ho");
         let mut received = vec![0; zmtp::hello().len() + 6];
@@ -233,7 +270,9 @@ mod tests {
     fn a_length_that_lies_ends_the_connection() {
         let (server, address) = server();
         let mut client = connect(address);
-        client.write_all(b"\x02\0\0\x04\0\0\0\0\0abc").expect("the server reads");
+        client
+            .write_all(b"\x02\0\0\x04\0\0\0\0\0abc")
+            .expect("the server reads");
         assert_eq!(next(&server), Some(Incoming::Gone(1)));
     }
 
@@ -241,7 +280,9 @@ mod tests {
     fn a_client_that_does_not_read_is_given_up() {
         let (server, address) = server();
         let mut client = connect(address);
-        client.write_all(b"\x01\0\0\x02hi").expect("the server reads");
+        client
+            .write_all(b"\x01\0\0\x02hi")
+            .expect("the server reads");
         assert!(matches!(next(&server), Some(Incoming::Request(1, _))));
         for _ in 0..200 {
             server.reply(1, &[0; 1 << 20]);
@@ -266,7 +307,10 @@ mod tests {
         assert_eq!(peer_of(next(&server)), 1);
         let mut modest = connect(address);
         modest.write_all(HI).expect("the server reads");
-        let peers: Vec<Peer> = (0..20).map(|_| peer_of(next(&server))).take_while(|&peer| peer == 1).collect();
+        let peers: Vec<Peer> = (0..20)
+            .map(|_| peer_of(next(&server)))
+            .take_while(|&peer| peer == 1)
+            .collect();
         assert!(peers.len() < 20, "one connection goes before all others");
         for _ in 0..99 - peers.len() {
             assert_eq!(peer_of(next(&server)), 1);
@@ -277,15 +321,22 @@ mod tests {
     fn requests_of_connections_that_are_gone_are_dropped() {
         let (server, address) = server();
         let mut client = connect(address);
-        client.write_all(&HI.repeat(1000)).expect("the server reads");
+        client
+            .write_all(&HI.repeat(1000))
+            .expect("the server reads");
         drop(client);
-        let requests = (0..).map_while(|_| next(&server).filter(|incoming| *incoming != Incoming::Gone(1))).count();
+        let requests = (0..)
+            .map_while(|_| next(&server).filter(|incoming| *incoming != Incoming::Gone(1)))
+            .count();
         assert!(requests < 10, "{requests}");
     }
 
     #[test]
     fn silent_connections_make_room() {
-        let (server, address) = limited(Limits { connections: 2, silence: Duration::ZERO });
+        let (server, address) = limited(Limits {
+            connections: 2,
+            silence: Duration::ZERO,
+        });
         let (mut first, mut second) = (connect(address), connect(address));
         for (client, peer) in [(&mut first, 1), (&mut second, 2)] {
             client.write_all(HI).expect("the server reads");
@@ -299,6 +350,12 @@ mod tests {
         third.write_all(HI).expect("the server reads");
         let mut arrivals = [next(&server), next(&server)];
         arrivals.sort_by_key(|incoming| matches!(incoming, Some(Incoming::Request(..))));
-        assert!(matches!(arrivals, [Some(Incoming::Gone(2)), Some(Incoming::Request(3, _))]), "{arrivals:?}");
+        assert!(
+            matches!(
+                arrivals,
+                [Some(Incoming::Gone(2)), Some(Incoming::Request(3, _))]
+            ),
+            "{arrivals:?}"
+        );
     }
 }

@@ -24,7 +24,10 @@ pub(super) struct Receiver {
 
 impl Receiver {
     pub(super) fn new(stream: OwnedReadHalf) -> Self {
-        Self { stream, decoder: Decoder::new() }
+        Self {
+            stream,
+            decoder: Decoder::new(),
+        }
     }
 
     /// Reads what has come; an error at its end.
@@ -73,7 +76,10 @@ impl Receiver {
     }
 
     /// The next request of the peer; pings are answered here.
-    pub(super) async fn next_request(&mut self, connection: &Connection) -> io::Result<zmtp::Request> {
+    pub(super) async fn next_request(
+        &mut self,
+        connection: &Connection,
+    ) -> io::Result<zmtp::Request> {
         loop {
             match self.decoder.next().map_err(io::Error::other)? {
                 Some(PeerMessage::Request(request)) => return Ok(request),

@@ -28,7 +28,8 @@ impl Arm {
         let mut joints: Vec<ObjectId> = Vec::new();
         for (i, (joint_type, before)) in links.iter().enumerate() {
             let joint = env.create_joint(&format!("joint{i}"), *joint_type);
-            env.set_parent(joint, joints.last().copied(), false).unwrap();
+            env.set_parent(joint, joints.last().copied(), false)
+                .unwrap();
             env.set_pose(joint, *before, Frame::Parent).unwrap();
             joints.push(joint);
         }
@@ -39,7 +40,14 @@ impl Arm {
         let group = env.create_group("arm");
         let element = env.add_element(group, tip).unwrap();
         env.element_mut(group, element).unwrap().constraints = Constraints::POSE;
-        let mut arm = Self { env, joints, tip, target, group, element };
+        let mut arm = Self {
+            env,
+            joints,
+            tip,
+            target,
+            group,
+            element,
+        };
         arm.reach();
         arm
     }
@@ -47,7 +55,10 @@ impl Arm {
     /// Two revolute joints about z with links of half a metre.
     pub fn planar() -> Self {
         let mut arm = Self::new(
-            &[(JointType::Revolute, Pose::identity()), (JointType::Revolute, Pose::translation(0.5, 0.0, 0.0))],
+            &[
+                (JointType::Revolute, Pose::identity()),
+                (JointType::Revolute, Pose::translation(0.5, 0.0, 0.0)),
+            ],
             Pose::translation(0.5, 0.0, 0.0),
         );
         arm.set_config(&[0.3, 0.6]);
@@ -92,7 +103,12 @@ impl Arm {
             (0.088, 0.0, Q),
         ];
         let links: Vec<(JointType, Pose)> = rows
-            .map(|(a, d, alpha)| (JointType::Revolute, step(a, 0.0, 0.0, alpha) * Pose::translation(0.0, 0.0, d)))
+            .map(|(a, d, alpha)| {
+                (
+                    JointType::Revolute,
+                    step(a, 0.0, 0.0, alpha) * Pose::translation(0.0, 0.0, d),
+                )
+            })
             .to_vec();
         let mut arm = Self::new(&links, Pose::translation(0.0, 0.0, 0.107));
         arm.limit(&[
@@ -112,7 +128,11 @@ impl Arm {
             let joint = self.env.joint_mut(*joint).unwrap();
             (joint.cyclic, joint.min, joint.range) = (false, *low, high - low);
             let middle = 0.5 * (low + high);
-            joint.position = if joint.position < *low || joint.position > *high { middle } else { joint.position };
+            joint.position = if joint.position < *low || joint.position > *high {
+                middle
+            } else {
+                joint.position
+            };
         }
     }
 
@@ -123,7 +143,10 @@ impl Arm {
     }
 
     pub fn config(&self) -> Vec<f64> {
-        self.joints.iter().map(|joint| self.env.joint(*joint).unwrap().position).collect()
+        self.joints
+            .iter()
+            .map(|joint| self.env.joint(*joint).unwrap().position)
+            .collect()
     }
 
     pub fn tip_pose(&self) -> Pose {
@@ -141,8 +164,14 @@ impl Arm {
 
     /// Distance and angle between tip and target, computed from the poses.
     pub fn gap(&self) -> [f64; 2] {
-        let (tip, target) = (self.tip_pose(), self.env.pose(self.target, Frame::World).unwrap());
-        [(tip.translation.vector - target.translation.vector).norm(), tip.rotation.angle_to(&target.rotation)]
+        let (tip, target) = (
+            self.tip_pose(),
+            self.env.pose(self.target, Frame::World).unwrap(),
+        );
+        [
+            (tip.translation.vector - target.translation.vector).norm(),
+            tip.rotation.angle_to(&target.rotation),
+        ]
     }
 
     pub fn set_element(&mut self, change: impl FnOnce(&mut Element)) {
@@ -160,7 +189,12 @@ impl Arm {
     /// A config within the limits.
     pub fn random_config(&self, random: &mut Random) -> Vec<f64> {
         let draw = |joint: &ObjectId| {
-            let [low, high] = self.env.joint(*joint).unwrap().limits().unwrap_or([-3.0, 3.0]);
+            let [low, high] = self
+                .env
+                .joint(*joint)
+                .unwrap()
+                .limits()
+                .unwrap_or([-3.0, 3.0]);
             low + random.uniform() * (high - low)
         };
         self.joints.iter().map(draw).collect()
@@ -177,7 +211,16 @@ pub fn random_chain(random: &mut Random, joints: usize) -> Arm {
     let kinds: Vec<bool> = (0..joints).map(|_| random.uniform() < 0.2).collect();
     let links: Vec<(JointType, Pose)> = kinds
         .iter()
-        .map(|prismatic| (if *prismatic { JointType::Prismatic } else { JointType::Revolute }, pose(random)))
+        .map(|prismatic| {
+            (
+                if *prismatic {
+                    JointType::Prismatic
+                } else {
+                    JointType::Revolute
+                },
+                pose(random),
+            )
+        })
         .collect();
     let mut arm = Arm::new(&links, pose(random));
     for (joint, prismatic) in arm.joints.clone().into_iter().zip(kinds) {

@@ -35,7 +35,10 @@ impl<'a> Reader<'a, '_> {
         if let Some(known) = self.geometries.get(&node.id()) {
             return Ok(known.clone());
         }
-        let name = node.attribute("name").or(node.attribute("id")).unwrap_or("");
+        let name = node
+            .attribute("name")
+            .or(node.attribute("id"))
+            .unwrap_or("");
         let mut primitives = Vec::new();
         match node.first("mesh") {
             Some(mesh) => {
@@ -43,7 +46,10 @@ impl<'a> Reader<'a, '_> {
                     primitives.extend(self.primitive(element, name)?);
                 }
             }
-            None => self.file.warnings.push(format!("geometry {name}: not a mesh, left out")),
+            None => self
+                .file
+                .warnings
+                .push(format!("geometry {name}: not a mesh, left out")),
         }
         let primitives = Rc::new(primitives);
         self.geometries.insert(node.id(), primitives.clone());
@@ -55,22 +61,36 @@ impl<'a> Reader<'a, '_> {
         match kind {
             "triangles" | "polylist" | "polygons" | "tristrips" | "trifans" => {}
             "lines" | "linestrips" => {
-                self.file.warnings.push(format!("geometry {name}: {kind} left out"));
+                self.file
+                    .warnings
+                    .push(format!("geometry {name}: {kind} left out"));
                 return Ok(None);
             }
             _ => return Ok(None),
         }
         let inputs = self.inputs(node)?;
         let triangles = self.triangles(node, &inputs)?;
-        let lists = Lists { positions: &inputs.positions, normals: &inputs.normals, uv: &inputs.uv };
+        let lists = Lists {
+            positions: &inputs.positions,
+            normals: &inputs.normals,
+            uv: &inputs.uv,
+        };
         let part = part(name.into(), lists, &triangles, Material::default());
-        Ok(Some(Primitive { symbol: node.attribute("material").unwrap_or("").into(), part }))
+        Ok(Some(Primitive {
+            symbol: node.attribute("material").unwrap_or("").into(),
+            part,
+        }))
     }
 
     fn inputs(&mut self, node: Node<'a, 'a>) -> Result<Inputs> {
         let mut inputs = Inputs::default();
         for input in node.all("input") {
-            let offset: usize = input.attribute("offset").unwrap_or("0").trim().parse().unwrap_or(usize::MAX);
+            let offset: usize = input
+                .attribute("offset")
+                .unwrap_or("0")
+                .trim()
+                .parse()
+                .unwrap_or(usize::MAX);
             if offset > 1000 {
                 return Err(self.refused(input, "offset is not a small number"));
             }
@@ -118,14 +138,23 @@ impl<'a> Reader<'a, '_> {
                 "triangles" => triangles.extend(corners.as_chunks::<3>().0),
                 "polylist" => self.polylist(node, &corners, inputs, &mut triangles)?,
                 "tristrips" => push_strip(&corners, &mut triangles),
-                "trifans" => triangles.extend((2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]])),
+                "trifans" => triangles
+                    .extend((2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]])),
                 _ => push_polygon(&corners, &inputs.positions, &mut triangles),
             }
         }
         for holed in node.all("ph") {
-            let Some(outline) = holed.first("p") else { continue };
-            push_polygon(&self.corners(outline, inputs)?, &inputs.positions, &mut triangles);
-            self.file.warnings.push("holes of polygons are filled".into());
+            let Some(outline) = holed.first("p") else {
+                continue;
+            };
+            push_polygon(
+                &self.corners(outline, inputs)?,
+                &inputs.positions,
+                &mut triangles,
+            );
+            self.file
+                .warnings
+                .push("holes of polygons are filled".into());
         }
         Ok(triangles)
     }
@@ -137,12 +166,25 @@ impl<'a> Reader<'a, '_> {
         inputs: &Inputs,
         triangles: &mut Vec<[Corner; 3]>,
     ) -> Result<()> {
-        let Some(counts) = node.first("vcount") else { return Err(self.refused(node, "no vcount")) };
+        let Some(counts) = node.first("vcount") else {
+            return Err(self.refused(node, "no vcount"));
+        };
         let mut left = corners;
         for count in counts.text().unwrap_or("").split_ascii_whitespace() {
-            let polygon = count.parse().ok().and_then(|count| left.split_at_checked(count));
-            let refused =
-                || self.refused(counts, format!("{} corners, p has {} more", quoted(count.as_bytes()), left.len()));
+            let polygon = count
+                .parse()
+                .ok()
+                .and_then(|count| left.split_at_checked(count));
+            let refused = || {
+                self.refused(
+                    counts,
+                    format!(
+                        "{} corners, p has {} more",
+                        quoted(count.as_bytes()),
+                        left.len()
+                    ),
+                )
+            };
             let (polygon, rest) = polygon.ok_or_else(refused)?;
             push_polygon(polygon, &inputs.positions, triangles);
             left = rest;
@@ -154,27 +196,44 @@ impl<'a> Reader<'a, '_> {
     fn corners(&self, list: Node<'a, 'a>, inputs: &Inputs) -> Result<Vec<Corner>> {
         let mut indices = Vec::new();
         for word in list.text().unwrap_or("").split_ascii_whitespace() {
-            let index: u32 =
-                word.parse().map_err(|_| self.refused(list, format!("{} is no index", quoted(word.as_bytes()))))?;
+            let index: u32 = word.parse().map_err(|_| {
+                self.refused(list, format!("{} is no index", quoted(word.as_bytes())))
+            })?;
             indices.push(index);
         }
         let mut corners = Vec::new();
         for row in indices.chunks_exact(inputs.stride.max(1)) {
             let of = |offset: Option<usize>, length: usize| {
-                offset.map(|offset| row[offset]).filter(|index| (*index as usize) < length).unwrap_or(NONE)
+                offset
+                    .map(|offset| row[offset])
+                    .filter(|index| (*index as usize) < length)
+                    .unwrap_or(NONE)
             };
             let position = of(inputs.position, inputs.positions.len());
             if position == NONE {
-                return Err(self.refused(list, format!("an index beyond the {} positions", inputs.positions.len())));
+                return Err(self.refused(
+                    list,
+                    format!("an index beyond the {} positions", inputs.positions.len()),
+                ));
             }
-            let (normal, uv) = (of(inputs.normal, inputs.normals.len()), of(inputs.uv_offset, inputs.uv.len()));
-            corners.push(Corner { position, normal, uv });
+            let (normal, uv) = (
+                of(inputs.normal, inputs.normals.len()),
+                of(inputs.uv_offset, inputs.uv.len()),
+            );
+            corners.push(Corner {
+                position,
+                normal,
+                uv,
+            });
         }
         Ok(corners)
     }
 }
 
 fn finite<const N: usize>(mut list: Vec<[f64; N]>) -> Vec<[f64; N]> {
-    list.as_flattened_mut().iter_mut().filter(|x| !x.is_finite()).for_each(|x| *x = 0.0);
+    list.as_flattened_mut()
+        .iter_mut()
+        .filter(|x| !x.is_finite())
+        .for_each(|x| *x = 0.0);
     list
 }

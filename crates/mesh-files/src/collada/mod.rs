@@ -41,7 +41,10 @@ pub(crate) fn read(bytes: &[u8], limits: Limits, resolve: Resolve) -> Result<Mes
     if !root.has_tag_name_of("COLLADA") {
         return Err(at(&document, root, "the first element is not COLLADA"));
     }
-    let ids = root.descendants().filter_map(|node| Some((node.attribute("id")?, node))).collect();
+    let ids = root
+        .descendants()
+        .filter_map(|node| Some((node.attribute("id")?, node)))
+        .collect();
     let mut reader = Reader {
         document: &document,
         ids,
@@ -49,7 +52,10 @@ pub(crate) fn read(bytes: &[u8], limits: Limits, resolve: Resolve) -> Result<Mes
         geometries: HashMap::new(),
         materials: material::Materials::default(),
         limits,
-        file: MeshFile { up: Some(UpAxis::Y), ..MeshFile::default() },
+        file: MeshFile {
+            up: Some(UpAxis::Y),
+            ..MeshFile::default()
+        },
         resolve,
     };
     reader.asset(root)?;
@@ -74,7 +80,8 @@ impl<'a> Elements<'a> for Node<'a, 'a> {
     }
 
     fn all(&self, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
-        self.children().filter(move |node| node.has_tag_name_of(name))
+        self.children()
+            .filter(move |node| node.has_tag_name_of(name))
     }
 
     fn first(&self, name: &'static str) -> Option<Node<'a, 'a>> {
@@ -88,7 +95,9 @@ impl<'a> Elements<'a> for Node<'a, 'a> {
 
 /// A damaged text.
 fn refused(error: Error) -> ReadError {
-    let place = error.line().map_or(Location::File, |line| Location::Line(line as usize));
+    let place = error
+        .line()
+        .map_or(Location::File, |line| Location::Line(line as usize));
     ReadError::new(place, "XML", error.to_string())
 }
 
@@ -104,10 +113,16 @@ impl<'a> Reader<'a, '_> {
 
     /// Unit and up axis.
     fn asset(&mut self, root: Node<'a, 'a>) -> Result<()> {
-        let Some(asset) = root.first("asset") else { return Ok(()) };
-        if let Some((unit, metres)) = asset.first("unit").and_then(|unit| Some((unit, unit.attribute("meter")?))) {
+        let Some(asset) = root.first("asset") else {
+            return Ok(());
+        };
+        if let Some((unit, metres)) = asset
+            .first("unit")
+            .and_then(|unit| Some((unit, unit.attribute("meter")?)))
+        {
             let metres = number(metres.trim().as_bytes()).filter(|metres| *metres > 0.0);
-            self.file.unit = Some(metres.ok_or_else(|| self.refused(unit, "meter is not a positive number"))?);
+            self.file.unit =
+                Some(metres.ok_or_else(|| self.refused(unit, "meter is not a positive number"))?);
         }
         self.file.up = Some(match asset.first("up_axis").map(|axis| axis.content()) {
             Some("X_UP") => UpAxis::X,
@@ -125,16 +140,26 @@ impl<'a> Reader<'a, '_> {
     /// The element that an attribute refers to.
     fn referred(&self, node: Node<'a, 'a>, attribute: &str) -> Result<Node<'a, 'a>> {
         let reference = node.attribute(attribute).unwrap_or("");
-        self.target(reference)
-            .ok_or_else(|| self.refused(node, format!("{attribute} {reference:?} names nothing in this file")))
+        self.target(reference).ok_or_else(|| {
+            self.refused(
+                node,
+                format!("{attribute} {reference:?} names nothing in this file"),
+            )
+        })
     }
 
     /// The numbers inside an element: exactly `N`.
     fn numbers<const N: usize>(&self, node: Node) -> Result<[f64; N]> {
-        let numbers: Option<Vec<f64>> =
-            node.text().unwrap_or("").split_ascii_whitespace().map(|word| number(word.as_bytes())).collect();
+        let numbers: Option<Vec<f64>> = node
+            .text()
+            .unwrap_or("")
+            .split_ascii_whitespace()
+            .map(|word| number(word.as_bytes()))
+            .collect();
         let numbers = numbers.ok_or_else(|| self.refused(node, "what is not a finite number"))?;
         let found = numbers.len();
-        numbers.try_into().map_err(|_| self.refused(node, format!("{found} numbers instead of {N}")))
+        numbers
+            .try_into()
+            .map_err(|_| self.refused(node, format!("{found} numbers instead of {N}")))
     }
 }

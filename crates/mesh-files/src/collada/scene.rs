@@ -22,10 +22,16 @@ struct Walk {
 impl<'a> Reader<'a, '_> {
     /// The scene that is instantiated, else the first; without any, all geometries as they are.
     pub(super) fn scene(&mut self, root: Node<'a, 'a>) -> Result<()> {
-        let instance = root.first("scene").and_then(|scene| scene.first("instance_visual_scene"));
+        let instance = root
+            .first("scene")
+            .and_then(|scene| scene.first("instance_visual_scene"));
         let named = instance.and_then(|instance| self.target(instance.attribute("url")?));
-        let first = root.first("library_visual_scenes").and_then(|library| library.first("visual_scene"));
-        let Some(scene) = named.or(first) else { return self.all_geometries(root) };
+        let first = root
+            .first("library_visual_scenes")
+            .and_then(|library| library.first("visual_scene"));
+        let Some(scene) = named.or(first) else {
+            return self.all_geometries(root);
+        };
         let mut walk = Walk { depth: 0, nodes: 0 };
         for node in scene.all("node") {
             self.node(node, &Transform::IDENTITY, &mut walk)?;
@@ -34,7 +40,10 @@ impl<'a> Reader<'a, '_> {
     }
 
     fn all_geometries(&mut self, root: Node<'a, 'a>) -> Result<()> {
-        for geometry in root.all("library_geometries").flat_map(|library| library.all("geometry").collect::<Vec<_>>()) {
+        for geometry in root
+            .all("library_geometries")
+            .flat_map(|library| library.all("geometry").collect::<Vec<_>>())
+        {
             self.place(geometry, None, &Transform::IDENTITY, geometry)?;
         }
         Ok(())
@@ -46,7 +55,9 @@ impl<'a> Reader<'a, '_> {
         if walk.depth > MAX_DEPTH {
             return Err(self.refused(
                 node,
-                format!("more than {MAX_DEPTH} nodes inside each other, or a node that contains itself"),
+                format!(
+                    "more than {MAX_DEPTH} nodes inside each other, or a node that contains itself"
+                ),
             ));
         }
         if walk.nodes > MAX_NODES {
@@ -73,7 +84,12 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// A skin in its bind pose; of a morph, the mesh it begins with.
-    fn controller(&mut self, instance: Node<'a, 'a>, transform: &Transform, node: Node<'a, 'a>) -> Result<()> {
+    fn controller(
+        &mut self,
+        instance: Node<'a, 'a>,
+        transform: &Transform,
+        node: Node<'a, 'a>,
+    ) -> Result<()> {
         let controller = self.referred(instance, "url")?;
         let Some(skin) = controller.first("skin").or(controller.first("morph")) else {
             return Err(self.refused(controller, "neither skin nor morph"));
@@ -94,9 +110,15 @@ impl<'a> Reader<'a, '_> {
         transform: &Transform,
         node: Node<'a, 'a>,
     ) -> Result<()> {
-        let name = node.attribute("name").or(node.attribute("id")).unwrap_or("");
+        let name = node
+            .attribute("name")
+            .or(node.attribute("id"))
+            .unwrap_or("");
         for primitive in self.geometry(geometry)?.iter() {
-            self.limits.take(primitive.part.vertices.len(), primitive.part.triangles.len())?;
+            self.limits.take(
+                primitive.part.vertices.len(),
+                primitive.part.triangles.len(),
+            )?;
             let mut part = primitive.part.clone();
             part.transform(transform);
             part.material = self.bound(instance, &primitive.symbol)?;
@@ -110,15 +132,22 @@ impl<'a> Reader<'a, '_> {
 
     /// The material that an instance binds to a symbol; without a binding, one whose id is the symbol.
     fn bound(&mut self, instance: Option<Node<'a, 'a>>, symbol: &str) -> Result<Material> {
-        let bindings = instance.and_then(|instance| instance.first("bind_material")?.first("technique_common"));
+        let bindings = instance
+            .and_then(|instance| instance.first("bind_material")?.first("technique_common"));
         let binding = bindings.and_then(|bindings| {
             let mut all = bindings.all("instance_material");
             all.find(|binding| binding.attribute("symbol") == Some(symbol))
         });
         let named = binding.and_then(|binding| self.target(binding.attribute("target")?));
-        match named.or_else(|| self.ids.get(symbol).copied()).filter(|node| node.has_tag_name_of("material")) {
+        match named
+            .or_else(|| self.ids.get(symbol).copied())
+            .filter(|node| node.has_tag_name_of("material"))
+        {
             Some(material) => self.material(material),
-            None => Ok(Material { name: symbol.into(), ..Material::default() }),
+            None => Ok(Material {
+                name: symbol.into(),
+                ..Material::default()
+            }),
         }
     }
 
@@ -146,7 +175,9 @@ impl<'a> Reader<'a, '_> {
 
     fn matrix(&self, node: Node) -> Result<Transform> {
         let m: [f64; 16] = self.numbers(node)?;
-        Ok(Transform([0, 4, 8].map(|row| [m[row], m[row + 1], m[row + 2], m[row + 3]])))
+        Ok(Transform(
+            [0, 4, 8].map(|row| [m[row], m[row + 1], m[row + 2], m[row + 3]]),
+        ))
     }
 }
 
@@ -166,10 +197,19 @@ fn cos_sin(degrees: f64) -> (f64, f64) {
 
 /// Eye, point looked at, and direction up: z looks backwards.
 fn look_at([ex, ey, ez, px, py, pz, ux, uy, uz]: [f64; 9]) -> Transform {
-    let cross =
-        |a: [f64; 3], b: [f64; 3]| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ]
+    };
     let z = crate::transform::unit([ex - px, ey - py, ez - pz]);
     let x = crate::transform::unit(cross([ux, uy, uz], z));
     let y = cross(z, x);
-    Transform([[x[0], y[0], z[0], ex], [x[1], y[1], z[1], ey], [x[2], y[2], z[2], ez]])
+    Transform([
+        [x[0], y[0], z[0], ex],
+        [x[1], y[1], z[1], ey],
+        [x[2], y[2], z[2], ez],
+    ])
 }

@@ -21,8 +21,12 @@ impl Source {
     pub(super) fn list<const N: usize>(&self) -> Vec<[f64; N]> {
         let used = N.min(self.stride);
         // Accessors of real files announce too many rows now and then: the array counts. Its last row may be short.
-        let whole =
-            self.values.len().saturating_sub(self.first).checked_sub(used).map_or(0, |rest| rest / self.stride + 1);
+        let whole = self
+            .values
+            .len()
+            .saturating_sub(self.first)
+            .checked_sub(used)
+            .map_or(0, |rest| rest / self.stride + 1);
         (0..self.rows.min(whole))
             .map(|row| {
                 let start = self.first + row * self.stride;
@@ -47,23 +51,38 @@ impl<'a> Reader<'a, '_> {
     }
 
     fn read_source(&self, node: Node<'a, 'a>) -> Result<Source> {
-        let Some(array) = node.first("float_array") else { return Err(self.refused(node, "no float_array")) };
+        let Some(array) = node.first("float_array") else {
+            return Err(self.refused(node, "no float_array"));
+        };
         let mut values = Vec::new();
         for word in array.text().unwrap_or("").split_ascii_whitespace() {
             // Programs write `NaN` for normals and texture coordinates that they could not compute. Positions are checked at the end.
-            let value = word.parse().map_err(|_| self.refused(array, no_number(Some(word.as_bytes()))))?;
+            let value = word
+                .parse()
+                .map_err(|_| self.refused(array, no_number(Some(word.as_bytes()))))?;
             values.push(value);
         }
-        let accessor = node.first("technique_common").and_then(|technique| technique.first("accessor"));
-        let integer = |name: &str, usual: usize| match accessor.and_then(|accessor| accessor.attribute(name)) {
+        let accessor = node
+            .first("technique_common")
+            .and_then(|technique| technique.first("accessor"));
+        let integer = |name: &str, usual: usize| match accessor
+            .and_then(|accessor| accessor.attribute(name))
+        {
             None => Ok(usual),
-            Some(text) => text
-                .trim()
-                .parse()
-                .map_err(|_| self.refused(array, format!("{name} {} is no count", quoted(text.as_bytes())))),
+            Some(text) => text.trim().parse().map_err(|_| {
+                self.refused(
+                    array,
+                    format!("{name} {} is no count", quoted(text.as_bytes())),
+                )
+            }),
         };
         let (first, stride) = (integer("offset", 0)?, integer("stride", 3)?.max(1));
         let rows = integer("count", usize::MAX)?;
-        Ok(Source { values, first, stride, rows })
+        Ok(Source {
+            values,
+            first,
+            stride,
+            rows,
+        })
     }
 }

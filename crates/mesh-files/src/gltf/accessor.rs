@@ -43,10 +43,19 @@ impl Component {
             Self::U8 => (f64::from(bytes[0]), 255.0),
             Self::I16 => (f64::from(i16::from_le_bytes([bytes[0], bytes[1]])), 32767.0),
             Self::U16 => (f64::from(u16::from_le_bytes([bytes[0], bytes[1]])), 65535.0),
-            Self::U32 => (f64::from(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])), 4_294_967_295.0),
-            Self::F32 => return f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])),
+            Self::U32 => (
+                f64::from(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])),
+                4_294_967_295.0,
+            ),
+            Self::F32 => {
+                return f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
+            }
         };
-        if normalized { (value / largest).max(-1.0) } else { value }
+        if normalized {
+            (value / largest).max(-1.0)
+        } else {
+            value
+        }
     }
 }
 
@@ -61,7 +70,12 @@ struct Rows<'a> {
 impl Rows<'_> {
     fn row<const N: usize>(&self, row: usize) -> [f64; N] {
         let start = row * self.stride;
-        std::array::from_fn(|k| self.component.read(&self.bytes[start + k * self.component.bytes()..], self.normalized))
+        std::array::from_fn(|k| {
+            self.component.read(
+                &self.bytes[start + k * self.component.bytes()..],
+                self.normalized,
+            )
+        })
     }
 }
 
@@ -74,10 +88,19 @@ impl Reader<'_, '_> {
         if string(accessor, "type") != Some(expected) {
             return Err(refused(element, format!("type is not {expected}")));
         }
-        let count = integer(accessor, "count", &element)?.ok_or_else(|| refused(&element, "no count"))?;
+        let count =
+            integer(accessor, "count", &element)?.ok_or_else(|| refused(&element, "no count"))?;
         // Without a view, all are zeros until sparse changes: nothing else bounds the count then.
-        if count > self.limits.vertices.max(self.limits.triangles.saturating_mul(3)) {
-            return Err(refused(element, format!("{count} rows are more than the limit")));
+        if count
+            > self
+                .limits
+                .vertices
+                .max(self.limits.triangles.saturating_mul(3))
+        {
+            return Err(refused(
+                element,
+                format!("{count} rows are more than the limit"),
+            ));
         }
         let mut values = match self.rows(accessor, count, N, &element)? {
             Some(rows) => (0..count).map(|row| rows.row(row)).collect(),
@@ -89,21 +112,44 @@ impl Reader<'_, '_> {
         Ok(values)
     }
 
-    fn rows(&self, accessor: &Value, count: usize, components: usize, element: &str) -> Result<Option<Rows<'_>>> {
+    fn rows(
+        &self,
+        accessor: &Value,
+        count: usize,
+        components: usize,
+        element: &str,
+    ) -> Result<Option<Rows<'_>>> {
         let component = Component::of(accessor.get("componentType").and_then(Value::as_u64));
         let component = component.ok_or_else(|| refused(element, "unknown componentType"))?;
-        let Some(view) = integer(accessor, "bufferView", element)? else { return Ok(None) };
+        let Some(view) = integer(accessor, "bufferView", element)? else {
+            return Ok(None);
+        };
         let (bytes, stride) = self.buffers.view(self.root, view)?;
         let size = components * component.bytes();
         let stride = stride.unwrap_or(size);
         let start = integer(accessor, "byteOffset", element)?.unwrap_or(0);
-        let end = count
-            .checked_sub(1)
-            .map_or(Some(start), |last| last.checked_mul(stride)?.checked_add(start)?.checked_add(size));
+        let end = count.checked_sub(1).map_or(Some(start), |last| {
+            last.checked_mul(stride)?
+                .checked_add(start)?
+                .checked_add(size)
+        });
         let bytes = end.and_then(|end| bytes.get(start..end));
-        let bytes = bytes.ok_or_else(|| refused(element, format!("{count} rows do not fit into bufferView {view}")))?;
-        let normalized = accessor.get("normalized").and_then(Value::as_bool).unwrap_or(false);
-        Ok(Some(Rows { bytes, stride, component, normalized }))
+        let bytes = bytes.ok_or_else(|| {
+            refused(
+                element,
+                format!("{count} rows do not fit into bufferView {view}"),
+            )
+        })?;
+        let normalized = accessor
+            .get("normalized")
+            .and_then(Value::as_bool)
+            .unwrap_or(false);
+        Ok(Some(Rows {
+            bytes,
+            stride,
+            component,
+            normalized,
+        }))
     }
 
     /// Rows that differ from the buffer view: their numbers and their values.
@@ -121,8 +167,10 @@ impl Reader<'_, '_> {
         };
         whole.insert("componentType".into(), accessor["componentType"].clone());
         let whole = Value::Object(whole);
-        let (indices, changes) =
-            (self.rows(&sparse["indices"], count, 1, element)?, self.rows(&whole, count, N, element)?);
+        let (indices, changes) = (
+            self.rows(&sparse["indices"], count, 1, element)?,
+            self.rows(&whole, count, N, element)?,
+        );
         let Some((indices, changes)) = indices.zip(changes) else {
             return Err(refused(element, "sparse without a bufferView"));
         };
@@ -138,7 +186,9 @@ impl Reader<'_, '_> {
 
     /// How many rows an accessor announces.
     pub(super) fn rows_of(&self, index: usize) -> usize {
-        list(self.root, "accessors").get(index).and_then(|accessor| accessor.get("count")?.as_u64()).unwrap_or(0)
-            as usize
+        list(self.root, "accessors")
+            .get(index)
+            .and_then(|accessor| accessor.get("count")?.as_u64())
+            .unwrap_or(0) as usize
     }
 }

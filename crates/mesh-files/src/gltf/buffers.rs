@@ -22,7 +22,11 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
     let mut reader = Bytes::new(&bytes[4..], 4);
     let version = reader.u32("version")?;
     if version != 2 {
-        return Err(ReadError::new(Location::Byte(4), "version", format!("{version} instead of 2")));
+        return Err(ReadError::new(
+            Location::Byte(4),
+            "version",
+            format!("{version} instead of 2"),
+        ));
     }
     let length = reader.u32("length")? as usize;
     if length > bytes.len() {
@@ -58,18 +62,28 @@ impl<'a> Buffers<'a> {
     pub(super) fn load(root: &Value, binary: Option<&'a [u8]>, resolve: Resolve) -> Result<Self> {
         let list = list(root, "buffers");
         if list.len() > MAX_BUFFERS {
-            return Err(refused("buffers", format!("{} are more than {MAX_BUFFERS}", list.len())));
+            return Err(refused(
+                "buffers",
+                format!("{} are more than {MAX_BUFFERS}", list.len()),
+            ));
         }
         let mut buffers = Vec::new();
         for (number, buffer) in list.iter().enumerate() {
             let element = format!("buffer {number}");
             let bytes: Cow<[u8]> = match string(buffer, "uri") {
-                Some(uri) => uri_bytes(uri, resolve).map_err(|why| refused(&element, why))?.into(),
-                None => binary.ok_or_else(|| refused(&element, "neither a uri nor a binary part"))?.into(),
+                Some(uri) => uri_bytes(uri, resolve)
+                    .map_err(|why| refused(&element, why))?
+                    .into(),
+                None => binary
+                    .ok_or_else(|| refused(&element, "neither a uri nor a binary part"))?
+                    .into(),
             };
             let length = integer(buffer, "byteLength", &element)?.unwrap_or(0);
             if bytes.len() < length {
-                return Err(refused(&element, format!("{length} bytes are announced, there are {}", bytes.len())));
+                return Err(refused(
+                    &element,
+                    format!("{length} bytes are announced, there are {}", bytes.len()),
+                ));
             }
             buffers.push(bytes);
         }
@@ -80,20 +94,37 @@ impl<'a> Buffers<'a> {
     pub(super) fn view(&self, root: &Value, index: usize) -> Result<(&[u8], Option<usize>)> {
         let view = item(root, "bufferViews", index)?;
         let element = format!("bufferView {index}");
-        let need = |name: &str| integer(view, name, &element)?.ok_or_else(|| refused(&element, format!("no {name}")));
+        let need = |name: &str| {
+            integer(view, name, &element)?.ok_or_else(|| refused(&element, format!("no {name}")))
+        };
         let (buffer, length) = (need("buffer")?, need("byteLength")?);
         let start = integer(view, "byteOffset", &element)?.unwrap_or(0);
-        let bytes = self.buffers.get(buffer).ok_or_else(|| refused(&element, format!("no buffer {buffer}")))?;
-        let range = start.checked_add(length).and_then(|end| bytes.get(start..end));
-        let range = range
-            .ok_or_else(|| refused(&element, format!("{length} bytes at {start} of a buffer of {}", bytes.len())))?;
+        let bytes = self
+            .buffers
+            .get(buffer)
+            .ok_or_else(|| refused(&element, format!("no buffer {buffer}")))?;
+        let range = start
+            .checked_add(length)
+            .and_then(|end| bytes.get(start..end));
+        let range = range.ok_or_else(|| {
+            refused(
+                &element,
+                format!("{length} bytes at {start} of a buffer of {}", bytes.len()),
+            )
+        })?;
         Ok((range, integer(view, "byteStride", &element)?))
     }
 }
 
 /// The bytes of a URI: base64 in it, or a file beside this one.
 pub(super) fn uri_bytes(uri: &str, resolve: Resolve) -> std::result::Result<Vec<u8>, String> {
-    let Some(data) = uri.strip_prefix("data:") else { return resolve(&percent_decoded(uri)) };
-    let Some((_, text)) = data.split_once(";base64,") else { return Err("a data URI without base64".into()) };
-    base64::engine::general_purpose::STANDARD.decode(text.trim_ascii()).map_err(|error| error.to_string())
+    let Some(data) = uri.strip_prefix("data:") else {
+        return resolve(&percent_decoded(uri));
+    };
+    let Some((_, text)) = data.split_once(";base64,") else {
+        return Err("a data URI without base64".into());
+    };
+    base64::engine::general_purpose::STANDARD
+        .decode(text.trim_ascii())
+        .map_err(|error| error.to_string())
 }

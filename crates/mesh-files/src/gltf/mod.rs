@@ -69,7 +69,11 @@ fn with_reader<T>(
     let root: Value = serde_json::from_slice(json).map_err(not_json)?;
     let version = string(&root["asset"], "version").unwrap_or("");
     if !version.starts_with("2.") {
-        return Err(ReadError::new(Location::File, "asset", format!("version {version:?} instead of 2.0")));
+        return Err(ReadError::new(
+            Location::File,
+            "asset",
+            format!("version {version:?} instead of 2.0"),
+        ));
     }
     check_extensions(&root)?;
     use_it(Reader {
@@ -78,7 +82,11 @@ fn with_reader<T>(
         meshes: vec![None; list(&root, "meshes").len()],
         images: vec![None; list(&root, "images").len()],
         limits,
-        file: MeshFile { unit: Some(1.0), up: Some(UpAxis::Y), ..MeshFile::default() },
+        file: MeshFile {
+            unit: Some(1.0),
+            up: Some(UpAxis::Y),
+            ..MeshFile::default()
+        },
         resolve,
     })
 }
@@ -88,16 +96,28 @@ fn not_json(error: serde_json::Error) -> ReadError {
 }
 
 fn check_extensions(root: &Value) -> Result<()> {
-    let required = list(root, "extensionsRequired").iter().filter_map(Value::as_str);
-    match required.into_iter().find(|name| !KNOWN_EXTENSIONS.contains(name)) {
+    let required = list(root, "extensionsRequired")
+        .iter()
+        .filter_map(Value::as_str);
+    match required
+        .into_iter()
+        .find(|name| !KNOWN_EXTENSIONS.contains(name))
+    {
         None => Ok(()),
-        Some(name) => Err(ReadError::new(Location::File, "extensionsRequired", format!("{name} is not supported"))),
+        Some(name) => Err(ReadError::new(
+            Location::File,
+            "extensionsRequired",
+            format!("{name} is not supported"),
+        )),
     }
 }
 
 /// An array of an object; empty if there is none.
 fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {
-    value.get(name).and_then(Value::as_array).map_or(&[], Vec::as_slice)
+    value
+        .get(name)
+        .and_then(Value::as_array)
+        .map_or(&[], Vec::as_slice)
 }
 
 fn string<'a>(value: &'a Value, name: &str) -> Option<&'a str> {
@@ -106,15 +126,25 @@ fn string<'a>(value: &'a Value, name: &str) -> Option<&'a str> {
 
 /// A count, length or index: `None` if it is not there.
 fn integer(value: &Value, name: &str, element: &str) -> Result<Option<usize>> {
-    let Some(member) = value.get(name) else { return Ok(None) };
-    let integer = member.as_u64().and_then(|integer| usize::try_from(integer).ok());
-    integer.map(Some).ok_or_else(|| refused(element, format!("{name} is no count")))
+    let Some(member) = value.get(name) else {
+        return Ok(None);
+    };
+    let integer = member
+        .as_u64()
+        .and_then(|integer| usize::try_from(integer).ok());
+    integer
+        .map(Some)
+        .ok_or_else(|| refused(element, format!("{name} is no count")))
 }
 
 /// `N` numbers: `None` if they are not there.
 fn numbers<const N: usize>(value: &Value, name: &str, element: &str) -> Result<Option<[f64; N]>> {
-    let Some(member) = value.get(name) else { return Ok(None) };
-    let numbers: Option<Vec<f64>> = member.as_array().and_then(|array| array.iter().map(Value::as_f64).collect());
+    let Some(member) = value.get(name) else {
+        return Ok(None);
+    };
+    let numbers: Option<Vec<f64>> = member
+        .as_array()
+        .and_then(|array| array.iter().map(Value::as_f64).collect());
     match numbers.and_then(|numbers| numbers.try_into().ok()) {
         Some(numbers) => Ok(Some(numbers)),
         None => Err(refused(element, format!("{name} must be {N} numbers"))),
@@ -123,7 +153,9 @@ fn numbers<const N: usize>(value: &Value, name: &str, element: &str) -> Result<O
 
 /// Element `index` of an array of the file.
 fn item<'a>(root: &'a Value, array: &str, index: usize) -> Result<&'a Value> {
-    list(root, array).get(index).ok_or_else(|| refused(array, format!("{index} of {}", list(root, array).len())))
+    list(root, array)
+        .get(index)
+        .ok_or_else(|| refused(array, format!("{index} of {}", list(root, array).len())))
 }
 
 fn refused(element: impl Into<String>, problem: impl Into<String>) -> ReadError {

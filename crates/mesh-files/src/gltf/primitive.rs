@@ -24,7 +24,11 @@ impl Reader<'_, '_> {
         let name = string(mesh, "name").unwrap_or("");
         let mut parts = Vec::new();
         for (number, primitive) in list(mesh, "primitives").iter().enumerate() {
-            parts.extend(self.primitive(primitive, name, &format!("mesh {index} primitive {number}"))?);
+            parts.extend(self.primitive(
+                primitive,
+                name,
+                &format!("mesh {index} primitive {number}"),
+            )?);
         }
         let parts = Rc::new(parts);
         self.meshes[index] = Some(parts.clone());
@@ -34,25 +38,38 @@ impl Reader<'_, '_> {
     fn primitive(&mut self, primitive: &Value, name: &str, element: &str) -> Result<Option<Part>> {
         let mode = integer(primitive, "mode", element)?.unwrap_or(TRIANGLES);
         if ![TRIANGLES, STRIP, FAN].contains(&mode) {
-            self.file.warnings.push(format!("{element}: points and lines are left out"));
+            self.file
+                .warnings
+                .push(format!("{element}: points and lines are left out"));
             return Ok(None);
         }
         let attributes = &primitive["attributes"];
-        let Some(position) = integer(attributes, "POSITION", element)? else { return Ok(None) };
+        let Some(position) = integer(attributes, "POSITION", element)? else {
+            return Ok(None);
+        };
         // What is shared by many primitives is read for each of them, so each pays.
         self.limits.take(self.rows_of(position), 0)?;
         let positions = self.accessor::<3>(position)?;
         let normals = self.attribute::<3>(attributes, "NORMAL", positions.len(), element)?;
         let uv = self.attribute::<2>(attributes, "TEXCOORD_0", positions.len(), element)?;
         let uv: Vec<[f64; 2]> = uv.into_iter().map(|[u, v]| [u, 1.0 - v]).collect();
-        let corners = self.corners(primitive, positions.len(), [!normals.is_empty(), !uv.is_empty()], element)?;
+        let corners = self.corners(
+            primitive,
+            positions.len(),
+            [!normals.is_empty(), !uv.is_empty()],
+            element,
+        )?;
         let triangles = triangles(mode, &corners);
         self.limits.take(0, triangles.len())?;
         let material = match integer(primitive, "material", element)? {
             Some(index) => self.material(index)?,
             None => Material::default(),
         };
-        let lists = Lists { positions: &positions, normals: &normals, uv: &uv };
+        let lists = Lists {
+            positions: &positions,
+            normals: &normals,
+            uv: &uv,
+        };
         Ok(Some(part(name.into(), lists, &triangles, material)))
     }
 
@@ -64,29 +81,53 @@ impl Reader<'_, '_> {
         vertices: usize,
         element: &str,
     ) -> Result<Vec<[f64; N]>> {
-        let Some(index) = integer(attributes, name, element)? else { return Ok(Vec::new()) };
+        let Some(index) = integer(attributes, name, element)? else {
+            return Ok(Vec::new());
+        };
         let mut rows = self.accessor(index)?;
         if rows.len() != vertices {
-            return Err(refused(element, format!("{name} has {} rows for {vertices} vertices", rows.len())));
+            return Err(refused(
+                element,
+                format!("{name} has {} rows for {vertices} vertices", rows.len()),
+            ));
         }
-        rows.as_flattened_mut().iter_mut().filter(|x| !x.is_finite()).for_each(|x| *x = 0.0);
+        rows.as_flattened_mut()
+            .iter_mut()
+            .filter(|x| !x.is_finite())
+            .for_each(|x| *x = 0.0);
         Ok(rows)
     }
 
     /// The vertices in the order of the indices, or of the list.
-    fn corners(&self, primitive: &Value, vertices: usize, has: [bool; 2], element: &str) -> Result<Vec<Corner>> {
+    fn corners(
+        &self,
+        primitive: &Value,
+        vertices: usize,
+        has: [bool; 2],
+        element: &str,
+    ) -> Result<Vec<Corner>> {
         let corner = |position: u32| {
             let [normal, uv] = has.map(|has| if has { position } else { NONE });
-            Corner { position, normal, uv }
+            Corner {
+                position,
+                normal,
+                uv,
+            }
         };
         let Some(index) = integer(primitive, "indices", element)? else {
             return Ok((0..vertices as u32).map(corner).collect());
         };
         let indices = self.accessor::<1>(index)?;
-        let wrong = indices.as_flattened().iter().find(|index| !(**index >= 0.0 && **index < vertices as f64));
+        let wrong = indices
+            .as_flattened()
+            .iter()
+            .find(|index| !(**index >= 0.0 && **index < vertices as f64));
         match wrong {
             Some(index) => Err(refused(element, format!("vertex {index} of {vertices}"))),
-            None => Ok(indices.iter().map(|[index]| corner(*index as u32)).collect()),
+            None => Ok(indices
+                .iter()
+                .map(|[index]| corner(*index as u32))
+                .collect()),
         }
     }
 }
@@ -95,7 +136,9 @@ fn triangles(mode: usize, corners: &[Corner]) -> Vec<[Corner; 3]> {
     let mut triangles = Vec::new();
     match mode {
         STRIP => push_strip(corners, &mut triangles),
-        FAN => triangles.extend((2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]])),
+        FAN => {
+            triangles.extend((2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]]))
+        }
         _ => triangles.extend(corners.as_chunks::<3>().0),
     }
     triangles

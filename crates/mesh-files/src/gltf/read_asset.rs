@@ -19,7 +19,11 @@ impl Asset {
     /// Where the file is damaged, requires an extension that is not known, or exceeds the limits.
     pub fn read(bytes: &[u8], limits: Limits, resolve: Resolve) -> Result<Self> {
         if bytes.len() > MAX_BYTES {
-            return Err(ReadError::new(Location::File, "file", format!("larger than {} MiB", MAX_BYTES >> 20)));
+            return Err(ReadError::new(
+                Location::File,
+                "file",
+                format!("larger than {} MiB", MAX_BYTES >> 20),
+            ));
         }
         with_reader(bytes, limits, resolve, |mut reader| {
             let placed = reader.scene()?;
@@ -42,9 +46,19 @@ impl Asset {
                 .map_or(&[][..], |mesh| &self.meshes[mesh])
                 .iter()
                 .flat_map(|part| part.vertices.as_flattened());
-            if !node.translation.iter().chain(&node.rotation).chain(coordinates).all(|x| x.is_finite()) {
+            if !node
+                .translation
+                .iter()
+                .chain(&node.rotation)
+                .chain(coordinates)
+                .all(|x| x.is_finite())
+            {
                 let problem = "a place that is not finite";
-                return Err(ReadError::new(Location::File, format!("node {number} of the scene"), problem));
+                return Err(ReadError::new(
+                    Location::File,
+                    format!("node {number} of the scene"),
+                    problem,
+                ));
             }
         }
         Ok(())
@@ -56,11 +70,20 @@ impl Reader<'_, '_> {
         let node = &list(self.root, "nodes")[placed.node];
         let element = format!("node {}", placed.node);
         let rigid = placed.transform.rigid();
-        let parts = self.parts_of(node, placed.node, &rigid.rigid_inverse().after(&placed.transform))?;
-        let parts: Vec<Part> = parts.into_iter().filter(|part| !part.triangles.is_empty()).collect();
+        let parts = self.parts_of(
+            node,
+            placed.node,
+            &rigid.rigid_inverse().after(&placed.transform),
+        )?;
+        let parts: Vec<Part> = parts
+            .into_iter()
+            .filter(|part| !part.triangles.is_empty())
+            .collect();
         let mesh = (!parts.is_empty()).then_some(asset.meshes.len());
         asset.meshes.extend(mesh.map(|_| parts));
-        let above = placed.parent.map_or(Transform::IDENTITY, |parent| all[parent].transform.rigid());
+        let above = placed
+            .parent
+            .map_or(Transform::IDENTITY, |parent| all[parent].transform.rigid());
         let local = above.rigid_inverse().after(&rigid);
         asset.nodes.push(Node {
             name: string(node, "name").unwrap_or("").into(),
@@ -68,7 +91,9 @@ impl Reader<'_, '_> {
             translation: local.0.map(|row| row[3]),
             rotation: local.quaternion(),
             mesh,
-            camera: integer(node, "camera", &element)?.map(|index| self.camera(index)).transpose()?,
+            camera: integer(node, "camera", &element)?
+                .map(|index| self.camera(index))
+                .transpose()?,
             light: self.light_of(node, &element)?,
         });
         Ok(())
@@ -76,7 +101,9 @@ impl Reader<'_, '_> {
 
     /// What an asset has no place for.
     fn left_out(&self) -> Vec<String> {
-        let names = ["animations", "skins"].into_iter().filter(|name| !list(self.root, name).is_empty());
+        let names = ["animations", "skins"]
+            .into_iter()
+            .filter(|name| !list(self.root, name).is_empty());
         names.map(|name| format!("{name} are left out")).collect()
     }
 }

@@ -69,11 +69,18 @@ impl Reader<'_, '_> {
             return Err(refused(element, "in the scene twice, or inside itself"));
         }
         if depth > MAX_DEPTH {
-            return Err(refused(element, format!("more than {MAX_DEPTH} nodes inside each other")));
+            return Err(refused(
+                element,
+                format!("more than {MAX_DEPTH} nodes inside each other"),
+            ));
         }
         let above = parent.map_or(Transform::IDENTITY, |parent| placed[parent].transform);
         let own = placed.len();
-        placed.push(Placed { node: index, parent, transform: above.after(&transform(node, &element)?) });
+        placed.push(Placed {
+            node: index,
+            parent,
+            transform: above.after(&transform(node, &element)?),
+        });
         for child in children(node, "children", &element)? {
             self.node(child, Some(own), depth + 1, is_visited, placed)?;
         }
@@ -95,11 +102,19 @@ impl Reader<'_, '_> {
     }
 
     /// The parts of a node's mesh, moved by a transform.
-    pub(super) fn parts_of(&mut self, node: &Value, index: usize, transform: &Transform) -> Result<Vec<Part>> {
-        let Some(mesh) = integer(node, "mesh", &format!("node {index}"))? else { return Ok(Vec::new()) };
+    pub(super) fn parts_of(
+        &mut self,
+        node: &Value,
+        index: usize,
+        transform: &Transform,
+    ) -> Result<Vec<Part>> {
+        let Some(mesh) = integer(node, "mesh", &format!("node {index}"))? else {
+            return Ok(Vec::new());
+        };
         let mut parts = Vec::new();
         for part in self.mesh(mesh)?.iter() {
-            self.limits.take(part.vertices.len(), part.triangles.len())?;
+            self.limits
+                .take(part.vertices.len(), part.triangles.len())?;
             let mut part = part.clone();
             part.transform(transform);
             parts.push(part);
@@ -117,10 +132,14 @@ fn children(value: &Value, name: &str, element: &str) -> Result<Vec<usize>> {
 /// A matrix, by columns; or translation, rotation and scale.
 fn transform(node: &Value, element: &str) -> Result<Transform> {
     if let Some(m) = numbers::<16>(node, "matrix", element)? {
-        return Ok(Transform([0, 1, 2].map(|row| [m[row], m[row + 4], m[row + 8], m[row + 12]])));
+        return Ok(Transform(
+            [0, 1, 2].map(|row| [m[row], m[row + 4], m[row + 8], m[row + 12]]),
+        ));
     }
     let translation = numbers(node, "translation", element)?.unwrap_or([0.0; 3]);
     let rotation = numbers(node, "rotation", element)?.unwrap_or([0.0, 0.0, 0.0, 1.0]);
     let scale = numbers(node, "scale", element)?.unwrap_or([1.0; 3]);
-    Ok(Transform::translation(translation).after(&Transform::rotation(rotation)).after(&Transform::scaling(scale)))
+    Ok(Transform::translation(translation)
+        .after(&Transform::rotation(rotation))
+        .after(&Transform::scaling(scale)))
 }

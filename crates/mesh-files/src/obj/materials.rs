@@ -22,7 +22,10 @@ const MAX_LIBRARIES: usize = 100;
 impl Library {
     /// What is known of a material; one that no library defines has only its name.
     pub(super) fn material(&self, key: &[u8]) -> Material {
-        let unknown = || Material { name: name(key), ..Material::default() };
+        let unknown = || Material {
+            name: name(key),
+            ..Material::default()
+        };
         self.materials.get(key).cloned().unwrap_or_else(unknown)
     }
 
@@ -43,10 +46,16 @@ impl Library {
         let mut current = None;
         for line in text.split(|&byte| byte == b'\n') {
             let line = line.trim_ascii();
-            let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
+            let end = line
+                .iter()
+                .position(u8::is_ascii_whitespace)
+                .unwrap_or(line.len());
             let (keyword, rest) = (&line[..end], line[end..].trim_ascii());
             if keyword == b"newmtl" {
-                let material = Material { name: name(rest), ..Material::default() };
+                let material = Material {
+                    name: name(rest),
+                    ..Material::default()
+                };
                 self.materials.insert(rest.to_vec(), material);
                 current = Some(rest.to_vec());
             } else if let Some(key) = &current {
@@ -56,14 +65,27 @@ impl Library {
     }
 
     fn property(&mut self, key: &[u8], keyword: &[u8], rest: &[u8], resolve: Resolve) {
-        let texture = if keyword.eq_ignore_ascii_case(b"map_Kd") { self.texture(rest, resolve) } else { None };
-        let Some(material) = self.materials.get_mut(key) else { return };
+        let texture = if keyword.eq_ignore_ascii_case(b"map_Kd") {
+            self.texture(rest, resolve)
+        } else {
+            None
+        };
+        let Some(material) = self.materials.get_mut(key) else {
+            return;
+        };
         let share = || number_or_zero(words(rest).next()).clamp(0.0, 1.0);
         match keyword {
             b"Kd" => material.diffuse = colour(rest),
             b"Ks" => material.specular = colour(rest),
             b"Ke" => material.emission = colour(rest),
-            b"d" => material.transparency = 1.0 - words(rest).filter_map(number).next().unwrap_or(1.0).clamp(0.0, 1.0),
+            b"d" => {
+                material.transparency = 1.0
+                    - words(rest)
+                        .filter_map(number)
+                        .next()
+                        .unwrap_or(1.0)
+                        .clamp(0.0, 1.0)
+            }
             b"Tr" => material.transparency = share(),
             _ if texture.is_some() => material.texture = texture,
             _ => {}
@@ -81,7 +103,10 @@ impl Library {
         }
         let found = match resolve(&path) {
             Ok(bytes) => {
-                self.textures.push(Texture { name: file_name(&path).into(), bytes });
+                self.textures.push(Texture {
+                    name: file_name(&path).into(),
+                    bytes,
+                });
                 Some(self.textures.len() - 1)
             }
             Err(why) => {
@@ -96,7 +121,11 @@ impl Library {
 
 /// Three shares, or one for all three; `spectral` and `xyz` colours are left out.
 fn colour(rest: &[u8]) -> Option<[f64; 3]> {
-    let shares: Vec<f64> = words(rest).map_while(number).take(3).map(|x| x.clamp(0.0, 1.0)).collect();
+    let shares: Vec<f64> = words(rest)
+        .map_while(number)
+        .take(3)
+        .map(|x| x.clamp(0.0, 1.0))
+        .collect();
     match shares[..] {
         [grey] => Some([grey; 3]),
         [red, green, blue] => Some([red, green, blue]),
@@ -110,7 +139,8 @@ fn without_options(rest: &[u8]) -> String {
     while left.starts_with(b"-") {
         left = skip_word(left);
         while let Some(word) = words(left).next()
-            && (number(word).is_some() || [&b"on"[..], b"off", b"r", b"g", b"b", b"m", b"l", b"z"].contains(&word))
+            && (number(word).is_some()
+                || [&b"on"[..], b"off", b"r", b"g", b"b", b"m", b"l", b"z"].contains(&word))
             && words(left).nth(1).is_some()
         {
             left = skip_word(left);
@@ -120,6 +150,9 @@ fn without_options(rest: &[u8]) -> String {
 }
 
 fn skip_word(line: &[u8]) -> &[u8] {
-    let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
+    let end = line
+        .iter()
+        .position(u8::is_ascii_whitespace)
+        .unwrap_or(line.len());
     line[end..].trim_ascii_start()
 }

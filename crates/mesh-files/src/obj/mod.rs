@@ -37,7 +37,11 @@ pub(crate) fn read(bytes: &[u8], mut limits: Limits, resolve: Resolve) -> Result
     for (line, content) in logical_lines(bytes) {
         reader.line(&content, Location::Line(line), &mut library, resolve)?;
     }
-    let lists = Lists { positions: &reader.positions, normals: &reader.normals, uv: &reader.uv };
+    let lists = Lists {
+        positions: &reader.positions,
+        normals: &reader.normals,
+        uv: &reader.uv,
+    };
     let mut names: Vec<_> = reader.groups.iter().collect();
     names.sort_by_key(|(_, number)| **number);
     let mut file = MeshFile::default();
@@ -48,7 +52,10 @@ pub(crate) fn read(bytes: &[u8], mut limits: Limits, resolve: Resolve) -> Result
     }
     (file.textures, file.warnings) = (library.textures, library.warnings);
     if reader.edges > 0 {
-        file.warnings.push(format!("{} faces of fewer than three corners are left out", reader.edges));
+        file.warnings.push(format!(
+            "{} faces of fewer than three corners are left out",
+            reader.edges
+        ));
     }
     Ok(file)
 }
@@ -72,14 +79,26 @@ fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, std::borrow::Cow<
 }
 
 impl Reader {
-    fn line(&mut self, line: &[u8], place: Location, library: &mut Library, resolve: Resolve) -> Result<()> {
+    fn line(
+        &mut self,
+        line: &[u8],
+        place: Location,
+        library: &mut Library,
+        resolve: Resolve,
+    ) -> Result<()> {
         let line = line.trim_ascii_start();
-        let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
+        let end = line
+            .iter()
+            .position(u8::is_ascii_whitespace)
+            .unwrap_or(line.len());
         let (keyword, rest) = (&line[..end], line[end..].trim_ascii());
         match keyword {
             b"v" => self.positions.push(vector(rest, place)?),
             b"vn" => self.normals.push(three(rest)),
-            b"vt" => self.uv.push([number_or_zero(words(rest).next()), number_or_zero(words(rest).nth(1))]),
+            b"vt" => self.uv.push([
+                number_or_zero(words(rest).next()),
+                number_or_zero(words(rest).nth(1)),
+            ]),
             b"f" | b"fo" => self.face(rest, place)?,
             b"g" | b"o" => (self.group, self.current) = (rest.to_vec(), None),
             b"usemtl" => (self.material, self.current) = (rest.to_vec(), None),
@@ -119,8 +138,13 @@ impl Reader {
     /// `position`, `position/uv`, `position//normal` or `position/uv/normal`.
     fn corner(&self, word: &[u8], place: Location) -> Result<Corner> {
         let mut indices = word.split(|&byte| byte == b'/');
-        let refused =
-            || ReadError::new(place, "face", format!("{} names nothing that was defined before", quoted(word)));
+        let refused = || {
+            ReadError::new(
+                place,
+                "face",
+                format!("{} names nothing that was defined before", quoted(word)),
+            )
+        };
         let mut next = |length: usize| match indices.next() {
             None | Some(b"") => Ok(NONE),
             Some(index) => relative(index, length).ok_or_else(refused),
@@ -130,27 +154,43 @@ impl Reader {
             uv: next(self.uv.len())?,
             normal: next(self.normals.len())?,
         };
-        if corner.position == NONE { Err(refused()) } else { Ok(corner) }
+        if corner.position == NONE {
+            Err(refused())
+        } else {
+            Ok(corner)
+        }
     }
 }
 
 /// Indices count from 1, or backwards from what was defined last.
 fn relative(word: &[u8], length: usize) -> Option<u32> {
     let index: i64 = std::str::from_utf8(word).ok()?.parse().ok()?;
-    let index = if index < 0 { index.checked_add(length as i64)? } else { index - 1 };
-    usize::try_from(index).ok().filter(|index| *index < length).map(|index| index as u32)
+    let index = if index < 0 {
+        index.checked_add(length as i64)?
+    } else {
+        index - 1
+    };
+    usize::try_from(index)
+        .ok()
+        .filter(|index| *index < length)
+        .map(|index| index as u32)
 }
 
 fn vector(rest: &[u8], place: Location) -> Result<[f64; 3]> {
     let mut words = words(rest);
     let mut next = || {
         let word = words.next();
-        word.and_then(number).ok_or_else(|| ReadError::new(place, "vertex", no_number(word)))
+        word.and_then(number)
+            .ok_or_else(|| ReadError::new(place, "vertex", no_number(word)))
     };
     Ok([next()?, next()?, next()?])
 }
 
 fn three(rest: &[u8]) -> [f64; 3] {
     let mut words = words(rest);
-    [number_or_zero(words.next()), number_or_zero(words.next()), number_or_zero(words.next())]
+    [
+        number_or_zero(words.next()),
+        number_or_zero(words.next()),
+        number_or_zero(words.next()),
+    ]
 }

@@ -85,7 +85,13 @@ impl Kind {
 
 impl Header {
     pub(super) fn read(bytes: &[u8]) -> Result<Self> {
-        let mut header = Self { encoding: Encoding::Text, elements: Vec::new(), texture: None, end: 0, lines: 0 };
+        let mut header = Self {
+            encoding: Encoding::Text,
+            elements: Vec::new(),
+            texture: None,
+            end: 0,
+            lines: 0,
+        };
         let mut has_format = false;
         for line in bytes.split_inclusive(|&byte| byte == b'\n') {
             header.end += line.len();
@@ -98,14 +104,18 @@ impl Header {
                     header.encoding = header.encoding(kind)?;
                     has_format = true;
                 }
-                (_, [b"comment", keyword, path]) if keyword.eq_ignore_ascii_case(b"TextureFile") => {
+                (_, [b"comment", keyword, path])
+                    if keyword.eq_ignore_ascii_case(b"TextureFile") =>
+                {
                     header.texture = Some(name(path))
                 }
                 (_, [b"comment" | b"obj_info", ..] | []) => {}
                 (_, [b"element", name, count]) => header.element(name, count)?,
                 (_, [b"property", property @ ..]) => header.property(property)?,
                 (_, [b"end_header"]) if has_format => return Ok(header),
-                (_, [word, ..]) => return Err(header.refused(&format!("{} was not expected", quoted(word)))),
+                (_, [word, ..]) => {
+                    return Err(header.refused(&format!("{} was not expected", quoted(word))));
+                }
             }
         }
         Err(header.refused("the file ends before `end_header`"))
@@ -125,24 +135,38 @@ impl Header {
     }
 
     fn element(&mut self, element: &[u8], count: &[u8]) -> Result<()> {
-        let count = std::str::from_utf8(count).ok().and_then(|count| count.parse().ok());
+        let count = std::str::from_utf8(count)
+            .ok()
+            .and_then(|count| count.parse().ok());
         let count = count.ok_or_else(|| self.refused("the count of an element is not a number"))?;
-        self.elements.push(Element { name: name(element), count, properties: Vec::new() });
+        self.elements.push(Element {
+            name: name(element),
+            count,
+            properties: Vec::new(),
+        });
         Ok(())
     }
 
     fn property(&mut self, content: &[&[u8]]) -> Result<()> {
         let (kind, property) = match content {
-            [b"list", count, item, property] => {
-                (Scalar::of(count).zip(Scalar::of(item)).map(|(count, item)| Kind::List { count, item }), property)
-            }
+            [b"list", count, item, property] => (
+                Scalar::of(count)
+                    .zip(Scalar::of(item))
+                    .map(|(count, item)| Kind::List { count, item }),
+                property,
+            ),
             [kind, property] => (Scalar::of(kind).map(Kind::Scalar), property),
             _ => return Err(self.refused("a property is a type and a name")),
         };
-        let kind = kind.ok_or_else(|| self.refused(&format!("unknown type of property {}", quoted(property))))?;
+        let kind = kind.ok_or_else(|| {
+            self.refused(&format!("unknown type of property {}", quoted(property)))
+        })?;
         let problem = self.refused("a property before any element");
         let element = self.elements.last_mut().ok_or(problem)?;
-        element.properties.push(Property { name: name(property), kind });
+        element.properties.push(Property {
+            name: name(property),
+            kind,
+        });
         Ok(())
     }
 }

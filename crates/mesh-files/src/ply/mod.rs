@@ -38,8 +38,16 @@ pub(crate) fn read(bytes: &[u8], mut limits: Limits, resolve: Resolve) -> Result
             _ => skip(element, &mut values)?,
         }
     }
-    let uv = if reader.corner_uv.is_empty() { &reader.uv } else { &reader.corner_uv };
-    let lists = Lists { positions: &reader.positions, normals: &reader.normals, uv };
+    let uv = if reader.corner_uv.is_empty() {
+        &reader.uv
+    } else {
+        &reader.corner_uv
+    };
+    let lists = Lists {
+        positions: &reader.positions,
+        normals: &reader.normals,
+        uv,
+    };
     let mut file = MeshFile::default();
     let material = material(&header, &mut file, resolve);
     let part = part(String::new(), lists, &reader.triangles, material);
@@ -50,12 +58,20 @@ pub(crate) fn read(bytes: &[u8], mut limits: Limits, resolve: Resolve) -> Result
 
 /// The texture that a comment names, as MeshLab writes it.
 fn material(header: &Header, file: &mut MeshFile, resolve: Resolve) -> Material {
-    let Some(path) = &header.texture else { return Material::default() };
+    let Some(path) = &header.texture else {
+        return Material::default();
+    };
     match resolve(path) {
-        Ok(bytes) => file.textures.push(Texture { name: file_name(path).into(), bytes }),
+        Ok(bytes) => file.textures.push(Texture {
+            name: file_name(path).into(),
+            bytes,
+        }),
         Err(why) => file.warnings.push(format!("texture {path}: {why}")),
     }
-    Material { texture: (!file.textures.is_empty()).then_some(0), ..Material::default() }
+    Material {
+        texture: (!file.textures.is_empty()).then_some(0),
+        ..Material::default()
+    }
 }
 
 fn skip(element: &Element, values: &mut Values) -> Result<()> {
@@ -72,16 +88,28 @@ fn skip(element: &Element, values: &mut Values) -> Result<()> {
 
 /// The number of the first property with one of these names.
 fn find(element: &Element, names: &[&str]) -> Option<usize> {
-    element.properties.iter().position(|property| names.contains(&property.name.as_str()))
+    element
+        .properties
+        .iter()
+        .position(|property| names.contains(&property.name.as_str()))
 }
 
 impl Reader {
     fn vertices(&mut self, element: &Element, values: &mut Values) -> Result<()> {
-        let place = |names: &[&[&str]]| names.iter().map(|names| find(element, names)).collect::<Option<Vec<_>>>();
+        let place = |names: &[&[&str]]| {
+            names
+                .iter()
+                .map(|names| find(element, names))
+                .collect::<Option<Vec<_>>>()
+        };
         let normal = place(&[&["nx"], &["ny"], &["nz"]]);
         let uv = place(&[&["s", "u", "texture_u"], &["t", "v", "texture_v"]]);
         let Some(position) = place(&[&["x"], &["y"], &["z"]]) else {
-            return Err(ReadError::new(values.place(), "vertex", "without the properties x, y and z"));
+            return Err(ReadError::new(
+                values.place(),
+                "vertex",
+                "without the properties x, y and z",
+            ));
         };
         let mut row = vec![0.0; element.properties.len()];
         for _ in 0..element.count {
@@ -91,23 +119,41 @@ impl Reader {
             let of = |places: &[usize], k: usize| row[places[k]];
             let vertex = [0, 1, 2].map(|k| of(&position, k));
             if !vertex.iter().all(|x| x.is_finite()) {
-                return Err(ReadError::new(values.place(), "vertex", "a coordinate that is not finite"));
+                return Err(ReadError::new(
+                    values.place(),
+                    "vertex",
+                    "a coordinate that is not finite",
+                ));
             }
             self.positions.push(vertex);
-            self.normals.extend(normal.as_ref().map(|places| [0, 1, 2].map(|k| finite(of(places, k)))));
-            self.uv.extend(uv.as_ref().map(|places| [0, 1].map(|k| finite(of(places, k)))));
+            self.normals.extend(
+                normal
+                    .as_ref()
+                    .map(|places| [0, 1, 2].map(|k| finite(of(places, k)))),
+            );
+            self.uv.extend(
+                uv.as_ref()
+                    .map(|places| [0, 1].map(|k| finite(of(places, k)))),
+            );
         }
         Ok(())
     }
 
     /// A corner at a vertex.
     fn corner(&self, index: i64, values: &Values) -> Result<Corner> {
-        let Some(position) = u32::try_from(index).ok().filter(|index| (*index as usize) < self.positions.len()) else {
+        let Some(position) = u32::try_from(index)
+            .ok()
+            .filter(|index| (*index as usize) < self.positions.len())
+        else {
             let problem = format!("vertex {index} of {}", self.positions.len());
             return Err(ReadError::new(values.place(), "face", problem));
         };
         let index_in = |length: usize| if length == 0 { NONE } else { position };
-        Ok(Corner { position, normal: index_in(self.normals.len()), uv: index_in(self.uv.len()) })
+        Ok(Corner {
+            position,
+            normal: index_in(self.normals.len()),
+            uv: index_in(self.uv.len()),
+        })
     }
 
     fn faces(&mut self, element: &Element, values: &mut Values) -> Result<()> {
@@ -121,7 +167,9 @@ impl Reader {
                 if Some(number) == indices {
                     values.list(&property.kind, "face", &mut list)?;
                     polygon.extend(
-                        list.iter().map(|index| self.corner(*index as i64, values)).collect::<Result<Vec<_>>>()?,
+                        list.iter()
+                            .map(|index| self.corner(*index as i64, values))
+                            .collect::<Result<Vec<_>>>()?,
                     );
                 } else if Some(number) == texture {
                     values.list(&property.kind, "face", &mut uv)?;
@@ -158,8 +206,10 @@ impl Reader {
                 }
                 values.list(&property.kind, "tristrips", &mut list)?;
                 for strip in list.split(|index| *index < 0.0) {
-                    let strip =
-                        strip.iter().map(|index| self.corner(*index as i64, values)).collect::<Result<Vec<_>>>()?;
+                    let strip = strip
+                        .iter()
+                        .map(|index| self.corner(*index as i64, values))
+                        .collect::<Result<Vec<_>>>()?;
                     push_strip(&strip, &mut self.triangles);
                 }
             }
@@ -173,7 +223,11 @@ pub(crate) fn push_strip(strip: &[Corner], triangles: &mut Vec<[Corner; 3]>) {
     for (number, window) in strip.windows(3).enumerate() {
         let [a, b, c] = [window[0], window[1], window[2]];
         if a.position != b.position && b.position != c.position && c.position != a.position {
-            triangles.push(if number % 2 == 0 { [a, b, c] } else { [b, a, c] });
+            triangles.push(if number % 2 == 0 {
+                [a, b, c]
+            } else {
+                [b, a, c]
+            });
         }
     }
 }

@@ -34,16 +34,22 @@ impl<'a> Values<'a> {
     pub(super) fn check_room(&self, element: &Element) -> Result<()> {
         match self {
             // Each number has a digit and a space after it.
-            Self::Text(_, _, length) => match element.count.checked_mul(2 * element.properties.len()) {
-                Some(least) if least <= length + 1 => Ok(()),
-                _ => Err(ReadError::new(
-                    self.place(),
-                    &element.name,
-                    format!("{} are announced, the file is shorter", element.count),
-                )),
-            },
+            Self::Text(_, _, length) => {
+                match element.count.checked_mul(2 * element.properties.len()) {
+                    Some(least) if least <= length + 1 => Ok(()),
+                    _ => Err(ReadError::new(
+                        self.place(),
+                        &element.name,
+                        format!("{} are announced, the file is shorter", element.count),
+                    )),
+                }
+            }
             Self::Binary(bytes, _) => {
-                let size = element.properties.iter().map(|property| property.kind.least_bytes()).sum();
+                let size = element
+                    .properties
+                    .iter()
+                    .map(|property| property.kind.least_bytes())
+                    .sum();
                 bytes.check_room(element.count, size, &element.name)
             }
         }
@@ -86,7 +92,11 @@ impl<'a> Values<'a> {
         };
         let length = self.scalar(*count, element)?;
         if !(length >= 0.0 && length.fract() == 0.0) {
-            return Err(ReadError::new(self.place(), element, format!("a list of {length} items")));
+            return Err(ReadError::new(
+                self.place(),
+                element,
+                format!("a list of {length} items"),
+            ));
         }
         if let Self::Binary(bytes, _) = self {
             bytes.check_room(length as usize, item.bytes(), element)?;

@@ -37,7 +37,9 @@ fn header(file: &MeshFile, format: &str) -> String {
 }
 
 fn vertices(file: &MeshFile) -> impl Iterator<Item = [f64; 3]> {
-    file.parts.iter().flat_map(|part| part.vertices.iter().copied())
+    file.parts
+        .iter()
+        .flat_map(|part| part.vertices.iter().copied())
 }
 
 fn triangles(file: &MeshFile) -> impl Iterator<Item = [u32; 3]> {
@@ -45,6 +47,8 @@ fn triangles(file: &MeshFile) -> impl Iterator<Item = [u32; 3]> {
     file.parts.iter().flat_map(move |part| {
         let start = first;
         first += part.vertices.len() as u32;
-        part.triangles.iter().map(move |triangle| triangle.map(|index| index + start))
+        part.triangles
+            .iter()
+            .map(move |triangle| triangle.map(|index| index + start))
     })
 }

@@ -10,9 +10,16 @@ pub(super) fn read(bytes: &[u8], mut limits: Limits) -> Result<MeshFile> {
     let mut file = MeshFile::default();
     while let Some(word) = words.next() {
         if !word.eq_ignore_ascii_case(b"solid") {
-            return Err(ReadError::new(words.place(), "solid", format!("{} is not `solid`", quoted(word))));
+            return Err(ReadError::new(
+                words.place(),
+                "solid",
+                format!("{} is not `solid`", quoted(word)),
+            ));
         }
-        let mut part = Part { name: name(words.rest_of_line()), ..Part::default() };
+        let mut part = Part {
+            name: name(words.rest_of_line()),
+            ..Part::default()
+        };
         solid(&mut words, &mut part)?;
         limits.take(part.vertices.len(), part.triangles.len())?;
         file.parts.push(part);
@@ -24,7 +31,11 @@ pub(super) fn read(bytes: &[u8], mut limits: Limits) -> Result<MeshFile> {
 fn solid(words: &mut Words, part: &mut Part) -> Result<()> {
     loop {
         let Some(word) = words.next() else {
-            return Err(ReadError::new(words.place(), "solid", "the file ends before `endsolid`"));
+            return Err(ReadError::new(
+                words.place(),
+                "solid",
+                "the file ends before `endsolid`",
+            ));
         };
         match &*word.to_ascii_lowercase() {
             b"facet" => facet(words, part)?,
@@ -32,7 +43,13 @@ fn solid(words: &mut Words, part: &mut Part) -> Result<()> {
                 words.rest_of_line();
                 return Ok(());
             }
-            _ => return Err(ReadError::new(words.place(), "solid", format!("{} is no facet", quoted(word)))),
+            _ => {
+                return Err(ReadError::new(
+                    words.place(),
+                    "solid",
+                    format!("{} is no facet", quoted(word)),
+                ));
+            }
         }
     }
 }
@@ -42,13 +59,21 @@ fn facet(words: &mut Words, part: &mut Part) -> Result<()> {
     let first = part.vertices.len() as u32;
     loop {
         let Some(word) = words.next() else {
-            return Err(ReadError::new(words.place(), "facet", "the file ends before `endfacet`"));
+            return Err(ReadError::new(
+                words.place(),
+                "facet",
+                "the file ends before `endfacet`",
+            ));
         };
         match word {
             b"vertex" | b"VERTEX" => part.vertices.push(words.vector("vertex")?),
             b"endfacet" | b"ENDFACET" => break,
             b"endsolid" | b"ENDSOLID" => {
-                return Err(ReadError::new(words.place(), "facet", "`endsolid` before `endfacet`"));
+                return Err(ReadError::new(
+                    words.place(),
+                    "facet",
+                    "`endsolid` before `endfacet`",
+                ));
             }
             // `outer loop`, `endloop`, `normal` and its numbers.
             _ => {}
@@ -56,8 +81,13 @@ fn facet(words: &mut Words, part: &mut Part) -> Result<()> {
     }
     let corners = part.vertices.len() as u32 - first;
     if corners < 3 {
-        return Err(ReadError::new(words.place(), "facet", "fewer than three vertices"));
+        return Err(ReadError::new(
+            words.place(),
+            "facet",
+            "fewer than three vertices",
+        ));
     }
-    part.triangles.extend((1..corners - 1).map(|corner| [first, first + corner, first + corner + 1]));
+    part.triangles
+        .extend((1..corners - 1).map(|corner| [first, first + corner, first + corner + 1]));
     Ok(())
 }

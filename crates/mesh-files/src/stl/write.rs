@@ -11,7 +11,8 @@ pub(crate) fn write_text(file: &MeshFile) -> Vec<u8> {
     let mut text = String::from("solid\n");
     for corners in triangles(file) {
         let [x, y, z] = normal(corners);
-        write!(text, "facet normal {x} {y} {z}\n outer loop\n").expect("writing into a string succeeds");
+        write!(text, "facet normal {x} {y} {z}\n outer loop\n")
+            .expect("writing into a string succeeds");
         for [x, y, z] in corners {
             writeln!(text, "  vertex {x} {y} {z}").expect("writing into a string succeeds");
         }
@@ -28,7 +29,11 @@ pub(crate) fn write_binary(file: &MeshFile) -> Result<Vec<u8>, WriteError> {
     bytes.resize(80, b' ');
     bytes.extend(count.to_le_bytes());
     for corners in triangles(file) {
-        for x in [normal(corners)].as_flattened().iter().chain(corners.as_flattened()) {
+        for x in [normal(corners)]
+            .as_flattened()
+            .iter()
+            .chain(corners.as_flattened())
+        {
             bytes.extend((*x as f32).to_le_bytes());
         }
         bytes.extend([0, 0]);
@@ -37,12 +42,21 @@ pub(crate) fn write_binary(file: &MeshFile) -> Result<Vec<u8>, WriteError> {
 }
 
 fn triangles(file: &MeshFile) -> impl Iterator<Item = [[f64; 3]; 3]> {
-    let corners = |part: &Part, triangle: &[u32; 3]| triangle.map(|index| part.vertices[index as usize]);
-    file.parts.iter().flat_map(move |part| part.triangles.iter().map(move |triangle| corners(part, triangle)))
+    let corners =
+        |part: &Part, triangle: &[u32; 3]| triangle.map(|index| part.vertices[index as usize]);
+    file.parts.iter().flat_map(move |part| {
+        part.triangles
+            .iter()
+            .map(move |triangle| corners(part, triangle))
+    })
 }
 
 fn normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     let (u, v) = (minus(b, a), minus(c, a));
-    unit([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+    unit([
+        u[1] * v[2] - u[2] * v[1],
+        u[2] * v[0] - u[0] * v[2],
+        u[0] * v[1] - u[1] * v[0],
+    ])
 }

@@ -25,14 +25,29 @@ pub(super) struct Surface {
 
 impl Surface {
     pub(super) fn new(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Self {
-        let is_alive: Vec<bool> = triangles.iter().map(|[a, b, c]| a != b && b != c && c != a).collect();
+        let is_alive: Vec<bool> = triangles
+            .iter()
+            .map(|[a, b, c]| a != b && b != c && c != a)
+            .collect();
         let mut around = vec![Vec::new(); vertices.len()];
-        for (number, triangle) in triangles.iter().enumerate().filter(|(number, _)| is_alive[*number]) {
-            triangle.iter().for_each(|vertex| around[*vertex as usize].push(number as u32));
+        for (number, triangle) in triangles
+            .iter()
+            .enumerate()
+            .filter(|(number, _)| is_alive[*number])
+        {
+            triangle
+                .iter()
+                .for_each(|vertex| around[*vertex as usize].push(number as u32));
         }
-        let versions: Vec<Option<u32>> = around.iter().map(|triangles| (!triangles.is_empty()).then_some(0)).collect();
+        let versions: Vec<Option<u32>> = around
+            .iter()
+            .map(|triangles| (!triangles.is_empty()).then_some(0))
+            .collect();
         let mut surface = Self {
-            points: vertices.iter().map(|vertex| Vector3::from(*vertex)).collect(),
+            points: vertices
+                .iter()
+                .map(|vertex| Vector3::from(*vertex))
+                .collect(),
             quadrics: vec![Quadric::default(); vertices.len()],
             alive_triangles: is_alive.iter().filter(|is_alive| **is_alive).count(),
             alive_vertices: versions.iter().flatten().count(),
@@ -59,7 +74,11 @@ impl Surface {
 
     /// All edges, each with the smaller number first.
     pub(super) fn edges(&self) -> Vec<[u32; 2]> {
-        let mut edges: Vec<[u32; 2]> = self.edge_users().into_iter().map(|(edge, _)| edge).collect();
+        let mut edges: Vec<[u32; 2]> = self
+            .edge_users()
+            .into_iter()
+            .map(|(edge, _)| edge)
+            .collect();
         edges.dedup();
         edges
     }
@@ -67,7 +86,12 @@ impl Surface {
     /// The edges of all triangles, in order, with the triangle.
     fn edge_users(&self) -> Vec<([u32; 2], u32)> {
         let mut users = Vec::with_capacity(3 * self.alive_triangles);
-        for (number, triangle) in self.triangles.iter().enumerate().filter(|(number, _)| self.is_alive[*number]) {
+        for (number, triangle) in self
+            .triangles
+            .iter()
+            .enumerate()
+            .filter(|(number, _)| self.is_alive[*number])
+        {
             for k in 0..3 {
                 let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
                 users.push(([a.min(b), a.max(b)], number as u32));
@@ -82,17 +106,24 @@ impl Surface {
         for number in 0..self.triangles.len() {
             let triangle = self.triangles[number];
             let area = self.area_vector(&triangle);
-            let Some(normal) = area.try_normalize(0.0).filter(|_| self.is_alive[number]) else { continue };
+            let Some(normal) = area.try_normalize(0.0).filter(|_| self.is_alive[number]) else {
+                continue;
+            };
             let plane = Quadric::plane(&normal, &self.points[triangle[0] as usize], area.norm());
-            triangle.iter().for_each(|vertex| self.quadrics[*vertex as usize].add(&plane));
+            triangle
+                .iter()
+                .for_each(|vertex| self.quadrics[*vertex as usize].add(&plane));
         }
         for same in self.edge_users().chunk_by(|a, b| a.0 == b.0) {
             let &[(edge, triangle)] = same else { continue };
             let [a, b] = edge.map(|vertex| self.points[vertex as usize]);
             let area = self.area_vector(&self.triangles[triangle as usize]);
-            let Some(normal) = (b - a).cross(&area).try_normalize(0.0) else { continue };
+            let Some(normal) = (b - a).cross(&area).try_normalize(0.0) else {
+                continue;
+            };
             let plane = Quadric::plane(&normal, &a, BORDER_WEIGHT * (b - a).norm_squared());
-            edge.iter().for_each(|vertex| self.quadrics[*vertex as usize].add(&plane));
+            edge.iter()
+                .for_each(|vertex| self.quadrics[*vertex as usize].add(&plane));
         }
     }
 
@@ -102,13 +133,17 @@ impl Surface {
     }
 
     fn triangles_of(&self, vertex: u32) -> impl Iterator<Item = &[u32; 3]> {
-        let alive = self.around[vertex as usize].iter().filter(|number| self.is_alive[**number as usize]);
+        let alive = self.around[vertex as usize]
+            .iter()
+            .filter(|number| self.is_alive[**number as usize]);
         alive.map(|number| &self.triangles[*number as usize])
     }
 
     /// The vertices that share an edge with a vertex, some of them twice.
     fn neighbours(&self, vertex: u32) -> impl Iterator<Item = u32> {
-        self.triangles_of(vertex).flat_map(|triangle| *triangle).filter(move |other| *other != vertex)
+        self.triangles_of(vertex)
+            .flat_map(|triangle| *triangle)
+            .filter(move |other| *other != vertex)
     }
 
     /// The same, in order.
@@ -131,17 +166,29 @@ impl Surface {
             return (place, quadric.error(&place));
         }
         let places = [middle, from, to].map(|place| (place, quadric.error(&place)));
-        places.into_iter().fold(places[0], |best, next| if next.1 < best.1 { next } else { best })
+        places.into_iter().fold(
+            places[0],
+            |best, next| if next.1 < best.1 { next } else { best },
+        )
     }
 
     /// Whether the collapse leaves the topology as it is (T. K. Dey and others: Topology preserving edge contraction, 1999), and turns no triangle over.
     pub(super) fn allows(&self, [a, b]: [u32; 2], place: &Vector3<f64>) -> bool {
-        let shared = self.triangles_of(a).filter(|triangle| triangle.contains(&b)).count();
+        let shared = self
+            .triangles_of(a)
+            .filter(|triangle| triangle.contains(&b))
+            .count();
         let (of_a, of_b) = (self.distinct_neighbours(a), self.distinct_neighbours(b));
-        let common = of_a.iter().filter(|vertex| of_b.binary_search(vertex).is_ok()).count();
+        let common = of_a
+            .iter()
+            .filter(|vertex| of_b.binary_search(vertex).is_ok())
+            .count();
         let is_bridge = shared == 2 && self.is_border(a) && self.is_border(b);
         // The last triangles of a part stay: a tetrahedron, or one triangle.
-        let is_least = of_a.len() + of_b.len() - common <= 4 && shared == 2 && !self.is_border(a) && !self.is_border(b);
+        let is_least = of_a.len() + of_b.len() - common <= 4
+            && shared == 2
+            && !self.is_border(a)
+            && !self.is_border(b);
         let is_last = shared == 1 && of_a.len() == 2 && of_b.len() == 2;
         (shared == 1 || shared == 2)
             && common == shared
@@ -154,17 +201,28 @@ impl Surface {
     fn is_border(&self, vertex: u32) -> bool {
         let mut neighbours: Vec<u32> = self.neighbours(vertex).collect();
         neighbours.sort_unstable();
-        neighbours.chunk_by(|a, b| a == b).any(|same| same.len() == 1)
+        neighbours
+            .chunk_by(|a, b| a == b)
+            .any(|same| same.len() == 1)
     }
 
     /// Whether the triangles of `vertex` without `other` look to nearly the same side with the vertex at `place`.
     fn stays_turned(&self, vertex: u32, other: u32, place: &Vector3<f64>) -> bool {
-        self.triangles_of(vertex).filter(|triangle| !triangle.contains(&other)).all(|triangle| {
-            let before = self.area_vector(triangle);
-            let [a, b, c] = triangle.map(|corner| if corner == vertex { *place } else { self.points[corner as usize] });
-            let after = (b - a).cross(&(c - a));
-            before.norm() == 0.0 || after.dot(&before) > MIN_TURN_COSINE * after.norm() * before.norm()
-        })
+        self.triangles_of(vertex)
+            .filter(|triangle| !triangle.contains(&other))
+            .all(|triangle| {
+                let before = self.area_vector(triangle);
+                let [a, b, c] = triangle.map(|corner| {
+                    if corner == vertex {
+                        *place
+                    } else {
+                        self.points[corner as usize]
+                    }
+                });
+                let after = (b - a).cross(&(c - a));
+                before.norm() == 0.0
+                    || after.dot(&before) > MIN_TURN_COSINE * after.norm() * before.norm()
+            })
     }
 
     /// Makes one vertex of two: the first.
@@ -179,7 +237,10 @@ impl Surface {
                 self.is_alive[number as usize] = false;
                 self.alive_triangles -= 1;
             } else {
-                triangle.iter_mut().filter(|vertex| **vertex == gone).for_each(|vertex| *vertex = kept);
+                triangle
+                    .iter_mut()
+                    .filter(|vertex| **vertex == gone)
+                    .for_each(|vertex| *vertex = kept);
                 self.around[kept as usize].push(number);
             }
         }
@@ -195,17 +256,30 @@ impl Surface {
 
     /// The vertices in use and the triangles, in their old order.
     pub(super) fn into_triangles(self) -> Triangles {
-        let alive =
-            self.triangles.iter().zip(&self.is_alive).filter(|(_, is_alive)| **is_alive).map(|(triangle, _)| *triangle);
+        let alive = self
+            .triangles
+            .iter()
+            .zip(&self.is_alive)
+            .filter(|(_, is_alive)| **is_alive)
+            .map(|(triangle, _)| *triangle);
         let triangles: Vec<[u32; 3]> = alive.collect();
         let mut numbers = vec![None; self.points.len()];
-        triangles.as_flattened().iter().for_each(|vertex| numbers[*vertex as usize] = Some(0));
+        triangles
+            .as_flattened()
+            .iter()
+            .for_each(|vertex| numbers[*vertex as usize] = Some(0));
         let mut vertices = Vec::new();
-        for (number, point) in numbers.iter_mut().zip(&self.points).filter(|(number, _)| number.is_some()) {
+        for (number, point) in numbers
+            .iter_mut()
+            .zip(&self.points)
+            .filter(|(number, _)| number.is_some())
+        {
             *number = Some(vertices.len() as u32);
             vertices.push((*point).into());
         }
-        let renumbered = triangles.iter().map(|triangle| triangle.map(|vertex| numbers[vertex as usize].unwrap_or(0)));
+        let renumbered = triangles
+            .iter()
+            .map(|triangle| triangle.map(|vertex| numbers[vertex as usize].unwrap_or(0)));
         (vertices, renumbered.collect())
     }
 }

@@ -33,13 +33,20 @@ impl Quadric {
     /// The mean squared distance of a point from the planes.
     pub(super) fn error(&self, point: &Vector3<f64>) -> f64 {
         let sum = point.dot(&(self.a * point)) + 2.0 * self.b.dot(point) + self.c;
-        if self.weight > 0.0 { (sum / self.weight).max(0.0) } else { 0.0 }
+        if self.weight > 0.0 {
+            (sum / self.weight).max(0.0)
+        } else {
+            0.0
+        }
     }
 
     /// The point with the smallest error, if there is one: not for planes that meet in a line or not at all.
     pub(super) fn minimum(&self) -> Option<Vector3<f64>> {
         let scale = self.a.trace();
         let is_sound = self.a.determinant() > 1e-6 * scale * scale * scale;
-        is_sound.then(|| self.a.try_inverse()).flatten().map(|inverse| inverse * -self.b)
+        is_sound
+            .then(|| self.a.try_inverse())
+            .flatten()
+            .map(|inverse| inverse * -self.b)
     }
 }

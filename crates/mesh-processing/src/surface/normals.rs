@@ -14,9 +14,18 @@ const WAYS: usize = 16;
 /// The centre of points, and the direction in which they are thinnest.
 pub(super) fn principal_plane(points: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
     let centre = points.iter().sum::<Vector3<f64>>() / points.len().max(1) as f64;
-    let covariance: Matrix3<f64> = points.iter().map(|point| (point - centre) * (point - centre).transpose()).sum();
+    let covariance: Matrix3<f64> = points
+        .iter()
+        .map(|point| (point - centre) * (point - centre).transpose())
+        .sum();
     let eigen = covariance.symmetric_eigen();
-    (centre, eigen.eigenvectors.column(eigen.eigenvalues.imin()).into_owned())
+    (
+        centre,
+        eigen
+            .eigenvectors
+            .column(eigen.eigenvalues.imin())
+            .into_owned(),
+    )
 }
 
 /// A point that is next to one whose normal is known.
@@ -29,7 +38,10 @@ struct Step {
 
 impl Ord for Step {
     fn cmp(&self, other: &Self) -> Ordering {
-        other.difference.total_cmp(&self.difference).then((other.from, other.to).cmp(&(self.from, self.to)))
+        other
+            .difference
+            .total_cmp(&self.difference)
+            .then((other.from, other.to).cmp(&(self.from, self.to)))
     }
 }
 
@@ -51,9 +63,15 @@ impl Eq for Step {}
 pub(super) fn oriented_normals(points: &[[f64; 3]], neighbors: usize) -> Vec<Vector3<f64>> {
     let tree = KdTree::new(points);
     // They are looked for twice: the lists of all points would take much memory.
-    let near = |of: usize, count: usize| tree.k_nearest(points[of], count + 1).into_iter().map(|found| found.number);
+    let near = |of: usize, count: usize| {
+        tree.k_nearest(points[of], count + 1)
+            .into_iter()
+            .map(|found| found.number)
+    };
     let plane = |of: usize| {
-        let near: Vec<_> = near(of, neighbors).map(|number| Vector3::from(points[number as usize])).collect();
+        let near: Vec<_> = near(of, neighbors)
+            .map(|number| Vector3::from(points[number as usize]))
+            .collect();
         principal_plane(&near).1
     };
     let mut normals: Vec<Vector3<f64>> = (0..points.len()).map(plane).collect();
@@ -65,7 +83,12 @@ pub(super) fn oriented_normals(points: &[[f64; 3]], neighbors: usize) -> Vec<Vec
             if normals[start].z < 0.0 {
                 normals[start] = -normals[start];
             }
-            spread(start as u32, |of| near(of as usize, neighbors.min(WAYS)), &mut normals, &mut is_known);
+            spread(
+                start as u32,
+                |of| near(of as usize, neighbors.min(WAYS)),
+                &mut normals,
+                &mut is_known,
+            );
         }
     }
     normals
@@ -78,7 +101,11 @@ fn spread<I: Iterator<Item = u32>>(
     normals: &mut [Vector3<f64>],
     is_known: &mut [bool],
 ) {
-    let mut heap = BinaryHeap::from([Step { difference: 0.0, from: start, to: start }]);
+    let mut heap = BinaryHeap::from([Step {
+        difference: 0.0,
+        from: start,
+        to: start,
+    }]);
     while let Some(Step { from, to, .. }) = heap.pop() {
         if std::mem::replace(&mut is_known[to as usize], true) {
             continue;
@@ -88,7 +115,11 @@ fn spread<I: Iterator<Item = u32>>(
         }
         for next in near(to).filter(|next| !is_known[*next as usize]) {
             let difference = 1.0 - normals[to as usize].dot(&normals[next as usize]).abs();
-            heap.push(Step { difference, from: to, to: next });
+            heap.push(Step {
+                difference,
+                from: to,
+                to: next,
+            });
         }
     }
 }

@@ -56,19 +56,28 @@ impl<'a> Pivoting<'a> {
     }
 
     fn near(&self, to: Point3<f64>, distance: f64) -> Vec<u32> {
-        self.tree.within(to.coords.into(), distance).iter().map(|found| found.number).collect()
+        self.tree
+            .within(to.coords.into(), distance)
+            .iter()
+            .map(|found| found.number)
+            .collect()
     }
 
     /// Adds the first triangle at a point on which the ball rests.
     fn seed(&mut self, a: u32) {
         let is_free = |vertex: &u32| *vertex != a && self.open[*vertex as usize].is_none();
-        let near: Vec<u32> = self.near(self.at(a), 2.0 * self.radius).into_iter().filter(is_free).collect();
+        let near: Vec<u32> = self
+            .near(self.at(a), 2.0 * self.radius)
+            .into_iter()
+            .filter(is_free)
+            .collect();
         // Those that are far away are unlikely.
         let near = &near[..near.len().min(40)];
         for (k, b) in near.iter().enumerate() {
             for c in &near[k + 1..] {
                 for triangle in [[a, *b, *c], [a, *c, *b]] {
-                    if let Some(centre) = self.ball(triangle).filter(|centre| self.is_empty(centre)) {
+                    if let Some(centre) = self.ball(triangle).filter(|centre| self.is_empty(centre))
+                    {
                         return self.add(triangle, centre);
                     }
                 }
@@ -85,15 +94,20 @@ impl<'a> Pivoting<'a> {
         if square <= 1e-12 * u.norm_squared() * v.norm_squared() {
             return None;
         }
-        let outer = triangle.iter().all(|vertex| self.normals[*vertex as usize].dot(&normal) > 0.0);
-        let to_centre = (normal.cross(&u) * v.norm_squared() + v.cross(&normal) * u.norm_squared()) / (2.0 * square);
+        let outer = triangle
+            .iter()
+            .all(|vertex| self.normals[*vertex as usize].dot(&normal) > 0.0);
+        let to_centre = (normal.cross(&u) * v.norm_squared() + v.cross(&normal) * u.norm_squared())
+            / (2.0 * square);
         let height = self.radius * self.radius - to_centre.norm_squared();
         (outer && height >= 0.0).then(|| a + to_centre + normal * (height / square).sqrt())
     }
 
     fn is_empty(&self, centre: &Point3<f64>) -> bool {
         let inner = self.radius * (1.0 - TOLERANCE);
-        self.tree.nearest(centre.coords.into()).is_none_or(|found| found.distance_squared >= inner * inner)
+        self.tree
+            .nearest(centre.coords.into())
+            .is_none_or(|found| found.distance_squared >= inner * inner)
     }
 
     fn add(&mut self, triangle: [u32; 3], centre: Point3<f64>) {
@@ -133,13 +147,21 @@ impl<'a> Pivoting<'a> {
             let end = centre - middle;
             let angle = axis.dot(&start.cross(&end)).atan2(start.dot(&end));
             // Four points on one ball: rounding must not make a whole turn of nothing.
-            if angle < -1e-7 { angle + TAU } else { angle.max(0.0) }
+            if angle < -1e-7 {
+                angle + TAU
+            } else {
+                angle.max(0.0)
+            }
         };
-        let others = self.near(middle, 2.0 * self.radius).into_iter().filter(|next| *next != from && *next != to);
+        let others = self
+            .near(middle, 2.0 * self.radius)
+            .into_iter()
+            .filter(|next| *next != from && *next != to);
         let rests_on = others.filter_map(|next| {
             let is_free = |edge: (u32, u32)| !self.edges.contains_key(&edge);
-            let may_be_used =
-                self.open[next as usize].is_none_or(|open| open > 0) && is_free((from, next)) && is_free((next, to));
+            let may_be_used = self.open[next as usize].is_none_or(|open| open > 0)
+                && is_free((from, next))
+                && is_free((next, to));
             let centre = self.ball([to, from, next]).filter(|_| may_be_used)?;
             Some((angle(&centre), next, centre))
         });

@@ -65,10 +65,18 @@ fn parts(scene: &Scene, handles: &[i64], options: i64) -> Result<ShapeParts> {
             continue;
         }
         let pose = scene.world_pose(handle)?;
-        let origin = *origin.get_or_insert(if has(option::RELATIVE_TO_FIRST) { pose } else { Pose::identity() });
+        let origin = *origin.get_or_insert(if has(option::RELATIVE_TO_FIRST) {
+            pose
+        } else {
+            Pose::identity()
+        });
         parts.add(object.alias(), shape, &(origin.inverse() * pose), scene)?;
     }
-    if parts.file.parts.is_empty() { Err(ApiError::Other("there are no shapes to export.".into())) } else { Ok(parts) }
+    if parts.file.parts.is_empty() {
+        Err(ApiError::Other("there are no shapes to export.".into()))
+    } else {
+        Ok(parts)
+    }
 }
 
 /// Writes meshes to a file.
@@ -95,14 +103,36 @@ fn export_meshes(
     let _ = options;
     let format = export_format(&format_id)?;
     let parts = to_parts(&all_vertices.0, &all_indices.0).ok_or(ApiError::TableSize)?;
-    write(cx, MeshFile { parts, ..MeshFile::default() }, format, &filename, scaling, up_vector.0)
+    write(
+        cx,
+        MeshFile {
+            parts,
+            ..MeshFile::default()
+        },
+        format,
+        &filename,
+        scaling,
+        up_vector.0,
+    )
 }
 
-fn write(cx: &Cx, mut file: MeshFile, format: ExportFormat, name: &str, scaling: f64, up: i64) -> Result<()> {
+fn write(
+    cx: &Cx,
+    mut file: MeshFile,
+    format: ExportFormat,
+    name: &str,
+    scaling: f64,
+    up: i64,
+) -> Result<()> {
     file.scale(scaling_factor(scaling)?);
     // Textures lie beside the file: those of another file in the same folder stay as they are.
-    let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
-    file.textures.iter_mut().for_each(|texture| texture.name = format!("{stem}-{}", texture.name));
+    let stem = Path::new(name)
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy();
+    file.textures
+        .iter_mut()
+        .for_each(|texture| texture.name = format!("{stem}-{}", texture.name));
     match up_axis(up)? {
         Up::Y => turn_to_y_up(&mut file),
         Up::Z | Up::OfFile => file.up = Some(UpAxis::Z),

@@ -9,7 +9,9 @@ use api_macro::api;
 use mesh_files::MeshFile;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use format::mesh_file::{ImportedAppearance, MeshImportOptions, Up, load, scaling_factor, to_lists, to_shapes};
+use format::mesh_file::{
+    ImportedAppearance, MeshImportOptions, Up, load, scaling_factor, to_lists, to_shapes,
+};
 use scene::shape::Shape;
 use scene::{Data, Handle, Kind};
 use script::Number;
@@ -18,7 +20,11 @@ use script::log::verbosity;
 /// The module `simAssimp`.
 pub static MODULE: Module = Module {
     about: "Shapes and meshes from files (OBJ, STL, PLY, COLLADA, glTF, 3DS, DXF), and to files.",
-    functions: &[("Import", IMPORT), ("Export", export::FUNCTIONS), ("Formats", formats::FUNCTIONS)],
+    functions: &[
+        ("Import", IMPORT),
+        ("Export", export::FUNCTIONS),
+        ("Formats", formats::FUNCTIONS),
+    ],
     constants: include_str!("constants.tsv"),
     reference: "importShapesDlg\tDialogs\t\tint[] handles = simAssimp.importShapesDlg(string filename)\n\
         exportShapesDlg\tDialogs\t\tsimAssimp.exportShapesDlg(string filename, int[] shapeHandles)\n",
@@ -59,7 +65,9 @@ fn import_shapes(
     #[default(0)] options: Number,
 ) -> Result<Vec<Handle>> {
     let has = |bit: i64| options.0 & bit != 0;
-    let longest = u32::try_from(max_texture_size.0).ok().filter(|longest| *longest > 0);
+    let longest = u32::try_from(max_texture_size.0)
+        .ok()
+        .filter(|longest| *longest > 0);
     let imported = ImportedAppearance {
         colours: !has(option::DROP_COLOURS),
         transparency: !has(option::DROP_TRANSPARENCY),
@@ -72,10 +80,19 @@ fn import_shapes(
         let mut file = load(name, import, cx.permissions())?;
         let own = to_shapes(&mut file, imported, &mut cx.scene_mut())?;
         warn(cx, name, &file, options.0);
-        if has(option::ONE_PER_FILE) { shapes.push(Shape::compound(own)?) } else { shapes.extend(own) }
+        if has(option::ONE_PER_FILE) {
+            shapes.push(Shape::compound(own)?)
+        } else {
+            shapes.extend(own)
+        }
     }
-    shapes.iter_mut().try_for_each(|shape| finish(shape, has(option::ALIGNED)))?;
-    shapes.into_iter().map(|shape| cx.add_object("shape", Kind::Shape(Box::new(shape)))).collect()
+    shapes
+        .iter_mut()
+        .try_for_each(|shape| finish(shape, has(option::ALIGNED)))?;
+    shapes
+        .into_iter()
+        .map(|shape| cx.add_object("shape", Kind::Shape(Box::new(shape))))
+        .collect()
 }
 
 fn finish(shape: &mut Shape, is_aligned: bool) -> Result<()> {
@@ -107,7 +124,9 @@ fn import_meshes(
     for name in names(&filenames) {
         let mut file = load(name, import, cx.permissions())?;
         if options.0 & option::ONE_PER_FILE != 0 {
-            file.parts.iter_mut().for_each(|part| part.material = Default::default());
+            file.parts
+                .iter_mut()
+                .for_each(|part| part.material = Default::default());
             file.merge_parts();
         }
         all.parts.append(&mut file.parts);
@@ -116,10 +135,18 @@ fn import_meshes(
 }
 
 fn names(filenames: &str) -> impl Iterator<Item = &str> {
-    filenames.split(';').map(str::trim).filter(|name| !name.is_empty())
+    filenames
+        .split(';')
+        .map(str::trim)
+        .filter(|name| !name.is_empty())
 }
 
-fn import_options(scaling: f64, up: i64, options: i64, textures: bool) -> Result<MeshImportOptions> {
+fn import_options(
+    scaling: f64,
+    up: i64,
+    options: i64,
+    textures: bool,
+) -> Result<MeshImportOptions> {
     let has = |bit: i64| options & bit != 0;
     Ok(MeshImportOptions {
         scaling: scaling_factor(scaling)?,
@@ -147,7 +174,8 @@ fn up_axis(up: i64) -> Result<Up> {
 fn warn(cx: &Cx, name: &str, file: &MeshFile, options: i64) {
     if options & option::SILENT == 0 {
         for warning in &file.warnings {
-            cx.env().log(verbosity::SCRIPT_WARNINGS, &format!("{name}: {warning}"));
+            cx.env()
+                .log(verbosity::SCRIPT_WARNINGS, &format!("{name}: {warning}"));
         }
     }
 }

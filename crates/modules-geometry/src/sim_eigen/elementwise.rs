@@ -48,12 +48,17 @@ fn place(op: i64) -> Option<usize> {
 }
 
 fn unary(op: i64) -> Result<fn(f64) -> f64> {
-    place(op).and_then(|place| UNARY.get(place)).copied().ok_or_else(|| refused("invalid operation for one matrix"))
+    place(op)
+        .and_then(|place| UNARY.get(place))
+        .copied()
+        .ok_or_else(|| refused("invalid operation for one matrix"))
 }
 
 fn binary(op: i64) -> Result<fn(f64, f64) -> f64> {
     let operation = place(op).and_then(|place| BINARY.get(place.checked_sub(UNARY.len())?));
-    operation.copied().ok_or_else(|| refused("invalid operation for two operands"))
+    operation
+        .copied()
+        .ok_or_else(|| refused("invalid operation for two operands"))
 }
 
 /// A function of each number of a matrix, or of each pair of numbers of two.
@@ -72,7 +77,9 @@ fn mtx_op(
     #[default(true)] inplace: bool,
 ) -> Result<Option<String>> {
     let a = get::<DMatrix<f64>>(cx, &handle)?;
-    let Some(handle2) = handle2 else { return finish(cx, &handle, a.map(unary(op)?), inplace) };
+    let Some(handle2) = handle2 else {
+        return finish(cx, &handle, a.map(unary(op)?), inplace);
+    };
     let b = get::<DMatrix<f64>>(cx, &handle2)?;
     if a.shape() != b.shape() {
         return Err(refused("the sizes of the matrices do not fit"));
@@ -88,7 +95,18 @@ fn mtx_op(
 /// @param inplace changes the matrix instead of making a new one
 /// @return handle nothing if it was changed
 #[api("simEigen.mtxOpK")]
-fn mtx_op_k(cx: &Cx, handle: String, op: i64, k: f64, #[default(true)] inplace: bool) -> Result<Option<String>> {
+fn mtx_op_k(
+    cx: &Cx,
+    handle: String,
+    op: i64,
+    k: f64,
+    #[default(true)] inplace: bool,
+) -> Result<Option<String>> {
     let operation = binary(op)?;
-    finish(cx, &handle, get::<DMatrix<f64>>(cx, &handle)?.map(|x| operation(x, k)), inplace)
+    finish(
+        cx,
+        &handle,
+        get::<DMatrix<f64>>(cx, &handle)?.map(|x| operation(x, k)),
+        inplace,
+    )
 }

@@ -8,8 +8,16 @@ use nalgebra::{DMatrix, SVD};
 use super::store::{add, check_size, get, refused, replace};
 use crate::{ApiFn, Cx, Result, functions};
 
-pub(super) const FUNCTIONS: &[ApiFn] =
-    functions![mtx_mul, mtx_i_mul, mtx_kron, mtx_dot, mtx_cross, mtx_determinant, mtx_svd, mtx_p_inv];
+pub(super) const FUNCTIONS: &[ApiFn] = functions![
+    mtx_mul,
+    mtx_i_mul,
+    mtx_kron,
+    mtx_dot,
+    mtx_cross,
+    mtx_determinant,
+    mtx_svd,
+    mtx_p_inv
+];
 
 type Matrix = DMatrix<f64>;
 
@@ -30,7 +38,11 @@ pub(super) fn product(a: &Matrix, b: &Matrix) -> Result<Matrix> {
     for j in 0..b.ncols() {
         for k in 0..a.ncols() {
             let factor = b[(k, j)];
-            result.column_mut(j).iter_mut().zip(a.column(k).iter()).for_each(|(sum, x)| *sum += x * factor);
+            result
+                .column_mut(j)
+                .iter_mut()
+                .zip(a.column(k).iter())
+                .for_each(|(sum, x)| *sum += x * factor);
         }
     }
     Ok(result)
@@ -94,7 +106,9 @@ fn mtx_dot(cx: &Cx, handle: String, handle2: String) -> Result<f64> {
 #[api("simEigen.mtxCross")]
 fn mtx_cross(cx: &Cx, handle: String, handle2: String) -> Result<String> {
     let (a, b) = (get::<Matrix>(cx, &handle)?, get::<Matrix>(cx, &handle2)?);
-    let (&[ax, ay, az], &[bx, by, bz]) = (a.as_slice(), b.as_slice()) else { return Err(misfit()) };
+    let (&[ax, ay, az], &[bx, by, bz]) = (a.as_slice(), b.as_slice()) else {
+        return Err(misfit());
+    };
     let cross = [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
     add(cx, Matrix::from_column_slice(a.nrows(), a.ncols(), &cross))
 }
@@ -106,7 +120,11 @@ fn mtx_cross(cx: &Cx, handle: String, handle2: String) -> Result<String> {
 #[api("simEigen.mtxDeterminant")]
 fn mtx_determinant(cx: &Cx, handle: String) -> Result<f64> {
     let matrix = get::<Matrix>(cx, &handle)?;
-    if matrix.is_square() { Ok(matrix.determinant()) } else { Err(refused("the matrix is not square")) }
+    if matrix.is_square() {
+        Ok(matrix.determinant())
+    } else {
+        Err(refused("the matrix is not square"))
+    }
 }
 
 /// The parts of a matrix: `u * diagonal(values) * v_t`, the largest value first.
@@ -119,12 +137,19 @@ struct Singular {
 impl Singular {
     fn of(matrix: &Matrix) -> Result<Self> {
         if matrix.is_empty() || !matrix.iter().all(|x| x.is_finite()) {
-            return Err(refused("the matrix is empty, or a number in it is not finite"));
+            return Err(refused(
+                "the matrix is empty, or a number in it is not finite",
+            ));
         }
         let svd = SVD::try_new(matrix.clone(), true, true, f64::EPSILON, MAX_ITERATIONS);
         let parts = svd.and_then(|svd| Some((svd.u?, svd.singular_values, svd.v_t?)));
-        let (u, values, v_t) = parts.ok_or_else(|| refused("the singular values were not found"))?;
-        Ok(Self { u, values: values.iter().copied().collect(), v_t })
+        let (u, values, v_t) =
+            parts.ok_or_else(|| refused("the singular values were not found"))?;
+        Ok(Self {
+            u,
+            values: values.iter().copied().collect(),
+            v_t,
+        })
     }
 
     /// The pseudo-inverse. With a damping d each value s counts as (s² + d²) / s; those that are rounding errors do not count.
@@ -134,7 +159,11 @@ impl Singular {
         let mut scaled = self.v_t.transpose();
         for (mut column, s) in scaled.column_iter_mut().zip(&self.values) {
             let is_zero = *s <= largest * size * f64::EPSILON;
-            let factor = if is_zero { 0.0 } else { s / (s * s + damping * damping) };
+            let factor = if is_zero {
+                0.0
+            } else {
+                s / (s * s + damping * damping)
+            };
             column.iter_mut().for_each(|x| *x *= factor);
         }
         product(&scaled, &self.u.transpose())
@@ -166,10 +195,24 @@ fn mtx_svd(
 ) -> Result<(String, String, String, Option<String>)> {
     let parts = Singular::of(&*get(cx, &m)?)?;
     let x = solution(cx, &parts.inverse(0.0)?, b.as_ref())?;
-    let wanted = |is_wanted: bool, matrix: Matrix| if is_wanted { matrix } else { Matrix::zeros(0, 0) };
-    let s = add(cx, Matrix::from_column_slice(parts.values.len(), 1, &parts.values))?;
+    let wanted = |is_wanted: bool, matrix: Matrix| {
+        if is_wanted {
+            matrix
+        } else {
+            Matrix::zeros(0, 0)
+        }
+    };
+    let s = add(
+        cx,
+        Matrix::from_column_slice(parts.values.len(), 1, &parts.values),
+    )?;
     let u = add(cx, wanted(compute_thin_u, parts.u))?;
-    Ok((s, u, add(cx, wanted(compute_thin_v, parts.v_t.transpose()))?, x))
+    Ok((
+        s,
+        u,
+        add(cx, wanted(compute_thin_v, parts.v_t.transpose()))?,
+        x,
+    ))
 }
 
 /// The pseudo-inverse.

@@ -36,14 +36,20 @@ fn length(number: i64) -> Result<usize> {
 }
 
 fn index(at: i64, count: usize) -> Result<usize> {
-    usize::try_from(at).ok().filter(|at| *at < count).ok_or_else(|| refused("index out of range"))
+    usize::try_from(at)
+        .ok()
+        .filter(|at| *at < count)
+        .ok_or_else(|| refused("index out of range"))
 }
 
 fn check_count(data: &[f64], count: usize) -> Result<()> {
     if data.len() == count {
         Ok(())
     } else {
-        Err(refused(&format!("invalid number of elements: {count} are needed, not {}", data.len())))
+        Err(refused(&format!(
+            "invalid number of elements: {count} are needed, not {}",
+            data.len()
+        )))
     }
 }
 
@@ -58,7 +64,12 @@ fn by_rows(matrix: &Matrix) -> Vec<f64> {
 /// @param initialData by rows; zeros without
 /// @return handle
 #[api("simEigen.mtxNew")]
-fn mtx_new(cx: &Cx, rows: i64, cols: i64, #[default(Vec::new())] initial_data: Vec<f64>) -> Result<String> {
+fn mtx_new(
+    cx: &Cx,
+    rows: i64,
+    cols: i64,
+    #[default(Vec::new())] initial_data: Vec<f64>,
+) -> Result<String> {
     let (rows, cols) = (length(rows)?, length(cols)?);
     let count = rows.saturating_mul(cols);
     check_size(cx, count)?;
@@ -93,13 +104,23 @@ fn mtx_destroy(cx: &Cx, handle: String) -> Result<()> {
 /// @param high the last; without it each is one more than the one before
 /// @return handle
 #[api("simEigen.mtxLinSpaced")]
-fn mtx_lin_spaced(cx: &Cx, count: i64, #[default(1.0)] low: f64, #[default(None)] high: Option<f64>) -> Result<String> {
+fn mtx_lin_spaced(
+    cx: &Cx,
+    count: i64,
+    #[default(1.0)] low: f64,
+    #[default(None)] high: Option<f64>,
+) -> Result<String> {
     let count = length(count)?;
     check_size(cx, count)?;
     let steps = count.saturating_sub(1).max(1) as f64;
     let step = high.map_or(1.0, |high| (high - low) / steps);
     let is_last = |i: usize| i + 1 == count && count > 1;
-    add(cx, Matrix::from_fn(count, 1, |i, _| high.filter(|_| is_last(i)).unwrap_or(low + step * i as f64)))
+    add(
+        cx,
+        Matrix::from_fn(count, 1, |i, _| {
+            high.filter(|_| is_last(i)).unwrap_or(low + step * i as f64)
+        }),
+    )
 }
 
 /// Rows and columns.
@@ -168,7 +189,11 @@ fn mtx_set_item(cx: &Cx, handle: String, i: i64, j: i64, data: f64) -> Result<()
 #[api("simEigen.mtxGetRowData")]
 fn mtx_get_row_data(cx: &Cx, handle: String, i: i64) -> Result<Vec<f64>> {
     let matrix = get::<Matrix>(cx, &handle)?;
-    Ok(matrix.row(index(i, matrix.nrows())?).iter().copied().collect())
+    Ok(matrix
+        .row(index(i, matrix.nrows())?)
+        .iter()
+        .copied()
+        .collect())
 }
 
 /// Sets the numbers of a row.
@@ -181,7 +206,11 @@ fn mtx_set_row_data(cx: &Cx, handle: String, i: i64, data: Vec<f64>) -> Result<(
     modify::<Matrix>(cx, &handle, |matrix| {
         check_count(&data, matrix.ncols())?;
         let i = index(i, matrix.nrows())?;
-        matrix.row_mut(i).iter_mut().zip(data).for_each(|(place, value)| *place = value);
+        matrix
+            .row_mut(i)
+            .iter_mut()
+            .zip(data)
+            .for_each(|(place, value)| *place = value);
         Ok(())
     })
 }
@@ -194,7 +223,11 @@ fn mtx_set_row_data(cx: &Cx, handle: String, i: i64, data: Vec<f64>) -> Result<(
 #[api("simEigen.mtxGetColData")]
 fn mtx_get_col_data(cx: &Cx, handle: String, j: i64) -> Result<Vec<f64>> {
     let matrix = get::<Matrix>(cx, &handle)?;
-    Ok(matrix.column(index(j, matrix.ncols())?).iter().copied().collect())
+    Ok(matrix
+        .column(index(j, matrix.ncols())?)
+        .iter()
+        .copied()
+        .collect())
 }
 
 /// Sets the numbers of a column.
@@ -216,7 +249,11 @@ fn mtx_set_col_data(cx: &Cx, handle: String, j: i64, data: Vec<f64>) -> Result<(
 fn span(start: i64, count: i64, all: usize) -> Result<(usize, usize)> {
     let start = usize::try_from(start).ok().filter(|start| *start <= all);
     let start = start.ok_or_else(|| refused("index out of range"))?;
-    let count = if count == -1 { all - start } else { length(count)? };
+    let count = if count == -1 {
+        all - start
+    } else {
+        length(count)?
+    };
     if count > all - start {
         return Err(refused("the block is larger than the matrix"));
     }
@@ -266,8 +303,13 @@ fn mtx_block_assign(
     let part = get::<Matrix>(cx, &handle2)?;
     let ((_, p), (_, q)) = (span(0, p, part.nrows())?, span(0, q, part.ncols())?);
     modify::<Matrix>(cx, &handle, |matrix| {
-        let ((i, p), (j, q)) = (span(i, p as i64, matrix.nrows())?, span(j, q as i64, matrix.ncols())?);
-        matrix.view_mut((i, j), (p, q)).copy_from(&part.view((0, 0), (p, q)));
+        let ((i, p), (j, q)) = (
+            span(i, p as i64, matrix.nrows())?,
+            span(j, q as i64, matrix.ncols())?,
+        );
+        matrix
+            .view_mut((i, j), (p, q))
+            .copy_from(&part.view((0, 0), (p, q)));
         Ok(())
     })
 }
@@ -291,15 +333,27 @@ fn mtx_reshaped(cx: &Cx, handle: String, rows: i64, cols: i64) -> Result<String>
     add(cx, Matrix::from_row_slice(rows, cols, &data))
 }
 
-fn joined(cx: &Cx, handles: &[String], place: fn(&Matrix) -> (usize, usize), is_wide: bool) -> Result<String> {
-    let parts = handles.iter().map(|handle| get::<Matrix>(cx, handle)).collect::<Result<Vec<_>>>()?;
+fn joined(
+    cx: &Cx,
+    handles: &[String],
+    place: fn(&Matrix) -> (usize, usize),
+    is_wide: bool,
+) -> Result<String> {
+    let parts = handles
+        .iter()
+        .map(|handle| get::<Matrix>(cx, handle))
+        .collect::<Result<Vec<_>>>()?;
     let across = parts.first().map_or(0, |part| place(part).0);
     if parts.iter().any(|part| place(part).0 != across) {
         return Err(refused("the sizes of the matrices do not fit"));
     }
     let along: usize = parts.iter().map(|part| place(part).1).sum();
     check_size(cx, across.saturating_mul(along))?;
-    let mut result = if is_wide { Matrix::zeros(across, along) } else { Matrix::zeros(along, across) };
+    let mut result = if is_wide {
+        Matrix::zeros(across, along)
+    } else {
+        Matrix::zeros(along, across)
+    };
     let mut at = 0;
     for part in parts {
         let corner = if is_wide { (0, at) } else { (at, 0) };

@@ -37,13 +37,22 @@ fn quaternion(cx: &Cx, handle: &str) -> Result<Quaternion<f64>> {
 
 fn rotation(cx: &Cx, handle: &str) -> Result<UnitQuaternion<f64>> {
     let rotation = UnitQuaternion::try_new(quaternion(cx, handle)?, MIN_NORM);
-    rotation.filter(|q| q.coords.iter().all(|c| c.is_finite())).ok_or_else(|| refused("the quaternion is no rotation"))
+    rotation
+        .filter(|q| q.coords.iter().all(|c| c.is_finite()))
+        .ok_or_else(|| refused("the quaternion is no rotation"))
 }
 
 fn vector(cx: &Cx, handle: &str) -> Result<Vector3<f64>> {
     let matrix = get::<DMatrix<f64>>(cx, handle)?;
-    let numbers: [f64; 3] = matrix.as_slice().try_into().map_err(|_| refused("a vector of 3 numbers is needed"))?;
-    if numbers.iter().all(|x| x.is_finite()) { Ok(numbers.into()) } else { Err(refused("a number is not finite")) }
+    let numbers: [f64; 3] = matrix
+        .as_slice()
+        .try_into()
+        .map_err(|_| refused("a vector of 3 numbers is needed"))?;
+    if numbers.iter().all(|x| x.is_finite()) {
+        Ok(numbers.into())
+    } else {
+        Err(refused("a number is not finite"))
+    }
 }
 
 fn add_vector(cx: &Cx, vector: [f64; 3]) -> Result<String> {
@@ -101,7 +110,10 @@ fn quat_set_data(cx: &Cx, handle: String, data: [f64; 4]) -> Result<()> {
 #[api("simEigen.quatInv")]
 fn quat_inv(cx: &Cx, handle: String) -> Result<String> {
     let inverse = quaternion(cx, &handle)?.try_inverse();
-    add(cx, inverse.ok_or_else(|| refused("the quaternion has no inverse"))?)
+    add(
+        cx,
+        inverse.ok_or_else(|| refused("the quaternion has no inverse"))?,
+    )
 }
 
 /// The product of two quaternions.
@@ -111,7 +123,12 @@ fn quat_inv(cx: &Cx, handle: String) -> Result<String> {
 /// @param inplace changes the first instead of making a new one
 /// @return handle nothing if it was changed
 #[api("simEigen.quatMulQuat")]
-fn quat_mul_quat(cx: &Cx, handle: String, handle2: String, #[default(true)] inplace: bool) -> Result<Option<String>> {
+fn quat_mul_quat(
+    cx: &Cx,
+    handle: String,
+    handle2: String,
+    #[default(true)] inplace: bool,
+) -> Result<Option<String>> {
     let result = quaternion(cx, &handle)? * quaternion(cx, &handle2)?;
     finish(cx, &handle, result, inplace)
 }
@@ -147,8 +164,12 @@ fn quat_slerp(cx: &Cx, handle: String, handle2: String, t: f64) -> Result<String
 /// @return handle
 #[api("simEigen.quatFromAxisAngle")]
 fn quat_from_axis_angle(cx: &Cx, axis_handle: String, angle: f64) -> Result<String> {
-    let axis = Unit::try_new(vector(cx, &axis_handle)?, MIN_NORM).ok_or_else(|| refused("the axis has no length"))?;
-    add(cx, UnitQuaternion::from_axis_angle(&axis, angle).into_inner())
+    let axis = Unit::try_new(vector(cx, &axis_handle)?, MIN_NORM)
+        .ok_or_else(|| refused("the axis has no length"))?;
+    add(
+        cx,
+        UnitQuaternion::from_axis_angle(&axis, angle).into_inner(),
+    )
 }
 
 /// The axis and angle of a rotation; x and 0 of none.
@@ -159,7 +180,9 @@ fn quat_from_axis_angle(cx: &Cx, axis_handle: String, angle: f64) -> Result<Stri
 #[api("simEigen.quatToAxisAngle")]
 fn quat_to_axis_angle(cx: &Cx, handle: String) -> Result<(String, f64)> {
     let found = rotation(cx, &handle)?.axis_angle();
-    let (axis, angle) = found.map_or(([1.0, 0.0, 0.0], 0.0), |(axis, angle)| (axis.into_inner().into(), angle));
+    let (axis, angle) = found.map_or(([1.0, 0.0, 0.0], 0.0), |(axis, angle)| {
+        (axis.into_inner().into(), angle)
+    });
     Ok((add_vector(cx, axis)?, angle))
 }
 
@@ -169,7 +192,10 @@ fn quat_to_axis_angle(cx: &Cx, handle: String) -> Result<(String, f64)> {
 /// @return handle
 #[api("simEigen.quatFromEuler")]
 fn quat_from_euler(cx: &Cx, handle: String) -> Result<String> {
-    add(cx, rotation_from_euler(&vector(cx, &handle)?.into()).into_inner())
+    add(
+        cx,
+        rotation_from_euler(&vector(cx, &handle)?.into()).into_inner(),
+    )
 }
 
 /// Euler angles as those of `sim`.
@@ -188,7 +214,10 @@ fn quat_to_euler(cx: &Cx, handle: String) -> Result<String> {
 #[api("simEigen.quatFromYPR")]
 fn quat_from_ypr(cx: &Cx, handle: String) -> Result<String> {
     let ypr = vector(cx, &handle)?;
-    add(cx, UnitQuaternion::from_euler_angles(ypr.z, ypr.y, ypr.x).into_inner())
+    add(
+        cx,
+        UnitQuaternion::from_euler_angles(ypr.z, ypr.y, ypr.x).into_inner(),
+    )
 }
 
 /// Yaw, pitch and roll.
@@ -226,7 +255,10 @@ fn quat_from_rotation(cx: &Cx, handle: String) -> Result<String> {
 #[api("simEigen.quatToRotation")]
 fn quat_to_rotation(cx: &Cx, handle: String) -> Result<String> {
     let rotation = rotation(cx, &handle)?.to_rotation_matrix();
-    add(cx, DMatrix::from_column_slice(3, 3, rotation.matrix().as_slice()))
+    add(
+        cx,
+        DMatrix::from_column_slice(3, 3, rotation.matrix().as_slice()),
+    )
 }
 
 /// The shortest rotation from one direction to another.
@@ -241,8 +273,18 @@ fn quat_from_two_vectors(cx: &Cx, handle: String, handle2: String) -> Result<Str
         return Err(refused("a vector has no length"));
     }
     // Of opposite directions there are many: half a turn around some axis across.
-    let aside = if a.x.abs() < 0.9 * a.norm() { Vector3::x_axis() } else { Vector3::y_axis() };
+    let aside = if a.x.abs() < 0.9 * a.norm() {
+        Vector3::x_axis()
+    } else {
+        Vector3::y_axis()
+    };
     let across = a.cross(&aside);
-    let half_turn = || UnitQuaternion::from_axis_angle(&Unit::new_normalize(across), std::f64::consts::PI);
-    add(cx, UnitQuaternion::rotation_between(&a, &b).unwrap_or_else(half_turn).into_inner())
+    let half_turn =
+        || UnitQuaternion::from_axis_angle(&Unit::new_normalize(across), std::f64::consts::PI);
+    add(
+        cx,
+        UnitQuaternion::rotation_between(&a, &b)
+            .unwrap_or_else(half_turn)
+            .into_inner(),
+    )
 }

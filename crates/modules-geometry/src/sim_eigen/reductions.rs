@@ -31,7 +31,10 @@ fn squared_norm(matrix: &Matrix) -> f64 {
 
 /// The first number with `is_better` than all before.
 fn best(matrix: &Matrix, is_better: fn(&f64, &f64) -> bool) -> Result<f64> {
-    let best = matrix.iter().copied().reduce(|best, x| if is_better(&x, &best) { x } else { best });
+    let best = matrix
+        .iter()
+        .copied()
+        .reduce(|best, x| if is_better(&x, &best) { x } else { best });
     best.ok_or_else(|| refused("the matrix is empty"))
 }
 
@@ -60,7 +63,11 @@ fn mtx_prod(cx: &Cx, handle: String) -> Result<f64> {
 #[api("simEigen.mtxMean")]
 fn mtx_mean(cx: &Cx, handle: String) -> Result<f64> {
     let matrix = get::<Matrix>(cx, &handle)?;
-    if matrix.is_empty() { Err(refused("the matrix is empty")) } else { Ok(sum(&matrix) / matrix.len() as f64) }
+    if matrix.is_empty() {
+        Err(refused("the matrix is empty"))
+    } else {
+        Ok(sum(&matrix) / matrix.len() as f64)
+    }
 }
 
 /// The smallest number.
@@ -88,7 +95,9 @@ fn mtx_max_coeff(cx: &Cx, handle: String) -> Result<f64> {
 #[api("simEigen.mtxTrace")]
 fn mtx_trace(cx: &Cx, handle: String) -> Result<f64> {
     let matrix = get::<Matrix>(cx, &handle)?;
-    Ok((0..matrix.nrows().min(matrix.ncols())).map(|i| matrix[(i, i)]).sum())
+    Ok((0..matrix.nrows().min(matrix.ncols()))
+        .map(|i| matrix[(i, i)])
+        .sum())
 }
 
 /// The root of the sum of squares.
@@ -112,7 +121,11 @@ fn mtx_squared_norm(cx: &Cx, handle: String) -> Result<f64> {
 /// With the norm 1; zeros stay zeros.
 fn normalized(matrix: &Matrix) -> Matrix {
     let norm = squared_norm(matrix).sqrt();
-    if norm > 0.0 { matrix.map(|x| x / norm) } else { matrix.clone() }
+    if norm > 0.0 {
+        matrix.map(|x| x / norm)
+    } else {
+        matrix.clone()
+    }
 }
 
 /// Divides a matrix by its norm.

@@ -65,8 +65,13 @@ pub(super) fn refused(why: &str) -> ApiError {
 }
 
 fn number<T: Stored>(handle: &str) -> Result<u64> {
-    let number = handle.split_once(':').filter(|(_, kind)| *kind == T::KIND).map(|(digits, _)| digits);
-    number.and_then(|digits| u64::from_str_radix(digits, 16).ok()).ok_or_else(|| refused("invalid object handle"))
+    let number = handle
+        .split_once(':')
+        .filter(|(_, kind)| *kind == T::KIND)
+        .map(|(digits, _)| digits);
+    number
+        .and_then(|digits| u64::from_str_radix(digits, 16).ok())
+        .ok_or_else(|| refused("invalid object handle"))
 }
 
 fn store(cx: &Cx) -> Rc<Store> {
@@ -77,7 +82,11 @@ fn store(cx: &Cx) -> Rc<Store> {
 /// When there is none with that handle.
 pub(super) fn get<T: Stored>(cx: &Cx, handle: &str) -> Result<Rc<T>> {
     let number = number::<T>(handle)?;
-    T::table(&store(cx)).borrow().get(&number).cloned().ok_or_else(|| refused("invalid object handle"))
+    T::table(&store(cx))
+        .borrow()
+        .get(&number)
+        .cloned()
+        .ok_or_else(|| refused("invalid object handle"))
 }
 
 /// Checked before something large is made.
@@ -87,7 +96,9 @@ pub(super) fn get<T: Stored>(cx: &Cx, handle: &str) -> Result<Rc<T>> {
 pub(super) fn check_size(cx: &Cx, numbers: usize) -> Result<()> {
     let all = store(cx).numbers.get().saturating_add(numbers);
     if all > MAX_NUMBERS {
-        Err(refused("the matrices of a script take 512 MiB at most: destroy some."))
+        Err(refused(
+            "the matrices of a script take 512 MiB at most: destroy some.",
+        ))
     } else {
         Ok(())
     }
@@ -114,7 +125,9 @@ pub(super) fn replace<T: Stored>(cx: &Cx, handle: &str, item: T) -> Result<()> {
     check_size(cx, item.size().saturating_sub(old))?;
     let store = store(cx);
     store.numbers.set(store.numbers.get() - old + item.size());
-    T::table(&store).borrow_mut().insert(number::<T>(handle)?, Rc::new(item));
+    T::table(&store)
+        .borrow_mut()
+        .insert(number::<T>(handle)?, Rc::new(item));
     Ok(())
 }
 
@@ -132,10 +145,16 @@ pub(super) fn remove<T: Stored>(cx: &Cx, handle: &str) -> Result<()> {
 ///
 /// # Errors
 /// When there is none with that handle, and those of `change`.
-pub(super) fn modify<T: Stored>(cx: &Cx, handle: &str, change: impl FnOnce(&mut T) -> Result<()>) -> Result<()> {
+pub(super) fn modify<T: Stored>(
+    cx: &Cx,
+    handle: &str,
+    change: impl FnOnce(&mut T) -> Result<()>,
+) -> Result<()> {
     let store = store(cx);
     let mut table = T::table(&store).borrow_mut();
-    let item = table.get_mut(&number::<T>(handle)?).ok_or_else(|| refused("invalid object handle"))?;
+    let item = table
+        .get_mut(&number::<T>(handle)?)
+        .ok_or_else(|| refused("invalid object handle"))?;
     change(Rc::make_mut(item))
 }
 
@@ -143,7 +162,12 @@ pub(super) fn modify<T: Stored>(cx: &Cx, handle: &str, change: impl FnOnce(&mut 
 ///
 /// # Errors
 /// Those of [`replace`] and [`add`].
-pub(super) fn finish<T: Stored>(cx: &Cx, handle: &str, result: T, in_place: bool) -> Result<Option<String>> {
+pub(super) fn finish<T: Stored>(
+    cx: &Cx,
+    handle: &str,
+    result: T,
+    in_place: bool,
+) -> Result<Option<String>> {
     if in_place {
         return replace(cx, handle, result).map(|()| None);
     }
@@ -158,10 +182,15 @@ impl FromScript for HandleList {
     const TYPE: &'static str = "string[]";
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
-        let Table(Data::Array(items)) = Table::from_script(args)? else { return Ok(Self(Vec::new())) };
+        let Table(Data::Array(items)) = Table::from_script(args)? else {
+            return Ok(Self(Vec::new()));
+        };
         let text = |item: Data| match item {
             Data::Text(bytes) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
-            _ => Err(ApiError::NotA { position: -1, expected: "string" }),
+            _ => Err(ApiError::NotA {
+                position: -1,
+                expected: "string",
+            }),
         };
         items.into_iter().map(text).collect::<Result<_>>().map(Self)
     }

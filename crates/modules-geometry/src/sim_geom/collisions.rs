@@ -22,9 +22,19 @@ fn collide(a: Option<Placed>, b: Option<Placed>) -> bool {
 }
 
 /// Whether they intersect, and the ends of the segments of the intersection if they are wanted.
-fn collision_with_segments(a: Option<Placed>, b: Option<Placed>, wanted: bool) -> (bool, Option<Vec<f64>>) {
-    let segments = wanted.then(|| a.zip(b).map_or_else(Vec::new, |(a, b)| intersection_segments(a, b)));
-    (collide(a, b), segments.map(|segments| segments.into_flattened().into_flattened()))
+fn collision_with_segments(
+    a: Option<Placed>,
+    b: Option<Placed>,
+    wanted: bool,
+) -> (bool, Option<Vec<f64>>) {
+    let segments = wanted.then(|| {
+        a.zip(b)
+            .map_or_else(Vec::new, |(a, b)| intersection_segments(a, b))
+    });
+    (
+        collide(a, b),
+        segments.map(|segments| segments.into_flattened().into_flattened()),
+    )
 }
 
 /// Whether two meshes intersect. Meshes are surfaces.
@@ -54,9 +64,14 @@ fn get_mesh_mesh_collision(
     #[default(false)] return_intersections: bool,
 ) -> Result<(bool, Vec<i64>, Option<Vec<f64>>)> {
     let structures = structures(cx);
-    let (mesh1, mesh2) = (structures.meshes.get(mesh1_handle)?, structures.meshes.get(mesh2_handle)?);
-    let (first, second) =
-        (mesh1.placed(pose(mesh1_pos, mesh1_quaternion)?), mesh2.placed(pose(mesh2_pos, mesh2_quaternion)?));
+    let (mesh1, mesh2) = (
+        structures.meshes.get(mesh1_handle)?,
+        structures.meshes.get(mesh2_handle)?,
+    );
+    let (first, second) = (
+        mesh1.placed(pose(mesh1_pos, mesh1_quaternion)?),
+        mesh2.placed(pose(mesh2_pos, mesh2_quaternion)?),
+    );
     let (collide, segments) = collision_with_segments(first, second, return_intersections);
     Ok((collide, pair(cache), segments))
 }
@@ -85,9 +100,14 @@ fn get_mesh_octree_collision(
     cache: Option<Vec<i64>>,
 ) -> Result<(bool, Vec<i64>)> {
     let structures = structures(cx);
-    let (mesh, octree) = (structures.meshes.get(mesh_handle)?, structures.octrees.get(octree_handle)?);
-    let (first, second) =
-        (mesh.placed(pose(mesh_pos, mesh_quaternion)?), octree.placed(pose(octree_pos, octree_quaternion)?));
+    let (mesh, octree) = (
+        structures.meshes.get(mesh_handle)?,
+        structures.octrees.get(octree_handle)?,
+    );
+    let (first, second) = (
+        mesh.placed(pose(mesh_pos, mesh_quaternion)?),
+        octree.placed(pose(octree_pos, octree_quaternion)?),
+    );
     Ok((collide(first, second), pair(cache)))
 }
 
@@ -115,7 +135,10 @@ fn get_octree_octree_collision(
     cache: Option<Vec<i64>>,
 ) -> Result<(bool, Vec<i64>)> {
     let structures = structures(cx);
-    let (octree1, octree2) = (structures.octrees.get(octree1_handle)?, structures.octrees.get(octree2_handle)?);
+    let (octree1, octree2) = (
+        structures.octrees.get(octree1_handle)?,
+        structures.octrees.get(octree2_handle)?,
+    );
     let (first, second) = (
         octree1.placed(pose(octree1_pos, octree1_quaternion)?),
         octree2.placed(pose(octree2_pos, octree2_quaternion)?),
@@ -147,9 +170,14 @@ fn get_octree_ptcloud_collision(
     cache: Option<Vec<i64>>,
 ) -> Result<(bool, Vec<i64>)> {
     let structures = structures(cx);
-    let (octree, ptcloud) = (structures.octrees.get(octree_handle)?, structures.point_clouds.get(ptcloud_handle)?);
-    let (first, second) =
-        (octree.placed(pose(octree_pos, octree_quaternion)?), ptcloud.placed(pose(ptcloud_pos, ptcloud_quaternion)?));
+    let (octree, ptcloud) = (
+        structures.octrees.get(octree_handle)?,
+        structures.point_clouds.get(ptcloud_handle)?,
+    );
+    let (first, second) = (
+        octree.placed(pose(octree_pos, octree_quaternion)?),
+        ptcloud.placed(pose(ptcloud_pos, ptcloud_quaternion)?),
+    );
     Ok((collide(first, second), pair(cache)))
 }
 
@@ -180,8 +208,12 @@ fn get_mesh_triangle_collision(
     #[default(false)] return_intersections: bool,
 ) -> Result<(bool, i64, Option<Vec<f64>>)> {
     let mesh = structures(cx).meshes.get(mesh_handle)?;
-    let (first, triangle) = (mesh.placed(pose(mesh_pos, mesh_quaternion)?), Element::triangle(p, v, w)?);
-    let (collide, segments) = collision_with_segments(first, Some(triangle.placed()), return_intersections);
+    let (first, triangle) = (
+        mesh.placed(pose(mesh_pos, mesh_quaternion)?),
+        Element::triangle(p, v, w)?,
+    );
+    let (collide, segments) =
+        collision_with_segments(first, Some(triangle.placed()), return_intersections);
     Ok((collide, cache, segments))
 }
 
@@ -210,9 +242,12 @@ fn get_mesh_segment_collision(
     #[default(false)] return_intersections: bool,
 ) -> Result<(bool, i64, Option<Vec<f64>>)> {
     let mesh = structures(cx).meshes.get(mesh_handle)?;
-    let (first, segment) =
-        (mesh.placed(pose(mesh_pos, mesh_quaternion)?), Element::segment(segment_end_point, segment_vector)?);
-    let (collide, segments) = collision_with_segments(first, Some(segment.placed()), return_intersections);
+    let (first, segment) = (
+        mesh.placed(pose(mesh_pos, mesh_quaternion)?),
+        Element::segment(segment_end_point, segment_vector)?,
+    );
+    let (collide, segments) =
+        collision_with_segments(first, Some(segment.placed()), return_intersections);
     Ok((collide, cache, segments))
 }
 
@@ -240,7 +275,10 @@ fn get_octree_triangle_collision(
     #[default(-1)] cache: i64,
 ) -> Result<(bool, i64)> {
     let octree = structures(cx).octrees.get(octree_handle)?;
-    let (first, triangle) = (octree.placed(pose(octree_pos, octree_quaternion)?), Element::triangle(p, v, w)?);
+    let (first, triangle) = (
+        octree.placed(pose(octree_pos, octree_quaternion)?),
+        Element::triangle(p, v, w)?,
+    );
     Ok((collide(first, Some(triangle.placed())), cache))
 }
 
@@ -265,8 +303,10 @@ fn get_octree_segment_collision(
     #[default(-1)] cache: i64,
 ) -> Result<(bool, i64)> {
     let octree = structures(cx).octrees.get(octree_handle)?;
-    let (first, segment) =
-        (octree.placed(pose(octree_pos, octree_quaternion)?), Element::segment(segment_end_point, segment_vector)?);
+    let (first, segment) = (
+        octree.placed(pose(octree_pos, octree_quaternion)?),
+        Element::segment(segment_end_point, segment_vector)?,
+    );
     Ok((collide(first, Some(segment.placed())), cache))
 }
 

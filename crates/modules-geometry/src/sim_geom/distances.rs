@@ -41,9 +41,14 @@ fn get_mesh_mesh_distance(
     cache: Option<Vec<i64>>,
 ) -> Result<(f64, Place, Place, Option<Vec<i64>>)> {
     let structures = structures(cx);
-    let (mesh1, mesh2) = (structures.meshes.get(mesh1_handle)?, structures.meshes.get(mesh2_handle)?);
-    let (first, second) =
-        (mesh1.placed(pose(mesh1_pos, mesh1_quaternion)?), mesh2.placed(pose(mesh2_pos, mesh2_quaternion)?));
+    let (mesh1, mesh2) = (
+        structures.meshes.get(mesh1_handle)?,
+        structures.meshes.get(mesh2_handle)?,
+    );
+    let (first, second) = (
+        mesh1.placed(pose(mesh1_pos, mesh1_quaternion)?),
+        mesh2.placed(pose(mesh2_pos, mesh2_quaternion)?),
+    );
     Ok(measure(first, second, distance_threshold).results(pair(cache)))
 }
 
@@ -75,9 +80,14 @@ fn get_mesh_octree_distance(
     cache: Option<Vec<i64>>,
 ) -> Result<(f64, Place, Place, Option<Vec<i64>>)> {
     let structures = structures(cx);
-    let (mesh, octree) = (structures.meshes.get(mesh_handle)?, structures.octrees.get(octree_handle)?);
-    let (first, second) =
-        (mesh.placed(pose(mesh_pos, mesh_quaternion)?), octree.placed(pose(octree_pos, octree_quaternion)?));
+    let (mesh, octree) = (
+        structures.meshes.get(mesh_handle)?,
+        structures.octrees.get(octree_handle)?,
+    );
+    let (first, second) = (
+        mesh.placed(pose(mesh_pos, mesh_quaternion)?),
+        octree.placed(pose(octree_pos, octree_quaternion)?),
+    );
     Ok(measure(first, second, distance_threshold).results(pair(cache)))
 }
 
@@ -109,9 +119,14 @@ fn get_mesh_ptcloud_distance(
     cache: Option<Vec<i64>>,
 ) -> Result<(f64, Place, Place, Option<Vec<i64>>)> {
     let structures = structures(cx);
-    let (mesh, ptcloud) = (structures.meshes.get(mesh_handle)?, structures.point_clouds.get(ptcloud_handle)?);
-    let (first, second) =
-        (mesh.placed(pose(mesh_pos, mesh_quaternion)?), ptcloud.placed(pose(ptcloud_pos, ptcloud_quaternion)?));
+    let (mesh, ptcloud) = (
+        structures.meshes.get(mesh_handle)?,
+        structures.point_clouds.get(ptcloud_handle)?,
+    );
+    let (first, second) = (
+        mesh.placed(pose(mesh_pos, mesh_quaternion)?),
+        ptcloud.placed(pose(ptcloud_pos, ptcloud_quaternion)?),
+    );
     Ok(measure(first, second, distance_threshold).results(pair(cache)))
 }
 
@@ -143,7 +158,10 @@ fn get_octree_octree_distance(
     cache: Option<Vec<i64>>,
 ) -> Result<(f64, Place, Place, Option<Vec<i64>>)> {
     let structures = structures(cx);
-    let (octree1, octree2) = (structures.octrees.get(octree1_handle)?, structures.octrees.get(octree2_handle)?);
+    let (octree1, octree2) = (
+        structures.octrees.get(octree1_handle)?,
+        structures.octrees.get(octree2_handle)?,
+    );
     let (first, second) = (
         octree1.placed(pose(octree1_pos, octree1_quaternion)?),
         octree2.placed(pose(octree2_pos, octree2_quaternion)?),
@@ -179,9 +197,14 @@ fn get_octree_ptcloud_distance(
     cache: Option<Vec<i64>>,
 ) -> Result<(f64, Place, Place, Option<Vec<i64>>)> {
     let structures = structures(cx);
-    let (octree, ptcloud) = (structures.octrees.get(octree_handle)?, structures.point_clouds.get(ptcloud_handle)?);
-    let (first, second) =
-        (octree.placed(pose(octree_pos, octree_quaternion)?), ptcloud.placed(pose(ptcloud_pos, ptcloud_quaternion)?));
+    let (octree, ptcloud) = (
+        structures.octrees.get(octree_handle)?,
+        structures.point_clouds.get(ptcloud_handle)?,
+    );
+    let (first, second) = (
+        octree.placed(pose(octree_pos, octree_quaternion)?),
+        ptcloud.placed(pose(ptcloud_pos, ptcloud_quaternion)?),
+    );
     Ok(measure(first, second, distance_threshold).results(pair(cache)))
 }
 
@@ -213,8 +236,10 @@ fn get_ptcloud_ptcloud_distance(
     cache: Option<Vec<i64>>,
 ) -> Result<(f64, Place, Place, Option<Vec<i64>>)> {
     let structures = structures(cx);
-    let (ptcloud1, ptcloud2) =
-        (structures.point_clouds.get(ptcloud1_handle)?, structures.point_clouds.get(ptcloud2_handle)?);
+    let (ptcloud1, ptcloud2) = (
+        structures.point_clouds.get(ptcloud1_handle)?,
+        structures.point_clouds.get(ptcloud2_handle)?,
+    );
     let (first, second) = (
         ptcloud1.placed(pose(ptcloud1_pos, ptcloud1_quaternion)?),
         ptcloud2.placed(pose(ptcloud2_pos, ptcloud2_quaternion)?),

@@ -44,7 +44,10 @@ fn get_mesh_triangle_distance(
     #[default(-1)] cache: i64,
 ) -> Result<(f64, Place, Place, Option<i64>)> {
     let mesh = structures(cx).meshes.get(mesh_handle)?;
-    let (first, triangle) = (mesh.placed(pose(mesh_pos, mesh_quaternion)?), Element::triangle(p, v, w)?);
+    let (first, triangle) = (
+        mesh.placed(pose(mesh_pos, mesh_quaternion)?),
+        Element::triangle(p, v, w)?,
+    );
     Ok(measure(first, Some(triangle.placed()), distance_threshold).results(cache))
 }
 
@@ -74,8 +77,10 @@ fn get_mesh_segment_distance(
     #[default(-1)] cache: i64,
 ) -> Result<(f64, Place, Place, Option<i64>)> {
     let mesh = structures(cx).meshes.get(mesh_handle)?;
-    let (first, segment) =
-        (mesh.placed(pose(mesh_pos, mesh_quaternion)?), Element::segment(segment_end_point, segment_vector)?);
+    let (first, segment) = (
+        mesh.placed(pose(mesh_pos, mesh_quaternion)?),
+        Element::segment(segment_end_point, segment_vector)?,
+    );
     Ok(measure(first, Some(segment.placed()), distance_threshold).results(cache))
 }
 
@@ -133,7 +138,10 @@ fn get_octree_triangle_distance(
     #[default(-1)] cache: i64,
 ) -> Result<(f64, Place, Place, Option<i64>)> {
     let octree = structures(cx).octrees.get(octree_handle)?;
-    let (first, triangle) = (octree.placed(pose(octree_pos, octree_quaternion)?), Element::triangle(p, v, w)?);
+    let (first, triangle) = (
+        octree.placed(pose(octree_pos, octree_quaternion)?),
+        Element::triangle(p, v, w)?,
+    );
     Ok(measure(first, Some(triangle.placed()), distance_threshold).results(cache))
 }
 
@@ -163,8 +171,10 @@ fn get_octree_segment_distance(
     #[default(-1)] cache: i64,
 ) -> Result<(f64, Place, Place, Option<i64>)> {
     let octree = structures(cx).octrees.get(octree_handle)?;
-    let (first, segment) =
-        (octree.placed(pose(octree_pos, octree_quaternion)?), Element::segment(segment_end_point, segment_vector)?);
+    let (first, segment) = (
+        octree.placed(pose(octree_pos, octree_quaternion)?),
+        Element::segment(segment_end_point, segment_vector)?,
+    );
     Ok(measure(first, Some(segment.placed()), distance_threshold).results(cache))
 }
 
@@ -222,7 +232,10 @@ fn get_ptcloud_triangle_distance(
     #[default(-1)] cache: i64,
 ) -> Result<(f64, Place, Place, Option<i64>)> {
     let ptcloud = structures(cx).point_clouds.get(ptcloud_handle)?;
-    let (first, triangle) = (ptcloud.placed(pose(ptcloud_pos, ptcloud_quaternion)?), Element::triangle(p, v, w)?);
+    let (first, triangle) = (
+        ptcloud.placed(pose(ptcloud_pos, ptcloud_quaternion)?),
+        Element::triangle(p, v, w)?,
+    );
     Ok(measure(first, Some(triangle.placed()), distance_threshold).results(cache))
 }
 
@@ -252,8 +265,10 @@ fn get_ptcloud_segment_distance(
     #[default(-1)] cache: i64,
 ) -> Result<(f64, Place, Place, Option<i64>)> {
     let ptcloud = structures(cx).point_clouds.get(ptcloud_handle)?;
-    let (first, segment) =
-        (ptcloud.placed(pose(ptcloud_pos, ptcloud_quaternion)?), Element::segment(segment_end_point, segment_vector)?);
+    let (first, segment) = (
+        ptcloud.placed(pose(ptcloud_pos, ptcloud_quaternion)?),
+        Element::segment(segment_end_point, segment_vector)?,
+    );
     Ok(measure(first, Some(segment.placed()), distance_threshold).results(cache))
 }
 

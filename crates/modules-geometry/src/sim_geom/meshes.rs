@@ -4,7 +4,9 @@ use api_macro::api;
 use geometry::{Mesh, MeshError};
 
 use super::structures::MeshStructure;
-use super::{ApiFn, Cx, Result, factor, frame, functions, invalid_data, refused, serialization, structures};
+use super::{
+    ApiFn, Cx, Result, factor, frame, functions, invalid_data, refused, serialization, structures,
+};
 use script::Bytes;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
@@ -92,5 +94,7 @@ fn get_mesh_serialization_data(cx: &Cx, mesh_handle: i64) -> Result<Bytes> {
 /// @return meshHandle
 #[api("simGeom.createMeshFromSerializationData")]
 fn create_mesh_from_serialization_data(cx: &Cx, data: Bytes) -> Result<i64> {
-    Ok(structures(cx).meshes.add(MeshStructure::new(serialization::to_mesh(&data.0)?)))
+    Ok(structures(cx)
+        .meshes
+        .add(MeshStructure::new(serialization::to_mesh(&data.0)?)))
 }

@@ -52,22 +52,36 @@ fn refused(why: &str) -> ApiError {
 /// The points of a flat list of coordinates.
 fn points(flat: &[f64]) -> Result<&[[f64; 3]]> {
     let (points, rest) = flat.as_chunks();
-    if rest.is_empty() { Ok(points) } else { Err(ApiError::TableSize) }
+    if rest.is_empty() {
+        Ok(points)
+    } else {
+        Err(ApiError::TableSize)
+    }
 }
 
 fn pose(position: [f64; 3], quaternion: [f64; 4]) -> Result<Pose> {
     let position = position.finite().ok_or_else(invalid_data)?;
-    Ok(Pose::from_parts(position.into(), quaternion_from_array(&quaternion.finite().ok_or_else(invalid_data)?)))
+    Ok(Pose::from_parts(
+        position.into(),
+        quaternion_from_array(&quaternion.finite().ok_or_else(invalid_data)?),
+    ))
 }
 
 /// The frame of a structure; that of the world where nothing else is said.
 fn frame(position: Option<[f64; 3]>, quaternion: Option<[f64; 4]>) -> Result<Pose> {
-    pose(position.unwrap_or_default(), quaternion.unwrap_or([0.0, 0.0, 0.0, 1.0]))
+    pose(
+        position.unwrap_or_default(),
+        quaternion.unwrap_or([0.0, 0.0, 0.0, 1.0]),
+    )
 }
 
 /// A scale factor.
 fn factor(factor: f64) -> Result<f64> {
-    if factor.is_finite() && factor > 0.0 { Ok(factor) } else { Err(refused("the factor must be positive.")) }
+    if factor.is_finite() && factor > 0.0 {
+        Ok(factor)
+    } else {
+        Err(refused("the factor must be positive."))
+    }
 }
 
 /// A colour with channels from 0 to 255.
@@ -89,11 +103,16 @@ impl Element {
 
     /// From an end and the vector to the other one.
     fn segment(end: [f64; 3], vector: [f64; 3]) -> Result<Self> {
-        TriangleMesh::of_segments(&[[end, sum(end, vector)]]).map(Self).ok_or_else(invalid_data)
+        TriangleMesh::of_segments(&[[end, sum(end, vector)]])
+            .map(Self)
+            .ok_or_else(invalid_data)
     }
 
     fn placed(&self) -> Placed<'_> {
-        Placed { geometry: Geometry::Mesh(&self.0), pose: Pose::identity() }
+        Placed {
+            geometry: Geometry::Mesh(&self.0),
+            pose: Pose::identity(),
+        }
     }
 }
 
@@ -103,7 +122,10 @@ fn sum(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 /// A point in the world.
 fn point(at: [f64; 3]) -> Result<Placed<'static>> {
-    Ok(Placed { geometry: Geometry::Point, pose: pose(at, [0.0, 0.0, 0.0, 1.0])? })
+    Ok(Placed {
+        geometry: Geometry::Point,
+        pose: pose(at, [0.0, 0.0, 0.0, 1.0])?,
+    })
 }
 
 /// A point on a thing; nothing where the distance is not smaller than the threshold.
@@ -117,10 +139,20 @@ struct Measured {
 
 /// A distance that is smaller than `threshold`, which counts where it is positive. A structure without content has an infinite distance to anything.
 fn measure(a: Option<Placed>, b: Option<Placed>, threshold: f64) -> Measured {
-    let limit = if threshold > 0.0 { threshold } else { f64::INFINITY };
+    let limit = if threshold > 0.0 {
+        threshold
+    } else {
+        f64::INFINITY
+    };
     match a.zip(b).and_then(|(a, b)| proximity::distance(a, b, limit)) {
-        Some(Closest { points, distance }) => Measured { distance, points: Some(points) },
-        None => Measured { distance: limit, points: None },
+        Some(Closest { points, distance }) => Measured {
+            distance,
+            points: Some(points),
+        },
+        None => Measured {
+            distance: limit,
+            points: None,
+        },
     }
 }
 

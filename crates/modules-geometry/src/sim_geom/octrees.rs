@@ -5,7 +5,10 @@ use geometry::Pose;
 use nalgebra::Point3;
 
 use super::structures::OctreeStructure;
-use super::{ApiError, ApiFn, Cx, Result, colour, factor, frame, functions, points, pose, serialization, structures};
+use super::{
+    ApiError, ApiFn, Cx, Result, colour, factor, frame, functions, points, pose, serialization,
+    structures,
+};
 use scene::voxels::octree::{OcTree, Voxel};
 use scene::voxels::{cells_of_mesh, cells_of_octree};
 use script::Bytes;
@@ -73,7 +76,13 @@ fn create_octree_from_color_points(
     if numbers.len() < points.len() / 3 {
         return Err(ApiError::TableSize);
     }
-    let voxels = colours.into_iter().zip(numbers).map(|(colour, number)| Voxel { colour, tag: number as u32 });
+    let voxels = colours
+        .into_iter()
+        .zip(numbers)
+        .map(|(colour, number)| Voxel {
+            colour,
+            tag: number as u32,
+        });
     add(cx, max_cell_size, local(&points, &frame)?.zip(voxels))
 }
 
@@ -106,7 +115,11 @@ fn create_octree_from_mesh(
     mesh.transform(&(frame.inverse() * pose(mesh_pos, mesh_quaternion)?));
     let voxel = voxel(point_color, user_data);
     let cells = cells_of_mesh(&mesh, OcTree::new(max_cell_size, 1.0).voxel_size())?;
-    add(cx, max_cell_size, cells.into_iter().map(|centre| (centre, voxel)))
+    add(
+        cx,
+        max_cell_size,
+        cells.into_iter().map(|centre| (centre, voxel)),
+    )
 }
 
 /// Makes an octree of the cells that the voxels of another one overlap.
@@ -137,8 +150,16 @@ fn create_octree_from_octree(
     let frame = frame(new_octree_origin_pos, new_octree_origin_quaternion)?;
     let place = frame.inverse() * pose(octree_pos, octree_quaternion)?;
     let voxel = voxel(point_color, user_data);
-    let cells = cells_of_octree(&other.tree, &place, OcTree::new(max_cell_size, 1.0).voxel_size())?;
-    add(cx, max_cell_size, cells.into_iter().map(|centre| (centre, voxel)))
+    let cells = cells_of_octree(
+        &other.tree,
+        &place,
+        OcTree::new(max_cell_size, 1.0).voxel_size(),
+    )?;
+    add(
+        cx,
+        max_cell_size,
+        cells.into_iter().map(|centre| (centre, voxel)),
+    )
 }
 
 /// The voxels of an octree, in its frame.
@@ -150,9 +171,24 @@ fn create_octree_from_octree(
 #[api("simGeom.getOctreeVoxels")]
 fn get_octree_voxels(cx: &Cx, octree_handle: i64) -> Result<(Vec<f64>, Vec<f64>, Vec<i64>)> {
     let octree = structures(cx).octrees.get(octree_handle)?;
-    let colours = octree.tree.voxels().flat_map(|(_, voxel)| voxel.colour.map(|channel| f64::from(channel) / 255.0));
-    let centres = octree.tree.voxels().flat_map(|(centre, _)| centre).collect();
-    Ok((centres, colours.collect(), octree.tree.voxels().map(|(_, voxel)| voxel.tag.into()).collect()))
+    let colours = octree
+        .tree
+        .voxels()
+        .flat_map(|(_, voxel)| voxel.colour.map(|channel| f64::from(channel) / 255.0));
+    let centres = octree
+        .tree
+        .voxels()
+        .flat_map(|(centre, _)| centre)
+        .collect();
+    Ok((
+        centres,
+        colours.collect(),
+        octree
+            .tree
+            .voxels()
+            .map(|(_, voxel)| voxel.tag.into())
+            .collect(),
+    ))
 }
 
 /// Copies an octree.
@@ -202,17 +238,24 @@ fn get_octree_serialization_data(cx: &Cx, octree_handle: i64) -> Result<Bytes> {
 /// @return octreeHandle
 #[api("simGeom.createOctreeFromSerializationData")]
 fn create_octree_from_serialization_data(cx: &Cx, data: Bytes) -> Result<i64> {
-    Ok(structures(cx).octrees.add(OctreeStructure::new(serialization::to_octree(&data.0)?)))
+    Ok(structures(cx)
+        .octrees
+        .add(OctreeStructure::new(serialization::to_octree(&data.0)?)))
 }
 
 fn voxel(channels: [f64; 3], number: i64) -> Voxel {
-    Voxel { colour: colour(channels), tag: number as u32 }
+    Voxel {
+        colour: colour(channels),
+        tag: number as u32,
+    }
 }
 
 /// Points of the world in a frame.
 fn local<'a>(flat: &'a [f64], frame: &Pose) -> Result<impl Iterator<Item = [f64; 3]> + use<'a>> {
     let frame = *frame;
-    Ok(points(flat)?.iter().map(move |point| frame.inverse_transform_point(&Point3::from(*point)).into()))
+    Ok(points(flat)?
+        .iter()
+        .map(move |point| frame.inverse_transform_point(&Point3::from(*point)).into()))
 }
 
 fn add(cx: &Cx, cell_size: f64, voxels: impl Iterator<Item = ([f64; 3], Voxel)>) -> Result<i64> {

@@ -4,7 +4,10 @@ use api_macro::api;
 use nalgebra::Point3;
 
 use super::structures::CloudStructure;
-use super::{ApiError, ApiFn, Cx, Result, colour, factor, frame, functions, points, serialization, structures};
+use super::{
+    ApiError, ApiFn, Cx, Result, colour, factor, frame, functions, points, serialization,
+    structures,
+};
 use scene::voxels::point_cloud::{CloudPoint, PointCloud};
 use script::Bytes;
 
@@ -90,9 +93,20 @@ fn get_ptcloud_points(
     let cloud = structures(cx).point_clouds.get(ptcloud_handle)?;
     let proportion = subset_proportion.clamp(0.0, 1.0);
     let before = |i: usize| (i as f64 * proportion).floor();
-    let chosen = cloud.cloud.points.iter().enumerate().filter(|(i, _)| before(i + 1) > before(*i));
-    let (positions, colours): (Vec<_>, Vec<_>) =
-        chosen.map(|(_, point)| (point.position, point.colour.map(|channel| f64::from(channel) / 255.0))).unzip();
+    let chosen = cloud
+        .cloud
+        .points
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| before(i + 1) > before(*i));
+    let (positions, colours): (Vec<_>, Vec<_>) = chosen
+        .map(|(_, point)| {
+            (
+                point.position,
+                point.colour.map(|channel| f64::from(channel) / 255.0),
+            )
+        })
+        .unzip();
     Ok((positions.into_flattened(), colours.into_flattened()))
 }
 
@@ -134,7 +148,8 @@ fn destroy_ptcloud(cx: &Cx, ptcloud_handle: i64) -> Result<()> {
 /// @return data
 #[api("simGeom.getPtcloudSerializationData")]
 fn get_ptcloud_serialization_data(cx: &Cx, ptcloud_handle: i64) -> Result<Bytes> {
-    serialization::of_point_cloud(&structures(cx).point_clouds.get(ptcloud_handle)?.cloud).map(Bytes)
+    serialization::of_point_cloud(&structures(cx).point_clouds.get(ptcloud_handle)?.cloud)
+        .map(Bytes)
 }
 
 /// The point cloud that simGeom.getPtcloudSerializationData stored.
@@ -143,7 +158,9 @@ fn get_ptcloud_serialization_data(cx: &Cx, ptcloud_handle: i64) -> Result<Bytes>
 /// @return ptcloudHandle
 #[api("simGeom.createPtcloudFromSerializationData")]
 fn create_ptcloud_from_serialization_data(cx: &Cx, data: Bytes) -> Result<i64> {
-    Ok(structures(cx).point_clouds.add(CloudStructure::new(serialization::to_point_cloud(&data.0)?)))
+    Ok(structures(cx)
+        .point_clouds
+        .add(CloudStructure::new(serialization::to_point_cloud(&data.0)?)))
 }
 
 /// A point cloud without points.
@@ -161,12 +178,17 @@ pub(super) fn empty(max_cell_size: f64, max_points_in_cell: i64) -> PointCloud {
 
 /// A colour for each of `count` points, from three channels each; black where there are none.
 pub(super) fn colours(channels: Option<&[f64]>, count: usize) -> Result<Vec<[u8; 3]>> {
-    let Some(channels) = channels else { return Ok(vec![[0; 3]; count]) };
+    let Some(channels) = channels else {
+        return Ok(vec![[0; 3]; count]);
+    };
     let (colours, _) = channels.as_chunks::<3>();
     if colours.len() < count {
         return Err(ApiError::TableSize);
     }
-    Ok(colours[..count].iter().map(|channels| colour(*channels)).collect())
+    Ok(colours[..count]
+        .iter()
+        .map(|channels| colour(*channels))
+        .collect())
 }
 
 fn add(
@@ -179,7 +201,13 @@ fn add(
 ) -> Result<i64> {
     let frame = frame(position, quaternion)?;
     let local = |point: &[f64; 3]| frame.inverse_transform_point(&Point3::from(*point)).into();
-    let new = points(flat)?.iter().zip(colours).map(|(point, colour)| CloudPoint { position: local(point), colour });
+    let new = points(flat)?
+        .iter()
+        .zip(colours)
+        .map(|(point, colour)| CloudPoint {
+            position: local(point),
+            colour,
+        });
     cloud.insert(new, tolerance);
     Ok(structures(cx).point_clouds.add(CloudStructure::new(cloud)))
 }

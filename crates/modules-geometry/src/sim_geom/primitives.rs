@@ -6,7 +6,8 @@ use geometry::pose::multiply_vector;
 use geometry::{Finite, Pose};
 use nalgebra::{Point3, Vector3};
 use proximity::primitive::{
-    Pair, SolidBox, Triangle, closest_on_segment, closest_on_segments, closest_on_triangle, closest_on_triangles,
+    Pair, SolidBox, Triangle, closest_on_segment, closest_on_segments, closest_on_triangle,
+    closest_on_triangles,
 };
 
 use super::{ApiError, ApiFn, Cx, Result, functions, invalid_data, points, pose, sum};
@@ -28,11 +29,26 @@ type Point = [f64; 3];
 
 /// The corners of the faces of a box, by the signs of their coordinates; two triangles each.
 const FACES: [[[f64; 3]; 4]; 6] = [
-    [[-1., -1., -1.], [-1., 1., -1.], [1., 1., -1.], [1., -1., -1.]],
+    [
+        [-1., -1., -1.],
+        [-1., 1., -1.],
+        [1., 1., -1.],
+        [1., -1., -1.],
+    ],
     [[-1., -1., 1.], [1., -1., 1.], [1., 1., 1.], [-1., 1., 1.]],
-    [[-1., -1., -1.], [1., -1., -1.], [1., -1., 1.], [-1., -1., 1.]],
+    [
+        [-1., -1., -1.],
+        [1., -1., -1.],
+        [1., -1., 1.],
+        [-1., -1., 1.],
+    ],
     [[-1., 1., -1.], [-1., 1., 1.], [1., 1., 1.], [1., 1., -1.]],
-    [[-1., -1., -1.], [-1., -1., 1.], [-1., 1., 1.], [-1., 1., -1.]],
+    [
+        [-1., -1., -1.],
+        [-1., -1., 1.],
+        [-1., 1., 1.],
+        [-1., 1., -1.],
+    ],
     [[1., -1., -1.], [1., 1., -1.], [1., 1., 1.], [1., -1., 1.]],
 ];
 
@@ -46,11 +62,18 @@ struct Cuboid {
 impl Cuboid {
     fn new(position: Point, quaternion: [f64; 4], half: Point, solid: bool) -> Result<Self> {
         let half = Vector3::from(half.finite().ok_or_else(invalid_data)?).abs();
-        Ok(Self { pose: pose(position, quaternion)?, half, solid })
+        Ok(Self {
+            pose: pose(position, quaternion)?,
+            half,
+            solid,
+        })
     }
 
     fn filled(&self) -> SolidBox {
-        SolidBox { centre: Vector3::zeros(), half: self.half }
+        SolidBox {
+            centre: Vector3::zeros(),
+            half: self.half,
+        }
     }
 
     /// The triangles of the surface, in the frame of the box.
@@ -76,17 +99,26 @@ impl Cuboid {
         let found = if self.solid {
             self.filled().closest_to_triangle(&triangle)
         } else {
-            nearest(self.faces().map(|face| closest_on_triangles(&face, &triangle)))
+            nearest(
+                self.faces()
+                    .map(|face| closest_on_triangles(&face, &triangle)),
+            )
         };
         (self.world(found.0), self.world(found.1), found.2)
     }
 
     fn closest_to_box(&self, other: &Self) -> Pair {
         if self.solid {
-            let (p, q, squared) = self.filled().closest_to_box(&other.filled(), &self.pose.inv_mul(&other.pose));
+            let (p, q, squared) = self
+                .filled()
+                .closest_to_box(&other.filled(), &self.pose.inv_mul(&other.pose));
             return (self.world(p), self.world(q), squared);
         }
-        nearest(other.faces().map(|face| self.closest(&face.map(|p| other.world(p)))))
+        nearest(
+            other
+                .faces()
+                .map(|face| self.closest(&face.map(|p| other.world(p)))),
+        )
     }
 }
 
@@ -99,7 +131,11 @@ fn nearest(pairs: impl Iterator<Item = Pair>) -> Pair {
 fn triangle(p: Point, v: Point, w: Point) -> Result<Triangle> {
     let corners = [p, sum(p, v), sum(p, w)];
     let finite = corners.iter().all(|corner| corner.is_finite());
-    if finite { Ok(corners.map(Vector3::from)) } else { Err(invalid_data()) }
+    if finite {
+        Ok(corners.map(Vector3::from))
+    } else {
+        Err(invalid_data())
+    }
 }
 
 fn segment(end: Point, vector: Point) -> Result<[Vector3<f64>; 2]> {
@@ -267,7 +303,10 @@ fn get_triangle_triangle_distance(
     v2: Point,
     w2: Point,
 ) -> Result<(f64, [f64; 3], [f64; 3])> {
-    Ok(results(closest_on_triangles(&triangle(p1, v1, w1)?, &triangle(p2, v2, w2)?)))
+    Ok(results(closest_on_triangles(
+        &triangle(p1, v1, w1)?,
+        &triangle(p2, v2, w2)?,
+    )))
 }
 
 /// Distance between a triangle and a segment.
@@ -290,7 +329,10 @@ fn get_triangle_segment_distance(
     segment_vector: Point,
 ) -> Result<(f64, [f64; 3], [f64; 3])> {
     let [a, b] = segment(segment_end_point, segment_vector)?;
-    Ok(results(closest_on_triangles(&triangle(p, v, w)?, &[a, b, b])))
+    Ok(results(closest_on_triangles(
+        &triangle(p, v, w)?,
+        &[a, b, b],
+    )))
 }
 
 /// Distance between a triangle and a point.
@@ -302,9 +344,18 @@ fn get_triangle_segment_distance(
 /// @return dist metres
 /// @return distSegPt on the triangle
 #[api("simGeom.getTrianglePointDistance")]
-fn get_triangle_point_distance(_cx: &Cx, p: Point, v: Point, w: Point, point: Point) -> Result<(f64, [f64; 3])> {
+fn get_triangle_point_distance(
+    _cx: &Cx,
+    p: Point,
+    v: Point,
+    w: Point,
+    point: Point,
+) -> Result<(f64, [f64; 3])> {
     let point = finite(point)?;
-    Ok(result_of_point(closest_on_triangle(&point, &triangle(p, v, w)?), point))
+    Ok(result_of_point(
+        closest_on_triangle(&point, &triangle(p, v, w)?),
+        point,
+    ))
 }
 
 /// Distance between two segments.
@@ -370,11 +421,17 @@ fn get_transformed_points(
     };
     let pose = match rotation.as_deref() {
         Some([x, y, z, w, ..]) => pose(position, [*x, *y, *z, *w])?,
-        Some([a, b, g]) => {
-            Pose::from_parts(finite(position)?.into(), rotation_from_euler(&finite([*a, *b, *g])?.into()))
-        }
+        Some([a, b, g]) => Pose::from_parts(
+            finite(position)?.into(),
+            rotation_from_euler(&finite([*a, *b, *g])?.into()),
+        ),
         Some(_) => return Err(ApiError::TableSize),
         None => return Err(ApiError::MoreArguments),
     };
-    Ok(flat.as_chunks().0.iter().flat_map(|p: &Point| <Point>::from(pose * Point3::from(*p))).collect())
+    Ok(flat
+        .as_chunks()
+        .0
+        .iter()
+        .flat_map(|p: &Point| <Point>::from(pose * Point3::from(*p)))
+        .collect())
 }

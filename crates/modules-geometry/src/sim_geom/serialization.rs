@@ -50,7 +50,8 @@ impl<'a> Reader<'a> {
 }
 
 fn put_count(bytes: &mut Vec<u8>, count: usize) -> Result<()> {
-    let count = u32::try_from(count).map_err(|_| refused("the structure has too many elements."))?;
+    let count =
+        u32::try_from(count).map_err(|_| refused("the structure has too many elements."))?;
     bytes.extend(count.to_le_bytes());
     Ok(())
 }
@@ -66,9 +67,14 @@ fn malformed() -> ApiError {
 pub(super) fn of_mesh(mesh: &Mesh) -> Result<Vec<u8>> {
     let mut bytes = MESH.to_vec();
     put_count(&mut bytes, mesh.vertices.len())?;
-    mesh.vertices.iter().for_each(|vertex| put_point(&mut bytes, vertex));
+    mesh.vertices
+        .iter()
+        .for_each(|vertex| put_point(&mut bytes, vertex));
     put_count(&mut bytes, mesh.triangles.len())?;
-    mesh.triangles.as_flattened().iter().for_each(|index| bytes.extend(index.to_le_bytes()));
+    mesh.triangles
+        .as_flattened()
+        .iter()
+        .for_each(|index| bytes.extend(index.to_le_bytes()));
     Ok(bytes)
 }
 
@@ -79,9 +85,14 @@ pub(super) fn of_mesh(mesh: &Mesh) -> Result<Vec<u8>> {
 pub(super) fn to_mesh(bytes: &[u8]) -> Result<Mesh> {
     let read = || {
         let mut reader = Reader::new(bytes, MESH)?;
-        let vertices = (0..reader.count(24)?).map(|_| reader.point()).collect::<Option<Vec<_>>>()?;
-        let corner = |reader: &mut Reader| Some([reader.integer()?, reader.integer()?, reader.integer()?]);
-        let triangles = (0..reader.count(12)?).map(|_| corner(&mut reader)).collect::<Option<Vec<_>>>()?;
+        let vertices = (0..reader.count(24)?)
+            .map(|_| reader.point())
+            .collect::<Option<Vec<_>>>()?;
+        let corner =
+            |reader: &mut Reader| Some([reader.integer()?, reader.integer()?, reader.integer()?]);
+        let triangles = (0..reader.count(12)?)
+            .map(|_| corner(&mut reader))
+            .collect::<Option<Vec<_>>>()?;
         reader.end(())?;
         Mesh::new(vertices, triangles).ok()
     };
@@ -113,7 +124,13 @@ pub(super) fn to_octree(bytes: &[u8]) -> Result<OcTree> {
         tree.scale(size);
         for _ in 0..reader.count(31)? {
             let centre = reader.point()?;
-            tree.insert(centre, Voxel { colour: reader.take()?, tag: reader.integer()? });
+            tree.insert(
+                centre,
+                Voxel {
+                    colour: reader.take()?,
+                    tag: reader.integer()?,
+                },
+            );
         }
         reader.end(tree)
     };
@@ -141,7 +158,10 @@ pub(super) fn to_point_cloud(bytes: &[u8]) -> Result<PointCloud> {
         let mut reader = Reader::new(bytes, POINT_CLOUD)?;
         let mut cloud = super::point_clouds::empty(reader.number()?, reader.integer()?.into());
         for _ in 0..reader.count(27)? {
-            cloud.points.push(CloudPoint { position: reader.point()?, colour: reader.take()? });
+            cloud.points.push(CloudPoint {
+                position: reader.point()?,
+                colour: reader.take()?,
+            });
         }
         reader.end(cloud)
     };
@@ -153,20 +173,39 @@ mod tests {
     use super::*;
 
     fn mesh() -> Mesh {
-        Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.5]], vec![[0, 1, 2]]).unwrap()
+        Mesh::new(
+            vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.5]],
+            vec![[0, 1, 2]],
+        )
+        .unwrap()
     }
 
     fn octree() -> OcTree {
         let mut tree = OcTree::new(0.1, 1.0);
         tree.scale(30.0);
-        tree.insert([0.5; 3], Voxel { colour: [1, 2, 3], tag: 7 });
-        tree.insert([-9.0; 3], Voxel { colour: [4, 5, 6], tag: 8 });
+        tree.insert(
+            [0.5; 3],
+            Voxel {
+                colour: [1, 2, 3],
+                tag: 7,
+            },
+        );
+        tree.insert(
+            [-9.0; 3],
+            Voxel {
+                colour: [4, 5, 6],
+                tag: 8,
+            },
+        );
         tree
     }
 
     fn cloud() -> PointCloud {
         let mut cloud = super::super::point_clouds::empty(0.05, 20);
-        cloud.points.push(CloudPoint { position: [1.0, 2.0, 3.0], colour: [9, 8, 7] });
+        cloud.points.push(CloudPoint {
+            position: [1.0, 2.0, 3.0],
+            colour: [9, 8, 7],
+        });
         cloud
     }
 
@@ -174,7 +213,10 @@ mod tests {
     fn structures_come_back() {
         assert_eq!(to_mesh(&of_mesh(&mesh()).unwrap()).unwrap(), mesh());
         assert_eq!(to_octree(&of_octree(&octree()).unwrap()).unwrap(), octree());
-        assert_eq!(to_point_cloud(&of_point_cloud(&cloud()).unwrap()).unwrap(), cloud());
+        assert_eq!(
+            to_point_cloud(&of_point_cloud(&cloud()).unwrap()).unwrap(),
+            cloud()
+        );
     }
 
     /// Every prefix, and a byte too many.
@@ -186,12 +228,27 @@ mod tests {
 
     #[test]
     fn damaged_data_are_refused() {
-        let [mesh, octree, cloud] =
-            [of_mesh(&mesh()).unwrap(), of_octree(&octree()).unwrap(), of_point_cloud(&cloud()).unwrap()];
+        let [mesh, octree, cloud] = [
+            of_mesh(&mesh()).unwrap(),
+            of_octree(&octree()).unwrap(),
+            of_point_cloud(&cloud()).unwrap(),
+        ];
         assert!(damaged(&mesh).iter().all(|bytes| to_mesh(bytes).is_err()));
-        assert!(damaged(&octree).iter().all(|bytes| to_octree(bytes).is_err()));
-        assert!(damaged(&cloud).iter().all(|bytes| to_point_cloud(bytes).is_err()));
-        assert!(to_mesh(&octree).is_err() && to_octree(&cloud).is_err() && to_point_cloud(&mesh).is_err());
+        assert!(
+            damaged(&octree)
+                .iter()
+                .all(|bytes| to_octree(bytes).is_err())
+        );
+        assert!(
+            damaged(&cloud)
+                .iter()
+                .all(|bytes| to_point_cloud(bytes).is_err())
+        );
+        assert!(
+            to_mesh(&octree).is_err()
+                && to_octree(&cloud).is_err()
+                && to_point_cloud(&mesh).is_err()
+        );
     }
 
     #[test]
@@ -200,7 +257,10 @@ mod tests {
         for at in 0..bytes.len() {
             let mut changed = bytes.clone();
             changed[at] = 0xff;
-            assert!(to_mesh(&changed).map_or(true, |other| other != mesh()), "byte {at}");
+            assert!(
+                to_mesh(&changed).map_or(true, |other| other != mesh()),
+                "byte {at}"
+            );
         }
         let mut many = of_point_cloud(&cloud()).unwrap();
         many[16..20].fill(0xff);

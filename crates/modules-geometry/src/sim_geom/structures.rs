@@ -27,7 +27,10 @@ pub(super) struct Store<T> {
 
 impl<T> Default for Store<T> {
     fn default() -> Self {
-        Self { items: RefCell::default(), next: Cell::new(0) }
+        Self {
+            items: RefCell::default(),
+            next: Cell::new(0),
+        }
     }
 }
 
@@ -44,7 +47,11 @@ impl<T: Structure> Store<T> {
     }
 
     pub fn get(&self, handle: i64) -> Result<Rc<T>> {
-        self.items.borrow().get(&handle).cloned().ok_or_else(|| unknown::<T>(handle))
+        self.items
+            .borrow()
+            .get(&handle)
+            .cloned()
+            .ok_or_else(|| unknown::<T>(handle))
     }
 
     pub fn replace(&self, handle: i64, item: T) {
@@ -52,12 +59,19 @@ impl<T: Structure> Store<T> {
     }
 
     pub fn remove(&self, handle: i64) -> Result<()> {
-        self.items.borrow_mut().remove(&handle).map(drop).ok_or_else(|| unknown::<T>(handle))
+        self.items
+            .borrow_mut()
+            .remove(&handle)
+            .map(drop)
+            .ok_or_else(|| unknown::<T>(handle))
     }
 }
 
 fn unknown<T: Structure>(handle: i64) -> ApiError {
-    refused(&format!("invalid handle: there is no {} {handle} in this script.", T::KIND))
+    refused(&format!(
+        "invalid handle: there is no {} {handle} in this script.",
+        T::KIND
+    ))
 }
 
 /// A mesh in its own frame. Without a triangle that has an area there is nothing to query.
@@ -73,7 +87,10 @@ impl MeshStructure {
     }
 
     pub fn placed(&self, pose: Pose) -> Option<Placed<'_>> {
-        self.surface.as_ref().map(|mesh| Placed { geometry: Geometry::Mesh(mesh), pose })
+        self.surface.as_ref().map(|mesh| Placed {
+            geometry: Geometry::Mesh(mesh),
+            pose,
+        })
     }
 }
 
@@ -90,7 +107,10 @@ impl OctreeStructure {
     }
 
     pub fn placed(&self, pose: Pose) -> Option<Placed<'_>> {
-        self.grid.as_ref().map(|grid| Placed { geometry: Geometry::Voxels(grid), pose })
+        self.grid.as_ref().map(|grid| Placed {
+            geometry: Geometry::Voxels(grid),
+            pose,
+        })
     }
 }
 
@@ -108,7 +128,10 @@ impl CloudStructure {
     }
 
     pub fn placed(&self, pose: Pose) -> Option<Placed<'_>> {
-        self.set.as_ref().map(|points| Placed { geometry: Geometry::Points(points), pose })
+        self.set.as_ref().map(|points| Placed {
+            geometry: Geometry::Points(points),
+            pose,
+        })
     }
 }
 

@@ -37,13 +37,25 @@ pub(super) fn decode(args: &mut Args<'_>) -> ApiResult<c_int> {
     let stack = args.stack();
     let at = position(stack)?;
     // It stays where it is for the whole decoding, whatever happens on the stack.
-    let packet = stack.string(1).ok_or(ApiError::NotA { position: 1, expected: "string" })?;
+    let packet = stack.string(1).ok_or(ApiError::NotA {
+        position: 1,
+        expected: "string",
+    })?;
     let bytes = &*packet.bytes();
     let at = at.min(bytes.len());
     if stack.kind(3) != LuaType::Table {
-        return Err(ApiError::NotA { position: 3, expected: "table" });
+        return Err(ApiError::NotA {
+            position: 3,
+            expected: "table",
+        });
     }
-    let mut reader = Reader { stack, bytes, at, rich: stack.truthy(4), items: 0 };
+    let mut reader = Reader {
+        stack,
+        bytes,
+        at,
+        rich: stack.truthy(4),
+        items: 0,
+    };
     Ok(match reader.any(0, false) {
         Ok(kind) => reader.push_results(kind),
         Err(Stop::NeedsLua) => 0,
@@ -80,11 +92,15 @@ impl<'a> Reader<'a> {
     }
 
     fn bad<T>(&self, message: impl Into<String>) -> Read<T> {
-        Err(Stop::Bad { message: message.into(), at: self.at })
+        Err(Stop::Bad {
+            message: message.into(),
+            at: self.at,
+        })
     }
 
     fn head(&mut self) -> Read<Head> {
-        let (head, end) = Head::read(self.bytes, self.at).or_else(|error| self.bad(error.to_string()))?;
+        let (head, end) =
+            Head::read(self.bytes, self.at).or_else(|error| self.bad(error.to_string()))?;
         self.at = end;
         Ok(head)
     }
@@ -107,7 +123,11 @@ impl<'a> Reader<'a> {
 
     fn count(&mut self, items: usize) -> Read<()> {
         self.items += items;
-        if self.items > Data::MAX_ITEMS { self.bad(format!("more than {} elements", Data::MAX_ITEMS)) } else { Ok(()) }
+        if self.items > Data::MAX_ITEMS {
+            self.bad(format!("more than {} elements", Data::MAX_ITEMS))
+        } else {
+            Ok(())
+        }
     }
 
     /// Pushes the item that began with `head`.
@@ -130,7 +150,11 @@ impl<'a> Reader<'a> {
     }
 
     fn bytes_item(&mut self, head: Head, is_key: bool) -> Read<()> {
-        if self.rich && !is_key { self.string(head, push_buffer) } else { self.string(head, push_text) }
+        if self.rich && !is_key {
+            self.string(head, push_buffer)
+        } else {
+            self.string(head, push_text)
+        }
     }
 
     /// Hands the bytes of a string, in one piece or in several up to a break, to `push`.
@@ -170,7 +194,11 @@ impl<'a> Reader<'a> {
             return Ok(None);
         }
         let rest = (self.bytes.len() - self.at) as u64;
-        if head.argument > rest / bytes { self.bad("no more input") } else { Ok(Some(head.argument as usize)) }
+        if head.argument > rest / bytes {
+            self.bad("no more input")
+        } else {
+            Ok(Some(head.argument as usize))
+        }
     }
 
     /// The head of the next element; None at the end of the container.
@@ -179,7 +207,11 @@ impl<'a> Reader<'a> {
             return Ok(None);
         }
         let head = self.head()?;
-        Ok(if promised.is_none() && head.is_break() { None } else { Some(head) })
+        Ok(if promised.is_none() && head.is_break() {
+            None
+        } else {
+            Some(head)
+        })
     }
 
     fn array(&mut self, head: Head, depth: usize) -> Read<()> {
@@ -231,7 +263,9 @@ impl<'a> Reader<'a> {
     /// Pushes the numbers of a typed array (RFC 8746, the kinds CoppeliaSim writes); false when it is none.
     fn typed_array(&mut self, tag: u64) -> Read<bool> {
         match Head::read(self.bytes, self.at) {
-            Ok((head, end)) if head.major == major::BYTES && head.info != INDEFINITE && is_typed(tag) => {
+            Ok((head, end))
+                if head.major == major::BYTES && head.info != INDEFINITE && is_typed(tag) =>
+            {
                 self.at = end;
                 let bytes = self.piece(head.argument)?;
                 self.count(bytes.len())?;
@@ -248,7 +282,9 @@ impl<'a> Reader<'a> {
         }
         if let Some(float) = head.float() {
             self.stack.push_number(float);
-            return Ok(Kind::Name(["half", "single", "double"][usize::from(head.info - 25)]));
+            return Ok(Kind::Name(
+                ["half", "single", "double"][usize::from(head.info - 25)],
+            ));
         }
         Ok(Kind::Name(match head.argument {
             20 | 21 => {
@@ -257,7 +293,11 @@ impl<'a> Reader<'a> {
             }
             22 | 23 => {
                 self.stack.push_nil();
-                if head.argument == 22 { "null" } else { "undefined" }
+                if head.argument == 22 {
+                    "null"
+                } else {
+                    "undefined"
+                }
             }
             number => {
                 self.stack.push_int(number as i64);
@@ -279,11 +319,19 @@ fn is_typed(tag: u64) -> bool {
 fn push_typed(stack: Stack<'_>, tag: u64, bytes: &[u8]) {
     match tag {
         64 => push_numbers(stack, bytes, |[b]: &[u8; 1]| stack.push_int(i64::from(*b))),
-        69 => push_numbers(stack, bytes, |b| stack.push_int(i64::from(u16::from_le_bytes(*b)))),
-        70 => push_numbers(stack, bytes, |b| stack.push_int(i64::from(u32::from_le_bytes(*b)))),
-        78 => push_numbers(stack, bytes, |b| stack.push_int(i64::from(i32::from_le_bytes(*b)))),
+        69 => push_numbers(stack, bytes, |b| {
+            stack.push_int(i64::from(u16::from_le_bytes(*b)))
+        }),
+        70 => push_numbers(stack, bytes, |b| {
+            stack.push_int(i64::from(u32::from_le_bytes(*b)))
+        }),
+        78 => push_numbers(stack, bytes, |b| {
+            stack.push_int(i64::from(i32::from_le_bytes(*b)))
+        }),
         79 => push_numbers(stack, bytes, |b| stack.push_int(i64::from_le_bytes(*b))),
-        85 => push_numbers(stack, bytes, |b| stack.push_number(f64::from(f32::from_le_bytes(*b)))),
+        85 => push_numbers(stack, bytes, |b| {
+            stack.push_number(f64::from(f32::from_le_bytes(*b)))
+        }),
         _ => push_numbers(stack, bytes, |b| stack.push_number(f64::from_le_bytes(*b))),
     }
 }

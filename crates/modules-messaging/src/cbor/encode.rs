@@ -49,7 +49,9 @@ fn write(stack: Stack<'_>, index: c_int, out: &mut Vec<u8>, depth: usize) -> Wri
             Some(integer) => push_int(out, integer),
             None => push_float(out, stack.number(index).unwrap_or_default()),
         },
-        LuaType::String => stack.with_bytes(index, |bytes| write_string(out, bytes)).unwrap_or(Ok(()))?,
+        LuaType::String => stack
+            .with_bytes(index, |bytes| write_string(out, bytes))
+            .unwrap_or(Ok(()))?,
         LuaType::Table => write_table(stack, stack.absolute(index), out, depth)?,
         _ => return Err(Stop::NeedsLua),
     }
@@ -57,11 +59,23 @@ fn write(stack: Stack<'_>, index: c_int, out: &mut Vec<u8>, depth: usize) -> Wri
 }
 
 fn check_size(size: usize) -> Written {
-    if size > MAX_BYTES { Err(Stop::Bad("Cannot encode: more than 512 MiB")) } else { Ok(()) }
+    if size > MAX_BYTES {
+        Err(Stop::Bad("Cannot encode: more than 512 MiB"))
+    } else {
+        Ok(())
+    }
 }
 
 fn write_string(out: &mut Vec<u8>, bytes: &[u8]) -> Written {
-    write_bytes(out, if is_text(bytes) { major::TEXT } else { major::BYTES }, bytes)
+    write_bytes(
+        out,
+        if is_text(bytes) {
+            major::TEXT
+        } else {
+            major::BYTES
+        },
+        bytes,
+    )
 }
 
 fn write_bytes(out: &mut Vec<u8>, major: u8, bytes: &[u8]) -> Written {
@@ -86,7 +100,13 @@ fn write_table(stack: Stack<'_>, table: c_int, out: &mut Vec<u8>, depth: usize) 
     }
 }
 
-fn write_array(stack: Stack<'_>, table: c_int, len: i64, out: &mut Vec<u8>, depth: usize) -> Written {
+fn write_array(
+    stack: Stack<'_>,
+    table: c_int,
+    len: i64,
+    out: &mut Vec<u8>,
+    depth: usize,
+) -> Written {
     push_head(out, major::ARRAY, len as u64);
     let mut holes = 0;
     for i in 1..=len {

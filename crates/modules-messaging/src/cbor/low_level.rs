@@ -8,9 +8,13 @@ use wire::cbor_head::{Head, HeadError, INDEFINITE, major, push_float, push_head}
 pub(super) fn encode(args: &mut Args<'_>) -> ApiResult<c_int> {
     args.require(1)?;
     let stack = args.stack();
-    let kind = stack.integer(1).and_then(|kind| u8::try_from(kind).ok()).filter(|kind| kind & 0x1f == 0);
-    let kind =
-        kind.ok_or_else(|| ApiError::Other("argument 1 is not a type of CBOR (0x00, 0x20, ... 0xE0).".into()))?;
+    let kind = stack
+        .integer(1)
+        .and_then(|kind| u8::try_from(kind).ok())
+        .filter(|kind| kind & 0x1f == 0);
+    let kind = kind.ok_or_else(|| {
+        ApiError::Other("argument 1 is not a type of CBOR (0x00, 0x20, ... 0xE0).".into())
+    })?;
     let mut out = Vec::new();
     match stack.number(3) {
         Some(float) if kind == major::SIMPLE => write_float(&mut out, stack, float)?,
@@ -25,10 +29,20 @@ pub(super) fn encode(args: &mut Args<'_>) -> ApiResult<c_int> {
 fn count(stack: Stack<'_>) -> ApiResult<u64> {
     let number = match stack.integer(2) {
         Some(integer) => return Ok(integer as u64),
-        None => stack.number(2).ok_or(ApiError::NotA { position: 2, expected: "number" })?,
+        None => stack.number(2).ok_or(ApiError::NotA {
+            position: 2,
+            expected: "number",
+        })?,
     };
     let fits = number.fract() == 0.0 && (0.0..2f64.powi(64)).contains(&number);
-    if fits { Ok(number as u64) } else { Err(ApiError::NotA { position: 2, expected: "integer" }) }
+    if fits {
+        Ok(number as u64)
+    } else {
+        Err(ApiError::NotA {
+            position: 2,
+            expected: "integer",
+        })
+    }
 }
 
 fn write_float(out: &mut Vec<u8>, stack: Stack<'_>, float: f64) -> ApiResult<()> {
@@ -48,7 +62,11 @@ fn write_float(out: &mut Vec<u8>, stack: Stack<'_>, float: f64) -> ApiResult<()>
             out.push(major::SIMPLE | 27);
             out.extend(float.to_be_bytes());
         }
-        _ => return Err(ApiError::Other("argument 2 is not 25, 26, 27 or nil.".into())),
+        _ => {
+            return Err(ApiError::Other(
+                "argument 2 is not 25, 26, 27 or nil.".into(),
+            ));
+        }
     }
     Ok(())
 }
@@ -78,15 +96,24 @@ pub(super) fn head(args: &mut Args<'_>) -> ApiResult<c_int> {
 fn read_head(stack: Stack<'_>) -> ApiResult<Result<(Head, usize), HeadError>> {
     let at = position(stack)?;
     let head = stack.with_bytes(1, |bytes| Head::read(bytes, at.min(bytes.len())));
-    head.ok_or(ApiError::NotA { position: 1, expected: "string" })
+    head.ok_or(ApiError::NotA {
+        position: 1,
+        expected: "string",
+    })
 }
 
 /// The second argument: a position in the first one, which scripts count from 1. It may be beyond the end.
 pub(super) fn position(stack: Stack<'_>) -> ApiResult<usize> {
     if stack.kind(1) != LuaType::String {
-        return Err(ApiError::NotA { position: 1, expected: "string" });
+        return Err(ApiError::NotA {
+            position: 1,
+            expected: "string",
+        });
     }
-    let position = stack.integer(2).ok_or(ApiError::NotA { position: 2, expected: "integer" })?;
+    let position = stack.integer(2).ok_or(ApiError::NotA {
+        position: 2,
+        expected: "integer",
+    })?;
     Ok(usize::try_from(position.saturating_sub(1)).unwrap_or(usize::MAX))
 }
 

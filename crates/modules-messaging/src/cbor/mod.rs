@@ -20,11 +20,22 @@ const TOO_DEEP: &str = "nested too deeply (500 levels): does a table contain its
 type Call = fn(&mut Args<'_>) -> Result<c_int>;
 
 const fn row(name: &'static str, doc: &'static str, params: &'static [Param], call: Call) -> ApiFn {
-    ApiFn { name, doc, params, returns: &[], mutates: false, call, call_data: needs_lua }
+    ApiFn {
+        name,
+        doc,
+        params,
+        returns: &[],
+        mutates: false,
+        call,
+        call_data: needs_lua,
+    }
 }
 
 /// The module `org.conman.cbor`.
-pub static CBOR: Module = Module { inner: &[TREES], ..Module::new("org.conman.cbor") };
+pub static CBOR: Module = Module {
+    inner: &[TREES],
+    ..Module::new("org.conman.cbor")
+};
 /// The module `org.conman.cbor_c`.
 pub static CBOR_HEADS: Module = Module {
     about: "The heads of CBOR items: low-level functions of org.conman.cbor.",
@@ -32,7 +43,10 @@ pub static CBOR_HEADS: Module = Module {
     ..Module::new("org.conman.cbor_c")
 };
 /// The module `simCBOR`.
-pub static SIM_CBOR: Module = Module { inner: &[TREES], ..Module::new("simCBOR") };
+pub static SIM_CBOR: Module = Module {
+    inner: &[TREES],
+    ..Module::new("simCBOR")
+};
 
 const TREES: &[ApiFn] = &[
     row(
@@ -56,7 +70,10 @@ const TREES: &[ApiFn] = &[
     row(
         "org.conman.cbor.head",
         "What `org.conman.cbor_c.decode` tells, but nil and a message where there is no head.",
-        &[Param::required("packet", "string"), Param::required("pos", "int")],
+        &[
+            Param::required("packet", "string"),
+            Param::required("pos", "int"),
+        ],
         low_level::head,
     ),
 ];
@@ -67,13 +84,20 @@ const HEADS: &[ApiFn] = &[
         "org.conman.cbor_c.encode",
         "A head of major type `type` with the number `n`, or of unknown length when `n` is nil. Type 0xE0 with a float `x`: that float, \
          in the precision `n` (25, 26, 27) or the shortest exact one.",
-        &[Param::required("type", "int"), Param::required("n", "int"), Param::required("x", "float")],
+        &[
+            Param::required("type", "int"),
+            Param::required("n", "int"),
+            Param::required("x", "float"),
+        ],
         low_level::encode,
     ),
     row(
         "org.conman.cbor_c.decode",
         "Major type, info, number (the float of a float, infinity where the length is unknown) and next position of a head.",
-        &[Param::required("packet", "string"), Param::required("pos", "int")],
+        &[
+            Param::required("packet", "string"),
+            Param::required("pos", "int"),
+        ],
         low_level::decode,
     ),
 ];

@@ -10,7 +10,10 @@ use script::{ApiError, ApiFn, ApiResult, Args, Param, needs_lua};
 pub(super) const FUNCTIONS: &[ApiFn] = &[ApiFn {
     name: "lfs.lock",
     doc: "Locks an open file (`r`: shared, `w`: alone) or releases it (`u`), without waiting.",
-    params: &[Param::required("file", "any"), Param::required("mode", "string")],
+    params: &[
+        Param::required("file", "any"),
+        Param::required("mode", "string"),
+    ],
     returns: &[],
     mutates: false,
     call: lock,
@@ -26,7 +29,9 @@ fn lock(args: &mut Args<'_>) -> ApiResult<c_int> {
         Some(b'u') => FileLock::Released,
         _ => return Err(ApiError::Other("invalid mode.".into())),
     };
-    let result = stack.lock_file(1, lock).ok_or_else(|| ApiError::Other("not an open file.".into()))?;
+    let result = stack
+        .lock_file(1, lock)
+        .ok_or_else(|| ApiError::Other("not an open file.".into()))?;
     match result {
         Ok(()) => {
             stack.push_bool(true);
@@ -44,5 +49,8 @@ fn lock(args: &mut Args<'_>) -> ApiResult<c_int> {
 /// Message of the operating system for an error, without the number that Rust appends.
 pub(super) fn system_words(error: &std::io::Error) -> String {
     let text = error.to_string();
-    text.split(" (os error").next().unwrap_or_default().to_owned()
+    text.split(" (os error")
+        .next()
+        .unwrap_or_default()
+        .to_owned()
 }

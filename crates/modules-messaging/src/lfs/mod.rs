@@ -48,7 +48,9 @@ fn outcome(result: io::Result<()>) -> Results {
 
 fn failure(text: &str, error: &io::Error) -> Results {
     let is_denied = error.kind() == io::ErrorKind::PermissionDenied;
-    let number = error.raw_os_error().unwrap_or(if is_denied { Denied::ERRNO } else { 0 });
+    let number = error
+        .raw_os_error()
+        .unwrap_or(if is_denied { Denied::ERRNO } else { 0 });
     Results(vec![Data::Nil, Data::text(text), Data::Int(number.into())])
 }
 
@@ -68,25 +70,40 @@ fn current_dir(_cx: &Cx) -> Result<Results> {
 /// Changes the working directory of the process.
 #[api("lfs.chdir")]
 fn change_dir(cx: &Cx, path: String) -> Result<Results> {
-    let allowed = cx.permissions().check_redirect("changing the working directory");
-    Ok(match allowed.map_err(io::Error::from).and_then(|()| std::env::set_current_dir(&path)) {
-        Ok(()) => outcome(Ok(())),
-        Err(error) => {
-            failure(&format!("Unable to change working directory to '{path}'\n{}\n", system_words(&error)), &error)
-        }
-    })
+    let allowed = cx
+        .permissions()
+        .check_redirect("changing the working directory");
+    Ok(
+        match allowed
+            .map_err(io::Error::from)
+            .and_then(|()| std::env::set_current_dir(&path))
+        {
+            Ok(()) => outcome(Ok(())),
+            Err(error) => failure(
+                &format!(
+                    "Unable to change working directory to '{path}'\n{}\n",
+                    system_words(&error)
+                ),
+                &error,
+            ),
+        },
+    )
 }
 
 /// Makes a folder.
 #[api("lfs.mkdir")]
 fn make_dir(cx: &Cx, path: String) -> Result<Results> {
-    Ok(outcome(changed_entry(cx, &path).and_then(|()| fs::create_dir(path))))
+    Ok(outcome(
+        changed_entry(cx, &path).and_then(|()| fs::create_dir(path)),
+    ))
 }
 
 /// Removes an empty folder.
 #[api("lfs.rmdir")]
 fn remove_dir(cx: &Cx, path: String) -> Result<Results> {
-    Ok(outcome(changed_entry(cx, &path).and_then(|()| fs::remove_dir(path))))
+    Ok(outcome(
+        changed_entry(cx, &path).and_then(|()| fs::remove_dir(path)),
+    ))
 }
 
 fn changed_entry(cx: &Cx, path: &str) -> io::Result<()> {
@@ -104,7 +121,13 @@ fn link(cx: &Cx, old: String, new: String, #[default(false)] symbolic: bool) -> 
         cx.permissions().check_rename(old, new)
     };
     let allowed = allowed.map_err(io::Error::from);
-    Ok(outcome(allowed.and_then(|()| if symbolic { symbolic_link(&old, &new) } else { fs::hard_link(old, new) })))
+    Ok(outcome(allowed.and_then(|()| {
+        if symbolic {
+            symbolic_link(&old, &new)
+        } else {
+            fs::hard_link(old, new)
+        }
+    })))
 }
 
 #[cfg(unix)]
@@ -126,7 +149,9 @@ fn symbolic_link(old: &str, new: &str) -> io::Result<()> {
 fn touch(cx: &Cx, path: String, access: f64, modification: f64) -> Result<Results> {
     let set = || {
         cx.permissions().check_write(Path::new(&path))?;
-        let times = FileTimes::new().set_accessed(time(access)?).set_modified(time(modification)?);
+        let times = FileTimes::new()
+            .set_accessed(time(access)?)
+            .set_modified(time(modification)?);
         fs::File::open(&path)?.set_times(times)
     };
     Ok(outcome(set()))
@@ -141,12 +166,20 @@ fn time(seconds: f64) -> io::Result<SystemTime> {
 /// File attributes as a table; of a link itself unless `follow`.
 #[api("lfs.attributes")]
 fn attributes(cx: &Cx, path: String, follow: bool) -> Result<Results> {
-    let known = if follow { followed(cx, Path::new(&path)) } else { not_followed(cx, Path::new(&path)) };
+    let known = if follow {
+        followed(cx, Path::new(&path))
+    } else {
+        not_followed(cx, Path::new(&path))
+    };
     Ok(match known {
         Ok(metadata) => Results(vec![Data::Map(fields(&path, &metadata))]),
-        Err(error) => {
-            failure(&format!("cannot obtain information from file '{path}': {}", system_words(&error)), &error)
-        }
+        Err(error) => failure(
+            &format!(
+                "cannot obtain information from file '{path}': {}",
+                system_words(&error)
+            ),
+            &error,
+        ),
     })
 }
 
@@ -163,13 +196,23 @@ fn not_followed(cx: &Cx, path: &Path) -> io::Result<Metadata> {
 fn fields(path: &str, metadata: &Metadata) -> Vec<(Key, Data)> {
     let mut fields = system_fields(metadata);
     fields.push(("size", Data::Int(metadata.len().cast_signed())));
-    let times = [("access", metadata.accessed()), ("modification", metadata.modified())];
-    fields.extend(times.into_iter().filter_map(|(name, time)| Some((name, Data::Int(seconds(time.ok()?))))));
+    let times = [
+        ("access", metadata.accessed()),
+        ("modification", metadata.modified()),
+    ];
+    fields.extend(
+        times
+            .into_iter()
+            .filter_map(|(name, time)| Some((name, Data::Int(seconds(time.ok()?))))),
+    );
     if metadata.is_symlink() {
         let target = fs::read_link(path).map(|target| Data::text(&target.to_string_lossy()));
         fields.extend(target.ok().map(|target| ("target", target)));
     }
-    fields.into_iter().map(|(name, value)| (Key::Text(name.into()), value)).collect()
+    fields
+        .into_iter()
+        .map(|(name, value)| (Key::Text(name.into()), value))
+        .collect()
 }
 
 fn seconds(time: SystemTime) -> i64 {
@@ -224,7 +267,11 @@ fn system_fields(metadata: &Metadata) -> Vec<(&'static str, Data)> {
         () if kind.is_symlink() => "link",
         () => "file",
     };
-    let bits = if metadata.permissions().readonly() { 0o555 } else { 0o777 };
+    let bits = if metadata.permissions().readonly() {
+        0o555
+    } else {
+        0o777
+    };
     let created = metadata.created().map_or(0, seconds);
     vec![
         ("mode", Data::text(mode)),
@@ -237,31 +284,57 @@ fn system_fields(metadata: &Metadata) -> Vec<(&'static str, Data)> {
 /// `rwxr-xr-x`.
 fn permissions(mode: u32) -> String {
     let letters = ['x', 'w', 'r'];
-    (0..9).rev().map(|bit| if mode >> bit & 1 == 1 { letters[bit % 3] } else { '-' }).collect()
+    (0..9)
+        .rev()
+        .map(|bit| {
+            if mode >> bit & 1 == 1 {
+                letters[bit % 3]
+            } else {
+                '-'
+            }
+        })
+        .collect()
 }
 
 /// The names in a folder, sorted, beginning with `.` and `..`.
 #[api("lfs.list")]
 fn list(cx: &Cx, path: String) -> Result<Results> {
-    let allowed = cx.permissions().check_inspect(Path::new(&path)).map_err(io::Error::from);
-    let names = allowed.and_then(|()| fs::read_dir(&path)).and_then(|entries| {
-        entries.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned())).collect::<io::Result<Vec<_>>>()
-    });
+    let allowed = cx
+        .permissions()
+        .check_inspect(Path::new(&path))
+        .map_err(io::Error::from);
+    let names = allowed
+        .and_then(|()| fs::read_dir(&path))
+        .and_then(|entries| {
+            entries
+                .map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()))
+                .collect::<io::Result<Vec<_>>>()
+        });
     Ok(match names {
         Ok(mut names) => {
             names.extend([".".to_owned(), "..".to_owned()]);
             names.sort();
-            Results(vec![Data::Array(names.iter().map(|name| Data::text(name)).collect())])
+            Results(vec![Data::Array(
+                names.iter().map(|name| Data::text(name)).collect(),
+            )])
         }
-        Err(error) => failure(&format!("cannot open {path}: {}", system_words(&error)), &error),
+        Err(error) => failure(
+            &format!("cannot open {path}: {}", system_words(&error)),
+            &error,
+        ),
     })
 }
 
 /// The absolute path without links and dots.
 #[api("lfs.realpath")]
 fn real_path(cx: &Cx, path: String) -> Result<Results> {
-    let allowed = cx.permissions().check_inspect(Path::new(&path)).map_err(io::Error::from);
-    Ok(path_text(allowed.and_then(|()| Path::new(&path).canonicalize())))
+    let allowed = cx
+        .permissions()
+        .check_inspect(Path::new(&path))
+        .map_err(io::Error::from);
+    Ok(path_text(
+        allowed.and_then(|()| Path::new(&path).canonicalize()),
+    ))
 }
 
 /// The folder for temporary files.

@@ -53,7 +53,9 @@ impl Call<'_> {
     /// # Errors
     /// Those of the function, under the name that they have in the original.
     pub(super) fn api(&self, function: &str, args: &[Data]) -> Result<Vec<Data>, Failure> {
-        self.host.call_api(function, args).map_err(|error| described(function, &error))
+        self.host
+            .call_api(function, args)
+            .map_err(|error| described(function, &error))
     }
 
     /// The first result of a function, which must not be nil.
@@ -61,8 +63,16 @@ impl Call<'_> {
     /// # Errors
     /// Those of the function; when there is no result.
     pub(super) fn value(&self, function: &str, args: &[Data]) -> Result<Data, Failure> {
-        let value = self.api(function, args)?.into_iter().next().unwrap_or(Data::Nil);
-        if value == Data::Nil { Err(Failure::Silent) } else { Ok(value) }
+        let value = self
+            .api(function, args)?
+            .into_iter()
+            .next()
+            .unwrap_or(Data::Nil);
+        if value == Data::Nil {
+            Err(Failure::Silent)
+        } else {
+            Ok(value)
+        }
     }
 
     /// A first result that is an integer.
@@ -106,14 +116,18 @@ impl Call<'_> {
     /// # Errors
     /// When there are fewer.
     pub(super) fn numbers(&mut self, count: usize) -> Result<Data, Failure> {
-        let numbers = (0..count).map(|_| self.data.float().map(f64::from)).collect::<Result<Vec<_>, _>>()?;
+        let numbers = (0..count)
+            .map(|_| self.data.float().map(f64::from))
+            .collect::<Result<Vec<_>, _>>()?;
         Ok(numbers.into())
     }
 
     /// Writes so many integers, and how many.
     pub(super) fn write_list(&mut self, integers: &[i64]) {
         self.out.size(integers.len());
-        integers.iter().for_each(|&value| self.out.int(clamped(value)));
+        integers
+            .iter()
+            .for_each(|&value| self.out.int(clamped(value)));
     }
 
     /// Writes an integer.
@@ -123,16 +137,25 @@ impl Call<'_> {
 
     /// Writes the numbers of a value: one, or those of a table.
     pub(super) fn write_floats(&mut self, value: &Data) {
-        floats(value).into_iter().for_each(|value| self.out.float(value));
+        floats(value)
+            .into_iter()
+            .for_each(|value| self.out.float(value));
     }
 }
 
 /// An error as the client reads it: with the name of the function in V-REP's way.
 pub(super) fn described(function: &str, error: &ApiError) -> Failure {
-    let name = function.rsplit('.').next().unwrap_or(function).trim_start_matches('_');
+    let name = function
+        .rsplit('.')
+        .next()
+        .unwrap_or(function)
+        .trim_start_matches('_');
     let (first, rest) = name.split_at_checked(1).unwrap_or((name, ""));
     let text = error.to_string();
-    let text = text.rsplit_once(": ").filter(|(place, _)| place.contains(" in sim.")).map_or(&*text, |(_, text)| text);
+    let text = text
+        .rsplit_once(": ")
+        .filter(|(place, _)| place.contains(" in sim."))
+        .map_or(&*text, |(_, text)| text);
     Failure::Text(format!("[sim{}{rest}] {text}", first.to_ascii_uppercase()))
 }
 

@@ -23,13 +23,17 @@ static SPECIAL: &[Special] = &[
     (0x1006, sensors::set_colour_image),
     (0x1007, change_state),
     (0x1009, sensors::proximity),
-    (0x100d, |call| objects::joint_force(call, "sim.getJointForce")),
+    (0x100d, |call| {
+        objects::joint_force(call, "sim.getJointForce")
+    }),
     (0x100f, sensors::force),
     (0x1011, sensors::vision),
     (0x1012, objects::parent),
     (0x1017, sensors::depth),
     (0x102a, objects::all_of_type),
-    (0x1038, |call| objects::joint_force(call, "sim.getJointMaxForce")),
+    (0x1038, |call| {
+        objects::joint_force(call, "sim.getJointMaxForce")
+    }),
     (0x200b, objects::child),
     (0x200c, group_data::read),
     (0x2010, objects::distance),
@@ -53,17 +57,40 @@ static SPECIAL: &[Special] = &[
 ];
 
 /// Executes a command of a client.
-pub(super) fn execute(host: &Host<'_>, service: &Service, command: &Command, order: ByteOrder) -> Answer {
-    let (key, data) = (FieldReader::new(&command.key, order), FieldReader::new(&command.data, order));
-    let mut call = Call { host, service, key, data, out: FieldWriter::new(order), ends_stream: false };
+pub(super) fn execute(
+    host: &Host<'_>,
+    service: &Service,
+    command: &Command,
+    order: ByteOrder,
+) -> Answer {
+    let (key, data) = (
+        FieldReader::new(&command.key, order),
+        FieldReader::new(&command.data, order),
+    );
+    let mut call = Call {
+        host,
+        service,
+        key,
+        data,
+        out: FieldWriter::new(order),
+        ends_stream: false,
+    };
     match perform(command.id, &mut call) {
-        Some(Ok(())) => Answer { failed: false, ends_stream: call.ends_stream, data: call.out.into_bytes() },
+        Some(Ok(())) => Answer {
+            failed: false,
+            ends_stream: call.ends_stream,
+            data: call.out.into_bytes(),
+        },
         Some(Err(Failure::Text(text))) => {
             service.note_error(text);
             Answer::failure()
         }
         Some(Err(Failure::Silent)) => Answer::failure(),
-        None => Answer { failed: true, data: command.data.clone(), ends_stream: false },
+        None => Answer {
+            failed: true,
+            data: command.data.clone(),
+            ends_stream: false,
+        },
     }
 }
 
@@ -72,7 +99,10 @@ fn perform(id: u16, call: &mut Call<'_>) -> Option<Outcome> {
     if let Some(direct) = DIRECT.iter().find(|direct| direct.id == id) {
         return Some(direct.execute(call));
     }
-    SPECIAL.iter().find(|(special, _)| *special == id).map(|(_, function)| function(call))
+    SPECIAL
+        .iter()
+        .find(|(special, _)| *special == id)
+        .map(|(_, function)| function(call))
 }
 
 fn synchronize(call: &mut Call<'_>, on: bool) -> Outcome {
@@ -95,7 +125,9 @@ fn trigger(call: &mut Call<'_>) -> Outcome {
 fn last_errors(call: &mut Call<'_>) -> Outcome {
     let errors = call.service.take_errors();
     call.out.size(errors.len());
-    errors.iter().for_each(|text| call.out.text(text.as_bytes()));
+    errors
+        .iter()
+        .for_each(|text| call.out.text(text.as_bytes()));
     Ok(())
 }
 
@@ -130,7 +162,11 @@ mod tests {
     fn every_function_exists() {
         let registry = Registry::new(&[&api::SIM], lua_library::FILES);
         let missing = |name: &&str| registry.find(name).is_none();
-        let unknown: Vec<&str> = DIRECT.iter().map(|direct| direct.function).filter(missing).collect();
+        let unknown: Vec<&str> = DIRECT
+            .iter()
+            .map(|direct| direct.function)
+            .filter(missing)
+            .collect();
         assert_eq!(unknown, [""; 0]);
     }
 }

@@ -51,12 +51,24 @@ pub(super) struct Direct {
 use Arg::{Constant, Flag, Float, Floats, Int, Ints, Key, KeyText, OptionalText, Switch};
 
 const fn row(id: u16, function: &'static str, args: &'static [Arg], out: &'static [Out]) -> Direct {
-    Direct { id, function, args, out, last_first: false }
+    Direct {
+        id,
+        function,
+        args,
+        out,
+        last_first: false,
+    }
 }
 
 /// Of an object relative to another: the reference comes first in the data, and last in the call.
 const fn placing(id: u16, function: &'static str, args: &'static [Arg]) -> Direct {
-    Direct { id, function, args, out: &[], last_first: true }
+    Direct {
+        id,
+        function,
+        args,
+        out: &[],
+        last_first: true,
+    }
 }
 
 /// The commands, by their numbers.
@@ -67,14 +79,29 @@ pub(super) static DIRECT: &[Direct] = &[
     row(0x1002, "sim.setJointPosition", &[Key, Float], &[]),
     row(0x1008, "sim.setJointTargetVelocity", &[Key, Float], &[]),
     row(0x100a, "sim.getJointMatrix", &[Key], &[Out::Floats]),
-    row(0x100b, "sim.setSphericalJointMatrix", &[Key, Floats(12)], &[]),
+    row(
+        0x100b,
+        "sim.setSphericalJointMatrix",
+        &[Key, Floats(12)],
+        &[],
+    ),
     row(0x100c, "sim.setJointTargetPosition", &[Key, Float], &[]),
     row(0x100e, "sim.setJointMaxForce", &[Key, Float], &[]),
     row(0x1010, "sim.breakForceSensor", &[Key], &[]),
     row(0x1014, "sim.auxiliaryConsoleClose", &[Key], &[]),
-    row(0x1015, "sim.auxiliaryConsolePrint", &[Key, OptionalText], &[]),
+    row(
+        0x1015,
+        "sim.auxiliaryConsolePrint",
+        &[Key, OptionalText],
+        &[],
+    ),
     row(0x1016, "sim.auxiliaryConsoleShow", &[Key, Switch], &[]),
-    row(0x1018, "sim.getObjectOrientation", &[Key, Int], &[Out::Floats]),
+    row(
+        0x1018,
+        "sim.getObjectOrientation",
+        &[Key, Int],
+        &[Out::Floats],
+    ),
     row(0x1019, "sim.getObjectPosition", &[Key, Int], &[Out::Floats]),
     placing(0x101a, "sim.setObjectOrientation", &[Key, Int, Floats(3)]),
     placing(0x101b, "sim.setObjectPosition", &[Key, Int, Floats(3)]),
@@ -89,26 +116,56 @@ pub(super) static DIRECT: &[Direct] = &[
     row(0x1024, "sim.setFloatParam", &[Key, Float], &[]),
     row(0x1025, "sim.getStringParam", &[Key], &[Out::Text]),
     row(0x1026, "sim.readCollision", &[Key], &[Out::Int]),
-    row(0x1027, "sim.readDistance", &[Key], &[Out::Nothing, Out::Floats]),
+    row(
+        0x1027,
+        "sim.readDistance",
+        &[Key],
+        &[Out::Nothing, Out::Floats],
+    ),
     row(0x1028, "sim.removeObject", &[Key], &[]),
     row(0x102b, "sim.endDialog", &[Key], &[]),
     row(0x102c, "sim.getDialogInput", &[Key], &[Out::Text]),
     row(0x102d, "sim.getDialogResult", &[Key], &[Out::Int]),
-    row(0x102e, "sim.copyPasteObjects", &[Ints, Constant(0)], &[Out::Ints]),
+    row(
+        0x102e,
+        "sim.copyPasteObjects",
+        &[Ints, Constant(0)],
+        &[Out::Ints],
+    ),
     row(0x102f, "sim.setObjectSel", &[Ints], &[]),
     row(0x1034, "sim.getModelProperty", &[Key], &[Out::Int]),
     row(0x1035, "sim.setModelProperty", &[Key, Int], &[]),
-    row(0x1036, "sim.getObjectVelocity", &[Key], &[Out::Floats, Out::Floats]),
+    row(
+        0x1036,
+        "sim.getObjectVelocity",
+        &[Key],
+        &[Out::Floats, Out::Floats],
+    ),
     row(0x1037, "sim.removeModel", &[Key], &[]),
     placing(0x1801, "sim.setObjectQuaternion", &[Key, Int, Floats(4)]),
-    row(0x2007, "sim.getObjectFloatParam", &[Key, Key], &[Out::Floats]),
+    row(
+        0x2007,
+        "sim.getObjectFloatParam",
+        &[Key, Key],
+        &[Out::Floats],
+    ),
     row(0x2008, "sim.getObjectInt32Param", &[Key, Key], &[Out::Int]),
     row(0x2009, "sim.setObjectFloatParam", &[Key, Key, Float], &[]),
     row(0x200a, "sim.setObjectInt32Param", &[Key, Key, Int], &[]),
-    row(0x200d, "sim.getObjectOrientation", &[Key, Key], &[Out::Floats]),
+    row(
+        0x200d,
+        "sim.getObjectOrientation",
+        &[Key, Key],
+        &[Out::Floats],
+    ),
     row(0x200e, "sim.getObjectPosition", &[Key, Key], &[Out::Floats]),
     row(0x200f, "sim.checkCollision", &[Key, Key], &[Out::Int]),
-    row(0x2801, "sim.getObjectQuaternion", &[Key, Key], &[Out::Floats]),
+    row(
+        0x2801,
+        "sim.getObjectQuaternion",
+        &[Key, Key],
+        &[Out::Floats],
+    ),
     row(0x3001, "sim._getObjectHandle", &[KeyText], &[Out::Int]),
     row(0x300a, "sim.getCollisionHandle", &[KeyText], &[Out::Int]),
     row(0x300b, "sim.getDistanceHandle", &[KeyText], &[Out::Int]),
@@ -124,13 +181,21 @@ impl Direct {
     /// # Errors
     /// Those of the function; when the data is incomplete, and where the function returns nothing or -1.
     pub(super) fn execute(&self, call: &mut Call<'_>) -> Outcome {
-        let mut args = self.args.iter().map(|arg| arg.read(call)).collect::<Result<Vec<_>, _>>()?;
+        let mut args = self
+            .args
+            .iter()
+            .map(|arg| arg.read(call))
+            .collect::<Result<Vec<_>, _>>()?;
         if self.last_first {
             args[1..].reverse();
         }
         let results = call.api(self.function, &args)?;
         if self.out.is_empty() {
-            return if results.first() == Some(&Data::Int(-1)) { Err(Failure::Silent) } else { Ok(()) };
+            return if results.first() == Some(&Data::Int(-1)) {
+                Err(Failure::Silent)
+            } else {
+                Ok(())
+            };
         }
         for (place, out) in self.out.iter().enumerate() {
             out.write(results.get(place).unwrap_or(&Data::Nil), call)?;
@@ -165,7 +230,9 @@ impl Out {
             (Self::Int, value) => call.write_int(integer(value)),
             (Self::Floats, value) => call.write_floats(value),
             (Self::Text, value) => call.out.text(bytes(value)),
-            (Self::Ints, Data::Array(items)) => call.write_list(&items.iter().map(integer).collect::<Vec<_>>()),
+            (Self::Ints, Data::Array(items)) => {
+                call.write_list(&items.iter().map(integer).collect::<Vec<_>>())
+            }
             (Self::Ints, _) => call.write_list(&[]),
         }
         Ok(())

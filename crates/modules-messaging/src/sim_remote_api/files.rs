@@ -31,19 +31,32 @@ fn path(call: &mut Call<'_>) -> Result<Data, Failure> {
     if name.is_empty() {
         return Err(Failure::Text("a file name is needed.".into()));
     }
-    let path = if name.starts_with(SENT) { place(call, &name)?.to_string_lossy().into_owned() } else { name };
+    let path = if name.starts_with(SENT) {
+        place(call, &name)?.to_string_lossy().into_owned()
+    } else {
+        name
+    };
     Ok(Data::text(&path))
 }
 
 /// Where the file of that name is in the folder of the server.
 fn place(call: &Call<'_>, name: &str) -> Result<PathBuf, Failure> {
-    if name.is_empty() || name.contains(['/', '\\', ':']) || name.chars().all(|letter| letter == '.') {
+    if name.is_empty()
+        || name.contains(['/', '\\', ':'])
+        || name.chars().all(|letter| letter == '.')
+    {
         return Err(Failure::Text(format!("'{name}' is no plain file name.")));
     }
     let folder = call.service.folder(call.host)?;
     let path = folder.join(name);
     call.host.options().permissions.check_write(&path)?;
-    call.api("sim.setStringParam", &[Data::Int(FOLDER_PARAM), Data::text(&folder.to_string_lossy())])?;
+    call.api(
+        "sim.setStringParam",
+        &[
+            Data::Int(FOLDER_PARAM),
+            Data::text(&folder.to_string_lossy()),
+        ],
+    )?;
     Ok(path)
 }
 

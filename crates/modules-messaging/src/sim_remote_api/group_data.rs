@@ -28,9 +28,17 @@ pub(super) fn read(call: &mut Call<'_>) -> Outcome {
     for &object in &objects {
         lists.add(call, Data::Int(object), kind)?;
     }
-    let sizes = [objects.len(), lists.ints.len(), lists.floats.len(), lists.texts.len()];
+    let sizes = [
+        objects.len(),
+        lists.ints.len(),
+        lists.floats.len(),
+        lists.texts.len(),
+    ];
     sizes.into_iter().for_each(|size| call.out.size(size));
-    objects.iter().chain(&lists.ints).for_each(|&value| call.write_int(value));
+    objects
+        .iter()
+        .chain(&lists.ints)
+        .for_each(|&value| call.write_int(value));
     lists.floats.iter().for_each(|&value| call.out.float(value));
     lists.texts.iter().for_each(|text| call.out.text(text));
     Ok(())
@@ -39,10 +47,18 @@ pub(super) fn read(call: &mut Call<'_>) -> Outcome {
 fn members(call: &Call<'_>, group: i64) -> Result<Vec<i64>, Failure> {
     let scene = call.host.scene();
     if !(0..=LAST_TYPE).contains(&group) && group != ALL_OBJECTS {
-        return Ok(scene.collection_objects(group)?.into_iter().map(|handle| handle.raw()).collect());
+        return Ok(scene
+            .collection_objects(group)?
+            .into_iter()
+            .map(|handle| handle.raw())
+            .collect());
     }
     let is_member = |object: &&scene::Object| group == ALL_OBJECTS || object.is_of_type(group);
-    Ok(scene.objects().filter(is_member).map(|object| object.handle().raw()).collect())
+    Ok(scene
+        .objects()
+        .filter(is_member)
+        .map(|object| object.handle().raw())
+        .collect())
 }
 
 impl Lists {
@@ -52,10 +68,18 @@ impl Lists {
         const PARENT: i64 = -11;
         match kind {
             0 => self.text(call, "sim.getObjectName", &[object])?,
-            1 => self.ints.push(call.integer("sim.getObjectType", &[object])?),
-            2 => self.ints.push(call.integer("sim.getObjectParent", &[object])?),
+            1 => self
+                .ints
+                .push(call.integer("sim.getObjectType", &[object])?),
+            2 => self
+                .ints
+                .push(call.integer("sim.getObjectParent", &[object])?),
             3 | 4 => self.numbers(call, "sim.getObjectPosition", &[object, frame(kind == 4)])?,
-            5 | 6 => self.numbers(call, "sim.getObjectOrientation", &[object, frame(kind == 6)])?,
+            5 | 6 => self.numbers(
+                call,
+                "sim.getObjectOrientation",
+                &[object, frame(kind == 6)],
+            )?,
             7 | 8 => self.numbers(call, "sim.getObjectQuaternion", &[object, frame(kind == 8)])?,
             9 | 10 => self.pose(call, &object, "sim.getObjectOrientation", kind == 10)?,
             11 | 12 => self.pose(call, &object, "sim.getObjectQuaternion", kind == 12)?,
@@ -76,7 +100,8 @@ impl Lists {
     }
 
     fn text(&mut self, call: &Call<'_>, function: &str, args: &[Data]) -> Outcome {
-        self.texts.push(bytes(&call.value(function, args)?).to_vec());
+        self.texts
+            .push(bytes(&call.value(function, args)?).to_vec());
         Ok(())
     }
 
@@ -86,19 +111,31 @@ impl Lists {
     }
 
     /// The position, and the rotation as a function returns it.
-    fn pose(&mut self, call: &Call<'_>, object: &Data, rotation: &str, is_relative: bool) -> Outcome {
-        let args = [object.clone(), Data::Int(if is_relative { -11 } else { -1 })];
+    fn pose(
+        &mut self,
+        call: &Call<'_>,
+        object: &Data,
+        rotation: &str,
+        is_relative: bool,
+    ) -> Outcome {
+        let args = [
+            object.clone(),
+            Data::Int(if is_relative { -11 } else { -1 }),
+        ];
         self.numbers(call, "sim.getObjectPosition", &args)?;
         self.numbers(call, rotation, &args)
     }
 
     /// What a proximity sensor detects: state, object, point and normal.
     fn proximity(&mut self, call: &Call<'_>, object: Data) {
-        let results = call.api("sim.readProximitySensor", &[object]).unwrap_or_default();
+        let results = call
+            .api("sim.readProximitySensor", &[object])
+            .unwrap_or_default();
         let (ints, numbers) = match &results[..] {
-            [state, _distance, point, detected, normal, ..] => {
-                ([integer(state), integer(detected)], [floats(point), floats(normal)].concat())
-            }
+            [state, _distance, point, detected, normal, ..] => (
+                [integer(state), integer(detected)],
+                [floats(point), floats(normal)].concat(),
+            ),
             _ => ([-1; 2], vec![0.0; 6]),
         };
         self.ints.extend(ints);
@@ -107,9 +144,13 @@ impl Lists {
 
     /// What a force sensor measures: state, force and torque.
     fn force(&mut self, call: &Call<'_>, object: Data) {
-        let results = call.api("sim.readForceSensor", &[object]).unwrap_or_default();
+        let results = call
+            .api("sim.readForceSensor", &[object])
+            .unwrap_or_default();
         let (state, numbers) = match &results[..] {
-            [state, force, torque, ..] => (integer(state), [floats(force), floats(torque)].concat()),
+            [state, force, torque, ..] => {
+                (integer(state), [floats(force), floats(torque)].concat())
+            }
             _ => (-1, vec![0.0; 6]),
         };
         self.ints.push(state);
@@ -122,7 +163,9 @@ impl Lists {
         let position = call.value("sim.getJointPosition", object);
         let force = call.value("sim.getJointForce", object);
         match (position, force) {
-            (Ok(position), Ok(force)) => self.floats.extend(floats(&position).into_iter().chain(floats(&force))),
+            (Ok(position), Ok(force)) => self
+                .floats
+                .extend(floats(&position).into_iter().chain(floats(&force))),
             _ => self.floats.extend(NO_JOINT),
         }
     }
@@ -137,7 +180,8 @@ impl Lists {
         match &interval[..] {
             [Data::Bool(cyclic), limits, ..] => {
                 let limits = floats(limits);
-                self.floats.extend(if *cyclic { vec![0.0, -1.0] } else { limits });
+                self.floats
+                    .extend(if *cyclic { vec![0.0, -1.0] } else { limits });
             }
             _ => self.floats.extend(NO_JOINT),
         }
@@ -150,7 +194,13 @@ impl Lists {
             18 => 1..2,
             _ => 0..2,
         };
-        self.floats.extend(results.get(parts).unwrap_or_default().iter().flat_map(floats));
+        self.floats.extend(
+            results
+                .get(parts)
+                .unwrap_or_default()
+                .iter()
+                .flat_map(floats),
+        );
         Ok(())
     }
 }

@@ -58,7 +58,11 @@ pub fn serve(
     listener: TcpListener,
     age: Duration,
 ) -> std::io::Result<SocketAddr> {
-    let settings = Settings { max_packet: 1300, is_monitored: false, may_synchronize: true };
+    let settings = Settings {
+        max_packet: 1300,
+        is_monitored: false,
+        may_synchronize: true,
+    };
     let service = Service::start(event_loop, listener, settings, Lifetime::Simulator, age)?;
     let address = service.address();
     states.get::<Services>().add(service);
@@ -90,9 +94,14 @@ fn start(
         return Ok(refused(cx, "start", "Invalid port number."));
     };
     let address = cx.options().listen_address;
-    cx.permissions().check_net(&address.to_string(), Some(port))?;
+    cx.permissions()
+        .check_net(&address.to_string(), Some(port))?;
     let max_packet = max_packet_size.clamp(*PACKET_SIZES.start(), *PACKET_SIZES.end()) as usize;
-    let settings = Settings { max_packet, is_monitored: debug, may_synchronize: pre_enable_trigger };
+    let settings = Settings {
+        max_packet,
+        is_monitored: debug,
+        may_synchronize: pre_enable_trigger,
+    };
     let lifetime = match cx.script().script_type {
         ScriptType::Main | ScriptType::Simulation => Lifetime::Simulation,
         _ => Lifetime::Call,
@@ -102,9 +111,18 @@ fn start(
         .and_then(|listener| Service::start(&*cx.event_loop()?, listener, settings, lifetime, age));
     match service {
         Ok(service) => services(cx).add(service),
-        Err(error) => return Ok(refused(cx, "start", &format!("cannot listen at {address}:{port}: {error}."))),
+        Err(error) => {
+            return Ok(refused(
+                cx,
+                "start",
+                &format!("cannot listen at {address}:{port}: {error}."),
+            ));
+        }
     }
-    cx.env().log(verbosity::INFOS, &format!("starting a remote API server on port {port}"));
+    cx.env().log(
+        verbosity::INFOS,
+        &format!("starting a remote API server on port {port}"),
+    );
     Ok(1)
 }
 
@@ -114,9 +132,15 @@ fn start(
 /// @return result 1, or -1 when there is none
 #[api("simRemoteApi.stop")]
 fn stop(cx: &mut Cx, port: i64) -> Result<i64> {
-    let Some(service) = named(cx, port) else { return Ok(refused(cx, "stop", "Invalid port number.")) };
+    let Some(service) = named(cx, port) else {
+        return Ok(refused(cx, "stop", "Invalid port number."));
+    };
     if service.lifetime() == Lifetime::Simulator {
-        return Ok(refused(cx, "stop", "Can't stop a continuous remote API server service."));
+        return Ok(refused(
+            cx,
+            "stop",
+            "Can't stop a continuous remote API server service.",
+        ));
     }
     services(cx).remove(service.port());
     Ok(1)
@@ -128,9 +152,14 @@ fn stop(cx: &mut Cx, port: i64) -> Result<i64> {
 /// @return result 1, or -1 when there is none
 #[api("simRemoteApi.reset")]
 fn reset(cx: &mut Cx, port: i64) -> Result<i64> {
-    let Some(service) = named(cx, port) else { return Ok(refused(cx, "reset", "Invalid port number.")) };
+    let Some(service) = named(cx, port) else {
+        return Ok(refused(cx, "reset", "Invalid port number."));
+    };
     let age = Duration::from_secs_f64(cx.clock().wall_seconds());
-    match cx.event_loop().and_then(|event_loop| service.reset(&event_loop, age)) {
+    match cx
+        .event_loop()
+        .and_then(|event_loop| service.reset(&event_loop, age))
+    {
         Ok(()) => Ok(1),
         Err(error) => Ok(refused(cx, "reset", &format!("{error}."))),
     }
@@ -149,16 +178,36 @@ fn reset(cx: &mut Cx, port: i64) -> Result<i64> {
 fn status(cx: &Cx, port: i64) -> Result<Results> {
     let version = Data::Int(VERSION.into());
     let Some(service) = named(cx, port) else {
-        return Ok(Results(vec![Data::Int(-1), Data::Nil, version, Data::Int(-1)]));
+        return Ok(Results(vec![
+            Data::Int(-1),
+            Data::Nil,
+            version,
+            Data::Int(-1),
+        ]));
     };
     Ok(Results(service.with_session(|session| {
         let traffic = session.traffic();
-        let [request, reply] = [traffic.commands_in_request, traffic.commands_in_reply].map(|count| count as i64);
-        let times = [traffic.last_request, traffic.last_reply, traffic.between_requests, request, reply];
+        let [request, reply] =
+            [traffic.commands_in_request, traffic.commands_in_reply].map(|count| count as i64);
+        let times = [
+            traffic.last_request,
+            traffic.last_reply,
+            traffic.between_requests,
+            request,
+            reply,
+        ];
         let state = if session.peer().is_some() { 3 } else { 1 };
-        let peer = session.peer().unwrap_or("NONE (reception line is not open)");
+        let peer = session
+            .peer()
+            .unwrap_or("NONE (reception line is not open)");
         let client_version = session.client_version().map_or(-1, i64::from);
-        vec![Data::Int(state), times.into(), version, Data::Int(client_version), Data::text(peer)]
+        vec![
+            Data::Int(state),
+            times.into(),
+            version,
+            Data::Int(client_version),
+            Data::text(peer),
+        ]
     })))
 }
 
@@ -172,6 +221,9 @@ fn named(cx: &Cx, port: i64) -> Option<std::rc::Rc<Service>> {
 
 /// Says why a function returns -1, which programs seldom look at.
 fn refused(cx: &Cx, function: &str, reason: &str) -> i64 {
-    cx.env().log(verbosity::SCRIPT_ERRORS, &format!("simRemoteApi.{function}: {reason}"));
+    cx.env().log(
+        verbosity::SCRIPT_ERRORS,
+        &format!("simRemoteApi.{function}: {reason}"),
+    );
     -1
 }

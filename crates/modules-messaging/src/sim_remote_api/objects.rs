@@ -21,9 +21,22 @@ pub(super) fn create_dummy(call: &mut Call<'_>) -> Outcome {
     let dummy = call.value("sim.createDummy", &[size])?;
     if has_colours {
         for (component, colour) in COLOURS.iter().zip(colours.chunks(3)) {
-            let Some(component) = *component else { continue };
-            let colour: Vec<f64> = colour.iter().map(|&value| f64::from(value) / 255.0).collect();
-            call.api("sim.setObjectColor", &[dummy.clone(), Data::Int(0), Data::Int(component), colour.into()])?;
+            let Some(component) = *component else {
+                continue;
+            };
+            let colour: Vec<f64> = colour
+                .iter()
+                .map(|&value| f64::from(value) / 255.0)
+                .collect();
+            call.api(
+                "sim.setObjectColor",
+                &[
+                    dummy.clone(),
+                    Data::Int(0),
+                    Data::Int(component),
+                    colour.into(),
+                ],
+            )?;
         }
     }
     call.write_int(integer(&dummy));
@@ -62,7 +75,9 @@ pub(super) fn all_of_type(call: &mut Call<'_>) -> Outcome {
     let object_type = call.key.int()?.into();
     let objects: Vec<i64> = {
         let scene = call.host.scene();
-        let of_type = scene.objects().filter(|object| object.is_of_type(object_type));
+        let of_type = scene
+            .objects()
+            .filter(|object| object.is_of_type(object_type));
         of_type.map(|object| object.handle().raw()).collect()
     };
     call.write_list(&objects);
@@ -72,7 +87,9 @@ pub(super) fn all_of_type(call: &mut Call<'_>) -> Outcome {
 pub(super) fn distance(call: &mut Call<'_>) -> Outcome {
     let args = [call.handle()?, call.handle()?, Data::Float(0.0)];
     let results = call.api("sim.checkDistance", &args)?;
-    let [Data::Int(1), data, ..] = &results[..] else { return Err(Failure::Silent) };
+    let [Data::Int(1), data, ..] = &results[..] else {
+        return Err(Failure::Silent);
+    };
     // The points on both entities are before the distance.
     call.out.float(*floats(data).get(6).ok_or(Failure::Silent)?);
     Ok(())
@@ -81,7 +98,10 @@ pub(super) fn distance(call: &mut Call<'_>) -> Outcome {
 /// The collection of a name. Where there is none, scripts may have set an integer signal of that name.
 pub(super) fn collection(call: &mut Call<'_>) -> Outcome {
     let name = Data::text(&call.name()?);
-    let named = call.integer("sim.getCollectionHandle", std::slice::from_ref(&name)).ok().filter(|&handle| handle >= 0);
+    let named = call
+        .integer("sim.getCollectionHandle", std::slice::from_ref(&name))
+        .ok()
+        .filter(|&handle| handle >= 0);
     let handle = match named {
         Some(handle) => handle,
         None => call.integer("sim.getInt32Signal", &[name])?,
@@ -102,10 +122,18 @@ pub(super) fn open_console(call: &mut Call<'_>) -> Outcome {
     let mut next = || Ok::<_, Failure>(i64::from(call.data.int()?));
     let [lines, mode] = [next()?, next()?].map(Data::Int);
     let [place, size] = [[next()?, next()?], [next()?, next()?]];
-    let pair = |pair: [i64; 2]| if pair[0] == DEFAULT_PLACE { Data::Nil } else { pair.into() };
+    let pair = |pair: [i64; 2]| {
+        if pair[0] == DEFAULT_PLACE {
+            Data::Nil
+        } else {
+            pair.into()
+        }
+    };
     let (text, back) = (colour(call)?, colour(call)?);
-    let handle =
-        call.integer("sim.auxiliaryConsoleOpen", &[title, lines, mode, pair(place), pair(size), text, back])?;
+    let handle = call.integer(
+        "sim.auxiliaryConsoleOpen",
+        &[title, lines, mode, pair(place), pair(size), text, back],
+    )?;
     call.write_int(handle);
     Ok(())
 }
@@ -122,9 +150,14 @@ pub(super) fn display_dialog(call: &mut Call<'_>) -> Outcome {
     let title = Data::text(&call.name()?);
     let text = Data::Text(call.data.text()?.to_vec());
     let style = Data::Int(call.data.int()?.into());
-    let handle = call.integer("sim.displayDialog", &[title, text, style, Data::Bool(false)])?;
+    let handle = call.integer(
+        "sim.displayDialog",
+        &[title, text, style, Data::Bool(false)],
+    )?;
     if handle < 0 {
-        return Err(Failure::Text("[simDisplayDialog] there are no dialogs without a display.".into()));
+        return Err(Failure::Text(
+            "[simDisplayDialog] there are no dialogs without a display.".into(),
+        ));
     }
     call.write_int(handle);
     // The window of the dialog, which nothing else needs.

@@ -9,11 +9,22 @@ use wire::simx::{FieldReader, Violation};
 fn arguments(data: &mut FieldReader<'_>) -> Result<[Data; 4], Violation> {
     let (ints, floats, strings, length) = (data.size()?, data.size()?, data.size()?, data.size()?);
     // Sizes are checked against the data before anything is allocated.
-    let ints = (0..ints).map(|_| Ok(Data::Int(data.int()?.into()))).collect::<Result<Vec<_>, _>>()?;
-    let floats = (0..floats).map(|_| Ok(Data::Float(data.float()?.into()))).collect::<Result<Vec<_>, _>>()?;
-    let strings = (0..strings).map(|_| Ok(Data::Text(data.text()?.to_vec()))).collect::<Result<Vec<_>, _>>()?;
+    let ints = (0..ints)
+        .map(|_| Ok(Data::Int(data.int()?.into())))
+        .collect::<Result<Vec<_>, _>>()?;
+    let floats = (0..floats)
+        .map(|_| Ok(Data::Float(data.float()?.into())))
+        .collect::<Result<Vec<_>, _>>()?;
+    let strings = (0..strings)
+        .map(|_| Ok(Data::Text(data.text()?.to_vec())))
+        .collect::<Result<Vec<_>, _>>()?;
     let buffer = data.take(length)?.to_vec();
-    Ok([Data::Array(ints), Data::Array(floats), Data::Array(strings), Data::Text(buffer)])
+    Ok([
+        Data::Array(ints),
+        Data::Array(floats),
+        Data::Array(strings),
+        Data::Text(buffer),
+    ])
 }
 
 /// Calls a function of a script with four tables of values, and returns as many.
@@ -27,18 +38,26 @@ pub(super) fn call(call: &mut Call<'_>) -> Outcome {
     };
     let results = call.host.call_function(handle, &function, &arguments);
     let results = results.map_err(|error| described("sim.callScriptFunction", &error))?;
-    let [ints, floats_, strings, buffer, ..] = &results[..] else { return Err(unexpected(&function, &object)) };
+    let [ints, floats_, strings, buffer, ..] = &results[..] else {
+        return Err(unexpected(&function, &object));
+    };
     let lists = [ints, floats_, strings].map(items);
-    let ([Some(ints), Some(numbers), Some(strings)], Data::Text(buffer) | Data::Buffer(buffer)) = (lists, buffer)
+    let ([Some(ints), Some(numbers), Some(strings)], Data::Text(buffer) | Data::Buffer(buffer)) =
+        (lists, buffer)
     else {
         return Err(unexpected(&function, &object));
     };
     if !ints.iter().chain(numbers).all(is_number) || !strings.iter().all(is_text) {
         return Err(unexpected(&function, &object));
     }
-    [ints.len(), numbers.len(), strings.len(), buffer.len()].into_iter().for_each(|size| call.out.size(size));
+    [ints.len(), numbers.len(), strings.len(), buffer.len()]
+        .into_iter()
+        .for_each(|size| call.out.size(size));
     ints.iter().for_each(|value| call.write_int(integer(value)));
-    numbers.iter().flat_map(floats).for_each(|value| call.out.float(value));
+    numbers
+        .iter()
+        .flat_map(floats)
+        .for_each(|value| call.out.float(value));
     strings.iter().for_each(|text| call.out.text(bytes(text)));
     call.out.bytes(buffer);
     Ok(())

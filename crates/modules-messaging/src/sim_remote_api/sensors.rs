@@ -18,12 +18,16 @@ pub(super) fn grey_image(call: &mut Call<'_>) -> Outcome {
 fn image(call: &mut Call<'_>, is_grey: bool) -> Outcome {
     let sensor = call.handle()?;
     let results = call.api("sim.getVisionSensorImg", &[sensor])?;
-    let [image, resolution, ..] = &results[..] else { return Err(Failure::Silent) };
+    let [image, resolution, ..] = &results[..] else {
+        return Err(Failure::Silent);
+    };
     write_resolution(call, resolution);
     let pixels = bytes(image);
     if is_grey {
-        let mean = |pixel: &[u8]| (pixel.iter().map(|&value| u32::from(value)).sum::<u32>() / 3) as u8;
-        call.out.bytes(&pixels.chunks_exact(3).map(mean).collect::<Vec<u8>>());
+        let mean =
+            |pixel: &[u8]| (pixel.iter().map(|&value| u32::from(value)).sum::<u32>() / 3) as u8;
+        call.out
+            .bytes(&pixels.chunks_exact(3).map(mean).collect::<Vec<u8>>());
     } else {
         call.out.bytes(pixels);
     }
@@ -32,7 +36,10 @@ fn image(call: &mut Call<'_>, is_grey: bool) -> Outcome {
 
 fn write_resolution(call: &mut Call<'_>, resolution: &Data) {
     if let Data::Array(sides) = resolution {
-        sides.iter().take(2).for_each(|side| call.write_int(integer(side)));
+        sides
+            .iter()
+            .take(2)
+            .for_each(|side| call.write_int(integer(side)));
     }
 }
 
@@ -47,18 +54,25 @@ pub(super) fn set_grey_image(call: &mut Call<'_>) -> Outcome {
 fn set_image(call: &mut Call<'_>, options: i64) -> Outcome {
     let sensor = call.handle()?;
     let image = Data::Buffer(call.data.rest().to_vec());
-    call.api("sim.setVisionSensorImg", &[sensor, image, Data::Int(options)]).map(drop)
+    call.api(
+        "sim.setVisionSensorImg",
+        &[sensor, image, Data::Int(options)],
+    )
+    .map(drop)
 }
 
 /// Depths from 0 (near) to 1 (far).
 pub(super) fn depth(call: &mut Call<'_>) -> Outcome {
     let sensor = call.handle()?;
     let results = call.api("sim.getVisionSensorDepth", &[sensor])?;
-    let [depths, resolution, ..] = &results[..] else { return Err(Failure::Silent) };
+    let [depths, resolution, ..] = &results[..] else {
+        return Err(Failure::Silent);
+    };
     write_resolution(call, resolution);
     for depth in bytes(depths).chunks_exact(4) {
         // The chunks are as long as asked for.
-        call.out.float(f32::from_le_bytes(depth.try_into().unwrap_or_default()));
+        call.out
+            .float(f32::from_le_bytes(depth.try_into().unwrap_or_default()));
     }
     Ok(())
 }
@@ -66,7 +80,15 @@ pub(super) fn depth(call: &mut Call<'_>) -> Outcome {
 pub(super) fn proximity(call: &mut Call<'_>) -> Outcome {
     let sensor = call.handle()?;
     let results = call.api("sim.readProximitySensor", &[sensor])?;
-    let [Data::Int(state @ 0..=1), _distance, point, object, normal, ..] = &results[..] else {
+    let [
+        Data::Int(state @ 0..=1),
+        _distance,
+        point,
+        object,
+        normal,
+        ..,
+    ] = &results[..]
+    else {
         return Err(Failure::Silent);
     };
     call.out.byte(*state as u8);
@@ -79,7 +101,9 @@ pub(super) fn proximity(call: &mut Call<'_>) -> Outcome {
 pub(super) fn force(call: &mut Call<'_>) -> Outcome {
     let sensor = call.handle()?;
     let results = call.api("sim.readForceSensor", &[sensor])?;
-    let [state, force, torque, ..] = &results[..] else { return Err(Failure::Silent) };
+    let [state, force, torque, ..] = &results[..] else {
+        return Err(Failure::Silent);
+    };
     call.out.byte(integer(state) as u8);
     call.write_floats(force);
     call.write_floats(torque);
@@ -90,10 +114,20 @@ pub(super) fn force(call: &mut Call<'_>) -> Outcome {
 pub(super) fn vision(call: &mut Call<'_>) -> Outcome {
     let sensor = call.handle()?;
     let results = call.api("sim.readVisionSensor", &[sensor])?;
-    let Some((Data::Int(state @ 0..=1), packets)) = results.split_first() else { return Err(Failure::Silent) };
+    let Some((Data::Int(state @ 0..=1), packets)) = results.split_first() else {
+        return Err(Failure::Silent);
+    };
     call.out.byte(*state as u8);
     let packets: Vec<Vec<f32>> = packets.iter().map(floats).collect();
-    call.write_list(&packets.iter().map(|packet| packet.len() as i64).collect::<Vec<_>>());
-    packets.into_iter().flatten().for_each(|value| call.out.float(value));
+    call.write_list(
+        &packets
+            .iter()
+            .map(|packet| packet.len() as i64)
+            .collect::<Vec<_>>(),
+    );
+    packets
+        .into_iter()
+        .flatten()
+        .for_each(|value| call.out.float(value));
     Ok(())
 }

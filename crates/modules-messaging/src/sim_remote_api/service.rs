@@ -139,10 +139,15 @@ impl Service {
     /// When the server does not allow it.
     pub(super) fn synchronize(&self, on: bool) -> Result<(), Failure> {
         if !self.settings.may_synchronize {
-            return Err(Failure::Text("the synchronous mode is not enabled for this server.".into()));
+            return Err(Failure::Text(
+                "the synchronous mode is not enabled for this server.".into(),
+            ));
         }
         let connection = self.with_session(|session| session.connection());
-        let synchronous = connection.map(|connection| Synchronous { connection, triggered_at: None });
+        let synchronous = connection.map(|connection| Synchronous {
+            connection,
+            triggered_at: None,
+        });
         self.synchronous.set(synchronous.filter(|_| on));
         Ok(())
     }
@@ -160,13 +165,17 @@ impl Service {
         let Some(synchronous) = self.present_synchronous() else {
             return Err(Failure::Text("the synchronous mode is off.".into()));
         };
-        self.synchronous.set(Some(Synchronous { triggered_at: Some(steps), ..synchronous }));
+        self.synchronous.set(Some(Synchronous {
+            triggered_at: Some(steps),
+            ..synchronous
+        }));
         Ok(())
     }
 
     /// Whether the client must allow the step after so many.
     pub(super) fn is_waiting(&self, steps: u64) -> bool {
-        self.present_synchronous().is_some_and(|synchronous| synchronous.triggered_at != Some(steps))
+        self.present_synchronous()
+            .is_some_and(|synchronous| synchronous.triggered_at != Some(steps))
     }
 
     /// The mode of the client that is connected.
@@ -199,13 +208,28 @@ impl Service {
             return Ok(folder.path());
         }
         let parent = std::env::temp_dir();
-        host.options().permissions.check_write(&parent).map_err(|denied| Failure::Text(denied.to_string()))?;
-        let folder = TempDir::with_prefix("swanilda-remote-api-").map_err(|error| Failure::Text(error.to_string()))?;
+        host.options()
+            .permissions
+            .check_write(&parent)
+            .map_err(|denied| Failure::Text(denied.to_string()))?;
+        let folder = TempDir::with_prefix("swanilda-remote-api-")
+            .map_err(|error| Failure::Text(error.to_string()))?;
         Ok(self.files.get_or_init(|| folder).path())
     }
 }
 
-fn run(event_loop: &EventLoop, listener: &TcpListener, settings: Settings, age: Duration) -> io::Result<SimxServer> {
+fn run(
+    event_loop: &EventLoop,
+    listener: &TcpListener,
+    settings: Settings,
+    age: Duration,
+) -> io::Result<SimxServer> {
     let session = Session::new(settings.is_monitored);
-    SimxServer::start(event_loop, listener.try_clone()?, settings.max_packet, session, age)
+    SimxServer::start(
+        event_loop,
+        listener.try_clone()?,
+        settings.max_packet,
+        session,
+        age,
+    )
 }

@@ -36,7 +36,8 @@ impl Services {
 }
 
 fn all(host: &Host<'_>) -> Vec<Rc<Service>> {
-    host.module_state::<Services>().map_or_else(Vec::new, |services| services.all())
+    host.module_state::<Services>()
+        .map_or_else(Vec::new, |services| services.all())
 }
 
 /// Between simulations and during a pause, commands are executed in each iteration.
@@ -55,7 +56,9 @@ pub(super) fn before_step(host: &Host<'_>) -> bool {
     execute_all(host, &services);
     let clock = host.clock();
     if clock.stop_is_requested() || clock.state().is_stopping() {
-        services.iter().for_each(|service| service.end_synchronous_mode());
+        services
+            .iter()
+            .for_each(|service| service.end_synchronous_mode());
     }
     update_waiting(host);
     clock.is_waiting_for_trigger()
@@ -63,7 +66,9 @@ pub(super) fn before_step(host: &Host<'_>) -> bool {
 
 /// Servers of simulation scripts end.
 pub(super) fn end_of_simulation(host: &Host<'_>) {
-    let Some(services) = host.module_state::<Services>() else { return };
+    let Some(services) = host.module_state::<Services>() else {
+        return;
+    };
     for service in services.all() {
         service.end_synchronous_mode();
         if service.lifetime() == Lifetime::Simulation {
@@ -97,10 +102,16 @@ fn execute(host: &Host<'_>, service: &Service) {
     if service.is_monitored() {
         show_monitor(host, service);
     }
-    let Some(mut batch) = service.with_session(|session| session.due(stamp(host))) else { return };
+    let Some(mut batch) = service.with_session(|session| session.due(stamp(host))) else {
+        return;
+    };
     while let Some(command) = batch.next() {
         let is_full = batch.is_full();
-        let answer = if is_full { Answer::failure() } else { commands::execute(host, service, &command, batch.order) };
+        let answer = if is_full {
+            Answer::failure()
+        } else {
+            commands::execute(host, service, &command, batch.order)
+        };
         batch.answer(answer);
     }
     service.with_session(|session| session.complete(batch));
@@ -111,13 +122,24 @@ fn stamp(host: &Host<'_>) -> Stamp {
     let clock = host.clock();
     let state = clock.state();
     let is_real_time = host.scene().settings().real_time;
-    let bits = [state != SimulationState::Stopped, state == SimulationState::Paused, is_real_time];
+    let bits = [
+        state != SimulationState::Stopped,
+        state == SimulationState::Paused,
+        is_real_time,
+    ];
     let is_stopped = state == SimulationState::Stopped;
     Stamp {
         system_time: milliseconds(clock.wall_seconds()),
-        simulation_time: if is_stopped { 0 } else { milliseconds(clock.time()) },
+        simulation_time: if is_stopped {
+            0
+        } else {
+            milliseconds(clock.time())
+        },
         scene: host.scene_uid() as u16,
-        state: bits.iter().rev().fold(0, |bits, &bit| bits << 1 | u8::from(bit)),
+        state: bits
+            .iter()
+            .rev()
+            .fold(0, |bits, &bit| bits << 1 | u8::from(bit)),
     }
 }
 
@@ -133,9 +155,14 @@ fn show_monitor(host: &Host<'_>, service: &Service) {
         return;
     }
     // Without a console there is nothing to see, which is no reason to serve nobody.
-    let Ok(console) = console(host, service) else { return };
+    let Ok(console) = console(host, service) else {
+        return;
+    };
     for line in lines {
-        let _ = host.call_api("sim.auxiliaryConsolePrint", &[Data::Int(console), Data::text(&(line + "\n"))]);
+        let _ = host.call_api(
+            "sim.auxiliaryConsolePrint",
+            &[Data::Int(console), Data::text(&(line + "\n"))],
+        );
     }
 }
 
@@ -144,8 +171,13 @@ fn console(host: &Host<'_>, service: &Service) -> script::ApiResult<i64> {
         return Ok(console);
     }
     let title = format!("Remote Api monitor on port {}", service.port());
-    let opened = host.call_api("sim.auxiliaryConsoleOpen", &[Data::text(&title), Data::Int(500), Data::Int(0)])?;
-    let Some(&Data::Int(console)) = opened.first() else { return Err(SceneError::InvalidArgument.into()) };
+    let opened = host.call_api(
+        "sim.auxiliaryConsoleOpen",
+        &[Data::text(&title), Data::Int(500), Data::Int(0)],
+    )?;
+    let Some(&Data::Int(console)) = opened.first() else {
+        return Err(SceneError::InvalidArgument.into());
+    };
     service.console.set(Some(console));
     Ok(console)
 }

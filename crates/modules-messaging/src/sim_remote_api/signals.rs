@@ -7,14 +7,25 @@ use scene::Data;
 pub(super) fn clear(call: &mut Call<'_>, function: &str) -> Outcome {
     let name = call.key.text()?;
     let all = name.is_empty();
-    call.api(function, &[if all { Data::Nil } else { Data::Text(name.to_vec()) }]).map(drop)
+    call.api(
+        function,
+        &[if all {
+            Data::Nil
+        } else {
+            Data::Text(name.to_vec())
+        }],
+    )
+    .map(drop)
 }
 
 /// The value of the string signal that the key names, and its name.
 fn signal(call: &mut Call<'_>) -> Result<(Data, Option<Vec<u8>>), Failure> {
     let name = Data::Text(call.key.text()?.to_vec());
     let value = call.api("sim.getStringSignal", std::slice::from_ref(&name))?;
-    let value = value.first().filter(|value| **value != Data::Nil).map(|value| bytes(value).to_vec());
+    let value = value
+        .first()
+        .filter(|value| **value != Data::Nil)
+        .map(|value| bytes(value).to_vec());
     Ok((name, value))
 }
 
@@ -33,7 +44,8 @@ pub(super) fn set(call: &mut Call<'_>) -> Outcome {
 pub(super) fn append(call: &mut Call<'_>) -> Outcome {
     let (name, value) = signal(call)?;
     let value = [&value.unwrap_or_default(), call.data.rest()].concat();
-    call.api("sim.setStringSignal", &[name, Data::Buffer(value)]).map(drop)
+    call.api("sim.setStringSignal", &[name, Data::Buffer(value)])
+        .map(drop)
 }
 
 /// Reads a signal and removes it. A stream ends when there was one.

@@ -83,8 +83,17 @@ impl Endpoint {
 
     /// # Errors
     /// The reason why the connection rejects it.
-    pub(super) fn send(&self, connection: u64, data: Vec<u8>, opcode: i64) -> Result<(), SendError> {
-        self.socket.borrow().as_ref().ok_or(SendError::Expired)?.send(connection, data, opcode)
+    pub(super) fn send(
+        &self,
+        connection: u64,
+        data: Vec<u8>,
+        opcode: i64,
+    ) -> Result<(), SendError> {
+        self.socket
+            .borrow()
+            .as_ref()
+            .ok_or(SendError::Expired)?
+            .send(connection, data, opcode)
     }
 
     /// Closes the connections and releases the handlers.
@@ -110,7 +119,9 @@ pub(super) fn connection_handle(connection: u64) -> String {
 /// The number in a handle of that kind.
 pub(super) fn handle_number(handle: &str, kind: &str) -> Option<u64> {
     let digits = handle.strip_suffix(kind)?.strip_suffix(":simWS.")?;
-    u64::from_str_radix(digits, 16).ok().filter(|number| format!("{number:x}") == digits)
+    u64::from_str_radix(digits, 16)
+        .ok()
+        .filter(|number| format!("{number:x}") == digits)
 }
 
 /// The endpoints of a script: they are stopped when it ends.
@@ -135,25 +146,44 @@ pub(super) fn add(cx: &mut Cx, role: Role, socket: WsEndpoint) -> Rc<Endpoint> {
     let sockets = cx.module_state::<WebSockets>();
     let number = sockets.numbers.next();
     let script = cx.script().clone();
-    let endpoint =
-        Rc::new(Endpoint { number, role, script, socket: RefCell::new(Some(socket)), handlers: RefCell::default() });
-    sockets.endpoints.borrow_mut().insert(number, endpoint.clone());
+    let endpoint = Rc::new(Endpoint {
+        number,
+        role,
+        script,
+        socket: RefCell::new(Some(socket)),
+        handlers: RefCell::default(),
+    });
+    sockets
+        .endpoints
+        .borrow_mut()
+        .insert(number, endpoint.clone());
     let owned = cx.script_state::<Owned>();
     let mut owned = owned.0.borrow_mut();
     owned.retain(|other| sockets.get(other.number).is_some());
-    owned.push(Ownership { sockets: Rc::downgrade(&sockets), number });
+    owned.push(Ownership {
+        sockets: Rc::downgrade(&sockets),
+        number,
+    });
     endpoint
 }
 
 /// Runs the sockets and calls the handlers for what arrived: endpoint by endpoint in the order of their creation, in the order of
 /// arrival. What arrives in the meantime waits for the next iteration.
 pub(super) fn start_of_iteration(host: &Host) {
-    let endpoints = host.module_state::<WebSockets>().map_or_else(Vec::new, |sockets| sockets.all());
-    let Some(event_loop) = (!endpoints.is_empty()).then(|| host.event_loop().ok()).flatten() else {
+    let endpoints = host
+        .module_state::<WebSockets>()
+        .map_or_else(Vec::new, |sockets| sockets.all());
+    let Some(event_loop) = (!endpoints.is_empty())
+        .then(|| host.event_loop().ok())
+        .flatten()
+    else {
         return;
     };
     event_loop.turn();
-    let batches: Vec<usize> = endpoints.iter().map(|endpoint| endpoint.arrived()).collect();
+    let batches: Vec<usize> = endpoints
+        .iter()
+        .map(|endpoint| endpoint.arrived())
+        .collect();
     for (endpoint, count) in endpoints.iter().zip(&batches) {
         for event in (0..*count).map_while(|_| endpoint.next()) {
             handle(host, endpoint, event);
@@ -169,19 +199,35 @@ fn handle(host: &Host, endpoint: &Endpoint, event: WsEvent) {
     log::log_event(host, endpoint, &event);
     let call = |kind, connection, more: &[Data]| {
         let handler = endpoint.handlers.borrow().get(&kind).cloned()?;
-        let handles = [Data::text(&endpoint.handle()), Data::text(&connection_handle(connection))];
+        let handles = [
+            Data::text(&endpoint.handle()),
+            Data::text(&connection_handle(connection)),
+        ];
         let args = [&handles, more].concat();
         Some(host.call_handler(&endpoint.script, &handler, &args))
     };
     match event {
         WsEvent::Open(connection) => drop(call(HandlerKind::Open, connection, &[])),
-        WsEvent::Fail(connection, _) | WsEvent::Unreachable(connection, _) | WsEvent::Refused(connection, _) => {
-            drop(call(HandlerKind::Fail, connection, &[]))
-        }
+        WsEvent::Fail(connection, _)
+        | WsEvent::Unreachable(connection, _)
+        | WsEvent::Refused(connection, _) => drop(call(HandlerKind::Fail, connection, &[])),
         WsEvent::Close(connection) => drop(call(HandlerKind::Close, connection, &[])),
-        WsEvent::Message(connection, data) => drop(call(HandlerKind::Message, connection, &[Data::Buffer(data)])),
-        WsEvent::Http { connection, resource, body, requester } => {
-            let results = call(HandlerKind::Http, connection, &[Data::text(&resource), Data::Buffer(body)]);
+        WsEvent::Message(connection, data) => drop(call(
+            HandlerKind::Message,
+            connection,
+            &[Data::Buffer(data)],
+        )),
+        WsEvent::Http {
+            connection,
+            resource,
+            body,
+            requester,
+        } => {
+            let results = call(
+                HandlerKind::Http,
+                connection,
+                &[Data::text(&resource), Data::Buffer(body)],
+            );
             requester.answer(results.map_or_else(|| HttpReply::status(404), http_reply));
         }
     }
@@ -193,7 +239,9 @@ fn http_reply(results: Option<Vec<Data>>) -> HttpReply {
         let mut results = results.into_iter();
         let status = match results.next()? {
             Data::Nil => 404,
-            Data::Int(status) => u16::try_from(status).ok().filter(|status| (200..1000).contains(status))?,
+            Data::Int(status) => u16::try_from(status)
+                .ok()
+                .filter(|status| (200..1000).contains(status))?,
             _ => return None,
         };
         match results.next()? {
@@ -211,10 +259,20 @@ mod tests {
     #[test]
     fn handles() {
         assert_eq!(handle_number("1f:simWS.Server", "Server"), Some(31));
-        for bad in ["", ":simWS.Server", "+1:simWS.Server", "01:simWS.Server", "1:simWS.Client", "1F:simWS.Server"] {
+        for bad in [
+            "",
+            ":simWS.Server",
+            "+1:simWS.Server",
+            "01:simWS.Server",
+            "1:simWS.Client",
+            "1F:simWS.Server",
+        ] {
             assert_eq!(handle_number(bad, "Server"), None, "{bad}");
         }
-        assert_eq!(handle_number(&connection_handle(255), "Connection"), Some(255));
+        assert_eq!(
+            handle_number(&connection_handle(255), "Connection"),
+            Some(255)
+        );
     }
 
     #[test]
@@ -222,11 +280,20 @@ mod tests {
         let reply = |results: &[Data]| http_reply(Some(results.to_vec())).status;
         assert_eq!(reply(&[Data::Int(200), Data::text("1")]), 200);
         assert_eq!(reply(&[Data::Nil, Data::text("")]), 404);
-        for bad in
-            [vec![], vec![Data::Int(404)], vec![Data::Int(404), Data::Nil], vec![Data::text("200"), Data::text("")]]
-        {
+        for bad in [
+            vec![],
+            vec![Data::Int(404)],
+            vec![Data::Int(404), Data::Nil],
+            vec![Data::text("200"), Data::text("")],
+        ] {
             assert_eq!(reply(&bad), 500, "{bad:?}");
         }
-        assert_eq!((reply(&[Data::Int(99), Data::text("")]), http_reply(None).status), (500, 500));
+        assert_eq!(
+            (
+                reply(&[Data::Int(99), Data::text("")]),
+                http_reply(None).status
+            ),
+            (500, 500)
+        );
     }
 }

@@ -17,7 +17,10 @@ pub(super) fn log_event(host: &Host, endpoint: &Endpoint, event: &WsEvent) {
 }
 
 fn log_refused_page(host: &Host, endpoint: &Endpoint, origin: &str) {
-    let text = format!("{}: a page of {origin} was refused; --allow-origin {origin} lets it in", endpoint.handle());
+    let text = format!(
+        "{}: a page of {origin} was refused; --allow-origin {origin} lets it in",
+        endpoint.handle()
+    );
     host.log(verbosity::SCRIPT_WARNINGS | verbosity::ONCE, &text);
 }
 
@@ -30,7 +33,9 @@ fn log_unreachable(host: &Host, error: &io::Error) {
 
 /// The access log, for those who ask for it.
 fn log_access(host: &Host, endpoint: &Endpoint, event: &WsEvent) {
-    let verbose = host.named_param("simWS.verbose").is_some_and(|value| value != b"0");
+    let verbose = host
+        .named_param("simWS.verbose")
+        .is_some_and(|value| value != b"0");
     let text = match event {
         _ if !verbose => return,
         WsEvent::Open(connection) => format!("{connection:x} is open"),
@@ -38,9 +43,16 @@ fn log_access(host: &Host, endpoint: &Endpoint, event: &WsEvent) {
         WsEvent::Fail(connection, reason) => format!("{connection:x} has failed: {reason}"),
         WsEvent::Close(connection) => format!("{connection:x} is closed"),
         WsEvent::Message(..) => return,
-        WsEvent::Http { connection, resource, .. } => format!("{connection:x} asks for {resource}"),
+        WsEvent::Http {
+            connection,
+            resource,
+            ..
+        } => format!("{connection:x} asks for {resource}"),
     };
-    host.log(verbosity::SCRIPT_INFOS, &format!("{}: connection {text}", endpoint.handle()));
+    host.log(
+        verbosity::SCRIPT_INFOS,
+        &format!("{}: connection {text}", endpoint.handle()),
+    );
 }
 
 /// A failed connection in the words and the form of websocketpp, the original's library, which existing tools look for. It asks
@@ -50,7 +62,9 @@ fn unreachable(error: &io::Error) -> Vec<String> {
     let reason = text.split(" (os error").next().unwrap_or_default();
     let mut lines = Vec::new();
     if let Some(code) = error.raw_os_error() {
-        lines.push(format!("[info] asio async_connect error: asio.system:{code} ({reason})"));
+        lines.push(format!(
+            "[info] asio async_connect error: asio.system:{code} ({reason})"
+        ));
         lines.push(
             "[info] Error getting remote endpoint: asio.system:107 (Transport endpoint is not connected)".to_owned(),
         );
@@ -67,8 +81,17 @@ mod tests {
     fn failed_connections() {
         let refused = unreachable(&io::Error::from_raw_os_error(111));
         assert_eq!(refused.len(), 3);
-        assert_eq!(refused[0], "[info] asio async_connect error: asio.system:111 (Connection refused)");
-        assert_eq!(refused[2], "[error] handle_connect error: Connection refused");
-        assert_eq!(unreachable(&io::Error::other("no such host")), ["[error] handle_connect error: no such host"]);
+        assert_eq!(
+            refused[0],
+            "[info] asio async_connect error: asio.system:111 (Connection refused)"
+        );
+        assert_eq!(
+            refused[2],
+            "[error] handle_connect error: Connection refused"
+        );
+        assert_eq!(
+            unreachable(&io::Error::other("no such host")),
+            ["[error] handle_connect error: no such host"]
+        );
     }
 }

@@ -18,7 +18,10 @@ pub static MODULE: Module = Module {
     about: "WebSocket servers and clients.",
     functions: &[("WebSocket", FUNCTIONS)],
     constants: "opcode.continuation\t0\nopcode.text\t1\nopcode.binary\t2\n",
-    hooks: Hooks { start_of_iteration: Some(endpoints::start_of_iteration), ..Hooks::NONE },
+    hooks: Hooks {
+        start_of_iteration: Some(endpoints::start_of_iteration),
+        ..Hooks::NONE
+    },
     ..Module::new("simWS")
 };
 
@@ -47,9 +50,11 @@ pub(super) const STREAM: &[ApiFn] = functions![start_stream];
 /// @return serverHandle
 #[api("simWS.start")]
 fn start(cx: &mut Cx, listen_port: i64) -> Result<String> {
-    let port = u16::try_from(listen_port).map_err(|_| ApiError::Other(format!("invalid port: {listen_port}")))?;
+    let port = u16::try_from(listen_port)
+        .map_err(|_| ApiError::Other(format!("invalid port: {listen_port}")))?;
     let address = cx.options().listen_address;
-    cx.permissions().check_net(&address.to_string(), Some(port))?;
+    cx.permissions()
+        .check_net(&address.to_string(), Some(port))?;
     serve(cx, TcpListener::bind((address, port)), WsPages::All)
         .map_err(|error| unusable(&format!("{address}:{port}"), &error))
 }
@@ -60,7 +65,10 @@ fn start(cx: &mut Cx, listen_port: i64) -> Result<String> {
 /// @return port
 #[api("simWS.getPort")]
 fn get_port(cx: &Cx, server_handle: String) -> Result<i64> {
-    endpoint(cx, &server_handle)?.port().map(i64::from).ok_or_else(invalid_handle)
+    endpoint(cx, &server_handle)?
+        .port()
+        .map(i64::from)
+        .ok_or_else(invalid_handle)
 }
 
 /// Starts a server at the port of the remote API.
@@ -68,8 +76,8 @@ fn get_port(cx: &Cx, server_handle: String) -> Result<i64> {
 /// @return serverHandle
 #[api("remote.ws.start")]
 fn start_remote(cx: &mut Cx) -> Result<String> {
-    let listener =
-        remote::listener(cx).ok_or_else(|| ApiError::Other("there is no port for the remote API.".into()))?;
+    let listener = remote::listener(cx)
+        .ok_or_else(|| ApiError::Other("there is no port for the remote API.".into()))?;
     let pages = WsPages::Own(cx.options().web_origins.clone());
     serve(cx, listener, pages).map_err(|error| unusable("the remote API's port", &error))
 }
@@ -82,16 +90,23 @@ fn start_stream(cx: &mut Cx) -> Result<String> {
     let listener = remote::visualization_listener(cx)
         .ok_or_else(|| ApiError::Other("there is no port for the visualization stream.".into()))?;
     let pages = WsPages::Own(cx.options().web_origins.clone());
-    serve(cx, listener, pages).map_err(|error| unusable("the port of the visualization stream", &error))
+    serve(cx, listener, pages)
+        .map_err(|error| unusable("the port of the visualization stream", &error))
 }
 
-fn serve(cx: &mut Cx, listener: std::io::Result<TcpListener>, pages: WsPages) -> std::io::Result<String> {
+fn serve(
+    cx: &mut Cx,
+    listener: std::io::Result<TcpListener>,
+    pages: WsPages,
+) -> std::io::Result<String> {
     let socket = WsEndpoint::listen(cx.event_loop()?, listener?, pages, numbers(cx))?;
     Ok(endpoints::add(cx, Role::Server, socket).handle())
 }
 
 fn unusable(address: &str, error: &std::io::Error) -> ApiError {
-    ApiError::Other(format!("Underlying Transport Error: cannot listen at {address}: {error}"))
+    ApiError::Other(format!(
+        "Underlying Transport Error: cannot listen at {address}: {error}"
+    ))
 }
 
 /// Stops a server; its connections end at once.
@@ -99,9 +114,10 @@ fn unusable(address: &str, error: &std::io::Error) -> ApiError {
 /// @param serverHandle
 #[api("simWS.stop")]
 fn stop(cx: &mut Cx, server_handle: String) -> Result<()> {
-    let number =
-        handle_number(&server_handle, "Server").filter(|&number| cx.module_state::<WebSockets>().get(number).is_some());
-    cx.module_state::<WebSockets>().stop(number.ok_or_else(invalid_handle)?);
+    let number = handle_number(&server_handle, "Server")
+        .filter(|&number| cx.module_state::<WebSockets>().get(number).is_some());
+    cx.module_state::<WebSockets>()
+        .stop(number.ok_or_else(invalid_handle)?);
     Ok(())
 }
 
@@ -111,13 +127,22 @@ fn stop(cx: &mut Cx, server_handle: String) -> Result<()> {
 /// @return clientHandle
 #[api("simWS.connect")]
 fn connect(cx: &mut Cx, uri: String) -> Result<String> {
-    let agent = cx.app().named_params.get("simWS.userAgent").cloned().unwrap_or_default();
+    let agent = cx
+        .app()
+        .named_params
+        .get("simWS.userAgent")
+        .cloned()
+        .unwrap_or_default();
     let numbers = numbers(cx);
-    let refused = |reason: String| ApiError::Other(format!("Could not create connection: {reason}"));
-    let request = WsRequest::new(&uri, &String::from_utf8_lossy(&agent), numbers.next()).map_err(refused)?;
+    let refused =
+        |reason: String| ApiError::Other(format!("Could not create connection: {reason}"));
+    let request =
+        WsRequest::new(&uri, &String::from_utf8_lossy(&agent), numbers.next()).map_err(refused)?;
     let (host, port) = request.place();
     cx.permissions().check_net(host, Some(port))?;
-    let event_loop = cx.event_loop().map_err(|error| refused(error.to_string()))?;
+    let event_loop = cx
+        .event_loop()
+        .map_err(|error| refused(error.to_string()))?;
     let socket = WsEndpoint::connect(event_loop, request, numbers);
     Ok(endpoints::add(cx, Role::Client, socket).handle())
 }
@@ -127,9 +152,10 @@ fn connect(cx: &mut Cx, uri: String) -> Result<String> {
 /// @param clientHandle
 #[api("simWS.disconnect")]
 fn disconnect(cx: &mut Cx, client_handle: String) -> Result<()> {
-    let number =
-        handle_number(&client_handle, "Client").filter(|&number| cx.module_state::<WebSockets>().get(number).is_some());
-    cx.module_state::<WebSockets>().stop(number.ok_or_else(invalid_handle)?);
+    let number = handle_number(&client_handle, "Client")
+        .filter(|&number| cx.module_state::<WebSockets>().get(number).is_some());
+    cx.module_state::<WebSockets>()
+        .stop(number.ok_or_else(invalid_handle)?);
     Ok(())
 }
 
@@ -161,7 +187,11 @@ fn send(
 /// @param serverOrClientHandle
 /// @param callbackFn a function, or the name of a global one of the script that called start or connect
 #[api("simWS.setOpenHandler")]
-fn set_open_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: ScriptFunction) -> Result<()> {
+fn set_open_handler(
+    cx: &mut Cx,
+    server_or_client_handle: String,
+    callback_fn: ScriptFunction,
+) -> Result<()> {
     set_handler(cx, &server_or_client_handle, HandlerKind::Open, callback_fn)
 }
 
@@ -170,7 +200,11 @@ fn set_open_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: S
 /// @param serverOrClientHandle
 /// @param callbackFn a function, or the name of a global one of the script that called start or connect
 #[api("simWS.setFailHandler")]
-fn set_fail_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: ScriptFunction) -> Result<()> {
+fn set_fail_handler(
+    cx: &mut Cx,
+    server_or_client_handle: String,
+    callback_fn: ScriptFunction,
+) -> Result<()> {
     set_handler(cx, &server_or_client_handle, HandlerKind::Fail, callback_fn)
 }
 
@@ -179,8 +213,17 @@ fn set_fail_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: S
 /// @param serverOrClientHandle
 /// @param callbackFn a function, or the name of a global one of the script that called start or connect
 #[api("simWS.setCloseHandler")]
-fn set_close_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: ScriptFunction) -> Result<()> {
-    set_handler(cx, &server_or_client_handle, HandlerKind::Close, callback_fn)
+fn set_close_handler(
+    cx: &mut Cx,
+    server_or_client_handle: String,
+    callback_fn: ScriptFunction,
+) -> Result<()> {
+    set_handler(
+        cx,
+        &server_or_client_handle,
+        HandlerKind::Close,
+        callback_fn,
+    )
 }
 
 /// Sets what is called with endpoint, connection and data when a message has come.
@@ -188,8 +231,17 @@ fn set_close_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: 
 /// @param serverOrClientHandle
 /// @param callbackFn a function, or the name of a global one of the script that called start or connect
 #[api("simWS.setMessageHandler")]
-fn set_message_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: ScriptFunction) -> Result<()> {
-    set_handler(cx, &server_or_client_handle, HandlerKind::Message, callback_fn)
+fn set_message_handler(
+    cx: &mut Cx,
+    server_or_client_handle: String,
+    callback_fn: ScriptFunction,
+) -> Result<()> {
+    set_handler(
+        cx,
+        &server_or_client_handle,
+        HandlerKind::Message,
+        callback_fn,
+    )
 }
 
 /// Sets what is called with server, connection, resource and data when an HTTP request has come; it returns status and data.
@@ -213,7 +265,9 @@ fn set_handler(cx: &Cx, handle: &str, kind: HandlerKind, function: ScriptFunctio
 fn endpoint(cx: &Cx, handle: &str) -> Result<Rc<Endpoint>> {
     let number = handle_number(handle, "Server").or_else(|| handle_number(handle, "Client"));
     let endpoint = number.and_then(|number| cx.module_state::<WebSockets>().get(number));
-    endpoint.filter(|endpoint| endpoint.handle() == handle).ok_or_else(invalid_handle)
+    endpoint
+        .filter(|endpoint| endpoint.handle() == handle)
+        .ok_or_else(invalid_handle)
 }
 
 /// The numbers of endpoints and connections.

@@ -21,8 +21,12 @@ pub(super) fn check_endpoint(cx: &Cx, endpoint: &str) -> Result<()> {
 fn check_local(cx: &Cx, path: &str) -> Result<()> {
     match path {
         // A file of libzmq's choice, and names that are no files.
-        "*" => Ok(cx.permissions().check_device(&std::env::temp_dir().join("*"))?),
-        _ if path.starts_with('@') => Ok(cx.permissions().check_net_everywhere("a local socket without a file")?),
+        "*" => Ok(cx
+            .permissions()
+            .check_device(&std::env::temp_dir().join("*"))?),
+        _ if path.starts_with('@') => Ok(cx
+            .permissions()
+            .check_net_everywhere("a local socket without a file")?),
         _ => Ok(cx.permissions().check_device(Path::new(path))?),
     }
 }
@@ -42,7 +46,10 @@ fn host_and_port(place: &str) -> Option<(&str, u16)> {
         _ if port.bytes().all(|byte| byte.is_ascii_digit()) => port.parse().ok()?,
         _ => return None,
     };
-    let bare = host.strip_prefix('[').and_then(|host| host.strip_suffix(']')).unwrap_or(host);
+    let bare = host
+        .strip_prefix('[')
+        .and_then(|host| host.strip_suffix(']'))
+        .unwrap_or(host);
     Some((if bare == "*" { "0.0.0.0" } else { bare }, port))
 }
 
@@ -65,7 +72,15 @@ mod tests {
         assert_eq!(host_and_port("[::1]:80"), Some(("::1", 80)));
         assert_eq!(host_and_port("*:*"), Some(("0.0.0.0", 0)));
         // libzmq connects to the second one, takes 65616 for 80, and reads digits up to the first letter.
-        for odd in ["127.0.0.1:1;evil:80", "host:65616", "host:80x", "host", "host:", "host: 80", "host:+80"] {
+        for odd in [
+            "127.0.0.1:1;evil:80",
+            "host:65616",
+            "host:80x",
+            "host",
+            "host:",
+            "host: 80",
+            "host:+80",
+        ] {
             assert_eq!(host_and_port(odd), None, "{odd}");
         }
     }

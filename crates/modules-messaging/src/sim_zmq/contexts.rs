@@ -10,7 +10,14 @@ use crate::{ApiFn, Cx, Result, functions};
 use io::zmq::{Context, Socket};
 use script::Number;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![ctx_new, ctx_singleton, ctx_get, ctx_set, ctx_shutdown, socket];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    ctx_new,
+    ctx_singleton,
+    ctx_get,
+    ctx_set,
+    ctx_shutdown,
+    socket
+];
 
 /// Behind functions of the Lua part.
 pub(crate) const INNER: &[ApiFn] = functions![ctx_term];

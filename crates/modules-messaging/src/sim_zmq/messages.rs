@@ -132,10 +132,12 @@ fn msg_set(cx: &Cx, msg: String, property: Number, value: Number) -> Result<i64>
 #[api("simZMQ.msg_gets")]
 fn msg_gets(cx: &Cx, msg: String, property: String) -> Result<(i64, Text)> {
     let objects = objects(cx);
-    Ok(match objects.with_message(&msg, |message| message.property(&property))? {
-        Ok(value) => (0, Text(value)),
-        Err(errno) => (objects.failed(errno), Text(Vec::new())),
-    })
+    Ok(
+        match objects.with_message(&msg, |message| message.property(&property))? {
+            Ok(value) => (0, Text(value)),
+            Err(errno) => (objects.failed(errno), Text(Vec::new())),
+        },
+    )
 }
 
 /// Copies the content of a message to another.
@@ -159,14 +161,21 @@ fn msg_move(cx: &Cx, dest: String, src: String) -> Result<i64> {
 }
 
 /// Puts what `content` makes of the source into the destination, which must be initialised.
-fn put(cx: &Cx, dest: &str, src: &str, content: impl Fn(&mut Message) -> ZmqResult<Message>) -> Result<i64> {
+fn put(
+    cx: &Cx,
+    dest: &str,
+    src: &str,
+    content: impl Fn(&mut Message) -> ZmqResult<Message>,
+) -> Result<i64> {
     let objects = objects(cx);
     let outcome = match objects.with_message(dest, |message| message.require_open())? {
         Ok(()) => objects.with_message(src, content)?,
         Err(errno) => Err(errno),
     };
     Ok(match outcome {
-        Ok(content) => objects.done(objects.with_message(dest, |message| message.replace(content))?),
+        Ok(content) => {
+            objects.done(objects.with_message(dest, |message| message.replace(content))?)
+        }
         Err(errno) => objects.failed(errno),
     })
 }
@@ -181,7 +190,8 @@ fn put(cx: &Cx, dest: &str, src: &str, content: impl Fn(&mut Message) -> ZmqResu
 fn msg_send(cx: &Cx, msg: String, socket: String, flags: Number) -> Result<i64> {
     let objects = objects(cx);
     let socket = objects.socket(cx, &socket)?;
-    Ok(objects.result_code(objects.with_message(&msg, |message| message.send(&socket, int(flags)))?))
+    Ok(objects
+        .result_code(objects.with_message(&msg, |message| message.send(&socket, int(flags)))?))
 }
 
 /// Receives into a message without waiting.
@@ -194,5 +204,6 @@ fn msg_send(cx: &Cx, msg: String, socket: String, flags: Number) -> Result<i64> 
 fn msg_recv(cx: &Cx, msg: String, socket: String, flags: Number) -> Result<i64> {
     let objects = objects(cx);
     let socket = objects.socket(cx, &socket)?;
-    Ok(objects.result_code(objects.with_message(&msg, |message| message.receive(&socket, int(flags)))?))
+    Ok(objects
+        .result_code(objects.with_message(&msg, |message| message.receive(&socket, int(flags)))?))
 }

@@ -102,8 +102,14 @@ fn z85_decode(_cx: &Cx, text: Bytes) -> Result<Option<Text>> {
 /// @return errors numbers by name
 #[api("simZMQ.errors")]
 fn errors(_cx: &Cx) -> Result<Table> {
-    let entries = ERRORS.iter().map(|&(name, number)| (name.as_bytes().to_vec(), i64::from(number)));
-    Ok(Table(Data::Map(entries.map(|(name, number)| (Key::Text(name), number.into())).collect())))
+    let entries = ERRORS
+        .iter()
+        .map(|&(name, number)| (name.as_bytes().to_vec(), i64::from(number)));
+    Ok(Table(Data::Map(
+        entries
+            .map(|(name, number)| (Key::Text(name), number.into()))
+            .collect(),
+    )))
 }
 
 /// The parameters of the functions for scripts, for the Lua part, which checks them: `string socket, int flags, int max_buf_size?`.
@@ -114,7 +120,10 @@ fn parameters(_cx: &Cx) -> Result<Table> {
     let entries = MODULE.public_functions().map(|function| {
         let list: Vec<String> = function.params.iter().map(declaration).collect();
         let name = function.name.trim_start_matches("simZMQ.");
-        (Key::Text(name.into()), Data::Text(list.join(", ").into_bytes()))
+        (
+            Key::Text(name.into()),
+            Data::Text(list.join(", ").into_bytes()),
+        )
     });
     Ok(Table(Data::Map(entries.collect())))
 }

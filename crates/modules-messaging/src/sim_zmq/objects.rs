@@ -33,7 +33,9 @@ struct Shared {
 
 /// Whether some script has ZeroMQ sockets. Nothing wakes the simulator for those: scripts look whether a message has come.
 pub fn has_sockets(states: &States) -> bool {
-    states.existing::<Shared>().is_some_and(|shared| Rc::strong_count(&shared.users) > 1)
+    states
+        .existing::<Shared>()
+        .is_some_and(|shared| Rc::strong_count(&shared.users) > 1)
 }
 
 /// Sockets and messages of the calling script. They are closed with the script's state.
@@ -65,7 +67,9 @@ fn invalid() -> ApiError {
 
 fn number(handle: &str, kind: &str) -> Result<u64> {
     let (digits, named) = handle.split_once(':').ok_or_else(invalid)?;
-    let number = u64::from_str_radix(digits, 16).ok().filter(|_| named == kind);
+    let number = u64::from_str_radix(digits, 16)
+        .ok()
+        .filter(|_| named == kind);
     number.ok_or_else(invalid)
 }
 
@@ -80,7 +84,10 @@ pub(super) fn no_socket() -> String {
 
 fn warn_of_lost_events(cx: &Cx, socket: &Socket) {
     if socket.has_lost_events() {
-        cx.env().warn_once("simZMQ.socket_monitor", "events of a ZeroMQ monitor were lost: nobody reads them.");
+        cx.env().warn_once(
+            "simZMQ.socket_monitor",
+            "events of a ZeroMQ monitor were lost: nobody reads them.",
+        );
     }
 }
 
@@ -101,7 +108,9 @@ pub(super) fn singleton_handle() -> String {
 /// Fails for the context shared by all scripts, which may not be ended; `done` is the verb of the message.
 pub(super) fn forbid_singleton(context: &str, done: &str) -> Result<()> {
     if number(context, CONTEXT)? == SINGLETON {
-        return Err(ApiError::Other(format!("singleton context must not be {done}")));
+        return Err(ApiError::Other(format!(
+            "singleton context must not be {done}"
+        )));
     }
     Ok(())
 }
@@ -133,10 +142,14 @@ impl Objects {
 
     pub(super) fn add_context(&self, cx: &Cx, context: Context) -> Result<String> {
         if self.contexts.borrow().len() >= MAX_CONTEXTS {
-            return Err(ApiError::Other(format!("too many contexts: a script may have {MAX_CONTEXTS}")));
+            return Err(ApiError::Other(format!(
+                "too many contexts: a script may have {MAX_CONTEXTS}"
+            )));
         }
         let number = self.next(cx);
-        self.contexts.borrow_mut().insert(number, Life::Open(Rc::new(context)));
+        self.contexts
+            .borrow_mut()
+            .insert(number, Life::Open(Rc::new(context)));
         Ok(handle(number, CONTEXT))
     }
 
@@ -154,12 +167,19 @@ impl Objects {
     /// Makes the sockets of a context answer that it is over.
     pub(super) fn shut_down(&self, context: &Rc<Context>) -> ZmqResult<()> {
         let sockets = self.sockets.borrow();
-        sockets.values().filter(|socket| socket.is_in(context)).for_each(|socket| socket.limit_linger());
+        sockets
+            .values()
+            .filter(|socket| socket.is_in(context))
+            .for_each(|socket| socket.limit_linger());
         context.shutdown()
     }
 
     /// Ends a context, and waits as long as `wait` does; whether it has ended. It cannot while it has sockets.
-    pub(super) fn end_context(&self, context: &str, wait: impl FnOnce(&Termination) -> bool) -> Result<ZmqResult<()>> {
+    pub(super) fn end_context(
+        &self,
+        context: &str,
+        wait: impl FnOnce(&Termination) -> bool,
+    ) -> Result<ZmqResult<()>> {
         let number = number(context, CONTEXT)?;
         let mut contexts = self.contexts.borrow_mut();
         let termination = match contexts.remove(&number).ok_or_else(invalid)? {
@@ -183,19 +203,27 @@ impl Objects {
     pub(super) fn add_socket(&self, cx: &Cx, socket: Socket) -> String {
         let number = self.next(cx);
         self.sockets.borrow_mut().insert(number, Rc::new(socket));
-        self.presence.replace(Some(cx.module_state::<Shared>().users.clone()));
+        self.presence
+            .replace(Some(cx.module_state::<Shared>().users.clone()));
         handle(number, SOCKET)
     }
 
     pub(super) fn socket(&self, cx: &Cx, socket: &str) -> Result<Rc<Socket>> {
-        let socket = self.sockets.borrow().get(&number(socket, SOCKET)?).cloned().ok_or_else(invalid)?;
+        let socket = self
+            .sockets
+            .borrow()
+            .get(&number(socket, SOCKET)?)
+            .cloned()
+            .ok_or_else(invalid)?;
         warn_of_lost_events(cx, &socket);
         Ok(socket)
     }
 
     pub(super) fn take_socket(&self, cx: &Cx, socket: &str) -> Result<Rc<Socket>> {
         let mut sockets = self.sockets.borrow_mut();
-        let socket = sockets.remove(&number(socket, SOCKET)?).ok_or_else(invalid)?;
+        let socket = sockets
+            .remove(&number(socket, SOCKET)?)
+            .ok_or_else(invalid)?;
         warn_of_lost_events(cx, &socket);
         if sockets.is_empty() {
             self.presence.take();
@@ -210,22 +238,38 @@ impl Objects {
     }
 
     /// Calls `f` with a message and returns its result.
-    pub(super) fn with_message<R>(&self, message: &str, f: impl FnOnce(&mut Message) -> R) -> Result<R> {
-        self.messages.borrow_mut().get_mut(&number(message, MESSAGE)?).map(f).ok_or_else(invalid)
+    pub(super) fn with_message<R>(
+        &self,
+        message: &str,
+        f: impl FnOnce(&mut Message) -> R,
+    ) -> Result<R> {
+        self.messages
+            .borrow_mut()
+            .get_mut(&number(message, MESSAGE)?)
+            .map(f)
+            .ok_or_else(invalid)
     }
 
     pub(super) fn remove_message(&self, message: &str) -> Result<()> {
-        self.messages.borrow_mut().remove(&number(message, MESSAGE)?).map(drop).ok_or_else(invalid)
+        self.messages
+            .borrow_mut()
+            .remove(&number(message, MESSAGE)?)
+            .map(drop)
+            .ok_or_else(invalid)
     }
 }
 
 impl Drop for Objects {
     fn drop(&mut self) {
         self.sockets.take();
-        let endings = self.contexts.take().into_values().filter_map(|life| match life {
-            Life::Open(context) => Rc::try_unwrap(context).ok().map(Context::terminate),
-            Life::Ending(termination) => Some(termination),
-        });
+        let endings = self
+            .contexts
+            .take()
+            .into_values()
+            .filter_map(|life| match life {
+                Life::Open(context) => Rc::try_unwrap(context).ok().map(Context::terminate),
+                Life::Ending(termination) => Some(termination),
+            });
         Termination::wait_for_all(endings);
     }
 }
@@ -237,7 +281,16 @@ mod tests {
     #[test]
     fn a_handle_is_a_number_and_a_kind() {
         assert_eq!(number(&handle(0xabc, SOCKET), SOCKET), Ok(0xabc));
-        for bad in ["", ":", "zmq.socket", "1", "1:zmq.msg", "x:zmq.socket", "-1:zmq.socket", "1:zmq.socket:"] {
+        for bad in [
+            "",
+            ":",
+            "zmq.socket",
+            "1",
+            "1:zmq.msg",
+            "x:zmq.socket",
+            "-1:zmq.socket",
+            "1:zmq.socket:",
+        ] {
             assert_eq!(number(bad, SOCKET), Err(invalid()), "{bad}");
         }
     }

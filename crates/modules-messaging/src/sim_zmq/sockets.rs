@@ -12,8 +12,19 @@ use io::zmq::{self, Errno, Message, Socket};
 use scene::Data;
 use script::{Args, Bytes, FromScript, Number, Source, Table, Text};
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![close, bind, unbind, connect, disconnect, setsockopt, getsockopt, socket_monitor, send, recv, poll,];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    close,
+    bind,
+    unbind,
+    connect,
+    disconnect,
+    setsockopt,
+    getsockopt,
+    socket_monitor,
+    send,
+    recv,
+    poll,
+];
 
 /// Longest wait between checks for the end of the program, milliseconds.
 const SLICE: i64 = 50;
@@ -86,7 +97,11 @@ fn disconnect(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
 fn setsockopt(cx: &Cx, socket: String, option_name: Number, option_value: Bytes) -> Result<i64> {
     let objects = objects(cx);
     check_option(cx, int(option_name), &option_value.0)?;
-    Ok(objects.done(objects.socket(cx, &socket)?.set(int(option_name), &option_value.0)))
+    Ok(objects.done(
+        objects
+            .socket(cx, &socket)?
+            .set(int(option_name), &option_value.0),
+    ))
 }
 
 /// An option of a socket.
@@ -97,13 +112,20 @@ fn setsockopt(cx: &Cx, socket: String, option_name: Number, option_value: Bytes)
 /// @return result 0 or -1
 /// @return value its bytes
 #[api("simZMQ.getsockopt", snake_case)]
-fn getsockopt(cx: &Cx, socket: String, option_name: Number, option_len: Number) -> Result<(i64, Text)> {
+fn getsockopt(
+    cx: &Cx,
+    socket: String,
+    option_name: Number,
+    option_len: Number,
+) -> Result<(i64, Text)> {
     let objects = objects(cx);
     let room = usize::try_from(option_len.0).unwrap_or(0);
-    Ok(match objects.socket(cx, &socket)?.get(int(option_name), room) {
-        Ok(value) => (0, Text(value)),
-        Err(errno) => (objects.failed(errno), Text(Vec::new())),
-    })
+    Ok(
+        match objects.socket(cx, &socket)?.get(int(option_name), room) {
+            Ok(value) => (0, Text(value)),
+            Err(errno) => (objects.failed(errno), Text(Vec::new())),
+        },
+    )
 }
 
 /// Reports connection events of a socket.
@@ -138,7 +160,12 @@ fn send(cx: &Cx, socket: String, data: Bytes, flags: Number) -> Result<i64> {
 /// @return result length of the message, or -1
 /// @return data its bytes, nil on failure
 #[api("simZMQ.recv", snake_case)]
-fn recv(cx: &Cx, socket: String, flags: Number, max_buf_size: Option<Number>) -> Result<(i64, Data)> {
+fn recv(
+    cx: &Cx,
+    socket: String,
+    flags: Number,
+    max_buf_size: Option<Number>,
+) -> Result<(i64, Data)> {
     let objects = objects(cx);
     let socket = objects.socket(cx, &socket)?;
     let mut message = Message::closed();
@@ -146,7 +173,10 @@ fn recv(cx: &Cx, socket: String, flags: Number, max_buf_size: Option<Number>) ->
     Ok(match message.receive(&socket, int(flags)) {
         Ok(length) => {
             let most = max_buf_size.map_or(usize::MAX, |most| usize::try_from(most.0).unwrap_or(0));
-            (length.into(), Data::Text(message.bytes()[..message.size().min(most)].to_vec()))
+            (
+                length.into(),
+                Data::Text(message.bytes()[..message.size().min(most)].to_vec()),
+            )
         }
         Err(errno) => (objects.failed(errno), Data::Nil),
     })
@@ -160,10 +190,22 @@ fn recv(cx: &Cx, socket: String, flags: Number, max_buf_size: Option<Number>) ->
 /// @return result how many are ready, or -1
 /// @return revents what each is ready for
 #[api("simZMQ.poll")]
-fn poll(cx: &Cx, sockets: Handles, events: Vec<i64>, #[default(Number(0))] timeout: Number) -> Result<(i64, Vec<i64>)> {
+fn poll(
+    cx: &Cx,
+    sockets: Handles,
+    events: Vec<i64>,
+    #[default(Number(0))] timeout: Number,
+) -> Result<(i64, Vec<i64>)> {
     let objects = objects(cx);
-    let sockets = sockets.0.iter().map(|handle| objects.socket(cx, handle)).collect::<Result<Vec<_>>>()?;
-    let items: Vec<_> = sockets.into_iter().zip(events.iter().map(|&events| events as i16)).collect();
+    let sockets = sockets
+        .0
+        .iter()
+        .map(|handle| objects.socket(cx, handle))
+        .collect::<Result<Vec<_>>>()?;
+    let items: Vec<_> = sockets
+        .into_iter()
+        .zip(events.iter().map(|&events| events as i16))
+        .collect();
     Ok(match wait(cx, &items, timeout.0)? {
         Ok(ready) => {
             let count = ready.iter().filter(|&&events| events != 0).count();
@@ -180,7 +222,9 @@ impl FromScript for Handles {
     const TYPE: &'static str = "string[]";
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
-        let Data::Array(items) = Table::from_script(args)?.0 else { return Err(ApiError::ArgumentType) };
+        let Data::Array(items) = Table::from_script(args)?.0 else {
+            return Err(ApiError::ArgumentType);
+        };
         let text = |item| match item {
             Data::Text(bytes) => String::from_utf8(bytes).map_err(|_| ApiError::ArgumentType),
             _ => Err(ApiError::ArgumentType),
@@ -191,7 +235,11 @@ impl FromScript for Handles {
 
 /// Polls for a bounded time again and again.
 fn wait(cx: &Cx, items: &[(Rc<Socket>, i16)], timeout: i64) -> Result<zmq::ZmqResult<Vec<i16>>> {
-    let mut left = if items.is_empty() { timeout.max(0) } else { timeout };
+    let mut left = if items.is_empty() {
+        timeout.max(0)
+    } else {
+        timeout
+    };
     loop {
         let slice = if left < 0 { SLICE } else { left.min(SLICE) };
         let ready = match zmq::poll(items, slice as _) {

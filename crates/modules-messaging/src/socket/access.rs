@@ -14,7 +14,9 @@ pub(super) fn check_place(cx: &Cx, family: Family, host: &str, service: &str) ->
     match port(service) {
         Ok(Some(port)) => Ok(cx.permissions().check_net(host, Some(port))?),
         // Only the system's resolver knows the port of a service.
-        _ => Ok(cx.permissions().check_net_everywhere(&format!("the service '{service}' of '{host}'"))?),
+        _ => Ok(cx
+            .permissions()
+            .check_net_everywhere(&format!("the service '{service}' of '{host}'"))?),
     }
 }
 
@@ -22,9 +24,9 @@ pub(super) fn check_place(cx: &Cx, family: Family, host: &str, service: &str) ->
 pub(super) fn check_local(cx: &Cx, path: &[u8]) -> Result<()> {
     // The system reads a path up to a NUL; what begins with one, or is empty, is the name of a socket without a file.
     match c_path(path) {
-        name if name.as_os_str().is_empty() => {
-            Ok(cx.permissions().check_net_everywhere("a local socket without a file")?)
-        }
+        name if name.as_os_str().is_empty() => Ok(cx
+            .permissions()
+            .check_net_everywhere("a local socket without a file")?),
         path => Ok(cx.permissions().check_device(&path)?),
     }
 }
@@ -37,5 +39,8 @@ pub(super) fn check_lookup(cx: &Cx, host: &str) -> Result<()> {
 /// The files of certificates and keys.
 pub(super) fn check_files(cx: &Cx, settings: &TlsSettings) -> Result<()> {
     let files = [&settings.ca_file, &settings.certificate, &settings.key];
-    files.into_iter().flatten().try_for_each(|file| Ok(cx.permissions().check_read(file.as_ref())?))
+    files
+        .into_iter()
+        .flatten()
+        .try_for_each(|file| Ok(cx.permissions().check_read(file.as_ref())?))
 }

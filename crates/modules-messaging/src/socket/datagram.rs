@@ -11,7 +11,8 @@ use scene::Data;
 use script::Source;
 use script::{ApiError, LuaNumber, LuaString, Results, Text};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![bind, connect, receive, receivefrom, send, sendto];
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![bind, connect, receive, receivefrom, send, sendto];
 
 /// Default length limit of `receive`.
 const SIZE: f64 = 8192.0;
@@ -34,7 +35,11 @@ impl<const STATE: u8> FromScript for DatagramArg<STATE> {
         match AnySocket::from_script(args) {
             Ok(AnySocket::Datagram(object, datagram)) => {
                 let fits = STATE == 0 || datagram.borrow().connected == (STATE == 2);
-                if fits { Ok(Self(datagram)) } else { Err(refused(object.class)) }
+                if fits {
+                    Ok(Self(datagram))
+                } else {
+                    Err(refused(object.class))
+                }
             }
             _ => Err(refused(class::UDP)),
         }
@@ -63,19 +68,27 @@ fn connect(cx: &Cx, object: Any, host: LuaString, port: Option<LuaString>) -> Re
 /// The next datagram; what is longer than `size` bytes is cut.
 #[api("socket.core.datagram:receive")]
 fn receive(cx: &Cx, object: Any, size: Option<LuaNumber>) -> Result<Outcome<Text>> {
-    Ok(Outcome(received(cx, &object.0, size).map(|(data, _)| Text(data))))
+    Ok(Outcome(
+        received(cx, &object.0, size).map(|(data, _)| Text(data)),
+    ))
 }
 
 /// The next datagram, with the address and the port it came from.
 #[api("socket.core.datagram:receivefrom")]
 fn receivefrom(cx: &Cx, object: Unconnected, size: Option<LuaNumber>) -> Result<Outcome<Results>> {
-    Ok(Outcome(received(cx, &object.0, size).map(|(data, from)| {
-        let data = Data::Text(data);
-        Results(match from {
-            SocketAddress::Net(from) => vec![data, Data::text(&from.ip().to_string()), Data::Int(from.port().into())],
-            SocketAddress::Path(path) => vec![data, Data::Text(path)],
-        })
-    })))
+    Ok(Outcome(received(cx, &object.0, size).map(
+        |(data, from)| {
+            let data = Data::Text(data);
+            Results(match from {
+                SocketAddress::Net(from) => vec![
+                    data,
+                    Data::text(&from.ip().to_string()),
+                    Data::Int(from.port().into()),
+                ],
+                SocketAddress::Path(path) => vec![data, Data::Text(path)],
+            })
+        },
+    )))
 }
 
 type Arrived = std::result::Result<(Vec<u8>, SocketAddress), Failure>;
@@ -108,7 +121,10 @@ fn sendto(
         access::check_local(cx, &host.0)?;
         SocketAddress::Path(host.0)
     } else {
-        let missing = || ApiError::BadArgument { position: 4, reason: "string expected, got no value".into() };
+        let missing = || ApiError::BadArgument {
+            position: 4,
+            reason: "string expected, got no value".into(),
+        };
         let port = port.ok_or_else(missing)?;
         access::check_place(cx, datagram.family, &host.text(), &port.text())?;
         match numeric(&host.text(), &port.text(), datagram.family) {

@@ -56,7 +56,9 @@ fn close(_cx: &Cx, object: AnySocket) -> Result<f64> {
 /// The system's number of the socket; -1 for none.
 #[api("socket.core.any:getfd")]
 fn getfd(_cx: &Cx, object: AnySocket) -> Result<f64> {
-    Ok(object.socket().map_or(-1.0, |socket| descriptor(&socket) as f64))
+    Ok(object
+        .socket()
+        .map_or(-1.0, |socket| descriptor(&socket) as f64))
 }
 
 /// Assigns another socket of this script to the object, by its number; -1 detaches the socket without closing it.
@@ -66,7 +68,12 @@ fn setfd(cx: &Cx, object: AnySocket, number: LuaNumber) -> Result<()> {
     let number = number.0 as i64;
     let socket = match number {
         -1 => None,
-        _ => Some(sockets.by_descriptor().remove(&number).ok_or_else(|| not_ours(number))?),
+        _ => Some(
+            sockets
+                .by_descriptor()
+                .remove(&number)
+                .ok_or_else(|| not_ours(number))?,
+        ),
     };
     let before = match object {
         AnySocket::Stream(_, stream) => stream.borrow_mut().replace_socket(socket),
@@ -81,7 +88,9 @@ fn setfd(cx: &Cx, object: AnySocket, number: LuaNumber) -> Result<()> {
 }
 
 fn not_ours(number: i64) -> ApiError {
-    ApiError::NotImplemented(format!("setfd with {number}, which is no socket of this script"))
+    ApiError::NotImplemented(format!(
+        "setfd with {number}, which is no socket of this script"
+    ))
 }
 
 /// Whether unread data have arrived.
@@ -95,13 +104,23 @@ fn dirty(_cx: &Cx, object: AnySocket) -> Result<bool> {
 
 /// Limits each wait (mode b) or whole operations (mode t); nil and negative numbers remove the limit.
 #[api("socket.core.any:settimeout")]
-fn settimeout(_cx: &Cx, object: AnySocket, seconds: Option<LuaNumber>, mode: Option<LuaString>) -> Result<f64> {
+fn settimeout(
+    _cx: &Cx,
+    object: AnySocket,
+    seconds: Option<LuaNumber>,
+    mode: Option<LuaString>,
+) -> Result<f64> {
     let seconds = seconds.map_or(-1.0, |seconds| seconds.0);
     let mut timeout = timeout_of(&object);
     match mode.as_ref().map_or(&b"b"[..], |mode| &mode.0) {
         [b'b', ..] => timeout.block = seconds,
         [b'r' | b't', ..] => timeout.total = seconds,
-        _ => return Err(ApiError::BadArgument { position: 3, reason: "invalid timeout mode".into() }),
+        _ => {
+            return Err(ApiError::BadArgument {
+                position: 3,
+                reason: "invalid timeout mode".into(),
+            });
+        }
     }
     match object {
         AnySocket::Stream(_, stream) => stream.borrow_mut().timeout = timeout,
@@ -131,7 +150,11 @@ fn getfamily(_cx: &Cx, object: AnySocket) -> Result<&'static str> {
         AnySocket::Stream(_, stream) => stream.borrow().family,
         AnySocket::Datagram(_, datagram) => datagram.borrow().family,
     };
-    Ok(if family == Family::Inet6 { "inet6" } else { "inet4" })
+    Ok(if family == Family::Inet6 {
+        "inet6"
+    } else {
+        "inet4"
+    })
 }
 
 /// Address, port (as a string) and family of this end; or the path.
@@ -154,11 +177,18 @@ fn getpeername(_cx: &Cx, object: AnySocket) -> Result<Outcome<Results>> {
     Ok(described(place, |port| Data::Int(port.into())))
 }
 
-fn described(place: std::result::Result<SocketAddress, Failure>, port: impl Fn(u16) -> Data) -> Outcome<Results> {
+fn described(
+    place: std::result::Result<SocketAddress, Failure>,
+    port: impl Fn(u16) -> Data,
+) -> Outcome<Results> {
     Outcome(place.map(|place| match place {
         SocketAddress::Net(address) => {
             let family = if address.is_ipv6() { "inet6" } else { "inet" };
-            Results(vec![Data::text(&address.ip().to_string()), port(address.port()), Data::text(family)])
+            Results(vec![
+                Data::text(&address.ip().to_string()),
+                port(address.port()),
+                Data::text(family),
+            ])
         }
         SocketAddress::Path(path) => Results(vec![Data::Text(path)]),
     }))
@@ -176,10 +206,17 @@ pub(super) fn places(
         access::check_local(cx, &host.0)?;
         return Ok(Ok(vec![SocketAddress::Path(host.0.clone())]));
     }
-    let missing = || ApiError::BadArgument { position: 3, reason: "string expected, got no value".into() };
+    let missing = || ApiError::BadArgument {
+        position: 3,
+        reason: "string expected, got no value".into(),
+    };
     let service = service.ok_or_else(missing)?;
     access::check_place(cx, family, &host.text(), &service.text())?;
-    let lookup = ::io::socket::Lookup { family, datagrams, stop: super::stop(cx) };
+    let lookup = ::io::socket::Lookup {
+        family,
+        datagrams,
+        stop: super::stop(cx),
+    };
     let found = lookup.resolve(&host.text(), &service.text());
     Ok(found.map(|found| found.into_iter().map(SocketAddress::Net).collect()))
 }

@@ -43,12 +43,34 @@ pub static CORE: Module = Module {
     ..Module::new("socket.core")
 };
 /// The module `socket.unix`.
-pub static UNIX: Module = Module { inner: &[FUNCTIONS], ..Module::new("socket.unix") };
+pub static UNIX: Module = Module {
+    inner: &[FUNCTIONS],
+    ..Module::new("socket.unix")
+};
 /// The module `ssl`.
-pub static SSL: Module =
-    Module { inner: &[tls::FUNCTIONS, OBJECTS, methods::FUNCTIONS, stream::FUNCTIONS], ..Module::new("ssl") };
+pub static SSL: Module = Module {
+    inner: &[
+        tls::FUNCTIONS,
+        OBJECTS,
+        methods::FUNCTIONS,
+        stream::FUNCTIONS,
+    ],
+    ..Module::new("ssl")
+};
 
-const FUNCTIONS: &[ApiFn] = functions![tcp, tcp4, tcp6, udp, udp4, udp6, unix_stream, unix_dgram, poll, gettime, sleep];
+const FUNCTIONS: &[ApiFn] = functions![
+    tcp,
+    tcp4,
+    tcp6,
+    udp,
+    udp4,
+    udp6,
+    unix_stream,
+    unix_dgram,
+    poll,
+    gettime,
+    sleep
+];
 /// Functions that look at the stack themselves.
 const OBJECTS: &[ApiFn] = &[ApiFn {
     name: "socket.core.define",
@@ -89,7 +111,10 @@ impl Sockets {
     }
 
     fn add_datagram(&self, class: i64, datagram: Datagram) -> Created {
-        let id = self.datagrams.borrow_mut().add(Rc::new(RefCell::new(datagram)));
+        let id = self
+            .datagrams
+            .borrow_mut()
+            .add(Rc::new(RefCell::new(datagram)));
         Created(LuaObject { class, id })
     }
 
@@ -111,9 +136,17 @@ impl Sockets {
         let mut all = self.detached.borrow().clone();
         let streams = self.streams.borrow();
         let datagrams = self.datagrams.borrow();
-        let streams = streams.values().filter_map(|stream| stream.borrow().socket().cloned());
-        let datagrams = datagrams.values().filter_map(|datagram| datagram.borrow().socket().cloned());
-        all.extend(streams.chain(datagrams).map(|socket| (descriptor(&socket), socket)));
+        let streams = streams
+            .values()
+            .filter_map(|stream| stream.borrow().socket().cloned());
+        let datagrams = datagrams
+            .values()
+            .filter_map(|datagram| datagram.borrow().socket().cloned());
+        all.extend(
+            streams
+                .chain(datagrams)
+                .map(|socket| (descriptor(&socket), socket)),
+        );
         all
     }
 }
@@ -129,9 +162,17 @@ impl AnySocket {
     fn class_name(&self) -> String {
         match self {
             Self::Stream(object, _) if object.class == class::TLS => "SSL connection".into(),
-            Self::Stream(object, stream) => format!("{}{{{}}}", prefix(object.class), role_name(stream.borrow().role)),
+            Self::Stream(object, stream) => format!(
+                "{}{{{}}}",
+                prefix(object.class),
+                role_name(stream.borrow().role)
+            ),
             Self::Datagram(object, datagram) => {
-                let role = if datagram.borrow().connected { "connected" } else { "unconnected" };
+                let role = if datagram.borrow().connected {
+                    "connected"
+                } else {
+                    "unconnected"
+                };
                 format!("{}{{{role}}}", prefix(object.class))
             }
         }
@@ -168,7 +209,9 @@ impl FromScript for AnySocket {
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         let sockets = args.context()?.script_state::<Sockets>();
-        args.object().and_then(|object| sockets.any(object)).ok_or_else(|| args.refused("socket expected"))
+        args.object()
+            .and_then(|object| sockets.any(object))
+            .ok_or_else(|| args.refused("socket expected"))
     }
 }
 
@@ -189,11 +232,16 @@ fn define(args: &mut Args<'_>) -> Result<c_int> {
 }
 
 fn new_stream(cx: &Cx, class: i64, family: Family) -> Outcome<Created> {
-    Outcome(Stream::new(family).map(|stream| cx.script_state::<Sockets>().add_stream(class, stream)))
+    Outcome(
+        Stream::new(family).map(|stream| cx.script_state::<Sockets>().add_stream(class, stream)),
+    )
 }
 
 fn new_datagram(cx: &Cx, class: i64, family: Family) -> Outcome<Created> {
-    Outcome(Datagram::new(family).map(|datagram| cx.script_state::<Sockets>().add_datagram(class, datagram)))
+    Outcome(
+        Datagram::new(family)
+            .map(|datagram| cx.script_state::<Sockets>().add_datagram(class, datagram)),
+    )
 }
 
 /// A TCP object; its first address decides on the family.
@@ -248,7 +296,12 @@ fn unix_dgram(cx: &Cx) -> Result<Outcome<Created>> {
 #[api("socket.core.poll")]
 fn poll(cx: &Cx, readers: Vec<f64>, writers: Vec<f64>, seconds: f64) -> Result<Results> {
     let known = cx.script_state::<Sockets>().by_descriptor();
-    let find = |numbers: &[f64]| numbers.iter().map(|&number| find(&known, number)).collect::<Result<Vec<_>>>();
+    let find = |numbers: &[f64]| {
+        numbers
+            .iter()
+            .map(|&number| find(&known, number))
+            .collect::<Result<Vec<_>>>()
+    };
     let ready = socket::select(&find(&readers)?, &find(&writers)?, seconds, stop(cx));
     let (readable, writable) = ready.map_err(raised)?;
     let list = |ready: Vec<bool>| Data::Array(ready.into_iter().map(Data::Bool).collect());

@@ -14,8 +14,9 @@ use scene::Data;
 use script::Source;
 use script::{ApiError, LuaNumber, LuaString};
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![bind, connect, listen, accept, receive, send, shutdown, getstats, setstats];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    bind, connect, listen, accept, receive, send, shutdown, getstats, setstats
+];
 
 /// LuaSocket's length of the queue of pending connections.
 const BACKLOG: f64 = 32.0;
@@ -57,7 +58,14 @@ impl<const ROLE: u8> FromScript for StreamArg<ROLE> {
         match AnySocket::from_script(args) {
             Ok(AnySocket::Stream(object, stream)) => {
                 let fits = wanted.is_none_or(|wanted| stream.borrow().role == wanted);
-                if fits { Ok(Self { class: object.class, stream }) } else { Err(refused(object.class)) }
+                if fits {
+                    Ok(Self {
+                        class: object.class,
+                        stream,
+                    })
+                } else {
+                    Err(refused(object.class))
+                }
             }
             _ => Err(refused(class::TCP)),
         }
@@ -88,7 +96,9 @@ fn listen(cx: &Cx, object: Master, backlog: Option<LuaNumber>) -> Result<Done> {
     if object.stream.borrow().is_unbound() {
         access::check_place(cx, family, "*", "0")?;
     }
-    let backlog = backlog.map_or(BACKLOG, |backlog| backlog.0).clamp(0.0, i32::MAX.into());
+    let backlog = backlog
+        .map_or(BACKLOG, |backlog| backlog.0)
+        .clamp(0.0, i32::MAX.into());
     Ok(done(object.stream.borrow_mut().listen(backlog as i32)))
 }
 
@@ -99,7 +109,10 @@ fn accept(cx: &Cx, object: Server) -> Result<Outcome<Created>> {
         let stream = object.stream.borrow();
         stream.accept(&Wait::begin(stream.timeout, stop(cx)))
     };
-    Ok(Outcome(accepted.map(|client| cx.script_state::<Sockets>().add_stream(object.class, client))))
+    Ok(Outcome(accepted.map(|client| {
+        cx.script_state::<Sockets>()
+            .add_stream(object.class, client)
+    })))
 }
 
 /// The argument that says how much to receive.
@@ -154,7 +167,8 @@ fn receive(
     data.clear();
     data.extend(prefix.iter().flat_map(|prefix| &prefix.0));
     let Amount(pattern) = pattern;
-    let is_enough = matches!(pattern, Pattern::Count(count) if !data.is_empty() && count <= data.len());
+    let is_enough =
+        matches!(pattern, Pattern::Count(count) if !data.is_empty() && count <= data.len());
     let result = if is_enough {
         Ok(())
     } else {
@@ -162,22 +176,45 @@ fn receive(
         let wait = Wait::begin(stream.timeout, stop(cx));
         stream.receive(pattern, &mut data, &wait)
     };
-    Ok(Received { sockets: Rc::clone(&sockets), data, result })
+    Ok(Received {
+        sockets: Rc::clone(&sockets),
+        data,
+        result,
+    })
 }
 
 /// Sends bytes `i` to `j` of the data.
 #[api("socket.core.stream:send")]
-fn send(cx: &Cx, object: Client, data: LuaString, i: Option<LuaNumber>, j: Option<LuaNumber>) -> Result<Sent> {
-    let (start, end) = range(data.0.len(), i.map_or(1.0, |i| i.0), j.map_or(-1.0, |j| j.0));
+fn send(
+    cx: &Cx,
+    object: Client,
+    data: LuaString,
+    i: Option<LuaNumber>,
+    j: Option<LuaNumber>,
+) -> Result<Sent> {
+    let (start, end) = range(
+        data.0.len(),
+        i.map_or(1.0, |i| i.0),
+        j.map_or(-1.0, |j| j.0),
+    );
     let mut stream = object.stream.borrow_mut();
     let wait = Wait::begin(stream.timeout, stop(cx));
     let (count, result) = stream.send(data.0.get(start..end).unwrap_or_default(), &wait);
-    Ok(Sent { last: (start + count) as f64, result })
+    Ok(Sent {
+        last: (start + count) as f64,
+        result,
+    })
 }
 
 /// The bytes `i` to `j` as `string.sub` counts them: from where (0: the first) and up to which.
 fn range(length: usize, i: f64, j: f64) -> (usize, usize) {
-    let from_end = |index: f64| if index < 0.0 { length as f64 + index + 1.0 } else { index };
+    let from_end = |index: f64| {
+        if index < 0.0 {
+            length as f64 + index + 1.0
+        } else {
+            index
+        }
+    };
     let start = from_end(i).max(1.0) as usize - 1;
     let end = (from_end(j).max(0.0) as usize).min(length);
     (start, end.max(start))
@@ -192,7 +229,10 @@ fn shutdown(_cx: &Cx, object: Client, how: Option<LuaString>) -> Result<f64> {
         b"both" => Shutdown::Both,
         other => {
             let reason = format!("invalid option '{}'", String::from_utf8_lossy(other));
-            return Err(ApiError::BadArgument { position: 2, reason });
+            return Err(ApiError::BadArgument {
+                position: 2,
+                reason,
+            });
         }
     };
     object.stream.borrow().shutdown(how);
@@ -217,7 +257,11 @@ fn setstats(
     let mut stream = object.stream.borrow_mut();
     let (old_received, old_sent, old_age) = stream.stats();
     let or = |value: Option<LuaNumber>, old| value.map_or(old, |value| value.0);
-    stream.set_stats(or(received, old_received), or(sent, old_sent), or(age, old_age));
+    stream.set_stats(
+        or(received, old_received),
+        or(sent, old_sent),
+        or(age, old_age),
+    );
     Ok(1.0)
 }
 

@@ -28,8 +28,16 @@ fn dohandshake(cx: &Cx, object: Client, settings: Table) -> Result<Outcome<bool>
     let wait = Wait::begin(stream.timeout, stop(cx));
     let settings = tls_settings(&settings.0);
     access::check_files(cx, &settings)?;
-    let ready = if stream.is_tls() { Ok(()) } else { stream.wrap(&settings) };
-    Ok(Outcome(ready.and_then(|()| stream.shake_hands(&wait)).map(|()| true)))
+    let ready = if stream.is_tls() {
+        Ok(())
+    } else {
+        stream.wrap(&settings)
+    };
+    Ok(Outcome(
+        ready
+            .and_then(|()| stream.shake_hands(&wait))
+            .map(|()| true),
+    ))
 }
 
 fn tls_settings(settings: &Data) -> TlsSettings {
@@ -39,7 +47,11 @@ fn tls_settings(settings: &Data) -> TlsSettings {
     };
     TlsSettings {
         is_server: text("mode").is_some_and(|mode| mode == "server"),
-        verify: if text("verify").is_some_and(|verify| verify == "none") { Verify::Nobody } else { Verify::Peer },
+        verify: if text("verify").is_some_and(|verify| verify == "none") {
+            Verify::Nobody
+        } else {
+            Verify::Peer
+        },
         host: text("host").unwrap_or_default(),
         ca_file: text("cafile"),
         certificate: text("certificate"),

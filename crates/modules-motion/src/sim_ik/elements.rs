@@ -35,7 +35,9 @@ fn element(env: &Environment, group: GroupId, raw: i64) -> kinematics::Result<El
 fn read<R>(cx: &Cx, place: [Number; 3], read: impl FnOnce(&Element) -> R) -> Result<R> {
     with(cx, place[0].0, |held| {
         let group = group(place[1].0)?;
-        held.env.element(group, element(&held.env, group, place[2].0)?).map(read)
+        held.env
+            .element(group, element(&held.env, group, place[2].0)?)
+            .map(read)
     })
 }
 
@@ -61,7 +63,9 @@ fn add_element(
     tip_dummy_handle: Number,
 ) -> Result<i64> {
     with(cx, environment_handle.0, |held| {
-        held.env.add_element(group(ik_group_handle.0)?, object(tip_dummy_handle.0)?).map(ElementId::raw)
+        held.env
+            .add_element(group(ik_group_handle.0)?, object(tip_dummy_handle.0)?)
+            .map(ElementId::raw)
     })
 }
 
@@ -79,9 +83,11 @@ fn get_element_base(
     ik_group_handle: Number,
     element_handle: Number,
 ) -> Result<(i64, i64)> {
-    read(cx, [environment_handle, ik_group_handle, element_handle], |element| {
-        (raw(element.base), raw(element.constraint_base))
-    })
+    read(
+        cx,
+        [environment_handle, ik_group_handle, element_handle],
+        |element| (raw(element.base), raw(element.constraint_base)),
+    )
 }
 
 /// Sets where the chain of an element begins.
@@ -101,13 +107,23 @@ fn set_element_base(
     #[default(-1)] constraints_base_handle: Number,
 ) -> Result<()> {
     let bases = with(cx, environment_handle.0, |held| {
-        let bases = [optional(base_handle.0)?, optional(constraints_base_handle.0)?];
-        bases.into_iter().flatten().try_for_each(|base| held.env.object(base).map(drop))?;
+        let bases = [
+            optional(base_handle.0)?,
+            optional(constraints_base_handle.0)?,
+        ];
+        bases
+            .into_iter()
+            .flatten()
+            .try_for_each(|base| held.env.object(base).map(drop))?;
         Ok(bases)
     })?;
-    change(cx, [environment_handle, ik_group_handle, element_handle], |element| {
-        [element.base, element.constraint_base] = bases;
-    })
+    change(
+        cx,
+        [environment_handle, ik_group_handle, element_handle],
+        |element| {
+            [element.base, element.constraint_base] = bases;
+        },
+    )
 }
 
 /// What a tip has in common with its target.
@@ -123,7 +139,11 @@ fn get_element_constraints(
     ik_group_handle: Number,
     element_handle: Number,
 ) -> Result<i64> {
-    read(cx, [environment_handle, ik_group_handle, element_handle], |element| element.constraints.0.into())
+    read(
+        cx,
+        [environment_handle, ik_group_handle, element_handle],
+        |element| element.constraints.0.into(),
+    )
 }
 
 /// Sets what a tip has in common with its target.
@@ -140,9 +160,13 @@ fn set_element_constraints(
     element_handle: Number,
     constraints: Number,
 ) -> Result<()> {
-    change(cx, [environment_handle, ik_group_handle, element_handle], |element| {
-        element.constraints = Constraints(constraints.0 as u32 & Constraints::POSE.0);
-    })
+    change(
+        cx,
+        [environment_handle, ik_group_handle, element_handle],
+        |element| {
+            element.constraints = Constraints(constraints.0 as u32 & Constraints::POSE.0);
+        },
+    )
 }
 
 /// Flags of an element.
@@ -158,7 +182,11 @@ fn get_element_flags(
     ik_group_handle: Number,
     element_handle: Number,
 ) -> Result<i64> {
-    read(cx, [environment_handle, ik_group_handle, element_handle], |element| element.enabled.into())
+    read(
+        cx,
+        [environment_handle, ik_group_handle, element_handle],
+        |element| element.enabled.into(),
+    )
 }
 
 /// Sets the flags of an element.
@@ -175,7 +203,11 @@ fn set_element_flags(
     element_handle: Number,
     flags: Number,
 ) -> Result<()> {
-    change(cx, [environment_handle, ik_group_handle, element_handle], |element| element.enabled = flags.0 & 1 != 0)
+    change(
+        cx,
+        [environment_handle, ik_group_handle, element_handle],
+        |element| element.enabled = flags.0 & 1 != 0,
+    )
 }
 
 /// How close a tip has to come to its target.
@@ -191,7 +223,11 @@ fn get_element_precision(
     ik_group_handle: Number,
     element_handle: Number,
 ) -> Result<[f64; 2]> {
-    read(cx, [environment_handle, ik_group_handle, element_handle], |element| element.precision)
+    read(
+        cx,
+        [environment_handle, ik_group_handle, element_handle],
+        |element| element.precision,
+    )
 }
 
 /// Sets how close a tip has to come to its target.
@@ -209,7 +245,11 @@ fn set_element_precision(
     precision: [f64; 2],
 ) -> Result<()> {
     let precision = finite(precision)?;
-    change(cx, [environment_handle, ik_group_handle, element_handle], |element| element.precision = precision)
+    change(
+        cx,
+        [environment_handle, ik_group_handle, element_handle],
+        |element| element.precision = precision,
+    )
 }
 
 /// How much errors of an element count.
@@ -225,7 +265,11 @@ fn get_element_weights(
     ik_group_handle: Number,
     element_handle: Number,
 ) -> Result<[f64; 3]> {
-    read(cx, [environment_handle, ik_group_handle, element_handle], |element| element.weights)
+    read(
+        cx,
+        [environment_handle, ik_group_handle, element_handle],
+        |element| element.weights,
+    )
 }
 
 /// Sets how much errors of an element count.
@@ -245,7 +289,11 @@ fn set_element_weights(
     finite(weights.as_slice())?;
     let [linear, angular] = *weights.first_chunk::<2>().ok_or(ApiError::TableSize)?;
     let both = weights.get(2).copied().unwrap_or(1.0);
-    change(cx, [environment_handle, ik_group_handle, element_handle], |element| {
-        element.weights = [linear, angular, both];
-    })
+    change(
+        cx,
+        [environment_handle, ik_group_handle, element_handle],
+        |element| {
+            element.weights = [linear, angular, both];
+        },
+    )
 }

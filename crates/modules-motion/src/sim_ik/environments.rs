@@ -11,8 +11,13 @@ use super::{ApiError, ApiFn, Cx, Result, busy, functions, refused, with};
 use ik::SceneLinks;
 use script::{Bytes, Number};
 
-pub(super) const FUNCTIONS: &[ApiFn] =
-    functions![create_environment, erase_environment, duplicate_environment, save, load];
+pub(super) const FUNCTIONS: &[ApiFn] = functions![
+    create_environment,
+    erase_environment,
+    duplicate_environment,
+    save,
+    load
+];
 
 /// An environment with its connection to the scene.
 #[derive(Debug, Clone)]
@@ -41,7 +46,10 @@ fn missing() -> ApiError {
 pub(super) fn environment(cx: &Cx, handle: i64) -> Result<Rc<RefCell<Held>>> {
     let known = cx.module_state::<Known>();
     let environments = known.environments.borrow();
-    environments.get(&handle).and_then(Weak::upgrade).ok_or_else(missing)
+    environments
+        .get(&handle)
+        .and_then(Weak::upgrade)
+        .ok_or_else(missing)
 }
 
 fn add(cx: &Cx, held: Held) -> i64 {
@@ -49,9 +57,18 @@ fn add(cx: &Cx, held: Held) -> i64 {
     let handle = known.last.get() + 1;
     known.last.set(handle);
     let held = Rc::new(RefCell::new(held));
-    known.environments.borrow_mut().retain(|_, held| held.strong_count() > 0);
-    known.environments.borrow_mut().insert(handle, Rc::downgrade(&held));
-    cx.script_state::<Owned>().0.borrow_mut().insert(handle, held);
+    known
+        .environments
+        .borrow_mut()
+        .retain(|_, held| held.strong_count() > 0);
+    known
+        .environments
+        .borrow_mut()
+        .insert(handle, Rc::downgrade(&held));
+    cx.script_state::<Owned>()
+        .0
+        .borrow_mut()
+        .insert(handle, held);
     handle
 }
 
@@ -64,7 +81,13 @@ fn create_environment(cx: &mut Cx, #[default(0)] flags: Number) -> Result<i64> {
     let _ = flags;
     let made = cx.module_state::<Known>().last.get();
     let seed = (u64::from(cx.options().seed) << 32) | (made as u64 & 0xffff_ffff);
-    Ok(add(cx, Held { env: Environment::new(seed), links: SceneLinks::default() }))
+    Ok(add(
+        cx,
+        Held {
+            env: Environment::new(seed),
+            links: SceneLinks::default(),
+        },
+    ))
 }
 
 /// Removes an environment.
@@ -74,8 +97,14 @@ fn create_environment(cx: &mut Cx, #[default(0)] flags: Number) -> Result<i64> {
 fn erase_environment(cx: &mut Cx, environment_handle: Number) -> Result<()> {
     let held = environment(cx, environment_handle.0)?;
     held.try_borrow_mut().map(drop).map_err(|_| busy())?;
-    cx.module_state::<Known>().environments.borrow_mut().remove(&environment_handle.0);
-    cx.script_state::<Owned>().0.borrow_mut().remove(&environment_handle.0);
+    cx.module_state::<Known>()
+        .environments
+        .borrow_mut()
+        .remove(&environment_handle.0);
+    cx.script_state::<Owned>()
+        .0
+        .borrow_mut()
+        .remove(&environment_handle.0);
     Ok(())
 }
 

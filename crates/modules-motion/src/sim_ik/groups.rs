@@ -27,12 +27,26 @@ pub(super) fn group(raw: i64) -> kinematics::Result<GroupId> {
     GroupId::from_raw(raw).ok_or(KinematicsError::NoSuchGroup)
 }
 
-fn read<R>(cx: &Cx, environment: Number, handle: Number, read: impl FnOnce(&Group) -> R) -> Result<R> {
-    with(cx, environment.0, |held| held.env.group(group(handle.0)?).map(read))
+fn read<R>(
+    cx: &Cx,
+    environment: Number,
+    handle: Number,
+    read: impl FnOnce(&Group) -> R,
+) -> Result<R> {
+    with(cx, environment.0, |held| {
+        held.env.group(group(handle.0)?).map(read)
+    })
 }
 
-fn change(cx: &Cx, environment: Number, handle: Number, change: impl FnOnce(&mut Group)) -> Result<()> {
-    with(cx, environment.0, |held| held.env.group_mut(group(handle.0)?).map(change))
+fn change(
+    cx: &Cx,
+    environment: Number,
+    handle: Number,
+    change: impl FnOnce(&mut Group),
+) -> Result<()> {
+    with(cx, environment.0, |held| {
+        held.env.group_mut(group(handle.0)?).map(change)
+    })
 }
 
 /// A new group without elements.
@@ -46,7 +60,9 @@ fn create_group(
     environment_handle: Number,
     #[default(String::new())] ik_group_name: String,
 ) -> Result<i64> {
-    with(cx, environment_handle.0, |held| Ok(held.env.create_group(&ik_group_name).raw()))
+    with(cx, environment_handle.0, |held| {
+        Ok(held.env.create_group(&ik_group_name).raw())
+    })
 }
 
 /// Whether there is a group with that name.
@@ -56,7 +72,9 @@ fn create_group(
 /// @return result
 #[api("simIK.doesGroupExist")]
 fn does_group_exist(cx: &Cx, environment_handle: Number, ik_group_name: String) -> Result<bool> {
-    with(cx, environment_handle.0, |held| Ok(held.env.group_named(&ik_group_name).is_some()))
+    with(cx, environment_handle.0, |held| {
+        Ok(held.env.group_named(&ik_group_name).is_some())
+    })
 }
 
 /// The group with that name.
@@ -67,7 +85,10 @@ fn does_group_exist(cx: &Cx, environment_handle: Number, ik_group_name: String) 
 #[api("simIK.getGroupHandle")]
 fn get_group_handle(cx: &Cx, environment_handle: Number, ik_group_name: String) -> Result<i64> {
     with(cx, environment_handle.0, |held| {
-        held.env.group_named(&ik_group_name).map(GroupId::raw).ok_or(KinematicsError::NoSuchGroup)
+        held.env
+            .group_named(&ik_group_name)
+            .map(GroupId::raw)
+            .ok_or(KinematicsError::NoSuchGroup)
     })
 }
 
@@ -79,8 +100,14 @@ fn get_group_handle(cx: &Cx, environment_handle: Number, ik_group_name: String) 
 /// @return damping of simIK.method_damped_least_squares
 /// @return maxIterations at most that many
 #[api("simIK.getGroupCalculation")]
-fn get_group_calculation(cx: &Cx, environment_handle: Number, ik_group_handle: Number) -> Result<(i64, f64, i64)> {
-    read(cx, environment_handle, ik_group_handle, |group| (group.method as i64, group.damping, group.iterations.into()))
+fn get_group_calculation(
+    cx: &Cx,
+    environment_handle: Number,
+    ik_group_handle: Number,
+) -> Result<(i64, f64, i64)> {
+    read(cx, environment_handle, ik_group_handle, |group| {
+        (group.method as i64, group.damping, group.iterations.into())
+    })
 }
 
 /// Sets how a group is calculated.
@@ -117,7 +144,9 @@ fn set_group_calculation(
 /// @return flags simIK.group_*
 #[api("simIK.getGroupFlags")]
 fn get_group_flags(cx: &Cx, environment_handle: Number, ik_group_handle: Number) -> Result<i64> {
-    read(cx, environment_handle, ik_group_handle, |group| group.flags.0.into())
+    read(cx, environment_handle, ik_group_handle, |group| {
+        group.flags.0.into()
+    })
 }
 
 /// Sets the flags of a group.
@@ -126,8 +155,15 @@ fn get_group_flags(cx: &Cx, environment_handle: Number, ik_group_handle: Number)
 /// @param ikGroupHandle the group
 /// @param flags simIK.group_*
 #[api("simIK.setGroupFlags")]
-fn set_group_flags(cx: &mut Cx, environment_handle: Number, ik_group_handle: Number, flags: Number) -> Result<()> {
-    change(cx, environment_handle, ik_group_handle, |group| group.flags = GroupFlags(flags.0 as u32))
+fn set_group_flags(
+    cx: &mut Cx,
+    environment_handle: Number,
+    ik_group_handle: Number,
+    flags: Number,
+) -> Result<()> {
+    change(cx, environment_handle, ik_group_handle, |group| {
+        group.flags = GroupFlags(flags.0 as u32)
+    })
 }
 
 /// The joints that a group moves, from the bases to the tips.
@@ -136,7 +172,11 @@ fn set_group_flags(cx: &mut Cx, environment_handle: Number, ik_group_handle: Num
 /// @param ikGroupHandle the group
 /// @return jointHandles the joints
 #[api("simIK.getGroupJoints")]
-fn get_group_joints(cx: &Cx, environment_handle: Number, ik_group_handle: Number) -> Result<Vec<i64>> {
+fn get_group_joints(
+    cx: &Cx,
+    environment_handle: Number,
+    ik_group_handle: Number,
+) -> Result<Vec<i64>> {
     with(cx, environment_handle.0, |held| {
         let joints = held.env.joints_of(group(ik_group_handle.0)?)?;
         Ok(joints.into_iter().map(ObjectId::raw).collect())
@@ -156,6 +196,10 @@ fn get_group_joint_limit_hits(
     ik_group_handle: Number,
 ) -> Result<(Vec<i64>, Vec<f64>)> {
     read(cx, environment_handle, ik_group_handle, |group| {
-        group.limit_hits().iter().map(|hit| (hit.joint.raw(), hit.overshoot)).unzip()
+        group
+            .limit_hits()
+            .iter()
+            .map(|hit| (hit.joint.raw(), hit.overshoot))
+            .unzip()
     })
 }

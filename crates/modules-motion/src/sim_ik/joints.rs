@@ -35,12 +35,26 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
     set_joint_quaternion,
 ];
 
-fn read<R>(cx: &Cx, environment: Number, joint: Number, read: impl FnOnce(&Joint) -> R) -> Result<R> {
-    with(cx, environment.0, |held| held.env.joint(object(joint.0)?).map(read))
+fn read<R>(
+    cx: &Cx,
+    environment: Number,
+    joint: Number,
+    read: impl FnOnce(&Joint) -> R,
+) -> Result<R> {
+    with(cx, environment.0, |held| {
+        held.env.joint(object(joint.0)?).map(read)
+    })
 }
 
-fn change(cx: &Cx, environment: Number, joint: Number, change: impl FnOnce(&mut Joint)) -> Result<()> {
-    with(cx, environment.0, |held| held.env.joint_mut(object(joint.0)?).map(change))
+fn change(
+    cx: &Cx,
+    environment: Number,
+    joint: Number,
+    change: impl FnOnce(&mut Joint),
+) -> Result<()> {
+    with(cx, environment.0, |held| {
+        held.env.joint_mut(object(joint.0)?).map(change)
+    })
 }
 
 /// Type of a joint.
@@ -50,7 +64,9 @@ fn change(cx: &Cx, environment: Number, joint: Number, change: impl FnOnce(&mut 
 /// @return jointType simIK.jointtype_*
 #[api("simIK.getJointType")]
 fn get_joint_type(cx: &Cx, environment_handle: Number, joint_handle: Number) -> Result<i64> {
-    read(cx, environment_handle, joint_handle, |joint| joint.joint_type as i64)
+    read(cx, environment_handle, joint_handle, |joint| {
+        joint.joint_type as i64
+    })
 }
 
 /// Position of a joint.
@@ -69,8 +85,16 @@ fn get_joint_position(cx: &Cx, environment_handle: Number, joint_handle: Number)
 /// @param jointHandle the joint, not spherical
 /// @param position rad, m
 #[api("simIK.setJointPosition")]
-fn set_joint_position(cx: &mut Cx, environment_handle: Number, joint_handle: Number, position: f64) -> Result<()> {
-    with(cx, environment_handle.0, |held| held.env.set_joint_position(object(joint_handle.0)?, position))
+fn set_joint_position(
+    cx: &mut Cx,
+    environment_handle: Number,
+    joint_handle: Number,
+    position: f64,
+) -> Result<()> {
+    with(cx, environment_handle.0, |held| {
+        held.env
+            .set_joint_position(object(joint_handle.0)?, position)
+    })
 }
 
 /// Whether calculations move a joint.
@@ -80,7 +104,9 @@ fn set_joint_position(cx: &mut Cx, environment_handle: Number, joint_handle: Num
 /// @return jointMode simIK.jointmode_passive or simIK.jointmode_ik
 #[api("simIK.getJointMode")]
 fn get_joint_mode(cx: &Cx, environment_handle: Number, joint_handle: Number) -> Result<i64> {
-    read(cx, environment_handle, joint_handle, |joint| joint.mode as i64)
+    read(cx, environment_handle, joint_handle, |joint| {
+        joint.mode as i64
+    })
 }
 
 /// Sets whether calculations move a joint.
@@ -89,13 +115,20 @@ fn get_joint_mode(cx: &Cx, environment_handle: Number, joint_handle: Number) -> 
 /// @param jointHandle the joint
 /// @param jointMode simIK.jointmode_passive or simIK.jointmode_ik
 #[api("simIK.setJointMode")]
-fn set_joint_mode(cx: &mut Cx, environment_handle: Number, joint_handle: Number, joint_mode: Number) -> Result<()> {
+fn set_joint_mode(
+    cx: &mut Cx,
+    environment_handle: Number,
+    joint_handle: Number,
+    joint_mode: Number,
+) -> Result<()> {
     let mode = match joint_mode.0 {
         0 => JointMode::Passive,
         2 => JointMode::Ik,
         _ => return Err(refused("invalid joint mode.")),
     };
-    change(cx, environment_handle, joint_handle, |joint| joint.mode = mode)
+    change(cx, environment_handle, joint_handle, |joint| {
+        joint.mode = mode
+    })
 }
 
 /// Limits of a joint.
@@ -105,8 +138,14 @@ fn set_joint_mode(cx: &mut Cx, environment_handle: Number, joint_handle: Number,
 /// @return cyclic whether it has none
 /// @return interval the lower one, and the width between both
 #[api("simIK.getJointInterval")]
-fn get_joint_interval(cx: &Cx, environment_handle: Number, joint_handle: Number) -> Result<(bool, [f64; 2])> {
-    read(cx, environment_handle, joint_handle, |joint| (joint.cyclic, [joint.min, joint.range]))
+fn get_joint_interval(
+    cx: &Cx,
+    environment_handle: Number,
+    joint_handle: Number,
+) -> Result<(bool, [f64; 2])> {
+    read(cx, environment_handle, joint_handle, |joint| {
+        (joint.cyclic, [joint.min, joint.range])
+    })
 }
 
 /// Sets the limits of a joint; its position stays within them.
@@ -123,7 +162,10 @@ fn set_joint_interval(
     cyclic: bool,
     #[default(Vec::new())] interval: Vec<f64>,
 ) -> Result<()> {
-    let interval = interval.first_chunk::<2>().map(|interval| finite(*interval)).transpose()?;
+    let interval = interval
+        .first_chunk::<2>()
+        .map(|interval| finite(*interval))
+        .transpose()?;
     with(cx, environment_handle.0, |held| {
         let id = object(joint_handle.0)?;
         let joint = held.env.joint_mut(id)?;
@@ -132,7 +174,11 @@ fn set_joint_interval(
             (joint.min, joint.range) = (min, range.max(0.0));
         }
         let position = joint.position;
-        if joint.joint_type == JointType::Spherical { Ok(()) } else { held.env.set_joint_position(id, position) }
+        if joint.joint_type == JointType::Spherical {
+            Ok(())
+        } else {
+            held.env.set_joint_position(id, position)
+        }
     })
 }
 
@@ -143,7 +189,9 @@ fn set_joint_interval(
 /// @return lead metres per turn
 #[api("simIK.getJointScrewLead")]
 fn get_joint_screw_lead(cx: &Cx, environment_handle: Number, joint_handle: Number) -> Result<f64> {
-    read(cx, environment_handle, joint_handle, |joint| joint.screw_lead)
+    read(cx, environment_handle, joint_handle, |joint| {
+        joint.screw_lead
+    })
 }
 
 fn set_lead(cx: &Cx, environment: Number, joint: Number, lead: f64) -> Result<()> {
@@ -161,7 +209,12 @@ fn set_lead(cx: &Cx, environment: Number, joint: Number, lead: f64) -> Result<()
 /// @param jointHandle the joint; one that is not revolute stays as it is
 /// @param lead metres per turn; 0 for none
 #[api("simIK.setJointScrewLead")]
-fn set_joint_screw_lead(cx: &mut Cx, environment_handle: Number, joint_handle: Number, lead: f64) -> Result<()> {
+fn set_joint_screw_lead(
+    cx: &mut Cx,
+    environment_handle: Number,
+    joint_handle: Number,
+    lead: f64,
+) -> Result<()> {
     set_lead(cx, environment_handle, joint_handle, lead)
 }
 
@@ -172,7 +225,9 @@ fn set_joint_screw_lead(cx: &mut Cx, environment_handle: Number, joint_handle: N
 /// @return pitch metres per radian
 #[api("simIK.getJointScrewPitch")]
 fn get_joint_screw_pitch(cx: &Cx, environment_handle: Number, joint_handle: Number) -> Result<f64> {
-    read(cx, environment_handle, joint_handle, |joint| joint.screw_lead / TAU)
+    read(cx, environment_handle, joint_handle, |joint| {
+        joint.screw_lead / TAU
+    })
 }
 
 /// As simIK.setJointScrewLead, by the radian.
@@ -181,7 +236,12 @@ fn get_joint_screw_pitch(cx: &Cx, environment_handle: Number, joint_handle: Numb
 /// @param jointHandle the joint
 /// @param pitch metres per radian
 #[api("simIK.setJointScrewPitch")]
-fn set_joint_screw_pitch(cx: &mut Cx, environment_handle: Number, joint_handle: Number, pitch: f64) -> Result<()> {
+fn set_joint_screw_pitch(
+    cx: &mut Cx,
+    environment_handle: Number,
+    joint_handle: Number,
+    pitch: f64,
+) -> Result<()> {
     set_lead(cx, environment_handle, joint_handle, pitch * TAU)
 }
 
@@ -201,9 +261,16 @@ fn get_joint_weight(cx: &Cx, environment_handle: Number, joint_handle: Number) -
 /// @param jointHandle the joint
 /// @param weight 0: it stays where it is
 #[api("simIK.setJointWeight")]
-fn set_joint_weight(cx: &mut Cx, environment_handle: Number, joint_handle: Number, weight: f64) -> Result<()> {
+fn set_joint_weight(
+    cx: &mut Cx,
+    environment_handle: Number,
+    joint_handle: Number,
+    weight: f64,
+) -> Result<()> {
     let weight = finite(weight)?;
-    change(cx, environment_handle, joint_handle, |joint| joint.weight = weight)
+    change(cx, environment_handle, joint_handle, |joint| {
+        joint.weight = weight
+    })
 }
 
 /// Largest change of a joint in one iteration.
@@ -212,7 +279,11 @@ fn set_joint_weight(cx: &mut Cx, environment_handle: Number, joint_handle: Numbe
 /// @param jointHandle the joint
 /// @return stepSize rad, m
 #[api("simIK.getJointMaxStepSize")]
-fn get_joint_max_step_size(cx: &Cx, environment_handle: Number, joint_handle: Number) -> Result<f64> {
+fn get_joint_max_step_size(
+    cx: &Cx,
+    environment_handle: Number,
+    joint_handle: Number,
+) -> Result<f64> {
     read(cx, environment_handle, joint_handle, |joint| joint.max_step)
 }
 
@@ -229,7 +300,9 @@ fn set_joint_max_step_size(
     step_size: f64,
 ) -> Result<()> {
     let step_size = finite(step_size)?;
-    change(cx, environment_handle, joint_handle, |joint| joint.max_step = step_size)
+    change(cx, environment_handle, joint_handle, |joint| {
+        joint.max_step = step_size
+    })
 }
 
 /// Distance to a limit from which simIK.group_avoidlimits pushes a joint away.
@@ -238,8 +311,14 @@ fn set_joint_max_step_size(
 /// @param jointHandle the joint
 /// @return margin rad, m
 #[api("simIK.getJointLimitMargin")]
-fn get_joint_limit_margin(cx: &Cx, environment_handle: Number, joint_handle: Number) -> Result<f64> {
-    read(cx, environment_handle, joint_handle, |joint| joint.limit_margin)
+fn get_joint_limit_margin(
+    cx: &Cx,
+    environment_handle: Number,
+    joint_handle: Number,
+) -> Result<f64> {
+    read(cx, environment_handle, joint_handle, |joint| {
+        joint.limit_margin
+    })
 }
 
 /// Sets the distance to a limit from which simIK.group_avoidlimits pushes a joint away.
@@ -248,9 +327,16 @@ fn get_joint_limit_margin(cx: &Cx, environment_handle: Number, joint_handle: Num
 /// @param jointHandle the joint
 /// @param margin rad, m
 #[api("simIK.setJointLimitMargin")]
-fn set_joint_limit_margin(cx: &mut Cx, environment_handle: Number, joint_handle: Number, margin: f64) -> Result<()> {
+fn set_joint_limit_margin(
+    cx: &mut Cx,
+    environment_handle: Number,
+    joint_handle: Number,
+    margin: f64,
+) -> Result<()> {
     let margin = finite(margin)?;
-    change(cx, environment_handle, joint_handle, |joint| joint.limit_margin = margin)
+    change(cx, environment_handle, joint_handle, |joint| {
+        joint.limit_margin = margin
+    })
 }
 
 /// What a joint depends on.
@@ -261,13 +347,19 @@ fn set_joint_limit_margin(cx: &mut Cx, environment_handle: Number, joint_handle:
 /// @return offset rad, m
 /// @return mult factor of the master's position
 #[api("simIK.getJointDependency")]
-fn get_joint_dependency(cx: &Cx, environment_handle: Number, joint_handle: Number) -> Result<(i64, f64, f64)> {
-    read(cx, environment_handle, joint_handle, |joint| match &joint.dependency {
-        None => (-1, 0.0, 1.0),
-        Some(dependency) => match dependency.law {
-            Law::Linear { offset, factor } => (raw(Some(dependency.master)), offset, factor),
-            Law::Function(_) => (raw(Some(dependency.master)), 0.0, 1.0),
-        },
+fn get_joint_dependency(
+    cx: &Cx,
+    environment_handle: Number,
+    joint_handle: Number,
+) -> Result<(i64, f64, f64)> {
+    read(cx, environment_handle, joint_handle, |joint| {
+        match &joint.dependency {
+            None => (-1, 0.0, 1.0),
+            Some(dependency) => match dependency.law {
+                Law::Linear { offset, factor } => (raw(Some(dependency.master)), offset, factor),
+                Law::Function(_) => (raw(Some(dependency.master)), 0.0, 1.0),
+            },
+        }
     })
 }
 
@@ -290,12 +382,25 @@ fn set_joint_dependency(
     callback: Option<ScriptFunction>,
 ) -> Result<()> {
     let law = match callback {
-        Some(function) => by_function(ScriptCallback::new(cx, function), [environment_handle.0, joint_handle.0]),
-        None => Law::Linear { offset: finite(offset)?, factor: finite(mult)? },
+        Some(function) => by_function(
+            ScriptCallback::new(cx, function),
+            [environment_handle.0, joint_handle.0],
+        ),
+        None => Law::Linear {
+            offset: finite(offset)?,
+            factor: finite(mult)?,
+        },
     };
     with(cx, environment_handle.0, |held| {
-        let master = if master_joint_handle.0 < 0 { None } else { Some(object(master_joint_handle.0)?) };
-        held.env.set_dependency(object(joint_handle.0)?, master.map(|master: ObjectId| (master, law)))
+        let master = if master_joint_handle.0 < 0 {
+            None
+        } else {
+            Some(object(master_joint_handle.0)?)
+        };
+        held.env.set_dependency(
+            object(joint_handle.0)?,
+            master.map(|master: ObjectId| (master, law)),
+        )
     })
 }
 
@@ -303,12 +408,22 @@ fn set_joint_dependency(
 fn by_function(callback: ScriptCallback, [environment, joint]: [i64; 2]) -> Law {
     Law::Function(std::rc::Rc::new(move |master| {
         let results = callback.call(&[environment.into(), joint.into(), master.into()]);
-        results.ok().and_then(|results| results.first().and_then(Data::as_f64)).unwrap_or(f64::NAN)
+        results
+            .ok()
+            .and_then(|results| results.first().and_then(Data::as_f64))
+            .unwrap_or(f64::NAN)
     }))
 }
 
-fn set_rotation(cx: &Cx, environment: Number, joint: Number, to: nalgebra::UnitQuaternion<f64>) -> Result<()> {
-    with(cx, environment.0, |held| held.env.set_rotation(object(joint.0)?, to))
+fn set_rotation(
+    cx: &Cx,
+    environment: Number,
+    joint: Number,
+    to: nalgebra::UnitQuaternion<f64>,
+) -> Result<()> {
+    with(cx, environment.0, |held| {
+        held.env.set_rotation(object(joint.0)?, to)
+    })
 }
 
 /// Position of a spherical joint.
@@ -323,7 +438,12 @@ fn set_spherical_joint_matrix(
     joint_handle: Number,
     matrix: [f64; 12],
 ) -> Result<()> {
-    set_rotation(cx, environment_handle, joint_handle, pose_from_matrix(&finite(matrix)?).rotation)
+    set_rotation(
+        cx,
+        environment_handle,
+        joint_handle,
+        pose_from_matrix(&finite(matrix)?).rotation,
+    )
 }
 
 /// Position of a spherical joint.
@@ -338,7 +458,12 @@ fn set_spherical_joint_rotation(
     joint_handle: Number,
     euler_or_quaternion: Vec<f64>,
 ) -> Result<()> {
-    set_rotation(cx, environment_handle, joint_handle, rotation(&euler_or_quaternion)?)
+    set_rotation(
+        cx,
+        environment_handle,
+        joint_handle,
+        rotation(&euler_or_quaternion)?,
+    )
 }
 
 /// Position of a spherical joint.
@@ -353,5 +478,10 @@ fn set_joint_quaternion(
     joint_handle: Number,
     quaternion: [f64; 4],
 ) -> Result<()> {
-    set_rotation(cx, environment_handle, joint_handle, quaternion_from_array(&finite(quaternion)?))
+    set_rotation(
+        cx,
+        environment_handle,
+        joint_handle,
+        quaternion_from_array(&finite(quaternion)?),
+    )
 }

@@ -12,7 +12,9 @@ mod poses;
 mod scene;
 mod solving;
 
-use geometry::pose::{euler::rotation_from_euler, pose_from_array, pose_from_matrix, quaternion_from_array};
+use geometry::pose::{
+    euler::rotation_from_euler, pose_from_array, pose_from_matrix, quaternion_from_array,
+};
 use geometry::{Finite, Pose};
 use kinematics::{Frame, KinematicsError, ObjectId};
 use nalgebra::UnitQuaternion;
@@ -41,7 +43,11 @@ pub static MODULE: Module = Module {
 };
 
 /// Reads or changes an environment.
-fn with<R>(cx: &Cx, handle: i64, work: impl FnOnce(&mut Held) -> kinematics::Result<R>) -> Result<R> {
+fn with<R>(
+    cx: &Cx,
+    handle: i64,
+    work: impl FnOnce(&mut Held) -> kinematics::Result<R>,
+) -> Result<R> {
     let held = environment(cx, handle)?;
     let mut held = held.try_borrow_mut().map_err(|_| busy())?;
     Ok(work(&mut held)?)
@@ -61,7 +67,11 @@ fn object(raw: i64) -> kinematics::Result<ObjectId> {
 
 /// An object, or none where a script says -1.
 fn optional(raw: i64) -> kinematics::Result<Option<ObjectId>> {
-    if raw == special::WORLD { Ok(None) } else { object(raw).map(Some) }
+    if raw == special::WORLD {
+        Ok(None)
+    } else {
+        object(raw).map(Some)
+    }
 }
 
 fn raw(id: Option<ObjectId>) -> i64 {

@@ -26,8 +26,14 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 /// @param dummyName its name
 /// @return dummyHandle the dummy
 #[api("simIK.createDummy")]
-fn create_dummy(cx: &mut Cx, environment_handle: Number, #[default(String::new())] dummy_name: String) -> Result<i64> {
-    with(cx, environment_handle.0, |held| Ok(held.env.create_dummy(&dummy_name).raw()))
+fn create_dummy(
+    cx: &mut Cx,
+    environment_handle: Number,
+    #[default(String::new())] dummy_name: String,
+) -> Result<i64> {
+    with(cx, environment_handle.0, |held| {
+        Ok(held.env.create_dummy(&dummy_name).raw())
+    })
 }
 
 /// A new joint at the origin of the world; its axis is z. It belongs to the calculations until its mode is changed.
@@ -49,7 +55,9 @@ fn create_joint(
         12 => JointType::Spherical,
         _ => return Err(refused("invalid joint type.")),
     };
-    with(cx, environment_handle.0, |held| Ok(held.env.create_joint(&joint_name, joint_type).raw()))
+    with(cx, environment_handle.0, |held| {
+        Ok(held.env.create_joint(&joint_name, joint_type).raw())
+    })
 }
 
 /// Removes an object. Its children stay where they are; elements that need it are removed.
@@ -58,7 +66,9 @@ fn create_joint(
 /// @param objectHandle the object
 #[api("simIK.eraseObject")]
 fn erase_object(cx: &mut Cx, environment_handle: Number, object_handle: Number) -> Result<()> {
-    with(cx, environment_handle.0, |held| held.env.erase(object(object_handle.0)?))
+    with(cx, environment_handle.0, |held| {
+        held.env.erase(object(object_handle.0)?)
+    })
 }
 
 /// Whether there is an object with that name.
@@ -68,7 +78,9 @@ fn erase_object(cx: &mut Cx, environment_handle: Number, object_handle: Number) 
 /// @return result
 #[api("simIK.doesObjectExist")]
 fn does_object_exist(cx: &Cx, environment_handle: Number, object_name: String) -> Result<bool> {
-    with(cx, environment_handle.0, |held| Ok(held.env.named(&object_name).is_some()))
+    with(cx, environment_handle.0, |held| {
+        Ok(held.env.named(&object_name).is_some())
+    })
 }
 
 /// The object with that name.
@@ -79,7 +91,10 @@ fn does_object_exist(cx: &Cx, environment_handle: Number, object_name: String) -
 #[api("simIK.getObjectHandle")]
 fn get_object_handle(cx: &Cx, environment_handle: Number, object_name: String) -> Result<i64> {
     with(cx, environment_handle.0, |held| {
-        held.env.named(&object_name).map(kinematics::ObjectId::raw).ok_or(KinematicsError::NoSuchObject)
+        held.env
+            .named(&object_name)
+            .map(kinematics::ObjectId::raw)
+            .ok_or(KinematicsError::NoSuchObject)
     })
 }
 
@@ -104,11 +119,20 @@ fn get_object_type(cx: &Cx, environment_handle: Number, object_handle: Number) -
 #[api("simIK.getObjects")]
 fn get_objects(cx: &Cx, environment_handle: Number, index: Number) -> Result<Results> {
     with(cx, environment_handle.0, |held| {
-        let found = usize::try_from(index.0).ok().and_then(|index| held.env.objects().nth(index));
-        let Some((id, found)) = found else { return Ok(Results(vec![(-1).into()])) };
+        let found = usize::try_from(index.0)
+            .ok()
+            .and_then(|index| held.env.objects().nth(index));
+        let Some((id, found)) = found else {
+            return Ok(Results(vec![(-1).into()]));
+        };
         let joint_type = found.joint().map(|joint| joint.joint_type as i64);
         let name = scene::Data::text(&found.name);
-        Ok(Results(vec![id.raw().into(), name, joint_type.is_some().into(), joint_type.unwrap_or(0).into()]))
+        Ok(Results(vec![
+            id.raw().into(),
+            name,
+            joint_type.is_some().into(),
+            joint_type.unwrap_or(0).into(),
+        ]))
     })
 }
 
@@ -119,7 +143,9 @@ fn get_objects(cx: &Cx, environment_handle: Number, index: Number) -> Result<Res
 /// @return parentObjectHandle -1 for the world
 #[api("simIK.getObjectParent")]
 fn get_object_parent(cx: &Cx, environment_handle: Number, object_handle: Number) -> Result<i64> {
-    with(cx, environment_handle.0, |held| Ok(raw(held.env.object(object(object_handle.0)?)?.parent())))
+    with(cx, environment_handle.0, |held| {
+        Ok(raw(held.env.object(object(object_handle.0)?)?.parent()))
+    })
 }
 
 /// Attaches an object to another one.
@@ -137,7 +163,11 @@ fn set_object_parent(
     #[default(true)] keep_in_place: bool,
 ) -> Result<()> {
     with(cx, environment_handle.0, |held| {
-        held.env.set_parent(object(object_handle.0)?, optional(parent_object_handle.0)?, keep_in_place)
+        held.env.set_parent(
+            object(object_handle.0)?,
+            optional(parent_object_handle.0)?,
+            keep_in_place,
+        )
     })
 }
 
@@ -148,7 +178,9 @@ fn set_object_parent(
 /// @return targetDummyHandle -1 if there is none
 #[api("simIK.getTargetDummy")]
 fn get_target_dummy(cx: &Cx, environment_handle: Number, dummy_handle: Number) -> Result<i64> {
-    with(cx, environment_handle.0, |held| held.env.partner(object(dummy_handle.0)?).map(raw))
+    with(cx, environment_handle.0, |held| {
+        held.env.partner(object(dummy_handle.0)?).map(raw)
+    })
 }
 
 /// Makes two dummies tip and target of each other. Both lose other partners.
@@ -164,6 +196,7 @@ fn set_target_dummy(
     target_dummy_handle: Number,
 ) -> Result<()> {
     with(cx, environment_handle.0, |held| {
-        held.env.set_partner(object(dummy_handle.0)?, optional(target_dummy_handle.0)?)
+        held.env
+            .set_partner(object(dummy_handle.0)?, optional(target_dummy_handle.0)?)
     })
 }

@@ -2,7 +2,9 @@
 
 use api_macro::api;
 use geometry::pose::euler::rotation_to_euler;
-use geometry::pose::{pose_from_array, pose_from_matrix, pose_to_array, pose_to_matrix, quaternion_to_array};
+use geometry::pose::{
+    pose_from_array, pose_from_matrix, pose_to_array, pose_to_matrix, quaternion_to_array,
+};
 use kinematics::Pose;
 
 use super::{ApiFn, Cx, Result, finite, frame, functions, object, rotation, with};
@@ -22,22 +24,39 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 ];
 
 fn pose_of(cx: &Cx, environment: Number, handle: Number, relative_to: Number) -> Result<Pose> {
-    with(cx, environment.0, |held| held.env.pose(object(handle.0)?, frame(relative_to.0)?))
+    with(cx, environment.0, |held| {
+        held.env.pose(object(handle.0)?, frame(relative_to.0)?)
+    })
 }
 
-fn place(cx: &Cx, environment: Number, handle: Number, pose: Pose, relative_to: Number) -> Result<()> {
-    with(cx, environment.0, |held| held.env.set_pose(object(handle.0)?, pose, frame(relative_to.0)?))
+fn place(
+    cx: &Cx,
+    environment: Number,
+    handle: Number,
+    pose: Pose,
+    relative_to: Number,
+) -> Result<()> {
+    with(cx, environment.0, |held| {
+        held.env
+            .set_pose(object(handle.0)?, pose, frame(relative_to.0)?)
+    })
 }
 
 /// From the resting to the moving side of a joint.
 fn motion(cx: &Cx, environment: Number, joint: Number) -> Result<Pose> {
-    with(cx, environment.0, |held| Ok(held.env.joint(object(joint.0)?)?.motion()))
+    with(cx, environment.0, |held| {
+        Ok(held.env.joint(object(joint.0)?)?.motion())
+    })
 }
 
 type Transformation = ([f64; 3], [f64; 4], [f64; 3]);
 
 fn transformation(pose: &Pose) -> Transformation {
-    (pose.translation.vector.into(), quaternion_to_array(&pose.rotation), rotation_to_euler(&pose.rotation))
+    (
+        pose.translation.vector.into(),
+        quaternion_to_array(&pose.rotation),
+        rotation_to_euler(&pose.rotation),
+    )
 }
 
 /// Pose of an object.
@@ -53,7 +72,13 @@ fn get_object_pose(
     object_handle: Number,
     #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
 ) -> Result<[f64; 7]> {
-    pose_of(cx, environment_handle, object_handle, relative_to_object_handle).map(|pose| pose_to_array(&pose))
+    pose_of(
+        cx,
+        environment_handle,
+        object_handle,
+        relative_to_object_handle,
+    )
+    .map(|pose| pose_to_array(&pose))
 }
 
 /// Moves an object; its children move along.
@@ -71,7 +96,13 @@ fn set_object_pose(
     #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
 ) -> Result<()> {
     let pose = pose_from_array(&finite(pose)?);
-    place(cx, environment_handle, object_handle, pose, relative_to_object_handle)
+    place(
+        cx,
+        environment_handle,
+        object_handle,
+        pose,
+        relative_to_object_handle,
+    )
 }
 
 /// Pose of an object as a matrix.
@@ -87,7 +118,13 @@ fn get_object_matrix(
     object_handle: Number,
     #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
 ) -> Result<[f64; 12]> {
-    pose_of(cx, environment_handle, object_handle, relative_to_object_handle).map(|pose| pose_to_matrix(&pose))
+    pose_of(
+        cx,
+        environment_handle,
+        object_handle,
+        relative_to_object_handle,
+    )
+    .map(|pose| pose_to_matrix(&pose))
 }
 
 /// Moves an object to where a matrix says.
@@ -105,7 +142,13 @@ fn set_object_matrix(
     #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
 ) -> Result<()> {
     let pose = pose_from_matrix(&finite(matrix)?);
-    place(cx, environment_handle, object_handle, pose, relative_to_object_handle)
+    place(
+        cx,
+        environment_handle,
+        object_handle,
+        pose,
+        relative_to_object_handle,
+    )
 }
 
 /// Position and orientation of an object.
@@ -123,7 +166,13 @@ fn get_object_transformation(
     object_handle: Number,
     #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
 ) -> Result<([f64; 3], [f64; 4], [f64; 3])> {
-    pose_of(cx, environment_handle, object_handle, relative_to_object_handle).map(|pose| transformation(&pose))
+    pose_of(
+        cx,
+        environment_handle,
+        object_handle,
+        relative_to_object_handle,
+    )
+    .map(|pose| transformation(&pose))
 }
 
 /// Moves an object to a position and an orientation.
@@ -143,7 +192,13 @@ fn set_object_transformation(
     #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
 ) -> Result<()> {
     let pose = Pose::from_parts(finite(position)?.into(), rotation(&euler_or_quaternion)?);
-    place(cx, environment_handle, object_handle, pose, relative_to_object_handle)
+    place(
+        cx,
+        environment_handle,
+        object_handle,
+        pose,
+        relative_to_object_handle,
+    )
 }
 
 /// From the resting to the moving side of a joint.
@@ -162,7 +217,11 @@ fn get_joint_pose(cx: &Cx, environment_handle: Number, joint_handle: Number) -> 
 /// @param jointHandle the joint
 /// @return matrix 3 rows of 4
 #[api("simIK.getJointMatrix")]
-fn get_joint_matrix(cx: &Cx, environment_handle: Number, joint_handle: Number) -> Result<[f64; 12]> {
+fn get_joint_matrix(
+    cx: &Cx,
+    environment_handle: Number,
+    joint_handle: Number,
+) -> Result<[f64; 12]> {
     motion(cx, environment_handle, joint_handle).map(|pose| pose_to_matrix(&pose))
 }
 

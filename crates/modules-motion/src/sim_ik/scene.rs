@@ -10,7 +10,8 @@ use ik::{SceneElement, SceneLinks};
 use scene::{Data, Handle, Key, SceneError, special};
 use script::{Number, Table};
 
-pub(super) const FUNCTIONS: &[ApiFn] = functions![add_element_from_scene, sync_from_sim, sync_to_sim];
+pub(super) const FUNCTIONS: &[ApiFn] =
+    functions![add_element_from_scene, sync_from_sim, sync_to_sim];
 
 fn handle(raw: i64) -> Result<Handle> {
     Ok(Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?)
@@ -40,21 +41,35 @@ fn add_element_from_scene(
     let held = environment(cx, environment_handle.0)?;
     let mut held = held.try_borrow_mut().map_err(|_| busy())?;
     let element = SceneElement {
-        base: if base_handle.0 == special::WORLD { None } else { Some(handle(base_handle.0)?) },
+        base: if base_handle.0 == special::WORLD {
+            None
+        } else {
+            Some(handle(base_handle.0)?)
+        },
         tip: handle(tip_handle.0)?,
         target: handle(target_handle.0)?,
         constraints: Constraints(constraints.0 as u32 & Constraints::POSE.0),
     };
     let held = &mut *held;
-    let added = held.links.add_element(&cx.scene(), &mut held.env, group(ik_group.0)?, &element)?;
+    let added = held
+        .links
+        .add_element(&cx.scene(), &mut held.env, group(ik_group.0)?, &element)?;
     let (to_ik, to_sim) = maps(&held.links);
     Ok((added.raw(), to_ik, to_sim))
 }
 
 fn maps(links: &SceneLinks) -> (Table, Table) {
-    let pairs = || links.copies().map(|(handle, copy)| (handle.raw(), copy.raw()));
-    let to_ik = pairs().map(|(handle, copy)| (Key::Int(handle), copy.into())).collect();
-    let to_sim = pairs().map(|(handle, copy)| (Key::Int(copy), handle.into())).collect();
+    let pairs = || {
+        links
+            .copies()
+            .map(|(handle, copy)| (handle.raw(), copy.raw()))
+    };
+    let to_ik = pairs()
+        .map(|(handle, copy)| (Key::Int(handle), copy.into()))
+        .collect();
+    let to_sim = pairs()
+        .map(|(handle, copy)| (Key::Int(copy), handle.into()))
+        .collect();
     (Table(Data::Map(to_ik)), Table(Data::Map(to_sim)))
 }
 
@@ -71,7 +86,9 @@ fn sync_from_sim(cx: &mut Cx, environment_handle: Number, ik_groups: Vec<i64>) -
     let held = environment(cx, environment_handle.0)?;
     let mut held = held.try_borrow_mut().map_err(|_| busy())?;
     let held = &mut *held;
-    Ok(held.links.sync_from(&cx.scene(), &mut held.env, &groups(&ik_groups)?)?)
+    Ok(held
+        .links
+        .sync_from(&cx.scene(), &mut held.env, &groups(&ik_groups)?)?)
 }
 
 /// Moves the joints of the scene to where they are in the environment; those that the physics moves get a target position.
@@ -86,9 +103,17 @@ fn sync_to_sim(cx: &mut Cx, environment_handle: Number, ik_groups: Vec<i64>) -> 
     let joints = held.links.joints_of(&cx.scene(), &groups);
     let dynamic: Vec<Handle> = {
         let dynamics = cx.dynamics();
-        let simulated = |joint: &Handle| dynamics.as_ref().is_some_and(|dynamics| dynamics.simulates(*joint));
+        let simulated = |joint: &Handle| {
+            dynamics
+                .as_ref()
+                .is_some_and(|dynamics| dynamics.simulates(*joint))
+        };
         joints.into_iter().filter(simulated).collect()
     };
     let mut scene = cx.scene_mut();
-    Ok(held.links.sync_to(&mut scene, &held.env, &groups, |joint| dynamic.contains(&joint))?)
+    Ok(held
+        .links
+        .sync_to(&mut scene, &held.env, &groups, |joint| {
+            dynamic.contains(&joint)
+        })?)
 }

@@ -2,7 +2,8 @@
 
 use api_macro::api;
 use kinematics::{
-    Column, Constraints, Environment, Equations, Flags, KinematicsError, ObjectId, Outcome, Revision, Row, Start,
+    Column, Constraints, Environment, Equations, Flags, KinematicsError, ObjectId, Outcome,
+    Revision, Row, Start,
 };
 use nalgebra::DMatrix;
 
@@ -49,14 +50,20 @@ fn handle_groups(
 ) -> Result<(i64, i64, [f64; 2])> {
     let callback = callback.map(|function| ScriptCallback::new(cx, function));
     let outcome = with(cx, environment_handle.0, |held| {
-        let groups = ik_groups.iter().map(|raw| group(*raw)).collect::<kinematics::Result<Vec<_>>>()?;
+        let groups = ik_groups
+            .iter()
+            .map(|raw| group(*raw))
+            .collect::<kinematics::Result<Vec<_>>>()?;
         match callback {
             None => held.env.handle(&groups),
-            Some(callback) => held.env.handle_with(&groups, &mut |equations, index, iteration| {
-                let results = callback.call(&[description(equations, index, iteration)]);
-                let results = results.map_err(|error| KinematicsError::Callback(error.to_string()))?;
-                revision(results.first())
-            }),
+            Some(callback) => held
+                .env
+                .handle_with(&groups, &mut |equations, index, iteration| {
+                    let results = callback.call(&[description(equations, index, iteration)]);
+                    let results =
+                        results.map_err(|error| KinematicsError::Callback(error.to_string()))?;
+                    revision(results.first())
+                }),
         }
     })?;
     Ok((result(&outcome), outcome.flags.0.into(), outcome.precision))
@@ -65,16 +72,32 @@ fn handle_groups(
 /// Equations as a callback gets them.
 fn description(equations: &Equations, group: usize, iteration: u32) -> Data {
     let row = |row: &Row| match row {
-        Row::Constraint { element, constraint } => {
-            Data::map([("constraint", i64::from(constraint.0).into()), ("ikElement", element.raw().into())])
+        Row::Constraint {
+            element,
+            constraint,
+        } => Data::map([
+            ("constraint", i64::from(constraint.0).into()),
+            ("ikElement", element.raw().into()),
+        ]),
+        Row::Limit { joint } => {
+            Data::map([("constraint", 0.into()), ("joint", joint.raw().into())])
         }
-        Row::Limit { joint } => Data::map([("constraint", 0.into()), ("joint", joint.raw().into())]),
     };
-    let column =
-        |column: &Column| Data::map([("joint", column.joint.raw().into()), ("stage", (column.stage as i64).into())]);
+    let column = |column: &Column| {
+        Data::map([
+            ("joint", column.joint.raw().into()),
+            ("stage", (column.stage as i64).into()),
+        ])
+    };
     Data::map([
-        ("rows", Data::Array(equations.rows.iter().map(row).collect())),
-        ("cols", Data::Array(equations.columns.iter().map(column).collect())),
+        (
+            "rows",
+            Data::Array(equations.rows.iter().map(row).collect()),
+        ),
+        (
+            "cols",
+            Data::Array(equations.columns.iter().map(column).collect()),
+        ),
         ("jacobian", equations.jacobian.clone().into()),
         ("e", equations.errors.clone().into()),
         ("groupIndex", (group as i64 + 1).into()),
@@ -121,13 +144,22 @@ fn find_config(
     #[default(20_000)] iterations: Number,
     #[default(false)] from_present: bool,
 ) -> Result<(i64, Option<Vec<f64>>)> {
-    let start = if from_present { Start::Present } else { Start::Random };
+    let start = if from_present {
+        Start::Present
+    } else {
+        Start::Random
+    };
     with(cx, environment_handle.0, |held| {
-        let joints = joints.iter().map(|raw| object(*raw)).collect::<kinematics::Result<Vec<_>>>()?;
+        let joints = joints
+            .iter()
+            .map(|raw| object(*raw))
+            .collect::<kinematics::Result<Vec<_>>>()?;
         config(&held.env, &joints)?;
         let mut left = iterations.0.clamp(0, i64::from(u32::MAX)) as u32;
         let before = held.env.postures();
-        let found = held.env.find_posture(group(ik_group.0)?, start, &mut left)?;
+        let found = held
+            .env
+            .find_posture(group(ik_group.0)?, start, &mut left)?;
         let found = found.then(|| config(&held.env, &joints)).transpose();
         held.env.set_postures(&before);
         Ok((left.into(), found?))
@@ -135,7 +167,10 @@ fn find_config(
 }
 
 fn config(env: &Environment, joints: &[ObjectId]) -> kinematics::Result<Vec<f64>> {
-    joints.iter().map(|joint| env.joint(*joint).map(|joint| joint.position)).collect()
+    joints
+        .iter()
+        .map(|joint| env.joint(*joint).map(|joint| joint.position))
+        .collect()
 }
 
 /// How far the tips of a group are from their targets: the sum over its elements.
@@ -151,7 +186,9 @@ fn get_group_tip_target_distance(
     ik_group: Number,
     #[default([1.0, 1.0, 1.0, 0.1])] metric: [f64; 4],
 ) -> Result<f64> {
-    with(cx, environment_handle.0, |held| held.env.distance(group(ik_group.0)?, metric))
+    with(cx, environment_handle.0, |held| {
+        held.env.distance(group(ik_group.0)?, metric)
+    })
 }
 
 fn performed(equations: Option<Equations>) -> Result<Equations> {
@@ -182,11 +219,17 @@ fn compute_jacobian(
     #[default(None)] constr_base_matrix: Option<Vec<f64>>,
 ) -> Result<(Vec<f64>, Vec<f64>)> {
     let poses = [Some(tip_matrix), target_matrix, constr_base_matrix];
-    let [tip, target, axes] = poses.map(|numbers| numbers.map(|numbers| transform(&numbers)).transpose());
+    let [tip, target, axes] =
+        poses.map(|numbers| numbers.map(|numbers| transform(&numbers)).transpose());
     let poses = [tip?, target?, axes?];
     let constraints = Constraints(constraints.0 as u32 & Constraints::POSE.0);
     let equations = with(cx, environment_handle.0, |held| {
-        held.env.jacobian_of_chain(optional(base_object.0)?, object(last_joint.0)?, constraints, poses)
+        held.env.jacobian_of_chain(
+            optional(base_object.0)?,
+            object(last_joint.0)?,
+            constraints,
+            poses,
+        )
     })?;
     performed(equations).map(|equations| (equations.jacobian, equations.errors))
 }
@@ -203,7 +246,9 @@ fn compute_group_jacobian(
     environment_handle: Number,
     ik_group_handle: Number,
 ) -> Result<(Vec<f64>, Vec<f64>)> {
-    let equations = with(cx, environment_handle.0, |held| held.env.equations(group(ik_group_handle.0)?))?;
+    let equations = with(cx, environment_handle.0, |held| {
+        held.env.equations(group(ik_group_handle.0)?)
+    })?;
     performed(equations).map(|equations| (equations.jacobian, equations.errors))
 }
 
@@ -214,8 +259,14 @@ fn compute_group_jacobian(
 /// @return jacobian row by row
 /// @return matrixSize numbers of columns and rows
 #[api("simIK.getJacobian")]
-fn get_jacobian(cx: &Cx, environment_handle: Number, ik_group_handle: Number) -> Result<(Vec<f64>, Vec<i64>)> {
-    let equations = with(cx, environment_handle.0, |held| held.env.equations(group(ik_group_handle.0)?))?;
+fn get_jacobian(
+    cx: &Cx,
+    environment_handle: Number,
+    ik_group_handle: Number,
+) -> Result<(Vec<f64>, Vec<i64>)> {
+    let equations = with(cx, environment_handle.0, |held| {
+        held.env.equations(group(ik_group_handle.0)?)
+    })?;
     let equations = performed(equations)?;
     let size = vec![equations.columns.len() as i64, equations.rows.len() as i64];
     Ok((equations.jacobian, size))
@@ -229,8 +280,17 @@ fn get_jacobian(cx: &Cx, environment_handle: Number, ik_group_handle: Number) ->
 /// @return manipulability 0 in a singular posture
 #[api("simIK.getManipulability")]
 fn get_manipulability(cx: &Cx, environment_handle: Number, ik_group_handle: Number) -> Result<f64> {
-    let equations = with(cx, environment_handle.0, |held| held.env.equations(group(ik_group_handle.0)?))?;
+    let equations = with(cx, environment_handle.0, |held| {
+        held.env.equations(group(ik_group_handle.0)?)
+    })?;
     let equations = performed(equations)?;
-    let jacobian = DMatrix::from_row_slice(equations.rows.len(), equations.columns.len(), &equations.jacobian);
-    Ok((&jacobian * jacobian.transpose()).determinant().max(0.0).sqrt())
+    let jacobian = DMatrix::from_row_slice(
+        equations.rows.len(),
+        equations.columns.len(),
+        &equations.jacobian,
+    );
+    Ok((&jacobian * jacobian.transpose())
+        .determinant()
+        .max(0.0)
+        .sqrt())
 }

@@ -44,7 +44,11 @@ impl Callback {
             ScriptFunction::Name(name) => name.as_str().into(),
             ScriptFunction::Value(_) => "function".into(),
         };
-        Some(Self { purpose, name, function: Rc::new(ScriptCallback::new(cx, given)) })
+        Some(Self {
+            purpose,
+            name,
+            function: Rc::new(ScriptCallback::new(cx, given)),
+        })
     }
 
     pub(super) fn name(&self) -> &str {
@@ -55,18 +59,29 @@ impl Callback {
     ///
     /// # Errors
     /// When it fails, or has other results. The log says why it fails.
-    fn call<R>(&self, env: &Env, args: &[Data], read: impl FnOnce(&[Data]) -> Option<R>) -> Result<R> {
+    fn call<R>(
+        &self,
+        env: &Env,
+        args: &[Data],
+        read: impl FnOnce(&[Data]) -> Option<R>,
+    ) -> Result<R> {
         let results = self.function.call(args).inspect_err(|reason| {
             let reason = reason.to_string();
             let reason = reason.lines().next().unwrap_or_default();
-            env.log(verbosity::SCRIPT_WARNINGS, &format!("{} callback {}: {reason}", self.purpose, self.name));
+            env.log(
+                verbosity::SCRIPT_WARNINGS,
+                &format!("{} callback {}: {reason}", self.purpose, self.name),
+            );
         });
         let read = results.ok().and_then(|results| read(&results));
         read.ok_or_else(|| self.failure())
     }
 
     fn failure(&self) -> ApiError {
-        refused(format!("{} callback {} returned an error", self.purpose, self.name))
+        refused(format!(
+            "{} callback {} returned an error",
+            self.purpose, self.name
+        ))
     }
 
     pub(super) fn is_valid(&self, env: &Env, state: &[f64]) -> Result<bool> {
@@ -78,9 +93,10 @@ impl Callback {
 
     pub(super) fn nearness(&self, env: &Env, state: &[f64]) -> Result<Nearness> {
         self.call(env, &[state.to_vec().into()], |results| match results {
-            [Data::Bool(is_reached), distance, ..] => {
-                Some(Nearness { is_reached: *is_reached, distance: distance.as_f64()? })
-            }
+            [Data::Bool(is_reached), distance, ..] => Some(Nearness {
+                is_reached: *is_reached,
+                distance: distance.as_f64()?,
+            }),
             _ => None,
         })
     }
@@ -99,7 +115,11 @@ impl Callback {
 /// @param taskHandle the task
 /// @param callback valid = f(state); an empty name for collision checks
 #[api("simOMPL.setStateValidationCallback")]
-fn set_state_validation_callback(cx: &mut Cx, task_handle: String, callback: ScriptFunction) -> Result<()> {
+fn set_state_validation_callback(
+    cx: &mut Cx,
+    task_handle: String,
+    callback: ScriptFunction,
+) -> Result<()> {
     let task = task(cx, &task_handle)?;
     task.borrow_mut().callbacks.validation = Callback::new(cx, "State validation", callback);
     Ok(())
@@ -134,7 +154,9 @@ fn set_projection_evaluation_callback(
         task.borrow_mut().callbacks.projection = None;
         return Ok(());
     };
-    let size = usize::try_from(projection_size.0).ok().filter(|size| *size > 0);
+    let size = usize::try_from(projection_size.0)
+        .ok()
+        .filter(|size| *size > 0);
     let size = size.ok_or_else(|| refused("Projection size must be positive."))?;
     task.borrow_mut().callbacks.projection = Some((callback, size));
     Ok(())

@@ -9,7 +9,8 @@ use super::{ApiFn, Cx, Result, functions};
 use scene::{Frame, Handle, Pose, Scene, SceneError, special};
 use script::Number;
 
-pub(super) const FUNCTIONS: &[ApiFn] = functions![set_start_state, set_goal_state, add_goal_state, set_goal];
+pub(super) const FUNCTIONS: &[ApiFn] =
+    functions![set_start_state, set_goal_state, add_goal_state, set_goal];
 
 /// Where a path may end.
 #[derive(Clone)]
@@ -33,7 +34,11 @@ pub(super) struct DummyPair {
 
 impl DummyPair {
     fn frame(&self) -> Result<Frame> {
-        if self.reference == special::WORLD { Ok(Frame::World) } else { object(self.reference).map(Frame::Object) }
+        if self.reference == special::WORLD {
+            Ok(Frame::World)
+        } else {
+            object(self.reference).map(Frame::Object)
+        }
     }
 
     /// How near the robot is in a scene.
@@ -47,9 +52,16 @@ impl DummyPair {
         let apart = goal.translation.vector - robot.translation.vector;
         let angle = robot.rotation.angle_to(&goal.rotation);
         let parts = [apart.x, apart.y, apart.z, angle];
-        let distance =
-            parts.iter().zip(self.metric).map(|(part, factor)| (part * factor) * (part * factor)).sum::<f64>().sqrt();
-        Ok(Nearness { is_reached: distance <= self.tolerance, distance })
+        let distance = parts
+            .iter()
+            .zip(self.metric)
+            .map(|(part, factor)| (part * factor) * (part * factor))
+            .sum::<f64>()
+            .sqrt();
+        Ok(Nearness {
+            is_reached: distance <= self.tolerance,
+            distance,
+        })
     }
 
     /// The axes that count.
@@ -62,7 +74,10 @@ impl DummyPair {
     /// # Errors
     /// When the dummy is gone.
     pub(super) fn projection(&self, scene: &Scene) -> Result<Vec<f64>> {
-        let position = scene.pose_in(object(self.robot)?, self.frame()?, false)?.translation.vector;
+        let position = scene
+            .pose_in(object(self.robot)?, self.frame()?, false)?
+            .translation
+            .vector;
         Ok(self.axes().map(|axis| position[axis]).collect())
     }
 }
@@ -80,7 +95,11 @@ fn set_start_state(cx: &mut Cx, task_handle: String, state: Vec<f64>) -> Result<
     let task = task(cx, &task_handle)?;
     let mut task = task.borrow_mut();
     task.check_size("State", &state)?;
-    if let Some(setup) = task.setup.as_ref().filter(|setup| setup.algorithm.keeps_roadmap()) {
+    if let Some(setup) = task
+        .setup
+        .as_ref()
+        .filter(|setup| setup.algorithm.keeps_roadmap())
+    {
         setup.start_elsewhere(&state);
     }
     task.start = state;
@@ -133,7 +152,12 @@ fn set_goal(
     #[default(special::WORLD, "sim.handle_world")] ref_dummy: Number,
 ) -> Result<()> {
     let (robot, goal, reference) = (robot_dummy.0, goal_dummy.0, ref_dummy.0);
-    task(cx, &task_handle)?.borrow_mut().goal =
-        TaskGoal::Dummies(DummyPair { robot, goal, tolerance, metric, reference });
+    task(cx, &task_handle)?.borrow_mut().goal = TaskGoal::Dummies(DummyPair {
+        robot,
+        goal,
+        tolerance,
+        metric,
+        reference,
+    });
     Ok(())
 }

@@ -35,15 +35,29 @@ fn lines(task: &Task, spaces: &[StateSpace]) -> Vec<String> {
     lines.extend(describe_goal(&task.goal));
     let callbacks = &task.callbacks;
     let name = |callback: Option<&super::callbacks::Callback>| {
-        callback.map_or("(default)".to_owned(), |callback| callback.name().to_owned())
+        callback.map_or("(default)".to_owned(), |callback| {
+            callback.name().to_owned()
+        })
     };
-    lines.push(format!("state validation: {}", name(callbacks.validation.as_ref())));
-    lines.push(format!("projection evaluation: {}", name(callbacks.projection.as_ref().map(|(callback, _)| callback))));
-    let [anywhere, near] = [0, 1].map(|which| callbacks.samplers.as_ref().map(|samplers| &samplers[which]));
-    lines.push(format!("valid state sampling: {}; near a state: {}", name(anywhere), name(near)));
+    lines.push(format!(
+        "state validation: {}",
+        name(callbacks.validation.as_ref())
+    ));
+    lines.push(format!(
+        "projection evaluation: {}",
+        name(callbacks.projection.as_ref().map(|(callback, _)| callback))
+    ));
+    let [anywhere, near] =
+        [0, 1].map(|which| callbacks.samplers.as_ref().map(|samplers| &samplers[which]));
+    lines.push(format!(
+        "valid state sampling: {}; near a state: {}",
+        name(anywhere),
+        name(near)
+    ));
     lines.push(format!("resolution of checks: {}", task.resolution));
     let algorithm = algorithm_name(task.algorithm);
-    let algorithm = algorithm.map_or_else(|| format!("{} (invalid)", task.algorithm), str::to_owned);
+    let algorithm =
+        algorithm.map_or_else(|| format!("{} (invalid)", task.algorithm), str::to_owned);
     lines.push(format!("algorithm: {algorithm}"));
     lines
 }
@@ -51,15 +65,24 @@ fn lines(task: &Task, spaces: &[StateSpace]) -> Vec<String> {
 fn describe_space(space: &StateSpace) -> Vec<String> {
     let kind = space.kind.map_or("unknown", super::spaces::Kind::name);
     vec![
-        format!("    {}: simompl_statespacetype_{kind}, object {}", space.name, space.object),
-        format!("        bounds: {:?} to {:?}, weight {}", space.low, space.high, space.weight),
+        format!(
+            "    {}: simompl_statespacetype_{kind}, object {}",
+            space.name, space.object
+        ),
+        format!(
+            "        bounds: {:?} to {:?}, weight {}",
+            space.low, space.high, space.weight
+        ),
         format!("        used for projection: {}", space.is_projected),
     ]
 }
 
 fn describe_goal(goal: &TaskGoal) -> Vec<String> {
     match goal {
-        TaskGoal::States(states) => states.iter().map(|state| format!("goal state: {state:?}")).collect(),
+        TaskGoal::States(states) => states
+            .iter()
+            .map(|state| format!("goal state: {state:?}"))
+            .collect(),
         TaskGoal::Callback(callback) => vec![format!("goal callback: {}", callback.name())],
         TaskGoal::Dummies(pair) => vec![format!(
             "goal: dummy {} at dummy {}, tolerance {}, metric {:?}, reference {}",

@@ -40,8 +40,13 @@ const CONSTANTS: &str = include_str!("constants.tsv");
 
 /// The name of `simOMPL.Algorithm` for a number, if it has one.
 fn algorithm_name(number: i64) -> Option<&'static str> {
-    let named = CONSTANTS.lines().filter_map(|line| line.strip_prefix("Algorithm.")?.split_once('\t'));
-    named.into_iter().find(|(_, value)| value.parse() == Ok(number)).map(|(name, _)| name)
+    let named = CONSTANTS
+        .lines()
+        .filter_map(|line| line.strip_prefix("Algorithm.")?.split_once('\t'));
+    named
+        .into_iter()
+        .find(|(_, value)| value.parse() == Ok(number))
+        .map(|(name, _)| name)
 }
 
 fn refused(why: impl Into<String>) -> ApiError {

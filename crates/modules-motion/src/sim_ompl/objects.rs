@@ -39,7 +39,12 @@ pub(super) fn objects(cx: &Cx) -> Rc<Objects> {
 /// When there is none.
 pub(super) fn task(cx: &Cx, handle: &str) -> Result<Rc<RefCell<Task>>> {
     let number = number(handle, TASK)?;
-    objects(cx).tasks.borrow().get(&number).cloned().ok_or_else(invalid)
+    objects(cx)
+        .tasks
+        .borrow()
+        .get(&number)
+        .cloned()
+        .ok_or_else(invalid)
 }
 
 pub(super) fn invalid() -> ApiError {
@@ -48,7 +53,10 @@ pub(super) fn invalid() -> ApiError {
 
 fn number(handle: &str, kind: &str) -> Result<u64> {
     let (digits, named) = handle.split_once(':').ok_or_else(invalid)?;
-    u64::from_str_radix(digits, 16).ok().filter(|_| named == kind).ok_or_else(invalid)
+    u64::from_str_radix(digits, 16)
+        .ok()
+        .filter(|_| named == kind)
+        .ok_or_else(invalid)
 }
 
 /// # Errors
@@ -72,7 +80,9 @@ impl Objects {
 
     pub(super) fn add_task(&self, cx: &Cx, task: Task) -> String {
         let number = self.next(cx);
-        self.tasks.borrow_mut().insert(number, Rc::new(RefCell::new(task)));
+        self.tasks
+            .borrow_mut()
+            .insert(number, Rc::new(RefCell::new(task)));
         format!("{number:x}:{TASK}")
     }
 
@@ -87,7 +97,10 @@ impl Objects {
     /// When one of them is gone.
     pub(super) fn spaces(&self, numbers: &[u64]) -> Result<Vec<StateSpace>> {
         let spaces = self.spaces.borrow();
-        numbers.iter().map(|number| spaces.get(number).cloned().ok_or_else(invalid)).collect()
+        numbers
+            .iter()
+            .map(|number| spaces.get(number).cloned().ok_or_else(invalid))
+            .collect()
     }
 }
 

@@ -40,7 +40,11 @@ fn get_path(cx: &Cx, task_handle: String) -> Result<Vec<f64>> {
 /// @param taskHandle the task
 /// @param maxSimplificationTime seconds at most, counted as 20000 checks each; -1: until nothing helps
 #[api("simOMPL.simplifyPath")]
-fn simplify_path(cx: &mut Cx, task_handle: String, #[default(-1.0)] max_simplification_time: f64) -> Result<()> {
+fn simplify_path(
+    cx: &mut Cx,
+    task_handle: String,
+    #[default(-1.0)] max_simplification_time: f64,
+) -> Result<()> {
     let task = task(cx, &task_handle)?;
     simplify(cx, &task, max_simplification_time)
 }
@@ -49,13 +53,23 @@ pub(super) fn simplify(cx: &mut Cx, task: &Rc<RefCell<Task>>, max_time: f64) -> 
     let setup = ready(cx, &task.borrow())?;
     let mut found = setup.path()?.clone();
     task.borrow().report(cx, 2, "simplifying solution...");
-    let limit = if max_time < 0.0 { Limit::NONE } else { Limit::seconds(max_time) };
+    let limit = if max_time < 0.0 {
+        Limit::NONE
+    } else {
+        Limit::seconds(max_time)
+    };
     let session = Session::new(cx, task, &setup, limit);
     setup.with_progress(|progress| {
-        session.run(&mut progress.random, |problem| path::simplify(problem, &mut found.states))
+        session.run(&mut progress.random, |problem| {
+            path::simplify(problem, &mut found.states)
+        })
     })??;
     drop(session);
-    task.borrow().report(cx, 1, &format!("simplified solution: {}", measures(&setup, &found)));
+    task.borrow().report(
+        cx,
+        1,
+        &format!("simplified solution: {}", measures(&setup, &found)),
+    );
     setup.solution.replace(Some(found));
     Ok(())
 }
@@ -65,7 +79,11 @@ pub(super) fn simplify(cx: &mut Cx, task: &Rc<RefCell<Task>>, max_time: f64) -> 
 /// @param taskHandle the task
 /// @param stateCnt so many in all, distributed by length, if there are not more; 0: as dense as states are checked
 #[api("simOMPL.interpolatePath")]
-fn interpolate_path(cx: &mut Cx, task_handle: String, #[default(Number(0))] state_cnt: Number) -> Result<()> {
+fn interpolate_path(
+    cx: &mut Cx,
+    task_handle: String,
+    #[default(Number(0))] state_cnt: Number,
+) -> Result<()> {
     let task = task(cx, &task_handle)?;
     interpolate(cx, &task, state_cnt.0)
 }
@@ -78,7 +96,11 @@ pub(super) fn interpolate(cx: &Cx, task: &Rc<RefCell<Task>>, count: i64) -> Resu
         Ok(count @ 1..) => count,
         _ => {
             let parts = |pair: &[State]| setup.space.parts(&pair[0], &pair[1], setup.resolution);
-            found.states.windows(2).map(parts).fold(1, usize::saturating_add)
+            found
+                .states
+                .windows(2)
+                .map(parts)
+                .fold(1, usize::saturating_add)
         }
     };
     if needed.saturating_mul(setup.space.dimension()) > MAX_NUMBERS {

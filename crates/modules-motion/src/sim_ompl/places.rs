@@ -104,14 +104,30 @@ fn write_one(space: &StateSpace, mover: &mut impl Mover, numbers: &[f64]) -> Res
             mover.place(object, Placement::Pose(pose), space.frame())?;
         }
         (Some(Kind::Position3d), &[x, y, z]) => {
-            mover.place(object, Placement::Position(Vector3::new(x, y, z)), space.frame())?;
+            mover.place(
+                object,
+                Placement::Position(Vector3::new(x, y, z)),
+                space.frame(),
+            )?;
         }
         (_, &[x, y]) => {
-            let height = mover.scene().pose_in(object, space.frame(), false)?.translation.vector.z;
-            mover.place(object, Placement::Position(Vector3::new(x, y, height)), space.frame())?;
+            let height = mover
+                .scene()
+                .pose_in(object, space.frame(), false)?
+                .translation
+                .vector
+                .z;
+            mover.place(
+                object,
+                Placement::Position(Vector3::new(x, y, height)),
+                space.frame(),
+            )?;
         }
         (_, &[x, y, angle]) => {
-            let pose = turned(&mover.scene().pose_in(object, space.frame(), false)?, [x, y, angle]);
+            let pose = turned(
+                &mover.scene().pose_in(object, space.frame(), false)?,
+                [x, y, angle],
+            );
             mover.place(object, Placement::Pose(pose), space.frame())?;
         }
         _ => {}

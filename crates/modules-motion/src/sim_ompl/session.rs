@@ -34,12 +34,18 @@ pub(super) struct Limit {
 }
 
 impl Limit {
-    pub(super) const NONE: Self = Self { steps: u64::MAX, time: Duration::MAX };
+    pub(super) const NONE: Self = Self {
+        steps: u64::MAX,
+        time: Duration::MAX,
+    };
 
     /// So many seconds; none for what is no number.
     pub(super) fn seconds(seconds: f64) -> Self {
         let time = Duration::try_from_secs_f64(seconds.max(0.0)).unwrap_or(Duration::MAX);
-        Self { steps: ((seconds * STEPS_PER_SECOND) as u64).max(MIN_STEPS), time }
+        Self {
+            steps: ((seconds * STEPS_PER_SECOND) as u64).max(MIN_STEPS),
+            time,
+        }
     }
 }
 
@@ -58,7 +64,12 @@ pub(super) struct Session<'a, 'cx> {
 }
 
 impl<'a, 'cx> Session<'a, 'cx> {
-    pub(super) fn new(cx: &'a mut Cx<'cx>, task: &Rc<RefCell<Task>>, setup: &Rc<Setup>, limit: Limit) -> Self {
+    pub(super) fn new(
+        cx: &'a mut Cx<'cx>,
+        task: &Rc<RefCell<Task>>,
+        setup: &Rc<Setup>,
+        limit: Limit,
+    ) -> Self {
         Self {
             cx: RefCell::new(cx),
             task: Rc::clone(task),
@@ -75,7 +86,11 @@ impl<'a, 'cx> Session<'a, 'cx> {
     ///
     /// # Errors
     /// When a callback fails, or an object of a state space is gone.
-    pub(super) fn run<R>(&self, random: &mut Draws, work: impl FnOnce(&mut Problem<'_>) -> R) -> Result<R> {
+    pub(super) fn run<R>(
+        &self,
+        random: &mut Draws,
+        work: impl FnOnce(&mut Problem<'_>) -> R,
+    ) -> Result<R> {
         let size = self.projection_size();
         let mut world = self;
         let mut problem = Problem {
@@ -85,7 +100,9 @@ impl<'a, 'cx> Session<'a, 'cx> {
             starts: vec![self.setup.start()],
             goal: match &self.setup.goal {
                 TaskGoal::States(states) => Goal::States(states.clone()),
-                _ => Goal::Region(Box::new(|state| self.or_end(self.nearness(state), nowhere()))),
+                _ => Goal::Region(Box::new(|state| {
+                    self.or_end(self.nearness(state), nowhere())
+                })),
             },
             projection: Some(Projection {
                 size,
@@ -163,8 +180,15 @@ impl<'a, 'cx> Session<'a, 'cx> {
             })?,
         };
         // NaN is not an estimate.
-        let distance = if nearness.distance.is_nan() { f64::INFINITY } else { nearness.distance };
-        Ok(Nearness { distance, ..nearness })
+        let distance = if nearness.distance.is_nan() {
+            f64::INFINITY
+        } else {
+            nearness.distance
+        };
+        Ok(Nearness {
+            distance,
+            ..nearness
+        })
     }
 
     /// Numbers of a projected state.
@@ -197,14 +221,21 @@ impl<'a, 'cx> Session<'a, 'cx> {
     pub(super) fn project(&self, state: &[f64]) -> Result<Vec<f64>> {
         let callback = self.task.borrow().callbacks.projection.clone();
         match (callback, &self.setup.goal) {
-            (Some((callback, size)), _) => self.ask(|env| callback.numbers(env, &[state.to_vec().into()], size)),
+            (Some((callback, size)), _) => {
+                self.ask(|env| callback.numbers(env, &[state.to_vec().into()], size))
+            }
             (None, TaskGoal::Dummies(dummies)) => dummies.projection(&self.cx.borrow().scene()),
             _ => Ok(state[self.projected_numbers()].to_vec()),
         }
     }
 
     fn sampler(&self, which: usize) -> Option<Callback> {
-        self.task.borrow().callbacks.samplers.as_ref().map(|samplers| samplers[which].clone())
+        self.task
+            .borrow()
+            .callbacks
+            .samplers
+            .as_ref()
+            .map(|samplers| samplers[which].clone())
     }
 }
 
@@ -232,14 +263,18 @@ impl World for &Session<'_, '_> {
 
     fn sample_near(&mut self, near: &[f64], distance: f64) -> Option<State> {
         let callback = self.sampler(1)?;
-        let state = self.ask(|env| callback.numbers(env, &[near.to_vec().into(), distance.into()], near.len()));
+        let state = self
+            .ask(|env| callback.numbers(env, &[near.to_vec().into(), distance.into()], near.len()));
         Some(self.or_end(state, near.to_vec()))
     }
 }
 
 /// The distance where there is none.
 fn nowhere() -> Nearness {
-    Nearness { is_reached: false, distance: f64::INFINITY }
+    Nearness {
+        is_reached: false,
+        distance: f64::INFINITY,
+    }
 }
 
 /// The pairs of a list of handles. A pair whose first handle is negative is left out, as is an odd last handle.
@@ -247,6 +282,17 @@ fn entities(scene: &Scene, handles: &[i64]) -> SceneResult<Vec<[Entity; 2]>> {
     if !scene.settings().calculations.collision {
         return Ok(Vec::new());
     }
-    let pairs = handles.as_chunks::<2>().0.iter().filter(|[first, _]| *first >= 0);
-    pairs.map(|&[first, second]| Ok([Entity::named(scene, first)?, Entity::named_or_all(scene, second)?])).collect()
+    let pairs = handles
+        .as_chunks::<2>()
+        .0
+        .iter()
+        .filter(|[first, _]| *first >= 0);
+    pairs
+        .map(|&[first, second]| {
+            Ok([
+                Entity::named(scene, first)?,
+                Entity::named_or_all(scene, second)?,
+            ])
+        })
+        .collect()
 }

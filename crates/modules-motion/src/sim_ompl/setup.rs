@@ -47,7 +47,9 @@ impl Setup {
         let spaces = objects(cx).spaces(&task.spaces)?;
         let space = compound(cx, &spaces)?;
         if !(task.resolution > 0.0 && task.resolution < 1.0) {
-            return Err(refused("The fraction of the extent must be larger than 0 and less than 1"));
+            return Err(refused(
+                "The fraction of the extent must be larger than 0 and less than 1",
+            ));
         }
         task.check_size("Start state", &task.start)?;
         check_goal(task)?;
@@ -60,7 +62,10 @@ impl Setup {
             algorithm,
             goal: task.goal.clone(),
             start: RefCell::new(task.start.clone()),
-            progress: RefCell::new(Some(Progress { planner: algorithm.planner(), random: Draws(new_generator(cx)) })),
+            progress: RefCell::new(Some(Progress {
+                planner: algorithm.planner(),
+                random: Draws(new_generator(cx)),
+            })),
             solution: RefCell::default(),
         })
     }
@@ -104,16 +109,23 @@ fn compound(cx: &Cx, spaces: &[StateSpace]) -> Result<CompoundSpace> {
     for space in spaces {
         components.push((space.component()?, space.weight));
         if space.has_needless_bounds() {
-            cx.env().log(verbosity::SCRIPT_WARNINGS, "cyclic_joint_position state space has no bounds");
+            cx.env().log(
+                verbosity::SCRIPT_WARNINGS,
+                "cyclic_joint_position state space has no bounds",
+            );
         }
     }
     Ok(CompoundSpace::new(components))
 }
 
 fn check_goal(task: &Task) -> Result<()> {
-    let TaskGoal::States(states) = &task.goal else { return Ok(()) };
+    let TaskGoal::States(states) = &task.goal else {
+        return Ok(());
+    };
     if states.is_empty() {
         return Err(refused("No goal state specified."));
     }
-    states.iter().try_for_each(|state| task.check_size("Goal state", state))
+    states
+        .iter()
+        .try_for_each(|state| task.check_size("Goal state", state))
 }

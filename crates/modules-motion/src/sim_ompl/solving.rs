@@ -83,7 +83,9 @@ fn plan(cx: &mut Cx, task: &Rc<RefCell<Task>>, max_time: f64) -> Result<bool> {
         return Err(refused(Refusal::NoProjection.to_string()));
     }
     let found = setup.with_progress(|progress| {
-        session.run(&mut progress.random, |problem| progress.planner.solve(problem, u64::MAX))
+        session.run(&mut progress.random, |problem| {
+            progress.planner.solve(problem, u64::MAX)
+        })
     })??;
     drop(session);
     let found = found.unwrap_or_else(|refusal| {
@@ -99,7 +101,9 @@ fn plan(cx: &mut Cx, task: &Rc<RefCell<Task>>, max_time: f64) -> Result<bool> {
 fn keep(setup: &Setup, found: Option<Solution>) {
     let mut solution = setup.solution.borrow_mut();
     if let Some(found) = found
-        && solution.as_ref().is_none_or(|known| found.is_better(known, &setup.space))
+        && solution
+            .as_ref()
+            .is_none_or(|known| found.is_better(known, &setup.space))
     {
         *solution = Some(found);
     }
@@ -118,15 +122,27 @@ fn report(cx: &Cx, task: &Task, setup: &Setup) {
     match &*setup.solution.borrow() {
         None => task.report(cx, 1, "could not find solution."),
         Some(found) => {
-            let kind = if found.is_exact { "exact" } else { "approximate" };
-            task.report(cx, 1, &format!("found solution: {kind}, {}", measures(setup, found)));
+            let kind = if found.is_exact {
+                "exact"
+            } else {
+                "approximate"
+            };
+            task.report(
+                cx,
+                1,
+                &format!("found solution: {kind}, {}", measures(setup, found)),
+            );
         }
     }
 }
 
 /// States and length of a path.
 pub(super) fn measures(setup: &Setup, found: &Solution) -> String {
-    format!("{} states, length {}", found.states.len(), path::length(&setup.space, &found.states))
+    format!(
+        "{} states, length {}",
+        found.states.len(),
+        path::length(&setup.space, &found.states)
+    )
 }
 
 fn solution_is(cx: &Cx, handle: &str, test: impl FnOnce(&Solution) -> bool) -> Result<bool> {
@@ -193,12 +209,21 @@ fn get_planner_data(cx: &Cx, task_handle: String) -> Result<Results> {
     let length = |&(from, to): &(usize, usize)| {
         planning::StateSpace::distance(&setup.space, &data.states[from], &data.states[to])
     };
-    let places = |places: &[usize]| Data::from(places.iter().map(|&place| place as i64).collect::<Vec<_>>());
-    let edges: Vec<usize> = data.edges.iter().flat_map(|&(from, to)| [from, to]).collect();
+    let places =
+        |places: &[usize]| Data::from(places.iter().map(|&place| place as i64).collect::<Vec<_>>());
+    let edges: Vec<usize> = data
+        .edges
+        .iter()
+        .flat_map(|&(from, to)| [from, to])
+        .collect();
     let bits = |&tag: &u32| f64::from(f32::from_bits(tag));
     Ok(Results(vec![
         flat(&data.states).into(),
-        data.tags.iter().map(|&tag| i64::from(tag)).collect::<Vec<_>>().into(),
+        data.tags
+            .iter()
+            .map(|&tag| i64::from(tag))
+            .collect::<Vec<_>>()
+            .into(),
         data.tags.iter().map(bits).collect::<Vec<_>>().into(),
         places(&edges),
         data.edges.iter().map(length).collect::<Vec<_>>().into(),

@@ -8,8 +8,13 @@ use super::{ApiFn, Cx, Result, functions, refused};
 use scene::{Frame, Handle, special};
 use script::Number;
 
-pub(super) const FUNCTIONS: &[ApiFn] =
-    functions![create_state_space, destroy_state_space, set_dubins_params, set_state_space, get_state_space_dimension];
+pub(super) const FUNCTIONS: &[ApiFn] = functions![
+    create_state_space,
+    destroy_state_space,
+    set_dubins_params,
+    set_state_space,
+    get_state_space_dimension
+];
 
 /// `simOMPL.StateSpaceType`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,7 +117,9 @@ impl StateSpace {
     /// # Errors
     /// When the type is unknown, or the bounds are no bounds.
     pub(super) fn component(&self) -> Result<Component> {
-        let kind = self.kind.ok_or_else(|| refused("Invalid state space type."))?;
+        let kind = self
+            .kind
+            .ok_or_else(|| refused("Invalid state space type."))?;
         if kind == Kind::CyclicJointPosition {
             return Ok(Component::Angle);
         }
@@ -120,7 +127,11 @@ impl StateSpace {
         Ok(match kind {
             Kind::Pose2d => Component::Plane(bounds),
             Kind::Pose3d => Component::Space(bounds),
-            Kind::Dubins => Component::Dubins { bounds, radius: self.turning_radius, symmetric: self.is_symmetric },
+            Kind::Dubins => Component::Dubins {
+                bounds,
+                radius: self.turning_radius,
+                symmetric: self.is_symmetric,
+            },
             _ => Component::Real(bounds),
         })
     }
@@ -133,7 +144,8 @@ impl StateSpace {
             )));
         }
         // What is no number is no bound either, and no state can be drawn from an endless range.
-        let is_range = |(low, high): (&f64, &f64)| low.is_finite() && high.is_finite() && low <= high;
+        let is_range =
+            |(low, high): (&f64, &f64)| low.is_finite() && high.is_finite() && low <= high;
         if !self.low.iter().zip(&self.high).all(is_range) {
             return Err(refused(
                 "Bounds for real vector space seem to be incorrect (lower bound must be stricly less than upper bound). Sampling will not be possible",
@@ -206,7 +218,12 @@ fn create_state_space(
 #[api("simOMPL.destroyStateSpace")]
 fn destroy_state_space(cx: &mut Cx, state_space_handle: String) -> Result<()> {
     let number = space_number(&state_space_handle)?;
-    objects(cx).spaces.borrow_mut().remove(&number).map(drop).ok_or_else(invalid)
+    objects(cx)
+        .spaces
+        .borrow_mut()
+        .remove(&number)
+        .map(drop)
+        .ok_or_else(invalid)
 }
 
 /// Sets how a state space of type dubins turns. It counts from the next simOMPL.setup on.
@@ -215,7 +232,12 @@ fn destroy_state_space(cx: &mut Cx, state_space_handle: String) -> Result<()> {
 /// @param turningRadius metres
 /// @param isSymmetric whether the car may also drive backwards, all the way
 #[api("simOMPL.setDubinsParams")]
-fn set_dubins_params(cx: &mut Cx, state_space_handle: String, turning_radius: f64, is_symmetric: bool) -> Result<()> {
+fn set_dubins_params(
+    cx: &mut Cx,
+    state_space_handle: String,
+    turning_radius: f64,
+    is_symmetric: bool,
+) -> Result<()> {
     let number = space_number(&state_space_handle)?;
     if !(turning_radius > 0.0 && turning_radius.is_finite()) {
         return Err(refused("Turning radius must be positive."));
@@ -232,10 +254,17 @@ fn set_dubins_params(cx: &mut Cx, state_space_handle: String, turning_radius: f6
 /// @param taskHandle the task
 /// @param stateSpaceHandles the state spaces, in the order of their numbers in a state
 #[api("simOMPL.setStateSpace")]
-fn set_state_space(cx: &mut Cx, task_handle: String, state_space_handles: Vec<String>) -> Result<()> {
+fn set_state_space(
+    cx: &mut Cx,
+    task_handle: String,
+    state_space_handles: Vec<String>,
+) -> Result<()> {
     let task = task(cx, &task_handle)?;
     let invalid = |_| refused("Invalid state space handle.");
-    let numbers = state_space_handles.iter().map(|handle| space_number(handle)).collect::<Result<Vec<_>>>();
+    let numbers = state_space_handles
+        .iter()
+        .map(|handle| space_number(handle))
+        .collect::<Result<Vec<_>>>();
     let numbers = numbers.map_err(invalid)?;
     let spaces = objects(cx).spaces(&numbers).map_err(invalid)?;
     let mut task = task.borrow_mut();

@@ -26,11 +26,21 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 fn with_states(cx: &Cx, handle: &str, states: &[&[f64]]) -> Result<(Rc<RefCell<Task>>, Rc<Setup>)> {
     let task = task(cx, handle)?;
     let setup = ready(cx, &task.borrow())?;
-    states.iter().try_for_each(|state| task.borrow().check_size("State", state))?;
-    let is_same_size = states.iter().all(|state| state.len() == setup.space.dimension());
+    states
+        .iter()
+        .try_for_each(|state| task.borrow().check_size("State", state))?;
+    let is_same_size = states
+        .iter()
+        .all(|state| state.len() == setup.space.dimension());
     // The state spaces were replaced after the setup.
-    let sizes = || refused("State is of incorrect size. Call simOMPL.setup again for the new state spaces.");
-    if is_same_size { Ok((task, setup)) } else { Err(sizes()) }
+    let sizes = || {
+        refused("State is of incorrect size. Call simOMPL.setup again for the new state spaces.")
+    };
+    if is_same_size {
+        Ok((task, setup))
+    } else {
+        Err(sizes())
+    }
 }
 
 /// The present state of the objects of a task.

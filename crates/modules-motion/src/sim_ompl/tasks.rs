@@ -69,7 +69,10 @@ impl Task {
         }
         let mut text = match state.len() {
             0 => format!("{what} is empty."),
-            found => format!("{what} is of incorrect size. Expected {}, got {found}.", self.dimension),
+            found => format!(
+                "{what} is of incorrect size. Expected {}, got {found}.",
+                self.dimension
+            ),
         };
         if self.dimension == 0 && !state.is_empty() {
             text.push_str(" Did you forget to set the state space for this task?");
@@ -119,7 +122,11 @@ fn set_algorithm(cx: &mut Cx, task_handle: String, algorithm: Number) -> Result<
 /// @param taskHandle the task
 /// @param collisionPairHandles objects or collections, two by two; the second may be sim.handle_all. A pair whose first handle is negative is left out
 #[api("simOMPL.setCollisionPairs")]
-fn set_collision_pairs(cx: &mut Cx, task_handle: String, collision_pair_handles: Vec<i64>) -> Result<()> {
+fn set_collision_pairs(
+    cx: &mut Cx,
+    task_handle: String,
+    collision_pair_handles: Vec<i64>,
+) -> Result<()> {
     task(cx, &task_handle)?.borrow_mut().collision_pairs = collision_pair_handles;
     Ok(())
 }
@@ -129,7 +136,11 @@ fn set_collision_pairs(cx: &mut Cx, task_handle: String, collision_pair_handles:
 /// @param taskHandle the task
 /// @param resolution the longest part, as a fraction of the extent of each state space: above 0 and below 1
 #[api("simOMPL.setStateValidityCheckingResolution")]
-fn set_state_validity_checking_resolution(cx: &mut Cx, task_handle: String, resolution: f64) -> Result<()> {
+fn set_state_validity_checking_resolution(
+    cx: &mut Cx,
+    task_handle: String,
+    resolution: f64,
+) -> Result<()> {
     task(cx, &task_handle)?.borrow_mut().resolution = resolution;
     Ok(())
 }

@@ -42,7 +42,11 @@ fn subscription(entity: Entity) -> Option<Rc<Subscription>> {
 /// @param queueSize images that wait for a slow subscriber; then the newest stay
 /// @return publisherHandle it ends with the script
 #[api("simROS.imageTransportAdvertise")]
-fn image_transport_advertise(cx: &mut Cx, topic_name: String, #[default(1)] queue_size: i64) -> Result<String> {
+fn image_transport_advertise(
+    cx: &mut Cx,
+    topic_name: String,
+    #[default(1)] queue_size: i64,
+) -> Result<String> {
     let publisher = Publisher::new(cx, &topic_name, IMAGE, queue_size, false)?.of_images();
     Ok(add(cx, Entity::Publisher(Rc::new(publisher))))
 }
@@ -65,7 +69,9 @@ fn image_transport_publish(
 ) -> Result<()> {
     let publisher = get(cx, &publisher_handle, publisher)?;
     let stamp = Data::Float(node(cx).time());
-    publisher.publish(&ros_images::message(&data.0, width, height, stamp, &frame_id)?)
+    publisher.publish(&ros_images::message(
+        &data.0, width, height, stamp, &frame_id,
+    )?)
 }
 
 /// Ends a publisher of images.
@@ -89,7 +95,8 @@ fn image_transport_subscribe(
     topic_callback: ScriptFunction,
     #[default(1)] queue_size: i64,
 ) -> Result<String> {
-    let subscription = Subscription::new(cx, &topic_name, IMAGE, topic_callback, queue_size)?.of_images();
+    let subscription =
+        Subscription::new(cx, &topic_name, IMAGE, topic_callback, queue_size)?.of_images();
     Ok(add(cx, Entity::Subscription(Rc::new(subscription))))
 }
 

@@ -22,7 +22,10 @@ pub static MODULE: Module = Module {
         ("Parameters", parameters::FUNCTIONS),
         ("Node", node::FUNCTIONS),
     ],
-    hooks: Hooks { start_of_iteration: Some(node::start_of_iteration), ..Hooks::NONE },
+    hooks: Hooks {
+        start_of_iteration: Some(node::start_of_iteration),
+        ..Hooks::NONE
+    },
     plugin_errors: true,
     ..Module::new("simROS")
 };

@@ -5,7 +5,9 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use api_macro::api;
-use ros_interfaces::{Catalogue, Generation, InterfaceError, InterfaceKind, Layout, TypeName, Value};
+use ros_interfaces::{
+    Catalogue, Generation, InterfaceError, InterfaceKind, Layout, TypeName, Value,
+};
 use ros1::{MessageType, Network, NodeSettings, Parameter, ServiceType, Subscriber};
 
 use super::services::{Client, Service};
@@ -54,7 +56,10 @@ impl Node {
         let mut catalogue = self.catalogue.borrow_mut();
         action(catalogue.get_or_insert_with(|| {
             let mut catalogue = Catalogue::new(Generation::Ros1);
-            cx.options().ros.package_folders().for_each(|folder| catalogue.add_folder(folder));
+            cx.options()
+                .ros
+                .package_folders()
+                .for_each(|folder| catalogue.add_folder(folder));
             catalogue
         }))
     }
@@ -85,8 +90,11 @@ impl Clock {
     fn read(&self) {
         while let Some(message) = self.subscriber.take() {
             let record = ros_interfaces::ros1::decode(&self.layout, &message);
-            if let Some(Value::Time(time)) = record.as_ref().ok().and_then(|record| record.get("clock")) {
-                self.seconds.set(f64::from(time.sec) + f64::from(time.nanosec) * 1e-9);
+            if let Some(Value::Time(time)) =
+                record.as_ref().ok().and_then(|record| record.get("clock"))
+            {
+                self.seconds
+                    .set(f64::from(time.sec) + f64::from(time.nanosec) * 1e-9);
             }
         }
     }
@@ -125,15 +133,21 @@ pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
     let settings = settings(cx)?;
     let running = ros1::Node::new(&settings).map_err(|error| failed(&error))?;
     let clock = clock(cx, &running)?;
-    let running = Rc::new(Running { node: running, clock });
+    let running = Rc::new(Running {
+        node: running,
+        clock,
+    });
     *node.running.borrow_mut() = Some(running.clone());
     Ok(running)
 }
 
 fn settings(cx: &Cx) -> Result<NodeSettings> {
     let options = &cx.options().ros;
-    let name =
-        cx.app().named_params.get("ROSInterface.nodeName").map(|name| String::from_utf8_lossy(name).into_owned());
+    let name = cx
+        .app()
+        .named_params
+        .get("ROSInterface.nodeName")
+        .map(|name| String::from_utf8_lossy(name).into_owned());
     let network = match options.network {
         None => {
             cx.permissions().check_net("127.0.0.1", None)?;
@@ -153,13 +167,21 @@ fn settings(cx: &Cx) -> Result<NodeSettings> {
 }
 
 fn clock(cx: &Cx, running: &ros1::Node) -> Result<Option<Clock>> {
-    let parameter = running.parameter("/use_sim_time").map_err(|error| failed(&error))?;
+    let parameter = running
+        .parameter("/use_sim_time")
+        .map_err(|error| failed(&error))?;
     if parameter != Some(Parameter::Bool(true)) {
         return Ok(None);
     }
     let layout = message(cx, "rosgraph_msgs/Clock")?;
-    let subscriber = running.subscribe("/clock", &message_type(&layout), 1).map_err(|error| failed(&error))?;
-    Ok(Some(Clock { subscriber, layout, seconds: Cell::new(0.0) }))
+    let subscriber = running
+        .subscribe("/clock", &message_type(&layout), 1)
+        .map_err(|error| failed(&error))?;
+    Ok(Some(Clock {
+        subscriber,
+        layout,
+        seconds: Cell::new(0.0),
+    }))
 }
 
 /// The type of a topic.
@@ -167,10 +189,14 @@ fn clock(cx: &Cx, running: &ros1::Node) -> Result<Option<Clock>> {
 /// # Errors
 /// When it is not known.
 pub(super) fn message(cx: &Cx, name: &str) -> Result<Arc<Layout>> {
-    let is_message =
-        TypeName::parse(name, InterfaceKind::Message).is_ok_and(|name| name.kind == InterfaceKind::Message);
+    let is_message = TypeName::parse(name, InterfaceKind::Message)
+        .is_ok_and(|name| name.kind == InterfaceKind::Message);
     let unknown = || Err(InterfaceError::Unknown(name.into()));
-    let layout = if is_message { node(cx).with_catalogue(cx, |catalogue| catalogue.layout(name)) } else { unknown() };
+    let layout = if is_message {
+        node(cx).with_catalogue(cx, |catalogue| catalogue.layout(name))
+    } else {
+        unknown()
+    };
     layout.map_err(|error| unsupported("message", name, &error))
 }
 
@@ -199,8 +225,12 @@ pub(super) fn message_type(layout: &Arc<Layout>) -> MessageType {
 }
 
 pub(super) fn service_type(name: &str, [request, response]: &[Arc<Layout>; 2]) -> ServiceType {
-    let short = TypeName::parse(name, InterfaceKind::Service).map_or_else(|_| name.to_string(), |name| name.short());
-    ServiceType { name: short, md5: ros_interfaces::ros1::service_md5(request, response) }
+    let short = TypeName::parse(name, InterfaceKind::Service)
+        .map_or_else(|_| name.to_string(), |name| name.short());
+    ServiceType {
+        name: short,
+        md5: ros_interfaces::ros1::service_md5(request, response),
+    }
 }
 
 /// How many messages a script wants to keep; 0 is as many as possible.
@@ -228,6 +258,10 @@ pub(super) fn get<T>(cx: &Cx, handle: &str, choose: impl Fn(Entity) -> Option<T>
 ///
 /// # Errors
 /// When it is not.
-pub(super) fn shut_down<T>(cx: &Cx, handle: &str, choose: impl Fn(Entity) -> Option<T>) -> Result<()> {
+pub(super) fn shut_down<T>(
+    cx: &Cx,
+    handle: &str,
+    choose: impl Fn(Entity) -> Option<T>,
+) -> Result<()> {
     node(cx).entities.shut_down(handle, choose)
 }

@@ -21,14 +21,25 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 ];
 
 /// The value of a parameter, if there is one of this type.
-fn read<T>(cx: &Cx, name: &str, value: impl Fn(&Parameter) -> Option<T>, otherwise: T) -> Result<(bool, T)> {
-    let parameter = running(cx)?.node.parameter(name).map_err(|error| failed(&error))?;
+fn read<T>(
+    cx: &Cx,
+    name: &str,
+    value: impl Fn(&Parameter) -> Option<T>,
+    otherwise: T,
+) -> Result<(bool, T)> {
+    let parameter = running(cx)?
+        .node
+        .parameter(name)
+        .map_err(|error| failed(&error))?;
     let value = parameter.as_ref().and_then(value);
     Ok(value.map_or((false, otherwise), |value| (true, value)))
 }
 
 fn write(cx: &Cx, name: &str, value: Parameter) -> Result<()> {
-    running(cx)?.node.set_parameter(name, value).map_err(|error| failed(&error))
+    running(cx)?
+        .node
+        .set_parameter(name, value)
+        .map_err(|error| failed(&error))
 }
 
 /// A parameter that is a string.
@@ -57,7 +68,11 @@ fn get_param_string(
 /// @return exists
 /// @return value
 #[api("simROS.getParamInt")]
-fn get_param_int(cx: &mut Cx, name: String, #[default(0)] default_value: i64) -> Result<(bool, i64)> {
+fn get_param_int(
+    cx: &mut Cx,
+    name: String,
+    #[default(0)] default_value: i64,
+) -> Result<(bool, i64)> {
     let integer = |value: &Parameter| match value {
         Parameter::Int(value) => Some(i64::from(*value)),
         Parameter::Double(value) => Some(value.round() as i64),
@@ -73,7 +88,11 @@ fn get_param_int(cx: &mut Cx, name: String, #[default(0)] default_value: i64) ->
 /// @return exists
 /// @return value
 #[api("simROS.getParamDouble")]
-fn get_param_double(cx: &mut Cx, name: String, #[default(0.0)] default_value: f64) -> Result<(bool, f64)> {
+fn get_param_double(
+    cx: &mut Cx,
+    name: String,
+    #[default(0.0)] default_value: f64,
+) -> Result<(bool, f64)> {
     let number = |value: &Parameter| match value {
         Parameter::Int(value) => Some(f64::from(*value)),
         Parameter::Double(value) => Some(*value),
@@ -89,7 +108,11 @@ fn get_param_double(cx: &mut Cx, name: String, #[default(0.0)] default_value: f6
 /// @return exists
 /// @return value
 #[api("simROS.getParamBool")]
-fn get_param_bool(cx: &mut Cx, name: String, #[default(false)] default_value: bool) -> Result<(bool, bool)> {
+fn get_param_bool(
+    cx: &mut Cx,
+    name: String,
+    #[default(false)] default_value: bool,
+) -> Result<(bool, bool)> {
     let truth = |value: &Parameter| match value {
         Parameter::Bool(value) => Some(*value),
         _ => None,
@@ -139,7 +162,10 @@ fn set_param_bool(cx: &mut Cx, name: String, value: bool) -> Result<()> {
 /// @return exists
 #[api("simROS.hasParam")]
 fn has_param(cx: &mut Cx, name: String) -> Result<bool> {
-    running(cx)?.node.has_parameter(&name).map_err(|error| failed(&error))
+    running(cx)?
+        .node
+        .has_parameter(&name)
+        .map_err(|error| failed(&error))
 }
 
 /// Removes a parameter, if there is one.
@@ -160,6 +186,9 @@ fn delete_param(cx: &mut Cx, name: String) -> Result<()> {
 /// @return name the full name; empty if there is none
 #[api("simROS.searchParam")]
 fn search_param(cx: &mut Cx, name: String) -> Result<(bool, String)> {
-    let found = running(cx)?.node.search_parameter(&name).map_err(|error| failed(&error))?;
+    let found = running(cx)?
+        .node
+        .search_parameter(&name)
+        .map_err(|error| failed(&error))?;
     Ok((found.is_some(), found.unwrap_or_default()))
 }

@@ -46,7 +46,8 @@ impl Service {
         while let Some(request) = self.server.take() {
             let answer = self.answer(&request.bytes);
             if let Err(problem) = &answer {
-                self.callback.warn(&format!("simROS: a service failed: {problem}"));
+                self.callback
+                    .warn(&format!("simROS: a service failed: {problem}"));
             }
             request.answer(answer);
         }
@@ -54,9 +55,16 @@ impl Service {
 
     fn answer(&self, bytes: &[u8]) -> std::result::Result<Vec<u8>, String> {
         let [request, response] = &self.layouts;
-        let request = ros_interfaces::ros1::decode(request, bytes).map_err(|error| error.to_string())?;
-        let results = self.callback.call_logged(&[ros_values::to_data(&request, self.style.get())]);
-        let result = results.ok_or("the script's function failed")?.into_iter().next().unwrap_or(Data::Nil);
+        let request =
+            ros_interfaces::ros1::decode(request, bytes).map_err(|error| error.to_string())?;
+        let results = self
+            .callback
+            .call_logged(&[ros_values::to_data(&request, self.style.get())]);
+        let result = results
+            .ok_or("the script's function failed")?
+            .into_iter()
+            .next()
+            .unwrap_or(Data::Nil);
         let response = match result {
             // A response without fields needs no table.
             Data::Nil if response.fields.is_empty() => Record::new(response),
@@ -90,7 +98,12 @@ fn service_client(cx: &mut Cx, service_name: String, service_type: String) -> Re
     let layouts = service(cx, &service_type)?;
     running(cx)?;
     let service_type = self::service_type(&service_type, &layouts);
-    let client = Client { name: service_name, service_type, layouts, style: Cell::default() };
+    let client = Client {
+        name: service_name,
+        service_type,
+        layouts,
+        style: Cell::default(),
+    };
     Ok(add(cx, Entity::Client(Rc::new(client))))
 }
 
@@ -103,20 +116,26 @@ fn service_client(cx: &mut Cx, service_name: String, service_type: String) -> Re
 fn call(cx: &mut Cx, service_client_handle: String, request: Table) -> Result<Data> {
     let client = get(cx, &service_client_handle, client)?;
     let [request_layout, response_layout] = &client.layouts;
-    let request = ros_values::from_data(request_layout, &request.0, client.style.get()).map_err(ApiError::Other)?;
+    let request = ros_values::from_data(request_layout, &request.0, client.style.get())
+        .map_err(ApiError::Other)?;
     let bytes = ros_interfaces::ros1::encode(&request);
-    let call = running(cx)?.node.call(&client.name, &client.service_type, bytes).map_err(|error| failed(&error))?;
+    let call = running(cx)?
+        .node
+        .call(&client.name, &client.service_type, bytes)
+        .map_err(|error| failed(&error))?;
     let node = node(cx);
     let answer = cx.wait_for(None, || {
         node.spin();
         call.poll()
     })?;
     let answer = answer.ok_or(ApiError::Interrupted)?;
-    let answer =
-        answer.map_err(|error| ApiError::Other(format!("call of service '{}' failed: {error}", client.name)))?;
+    let answer = answer.map_err(|error| {
+        ApiError::Other(format!("call of service '{}' failed: {error}", client.name))
+    })?;
     let response = ros_interfaces::ros1::decode(response_layout, &answer);
-    let response =
-        response.map_err(|error| ApiError::Other(format!("response of service '{}': {error}", client.name)))?;
+    let response = response.map_err(|error| {
+        ApiError::Other(format!("response of service '{}': {error}", client.name))
+    })?;
     Ok(ros_values::to_data(&response, client.style.get()))
 }
 
@@ -132,8 +151,13 @@ fn shutdown_service_client(cx: &mut Cx, service_client_handle: String) -> Result
 ///
 /// @param serviceClientHandle the client
 #[api("simROS.serviceClientTreatUInt8ArrayAsString")]
-fn service_client_treat_u_int8_array_as_string(cx: &mut Cx, service_client_handle: String) -> Result<()> {
-    get(cx, &service_client_handle, client)?.style.set(Style { bytes_as_strings: true });
+fn service_client_treat_u_int8_array_as_string(
+    cx: &mut Cx,
+    service_client_handle: String,
+) -> Result<()> {
+    get(cx, &service_client_handle, client)?.style.set(Style {
+        bytes_as_strings: true,
+    });
     Ok(())
 }
 
@@ -152,9 +176,20 @@ fn advertise_service(
 ) -> Result<String> {
     let layouts = service(cx, &service_type)?;
     let service_type = self::service_type(&service_type, &layouts);
-    let server = running(cx)?.node.offer(&service_name, &service_type).map_err(|error| failed(&error))?;
+    let server = running(cx)?
+        .node
+        .offer(&service_name, &service_type)
+        .map_err(|error| failed(&error))?;
     let callback = ScriptCallback::new(cx, service_callback);
-    Ok(add(cx, Entity::Service(Rc::new(Service { server, layouts, callback, style: Cell::default() }))))
+    Ok(add(
+        cx,
+        Entity::Service(Rc::new(Service {
+            server,
+            layouts,
+            callback,
+            style: Cell::default(),
+        })),
+    ))
 }
 
 /// Ends a service.
@@ -169,7 +204,12 @@ fn shutdown_service_server(cx: &mut Cx, service_server_handle: String) -> Result
 ///
 /// @param serviceServerHandle the service
 #[api("simROS.serviceServerTreatUInt8ArrayAsString")]
-fn service_server_treat_u_int8_array_as_string(cx: &mut Cx, service_server_handle: String) -> Result<()> {
-    get(cx, &service_server_handle, server)?.style.set(Style { bytes_as_strings: true });
+fn service_server_treat_u_int8_array_as_string(
+    cx: &mut Cx,
+    service_server_handle: String,
+) -> Result<()> {
+    get(cx, &service_server_handle, server)?.style.set(Style {
+        bytes_as_strings: true,
+    });
     Ok(())
 }

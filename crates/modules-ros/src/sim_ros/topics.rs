@@ -47,23 +47,44 @@ pub(super) struct Subscription {
 impl Publisher {
     /// # Errors
     /// When the name or the type is none, or the master cannot be asked.
-    pub(super) fn new(cx: &Cx, topic: &str, kind: &str, queue: i64, is_latched: bool) -> Result<Self> {
+    pub(super) fn new(
+        cx: &Cx,
+        topic: &str,
+        kind: &str,
+        queue: i64,
+        is_latched: bool,
+    ) -> Result<Self> {
         let (layout, queue) = (message(cx, kind)?, queue_size(queue)?);
-        let publisher = running(cx)?.node.publish(topic, &message_type(&layout), queue, is_latched);
+        let publisher = running(cx)?
+            .node
+            .publish(topic, &message_type(&layout), queue, is_latched);
         let publisher = publisher.map_err(|error| failed(&error))?;
-        Ok(Self { layout, publisher, style: Cell::default(), is_image: false })
+        Ok(Self {
+            layout,
+            publisher,
+            style: Cell::default(),
+            is_image: false,
+        })
     }
 
     /// Of images, whose data are strings.
     pub(super) fn of_images(self) -> Self {
-        Self { style: Cell::new(Style { bytes_as_strings: true }), is_image: true, ..self }
+        Self {
+            style: Cell::new(Style {
+                bytes_as_strings: true,
+            }),
+            is_image: true,
+            ..self
+        }
     }
 
     /// # Errors
     /// When the table is no message of the type.
     pub(super) fn publish(&self, message: &Data) -> Result<()> {
-        let record = ros_values::from_data(&self.layout, message, self.style.get()).map_err(ApiError::Other)?;
-        self.publisher.publish(ros_interfaces::ros1::encode(&record));
+        let record = ros_values::from_data(&self.layout, message, self.style.get())
+            .map_err(ApiError::Other)?;
+        self.publisher
+            .publish(ros_interfaces::ros1::encode(&record));
         Ok(())
     }
 }
@@ -71,16 +92,38 @@ impl Publisher {
 impl Subscription {
     /// # Errors
     /// When the name or the type is none, or the master cannot be asked.
-    pub(super) fn new(cx: &Cx, topic: &str, kind: &str, callback: ScriptFunction, queue: i64) -> Result<Self> {
+    pub(super) fn new(
+        cx: &Cx,
+        topic: &str,
+        kind: &str,
+        callback: ScriptFunction,
+        queue: i64,
+    ) -> Result<Self> {
         let (layout, queue) = (message(cx, kind)?, queue_size(queue)?);
-        let subscriber = running(cx)?.node.subscribe(topic, &message_type(&layout), queue);
+        let subscriber = running(cx)?
+            .node
+            .subscribe(topic, &message_type(&layout), queue);
         let subscriber = subscriber.map_err(|error| failed(&error))?;
-        let (style, callback, has_warned) = (Cell::default(), ScriptCallback::new(cx, callback), Cell::default());
-        Ok(Self { layout, subscriber, style, callback, is_image: false, has_warned })
+        let (style, callback, has_warned) = (
+            Cell::default(),
+            ScriptCallback::new(cx, callback),
+            Cell::default(),
+        );
+        Ok(Self {
+            layout,
+            subscriber,
+            style,
+            callback,
+            is_image: false,
+            has_warned,
+        })
     }
 
     pub(super) fn of_images(self) -> Self {
-        Self { is_image: true, ..self }
+        Self {
+            is_image: true,
+            ..self
+        }
     }
 
     /// Calls back for what has arrived.
@@ -89,13 +132,18 @@ impl Subscription {
             self.warn(&problem);
         }
         for _ in 0..self.subscriber.waiting() {
-            let Some(message) = self.subscriber.take() else { return };
+            let Some(message) = self.subscriber.take() else {
+                return;
+            };
             let args = ros_interfaces::ros1::decode(&self.layout, &message)
                 .map_err(|error| error.to_string())
                 .and_then(|record| self.arguments(&record));
             match args {
                 Ok(args) => drop(self.callback.call_logged(&args)),
-                Err(problem) => self.warn(&format!("a message of type {} was left out: {problem}", self.layout.name)),
+                Err(problem) => self.warn(&format!(
+                    "a message of type {} was left out: {problem}",
+                    self.layout.name
+                )),
             }
         }
     }
@@ -108,7 +156,11 @@ impl Subscription {
     }
 
     fn arguments(&self, record: &Record) -> std::result::Result<Vec<Data>, String> {
-        if self.is_image { images::arguments(record) } else { Ok(vec![ros_values::to_data(record, self.style.get())]) }
+        if self.is_image {
+            images::arguments(record)
+        } else {
+            Ok(vec![ros_values::to_data(record, self.style.get())])
+        }
     }
 }
 
@@ -167,7 +219,9 @@ fn shutdown_publisher(cx: &mut Cx, publisher_handle: String) -> Result<()> {
 /// @param publisherHandle the publisher
 #[api("simROS.publisherTreatUInt8ArrayAsString")]
 fn publisher_treat_u_int8_array_as_string(cx: &mut Cx, publisher_handle: String) -> Result<()> {
-    get(cx, &publisher_handle, publisher)?.style.set(Style { bytes_as_strings: true });
+    get(cx, &publisher_handle, publisher)?.style.set(Style {
+        bytes_as_strings: true,
+    });
     Ok(())
 }
 
@@ -198,7 +252,9 @@ fn check_hints(hints: &Data) -> Result<()> {
     match hints {
         Data::Nil => Ok(()),
         Data::Map(_) | Data::Array(_) => match hints.field("transports") {
-            Some(Data::Array(transports)) if !transports.is_empty() && !transports.contains(&Data::text("tcp")) => {
+            Some(Data::Array(transports))
+                if !transports.is_empty() && !transports.contains(&Data::text("tcp")) =>
+            {
                 wrong("only the transport 'tcp' is supported")
             }
             _ => Ok(()),
@@ -220,7 +276,9 @@ fn shutdown_subscriber(cx: &mut Cx, subscriber_handle: String) -> Result<()> {
 /// @param subscriberHandle the subscriber
 #[api("simROS.subscriberTreatUInt8ArrayAsString")]
 fn subscriber_treat_u_int8_array_as_string(cx: &mut Cx, subscriber_handle: String) -> Result<()> {
-    get(cx, &subscriber_handle, subscription)?.style.set(Style { bytes_as_strings: true });
+    get(cx, &subscriber_handle, subscription)?.style.set(Style {
+        bytes_as_strings: true,
+    });
     Ok(())
 }
 

@@ -25,14 +25,24 @@ impl Drop for Endpoint {
 impl Endpoint {
     pub(super) fn writer(node: &Rc<Running>, topic: &str, layout: &Layout, qos: Qos) -> Self {
         let type_name = names::type_name(&layout.name);
-        let entity = node.participant.with(|core| core.create_writer(topic, &type_name, qos, &[]));
-        Self { node: node.clone(), entity }
+        let entity = node
+            .participant
+            .with(|core| core.create_writer(topic, &type_name, qos, &[]));
+        Self {
+            node: node.clone(),
+            entity,
+        }
     }
 
     pub(super) fn reader(node: &Rc<Running>, topic: &str, layout: &Layout, qos: Qos) -> Self {
         let type_name = names::type_name(&layout.name);
-        let entity = node.participant.with(|core| core.create_reader(topic, &type_name, qos, &[]));
-        Self { node: node.clone(), entity }
+        let entity = node
+            .participant
+            .with(|core| core.create_reader(topic, &type_name, qos, &[]));
+        Self {
+            node: node.clone(),
+            entity,
+        }
     }
 
     pub(super) fn take(&self) -> Option<Sample> {
@@ -48,8 +58,14 @@ impl Endpoint {
     }
 
     pub(super) fn write(&self, record: &Record, call: Option<Call>) {
-        let written = Written { payload: cdr::encode(record).into(), call, time: now() };
-        self.node.participant.with(|core| core.write(self.entity, &written));
+        let written = Written {
+            payload: cdr::encode(record).into(),
+            call,
+            time: now(),
+        };
+        self.node
+            .participant
+            .with(|core| core.write(self.entity, &written));
     }
 
     /// Writes a request whose answer comes to `replies`. Returns its number.
@@ -57,9 +73,22 @@ impl Endpoint {
         let payload: Arc<[u8]> = cdr::encode(record).into();
         self.node.participant.with(|core| {
             let sequence = core.next_sequence(self.entity);
-            let related = SampleIdentity { guid: core.guid(replies.entity), sequence };
-            let call = Some(Call { related, header: (client, sequence) });
-            core.write(self.entity, &Written { payload, call, time: now() });
+            let related = SampleIdentity {
+                guid: core.guid(replies.entity),
+                sequence,
+            };
+            let call = Some(Call {
+                related,
+                header: (client, sequence),
+            });
+            core.write(
+                self.entity,
+                &Written {
+                    payload,
+                    call,
+                    time: now(),
+                },
+            );
             sequence
         })
     }
@@ -73,13 +102,34 @@ impl Endpoint {
 pub(super) fn request_of(sample: Sample) -> Option<(Call, Vec<u8>)> {
     if sample.has_call_header {
         let (client, sequence, payload) = without_header(&sample)?;
-        let related = SampleIdentity { guid: sample.writer, sequence: sample.sequence };
-        return Some((Call { related, header: (client, sequence) }, payload));
+        let related = SampleIdentity {
+            guid: sample.writer,
+            sequence: sample.sequence,
+        };
+        return Some((
+            Call {
+                related,
+                header: (client, sequence),
+            },
+            payload,
+        ));
     }
     // Clients name the reader that waits, or leave it to their writer.
-    let asked = sample.related.map(|related| related.guid).filter(|guid| *guid != Guid::default());
-    let related = SampleIdentity { guid: asked.unwrap_or(sample.writer), sequence: sample.sequence };
-    Some((Call { related, header: (0, 0) }, sample.payload))
+    let asked = sample
+        .related
+        .map(|related| related.guid)
+        .filter(|guid| *guid != Guid::default());
+    let related = SampleIdentity {
+        guid: asked.unwrap_or(sample.writer),
+        sequence: sample.sequence,
+    };
+    Some((
+        Call {
+            related,
+            header: (0, 0),
+        },
+        sample.payload,
+    ))
 }
 
 /// The message of a reply, if it answers a request of this client.
@@ -88,7 +138,9 @@ pub(super) fn reply_to(sample: Sample, own: [Guid; 2], client: u64) -> Option<(i
         let (whose, sequence, payload) = without_header(&sample)?;
         return (whose == client).then_some((sequence, payload));
     }
-    let related = sample.related.filter(|related| own.contains(&related.guid))?;
+    let related = sample
+        .related
+        .filter(|related| own.contains(&related.guid))?;
     Some((related.sequence, sample.payload))
 }
 
@@ -107,5 +159,8 @@ fn without_header(sample: &Sample) -> Option<(u64, i64, Vec<u8>)> {
 /// The wall clock: peers compare it with theirs.
 fn now() -> Time {
     let seconds = wall_clock::unix_seconds();
-    Time { seconds: seconds as u32, fraction: (seconds.fract() * 4_294_967_296.0) as u32 }
+    Time {
+        seconds: seconds as u32,
+        fraction: (seconds.fract() * 4_294_967_296.0) as u32,
+    }
 }

@@ -42,7 +42,10 @@ fn subscription(entity: Entity) -> Option<Rc<Subscription>> {
 }
 
 fn profile(queue_size: i64) -> Qos {
-    Qos { history: History::KeepLast(usize::try_from(queue_size).unwrap_or(1).max(1)), ..Qos::default() }
+    Qos {
+        history: History::KeepLast(usize::try_from(queue_size).unwrap_or(1).max(1)),
+        ..Qos::default()
+    }
 }
 
 /// Creates a publisher of images.
@@ -51,11 +54,22 @@ fn profile(queue_size: i64) -> Qos {
 /// @param queueSize how many images are kept
 /// @return publisherHandle it ends with the script
 #[api("simROS2.imageTransportCreatePublisher")]
-fn image_transport_create_publisher(cx: &mut Cx, topic_name: String, #[default(1)] queue_size: i64) -> Result<String> {
+fn image_transport_create_publisher(
+    cx: &mut Cx,
+    topic_name: String,
+    #[default(1)] queue_size: i64,
+) -> Result<String> {
     let layout = interfaces::message(cx, IMAGE)?;
     let endpoint = running(cx)?.publisher(&topic_name, &layout, profile(queue_size))?;
-    let style = Cell::new(Style { bytes_as_strings: true });
-    let publisher = Publisher { layout, endpoint, style, is_image: true };
+    let style = Cell::new(Style {
+        bytes_as_strings: true,
+    });
+    let publisher = Publisher {
+        layout,
+        endpoint,
+        style,
+        is_image: true,
+    };
     Ok(add(cx, Entity::Publisher(Rc::new(publisher))))
 }
 
@@ -77,7 +91,9 @@ fn image_transport_publish(
 ) -> Result<()> {
     let publisher = get(cx, &publisher_handle, publisher)?;
     let stamp = times::to_data(times::ros_time());
-    publisher.publish(&ros_images::message(&data.0, width, height, stamp, &frame_id)?)
+    publisher.publish(&ros_images::message(
+        &data.0, width, height, stamp, &frame_id,
+    )?)
 }
 
 /// Ends a publisher of images.
@@ -105,7 +121,14 @@ fn image_transport_create_subscription(
     let endpoint = running(cx)?.subscription(&topic_name, &layout, profile(queue_size))?;
     let callback = ScriptCallback::new(cx, topic_callback);
     let (style, has_warned) = (Cell::default(), Cell::default());
-    let subscription = Subscription { layout, endpoint, style, callback, is_image: true, has_warned };
+    let subscription = Subscription {
+        layout,
+        endpoint,
+        style,
+        callback,
+        is_image: true,
+        has_warned,
+    };
     Ok(add(cx, Entity::Subscription(Rc::new(subscription))))
 }
 

@@ -10,7 +10,11 @@ use super::ros_values::{self, Style};
 use super::{ApiError, ApiFn, Cx, Result, functions};
 use scene::Data;
 
-pub(super) const FUNCTIONS: &[ApiFn] = functions![create_interface, get_interface_constants, supported_interfaces];
+pub(super) const FUNCTIONS: &[ApiFn] = functions![
+    create_interface,
+    get_interface_constants,
+    supported_interfaces
+];
 
 /// A table of a type with all fields at their default values.
 ///
@@ -53,9 +57,13 @@ fn unsupported(kind: &str, name: &str, error: &InterfaceError) -> ApiError {
 
 /// The type of a topic.
 pub(super) fn message(cx: &Cx, name: &str) -> Result<Arc<Layout>> {
-    let is_message =
-        TypeName::parse(name, InterfaceKind::Message).is_ok_and(|name| name.kind == InterfaceKind::Message);
-    let layout = if is_message { layout(cx, name) } else { Err(InterfaceError::Unknown(name.into())) };
+    let is_message = TypeName::parse(name, InterfaceKind::Message)
+        .is_ok_and(|name| name.kind == InterfaceKind::Message);
+    let layout = if is_message {
+        layout(cx, name)
+    } else {
+        Err(InterfaceError::Unknown(name.into()))
+    };
     layout.map_err(|error| unsupported("message", name, &error))
 }
 
@@ -67,12 +75,20 @@ pub(super) fn service(cx: &Cx, name: &str) -> Result<[Arc<Layout>; 2]> {
 
 /// The types of what an action exchanges: requests and responses for goals and results, feedback.
 pub(super) fn action(cx: &Cx, name: &str) -> Result<ActionLayouts> {
-    let parsed = TypeName::parse(name, InterfaceKind::Action).ok().filter(|name| name.kind == InterfaceKind::Action);
+    let parsed = TypeName::parse(name, InterfaceKind::Action)
+        .ok()
+        .filter(|name| name.kind == InterfaceKind::Action);
     let Some(parsed) = parsed else {
-        return Err(unsupported("action", name, &InterfaceError::Unknown(name.into())));
+        return Err(unsupported(
+            "action",
+            name,
+            &InterfaceError::Unknown(name.into()),
+        ));
     };
-    let part =
-        |suffix: &str| layout(cx, &format!("{parsed}{suffix}")).map_err(|error| unsupported("action", name, &error));
+    let part = |suffix: &str| {
+        layout(cx, &format!("{parsed}{suffix}"))
+            .map_err(|error| unsupported("action", name, &error))
+    };
     Ok(ActionLayouts {
         send_goal: [part("_SendGoal_Request")?, part("_SendGoal_Response")?],
         get_result: [part("_GetResult_Request")?, part("_GetResult_Response")?],

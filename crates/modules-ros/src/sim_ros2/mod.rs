@@ -33,7 +33,10 @@ pub static MODULE: Module = Module {
         ("Node", times::FUNCTIONS),
     ],
     constants: include_str!("constants.tsv"),
-    hooks: Hooks { start_of_iteration: Some(node::start_of_iteration), ..Hooks::NONE },
+    hooks: Hooks {
+        start_of_iteration: Some(node::start_of_iteration),
+        ..Hooks::NONE
+    },
     plugin_errors: true,
     ..Module::new("simROS2")
 };

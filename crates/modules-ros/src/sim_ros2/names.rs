@@ -13,8 +13,15 @@ pub(super) struct Place {
 impl Place {
     pub(super) fn new(namespace: &str, node: &str) -> Self {
         let trimmed = namespace.trim_matches('/');
-        let namespace = if trimmed.is_empty() { String::new() } else { format!("/{trimmed}") };
-        Self { namespace, node: node.to_string() }
+        let namespace = if trimmed.is_empty() {
+            String::new()
+        } else {
+            format!("/{trimmed}")
+        };
+        Self {
+            namespace,
+            node: node.to_string(),
+        }
     }
 
     /// A name as all nodes know it: `/x` as it is, `x` in the namespace, `~/x` below the node.
@@ -32,7 +39,11 @@ impl Place {
                 && word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
         };
         let is_valid = full.len() <= 247 && full.split('/').skip(1).all(is_word);
-        if is_valid { Ok(full) } else { Err(format!("Invalid name: '{name}'")) }
+        if is_valid {
+            Ok(full)
+        } else {
+            Err(format!("Invalid name: '{name}'"))
+        }
     }
 }
 
@@ -48,7 +59,12 @@ pub(super) fn service(full: &str) -> [String; 2] {
 
 /// How DDS calls a type.
 pub(super) fn type_name(name: &TypeName) -> String {
-    format!("{}::{}::dds_::{}_", name.package, name.kind.word(), name.name)
+    format!(
+        "{}::{}::dds_::{}_",
+        name.package,
+        name.kind.word(),
+        name.name
+    )
 }
 
 #[cfg(test)]
@@ -58,12 +74,22 @@ mod tests {
     #[test]
     fn names_are_resolved() {
         let place = Place::new("robots/r1/", "sim");
-        assert_eq!(place.resolve("cmd_vel").as_deref(), Ok("/robots/r1/cmd_vel"));
+        assert_eq!(
+            place.resolve("cmd_vel").as_deref(),
+            Ok("/robots/r1/cmd_vel")
+        );
         assert_eq!(place.resolve("/cmd_vel").as_deref(), Ok("/cmd_vel"));
-        assert_eq!(place.resolve("~/state").as_deref(), Ok("/robots/r1/sim/state"));
+        assert_eq!(
+            place.resolve("~/state").as_deref(),
+            Ok("/robots/r1/sim/state")
+        );
         assert_eq!(Place::new("/", "sim").resolve("a/b").as_deref(), Ok("/a/b"));
         for bad in ["", "/", "a b", "1a", "a//b", "a/", "é"] {
-            assert_eq!(place.resolve(bad), Err(format!("Invalid name: '{bad}'")), "{bad}");
+            assert_eq!(
+                place.resolve(bad),
+                Err(format!("Invalid name: '{bad}'")),
+                "{bad}"
+            );
         }
     }
 }

@@ -46,11 +46,17 @@ pub(super) enum Entity {
 
 impl Node {
     /// The types that are known.
-    pub(super) fn with_catalogue<T>(&self, options: &RosOptions, action: impl FnOnce(&mut Catalogue) -> T) -> T {
+    pub(super) fn with_catalogue<T>(
+        &self,
+        options: &RosOptions,
+        action: impl FnOnce(&mut Catalogue) -> T,
+    ) -> T {
         let mut catalogue = self.catalogue.borrow_mut();
         action(catalogue.get_or_insert_with(|| {
             let mut catalogue = Catalogue::new(Generation::Ros2);
-            options.interface_folders().for_each(|folder| catalogue.add_folder(folder));
+            options
+                .interface_folders()
+                .for_each(|folder| catalogue.add_folder(folder));
             catalogue
         }))
     }
@@ -69,13 +75,33 @@ impl Node {
 
 impl Running {
     /// The writer of a topic of ROS.
-    pub(super) fn publisher(self: &Rc<Self>, name: &str, layout: &Layout, qos: Qos) -> Result<Endpoint> {
-        Ok(Endpoint::writer(self, &names::topic(&self.resolve(name)?), layout, qos))
+    pub(super) fn publisher(
+        self: &Rc<Self>,
+        name: &str,
+        layout: &Layout,
+        qos: Qos,
+    ) -> Result<Endpoint> {
+        Ok(Endpoint::writer(
+            self,
+            &names::topic(&self.resolve(name)?),
+            layout,
+            qos,
+        ))
     }
 
     /// The reader of a topic of ROS.
-    pub(super) fn subscription(self: &Rc<Self>, name: &str, layout: &Layout, qos: Qos) -> Result<Endpoint> {
-        Ok(Endpoint::reader(self, &names::topic(&self.resolve(name)?), layout, qos))
+    pub(super) fn subscription(
+        self: &Rc<Self>,
+        name: &str,
+        layout: &Layout,
+        qos: Qos,
+    ) -> Result<Endpoint> {
+        Ok(Endpoint::reader(
+            self,
+            &names::topic(&self.resolve(name)?),
+            layout,
+            qos,
+        ))
     }
 
     pub(super) fn resolve(&self, name: &str) -> Result<String> {
@@ -104,10 +130,20 @@ pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
         return Ok(running.clone());
     }
     let options = &cx.options().ros;
-    let param = |name: &str| cx.app().named_params.get(name).map(|value| String::from_utf8_lossy(value).into_owned());
+    let param = |name: &str| {
+        cx.app()
+            .named_params
+            .get(name)
+            .map(|value| String::from_utf8_lossy(value).into_owned())
+    };
     let domain = param("ROS2Interface.domainId").unwrap_or_else(|| options.domain.clone());
-    let domain = if domain.is_empty() { Ok(0) } else { domain.trim().parse() };
-    let domain = domain.map_err(|_| ApiError::Other("ROS 2: the domain (ROS_DOMAIN_ID) is no number".into()))?;
+    let domain = if domain.is_empty() {
+        Ok(0)
+    } else {
+        domain.trim().parse()
+    };
+    let domain = domain
+        .map_err(|_| ApiError::Other("ROS 2: the domain (ROS_DOMAIN_ID) is no number".into()))?;
     let name = param("ROS2Interface.nodeName").unwrap_or_else(|| "sim_ros2_interface".into());
     let network = match options.network {
         None => {
@@ -121,7 +157,10 @@ pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
     };
     let participant = Participant::new(domain, network, &name, b"enclave=/;")
         .map_err(|error| ApiError::Other(format!("ROS 2: {error}")))?;
-    let running = Rc::new(Running { participant, place: Place::new(&options.namespace, &name) });
+    let running = Rc::new(Running {
+        participant,
+        place: Place::new(&options.namespace, &name),
+    });
     *node.running.borrow_mut() = Some(running.clone());
     Ok(running)
 }
@@ -143,6 +182,10 @@ pub(super) fn get<T>(cx: &Cx, handle: &str, choose: impl Fn(Entity) -> Option<T>
 ///
 /// # Errors
 /// When it is not.
-pub(super) fn shut_down<T>(cx: &Cx, handle: &str, choose: impl Fn(Entity) -> Option<T>) -> Result<()> {
+pub(super) fn shut_down<T>(
+    cx: &Cx,
+    handle: &str,
+    choose: impl Fn(Entity) -> Option<T>,
+) -> Result<()> {
     node(cx).entities.shut_down(handle, choose)
 }

@@ -44,13 +44,26 @@ impl Parameter {
 }
 
 /// Whether a parameter is there, and its value.
-fn read<T: Default>(cx: &Cx, name: &str, kind: &str, value: impl Fn(&Parameter) -> Option<T>) -> Result<(bool, T)> {
+fn read<T: Default>(
+    cx: &Cx,
+    name: &str,
+    kind: &str,
+    value: impl Fn(&Parameter) -> Option<T>,
+) -> Result<(bool, T)> {
     let node = node(cx);
     let parameters = node.parameters.borrow();
-    let Some(parameter) = parameters.get(name) else { return Ok((false, T::default())) };
-    let wrong =
-        || ApiError::Other(format!("parameter '{name}' has another type: expected {kind}, got {}", parameter.kind()));
-    value(parameter).map(|value| (true, value)).ok_or_else(wrong)
+    let Some(parameter) = parameters.get(name) else {
+        return Ok((false, T::default()));
+    };
+    let wrong = || {
+        ApiError::Other(format!(
+            "parameter '{name}' has another type: expected {kind}, got {}",
+            parameter.kind()
+        ))
+    };
+    value(parameter)
+        .map(|value| (true, value))
+        .ok_or_else(wrong)
 }
 
 fn write(cx: &Cx, name: String, value: Parameter) -> Result<()> {
@@ -68,7 +81,11 @@ fn write(cx: &Cx, name: String, value: Parameter) -> Result<()> {
 /// @return exists
 /// @return value empty if it does not exist
 #[api("simROS2.getParamString")]
-fn get_param_string(cx: &Cx, name: String, #[default(String::new())] _default_value: String) -> Result<(bool, String)> {
+fn get_param_string(
+    cx: &Cx,
+    name: String,
+    #[default(String::new())] _default_value: String,
+) -> Result<(bool, String)> {
     read(cx, &name, "string", |value| match value {
         Parameter::String(value) => Some(value.clone()),
         _ => None,
@@ -96,7 +113,11 @@ fn get_param_int(cx: &Cx, name: String, #[default(0)] _default_value: i64) -> Re
 /// @return exists
 /// @return value 0 if it does not exist
 #[api("simROS2.getParamDouble")]
-fn get_param_double(cx: &Cx, name: String, #[default(0.0)] _default_value: f64) -> Result<(bool, f64)> {
+fn get_param_double(
+    cx: &Cx,
+    name: String,
+    #[default(0.0)] _default_value: f64,
+) -> Result<(bool, f64)> {
     read(cx, &name, "double", |value| match value {
         Parameter::Double(value) => Some(*value),
         _ => None,
@@ -110,7 +131,11 @@ fn get_param_double(cx: &Cx, name: String, #[default(0.0)] _default_value: f64) 
 /// @return exists
 /// @return value false if it does not exist
 #[api("simROS2.getParamBool")]
-fn get_param_bool(cx: &Cx, name: String, #[default(false)] _default_value: bool) -> Result<(bool, bool)> {
+fn get_param_bool(
+    cx: &Cx,
+    name: String,
+    #[default(false)] _default_value: bool,
+) -> Result<(bool, bool)> {
     read(cx, &name, "bool", |value| match value {
         Parameter::Bool(value) => Some(*value),
         _ => None,
@@ -168,5 +193,7 @@ fn has_param(cx: &Cx, name: String) -> Result<bool> {
 #[api("simROS2.deleteParam")]
 fn delete_param(cx: &mut Cx, name: String) -> Result<()> {
     let removed = node(cx).parameters.borrow_mut().remove(&name);
-    removed.map(drop).ok_or_else(|| ApiError::Other(format!("parameter '{name}' does not exist")))
+    removed
+        .map(drop)
+        .ok_or_else(|| ApiError::Other(format!("parameter '{name}' does not exist")))
 }

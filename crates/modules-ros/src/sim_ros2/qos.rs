@@ -73,8 +73,10 @@ fn duration(data: &Data, name: &str) -> Result<Option<Duration>> {
         None | Some(Data::Nil) => Ok(None),
         Some(table @ (Data::Map(_) | Data::Array(_))) => {
             let seconds = u64::try_from(integer(table, "sec", 0)?).map_err(|_| unknown(name))?;
-            let nanoseconds = u32::try_from(integer(table, "nanosec", 0)?).map_err(|_| unknown(name))?;
-            let whole = Duration::from_secs(seconds).checked_add(Duration::from_nanos(nanoseconds.into()));
+            let nanoseconds =
+                u32::try_from(integer(table, "nanosec", 0)?).map_err(|_| unknown(name))?;
+            let whole =
+                Duration::from_secs(seconds).checked_add(Duration::from_nanos(nanoseconds.into()));
             Ok(whole.filter(|duration| !duration.is_zero()))
         }
         Some(_) => Err(unknown(name)),

@@ -47,19 +47,37 @@ pub(super) struct Client {
 
 impl Client {
     /// `full` is the name as all nodes know it.
-    pub(super) fn new(running: &Rc<Running>, full: &str, [request, response]: [Arc<Layout>; 2]) -> Self {
+    pub(super) fn new(
+        running: &Rc<Running>,
+        full: &str,
+        [request, response]: [Arc<Layout>; 2],
+    ) -> Self {
         let [to_server, from_server] = names::service(full);
         let replies = Endpoint::reader(running, &from_server, &response, Qos::default());
         let requests = Endpoint::writer(running, &to_server, &request, Qos::default());
         let guid = requests.guid().to_bytes();
         // The end of the participant's name and the entity: 8 bytes that no other client has.
-        let id = guid[8..].iter().chain(&guid[2..6]).fold(0u64, |id, byte| id.rotate_left(8) ^ u64::from(*byte));
-        Self { request, response, requests, replies, id, style: Cell::default(), arrived: RefCell::default() }
+        let id = guid[8..]
+            .iter()
+            .chain(&guid[2..6])
+            .fold(0u64, |id, byte| id.rotate_left(8) ^ u64::from(*byte));
+        Self {
+            request,
+            response,
+            requests,
+            replies,
+            id,
+            style: Cell::default(),
+            arrived: RefCell::default(),
+        }
     }
 
     pub(super) fn has_server(&self) -> bool {
         let (writer, reader) = (self.requests.entity, self.replies.entity);
-        self.requests.node.participant.with(|core| core.has_partner(writer, reader))
+        self.requests
+            .node
+            .participant
+            .with(|core| core.has_partner(writer, reader))
     }
 
     /// Sends a request. Returns its number.
@@ -83,7 +101,10 @@ impl Client {
             arrived.pop_first();
         }
         let payload = arrived.remove(&number)?;
-        Some(cdr::decode(&self.response, &payload).map_err(|error| ApiError::Other(error.to_string())))
+        Some(
+            cdr::decode(&self.response, &payload)
+                .map_err(|error| ApiError::Other(error.to_string())),
+        )
     }
 }
 
@@ -97,11 +118,20 @@ pub(super) struct Server {
 
 impl Server {
     /// `full` is the name as all nodes know it.
-    pub(super) fn new(running: &Rc<Running>, full: &str, [request, response]: [Arc<Layout>; 2]) -> Self {
+    pub(super) fn new(
+        running: &Rc<Running>,
+        full: &str,
+        [request, response]: [Arc<Layout>; 2],
+    ) -> Self {
         let [to_server, from_server] = names::service(full);
         let replies = Endpoint::writer(running, &from_server, &response, Qos::default());
         let requests = Endpoint::reader(running, &to_server, &request, Qos::default());
-        Self { request, response, requests, replies }
+        Self {
+            request,
+            response,
+            requests,
+            replies,
+        }
     }
 
     /// The requests that have arrived. What cannot be read is left out: its client is none of this service.
@@ -131,11 +161,18 @@ impl Service {
     pub(super) fn spin(&self) {
         for (call, request) in self.server.arrived() {
             let style = self.style.get();
-            let Some(results) = self.callback.call_logged(&[ros_values::to_data(&request, style)]) else { continue };
+            let Some(results) = self
+                .callback
+                .call_logged(&[ros_values::to_data(&request, style)])
+            else {
+                continue;
+            };
             let response = results.into_iter().next().unwrap_or(Data::Nil);
             match ros_values::from_data(&self.server.response, &response, style) {
                 Ok(response) => self.server.reply(call, &response),
-                Err(problem) => self.callback.warn(&format!("the response of a service was not sent: {problem}")),
+                Err(problem) => self.callback.warn(&format!(
+                    "the response of a service was not sent: {problem}"
+                )),
             }
         }
     }
@@ -176,8 +213,14 @@ fn create_client(cx: &mut Cx, service_name: String, service_type: String) -> Res
 #[api("simROS2.waitForService")]
 fn wait_for_service(cx: &mut Cx, client_handle: String, timeout: f64) -> Result<bool> {
     let client = get(cx, &client_handle, client)?;
-    let limit = if timeout.is_nan() { Some(Duration::ZERO) } else { Duration::try_from_secs_f64(timeout).ok() };
-    Ok(cx.wait_for(limit, || client.has_server().then_some(()))?.is_some())
+    let limit = if timeout.is_nan() {
+        Some(Duration::ZERO)
+    } else {
+        Duration::try_from_secs_f64(timeout).ok()
+    };
+    Ok(cx
+        .wait_for(limit, || client.has_server().then_some(()))?
+        .is_some())
 }
 
 /// Calls a service and waits for its answer. Callbacks run in the meantime.
@@ -188,7 +231,8 @@ fn wait_for_service(cx: &mut Cx, client_handle: String, timeout: f64) -> Result<
 #[api("simROS2.call")]
 fn call(cx: &mut Cx, client_handle: String, request: Table) -> Result<Data> {
     let client = get(cx, &client_handle, client)?;
-    let request = ros_values::from_data(&client.request, &request.0, client.style.get()).map_err(ApiError::Other)?;
+    let request = ros_values::from_data(&client.request, &request.0, client.style.get())
+        .map_err(ApiError::Other)?;
     let response = ask(cx, &client, &request)?;
     Ok(ros_values::to_data(&response, client.style.get()))
 }
@@ -221,7 +265,9 @@ fn shutdown_client(cx: &mut Cx, client_handle: String) -> Result<()> {
 /// @param clientHandle the client
 #[api("simROS2.clientTreatUInt8ArrayAsString")]
 fn client_treat_u_int8_array_as_string(cx: &mut Cx, client_handle: String) -> Result<()> {
-    get(cx, &client_handle, client)?.style.set(Style { bytes_as_strings: true });
+    get(cx, &client_handle, client)?.style.set(Style {
+        bytes_as_strings: true,
+    });
     Ok(())
 }
 
@@ -241,7 +287,11 @@ fn create_service(
     let layouts = interfaces::service(cx, &service_type)?;
     let running = running(cx)?;
     let server = Server::new(&running, &running.resolve(&service_name)?, layouts);
-    let service = Service { server, callback: ScriptCallback::new(cx, service_callback), style: Cell::default() };
+    let service = Service {
+        server,
+        callback: ScriptCallback::new(cx, service_callback),
+        style: Cell::default(),
+    };
     Ok(add(cx, Entity::Service(Rc::new(service))))
 }
 
@@ -258,6 +308,8 @@ fn shutdown_service(cx: &mut Cx, service_handle: String) -> Result<()> {
 /// @param serviceHandle the server
 #[api("simROS2.serviceTreatUInt8ArrayAsString")]
 fn service_treat_u_int8_array_as_string(cx: &mut Cx, service_handle: String) -> Result<()> {
-    get(cx, &service_handle, service)?.style.set(Style { bytes_as_strings: true });
+    get(cx, &service_handle, service)?.style.set(Style {
+        bytes_as_strings: true,
+    });
     Ok(())
 }

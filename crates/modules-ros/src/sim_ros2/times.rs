@@ -43,5 +43,8 @@ pub(super) fn ros_time() -> f64 {
 pub(super) fn to_data(seconds: f64) -> Data {
     let whole = seconds.floor();
     let nanoseconds = ((seconds - whole) * 1e9).floor().min(999_999_999.0);
-    Data::map([("sec", Data::Int(whole as i64)), ("nanosec", Data::Int(nanoseconds as i64))])
+    Data::map([
+        ("sec", Data::Int(whole as i64)),
+        ("nanosec", Data::Int(nanoseconds as i64)),
+    ])
 }

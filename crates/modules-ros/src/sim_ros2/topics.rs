@@ -50,14 +50,19 @@ impl Subscription {
     /// Calls back for what has arrived.
     pub(super) fn spin(&self) {
         for _ in 0..self.endpoint.waiting() {
-            let Some(sample) = self.endpoint.take() else { return };
+            let Some(sample) = self.endpoint.take() else {
+                return;
+            };
             let args = cdr::decode(&self.layout, &sample.payload)
                 .map_err(|error| error.to_string())
                 .and_then(|record| self.arguments(&record));
             match args {
                 Ok(args) => drop(self.callback.call_logged(&args)),
                 Err(problem) if !self.has_warned.replace(true) => {
-                    self.callback.warn(&format!("a message of type {} was left out: {problem}", self.layout.name));
+                    self.callback.warn(&format!(
+                        "a message of type {} was left out: {problem}",
+                        self.layout.name
+                    ));
                 }
                 Err(_) => {}
             }
@@ -65,7 +70,11 @@ impl Subscription {
     }
 
     fn arguments(&self, record: &Record) -> std::result::Result<Vec<Data>, String> {
-        if self.is_image { images::arguments(record) } else { Ok(vec![ros_values::to_data(record, self.style.get())]) }
+        if self.is_image {
+            images::arguments(record)
+        } else {
+            Ok(vec![ros_values::to_data(record, self.style.get())])
+        }
     }
 }
 
@@ -86,7 +95,11 @@ fn subscription(entity: Entity) -> Option<Rc<Subscription>> {
 /// The name of a topic on the wire.
 fn topic(cx: &Cx, name: &str, qos: &Data) -> Result<String> {
     let full = running(cx)?.resolve(name)?;
-    Ok(if qos::avoids_ros_names(qos)? { full } else { super::names::topic(&full) })
+    Ok(if qos::avoids_ros_names(qos)? {
+        full
+    } else {
+        super::names::topic(&full)
+    })
 }
 
 /// Creates a publisher.
@@ -109,7 +122,12 @@ fn create_publisher(
     let layout = interfaces::message(cx, &topic_type)?;
     let topic = topic(cx, &topic_name, &qos)?;
     let endpoint = Endpoint::writer(&running(cx)?, &topic, &layout, qos::from_data(&qos)?);
-    let publisher = Publisher { layout, endpoint, style: Cell::default(), is_image: false };
+    let publisher = Publisher {
+        layout,
+        endpoint,
+        style: Cell::default(),
+        is_image: false,
+    };
     Ok(add(cx, Entity::Publisher(Rc::new(publisher))))
 }
 
@@ -125,7 +143,8 @@ fn publish(cx: &mut Cx, publisher_handle: String, message: Table) -> Result<()> 
 
 impl Publisher {
     pub(super) fn publish(&self, message: &Data) -> Result<()> {
-        let record = ros_values::from_data(&self.layout, message, self.style.get()).map_err(ApiError::Other)?;
+        let record = ros_values::from_data(&self.layout, message, self.style.get())
+            .map_err(ApiError::Other)?;
         self.endpoint.publish(&record);
         Ok(())
     }
@@ -144,7 +163,9 @@ fn shutdown_publisher(cx: &mut Cx, publisher_handle: String) -> Result<()> {
 /// @param publisherHandle the publisher
 #[api("simROS2.publisherTreatUInt8ArrayAsString")]
 fn publisher_treat_u_int8_array_as_string(cx: &mut Cx, publisher_handle: String) -> Result<()> {
-    get(cx, &publisher_handle, publisher)?.style.set(Style { bytes_as_strings: true });
+    get(cx, &publisher_handle, publisher)?.style.set(Style {
+        bytes_as_strings: true,
+    });
     Ok(())
 }
 
@@ -170,7 +191,14 @@ fn create_subscription(
     let endpoint = Endpoint::reader(&running(cx)?, &topic, &layout, qos::from_data(&qos)?);
     let callback = ScriptCallback::new(cx, topic_callback);
     let (style, has_warned) = (Cell::default(), Cell::default());
-    let subscription = Subscription { layout, endpoint, style, callback, is_image: false, has_warned };
+    let subscription = Subscription {
+        layout,
+        endpoint,
+        style,
+        callback,
+        is_image: false,
+        has_warned,
+    };
     Ok(add(cx, Entity::Subscription(Rc::new(subscription))))
 }
 
@@ -186,8 +214,15 @@ fn shutdown_subscription(cx: &mut Cx, subscription_handle: String) -> Result<()>
 ///
 /// @param subscriptionHandle the subscription
 #[api("simROS2.subscriptionTreatUInt8ArrayAsString")]
-fn subscription_treat_u_int8_array_as_string(cx: &mut Cx, subscription_handle: String) -> Result<()> {
-    get(cx, &subscription_handle, subscription)?.style.set(Style { bytes_as_strings: true });
+fn subscription_treat_u_int8_array_as_string(
+    cx: &mut Cx,
+    subscription_handle: String,
+) -> Result<()> {
+    get(cx, &subscription_handle, subscription)?
+        .style
+        .set(Style {
+            bytes_as_strings: true,
+        });
     Ok(())
 }
 
@@ -223,9 +258,17 @@ fn broadcaster(cx: &Cx) -> Result<Rc<Publisher>> {
         return Ok(broadcaster.clone());
     }
     let layout = interfaces::message(cx, "tf2_msgs/msg/TFMessage")?;
-    let qos = Qos { history: History::KeepLast(100), ..Qos::default() };
+    let qos = Qos {
+        history: History::KeepLast(100),
+        ..Qos::default()
+    };
     let endpoint = running(cx)?.publisher("/tf", &layout, qos)?;
-    let broadcaster = Rc::new(Publisher { layout, endpoint, style: Cell::default(), is_image: false });
+    let broadcaster = Rc::new(Publisher {
+        layout,
+        endpoint,
+        style: Cell::default(),
+        is_image: false,
+    });
     *node.broadcaster.borrow_mut() = Some(broadcaster.clone());
     Ok(broadcaster)
 }

@@ -36,7 +36,11 @@ impl<const N: usize> FromScript for Ints<N> {
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         let numbers = Vec::<i64>::from_script(args)?;
-        numbers.first_chunk().copied().map(Self).ok_or(ApiError::TableSize)
+        numbers
+            .first_chunk()
+            .copied()
+            .map(Self)
+            .ok_or(ApiError::TableSize)
     }
 }
 
@@ -48,10 +52,15 @@ impl FromScript for HandleList {
     const TYPE: &'static str = "string[]";
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
-        let Table(Data::Array(items)) = Table::from_script(args)? else { return Ok(Self(Vec::new())) };
+        let Table(Data::Array(items)) = Table::from_script(args)? else {
+            return Ok(Self(Vec::new()));
+        };
         let text = |item: Data| match item {
             Data::Text(bytes) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
-            _ => Err(ApiError::NotA { position: -1, expected: "string" }),
+            _ => Err(ApiError::NotA {
+                position: -1,
+                expected: "string",
+            }),
         };
         items.into_iter().map(text).collect::<Result<_>>().map(Self)
     }

@@ -65,7 +65,12 @@ fn abs(cx: &Cx, handle: String, #[default(false)] in_place: bool) -> Result<Stri
 /// @param inPlace changes the first image instead of making a new one
 /// @return handle
 #[api("simIM.absdiff")]
-fn absdiff(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_place: bool) -> Result<String> {
+fn absdiff(
+    cx: &Cx,
+    handle1: String,
+    handle2: String,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
     binary(cx, handle1, &handle2, in_place, Matrix::difference)
 }
 
@@ -76,8 +81,15 @@ fn absdiff(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_place
 /// @param inPlace changes the image instead of making a new one
 /// @return handle
 #[api("simIM.absdiffK")]
-fn absdiff_k(cx: &Cx, handle: String, k: Vec<f64>, #[default(false)] in_place: bool) -> Result<String> {
-    unary(cx, handle, in_place, |image| image.difference_to_numbers(&k))
+fn absdiff_k(
+    cx: &Cx,
+    handle: String,
+    k: Vec<f64>,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
+    unary(cx, handle, in_place, |image| {
+        image.difference_to_numbers(&k)
+    })
 }
 
 /// Sums; bytes saturate.
@@ -87,7 +99,12 @@ fn absdiff_k(cx: &Cx, handle: String, k: Vec<f64>, #[default(false)] in_place: b
 /// @param inPlace changes the first image instead of making a new one
 /// @return handle
 #[api("simIM.add")]
-fn add(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_place: bool) -> Result<String> {
+fn add(
+    cx: &Cx,
+    handle1: String,
+    handle2: String,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
     binary(cx, handle1, &handle2, in_place, Matrix::add)
 }
 
@@ -109,7 +126,12 @@ fn add_k(cx: &Cx, handle: String, k: Vec<f64>, #[default(false)] in_place: bool)
 /// @param inPlace changes the first image instead of making a new one
 /// @return handle
 #[api("simIM.subtract")]
-fn subtract(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_place: bool) -> Result<String> {
+fn subtract(
+    cx: &Cx,
+    handle1: String,
+    handle2: String,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
     binary(cx, handle1, &handle2, in_place, Matrix::subtract)
 }
 
@@ -120,7 +142,12 @@ fn subtract(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_plac
 /// @param inPlace changes the image instead of making a new one
 /// @return handle
 #[api("simIM.subtractK")]
-fn subtract_k(cx: &Cx, handle: String, k: Vec<f64>, #[default(false)] in_place: bool) -> Result<String> {
+fn subtract_k(
+    cx: &Cx,
+    handle: String,
+    k: Vec<f64>,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
     unary(cx, handle, in_place, |image| image.subtract_numbers(&k))
 }
 
@@ -131,7 +158,12 @@ fn subtract_k(cx: &Cx, handle: String, k: Vec<f64>, #[default(false)] in_place: 
 /// @param inPlace changes the first image instead of making a new one
 /// @return handle
 #[api("simIM.multiply")]
-fn multiply(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_place: bool) -> Result<String> {
+fn multiply(
+    cx: &Cx,
+    handle1: String,
+    handle2: String,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
     binary(cx, handle1, &handle2, in_place, Matrix::multiply)
 }
 
@@ -142,7 +174,12 @@ fn multiply(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_plac
 /// @param inPlace changes the first image instead of making a new one
 /// @return handle
 #[api("simIM.divide")]
-fn divide(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_place: bool) -> Result<String> {
+fn divide(
+    cx: &Cx,
+    handle1: String,
+    handle2: String,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
     binary(cx, handle1, &handle2, in_place, Matrix::divide)
 }
 
@@ -153,7 +190,12 @@ fn divide(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_place:
 /// @param inPlace changes the image instead of making a new one
 /// @return handle
 #[api("simIM.divideK")]
-fn divide_k(cx: &Cx, k: Vec<f64>, handle: String, #[default(false)] in_place: bool) -> Result<String> {
+fn divide_k(
+    cx: &Cx,
+    k: Vec<f64>,
+    handle: String,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
     unary(cx, handle, in_place, |image| image.divide_numbers(&k))
 }
 
@@ -165,9 +207,17 @@ fn divide_k(cx: &Cx, k: Vec<f64>, handle: String, #[default(false)] in_place: bo
 /// @param inPlace changes the first image instead of making a new one
 /// @return handle
 #[api("simIM.compare")]
-fn compare(cx: &Cx, handle1: String, handle2: String, op: Number, #[default(false)] in_place: bool) -> Result<String> {
+fn compare(
+    cx: &Cx,
+    handle1: String,
+    handle2: String,
+    op: Number,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
     let comparison = comparison(op.0)?;
-    binary(cx, handle1, &handle2, in_place, |a, b| a.compare(b, comparison))
+    binary(cx, handle1, &handle2, in_place, |a, b| {
+        a.compare(b, comparison)
+    })
 }
 
 /// 255 where a comparison with a number holds, else 0.
@@ -178,9 +228,17 @@ fn compare(cx: &Cx, handle1: String, handle2: String, op: Number, #[default(fals
 /// @param inPlace changes the image instead of making a new one
 /// @return handle
 #[api("simIM.compareK")]
-fn compare_k(cx: &Cx, handle: String, k: Vec<f64>, op: Number, #[default(false)] in_place: bool) -> Result<String> {
+fn compare_k(
+    cx: &Cx,
+    handle: String,
+    k: Vec<f64>,
+    op: Number,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
     let comparison = comparison(op.0)?;
-    unary(cx, handle, in_place, |image| image.compare_numbers(&k, comparison))
+    unary(cx, handle, in_place, |image| {
+        image.compare_numbers(&k, comparison)
+    })
 }
 
 /// Bits of both images, combined by and.
@@ -190,8 +248,15 @@ fn compare_k(cx: &Cx, handle: String, k: Vec<f64>, op: Number, #[default(false)]
 /// @param inPlace changes the first image instead of making a new one
 /// @return handle
 #[api("simIM.bitwiseAnd")]
-fn bitwise_and(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_place: bool) -> Result<String> {
-    binary(cx, handle1, &handle2, in_place, |a, b| a.bitwise(b, Bitwise::And))
+fn bitwise_and(
+    cx: &Cx,
+    handle1: String,
+    handle2: String,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
+    binary(cx, handle1, &handle2, in_place, |a, b| {
+        a.bitwise(b, Bitwise::And)
+    })
 }
 
 /// Bits of an image and of numbers, combined by and.
@@ -201,8 +266,15 @@ fn bitwise_and(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_p
 /// @param inPlace changes the image instead of making a new one
 /// @return handle
 #[api("simIM.bitwiseAndK")]
-fn bitwise_and_k(cx: &Cx, handle: String, k: Vec<f64>, #[default(false)] in_place: bool) -> Result<String> {
-    unary(cx, handle, in_place, |image| image.bitwise(&image.constant(&k)?, Bitwise::And))
+fn bitwise_and_k(
+    cx: &Cx,
+    handle: String,
+    k: Vec<f64>,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
+    unary(cx, handle, in_place, |image| {
+        image.bitwise(&image.constant(&k)?, Bitwise::And)
+    })
 }
 
 /// Bits of both images, combined by or.
@@ -212,8 +284,15 @@ fn bitwise_and_k(cx: &Cx, handle: String, k: Vec<f64>, #[default(false)] in_plac
 /// @param inPlace changes the first image instead of making a new one
 /// @return handle
 #[api("simIM.bitwiseOr")]
-fn bitwise_or(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_place: bool) -> Result<String> {
-    binary(cx, handle1, &handle2, in_place, |a, b| a.bitwise(b, Bitwise::Or))
+fn bitwise_or(
+    cx: &Cx,
+    handle1: String,
+    handle2: String,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
+    binary(cx, handle1, &handle2, in_place, |a, b| {
+        a.bitwise(b, Bitwise::Or)
+    })
 }
 
 /// Bits of an image and of numbers, combined by or.
@@ -223,8 +302,15 @@ fn bitwise_or(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_pl
 /// @param inPlace changes the image instead of making a new one
 /// @return handle
 #[api("simIM.bitwiseOrK")]
-fn bitwise_or_k(cx: &Cx, handle: String, k: Vec<f64>, #[default(false)] in_place: bool) -> Result<String> {
-    unary(cx, handle, in_place, |image| image.bitwise(&image.constant(&k)?, Bitwise::Or))
+fn bitwise_or_k(
+    cx: &Cx,
+    handle: String,
+    k: Vec<f64>,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
+    unary(cx, handle, in_place, |image| {
+        image.bitwise(&image.constant(&k)?, Bitwise::Or)
+    })
 }
 
 /// Bits of both images, combined by xor.
@@ -234,8 +320,15 @@ fn bitwise_or_k(cx: &Cx, handle: String, k: Vec<f64>, #[default(false)] in_place
 /// @param inPlace changes the first image instead of making a new one
 /// @return handle
 #[api("simIM.bitwiseXor")]
-fn bitwise_xor(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_place: bool) -> Result<String> {
-    binary(cx, handle1, &handle2, in_place, |a, b| a.bitwise(b, Bitwise::Xor))
+fn bitwise_xor(
+    cx: &Cx,
+    handle1: String,
+    handle2: String,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
+    binary(cx, handle1, &handle2, in_place, |a, b| {
+        a.bitwise(b, Bitwise::Xor)
+    })
 }
 
 /// Bits of an image and of numbers, combined by xor.
@@ -245,8 +338,15 @@ fn bitwise_xor(cx: &Cx, handle1: String, handle2: String, #[default(false)] in_p
 /// @param inPlace changes the image instead of making a new one
 /// @return handle
 #[api("simIM.bitwiseXorK")]
-fn bitwise_xor_k(cx: &Cx, handle: String, k: Vec<f64>, #[default(false)] in_place: bool) -> Result<String> {
-    unary(cx, handle, in_place, |image| image.bitwise(&image.constant(&k)?, Bitwise::Xor))
+fn bitwise_xor_k(
+    cx: &Cx,
+    handle: String,
+    k: Vec<f64>,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
+    unary(cx, handle, in_place, |image| {
+        image.bitwise(&image.constant(&k)?, Bitwise::Xor)
+    })
 }
 
 /// Inverted bits.

@@ -8,8 +8,17 @@ use super::images::refused;
 use super::objects::{images, unary};
 use crate::{ApiFn, Cx, Result, functions};
 
-pub(super) const FUNCTIONS: &[ApiFn] =
-    functions![rgb2gray, gray2rgb, rgb2hsv, hsv2rgb, rgb2hls, hls2rgb, split, merge, mix_channels];
+pub(super) const FUNCTIONS: &[ApiFn] = functions![
+    rgb2gray,
+    gray2rgb,
+    rgb2hsv,
+    hsv2rgb,
+    rgb2hls,
+    hls2rgb,
+    split,
+    merge,
+    mix_channels
+];
 
 /// Grey of an image. The first channel counts as red: of an image of a camera it is blue.
 ///
@@ -82,7 +91,11 @@ fn split(cx: &Cx, handle: String) -> Result<Vec<String>> {
     if image.format().channels < 2 {
         return Err(refused("not a multichannel image"));
     }
-    image.split().into_iter().map(|channel| images.add(cx, channel)).collect()
+    image
+        .split()
+        .into_iter()
+        .map(|channel| images.add(cx, channel))
+        .collect()
 }
 
 /// An image of the channels of others.
@@ -104,7 +117,12 @@ fn merge(cx: &Cx, handles: HandleList) -> Result<String> {
 /// @param outputHandles images to change
 /// @param fromTo pairs of channels, counted from 0 over all images of a list; a negative source clears
 #[api("simIM.mixChannels")]
-fn mix_channels(cx: &Cx, input_handles: HandleList, output_handles: HandleList, from_to: Vec<i64>) -> Result<()> {
+fn mix_channels(
+    cx: &Cx,
+    input_handles: HandleList,
+    output_handles: HandleList,
+    from_to: Vec<i64>,
+) -> Result<()> {
     let (inputs, mut outputs) = (all(cx, &input_handles)?, all(cx, &output_handles)?);
     let (pairs, rest) = from_to.as_chunks();
     if !rest.is_empty() {
@@ -112,10 +130,18 @@ fn mix_channels(cx: &Cx, input_handles: HandleList, output_handles: HandleList, 
     }
     Matrix::mix_channels(&inputs, &mut outputs, pairs)?;
     let images = images(cx);
-    output_handles.0.iter().zip(outputs).try_for_each(|(handle, image)| images.replace(handle, image))
+    output_handles
+        .0
+        .iter()
+        .zip(outputs)
+        .try_for_each(|(handle, image)| images.replace(handle, image))
 }
 
 fn all(cx: &Cx, handles: &HandleList) -> Result<Vec<Matrix>> {
     let images = images(cx);
-    handles.0.iter().map(|handle| images.get(handle).map(|image| Matrix::clone(&image))).collect()
+    handles
+        .0
+        .iter()
+        .map(|handle| images.get(handle).map(|image| Matrix::clone(&image)))
+        .collect()
 }

@@ -1,7 +1,9 @@
 //! `simIM.*`: drawing. Places are columns and rows; with `shift` they have that many binary digits behind the point.
 
 use api_macro::api;
-use imaging::draw::{FontFace, LineType, Pen, PixelPosition, Stroke, Text, clip_line as clip, text_size as measure};
+use imaging::draw::{
+    FontFace, LineType, Pen, PixelPosition, Stroke, Text, clip_line as clip, text_size as measure,
+};
 use imaging::matrix::{Matrix, MatrixError};
 
 use super::arguments::Ints;
@@ -37,14 +39,21 @@ fn pen(Ints([red, green, blue]): Ints<3>, line_type: Number) -> Result<Pen> {
         16 => LineType::Antialiased,
         other => return Err(refused(&format!("invalid line type: {other}"))),
     };
-    Ok(Pen { colour: [blue as f64, green as f64, red as f64, 0.0], line_type })
+    Ok(Pen {
+        colour: [blue as f64, green as f64, red as f64, 0.0],
+        line_type,
+    })
 }
 
 /// Divisor of a fixed-point number with `shift` binary digits after the point.
 fn divisor(shift: Number) -> Result<f64> {
     const MAX_SHIFT: i64 = 16;
     let is_possible = (0..=MAX_SHIFT).contains(&shift.0);
-    if is_possible { Ok(f64::from(1u32 << shift.0)) } else { Err(MatrixError::Range("the shift").into()) }
+    if is_possible {
+        Ok(f64::from(1u32 << shift.0))
+    } else {
+        Err(MatrixError::Range("the shift").into())
+    }
 }
 
 fn place(Ints(numbers): Ints<2>, divisor: f64) -> PixelPosition {
@@ -84,8 +93,14 @@ fn line(
     #[default(EIGHT_CONNECTED)] r#type: Number,
     #[default(0)] shift: Number,
 ) -> Result<()> {
-    let (pen, thickness, divisor) = (pen(color, r#type)?, thickness_of(thickness)?, divisor(shift)?);
-    draw(cx, &handle, |image| image.draw_line(place(p1, divisor), place(p2, divisor), &pen, thickness))
+    let (pen, thickness, divisor) = (
+        pen(color, r#type)?,
+        thickness_of(thickness)?,
+        divisor(shift)?,
+    );
+    draw(cx, &handle, |image| {
+        image.draw_line(place(p1, divisor), place(p2, divisor), &pen, thickness)
+    })
 }
 
 /// Draws a line with a tip at its end.
@@ -111,25 +126,52 @@ fn arrowed_line(
     #[default(0)] shift: Number,
     #[default(0.1)] tip_length: f64,
 ) -> Result<()> {
-    let (pen, thickness, divisor) = (pen(color, r#type)?, thickness_of(thickness)?, divisor(shift)?);
+    let (pen, thickness, divisor) = (
+        pen(color, r#type)?,
+        thickness_of(thickness)?,
+        divisor(shift)?,
+    );
     let (from, to) = (place(p1, divisor), place(p2, divisor));
-    draw(cx, &handle, |image| image.draw_arrow(from, to, &pen, thickness, tip_length))
+    draw(cx, &handle, |image| {
+        image.draw_arrow(from, to, &pen, thickness, tip_length)
+    })
 }
 
 /// Places of several polygons, from lists of their coordinates and counts.
-fn polygons(points: &[i64], counts: &[i64], divisor: f64, offset: [f64; 2]) -> Result<Vec<Vec<PixelPosition>>> {
+fn polygons(
+    points: &[i64],
+    counts: &[i64],
+    divisor: f64,
+    offset: [f64; 2],
+) -> Result<Vec<Vec<PixelPosition>>> {
     let wrong = || refused("invalid number of points or invalid elements in numPoints");
     let (pairs, rest) = points.as_chunks::<2>();
-    let mut left = if rest.is_empty() { pairs } else { return Err(wrong()) };
+    let mut left = if rest.is_empty() {
+        pairs
+    } else {
+        return Err(wrong());
+    };
     let mut polygons = Vec::new();
     for &count in counts {
-        let count = usize::try_from(count).ok().filter(|count| *count > 0 && *count <= left.len()).ok_or_else(wrong)?;
+        let count = usize::try_from(count)
+            .ok()
+            .filter(|count| *count > 0 && *count <= left.len())
+            .ok_or_else(wrong)?;
         let (polygon, others) = left.split_at(count);
-        let place = |[x, y]: &[i64; 2]| [*x as f64 / divisor + offset[0], *y as f64 / divisor + offset[1]];
+        let place = |[x, y]: &[i64; 2]| {
+            [
+                *x as f64 / divisor + offset[0],
+                *y as f64 / divisor + offset[1],
+            ]
+        };
         polygons.push(polygon.iter().map(place).collect());
         left = others;
     }
-    if left.is_empty() { Ok(polygons) } else { Err(wrong()) }
+    if left.is_empty() {
+        Ok(polygons)
+    } else {
+        Err(wrong())
+    }
 }
 
 /// Draws lines from place to place.
@@ -157,7 +199,11 @@ fn polylines(
 ) -> Result<()> {
     let (pen, thickness) = (pen(color, r#type)?, thickness_of(thickness)?);
     let lines = polygons(&points, &num_points, divisor(shift)?, [0.0; 2])?;
-    draw(cx, &handle, |image| lines.iter().for_each(|line| image.draw_lines(line, is_closed, &pen, thickness)))
+    draw(cx, &handle, |image| {
+        lines
+            .iter()
+            .for_each(|line| image.draw_lines(line, is_closed, &pen, thickness))
+    })
 }
 
 /// Draws a rectangle.
@@ -181,8 +227,14 @@ fn rectangle(
     #[default(EIGHT_CONNECTED)] r#type: Number,
     #[default(0)] shift: Number,
 ) -> Result<()> {
-    let (pen, stroke, divisor) = (pen(color, r#type)?, Stroke::from_thickness(thickness.0)?, divisor(shift)?);
-    draw(cx, &handle, |image| image.draw_rectangle(place(p1, divisor), place(p2, divisor), &pen, stroke))
+    let (pen, stroke, divisor) = (
+        pen(color, r#type)?,
+        Stroke::from_thickness(thickness.0)?,
+        divisor(shift)?,
+    );
+    draw(cx, &handle, |image| {
+        image.draw_rectangle(place(p1, divisor), place(p2, divisor), &pen, stroke)
+    })
 }
 
 /// Draws a circle.
@@ -206,9 +258,15 @@ fn circle(
     #[default(EIGHT_CONNECTED)] r#type: Number,
     #[default(0)] shift: Number,
 ) -> Result<()> {
-    let (pen, stroke, divisor) = (pen(color, r#type)?, Stroke::from_thickness(thickness.0)?, divisor(shift)?);
+    let (pen, stroke, divisor) = (
+        pen(color, r#type)?,
+        Stroke::from_thickness(thickness.0)?,
+        divisor(shift)?,
+    );
     let (centre, radius) = (place(center, divisor), radius.0 as f64 / divisor);
-    Ok(draw(cx, &handle, |image| image.draw_circle(centre, radius, &pen, stroke))??)
+    Ok(draw(cx, &handle, |image| {
+        image.draw_circle(centre, radius, &pen, stroke)
+    })??)
 }
 
 /// Draws an ellipse or a part of it.
@@ -238,12 +296,18 @@ fn ellipse(
     #[default(EIGHT_CONNECTED)] r#type: Number,
     #[default(0)] shift: Number,
 ) -> Result<()> {
-    let (pen, stroke, divisor) = (pen(color, r#type)?, Stroke::from_thickness(thickness.0)?, divisor(shift)?);
+    let (pen, stroke, divisor) = (
+        pen(color, r#type)?,
+        Stroke::from_thickness(thickness.0)?,
+        divisor(shift)?,
+    );
     let (centre, radii) = (place(center, divisor), place(radius, divisor));
     if radius.0.iter().any(|radius| *radius < 0) {
         return Err(MatrixError::Range("the radius").into());
     }
-    draw(cx, &handle, |image| image.draw_ellipse(centre, radii, angle, [start_angle, end_angle], &pen, stroke))
+    draw(cx, &handle, |image| {
+        image.draw_ellipse(centre, radii, angle, [start_angle, end_angle], &pen, stroke)
+    })
 }
 
 /// Fills what polygons enclose, but not where two overlap.
@@ -289,7 +353,12 @@ fn fill_convex_poly(
     #[default(0)] shift: Number,
 ) -> Result<()> {
     let pen = pen(color, r#type)?;
-    let polygons = polygons(&points, &[points.len() as i64 / 2], divisor(shift)?, [0.0; 2])?;
+    let polygons = polygons(
+        &points,
+        &[points.len() as i64 / 2],
+        divisor(shift)?,
+        [0.0; 2],
+    )?;
     draw(cx, &handle, |image| image.fill_polygons(&polygons, &pen))
 }
 
@@ -343,7 +412,9 @@ fn text(
         is_italic: italic,
         is_from_bottom: bottom_left_origin,
     };
-    Ok(draw(cx, &handle, |image| image.draw_text(pos.floats(), &text, &pen))??)
+    Ok(draw(cx, &handle, |image| {
+        image.draw_text(pos.floats(), &text, &pen)
+    })??)
 }
 
 /// The size of a text.
@@ -366,7 +437,12 @@ fn text_size(
     #[default(1)] thickness: Number,
 ) -> Result<(i64, i64, i64)> {
     let _ = italic;
-    let size = measure(&str, self::font_face(font_face.0)?, font_scale, thickness_of(thickness)?)?;
+    let size = measure(
+        &str,
+        self::font_face(font_face.0)?,
+        font_scale,
+        thickness_of(thickness)?,
+    )?;
     Ok((size.width, size.height, size.baseline))
 }
 
@@ -379,7 +455,12 @@ fn text_size(
 /// @return p1 where it begins
 /// @return p2 where it ends
 #[api("simIM.clipLine")]
-fn clip_line(cx: &Cx, handle: String, p1: Ints<2>, p2: Ints<2>) -> Result<(bool, IntPair, IntPair)> {
+fn clip_line(
+    cx: &Cx,
+    handle: String,
+    p1: Ints<2>,
+    p2: Ints<2>,
+) -> Result<(bool, IntPair, IntPair)> {
     let image = images(cx).get(&handle)?;
     let whole = |place: PixelPosition| IntPair(place.map(|at| at.round() as i64));
     Ok(match clip(image.size(), p1.floats(), p2.floats()) {

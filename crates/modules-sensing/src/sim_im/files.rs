@@ -42,7 +42,11 @@ fn read(cx: &Cx, filename: String) -> Result<String> {
 fn write(cx: &Cx, handle: String, filename: String) -> Result<()> {
     let image = images(cx).get(&handle)?;
     let path = Path::new(&filename);
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let extension = path
+        .extension()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .to_lowercase();
     let file = file_of(&image, &extension)?;
     cx.permissions().check_write(path)?;
     write_whole(path, &file).map_err(|error| refused(&format!("cannot write {filename}: {error}")))
@@ -66,12 +70,19 @@ fn encode(cx: &Cx, handle: String, format: String) -> Result<Text> {
 /// @param format BMP, JPG or PNG
 /// @return output
 #[api("simIM.dataURL")]
-fn data_url(cx: &Cx, img_handle: String, #[default("BMP".to_owned())] format: String) -> Result<String> {
+fn data_url(
+    cx: &Cx,
+    img_handle: String,
+    #[default("BMP".to_owned())] format: String,
+) -> Result<String> {
     let image = images(cx).get(&img_handle)?;
     let (extension, name) = kind_of(&format)?;
     let file = file_of(&image, extension)?;
     let (text, rest) = encode_base64(&file);
-    Ok(format!("data:image/{name};base64,{text}{}", finish_base64(rest)))
+    Ok(format!(
+        "data:image/{name};base64,{text}{}",
+        finish_base64(rest)
+    ))
 }
 
 /// Extension and MIME name of a format.
@@ -90,11 +101,21 @@ fn file_of(image: &Matrix, extension: &str) -> Result<Vec<u8>> {
     let (bytes, layout) = match image.format().channels {
         1 => (bytes.to_vec(), Layout::Grey),
         3 => (turned(bytes, 3), Layout::Rgb),
-        4 => (bytes.as_chunks().0.iter().flat_map(|[b, g, r, a]| [*r, *g, *b, *a]).collect(), Layout::Rgba),
+        4 => (
+            bytes
+                .as_chunks()
+                .0
+                .iter()
+                .flat_map(|[b, g, r, a]| [*r, *g, *b, *a])
+                .collect(),
+            Layout::Rgba,
+        ),
         _ => return Err(MatrixError::Format("a file").into()),
     };
     let picture = Picture::new(bytes, image.size().map(|side| side as i64), layout);
-    picture.and_then(|picture| picture.encode(extension, QUALITY)).map_err(|error| opencv(&error.to_string()))
+    picture
+        .and_then(|picture| picture.encode(extension, QUALITY))
+        .map_err(|error| opencv(&error.to_string()))
 }
 
 fn opencv(why: &str) -> ApiError {

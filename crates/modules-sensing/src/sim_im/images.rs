@@ -8,8 +8,16 @@ use super::objects::{images, unary};
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use script::{Bytes, Number};
 
-pub(super) const FUNCTIONS: &[ApiFn] =
-    functions![create, create_from_data, destroy, size, get_format, convert, get, set];
+pub(super) const FUNCTIONS: &[ApiFn] = functions![
+    create,
+    create_from_data,
+    destroy,
+    size,
+    get_format,
+    convert,
+    get,
+    set
+];
 
 /// The formats that have names, `simIM.format._8UC1` first.
 const FORMATS: [PixelFormat; 6] = [
@@ -25,7 +33,9 @@ const FIRST_FORMAT: i64 = 3600;
 const DEFAULT_FORMAT: i64 = 3601;
 
 fn format_of(number: i64) -> Result<PixelFormat> {
-    let at = number.checked_sub(FIRST_FORMAT).and_then(|at| usize::try_from(at).ok());
+    let at = number
+        .checked_sub(FIRST_FORMAT)
+        .and_then(|at| usize::try_from(at).ok());
     let format = at.and_then(|at| FORMATS.get(at)).copied();
     format.ok_or_else(|| refused(&format!("invalid format: {number}")))
 }
@@ -40,7 +50,10 @@ pub(super) fn refused(why: &str) -> ApiError {
 /// When one is not positive.
 pub(super) fn sides(width: i64, height: i64) -> Result<[usize; 2]> {
     let side = |pixels: i64, name: &str| {
-        usize::try_from(pixels).ok().filter(|side| *side > 0).ok_or_else(|| refused(&format!("invalid {name}")))
+        usize::try_from(pixels)
+            .ok()
+            .filter(|side| *side > 0)
+            .ok_or_else(|| refused(&format!("invalid {name}")))
     };
     Ok([side(width, "width")?, side(height, "height")?])
 }
@@ -61,7 +74,11 @@ fn create(
     #[default(0)] initial_value: Number,
 ) -> Result<String> {
     let [width, height] = sides(width.0, height.0)?;
-    let image = Matrix::new([height, width], format_of(format.0)?, initial_value.0 as f64)?;
+    let image = Matrix::new(
+        [height, width],
+        format_of(format.0)?,
+        initial_value.0 as f64,
+    )?;
     images(cx).add(cx, image)
 }
 
@@ -87,21 +104,35 @@ fn create_from_data(
     let image = match format.depth {
         Depth::Byte => Matrix::from_bytes(size, 3, turned(&data.0, format.channels)),
         Depth::Float => {
-            let floats: Vec<f32> = data.0.as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+            let floats: Vec<f32> = data
+                .0
+                .as_chunks()
+                .0
+                .iter()
+                .map(|bytes| f32::from_le_bytes(*bytes))
+                .collect();
             Matrix::from_floats(size, 3, turned(&floats, format.channels))
         }
     };
-    let values = size[0].saturating_mul(size[1]).saturating_mul(format.channels);
+    let values = size[0]
+        .saturating_mul(size[1])
+        .saturating_mul(format.channels);
     let bytes = values.saturating_mul(if format.depth == Depth::Byte { 1 } else { 4 });
     if bytes != data.0.len() {
-        return Err(refused(&format!("invalid data size: {} bytes, expected {bytes}", data.0.len())));
+        return Err(refused(&format!(
+            "invalid data size: {} bytes, expected {bytes}",
+            data.0.len()
+        )));
     }
     images(cx).add(cx, image?)
 }
 
 /// The first three channels in the opposite order.
 pub(super) fn turned<T: Copy>(values: &[T], channels: usize) -> Vec<T> {
-    values.chunks_exact(channels).flat_map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect()
+    values
+        .chunks_exact(channels)
+        .flat_map(|pixel| [pixel[2], pixel[1], pixel[0]])
+        .collect()
 }
 
 /// Frees an image.
@@ -118,7 +149,11 @@ fn destroy(cx: &Cx, handle: String) -> Result<()> {
 /// @return size width and height
 #[api("simIM.size")]
 fn size(cx: &Cx, handle: String) -> Result<Vec<i64>> {
-    Ok(images(cx).get(&handle)?.size().map(|side| side as i64).to_vec())
+    Ok(images(cx)
+        .get(&handle)?
+        .size()
+        .map(|side| side as i64)
+        .to_vec())
 }
 
 /// The format of an image.
@@ -129,8 +164,12 @@ fn size(cx: &Cx, handle: String) -> Result<Vec<i64>> {
 fn get_format(cx: &Cx, handle: String) -> Result<i64> {
     let format = images(cx).get(&handle)?.format();
     let at = FORMATS.iter().position(|known| *known == format);
-    at.map(|at| FIRST_FORMAT + at as i64)
-        .ok_or_else(|| refused(&format!("unhandled OpenCV format: {}", format.opencv_type())))
+    at.map(|at| FIRST_FORMAT + at as i64).ok_or_else(|| {
+        refused(&format!(
+            "unhandled OpenCV format: {}",
+            format.opencv_type()
+        ))
+    })
 }
 
 /// Converts bytes to floats, or floats to bytes, which saturate. The number of channels stays.
@@ -149,7 +188,9 @@ fn convert(
     #[default(false)] in_place: bool,
 ) -> Result<String> {
     let depth = format_of(format.0)?.depth;
-    unary(cx, handle, in_place, |image| Ok(image.converted(depth, scale)))
+    unary(cx, handle, in_place, |image| {
+        Ok(image.converted(depth, scale))
+    })
 }
 
 /// The values of a pixel in stored order: blue, green, red for an image of a camera. As in CoppeliaSim, places are right for images of
@@ -162,7 +203,9 @@ fn convert(
 fn get(cx: &Cx, handle: String, coord: Ints<2>) -> Result<Vec<f64>> {
     let image = images(cx).get(&handle)?;
     let first = place(&image, coord.0)?;
-    Ok((first..first + image.format().channels).filter_map(|at| image.value(at)).collect())
+    Ok((first..first + image.format().channels)
+        .filter_map(|at| image.value(at))
+        .collect())
 }
 
 /// Sets the values of a pixel, at the same place as simIM.get.
@@ -177,7 +220,10 @@ fn set(cx: &Cx, handle: String, coord: Ints<2>, value: Vec<f64>) -> Result<()> {
             return Err(refused("invalid pixel size"));
         }
         let first = place(image, coord.0)?;
-        value.iter().enumerate().for_each(|(channel, value)| image.set_value(first + channel, *value));
+        value
+            .iter()
+            .enumerate()
+            .for_each(|(channel, value)| image.set_value(first + channel, *value));
         Ok(())
     })?
 }
@@ -187,7 +233,11 @@ fn place(image: &Matrix, [x, y]: [i64; 2]) -> Result<usize> {
     const ASSUMED_CHANNELS: usize = 3;
     let ([width, height], channels) = (image.size(), image.format().channels);
     let inside = |at: i64, size: usize| usize::try_from(at).ok().filter(|at| *at < size);
-    let first = inside(x, width).zip(inside(y, height)).map(|(x, y)| y * width * channels + ASSUMED_CHANNELS * x);
+    let first = inside(x, width)
+        .zip(inside(y, height))
+        .map(|(x, y)| y * width * channels + ASSUMED_CHANNELS * x);
     let is_inside = |first: &usize| first + channels <= width * height * channels;
-    first.filter(is_inside).ok_or_else(|| refused("the pixel is not inside of the image"))
+    first
+        .filter(is_inside)
+        .ok_or_else(|| refused("the pixel is not inside of the image"))
 }

@@ -9,8 +9,12 @@ use super::objects::images;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use script::Number;
 
-pub(super) const FUNCTIONS: &[ApiFn] =
-    functions![get_marker_dictionary, draw_marker, detect_markers, get_marker_bit_size];
+pub(super) const FUNCTIONS: &[ApiFn] = functions![
+    get_marker_dictionary,
+    draw_marker,
+    detect_markers,
+    get_marker_bit_size
+];
 
 /// `simIM.dict_type.*`: four sizes of 4 x 4 to 7 x 7 bits, then the others.
 const FIRST: i64 = 9500;
@@ -46,11 +50,19 @@ const NAMES: [&str; 21] = [
 
 fn index_of(number: i64) -> Result<usize> {
     let is_type = (FIRST..=LAST).contains(&number);
-    if is_type { Ok((number - FIRST) as usize) } else { Err(refused("invalid dictionary type")) }
+    if is_type {
+        Ok((number - FIRST) as usize)
+    } else {
+        Err(refused("invalid dictionary type"))
+    }
 }
 
 fn dictionary(handle: &str) -> Result<Dictionary> {
-    if handle == ORIGINAL_HANDLE { Ok(Dictionary::aruco_original()) } else { Err(refused("invalid object handle")) }
+    if handle == ORIGINAL_HANDLE {
+        Ok(Dictionary::aruco_original())
+    } else {
+        Err(refused("invalid object handle"))
+    }
 }
 
 /// A dictionary of markers. Only that of the original ArUco is here: the others are tables that OpenCV and AprilTag own.
@@ -61,7 +73,9 @@ fn dictionary(handle: &str) -> Result<Dictionary> {
 fn get_marker_dictionary(_cx: &Cx, r#type: Number) -> Result<String> {
     let name = NAMES[index_of(r#type.0)?];
     if r#type.0 != ARUCO_ORIGINAL {
-        return Err(ApiError::NotImplemented(format!("simIM.dict_type.{name}; there is _ARUCO_ORIGINAL")));
+        return Err(ApiError::NotImplemented(format!(
+            "simIM.dict_type.{name}; there is _ARUCO_ORIGINAL"
+        )));
     }
     Ok(ORIGINAL_HANDLE.to_owned())
 }
@@ -84,9 +98,11 @@ fn draw_marker(
     #[default(1)] border_size: Number,
 ) -> Result<String> {
     let dictionary = dictionary(&dictionary_handle)?;
-    let id = usize::try_from(marker_id.0).map_err(|_| MatrixError::Range("the number of a marker"))?;
+    let id =
+        usize::try_from(marker_id.0).map_err(|_| MatrixError::Range("the number of a marker"))?;
     let side = usize::try_from(size.0).map_err(|_| MatrixError::Size)?;
-    let border = usize::try_from(border_size.0).map_err(|_| MatrixError::Range("the border of a marker"))?;
+    let border =
+        usize::try_from(border_size.0).map_err(|_| MatrixError::Range("the border of a marker"))?;
     let image: Matrix = dictionary.draw(id, side, border)?;
     if handle.is_empty() {
         return images(cx).add(cx, image);
@@ -103,12 +119,29 @@ fn draw_marker(
 /// @return markerIds
 /// @return rejectedCandidates corners of squares that are no markers
 #[api("simIM.detectMarkers")]
-fn detect_markers(cx: &Cx, handle: String, dictionary_handle: String) -> Result<(Vec<f64>, Vec<i64>, Vec<f64>)> {
+fn detect_markers(
+    cx: &Cx,
+    handle: String,
+    dictionary_handle: String,
+) -> Result<(Vec<f64>, Vec<i64>, Vec<f64>)> {
     let image = images(cx).get(&handle)?;
     let found = dictionary(&dictionary_handle)?.detect(&image)?;
-    let corners = found.markers.iter().flat_map(|marker| marker.corners).flatten().collect();
-    let ids = found.markers.iter().map(|marker| marker.id as i64).collect();
-    Ok((corners, ids, found.rejected.into_iter().flatten().flatten().collect()))
+    let corners = found
+        .markers
+        .iter()
+        .flat_map(|marker| marker.corners)
+        .flatten()
+        .collect();
+    let ids = found
+        .markers
+        .iter()
+        .map(|marker| marker.id as i64)
+        .collect();
+    Ok((
+        corners,
+        ids,
+        found.rejected.into_iter().flatten().flatten().collect(),
+    ))
 }
 
 /// The bits of a side of a dictionary's markers; as in CoppeliaSim 6 for those of the original ArUco, which have 5.

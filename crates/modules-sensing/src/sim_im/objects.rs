@@ -35,7 +35,10 @@ fn invalid() -> ApiError {
 
 fn number(handle: &str) -> Result<u64> {
     let (digits, kind) = handle.split_once(':').ok_or_else(invalid)?;
-    u64::from_str_radix(digits, 16).ok().filter(|_| kind == KIND).ok_or_else(invalid)
+    u64::from_str_radix(digits, 16)
+        .ok()
+        .filter(|_| kind == KIND)
+        .ok_or_else(invalid)
 }
 
 fn byte_count(image: &Matrix) -> usize {
@@ -49,7 +52,11 @@ impl Images {
     /// # Errors
     /// When there is no such image.
     pub(super) fn get(&self, handle: &str) -> Result<Rc<Matrix>> {
-        self.images.borrow().get(&number(handle)?).cloned().ok_or_else(invalid)
+        self.images
+            .borrow()
+            .get(&number(handle)?)
+            .cloned()
+            .ok_or_else(invalid)
     }
 
     /// # Errors
@@ -73,7 +80,9 @@ impl Images {
         let old = images.get(&number).map_or(0, |image| byte_count(image));
         let bytes = self.bytes.get() - old + byte_count(&image);
         if bytes > MAX_BYTES {
-            return Err(ApiError::Other("the images of a script take 2 GiB at most: destroy some.".into()));
+            return Err(ApiError::Other(
+                "the images of a script take 2 GiB at most: destroy some.".into(),
+            ));
         }
         self.bytes.set(bytes);
         images.insert(number, Rc::new(image));
@@ -83,7 +92,11 @@ impl Images {
     /// # Errors
     /// When there is no such image.
     pub(super) fn remove(&self, handle: &str) -> Result<()> {
-        let image = self.images.borrow_mut().remove(&number(handle)?).ok_or_else(invalid)?;
+        let image = self
+            .images
+            .borrow_mut()
+            .remove(&number(handle)?)
+            .ok_or_else(invalid)?;
         self.bytes.set(self.bytes.get() - byte_count(&image));
         Ok(())
     }
@@ -92,7 +105,11 @@ impl Images {
     ///
     /// # Errors
     /// When there is no such image, and those of `change`.
-    pub(super) fn modify<T>(&self, handle: &str, change: impl FnOnce(&mut Matrix) -> T) -> Result<T> {
+    pub(super) fn modify<T>(
+        &self,
+        handle: &str,
+        change: impl FnOnce(&mut Matrix) -> T,
+    ) -> Result<T> {
         let mut images = self.images.borrow_mut();
         let image = images.get_mut(&number(handle)?).ok_or_else(invalid)?;
         Ok(change(Rc::make_mut(image)))
@@ -100,7 +117,12 @@ impl Images {
 }
 
 /// The handle of a result: a new image, or the image `handle` changed.
-pub(super) fn finish(cx: &Cx, handle: String, result: MatrixResult<Matrix>, in_place: bool) -> Result<String> {
+pub(super) fn finish(
+    cx: &Cx,
+    handle: String,
+    result: MatrixResult<Matrix>,
+    in_place: bool,
+) -> Result<String> {
     let images = images(cx);
     if !in_place {
         return images.add(cx, result?);
@@ -140,7 +162,16 @@ mod tests {
     #[test]
     fn a_handle_is_a_number_and_a_kind() {
         assert_eq!(number("1f:cv.Mat"), Ok(31));
-        for bad in ["", ":", "cv.Mat", "1", "1:zmq.msg", "x:cv.Mat", "-1:cv.Mat", "1:cv.Mat:"] {
+        for bad in [
+            "",
+            ":",
+            "cv.Mat",
+            "1",
+            "1:zmq.msg",
+            "x:cv.Mat",
+            "-1:cv.Mat",
+            "1:cv.Mat:",
+        ] {
             assert_eq!(number(bad), Err(invalid()), "{bad}");
         }
     }

@@ -52,7 +52,9 @@ fn resize(
         other => return Err(refused(&format!("invalid interpolation: {other}"))),
     };
     let size = sides(width.0, height.0)?;
-    unary(cx, handle, in_place, |image| image.resized(size, interpolation))
+    unary(cx, handle, in_place, |image| {
+        image.resized(size, interpolation)
+    })
 }
 
 /// Copies a region of an image to another.
@@ -73,7 +75,9 @@ fn copy(
 ) -> Result<()> {
     let images = images(cx);
     let source = images.get(&src_handle)?;
-    Ok(images.modify(&dst_handle, |image| image.copy_from(&source, src_offset.0, dst_offset.0, size.0))??)
+    Ok(images.modify(&dst_handle, |image| {
+        image.copy_from(&source, src_offset.0, dst_offset.0, size.0)
+    })??)
 }
 
 /// A mirrored image.
@@ -83,7 +87,12 @@ fn copy(
 /// @param inPlace changes the image instead of making a new one
 /// @return handle
 #[api("simIM.flip")]
-fn flip(cx: &Cx, handle: String, #[default(0)] op: Number, #[default(false)] in_place: bool) -> Result<String> {
+fn flip(
+    cx: &Cx,
+    handle: String,
+    #[default(0)] op: Number,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
     let flip = match op.0 {
         constant::FLIP_X => Flip::Columns,
         constant::FLIP_BOTH => Flip::Both,
@@ -100,7 +109,13 @@ fn flip(cx: &Cx, handle: String, #[default(0)] op: Number, #[default(false)] in_
 /// @param inPlace changes the image instead of making a new one
 /// @return handle
 #[api("simIM.repeat")]
-fn repeat(cx: &Cx, handle: String, nx: Number, ny: Number, #[default(false)] in_place: bool) -> Result<String> {
+fn repeat(
+    cx: &Cx,
+    handle: String,
+    nx: Number,
+    ny: Number,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
     let count = |number: i64| usize::try_from(number).map_err(|_| MatrixError::Range("a count"));
     let counts = [count(nx.0)?, count(ny.0)?];
     unary(cx, handle, in_place, |image| image.repeated(counts))
@@ -114,7 +129,13 @@ fn repeat(cx: &Cx, handle: String, nx: Number, ny: Number, #[default(false)] in_
 /// @param inPlace changes the image instead of making a new one
 /// @return handle
 #[api("simIM.reduce")]
-fn reduce(cx: &Cx, handle: String, dim: Number, op: Number, #[default(false)] in_place: bool) -> Result<String> {
+fn reduce(
+    cx: &Cx,
+    handle: String,
+    dim: Number,
+    op: Number,
+    #[default(false)] in_place: bool,
+) -> Result<String> {
     let reduction = match op.0 {
         constant::SUM => Reduction::Sum,
         constant::AVERAGE => Reduction::Average,
@@ -127,5 +148,7 @@ fn reduce(cx: &Cx, handle: String, dim: Number, op: Number, #[default(false)] in
         1 => false,
         _ => return Err(MatrixError::Range("the dimension").into()),
     };
-    unary(cx, handle, in_place, |image| image.reduced(to_row, reduction))
+    unary(cx, handle, in_place, |image| {
+        image.reduced(to_row, reduction)
+    })
 }

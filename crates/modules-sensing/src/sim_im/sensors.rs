@@ -23,7 +23,11 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 /// @param handle the image to change; nothing for a new one
 /// @return handle an image of bytes: blue, green, red
 #[api("simIM.readFromVisionSensor")]
-fn read_from_vision_sensor(cx: &Cx, sensor_handle: Handle, #[default(String::new())] handle: String) -> Result<String> {
+fn read_from_vision_sensor(
+    cx: &Cx,
+    sensor_handle: Handle,
+    #[default(String::new())] handle: String,
+) -> Result<String> {
     let image = {
         let scene = cx.scene();
         let sensor = scene.object(sensor_handle)?.vision_sensor()?;
@@ -45,9 +49,17 @@ fn read_from_vision_sensor(cx: &Cx, sensor_handle: Handle, #[default(String::new
 fn write_to_vision_sensor(cx: &mut Cx, handle: String, sensor_handle: Handle) -> Result<()> {
     let image = images(cx).get(&handle)?;
     let [width, height] = image.size();
-    let [columns, rows] = cx.scene().object(sensor_handle)?.vision_sensor()?.view.resolution.map(|side| side as usize);
+    let [columns, rows] = cx
+        .scene()
+        .object(sensor_handle)?
+        .vision_sensor()?
+        .view
+        .resolution
+        .map(|side| side as usize);
     if [width, height] != [columns, rows] {
-        let sizes = format!("sensor resolution ({columns}x{rows}) does not match image size ({width}x{height})");
+        let sizes = format!(
+            "sensor resolution ({columns}x{rows}) does not match image size ({width}x{height})"
+        );
         return Err(refused(&sizes));
     }
     cx.set_vision_image(sensor_handle, rgb(&image)?)
@@ -90,7 +102,11 @@ fn open_video_capture(_cx: &Cx, device_index: i64) -> Result<()> {
 /// @param handle the image to change; nothing for a new one
 /// @return handle
 #[api("simIM.readFromVideoCapture")]
-fn read_from_video_capture(_cx: &Cx, device_index: i64, #[default(String::new())] handle: String) -> Result<String> {
+fn read_from_video_capture(
+    _cx: &Cx,
+    device_index: i64,
+    #[default(String::new())] handle: String,
+) -> Result<String> {
     let _ = (device_index, handle);
     Err(no_device())
 }

@@ -8,8 +8,15 @@ use super::objects::{binary, images, unary};
 use crate::{ApiFn, Cx, Result, functions};
 use script::Number;
 
-pub(super) const FUNCTIONS: &[ApiFn] =
-    functions![add_weighted, scale_add, magnitude, phase, cart2polar, polar2cart, distance_transform];
+pub(super) const FUNCTIONS: &[ApiFn] = functions![
+    add_weighted,
+    scale_add,
+    magnitude,
+    phase,
+    cart2polar,
+    polar2cart,
+    distance_transform
+];
 
 /// `simIM.dist.*`.
 const L1: i64 = 10_500;
@@ -39,7 +46,9 @@ fn add_weighted(
     gamma: f64,
     #[default(false)] in_place: bool,
 ) -> Result<String> {
-    binary(cx, handle1, &handle2, in_place, |a, b| a.add_weighted(b, [alpha, beta, gamma]))
+    binary(cx, handle1, &handle2, in_place, |a, b| {
+        a.add_weighted(b, [alpha, beta, gamma])
+    })
 }
 
 /// `handle1 * alpha + handle2`; bytes saturate.
@@ -57,7 +66,9 @@ fn scale_add(
     alpha: f64,
     #[default(false)] in_place: bool,
 ) -> Result<String> {
-    binary(cx, handle1, &handle2, in_place, |a, b| a.add_weighted(b, [alpha, 1.0, 0.0]))
+    binary(cx, handle1, &handle2, in_place, |a, b| {
+        a.add_weighted(b, [alpha, 1.0, 0.0])
+    })
 }
 
 /// Lengths of vectors.
@@ -77,8 +88,15 @@ fn magnitude(cx: &Cx, handle1: String, handle2: String) -> Result<String> {
 /// @param angleInDegrees degrees instead of rad
 /// @return handle
 #[api("simIM.phase")]
-fn phase(cx: &Cx, handle1: String, handle2: String, #[default(false)] angle_in_degrees: bool) -> Result<String> {
-    binary(cx, handle1, &handle2, false, |x, y| x.phase(y, angle_in_degrees))
+fn phase(
+    cx: &Cx,
+    handle1: String,
+    handle2: String,
+    #[default(false)] angle_in_degrees: bool,
+) -> Result<String> {
+    binary(cx, handle1, &handle2, false, |x, y| {
+        x.phase(y, angle_in_degrees)
+    })
 }
 
 /// Lengths and angles of vectors.
@@ -145,5 +163,7 @@ fn distance_transform(
         PRECISE => MaskSize::Precise,
         other => return Err(refused(&format!("invalid mask size: {other}"))),
     };
-    unary(cx, handle, in_place, |image| image.distance_transform(distance, mask))
+    unary(cx, handle, in_place, |image| {
+        image.distance_transform(distance, mask)
+    })
 }

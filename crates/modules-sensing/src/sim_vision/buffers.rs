@@ -4,7 +4,9 @@ use api_macro::api;
 use imaging::rgb::RgbImage;
 
 use super::checked::Checked;
-use super::images::{SensorArgument, of_sensor, remove_unbuffered, set_work_image, size_of, with_handle, with_images};
+use super::images::{
+    SensorArgument, of_sensor, remove_unbuffered, set_work_image, size_of, with_handle, with_images,
+};
 use crate::{ApiFn, Cx, Result, functions};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
@@ -32,7 +34,9 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 /// @return trigger false
 #[api("simVision.sensorImgToWorkImg")]
 fn sensor_img_to_work_img(cx: &Cx, vision_sensor_handle: SensorArgument) -> Result<bool> {
-    let image = of_sensor(cx, vision_sensor_handle, |sensor| RgbImage::from_bytes(size_of(sensor), &sensor.image()));
+    let image = of_sensor(cx, vision_sensor_handle, |sensor| {
+        RgbImage::from_bytes(size_of(sensor), &sensor.image())
+    });
     let (handle, image) = image?;
     set_work_image(cx, handle, image);
     Ok(false)
@@ -44,7 +48,9 @@ fn sensor_img_to_work_img(cx: &Cx, vision_sensor_handle: SensorArgument) -> Resu
 /// @return trigger false
 #[api("simVision.sensorDepthMapToWorkImg")]
 fn sensor_depth_map_to_work_img(cx: &Cx, vision_sensor_handle: SensorArgument) -> Result<bool> {
-    let image = of_sensor(cx, vision_sensor_handle, |sensor| RgbImage::from_values(size_of(sensor), &sensor.depth()));
+    let image = of_sensor(cx, vision_sensor_handle, |sensor| {
+        RgbImage::from_values(size_of(sensor), &sensor.depth())
+    });
     let (handle, image) = image?;
     set_work_image(cx, handle, image);
     Ok(false)
@@ -61,7 +67,9 @@ fn work_img_to_sensor_img(
     vision_sensor_handle: SensorArgument,
     #[default(true)] remove_buffer: Checked<bool>,
 ) -> Result<bool> {
-    let (handle, bytes) = with_handle(cx, vision_sensor_handle, |handle, set| (handle, set.work.to_bytes()))?;
+    let (handle, bytes) = with_handle(cx, vision_sensor_handle, |handle, set| {
+        (handle, set.work.to_bytes())
+    })?;
     if remove_buffer.0 {
         remove_unbuffered(cx, handle);
     }
@@ -80,7 +88,9 @@ fn work_img_to_sensor_depth_map(
     vision_sensor_handle: SensorArgument,
     #[default(true)] remove_buffer: Checked<bool>,
 ) -> Result<bool> {
-    let (handle, values) = with_handle(cx, vision_sensor_handle, |handle, set| (handle, set.work.to_values()))?;
+    let (handle, values) = with_handle(cx, vision_sensor_handle, |handle, set| {
+        (handle, set.work.to_values())
+    })?;
     if remove_buffer.0 {
         remove_unbuffered(cx, handle);
     }
@@ -94,7 +104,11 @@ fn work_img_to_sensor_depth_map(
 /// @param color red, green, blue
 /// @return trigger false
 #[api("simVision.uniformImgToWorkImg")]
-fn uniform_img_to_work_img(cx: &Cx, vision_sensor_handle: SensorArgument, color: Checked<[f64; 3]>) -> Result<bool> {
+fn uniform_img_to_work_img(
+    cx: &Cx,
+    vision_sensor_handle: SensorArgument,
+    color: Checked<[f64; 3]>,
+) -> Result<bool> {
     with_images(cx, vision_sensor_handle, |set| set.work.fill(color.0))?;
     Ok(false)
 }
@@ -105,7 +119,9 @@ fn uniform_img_to_work_img(cx: &Cx, vision_sensor_handle: SensorArgument, color:
 /// @return trigger false
 #[api("simVision.workImgToBuffer1")]
 fn work_img_to_buffer1(cx: &Cx, vision_sensor_handle: SensorArgument) -> Result<bool> {
-    with_images(cx, vision_sensor_handle, |set| set.buffer_1 = Some(set.work.clone()))?;
+    with_images(cx, vision_sensor_handle, |set| {
+        set.buffer_1 = Some(set.work.clone())
+    })?;
     Ok(false)
 }
 
@@ -115,7 +131,9 @@ fn work_img_to_buffer1(cx: &Cx, vision_sensor_handle: SensorArgument) -> Result<
 /// @return trigger false
 #[api("simVision.workImgToBuffer2")]
 fn work_img_to_buffer2(cx: &Cx, vision_sensor_handle: SensorArgument) -> Result<bool> {
-    with_images(cx, vision_sensor_handle, |set| set.buffer_2 = Some(set.work.clone()))?;
+    with_images(cx, vision_sensor_handle, |set| {
+        set.buffer_2 = Some(set.work.clone())
+    })?;
     Ok(false)
 }
 

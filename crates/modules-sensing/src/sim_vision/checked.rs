@@ -25,7 +25,9 @@ impl<T: FromScript> FromScript for Checked<T> {
     const ABSENCE: Absence = Absence::Decoded;
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
-        T::from_script(args).map(Self).map_err(|error| worded(&error, i64::from(args.position())))
+        T::from_script(args)
+            .map(Self)
+            .map_err(|error| worded(&error, i64::from(args.position())))
     }
 }
 
@@ -44,5 +46,7 @@ pub(super) fn wrong(position: i64) -> ApiError {
 
 /// The error for a table that is too short.
 pub(super) fn wrong_size(position: i64) -> ApiError {
-    ApiError::Other(format!("Argument {position} is not correct (wrong table size)."))
+    ApiError::Other(format!(
+        "Argument {position} is not correct (wrong table size)."
+    ))
 }

@@ -28,10 +28,17 @@ pub(super) struct Part {
 /// # Errors
 /// When it is no vision sensor.
 pub(super) fn part(cx: &Cx, sensor: i64) -> Result<Part> {
-    let read = |sensor: &scene::sensor::VisionSensor| Some((size_of(sensor), sensor.explicit, sensor.view.clipping));
+    let read = |sensor: &scene::sensor::VisionSensor| {
+        Some((size_of(sensor), sensor.explicit, sensor.view.clipping))
+    };
     let (handle, (size, is_explicit, clipping)) = of_sensor(cx, Checked(Number(sensor)), read)
         .map_err(|_| refused("Invalid handles, or handles are not vision sensor handles."))?;
-    Ok(Part { handle, size, is_explicit, clipping })
+    Ok(Part {
+        handle,
+        size,
+        is_explicit,
+        clipping,
+    })
 }
 
 /// The sensors of a list, which may be longer; `position` is that of the argument.
@@ -40,7 +47,10 @@ pub(super) fn part(cx: &Cx, sensor: i64) -> Result<Part> {
 /// When it is shorter, or has something else.
 pub(super) fn parts<const N: usize>(cx: &Cx, sensors: &[i64], position: i64) -> Result<[Part; N]> {
     let sensors: &[i64; N] = sensors.first_chunk().ok_or_else(|| wrong_size(position))?;
-    let parts = sensors.iter().map(|sensor| part(cx, *sensor)).collect::<Result<Vec<_>>>()?;
+    let parts = sensors
+        .iter()
+        .map(|sensor| part(cx, *sensor))
+        .collect::<Result<Vec<_>>>()?;
     parts.try_into().map_err(|_| wrong_size(position))
 }
 
@@ -72,7 +82,11 @@ fn handle_anaglyph_stereo(
     let colours = left_and_right_colors.map_or(RED_CYAN, |colours| colours.0);
     let (left, right) = (picture(cx, left)?, picture(cx, right)?);
     let mut image = left.clone();
-    for (pixel, (left, right)) in image.pixels_mut().iter_mut().zip(left.pixels().iter().zip(right.pixels())) {
+    for (pixel, (left, right)) in image
+        .pixels_mut()
+        .iter_mut()
+        .zip(left.pixels().iter().zip(right.pixels()))
+    {
         let (left, right) = (mean(*left), mean(*right));
         *pixel = [0, 1, 2].map(|i| left * colours[i] + right * colours[i + 3]);
     }
@@ -85,7 +99,8 @@ fn picture(cx: &mut Cx, part: Part) -> Result<RgbImage> {
     cx.handle_vision_sensor(part.handle)?;
     let scene = cx.scene();
     let sensor = scene.object(part.handle)?.vision_sensor()?;
-    RgbImage::from_bytes(part.size, &sensor.image()).ok_or_else(|| refused("Invalid vision sensor resolutions."))
+    RgbImage::from_bytes(part.size, &sensor.image())
+        .ok_or_else(|| refused("Invalid vision sensor resolutions."))
 }
 
 /// Takes pictures in six directions, and composes a picture of all directions of them.
@@ -99,13 +114,21 @@ fn picture(cx: &mut Cx, part: Part) -> Result<RgbImage> {
 #[api("simVision.handleSpherical")]
 fn handle_spherical(
     cx: &mut Cx,
-    #[name("passiveVisionSensorHandleForRGB")] passive_vision_sensor_handle_for_rgb: Checked<Number>,
+    #[name("passiveVisionSensorHandleForRGB")] passive_vision_sensor_handle_for_rgb: Checked<
+        Number,
+    >,
     active_vision_sensor_handles: Checked<Vec<i64>>,
     horizontal_angle: Checked<f64>,
     vertical_angle: Checked<f64>,
     #[default(Number(-1))] passive_vision_sensor_handle_for_depth: Checked<Number>,
 ) -> Result<i64> {
-    let passive = |cx: &Cx, sensor: Number| if sensor.0 == -1 { Ok(None) } else { part(cx, sensor.0).map(Some) };
+    let passive = |cx: &Cx, sensor: Number| {
+        if sensor.0 == -1 {
+            Ok(None)
+        } else {
+            part(cx, sensor.0).map(Some)
+        }
+    };
     let colour = passive(cx, passive_vision_sensor_handle_for_rgb.0)?;
     let depth = passive(cx, passive_vision_sensor_handle_for_depth.0)?;
     let faces: [Part; sphere::FACES] = parts(cx, &active_vision_sensor_handles.0, 2)?;
@@ -142,10 +165,12 @@ fn see_no_highlights(cx: &mut Cx, sensor: Handle) -> Result<()> {
 /// The resolution of the resulting picture.
 fn common_size(colour: Option<Part>, depth: Option<Part>) -> Result<[usize; 2]> {
     match (colour, depth) {
-        (None, None) => Err(refused("Invalid handles, or handles are not vision sensor handles.")),
-        (Some(colour), Some(depth)) if colour.size != depth.size => {
-            Err(refused("Invalid vision sensor resolution for the RGB or depth component."))
-        }
+        (None, None) => Err(refused(
+            "Invalid handles, or handles are not vision sensor handles.",
+        )),
+        (Some(colour), Some(depth)) if colour.size != depth.size => Err(refused(
+            "Invalid vision sensor resolution for the RGB or depth component.",
+        )),
         (Some(part), _) | (None, Some(part)) => Ok(part.size),
     }
 }
@@ -154,7 +179,9 @@ fn common_size(colour: Option<Part>, depth: Option<Part>) -> Result<[usize; 2]> 
 fn square_side(faces: &[Part]) -> Result<usize> {
     let [width, height] = faces[0].size;
     if !faces.iter().all(|face| face.is_explicit) {
-        return Err(refused("Active vision sensors should be explicitely handled."));
+        return Err(refused(
+            "Active vision sensors should be explicitely handled.",
+        ));
     }
     if width != height || faces.iter().any(|face| face.size != [width, height]) {
         return Err(refused("Invalid vision sensor resolutions."));
@@ -168,8 +195,17 @@ fn all_colours(cx: &Cx, faces: &[Part], sources: &[sphere::Source]) -> Result<Ve
     for face in faces {
         images.push(scene.object(face.handle)?.vision_sensor()?.image());
     }
-    let colour = |source: &sphere::Source| images[source.face].as_chunks::<3>().0.get(source.pixel).copied();
-    Ok(sources.iter().flat_map(|source| colour(source).unwrap_or_default()).collect())
+    let colour = |source: &sphere::Source| {
+        images[source.face]
+            .as_chunks::<3>()
+            .0
+            .get(source.pixel)
+            .copied()
+    };
+    Ok(sources
+        .iter()
+        .flat_map(|source| colour(source).unwrap_or_default())
+        .collect())
 }
 
 fn all_depths(cx: &Cx, faces: &[Part], sources: &[sphere::Source]) -> Result<Vec<f32>> {
@@ -179,7 +215,10 @@ fn all_depths(cx: &Cx, faces: &[Part], sources: &[sphere::Source]) -> Result<Vec
         depths.push(scene.object(face.handle)?.vision_sensor()?.depth());
     }
     let of_ray = |source: &sphere::Source| {
-        let depth = depths[source.face].get(source.pixel).copied().unwrap_or(1.0);
+        let depth = depths[source.face]
+            .get(source.pixel)
+            .copied()
+            .unwrap_or(1.0);
         sphere::ray_depth(depth, source.stretch, faces[0].clipping)
     };
     Ok(sources.iter().map(of_ray).collect())

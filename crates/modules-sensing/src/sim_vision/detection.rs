@@ -27,7 +27,12 @@ const MAX_POINTS: i64 = 1 << 24;
 
 /// 32-bit floats as bytes.
 pub(super) fn packet(values: impl IntoIterator<Item = f64>) -> Bytes {
-    Bytes(values.into_iter().flat_map(|value| (value as f32).to_le_bytes()).collect())
+    Bytes(
+        values
+            .into_iter()
+            .flat_map(|value| (value as f32).to_le_bytes())
+            .collect(),
+    )
 }
 
 /// Makes the bright pixels of the work image white and the others black, and compares what is white with an expectation.
@@ -85,7 +90,10 @@ fn binary_work_img(
     })?;
     let [x, y] = found.centre;
     let numbers = [found.proportion, x, y, found.orientation, found.roundness];
-    Ok((enable_trigger.0 && expected.matches(&found), packet(numbers)))
+    Ok((
+        enable_trigger.0 && expected.matches(&found),
+        packet(numbers),
+    ))
 }
 
 /// Finds connected bright regions in the work image. Those that are too small are blackened.
@@ -107,7 +115,9 @@ fn blob_detection_on_work_img(
     overlay_color: Option<Checked<[f64; 3]>>,
 ) -> Result<(bool, Bytes)> {
     let (size, blobs) = with_images(cx, vision_sensor_handle, |set| {
-        let blobs = set.work.detect_blobs(threshold.0, min_blob_size.0, modify_work_image.0);
+        let blobs = set
+            .work
+            .detect_blobs(threshold.0, min_blob_size.0, modify_work_image.0);
         if let Some(colour) = overlay_color {
             set.work.draw_boxes(&blobs, colour.0);
         }
@@ -116,9 +126,19 @@ fn blob_detection_on_work_img(
     let of_blob = blobs.iter().flat_map(|blob| {
         let share = blob.count as f64 / (size[0] * size[1]);
         let [x, y] = [0, 1].map(|i| (blob.centre[i] + 0.5) / size[i]);
-        [share, blob.orientation, x, y, blob.extent[0] / size[0], blob.extent[1] / size[1]]
+        [
+            share,
+            blob.orientation,
+            x,
+            y,
+            blob.extent[0] / size[0],
+            blob.extent[1] / size[1],
+        ]
     });
-    Ok((false, packet([blobs.len() as f64, 6.0].into_iter().chain(of_blob))))
+    Ok((
+        false,
+        packet([blobs.len() as f64, 6.0].into_iter().chain(of_blob)),
+    ))
 }
 
 /// Finds the pixels of the work image that became brighter or darker, compared with the second buffer, which takes their new values. The
@@ -162,10 +182,18 @@ fn coordinates_from_work_img(
     evenly_spaced_in_angular_space: Checked<bool>,
     #[default(false)] return_color_data: Checked<bool>,
 ) -> Result<(bool, Bytes, Option<Bytes>)> {
-    let grid = if evenly_spaced_in_angular_space.0 { Grid::Angles } else { Grid::Image };
-    points(cx, vision_sensor_handle, &xy_point_count.0, return_color_data.0, |depth, optics, counts| {
-        coordinates(depth, optics, counts, grid)
-    })
+    let grid = if evenly_spaced_in_angular_space.0 {
+        Grid::Angles
+    } else {
+        Grid::Image
+    };
+    points(
+        cx,
+        vision_sensor_handle,
+        &xy_point_count.0,
+        return_color_data.0,
+        |depth, optics, counts| coordinates(depth, optics, counts, grid),
+    )
 }
 
 /// Points in space from depths in the work image, as a scanner of lines sees them, in the frame of the sensor.
@@ -185,9 +213,13 @@ fn velodyne_data_from_work_img(
     v_angle: Checked<f64>,
     #[default(false)] return_color_data: Checked<bool>,
 ) -> Result<(bool, Bytes, Option<Bytes>)> {
-    points(cx, vision_sensor_handle, &xy_point_count.0, return_color_data.0, |depth, optics, counts| {
-        scan_lines(depth, optics, counts, v_angle.0)
-    })
+    points(
+        cx,
+        vision_sensor_handle,
+        &xy_point_count.0,
+        return_color_data.0,
+        |depth, optics, counts| scan_lines(depth, optics, counts, v_angle.0),
+    )
 }
 
 /// How a sensor sees.
@@ -208,15 +240,26 @@ fn points(
     with_colours: bool,
     take: impl FnOnce(&RgbImage, &Optics, [usize; 2]) -> Vec<Point>,
 ) -> Result<(bool, Bytes, Option<Bytes>)> {
-    let &[columns, rows, ..] = counts else { return Err(wrong_size(2)) };
-    if columns < 1 || rows < 1 || columns.checked_mul(rows).is_none_or(|count| count > MAX_POINTS) {
+    let &[columns, rows, ..] = counts else {
+        return Err(wrong_size(2));
+    };
+    if columns < 1
+        || rows < 1
+        || columns
+            .checked_mul(rows)
+            .is_none_or(|count| count > MAX_POINTS)
+    {
         return Err(wrong(2));
     }
     let seen = of_sensor(cx, sensor, |sensor| Some(optics(&sensor.view)));
     let (handle, optics) = seen.map_err(|_| not_initialized())?;
     let (points, colours) = with_images(cx, sensor, |set| {
         let points = take(&set.work, &optics, [columns as usize, rows as usize]);
-        let colours = set.buffer_1.as_ref().filter(|_| with_colours).map(|image| Bytes(colours(&points, image)));
+        let colours = set
+            .buffer_1
+            .as_ref()
+            .filter(|_| with_colours)
+            .map(|image| Bytes(colours(&points, image)));
         (points, colours)
     })?;
     let pose = match sensor.0.0 & IN_WORLD {
@@ -228,5 +271,9 @@ fn points(
         let [x, y, z]: [f64; 3] = pose.map_or(position, |pose| pose * position).into();
         [x, y, z, point.distance]
     });
-    Ok((false, packet([columns as f64, rows as f64].into_iter().chain(numbers)), colours))
+    Ok((
+        false,
+        packet([columns as f64, rows as f64].into_iter().chain(numbers)),
+        colours,
+    ))
 }

@@ -38,12 +38,18 @@ fn distort(
     let (handle, count) = of_sensor(cx, vision_sensor_handle, |sensor| Some(sensor.pixels()))
         .map_err(|_| refused("Invalid vision sensor handle."))?;
     if let Some(pixels) = pixel_map {
-        initialize(cx, handle, Map::new(&pixels, depth_scalings, count).ok_or_else(invalid)?);
+        initialize(
+            cx,
+            handle,
+            Map::new(&pixels, depth_scalings, count).ok_or_else(invalid)?,
+        );
     }
     let (image, depth) = {
         let maps = cx.script_state::<Maps>();
         let maps = maps.0.borrow();
-        let map = maps.get(&handle).ok_or_else(|| refused("Mapping was not yet initialized."))?;
+        let map = maps
+            .get(&handle)
+            .ok_or_else(|| refused("Mapping was not yet initialized."))?;
         if map.pixels.len() != count {
             return Err(invalid());
         }
@@ -61,8 +67,7 @@ fn distort(
 fn initialize(cx: &Cx, handle: Handle, map: Map) {
     let maps = cx.script_state::<Maps>();
     if maps.0.borrow_mut().insert(handle, map).is_some() {
-        let warning =
-            "Mapping was already initialized, constantly handing over mapping arguments will slow down operation.";
+        let warning = "Mapping was already initialized, constantly handing over mapping arguments will slow down operation.";
         cx.env().warn_once("simVision.distort", warning);
     }
 }
@@ -71,7 +76,11 @@ impl Map {
     /// None unless there is an index of a pixel, and a factor if there are any, for each pixel.
     fn new(pixels: &[i64], mut scalings: Option<Vec<f64>>, count: usize) -> Option<Self> {
         let index = |pixel: &i64| usize::try_from(*pixel).ok().filter(|pixel| *pixel < count);
-        let pixels: Vec<usize> = pixels.get(..count)?.iter().map(index).collect::<Option<_>>()?;
+        let pixels: Vec<usize> = pixels
+            .get(..count)?
+            .iter()
+            .map(index)
+            .collect::<Option<_>>()?;
         if let Some(scalings) = &mut scalings {
             scalings.truncate(count);
             scalings.get(..count)?;
@@ -82,13 +91,18 @@ impl Map {
     fn image(&self, sensor: &VisionSensor) -> Vec<u8> {
         let image = sensor.image();
         let (colours, _) = image.as_chunks::<3>();
-        self.pixels.iter().flat_map(|pixel| colours.get(*pixel).copied().unwrap_or_default()).collect()
+        self.pixels
+            .iter()
+            .flat_map(|pixel| colours.get(*pixel).copied().unwrap_or_default())
+            .collect()
     }
 
     fn depth(&self, sensor: &VisionSensor) -> Option<Vec<f32>> {
         let (depth, [near, far]) = (sensor.depth(), sensor.view.clipping);
         let scaled = |(pixel, scaling): (&usize, &f64)| {
-            let metres = (near + f64::from(depth.get(*pixel).copied().unwrap_or(1.0)) * (far - near)) * scaling;
+            let metres = (near
+                + f64::from(depth.get(*pixel).copied().unwrap_or(1.0)) * (far - near))
+                * scaling;
             ((metres - near) / (far - near)) as f32
         };
         let scalings = self.scalings.as_ref()?;

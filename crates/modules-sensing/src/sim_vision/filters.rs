@@ -91,7 +91,9 @@ fn color_segmentation_on_work_img(
     vision_sensor_handle: SensorArgument,
     max_color_color_distance: Checked<f64>,
 ) -> Result<bool> {
-    change(cx, vision_sensor_handle, |image| image.segment_colours(max_color_color_distance.0))
+    change(cx, vision_sensor_handle, |image| {
+        image.segment_colours(max_color_color_distance.0)
+    })
 }
 
 /// Maps intensities of 0 to 1 to another range, as grey or as false colours: black, blue, red, yellow.
@@ -109,7 +111,9 @@ fn intensity_scale_on_work_img(
     end: Checked<f64>,
     grey_scale: Checked<bool>,
 ) -> Result<bool> {
-    change(cx, vision_sensor_handle, |image| image.scale_intensity(start.0, end.0, grey_scale.0))
+    change(cx, vision_sensor_handle, |image| {
+        image.scale_intensity(start.0, end.0, grey_scale.0)
+    })
 }
 
 /// Keeps or removes the pixels of a colour; what is removed becomes black.
@@ -131,9 +135,12 @@ fn selective_color_on_work_img(
     keep: Checked<bool>,
     removed_part_to_buffer1: Checked<bool>,
 ) -> Result<bool> {
-    cut(cx, vision_sensor_handle, removed_part_to_buffer1.0, |image| {
-        image.select_colour(color.0, color_tolerance.0, component(rgb.0), keep.0)
-    })
+    cut(
+        cx,
+        vision_sensor_handle,
+        removed_part_to_buffer1.0,
+        |image| image.select_colour(color.0, color_tolerance.0, component(rgb.0), keep.0),
+    )
 }
 
 /// Computes `postOffset + (value + preOffset) * scaling` for each component, within 0 and 1.
@@ -164,8 +171,14 @@ fn scale_and_offset_work_img(
 /// @param threshold of 24 times the pixel less 3 times its eight neighbours
 /// @return trigger false
 #[api("simVision.edgeDetectionOnWorkImg")]
-fn edge_detection_on_work_img(cx: &Cx, vision_sensor_handle: SensorArgument, threshold: Checked<f64>) -> Result<bool> {
-    change(cx, vision_sensor_handle, |image| image.detect_edges(threshold.0))
+fn edge_detection_on_work_img(
+    cx: &Cx,
+    vision_sensor_handle: SensorArgument,
+    threshold: Checked<f64>,
+) -> Result<bool> {
+    change(cx, vision_sensor_handle, |image| {
+        image.detect_edges(threshold.0)
+    })
 }
 
 /// Raises the differences between neighbours.
@@ -216,8 +229,14 @@ fn matrix5x5_on_work_img(
 }
 
 /// The kernel of a matrix, which may be longer.
-fn kernel(matrix: Option<Checked<Vec<f64>>>, count: usize, usual: fn() -> Kernel) -> Result<Kernel> {
-    let Some(Checked(mut weights)) = matrix else { return Ok(usual()) };
+fn kernel(
+    matrix: Option<Checked<Vec<f64>>>,
+    count: usize,
+    usual: fn() -> Kernel,
+) -> Result<Kernel> {
+    let Some(Checked(mut weights)) = matrix else {
+        return Ok(usual());
+    };
     weights.truncate(count);
     Kernel::new(weights).ok_or_else(|| wrong_size(4))
 }
@@ -253,7 +272,9 @@ fn shift_work_img(
     shift: Checked<[f64; 2]>,
     wrap_around: Checked<bool>,
 ) -> Result<bool> {
-    change(cx, vision_sensor_handle, |image| image.shift(shift.0, wrap_around.0))
+    change(cx, vision_sensor_handle, |image| {
+        image.shift(shift.0, wrap_around.0)
+    })
 }
 
 /// Blackens what is outside of a circle around the centre.
@@ -269,7 +290,9 @@ fn circular_cut_work_img(
     radius: Checked<f64>,
     copy_to_buffer1: Checked<bool>,
 ) -> Result<bool> {
-    cut(cx, vision_sensor_handle, copy_to_buffer1.0, |image| image.cut_circle(radius.0))
+    cut(cx, vision_sensor_handle, copy_to_buffer1.0, |image| {
+        image.cut_circle(radius.0)
+    })
 }
 
 /// Blackens what is outside of a rectangle around the centre.
@@ -285,7 +308,9 @@ fn rectangular_cut_work_img(
     sizes: Checked<[f64; 2]>,
     copy_to_buffer1: Checked<bool>,
 ) -> Result<bool> {
-    cut(cx, vision_sensor_handle, copy_to_buffer1.0, |image| image.cut_rectangle(sizes.0))
+    cut(cx, vision_sensor_handle, copy_to_buffer1.0, |image| {
+        image.cut_rectangle(sizes.0)
+    })
 }
 
 /// Magnifies the content of the work image about its centre.
@@ -294,7 +319,11 @@ fn rectangular_cut_work_img(
 /// @param scaling of columns and rows
 /// @return trigger false
 #[api("simVision.resizeWorkImg")]
-fn resize_work_img(cx: &Cx, vision_sensor_handle: SensorArgument, scaling: Checked<[f64; 2]>) -> Result<bool> {
+fn resize_work_img(
+    cx: &Cx,
+    vision_sensor_handle: SensorArgument,
+    scaling: Checked<[f64; 2]>,
+) -> Result<bool> {
     change(cx, vision_sensor_handle, |image| image.resize(scaling.0))
 }
 
@@ -304,6 +333,12 @@ fn resize_work_img(cx: &Cx, vision_sensor_handle: SensorArgument, scaling: Check
 /// @param rotationAngle rad, counter-clockwise with row 0 at the bottom
 /// @return trigger false
 #[api("simVision.rotateWorkImg")]
-fn rotate_work_img(cx: &Cx, vision_sensor_handle: SensorArgument, rotation_angle: Checked<f64>) -> Result<bool> {
-    change(cx, vision_sensor_handle, |image| image.rotate(rotation_angle.0))
+fn rotate_work_img(
+    cx: &Cx,
+    vision_sensor_handle: SensorArgument,
+    rotation_angle: Checked<f64>,
+) -> Result<bool> {
+    change(cx, vision_sensor_handle, |image| {
+        image.rotate(rotation_angle.0)
+    })
 }

@@ -29,13 +29,21 @@ impl ImageSet {
     /// The work image and the first buffer, which is black when nothing was put there.
     pub fn with_buffer_1(&mut self) -> (&mut RgbImage, &mut RgbImage) {
         let size = self.work.size();
-        (&mut self.work, self.buffer_1.get_or_insert_with(|| RgbImage::uniform(size, BLACK)))
+        (
+            &mut self.work,
+            self.buffer_1
+                .get_or_insert_with(|| RgbImage::uniform(size, BLACK)),
+        )
     }
 
     /// The work image and the second buffer, which is black when nothing was put there.
     pub fn with_buffer_2(&mut self) -> (&mut RgbImage, &mut RgbImage) {
         let size = self.work.size();
-        (&mut self.work, self.buffer_2.get_or_insert_with(|| RgbImage::uniform(size, BLACK)))
+        (
+            &mut self.work,
+            self.buffer_2
+                .get_or_insert_with(|| RgbImage::uniform(size, BLACK)),
+        )
     }
 }
 
@@ -45,7 +53,9 @@ pub(super) fn handle_of(cx: &Cx, sensor: SensorArgument) -> Option<Handle> {
         return Handle::from_raw(sensor.0.0);
     }
     let script = cx.script();
-    let parent = script.object.and_then(|object| cx.scene().object(object).ok()?.parent());
+    let parent = script
+        .object
+        .and_then(|object| cx.scene().object(object).ok()?.parent());
     script.owner().or(parent)
 }
 
@@ -65,7 +75,10 @@ pub(super) fn of_sensor<T>(
 ) -> Result<(Handle, T)> {
     let handle = handle_of(cx, sensor).ok_or_else(invalid_handle)?;
     let scene = cx.scene();
-    let sensor = scene.object(handle).and_then(|object| object.vision_sensor()).map_err(|_| invalid_handle())?;
+    let sensor = scene
+        .object(handle)
+        .and_then(|object| object.vision_sensor())
+        .map_err(|_| invalid_handle())?;
     Ok((handle, read(sensor).ok_or_else(invalid_handle)?))
 }
 
@@ -76,17 +89,36 @@ pub(super) fn set_work_image(cx: &Cx, handle: Handle, work: RgbImage) {
     let old = sets.remove(&handle);
     let size = work.size();
     let fitting = |buffer: Option<RgbImage>| {
-        buffer.map(|buffer| if buffer.size() == size { buffer } else { RgbImage::uniform(size, BLACK) })
+        buffer.map(|buffer| {
+            if buffer.size() == size {
+                buffer
+            } else {
+                RgbImage::uniform(size, BLACK)
+            }
+        })
     };
-    let (buffer_1, buffer_2) = old.map_or((None, None), |old| (fitting(old.buffer_1), fitting(old.buffer_2)));
-    sets.insert(handle, ImageSet { work, buffer_1, buffer_2 });
+    let (buffer_1, buffer_2) = old.map_or((None, None), |old| {
+        (fitting(old.buffer_1), fitting(old.buffer_2))
+    });
+    sets.insert(
+        handle,
+        ImageSet {
+            work,
+            buffer_1,
+            buffer_2,
+        },
+    );
 }
 
 /// Works on the image and the buffers of a sensor.
 ///
 /// # Errors
 /// When it has none, when it is gone, or when its resolution is another now.
-pub(super) fn with_images<T>(cx: &Cx, sensor: SensorArgument, work: impl FnOnce(&mut ImageSet) -> T) -> Result<T> {
+pub(super) fn with_images<T>(
+    cx: &Cx,
+    sensor: SensorArgument,
+    work: impl FnOnce(&mut ImageSet) -> T,
+) -> Result<T> {
     with_handle(cx, sensor, |_, set| work(set))
 }
 
@@ -99,7 +131,10 @@ pub(super) fn with_handle<T>(
     let handle = handle_of(cx, sensor).ok_or_else(not_initialized)?;
     let size = {
         let scene = cx.scene();
-        let sensor = scene.object(handle).and_then(|object| object.vision_sensor()).map_err(|_| not_initialized())?;
+        let sensor = scene
+            .object(handle)
+            .and_then(|object| object.vision_sensor())
+            .map_err(|_| not_initialized())?;
         size_of(sensor)
     };
     let images = cx.script_state::<WorkImages>();
@@ -115,7 +150,10 @@ pub(super) fn with_handle<T>(
 pub(super) fn remove_unbuffered(cx: &Cx, handle: Handle) {
     let images = cx.script_state::<WorkImages>();
     let mut sets = images.0.borrow_mut();
-    if sets.get(&handle).is_some_and(|set| set.buffer_1.is_none() && set.buffer_2.is_none()) {
+    if sets
+        .get(&handle)
+        .is_some_and(|set| set.buffer_1.is_none() && set.buffer_2.is_none())
+    {
         sets.remove(&handle);
     }
 }

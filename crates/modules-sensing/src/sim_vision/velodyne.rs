@@ -76,7 +76,8 @@ impl Sweep {
     /// Whether some of the quarter around an angle is within.
     fn touches(self, middle: f64) -> bool {
         let begin = middle - FRAC_PI_4;
-        self.length > 0.0 && (self.contains(begin) || (self.from - begin).rem_euclid(TAU) < FRAC_PI_2)
+        self.length > 0.0
+            && (self.contains(begin) || (self.from - begin).rem_euclid(TAU) < FRAC_PI_2)
     }
 }
 
@@ -90,9 +91,18 @@ struct Points {
     is_coloured: bool,
 }
 
-fn create(cx: &Cx, model: Model, sensors: &[i64], frequency: f64, options: i64, point_cloud: i64) -> Result<i64> {
+fn create(
+    cx: &Cx,
+    model: Model,
+    sensors: &[i64],
+    frequency: f64,
+    options: i64,
+    point_cloud: i64,
+) -> Result<i64> {
     if point_cloud != -1 {
-        return Err(ApiError::NotImplemented("point clouds of simVision.createVelodyne".into()));
+        return Err(ApiError::NotImplemented(
+            "point clouds of simVision.createVelodyne".into(),
+        ));
     }
     let sensors: [Part; 4] = parts(cx, sensors, 1)?;
     if !sensors.iter().all(|sensor| sensor.is_explicit) {
@@ -101,8 +111,16 @@ fn create(cx: &Cx, model: Model, sensors: &[i64], frequency: f64, options: i64, 
     let counts: Rc<Counts> = cx.module_state();
     let number = counts.0[model as usize].replace(counts.0[model as usize].get() + 1);
     let sensors = sensors.map(|sensor| sensor.handle);
-    let scanner = Scanner { sensors, frequency, is_polar: options & POLAR != 0, angle: -PI };
-    cx.script_state::<Scanners>().0.borrow_mut().insert((model, number), scanner);
+    let scanner = Scanner {
+        sensors,
+        frequency,
+        is_polar: options & POLAR != 0,
+        angle: -PI,
+    };
+    cx.script_state::<Scanners>()
+        .0
+        .borrow_mut()
+        .insert((model, number), scanner);
     Ok(number)
 }
 
@@ -115,11 +133,27 @@ fn destroy(cx: &Cx, model: Model, handle: i64) -> Result<i64> {
 fn handle(cx: &mut Cx, model: Model, flagged: i64, dt: f64) -> Result<Results> {
     let key = (model, flagged & !FLAGS);
     let scanners = cx.script_state::<Scanners>();
-    let scanner = scanners.0.borrow().get(&key).cloned().ok_or_else(invalid_handle)?;
+    let scanner = scanners
+        .0
+        .borrow()
+        .get(&key)
+        .cloned()
+        .ok_or_else(invalid_handle)?;
     let turns = scanner.frequency * dt;
-    let sweep = Sweep { from: scanner.angle, length: if turns > 0.0 { (turns * TAU).min(TAU) } else { 0.0 } };
+    let sweep = Sweep {
+        from: scanner.angle,
+        length: if turns > 0.0 {
+            (turns * TAU).min(TAU)
+        } else {
+            0.0
+        },
+    };
     let turned = (sweep.from + sweep.length + PI).rem_euclid(TAU) - PI;
-    scanners.0.borrow_mut().entry(key).and_modify(|scanner| scanner.angle = turned);
+    scanners
+        .0
+        .borrow_mut()
+        .entry(key)
+        .and_modify(|scanner| scanner.angle = turned);
     let Some(points) = scan(cx, &scanner, sweep, flagged & IN_WORLD != 0)? else {
         return Ok(Results(Vec::new()));
     };
@@ -128,13 +162,18 @@ fn handle(cx: &mut Cx, model: Model, flagged: i64, dt: f64) -> Result<Results> {
         _ => Data::Buffer(packet(points.coordinates).0),
     };
     let colours = points.is_coloured.then_some(Data::Buffer(points.colours));
-    Ok(Results(std::iter::once(coordinates).chain(colours).collect()))
+    Ok(Results(
+        std::iter::once(coordinates).chain(colours).collect(),
+    ))
 }
 
 /// The points within a sweep; None when a sensor delivers none.
 fn scan(cx: &mut Cx, scanner: &Scanner, sweep: Sweep, in_world: bool) -> Result<Option<Points>> {
     const MIDDLES: [f64; 4] = [0.0, FRAC_PI_2, PI, -FRAC_PI_2];
-    let mut points = Points { is_coloured: true, ..Points::default() };
+    let mut points = Points {
+        is_coloured: true,
+        ..Points::default()
+    };
     for (sensor, middle) in scanner.sensors.into_iter().zip(MIDDLES) {
         if !sweep.touches(middle) {
             continue;
@@ -167,9 +206,15 @@ struct Frames {
 impl Points {
     /// Adds the points of a sensor; false when its scripts delivered none.
     fn add(&mut self, reading: &VisionReading, frames: &Frames, sweep: Sweep) -> bool {
-        let Some(packet) = reading.packets.get(1).filter(|packet| packet.len() >= 2) else { return false };
-        let colours: Option<Vec<u8>> =
-            reading.packets.get(2).map(|packet| packet.iter().flat_map(|value| value.to_le_bytes()).collect());
+        let Some(packet) = reading.packets.get(1).filter(|packet| packet.len() >= 2) else {
+            return false;
+        };
+        let colours: Option<Vec<u8>> = reading.packets.get(2).map(|packet| {
+            packet
+                .iter()
+                .flat_map(|value| value.to_le_bytes())
+                .collect()
+        });
         self.is_coloured &= colours.is_some();
         for (n, point) in packet[2..].as_chunks::<4>().0.iter().enumerate() {
             let [x, y, z, _] = point.map(f64::from);
@@ -184,7 +229,9 @@ impl Points {
                 true => [angle, FRAC_PI_2 - (place.y / distance).asin(), distance],
                 false => (frames.to_result * place).into(),
             });
-            let colour = colours.as_ref().and_then(|colours| colours.as_chunks::<3>().0.get(n));
+            let colour = colours
+                .as_ref()
+                .and_then(|colours| colours.as_chunks::<3>().0.get(n));
             self.colours.extend(colour.copied().unwrap_or_default());
         }
         true
@@ -219,7 +266,14 @@ macro_rules! scanner {
             #[default(-1)] point_cloud: Number,
         ) -> Result<i64> {
             let _ = (point_size, coloring_close_far_dist, display_scaling_factor);
-            create(cx, $model, &vision_sensor_handles.0, frequency.0, options.0, point_cloud.0)
+            create(
+                cx,
+                $model,
+                &vision_sensor_handles.0,
+                frequency.0,
+                options.0,
+                point_cloud.0,
+            )
         }
 
         /// Turns a laser scanner and returns the points it sees meanwhile, in the frame of its front sensor; nothing at all when a sensor
@@ -229,7 +283,11 @@ macro_rules! scanner {
         /// @param dt seconds
         /// @return points, colorData coordinates of the points; their red, green and blue as bytes, if the sensors deliver colours
         #[api($handle)]
-        fn $handle_name(cx: &mut Cx, velodyne_handle: Checked<Number>, dt: Checked<f64>) -> Result<Results> {
+        fn $handle_name(
+            cx: &mut Cx,
+            velodyne_handle: Checked<Number>,
+            dt: Checked<f64>,
+        ) -> Result<Results> {
             handle(cx, $model, velodyne_handle.0.0, dt.0)
         }
 
@@ -263,28 +321,89 @@ mod tests {
 
     #[test]
     fn quarters_are_touched() {
-        let sweep = Sweep { from: -PI, length: 0.1 };
-        assert_eq!([0.0, FRAC_PI_2, PI, -FRAC_PI_2].map(|middle| sweep.touches(middle)), [false, false, true, false]);
-        let sweep = Sweep { from: -0.1, length: 1.0 };
-        assert_eq!([0.0, FRAC_PI_2, PI, -FRAC_PI_2].map(|middle| sweep.touches(middle)), [true, true, false, false]);
-        let whole = Sweep { from: 1.0, length: TAU };
-        assert!([0.0, FRAC_PI_2, PI, -FRAC_PI_2].iter().all(|middle| whole.touches(*middle)));
-        assert!(!Sweep { from: 0.0, length: 0.0 }.touches(0.0));
+        let sweep = Sweep {
+            from: -PI,
+            length: 0.1,
+        };
+        assert_eq!(
+            [0.0, FRAC_PI_2, PI, -FRAC_PI_2].map(|middle| sweep.touches(middle)),
+            [false, false, true, false]
+        );
+        let sweep = Sweep {
+            from: -0.1,
+            length: 1.0,
+        };
+        assert_eq!(
+            [0.0, FRAC_PI_2, PI, -FRAC_PI_2].map(|middle| sweep.touches(middle)),
+            [true, true, false, false]
+        );
+        let whole = Sweep {
+            from: 1.0,
+            length: TAU,
+        };
+        assert!(
+            [0.0, FRAC_PI_2, PI, -FRAC_PI_2]
+                .iter()
+                .all(|middle| whole.touches(*middle))
+        );
+        assert!(
+            !Sweep {
+                from: 0.0,
+                length: 0.0
+            }
+            .touches(0.0)
+        );
     }
 
     #[test]
     fn points_are_kept_by_angle_and_range() {
         let point = |x: f32, z: f32| [x, 0.0, z, x.hypot(z)];
-        let packet = [vec![2.0, 2.0], [point(0.0, 1.0), point(1.0, 1.0), point(0.0, 9.95)].concat()].concat();
-        let reading = VisionReading { triggered: false, packets: vec![Vec::new(), packet] };
-        let frames = Frames { to_front: Pose::identity(), to_result: Pose::identity(), range: 9.9, is_polar: false };
+        let packet = [
+            vec![2.0, 2.0],
+            [point(0.0, 1.0), point(1.0, 1.0), point(0.0, 9.95)].concat(),
+        ]
+        .concat();
+        let reading = VisionReading {
+            triggered: false,
+            packets: vec![Vec::new(), packet],
+        };
+        let frames = Frames {
+            to_front: Pose::identity(),
+            to_result: Pose::identity(),
+            range: 9.9,
+            is_polar: false,
+        };
         let mut points = Points::default();
-        assert!(points.add(&reading, &frames, Sweep { from: -0.1, length: 0.5 }));
+        assert!(points.add(
+            &reading,
+            &frames,
+            Sweep {
+                from: -0.1,
+                length: 0.5
+            }
+        ));
         assert_eq!(points.coordinates, [0.0, 0.0, 1.0]);
-        assert!(!points.add(&VisionReading::default(), &frames, Sweep { from: 0.0, length: TAU }));
+        assert!(!points.add(
+            &VisionReading::default(),
+            &frames,
+            Sweep {
+                from: 0.0,
+                length: TAU
+            }
+        ));
         let mut points = Points::default();
-        let polar = Frames { is_polar: true, ..frames };
-        assert!(points.add(&reading, &polar, Sweep { from: 0.5, length: 0.5 }));
+        let polar = Frames {
+            is_polar: true,
+            ..frames
+        };
+        assert!(points.add(
+            &reading,
+            &polar,
+            Sweep {
+                from: 0.5,
+                length: 0.5
+            }
+        ));
         assert_eq!(points.coordinates, [FRAC_PI_4, FRAC_PI_2, 2f64.sqrt()]);
     }
 }

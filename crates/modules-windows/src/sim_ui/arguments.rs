@@ -14,7 +14,9 @@ impl FromScript for WindowHandle {
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         match Data::from_script(args)? {
-            Data::Text(bytes) | Data::Buffer(bytes) => Ok(Self(String::from_utf8_lossy(&bytes).into_owned())),
+            Data::Text(bytes) | Data::Buffer(bytes) => {
+                Ok(Self(String::from_utf8_lossy(&bytes).into_owned()))
+            }
             _ => Err(args.not_a("string")),
         }
     }
@@ -40,7 +42,10 @@ fn text_of(data: &Data) -> Result<String> {
         Data::Text(bytes) | Data::Buffer(bytes) => Ok(String::from_utf8_lossy(bytes).into_owned()),
         Data::Int(number) => Ok(number.to_string()),
         Data::Float(number) => Ok(number.to_string()),
-        _ => Err(ApiError::NotA { position: -1, expected: "string" }),
+        _ => Err(ApiError::NotA {
+            position: -1,
+            expected: "string",
+        }),
     }
 }
 
@@ -67,10 +72,17 @@ fn set_option(options: &mut CurveOptions, key: &Key, value: &Data, position: i32
         Key::Text(name) => String::from_utf8_lossy(name).into_owned(),
         other => format!("{other:?}"),
     };
-    let refused =
-        |what: &str| ApiError::Other(format!("read in arg {position} (options): readFromStack(curve_options): {what}"));
-    let number =
-        || value.as_f64().map(|number| number as i64).ok_or_else(|| refused(&format!("field '{name}': expected int")));
+    let refused = |what: &str| {
+        ApiError::Other(format!(
+            "read in arg {position} (options): readFromStack(curve_options): {what}"
+        ))
+    };
+    let number = || {
+        value
+            .as_f64()
+            .map(|number| number as i64)
+            .ok_or_else(|| refused(&format!("field '{name}': expected int")))
+    };
     match name.as_str() {
         "scatter_shape" => options.scatter_shape = number()?,
         "scatter_size" => options.scatter_size = number()?,

@@ -37,7 +37,9 @@ fn insert_combobox_item(
 ) -> Result<()> {
     cx.change_window(&handle.0, |window| {
         window.change_combobox(id, !suppress_events, |combobox| {
-            let at = usize::try_from(index).unwrap_or(0).min(combobox.items.len());
+            let at = usize::try_from(index)
+                .unwrap_or(0)
+                .min(combobox.items.len());
             combobox.items.insert(at, text);
             combobox.selected = match combobox.selected {
                 None if combobox.items.len() == 1 => Some(0),
@@ -63,10 +65,17 @@ fn remove_combobox_item(
 ) -> Result<()> {
     cx.change_window(&handle.0, |window| {
         window.change_combobox(id, !suppress_events, |combobox| {
-            let Some(at) = usize::try_from(index).ok().filter(|at| *at < combobox.items.len()) else { return };
+            let Some(at) = usize::try_from(index)
+                .ok()
+                .filter(|at| *at < combobox.items.len())
+            else {
+                return;
+            };
             combobox.items.remove(at);
             let last = combobox.items.len().checked_sub(1);
-            let moved = combobox.selected.map(|selected| selected - usize::from(at < selected));
+            let moved = combobox
+                .selected
+                .map(|selected| selected - usize::from(at < selected));
             combobox.selected = moved.and_then(|moved| last.map(|last| moved.min(last)));
         })
     })
@@ -79,7 +88,9 @@ fn remove_combobox_item(
 /// @return count
 #[api("simUI.getComboboxItemCount")]
 fn get_combobox_item_count(cx: &Cx, handle: WindowHandle, id: i64) -> Result<i64> {
-    cx.read_window(&handle.0, |window| Ok(window.get::<Combobox>(id)?.items.len() as i64))
+    cx.read_window(&handle.0, |window| {
+        Ok(window.get::<Combobox>(id)?.items.len() as i64)
+    })
 }
 
 /// The text of an item of a combo box; empty where there is none.
@@ -92,7 +103,11 @@ fn get_combobox_item_count(cx: &Cx, handle: WindowHandle, id: i64) -> Result<i64
 fn get_combobox_item_text(cx: &Cx, handle: WindowHandle, id: i64, index: i64) -> Result<String> {
     cx.read_window(&handle.0, |window| {
         let combobox = window.get::<Combobox>(id)?;
-        Ok(usize::try_from(index).ok().and_then(|at| combobox.items.get(at)).cloned().unwrap_or_default())
+        Ok(usize::try_from(index)
+            .ok()
+            .and_then(|at| combobox.items.get(at))
+            .cloned()
+            .unwrap_or_default())
     })
 }
 
@@ -103,7 +118,9 @@ fn get_combobox_item_text(cx: &Cx, handle: WindowHandle, id: i64, index: i64) ->
 /// @return items
 #[api("simUI.getComboboxItems")]
 fn get_combobox_items(cx: &Cx, handle: WindowHandle, id: i64) -> Result<Vec<String>> {
-    cx.read_window(&handle.0, |window| Ok(window.get::<Combobox>(id)?.items.clone()))
+    cx.read_window(&handle.0, |window| {
+        Ok(window.get::<Combobox>(id)?.items.clone())
+    })
 }
 
 /// Replaces the items of a combo box and selects one.
@@ -131,7 +148,9 @@ fn set_combobox_items(
 }
 
 fn selection(combobox: &Combobox, index: i64) -> Option<usize> {
-    usize::try_from(index).ok().filter(|at| *at < combobox.items.len())
+    usize::try_from(index)
+        .ok()
+        .filter(|at| *at < combobox.items.len())
 }
 
 /// The selected item of a combo box.
@@ -141,7 +160,12 @@ fn selection(combobox: &Combobox, index: i64) -> Option<usize> {
 /// @return index from 0; -1 for none
 #[api("simUI.getComboboxSelectedIndex")]
 fn get_combobox_selected_index(cx: &Cx, handle: WindowHandle, id: i64) -> Result<i64> {
-    cx.read_window(&handle.0, |window| Ok(window.get::<Combobox>(id)?.selected.map_or(-1, |selected| selected as i64)))
+    cx.read_window(&handle.0, |window| {
+        Ok(window
+            .get::<Combobox>(id)?
+            .selected
+            .map_or(-1, |selected| selected as i64))
+    })
 }
 
 /// Selects an item of a combo box; none for one there is not.
@@ -159,7 +183,9 @@ fn set_combobox_selected_index(
     #[default(true)] suppress_events: bool,
 ) -> Result<()> {
     cx.change_window(&handle.0, |window| {
-        window.change_combobox(id, !suppress_events, |combobox| combobox.selected = selection(combobox, index))
+        window.change_combobox(id, !suppress_events, |combobox| {
+            combobox.selected = selection(combobox, index)
+        })
     })
 }
 
@@ -172,7 +198,11 @@ fn set_combobox_selected_index(
 fn get_current_tab(cx: &Cx, handle: WindowHandle, id: i64) -> Result<i64> {
     cx.read_window(&handle.0, |window| {
         let tabs = window.get::<Tabs>(id)?;
-        Ok(if tabs.pages.is_empty() { -1 } else { tabs.current as i64 })
+        Ok(if tabs.pages.is_empty() {
+            -1
+        } else {
+            tabs.current as i64
+        })
     })
 }
 

@@ -37,7 +37,11 @@ fn left_answer(cx: &mut Cx, kind: DialogKind) -> Option<Data> {
 
 /// The answer that was left for a dialog, else that of a person.
 fn answer(cx: &mut Cx, title: &str, text: &str, details: QuestionDetails) -> Option<Data> {
-    let question = Question { title: title.to_owned(), text: text.to_owned(), details };
+    let question = Question {
+        title: title.to_owned(),
+        text: text.to_owned(),
+        details,
+    };
     left_answer(cx, question.kind()).or_else(|| cx.ask_person(&question))
 }
 
@@ -52,7 +56,10 @@ fn note_silently(cx: &mut Cx, kind: DialogKind, title: &str, text: &str, answer:
 /// Notes a dialog for pages and tests, and logs it.
 fn note(cx: &mut Cx, kind: DialogKind, title: &str, text: &str, answer: &str) {
     note_silently(cx, kind, title, text, answer);
-    cx.env().log(verbosity::SCRIPT_INFOS, &format!("{} '{title}': {text} (answer: {answer})", kind.name()));
+    cx.env().log(
+        verbosity::SCRIPT_INFOS,
+        &format!("{} '{title}': {text} (answer: {answer})", kind.name()),
+    );
 }
 
 /// Shows a message and waits for a button. Without a person at a page of the viewer, the answer is the usual one: ok; no; cancel; cancel. The message goes to the log.
@@ -65,21 +72,50 @@ fn note(cx: &mut Cx, kind: DialogKind, title: &str, text: &str, answer: &str) {
 #[api("simUI.msgBox")]
 fn msg_box(cx: &mut Cx, r#type: i64, buttons: i64, title: String, message: String) -> Result<i64> {
     let place = usize::try_from(buttons).ok();
-    let (usual, possible) = place.and_then(|place| BUTTONS.get(place)).copied().unwrap_or(BUTTONS[0]);
+    let (usual, possible) = place
+        .and_then(|place| BUTTONS.get(place))
+        .copied()
+        .unwrap_or(BUTTONS[0]);
     let result = pressed_button(cx, r#type, (usual, possible), &title, &message)?;
-    note(cx, DialogKind::Message, &title, &message, RESULTS[result as usize]);
+    note(
+        cx,
+        DialogKind::Message,
+        &title,
+        &message,
+        RESULTS[result as usize],
+    );
     Ok(result)
 }
 
 /// The button that was left as the answer to a message, else that a person presses, else the usual one.
-fn pressed_button(cx: &mut Cx, level: i64, (usual, possible): (i64, &[i64]), title: &str, text: &str) -> Result<i64> {
+fn pressed_button(
+    cx: &mut Cx,
+    level: i64,
+    (usual, possible): (i64, &[i64]),
+    title: &str,
+    text: &str,
+) -> Result<i64> {
     if let Some(answer) = left_answer(cx, DialogKind::Message) {
         return button_of(&answer, possible);
     }
-    let buttons = possible.iter().map(|number| RESULTS[*number as usize]).collect();
-    let details = QuestionDetails::Message { buttons, default_button: RESULTS[usual as usize], level };
-    let question = Question { title: title.to_owned(), text: text.to_owned(), details };
-    Ok(cx.ask_person(&question).and_then(|answer| button_of(&answer, possible).ok()).unwrap_or(usual))
+    let buttons = possible
+        .iter()
+        .map(|number| RESULTS[*number as usize])
+        .collect();
+    let details = QuestionDetails::Message {
+        buttons,
+        default_button: RESULTS[usual as usize],
+        level,
+    };
+    let question = Question {
+        title: title.to_owned(),
+        text: text.to_owned(),
+        details,
+    };
+    Ok(cx
+        .ask_person(&question)
+        .and_then(|answer| button_of(&answer, possible).ok())
+        .unwrap_or(usual))
 }
 
 /// The message of `sim.msgBox`: without a person the answer is ok, and nothing is logged.
@@ -90,10 +126,26 @@ fn pressed_button(cx: &mut Cx, level: i64, (usual, possible): (i64, &[i64]), tit
 /// @param message
 /// @return result sim.msgbox_return_*
 #[api("simUI._simMsgBox")]
-fn sim_msg_box(cx: &mut Cx, r#type: i64, buttons: i64, title: String, message: String) -> Result<i64> {
-    let (_, possible) = usize::try_from(buttons).ok().and_then(|at| BUTTONS.get(at)).copied().unwrap_or(BUTTONS[0]);
+fn sim_msg_box(
+    cx: &mut Cx,
+    r#type: i64,
+    buttons: i64,
+    title: String,
+    message: String,
+) -> Result<i64> {
+    let (_, possible) = usize::try_from(buttons)
+        .ok()
+        .and_then(|at| BUTTONS.get(at))
+        .copied()
+        .unwrap_or(BUTTONS[0]);
     let result = pressed_button(cx, r#type, (OK, possible), &title, &message)?;
-    note_silently(cx, DialogKind::Message, &title, &message, RESULTS[result as usize]);
+    note_silently(
+        cx,
+        DialogKind::Message,
+        &title,
+        &message,
+        RESULTS[result as usize],
+    );
     Ok(result)
 }
 
@@ -101,13 +153,24 @@ fn sim_msg_box(cx: &mut Cx, r#type: i64, buttons: i64, title: String, message: S
 fn button_of(answer: &Data, possible: &[i64]) -> Result<i64> {
     let result = match answer {
         Data::Int(number) => Some(*number),
-        Data::Text(name) => (0..).zip(RESULTS).find(|(_, known)| known.as_bytes() == name).map(|(number, _)| number),
+        Data::Text(name) => (0..)
+            .zip(RESULTS)
+            .find(|(_, known)| known.as_bytes() == name)
+            .map(|(number, _)| number),
         _ => None,
     };
-    result.filter(|result| possible.contains(result)).ok_or_else(|| {
-        let names: Vec<&str> = possible.iter().map(|number| RESULTS[*number as usize]).collect();
-        ApiError::Other(format!("the answer left for msgBox is none of its buttons: {}", names.join(", ")))
-    })
+    result
+        .filter(|result| possible.contains(result))
+        .ok_or_else(|| {
+            let names: Vec<&str> = possible
+                .iter()
+                .map(|number| RESULTS[*number as usize])
+                .collect();
+            ApiError::Other(format!(
+                "the answer left for msgBox is none of its buttons: {}",
+                names.join(", ")
+            ))
+        })
 }
 
 /// The files that were left as the answer to a dialog, else those that a person names.
@@ -166,7 +229,13 @@ fn file_dialog(
         extensions: ext,
     };
     let files = chosen_files(cx, &title, details);
-    note(cx, DialogKind::File, &title, asked.trim(), &files.join(", "));
+    note(
+        cx,
+        DialogKind::File,
+        &title,
+        asked.trim(),
+        &files.join(", "),
+    );
     Ok(files)
 }
 
@@ -186,12 +255,20 @@ fn color_dialog(
     #[default(true)] native: bool,
 ) -> Result<Data> {
     let _ = native;
-    if init_color.as_ref().is_some_and(|color| !(3..=4).contains(&color.len())) {
-        return Err(ApiError::Other("read in arg 1 (initColor): must have 3 to 4 elements".into()));
+    if init_color
+        .as_ref()
+        .is_some_and(|color| !(3..=4).contains(&color.len()))
+    {
+        return Err(ApiError::Other(
+            "read in arg 1 (initColor): must have 3 to 4 elements".into(),
+        ));
     }
     let parts = if show_alpha_channel { 4 } else { 3 };
     let initial = init_color.unwrap_or_else(|| vec![1.0; 3]);
-    let details = QuestionDetails::Color { initial, alpha: show_alpha_channel };
+    let details = QuestionDetails::Color {
+        initial,
+        alpha: show_alpha_channel,
+    };
     let color = match answer(cx, &title, "", details) {
         Some(Data::Array(mut color)) => {
             color.resize(parts, Data::Float(1.0));
@@ -217,13 +294,22 @@ fn input_dialog(
     #[default("Input value:")] label: String,
     #[default("")] title: String,
 ) -> Result<Data> {
-    let entry = match answer(cx, &title, &label, QuestionDetails::Text { initial: init_value }) {
+    let entry = match answer(
+        cx,
+        &title,
+        &label,
+        QuestionDetails::Text {
+            initial: init_value,
+        },
+    ) {
         Some(Data::Text(entry)) => Some(entry),
         Some(Data::Int(number)) => Some(number.to_string().into_bytes()),
         Some(Data::Float(number)) => Some(number.to_string().into_bytes()),
         _ => None,
     };
-    let shown = entry.as_ref().map_or("cancel".into(), |entry| String::from_utf8_lossy(entry).into_owned());
+    let shown = entry.as_ref().map_or("cancel".into(), |entry| {
+        String::from_utf8_lossy(entry).into_owned()
+    });
     note(cx, DialogKind::Input, &title, &label, &shown);
     Ok(entry.map_or(Data::Nil, Data::Text))
 }
@@ -246,10 +332,22 @@ fn banner_create(
     let keys = btn_keys.map_or_else(|| vec!["close".to_owned()], |keys| keys.0);
     let labels = btn_labels.map_or_else(|| keys.clone(), |labels| labels.0);
     if labels.len() != keys.len() {
-        return Err(ApiError::Other("btnKeys and btnLabels must have the same number of elements".into()));
+        return Err(ApiError::Other(
+            "btnKeys and btnLabels must have the same number of elements".into(),
+        ));
     }
-    let buttons = keys.into_iter().zip(labels).map(|(key, label)| [key, label]).collect();
-    let banner = Banner { id: 0, text, buttons, callback: callback.unwrap_or_default(), owner: cx.script().id };
+    let buttons = keys
+        .into_iter()
+        .zip(labels)
+        .map(|(key, label)| [key, label])
+        .collect();
+    let banner = Banner {
+        id: 0,
+        text,
+        buttons,
+        callback: callback.unwrap_or_default(),
+        owner: cx.script().id,
+    };
     let id = cx.change_ui(|ui| {
         ui.touch();
         ui.dialogs.add_banner(banner)
@@ -267,7 +365,11 @@ fn banner_destroy(cx: &mut Cx, id: i64) -> Result<()> {
         ui.touch();
         ui.dialogs.remove_banner(id)
     });
-    if removed { Ok(()) } else { Err(ApiError::Other("invalid id".into())) }
+    if removed {
+        Ok(())
+    } else {
+        Err(ApiError::Other("invalid id".into()))
+    }
 }
 
 /// The keys that are held down: those of the last input of a page or test.

@@ -62,7 +62,13 @@ fn set_column_count(
 /// @param column from 0
 /// @param text
 #[api("simUI.setColumnHeaderText")]
-fn set_column_header_text(cx: &mut Cx, handle: WindowHandle, id: i64, column: i64, text: String) -> Result<()> {
+fn set_column_header_text(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    column: i64,
+    text: String,
+) -> Result<()> {
     cx.change_window(&handle.0, |window| {
         let (headers, count) = match &mut window.widget_mut(id)?.kind {
             WidgetKind::Table(table) => (&mut table.column_headers, table.column_count),
@@ -93,7 +99,9 @@ fn set_column_width(
     max_size: i64,
 ) -> Result<()> {
     let _ = column;
-    cx.change_window(&handle.0, |window| set_width(window, id, Some([min_size, max_size])))
+    cx.change_window(&handle.0, |window| {
+        set_width(window, id, Some([min_size, max_size]))
+    })
 }
 
 fn set_width(window: &mut Window, id: i64, width: Option<[i64; 2]>) -> UiResult<()> {
@@ -134,7 +142,10 @@ fn save_state(cx: &Cx, handle: WindowHandle, id: i64) -> Result<Bytes> {
 /// @param state of simUI.saveState
 #[api("simUI.restoreState")]
 fn restore_state(cx: &mut Cx, handle: WindowHandle, id: i64, state: Bytes) -> Result<()> {
-    let numbers = state.0.strip_prefix(&STATE).map(|rest| rest.as_chunks::<8>().0.to_vec());
+    let numbers = state
+        .0
+        .strip_prefix(&STATE)
+        .map(|rest| rest.as_chunks::<8>().0.to_vec());
     cx.change_window(&handle.0, |window| match numbers.as_deref() {
         Some([least, most]) => set_width(window, id, Some([*least, *most].map(i64::from_le_bytes))),
         Some([]) => set_width(window, id, None),

@@ -32,7 +32,12 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 const X: usize = 0;
 const Y: usize = 1;
 
-fn change(cx: &mut Cx, handle: &WindowHandle, id: i64, change: impl FnOnce(&mut Plot)) -> Result<()> {
+fn change(
+    cx: &mut Cx,
+    handle: &WindowHandle,
+    id: i64,
+    change: impl FnOnce(&mut Plot),
+) -> Result<()> {
     cx.change_window(&handle.0, |window| {
         change(window.get_mut(id)?);
         Ok(())
@@ -62,9 +67,18 @@ fn add_curve(
 ) -> Result<()> {
     cx.change_window(&handle.0, |window| {
         let plot = window.get_mut::<Plot>(id)?;
-        let Some(curve_type) = CurveType::from_code(r#type) else { return Ok(()) };
+        let Some(curve_type) = CurveType::from_code(r#type) else {
+            return Ok(());
+        };
         let color = color.map(|part| part as i64);
-        plot.add_curve(Curve { name, curve_type, color, style, options: options.0, points: Vec::new() })
+        plot.add_curve(Curve {
+            name,
+            curve_type,
+            color,
+            style,
+            options: options.0,
+            points: Vec::new(),
+        })
     })
 }
 
@@ -85,7 +99,11 @@ fn add_curve_time_points(
     y: Vec<f64>,
 ) -> Result<()> {
     let points = x.into_iter().zip(y).map(|(x, y)| [x, x, y]);
-    cx.change_window(&handle.0, |window| window.get_mut::<Plot>(id)?.add_points(&name, CurveType::Time, points))
+    cx.change_window(&handle.0, |window| {
+        window
+            .get_mut::<Plot>(id)?
+            .add_points(&name, CurveType::Time, points)
+    })
 }
 
 /// Adds points to a curve of x and y. Of lists of different lengths the shortest one counts.
@@ -107,7 +125,11 @@ fn add_curve_xy_points(
     y: Vec<f64>,
 ) -> Result<()> {
     let points = t.into_iter().zip(x).zip(y).map(|((t, x), y)| [t, x, y]);
-    cx.change_window(&handle.0, |window| window.get_mut::<Plot>(id)?.add_points(&name, CurveType::Xy, points))
+    cx.change_window(&handle.0, |window| {
+        window
+            .get_mut::<Plot>(id)?
+            .add_points(&name, CurveType::Xy, points)
+    })
 }
 
 /// Removes the points of a curve.
@@ -117,7 +139,9 @@ fn add_curve_xy_points(
 /// @param name of the curve
 #[api("simUI.clearCurve")]
 fn clear_curve(cx: &mut Cx, handle: WindowHandle, id: i64, name: String) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.get_mut::<Plot>(id)?.clear_curve(&name))
+    cx.change_window(&handle.0, |window| {
+        window.get_mut::<Plot>(id)?.clear_curve(&name)
+    })
 }
 
 /// Removes a curve from a plot.
@@ -127,7 +151,9 @@ fn clear_curve(cx: &mut Cx, handle: WindowHandle, id: i64, name: String) -> Resu
 /// @param name of the curve
 #[api("simUI.removeCurve")]
 fn remove_curve(cx: &mut Cx, handle: WindowHandle, id: i64, name: String) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.get_mut::<Plot>(id)?.remove_curve(&name))
+    cx.change_window(&handle.0, |window| {
+        window.get_mut::<Plot>(id)?.remove_curve(&name)
+    })
 }
 
 /// The points of a curve.
@@ -139,11 +165,20 @@ fn remove_curve(cx: &mut Cx, handle: WindowHandle, id: i64, name: String) -> Res
 /// @return x
 /// @return y
 #[api("simUI.getCurveData")]
-fn get_curve_data(cx: &Cx, handle: WindowHandle, id: i64, name: String) -> Result<(Vec<f64>, Vec<f64>, Vec<f64>)> {
+fn get_curve_data(
+    cx: &Cx,
+    handle: WindowHandle,
+    id: i64,
+    name: String,
+) -> Result<(Vec<f64>, Vec<f64>, Vec<f64>)> {
     cx.read_window(&handle.0, |window| {
         let curve = window.get::<Plot>(id)?.curve(&name)?;
         let part = |part: usize| curve.points.iter().map(|point| point[part]).collect();
-        let parameter = if curve.curve_type == CurveType::Time { Vec::new() } else { part(0) };
+        let parameter = if curve.curve_type == CurveType::Time {
+            Vec::new()
+        } else {
+            part(0)
+        };
         Ok((parameter, part(1), part(2)))
     })
 }
@@ -176,7 +211,9 @@ fn set_plot_ranges(
     ymin: f64,
     ymax: f64,
 ) -> Result<()> {
-    change(cx, &handle, id, |plot| plot.ranges = [[xmin, xmax], [ymin, ymax]])
+    change(cx, &handle, id, |plot| {
+        plot.ranges = [[xmin, xmax], [ymin, ymax]]
+    })
 }
 
 /// Sets what the x axis shows.
@@ -186,7 +223,13 @@ fn set_plot_ranges(
 /// @param xmin
 /// @param xmax
 #[api("simUI.setPlotXRange")]
-fn set_plot_x_range(cx: &mut Cx, handle: WindowHandle, id: i64, xmin: f64, xmax: f64) -> Result<()> {
+fn set_plot_x_range(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    xmin: f64,
+    xmax: f64,
+) -> Result<()> {
     change(cx, &handle, id, |plot| plot.ranges[X] = [xmin, xmax])
 }
 
@@ -197,7 +240,13 @@ fn set_plot_x_range(cx: &mut Cx, handle: WindowHandle, id: i64, xmin: f64, xmax:
 /// @param ymin
 /// @param ymax
 #[api("simUI.setPlotYRange")]
-fn set_plot_y_range(cx: &mut Cx, handle: WindowHandle, id: i64, ymin: f64, ymax: f64) -> Result<()> {
+fn set_plot_y_range(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    ymin: f64,
+    ymax: f64,
+) -> Result<()> {
     change(cx, &handle, id, |plot| plot.ranges[Y] = [ymin, ymax])
 }
 
@@ -233,7 +282,13 @@ fn grow_plot_ranges(
 /// @param xmin how far the lower end moves down
 /// @param xmax how far the upper end moves up
 #[api("simUI.growPlotXRange")]
-fn grow_plot_x_range(cx: &mut Cx, handle: WindowHandle, id: i64, xmin: f64, xmax: f64) -> Result<()> {
+fn grow_plot_x_range(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    xmin: f64,
+    xmax: f64,
+) -> Result<()> {
     change(cx, &handle, id, |plot| plot.grow(X, [xmin, xmax]))
 }
 
@@ -244,7 +299,13 @@ fn grow_plot_x_range(cx: &mut Cx, handle: WindowHandle, id: i64, xmin: f64, xmax
 /// @param ymin how far the lower end moves down
 /// @param ymax how far the upper end moves up
 #[api("simUI.growPlotYRange")]
-fn grow_plot_y_range(cx: &mut Cx, handle: WindowHandle, id: i64, ymin: f64, ymax: f64) -> Result<()> {
+fn grow_plot_y_range(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    ymin: f64,
+    ymax: f64,
+) -> Result<()> {
     change(cx, &handle, id, |plot| plot.grow(Y, [ymin, ymax]))
 }
 
@@ -265,7 +326,9 @@ fn rescale_axes(
     #[default(false)] only_enlarge_y: bool,
 ) -> Result<()> {
     cx.change_window(&handle.0, |window| {
-        window.get_mut::<Plot>(id)?.rescale(Some(&name), [only_enlarge_x, only_enlarge_y])
+        window
+            .get_mut::<Plot>(id)?
+            .rescale(Some(&name), [only_enlarge_x, only_enlarge_y])
     })
 }
 
@@ -283,7 +346,11 @@ fn rescale_axes_all(
     #[default(false)] only_enlarge_x: bool,
     #[default(false)] only_enlarge_y: bool,
 ) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.get_mut::<Plot>(id)?.rescale(None, [only_enlarge_x, only_enlarge_y]))
+    cx.change_window(&handle.0, |window| {
+        window
+            .get_mut::<Plot>(id)?
+            .rescale(None, [only_enlarge_x, only_enlarge_y])
+    })
 }
 
 /// Sets the texts at both axes.
@@ -336,7 +403,9 @@ fn set_mouse_options(
     zoom_x: bool,
     zoom_y: bool,
 ) -> Result<()> {
-    change(cx, &handle, id, |plot| plot.mouse = [pan_x, pan_y, zoom_x, zoom_y])
+    change(cx, &handle, id, |plot| {
+        plot.mouse = [pan_x, pan_y, zoom_x, zoom_y]
+    })
 }
 
 /// Shows or hides the legend of a plot, which is hidden at first.

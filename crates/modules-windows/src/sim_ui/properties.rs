@@ -31,27 +31,53 @@ fn rows_of(
     icons: &[i64],
     descriptions: Texts,
 ) -> Result<Vec<Property>> {
-    let texts = [&types, &values, &displayed_names, &displayed_values, &descriptions];
+    let texts = [
+        &types,
+        &values,
+        &displayed_names,
+        &displayed_values,
+        &descriptions,
+    ];
     let count = names.0.len();
-    if texts.iter().any(|list| list.0.len() != count) || flags.len() != count || icons.len() != count {
-        return Err(ApiError::Other("the lists must have the same number of elements".into()));
+    if texts.iter().any(|list| list.0.len() != count)
+        || flags.len() != count
+        || icons.len() != count
+    {
+        return Err(ApiError::Other(
+            "the lists must have the same number of elements".into(),
+        ));
     }
     let numbers = flags.iter().zip(icons);
-    let shown = displayed_names.0.into_iter().zip(displayed_values.0).zip(descriptions.0);
-    let parts = names.0.into_iter().zip(types.0).zip(values.0).zip(shown).zip(numbers);
+    let shown = displayed_names
+        .0
+        .into_iter()
+        .zip(displayed_values.0)
+        .zip(descriptions.0);
+    let parts = names
+        .0
+        .into_iter()
+        .zip(types.0)
+        .zip(values.0)
+        .zip(shown)
+        .zip(numbers);
     Ok(parts
-        .map(|((((name, type_name), value), ((displayed_name, displayed_value), description)), (flags, icon))| {
-            Property {
-                name,
-                type_name,
-                value,
-                flags: *flags,
-                displayed_name,
-                displayed_value,
-                icon: *icon,
-                description,
-            }
-        })
+        .map(
+            |(
+                (((name, type_name), value), ((displayed_name, displayed_value), description)),
+                (flags, icon),
+            )| {
+                Property {
+                    name,
+                    type_name,
+                    value,
+                    flags: *flags,
+                    displayed_name,
+                    displayed_value,
+                    icon: *icon,
+                    description,
+                }
+            },
+        )
         .collect())
 }
 
@@ -84,7 +110,16 @@ fn set_properties(
     descriptions: Texts,
     #[default(true)] suppress_events: bool,
 ) -> Result<()> {
-    let rows = rows_of(pnames, ptypes, pvalues, &pflags, pdisplayk, pdisplayv, &icons, descriptions)?;
+    let rows = rows_of(
+        pnames,
+        ptypes,
+        pvalues,
+        &pflags,
+        pdisplayk,
+        pdisplayv,
+        &icons,
+        descriptions,
+    )?;
     cx.change_window(&handle.0, |window| {
         let properties = window.get_mut::<Properties>(id)?;
         properties.rows = rows;
@@ -125,11 +160,23 @@ fn set_properties_rows(
     #[default(true)] suppress_events: bool,
 ) -> Result<()> {
     let _ = suppress_events;
-    let new = rows_of(pnames, ptypes, pvalues, &pflags, pdisplayk, pdisplayv, &icons, descriptions)?;
+    let new = rows_of(
+        pnames,
+        ptypes,
+        pvalues,
+        &pflags,
+        pdisplayk,
+        pdisplayv,
+        &icons,
+        descriptions,
+    )?;
     cx.change_window(&handle.0, |window| {
         let properties = window.get_mut::<Properties>(id)?;
         for (row, property) in rows.into_iter().zip(new) {
-            if let Some(place) = usize::try_from(row).ok().and_then(|row| properties.rows.get_mut(row)) {
+            if let Some(place) = usize::try_from(row)
+                .ok()
+                .and_then(|row| properties.rows.get_mut(row))
+            {
                 *place = property;
             }
         }
@@ -151,7 +198,9 @@ fn set_properties_selection(
     row: i64,
     #[default(true)] suppress_events: bool,
 ) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.select_property(id, row, !suppress_events))
+    cx.change_window(&handle.0, |window| {
+        window.select_property(id, row, !suppress_events)
+    })
 }
 
 /// Sets the menu of the rows.
@@ -161,9 +210,20 @@ fn set_properties_selection(
 /// @param keys what the handler gets; -- for a line between entries, # before a disabled one
 /// @param titles what is shown
 #[api("simUI.setPropertiesContextMenu")]
-fn set_properties_context_menu(cx: &mut Cx, handle: WindowHandle, id: i64, keys: Texts, titles: Texts) -> Result<()> {
+fn set_properties_context_menu(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    keys: Texts,
+    titles: Texts,
+) -> Result<()> {
     cx.change_window(&handle.0, |window| {
-        let menu = keys.0.into_iter().zip(titles.0).map(|(key, title)| [key, title]).collect();
+        let menu = keys
+            .0
+            .into_iter()
+            .zip(titles.0)
+            .map(|(key, title)| [key, title])
+            .collect();
         window.get_mut::<Properties>(id)?.menu = menu;
         Ok(())
     })
@@ -176,7 +236,9 @@ fn set_properties_context_menu(cx: &mut Cx, handle: WindowHandle, id: i64, keys:
 /// @return state
 #[api("simUI.getPropertiesState")]
 fn get_properties_state(cx: &Cx, handle: WindowHandle, id: i64) -> Result<Bytes> {
-    cx.read_window(&handle.0, |window| Ok(Bytes(window.get::<Properties>(id)?.state.clone())))
+    cx.read_window(&handle.0, |window| {
+        Ok(Bytes(window.get::<Properties>(id)?.state.clone()))
+    })
 }
 
 /// Arranges the table as it was.

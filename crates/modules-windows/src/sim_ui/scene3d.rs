@@ -35,7 +35,11 @@ fn add_scene_3d_node(
     parent_node_id: i64,
     r#type: i64,
 ) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.get_mut::<Scene3d>(id)?.add(node_id, parent_node_id, r#type))
+    cx.change_window(&handle.0, |window| {
+        window
+            .get_mut::<Scene3d>(id)?
+            .add(node_id, parent_node_id, r#type)
+    })
 }
 
 /// Looks whether there is such a node, and does nothing, as in CoppeliaSim.
@@ -45,7 +49,9 @@ fn add_scene_3d_node(
 /// @param nodeId its number
 #[api("simUI.removeScene3DNode")]
 fn remove_scene_3d_node(cx: &mut Cx, handle: WindowHandle, id: i64, node_id: i64) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.get_mut::<Scene3d>(id)?.node_mut(node_id).map(|_| ()))
+    cx.change_window(&handle.0, |window| {
+        window.get_mut::<Scene3d>(id)?.node_mut(node_id).map(|_| ())
+    })
 }
 
 /// Switches a node on or off.
@@ -55,16 +61,33 @@ fn remove_scene_3d_node(cx: &mut Cx, handle: WindowHandle, id: i64, node_id: i64
 /// @param nodeId its number
 /// @param enabled
 #[api("simUI.setScene3DNodeEnabled")]
-fn set_scene_3d_node_enabled(cx: &mut Cx, handle: WindowHandle, id: i64, node_id: i64, enabled: bool) -> Result<()> {
+fn set_scene_3d_node_enabled(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    node_id: i64,
+    enabled: bool,
+) -> Result<()> {
     cx.change_window(&handle.0, |window| {
         window.get_mut::<Scene3d>(id)?.node_mut(node_id)?.enabled = enabled;
         Ok(())
     })
 }
 
-fn set_param(cx: &mut Cx, handle: &WindowHandle, id: i64, node: i64, name: String, value: Data) -> Result<()> {
+fn set_param(
+    cx: &mut Cx,
+    handle: &WindowHandle,
+    id: i64,
+    node: i64,
+    name: String,
+    value: Data,
+) -> Result<()> {
     cx.change_window(&handle.0, |window| {
-        window.get_mut::<Scene3d>(id)?.node_mut(node)?.params.insert(name, value);
+        window
+            .get_mut::<Scene3d>(id)?
+            .node_mut(node)?
+            .params
+            .insert(name, value);
         Ok(())
     })
 }

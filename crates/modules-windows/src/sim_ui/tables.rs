@@ -33,12 +33,22 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 /// @param id the table
 /// @param suppressEvents without effect
 #[api("simUI.clearTable")]
-fn clear_table(cx: &mut Cx, handle: WindowHandle, id: i64, #[default(true)] suppress_events: bool) -> Result<()> {
+fn clear_table(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    #[default(true)] suppress_events: bool,
+) -> Result<()> {
     let _ = suppress_events;
     change(cx, &handle, id, Table::clear)
 }
 
-fn change(cx: &mut Cx, handle: &WindowHandle, id: i64, change: impl FnOnce(&mut Table)) -> Result<()> {
+fn change(
+    cx: &mut Cx,
+    handle: &WindowHandle,
+    id: i64,
+    change: impl FnOnce(&mut Table),
+) -> Result<()> {
     cx.change_window(&handle.0, |window| {
         change(window.get_mut(id)?);
         Ok(())
@@ -70,7 +80,9 @@ fn set_row_count(
     #[default(true)] suppress_events: bool,
 ) -> Result<()> {
     let _ = suppress_events;
-    change(cx, &handle, id, |table| table.resize(count, table.column_count))
+    change(cx, &handle, id, |table| {
+        table.resize(count, table.column_count)
+    })
 }
 
 /// The text of a cell.
@@ -82,7 +94,9 @@ fn set_row_count(
 /// @return text empty where there is none
 #[api("simUI.getItem")]
 fn get_item(cx: &Cx, handle: WindowHandle, id: i64, row: i64, column: i64) -> Result<String> {
-    cx.read_window(&handle.0, |window| Ok(window.get::<Table>(id)?.text(row, column).to_owned()))
+    cx.read_window(&handle.0, |window| {
+        Ok(window.get::<Table>(id)?.text(row, column).to_owned())
+    })
 }
 
 /// Sets the text of a cell; nothing outside of the table.
@@ -103,7 +117,9 @@ fn set_item(
     text: String,
     #[default(true)] suppress_events: bool,
 ) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.set_cell(id, [row, column], text, !suppress_events))
+    cx.change_window(&handle.0, |window| {
+        window.set_cell(id, [row, column], text, !suppress_events)
+    })
 }
 
 /// Sets all texts of a table, which gets as many rows, and more columns if need be.
@@ -122,13 +138,16 @@ fn set_items(
 ) -> Result<()> {
     let _ = suppress_events;
     let rows = cbor::decode(&data.0).ok().and_then(|data| rows_of(&data));
-    let rows = rows.ok_or_else(|| ApiError::Other("the data is no CBOR array of arrays of texts.".into()))?;
+    let rows = rows
+        .ok_or_else(|| ApiError::Other("the data is no CBOR array of arrays of texts.".into()))?;
     cx.change_window(&handle.0, |window| window.set_cells(id, rows))
 }
 
 fn rows_of(data: &Data) -> Option<Vec<Vec<String>>> {
     let text = |data: &Data| match data {
-        Data::Text(bytes) | Data::Buffer(bytes) => Some(String::from_utf8_lossy(bytes).into_owned()),
+        Data::Text(bytes) | Data::Buffer(bytes) => {
+            Some(String::from_utf8_lossy(bytes).into_owned())
+        }
         _ => None,
     };
     let row = |row: &Data| match row {
@@ -170,7 +189,10 @@ fn set_item_image(
         let mut image = Image::default();
         image.set_rgb(&data.0, width, height)?;
         if table.contains(row, column) {
-            let cell = table.cells.entry((row, column)).or_insert_with(|| Cell::of_text(String::new()));
+            let cell = table
+                .cells
+                .entry((row, column))
+                .or_insert_with(|| Cell::of_text(String::new()));
             cell.image = Some(image);
         }
         Ok(())
@@ -185,7 +207,14 @@ fn set_item_image(
 /// @param column from 0
 /// @param editable
 #[api("simUI.setItemEditable")]
-fn set_item_editable(cx: &mut Cx, handle: WindowHandle, id: i64, row: i64, column: i64, editable: bool) -> Result<()> {
+fn set_item_editable(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    row: i64,
+    column: i64,
+    editable: bool,
+) -> Result<()> {
     change(cx, &handle, id, |table| {
         if let Some(cell) = table.cells.get_mut(&(row, column)) {
             cell.editable = editable;
@@ -200,7 +229,13 @@ fn set_item_editable(cx: &mut Cx, handle: WindowHandle, id: i64, row: i64, colum
 /// @param row from 0
 /// @param text
 #[api("simUI.setRowHeaderText")]
-fn set_row_header_text(cx: &mut Cx, handle: WindowHandle, id: i64, row: i64, text: String) -> Result<()> {
+fn set_row_header_text(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    row: i64,
+    text: String,
+) -> Result<()> {
     change(cx, &handle, id, |table| {
         if (0..table.row_count).contains(&row) {
             table.row_headers.insert(row, text);
@@ -216,9 +251,18 @@ fn set_row_header_text(cx: &mut Cx, handle: WindowHandle, id: i64, row: i64, tex
 /// @param min_size pixels
 /// @param max_size pixels
 #[api("simUI.setRowHeight", snake_case)]
-fn set_row_height(cx: &mut Cx, handle: WindowHandle, id: i64, row: i64, min_size: i64, max_size: i64) -> Result<()> {
+fn set_row_height(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    row: i64,
+    min_size: i64,
+    max_size: i64,
+) -> Result<()> {
     let _ = row;
-    change(cx, &handle, id, |table| table.row_height = Some([min_size, max_size]))
+    change(cx, &handle, id, |table| {
+        table.row_height = Some([min_size, max_size])
+    })
 }
 
 /// Selects a cell, a row or a column, by the mode of the table.
@@ -237,7 +281,9 @@ fn set_table_selection(
     column: i64,
     #[default(true)] suppress_events: bool,
 ) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.select_cell(id, row, column, !suppress_events))
+    cx.change_window(&handle.0, |window| {
+        window.select_cell(id, row, column, !suppress_events)
+    })
 }
 
 /// Inserts a row; it has the texts of the one that was there.

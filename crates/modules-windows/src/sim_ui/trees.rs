@@ -21,7 +21,12 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 /// Deeper than any tree.
 const ALL_LEVELS: i64 = i64::MAX;
 
-fn change(cx: &mut Cx, handle: &WindowHandle, id: i64, change: impl FnOnce(&mut Tree)) -> Result<()> {
+fn change(
+    cx: &mut Cx,
+    handle: &WindowHandle,
+    id: i64,
+    change: impl FnOnce(&mut Tree),
+) -> Result<()> {
     cx.change_window(&handle.0, |window| {
         change(window.get_mut(id)?);
         Ok(())
@@ -34,7 +39,12 @@ fn change(cx: &mut Cx, handle: &WindowHandle, id: i64, change: impl FnOnce(&mut 
 /// @param id the tree
 /// @param suppressEvents without effect
 #[api("simUI.clearTree")]
-fn clear_tree(cx: &mut Cx, handle: WindowHandle, id: i64, #[default(true)] suppress_events: bool) -> Result<()> {
+fn clear_tree(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    #[default(true)] suppress_events: bool,
+) -> Result<()> {
     let _ = suppress_events;
     change(cx, &handle, id, |tree| {
         tree.items.clear();
@@ -79,7 +89,13 @@ fn add_tree_item(
 /// @param item_id its number
 /// @param text of each column
 #[api("simUI.updateTreeItemText", snake_case)]
-fn update_tree_item_text(cx: &mut Cx, handle: WindowHandle, id: i64, item_id: i64, text: Texts) -> Result<()> {
+fn update_tree_item_text(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    item_id: i64,
+    text: Texts,
+) -> Result<()> {
     change(cx, &handle, id, |tree| {
         if let Some(item) = tree.items.get_mut(&item_id) {
             item.texts = text.0;
@@ -143,7 +159,9 @@ fn set_tree_selection(
     #[name("suppressEvents")]
     suppress_events: bool,
 ) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.select_item(id, item_id, !suppress_events))
+    cx.change_window(&handle.0, |window| {
+        window.select_item(id, item_id, !suppress_events)
+    })
 }
 
 /// Shows all items of a tree.
@@ -152,7 +170,12 @@ fn set_tree_selection(
 /// @param id the tree
 /// @param suppressEvents without effect
 #[api("simUI.expandAll")]
-fn expand_all(cx: &mut Cx, handle: WindowHandle, id: i64, #[default(true)] suppress_events: bool) -> Result<()> {
+fn expand_all(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    #[default(true)] suppress_events: bool,
+) -> Result<()> {
     let _ = suppress_events;
     change(cx, &handle, id, |tree| tree.expand_to(ALL_LEVELS))
 }
@@ -163,7 +186,12 @@ fn expand_all(cx: &mut Cx, handle: WindowHandle, id: i64, #[default(true)] suppr
 /// @param id the tree
 /// @param suppressEvents without effect
 #[api("simUI.collapseAll")]
-fn collapse_all(cx: &mut Cx, handle: WindowHandle, id: i64, #[default(true)] suppress_events: bool) -> Result<()> {
+fn collapse_all(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    #[default(true)] suppress_events: bool,
+) -> Result<()> {
     let _ = suppress_events;
     change(cx, &handle, id, |tree| tree.expand_to(-1))
 }

@@ -76,7 +76,9 @@ fn set_slider_value(
     value: i64,
     #[default(true)] suppress_events: bool,
 ) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.set_slider(id, value, !suppress_events))
+    cx.change_window(&handle.0, |window| {
+        window.set_slider(id, value, !suppress_events)
+    })
 }
 
 /// The value of a spin box.
@@ -103,7 +105,9 @@ fn set_spinbox_value(
     value: f64,
     #[default(true)] suppress_events: bool,
 ) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.set_spinbox(id, value, !suppress_events))
+    cx.change_window(&handle.0, |window| {
+        window.set_spinbox(id, value, !suppress_events)
+    })
 }
 
 /// The text of an edit.
@@ -113,7 +117,9 @@ fn set_spinbox_value(
 /// @return value
 #[api("simUI.getEditValue")]
 fn get_edit_value(cx: &Cx, handle: WindowHandle, id: i64) -> Result<String> {
-    cx.read_window(&handle.0, |window| Ok(window.get::<Edit>(id)?.value.clone()))
+    cx.read_window(&handle.0, |window| {
+        Ok(window.get::<Edit>(id)?.value.clone())
+    })
 }
 
 /// Sets the text of an edit.
@@ -130,7 +136,9 @@ fn set_edit_value(
     value: String,
     #[default(true)] suppress_events: bool,
 ) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.set_edit(id, value, !suppress_events))
+    cx.change_window(&handle.0, |window| {
+        window.set_edit(id, value, !suppress_events)
+    })
 }
 
 /// The edit whose text is selected.
@@ -140,7 +148,10 @@ fn set_edit_value(
 #[api("simUI.getCurrentEditWidget")]
 fn get_current_edit_widget(cx: &Cx, handle: WindowHandle) -> Result<i64> {
     cx.read_window(&handle.0, |window| {
-        Ok(window.all::<Edit>().find(|(_, edit)| edit.selected).map_or(-1, |(id, _)| id))
+        Ok(window
+            .all::<Edit>()
+            .find(|(_, edit)| edit.selected)
+            .map_or(-1, |(id, _)| id))
     })
 }
 
@@ -177,7 +188,9 @@ fn set_checkbox_value(
     value: i64,
     #[default(true)] suppress_events: bool,
 ) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.set_checkbox(id, value, !suppress_events))
+    cx.change_window(&handle.0, |window| {
+        window.set_checkbox(id, value, !suppress_events)
+    })
 }
 
 /// Whether a radio button is checked.
@@ -187,7 +200,9 @@ fn set_checkbox_value(
 /// @return value 0 or 1
 #[api("simUI.getRadiobuttonValue")]
 fn get_radiobutton_value(cx: &Cx, handle: WindowHandle, id: i64) -> Result<i64> {
-    cx.read_window(&handle.0, |window| Ok(window.get::<Radiobutton>(id)?.checked.into()))
+    cx.read_window(&handle.0, |window| {
+        Ok(window.get::<Radiobutton>(id)?.checked.into())
+    })
 }
 
 /// Checks a radio button, which clears those beside it.
@@ -215,7 +230,9 @@ fn set_radiobutton_value(
 /// @return text
 #[api("simUI.getLabelText")]
 fn get_label_text(cx: &Cx, handle: WindowHandle, id: i64) -> Result<String> {
-    cx.read_window(&handle.0, |window| Ok(window.get::<Label>(id)?.text.clone()))
+    cx.read_window(&handle.0, |window| {
+        Ok(window.get::<Label>(id)?.text.clone())
+    })
 }
 
 /// Sets the text of a label.
@@ -260,7 +277,9 @@ fn set_text(
     text: String,
     #[default(true)] suppress_events: bool,
 ) -> Result<()> {
-    cx.change_window(&handle.0, |window| window.set_browser_text(id, text, !suppress_events))
+    cx.change_window(&handle.0, |window| {
+        window.set_browser_text(id, text, !suppress_events)
+    })
 }
 
 /// Adds to the text of a text browser. No new line begins.

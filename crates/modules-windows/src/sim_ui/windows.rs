@@ -46,7 +46,9 @@ fn create(cx: &mut Cx, xml: String, names: Table) -> Result<String> {
 }
 
 fn ids_of(names: &Data) -> BTreeMap<String, i64> {
-    let Data::Map(entries) = names else { return BTreeMap::new() };
+    let Data::Map(entries) = names else {
+        return BTreeMap::new();
+    };
     let entry = |(name, id): &(Key, Data)| match (name, id) {
         (Key::Text(name), Data::Int(id)) => Some((String::from_utf8_lossy(name).into_owned(), *id)),
         _ => None,
@@ -108,7 +110,12 @@ fn get_title(cx: &Cx, handle: WindowHandle) -> Result<String> {
 /// @param title
 /// @param suppressEvents without effect
 #[api("simUI.setTitle")]
-fn set_title(cx: &mut Cx, handle: WindowHandle, title: String, #[default(true)] suppress_events: bool) -> Result<()> {
+fn set_title(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    title: String,
+    #[default(true)] suppress_events: bool,
+) -> Result<()> {
     let _ = suppress_events;
     cx.change_window(&handle.0, |window| {
         window.title = title;
@@ -166,7 +173,13 @@ fn get_size(cx: &Cx, handle: WindowHandle) -> Result<(i64, i64)> {
 /// @param h pixels
 /// @param suppressEvents without effect
 #[api("simUI.setSize")]
-fn set_size(cx: &mut Cx, handle: WindowHandle, w: i64, h: i64, #[default(true)] suppress_events: bool) -> Result<()> {
+fn set_size(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    w: i64,
+    h: i64,
+    #[default(true)] suppress_events: bool,
+) -> Result<()> {
     let _ = suppress_events;
     cx.change_window(&handle.0, |window| {
         window.size = [w, h];
@@ -257,7 +270,12 @@ fn get_widget_visibility(cx: &Cx, handle: WindowHandle, id: i64) -> Result<bool>
 /// @param id the widget
 /// @param visibility
 #[api("simUI.setWidgetVisibility")]
-fn set_widget_visibility(cx: &mut Cx, handle: WindowHandle, id: i64, visibility: bool) -> Result<()> {
+fn set_widget_visibility(
+    cx: &mut Cx,
+    handle: WindowHandle,
+    id: i64,
+    visibility: bool,
+) -> Result<()> {
     cx.change_window(&handle.0, |window| {
         window.widget_mut(id)?.visible = visibility;
         Ok(())

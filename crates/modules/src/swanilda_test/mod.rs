@@ -10,16 +10,24 @@ use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 use scene::{Data, Handle, Key};
-use script::test_bench::{ConsoleLine, Golden, GoldenContent, Snapshot, TestBench, Tolerances, Trace};
+use script::test_bench::{
+    ConsoleLine, Golden, GoldenContent, Snapshot, TestBench, Tolerances, Trace,
+};
 
-pub(super) static MODULE: Module =
-    Module { inner: &[FUNCTIONS, run::FUNCTIONS, windows::FUNCTIONS], ..Module::new("swanilda.test") };
+pub(super) static MODULE: Module = Module {
+    inner: &[FUNCTIONS, run::FUNCTIONS, windows::FUNCTIONS],
+    ..Module::new("swanilda.test")
+};
 
-const FUNCTIONS: &[ApiFn] = functions![is_test, iterate, errors, lines, kill, file, time_limit, golden, image];
+const FUNCTIONS: &[ApiFn] = functions![
+    is_test, iterate, errors, lines, kill, file, time_limit, golden, image
+];
 
 fn bench(cx: &Cx) -> Result<Rc<TestBench>> {
     let bench = cx.test_bench().cloned();
-    bench.ok_or_else(|| ApiError::Other("this works in tests only: run the file with 'swanilda test'.".into()))
+    bench.ok_or_else(|| {
+        ApiError::Other("this works in tests only: run the file with 'swanilda test'.".into())
+    })
 }
 
 /// Whether this is a test.
@@ -35,11 +43,17 @@ fn is_test(cx: &Cx) -> Result<bool> {
 fn iterate(cx: &mut Cx) -> Result<()> {
     bench(cx)?;
     if cx.call_depth() > 1 {
-        return Err(ApiError::Other("a step cannot be made from within a step.".into()));
+        return Err(ApiError::Other(
+            "a step cannot be made from within a step.".into(),
+        ));
     }
     cx.run_loop_iteration();
     // Long steps execute few Lua instructions, so the limits would not be checked.
-    if cx.is_interrupted() { Err(ApiError::Other("interrupted.".into())) } else { Ok(()) }
+    if cx.is_interrupted() {
+        Err(ApiError::Other("interrupted.".into()))
+    } else {
+        Ok(())
+    }
 }
 
 /// Number of uncaught script errors.
@@ -70,7 +84,10 @@ fn line_data(line: ConsoleLine) -> Data {
         ("text", Data::text(&line.text)),
         ("level", Data::text(line.level)),
         ("time", Data::Float(line.time)),
-        ("origin", line.origin.map_or(Data::Nil, |origin| Data::text(&origin))),
+        (
+            "origin",
+            line.origin.map_or(Data::Nil, |origin| Data::text(&origin)),
+        ),
     ])
 }
 
@@ -80,7 +97,9 @@ fn line_data(line: ConsoleLine) -> Data {
 #[api("swanilda.test.kill")]
 fn kill(cx: &mut Cx, script_handle: i64) -> Result<()> {
     bench(cx)?;
-    let script = cx.script_by_handle(script_handle).ok_or(ApiError::NoSuchScript)?;
+    let script = cx
+        .script_by_handle(script_handle)
+        .ok_or(ApiError::NoSuchScript)?;
     cx.abort_script(&script);
     Ok(())
 }
@@ -109,8 +128,14 @@ fn time_limit(cx: &Cx) -> Result<f64> {
 /// @param tolerances absolute, relative, time; columns: an absolute one for each named quantity
 #[api("swanilda.test.golden")]
 fn golden(cx: &mut Cx, name: String, columns: Data, rows: Data, tolerances: Data) -> Result<()> {
-    let trace = Trace { columns: names_of(&columns)?, rows: rows_of(&rows)? };
-    let content = GoldenContent::Trace { trace, tolerances: tolerances_of(&tolerances) };
+    let trace = Trace {
+        columns: names_of(&columns)?,
+        rows: rows_of(&rows)?,
+    };
+    let content = GoldenContent::Trace {
+        trace,
+        tolerances: tolerances_of(&tolerances),
+    };
     let golden = Golden { name, content };
     bench(cx)?.goldens.borrow_mut().push(golden);
     Ok(())
@@ -125,27 +150,57 @@ fn golden(cx: &mut Cx, name: String, columns: Data, rows: Data, tolerances: Data
 #[api("swanilda.test.image")]
 fn image(cx: &mut Cx, name: String, sensor: Handle, tolerance: f64, share: f64) -> Result<()> {
     let (resolution, mut pixels) = cx.seen_image(sensor)?;
-    let rows: Vec<Vec<u8>> = pixels.chunks_exact(3 * resolution[0] as usize).map(<[u8]>::to_vec).rev().collect();
+    let rows: Vec<Vec<u8>> = pixels
+        .chunks_exact(3 * resolution[0] as usize)
+        .map(<[u8]>::to_vec)
+        .rev()
+        .collect();
     pixels = rows.concat();
-    let snapshot = Snapshot { resolution, pixels, tolerance: tolerance as u8, share };
-    bench(cx)?.goldens.borrow_mut().push(Golden { name, content: GoldenContent::Image(snapshot) });
+    let snapshot = Snapshot {
+        resolution,
+        pixels,
+        tolerance: tolerance as u8,
+        share,
+    };
+    bench(cx)?.goldens.borrow_mut().push(Golden {
+        name,
+        content: GoldenContent::Image(snapshot),
+    });
     Ok(())
 }
 
 fn names_of(columns: &Data) -> Result<Vec<String>> {
-    let Data::Array(names) = columns else { return Err(not_a_trace()) };
-    let name =
-        |name: &Data| if let Data::Text(name) = name { Some(String::from_utf8_lossy(name).into_owned()) } else { None };
-    names.iter().map(name).collect::<Option<_>>().ok_or_else(not_a_trace)
+    let Data::Array(names) = columns else {
+        return Err(not_a_trace());
+    };
+    let name = |name: &Data| {
+        if let Data::Text(name) = name {
+            Some(String::from_utf8_lossy(name).into_owned())
+        } else {
+            None
+        }
+    };
+    names
+        .iter()
+        .map(name)
+        .collect::<Option<_>>()
+        .ok_or_else(not_a_trace)
 }
 
 fn rows_of(rows: &Data) -> Result<Vec<Vec<f64>>> {
-    let Data::Array(rows) = rows else { return Err(not_a_trace()) };
-    rows.iter().map(numbers).collect::<Option<_>>().ok_or_else(not_a_trace)
+    let Data::Array(rows) = rows else {
+        return Err(not_a_trace());
+    };
+    rows.iter()
+        .map(numbers)
+        .collect::<Option<_>>()
+        .ok_or_else(not_a_trace)
 }
 
 fn numbers(row: &Data) -> Option<Vec<f64>> {
-    let Data::Array(values) = row else { return None };
+    let Data::Array(values) = row else {
+        return None;
+    };
     values.iter().map(Data::as_f64).collect()
 }
 

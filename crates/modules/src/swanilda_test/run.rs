@@ -22,7 +22,9 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![run];
 #[api("swanilda.test.run")]
 fn run(cx: &mut Cx, file: String, options: Data) -> Result<Data> {
     let bench = bench(cx)?;
-    let run_apart = bench.run_apart.ok_or_else(|| wrong("a scene that runs by itself cannot run others."))?;
+    let run_apart = bench
+        .run_apart
+        .ok_or_else(|| wrong("a scene that runs by itself cannot run others."))?;
     let named_options = NamedOptions::new(&options)?;
     let request = named_options.request(&file, bench.time_limit)?;
     let options = named_options.options(cx.options(), &request.scene)?;
@@ -37,7 +39,9 @@ fn run(cx: &mut Cx, file: String, options: Data) -> Result<Data> {
 /// The options of a run, by name.
 struct NamedOptions<'a>(BTreeMap<&'a str, &'a Data>);
 
-const NAMES: [&str; 8] = ["as", "empty", "start", "loops", "steps", "time", "seed", "params"];
+const NAMES: [&str; 8] = [
+    "as", "empty", "start", "loops", "steps", "time", "seed", "params",
+];
 
 impl<'a> NamedOptions<'a> {
     fn new(options: &'a Data) -> Result<Self> {
@@ -53,15 +57,22 @@ impl<'a> NamedOptions<'a> {
         });
         let named_options = Self(named.collect::<Result<_>>()?);
         match named_options.0.keys().find(|name| !NAMES.contains(name)) {
-            Some(name) => Err(wrong(&format!("a run has no option '{name}'; there are {}.", NAMES.join(", ")))),
+            Some(name) => Err(wrong(&format!(
+                "a run has no option '{name}'; there are {}.",
+                NAMES.join(", ")
+            ))),
             None => Ok(named_options),
         }
     }
 
     fn number(&self, name: &str) -> Result<Option<f64>> {
-        let Some(data) = self.0.get(name) else { return Ok(None) };
+        let Some(data) = self.0.get(name) else {
+            return Ok(None);
+        };
         let number = data.as_f64().filter(|number| *number >= 0.0);
-        number.map(Some).ok_or_else(|| wrong(&format!("'{name}' is a number, zero or more.")))
+        number
+            .map(Some)
+            .ok_or_else(|| wrong(&format!("'{name}' is a number, zero or more.")))
     }
 
     fn flag(&self, name: &str, standard: bool) -> bool {
@@ -92,15 +103,30 @@ impl<'a> NamedOptions<'a> {
     /// Those of the test's simulator but for what belongs to the scene.
     fn options(&self, own: &Options, scene: &Path) -> Result<Options> {
         let seed = self.number("seed")?.map_or(own.seed, |seed| seed as u32);
-        let folder = scene.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+        let folder = scene
+            .parent()
+            .filter(|folder| *folder != Path::new(""))
+            .unwrap_or(Path::new("."));
         let package_dirs = vec![folder.to_owned()];
-        Ok(Options { seed, package_dirs, named_params: self.params()?, ..own.clone() })
+        Ok(Options {
+            seed,
+            package_dirs,
+            named_params: self.params()?,
+            ..own.clone()
+        })
     }
 
     fn params(&self) -> Result<BTreeMap<String, String>> {
-        let Some(params) = self.0.get("params") else { return Ok(BTreeMap::new()) };
-        let Data::Map(entries) = params else { return Err(wrong("'params' is a table of names and values.")) };
-        entries.iter().map(|(key, value)| Ok((text_of_key(key)?, text_of(value)?))).collect()
+        let Some(params) = self.0.get("params") else {
+            return Ok(BTreeMap::new());
+        };
+        let Data::Map(entries) = params else {
+            return Err(wrong("'params' is a table of names and values."));
+        };
+        entries
+            .iter()
+            .map(|(key, value)| Ok((text_of_key(key)?, text_of(value)?)))
+            .collect()
     }
 }
 
@@ -111,7 +137,9 @@ fn kind(name: &[u8]) -> Result<ScriptType> {
         b"addon" => Ok(ScriptType::AddOn),
         b"sandbox" => Ok(ScriptType::Sandbox),
         b"main" => Ok(ScriptType::Main),
-        _ => Err(wrong("'as' is customization, simulation, addon, sandbox or main.")),
+        _ => Err(wrong(
+            "'as' is customization, simulation, addon, sandbox or main.",
+        )),
     }
 }
 
@@ -133,10 +161,23 @@ fn text_of(value: &Data) -> Result<String> {
 }
 
 fn report_data(report: RunReport) -> Data {
-    let output: String = report.lines.iter().map(|line| line.shown() + "\n").collect();
-    let params = report.params.into_iter().map(|(name, value)| (Key::Text(name.into_bytes()), Data::text(&value)));
+    let output: String = report
+        .lines
+        .iter()
+        .map(|line| line.shown() + "\n")
+        .collect();
+    let params = report
+        .params
+        .into_iter()
+        .map(|(name, value)| (Key::Text(name.into_bytes()), Data::text(&value)));
     let params = Data::Map(params.collect());
-    let lines = Data::Array(report.lines.into_iter().map(line_data).collect::<Vec<Data>>());
+    let lines = Data::Array(
+        report
+            .lines
+            .into_iter()
+            .map(line_data)
+            .collect::<Vec<Data>>(),
+    );
     Data::map([
         ("output", Data::text(&output)),
         ("lines", lines),

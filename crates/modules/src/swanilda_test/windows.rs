@@ -7,8 +7,15 @@ use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::Data;
 use ui::{DialogKind, Input, InputValue};
 
-pub(super) const FUNCTIONS: &[ApiFn] =
-    functions![window, widget, widget_state, window_input, close_window, answer, dialogs];
+pub(super) const FUNCTIONS: &[ApiFn] = functions![
+    window,
+    widget,
+    widget_state,
+    window_input,
+    close_window,
+    answer,
+    dialogs
+];
 
 fn refused(reason: String) -> ApiError {
     ApiError::Other(reason)
@@ -36,7 +43,8 @@ fn widget(cx: &Cx, handle: String, name: String) -> Result<i64> {
     if let Some(interface) = button_interfaces::handle(&handle) {
         return button_interfaces::button(&cx.scene(), interface, &name).map_err(refused);
     }
-    cx.read_window(&handle, |window| Ok(window.find_widget(&name)))?.map_err(refused)
+    cx.read_window(&handle, |window| Ok(window.find_widget(&name)))?
+        .map_err(refused)
 }
 
 /// What a person sees of a widget.
@@ -85,7 +93,8 @@ fn window_input(
     }
     let input = input_of(&action, first, second, third)
         .ok_or_else(|| refused(format!("'{action}' does not go with these arguments.")))?;
-    cx.change_ui(|ui| ui.widget_input(&handle, id, input)).map_err(refused)?;
+    cx.change_ui(|ui| ui.widget_input(&handle, id, input))
+        .map_err(refused)?;
     cx.deliver_ui_events();
     Ok(())
 }
@@ -106,9 +115,11 @@ fn input_of(action: &str, first: Data, second: Data, third: Data) -> Option<Inpu
         },
         "cell" => Input::Cell([int(&first)?, int(&second)?], text(&third)),
         "link" => Input::Link(text(&first)?),
-        "key" => {
-            Input::Key { key: int(&first)?, text: text(&second).unwrap_or_default(), modifiers: Default::default() }
-        }
+        "key" => Input::Key {
+            key: int(&first)?,
+            text: text(&second).unwrap_or_default(),
+            modifiers: Default::default(),
+        },
         _ => return None,
     })
 }
@@ -119,7 +130,8 @@ fn input_of(action: &str, first: Data, second: Data, third: Data) -> Option<Inpu
 #[api("swanilda.test.closeWindow")]
 fn close_window(cx: &mut Cx, handle: String) -> Result<()> {
     bench(cx)?;
-    cx.change_ui(|ui| ui.close(&handle, false)).map_err(refused)?;
+    cx.change_ui(|ui| ui.close(&handle, false))
+        .map_err(refused)?;
     cx.deliver_ui_events();
     Ok(())
 }
@@ -134,7 +146,8 @@ fn answer(cx: &mut Cx, kind: String, value: Data) -> Result<()> {
     let known = DialogKind::named(&kind).ok_or_else(|| {
         refused(format!("there is no dialog '{kind}': it is one of msgBox, fileDialog, colorDialog, inputDialog."))
     })?;
-    cx.change_ui(|ui| ui.dialogs.leave_answer(known, value)).map_err(refused)
+    cx.change_ui(|ui| ui.dialogs.leave_answer(known, value))
+        .map_err(refused)
 }
 
 /// The dialogs that were shown, the oldest first.

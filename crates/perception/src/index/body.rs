@@ -32,7 +32,11 @@ impl Meshes {
     fn share(&mut self, mesh: &Rc<Mesh>) -> Rc<SharedMesh> {
         let new = || {
             let bounds = Bounds::around(&mesh.vertices);
-            Rc::new(SharedMesh { mesh: Rc::clone(mesh), bounds, prepared: OnceCell::new() })
+            Rc::new(SharedMesh {
+                mesh: Rc::clone(mesh),
+                bounds,
+                prepared: OnceCell::new(),
+            })
         };
         // A mesh that is here cannot be freed, so its address is its own.
         Rc::clone(self.0.entry(Rc::as_ptr(mesh) as usize).or_insert_with(new))
@@ -76,21 +80,35 @@ impl Body {
     pub(super) fn of(object: &Object, meshes: &mut Meshes) -> Option<Self> {
         let parts: Vec<Part> = match &object.kind {
             Kind::Shape(shape) => {
-                let part = |part: &scene::shape::Part| Part::new(Solid::Mesh(meshes.share(&part.mesh)), part.pose);
+                let part = |part: &scene::shape::Part| {
+                    Part::new(Solid::Mesh(meshes.share(&part.mesh)), part.pose)
+                };
                 shape.parts.iter().map(part).collect()
             }
             Kind::OcTree(tree) => {
-                let grid = VoxelGrid::new(tree.voxel_size(), tree.voxels().map(|(centre, _)| centre));
-                grid.map(Solid::Voxels).into_iter().map(Part::centred).collect()
+                let grid =
+                    VoxelGrid::new(tree.voxel_size(), tree.voxels().map(|(centre, _)| centre));
+                grid.map(Solid::Voxels)
+                    .into_iter()
+                    .map(Part::centred)
+                    .collect()
             }
             Kind::PointCloud(cloud) => {
                 let points: Vec<_> = cloud.points.iter().map(|point| point.position).collect();
-                PointSet::new(&points).map(Solid::Points).into_iter().map(Part::centred).collect()
+                PointSet::new(&points)
+                    .map(Solid::Points)
+                    .into_iter()
+                    .map(Part::centred)
+                    .collect()
             }
             Kind::Dummy(_) => vec![Part::centred(Solid::Point)],
             _ => return None,
         };
-        Some(Self { uid: object.uid(), parts, bounds: Bounds::EMPTY })
+        Some(Self {
+            uid: object.uid(),
+            parts,
+            bounds: Bounds::EMPTY,
+        })
     }
 
     /// Puts it at a pose in the world.
@@ -99,23 +117,39 @@ impl Body {
             part.pose = pose * part.local;
             part.bounds = part.solid.bounds().transformed(&part.pose);
         }
-        self.bounds = self.parts.iter().fold(Bounds::EMPTY, |bounds, part| bounds.merged(&part.bounds));
+        self.bounds = self
+            .parts
+            .iter()
+            .fold(Bounds::EMPTY, |bounds, part| bounds.merged(&part.bounds));
     }
 
     /// Its parts with the boxes around them in the world. Meshes without area are left out.
     pub(crate) fn parts(&self) -> impl Iterator<Item = (Placed<'_>, &Bounds)> {
-        self.parts.iter().filter_map(|part| Some((part.placed()?, &part.bounds)))
+        self.parts
+            .iter()
+            .filter_map(|part| Some((part.placed()?, &part.bounds)))
     }
 
     /// Whether it is a single point.
     pub(crate) fn is_point(&self) -> bool {
-        matches!(self.parts.as_slice(), [Part { solid: Solid::Point, .. }])
+        matches!(
+            self.parts.as_slice(),
+            [Part {
+                solid: Solid::Point,
+                ..
+            }]
+        )
     }
 }
 
 impl Part {
     fn new(solid: Solid, local: Pose) -> Self {
-        Self { solid, local, pose: local, bounds: Bounds::EMPTY }
+        Self {
+            solid,
+            local,
+            pose: local,
+            bounds: Bounds::EMPTY,
+        }
     }
 
     fn centred(solid: Solid) -> Self {
@@ -123,7 +157,10 @@ impl Part {
     }
 
     fn placed(&self) -> Option<Placed<'_>> {
-        Some(Placed { geometry: self.solid.geometry()?, pose: self.pose })
+        Some(Placed {
+            geometry: self.solid.geometry()?,
+            pose: self.pose,
+        })
     }
 }
 
@@ -134,7 +171,10 @@ impl Solid {
             Self::Mesh(mesh) => mesh.bounds,
             Self::Voxels(grid) => grid.bounds(),
             Self::Points(points) => points.bounds(),
-            Self::Point => Bounds { min: [0.0; 3], max: [0.0; 3] },
+            Self::Point => Bounds {
+                min: [0.0; 3],
+                max: [0.0; 3],
+            },
         }
     }
 

@@ -15,13 +15,16 @@ use body::Meshes;
 use scene::{Change, Cursor, Field, Handle, Scene, Topic, Topics, Unread};
 
 /// Changes that can move an object or change its geometry.
-const TOPICS: Topics = Topics::TREE.with(Topic::Added).with(Topic::Removed).with_fields(&[
-    Field::Pose,
-    Field::Geometry,
-    Field::Joint,
-    Field::JointPosition,
-    Field::Other,
-]);
+const TOPICS: Topics = Topics::TREE
+    .with(Topic::Added)
+    .with(Topic::Removed)
+    .with_fields(&[
+        Field::Pose,
+        Field::Geometry,
+        Field::Joint,
+        Field::JointPosition,
+        Field::Other,
+    ]);
 
 /// The bodies of a scene.
 #[derive(Debug, Default)]
@@ -67,13 +70,25 @@ impl Index {
     }
 
     /// The objects with a body among some and all that are below them.
-    pub(super) fn bodies_below(&self, scene: &Scene, roots: impl IntoIterator<Item = Handle>) -> Vec<Handle> {
-        let below: BTreeSet<Handle> = roots.into_iter().flat_map(|root| scene.subtree(root)).collect();
-        below.into_iter().filter(|handle| self.bodies.contains_key(handle)).collect()
+    pub(super) fn bodies_below(
+        &self,
+        scene: &Scene,
+        roots: impl IntoIterator<Item = Handle>,
+    ) -> Vec<Handle> {
+        let below: BTreeSet<Handle> = roots
+            .into_iter()
+            .flat_map(|root| scene.subtree(root))
+            .collect();
+        below
+            .into_iter()
+            .filter(|handle| self.bodies.contains_key(handle))
+            .collect()
     }
 
     fn read_journal(&mut self, scene: &Scene) {
-        let cursor = self.cursor.get_or_insert_with(|| scene.journal().follow(TOPICS));
+        let cursor = self
+            .cursor
+            .get_or_insert_with(|| scene.journal().follow(TOPICS));
         match scene.journal().read(cursor) {
             Unread::Everything => self.rebuild(scene),
             Unread::Changes(changes) => {
@@ -86,16 +101,24 @@ impl Index {
 
     fn rebuild(&mut self, scene: &Scene) {
         (self.bodies, self.tree) = (BTreeMap::new(), BoundsTree::default());
-        scene.objects().for_each(|object| self.renew(object.handle(), scene));
+        scene
+            .objects()
+            .for_each(|object| self.renew(object.handle(), scene));
         self.meshes.drop_unused();
     }
 
     fn apply(&mut self, news: News, scene: &Scene) {
         let geometry_changed = !(news.removed.is_empty() && news.changed.is_empty());
-        news.removed.into_iter().for_each(|handle| self.remove(handle));
-        news.changed.into_iter().for_each(|handle| self.renew(handle, scene));
+        news.removed
+            .into_iter()
+            .for_each(|handle| self.remove(handle));
+        news.changed
+            .into_iter()
+            .for_each(|handle| self.renew(handle, scene));
         let mut placed = BTreeSet::new();
-        news.moved.into_iter().for_each(|handle| self.place_below(handle, scene, &mut placed));
+        news.moved
+            .into_iter()
+            .for_each(|handle| self.place_below(handle, scene, &mut placed));
         if geometry_changed {
             self.meshes.drop_unused();
         }
@@ -109,7 +132,9 @@ impl Index {
     /// Makes the body of an object anew.
     fn renew(&mut self, handle: Handle, scene: &Scene) {
         self.remove(handle);
-        let Ok(object) = scene.object(handle) else { return };
+        let Ok(object) = scene.object(handle) else {
+            return;
+        };
         if let Some(body) = Body::of(object, &mut self.meshes) {
             self.bodies.insert(handle, body);
             self.place(handle, scene);
@@ -153,9 +178,12 @@ impl Index {
     ) {
         match group {
             Group::List(list) => {
-                let bodies = list.iter().filter_map(|&handle| Some((handle, self.body(handle)?)));
-                let mut bodies: Vec<_> =
-                    bodies.map(|(handle, body)| (lower_bound(&body.bounds), handle, body)).collect();
+                let bodies = list
+                    .iter()
+                    .filter_map(|&handle| Some((handle, self.body(handle)?)));
+                let mut bodies: Vec<_> = bodies
+                    .map(|(handle, body)| (lower_bound(&body.bounds), handle, body))
+                    .collect();
                 bodies.sort_by(|a, b| a.0.total_cmp(&b.0));
                 for (bound, handle, body) in bodies {
                     if bound < limit {
@@ -163,12 +191,15 @@ impl Index {
                     }
                 }
             }
-            Group::All { except } => self.tree.nearest_first(lower_bound, limit, |key, _, limit| {
-                match self.member(key, except, scene, purpose) {
-                    Some((handle, body)) => visit(handle, body, limit),
-                    None => limit,
-                }
-            }),
+            Group::All { except } => {
+                self.tree
+                    .nearest_first(lower_bound, limit, |key, _, limit| {
+                        match self.member(key, except, scene, purpose) {
+                            Some((handle, body)) => visit(handle, body, limit),
+                            None => limit,
+                        }
+                    })
+            }
         }
     }
 
@@ -184,7 +215,9 @@ impl Index {
     ) {
         match group {
             Group::List(list) => {
-                let bodies = list.iter().filter_map(|&handle| Some((handle, self.body(handle)?)));
+                let bodies = list
+                    .iter()
+                    .filter_map(|&handle| Some((handle, self.body(handle)?)));
                 bodies.fold(range[1], |to, (handle, body)| visit(handle, body, to));
             }
             Group::All { except } => self.tree.along_ray(origin, direction, range, |key, to| {
@@ -205,12 +238,18 @@ impl Index {
     ) -> Vec<(Handle, &Body)> {
         match group {
             Group::List(list) => {
-                let bodies = list.iter().filter_map(|&handle| Some((handle, self.body(handle)?)));
-                bodies.filter(|(_, body)| body.bounds.overlaps(bounds)).collect()
+                let bodies = list
+                    .iter()
+                    .filter_map(|&handle| Some((handle, self.body(handle)?)));
+                bodies
+                    .filter(|(_, body)| body.bounds.overlaps(bounds))
+                    .collect()
             }
             Group::All { except } => {
                 let mut found = Vec::new();
-                self.tree.overlapping(bounds, |key| found.extend(self.member(key, except, scene, purpose)));
+                self.tree.overlapping(bounds, |key| {
+                    found.extend(self.member(key, except, scene, purpose))
+                });
                 found.sort_by_key(|(_, body)| body.uid);
                 found
             }
@@ -218,11 +257,20 @@ impl Index {
     }
 
     /// The object with a number of the tree, if it takes part.
-    fn member(&self, key: u32, except: &BTreeSet<Handle>, scene: &Scene, purpose: Purpose) -> Option<(Handle, &Body)> {
+    fn member(
+        &self,
+        key: u32,
+        except: &BTreeSet<Handle>,
+        scene: &Scene,
+        purpose: Purpose,
+    ) -> Option<(Handle, &Body)> {
         let handle = Handle(key);
         let object = scene.object(handle).ok()?;
         let takes_part = !except.contains(&handle) && purpose.includes(scene, object);
-        takes_part.then(|| self.body(handle)).flatten().map(|body| (handle, body))
+        takes_part
+            .then(|| self.body(handle))
+            .flatten()
+            .map(|body| (handle, body))
     }
 }
 

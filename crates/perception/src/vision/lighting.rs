@@ -39,7 +39,11 @@ impl Backdrop {
 
 /// What views of the scene have behind all objects: the colours at the top and at the bottom.
 pub fn views_background(scene: &Scene) -> [[f32; 3]; 2] {
-    scene.settings().environment.background.unwrap_or(USUAL_BACKGROUND)
+    scene
+        .settings()
+        .environment
+        .background
+        .unwrap_or(USUAL_BACKGROUND)
 }
 
 /// The lights that are on.
@@ -47,12 +51,26 @@ pub(super) fn lights(scene: &Scene, shot: &Shot) -> Vec<Light> {
     if shot.colour_mode == ColourMode::Auxiliary {
         return Vec::new();
     }
-    let counts = |object: &&Object| shot.lit_by.is_none_or(|above| is_below(scene, object.handle(), above));
+    let counts = |object: &&Object| {
+        shot.lit_by
+            .is_none_or(|above| is_below(scene, object.handle(), above))
+    };
     let on = scene.objects().filter_map(|object| match &object.kind {
-        Kind::Light(light) if light.enabled && counts(&object) => placed(scene, object.handle(), light),
+        Kind::Light(light) if light.enabled && counts(&object) => {
+            placed(scene, object.handle(), light)
+        }
         _ => None,
     });
-    let shining = |light: Light| if shot.has_specular { light } else { Light { specular: [0.0; 3], ..light } };
+    let shining = |light: Light| {
+        if shot.has_specular {
+            light
+        } else {
+            Light {
+                specular: [0.0; 3],
+                ..light
+            }
+        }
+    };
     on.map(shining).collect()
 }
 
@@ -91,7 +109,13 @@ pub(super) fn fog(fog: &SceneFog) -> Option<Fog> {
     let density = match fog.fog_type {
         FogType::EXPONENTIAL => FogDensity::Exponential(fog.density),
         FogType::EXPONENTIAL_SQUARED => FogDensity::ExponentialSquared(fog.density),
-        _ => FogDensity::Linear { start: fog.start, end: fog.end.unwrap_or(USUAL_FOG_END) },
+        _ => FogDensity::Linear {
+            start: fog.start,
+            end: fog.end.unwrap_or(USUAL_FOG_END),
+        },
     };
-    fog.enabled.then(|| Fog { density, colour: fog.colour.unwrap_or_default() })
+    fog.enabled.then(|| Fog {
+        density,
+        colour: fog.colour.unwrap_or_default(),
+    })
 }

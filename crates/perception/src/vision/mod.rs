@@ -78,7 +78,10 @@ pub enum ColourMode {
 impl Vision {
     /// Draws with so many threads at most; None for as many as there are processor cores. Pictures do not depend on it.
     pub(crate) fn new(threads: Option<NonZero<usize>>) -> Self {
-        Self { threads, ..Self::default() }
+        Self {
+            threads,
+            ..Self::default()
+        }
     }
 
     /// A picture of the scene; its ids are handles of objects.
@@ -90,24 +93,48 @@ impl Vision {
         if !depth_apart {
             return self.draw(scene, shot, &all, channels);
         }
-        let solid: Vec<Handle> = subjects.iter().filter(|s| !s.depth_invisible).map(|s| s.handle).collect();
-        let mut picture = self.draw(scene, shot, &all, Channels { depth: false, ..channels });
+        let solid: Vec<Handle> = subjects
+            .iter()
+            .filter(|s| !s.depth_invisible)
+            .map(|s| s.handle)
+            .collect();
+        let mut picture = self.draw(
+            scene,
+            shot,
+            &all,
+            Channels {
+                depth: false,
+                ..channels
+            },
+        );
         picture.depth = self.draw(scene, shot, &solid, Channels::DEPTH).depth;
         picture
     }
 
-    fn draw(&mut self, scene: &Scene, shot: &Shot, objects: &[Handle], channels: Channels) -> Picture {
+    fn draw(
+        &mut self,
+        scene: &Scene,
+        shot: &Shot,
+        objects: &[Handle],
+        channels: Channels,
+    ) -> Picture {
         self.models.prepare(scene, objects);
         // They are no objects of the scene: where only these count, they hide none.
         let only_ids = channels == Channels::IDS;
-        let drawings = if only_ids { Vec::new() } else { drawings::visible(scene, shot) };
+        let drawings = if only_ids {
+            Vec::new()
+        } else {
+            drawings::visible(scene, shot)
+        };
         let mut stage = Stage::default();
         for &handle in objects {
             if let (Some(model), Ok(pose)) = (self.models.get(handle), scene.world_pose(handle)) {
                 stage.add(model, handle.0, pose, shot.colour_mode);
             }
         }
-        drawings.iter().for_each(|drawing| stage.add(&drawing.model, drawing.id, drawing.pose, shot.colour_mode));
+        drawings.iter().for_each(|drawing| {
+            stage.add(&drawing.model, drawing.id, drawing.pose, shot.colour_mode)
+        });
         let lights = lighting::lights(scene, shot);
         let (points, lines) = (&stage.points[..], &stage.lines[..]);
         let world = World {
@@ -120,27 +147,41 @@ impl Vision {
             background: shot.backdrop.colours(scene),
             shadows: shot.colour_mode == ColourMode::Lit { shadows: true },
         };
-        let renderer = self.renderer.get_or_insert_with(|| Renderer::new(threads(self.threads)));
+        let renderer = self
+            .renderer
+            .get_or_insert_with(|| Renderer::new(threads(self.threads)));
         renderer.render(&world, &camera(shot), channels)
     }
 }
 
 fn threads(wanted: Option<NonZero<usize>>) -> usize {
-    wanted.or_else(|| available_parallelism().ok()).map_or(1, NonZero::get)
+    wanted
+        .or_else(|| available_parallelism().ok())
+        .map_or(1, NonZero::get)
 }
 
 fn fog(scene: &Scene, shot: &Shot) -> Option<Fog> {
     let lit = matches!(shot.colour_mode, ColourMode::Lit { .. });
-    (lit && shot.has_fog).then(|| lighting::fog(&scene.settings().environment.fog)).flatten()
+    (lit && shot.has_fog)
+        .then(|| lighting::fog(&scene.settings().environment.fog))
+        .flatten()
 }
 
 fn camera(shot: &Shot) -> Camera {
     let view = &shot.view;
     let projection = match view.perspective {
         true => Projection::Perspective { angle: view.angle },
-        false => Projection::Orthographic { size: view.ortho_size },
+        false => Projection::Orthographic {
+            size: view.ortho_size,
+        },
     };
-    Camera { pose: shot.pose, projection, near: view.clipping[0], far: view.clipping[1], resolution: view.resolution }
+    Camera {
+        pose: shot.pose,
+        projection,
+        near: view.clipping[0],
+        far: view.clipping[1],
+        resolution: view.resolution,
+    }
 }
 
 /// Everything that is drawn in one picture.
@@ -154,17 +195,26 @@ struct Stage<'a> {
 impl<'a> Stage<'a> {
     fn add(&mut self, model: &'a Model, id: u32, pose: Pose, colour_mode: ColourMode) {
         let material = |part: &'a models::ModelPart| -> &'a Material {
-            if colour_mode == ColourMode::Auxiliary { &part.auxiliary } else { &part.material }
+            if colour_mode == ColourMode::Auxiliary {
+                &part.auxiliary
+            } else {
+                &part.material
+            }
         };
-        self.instances.extend(model.parts.iter().map(|part| Instance {
-            mesh: &part.mesh,
-            pose: pose * part.pose,
-            material: material(part),
-            id,
-        }));
+        self.instances
+            .extend(model.parts.iter().map(|part| Instance {
+                mesh: &part.mesh,
+                pose: pose * part.pose,
+                material: material(part),
+                id,
+            }));
         self.points.extend(model.points.iter().map(|points| Points {
             positions: &points.positions,
-            colours: if colour_mode == ColourMode::Auxiliary { &points.auxiliary } else { &points.colours },
+            colours: if colour_mode == ColourMode::Auxiliary {
+                &points.auxiliary
+            } else {
+                &points.colours
+            },
             pose,
             size: points.size,
             id,
@@ -172,7 +222,11 @@ impl<'a> Stage<'a> {
         }));
         self.lines.extend(model.lines.iter().map(|lines| Lines {
             segments: &lines.segments,
-            colours: if colour_mode == ColourMode::Auxiliary { &lines.auxiliary } else { &lines.colours },
+            colours: if colour_mode == ColourMode::Auxiliary {
+                &lines.auxiliary
+            } else {
+                &lines.colours
+            },
             pose,
             width: lines.width,
             id,

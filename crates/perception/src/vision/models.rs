@@ -11,11 +11,10 @@ use scene::appearance::texture_mapping::TextureSource;
 use scene::{Change, Cursor, Field, Handle, Kind, Object, Pose, Scene, Topic, Topics, Unread};
 
 /// Changes of what an object looks like.
-const APPEARANCE_TOPICS: Topics = Topics::NONE.with(Topic::Added).with(Topic::Removed).with_fields(&[
-    Field::Geometry,
-    Field::Appearance,
-    Field::Texture,
-]);
+const APPEARANCE_TOPICS: Topics = Topics::NONE
+    .with(Topic::Added)
+    .with(Topic::Removed)
+    .with_fields(&[Field::Geometry, Field::Appearance, Field::Texture]);
 
 /// Prepared geometry and appearance of an object.
 #[derive(Default)]
@@ -72,7 +71,9 @@ pub(super) struct Models {
 impl Models {
     /// Forgets what has changed since the last call.
     pub(super) fn follow(&mut self, scene: &Scene) {
-        let cursor = self.cursor.get_or_insert_with(|| scene.journal().follow(APPEARANCE_TOPICS));
+        let cursor = self
+            .cursor
+            .get_or_insert_with(|| scene.journal().follow(APPEARANCE_TOPICS));
         match scene.journal().read(cursor) {
             Unread::Everything => {
                 self.by_object.clear();
@@ -89,7 +90,10 @@ impl Models {
     /// Makes sure there are models of these objects.
     pub(super) fn prepare(&mut self, scene: &Scene, objects: &[Handle]) {
         for &handle in objects {
-            let stale = self.by_object.get(&handle).is_none_or(|model| model.is_screen);
+            let stale = self
+                .by_object
+                .get(&handle)
+                .is_none_or(|model| model.is_screen);
             if stale && let Ok(object) = scene.object(handle) {
                 let model = self.model(scene, object);
                 self.by_object.insert(handle, model);
@@ -114,9 +118,15 @@ impl Models {
     fn model(&mut self, scene: &Scene, object: &Object) -> Model {
         match &object.kind {
             Kind::Shape(shape) => Model {
-                parts: shape.parts.iter().filter_map(|part| self.surfaces.part(scene, part)).collect(),
+                parts: shape
+                    .parts
+                    .iter()
+                    .filter_map(|part| self.surfaces.part(scene, part))
+                    .collect(),
                 is_screen: shape.parts.iter().any(|part| {
-                    part.texture.as_ref().is_some_and(|texture| matches!(texture.source, TextureSource::Sensor(_)))
+                    part.texture
+                        .as_ref()
+                        .is_some_and(|texture| matches!(texture.source, TextureSource::Sensor(_)))
                 }),
                 ..Model::default()
             },
@@ -129,7 +139,9 @@ impl Models {
 
 fn concerned(change: &Change) -> Option<Handle> {
     match change {
-        Change::Added(handle) | Change::Removed(handle, _) | Change::Modified(handle, _) => Some(*handle),
+        Change::Added(handle) | Change::Removed(handle, _) | Change::Modified(handle, _) => {
+            Some(*handle)
+        }
         _ => None,
     }
 }

@@ -32,15 +32,27 @@ impl Palette {
     /// Texture coordinates of a colour, once all colours are there.
     pub(super) fn place(&self, number: usize) -> [f32; 2] {
         let (column, row) = (number % WIDTH, number / WIDTH);
-        [(column as f32 + 0.5) / WIDTH as f32, (row as f32 + 0.5) / self.height() as f32]
+        [
+            (column as f32 + 0.5) / WIDTH as f32,
+            (row as f32 + 0.5) / self.height() as f32,
+        ]
     }
 
     /// The image; None without colours.
     pub(super) fn texture(mut self) -> Option<Texture> {
         let height = self.height();
         self.pixels.resize(3 * WIDTH * height, 0);
-        let image = Arc::new(Image::new([WIDTH as u32, height as u32], false, &self.pixels)?);
-        Some(Texture { repeat: [false; 2], interpolate: false, mode: TextureMode::Modulate, image })
+        let image = Arc::new(Image::new(
+            [WIDTH as u32, height as u32],
+            false,
+            &self.pixels,
+        )?);
+        Some(Texture {
+            repeat: [false; 2],
+            interpolate: false,
+            mode: TextureMode::Modulate,
+            image,
+        })
     }
 }
 
@@ -51,7 +63,9 @@ mod tests {
     #[test]
     fn a_colour_has_one_number() {
         let mut palette = Palette::default();
-        let numbers: Vec<usize> = [[1, 2, 3], [4, 5, 6], [1, 2, 3]].map(|colour| palette.number(colour)).into();
+        let numbers: Vec<usize> = [[1, 2, 3], [4, 5, 6], [1, 2, 3]]
+            .map(|colour| palette.number(colour))
+            .into();
         assert_eq!(numbers, [0, 1, 0]);
         assert_eq!(palette.place(1), [1.5 / 256.0, 0.5]);
         assert_eq!(palette.texture().unwrap().image.size(), [256, 1]);

@@ -12,8 +12,21 @@ use scene::appearance::texture_mapping::{MappingMode, TextureMapping};
 
 /// Numbers that decide about the coordinates of a mesh.
 pub(super) fn key(mapping: &TextureMapping) -> (i32, [u64; 9]) {
-    let (place, turn) = (mapping.frame.translation.vector, mapping.frame.rotation.coords);
-    let numbers = [mapping.scale[0], mapping.scale[1], place.x, place.y, place.z, turn[0], turn[1], turn[2], turn[3]];
+    let (place, turn) = (
+        mapping.frame.translation.vector,
+        mapping.frame.rotation.coords,
+    );
+    let numbers = [
+        mapping.scale[0],
+        mapping.scale[1],
+        place.x,
+        place.y,
+        place.z,
+        turn[0],
+        turn[1],
+        turn[2],
+        turn[3],
+    ];
     (mapping.mode.0, numbers.map(f64::to_bits))
 }
 
@@ -22,7 +35,9 @@ pub(super) fn coordinates(mesh: &Mesh, mapping: &TextureMapping) -> Vec<[f32; 2]
     let into_frame = mapping.frame.inverse();
     let point = |vertex: u32| (into_frame * Point3::from(mesh.vertices[vertex as usize])).coords;
     let corners = mesh.triangles.iter().map(|corners| corners.map(point));
-    corners.flat_map(|corners| of_triangle(&corners, mapping)).collect()
+    corners
+        .flat_map(|corners| of_triangle(&corners, mapping))
+        .collect()
 }
 
 fn of_triangle(corners: &[Vector3<f64>; 3], mapping: &TextureMapping) -> [[f32; 2]; 3] {
@@ -36,7 +51,9 @@ fn of_triangle(corners: &[Vector3<f64>; 3], mapping: &TextureMapping) -> [[f32; 
     if matches!(mapping.mode, MappingMode::CYLINDER | MappingMode::SPHERE) {
         close_seam(&mut places);
     }
-    let scale = mapping.scale.map(|scale| if scale == 0.0 { 1.0 } else { scale });
+    let scale = mapping
+        .scale
+        .map(|scale| if scale == 0.0 { 1.0 } else { scale });
     places.map(|place| [0, 1].map(|axis| (place[axis] / scale[axis] + 0.5) as f32))
 }
 
@@ -77,7 +94,11 @@ mod tests {
 
     fn mapping(mode: MappingMode) -> TextureMapping {
         let mapping = TextureMapping::new(TextureSource::Texture(2_180_009));
-        TextureMapping { mode, scale: [2.0, 4.0], ..mapping }
+        TextureMapping {
+            mode,
+            scale: [2.0, 4.0],
+            ..mapping
+        }
     }
 
     fn triangle(corners: [[f64; 3]; 3]) -> Mesh {
@@ -87,21 +108,33 @@ mod tests {
     #[test]
     fn a_plane_is_measured_in_images_from_its_middle() {
         let mesh = triangle([[0.0, 0.0, 0.0], [1.0, 0.0, 5.0], [1.0, 2.0, 0.0]]);
-        assert_eq!(coordinates(&mesh, &mapping(MappingMode::PLANE)), [[0.5, 0.5], [1.0, 0.5], [1.0, 1.0]]);
-        let moved = TextureMapping { frame: Pose::translation(1.0, 0.0, 0.0), ..mapping(MappingMode::PLANE) };
+        assert_eq!(
+            coordinates(&mesh, &mapping(MappingMode::PLANE)),
+            [[0.5, 0.5], [1.0, 0.5], [1.0, 1.0]]
+        );
+        let moved = TextureMapping {
+            frame: Pose::translation(1.0, 0.0, 0.0),
+            ..mapping(MappingMode::PLANE)
+        };
         assert_eq!(coordinates(&mesh, &moved)[1], [0.5, 0.5]);
     }
 
     #[test]
     fn a_triangle_across_the_seam_is_not_turned_around() {
         let mesh = triangle([[-1.0, 0.1, 0.0], [-1.0, -0.1, 0.0], [-1.0, 0.0, 1.0]]);
-        let u: Vec<f32> = coordinates(&mesh, &mapping(MappingMode::CYLINDER)).iter().map(|uv| uv[0]).collect();
+        let u: Vec<f32> = coordinates(&mesh, &mapping(MappingMode::CYLINDER))
+            .iter()
+            .map(|uv| uv[0])
+            .collect();
         assert!(u.iter().all(|u| (u - 0.75).abs() < 0.02), "{u:?}");
     }
 
     #[test]
     fn faces_of_a_cube_are_seen_from_outside() {
         let mesh = triangle([[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 1.0]]);
-        assert_eq!(coordinates(&mesh, &mapping(MappingMode::CUBE)), [[0.5, 0.5], [1.0, 0.5], [0.5, 0.75]]);
+        assert_eq!(
+            coordinates(&mesh, &mapping(MappingMode::CUBE)),
+            [[0.5, 0.5], [1.0, 0.5], [0.5, 0.75]]
+        );
     }
 }

@@ -33,10 +33,21 @@ impl Vision {
     ) -> SceneResult<SensorPicture> {
         let sensor = scene.object(handle)?.vision_sensor()?;
         let by_handle = sensor.render_mode == RenderMode::HANDLES;
-        let channels =
-            Channels { colour: !by_handle && !sensor.ignore_image, depth: !sensor.ignore_depth, ids: by_handle };
-        let picture = self.picture(scene, &sensor_shot(scene, handle, sensor, entity)?, channels);
-        Ok(if by_handle { of_handles(sensor, picture) } else { of_colours(channels, picture) })
+        let channels = Channels {
+            colour: !by_handle && !sensor.ignore_image,
+            depth: !sensor.ignore_depth,
+            ids: by_handle,
+        };
+        let picture = self.picture(
+            scene,
+            &sensor_shot(scene, handle, sensor, entity)?,
+            channels,
+        );
+        Ok(if by_handle {
+            of_handles(sensor, picture)
+        } else {
+            of_colours(channels, picture)
+        })
     }
 }
 
@@ -54,9 +65,15 @@ pub(super) fn sensor_shot(
         subjects: Subjects::from(entity.unwrap_or(sensor.entity)),
         colour_mode: match sensor.render_mode {
             RenderMode::AUXILIARY => ColourMode::Auxiliary,
-            mode => ColourMode::Lit { shadows: mode.has_shadows() },
+            mode => ColourMode::Lit {
+                shadows: mode.has_shadows(),
+            },
         },
-        backdrop: if sensor.background_from_environment { Backdrop::Fog } else { Backdrop::Colour(sensor.background) },
+        backdrop: if sensor.background_from_environment {
+            Backdrop::Fog
+        } else {
+            Backdrop::Colour(sensor.background)
+        },
         has_fog: !sensor.ignore_fog,
         has_specular: !sensor.ignore_specular,
         lit_by: sensor.local_lights.then_some(handle),
@@ -77,11 +94,17 @@ fn of_handles(sensor: &VisionSensor, picture: Picture) -> SensorPicture {
         Picture::NOTHING => NOTHING,
         _ => [id as u8, (id >> 8) as u8, (id >> 16) as u8],
     };
-    let mut seen: Vec<u32> = picture.ids.iter().copied().filter(|id| *id != Picture::NOTHING).collect();
+    let mut seen: Vec<u32> = picture
+        .ids
+        .iter()
+        .copied()
+        .filter(|id| *id != Picture::NOTHING)
+        .collect();
     seen.sort_unstable();
     seen.dedup();
     SensorPicture {
-        image: (!sensor.ignore_image).then(|| picture.ids.iter().flat_map(|id| colour(*id)).collect()),
+        image: (!sensor.ignore_image)
+            .then(|| picture.ids.iter().flat_map(|id| colour(*id)).collect()),
         depth: (!sensor.ignore_depth).then_some(picture.depth),
         seen: Some(seen.into_iter().map(Handle).collect()),
     }

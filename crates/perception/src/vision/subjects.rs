@@ -27,7 +27,9 @@ impl From<Entity> for Subjects {
     fn from(entity: Entity) -> Self {
         match entity {
             Entity::ALL => Self::Renderable,
-            _ => entity.object().map_or(Self::Collection(entity.raw()), Self::Object),
+            _ => entity
+                .object()
+                .map_or(Self::Collection(entity.raw()), Self::Object),
         }
     }
 }
@@ -41,7 +43,10 @@ impl Subjects {
             Self::Object(handle) => scene.object(handle).into_iter().collect(),
             Self::Collection(collection) => {
                 let members = scene.collection_objects(collection).unwrap_or_default();
-                members.into_iter().filter_map(|handle| scene.object(handle).ok()).collect()
+                members
+                    .into_iter()
+                    .filter_map(|handle| scene.object(handle).ok())
+                    .collect()
             }
         };
         let needs_flag = self.needs_flag(scene);
@@ -51,30 +56,47 @@ impl Subjects {
                 && scene.is_visible(object.handle()).unwrap_or(false)
                 && object.viewers.include(scene, viewer)
         };
-        candidates.into_iter().filter(is_seen).map(Subject::new).collect()
+        candidates
+            .into_iter()
+            .filter(is_seen)
+            .map(Subject::new)
+            .collect()
     }
 
     fn needs_flag(self, scene: &Scene) -> bool {
         match self {
             Self::Visible | Self::Object(_) => false,
             Self::Renderable => true,
-            Self::Collection(handle) => scene.collections().get(handle).is_ok_and(|collection| !collection.overrides),
+            Self::Collection(handle) => scene
+                .collections()
+                .get(handle)
+                .is_ok_and(|collection| !collection.overrides),
         }
     }
 }
 
 impl Subject {
     fn new(object: &Object) -> Self {
-        let depth_invisible = object.object_property.contains(ObjectFlags::DEPTH_INVISIBLE);
-        Self { handle: object.handle(), depth_invisible }
+        let depth_invisible = object
+            .object_property
+            .contains(ObjectFlags::DEPTH_INVISIBLE);
+        Self {
+            handle: object.handle(),
+            depth_invisible,
+        }
     }
 }
 
 fn has_looks(object: &Object) -> bool {
-    matches!(object.kind, Kind::Shape(_) | Kind::OcTree(_) | Kind::PointCloud(_))
+    matches!(
+        object.kind,
+        Kind::Shape(_) | Kind::OcTree(_) | Kind::PointCloud(_)
+    )
 }
 
 fn is_renderable(scene: &Scene, object: &Object) -> bool {
     object.special_property.contains(SpecialFlags::RENDERABLE)
-        && !scene.calculated_model_property(object.handle()).contains(ModelFlags::NOT_RENDERABLE)
+        && !scene
+            .calculated_model_property(object.handle())
+            .contains(ModelFlags::NOT_RENDERABLE)
 }

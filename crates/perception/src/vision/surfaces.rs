@@ -57,11 +57,17 @@ impl Surfaces {
     /// Prepared part of a shape; None when nothing is visible.
     pub(super) fn part(&mut self, scene: &Scene, part: &Part) -> Option<ModelPart> {
         let mesh = self.mesh(part)?;
-        let texture = part.texture.as_deref().and_then(|mapping| self.texture(scene, mapping));
+        let texture = part
+            .texture
+            .as_deref()
+            .and_then(|mapping| self.texture(scene, mapping));
         let looks = &part.appearance;
         Some(ModelPart {
             mesh,
-            auxiliary: Material { culling: looks.culling, ..Material::unlit(looks.colour.auxiliary) },
+            auxiliary: Material {
+                culling: looks.culling,
+                ..Material::unlit(looks.colour.auxiliary)
+            },
             material: material(looks, texture),
             pose: part.pose,
         })
@@ -69,8 +75,14 @@ impl Surfaces {
 
     /// Forgets meshes and images that no model uses.
     pub(super) fn drop_unused(&mut self) {
-        self.meshes.retain(|_, prepared| prepared.mesh.as_ref().is_some_and(|mesh| Rc::strong_count(mesh) > 1));
-        self.images.retain(|_, (_, image)| Arc::strong_count(image) > 1);
+        self.meshes.retain(|_, prepared| {
+            prepared
+                .mesh
+                .as_ref()
+                .is_some_and(|mesh| Rc::strong_count(mesh) > 1)
+        });
+        self.images
+            .retain(|_, (_, image)| Arc::strong_count(image) > 1);
     }
 
     #[cfg(test)]
@@ -79,10 +91,18 @@ impl Surfaces {
     }
 
     fn mesh(&mut self, part: &Part) -> Option<Rc<Mesh>> {
-        let prepared = self.meshes.entry(MeshKey::of(part)).or_insert_with(|| Prepared {
-            mesh: prepared_mesh(part).map(Rc::new),
-            _source: (Rc::clone(&part.mesh), part.texture.as_ref().map(|mapping| Rc::clone(&mapping.coordinates))),
-        });
+        let prepared = self
+            .meshes
+            .entry(MeshKey::of(part))
+            .or_insert_with(|| Prepared {
+                mesh: prepared_mesh(part).map(Rc::new),
+                _source: (
+                    Rc::clone(&part.mesh),
+                    part.texture
+                        .as_ref()
+                        .map(|mapping| Rc::clone(&mapping.coordinates)),
+                ),
+            });
         prepared.mesh.clone()
     }
 
@@ -91,7 +111,11 @@ impl Surfaces {
             image: self.image(scene, mapping.source)?,
             repeat: mapping.repeat,
             interpolate: mapping.interpolate,
-            mode: if mapping.apply_mode == ApplyMode::DECAL { TextureMode::Decal } else { TextureMode::Modulate },
+            mode: if mapping.apply_mode == ApplyMode::DECAL {
+                TextureMode::Decal
+            } else {
+                TextureMode::Modulate
+            },
         })
     }
 
@@ -108,22 +132,34 @@ impl Surfaces {
         if let Some((_, image)) = self.images.get(&address) {
             return Some(Arc::clone(image));
         }
-        let image = Arc::new(Image::new(texture.size(), texture.has_alpha(), texture.pixels())?);
-        self.images.insert(address, (texture.clone(), Arc::clone(&image)));
+        let image = Arc::new(Image::new(
+            texture.size(),
+            texture.has_alpha(),
+            texture.pixels(),
+        )?);
+        self.images
+            .insert(address, (texture.clone(), Arc::clone(&image)));
         Some(image)
     }
 }
 
 fn prepared_mesh(part: &Part) -> Option<Mesh> {
     let mesh = &*part.mesh;
-    Mesh::new(&mesh.vertices, &mesh.triangles, &mesh.normals, &texture_coordinates(part))
+    Mesh::new(
+        &mesh.vertices,
+        &mesh.triangles,
+        &mesh.normals,
+        &texture_coordinates(part),
+    )
 }
 
 /// Texture coordinates of each corner of each triangle of a mesh; none without a texture.
 pub fn texture_coordinates(part: &Part) -> Vec<[f32; 2]> {
     match part.texture.as_deref() {
         None => Vec::new(),
-        Some(mapping) if !mapping.coordinates.is_empty() => mapping.coordinates.as_chunks().0.to_vec(),
+        Some(mapping) if !mapping.coordinates.is_empty() => {
+            mapping.coordinates.as_chunks().0.to_vec()
+        }
         Some(mapping) => projection::coordinates(&part.mesh, mapping),
     }
 }

@@ -64,8 +64,18 @@ impl Viewpoint {
 
     /// Width and height of a vision sensor.
     pub fn resolution(&self, scene: &Scene) -> Option<[u32; 2]> {
-        let Self::Object(handle) = self else { return None };
-        Some(scene.object(*handle).ok()?.vision_sensor().ok()?.view.resolution)
+        let Self::Object(handle) = self else {
+            return None;
+        };
+        Some(
+            scene
+                .object(*handle)
+                .ok()?
+                .vision_sensor()
+                .ok()?
+                .view
+                .resolution,
+        )
     }
 
     /// What is seen from there now, in a picture of that width and height.
@@ -84,18 +94,26 @@ impl Viewpoint {
 
 /// The first camera of a scene.
 pub fn first_camera(scene: &Scene) -> Option<Handle> {
-    scene.objects().find(|object| matches!(object.kind, Kind::Camera(_))).map(Object::handle)
+    scene
+        .objects()
+        .find(|object| matches!(object.kind, Kind::Camera(_)))
+        .map(Object::handle)
 }
 
 fn shot(scene: &Scene, from: Option<Handle>) -> SceneResult<Shot> {
     let Some(handle) = from else {
         let mut shot = camera_shot(None, overview(scene), Camera::default().view);
         // As far as the scene reaches.
-        shot.view.clipping[1] = shot.view.clipping[1].max(4.0 * shot.pose.translation.vector.norm());
+        shot.view.clipping[1] =
+            shot.view.clipping[1].max(4.0 * shot.pose.translation.vector.norm());
         return Ok(shot);
     };
     match &scene.object(handle)?.kind {
-        Kind::Camera(camera) => Ok(camera_shot(from, scene.world_pose(handle)?, camera.view.clone())),
+        Kind::Camera(camera) => Ok(camera_shot(
+            from,
+            scene.world_pose(handle)?,
+            camera.view.clone(),
+        )),
         Kind::VisionSensor(sensor) => sensor_shot(scene, handle, sensor, None),
         _ => Err(SceneError::WrongType("camera")),
     }
@@ -128,29 +146,54 @@ fn overview(scene: &Scene) -> Pose {
 fn extent(scene: &Scene) -> (Point3<f64>, f64) {
     let mut corners: Vec<Point3<f64>> = Vec::new();
     for subject in Subjects::Visible.objects(scene, None) {
-        let (Ok(object), Ok(pose)) = (scene.object(subject.handle), scene.world_pose(subject.handle)) else { continue };
-        if object.object_property.contains(ObjectFlags::IGNORE_VIEW_FITTING) {
+        let (Ok(object), Ok(pose)) = (
+            scene.object(subject.handle),
+            scene.world_pose(subject.handle),
+        ) else {
+            continue;
+        };
+        if object
+            .object_property
+            .contains(ObjectFlags::IGNORE_VIEW_FITTING)
+        {
             continue;
         }
         let placed = outline(object).into_iter().map(|corner| pose * corner);
         corners.extend(placed.filter(|corner| corner.coords.iter().all(|c| c.is_finite())));
     }
-    let Some(first) = corners.first() else { return (Point3::origin(), EMPTY_RADIUS) };
-    let (low, high) = corners.iter().fold((*first, *first), |(low, high), corner| (low.inf(corner), high.sup(corner)));
-    (nalgebra::center(&low, &high), (nalgebra::distance(&low, &high) / 2.0).max(1e-3))
+    let Some(first) = corners.first() else {
+        return (Point3::origin(), EMPTY_RADIUS);
+    };
+    let (low, high) = corners
+        .iter()
+        .fold((*first, *first), |(low, high), corner| {
+            (low.inf(corner), high.sup(corner))
+        });
+    (
+        nalgebra::center(&low, &high),
+        (nalgebra::distance(&low, &high) / 2.0).max(1e-3),
+    )
 }
 
 /// Points around what can be seen of an object, in its frame.
 fn outline(object: &Object) -> Vec<Point3<f64>> {
     match &object.kind {
         Kind::OcTree(octree) => octree.voxels().map(|(centre, _)| centre.into()).collect(),
-        Kind::PointCloud(cloud) => cloud.points.iter().map(|point| point.position.into()).collect(),
+        Kind::PointCloud(cloud) => cloud
+            .points
+            .iter()
+            .map(|point| point.position.into())
+            .collect(),
         _ => {
             let bounds = object.bounding_box();
             let half = Vector3::from(bounds.size) / 2.0;
-            let sign = |corner: usize, axis: usize| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 };
-            let signs = (0..8).map(|corner| Vector3::from([0, 1, 2].map(|axis| sign(corner, axis))));
-            signs.map(|signs| bounds.pose * Point3::from(half.component_mul(&signs))).collect()
+            let sign =
+                |corner: usize, axis: usize| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 };
+            let signs =
+                (0..8).map(|corner| Vector3::from([0, 1, 2].map(|axis| sign(corner, axis))));
+            signs
+                .map(|signs| bounds.pose * Point3::from(half.component_mul(&signs)))
+                .collect()
         }
     }
 }

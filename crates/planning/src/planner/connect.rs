@@ -26,12 +26,24 @@ enum Growth {
 
 impl Connect {
     pub(super) fn new(controls_refinement: bool) -> Self {
-        Self { controls_refinement, counts: [1.0; 2], ..Self::default() }
+        Self {
+            controls_refinement,
+            counts: [1.0; 2],
+            ..Self::default()
+        }
     }
 
     /// One step of a tree towards a state.
-    fn extend(&mut self, problem: &mut Problem<'_>, tree: usize, aim: &[f64], range: f64) -> Growth {
-        let Some(nearest) = self.trees[tree].nearest(problem.space, aim) else { return Growth::Trapped };
+    fn extend(
+        &mut self,
+        problem: &mut Problem<'_>,
+        tree: usize,
+        aim: &[f64],
+        range: f64,
+    ) -> Growth {
+        let Some(nearest) = self.trees[tree].nearest(problem.space, aim) else {
+            return Growth::Trapped;
+        };
         let from = self.trees[tree].state(nearest).clone();
         let to = problem.towards(&from, aim, range);
         // The tree of the goals grows against the direction of motion.
@@ -44,7 +56,11 @@ impl Connect {
         }
         let reaches = to == aim;
         let place = self.trees[tree].add(problem.space, to, nearest);
-        if reaches { Growth::Reached(place) } else { Growth::Advanced(place) }
+        if reaches {
+            Growth::Reached(place)
+        } else {
+            Growth::Advanced(place)
+        }
     }
 
     /// Counts states that explore and that refine; whether one more of its kind is welcome.
@@ -53,9 +69,14 @@ impl Connect {
             return true;
         }
         let nearest = self.trees[tree].nearest(problem.space, aim);
-        let distance = nearest.map_or(0.0, |place| problem.space.distance(self.trees[tree].state(place), aim));
+        let distance = nearest.map_or(0.0, |place| {
+            problem.space.distance(self.trees[tree].state(place), aim)
+        });
         let kind = usize::from(distance < FRONTIER * problem.space.extent());
-        if kind == 1 && self.counts[1] / self.counts[0] > FRONTIER_RATIO && self.trees[tree].len() > 10 {
+        if kind == 1
+            && self.counts[1] / self.counts[0] > FRONTIER_RATIO
+            && self.trees[tree].len() > 10
+        {
             return false;
         }
         self.counts[kind] += 1.0;
@@ -80,7 +101,11 @@ impl Connect {
                 Growth::Advanced(_) => {}
                 Growth::Trapped => return None,
                 Growth::Reached(other) => {
-                    let [start, goal] = if tree == 0 { [place, other] } else { [other, place] };
+                    let [start, goal] = if tree == 0 {
+                        [place, other]
+                    } else {
+                        [other, place]
+                    };
                     return Some(self.join(start, goal));
                 }
             }
@@ -96,14 +121,22 @@ impl Connect {
 }
 
 impl Planner for Connect {
-    fn solve(&mut self, problem: &mut Problem<'_>, iterations: u64) -> Result<Option<Solution>, Refusal> {
+    fn solve(
+        &mut self,
+        problem: &mut Problem<'_>,
+        iterations: u64,
+    ) -> Result<Option<Solution>, Refusal> {
         if self.trees[0].is_empty() {
             let goals = problem.valid_goals();
             let starts = problem.valid_starts()?;
             self.trees = [Tree::of_roots(&starts), Tree::of_roots(&goals?)];
             self.solution = problem.immediate(&starts);
         }
-        let part = if self.controls_refinement { COST_RANGE } else { RANGE };
+        let part = if self.controls_refinement {
+            COST_RANGE
+        } else {
+            RANGE
+        };
         let range = part * problem.space.extent();
         for _ in 0..iterations {
             if problem.world.is_over() || self.solution.is_some() {

@@ -51,7 +51,11 @@ impl Expansive {
     fn grow(&mut self, problem: &mut Problem<'_>, range: f64) -> Option<usize> {
         let from_place = self.choose(problem);
         let from = self.tree.state(from_place).clone();
-        let aim = if problem.random.next() < GOAL_BIAS { problem.sample_goal() } else { None };
+        let aim = if problem.random.next() < GOAL_BIAS {
+            problem.sample_goal()
+        } else {
+            None
+        };
         let aim = match aim {
             Some(aim) => aim,
             None => {
@@ -60,8 +64,12 @@ impl Expansive {
             }
         };
         // States in dense places are welcome less often.
-        let near = self.tree.count_within(problem.space, &aim, range * NEIGHBOURHOOD);
-        if problem.random.next() > 1.0 / (near.max(1) as f64) || !problem.is_motion_valid(&from, &aim) {
+        let near = self
+            .tree
+            .count_within(problem.space, &aim, range * NEIGHBOURHOOD);
+        if problem.random.next() > 1.0 / (near.max(1) as f64)
+            || !problem.is_motion_valid(&from, &aim)
+        {
             return None;
         }
         let place = self.tree.add(problem.space, aim, from_place);
@@ -71,16 +79,37 @@ impl Expansive {
 
     fn consider(&mut self, problem: &mut Problem<'_>, place: usize) {
         let nearness = problem.nearness(&self.tree.state(place).clone());
-        let difference = if nearness.is_reached { 0.0 } else { nearness.distance };
-        if nearness.is_reached || self.best.as_ref().is_none_or(|best| difference < best.difference) {
+        let difference = if nearness.is_reached {
+            0.0
+        } else {
+            nearness.distance
+        };
+        if nearness.is_reached
+            || self
+                .best
+                .as_ref()
+                .is_none_or(|best| difference < best.difference)
+        {
             let states = self.tree.path_to(place);
-            keep_best(&mut self.best, Solution { states, is_exact: nearness.is_reached, difference }, problem);
+            keep_best(
+                &mut self.best,
+                Solution {
+                    states,
+                    is_exact: nearness.is_reached,
+                    difference,
+                },
+                problem,
+            );
         }
     }
 }
 
 impl Planner for Expansive {
-    fn solve(&mut self, problem: &mut Problem<'_>, iterations: u64) -> Result<Option<Solution>, Refusal> {
+    fn solve(
+        &mut self,
+        problem: &mut Problem<'_>,
+        iterations: u64,
+    ) -> Result<Option<Solution>, Refusal> {
         let range = RANGE * problem.space.extent();
         if self.tree.is_empty() {
             self.tree = Tree::of_roots(&problem.valid_starts()?);

@@ -30,22 +30,37 @@ impl Unvisited {
     fn sampled(problem: &mut Problem<'_>, goals: &[State], samples: usize) -> Self {
         let mut states: Vec<State> = goals.to_vec();
         while states.len() < samples + goals.len() && !problem.world.is_over() {
-            let Some(state) = problem.sample_valid() else { break };
+            let Some(state) = problem.sample_valid() else {
+                break;
+            };
             states.push(state);
         }
-        Self { is_left: vec![true; states.len()], states }
+        Self {
+            is_left: vec![true; states.len()],
+            states,
+        }
     }
 
     fn near(&self, problem: &Problem<'_>, state: &State, count: usize) -> Vec<usize> {
         let left = (0..self.states.len()).filter(|&place| self.is_left[place]);
-        let distances = left.map(|place| (place, problem.space.distance(state, &self.states[place])));
-        lowest(distances.collect(), count).into_iter().map(|(place, _)| place).collect()
+        let distances =
+            left.map(|place| (place, problem.space.distance(state, &self.states[place])));
+        lowest(distances.collect(), count)
+            .into_iter()
+            .map(|(place, _)| place)
+            .collect()
     }
 }
 
 impl FastMarching {
     /// One pass over so many states.
-    fn pass(&mut self, problem: &mut Problem<'_>, starts: &[State], goals: &[State], samples: usize) {
+    fn pass(
+        &mut self,
+        problem: &mut Problem<'_>,
+        starts: &[State],
+        goals: &[State],
+        samples: usize,
+    ) {
         let mut unvisited = Unvisited::sampled(problem, goals, samples);
         self.tree = Tree::of_roots(starts);
         let mut open: Vec<usize> = (0..starts.len()).collect();
@@ -83,9 +98,15 @@ impl FastMarching {
         place: usize,
     ) -> Option<usize> {
         let state = unvisited.states[place].clone();
-        let cost =
-            |vertex: usize| self.tree.vertices[vertex].cost + problem.space.distance(self.tree.state(vertex), &state);
-        let best = open.iter().copied().map(|vertex| (cost(vertex), vertex)).min_by(|(a, _), (b, _)| a.total_cmp(b));
+        let cost = |vertex: usize| {
+            self.tree.vertices[vertex].cost
+                + problem.space.distance(self.tree.state(vertex), &state)
+        };
+        let best = open
+            .iter()
+            .copied()
+            .map(|vertex| (cost(vertex), vertex))
+            .min_by(|(a, _), (b, _)| a.total_cmp(b));
         let (_, parent) = best?;
         let from = self.tree.state(parent).clone();
         if !problem.is_motion_valid(&from, &state) {
@@ -104,12 +125,17 @@ fn neighbours(problem: &Problem<'_>, samples: usize) -> usize {
 }
 
 impl Planner for FastMarching {
-    fn solve(&mut self, problem: &mut Problem<'_>, iterations: u64) -> Result<Option<Solution>, Refusal> {
+    fn solve(
+        &mut self,
+        problem: &mut Problem<'_>,
+        iterations: u64,
+    ) -> Result<Option<Solution>, Refusal> {
         let goals = problem.valid_goals();
         let (starts, goals) = (problem.valid_starts()?, goals?);
         let mut left = iterations;
         while self.solution.is_none() && left > 0 && !problem.world.is_over() {
-            let samples = (SAMPLES << self.passes.min(10)).min(usize::try_from(left).unwrap_or(usize::MAX));
+            let samples =
+                (SAMPLES << self.passes.min(10)).min(usize::try_from(left).unwrap_or(usize::MAX));
             self.pass(problem, &starts, &goals, samples);
             self.passes += 1;
             left -= samples as u64;

@@ -37,10 +37,16 @@ struct Cell {
 }
 
 fn coordinates(problem: &mut Problem<'_>, state: &[f64]) -> Vec<i64> {
-    let Some(projection) = &mut problem.projection else { return Vec::new() };
+    let Some(projection) = &mut problem.projection else {
+        return Vec::new();
+    };
     let cell = projection.cell;
     let projected = (projection.project)(state);
-    projected.iter().take(projection.size).map(|value| (value / cell).floor() as i64).collect()
+    projected
+        .iter()
+        .take(projection.size)
+        .map(|value| (value / cell).floor() as i64)
+        .collect()
 }
 
 /// The cells beside one, along each dimension.
@@ -56,12 +62,21 @@ fn beside(cell: &[i64]) -> impl Iterator<Item = Vec<i64>> + '_ {
 
 impl Cells {
     fn of_roots(problem: &mut Problem<'_>, roots: &[State]) -> Self {
-        let mut cells = Self { tree: Tree::of_roots(roots), ..Self::default() };
+        let mut cells = Self {
+            tree: Tree::of_roots(roots),
+            ..Self::default()
+        };
         (0..roots.len()).for_each(|place| cells.enter(problem, place));
         cells
     }
 
-    fn add(&mut self, problem: &mut Problem<'_>, state: State, parent: usize, is_checked: bool) -> usize {
+    fn add(
+        &mut self,
+        problem: &mut Problem<'_>,
+        state: State,
+        parent: usize,
+        is_checked: bool,
+    ) -> usize {
         let place = self.tree.add(problem.space, state, parent);
         self.tree.vertices[place].is_checked = is_checked;
         self.enter(problem, place);
@@ -83,7 +98,13 @@ impl Cells {
                 neighbours += 1;
             }
         }
-        let cell = Cell { vertices: vec![place], neighbours, chosen: 1.0, score: 1.0, iteration: self.added };
+        let cell = Cell {
+            vertices: vec![place],
+            neighbours,
+            chosen: 1.0,
+            score: 1.0,
+            iteration: self.added,
+        };
         self.cells.insert(key, cell);
     }
 
@@ -95,10 +116,16 @@ impl Cells {
             cell.score * libm::log(cell.iteration as f64 + 1.0).max(0.1)
                 / (cell.vertices.len() as f64 * cell.chosen * neighbours)
         };
-        let is_candidate = |key: &Vec<i64>, cell: &Cell| (cell.neighbours < 2 * key.len().max(1)) == on_border;
+        let is_candidate =
+            |key: &Vec<i64>, cell: &Cell| (cell.neighbours < 2 * key.len().max(1)) == on_border;
         let best = |only_candidates: bool| {
-            let cells = self.cells.iter().filter(|(key, cell)| !only_candidates || is_candidate(key, cell));
-            cells.max_by(|(_, a), (_, b)| importance(a).total_cmp(&importance(b))).map(|(key, _)| key.clone())
+            let cells = self
+                .cells
+                .iter()
+                .filter(|(key, cell)| !only_candidates || is_candidate(key, cell));
+            cells
+                .max_by(|(_, a), (_, b)| importance(a).total_cmp(&importance(b)))
+                .map(|(key, _)| key.clone())
         };
         best(true).or_else(|| best(false))
     }
@@ -147,7 +174,11 @@ impl Single {
         let key = self.cells.choose(problem)?;
         let from_place = self.cells.vertex(problem, &key)?;
         let from = self.cells.tree.state(from_place).clone();
-        let aim = if problem.random.next() < GOAL_BIAS { problem.sample_goal() } else { None };
+        let aim = if problem.random.next() < GOAL_BIAS {
+            problem.sample_goal()
+        } else {
+            None
+        };
         let aim = match aim {
             Some(aim) => problem.towards(&from, &aim, f64::INFINITY),
             None => {
@@ -165,18 +196,41 @@ impl Single {
 
     fn consider(&mut self, problem: &mut Problem<'_>, place: usize) {
         let nearness = problem.nearness(&self.cells.tree.state(place).clone());
-        let difference = if nearness.is_reached { 0.0 } else { nearness.distance };
-        let is_better = self.best.as_ref().is_none_or(|best| difference < best.difference);
+        let difference = if nearness.is_reached {
+            0.0
+        } else {
+            nearness.distance
+        };
+        let is_better = self
+            .best
+            .as_ref()
+            .is_none_or(|best| difference < best.difference);
         if is_better || nearness.is_reached {
             let states = self.cells.tree.path_to(place);
-            keep_best(&mut self.best, Solution { states, is_exact: nearness.is_reached, difference }, problem);
+            keep_best(
+                &mut self.best,
+                Solution {
+                    states,
+                    is_exact: nearness.is_reached,
+                    difference,
+                },
+                problem,
+            );
         }
     }
 }
 
 impl Planner for Single {
-    fn solve(&mut self, problem: &mut Problem<'_>, iterations: u64) -> Result<Option<Solution>, Refusal> {
-        if problem.projection.as_ref().is_none_or(|projection| projection.size == 0) {
+    fn solve(
+        &mut self,
+        problem: &mut Problem<'_>,
+        iterations: u64,
+    ) -> Result<Option<Solution>, Refusal> {
+        if problem
+            .projection
+            .as_ref()
+            .is_none_or(|projection| projection.size == 0)
+        {
             return Err(Refusal::NoProjection);
         }
         if self.cells.tree.is_empty() {
@@ -222,7 +276,12 @@ pub(super) struct Double {
 
 impl Double {
     pub(super) fn new(kind: Kind) -> Self {
-        Self { kind, cells: Default::default(), turn: 0, solution: None }
+        Self {
+            kind,
+            cells: Default::default(),
+            turn: 0,
+            solution: None,
+        }
     }
 
     /// A motion of a tree; the one of the goals grows against the direction of motion.
@@ -235,7 +294,11 @@ impl Double {
 
     fn grow(&mut self, problem: &mut Problem<'_>, side: usize, range: f64) -> Option<usize> {
         let cells = &mut self.cells[side];
-        let key = if self.kind == Kind::Sbl { cells.choose_any(problem) } else { cells.choose(problem) }?;
+        let key = if self.kind == Kind::Sbl {
+            cells.choose_any(problem)
+        } else {
+            cells.choose(problem)
+        }?;
         let from_place = cells.vertex(problem, &key)?;
         let from = cells.tree.state(from_place).clone();
         let near = problem.sample_valid_near(&from, range)?;
@@ -264,8 +327,11 @@ impl Double {
         let key = coordinates(problem, &state);
         let other_cells = &self.cells[1 - side].cells;
         let candidates = std::iter::once(key.clone()).chain(beside(&key));
-        let vertices: Vec<usize> =
-            candidates.filter_map(|key| other_cells.get(&key)).flat_map(|cell| &cell.vertices).copied().collect();
+        let vertices: Vec<usize> = candidates
+            .filter_map(|key| other_cells.get(&key))
+            .flat_map(|cell| &cell.vertices)
+            .copied()
+            .collect();
         if vertices.is_empty() {
             return None;
         }
@@ -277,7 +343,11 @@ impl Double {
         if !self.check(problem, side, place) || !self.check(problem, 1 - side, other) {
             return None;
         }
-        let [start, goal] = if side == 0 { [place, other] } else { [other, place] };
+        let [start, goal] = if side == 0 {
+            [place, other]
+        } else {
+            [other, place]
+        };
         let mut states = self.cells[0].tree.path_to(start);
         states.extend(self.cells[1].tree.path_to(goal).into_iter().rev());
         Some(Solution::exact(states))
@@ -287,7 +357,9 @@ impl Double {
     fn check(&mut self, problem: &mut Problem<'_>, side: usize, place: usize) -> bool {
         for child in self.cells[side].tree.unchecked(place) {
             let tree = &self.cells[side].tree;
-            let Some(parent) = tree.vertices[child].parent else { continue };
+            let Some(parent) = tree.vertices[child].parent else {
+                continue;
+            };
             let (from, to) = (tree.state(parent).clone(), tree.state(child).clone());
             if !Self::is_motion_valid(problem, side, &from, &to) {
                 self.cells[side].remove(problem, child);
@@ -300,15 +372,26 @@ impl Double {
 }
 
 impl Planner for Double {
-    fn solve(&mut self, problem: &mut Problem<'_>, iterations: u64) -> Result<Option<Solution>, Refusal> {
-        if problem.projection.as_ref().is_none_or(|projection| projection.size == 0) {
+    fn solve(
+        &mut self,
+        problem: &mut Problem<'_>,
+        iterations: u64,
+    ) -> Result<Option<Solution>, Refusal> {
+        if problem
+            .projection
+            .as_ref()
+            .is_none_or(|projection| projection.size == 0)
+        {
             return Err(Refusal::NoProjection);
         }
         if self.cells[0].tree.is_empty() {
             let goals = problem.valid_goals();
             let (starts, goals) = (problem.valid_starts()?, goals?);
             self.solution = problem.immediate(&starts);
-            self.cells = [Cells::of_roots(problem, &starts), Cells::of_roots(problem, &goals)];
+            self.cells = [
+                Cells::of_roots(problem, &starts),
+                Cells::of_roots(problem, &goals),
+            ];
         }
         let range = RANGE * problem.space.extent();
         for _ in 0..iterations {

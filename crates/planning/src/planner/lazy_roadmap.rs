@@ -39,7 +39,14 @@ pub(super) struct LazyRoadmap {
 impl LazyRoadmap {
     pub(super) fn new(kind: Kind) -> Self {
         let (starts, goals) = (Vec::new(), Vec::new());
-        Self { kind, graph: Graph::default(), checked: BTreeSet::new(), starts, goals, best: None }
+        Self {
+            kind,
+            graph: Graph::default(),
+            checked: BTreeSet::new(),
+            starts,
+            goals,
+            best: None,
+        }
     }
 
     fn add(&mut self, problem: &Problem<'_>, state: State) -> usize {
@@ -57,9 +64,13 @@ impl LazyRoadmap {
 
     /// Whether a path through a state can be shorter than the best one.
     fn is_useful(&self, problem: &Problem<'_>, state: &State) -> bool {
-        let (Kind::Informed, Some(best)) = (self.kind, &self.best) else { return true };
+        let (Kind::Informed, Some(best)) = (self.kind, &self.best) else {
+            return true;
+        };
         let least = |places: &[usize]| {
-            let distances = places.iter().map(|&place| problem.space.distance(&self.graph.states[place], state));
+            let distances = places
+                .iter()
+                .map(|&place| problem.space.distance(&self.graph.states[place], state));
             distances.fold(f64::INFINITY, f64::min)
         };
         least(&self.starts) + least(&self.goals) < path::length(problem.space, &best.states)
@@ -67,10 +78,20 @@ impl LazyRoadmap {
 
     /// Checks shortest paths until one is valid, or there is none. False if there are checks left when the world has enough.
     fn search(&mut self, problem: &mut Problem<'_>) {
-        while let Some(path) = self.graph.shortest(problem.space, &self.starts, &self.goals) {
-            let states: Vec<State> = path.iter().map(|&place| self.graph.states[place].clone()).collect();
+        while let Some(path) = self
+            .graph
+            .shortest(problem.space, &self.starts, &self.goals)
+        {
+            let states: Vec<State> = path
+                .iter()
+                .map(|&place| self.graph.states[place].clone())
+                .collect();
             let length = path::length(problem.space, &states);
-            if self.best.as_ref().is_some_and(|best| path::length(problem.space, &best.states) <= length) {
+            if self
+                .best
+                .as_ref()
+                .is_some_and(|best| path::length(problem.space, &best.states) <= length)
+            {
                 return;
             }
             if self.check(problem, &path) {
@@ -90,7 +111,10 @@ impl LazyRoadmap {
             if self.checked.contains(&motion) {
                 continue;
             }
-            let (from, to) = (self.graph.states[motion.0].clone(), self.graph.states[motion.1].clone());
+            let (from, to) = (
+                self.graph.states[motion.0].clone(),
+                self.graph.states[motion.1].clone(),
+            );
             if !problem.is_motion_valid(&from, &to) {
                 if !problem.world.is_over() {
                     self.graph.part(motion.0, motion.1);
@@ -107,15 +131,29 @@ impl LazyRoadmap {
 }
 
 impl Planner for LazyRoadmap {
-    fn solve(&mut self, problem: &mut Problem<'_>, iterations: u64) -> Result<Option<Solution>, Refusal> {
+    fn solve(
+        &mut self,
+        problem: &mut Problem<'_>,
+        iterations: u64,
+    ) -> Result<Option<Solution>, Refusal> {
         if self.starts.is_empty() {
             let goals = problem.valid_goals();
             let starts = problem.valid_starts()?;
-            self.starts = starts.into_iter().map(|state| self.add(problem, state)).collect();
-            self.goals = goals?.into_iter().map(|state| self.add(problem, state)).collect();
+            self.starts = starts
+                .into_iter()
+                .map(|state| self.add(problem, state))
+                .collect();
+            self.goals = goals?
+                .into_iter()
+                .map(|state| self.add(problem, state))
+                .collect();
             self.search(problem);
         }
-        let batch = if self.kind == Kind::Informed { BATCH } else { BATCH / 5 };
+        let batch = if self.kind == Kind::Informed {
+            BATCH
+        } else {
+            BATCH / 5
+        };
         for round in 0..iterations {
             if problem.world.is_over() || self.kind == Kind::First && self.best.is_some() {
                 break;

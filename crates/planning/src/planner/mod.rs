@@ -33,7 +33,11 @@ pub trait Planner {
     ///
     /// # Errors
     /// When there is nothing to plan.
-    fn solve(&mut self, problem: &mut Problem<'_>, iterations: u64) -> Result<Option<Solution>, Refusal>;
+    fn solve(
+        &mut self,
+        problem: &mut Problem<'_>,
+        iterations: u64,
+    ) -> Result<Option<Solution>, Refusal>;
 
     /// Forgets starts, goals and the path. Only a roadmap is worth keeping then (`Algorithm::keeps_roadmap`): others know nothing but ways from the start.
     fn clear_query(&mut self) {}
@@ -123,7 +127,9 @@ impl Algorithm {
 
     /// The algorithm with that number.
     pub fn from_number(number: i64) -> Option<Self> {
-        Self::ALL.into_iter().find(|algorithm| *algorithm as i64 == number)
+        Self::ALL
+            .into_iter()
+            .find(|algorithm| *algorithm as i64 == number)
     }
 
     /// Whether it makes its path shorter until it is stopped.
@@ -131,7 +137,14 @@ impl Algorithm {
         use Algorithm as A;
         matches!(
             self,
-            A::BitStar | A::CForest | A::LazyPrmStar | A::LbtRrt | A::PrmStar | A::RrtStar | A::Spars | A::SparsTwo
+            A::BitStar
+                | A::CForest
+                | A::LazyPrmStar
+                | A::LbtRrt
+                | A::PrmStar
+                | A::RrtStar
+                | A::Spars
+                | A::SparsTwo
         )
     }
 
@@ -143,7 +156,10 @@ impl Algorithm {
     /// Whether it needs a projection.
     pub fn needs_projection(self) -> bool {
         use Algorithm as A;
-        matches!(self, A::Kpiece1 | A::Bkpiece1 | A::Lbkpiece1 | A::Sbl | A::Pdst)
+        matches!(
+            self,
+            A::Kpiece1 | A::Bkpiece1 | A::Lbkpiece1 | A::Sbl | A::Pdst
+        )
     }
 
     /// A planner. Names with the same guarantee share an implementation: CForest and LBTRRT are RRT*, SPARS and SPARStwo are PRM*, STRIDE is
@@ -156,7 +172,9 @@ impl Algorithm {
             A::Trrt => Box::new(rrt::Rrt::new(rrt::Kind::Transition)),
             A::RrtConnect => Box::new(connect::Connect::new(false)),
             A::BiTrrt => Box::new(connect::Connect::new(true)),
-            A::RrtStar | A::CForest | A::LbtRrt => Box::new(rrt_star::RrtStar::new(self == A::CForest)),
+            A::RrtStar | A::CForest | A::LbtRrt => {
+                Box::new(rrt_star::RrtStar::new(self == A::CForest))
+            }
             A::Prm => Box::new(roadmap::Roadmap::new(false)),
             A::PrmStar | A::Spars | A::SparsTwo => Box::new(roadmap::Roadmap::new(true)),
             A::LazyPrm => Box::new(lazy_roadmap::LazyRoadmap::new(lazy_roadmap::Kind::First)),
@@ -190,7 +208,10 @@ const FRONTIER_RATIO: f64 = 0.1;
 
 /// Keeps the best of the paths found so far.
 fn keep_best(best: &mut Option<Solution>, found: Solution, problem: &Problem<'_>) {
-    if best.as_ref().is_none_or(|best| found.is_better(best, problem.space)) {
+    if best
+        .as_ref()
+        .is_none_or(|best| found.is_better(best, problem.space))
+    {
         *best = Some(found);
     }
 }

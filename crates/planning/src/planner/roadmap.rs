@@ -28,7 +28,13 @@ pub(super) fn needed_neighbours(dimension: usize, count: usize) -> usize {
 
 impl Roadmap {
     pub(super) fn new(is_optimising: bool) -> Self {
-        Self { is_optimising, graph: Graph::default(), starts: Vec::new(), goals: Vec::new(), best: None }
+        Self {
+            is_optimising,
+            graph: Graph::default(),
+            starts: Vec::new(),
+            goals: Vec::new(),
+            best: None,
+        }
     }
 
     fn add(&mut self, problem: &mut Problem<'_>, state: State) -> usize {
@@ -39,7 +45,10 @@ impl Roadmap {
         let near = self.graph.nearest(problem.space, &state, count);
         let place = self.graph.add(state);
         for other in near {
-            let (from, to) = (self.graph.states[place].clone(), self.graph.states[other].clone());
+            let (from, to) = (
+                self.graph.states[place].clone(),
+                self.graph.states[other].clone(),
+            );
             // A motion of a roadmap is used in both directions.
             let back = problem.space.is_symmetric() || problem.is_motion_valid(&to, &from);
             if back && problem.is_motion_valid(&from, &to) {
@@ -50,8 +59,14 @@ impl Roadmap {
     }
 
     fn search(&mut self, problem: &Problem<'_>) {
-        if let Some(path) = self.graph.shortest(problem.space, &self.starts, &self.goals) {
-            let states = path.into_iter().map(|place| self.graph.states[place].clone()).collect();
+        if let Some(path) = self
+            .graph
+            .shortest(problem.space, &self.starts, &self.goals)
+        {
+            let states = path
+                .into_iter()
+                .map(|place| self.graph.states[place].clone())
+                .collect();
             keep_best(&mut self.best, Solution::exact(states), problem);
         }
     }
@@ -60,7 +75,9 @@ impl Roadmap {
     fn bounce(&mut self, problem: &mut Problem<'_>) {
         const BOUNCES: usize = 5;
         let few = |place: &usize| self.graph.edges[*place].len();
-        let Some(mut place) = (0..self.graph.states.len()).min_by_key(few) else { return };
+        let Some(mut place) = (0..self.graph.states.len()).min_by_key(few) else {
+            return;
+        };
         for _ in 0..BOUNCES {
             let aim = problem.sample();
             let from = self.graph.states[place].clone();
@@ -79,7 +96,11 @@ impl Roadmap {
 }
 
 impl Planner for Roadmap {
-    fn solve(&mut self, problem: &mut Problem<'_>, iterations: u64) -> Result<Option<Solution>, Refusal> {
+    fn solve(
+        &mut self,
+        problem: &mut Problem<'_>,
+        iterations: u64,
+    ) -> Result<Option<Solution>, Refusal> {
         if self.starts.is_empty() {
             let goals = problem.valid_goals();
             for state in problem.valid_starts()? {
@@ -125,7 +146,10 @@ pub(super) fn data_of(graph: &Graph, starts: &[usize], goals: &[usize]) -> Plann
     PlannerData {
         states: graph.states.clone(),
         tags: vec![0; graph.states.len()],
-        edges: edges.flat_map(|(from, to)| to.keys().map(move |&to| (from, to))).filter(|(a, b)| a < b).collect(),
+        edges: edges
+            .flat_map(|(from, to)| to.keys().map(move |&to| (from, to)))
+            .filter(|(a, b)| a < b)
+            .collect(),
         starts: starts.to_vec(),
         goals: goals.to_vec(),
     }

@@ -2,7 +2,9 @@
 //! is there (R. Bohlin and L. E. Kavraki's idea, applied to trees), and with a transition test (L. Jaillet, J. Cortés and T. Siméon, *Sampling-based
 //! path planning on configuration-space costmaps*, 2010).
 
-use super::{COST_RANGE, FRONTIER, FRONTIER_RATIO, GOAL_BIAS, Planner, PlannerData, RANGE, keep_best};
+use super::{
+    COST_RANGE, FRONTIER, FRONTIER_RATIO, GOAL_BIAS, Planner, PlannerData, RANGE, keep_best,
+};
 use crate::tree::Tree;
 use crate::{Problem, Refusal, Solution, State};
 
@@ -27,17 +29,31 @@ pub(super) struct Rrt {
 
 impl Rrt {
     pub(super) fn new(kind: Kind) -> Self {
-        Self { kind, tree: Tree::default(), explored: 1.0, refined: 1.0, best: None }
+        Self {
+            kind,
+            tree: Tree::default(),
+            explored: 1.0,
+            refined: 1.0,
+            best: None,
+        }
     }
 
     fn range(&self, problem: &Problem<'_>) -> f64 {
-        let part = if self.kind == Kind::Transition { COST_RANGE } else { RANGE };
+        let part = if self.kind == Kind::Transition {
+            COST_RANGE
+        } else {
+            RANGE
+        };
         part * problem.space.extent()
     }
 
     /// Grows by one motion; the place of the state it leads to.
     fn grow(&mut self, problem: &mut Problem<'_>, range: f64) -> Option<usize> {
-        let aim = if problem.random.next() < GOAL_BIAS { problem.sample_goal() } else { None };
+        let aim = if problem.random.next() < GOAL_BIAS {
+            problem.sample_goal()
+        } else {
+            None
+        };
         let sample: State = aim.unwrap_or_else(|| problem.sample());
         let nearest = self.tree.nearest(problem.space, &sample)?;
         let from = self.tree.state(nearest).clone();
@@ -70,8 +86,13 @@ impl Rrt {
     /// Checks the motions to a vertex from the root on. An invalid one is removed with all that follows.
     fn check(&mut self, problem: &mut Problem<'_>, place: usize) -> bool {
         for child in self.tree.unchecked(place) {
-            let Some(parent) = self.tree.vertices[child].parent else { continue };
-            let (from, to) = (self.tree.state(parent).clone(), self.tree.state(child).clone());
+            let Some(parent) = self.tree.vertices[child].parent else {
+                continue;
+            };
+            let (from, to) = (
+                self.tree.state(parent).clone(),
+                self.tree.state(child).clone(),
+            );
             if !problem.is_motion_valid(&from, &to) {
                 self.tree.remove_below(child);
                 return false;
@@ -84,19 +105,36 @@ impl Rrt {
     /// Whether the path to a new vertex is better than what there is; true if it is exact.
     fn consider(&mut self, problem: &mut Problem<'_>, place: usize) -> bool {
         let nearness = problem.nearness(&self.tree.state(place).clone());
-        let is_better = self.best.as_ref().is_none_or(|best| nearness.distance < best.difference);
-        if !(nearness.is_reached || is_better && self.kind != Kind::Lazy) || !self.check(problem, place) {
+        let is_better = self
+            .best
+            .as_ref()
+            .is_none_or(|best| nearness.distance < best.difference);
+        if !(nearness.is_reached || is_better && self.kind != Kind::Lazy)
+            || !self.check(problem, place)
+        {
             return false;
         }
-        let difference = if nearness.is_reached { 0.0 } else { nearness.distance };
-        let solution = Solution { states: self.tree.path_to(place), is_exact: nearness.is_reached, difference };
+        let difference = if nearness.is_reached {
+            0.0
+        } else {
+            nearness.distance
+        };
+        let solution = Solution {
+            states: self.tree.path_to(place),
+            is_exact: nearness.is_reached,
+            difference,
+        };
         keep_best(&mut self.best, solution, problem);
         nearness.is_reached
     }
 }
 
 impl Planner for Rrt {
-    fn solve(&mut self, problem: &mut Problem<'_>, iterations: u64) -> Result<Option<Solution>, Refusal> {
+    fn solve(
+        &mut self,
+        problem: &mut Problem<'_>,
+        iterations: u64,
+    ) -> Result<Option<Solution>, Refusal> {
         if self.tree.is_empty() {
             self.tree = Tree::of_roots(&problem.valid_starts()?);
             for place in 0..self.tree.len() {
@@ -128,10 +166,19 @@ impl Planner for Rrt {
 pub(super) fn data_of(tree: &Tree) -> PlannerData {
     let vertices = || tree.vertices.iter().enumerate();
     PlannerData {
-        states: tree.vertices.iter().map(|vertex| vertex.state.clone()).collect(),
+        states: tree
+            .vertices
+            .iter()
+            .map(|vertex| vertex.state.clone())
+            .collect(),
         tags: vec![0; tree.len()],
-        edges: vertices().filter_map(|(place, vertex)| Some((vertex.parent?, place))).collect(),
-        starts: vertices().filter(|(_, vertex)| vertex.parent.is_none()).map(|(place, _)| place).collect(),
+        edges: vertices()
+            .filter_map(|(place, vertex)| Some((vertex.parent?, place)))
+            .collect(),
+        starts: vertices()
+            .filter(|(_, vertex)| vertex.parent.is_none())
+            .map(|(place, _)| place)
+            .collect(),
         goals: Vec::new(),
     }
 }
@@ -142,7 +189,16 @@ pub(super) fn data_of_both(start: &Tree, goal: &Tree) -> PlannerData {
     let count = data.states.len();
     data.tags = [vec![1; count], vec![2; other.states.len()]].concat();
     data.states.extend(other.states);
-    data.edges.extend(other.edges.into_iter().map(|(from, to)| (to + count, from + count)));
-    data.goals = other.starts.into_iter().map(|place| place + count).collect();
+    data.edges.extend(
+        other
+            .edges
+            .into_iter()
+            .map(|(from, to)| (to + count, from + count)),
+    );
+    data.goals = other
+        .starts
+        .into_iter()
+        .map(|place| place + count)
+        .collect();
     data
 }

@@ -21,16 +21,26 @@ pub(super) struct RrtStar {
 
 impl RrtStar {
     pub(super) fn new(is_informed: bool) -> Self {
-        Self { tree: Tree::default(), children: Vec::new(), goals: Vec::new(), is_informed, best: None }
+        Self {
+            tree: Tree::default(),
+            children: Vec::new(),
+            goals: Vec::new(),
+            is_informed,
+            best: None,
+        }
     }
 
     /// Whether no path through a state can be shorter than the best one.
     fn is_useless(&self, problem: &Problem<'_>, state: &State) -> bool {
-        let (true, Some(best), Goal::States(goals)) = (self.is_informed, self.exact_length(problem), &problem.goal)
+        let (true, Some(best), Goal::States(goals)) =
+            (self.is_informed, self.exact_length(problem), &problem.goal)
         else {
             return false;
         };
-        let from = problem.starts.iter().map(|start| problem.space.distance(start, state));
+        let from = problem
+            .starts
+            .iter()
+            .map(|start| problem.space.distance(start, state));
         let to = goals.iter().map(|goal| problem.space.distance(state, goal));
         from.fold(f64::INFINITY, f64::min) + to.fold(f64::INFINITY, f64::min) >= best
     }
@@ -50,7 +60,11 @@ impl RrtStar {
 
     /// Grows by one state, with the shortest way to it.
     fn grow(&mut self, problem: &mut Problem<'_>, range: f64) -> Option<usize> {
-        let aim = if problem.random.next() < GOAL_BIAS { problem.sample_goal() } else { None };
+        let aim = if problem.random.next() < GOAL_BIAS {
+            problem.sample_goal()
+        } else {
+            None
+        };
         let sample = aim.unwrap_or_else(|| problem.sample());
         if self.is_useless(problem, &sample) {
             return None;
@@ -58,7 +72,12 @@ impl RrtStar {
         let nearest = self.tree.nearest(problem.space, &sample)?;
         let from = self.tree.state(nearest).clone();
         let state = problem.towards(&from, &sample, range);
-        if self.goals.iter().any(|&goal| *self.tree.state(goal) == state) || !problem.is_motion_valid(&from, &state) {
+        if self
+            .goals
+            .iter()
+            .any(|&goal| *self.tree.state(goal) == state)
+            || !problem.is_motion_valid(&from, &state)
+        {
             return None;
         }
         let near = self.neighbours(problem, &state);
@@ -71,9 +90,17 @@ impl RrtStar {
     }
 
     /// The neighbour by which the way to a state is shortest. Motions are checked from the shortest way on, until one is valid.
-    fn best_parent(&self, problem: &mut Problem<'_>, near: &[(usize, f64)], nearest: usize, state: &State) -> usize {
-        let mut ways: Vec<(f64, usize)> =
-            near.iter().map(|&(place, distance)| (self.tree.vertices[place].cost + distance, place)).collect();
+    fn best_parent(
+        &self,
+        problem: &mut Problem<'_>,
+        near: &[(usize, f64)],
+        nearest: usize,
+        state: &State,
+    ) -> usize {
+        let mut ways: Vec<(f64, usize)> = near
+            .iter()
+            .map(|&(place, distance)| (self.tree.vertices[place].cost + distance, place))
+            .collect();
         ways.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         for (_, place) in ways {
             if place == nearest || problem.is_motion_valid(&self.tree.state(place).clone(), state) {
@@ -89,8 +116,11 @@ impl RrtStar {
         for &(other, _) in near {
             let to = self.tree.state(other).clone();
             let cost = self.tree.vertices[place].cost + problem.space.distance(&state, &to);
-            let Some(parent) = self.tree.vertices[other].parent else { continue };
-            if cost < self.tree.vertices[other].cost - 1e-12 && problem.is_motion_valid(&state, &to) {
+            let Some(parent) = self.tree.vertices[other].parent else {
+                continue;
+            };
+            if cost < self.tree.vertices[other].cost - 1e-12 && problem.is_motion_valid(&state, &to)
+            {
                 self.children[parent].retain(|&child| child != other);
                 self.children[place].push(other);
                 self.tree.vertices[other].parent = Some(place);
@@ -104,7 +134,9 @@ impl RrtStar {
         let mut changed = vec![top];
         while let Some(place) = changed.pop() {
             if let Some(parent) = self.tree.vertices[place].parent {
-                let piece = problem.space.distance(self.tree.state(parent), self.tree.state(place));
+                let piece = problem
+                    .space
+                    .distance(self.tree.state(parent), self.tree.state(place));
                 self.tree.vertices[place].cost = self.tree.vertices[parent].cost + piece;
             }
             changed.extend(&self.children[place]);
@@ -116,9 +148,16 @@ impl RrtStar {
         if nearness.is_reached {
             self.goals.push(place);
         } else {
-            let approximate =
-                Solution { states: self.tree.path_to(place), is_exact: false, difference: nearness.distance };
-            if self.best.as_ref().is_none_or(|best| approximate.is_better(best, problem.space)) {
+            let approximate = Solution {
+                states: self.tree.path_to(place),
+                is_exact: false,
+                difference: nearness.distance,
+            };
+            if self
+                .best
+                .as_ref()
+                .is_none_or(|best| approximate.is_better(best, problem.space))
+            {
                 self.best = Some(approximate);
             }
         }
@@ -127,14 +166,26 @@ impl RrtStar {
     /// The shortest path to the goal may have changed.
     fn update_best(&mut self, problem: &Problem<'_>) {
         let cost = |place: usize| self.tree.vertices[place].cost;
-        if let Some(&goal) = self.goals.iter().min_by(|&&a, &&b| cost(a).total_cmp(&cost(b))) {
-            keep_best(&mut self.best, Solution::exact(self.tree.path_to(goal)), problem);
+        if let Some(&goal) = self
+            .goals
+            .iter()
+            .min_by(|&&a, &&b| cost(a).total_cmp(&cost(b)))
+        {
+            keep_best(
+                &mut self.best,
+                Solution::exact(self.tree.path_to(goal)),
+                problem,
+            );
         }
     }
 }
 
 impl Planner for RrtStar {
-    fn solve(&mut self, problem: &mut Problem<'_>, iterations: u64) -> Result<Option<Solution>, Refusal> {
+    fn solve(
+        &mut self,
+        problem: &mut Problem<'_>,
+        iterations: u64,
+    ) -> Result<Option<Solution>, Refusal> {
         if self.tree.is_empty() {
             self.tree = Tree::of_roots(&problem.valid_starts()?);
             self.children = vec![Vec::new(); self.tree.len()];
@@ -155,6 +206,9 @@ impl Planner for RrtStar {
     }
 
     fn data(&self) -> PlannerData {
-        PlannerData { goals: self.goals.clone(), ..data_of(&self.tree) }
+        PlannerData {
+            goals: self.goals.clone(),
+            ..data_of(&self.tree)
+        }
     }
 }

@@ -43,11 +43,14 @@ pub(super) struct Subdivision {
 }
 
 fn project(problem: &mut Problem<'_>, state: &[f64]) -> Vec<f64> {
-    problem.projection.as_mut().map_or_else(Vec::new, |projection| {
-        let mut projected = (projection.project)(state);
-        projected.resize(projection.size, 0.0);
-        projected
-    })
+    problem
+        .projection
+        .as_mut()
+        .map_or_else(Vec::new, |projection| {
+            let mut projected = (projection.project)(state);
+            projected.resize(projection.size, 0.0);
+            projected
+        })
 }
 
 impl Subdivision {
@@ -62,9 +65,20 @@ impl Subdivision {
                 high[dimension] = high[dimension].max(value);
             }
         }
-        self.cells = vec![Cell { low, high, volume: 1.0, cut: None }];
+        self.cells = vec![Cell {
+            low,
+            high,
+            volume: 1.0,
+            cut: None,
+        }];
         for start in self.starts.clone() {
-            self.motions.push(Motion { from: start.clone(), to: start, parent: None, cell: 0, priority: 0.0 });
+            self.motions.push(Motion {
+                from: start.clone(),
+                to: start,
+                parent: None,
+                cell: 0,
+                priority: 0.0,
+            });
             self.consider(problem, self.motions.len() - 1);
         }
         Ok(())
@@ -81,8 +95,12 @@ impl Subdivision {
 
     /// The motion whose turn it is; the first of several.
     fn choose(&self) -> usize {
-        let score = |place: usize| self.motions[place].priority / self.cells[self.motions[place].cell].volume;
-        (0..self.motions.len()).min_by(|&a, &b| score(a).total_cmp(&score(b))).unwrap_or(0)
+        let score = |place: usize| {
+            self.motions[place].priority / self.cells[self.motions[place].cell].volume
+        };
+        (0..self.motions.len())
+            .min_by(|&a, &b| score(a).total_cmp(&score(b)))
+            .unwrap_or(0)
     }
 
     /// Cuts a motion in two at a state on it. The second half keeps the place; returns that of the first.
@@ -92,7 +110,13 @@ impl Subdivision {
         let from = std::mem::replace(&mut motion.from, middle.clone());
         let parent = motion.parent.replace(first);
         let (cell, priority) = (motion.cell, motion.priority);
-        self.motions.push(Motion { from, to: middle, parent, cell, priority });
+        self.motions.push(Motion {
+            from,
+            to: middle,
+            parent,
+            cell,
+            priority,
+        });
         first
     }
 
@@ -110,7 +134,11 @@ impl Subdivision {
             self.cut_motion(chosen, middle)
         };
         let from = self.motions[parent].to.clone();
-        let aim = if problem.random.next() < GOAL_BIAS { problem.sample_goal() } else { None };
+        let aim = if problem.random.next() < GOAL_BIAS {
+            problem.sample_goal()
+        } else {
+            None
+        };
         let aim = aim.unwrap_or_else(|| {
             let sample = problem.sample();
             problem.towards(&from, &sample, range)
@@ -129,10 +157,17 @@ impl Subdivision {
         let mut begin = from.clone();
         let mut cell = self.cell_at(problem, &from);
         for part in 1..=parts {
-            let state = problem.space.interpolate(&from, to, part as f64 / parts as f64);
+            let state = problem
+                .space
+                .interpolate(&from, to, part as f64 / parts as f64);
             let next = self.cell_at(problem, &state);
             if next != cell && part < parts {
-                parent = self.push(parent, std::mem::replace(&mut begin, state.clone()), state, cell);
+                parent = self.push(
+                    parent,
+                    std::mem::replace(&mut begin, state.clone()),
+                    state,
+                    cell,
+                );
                 cell = next;
             }
         }
@@ -145,20 +180,39 @@ impl Subdivision {
 
     fn push(&mut self, parent: usize, from: State, to: State, cell: usize) -> usize {
         let priority = self.iterations as f64;
-        self.motions.push(Motion { from, to, parent: Some(parent), cell, priority });
+        self.motions.push(Motion {
+            from,
+            to,
+            parent: Some(parent),
+            cell,
+            priority,
+        });
         self.motions.len() - 1
     }
 
     /// Cuts a cell in two, across its longest side, and the motions that are in both halves.
     fn cut_cell(&mut self, problem: &mut Problem<'_>, at: usize) {
-        let Cell { low, high, volume, cut } = &self.cells[at];
+        let Cell {
+            low,
+            high,
+            volume,
+            cut,
+        } = &self.cells[at];
         let sides = low.iter().zip(high).map(|(low, high)| high - low);
-        let Some((dimension, side)) = sides.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b)) else { return };
+        let Some((dimension, side)) = sides.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b))
+        else {
+            return;
+        };
         if cut.is_some() || side.is_nan() || side <= 0.0 || *volume < MIN_VOLUME {
             return;
         }
         let value = low[dimension] + 0.5 * side;
-        let half = || Cell { low: low.clone(), high: high.clone(), volume: 0.5 * volume, cut: None };
+        let half = || Cell {
+            low: low.clone(),
+            high: high.clone(),
+            volume: 0.5 * volume,
+            cut: None,
+        };
         let (mut lower, mut upper) = (half(), half());
         (lower.high[dimension], upper.low[dimension]) = (value, value);
         let halves = [self.cells.len(), self.cells.len() + 1];
@@ -173,16 +227,26 @@ impl Subdivision {
 
     /// Puts a motion into the halves of its cell: cut where it goes from one to the other.
     fn divide(&mut self, problem: &mut Problem<'_>, place: usize) {
-        let (from, to) = (self.motions[place].from.clone(), self.motions[place].to.clone());
+        let (from, to) = (
+            self.motions[place].from.clone(),
+            self.motions[place].to.clone(),
+        );
         let (first, last) = (self.cell_at(problem, &from), self.cell_at(problem, &to));
         self.motions[place].cell = last;
         if first == last {
             return;
         }
         let parts = problem.space.parts(&from, &to, problem.resolution);
-        let states = (1..parts).map(|part| problem.space.interpolate(&from, &to, part as f64 / parts as f64));
+        let states = (1..parts).map(|part| {
+            problem
+                .space
+                .interpolate(&from, &to, part as f64 / parts as f64)
+        });
         let states: Vec<State> = states.collect();
-        if let Some(middle) = states.into_iter().find(|state| self.cell_at(problem, state) != first) {
+        if let Some(middle) = states
+            .into_iter()
+            .find(|state| self.cell_at(problem, state) != first)
+        {
             let before = self.cut_motion(place, middle);
             self.motions[before].cell = first;
         }
@@ -199,17 +263,42 @@ impl Subdivision {
 
     fn consider(&mut self, problem: &mut Problem<'_>, place: usize) {
         let nearness = problem.nearness(&self.motions[place].to.clone());
-        let difference = if nearness.is_reached { 0.0 } else { nearness.distance };
-        if nearness.is_reached || self.best.as_ref().is_none_or(|best| difference < best.difference) {
+        let difference = if nearness.is_reached {
+            0.0
+        } else {
+            nearness.distance
+        };
+        if nearness.is_reached
+            || self
+                .best
+                .as_ref()
+                .is_none_or(|best| difference < best.difference)
+        {
             let states = self.path_to(place);
-            keep_best(&mut self.best, Solution { states, is_exact: nearness.is_reached, difference }, problem);
+            keep_best(
+                &mut self.best,
+                Solution {
+                    states,
+                    is_exact: nearness.is_reached,
+                    difference,
+                },
+                problem,
+            );
         }
     }
 }
 
 impl Planner for Subdivision {
-    fn solve(&mut self, problem: &mut Problem<'_>, iterations: u64) -> Result<Option<Solution>, Refusal> {
-        if problem.projection.as_ref().is_none_or(|projection| projection.size == 0) {
+    fn solve(
+        &mut self,
+        problem: &mut Problem<'_>,
+        iterations: u64,
+    ) -> Result<Option<Solution>, Refusal> {
+        if problem
+            .projection
+            .as_ref()
+            .is_none_or(|projection| projection.size == 0)
+        {
             return Err(Refusal::NoProjection);
         }
         if self.motions.is_empty() {
@@ -231,10 +320,18 @@ impl Planner for Subdivision {
     fn data(&self) -> PlannerData {
         let parents = self.motions.iter().enumerate();
         PlannerData {
-            states: self.motions.iter().map(|motion| motion.to.clone()).collect(),
+            states: self
+                .motions
+                .iter()
+                .map(|motion| motion.to.clone())
+                .collect(),
             tags: vec![0; self.motions.len()],
-            edges: parents.filter_map(|(place, motion)| Some((motion.parent?, place))).collect(),
-            starts: (0..self.motions.len()).filter(|&place| self.motions[place].parent.is_none()).collect(),
+            edges: parents
+                .filter_map(|(place, motion)| Some((motion.parent?, place)))
+                .collect(),
+            starts: (0..self.motions.len())
+                .filter(|&place| self.motions[place].parent.is_none())
+                .collect(),
             goals: Vec::new(),
         }
     }

@@ -21,7 +21,12 @@ impl Bounds {
     }
 
     fn diagonal(&self) -> f64 {
-        self.low.iter().zip(&self.high).map(|(low, high)| (high - low) * (high - low)).sum::<f64>().sqrt()
+        self.low
+            .iter()
+            .zip(&self.high)
+            .map(|(low, high)| (high - low) * (high - low))
+            .sum::<f64>()
+            .sqrt()
     }
 
     fn pairs(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
@@ -78,7 +83,9 @@ impl Component {
             Self::Real(bounds) => bounds.diagonal(),
             Self::Angle => PI,
             Self::Rotation => FRAC_PI_2,
-            Self::Plane(bounds) | Self::Dubins { bounds, .. } => bounds.diagonal() + ANGLE_WEIGHT * PI,
+            Self::Plane(bounds) | Self::Dubins { bounds, .. } => {
+                bounds.diagonal() + ANGLE_WEIGHT * PI
+            }
             Self::Space(bounds) => bounds.diagonal() + FRAC_PI_2,
         }
     }
@@ -89,9 +96,13 @@ impl Component {
             Self::Real(_) => euclidean(from, to),
             Self::Angle => arc(from[0], to[0]).abs(),
             Self::Rotation => half_angle(from, to),
-            Self::Plane(_) => euclidean(&from[..2], &to[..2]) + ANGLE_WEIGHT * arc(from[2], to[2]).abs(),
+            Self::Plane(_) => {
+                euclidean(&from[..2], &to[..2]) + ANGLE_WEIGHT * arc(from[2], to[2]).abs()
+            }
             Self::Space(_) => euclidean(&from[..3], &to[..3]) + half_angle(&from[3..], &to[3..]),
-            Self::Dubins { radius, symmetric, .. } => dubins::curve(from, to, *radius, *symmetric).length(),
+            Self::Dubins {
+                radius, symmetric, ..
+            } => dubins::curve(from, to, *radius, *symmetric).length(),
         }
     }
 
@@ -109,7 +120,9 @@ impl Component {
                 linear(&from[..3], &to[..3], part, out);
                 slerp(&from[3..], &to[3..], part, out);
             }
-            Self::Dubins { radius, symmetric, .. } => {
+            Self::Dubins {
+                radius, symmetric, ..
+            } => {
                 out.extend(dubins::curve(from, to, *radius, *symmetric).state_at(part));
             }
         }
@@ -118,7 +131,9 @@ impl Component {
     /// Adds a state within the bounds to `out`.
     pub fn sample(&self, random: &mut dyn Random, out: &mut Vec<f64>) {
         match self {
-            Self::Real(bounds) => out.extend(bounds.pairs().map(|(low, high)| random.between(low, high))),
+            Self::Real(bounds) => {
+                out.extend(bounds.pairs().map(|(low, high)| random.between(low, high)))
+            }
             Self::Angle => out.push(random.between(-PI, PI)),
             Self::Rotation => out.extend(rotation(random)),
             Self::Plane(bounds) | Self::Dubins { bounds, .. } => {
@@ -133,19 +148,32 @@ impl Component {
     }
 
     /// Adds a state within the bounds and about `distance` from another at most to `out`.
-    pub fn sample_near(&self, random: &mut dyn Random, near: &[f64], distance: f64, out: &mut Vec<f64>) {
+    pub fn sample_near(
+        &self,
+        random: &mut dyn Random,
+        near: &[f64],
+        distance: f64,
+        out: &mut Vec<f64>,
+    ) {
         let around = |random: &mut dyn Random, bounds: &Bounds, out: &mut Vec<f64>| {
             for ((low, high), &centre) in bounds.pairs().zip(near) {
-                out.push(random.between(low.max(centre - distance).min(high), high.min(centre + distance).max(low)));
+                out.push(random.between(
+                    low.max(centre - distance).min(high),
+                    high.min(centre + distance).max(low),
+                ));
             }
         };
         match self {
             Self::Real(bounds) => around(random, bounds, out),
-            Self::Angle => out.push(wrapped(random.between(near[0] - distance, near[0] + distance))),
+            Self::Angle => out.push(wrapped(
+                random.between(near[0] - distance, near[0] + distance),
+            )),
             Self::Rotation => out.extend(rotation_near(random, near, distance)),
             Self::Plane(bounds) | Self::Dubins { bounds, .. } => {
                 around(random, bounds, out);
-                out.push(wrapped(random.between(near[2] - distance, near[2] + distance)));
+                out.push(wrapped(
+                    random.between(near[2] - distance, near[2] + distance),
+                ));
             }
             Self::Space(bounds) => {
                 around(random, bounds, out);
@@ -156,14 +184,22 @@ impl Component {
 
     /// Whether a state lies within the bounds, angles from -π to below π, and quaternions have length 1.
     pub fn is_within_bounds(&self, state: &[f64]) -> bool {
-        let is_inside = |bounds: &Bounds| bounds.pairs().zip(state).all(|((low, high), x)| (low..=high).contains(x));
+        let is_inside = |bounds: &Bounds| {
+            bounds
+                .pairs()
+                .zip(state)
+                .all(|((low, high), x)| (low..=high).contains(x))
+        };
         let is_angle = |angle: f64| (-PI..PI).contains(&angle);
-        let is_unit = |q: &[f64]| (q.iter().map(|part| part * part).sum::<f64>().sqrt() - 1.0).abs() <= UNIT;
+        let is_unit =
+            |q: &[f64]| (q.iter().map(|part| part * part).sum::<f64>().sqrt() - 1.0).abs() <= UNIT;
         match self {
             Self::Real(bounds) => is_inside(bounds),
             Self::Angle => is_angle(state[0]),
             Self::Rotation => is_unit(state),
-            Self::Plane(bounds) | Self::Dubins { bounds, .. } => is_inside(bounds) && is_angle(state[2]),
+            Self::Plane(bounds) | Self::Dubins { bounds, .. } => {
+                is_inside(bounds) && is_angle(state[2])
+            }
             Self::Space(bounds) => is_inside(bounds) && is_unit(&state[3..]),
         }
     }
@@ -171,7 +207,10 @@ impl Component {
     /// Clamps positions, wraps angles and normalises quaternions.
     pub fn enforce_bounds(&self, state: &mut [f64]) {
         let clamp = |bounds: &Bounds, state: &mut [f64]| {
-            bounds.pairs().zip(state).for_each(|((low, high), x)| *x = x.min(high).max(low));
+            bounds
+                .pairs()
+                .zip(state)
+                .for_each(|((low, high), x)| *x = x.min(high).max(low));
         };
         match self {
             Self::Real(bounds) => clamp(bounds, state),
@@ -190,7 +229,11 @@ impl Component {
 }
 
 fn euclidean(from: &[f64], to: &[f64]) -> f64 {
-    from.iter().zip(to).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+    from.iter()
+        .zip(to)
+        .map(|(a, b)| (a - b) * (a - b))
+        .sum::<f64>()
+        .sqrt()
 }
 
 fn linear(from: &[f64], to: &[f64], part: f64, out: &mut Vec<f64>) {
@@ -232,7 +275,10 @@ fn slerp(from: &[f64], to: &[f64], part: f64, out: &mut Vec<f64>) {
     let (a, b) = if angle < 1e-9 {
         (1.0 - part, part)
     } else {
-        (libm::sin((1.0 - part) * angle) / libm::sin(angle), libm::sin(part * angle) / libm::sin(angle))
+        (
+            libm::sin((1.0 - part) * angle) / libm::sin(angle),
+            libm::sin(part * angle) / libm::sin(angle),
+        )
     };
     out.extend(from.iter().zip(to).map(|(x, y)| a * x + sign * b * y));
 }
@@ -255,7 +301,10 @@ fn rotation_near(random: &mut dyn Random, near: &[f64], distance: f64) -> [f64; 
     // The cube root makes all rotations within the distance about equally likely.
     let (sin, cos) = libm::sincos(distance * libm::cbrt(random.next()));
     axis.iter_mut().for_each(|part| *part *= sin / length);
-    product([axis[0], axis[1], axis[2], cos], [near[0], near[1], near[2], near[3]])
+    product(
+        [axis[0], axis[1], axis[2], cos],
+        [near[0], near[1], near[2], near[3]],
+    )
 }
 
 fn product(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {

@@ -40,26 +40,37 @@ impl CompoundSpace {
 
 impl StateSpace for CompoundSpace {
     fn dimension(&self) -> usize {
-        self.components.iter().map(|(component, _)| component.dimension()).sum()
+        self.components
+            .iter()
+            .map(|(component, _)| component.dimension())
+            .sum()
     }
 
     fn distance(&self, from: &[f64], to: &[f64]) -> f64 {
-        self.each(from, to).map(|(component, weight, from, to)| weight * component.distance(from, to)).sum()
+        self.each(from, to)
+            .map(|(component, weight, from, to)| weight * component.distance(from, to))
+            .sum()
     }
 
     fn interpolate(&self, from: &[f64], to: &[f64], part: f64) -> State {
         let mut out = Vec::with_capacity(from.len());
-        self.each(from, to).for_each(|(component, _, from, to)| component.interpolate(from, to, part, &mut out));
+        self.each(from, to)
+            .for_each(|(component, _, from, to)| component.interpolate(from, to, part, &mut out));
         out
     }
 
     fn extent(&self) -> f64 {
-        self.components.iter().map(|(component, weight)| weight * component.extent()).sum()
+        self.components
+            .iter()
+            .map(|(component, weight)| weight * component.extent())
+            .sum()
     }
 
     fn sample(&self, random: &mut dyn Random) -> State {
         let mut out = Vec::new();
-        self.components.iter().for_each(|(component, _)| component.sample(random, &mut out));
+        self.components
+            .iter()
+            .for_each(|(component, _)| component.sample(random, &mut out));
         out
     }
 
@@ -72,7 +83,8 @@ impl StateSpace for CompoundSpace {
     }
 
     fn is_within_bounds(&self, state: &[f64]) -> bool {
-        self.each(state, state).all(|(component, _, state, _)| component.is_within_bounds(state))
+        self.each(state, state)
+            .all(|(component, _, state, _)| component.is_within_bounds(state))
     }
 
     fn enforce_bounds(&self, state: &mut [f64]) {
@@ -87,12 +99,20 @@ impl StateSpace for CompoundSpace {
     fn parts(&self, from: &[f64], to: &[f64], fraction: f64) -> usize {
         let parts = self.each(from, to).map(|(component, _, from, to)| {
             let longest = fraction * component.extent();
-            if longest > 0.0 { (component.distance(from, to) / longest).ceil().min(MAX_SEGMENTS) as usize } else { 1 }
+            if longest > 0.0 {
+                (component.distance(from, to) / longest)
+                    .ceil()
+                    .min(MAX_SEGMENTS) as usize
+            } else {
+                1
+            }
         });
         parts.max().unwrap_or(1).max(1)
     }
 
     fn is_symmetric(&self) -> bool {
-        self.components.iter().all(|(component, _)| !matches!(component, Component::Dubins { .. }))
+        self.components
+            .iter()
+            .all(|(component, _)| !matches!(component, Component::Dubins { .. }))
     }
 }

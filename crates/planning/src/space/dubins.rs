@@ -42,7 +42,10 @@ pub(super) fn curve(from: &[f64], to: &[f64], radius: f64, symmetric: bool) -> C
     if symmetric {
         let back = forwards(to, from, radius);
         if back.length() < there.length() {
-            return Curve { is_reversed: true, ..back };
+            return Curve {
+                is_reversed: true,
+                ..back
+            };
         }
     }
     there
@@ -53,12 +56,20 @@ fn forwards(from: &[f64], to: &[f64], radius: f64) -> Curve {
     let direction = libm::atan2(dy, dx);
     let distance = libm::hypot(dx, dy) / radius;
     let (alpha, beta) = (turned(from[2] - direction), turned(to[2] - direction));
-    let pieces = WORDS.iter().filter_map(|word| Some((*word, pieces(*word, distance, alpha, beta)?)));
+    let pieces = WORDS
+        .iter()
+        .filter_map(|word| Some((*word, pieces(*word, distance, alpha, beta)?)));
     let sum = |pieces: &[f64; 3]| pieces.iter().sum::<f64>();
     let shortest = pieces.min_by(|(_, a), (_, b)| sum(a).total_cmp(&sum(b)));
     // Two of the words exist for all states.
     let (turns, pieces) = shortest.unwrap_or((WORDS[0], [0.0; 3]));
-    Curve { start: [from[0], from[1], from[2]], radius, turns, pieces, is_reversed: false }
+    Curve {
+        start: [from[0], from[1], from[2]],
+        radius,
+        turns,
+        pieces,
+        is_reversed: false,
+    }
 }
 
 /// An angle from 0 to 2π; what is nearly a whole turn is none.
@@ -134,6 +145,10 @@ impl Curve {
                 Straight => (x, y) = (x + piece * cos, y + piece * sin),
             }
         }
-        [self.start[0] + self.radius * x, self.start[1] + self.radius * y, wrapped(angle)]
+        [
+            self.start[0] + self.radius * x,
+            self.start[1] + self.radius * y,
+            wrapped(angle),
+        ]
     }
 }

@@ -91,8 +91,13 @@ impl Library {
 
     /// Starts the plugin; its version, or 0 where it failed.
     pub fn start(&self, name: &str, host_library: &Path) -> i32 {
-        let (Ok(name), Some(host_library)) = (CString::new(name), c_path(host_library)) else { return 0 };
-        let mut info = InitInfo { plugin_name: name.as_ptr(), host_library: host_library.as_ptr() };
+        let (Ok(name), Some(host_library)) = (CString::new(name), c_path(host_library)) else {
+            return 0;
+        };
+        let mut info = InitInfo {
+            plugin_name: name.as_ptr(),
+            host_library: host_library.as_ptr(),
+        };
         (self.init)(&raw mut info)
     }
 
@@ -102,7 +107,11 @@ impl Library {
 
     pub fn receive(&self, mut message: Message) {
         let Some(receive) = self.receive else { return };
-        let mut info = MessageInfo { id: message.id, values: message.values.as_mut_ptr(), data: ptr::null_mut() };
+        let mut info = MessageInfo {
+            id: message.id,
+            values: message.values.as_mut_ptr(),
+            data: ptr::null_mut(),
+        };
         receive(&raw mut info);
     }
 }
@@ -121,7 +130,11 @@ impl Callback {
             line: 0,
         };
         (self.0)(&raw mut info);
-        let bytes: Vec<u8> = error.iter().map(|&byte| byte.cast_unsigned()).take_while(|&byte| byte != 0).collect();
+        let bytes: Vec<u8> = error
+            .iter()
+            .map(|&byte| byte.cast_unsigned())
+            .take_while(|&byte| byte != 0)
+            .collect();
         (!bytes.is_empty()).then(|| String::from_utf8_lossy(&bytes).into_owned())
     }
 }
@@ -132,7 +145,8 @@ impl Callback {
 /// When it cannot be opened.
 pub(crate) fn connect(path: &Path, entrance: Entrance) -> Result<(), String> {
     let library = open(path)?;
-    let connect: extern "C" fn(Entrance) = symbol(&library, c"swanilda_connect").ok_or("it is damaged")?;
+    let connect: extern "C" fn(Entrance) =
+        symbol(&library, c"swanilda_connect").ok_or("it is damaged")?;
     connect(entrance);
     std::mem::forget(library);
     Ok(())
@@ -148,9 +162,16 @@ fn open(path: &Path) -> Result<libloading::Library, String> {
 
 /// A function of a library, by the type that the interface says it has.
 fn symbol<F: Copy>(library: &libloading::Library, name: &std::ffi::CStr) -> Option<F> {
-    const { assert!(size_of::<F>() == size_of::<usize>(), "a function is an address") };
+    const {
+        assert!(
+            size_of::<F>() == size_of::<usize>(),
+            "a function is an address"
+        )
+    };
     // SAFETY: the types are those of the interface, and the libraries stay open.
-    unsafe { library.get::<F>(name.to_bytes_with_nul()) }.ok().map(|symbol| *symbol)
+    unsafe { library.get::<F>(name.to_bytes_with_nul()) }
+        .ok()
+        .map(|symbol| *symbol)
 }
 
 fn c_path(path: &Path) -> Option<CString> {

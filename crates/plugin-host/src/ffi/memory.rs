@@ -57,7 +57,13 @@ impl Address {
         }
         let mut values = vec![T::default(); count];
         // SAFETY: the plugin says that so many values are there. They are copied as bytes: C's arrays may lie anywhere.
-        unsafe { ptr::copy_nonoverlapping(self.0.cast::<u8>(), values.as_mut_ptr().cast(), size_of_val(&*values)) };
+        unsafe {
+            ptr::copy_nonoverlapping(
+                self.0.cast::<u8>(),
+                values.as_mut_ptr().cast(),
+                size_of_val(&*values),
+            )
+        };
         Some(values)
     }
 
@@ -67,7 +73,13 @@ impl Address {
             return;
         }
         // SAFETY: the plugin says that there is room for so many values. Nothing of ours lies there.
-        unsafe { ptr::copy_nonoverlapping(values.as_ptr().cast::<u8>(), self.0.cast(), size_of_val(values)) };
+        unsafe {
+            ptr::copy_nonoverlapping(
+                values.as_ptr().cast::<u8>(),
+                self.0.cast(),
+                size_of_val(values),
+            )
+        };
     }
 
     /// A text up to its NUL; None for a null pointer.
@@ -76,7 +88,11 @@ impl Address {
             return None;
         }
         // SAFETY: the row says that this is a text, and C's texts end with NUL.
-        Some(unsafe { CStr::from_ptr(self.0.cast::<c_char>()) }.to_bytes().to_vec())
+        Some(
+            unsafe { CStr::from_ptr(self.0.cast::<c_char>()) }
+                .to_bytes()
+                .to_vec(),
+        )
     }
 
     /// A function of the plugin; None for a null pointer.
@@ -85,6 +101,8 @@ impl Address {
             return None;
         }
         // SAFETY: the row says that this is a function of that type. Libraries stay open, so that it stays where it is.
-        Some(Callback(unsafe { std::mem::transmute::<*mut c_void, CallbackEntry>(self.0) }))
+        Some(Callback(unsafe {
+            std::mem::transmute::<*mut c_void, CallbackEntry>(self.0)
+        }))
     }
 }

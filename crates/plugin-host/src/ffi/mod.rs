@@ -17,5 +17,6 @@ use super::dispatch;
 /// Where every call of a plugin arrives. A panic must not go on into C: it is a failed call.
 pub(super) extern "C" fn enter(row: u32, values: *mut Value, count: u32) -> i64 {
     let values = Value::of_call(values, count);
-    catch_unwind(AssertUnwindSafe(|| dispatch::perform(row, values))).unwrap_or_else(|_| dispatch::failure(row))
+    catch_unwind(AssertUnwindSafe(|| dispatch::perform(row, values)))
+        .unwrap_or_else(|_| dispatch::failure(row))
 }

@@ -8,8 +8,8 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group};
 use geometry::Pose;
 use proximity::{
-    Bounds, BoundsTree, Filter, Geometry, Placed, TriangleMesh, Volume, cast_ray, closest_in_volume, distance,
-    intersects,
+    Bounds, BoundsTree, Filter, Geometry, Placed, TriangleMesh, Volume, cast_ray,
+    closest_in_volume, distance, intersects,
 };
 
 use models::{Boxes, Poses, cone, pyramid};
@@ -31,7 +31,10 @@ fn mesh(triangles: usize, bumps: f64) -> TriangleMesh {
 }
 
 fn at(mesh: &TriangleMesh, pose: Pose) -> Placed<'_> {
-    Placed { geometry: Geometry::Mesh(mesh), pose }
+    Placed {
+        geometry: Geometry::Mesh(mesh),
+        pose,
+    }
 }
 
 fn meshes(criterion: &mut Criterion) {
@@ -49,12 +52,28 @@ fn sensors(criterion: &mut Criterion, name: &str, ball: &TriangleMesh) {
     let filter = Filter::default();
     let mut poses = Poses::around(1.0);
     criterion.bench_function(&format!("{name}/ray"), |bench| {
-        bench.iter(|| cast_ray(at(ball, Pose::identity()), &poses.next(), [0.0, 0.0, 1.0], [0.0, 5.0], &filter));
+        bench.iter(|| {
+            cast_ray(
+                at(ball, Pose::identity()),
+                &poses.next(),
+                [0.0, 0.0, 1.0],
+                [0.0, 5.0],
+                &filter,
+            )
+        });
     });
     for (volume, shape) in [("cone", cone()), ("pyramid", pyramid())] {
         let mut poses = Poses::around(1.0);
         criterion.bench_function(&format!("{name}/{volume}"), |bench| {
-            bench.iter(|| closest_in_volume(at(ball, Pose::identity()), &poses.next(), &shape, EVERYWHERE, &filter));
+            bench.iter(|| {
+                closest_in_volume(
+                    at(ball, Pose::identity()),
+                    &poses.next(),
+                    &shape,
+                    EVERYWHERE,
+                    &filter,
+                )
+            });
         });
     }
 }
@@ -65,16 +84,32 @@ fn distances(criterion: &mut Criterion, name: &str, ball: &TriangleMesh) {
         for (limit, below) in [("", EVERYWHERE), (" below 5 cm", 0.05)] {
             let mut poses = Poses::apart(if other == "box" { 0.6 } else { 1.0 });
             criterion.bench_function(&format!("{name}/distance to {other}{limit}"), |bench| {
-                bench.iter(|| distance(at(ball, Pose::identity()), at(mesh, poses.next()), black_box(below)));
+                bench.iter(|| {
+                    distance(
+                        at(ball, Pose::identity()),
+                        at(mesh, poses.next()),
+                        black_box(below),
+                    )
+                });
             });
         }
     }
 }
 
 fn distance_to_summits(criterion: &mut Criterion, name: &str, triangles: usize) {
-    let (ball, cuboid, mut poses) = (mesh(triangles, SUMMITS), models::cuboid([0.1; 3]), Poses::apart(0.6));
+    let (ball, cuboid, mut poses) = (
+        mesh(triangles, SUMMITS),
+        models::cuboid([0.1; 3]),
+        Poses::apart(0.6),
+    );
     criterion.bench_function(&format!("{name}/distance of summits to box"), |bench| {
-        bench.iter(|| distance(at(&ball, Pose::identity()), at(&cuboid, poses.next()), black_box(EVERYWHERE)));
+        bench.iter(|| {
+            distance(
+                at(&ball, Pose::identity()),
+                at(&cuboid, poses.next()),
+                black_box(EVERYWHERE),
+            )
+        });
     });
     parry::distance_to_box(
         criterion,
@@ -124,7 +159,13 @@ fn boxes(criterion: &mut Criterion) {
 }
 
 /// The distance of the nearest box in a volume, which has a range of 1 m.
-fn nearest_box(index: &BoundsTree, cuboid: &TriangleMesh, poses: &[Pose], sensor: &Pose, shape: &Volume) -> f64 {
+fn nearest_box(
+    index: &BoundsTree,
+    cuboid: &TriangleMesh,
+    poses: &[Pose],
+    sensor: &Pose,
+    shape: &Volume,
+) -> f64 {
     let origin: [f64; 3] = sensor.translation.vector.into();
     let mut best = f64::INFINITY;
     let bound = |bounds: &Bounds| bounds.distance_to_point(&origin);
@@ -145,6 +186,8 @@ fn build(criterion: &mut Criterion) {
     let (vertices, indices) = models::ball(200_000, BUMPS);
     let mut group = criterion.benchmark_group("200k");
     group.sample_size(10);
-    group.bench_function("build", |bench| bench.iter(|| TriangleMesh::new(&vertices, &indices)));
+    group.bench_function("build", |bench| {
+        bench.iter(|| TriangleMesh::new(&vertices, &indices))
+    });
     group.finish();
 }

@@ -12,15 +12,29 @@ pub fn ball(triangles: usize, bumps: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let rings = ((triangles as f64) / 4.0).sqrt() as u32;
     let sides = 2 * rings;
     let place = |ring: u32, side: u32| {
-        let (theta, phi) = (PI * f64::from(ring) / f64::from(rings), TAU * f64::from(side) / f64::from(sides));
+        let (theta, phi) = (
+            PI * f64::from(ring) / f64::from(rings),
+            TAU * f64::from(side) / f64::from(sides),
+        );
         let radius = 0.5 - bumps + bumps * (9.0 * theta).sin() * (7.0 * phi).cos();
-        [radius * theta.sin() * phi.cos(), radius * theta.sin() * phi.sin(), radius * theta.cos()]
+        [
+            radius * theta.sin() * phi.cos(),
+            radius * theta.sin() * phi.sin(),
+            radius * theta.cos(),
+        ]
     };
-    let vertices = (0..=rings).flat_map(|ring| (0..sides).map(move |side| place(ring, side))).collect();
+    let vertices = (0..=rings)
+        .flat_map(|ring| (0..sides).map(move |side| place(ring, side)))
+        .collect();
     let number = |ring: u32, side: u32| ring * sides + side % sides;
     let quads = (0..rings).flat_map(|ring| (0..sides).map(move |side| (ring, side)));
     let faces = quads.flat_map(|(i, j)| {
-        let [a, b, c, d] = [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)];
+        let [a, b, c, d] = [
+            number(i, j),
+            number(i + 1, j),
+            number(i + 1, j + 1),
+            number(i, j + 1),
+        ];
         [[a, b, c], [a, c, d]]
     });
     (vertices, faces.collect())
@@ -38,14 +52,23 @@ pub fn cone() -> Volume {
         let angle = TAU * f64::from(i) / 16.0;
         [cos * angle.cos(), cos * angle.sin(), -sin, 0.0]
     };
-    Volume { pieces: vec![(0..16).map(side).chain([[0.0, 0.0, 1.0, -1.0]]).collect()] }
+    Volume {
+        pieces: vec![(0..16).map(side).chain([[0.0, 0.0, 1.0, -1.0]]).collect()],
+    }
 }
 
 /// A pyramid with a square opening of 30 degrees, 1 m long.
 pub fn pyramid() -> Volume {
     let (sin, cos) = (PI / 12.0).sin_cos();
-    let sides = [[cos, 0.0, -sin, 0.0], [-cos, 0.0, -sin, 0.0], [0.0, cos, -sin, 0.0], [0.0, -cos, -sin, 0.0]];
-    Volume { pieces: vec![sides.into_iter().chain([[0.0, 0.0, 1.0, -1.0]]).collect()] }
+    let sides = [
+        [cos, 0.0, -sin, 0.0],
+        [-cos, 0.0, -sin, 0.0],
+        [0.0, cos, -sin, 0.0],
+        [0.0, -cos, -sin, 0.0],
+    ];
+    Volume {
+        pieces: vec![sides.into_iter().chain([[0.0, 0.0, 1.0, -1.0]]).collect()],
+    }
 }
 
 /// A thousand poses, one after the other and again.
@@ -56,7 +79,10 @@ pub struct Poses {
 
 impl Poses {
     fn new(pose: impl FnMut(u32) -> Pose) -> Self {
-        Self { poses: (0..1000).map(pose).collect(), next: 0 }
+        Self {
+            poses: (0..1000).map(pose).collect(),
+            next: 0,
+        }
     }
 
     /// Sensors at a distance from the origin that look at a place near it.
@@ -64,8 +90,15 @@ impl Poses {
         Self::new(|i| {
             let position = direction(i) * distance;
             let target = direction(i + 500) * 0.3;
-            let up = if direction(i).z.abs() < 0.9 { Vector3::z() } else { Vector3::x() };
-            Pose::from_parts(position.into(), UnitQuaternion::face_towards(&(target - position), &up))
+            let up = if direction(i).z.abs() < 0.9 {
+                Vector3::z()
+            } else {
+                Vector3::x()
+            };
+            Pose::from_parts(
+                position.into(),
+                UnitQuaternion::face_towards(&(target - position), &up),
+            )
         })
     }
 
@@ -109,8 +142,14 @@ impl Boxes {
         let place = |i: u32| {
             let shift = |step: u32| f64::from(i * step % 1009) / 1009.0 * 10.0 - 5.0;
             let turn = UnitQuaternion::from_scaled_axis(direction(i) * f64::from(i));
-            Pose::from_parts(Vector3::new(shift(137), shift(331), shift(577)).into(), turn)
+            Pose::from_parts(
+                Vector3::new(shift(137), shift(331), shift(577)).into(),
+                turn,
+            )
         };
-        Self { cuboid: cuboid([0.2; 3]), poses: (0..number).map(place).collect() }
+        Self {
+            cuboid: cuboid([0.2; 3]),
+            poses: (0..number).map(place).collect(),
+        }
     }
 }

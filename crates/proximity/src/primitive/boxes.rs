@@ -53,10 +53,14 @@ impl SolidBox {
         if let Some(common) = self.common_point(triangle) {
             return (common, common, 0.0);
         }
-        let edges = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| self.closest_to_segment(&triangle[i], &triangle[j]));
+        let edges = [(0, 1), (1, 2), (2, 0)]
+            .map(|(i, j)| self.closest_to_segment(&triangle[i], &triangle[j]));
         let on_edges = nearer(nearer(edges[0], edges[1]), edges[2]);
         let corner = self.corner_towards(triangle);
-        nearer(on_edges, pair(corner, closest_on_triangle(&corner, triangle)))
+        nearer(
+            on_edges,
+            pair(corner, closest_on_triangle(&corner, triangle)),
+        )
     }
 
     /// The closest points of two boxes, the other one in a frame at `pose`; both points in the frame of this box.
@@ -81,14 +85,19 @@ impl SolidBox {
     }
 
     fn edges(&self) -> [[Vector; 2]; 12] {
-        EDGES.map(|ends| ends.map(|signs| self.centre + Vector::from(signs).component_mul(&self.half)))
+        EDGES.map(|ends| {
+            ends.map(|signs| self.centre + Vector::from(signs).component_mul(&self.half))
+        })
     }
 
     /// The corner that is nearest to the plane of a triangle.
     fn corner_towards(&self, [a, b, c]: &Triangle) -> Vector {
         let normal = (b - a).cross(&(c - a));
         let above = (self.centre - a).dot(&normal) > 0.0;
-        let reach = normal.zip_map(&self.half, |n, half| if (n > 0.0) == above { -half } else { half });
+        let reach = normal.zip_map(
+            &self.half,
+            |n, half| if (n > 0.0) == above { -half } else { half },
+        );
         self.centre + reach
     }
 

@@ -33,7 +33,10 @@ enum Cut {
 /// intersection test*, 1997).
 fn cut(a: &Triangle, b: &Triangle) -> Cut {
     let normals = [a, b].map(|t| (t[1] - t[0]).cross(&(t[2] - t[0])));
-    let rounding = ROUNDING * a.iter().chain(b).fold(0.0_f64, |most, p| most.max(p.amax()));
+    let rounding = ROUNDING
+        * a.iter()
+            .chain(b)
+            .fold(0.0_f64, |most, p| most.max(p.amax()));
     let has_area = normals.map(|normal| normal.norm_squared() > 0.0);
     match has_area {
         [true, true] => cut_triangles(a, b, &normals, rounding),
@@ -42,7 +45,11 @@ fn cut(a: &Triangle, b: &Triangle) -> Cut {
         [false, false] => {
             let ([a0, a1], [b0, b1]) = (ends(a), ends(b));
             let (p, q, squared) = closest_on_segments([&a0, &a1], [&b0, &b1]);
-            if squared <= rounding * rounding { Cut::Segment([p, q]) } else { Cut::Apart }
+            if squared <= rounding * rounding {
+                Cut::Segment([p, q])
+            } else {
+                Cut::Apart
+            }
         }
     }
 }
@@ -69,8 +76,18 @@ fn cut_triangles(a: &Triangle, b: &Triangle, normals: &[Vector; 2], rounding: f6
 }
 
 /// A segment against a triangle that has an area.
-fn cut_by_segment(triangle: &Triangle, normal: &Vector, segment: &[Vector; 2], rounding: f64) -> Cut {
-    let heights = heights(&[segment[0], segment[1], segment[1]], &triangle[0], normal, rounding);
+fn cut_by_segment(
+    triangle: &Triangle,
+    normal: &Vector,
+    segment: &[Vector; 2],
+    rounding: f64,
+) -> Cut {
+    let heights = heights(
+        &[segment[0], segment[1], segment[1]],
+        &triangle[0],
+        normal,
+        rounding,
+    );
     if on_one_side(&heights) {
         return Cut::Apart;
     }
@@ -79,14 +96,24 @@ fn cut_by_segment(triangle: &Triangle, normal: &Vector, segment: &[Vector; 2], r
     }
     let point = segment[0] + (segment[1] - segment[0]) * (heights[0] / (heights[0] - heights[1]));
     let over = closest_on_triangle(&point, triangle);
-    if (over - point).norm() <= rounding { Cut::Segment([point, point]) } else { Cut::Apart }
+    if (over - point).norm() <= rounding {
+        Cut::Segment([point, point])
+    } else {
+        Cut::Apart
+    }
 }
 
 /// The ends of a triangle without area: those of its longest edge.
 fn ends(flat: &Triangle) -> [Vector; 2] {
     let edges = [[flat[0], flat[1]], [flat[1], flat[2]], [flat[2], flat[0]]];
     let length = |edge: &[Vector; 2]| (edge[1] - edge[0]).norm_squared();
-    edges.into_iter().fold(edges[0], |longest, edge| if length(&edge) > length(&longest) { edge } else { longest })
+    edges.into_iter().fold(edges[0], |longest, edge| {
+        if length(&edge) > length(&longest) {
+            edge
+        } else {
+            longest
+        }
+    })
 }
 
 /// Heights of corners over a plane (m), exactly 0 within rounding.
@@ -107,12 +134,19 @@ fn on_one_side(heights: &[f64; 3]) -> bool {
 /// The part of a triangle that lies in a plane, by the heights of its corners over the plane, which are not all 0.
 fn piece(triangle: &Triangle, heights: &[f64; 3]) -> [Vector; 2] {
     let mut found = [None; 2];
-    let mut add = |point| if found[0].is_none() { found[0] = Some(point) } else { found[1] = Some(point) };
+    let mut add = |point| {
+        if found[0].is_none() {
+            found[0] = Some(point)
+        } else {
+            found[1] = Some(point)
+        }
+    };
     for (i, j) in [(0, 1), (1, 2), (2, 0)] {
         if heights[i] == 0.0 {
             add(triangle[i]);
         } else if heights[j] != 0.0 && (heights[i] < 0.0) != (heights[j] < 0.0) {
-            add(triangle[i] + (triangle[j] - triangle[i]) * (heights[i] / (heights[i] - heights[j])));
+            add(triangle[i]
+                + (triangle[j] - triangle[i]) * (heights[i] / (heights[i] - heights[j])));
         }
     }
     let first = found[0].unwrap_or(triangle[0]);
@@ -122,7 +156,11 @@ fn piece(triangle: &Triangle, heights: &[f64; 3]) -> [Vector; 2] {
 /// The common part of two segments of one line.
 fn overlap(a: &[Vector; 2], b: &[Vector; 2], rounding: f64) -> Option<[Vector; 2]> {
     let (along_a, along_b) = (a[1] - a[0], b[1] - b[0]);
-    let along = if along_a.norm_squared() >= along_b.norm_squared() { along_a } else { along_b };
+    let along = if along_a.norm_squared() >= along_b.norm_squared() {
+        along_a
+    } else {
+        along_b
+    };
     let length = along.norm();
     if length <= rounding {
         return ((a[0] - b[0]).norm() <= 2.0 * rounding).then_some([a[0], a[0]]);
@@ -146,7 +184,12 @@ fn overlap_in_plane(a: &Triangle, b: &Triangle, normal: &Vector) -> bool {
         let [a, b] = [a, b].map(|t| t.map(|p| p.dot(&axis)));
         let (low_a, high_a) = (a[0].min(a[1]).min(a[2]), a[0].max(a[1]).max(a[2]));
         let (low_b, high_b) = (b[0].min(b[1]).min(b[2]), b[0].max(b[1]).max(b[2]));
-        let rounding = ROUNDING * (low_a.abs().max(high_a.abs()).max(low_b.abs()).max(high_b.abs()));
+        let rounding = ROUNDING
+            * (low_a
+                .abs()
+                .max(high_a.abs())
+                .max(low_b.abs())
+                .max(high_b.abs()));
         low_a <= high_b + rounding && low_b <= high_a + rounding
     })
 }

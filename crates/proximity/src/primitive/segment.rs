@@ -25,14 +25,24 @@ pub fn closest_on_segment(p: &Vector, a: &Vector, b: &Vector) -> Vector {
 #[inline]
 pub fn closest_on_segments(a: [&Vector; 2], b: [&Vector; 2]) -> Pair {
     let (u, v, w) = (a[1] - a[0], b[1] - b[0], a[0] - b[0]);
-    let [uu, uv, vv, uw, vw] = [u.norm_squared(), u.dot(&v), v.norm_squared(), u.dot(&w), v.dot(&w)];
+    let [uu, uv, vv, uw, vw] = [
+        u.norm_squared(),
+        u.dot(&v),
+        v.norm_squared(),
+        u.dot(&w),
+        v.dot(&w),
+    ];
     if uu == 0.0 || vv == 0.0 {
         return closest_of_ends(a, b);
     }
     // Products of vectors lose less than differences of products of numbers.
     let across = u.cross(&v);
     let sine = across.norm_squared();
-    let free = if sine > 0.0 { (v.cross(&w).dot(&across) / sine).clamp(0.0, 1.0) } else { 0.0 };
+    let free = if sine > 0.0 {
+        (v.cross(&w).dot(&across) / sine).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     let t = (uv * free + vw) / vv;
     let (s, t) = if t < 0.0 {
         ((-uw / uu).clamp(0.0, 1.0), 0.0)
@@ -42,7 +52,11 @@ pub fn closest_on_segments(a: [&Vector; 2], b: [&Vector; 2]) -> Pair {
         (free, t)
     };
     let inner = pair(a[0] + u * s, b[0] + v * t);
-    if sine > NEARLY_PARALLEL * uu * vv { inner } else { nearer(inner, closest_of_ends(a, b)) }
+    if sine > NEARLY_PARALLEL * uu * vv {
+        inner
+    } else {
+        nearer(inner, closest_of_ends(a, b))
+    }
 }
 
 /// The closest pair that has an end of one of the segments.

@@ -7,11 +7,12 @@ use super::random::Random;
 use crate::items::{Compare, Items};
 use crate::placed::Transform;
 use crate::primitive::{
-    SolidBox, Triangle, Vector, closest_on_segments, closest_on_triangle, closest_on_triangles, triangles_touch,
+    SolidBox, Triangle, Vector, closest_on_segments, closest_on_triangle, closest_on_triangles,
+    triangles_touch,
 };
 use crate::{
-    Filter, Geometry, Placed, PointSet, TriangleMesh, Volume, VoxelGrid, cast_ray, closest_in_volume, distance,
-    intersection_segments, intersects,
+    Filter, Geometry, Placed, PointSet, TriangleMesh, Volume, VoxelGrid, cast_ray,
+    closest_in_volume, distance, intersection_segments, intersects,
 };
 
 const SIZES: [f64; 4] = [1e-6, 1.0, 1e3, 1e9];
@@ -35,7 +36,12 @@ impl Things {
     }
 
     fn geometries(&self) -> [Geometry<'_>; 4] {
-        [Geometry::Mesh(&self.mesh), Geometry::Voxels(&self.grid), Geometry::Points(&self.points), Geometry::Point]
+        [
+            Geometry::Mesh(&self.mesh),
+            Geometry::Voxels(&self.grid),
+            Geometry::Points(&self.points),
+            Geometry::Point,
+        ]
     }
 }
 
@@ -44,13 +50,17 @@ fn all_pairs<A: Items, B: Items>(a: &A, b: &B, place: &Transform) -> (f64, bool)
 where
     A::Item: Compare<B::Item>,
 {
-    let numbers = |tree: &crate::tree::Tree| tree.nodes.iter().map(|node| node.count).sum::<u32>() as usize;
+    let numbers =
+        |tree: &crate::tree::Tree| tree.nodes.iter().map(|node| node.count).sum::<u32>() as usize;
     let mut found = (f64::INFINITY, false);
     for i in 0..numbers(a.tree()) {
         for j in 0..numbers(b.tree()) {
             let other = A::Item::moved(&b.item(j), place);
             let squared = a.item(i).closest(&other).2;
-            found = (found.0.min(squared.sqrt()), found.1 || a.item(i).touches(&other));
+            found = (
+                found.0.min(squared.sqrt()),
+                found.1 || a.item(i).touches(&other),
+            );
         }
     }
     found
@@ -66,14 +76,26 @@ fn distance_and_intersection_equal_loops() {
     let mut random = Random::new(11);
     for round in 0..160 {
         let size = SIZES[round % 4];
-        let (things, others) = (Things::new(&mut random, size), Things::new(&mut random, size));
+        let (things, others) = (
+            Things::new(&mut random, size),
+            Things::new(&mut random, size),
+        );
         let apart = if round % 3 == 0 { 3.0 } else { 0.5 };
         let (pose, other) = (random.pose(size), random.pose(apart * size));
         let place = Transform::of(&pose.inv_mul(&other));
         let ask = |a: usize, b: usize| {
             let (a, b) = (things.geometries()[a], others.geometries()[b]);
-            let (a, b) = (Placed { geometry: a, pose }, Placed { geometry: b, pose: other });
-            (distance(a, b, f64::INFINITY).expect("no limit"), intersects(a, b))
+            let (a, b) = (
+                Placed { geometry: a, pose },
+                Placed {
+                    geometry: b,
+                    pose: other,
+                },
+            );
+            (
+                distance(a, b, f64::INFINITY).expect("no limit"),
+                intersects(a, b),
+            )
         };
         let cases = [
             (ask(0, 0), all_pairs(&things.mesh, &others.mesh, &place)),
@@ -87,7 +109,11 @@ fn distance_and_intersection_equal_loops() {
             near(closest.distance, expected, 1e-12 * size);
             let [p, q] = closest.points.map(Vector::from);
             near((p - q).norm(), expected, 1e-12 * size);
-            assert_eq!(intersect, touches && !matches!(i, 2 | 5), "pair {i} of round {round}");
+            assert_eq!(
+                intersect,
+                touches && !matches!(i, 2 | 5),
+                "pair {i} of round {round}"
+            );
         }
     }
 }
@@ -98,9 +124,24 @@ fn thresholds_are_strict_and_do_not_change_the_answer() {
     for _ in 0..100 {
         let (things, others) = (Things::new(&mut random, 1.0), Things::new(&mut random, 1.0));
         let (pose, other) = (random.pose(2.0), random.pose(2.0));
-        for (a, b) in [(0, 0), (0, 1), (1, 0), (2, 0), (3, 0), (1, 1), (3, 2), (3, 3)] {
-            let a = Placed { geometry: things.geometries()[a], pose };
-            let b = Placed { geometry: others.geometries()[b], pose: other };
+        for (a, b) in [
+            (0, 0),
+            (0, 1),
+            (1, 0),
+            (2, 0),
+            (3, 0),
+            (1, 1),
+            (3, 2),
+            (3, 3),
+        ] {
+            let a = Placed {
+                geometry: things.geometries()[a],
+                pose,
+            };
+            let b = Placed {
+                geometry: others.geometries()[b],
+                pose: other,
+            };
             let free = distance(a, b, f64::INFINITY).expect("no limit").distance;
             assert_eq!(distance(a, b, free * (1.0 - 1e-12)), None);
             let limited = distance(a, b, free * (1.0 + 1e-9) + 1e-100).expect("within the limit");
@@ -140,7 +181,11 @@ fn triangles_are_as_far_apart_as_a_search_finds() {
         }
         let (p, q, squared) = closest_on_triangles(&a, &b);
         let expected = searched(&a, &b);
-        assert!(squared.sqrt() <= expected + 1e-9, "round {round}: {} is not {expected}", squared.sqrt());
+        assert!(
+            squared.sqrt() <= expected + 1e-9,
+            "round {round}: {} is not {expected}",
+            squared.sqrt()
+        );
         near((closest_on_triangle(&p, &a) - p).norm(), 0.0, 1e-9);
         near((closest_on_triangle(&q, &b) - q).norm(), 0.0, 1e-9);
         assert_eq!(triangles_touch(&a, &b), squared == 0.0, "round {round}");
@@ -151,30 +196,61 @@ fn triangles_are_as_far_apart_as_a_search_finds() {
 fn boxes_are_as_far_from_triangles_and_boxes_as_their_faces() {
     let mut random = Random::new(14);
     for _ in 0..300 {
-        let solid = SolidBox { centre: random.point(1.0).into(), half: Vector::from(random.point(0.4)).abs() };
+        let solid = SolidBox {
+            centre: random.point(1.0).into(),
+            half: Vector::from(random.point(0.4)).abs(),
+        };
         let triangle = [(); 3].map(|()| Vector3::from(random.point(2.0)));
         let surface = cuboid(&solid);
-        let placed = |mesh| Placed { geometry: Geometry::Mesh(mesh), pose: Pose::identity() };
+        let placed = |mesh| Placed {
+            geometry: Geometry::Mesh(mesh),
+            pose: Pose::identity(),
+        };
         let flat = TriangleMesh::new(&triangle.map(|p| p.into()), &[[0, 1, 2]]).expect("an area");
-        let expected = distance(placed(&surface), placed(&flat), f64::INFINITY).expect("no limit").distance;
+        let expected = distance(placed(&surface), placed(&flat), f64::INFINITY)
+            .expect("no limit")
+            .distance;
         let is_inside = solid.closest_to_point(&triangle[0]) == triangle[0];
-        near(solid.closest_to_triangle(&triangle).2.sqrt(), if is_inside { 0.0 } else { expected }, 1e-9);
-        let other = SolidBox { centre: random.point(1.0).into(), half: Vector::from(random.point(0.4)).abs() };
+        near(
+            solid.closest_to_triangle(&triangle).2.sqrt(),
+            if is_inside { 0.0 } else { expected },
+            1e-9,
+        );
+        let other = SolidBox {
+            centre: random.point(1.0).into(),
+            half: Vector::from(random.point(0.4)).abs(),
+        };
         let pose = random.pose(1.0);
         let moved = cuboid(&other);
-        let placed_other = Placed { geometry: Geometry::Mesh(&moved), pose };
-        let expected = distance(placed(&surface), placed_other, f64::INFINITY).expect("no limit").distance;
+        let placed_other = Placed {
+            geometry: Geometry::Mesh(&moved),
+            pose,
+        };
+        let expected = distance(placed(&surface), placed_other, f64::INFINITY)
+            .expect("no limit")
+            .distance;
         let place = Transform::of(&pose);
-        let contains = solid.closest_to_point(&place.point(&other.centre)) == place.point(&other.centre)
-            || other.closest_to_point(&place.inverse().point(&solid.centre)) == place.inverse().point(&solid.centre);
-        near(solid.closest_to_box(&other, &pose).2.sqrt(), if contains { 0.0 } else { expected }, 1e-9);
+        let contains = solid.closest_to_point(&place.point(&other.centre))
+            == place.point(&other.centre)
+            || other.closest_to_point(&place.inverse().point(&solid.centre))
+                == place.inverse().point(&solid.centre);
+        near(
+            solid.closest_to_box(&other, &pose).2.sqrt(),
+            if contains { 0.0 } else { expected },
+            1e-9,
+        );
     }
 }
 
 fn cuboid(solid: &SolidBox) -> TriangleMesh {
     let size = (solid.half * 2.0).into();
-    let mesh = geometry::primitive::tessellate(geometry::PrimitiveKind::Cuboid, size, false).expect("finite extents");
-    let vertices: Vec<[f64; 3]> = mesh.vertices.iter().map(|v| (Vector::from(*v) + solid.centre).into()).collect();
+    let mesh = geometry::primitive::tessellate(geometry::PrimitiveKind::Cuboid, size, false)
+        .expect("finite extents");
+    let vertices: Vec<[f64; 3]> = mesh
+        .vertices
+        .iter()
+        .map(|v| (Vector::from(*v) + solid.centre).into())
+        .collect();
     TriangleMesh::new(&vertices, &mesh.triangles).expect("faces")
 }
 
@@ -184,7 +260,10 @@ fn rays_hit_what_a_loop_hits() {
     for round in 0..400 {
         let size = SIZES[round % 4];
         let mesh = random.mesh(40, size);
-        let on = Placed { geometry: Geometry::Mesh(&mesh), pose: random.pose(size) };
+        let on = Placed {
+            geometry: Geometry::Mesh(&mesh),
+            pose: random.pose(size),
+        };
         let (sensor, direction) = (random.pose(2.0 * size), random.point(1.0));
         let filter = Filter {
             front: random.below(3) > 0,
@@ -193,19 +272,38 @@ fn rays_hit_what_a_loop_hits() {
             any: false,
         };
         let hit = cast_ray(on, &sensor, direction, [0.1 * size, 4.0 * size], &filter);
-        let expected = mesh.triangles.iter().filter_map(|t| plain_ray(t, &on, &sensor, direction, size, &filter));
+        let expected = mesh
+            .triangles
+            .iter()
+            .filter_map(|t| plain_ray(t, &on, &sensor, direction, size, &filter));
         let expected = expected.fold(f64::INFINITY, f64::min);
         assert_eq!(hit.is_some(), expected.is_finite(), "round {round}");
         if let Some(hit) = hit {
             near(hit.distance, expected, 1e-9 * size);
-            let quick = cast_ray(on, &sensor, direction, [0.1 * size, 4.0 * size], &Filter { any: true, ..filter });
+            let quick = cast_ray(
+                on,
+                &sensor,
+                direction,
+                [0.1 * size, 4.0 * size],
+                &Filter {
+                    any: true,
+                    ..filter
+                },
+            );
             assert!(quick.is_some_and(|quick| quick.distance >= hit.distance));
         }
     }
 }
 
 /// Cramer's rule for where a ray meets a triangle.
-fn plain_ray(t: &Triangle, on: &Placed, sensor: &Pose, way: [f64; 3], size: f64, filter: &Filter) -> Option<f64> {
+fn plain_ray(
+    t: &Triangle,
+    on: &Placed,
+    sensor: &Pose,
+    way: [f64; 3],
+    size: f64,
+    filter: &Filter,
+) -> Option<f64> {
     let place = Transform::of(&sensor.inv_mul(&on.pose));
     let [a, b, c] = t.map(|p| place.point(&p));
     let direction = Vector::from(way).normalize();
@@ -215,9 +313,12 @@ fn plain_ray(t: &Triangle, on: &Placed, sensor: &Pose, way: [f64; 3], size: f64,
     let normal = (b - a).cross(&(c - a)).normalize();
     let is_front = normal.dot(&direction) < 0.0;
     let seen = if is_front { filter.front } else { filter.back };
-    let steep = filter.max_angle.is_none_or(|angle| normal.dot(&direction).abs() >= angle.cos());
+    let steep = filter
+        .max_angle
+        .is_none_or(|angle| normal.dot(&direction).abs() >= angle.cos());
     let inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
-    (seen && steep && inside && distance >= 0.1 * size && distance <= 4.0 * size).then_some(distance)
+    (seen && steep && inside && distance >= 0.1 * size && distance <= 4.0 * size)
+        .then_some(distance)
 }
 
 #[test]
@@ -226,10 +327,17 @@ fn no_ray_passes_through_a_closed_surface() {
     let mut random = Random::new(16);
     for round in 0..2000 {
         let pose = random.pose(3.0);
-        let on = Placed { geometry: Geometry::Mesh(&ball), pose };
+        let on = Placed {
+            geometry: Geometry::Mesh(&ball),
+            pose,
+        };
         // Through vertices and edge midpoints, from the centre.
         let triangle = ball.triangles[random.below(ball.triangles.len() as u32) as usize];
-        let target = if round % 2 == 0 { triangle[0] } else { (triangle[1] + triangle[2]) * 0.5 };
+        let target = if round % 2 == 0 {
+            triangle[0]
+        } else {
+            (triangle[1] + triangle[2]) * 0.5
+        };
         let sensor = pose;
         let hit = cast_ray(on, &sensor, target.into(), [0.0, 10.0], &Filter::default());
         assert!(hit.is_some(), "round {round}");
@@ -239,9 +347,20 @@ fn no_ray_passes_through_a_closed_surface() {
 fn random_volume(random: &mut Random, size: f64) -> Volume {
     let piece = |random: &mut Random| {
         let planes = 1 + random.below(6);
-        (0..planes).map(|_| [random.number(), random.number(), random.number(), 0.5 * size * random.number()]).collect()
+        (0..planes)
+            .map(|_| {
+                [
+                    random.number(),
+                    random.number(),
+                    random.number(),
+                    0.5 * size * random.number(),
+                ]
+            })
+            .collect()
     };
-    Volume { pieces: (0..1 + random.below(3)).map(|_| piece(random)).collect() }
+    Volume {
+        pieces: (0..1 + random.below(3)).map(|_| piece(random)).collect(),
+    }
 }
 
 #[test]
@@ -250,7 +369,10 @@ fn volumes_see_the_nearest_of_many_points_on_triangles() {
     for round in 0..120 {
         let size = SIZES[round % 4];
         let mesh = random.mesh(20, size);
-        let on = Placed { geometry: Geometry::Mesh(&mesh), pose: random.pose(size) };
+        let on = Placed {
+            geometry: Geometry::Mesh(&mesh),
+            pose: random.pose(size),
+        };
         let (sensor, volume) = (random.pose(size), random_volume(&mut random, size));
         let place = sensor.inv_mul(&on.pose);
         let hit = closest_in_volume(on, &sensor, &volume, f64::INFINITY, &Filter::default());
@@ -259,7 +381,9 @@ fn volumes_see_the_nearest_of_many_points_on_triangles() {
             for i in 0..=40 {
                 for j in 0..=40 - i {
                     let (u, v) = (f64::from(i) / 40.0, f64::from(j) / 40.0);
-                    let p = triangle[0] + (triangle[1] - triangle[0]) * u + (triangle[2] - triangle[0]) * v;
+                    let p = triangle[0]
+                        + (triangle[1] - triangle[0]) * u
+                        + (triangle[2] - triangle[0]) * v;
                     let p = (place * nalgebra::Point3::from(p)).coords;
                     if is_inside(&volume, &p, 0.0) {
                         expected = expected.min(p.norm());
@@ -274,7 +398,10 @@ fn volumes_see_the_nearest_of_many_points_on_triangles() {
                 assert!(is_inside(&volume, &p, 1e-9 * size), "round {round}");
                 assert!(hit.distance <= expected + 1e-9 * size, "round {round}");
                 let back = (place.inverse() * nalgebra::Point3::from(p)).coords;
-                let off = mesh.triangles.iter().map(|t| (closest_on_triangle(&back, t) - back).norm());
+                let off = mesh
+                    .triangles
+                    .iter()
+                    .map(|t| (closest_on_triangle(&back, t) - back).norm());
                 near(off.fold(f64::INFINITY, f64::min), 0.0, 1e-9 * size);
             }
             None => assert_eq!(expected, f64::INFINITY, "round {round}"),
@@ -292,14 +419,27 @@ fn contours_are_on_both_meshes() {
     let mut random = Random::new(18);
     for _ in 0..40 {
         let (mesh, other) = (random.mesh(30, 1.0), random.mesh(30, 1.0));
-        let a = Placed { geometry: Geometry::Mesh(&mesh), pose: random.pose(0.3) };
-        let b = Placed { geometry: Geometry::Mesh(&other), pose: random.pose(0.3) };
+        let a = Placed {
+            geometry: Geometry::Mesh(&mesh),
+            pose: random.pose(0.3),
+        };
+        let b = Placed {
+            geometry: Geometry::Mesh(&other),
+            pose: random.pose(0.3),
+        };
         let segments = intersection_segments(a, b);
         assert_eq!(!segments.is_empty(), intersects(a, b));
         for end in segments.as_flattened() {
-            let p = Placed { geometry: Geometry::Point, pose: Pose::translation(end[0], end[1], end[2]) };
+            let p = Placed {
+                geometry: Geometry::Point,
+                pose: Pose::translation(end[0], end[1], end[2]),
+            };
             for on in [a, b] {
-                near(distance(on, p, f64::INFINITY).expect("no limit").distance, 0.0, 1e-9);
+                near(
+                    distance(on, p, f64::INFINITY).expect("no limit").distance,
+                    0.0,
+                    1e-9,
+                );
             }
         }
     }
@@ -309,9 +449,15 @@ fn contours_are_on_both_meshes() {
 fn nearly_parallel_segments_are_compared_well() {
     let mut random = Random::new(19);
     for _ in 0..2000 {
-        let (a, b) = (Vector::from(random.point(1.0)), Vector::from(random.point(1.0)));
+        let (a, b) = (
+            Vector::from(random.point(1.0)),
+            Vector::from(random.point(1.0)),
+        );
         let small = 10.0_f64.powi(-(random.below(14) as i32));
-        let (c, d) = (a + Vector::from(random.point(small)), b + Vector::from(random.point(small)));
+        let (c, d) = (
+            a + Vector::from(random.point(small)),
+            b + Vector::from(random.point(small)),
+        );
         let found = closest_on_segments([&a, &b], [&c, &d]).2.sqrt();
         let expected = minimum(|t| {
             let p = a + (b - a) * t;
@@ -325,24 +471,74 @@ fn nearly_parallel_segments_are_compared_well() {
 fn what_is_not_finite_finds_nothing() {
     let mut random = Random::new(20);
     let (things, others) = (Things::new(&mut random, 1.0), Things::new(&mut random, 1.0));
-    let filter = Filter { max_angle: Some(f64::NAN), ..Filter::default() };
+    let filter = Filter {
+        max_angle: Some(f64::NAN),
+        ..Filter::default()
+    };
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
         let wrong = Pose::translation(bad, 0.0, 0.0);
-        for (geometry, other) in things.geometries().into_iter().zip(others.geometries().into_iter().rev()) {
-            let (a, b) = (Placed { geometry, pose: wrong }, Placed { geometry: other, pose: Pose::identity() });
-            assert_eq!((distance(a, b, f64::INFINITY), distance(b, a, f64::INFINITY)), (None, None));
-            assert_eq!((distance(b, b, f64::NAN), distance(b, b, -1.0)), (None, None));
+        for (geometry, other) in things
+            .geometries()
+            .into_iter()
+            .zip(others.geometries().into_iter().rev())
+        {
+            let (a, b) = (
+                Placed {
+                    geometry,
+                    pose: wrong,
+                },
+                Placed {
+                    geometry: other,
+                    pose: Pose::identity(),
+                },
+            );
+            assert_eq!(
+                (distance(a, b, f64::INFINITY), distance(b, a, f64::INFINITY)),
+                (None, None)
+            );
+            assert_eq!(
+                (distance(b, b, f64::NAN), distance(b, b, -1.0)),
+                (None, None)
+            );
             assert!(!intersects(a, b) && intersection_segments(a, b).is_empty());
-            let everything = Volume { pieces: vec![Vec::new()] };
-            assert_eq!(cast_ray(a, &Pose::identity(), [0.0, 0.0, 1.0], [0.0, 1e9], &filter), None);
-            assert_eq!(cast_ray(b, &wrong, [0.0, 0.0, 1.0], [0.0, 1e9], &filter), None);
-            assert_eq!(closest_in_volume(a, &Pose::identity(), &everything, f64::INFINITY, &filter), None);
+            let everything = Volume {
+                pieces: vec![Vec::new()],
+            };
+            assert_eq!(
+                cast_ray(a, &Pose::identity(), [0.0, 0.0, 1.0], [0.0, 1e9], &filter),
+                None
+            );
+            assert_eq!(
+                cast_ray(b, &wrong, [0.0, 0.0, 1.0], [0.0, 1e9], &filter),
+                None
+            );
+            assert_eq!(
+                closest_in_volume(a, &Pose::identity(), &everything, f64::INFINITY, &filter),
+                None
+            );
             for way in [[0.0; 3], [f64::NAN; 3], [f64::INFINITY, 0.0, 0.0]] {
-                assert_eq!(cast_ray(b, &Pose::identity(), way, [0.0, 1e9], &Filter::default()), None);
+                assert_eq!(
+                    cast_ray(b, &Pose::identity(), way, [0.0, 1e9], &Filter::default()),
+                    None
+                );
             }
-            assert_eq!(cast_ray(b, &Pose::identity(), [1.0; 3], [f64::NAN; 2], &Filter::default()), None);
-            let crooked = Volume { pieces: vec![vec![[f64::NAN, 0.0, 0.0, 0.0]]] };
-            assert_eq!(closest_in_volume(b, &Pose::identity(), &crooked, f64::INFINITY, &filter), None);
+            assert_eq!(
+                cast_ray(
+                    b,
+                    &Pose::identity(),
+                    [1.0; 3],
+                    [f64::NAN; 2],
+                    &Filter::default()
+                ),
+                None
+            );
+            let crooked = Volume {
+                pieces: vec![vec![[f64::NAN, 0.0, 0.0, 0.0]]],
+            };
+            assert_eq!(
+                closest_in_volume(b, &Pose::identity(), &crooked, f64::INFINITY, &filter),
+                None
+            );
         }
     }
 }
@@ -352,17 +548,37 @@ fn geometries_leave_out_what_is_degenerate() {
     assert!(TriangleMesh::new(&[], &[]).is_none());
     assert!(TriangleMesh::new(&[[0.0; 3]; 3], &[[0, 1, 2]]).is_none());
     assert!(TriangleMesh::new(&[[0., 0., 0.], [1., 0., 0.], [2., 0., 0.]], &[[0, 1, 2]]).is_none());
-    assert!(TriangleMesh::new(&[[f64::NAN; 3], [1., 0., 0.], [0., 1., 0.]], &[[0, 1, 2]]).is_none());
+    assert!(
+        TriangleMesh::new(&[[f64::NAN; 3], [1., 0., 0.], [0., 1., 0.]], &[[0, 1, 2]]).is_none()
+    );
     assert!(TriangleMesh::new(&[[0.0; 3]], &[[0, 1, 2]]).is_none());
-    let mixed = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [f64::INFINITY, 0., 0.]];
-    assert_eq!(TriangleMesh::new(&mixed, &[[0, 1, 2], [0, 1, 3], [0, 0, 1]]).map(|mesh| mesh.len()), Some(1));
+    let mixed = [
+        [0., 0., 0.],
+        [1., 0., 0.],
+        [0., 1., 0.],
+        [f64::INFINITY, 0., 0.],
+    ];
+    assert_eq!(
+        TriangleMesh::new(&mixed, &[[0, 1, 2], [0, 1, 3], [0, 0, 1]]).map(|mesh| mesh.len()),
+        Some(1)
+    );
     assert!(VoxelGrid::new(0.0, [[0.0; 3]].into_iter()).is_none());
     assert!(VoxelGrid::new(f64::NAN, [[0.0; 3]].into_iter()).is_none());
     assert!(VoxelGrid::new(0.1, [[f64::NAN; 3]].into_iter()).is_none());
     assert!(PointSet::new(&[[f64::NAN; 3]]).is_none());
     let same = vec![[0.5; 3]; 3000];
     let points = PointSet::new(&same).expect("points");
-    let placed = Placed { geometry: Geometry::Points(&points), pose: Pose::identity() };
-    let origin = Placed { geometry: Geometry::Point, pose: Pose::identity() };
-    near(distance(placed, origin, 1.0).expect("near").distance, 0.75_f64.sqrt(), 1e-12);
+    let placed = Placed {
+        geometry: Geometry::Points(&points),
+        pose: Pose::identity(),
+    };
+    let origin = Placed {
+        geometry: Geometry::Point,
+        pose: Pose::identity(),
+    };
+    near(
+        distance(placed, origin, 1.0).expect("near").distance,
+        0.75_f64.sqrt(),
+        1e-12,
+    );
 }

@@ -21,11 +21,17 @@ pub fn cube(size: f64) -> TriangleMesh {
 }
 
 pub fn at(mesh: &TriangleMesh, x: f64, y: f64, z: f64) -> Placed<'_> {
-    Placed { geometry: Geometry::Mesh(mesh), pose: Pose::translation(x, y, z) }
+    Placed {
+        geometry: Geometry::Mesh(mesh),
+        pose: Pose::translation(x, y, z),
+    }
 }
 
 pub fn point(x: f64, y: f64, z: f64) -> Placed<'static> {
-    Placed { geometry: Geometry::Point, pose: Pose::translation(x, y, z) }
+    Placed {
+        geometry: Geometry::Point,
+        pose: Pose::translation(x, y, z),
+    }
 }
 
 #[track_caller]

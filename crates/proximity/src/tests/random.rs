@@ -28,13 +28,24 @@ impl Random {
 
     pub fn pose(&mut self, size: f64) -> Pose {
         let [x, y, z] = self.point(size);
-        pose_from_array(&[x, y, z, self.number(), self.number(), self.number(), self.number()])
+        pose_from_array(&[
+            x,
+            y,
+            z,
+            self.number(),
+            self.number(),
+            self.number(),
+            self.number(),
+        ])
     }
 
     /// Triangles anywhere, some of which share corners, are flat or have one corner only.
     pub fn mesh(&mut self, triangles: u32, size: f64) -> TriangleMesh {
         let vertices: Vec<[f64; 3]> = (0..triangles + 3).map(|_| self.point(size)).collect();
-        let indices: Vec<[u32; 3]> = (0..triangles).map(|_| [(); 3].map(|()| self.below(triangles + 3))).collect();
-        TriangleMesh::new(&vertices, &[&indices[..], &[[0, 1, 2]]].concat()).expect("the last triangle has an area")
+        let indices: Vec<[u32; 3]> = (0..triangles)
+            .map(|_| [(); 3].map(|()| self.below(triangles + 3)))
+            .collect();
+        TriangleMesh::new(&vertices, &[&indices[..], &[[0, 1, 2]]].concat())
+            .expect("the last triangle has an area")
     }
 }

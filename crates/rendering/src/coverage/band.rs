@@ -66,26 +66,46 @@ impl Band {
     pub fn draw(&mut self, face: &Face, number: u32) {
         face.cover(self.rows.clone(), |block| {
             let (at, closeness) = (self.place(block), face.closeness_of_eight(self.ray(block)));
-            let (old_closeness, old_faces) = (eight(&mut self.closeness, at), eight(&mut self.faces, at));
+            let (old_closeness, old_faces) =
+                (eight(&mut self.closeness, at), eight(&mut self.faces, at));
             let mask = closeness.simd_gt(in_front_of(*old_closeness)) & block.mask;
             if mask.to_bitmask() != 0 {
-                *old_closeness = mask.select(closeness, f32x8::from(*old_closeness)).to_array();
+                *old_closeness = mask
+                    .select(closeness, f32x8::from(*old_closeness))
+                    .to_array();
                 let mask: u32x8 = bytemuck::cast(mask);
-                *old_faces = mask.select(u32x8::splat(number), u32x8::from(*old_faces)).to_array();
+                *old_faces = mask
+                    .select(u32x8::splat(number), u32x8::from(*old_faces))
+                    .to_array();
             }
         });
     }
 
     /// Lists the pixels where a face is closer than what is there, or all of its pixels.
-    pub fn collect(&mut self, face: &Face, number: u32, is_overlay: bool, fragments: &mut Vec<Fragment>) {
+    pub fn collect(
+        &mut self,
+        face: &Face,
+        number: u32,
+        is_overlay: bool,
+        fragments: &mut Vec<Fragment>,
+    ) {
         face.cover(self.rows.clone(), |block| {
             let (at, closeness) = (self.place(block), face.closeness_of_eight(self.ray(block)));
-            let limit = if is_overlay { f32x8::splat(-1.0) } else { in_front_of(*eight(&mut self.closeness, at)) };
+            let limit = if is_overlay {
+                f32x8::splat(-1.0)
+            } else {
+                in_front_of(*eight(&mut self.closeness, at))
+            };
             let mask = (closeness.simd_gt(limit) & block.mask).to_bitmask();
             for lane in (0..8).filter(|lane| mask >> lane & 1 == 1 && block.x + lane < self.width) {
                 let order = closeness.to_array()[lane].to_bits() | u32::from(is_overlay) << 31;
                 let (row, column) = ((block.y - self.rows.start) as u32, (block.x + lane) as u32);
-                fragments.push(Fragment { row, column, order, face: std::cmp::Reverse(number) });
+                fragments.push(Fragment {
+                    row,
+                    column,
+                    order,
+                    face: std::cmp::Reverse(number),
+                });
             }
         });
     }
@@ -107,5 +127,7 @@ fn in_front_of(closeness: [f32; 8]) -> f32x8 {
 }
 
 fn eight<T>(pixels: &mut [T], at: usize) -> &mut [T; 8] {
-    pixels[at..].first_chunk_mut().expect("rows have room for eight pixels more")
+    pixels[at..]
+        .first_chunk_mut()
+        .expect("rows have room for eight pixels more")
 }

@@ -33,7 +33,9 @@ impl Plane {
     }
 
     pub fn is_finite(&self) -> bool {
-        [self.a, self.b, self.c].iter().all(|number| number.is_finite())
+        [self.a, self.b, self.c]
+            .iter()
+            .all(|number| number.is_finite())
     }
 }
 
@@ -93,12 +95,16 @@ impl Face {
     pub fn closeness_of_eight(&self, ray: [f64; 2]) -> f32x8 {
         let start = f32x8::splat(self.closeness.at(ray) as f32);
         let closeness = start + f32x8::splat(self.closeness.a as f32) * LANES;
-        closeness.fast_max(f32x8::splat(self.range[0])).fast_min(f32x8::splat(self.range[1]))
+        closeness
+            .fast_max(f32x8::splat(self.range[0]))
+            .fast_min(f32x8::splat(self.range[1]))
     }
 
     /// Calls `emit` for the pixels that the face covers in some rows, from the bottom up, from the left to the right.
     pub fn cover(&self, rows: Range<usize>, emit: impl FnMut(Block)) {
-        let [columns, own_rows] = self.bounds.map(|[first, last]| [usize::from(first), usize::from(last)]);
+        let [columns, own_rows] = self
+            .bounds
+            .map(|[first, last]| [usize::from(first), usize::from(last)]);
         let rows = own_rows[0].max(rows.start)..(own_rows[1] + 1).min(rows.end);
         if rows.is_empty() {
             return;
@@ -109,10 +115,22 @@ impl Face {
         }
     }
 
-    fn cover_small(&self, [first, last]: [usize; 2], rows: Range<usize>, mut emit: impl FnMut(Block)) {
+    fn cover_small(
+        &self,
+        [first, last]: [usize; 2],
+        rows: Range<usize>,
+        mut emit: impl FnMut(Block),
+    ) {
         let [a, b, c] = self.corners;
-        let pixel = [first as i32 * UNIT + UNIT / 2, rows.start as i32 * UNIT + UNIT / 2];
-        let edges = [SmallEdge::new(a, b, pixel), SmallEdge::new(b, c, pixel), SmallEdge::new(c, a, pixel)];
+        let pixel = [
+            first as i32 * UNIT + UNIT / 2,
+            rows.start as i32 * UNIT + UNIT / 2,
+        ];
+        let edges = [
+            SmallEdge::new(a, b, pixel),
+            SmallEdge::new(b, c, pixel),
+            SmallEdge::new(c, a, pixel),
+        ];
         if last - first < 4 {
             return cover_narrow(&edges, [first, last], rows, emit);
         }
@@ -123,7 +141,11 @@ impl Face {
             for x in (first..=last).step_by(8) {
                 let inside = (at[0] | at[1] | at[2]).simd_gt(i32x8::splat(-1));
                 if inside.to_bitmask() != 0 {
-                    emit(Block { x, y, mask: bytemuck::cast(inside) });
+                    emit(Block {
+                        x,
+                        y,
+                        mask: bytemuck::cast(inside),
+                    });
                 }
                 (0..3).for_each(|i| at[i] += edges[i].column * 8);
             }
@@ -135,10 +157,16 @@ impl Face {
         let edges = self.edges();
         for y in rows {
             let (mut first, mut last) = (columns[0] as i64, columns[1] as i64);
-            edges.iter().for_each(|edge| edge.clip_row(y as i64, &mut first, &mut last));
+            edges
+                .iter()
+                .for_each(|edge| edge.clip_row(y as i64, &mut first, &mut last));
             for x in (first..=last).step_by(8) {
                 let mask = LANES.simd_le(f32x8::splat((last - x) as f32));
-                emit(Block { x: x as usize, y, mask });
+                emit(Block {
+                    x: x as usize,
+                    y,
+                    mask,
+                });
             }
         }
     }
@@ -165,7 +193,10 @@ impl Edge {
         let (dx, dy) = (i64::from(dx), i64::from(dy));
         let [x, y] = from.map(|at| i64::from(UNIT / 2 - at));
         let step = [-dy, dx].map(|step| step * i64::from(UNIT));
-        Self { step, start: dx * y - dy * x - exclusive }
+        Self {
+            step,
+            start: dx * y - dy * x - exclusive,
+        }
     }
 
     fn at(&self, x: i64, y: i64) -> i64 {
@@ -197,8 +228,13 @@ impl SmallEdge {
     /// Within the bounds of a small triangle nothing exceeds 2^30.
     fn new(from: [i32; 2], to: [i32; 2], pixel: [i32; 2]) -> Self {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-        let start = dx * (pixel[1] - from[1]) - dy * (pixel[0] - from[0]) - i32::from(!owns_border(dx, dy));
-        Self { start, column: -dy * UNIT, row: dx * UNIT }
+        let start =
+            dx * (pixel[1] - from[1]) - dy * (pixel[0] - from[0]) - i32::from(!owns_border(dx, dy));
+        Self {
+            start,
+            column: -dy * UNIT,
+            row: dx * UNIT,
+        }
     }
 }
 
@@ -208,7 +244,12 @@ fn owns_border(dx: i32, dy: i32) -> bool {
 }
 
 /// Up to four columns, pixel by pixel: most triangles of a fine mesh are so narrow.
-fn cover_narrow(edges: &[SmallEdge; 3], [first, last]: [usize; 2], rows: Range<usize>, mut emit: impl FnMut(Block)) {
+fn cover_narrow(
+    edges: &[SmallEdge; 3],
+    [first, last]: [usize; 2],
+    rows: Range<usize>,
+    mut emit: impl FnMut(Block),
+) {
     let [mut a, mut b, mut c] = edges.map(|edge| edge.start);
     for y in rows {
         let mut bits = 0;
@@ -217,7 +258,11 @@ fn cover_narrow(edges: &[SmallEdge; 3], [first, last]: [usize; 2], rows: Range<u
             bits |= usize::from(at(a, 0) | at(b, 1) | at(c, 2) >= 0) << lane;
         }
         if bits != 0 {
-            emit(Block { x: first, y, mask: NARROW[bits] });
+            emit(Block {
+                x: first,
+                y,
+                mask: NARROW[bits],
+            });
         }
         (a, b, c) = (a + edges[0].row, b + edges[1].row, c + edges[2].row);
     }

@@ -33,12 +33,20 @@ impl Mesh {
             for triangle in &self.triangles[cluster.triangles.clone()] {
                 let corners = triangle.corners.map(|corner| vertices[usize::from(corner)]);
                 let normal = face_normal(&corners);
-                for ends in [[corners[0], corners[1]], [corners[1], corners[2]], [corners[2], corners[0]]] {
+                for ends in [
+                    [corners[0], corners[1]],
+                    [corners[1], corners[2]],
+                    [corners[2], corners[0]],
+                ] {
                     match places.get(&key(&ends)) {
                         Some(&at) => edges_meet(&mut edges[at as usize], normal),
                         None => {
                             places.insert(key(&ends), edges.len() as u32);
-                            edges.push(MeshEdge { ends, normals: [Some(normal), None], cosine: -2.0 });
+                            edges.push(MeshEdge {
+                                ends,
+                                normals: [Some(normal), None],
+                                cosine: -2.0,
+                            });
                         }
                     }
                 }
@@ -50,7 +58,9 @@ impl Mesh {
 
 fn edges_meet(edge: &mut MeshEdge, normal: [f32; 3]) {
     let is_second = edge.normals[1].is_none();
-    let cosine = edge.normals[0].map_or(-2.0, |first| Vector3::from(first).dot(&Vector3::from(normal)));
+    let cosine = edge.normals[0].map_or(-2.0, |first| {
+        Vector3::from(first).dot(&Vector3::from(normal))
+    });
     // Not more than 1 by rounding: all edges are drawn where the limit is an angle of zero.
     edge.cosine = if is_second { cosine.min(1.0) } else { -2.0 };
     edge.normals[1] = edge.normals[1].or(Some(normal));

@@ -62,16 +62,32 @@ impl Mesh {
     /// coordinates (likewise). Without as many normals as corners, triangles are flat; without as many texture coordinates, these are
     /// zero. Triangles without area, with numbers that are not finite, or with vertices that do not exist, are left out; None where
     /// nothing remains.
-    pub fn new(vertices: &[[f64; 3]], triangles: &[[u32; 3]], normals: &[[f64; 3]], uv: &[[f32; 2]]) -> Option<Self> {
-        let source = Source { vertices, triangles, normals, uv };
-        let mut order: Vec<usize> = (0..triangles.len()).filter(|at| source.has_area(*at)).collect();
+    pub fn new(
+        vertices: &[[f64; 3]],
+        triangles: &[[u32; 3]],
+        normals: &[[f64; 3]],
+        uv: &[[f32; 2]],
+    ) -> Option<Self> {
+        let source = Source {
+            vertices,
+            triangles,
+            normals,
+            uv,
+        };
+        let mut order: Vec<usize> = (0..triangles.len())
+            .filter(|at| source.has_area(*at))
+            .collect();
         if order.is_empty() {
             return None;
         }
         if order.len() > CLUSTER_TRIANGLES {
             source.sort_along_curve(&mut order);
         }
-        let ball = Ball::around(order.iter().flat_map(|at| source.corners(*at).unwrap_or_default()));
+        let ball = Ball::around(
+            order
+                .iter()
+                .flat_map(|at| source.corners(*at).unwrap_or_default()),
+        );
         let closed = source.is_closed(&order, ball.centre.into());
         let mut mesh = Self {
             vertices: Vec::new(),
@@ -82,7 +98,9 @@ impl Mesh {
             edges: OnceLock::new(),
             tree: OnceLock::new(),
         };
-        order.chunks(CLUSTER_TRIANGLES).for_each(|chunk| mesh.add_cluster(&source, chunk));
+        order
+            .chunks(CLUSTER_TRIANGLES)
+            .for_each(|chunk| mesh.add_cluster(&source, chunk));
         Some(mesh)
     }
 
@@ -108,8 +126,15 @@ impl Mesh {
             self.triangles.push(source.triangle(at, corners));
         }
         let ball = Ball::around(self.vertices[first_vertex..].iter().copied());
-        let (vertices, triangles) = (first_vertex..self.vertices.len(), first_triangle..self.triangles.len());
-        self.clusters.push(Cluster { vertices, triangles, ball });
+        let (vertices, triangles) = (
+            first_vertex..self.vertices.len(),
+            first_triangle..self.triangles.len(),
+        );
+        self.clusters.push(Cluster {
+            vertices,
+            triangles,
+            ball,
+        });
     }
 }
 
@@ -124,8 +149,13 @@ impl Ball {
             }
         }
         let centre = Vector3::from(low) + (Vector3::from(high) - Vector3::from(low)) / 2.0;
-        let radius = points.map(|point| (Vector3::from(point) - centre).norm()).fold(0.0, f64::max);
-        Self { centre: centre.into(), radius: radius * (1.0 + 1e-9) }
+        let radius = points
+            .map(|point| (Vector3::from(point) - centre).norm())
+            .fold(0.0, f64::max);
+        Self {
+            centre: centre.into(),
+            radius: radius * (1.0 + 1e-9),
+        }
     }
 }
 
@@ -151,23 +181,35 @@ impl Source<'_> {
     }
 
     fn has_area(&self, at: usize) -> bool {
-        self.cross(at).is_some_and(|cross| cross.norm_squared() > 0.0 && cross.norm_squared().is_finite())
+        self.cross(at)
+            .is_some_and(|cross| cross.norm_squared() > 0.0 && cross.norm_squared().is_finite())
     }
 
     fn triangle(&self, at: usize, corners: [u16; 3]) -> Triangle {
         let face = self.cross(at).unwrap_or_default().normalize();
-        let normals = [0, 1, 2].map(|corner| self.normal(3 * at + corner, face).map(|number| number as f32));
+        let normals = [0, 1, 2].map(|corner| {
+            self.normal(3 * at + corner, face)
+                .map(|number| number as f32)
+        });
         let uv = |corner: usize| {
             let has_uv = self.uv.len() == 3 * self.triangles.len();
-            has_uv.then(|| self.uv[3 * at + corner]).filter(|uv| uv.iter().all(|number| number.is_finite()))
+            has_uv
+                .then(|| self.uv[3 * at + corner])
+                .filter(|uv| uv.iter().all(|number| number.is_finite()))
         };
         let is_flat = normals[0] == normals[1] && normals[1] == normals[2];
-        Triangle { corners, is_flat, normals, uv: [0, 1, 2].map(|corner| uv(corner).unwrap_or_default()) }
+        Triangle {
+            corners,
+            is_flat,
+            normals,
+            uv: [0, 1, 2].map(|corner| uv(corner).unwrap_or_default()),
+        }
     }
 
     /// The unit normal of a corner; the face's where there is none.
     fn normal(&self, corner: usize, face: Vector3<f64>) -> [f64; 3] {
-        let own = (self.normals.len() == 3 * self.triangles.len()).then(|| Vector3::from(self.normals[corner]));
+        let own = (self.normals.len() == 3 * self.triangles.len())
+            .then(|| Vector3::from(self.normals[corner]));
         own.and_then(|normal| normal.try_normalize(1e-12))
             .filter(|n| n.iter().all(|x| x.is_finite()))
             .unwrap_or(face)
@@ -176,12 +218,18 @@ impl Source<'_> {
 
     /// Sorts triangles along the Z-order curve (G. Morton, 1966) of their centres, so that neighbours in the list are neighbours in space.
     fn sort_along_curve(&self, order: &mut [usize]) {
-        let ball = Ball::around(order.iter().flat_map(|at| self.corners(*at).unwrap_or_default()));
+        let ball = Ball::around(
+            order
+                .iter()
+                .flat_map(|at| self.corners(*at).unwrap_or_default()),
+        );
         order.sort_by_cached_key(|at| {
             let [a, b, c] = self.corners(*at).unwrap_or_default().map(Vector3::from);
             let centre = (a + b + c) / 3.0 - Vector3::from(ball.centre);
             let cell = |offset: f64| ((offset / ball.radius + 1.0) * 512.0) as u32;
-            spread_bits(cell(centre.x)) | spread_bits(cell(centre.y)) << 1 | spread_bits(cell(centre.z)) << 2
+            spread_bits(cell(centre.x))
+                | spread_bits(cell(centre.y)) << 1
+                | spread_bits(cell(centre.z)) << 2
         });
     }
 
@@ -189,14 +237,21 @@ impl Source<'_> {
     fn is_closed(&self, order: &[usize], origin: Vector3<f64>) -> bool {
         let corners = self.welded(order);
         let mut edges = HashSet::new();
-        let sides = corners.iter().flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)]);
-        if !sides.clone().all(|side| edges.insert(side)) || !sides.clone().all(|(a, b)| edges.contains(&(b, a))) {
+        let sides = corners
+            .iter()
+            .flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)]);
+        if !sides.clone().all(|side| edges.insert(side))
+            || !sides.clone().all(|(a, b)| edges.contains(&(b, a)))
+        {
             return false;
         }
         let parts = geometry::partition(corners.iter().copied());
         let mut volumes = vec![0.0; parts.iter().max().map_or(0, |last| last + 1)];
         for (&at, part) in order.iter().zip(parts) {
-            let [a, b, c] = self.corners(at).unwrap_or_default().map(|corner| Vector3::from(corner) - origin);
+            let [a, b, c] = self
+                .corners(at)
+                .unwrap_or_default()
+                .map(|corner| Vector3::from(corner) - origin);
             volumes[part] += a.dot(&b.cross(&c));
         }
         volumes.iter().all(|volume| *volume >= 0.0)
@@ -208,9 +263,14 @@ impl Source<'_> {
         let mut place = |point: [f64; 3]| {
             let next = places.len();
             // Adding zero makes the two zeros one.
-            *places.entry(point.map(|x| (x + 0.0).to_bits())).or_insert(next)
+            *places
+                .entry(point.map(|x| (x + 0.0).to_bits()))
+                .or_insert(next)
         };
-        order.iter().map(|at| self.corners(*at).unwrap_or_default().map(&mut place)).collect()
+        order
+            .iter()
+            .map(|at| self.corners(*at).unwrap_or_default().map(&mut place))
+            .collect()
     }
 }
 

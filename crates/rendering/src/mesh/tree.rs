@@ -50,12 +50,21 @@ pub struct MeshTree {
 
 impl Bounds {
     fn around(points: impl Iterator<Item = Vector3<f32>>) -> Self {
-        let empty = Self { low: Vector3::repeat(f32::INFINITY), high: Vector3::repeat(f32::NEG_INFINITY) };
-        points.fold(empty, |all, point| Self { low: all.low.inf(&point), high: all.high.sup(&point) })
+        let empty = Self {
+            low: Vector3::repeat(f32::INFINITY),
+            high: Vector3::repeat(f32::NEG_INFINITY),
+        };
+        points.fold(empty, |all, point| Self {
+            low: all.low.inf(&point),
+            high: all.high.sup(&point),
+        })
     }
 
     fn merged(&self, other: &Self) -> Self {
-        Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
+        Self {
+            low: self.low.inf(&other.low),
+            high: self.high.sup(&other.high),
+        }
     }
 
     /// By the slabs between its faces (T. Kay and J. Kajiya, *Ray tracing complex scenes*, 1986). Where a slab says nothing, since the
@@ -75,7 +84,10 @@ impl Bounds {
 
 impl Tree {
     pub fn new(bounds: &[Bounds]) -> Self {
-        let mut tree = Self { nodes: Vec::new(), items: (0..bounds.len() as u32).collect() };
+        let mut tree = Self {
+            nodes: Vec::new(),
+            items: (0..bounds.len() as u32).collect(),
+        };
         let mut items = std::mem::take(&mut tree.items);
         if !items.is_empty() {
             tree.add(bounds, &mut items, 0);
@@ -85,15 +97,23 @@ impl Tree {
 
     /// Adds the node of some items, which begin at a place in the list, and those below it.
     fn add(&mut self, bounds: &[Bounds], items: &mut [u32], first: usize) {
-        let whole = items.iter().map(|item| bounds[*item as usize]).reduce(|a, b| a.merged(&b));
+        let whole = items
+            .iter()
+            .map(|item| bounds[*item as usize])
+            .reduce(|a, b| a.merged(&b));
         let whole = whole.expect("a node has items");
         let at = self.nodes.len();
-        self.nodes.push(Node { bounds: whole, next: first as u32, count: items.len() as u32 });
+        self.nodes.push(Node {
+            bounds: whole,
+            next: first as u32,
+            count: items.len() as u32,
+        });
         if items.len() <= MAX_LEAF_SIZE {
             return;
         }
         let axis = (whole.high - whole.low).imax();
-        let centre = |item: &u32| bounds[*item as usize].low[axis] + bounds[*item as usize].high[axis];
+        let centre =
+            |item: &u32| bounds[*item as usize].low[axis] + bounds[*item as usize].high[axis];
         let middle = items.len() / 2;
         items.select_nth_unstable_by(middle, |a, b| centre(a).total_cmp(&centre(b)));
         let (low, high) = items.split_at_mut(middle);
@@ -117,7 +137,10 @@ impl Tree {
             if node.count == 0 {
                 (pending[count], pending[count + 1]) = (node.next, at + 1);
                 count += 2;
-            } else if self.items[node.next as usize..][..node.count as usize].iter().any(|item| hit(*item as usize)) {
+            } else if self.items[node.next as usize..][..node.count as usize]
+                .iter()
+                .any(|item| hit(*item as usize))
+            {
                 return true;
             }
         }
@@ -130,15 +153,25 @@ impl MeshTree {
         let corners = mesh.clusters.iter().flat_map(|cluster| {
             let vertices = &mesh.vertices[cluster.vertices.clone()];
             let corner = |at: u16| Vector3::from(vertices[usize::from(at)]).cast::<f32>();
-            mesh.triangles[cluster.triangles.clone()].iter().map(move |triangle| triangle.corners.map(corner))
+            mesh.triangles[cluster.triangles.clone()]
+                .iter()
+                .map(move |triangle| triangle.corners.map(corner))
         });
         let triangles: Vec<[Vector3<f32>; 3]> = corners.collect();
-        let bounds: Vec<Bounds> = triangles.iter().map(|corners| Bounds::around(corners.iter().copied())).collect();
-        Self { tree: Tree::new(&bounds), triangles }
+        let bounds: Vec<Bounds> = triangles
+            .iter()
+            .map(|corners| Bounds::around(corners.iter().copied()))
+            .collect();
+        Self {
+            tree: Tree::new(&bounds),
+            triangles,
+        }
     }
 
     pub fn is_hit(&self, ray: &Ray) -> bool {
-        self.tree.is_hit(ray, |triangle| is_triangle_hit(&self.triangles[triangle], ray))
+        self.tree.is_hit(ray, |triangle| {
+            is_triangle_hit(&self.triangles[triangle], ray)
+        })
     }
 }
 

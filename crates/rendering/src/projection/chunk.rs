@@ -80,8 +80,16 @@ impl Chunk {
             owners[owner].content.project(view, piece, &mut self.setup);
             let faces = &self.setup.faces[first..];
             if let Some(low) = faces.iter().map(|face| face.bounds[1][0]).min() {
-                let high = faces.iter().map(|face| face.bounds[1][1]).max().unwrap_or(low);
-                self.groups.push(Group { faces: first..self.setup.faces.len(), owner, rows: [low, high] });
+                let high = faces
+                    .iter()
+                    .map(|face| face.bounds[1][1])
+                    .max()
+                    .unwrap_or(low);
+                self.groups.push(Group {
+                    faces: first..self.setup.faces.len(),
+                    owner,
+                    rows: [low, high],
+                });
             }
         }
     }
@@ -93,11 +101,22 @@ impl Chunk {
         owners: &'a [Owner<'a>],
         is_opaque: bool,
     ) -> impl Iterator<Item = (usize, &'a Face, &'a Owner<'a>)> {
-        let in_rows = move |[first, last]: [u16; 2]| usize::from(first) < rows.end && usize::from(last) >= rows.start;
-        let groups = self.groups.iter().map(|group| (group, &owners[group.owner]));
-        let groups =
-            groups.filter(move |(group, owner)| (owner.pass == Pass::Opaque) == is_opaque && in_rows(group.rows));
-        groups.flat_map(move |(group, owner)| group.faces.clone().map(move |at| (at, &self.setup.faces[at], owner)))
+        let in_rows = move |[first, last]: [u16; 2]| {
+            usize::from(first) < rows.end && usize::from(last) >= rows.start
+        };
+        let groups = self
+            .groups
+            .iter()
+            .map(|group| (group, &owners[group.owner]));
+        let groups = groups.filter(move |(group, owner)| {
+            (owner.pass == Pass::Opaque) == is_opaque && in_rows(group.rows)
+        });
+        groups.flat_map(move |(group, owner)| {
+            group
+                .faces
+                .clone()
+                .map(move |at| (at, &self.setup.faces[at], owner))
+        })
     }
 }
 

@@ -47,7 +47,11 @@ pub enum Pass {
 /// All owners of a world. A face refers to its owner by its place in the list.
 pub fn owners<'a>(world: &World<'a>, view: &View, channels: Channels) -> Vec<Owner<'a>> {
     let mut owners = Vec::with_capacity(world.instances.len());
-    for instance in world.instances.iter().filter(|instance| instance.pose.is_finite()) {
+    for instance in world
+        .instances
+        .iter()
+        .filter(|instance| instance.pose.is_finite())
+    {
         owners.push(surface(instance, view, channels, owners.len() as u32));
         owners.extend(edges(instance, view, channels, owners.len() as u32));
     }
@@ -63,34 +67,76 @@ pub fn owners<'a>(world: &World<'a>, view: &View, channels: Channels) -> Vec<Own
 }
 
 fn placed<'a, T>(content: &'a T, pose: &Pose, view: &View, at: usize) -> Placed<'a, T> {
-    Placed { content, transform: view.transform(pose), owner: at as u32 }
+    Placed {
+        content,
+        transform: view.transform(pose),
+        owner: at as u32,
+    }
 }
 
 fn surface<'a>(instance: &Instance<'a>, view: &View, channels: Channels, at: u32) -> Owner<'a> {
-    let (mesh, material, transform) = (instance.mesh, instance.material, view.transform(&instance.pose));
+    let (mesh, material, transform) = (
+        instance.mesh,
+        instance.material,
+        view.transform(&instance.pose),
+    );
     // Depths and ids do not depend on transparency.
     let is_blended = material.opacity < 1.0 && channels.colour;
     let in_front = transform.apply(&mesh.ball.centre).z - mesh.ball.radius > view.near;
     let culling = material.culling || (mesh.closed && in_front && !is_blended);
-    let surface = Surface { mesh, transform, culling, wire_frame: material.wireframe, owner: at };
+    let surface = Surface {
+        mesh,
+        transform,
+        culling,
+        wire_frame: material.wireframe,
+        owner: at,
+    };
     Owner {
         id: instance.id,
         content: Content::Surface(surface, material),
-        pass: if is_blended { Pass::Blended } else { Pass::Opaque },
+        pass: if is_blended {
+            Pass::Blended
+        } else {
+            Pass::Opaque
+        },
         opacity: material.opacity.clamp(0.0, 1.0),
         is_decoration: false,
     }
 }
 
-fn edges<'a>(instance: &Instance<'a>, view: &View, channels: Channels, at: u32) -> Option<Owner<'a>> {
+fn edges<'a>(
+    instance: &Instance<'a>,
+    view: &View,
+    channels: Channels,
+    at: u32,
+) -> Option<Owner<'a>> {
     let edges = instance.material.edges.filter(|_| channels.colour)?;
-    let content = Content::Edges(placed(instance.mesh, &instance.pose, view, at as usize), edges);
-    Some(Owner { id: instance.id, content, pass: Pass::Blended, opacity: 1.0, is_decoration: true })
+    let content = Content::Edges(
+        placed(instance.mesh, &instance.pose, view, at as usize),
+        edges,
+    );
+    Some(Owner {
+        id: instance.id,
+        content,
+        pass: Pass::Blended,
+        opacity: 1.0,
+        is_decoration: true,
+    })
 }
 
 fn strokes(id: u32, content: Content, is_overlay: bool) -> Owner {
-    let pass = if is_overlay { Pass::Overlay } else { Pass::Opaque };
-    Owner { id, content, pass, opacity: 1.0, is_decoration: false }
+    let pass = if is_overlay {
+        Pass::Overlay
+    } else {
+        Pass::Opaque
+    };
+    Owner {
+        id,
+        content,
+        pass,
+        opacity: 1.0,
+        is_decoration: false,
+    }
 }
 
 impl<'a> Content<'a> {
@@ -105,10 +151,20 @@ impl<'a> Content<'a> {
     /// Whether it may be in the picture.
     pub fn may_be_seen(&self, view: &View) -> bool {
         match self {
-            Self::Surface(Surface { mesh, transform, .. }, _)
-            | Self::Edges(Placed { content: mesh, transform, .. }, _) => {
-                view.may_see(transform.apply(&mesh.ball.centre), mesh.ball.radius)
-            }
+            Self::Surface(
+                Surface {
+                    mesh, transform, ..
+                },
+                _,
+            )
+            | Self::Edges(
+                Placed {
+                    content: mesh,
+                    transform,
+                    ..
+                },
+                _,
+            ) => view.may_see(transform.apply(&mesh.ball.centre), mesh.ball.radius),
             Self::Points(_) | Self::Lines(_) => true,
         }
     }
@@ -122,18 +178,32 @@ impl<'a> Content<'a> {
             Self::Lines(lines) => (&[][..], lines.content.segments.len()),
         };
         let sizes = clusters.iter().map(|cluster| cluster.triangles.len());
-        sizes.chain((0..elements).step_by(BATCH_SIZE).map(move |first| BATCH_SIZE.min(elements - first)))
+        sizes.chain(
+            (0..elements)
+                .step_by(BATCH_SIZE)
+                .map(move |first| BATCH_SIZE.min(elements - first)),
+        )
     }
 
     /// Adds the faces of a piece.
     pub fn project(&self, view: &View, piece: usize, setup: &mut Setup) {
-        let range = |elements: usize| -> Range<usize> { piece * BATCH_SIZE..elements.min((piece + 1) * BATCH_SIZE) };
+        let range = |elements: usize| -> Range<usize> {
+            piece * BATCH_SIZE..elements.min((piece + 1) * BATCH_SIZE)
+        };
         let faces = &mut setup.faces;
         match self {
-            Self::Surface(surface, _) => setup.add_cluster(view, surface, &surface.mesh.clusters[piece]),
-            Self::Edges(mesh, edges) => add_edges(faces, view, mesh, edges, range(mesh.content.edges().len())),
-            Self::Points(points) => add_points(faces, view, points, range(points.content.positions.len())),
-            Self::Lines(lines) => add_lines(faces, view, lines, range(lines.content.segments.len())),
+            Self::Surface(surface, _) => {
+                setup.add_cluster(view, surface, &surface.mesh.clusters[piece])
+            }
+            Self::Edges(mesh, edges) => {
+                add_edges(faces, view, mesh, edges, range(mesh.content.edges().len()))
+            }
+            Self::Points(points) => {
+                add_points(faces, view, points, range(points.content.positions.len()))
+            }
+            Self::Lines(lines) => {
+                add_lines(faces, view, lines, range(lines.content.segments.len()))
+            }
         }
     }
 }

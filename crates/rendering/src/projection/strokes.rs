@@ -52,25 +52,48 @@ pub fn unpacked(detail: u32) -> [f32; 3] {
 
 /// The colour of an element of a list: its own, or the one for all.
 fn colour(colours: &[[f32; 3]], at: usize) -> [f32; 3] {
-    colours.get(if colours.len() == 1 { 0 } else { at }).copied().unwrap_or([1.0; 3])
+    colours
+        .get(if colours.len() == 1 { 0 } else { at })
+        .copied()
+        .unwrap_or([1.0; 3])
 }
 
 /// Adds some of the points.
-pub fn add_points(faces: &mut Vec<Face>, view: &View, placed: &Placed<Points>, range: Range<usize>) {
+pub fn add_points(
+    faces: &mut Vec<Face>,
+    view: &View,
+    placed: &Placed<Points>,
+    range: Range<usize>,
+) {
     let points = placed.content;
     let half = half_width(points.size);
     for (at, position) in points.positions[range.clone()].iter().enumerate() {
         let point = placed.transform.apply(position);
-        let Some([x, y]) = view.project(&point) else { continue };
-        let closeness = Plane { a: 0.0, b: 0.0, c: view.closeness(point.z) };
+        let Some([x, y]) = view.project(&point) else {
+            continue;
+        };
+        let closeness = Plane {
+            a: 0.0,
+            b: 0.0,
+            c: view.closeness(point.z),
+        };
         let detail = packed(colour(points.colours, range.start + at));
-        let corners = [[x - half, y - half], [x + half, y - half], [x + half, y + half], [x - half, y + half]];
+        let corners = [
+            [x - half, y - half],
+            [x + half, y - half],
+            [x + half, y + half],
+            [x - half, y + half],
+        ];
         add_quad(
             faces,
             view,
             corners,
             (closeness, [closeness.c; 2]),
-            &Stroke { owner: placed.owner, detail, ..Stroke::default() },
+            &Stroke {
+                owner: placed.owner,
+                detail,
+                ..Stroke::default()
+            },
         );
     }
 }
@@ -80,20 +103,43 @@ pub fn add_lines(faces: &mut Vec<Face>, view: &View, placed: &Placed<Lines>, ran
     let lines = placed.content;
     for (at, segment) in lines.segments[range.clone()].iter().enumerate() {
         let detail = packed(colour(lines.colours, range.start + at));
-        let stroke = Stroke { owner: placed.owner, detail, width: lines.width, ..Stroke::default() };
-        add_line(faces, view, segment.each_ref().map(|end| placed.transform.apply(end)), &stroke);
+        let stroke = Stroke {
+            owner: placed.owner,
+            detail,
+            width: lines.width,
+            ..Stroke::default()
+        };
+        add_line(
+            faces,
+            view,
+            segment.each_ref().map(|end| placed.transform.apply(end)),
+            &stroke,
+        );
     }
 }
 
 /// Adds those of some edges of a mesh that are sharp enough.
-pub fn add_edges(faces: &mut Vec<Face>, view: &View, placed: &Placed<Mesh>, edges: &Edges, range: Range<usize>) {
+pub fn add_edges(
+    faces: &mut Vec<Face>,
+    view: &View,
+    placed: &Placed<Mesh>,
+    edges: &Edges,
+    range: Range<usize>,
+) {
     let detail = packed(edges.colour);
     let limit = libm::cos(edges.angle) as f32;
     let is_drawn = |edge: &&MeshEdge| edge.cosine <= limit && (edges.borders || !edge.is_border());
     for edge in placed.content.edges()[range].iter().filter(is_drawn) {
         let ends = edge.ends.each_ref().map(|end| placed.transform.apply(end));
-        let lift = edge_lift(view, &placed.transform, edge, &ends) * f64::from(edges.width.max(1.0));
-        let stroke = Stroke { owner: placed.owner, detail, width: edges.width, lift, ..Stroke::default() };
+        let lift =
+            edge_lift(view, &placed.transform, edge, &ends) * f64::from(edges.width.max(1.0));
+        let stroke = Stroke {
+            owner: placed.owner,
+            detail,
+            width: edges.width,
+            lift,
+            ..Stroke::default()
+        };
         add_line(faces, view, ends, &stroke);
     }
 }
@@ -105,16 +151,33 @@ pub fn add_wire_frame(faces: &mut Vec<Face>, view: &View, surface: &Surface, tri
     // As of the surface, so that a frame in the plane of another surface is seen or hidden as a whole.
     let plane = Some(view.closeness_on_plane(&corners)).filter(Plane::is_finite);
     let (detail, back) = (triangle as u32, a.cross(&b).dot(&c) < 0.0);
-    let stroke = Stroke { owner: surface.owner, detail, back, plane, ..Stroke::default() };
+    let stroke = Stroke {
+        owner: surface.owner,
+        detail,
+        back,
+        plane,
+        ..Stroke::default()
+    };
     for side in 0..3 {
-        add_line(faces, view, [corners[side], corners[(side + 1) % 3]], &stroke);
+        add_line(
+            faces,
+            view,
+            [corners[side], corners[(side + 1) % 3]],
+            &stroke,
+        );
     }
 }
 
 /// How much closer than an edge its faces may be within a line of one pixel's width, from their slope.
-fn edge_lift(view: &View, transform: &Transform, edge: &MeshEdge, [end, _]: &[Vector3<f64>; 2]) -> f64 {
+fn edge_lift(
+    view: &View,
+    transform: &Transform,
+    edge: &MeshEdge,
+    [end, _]: &[Vector3<f64>; 2],
+) -> f64 {
     let slope = |normal: &[f32; 3]| {
-        let normal = view.in_metres(view.in_metres(transform.rotation * Vector3::from(*normal).cast::<f64>()));
+        let normal = view
+            .in_metres(view.in_metres(transform.rotation * Vector3::from(*normal).cast::<f64>()));
         let plane = view.closeness_gradient(&normal, end);
         plane[0].abs() + plane[1].abs()
     };
@@ -128,7 +191,9 @@ fn edge_lift(view: &View, transform: &Transform, edge: &MeshEdge, [end, _]: &[Ve
 
 /// A line as two faces.
 fn add_line(faces: &mut Vec<Face>, view: &View, ends: [Vector3<f64>; 2], stroke: &Stroke) {
-    let Some(ends) = clipped(view, ends) else { return };
+    let Some(ends) = clipped(view, ends) else {
+        return;
+    };
     let [p, q] = ends.map(|end| view.project_clipped(&end));
     let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
     let main = usize::from(dx.abs() < dy.abs());
@@ -138,9 +203,21 @@ fn add_line(faces: &mut Vec<Face>, view: &View, ends: [Vector3<f64>; 2], stroke:
     let mut across = [half_width(stroke.width); 2];
     across[main] = 0;
     let range = ends.map(|end| view.closeness(end.z) + stroke.lift);
-    let closeness = (stroke.plane.unwrap_or_else(|| closeness_along(view, main, [p, q], range)), range);
-    let [low, high] = [-1, 1].map(|side| move |end: [i32; 2]| [end[0] + side * across[0], end[1] + side * across[1]]);
-    add_quad(faces, view, [low(p), low(q), high(q), high(p)], closeness, stroke);
+    let closeness = (
+        stroke
+            .plane
+            .unwrap_or_else(|| closeness_along(view, main, [p, q], range)),
+        range,
+    );
+    let [low, high] = [-1, 1]
+        .map(|side| move |end: [i32; 2]| [end[0] + side * across[0], end[1] + side * across[1]]);
+    add_quad(
+        faces,
+        view,
+        [low(p), low(q), high(q), high(p)],
+        closeness,
+        stroke,
+    );
 }
 
 /// The closeness of a line, which changes along one axis of the picture.
@@ -148,8 +225,16 @@ fn closeness_along(view: &View, axis: usize, [p, q]: [[i32; 2]; 2], [from, to]: 
     let step = (to - from) / f64::from(q[axis] - p[axis]) * f64::from(UNIT);
     let start = from - step * (f64::from(p[axis]) / f64::from(UNIT) - view.centre[axis]);
     match axis {
-        0 => Plane { a: step, b: 0.0, c: start },
-        _ => Plane { a: 0.0, b: step, c: start },
+        0 => Plane {
+            a: step,
+            b: 0.0,
+            c: start,
+        },
+        _ => Plane {
+            a: 0.0,
+            b: step,
+            c: start,
+        },
     }
 }
 
@@ -163,7 +248,8 @@ fn clipped(view: &View, mut ends: [Vector3<f64>; 2]) -> Option<[Vector3<f64>; 2]
         }
         for outer in (0..2).filter(|end| inside[*end] < 0.0) {
             let inner = 1 - outer;
-            ends[outer] = ends[inner] + (ends[outer] - ends[inner]) * (inside[inner] / (inside[inner] - inside[outer]));
+            ends[outer] = ends[inner]
+                + (ends[outer] - ends[inner]) * (inside[inner] / (inside[inner] - inside[outer]));
         }
     }
     Some(ends)
@@ -179,7 +265,9 @@ fn add_quad(
 ) {
     let range = [from.min(to) as f32, from.max(to) as f32];
     for triangle in [[a, b, c], [a, c, d]] {
-        let Some(outline) = Outline::new(view, false, triangle) else { continue };
+        let Some(outline) = Outline::new(view, false, triangle) else {
+            continue;
+        };
         faces.push(Face {
             corners: outline.corners,
             bounds: outline.bounds,
@@ -201,6 +289,13 @@ fn half_width(pixels: f32) -> i32 {
 
 impl Default for Stroke {
     fn default() -> Self {
-        Self { width: 1.0, owner: 0, detail: 0, back: false, lift: 0.0, plane: None }
+        Self {
+            width: 1.0,
+            owner: 0,
+            detail: 0,
+            back: false,
+            lift: 0.0,
+            plane: None,
+        }
     }
 }

@@ -61,13 +61,21 @@ impl Setup {
             return;
         }
         if surface.wire_frame {
-            return cluster.triangles.clone().for_each(|at| add_wire_frame(&mut self.faces, view, surface, at));
+            return cluster
+                .triangles
+                .clone()
+                .for_each(|at| add_wire_frame(&mut self.faces, view, surface, at));
         }
         self.transform(view, surface, cluster);
         for at in cluster.triangles.clone() {
             let corners = three(|i| usize::from(surface.mesh.triangles[at].corners[i]));
             let places = three(|i| self.places[corners[i]]);
-            let origin = || Origin { view, surface, points: three(|i| self.points[corners[i]]), detail: at as u32 };
+            let origin = || Origin {
+                view,
+                surface,
+                points: three(|i| self.points[corners[i]]),
+                detail: at as u32,
+            };
             if places.contains(&OFF_PICTURE) {
                 let origin = origin();
                 self.add_clipped(&origin);
@@ -84,35 +92,51 @@ impl Setup {
         for vertex in &surface.mesh.vertices[cluster.vertices.clone()] {
             let point = surface.transform.apply(vertex);
             self.points.push(point);
-            self.places.push(view.project(&point).unwrap_or(OFF_PICTURE));
+            self.places
+                .push(view.project(&point).unwrap_or(OFF_PICTURE));
         }
     }
 
     /// Cuts a triangle by the near plane and by the guard band.
     fn add_clipped(&mut self, origin: &Origin) {
-        if !origin.points.iter().all(|point| point.iter().all(|number| number.is_finite())) {
+        if !origin
+            .points
+            .iter()
+            .all(|point| point.iter().all(|number| number.is_finite()))
+        {
             return;
         }
         self.polygon.clear();
         self.polygon.extend(origin.points);
         for plane in ClipPlane::ALL {
-            cut(&self.polygon, &mut self.cut, |point| origin.view.inside(plane, point));
+            cut(&self.polygon, &mut self.cut, |point| {
+                origin.view.inside(plane, point)
+            });
             std::mem::swap(&mut self.polygon, &mut self.cut);
         }
-        let [first, rest @ ..] = self.polygon.as_slice() else { return };
+        let [first, rest @ ..] = self.polygon.as_slice() else {
+            return;
+        };
         let first = origin.view.project_clipped(first);
         for pair in rest.windows(2) {
             let [b, c] = [&pair[0], &pair[1]].map(|point| origin.view.project_clipped(point));
             let outline = Outline::new(origin.view, origin.surface.culling, [first, b, c]);
-            self.faces.extend(outline.map(|outline| origin.face(outline)));
+            self.faces
+                .extend(outline.map(|outline| origin.face(outline)));
         }
     }
 }
 
 /// The part of a polygon where `inside` is not negative (I. Sutherland and G. Hodgman, *Reentrant polygon clipping*, 1974).
-fn cut(polygon: &[Vector3<f64>], part: &mut Vec<Vector3<f64>>, inside: impl Fn(&Vector3<f64>) -> f64) {
+fn cut(
+    polygon: &[Vector3<f64>],
+    part: &mut Vec<Vector3<f64>>,
+    inside: impl Fn(&Vector3<f64>) -> f64,
+) {
     part.clear();
-    let Some(mut previous) = polygon.last() else { return };
+    let Some(mut previous) = polygon.last() else {
+        return;
+    };
     for point in polygon {
         match [inside(previous), inside(point)] {
             [a, b] if a >= 0.0 && b < 0.0 => part.push(between(previous, a, point, b)),
@@ -154,7 +178,13 @@ impl Outline {
         let back = area < 0;
         let corners = if back { [a, c, b] } else { [a, b, c] };
         let extent = (high[0] - low[0]).max(high[1] - low[1]);
-        Some(Self { corners, bounds, extent, doubled_area: area.abs(), back })
+        Some(Self {
+            corners,
+            bounds,
+            extent,
+            doubled_area: area.abs(),
+            back,
+        })
     }
 
     /// Whether it is thinner than 1/8 pixel: the rounding of its corners is no longer small then.
@@ -189,9 +219,14 @@ impl Origin<'_> {
     #[inline(always)]
     fn closeness(&self) -> (Plane, [f32; 2]) {
         let [a, b, c] = three(|i| self.points[i].z.max(self.view.near));
-        let range = [a.max(b).max(c), a.min(b).min(c)].map(|depth| self.view.closeness(depth) as f32);
+        let range =
+            [a.max(b).max(c), a.min(b).min(c)].map(|depth| self.view.closeness(depth) as f32);
         let plane = self.view.closeness_on_plane(&self.points);
-        let edge_on = Plane { a: 0.0, b: 0.0, c: f64::from(range[0]) };
+        let edge_on = Plane {
+            a: 0.0,
+            b: 0.0,
+            c: f64::from(range[0]),
+        };
         (if plane.is_finite() { plane } else { edge_on }, range)
     }
 }

@@ -33,7 +33,9 @@ pub struct View {
 impl View {
     /// None where the camera sees nothing: numbers that are not finite, no opening, no depth.
     pub fn new(camera: &Camera) -> Option<Self> {
-        let resolution = camera.resolution.map(|side| side.min(Camera::MAX_RESOLUTION));
+        let resolution = camera
+            .resolution
+            .map(|side| side.min(Camera::MAX_RESOLUTION));
         let larger = f64::from(resolution[0].max(resolution[1]));
         let (perspective, extent) = match camera.projection {
             Projection::Perspective { angle } if angle > 0.0 && angle < std::f64::consts::PI => {
@@ -43,11 +45,17 @@ impl View {
             Projection::Perspective { .. } => return None,
         };
         let scale = larger / extent;
-        let sees = scale > 0.0 && scale.is_finite() && camera.near < camera.far && camera.far.is_finite();
+        let sees =
+            scale > 0.0 && scale.is_finite() && camera.near < camera.far && camera.far.is_finite();
         let starts = camera.near.is_finite() && (!perspective || camera.near > 0.0);
         (sees && starts && camera.pose.is_finite()).then(|| Self {
             rotation: Matrix3::from_diagonal(&Vector3::new(-scale, scale, 1.0))
-                * camera.pose.rotation.to_rotation_matrix().matrix().transpose(),
+                * camera
+                    .pose
+                    .rotation
+                    .to_rotation_matrix()
+                    .matrix()
+                    .transpose(),
             eye: camera.pose.translation.vector,
             scale,
             over_scale: 1.0 / scale,
@@ -70,18 +78,30 @@ impl View {
 
     /// From view coordinates to metres along the camera's axes: right, up, depth.
     pub fn in_metres(&self, vector: Vector3<f64>) -> Vector3<f64> {
-        Vector3::new(vector.x * self.over_scale, vector.y * self.over_scale, vector.z)
+        Vector3::new(
+            vector.x * self.over_scale,
+            vector.y * self.over_scale,
+            vector.z,
+        )
     }
 
     /// Value in the depth buffer: larger is closer, linear on the picture, and 0 at the far plane or beyond it (in perspective the
     /// reciprocal of the depth, where `far_closeness` is the limit).
     pub fn closeness(&self, z: f64) -> f64 {
-        if self.perspective { 1.0 / z } else { (self.far - z) / (self.far - self.near) }
+        if self.perspective {
+            1.0 / z
+        } else {
+            (self.far - z) / (self.far - self.near)
+        }
     }
 
     /// How much closeness changes over a depth of one pixel's size.
     pub fn closeness_of_pixel(&self, z: f64) -> f64 {
-        let change = if self.perspective { self.closeness(z.max(self.near)) } else { 1.0 / (self.far - self.near) };
+        let change = if self.perspective {
+            self.closeness(z.max(self.near))
+        } else {
+            1.0 / (self.far - self.near)
+        };
         change * self.over_scale
     }
 
@@ -94,12 +114,18 @@ impl View {
     pub fn relative_depths(&self, face: &Face, ray: [f64; 2]) -> [f32; 4] {
         let [least, most] = face.range.map(|limit| f64x4::splat(limit.into()));
         let columns = f64x4::new([0.0, 1.0, 2.0, 3.0]);
-        let closeness = (columns * face.closeness.a + face.closeness.at(ray)).fast_max(least).fast_min(most);
+        let closeness = (columns * face.closeness.a + face.closeness.at(ray))
+            .fast_max(least)
+            .fast_min(most);
         let depth = match self.perspective {
             true => (f64x4::ONE / closeness - self.near) * (1.0 / (self.far - self.near)),
             false => f64x4::ONE - closeness,
         };
-        depth.fast_max(f64x4::ZERO).fast_min(f64x4::ONE).to_array().map(|depth| depth as f32)
+        depth
+            .fast_max(f64x4::ZERO)
+            .fast_min(f64x4::ONE)
+            .to_array()
+            .map(|depth| depth as f32)
     }
 
     /// Whether a ball in view coordinates may be visible; `radius` is in metres.
@@ -113,7 +139,11 @@ impl View {
     /// How far a point is beyond the border of the picture, metres.
     fn distance_outside(&self, offset: f64, z: f64, axis: usize) -> f64 {
         let (offset, border) = (offset / self.scale, self.centre[axis] / self.scale);
-        if self.perspective { (offset - border * z) / (1.0 + border * border).sqrt() } else { offset - border }
+        if self.perspective {
+            (offset - border * z) / (1.0 + border * border).sqrt()
+        } else {
+            offset - border
+        }
     }
 
     #[inline(always)]
@@ -121,14 +151,17 @@ impl View {
     pub fn project(&self, point: &Vector3<f64>) -> Option<[i32; 2]> {
         let over_depth = if self.perspective { 1.0 / point.z } else { 1.0 };
         let offset = [point.x * over_depth, point.y * over_depth];
-        let visible = point.z >= self.near && offset[0].abs() <= GUARD_BAND && offset[1].abs() <= GUARD_BAND;
+        let visible =
+            point.z >= self.near && offset[0].abs() <= GUARD_BAND && offset[1].abs() <= GUARD_BAND;
         visible.then(|| self.grid_point(offset))
     }
 
     /// A point that was cut off at the near plane and the guard band.
     pub fn project_clipped(&self, point: &Vector3<f64>) -> [i32; 2] {
         let depth = if self.perspective { point.z } else { 1.0 };
-        self.grid_point([point.x / depth, point.y / depth].map(|offset| offset.clamp(-GUARD_BAND, GUARD_BAND)))
+        self.grid_point(
+            [point.x / depth, point.y / depth].map(|offset| offset.clamp(-GUARD_BAND, GUARD_BAND)),
+        )
     }
 
     #[inline(always)]
@@ -136,7 +169,8 @@ impl View {
         // Shifted so that it is positive, where conversion rounds downwards.
         const SHIFT: f64 = 2.0 * GUARD_BAND;
         [0, 1].map(|axis| {
-            ((offset[axis] + self.centre[axis] + SHIFT) * f64::from(UNIT) + 0.5) as i32 - SHIFT as i32 * UNIT
+            ((offset[axis] + self.centre[axis] + SHIFT) * f64::from(UNIT) + 0.5) as i32
+                - SHIFT as i32 * UNIT
         })
     }
 
@@ -173,13 +207,21 @@ impl View {
 
     /// A point such that its x and y divided by its z are its place on the picture.
     pub fn homogeneous(&self, point: Vector3<f64>) -> Vector3<f64> {
-        Vector3::new(point.x, point.y, if self.perspective { point.z } else { 1.0 })
+        Vector3::new(
+            point.x,
+            point.y,
+            if self.perspective { point.z } else { 1.0 },
+        )
     }
 
     /// How the closeness on a plane through a point changes from column to column and from row to row. The normal is that of the plane in
     /// view coordinates.
     pub fn closeness_gradient(&self, normal: &Vector3<f64>, point: &Vector3<f64>) -> [f64; 2] {
-        let distance = if self.perspective { normal.dot(point) } else { normal.z * (self.far - self.near) };
+        let distance = if self.perspective {
+            normal.dot(point)
+        } else {
+            normal.z * (self.far - self.near)
+        };
         [normal.x / distance, normal.y / distance]
     }
 
@@ -190,11 +232,22 @@ impl View {
         let distance = normal.dot(a);
         if self.perspective {
             let over_distance = 1.0 / distance;
-            return Plane { a: normal.x * over_distance, b: normal.y * over_distance, c: normal.z * over_distance };
+            return Plane {
+                a: normal.x * over_distance,
+                b: normal.y * over_distance,
+                c: normal.z * over_distance,
+            };
         }
         let (over_z, over_range) = (1.0 / normal.z, 1.0 / (self.far - self.near));
-        let [x, y] = [normal.x * over_z * over_range, normal.y * over_z * over_range];
-        Plane { a: x, b: y, c: (self.far - distance * over_z) * over_range }
+        let [x, y] = [
+            normal.x * over_z * over_range,
+            normal.y * over_z * over_range,
+        ];
+        Plane {
+            a: x,
+            b: y,
+            c: (self.far - distance * over_z) * over_range,
+        }
     }
 }
 

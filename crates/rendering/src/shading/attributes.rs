@@ -33,12 +33,18 @@ pub struct Attributes {
 
 impl Linear {
     fn constant(start: f32) -> Self {
-        Self { start, step: [0.0; 2] }
+        Self {
+            start,
+            step: [0.0; 2],
+        }
     }
 
     /// The function `ray . coefficients` from the ray of a pixel on.
     fn new(coefficients: Vector3<f64>, ray: &Vector3<f64>) -> Self {
-        Self { start: coefficients.dot(ray) as f32, step: [coefficients.x as f32, coefficients.y as f32] }
+        Self {
+            start: coefficients.dot(ray) as f32,
+            step: [coefficients.x as f32, coefficients.y as f32],
+        }
     }
 
     /// Eight pixels from a column and row on.
@@ -57,21 +63,37 @@ impl Attributes {
         let weights = weights(view, surface, face);
         let [a, b, c] = three(|i| Vector3::from(triangle.normals[i]).cast::<f64>());
         let side = if face.back { -1.0 } else { 1.0 };
-        let to_camera = |normal: Vector3<f64>| view.in_metres(surface.transform.rotation * normal) * side;
+        let to_camera =
+            |normal: Vector3<f64>| view.in_metres(surface.transform.rotation * normal) * side;
         let normal = if triangle.is_flat {
             let normal = to_camera(a);
             three(|axis| Linear::constant(normal[axis] as f32))
         } else {
             // The columns are what the normal changes by from column to column and from row to row, and its value at the centre.
-            let parts = three(|i| to_camera(a * weights[0][i] + b * weights[1][i] + c * weights[2][i]));
-            three(|axis| Linear::new(Vector3::new(parts[0][axis], parts[1][axis], parts[2][axis]), &ray))
+            let parts =
+                three(|i| to_camera(a * weights[0][i] + b * weights[1][i] + c * weights[2][i]));
+            three(|axis| {
+                Linear::new(
+                    Vector3::new(parts[0][axis], parts[1][axis], parts[2][axis]),
+                    &ray,
+                )
+            })
         };
         let uv = |axis: usize| {
             let [a, b, c] = three(|i| weights[i] * f64::from(triangle.uv[i][axis]));
             Linear::new(a + b + c, &ray)
         };
-        let uv = if is_textured { [uv(0), uv(1)] } else { Default::default() };
-        Self { pixel, normal, uv, is_flat: triangle.is_flat }
+        let uv = if is_textured {
+            [uv(0), uv(1)]
+        } else {
+            Default::default()
+        };
+        Self {
+            pixel,
+            normal,
+            uv,
+            is_flat: triangle.is_flat,
+        }
     }
 
     /// Vectors along the normals of eight pixels from a column on.
@@ -81,18 +103,28 @@ impl Attributes {
 
     /// The texture coordinates of eight pixels from a column on, divided by the depth in perspective.
     pub fn uv(&self, column: usize, row: usize) -> [f32x8; 2] {
-        [self.uv[0].at(self.offset(column, row)), self.uv[1].at(self.offset(column, row))]
+        [
+            self.uv[0].at(self.offset(column, row)),
+            self.uv[1].at(self.offset(column, row)),
+        ]
     }
 
     fn offset(&self, column: usize, row: usize) -> [f32; 2] {
-        [column as f32 - f32::from(self.pixel[0]), row as f32 - f32::from(self.pixel[1])]
+        [
+            column as f32 - f32::from(self.pixel[0]),
+            row as f32 - f32::from(self.pixel[1]),
+        ]
     }
 }
 
 /// The weights of the corners, divided by the depth in perspective, as functions of the ray.
 fn weights(view: &View, surface: &Surface, face: &Face) -> [Vector3<f64>; 3] {
     if face.is_uniform {
-        let closeness = if view.perspective { f64::from(face.range[0] + face.range[1]) / 2.0 } else { 1.0 };
+        let closeness = if view.perspective {
+            f64::from(face.range[0] + face.range[1]) / 2.0
+        } else {
+            1.0
+        };
         return [Vector3::new(0.0, 0.0, closeness / 3.0); 3];
     }
     let corners = surface.corners(face.detail as usize);

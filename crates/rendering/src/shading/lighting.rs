@@ -48,12 +48,26 @@ impl<'a> Lighting<'a> {
         let lights: Vec<PlacedLight> = lights.map(|light| PlacedLight::new(light, view)).collect();
         let has_shadows = world.shadows && lights.iter().any(|placed| placed.light.casts_shadows);
         let shadows = has_shadows.then(|| Shadows::new(world, view));
-        let is_uniform = !has_shadows && lights.iter().all(|placed| placed.light.kind == LightKind::Directional);
-        Self { ambient: world.ambient, lights, shadows, is_uniform }
+        let is_uniform = !has_shadows
+            && lights
+                .iter()
+                .all(|placed| placed.light.kind == LightKind::Directional);
+        Self {
+            ambient: world.ambient,
+            lights,
+            shadows,
+            is_uniform,
+        }
     }
 
     /// The colours of eight points of a surface; the normals need not have unit length. Only the first `count` points have shadows.
-    pub fn lit(&self, material: &Material, normals: Vectors, points: Vectors, count: usize) -> Vectors {
+    pub fn lit(
+        &self,
+        material: &Material,
+        normals: Vectors,
+        points: Vectors,
+        count: usize,
+    ) -> Vectors {
         let normals = normalized(normals);
         let has_highlights = material.specular != [0.0; 3];
         let (mut diffuse, mut specular) = (splat(self.ambient), [f32x8::ZERO; 3]);
@@ -63,10 +77,19 @@ impl<'a> Lighting<'a> {
                 incoming.strength *= shadows.reach(placed.source(), points, normals, count);
             }
             let cosine = dot(normals, incoming.to_light);
-            add_scaled(&mut diffuse, cosine.max(f32x8::ZERO) * incoming.strength, placed.light.diffuse);
+            add_scaled(
+                &mut diffuse,
+                cosine.max(f32x8::ZERO) * incoming.strength,
+                placed.light.diffuse,
+            );
             if has_highlights && placed.light.specular != [0.0; 3] {
-                let highlight = power(dot(normals, incoming.half).max(f32x8::ZERO), material.shininess);
-                let highlight = cosine.simd_gt(f32x8::ZERO).select(highlight * incoming.strength, f32x8::ZERO);
+                let highlight = power(
+                    dot(normals, incoming.half).max(f32x8::ZERO),
+                    material.shininess,
+                );
+                let highlight = cosine
+                    .simd_gt(f32x8::ZERO)
+                    .select(highlight * incoming.strength, f32x8::ZERO);
                 add_scaled(&mut specular, highlight, placed.light.specular);
             }
         }
@@ -93,7 +116,9 @@ impl PlacedLight {
             _ => -1.0,
         };
         let to_light = -view.in_metres(transform.rotation.column(2).into());
-        let half = (to_light - Vector3::z()).try_normalize(1e-12).unwrap_or_default();
+        let half = (to_light - Vector3::z())
+            .try_normalize(1e-12)
+            .unwrap_or_default();
         Self {
             light: *light,
             position: view.in_metres(transform.translation).cast().into(),
@@ -113,7 +138,11 @@ impl PlacedLight {
     fn incoming(&self, points: Vectors) -> Incoming {
         if self.light.kind == LightKind::Directional {
             let (to_light, half) = (splat(self.to_light), splat(self.half));
-            return Incoming { to_light, half, strength: f32x8::ONE };
+            return Incoming {
+                to_light,
+                half,
+                strength: f32x8::ONE,
+            };
         }
         let offset = three(|i| f32x8::splat(self.position[i]) - points[i]);
         let distance = dot(offset, offset).sqrt();
@@ -121,12 +150,18 @@ impl PlacedLight {
         let half = normalized([to_light[0], to_light[1], to_light[2] - f32x8::ONE]);
         let [constant, linear, quadratic] = splat(self.light.attenuation);
         let faded = f32x8::ONE / (constant + (linear + quadratic * distance) * distance);
-        Incoming { to_light, half, strength: faded * self.cone(to_light) }
+        Incoming {
+            to_light,
+            half,
+            strength: faded * self.cone(to_light),
+        }
     }
 
     /// The part of a spot's light in the direction of eight points.
     fn cone(&self, to_light: Vectors) -> f32x8 {
-        let LightKind::Spot { exponent, .. } = self.light.kind else { return f32x8::ONE };
+        let LightKind::Spot { exponent, .. } = self.light.kind else {
+            return f32x8::ONE;
+        };
         let cosine = dot(to_light, splat(self.to_light));
         let inside = cosine.simd_ge(f32x8::splat(self.cutoff_cosine));
         inside.select(power(cosine.max(f32x8::ZERO), exponent), f32x8::ZERO)
@@ -143,7 +178,10 @@ fn dot(a: Vectors, b: Vectors) -> f32x8 {
 
 /// Vectors of unit length; zero remains zero.
 fn normalized(vectors: Vectors) -> Vectors {
-    let scale = f32x8::ONE / dot(vectors, vectors).max(f32x8::splat(f32::MIN_POSITIVE)).sqrt();
+    let scale = f32x8::ONE
+        / dot(vectors, vectors)
+            .max(f32x8::splat(f32::MIN_POSITIVE))
+            .sqrt();
     three(|i| vectors[i] * scale)
 }
 

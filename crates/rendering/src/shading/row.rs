@@ -53,17 +53,28 @@ struct Unlit<'a> {
 impl Row {
     /// Prepares for a picture.
     pub fn begin(&mut self, width: usize) {
-        let lists = self.colour.iter_mut().chain(&mut self.normal).chain(&mut self.uv).chain([&mut self.depth]);
+        let lists = self
+            .colour
+            .iter_mut()
+            .chain(&mut self.normal)
+            .chain(&mut self.uv)
+            .chain([&mut self.depth]);
         lists.for_each(|list| list.resize(width + 8, 0.0));
         self.remembered.clear();
-        self.remembered.resize(MAX_CACHED_FACES, Remembered::default());
+        self.remembered
+            .resize(MAX_CACHED_FACES, Remembered::default());
     }
 
     /// Computes the colours of a row from the numbers of its faces.
     pub fn shade(&mut self, shading: &Shading, y: usize, faces: &[u32]) {
         self.y = y;
-        let background = shading.background.row(y, shading.view.resolution[1] as usize);
-        let mut unlit = Unlit { pixels: 0..0, surface: None };
+        let background = shading
+            .background
+            .row(y, shading.view.resolution[1] as usize);
+        let mut unlit = Unlit {
+            pixels: 0..0,
+            surface: None,
+        };
         for (run, number) in runs(faces) {
             let Some((face, owner)) = shading.face(number) else {
                 self.light(shading, &mut unlit, None);
@@ -92,31 +103,54 @@ impl Row {
     }
 
     fn fill(&mut self, run: Range<usize>, colour: [f32; 3]) {
-        self.colour.iter_mut().zip(colour).for_each(|(list, part)| list[run.clone()].fill(part));
+        self.colour
+            .iter_mut()
+            .zip(colour)
+            .for_each(|(list, part)| list[run.clone()].fill(part));
     }
 
     fn find_depths(&mut self, view: &View, face: &Face, run: Range<usize>) {
         for x in run.step_by(8) {
             let closeness = face.closeness_of_eight(view.ray(x, self.y));
             let far = f32x8::splat(view.far as f32);
-            let depth =
-                if view.perspective { f32x8::ONE / closeness } else { far - closeness * (view.far - view.near) as f32 };
+            let depth = if view.perspective {
+                f32x8::ONE / closeness
+            } else {
+                far - closeness * (view.far - view.near) as f32
+            };
             store(&mut self.depth, x, depth);
         }
     }
 
     /// The colour of a face where it is the same everywhere.
-    fn known_colour(&mut self, shading: &Shading, owner: &Owner, face: &Face, number: u32) -> Option<[f32; 3]> {
-        let Content::Surface(surface, material) = &owner.content else { return Some(unpacked(face.detail)) };
+    fn known_colour(
+        &mut self,
+        shading: &Shading,
+        owner: &Owner,
+        face: &Face,
+        number: u32,
+    ) -> Option<[f32; 3]> {
+        let Content::Surface(surface, material) = &owner.content else {
+            return Some(unpacked(face.detail));
+        };
         let entry = &mut self.remembered[number as usize % MAX_CACHED_FACES];
         if entry.face != Some(number) {
-            let attributes = Attributes::new(shading.view, surface, face, material.texture.is_some());
-            let is_uniform = attributes.is_flat && shading.lighting.is_uniform && material.texture.is_none();
+            let attributes =
+                Attributes::new(shading.view, surface, face, material.texture.is_some());
+            let is_uniform =
+                attributes.is_flat && shading.lighting.is_uniform && material.texture.is_none();
             let colour = is_uniform.then(|| {
                 let normals = attributes.normals(0, 0);
-                shading.lighting.lit(material, normals, [f32x8::ZERO; 3], 0).map(|part| part.to_array()[0])
+                shading
+                    .lighting
+                    .lit(material, normals, [f32x8::ZERO; 3], 0)
+                    .map(|part| part.to_array()[0])
             });
-            *entry = Remembered { face: Some(number), attributes, colour };
+            *entry = Remembered {
+                face: Some(number),
+                attributes,
+                colour,
+            };
         }
         entry.colour
     }
@@ -125,16 +159,27 @@ impl Row {
         let attributes = &self.remembered[number as usize % MAX_CACHED_FACES].attributes;
         for x in run.clone().step_by(8) {
             let normals = attributes.normals(x, self.y);
-            self.normal.iter_mut().zip(normals).for_each(|(list, part)| store(list, x, part));
+            self.normal
+                .iter_mut()
+                .zip(normals)
+                .for_each(|(list, part)| store(list, x, part));
         }
         for x in run.step_by(8).filter(|_| is_textured) {
             let uv = attributes.uv(x, self.y);
-            self.uv.iter_mut().zip(uv).for_each(|(list, part)| store(list, x, part));
+            self.uv
+                .iter_mut()
+                .zip(uv)
+                .for_each(|(list, part)| store(list, x, part));
         }
     }
 
     /// Lights what is unlit, unless what comes next is of the same surface.
-    fn light<'a>(&mut self, shading: &Shading, unlit: &mut Unlit<'a>, next: Option<(&'a Material, usize)>) {
+    fn light<'a>(
+        &mut self,
+        shading: &Shading,
+        unlit: &mut Unlit<'a>,
+        next: Option<(&'a Material, usize)>,
+    ) {
         if let (Some(material), Some((other, _))) = (unlit.surface, next)
             && std::ptr::eq(material, other)
         {
@@ -143,20 +188,33 @@ impl Row {
         if let Some(material) = unlit.surface {
             for x in unlit.pixels.clone().step_by(8) {
                 let normals = three(|i| load(&self.normal[i], x));
-                let colours =
-                    shading.lighting.lit(material, normals, self.points(shading.view, x), unlit.pixels.end - x);
-                self.colour.iter_mut().zip(colours).for_each(|(list, part)| store(list, x, part));
+                let colours = shading.lighting.lit(
+                    material,
+                    normals,
+                    self.points(shading.view, x),
+                    unlit.pixels.end - x,
+                );
+                self.colour
+                    .iter_mut()
+                    .zip(colours)
+                    .for_each(|(list, part)| store(list, x, part));
             }
             self.apply_texture(shading.view, material, unlit.pixels.clone());
         }
         let start = next.map_or(0, |(_, start)| start);
-        *unlit = Unlit { pixels: start..start, surface: next.map(|(material, _)| material) };
+        *unlit = Unlit {
+            pixels: start..start,
+            surface: next.map(|(material, _)| material),
+        };
     }
 
     /// Eight points in the camera's axes: right, up, depth; metres.
     fn points(&self, view: &View, x: usize) -> Vectors {
         let ray = view.ray(x, self.y);
-        let ray = [(ray[0] * view.over_scale) as f32, (ray[1] * view.over_scale) as f32];
+        let ray = [
+            (ray[0] * view.over_scale) as f32,
+            (ray[1] * view.over_scale) as f32,
+        ];
         let depth = load(&self.depth, x);
         let spread = if view.perspective { depth } else { f32x8::ONE };
         let column = f32x8::splat(ray[0]) + LANES * view.over_scale as f32;
@@ -164,7 +222,9 @@ impl Row {
     }
 
     fn apply_texture(&mut self, view: &View, material: &Material, pixels: Range<usize>) {
-        let Some(texture) = &material.texture else { return };
+        let Some(texture) = &material.texture else {
+            return;
+        };
         for x in pixels {
             let scale = if view.perspective { self.depth[x] } else { 1.0 };
             let sample = texture.sample([self.uv[0][x] * scale, self.uv[1][x] * scale]);
@@ -184,7 +244,9 @@ impl Row {
     /// Blends the pixels of another row over its own.
     pub fn blend(&mut self, shading: &Shading, other: &Self, faces: &[u32]) {
         for (run, number) in runs(faces) {
-            let Some((_, owner)) = shading.face(number) else { continue };
+            let Some((_, owner)) = shading.face(number) else {
+                continue;
+            };
             for (own, other) in self.colour.iter_mut().zip(&other.colour) {
                 let pixels = own[run.clone()].iter_mut().zip(&other[run.clone()]);
                 pixels.for_each(|(own, other)| *own += (other - *own) * owner.opacity);
@@ -196,7 +258,9 @@ impl Row {
     pub fn write_bytes(&self, pixels: &mut [u8]) {
         for (at, block) in pixels.chunks_mut(3 * 8).enumerate() {
             let parts = three(|i| {
-                let limited = load(&self.colour[i], 8 * at).max(f32x8::ZERO).min(f32x8::ONE);
+                let limited = load(&self.colour[i], 8 * at)
+                    .max(f32x8::ZERO)
+                    .min(f32x8::ONE);
                 (limited * 255.0 + 0.5).fast_trunc_int().to_array()
             });
             for (lane, pixel) in block.chunks_exact_mut(3).enumerate() {
@@ -207,9 +271,15 @@ impl Row {
 }
 
 fn load(list: &[f32], at: usize) -> f32x8 {
-    f32x8::from(*list[at..].first_chunk::<8>().expect("rows have room for eight pixels more"))
+    f32x8::from(
+        *list[at..]
+            .first_chunk::<8>()
+            .expect("rows have room for eight pixels more"),
+    )
 }
 
 fn store(list: &mut [f32], at: usize, numbers: f32x8) {
-    *list[at..].first_chunk_mut::<8>().expect("rows have room for eight pixels more") = numbers.to_array();
+    *list[at..]
+        .first_chunk_mut::<8>()
+        .expect("rows have room for eight pixels more") = numbers.to_array();
 }

@@ -43,18 +43,28 @@ impl<'a> Shadows<'a> {
             let is_transparent = instance.material.opacity < 1.0;
             instance.pose.is_finite() && !instance.material.wireframe && !is_transparent
         };
-        let casters = world.instances.iter().filter(opaque).map(|instance| Caster::new(instance, view));
+        let casters = world
+            .instances
+            .iter()
+            .filter(opaque)
+            .map(|instance| Caster::new(instance, view));
         let casters: Vec<Caster> = casters.collect();
         let bounds: Vec<Bounds> = casters.iter().map(Caster::bounds).collect();
-        Self { casters, tree: Tree::new(&bounds) }
+        Self {
+            casters,
+            tree: Tree::new(&bounds),
+        }
     }
 
     /// 1 for those of the first `count` of eight points that a light reaches, 0 for the others.
     pub fn reach(&self, source: Source, points: Vectors, normals: Vectors, count: usize) -> f32x8 {
-        let [points, normals] = [points, normals].map(|vectors| vectors.map(|part| part.to_array()));
+        let [points, normals] =
+            [points, normals].map(|vectors| vectors.map(|part| part.to_array()));
         let mut reached = [0.0; 8];
         for (lane, reached) in reached.iter_mut().enumerate().take(count) {
-            let at = |parts: &[[f32; 8]; 3]| Vector3::new(parts[0][lane], parts[1][lane], parts[2][lane]);
+            let at = |parts: &[[f32; 8]; 3]| {
+                Vector3::new(parts[0][lane], parts[1][lane], parts[2][lane])
+            };
             let (point, normal) = (at(&points), at(&normals));
             let origin = point + normal * (RAY_OFFSET[0] + RAY_OFFSET[1] * point.z);
             let (direction, limit) = match source {
@@ -62,13 +72,21 @@ impl<'a> Shadows<'a> {
                 Source::Point(light) => (Vector3::from(light) - origin, 1.0),
             };
             let is_lit_side = normal.dot(&direction) > 0.0;
-            *reached = f32::from(u8::from(is_lit_side && !self.is_blocked(&Ray { origin, direction, limit })));
+            *reached = f32::from(u8::from(
+                is_lit_side
+                    && !self.is_blocked(&Ray {
+                        origin,
+                        direction,
+                        limit,
+                    }),
+            ));
         }
         f32x8::new(reached)
     }
 
     fn is_blocked(&self, ray: &Ray) -> bool {
-        self.tree.is_hit(ray, |caster| self.casters[caster].is_hit(ray))
+        self.tree
+            .is_hit(ray, |caster| self.casters[caster].is_hit(ray))
     }
 }
 
@@ -85,13 +103,21 @@ impl<'a> Caster<'a> {
 
     fn bounds(&self) -> Bounds {
         let ball = &self.mesh.ball;
-        let centre = self.translation + self.rotation.transpose() * Vector3::from(ball.centre).cast::<f32>();
+        let centre =
+            self.translation + self.rotation.transpose() * Vector3::from(ball.centre).cast::<f32>();
         let radius = Vector3::repeat(ball.radius as f32 * (1.0 + 1e-5));
-        Bounds { low: centre - radius, high: centre + radius }
+        Bounds {
+            low: centre - radius,
+            high: centre + radius,
+        }
     }
 
     fn is_hit(&self, ray: &Ray) -> bool {
         let origin = self.rotation * (ray.origin - self.translation);
-        self.mesh.tree().is_hit(&Ray { origin, direction: self.rotation * ray.direction, limit: ray.limit })
+        self.mesh.tree().is_hit(&Ray {
+            origin,
+            direction: self.rotation * ray.direction,
+            limit: ray.limit,
+        })
     }
 }

@@ -33,7 +33,11 @@ pub struct Pixels<'a> {
 
 impl Strip {
     pub fn fill(&mut self, shading: &Shading, rows: Range<usize>, pixels: &mut Pixels) {
-        self.band.clear(shading.view.resolution, rows.clone(), shading.view.far_closeness() as f32);
+        self.band.clear(
+            shading.view.resolution,
+            rows.clone(),
+            shading.view.far_closeness() as f32,
+        );
         self.draw(shading);
         self.shade(shading, pixels);
         if self.fragments.len() > KEPT_FRAGMENTS {
@@ -52,7 +56,12 @@ impl Strip {
         for (at, chunk) in shading.chunks.iter().enumerate() {
             for (face_at, face, owner) in chunk.faces_in(rows.clone(), shading.owners, false) {
                 let is_overlay = owner.pass == Pass::Overlay;
-                self.band.collect(face, face_number(at, face_at), is_overlay, &mut self.fragments);
+                self.band.collect(
+                    face,
+                    face_number(at, face_at),
+                    is_overlay,
+                    &mut self.fragments,
+                );
             }
         }
         self.fragments.sort_unstable();
@@ -64,13 +73,20 @@ impl Strip {
         self.layer_row.begin(width);
         let mut first = 0;
         for at in 0..self.band.rows.len() {
-            let count = self.fragments[first..].iter().take_while(|fragment| fragment.row as usize == at).count();
+            let count = self.fragments[first..]
+                .iter()
+                .take_while(|fragment| fragment.row as usize == at)
+                .count();
             let fragments = first..first + count;
             first += count;
             if !fragments.is_empty() {
                 self.find_closest(shading, at, fragments.clone());
             }
-            let closest = if fragments.is_empty() { self.band.row(at) } else { &self.closest };
+            let closest = if fragments.is_empty() {
+                self.band.row(at)
+            } else {
+                &self.closest
+            };
             if let Some(ids) = pixels.ids.get_mut(at * width..(at + 1) * width) {
                 shading.ids(closest, ids);
             }
@@ -78,7 +94,8 @@ impl Strip {
                 shading.depths(self.band.rows.start + at, closest, depths);
             }
             if let Some(colours) = pixels.colour.get_mut(3 * at * width..3 * (at + 1) * width) {
-                self.row.shade(shading, self.band.rows.start + at, self.band.row(at));
+                self.row
+                    .shade(shading, self.band.rows.start + at, self.band.row(at));
                 self.blend(shading, at, fragments);
                 self.row.write_bytes(colours);
             }
@@ -90,7 +107,10 @@ impl Strip {
         self.closest.clear();
         self.closest.extend(self.band.row(at));
         for fragment in &self.fragments[fragments] {
-            if shading.face(fragment.face()).is_some_and(|(_, owner)| !owner.is_decoration) {
+            if shading
+                .face(fragment.face())
+                .is_some_and(|(_, owner)| !owner.is_decoration)
+            {
                 self.closest[fragment.column as usize] = fragment.face();
             }
         }
@@ -106,7 +126,8 @@ impl Strip {
             for (_, fragment) in layer {
                 self.layer[fragment.column as usize] = fragment.face();
             }
-            self.layer_row.shade(shading, self.band.rows.start + at, &self.layer);
+            self.layer_row
+                .shade(shading, self.band.rows.start + at, &self.layer);
             self.row.blend(shading, &self.layer_row, &self.layer);
         }
     }
@@ -114,8 +135,14 @@ impl Strip {
 
 /// The fragments of a row that no opaque one covers, with their places in their pixels: 0 is the farthest.
 fn visible<'a>(shading: &Shading, fragments: &'a [Fragment]) -> Vec<(usize, &'a Fragment)> {
-    let is_opaque = |fragment: &Fragment| shading.face(fragment.face()).is_some_and(|(_, owner)| owner.opacity == 1.0);
+    let is_opaque = |fragment: &Fragment| {
+        shading
+            .face(fragment.face())
+            .is_some_and(|(_, owner)| owner.opacity == 1.0)
+    };
     let pixels = fragments.chunk_by(|a, b| a.column == b.column);
     let uncovered = pixels.map(|pixel| &pixel[pixel.iter().rposition(is_opaque).unwrap_or(0)..]);
-    uncovered.flat_map(|pixel| pixel.iter().enumerate()).collect()
+    uncovered
+        .flat_map(|pixel| pixel.iter().enumerate())
+        .collect()
 }

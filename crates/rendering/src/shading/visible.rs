@@ -39,7 +39,10 @@ impl<'a> Shading<'a> {
     /// The ids of a row.
     pub fn ids(&self, faces: &[u32], ids: &mut [u32]) {
         for (run, number) in runs(faces) {
-            ids[run].fill(self.face(number).map_or(Picture::NOTHING, |(_, owner)| owner.id));
+            ids[run].fill(
+                self.face(number)
+                    .map_or(Picture::NOTHING, |(_, owner)| owner.id),
+            );
         }
     }
 
@@ -51,7 +54,9 @@ impl<'a> Shading<'a> {
                 continue;
             };
             for (block, depths) in depths[run.clone()].chunks_mut(4).enumerate() {
-                let four = self.view.relative_depths(face, self.view.ray(run.start + 4 * block, y));
+                let four = self
+                    .view
+                    .relative_depths(face, self.view.ray(run.start + 4 * block, y));
                 depths.copy_from_slice(&four[..depths.len()]);
             }
         }

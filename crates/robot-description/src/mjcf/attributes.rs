@@ -5,8 +5,17 @@ use std::collections::BTreeMap;
 use super::element::{Element, Report};
 
 /// Elements that MuJoCo takes for one kind, whose defaults they share.
-const ACTUATORS: &[&str] =
-    &["general", "motor", "position", "velocity", "intvelocity", "damper", "cylinder", "muscle", "adhesion"];
+const ACTUATORS: &[&str] = &[
+    "general",
+    "motor",
+    "position",
+    "velocity",
+    "intvelocity",
+    "damper",
+    "cylinder",
+    "muscle",
+    "adhesion",
+];
 /// The class of elements that name none.
 pub const MAIN: &str = "main";
 
@@ -41,15 +50,26 @@ impl Defaults {
         let index = match (parent, name) {
             (None, None | Some(MAIN)) => 0,
             (None, Some(name)) => self.class_named(name, Some(0)),
-            (Some(_), None) => return report.leave_out(element, "a class inside of a class needs a name"),
+            (Some(_), None) => {
+                return report.leave_out(element, "a class inside of a class needs a name");
+            }
             (Some(parent), Some(name)) => self.class_named(name, Some(parent)),
         };
         for child in &element.children {
             if child.name == "default" {
                 self.add(child, Some(index), report);
             } else {
-                let kind = self.classes[index].kinds.entry(kind(&child.name).to_owned()).or_default();
-                kind.extend(child.attributes.iter().filter(|(key, _)| key != "class").cloned());
+                let kind = self.classes[index]
+                    .kinds
+                    .entry(kind(&child.name).to_owned())
+                    .or_default();
+                kind.extend(
+                    child
+                        .attributes
+                        .iter()
+                        .filter(|(key, _)| key != "class")
+                        .cloned(),
+                );
             }
         }
     }
@@ -58,26 +78,45 @@ impl Defaults {
         if let Some(index) = self.names.get(name) {
             return *index;
         }
-        self.classes.push(Class { parent, ..Class::default() });
+        self.classes.push(Class {
+            parent,
+            ..Class::default()
+        });
         self.names.insert(name.to_owned(), self.classes.len() - 1);
         self.classes.len() - 1
     }
 
     /// The attributes of an element, in a place where the class is the given one unless the element names another.
-    pub fn of<'a>(&'a self, element: &'a Element, class: &str, report: &mut Report) -> Attributes<'a> {
+    pub fn of<'a>(
+        &'a self,
+        element: &'a Element,
+        class: &str,
+        report: &mut Report,
+    ) -> Attributes<'a> {
         let own = element.attribute("class");
         let named = own.unwrap_or(class);
         let class = self.names.get(named).copied();
         if class.is_none() && own.is_some() {
-            report.warn(element, format!("there is no class '{}'", crate::xml::short(named)));
+            report.warn(
+                element,
+                format!("there is no class '{}'", crate::xml::short(named)),
+            );
         }
-        Attributes { defaults: self, element, class: class.unwrap_or(0) }
+        Attributes {
+            defaults: self,
+            element,
+            class: class.unwrap_or(0),
+        }
     }
 }
 
 /// What an element is taken for.
 fn kind(name: &str) -> &str {
-    if ACTUATORS.contains(&name) { "general" } else { name }
+    if ACTUATORS.contains(&name) {
+        "general"
+    } else {
+        name
+    }
 }
 
 /// The attributes of an element, its own ones first.
@@ -113,7 +152,8 @@ impl<'a> Attributes<'a> {
     }
 
     pub fn list(&self, report: &mut Report, name: &str) -> Option<Vec<f64>> {
-        self.get(name).map(|text| report.numbers(self.element, name, text))
+        self.get(name)
+            .map(|text| report.numbers(self.element, name, text))
     }
 
     pub fn number(&self, report: &mut Report, name: &str) -> Option<f64> {
@@ -121,8 +161,15 @@ impl<'a> Attributes<'a> {
     }
 
     /// Numbers; those that are not there are the given ones.
-    pub fn numbers<const N: usize>(&self, report: &mut Report, name: &str, otherwise: [f64; N]) -> [f64; N] {
-        let Some(found) = self.list(report, name) else { return otherwise };
+    pub fn numbers<const N: usize>(
+        &self,
+        report: &mut Report,
+        name: &str,
+        otherwise: [f64; N],
+    ) -> [f64; N] {
+        let Some(found) = self.list(report, name) else {
+            return otherwise;
+        };
         std::array::from_fn(|i| found.get(i).copied().unwrap_or(otherwise[i]))
     }
 

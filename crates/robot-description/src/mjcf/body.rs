@@ -41,9 +41,20 @@ struct BodyJoint {
 
 impl<'a> Builder<'a> {
     pub fn new(document: &'a Document, files: &'a mut dyn Files, report: Report) -> Self {
-        let mut model = Model { fixed: vec![0], ..Model::default() };
-        model.robot.links.push(Link { name: "world".to_owned(), ..Link::default() });
-        Self { document, files, report, model }
+        let mut model = Model {
+            fixed: vec![0],
+            ..Model::default()
+        };
+        model.robot.links.push(Link {
+            name: "world".to_owned(),
+            ..Link::default()
+        });
+        Self {
+            document,
+            files,
+            report,
+            model,
+        }
     }
 
     pub fn into_parts(self) -> (Model, Report) {
@@ -52,7 +63,11 @@ impl<'a> Builder<'a> {
 
     /// Adds what is in a `<worldbody>`.
     pub fn add_world(&mut self, element: &'a Element) {
-        let place = Place { link: 0, pose: Pose::identity(), class: element.attribute("childclass").unwrap_or(MAIN) };
+        let place = Place {
+            link: 0,
+            pose: Pose::identity(),
+            class: element.attribute("childclass").unwrap_or(MAIN),
+        };
         self.add_contents(element, &place, &mut Contents::default());
     }
 
@@ -82,7 +97,11 @@ impl<'a> Builder<'a> {
                 }
                 "joint" | "freejoint" => {}
                 other => {
-                    let text = format!("<{}> is not read inside of <{}>", short(other), short(&element.name));
+                    let text = format!(
+                        "<{}> is not read inside of <{}>",
+                        short(other),
+                        short(&element.name)
+                    );
                     self.report.leave_out(child, text);
                 }
             }
@@ -93,13 +112,23 @@ impl<'a> Builder<'a> {
     fn inside(&mut self, frame: &'a Element, place: &Place<'a>) -> Place<'a> {
         let attributes = self.attributes(frame, place.class);
         let pose = place.pose * self.document.pose(&attributes, &mut self.report);
-        Place { link: place.link, pose, class: frame.attribute("childclass").unwrap_or(place.class) }
+        Place {
+            link: place.link,
+            pose,
+            class: frame.attribute("childclass").unwrap_or(place.class),
+        }
     }
 
     fn add_site(&mut self, attributes: &Attributes, place: &Place) {
         let pose = place.pose * self.document.pose(attributes, &mut self.report);
-        let name = attributes.get("name").map_or_else(|| format!("site_{}", self.model.sites.len()), str::to_owned);
-        self.model.sites.push(Site { name, link: place.link, pose });
+        let name = attributes
+            .get("name")
+            .map_or_else(|| format!("site_{}", self.model.sites.len()), str::to_owned);
+        self.model.sites.push(Site {
+            name,
+            link: place.link,
+            pose,
+        });
     }
 
     fn add_body(&mut self, element: &'a Element, outer: &Place<'a>) {
@@ -107,17 +136,34 @@ impl<'a> Builder<'a> {
         let pose = outer.pose * self.document.pose(&attributes, &mut self.report);
         let class = element.attribute("childclass").unwrap_or(outer.class);
         let number = self.model.robot.links.len();
-        let name = element.attribute("name").map_or_else(|| format!("body_{number}"), str::to_owned);
+        let name = element
+            .attribute("name")
+            .map_or_else(|| format!("body_{number}"), str::to_owned);
         let mut joints = Vec::new();
         let mut is_free = false;
-        let inner = Place { link: 0, pose: Pose::identity(), class };
+        let inner = Place {
+            link: 0,
+            pose: Pose::identity(),
+            class,
+        };
         self.collect_joints(element, &inner, &name, &mut joints, &mut is_free);
-        let mut link = Link { name, line: element.line, ..Link::default() };
+        let mut link = Link {
+            name,
+            line: element.line,
+            ..Link::default()
+        };
         if is_free {
             link.pose = pose;
         }
-        let index = if is_free { self.add_link(link) } else { self.add_moved(element, link, outer.link, pose, joints) };
-        let place = Place { link: index, ..inner };
+        let index = if is_free {
+            self.add_link(link)
+        } else {
+            self.add_moved(element, link, outer.link, pose, joints)
+        };
+        let place = Place {
+            link: index,
+            ..inner
+        };
         let mut contents = Contents::default();
         self.add_contents(element, &place, &mut contents);
         let inertial = self.inertial(element, contents.inertial, &contents.geoms);
@@ -146,12 +192,20 @@ impl<'a> Builder<'a> {
             if is_mocap || self.model.fixed.binary_search(&parent).is_ok() {
                 self.model.fixed.push(index);
             }
-            self.model.robot.joints.push(Joint { parent, child: index, origin: pose, ..joint });
+            self.model.robot.joints.push(Joint {
+                parent,
+                child: index,
+                origin: pose,
+                ..joint
+            });
             return index;
         };
         let (mut carrier, mut frame) = (parent, pose);
         for (number, joint) in joints.into_iter().enumerate() {
-            let between = self.add_link(Link { name: format!("{}_{}", link.name, number + 1), ..Link::default() });
+            let between = self.add_link(Link {
+                name: format!("{}_{}", link.name, number + 1),
+                ..Link::default()
+            });
             self.add_joint(joint, [carrier, between], frame);
             (carrier, frame) = (between, Pose::identity());
         }
@@ -213,7 +267,10 @@ impl<'a> Builder<'a> {
             other => {
                 self.report.warn(
                     attributes.element,
-                    format!("the type '{}' is not known: it is taken for a hinge", short(other)),
+                    format!(
+                        "the type '{}' is not known: it is taken for a hinge",
+                        short(other)
+                    ),
                 );
                 JointKind::Revolute
             }
@@ -222,18 +279,28 @@ impl<'a> Builder<'a> {
         joint.kind = kind;
         joint.axis = (place.pose.rotation * Vector3::from(axis)).into();
         if joint.axis.iter().all(|number| number.abs() < 1e-9) {
-            self.report.warn(attributes.element, "an axis without length: z is taken");
+            self.report
+                .warn(attributes.element, "an axis without length: z is taken");
             joint.axis = [0.0, 0.0, 1.0];
         }
         self.set_motion(attributes, &mut joint);
-        BodyJoint { joint, anchor: place.pose.transform_point(&anchor.into()).coords }
+        BodyJoint {
+            joint,
+            anchor: place.pose.transform_point(&anchor.into()).coords,
+        }
     }
 
     /// Limits, reference, spring and damper of a joint.
     fn set_motion(&mut self, attributes: &Attributes, joint: &mut Joint) {
         let settings = &self.document.settings;
         let turns = joint.kind == JointKind::Revolute;
-        let unit = |number: f64| if turns { settings.angle(number) } else { number };
+        let unit = |number: f64| {
+            if turns {
+                settings.angle(number)
+            } else {
+                number
+            }
+        };
         let mut number = |name: &str| attributes.number(&mut self.report, name);
         joint.reference = unit(number("ref").unwrap_or(0.0));
         joint.dynamics = Dynamics {
@@ -243,11 +310,19 @@ impl<'a> Builder<'a> {
             rest: unit(number("springref").unwrap_or(0.0)),
         };
         let is_limited = |name: &str, range: &str| {
-            attributes.is_true(name).unwrap_or(settings.limits_by_range && attributes.get(range).is_some())
+            attributes
+                .is_true(name)
+                .unwrap_or(settings.limits_by_range && attributes.get(range).is_some())
         };
         if joint.kind.numbers() == 1 && is_limited("limited", "range") {
-            let [low, high] = attributes.numbers(&mut self.report, "range", [0.0; 2]).map(unit);
-            joint.limits = Limits { lower: Some(low.min(high)), upper: Some(high.max(low)), ..joint.limits };
+            let [low, high] = attributes
+                .numbers(&mut self.report, "range", [0.0; 2])
+                .map(unit);
+            joint.limits = Limits {
+                lower: Some(low.min(high)),
+                upper: Some(high.max(low)),
+                ..joint.limits
+            };
         } else if turns {
             joint.kind = JointKind::Continuous;
         }

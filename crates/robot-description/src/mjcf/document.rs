@@ -10,7 +10,15 @@ use crate::model::{Material, Pose};
 use crate::xml::short;
 
 /// Parts of a file that this reader looks at, and those that say nothing about bodies.
-const READ: &[&str] = &["compiler", "default", "asset", "worldbody", "actuator", "equality", "option"];
+const READ: &[&str] = &[
+    "compiler",
+    "default",
+    "asset",
+    "worldbody",
+    "actuator",
+    "equality",
+    "option",
+];
 const IRRELEVANT: &[&str] = &["visual", "statistic", "size", "custom"];
 
 /// The settings, defaults and assets of a file.
@@ -62,7 +70,11 @@ pub struct MeshAsset {
 impl Settings {
     /// An angle as the file writes it, in radians.
     pub fn angle(&self, angle: f64) -> f64 {
-        if self.is_radian { angle } else { angle.to_radians() }
+        if self.is_radian {
+            angle
+        } else {
+            angle.to_radians()
+        }
     }
 
     fn new(root: &Element, report: &mut Report) -> Self {
@@ -93,7 +105,9 @@ impl Settings {
             match name.as_str() {
                 "angle" => self.is_radian = text == "radian",
                 "eulerseq" => self.set_sequence(element, text, report),
-                "assetdir" => (self.mesh_folder, self.texture_folder) = (text.clone(), text.clone()),
+                "assetdir" => {
+                    (self.mesh_folder, self.texture_folder) = (text.clone(), text.clone())
+                }
                 "meshdir" => self.mesh_folder = text.clone(),
                 "texturedir" => self.texture_folder = text.clone(),
                 "strippath" => self.strips_path = is_true,
@@ -108,8 +122,12 @@ impl Settings {
                 "boundinertia" => self.least_inertia = number(report).unwrap_or(0.0),
                 "balanceinertia" => self.balances_inertia = is_true,
                 "settotalmass" => self.total_mass = number(report).filter(|mass| *mass > 0.0),
-                "coordinate" if text == "global" => report.leave_out(element, "global coordinates are not read"),
-                "fitaabb" if is_true => report.leave_out(element, "primitives are not fitted to meshes"),
+                "coordinate" if text == "global" => {
+                    report.leave_out(element, "global coordinates are not read")
+                }
+                "fitaabb" if is_true => {
+                    report.leave_out(element, "primitives are not fitted to meshes")
+                }
                 _ => {}
             }
         }
@@ -117,14 +135,23 @@ impl Settings {
 
     fn set_sequence(&mut self, element: &Element, text: &str, report: &mut Report) {
         match text.as_bytes() {
-            [a, b, c] if [a, b, c].iter().all(|letter| b"xyzXYZ".contains(letter)) => self.sequence = [*a, *b, *c],
-            _ => report.warn(element, format!("eulerseq '{}' is no sequence of axes", short(text))),
+            [a, b, c] if [a, b, c].iter().all(|letter| b"xyzXYZ".contains(letter)) => {
+                self.sequence = [*a, *b, *c]
+            }
+            _ => report.warn(
+                element,
+                format!("eulerseq '{}' is no sequence of axes", short(text)),
+            ),
         }
     }
 
     /// The name of a file, relative to the folder of the model.
     fn file(&self, folder: &str, name: &str) -> String {
-        let name = if self.strips_path { name.rsplit(['/', '\\']).next().unwrap_or(name) } else { name };
+        let name = if self.strips_path {
+            name.rsplit(['/', '\\']).next().unwrap_or(name)
+        } else {
+            name
+        };
         if folder.is_empty() || name.starts_with('/') {
             return name.to_owned();
         }
@@ -142,7 +169,11 @@ fn from_geoms(text: &str) -> FromGeoms {
 
 impl Document {
     pub fn new(root: &Element, report: &mut Report) -> Self {
-        for part in root.children.iter().filter(|part| !IRRELEVANT.contains(&part.name.as_str())) {
+        for part in root
+            .children
+            .iter()
+            .filter(|part| !IRRELEVANT.contains(&part.name.as_str()))
+        {
             if !READ.contains(&part.name.as_str()) {
                 report.leave_out(part, format!("<{}> is not read", short(&part.name)));
             }
@@ -158,8 +189,9 @@ impl Document {
         for option in root.named("option") {
             let attributes = document.defaults.of(option, MAIN, report);
             let gravity = option.attribute("gravity").is_some();
-            document.gravity =
-                gravity.then(|| attributes.numbers(report, "gravity", [0.0, 0.0, -9.81])).or(document.gravity);
+            document.gravity = gravity
+                .then(|| attributes.numbers(report, "gravity", [0.0, 0.0, -9.81]))
+                .or(document.gravity);
         }
         document
     }
@@ -172,7 +204,10 @@ impl Document {
                 "texture" => {
                     if let Some(file) = asset.attribute("file") {
                         let name = asset.attribute("name").unwrap_or_else(|| stem(file));
-                        textures.insert(name.to_owned(), self.settings.file(&self.settings.texture_folder, file));
+                        textures.insert(
+                            name.to_owned(),
+                            self.settings.file(&self.settings.texture_folder, file),
+                        );
                     }
                 }
                 "material" => {}
@@ -182,9 +217,21 @@ impl Document {
         for asset in root.named("asset").flat_map(|part| part.named("material")) {
             let attributes = self.defaults.of(asset, MAIN, report);
             let name = asset.attribute("name").unwrap_or_default().to_owned();
-            let color = attributes.get("rgba").map(|_| attributes.numbers(report, "rgba", [1.0; 4]));
-            let texture = attributes.get("texture").and_then(|name| textures.get(name)).cloned();
-            self.materials.insert(name.clone(), Material { name, color, texture });
+            let color = attributes
+                .get("rgba")
+                .map(|_| attributes.numbers(report, "rgba", [1.0; 4]));
+            let texture = attributes
+                .get("texture")
+                .and_then(|name| textures.get(name))
+                .cloned();
+            self.materials.insert(
+                name.clone(),
+                Material {
+                    name,
+                    color,
+                    texture,
+                },
+            );
         }
     }
 
@@ -193,23 +240,43 @@ impl Document {
         let Some(file) = attributes.get("file") else {
             return report.leave_out(asset, "a mesh without a file is not read");
         };
-        let name = asset.attribute("name").unwrap_or_else(|| stem(file)).to_owned();
+        let name = asset
+            .attribute("name")
+            .unwrap_or_else(|| stem(file))
+            .to_owned();
         let scale = attributes.numbers(report, "scale", [1.0; 3]);
         let position = attributes.numbers(report, "refpos", [0.0; 3]);
         let [w, x, y, z] = attributes.numbers(report, "refquat", [1.0, 0.0, 0.0, 0.0]);
-        let rotation = nalgebra::UnitQuaternion::try_new(nalgebra::Quaternion::new(w, x, y, z), 1e-12);
-        let reference = Pose::from_parts(nalgebra::Vector3::from(position).into(), rotation.unwrap_or_default());
+        let rotation =
+            nalgebra::UnitQuaternion::try_new(nalgebra::Quaternion::new(w, x, y, z), 1e-12);
+        let reference = Pose::from_parts(
+            nalgebra::Vector3::from(position).into(),
+            rotation.unwrap_or_default(),
+        );
         let file = self.settings.file(&self.settings.mesh_folder, file);
         let volume = match attributes.get("inertia") {
             Some("exact") => Volume::Exact,
             None | Some("legacy") => Volume::Legacy,
             Some(other) => {
-                report
-                    .warn(asset, format!("the volume of meshes '{}' is not computed: the legacy one is", short(other)));
+                report.warn(
+                    asset,
+                    format!(
+                        "the volume of meshes '{}' is not computed: the legacy one is",
+                        short(other)
+                    ),
+                );
                 Volume::Legacy
             }
         };
-        self.meshes.insert(name, MeshAsset { file, scale, reference, volume });
+        self.meshes.insert(
+            name,
+            MeshAsset {
+                file,
+                scale,
+                reference,
+                volume,
+            },
+        );
     }
 
     /// The pose of an element of the model.
@@ -218,9 +285,18 @@ impl Document {
     }
 
     /// The appearance that the attributes name: a material, or a colour.
-    pub fn material(&self, attributes: &super::attributes::Attributes, report: &mut Report) -> Option<Material> {
-        let named = attributes.get("material").and_then(|name| self.materials.get(name)).cloned();
-        let color = attributes.get("rgba").map(|_| attributes.numbers(report, "rgba", [0.5, 0.5, 0.5, 1.0]));
+    pub fn material(
+        &self,
+        attributes: &super::attributes::Attributes,
+        report: &mut Report,
+    ) -> Option<Material> {
+        let named = attributes
+            .get("material")
+            .and_then(|name| self.materials.get(name))
+            .cloned();
+        let color = attributes
+            .get("rgba")
+            .map(|_| attributes.numbers(report, "rgba", [0.5, 0.5, 0.5, 1.0]));
         match (named, color) {
             (None, None) => None,
             (named, color) => {

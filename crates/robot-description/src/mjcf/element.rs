@@ -33,7 +33,10 @@ pub struct Element {
 
 impl Element {
     pub fn attribute(&self, name: &str) -> Option<&str> {
-        self.attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
+        self.attributes
+            .iter()
+            .find(|(key, _)| key == name)
+            .map(|(_, value)| value.as_str())
     }
 
     /// The elements of that name inside of this one.
@@ -68,11 +71,20 @@ impl Report {
         if let Some(file) = &element.file {
             message = format!("{message} (in {})", short(file));
         }
-        self.warnings.push(Warning { line: element.line, element: short(&element.name), message, kind });
+        self.warnings.push(Warning {
+            line: element.line,
+            element: short(&element.name),
+            message,
+            kind,
+        });
     }
 
     pub fn finish<T>(self, value: T) -> Parsed<T> {
-        Parsed { value, warnings: self.warnings, further_warnings: self.further }
+        Parsed {
+            value,
+            warnings: self.warnings,
+            further_warnings: self.further,
+        }
     }
 
     /// The numbers of a text; what is no number ends them.
@@ -82,7 +94,10 @@ impl Report {
             match word.parse::<f64>() {
                 Ok(number) if number.abs() <= MAX_NUMBER => numbers.push(number),
                 _ => {
-                    self.warn(element, format!("{what} has '{}', which is no number", short(word)));
+                    self.warn(
+                        element,
+                        format!("{what} has '{}', which is no number", short(word)),
+                    );
                     break;
                 }
             }
@@ -92,13 +107,28 @@ impl Report {
 }
 
 /// Reads a file and those it includes.
-pub fn read(bytes: &[u8], files: &mut dyn Files, report: &mut Report) -> Result<Element, ReadError> {
-    let mut reader = Reader { files, report, open: Vec::new(), count: 0, bytes: 0, nodes: 0 };
+pub fn read(
+    bytes: &[u8],
+    files: &mut dyn Files,
+    report: &mut Report,
+) -> Result<Element, ReadError> {
+    let mut reader = Reader {
+        files,
+        report,
+        open: Vec::new(),
+        count: 0,
+        bytes: 0,
+        nodes: 0,
+    };
     let mut roots = Vec::new();
     reader.add_file(bytes, None, 0, &mut roots)?;
     let root = roots.pop().unwrap_or_default();
     if root.name != "mujoco" {
-        return Err(ReadError::WrongRoot { line: root.line, found: short(&root.name), expected: "mujoco" });
+        return Err(ReadError::WrongRoot {
+            line: root.line,
+            found: short(&root.name),
+            expected: "mujoco",
+        });
     }
     Ok(root)
 }
@@ -144,9 +174,15 @@ impl Reader<'_> {
         if self.nodes > limits::NODES as usize {
             return Err(ReadError::TooManyNodes);
         }
-        let (attributes, long): (Vec<_>, Vec<_>) =
-            node.attributes().partition(|attribute| attribute.value().len() <= MAX_ATTRIBUTE_BYTES);
-        let owned = |attribute: Attribute| (attribute.name().to_owned(), attribute.value().trim().to_owned());
+        let (attributes, long): (Vec<_>, Vec<_>) = node
+            .attributes()
+            .partition(|attribute| attribute.value().len() <= MAX_ATTRIBUTE_BYTES);
+        let owned = |attribute: Attribute| {
+            (
+                attribute.name().to_owned(),
+                attribute.value().trim().to_owned(),
+            )
+        };
         let mut element = Element {
             name: node.tag_name().name().to_owned(),
             attributes: attributes.into_iter().map(owned).collect(),
@@ -158,12 +194,16 @@ impl Reader<'_> {
             let (name, length) = (short(attribute.name()), attribute.value().len());
             self.report.leave_out(
                 &element,
-                format!("{name} has {length} bytes, more than the {MAX_ATTRIBUTE_BYTES} that are read"),
+                format!(
+                    "{name} has {length} bytes, more than the {MAX_ATTRIBUTE_BYTES} that are read"
+                ),
             );
         }
         if depth >= MAX_DEPTH && node.first_element_child().is_some() {
-            self.report
-                .leave_out(&element, format!("more than {MAX_DEPTH} elements inside of each other are not read"));
+            self.report.leave_out(
+                &element,
+                format!("more than {MAX_DEPTH} elements inside of each other are not read"),
+            );
             return Ok(element);
         }
         let mut children = Vec::new();
@@ -186,12 +226,21 @@ impl Reader<'_> {
                 break;
             }
             let element = self.element(child, source, file.clone(), depth)?;
-            if is_include { self.include(&element, depth, into)? } else { into.push(element) }
+            if is_include {
+                self.include(&element, depth, into)?
+            } else {
+                into.push(element)
+            }
         }
         Ok(())
     }
 
-    fn include(&mut self, element: &Element, depth: usize, into: &mut Vec<Element>) -> Result<(), ReadError> {
+    fn include(
+        &mut self,
+        element: &Element,
+        depth: usize,
+        into: &mut Vec<Element>,
+    ) -> Result<(), ReadError> {
         let name = element.attribute("file").unwrap_or_default().to_owned();
         let reason = match self.open(&name) {
             Ok(bytes) => {
@@ -206,7 +255,8 @@ impl Reader<'_> {
             Err(reason) => Some(reason),
         };
         if let Some(reason) = reason {
-            self.report.leave_out(element, format!("'{}': {reason}", short(&name)));
+            self.report
+                .leave_out(element, format!("'{}': {reason}", short(&name)));
         }
         Ok(())
     }
@@ -223,7 +273,10 @@ impl Reader<'_> {
         let bytes = self.files.include(name)?;
         (self.count, self.bytes) = (self.count + 1, self.bytes + bytes.len());
         if self.bytes > limits::BYTES {
-            return Err(format!("the files have more than {} bytes together", limits::BYTES));
+            return Err(format!(
+                "the files have more than {} bytes together",
+                limits::BYTES
+            ));
         }
         Ok(bytes)
     }

@@ -21,7 +21,11 @@ impl Builder<'_> {
         let pose = place.pose * pose;
         let name = attributes.get("name").unwrap_or_default().to_owned();
         let line = attributes.element.line;
-        let mut number = |name: &str, otherwise: f64| attributes.number(&mut self.report, name).unwrap_or(otherwise);
+        let mut number = |name: &str, otherwise: f64| {
+            attributes
+                .number(&mut self.report, name)
+                .unwrap_or(otherwise)
+        };
         let group = number("group", 0.0);
         let touches = number("contype", 1.0) != 0.0 || number("conaffinity", 1.0) != 0.0;
         let density = number("density", DENSITY);
@@ -29,22 +33,44 @@ impl Builder<'_> {
         let material = self.document.material(attributes, &mut self.report);
         let link = &mut self.model.robot.links[place.link];
         if touches {
-            link.collisions.push(Collision { name: name.clone(), pose, geometry: geometry.clone(), line });
+            link.collisions.push(Collision {
+                name: name.clone(),
+                pose,
+                geometry: geometry.clone(),
+                line,
+            });
         }
         if group <= LAST_VISIBLE_GROUP {
-            link.visuals.push(Visual { name, pose, geometry: geometry.clone(), material, line });
+            link.visuals.push(Visual {
+                name,
+                pose,
+                geometry: geometry.clone(),
+                material,
+                line,
+            });
         }
         let [low, high] = self.document.settings.inertia_groups;
         let mass = mass.map_or(Mass::Density(density), Mass::Total);
-        let volume = attributes.get("mesh").and_then(|mesh| self.document.meshes.get(mesh)).map(|mesh| mesh.volume);
+        let volume = attributes
+            .get("mesh")
+            .and_then(|mesh| self.document.meshes.get(mesh))
+            .map(|mesh| mesh.volume);
         let volume = volume.unwrap_or_default();
-        (low..=high).contains(&group).then_some(Weighed { pose, geometry, mass, volume, line })
+        (low..=high).contains(&group).then_some(Weighed {
+            pose,
+            geometry,
+            mass,
+            volume,
+            line,
+        })
     }
 
     /// The geometry of a geom, and where it is in the frame that the geom is in.
     fn geometry(&mut self, attributes: &Attributes) -> Option<(Pose, Geometry)> {
         let mesh = attributes.get("mesh");
-        let kind = attributes.get("type").unwrap_or(if mesh.is_some() { "mesh" } else { "sphere" });
+        let kind = attributes
+            .get("type")
+            .unwrap_or(if mesh.is_some() { "mesh" } else { "sphere" });
         let pose = self.document.pose(attributes, &mut self.report);
         if let Some(mesh) = mesh {
             return self.mesh(attributes, kind, mesh, pose);
@@ -55,13 +81,26 @@ impl Builder<'_> {
             pose,
             match kind {
                 "sphere" => Geometry::Sphere { radius: size[0] },
-                "capsule" => Geometry::Capsule { radius: size[0], length: 2.0 * size[1] },
-                "cylinder" => Geometry::Cylinder { radius: size[0], length: 2.0 * size[1] },
+                "capsule" => Geometry::Capsule {
+                    radius: size[0],
+                    length: 2.0 * size[1],
+                },
+                "cylinder" => Geometry::Cylinder {
+                    radius: size[0],
+                    length: 2.0 * size[1],
+                },
                 "ellipsoid" => Geometry::Ellipsoid { radii: size },
-                "box" => Geometry::Box { size: size.map(|half| 2.0 * half) },
-                "plane" => Geometry::Plane { normal: [0.0, 0.0, 1.0] },
+                "box" => Geometry::Box {
+                    size: size.map(|half| 2.0 * half),
+                },
+                "plane" => Geometry::Plane {
+                    normal: [0.0, 0.0, 1.0],
+                },
                 other => {
-                    self.report.leave_out(attributes.element, format!("a geom of type '{}' is not read", short(other)));
+                    self.report.leave_out(
+                        attributes.element,
+                        format!("a geom of type '{}' is not read", short(other)),
+                    );
                     return None;
                 }
             },
@@ -70,15 +109,23 @@ impl Builder<'_> {
 
     /// Of a geom between two points: its pose, and half of its length.
     fn placed(&mut self, attributes: &Attributes, pose: Pose) -> (Pose, Option<f64>) {
-        let Some(ends) = attributes.list(&mut self.report, "fromto") else { return (pose, None) };
+        let Some(ends) = attributes.list(&mut self.report, "fromto") else {
+            return (pose, None);
+        };
         let [x0, y0, z0, x1, y1, z1] = ends[..] else {
-            self.report.warn(attributes.element, "fromto has no six numbers; it is left out");
+            self.report.warn(
+                attributes.element,
+                "fromto has no six numbers; it is left out",
+            );
             return (pose, None);
         };
         let (from, to) = (Vector3::new(x0, y0, z0), Vector3::new(x1, y1, z1));
         // MuJoCo's z axis points from the second point to the first.
         let rotation = along(from - to).unwrap_or_default();
-        (Pose::from_parts(((from + to) / 2.0).into(), rotation), Some((to - from).norm() / 2.0))
+        (
+            Pose::from_parts(((from + to) / 2.0).into(), rotation),
+            Some((to - from).norm() / 2.0),
+        )
     }
 
     /// The numbers of a size; half of the length is known if the geom is between two points.
@@ -89,34 +136,70 @@ impl Builder<'_> {
             "box" | "ellipsoid" => 3,
             _ => return Some([0.0; 3]),
         };
-        let mut size = attributes.list(&mut self.report, "size").unwrap_or_default();
+        let mut size = attributes
+            .list(&mut self.report, "size")
+            .unwrap_or_default();
         if let Some(half) = half {
             match kind {
                 "capsule" | "cylinder" => size = vec![size.first().copied().unwrap_or(0.0), half],
                 "box" | "ellipsoid" => {
                     let across = size.first().copied().unwrap_or(0.0);
-                    size = vec![across, size.get(1).copied().filter(|size| *size > 0.0).unwrap_or(across), half];
+                    size = vec![
+                        across,
+                        size.get(1)
+                            .copied()
+                            .filter(|size| *size > 0.0)
+                            .unwrap_or(across),
+                        half,
+                    ];
                 }
                 _ => {}
             }
         }
         if size.len() < needed || size[..needed].iter().any(|size| *size <= 0.0) {
-            let found = if size.len() < needed { "too few sizes" } else { "a size that is not positive" };
-            self.report.leave_out(attributes.element, format!("a {} with {found}; it is left out", short(kind)));
+            let found = if size.len() < needed {
+                "too few sizes"
+            } else {
+                "a size that is not positive"
+            };
+            self.report.leave_out(
+                attributes.element,
+                format!("a {} with {found}; it is left out", short(kind)),
+            );
             return None;
         }
         Some(std::array::from_fn(|i| size.get(i).copied().unwrap_or(0.0)))
     }
 
-    fn mesh(&mut self, attributes: &Attributes, kind: &str, name: &str, pose: Pose) -> Option<(Pose, Geometry)> {
+    fn mesh(
+        &mut self,
+        attributes: &Attributes,
+        kind: &str,
+        name: &str,
+        pose: Pose,
+    ) -> Option<(Pose, Geometry)> {
         if kind != "mesh" {
-            self.report
-                .warn(attributes.element, format!("a {} is not fitted to its mesh: the mesh is taken", short(kind)));
+            self.report.warn(
+                attributes.element,
+                format!(
+                    "a {} is not fitted to its mesh: the mesh is taken",
+                    short(kind)
+                ),
+            );
         }
         let Some(asset) = self.document.meshes.get(name) else {
-            self.report.leave_out(attributes.element, format!("there is no mesh '{}'", short(name)));
+            self.report.leave_out(
+                attributes.element,
+                format!("there is no mesh '{}'", short(name)),
+            );
             return None;
         };
-        Some((pose * asset.reference.inverse(), Geometry::Mesh { file: asset.file.clone(), scale: asset.scale }))
+        Some((
+            pose * asset.reference.inverse(),
+            Geometry::Mesh {
+                file: asset.file.clone(),
+                scale: asset.scale,
+            },
+        ))
     }
 }

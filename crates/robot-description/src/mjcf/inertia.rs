@@ -36,7 +36,12 @@ pub enum Mass {
 
 impl Builder<'_> {
     /// The mass of a body: what its `<inertial>` says, or the sum of its geoms.
-    pub(super) fn inertial(&mut self, body: &Element, said: Option<Inertial>, geoms: &[Weighed]) -> Option<Inertial> {
+    pub(super) fn inertial(
+        &mut self,
+        body: &Element,
+        said: Option<Inertial>,
+        geoms: &[Weighed],
+    ) -> Option<Inertial> {
         match self.document.settings.inertia_from_geoms {
             FromGeoms::None => said,
             FromGeoms::WithoutInertial if said.is_some() => said,
@@ -50,13 +55,18 @@ impl Builder<'_> {
         let mass = attributes.number(&mut self.report, "mass").unwrap_or(0.0);
         let full = attributes.get("fullinertia").is_some();
         let inertia = if full {
-            let [xx, yy, zz, xy, xz, yz] = attributes.numbers(&mut self.report, "fullinertia", [0.0; 6]);
+            let [xx, yy, zz, xy, xz, yz] =
+                attributes.numbers(&mut self.report, "fullinertia", [0.0; 6]);
             [xx, xy, xz, yy, yz, zz]
         } else {
             let [xx, yy, zz] = attributes.numbers(&mut self.report, "diaginertia", [0.0; 3]);
             [xx, 0.0, 0.0, yy, 0.0, zz]
         };
-        Inertial { pose, mass, inertia }
+        Inertial {
+            pose,
+            mass,
+            inertia,
+        }
     }
 
     fn sum(&mut self, body: &Element, geoms: &[Weighed]) -> Option<Inertial> {
@@ -74,27 +84,50 @@ impl Builder<'_> {
         if mass <= 0.0 {
             return None;
         }
-        let centre = parts.iter().map(|(part, centre, _)| centre * *part).sum::<Vector3<f64>>() / mass;
+        let centre = parts
+            .iter()
+            .map(|(part, centre, _)| centre * *part)
+            .sum::<Vector3<f64>>()
+            / mass;
         let about_centre = |(mass, at, inertia): &(f64, Vector3<f64>, Matrix3<f64>)| {
             let d = at - centre;
             inertia + (Matrix3::from_diagonal_element(d.norm_squared()) - d * d.transpose()) * *mass
         };
         let inertia: Matrix3<f64> = parts.iter().map(about_centre).sum();
-        Some(Inertial { pose: nalgebra::Translation3::from(centre).into(), mass, inertia: upper(&inertia) })
+        Some(Inertial {
+            pose: nalgebra::Translation3::from(centre).into(),
+            mass,
+            inertia: upper(&inertia),
+        })
     }
 
     /// Applies what the settings say about the masses of all bodies.
     pub fn finish_masses(&mut self, root: &Element) {
         let settings = &self.document.settings;
         let total = self.model.robot.mass();
-        let mut factor = settings.total_mass.filter(|_| total > 0.0).map_or(1.0, |wanted| wanted / total);
+        let mut factor = settings
+            .total_mass
+            .filter(|_| total > 0.0)
+            .map_or(1.0, |wanted| wanted / total);
         if factor > MAX_NUMBER {
-            self.report.warn(root, format!("the bodies weigh {total:e} kg, too little to be scaled to the total mass"));
+            self.report.warn(
+                root,
+                format!("the bodies weigh {total:e} kg, too little to be scaled to the total mass"),
+            );
             factor = 1.0;
         }
-        let (least_mass, least_inertia, balances) =
-            (settings.least_mass, settings.least_inertia, settings.balances_inertia);
-        for inertial in self.model.robot.links.iter_mut().filter_map(|link| link.inertial.as_mut()) {
+        let (least_mass, least_inertia, balances) = (
+            settings.least_mass,
+            settings.least_inertia,
+            settings.balances_inertia,
+        );
+        for inertial in self
+            .model
+            .robot
+            .links
+            .iter_mut()
+            .filter_map(|link| link.inertial.as_mut())
+        {
             inertial.mass = inertial.mass.max(least_mass);
             if least_inertia > 0.0 || balances {
                 inertial.inertia = bounded(inertial.inertia, least_inertia, balances);
@@ -107,7 +140,9 @@ impl Builder<'_> {
 
 /// An inertia whose moments have a least value; those that no body has are made equal.
 fn bounded(inertia: [f64; 6], least: f64, balances: bool) -> [f64; 6] {
-    let Some(eigen) = SymmetricEigen::try_new(full(inertia), f64::EPSILON, 1000) else { return inertia };
+    let Some(eigen) = SymmetricEigen::try_new(full(inertia), f64::EPSILON, 1000) else {
+        return inertia;
+    };
     let mut moments = eigen.eigenvalues.map(|moment| moment.max(least));
     let largest = moments.max();
     if balances && moments.sum() < 2.0 * largest {
@@ -138,17 +173,26 @@ fn placed(geom: &Weighed, solid: &Solid) -> Option<(f64, Vector3<f64>, Matrix3<f
     }
     let turn = geom.pose.rotation.to_rotation_matrix();
     let centre = geom.pose.transform_point(&solid.centre.into()).coords;
-    Some((mass, centre, turn * (solid.inertia * density) * turn.transpose()))
+    Some((
+        mass,
+        centre,
+        turn * (solid.inertia * density) * turn.transpose(),
+    ))
 }
 
 /// The solid of a geom, at a density of 1.
 fn solid(geom: &Weighed, files: &mut dyn Files) -> Result<Solid, String> {
     if let Geometry::Mesh { file, scale } = &geom.geometry {
         let mesh = files.triangles(file)?;
-        return mesh_solid::solid(&mesh, *scale, geom.volume).ok_or_else(|| format!("'{file}' has no volume"));
+        return mesh_solid::solid(&mesh, *scale, geom.volume)
+            .ok_or_else(|| format!("'{file}' has no volume"));
     }
     let (volume, moments) = volume_and_moments(&geom.geometry);
-    Ok(Solid { volume, centre: Vector3::zeros(), inertia: Matrix3::from_diagonal(&moments.into()) })
+    Ok(Solid {
+        volume,
+        centre: Vector3::zeros(),
+        inertia: Matrix3::from_diagonal(&moments.into()),
+    })
 }
 
 fn volume_and_moments(geometry: &Geometry) -> (f64, [f64; 3]) {
@@ -181,6 +225,7 @@ fn volume_and_moments(geometry: &Geometry) -> (f64, [f64; 3]) {
 fn capsule(r: f64, l: f64) -> (f64, [f64; 3]) {
     let (cylinder, balls) = (PI * r * r * l, 4.0 / 3.0 * PI * r * r * r);
     let along = 0.5 * cylinder * r * r + 0.4 * balls * r * r;
-    let across = cylinder * (3.0 * r * r + l * l) / 12.0 + balls * (0.4 * r * r + 0.375 * r * l + 0.25 * l * l);
+    let across = cylinder * (3.0 * r * r + l * l) / 12.0
+        + balls * (0.4 * r * r + 0.375 * r * l + 0.25 * l * l);
     (cylinder + balls, [across, across, along])
 }

@@ -26,14 +26,32 @@ pub enum Volume {
 /// and the middle of the surface, volume and inertia are those of the tetrahedra between the triangles and that centre.
 pub fn solid(mesh: &Triangles, scale: [f64; 3], volume: Volume) -> Option<Solid> {
     let factors = Vector3::from(scale);
-    let at = |corner: u32| mesh.vertices.get(corner as usize).map(|v| Vector3::from(*v).component_mul(&factors));
-    let triangles = || mesh.corners.iter().filter_map(|[a, b, c]| Some([at(*a)?, at(*b)?, at(*c)?]));
-    let flip = if scale.iter().product::<f64>() < 0.0 { -1.0 } else { 1.0 };
+    let at = |corner: u32| {
+        mesh.vertices
+            .get(corner as usize)
+            .map(|v| Vector3::from(*v).component_mul(&factors))
+    };
+    let triangles = || {
+        mesh.corners
+            .iter()
+            .filter_map(|[a, b, c]| Some([at(*a)?, at(*b)?, at(*c)?]))
+    };
+    let flip = if scale.iter().product::<f64>() < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
     let counted = |[a, b, c]: &[Vector3<f64>; 3]| {
         let signed = flip * a.dot(&b.cross(c)) / 6.0;
-        if volume == Volume::Legacy { signed.abs() } else { signed }
+        if volume == Volume::Legacy {
+            signed.abs()
+        } else {
+            signed
+        }
     };
-    let about = |middle: Vector3<f64>| triangles().map(move |triangle| triangle.map(|corner| corner - middle));
+    let about = |middle: Vector3<f64>| {
+        triangles().map(move |triangle| triangle.map(|corner| corner - middle))
+    };
     let middle = middle(triangles())?;
     let (mut total, mut first) = (0.0, Vector3::zeros());
     for triangle in about(middle) {
@@ -46,12 +64,20 @@ pub fn solid(mesh: &Triangles, scale: [f64; 3], volume: Volume) -> Option<Solid>
     for triangle in about(centre) {
         let part = counted(&triangle);
         let sum: Vector3<f64> = triangle.iter().sum();
-        let squares = triangle.iter().chain([&sum]).map(|v| v * v.transpose()).sum::<Matrix3<f64>>();
+        let squares = triangle
+            .iter()
+            .chain([&sum])
+            .map(|v| v * v.transpose())
+            .sum::<Matrix3<f64>>();
         total += part;
         second += squares * (part / 20.0);
     }
     let inertia = Matrix3::from_diagonal_element(second.trace()) - second;
-    (total > 0.0 && total.is_finite()).then_some(Solid { volume: total, centre, inertia })
+    (total > 0.0 && total.is_finite()).then_some(Solid {
+        volume: total,
+        centre,
+        inertia,
+    })
 }
 
 /// The centre of a surface.

@@ -155,7 +155,9 @@ pub fn is_mjcf(bytes: &[u8]) -> bool {
                 .strip_prefix("<mujoco")
                 .is_some_and(|rest| rest.starts_with([' ', '>', '/', '\n', '\r', '\t']));
         };
-        let Some(at) = rest.find(end) else { return false };
+        let Some(at) = rest.find(end) else {
+            return false;
+        };
         rest = &rest[at + end.len()..];
     }
 }

@@ -14,11 +14,20 @@ const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"
 /// `pos` and an orientation of an element.
 pub fn pose(attributes: &Attributes, settings: &Settings, report: &mut Report) -> Pose {
     let position = attributes.numbers(report, "pos", [0.0; 3]);
-    Pose::from_parts(Vector3::from(position).into(), rotation(attributes, settings, report))
+    Pose::from_parts(
+        Vector3::from(position).into(),
+        rotation(attributes, settings, report),
+    )
 }
 
-fn rotation(attributes: &Attributes, settings: &Settings, report: &mut Report) -> UnitQuaternion<f64> {
-    let Some((name, text)) = attributes.first_of(&ORIENTATIONS) else { return UnitQuaternion::identity() };
+fn rotation(
+    attributes: &Attributes,
+    settings: &Settings,
+    report: &mut Report,
+) -> UnitQuaternion<f64> {
+    let Some((name, text)) = attributes.first_of(&ORIENTATIONS) else {
+        return UnitQuaternion::identity();
+    };
     let numbers = report.numbers(attributes.element, name, text);
     let expected = match name {
         "quat" | "axisangle" => 4,
@@ -26,11 +35,17 @@ fn rotation(attributes: &Attributes, settings: &Settings, report: &mut Report) -
         _ => 3,
     };
     if numbers.len() != expected {
-        report.warn(attributes.element, format!("{name} has {} numbers instead of {expected}", numbers.len()));
+        report.warn(
+            attributes.element,
+            format!("{name} has {} numbers instead of {expected}", numbers.len()),
+        );
         return UnitQuaternion::identity();
     }
     of_numbers(name, &numbers, settings).unwrap_or_else(|| {
-        report.warn(attributes.element, format!("{name} is no orientation; it is left out"));
+        report.warn(
+            attributes.element,
+            format!("{name} is no orientation; it is left out"),
+        );
         UnitQuaternion::identity()
     })
 }
@@ -42,9 +57,14 @@ fn of_numbers(name: &str, numbers: &[f64], settings: &Settings) -> Option<UnitQu
             let axis = Unit::try_new(Vector3::new(*x, *y, *z), 1e-12)?;
             Some(turn(&axis, settings.angle(*angle)))
         }
-        ("xyaxes", [x0, x1, x2, y0, y1, y2]) => of_axes([*x0, *x1, *x2].into(), [*y0, *y1, *y2].into()),
+        ("xyaxes", [x0, x1, x2, y0, y1, y2]) => {
+            of_axes([*x0, *x1, *x2].into(), [*y0, *y1, *y2].into())
+        }
         ("zaxis", [x, y, z]) => along(Vector3::new(*x, *y, *z)),
-        ("euler", [a, b, c]) => Some(of_euler([*a, *b, *c].map(|angle| settings.angle(angle)), settings.sequence)),
+        ("euler", [a, b, c]) => Some(of_euler(
+            [*a, *b, *c].map(|angle| settings.angle(angle)),
+            settings.sequence,
+        )),
         _ => None,
     }
 }
@@ -73,7 +93,11 @@ fn of_euler(angles: [f64; 3], sequence: [u8; 3]) -> UnitQuaternion<f64> {
             _ => Vector3::z_axis(),
         };
         let turned = turn(&axis, angle);
-        rotation = if letter.is_ascii_lowercase() { rotation * turned } else { turned * rotation };
+        rotation = if letter.is_ascii_lowercase() {
+            rotation * turned
+        } else {
+            turned * rotation
+        };
     }
     rotation
 }

@@ -43,11 +43,20 @@ impl Robot {
         if own.color.is_some() || own.texture.is_some() {
             return Some(own);
         }
-        Some(self.materials.iter().find(|material| material.name == own.name).unwrap_or(own))
+        Some(
+            self.materials
+                .iter()
+                .find(|material| material.name == own.name)
+                .unwrap_or(own),
+        )
     }
 
     /// The sum of what the links weigh, kilograms.
     pub fn mass(&self) -> f64 {
-        self.links.iter().filter_map(|link| link.inertial.as_ref()).map(|inertial| inertial.mass).sum()
+        self.links
+            .iter()
+            .filter_map(|link| link.inertial.as_ref())
+            .map(|inertial| inertial.mass)
+            .sum()
     }
 }

@@ -54,8 +54,12 @@ impl Frames {
                     None
                 }
             };
-            let inside = (!frame.said_inside.is_empty()).then(|| meant(&frame.said_inside)).flatten();
-            let attached_to = (!frame.said_attached_to.is_empty()).then(|| meant(&frame.said_attached_to)).flatten();
+            let inside = (!frame.said_inside.is_empty())
+                .then(|| meant(&frame.said_inside))
+                .flatten();
+            let attached_to = (!frame.said_attached_to.is_empty())
+                .then(|| meant(&frame.said_attached_to))
+                .flatten();
             changes.push((name.clone(), inside, attached_to));
         }
         for (name, inside, attached_to) in changes {
@@ -81,7 +85,9 @@ impl Frames {
         }
         let own = format!("{scope}{name}");
         let model = format!("{own}::{MODEL}");
-        [own, model].into_iter().find(|name| self.0.contains_key(name))
+        [own, model]
+            .into_iter()
+            .find(|name| self.0.contains_key(name))
     }
 
     /// The pose of a frame in the world; `None` if it is not there, or defined in itself.
@@ -121,7 +127,9 @@ impl Frames {
 
     /// Moves the frame of a model so that another frame of it lies where the model's would.
     pub fn place_by(&mut self, model: &str, frame: &str) -> bool {
-        let Some(inner) = self.pose_in(frame, model) else { return false };
+        let Some(inner) = self.pose_in(frame, model) else {
+            return false;
+        };
         if let Some(frame) = self.0.get_mut(model) {
             frame.pose *= inner.inverse();
         }

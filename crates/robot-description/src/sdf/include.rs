@@ -30,7 +30,13 @@ pub struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     pub fn new(include: Include<'a>) -> Self {
-        Self { include, open: Vec::new(), count: 0, bytes: 0, warnings: Vec::new() }
+        Self {
+            include,
+            open: Vec::new(),
+            count: 0,
+            bytes: 0,
+            warnings: Vec::new(),
+        }
     }
 
     /// The file of a name. [`close`](Self::close) ends it.
@@ -46,7 +52,10 @@ impl<'a> Reader<'a> {
         let file = (self.include)(uri)?;
         (self.count, self.bytes) = (self.count + 1, self.bytes + file.bytes.len());
         if self.bytes > limits::BYTES {
-            return Err(format!("the files have more than {} bytes together", limits::BYTES));
+            return Err(format!(
+                "the files have more than {} bytes together",
+                limits::BYTES
+            ));
         }
         self.open.push(uri.to_owned());
         Ok(file)
@@ -56,8 +65,12 @@ impl<'a> Reader<'a> {
     pub fn close(&mut self, warnings: Vec<Warning>) {
         let Some(uri) = self.open.pop() else { return };
         let room = limits::WARNINGS.saturating_sub(self.warnings.len());
-        let named = |warning: Warning| Warning { message: format!("{} (in {uri})", warning.message), ..warning };
-        self.warnings.extend(warnings.into_iter().take(room).map(named));
+        let named = |warning: Warning| Warning {
+            message: format!("{} (in {uri})", warning.message),
+            ..warning
+        };
+        self.warnings
+            .extend(warnings.into_iter().take(room).map(named));
     }
 
     pub fn into_warnings(self) -> Vec<Warning> {

@@ -41,28 +41,65 @@ pub fn read_joint(source: &mut Source, node: Node, version: f64) -> JointText {
         "fixed" => JointKind::Fixed,
         "ball" => JointKind::Spherical,
         other => {
-            source.warn(node, format!("the type '{}' is not read; the joint is taken for a fixed one", short(other)));
+            source.warn(
+                node,
+                format!(
+                    "the type '{}' is not read; the joint is taken for a fixed one",
+                    short(other)
+                ),
+            );
             JointKind::Fixed
         }
     };
-    let axes = ["axis", "axis2"].iter().filter_map(|name| source.child(node, name)).collect::<Vec<Node>>();
-    let mut axes: Vec<AxisText> = axes.into_iter().map(|axis| read_axis(source, axis, version)).collect();
-    let most = if matches!(kind_name.as_str(), "revolute2" | "universal") { 2 } else { 1 };
+    let axes = ["axis", "axis2"]
+        .iter()
+        .filter_map(|name| source.child(node, name))
+        .collect::<Vec<Node>>();
+    let mut axes: Vec<AxisText> = axes
+        .into_iter()
+        .map(|axis| read_axis(source, axis, version))
+        .collect();
+    let most = if matches!(kind_name.as_str(), "revolute2" | "universal") {
+        2
+    } else {
+        1
+    };
     axes.truncate(most);
-    if axes.is_empty() && matches!(kind, JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic) {
+    if axes.is_empty()
+        && matches!(
+            kind,
+            JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic
+        )
+    {
         source.warn(node, "has no axis; z is taken");
     }
     let ends = ["parent", "child"].map(|name| text(source, node, name));
     let [parent, child] = ends.map(Option::unwrap_or_default);
-    let pose = pose(source, node).unwrap_or(PoseText { pose: Pose::identity(), relative_to: String::new() });
-    JointText { name: source.required(node, "name"), kind, parent, child, pose, axes, line: source.line(node) }
+    let pose = pose(source, node).unwrap_or(PoseText {
+        pose: Pose::identity(),
+        relative_to: String::new(),
+    });
+    JointText {
+        name: source.required(node, "name"),
+        kind,
+        parent,
+        child,
+        pose,
+        axes,
+        line: source.line(node),
+    }
 }
 
 fn read_axis(source: &mut Source, node: Node, version: f64) -> AxisText {
-    let mut expressed_in =
-        source.child(node, "xyz").and_then(|xyz| xyz.attribute("expressed_in")).unwrap_or_default().to_owned();
+    let mut expressed_in = source
+        .child(node, "xyz")
+        .and_then(|xyz| xyz.attribute("expressed_in"))
+        .unwrap_or_default()
+        .to_owned();
     // Up to 1.4, axes are in the frame of the model; from 1.5, they can say so.
-    if expressed_in.is_empty() && (version < 1.45 || is_true(source, node, "use_parent_model_frame")) {
+    if expressed_in.is_empty()
+        && (version < 1.45 || is_true(source, node, "use_parent_model_frame"))
+    {
         expressed_in = super::frames::MODEL.to_owned();
     }
     let xyz = child_numbers(source, node, "xyz", [0.0, 0.0, 1.0]);
@@ -89,7 +126,17 @@ fn read_axis(source: &mut Source, node: Node, version: f64) -> AxisText {
     let mimic = source.child(node, "mimic").map(|mimic| {
         let master = source.required(mimic, "joint");
         let multiplier = number(source, mimic, "multiplier").unwrap_or(1.0);
-        (master, multiplier, number(source, mimic, "offset").unwrap_or(0.0))
+        (
+            master,
+            multiplier,
+            number(source, mimic, "offset").unwrap_or(0.0),
+        )
     });
-    AxisText { xyz, expressed_in, limits, dynamics, mimic }
+    AxisText {
+        xyz,
+        expressed_in,
+        limits,
+        dynamics,
+        mimic,
+    }
 }

@@ -53,7 +53,11 @@ pub fn read(bytes: &[u8], include: Include) -> Result<Parsed<World>, ReadError> 
     let root = document.root_element();
     if root.tag_name().name() != "sdf" && root.tag_name().name() != "gazebo" {
         let found = short(root.tag_name().name());
-        return Err(ReadError::WrongRoot { line: source.line(root), found, expected: "sdf" });
+        return Err(ReadError::WrongRoot {
+            line: source.line(root),
+            found,
+            expected: "sdf",
+        });
     }
     let mut reader = Reader::new(include);
     let world = read_world(&mut reader, &mut source, root);
@@ -73,12 +77,21 @@ fn read_world(reader: &mut Reader, source: &mut Source, root: Node) -> World {
     let version = source.number(root, "version").unwrap_or(1.4);
     let Some(node) = source.child(root, "world") else {
         let models = model::read_models(reader, source, root, version);
-        return World { models, ..World::default() };
+        return World {
+            models,
+            ..World::default()
+        };
     };
     let name = source.required(node, "name");
-    let gravity = source.child(node, "gravity").map(|gravity| value::numbers(source, gravity, [0.0, 0.0, -9.8]));
+    let gravity = source
+        .child(node, "gravity")
+        .map(|gravity| value::numbers(source, gravity, [0.0, 0.0, -9.8]));
     for actor in named(node, "actor") {
         source.leave_out(actor, "actors are not read");
     }
-    World { name, gravity, models: model::read_models(reader, source, node, version) }
+    World {
+        name,
+        gravity,
+        models: model::read_models(reader, source, node, version),
+    }
 }

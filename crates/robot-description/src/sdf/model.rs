@@ -19,24 +19,51 @@ const MAX_DEPTH: usize = 32;
 const MAX_SCOPE_BYTES: usize = 1000;
 
 /// Reads the models, and the files, inside of a world or a file.
-pub fn read_models(reader: &mut Reader, source: &mut Source, node: Node, version: f64) -> Vec<Model> {
-    let mut collection = Collection { reader, frames: Frames::default(), placements: Vec::new() };
+pub fn read_models(
+    reader: &mut Reader,
+    source: &mut Source,
+    node: Node,
+    version: f64,
+) -> Vec<Model> {
+    let mut collection = Collection {
+        reader,
+        frames: Frames::default(),
+        placements: Vec::new(),
+    };
     for frame in named(node, "frame") {
         collection.add_frame(source, frame, "", WORLD);
     }
     let (mut drafts, mut names) = (Vec::<Draft>::new(), BTreeSet::new());
     for child in elements(node) {
         let mut draft = Draft::default();
-        let read =
-            collection.add_any_model(source, child, Place { scope: "", folder: "", depth: 0, version }, &mut draft);
+        let read = collection.add_any_model(
+            source,
+            child,
+            Place {
+                scope: "",
+                folder: "",
+                depth: 0,
+                version,
+            },
+            &mut draft,
+        );
         if read && !names.insert(draft.name.clone()) {
-            source.warn(child, format!("there is a model '{}' before it; this one is left out", short(&draft.name)));
+            source.warn(
+                child,
+                format!(
+                    "there is a model '{}' before it; this one is left out",
+                    short(&draft.name)
+                ),
+            );
         } else if read {
             drafts.push(draft);
         }
     }
     let frames = collection.finish(source, node);
-    drafts.into_iter().map(|draft| draft.placed(&frames, source, node)).collect()
+    drafts
+        .into_iter()
+        .map(|draft| draft.placed(&frames, source, node))
+        .collect()
 }
 
 /// Where a model is read.
@@ -79,7 +106,13 @@ struct Collection<'r, 'i> {
 
 impl Collection<'_, '_> {
     /// Adds a `<model>` or an `<include>` to a draft. False if it is neither, or cannot be read.
-    fn add_any_model(&mut self, source: &mut Source, node: Node, place: Place, draft: &mut Draft) -> bool {
+    fn add_any_model(
+        &mut self,
+        source: &mut Source,
+        node: Node,
+        place: Place,
+        draft: &mut Draft,
+    ) -> bool {
         match node.tag_name().name() {
             "model" => self.add_model(source, node, place, draft, Overrides::default()),
             "include" => self.add_file(source, node, place, draft),
@@ -87,7 +120,13 @@ impl Collection<'_, '_> {
         }
     }
 
-    fn add_file(&mut self, source: &mut Source, node: Node, place: Place, draft: &mut Draft) -> bool {
+    fn add_file(
+        &mut self,
+        source: &mut Source,
+        node: Node,
+        place: Place,
+        draft: &mut Draft,
+    ) -> bool {
         let Some(uri) = text(source, node, "uri") else {
             source.warn(node, "has no uri; it is left out");
             return false;
@@ -105,7 +144,10 @@ impl Collection<'_, '_> {
                 return false;
             }
         };
-        let place = Place { folder: &file.folder, ..place };
+        let place = Place {
+            folder: &file.folder,
+            ..place
+        };
         let outcome = self.add_text(&file.bytes, place, draft, overrides);
         outcome.unwrap_or_else(|reason| {
             self.reader.close(Vec::new());
@@ -128,7 +170,13 @@ impl Collection<'_, '_> {
         let mut source = Source::new(&text, before);
         let version = source.number(root, "version").unwrap_or(place.version);
         let model = named(root, "model").next().ok_or("it has no model")?;
-        let read = self.add_model(&mut source, model, Place { version, ..place }, draft, overrides);
+        let read = self.add_model(
+            &mut source,
+            model,
+            Place { version, ..place },
+            draft,
+            overrides,
+        );
         self.reader.close(source.finish(()).warnings);
         Ok(read)
     }
@@ -142,10 +190,15 @@ impl Collection<'_, '_> {
         overrides: Overrides,
     ) -> bool {
         if place.depth >= MAX_DEPTH {
-            source.leave_out(node, format!("more than {MAX_DEPTH} models inside of each other are not read"));
+            source.leave_out(
+                node,
+                format!("more than {MAX_DEPTH} models inside of each other are not read"),
+            );
             return false;
         }
-        let name = overrides.name.unwrap_or_else(|| source.required(node, "name"));
+        let name = overrides
+            .name
+            .unwrap_or_else(|| source.required(node, "name"));
         let scope = format!("{}{name}::", place.scope);
         if scope.len() > MAX_SCOPE_BYTES {
             let problem = format!(
@@ -155,19 +208,43 @@ impl Collection<'_, '_> {
             return false;
         }
         let frame = format!("{scope}{MODEL}");
-        let outer = if place.scope.is_empty() { WORLD.to_owned() } else { format!("{}{MODEL}", place.scope) };
-        let own_pose = overrides.pose.or_else(|| pose(source, node)).unwrap_or_else(no_pose);
+        let outer = if place.scope.is_empty() {
+            WORLD.to_owned()
+        } else {
+            format!("{}{MODEL}", place.scope)
+        };
+        let own_pose = overrides
+            .pose
+            .or_else(|| pose(source, node))
+            .unwrap_or_else(no_pose);
         let is_new = self.add_placed(frame.clone(), place.scope, own_pose, outer, None);
-        let placement = overrides.placement.or_else(|| node.attribute("placement_frame").map(str::to_owned));
-        self.placements.extend(placement.filter(|name| !name.is_empty()).map(|name| (scope.clone(), name)));
+        let placement = overrides
+            .placement
+            .or_else(|| node.attribute("placement_frame").map(str::to_owned));
+        self.placements.extend(
+            placement
+                .filter(|name| !name.is_empty())
+                .map(|name| (scope.clone(), name)),
+        );
         if place.depth == 0 {
             draft.is_static = overrides.is_static || is_true(source, node, "static");
             draft.name = name;
         }
         let links_before = draft.links.len();
-        self.add_parts(source, node, Place { scope: &scope, depth: place.depth + 1, ..place }, draft);
+        self.add_parts(
+            source,
+            node,
+            Place {
+                scope: &scope,
+                depth: place.depth + 1,
+                ..place
+            },
+            draft,
+        );
         let first = draft.links.get(links_before).map(|(full, _)| full.clone());
-        let canonical = node.attribute("canonical_link").map(|link| format!("{scope}{link}"));
+        let canonical = node
+            .attribute("canonical_link")
+            .map(|link| format!("{scope}{link}"));
         if let Some(link) = canonical.or(first).filter(|_| is_new) {
             self.frames.attach(&frame, link);
         }
@@ -181,9 +258,19 @@ impl Collection<'_, '_> {
                 "link" => {
                     let full = format!("{}{}", place.scope, source.required(child, "name"));
                     let pose = pose(source, child).unwrap_or_else(no_pose);
-                    self.add_placed(full.clone(), place.scope, pose, model.clone(), Some(full.clone()));
-                    draft.sensors.extend(read_sensors(source, child, draft.links.len()));
-                    draft.links.push((full.clone(), read_link(source, child, full, place.folder)));
+                    self.add_placed(
+                        full.clone(),
+                        place.scope,
+                        pose,
+                        model.clone(),
+                        Some(full.clone()),
+                    );
+                    draft
+                        .sensors
+                        .extend(read_sensors(source, child, draft.links.len()));
+                    draft
+                        .links
+                        .push((full.clone(), read_link(source, child, full, place.folder)));
                 }
                 "joint" => {
                     let joint = read_joint(source, child, place.version);
@@ -192,8 +279,17 @@ impl Collection<'_, '_> {
                     } else {
                         joint.pose.relative_to.clone()
                     };
-                    let pose = PoseText { pose: joint.pose.pose, relative_to: inside };
-                    self.add_placed(format!("{}{}", place.scope, joint.name), place.scope, pose, model.clone(), None);
+                    let pose = PoseText {
+                        pose: joint.pose.pose,
+                        relative_to: inside,
+                    };
+                    self.add_placed(
+                        format!("{}{}", place.scope, joint.name),
+                        place.scope,
+                        pose,
+                        model.clone(),
+                        None,
+                    );
                     draft.joints.push((place.scope.to_owned(), joint));
                 }
                 "frame" => self.add_frame(source, child, place.scope, &model),
@@ -205,7 +301,11 @@ impl Collection<'_, '_> {
 
     fn add_frame(&mut self, source: &mut Source, node: Node, scope: &str, model: &str) {
         let name = format!("{scope}{}", source.required(node, "name"));
-        let attached = node.attribute("attached_to").unwrap_or_default().trim().to_owned();
+        let attached = node
+            .attribute("attached_to")
+            .unwrap_or_default()
+            .trim()
+            .to_owned();
         let mut pose = pose(source, node).unwrap_or_else(no_pose);
         if pose.relative_to.is_empty() {
             pose.relative_to.clone_from(&attached);
@@ -244,13 +344,22 @@ impl Collection<'_, '_> {
 
     fn finish(mut self, source: &mut Source, node: Node) -> Frames {
         for unknown in self.frames.resolve_names() {
-            source.warn(node, format!("there is no frame '{}': the usual one is taken", short(&unknown)));
+            source.warn(
+                node,
+                format!(
+                    "there is no frame '{}': the usual one is taken",
+                    short(&unknown)
+                ),
+            );
         }
         for (scope, name) in self.placements.iter().rev() {
             let model = format!("{scope}{MODEL}");
             let frame = self.frames.full_name(scope, name);
             if !frame.is_some_and(|frame| self.frames.place_by(&model, &frame)) {
-                source.warn(node, format!("the placement frame '{}' is not in its model", short(name)));
+                source.warn(
+                    node,
+                    format!("the placement frame '{}' is not in its model", short(name)),
+                );
             }
         }
         self.frames
@@ -258,21 +367,33 @@ impl Collection<'_, '_> {
 }
 
 fn no_pose() -> PoseText {
-    PoseText { pose: Pose::identity(), relative_to: String::new() }
+    PoseText {
+        pose: Pose::identity(),
+        relative_to: String::new(),
+    }
 }
 
 impl Draft {
     /// The model with all poses, relative to it.
     fn placed(self, frames: &Frames, source: &mut Source, node: Node) -> Model {
         let scope = format!("{}::", self.name);
-        let pose = frames.in_world(&format!("{scope}{MODEL}")).unwrap_or_else(Pose::identity);
-        let mut robot = Robot { name: self.name, sensors: self.sensors, ..Robot::default() };
+        let pose = frames
+            .in_world(&format!("{scope}{MODEL}"))
+            .unwrap_or_else(Pose::identity);
+        let mut robot = Robot {
+            name: self.name,
+            sensors: self.sensors,
+            ..Robot::default()
+        };
         let mut index = BTreeMap::new();
         for (full, mut link) in self.links {
             link.pose = match frames.in_world(&full) {
                 Some(placed) => pose.inverse() * placed,
                 None => {
-                    source.warn(node, format!("the pose of '{}' is defined in itself", short(&full)));
+                    source.warn(
+                        node,
+                        format!("the pose of '{}' is defined in itself", short(&full)),
+                    );
                     Pose::identity()
                 }
             };
@@ -280,17 +401,31 @@ impl Draft {
             index.entry(full).or_insert(robot.links.len());
             robot.links.push(link);
         }
-        let mut assembly =
-            Assembly { frames, robot, index, model: pose, mimics: Vec::new(), first_axes: BTreeMap::new() };
+        let mut assembly = Assembly {
+            frames,
+            robot,
+            index,
+            model: pose,
+            mimics: Vec::new(),
+            first_axes: BTreeMap::new(),
+        };
         for (joint_scope, joint) in self.joints {
             if let Err(reason) = assembly.add_joint(&scope, &joint_scope, &joint) {
                 source.warn(
                     node,
-                    format!("joint '{}' (line {}): {reason}; it is left out", short(&joint.name), joint.line),
+                    format!(
+                        "joint '{}' (line {}): {reason}; it is left out",
+                        short(&joint.name),
+                        joint.line
+                    ),
                 );
             }
         }
-        Model { robot: assembly.finish(source, node), pose, is_static: self.is_static }
+        Model {
+            robot: assembly.finish(source, node),
+            pose,
+            is_static: self.is_static,
+        }
     }
 }
 
@@ -313,25 +448,59 @@ impl Assembly<'_> {
         let parent = self.end(scope, &text.parent)?;
         let child = self.end(scope, &text.child)?;
         let full = format!("{scope}{}", text.name);
-        let frame = self.frames.in_world(&full).ok_or("its pose is defined in itself")?;
+        let frame = self
+            .frames
+            .in_world(&full)
+            .ok_or("its pose is defined in itself")?;
         let in_model = self.model.inverse() * frame;
         let origin = self.robot.links[parent].pose.inverse() * in_model;
         let child_pose = in_model.inverse() * self.robot.links[child].pose;
         let name = full.strip_prefix(model).unwrap_or(&full).to_owned();
-        self.first_axes.entry(full).or_insert(self.robot.joints.len());
-        let axes =
-            text.axes.iter().map(Some).chain(std::iter::once(None)).take(text.axes.len().max(1)).collect::<Vec<_>>();
-        let [first, rest @ ..] = axes.as_slice() else { return Ok(()) };
+        self.first_axes
+            .entry(full)
+            .or_insert(self.robot.joints.len());
+        let axes = text
+            .axes
+            .iter()
+            .map(Some)
+            .chain(std::iter::once(None))
+            .take(text.axes.len().max(1))
+            .collect::<Vec<_>>();
+        let [first, rest @ ..] = axes.as_slice() else {
+            return Ok(());
+        };
         if rest.is_empty() {
-            return self.push(scope, name, text, *first, ([parent, child], [origin, child_pose], frame));
+            return self.push(
+                scope,
+                name,
+                text,
+                *first,
+                ([parent, child], [origin, child_pose], frame),
+            );
         }
         // Two axes: a link without mass is between them.
-        let cross = Link { name: format!("{name}_cross"), pose: in_model, ..Link::default() };
+        let cross = Link {
+            name: format!("{name}_cross"),
+            pose: in_model,
+            ..Link::default()
+        };
         self.robot.links.push(cross);
         let between = self.robot.links.len() - 1;
-        self.push(scope, name.clone(), text, *first, ([parent, between], [origin, Pose::identity()], frame))?;
+        self.push(
+            scope,
+            name.clone(),
+            text,
+            *first,
+            ([parent, between], [origin, Pose::identity()], frame),
+        )?;
         let second = format!("{name}_2");
-        self.push(scope, second, text, rest[0], ([between, child], [Pose::identity(), child_pose], frame))
+        self.push(
+            scope,
+            second,
+            text,
+            rest[0],
+            ([between, child], [Pose::identity(), child_pose], frame),
+        )
     }
 
     /// Adds a joint with one axis. `at` has its ends, its frame in the parent's with the child's in its own, and its frame in the world.
@@ -365,12 +534,13 @@ impl Assembly<'_> {
             if joint.kind == JointKind::Revolute && is_endless {
                 joint.kind = JointKind::Continuous;
             }
-            let mimic = axis
-                .mimic
-                .iter()
-                .map(|(master, multiplier, offset)| (format!("{scope}{master}"), *multiplier, *offset));
+            let mimic = axis.mimic.iter().map(|(master, multiplier, offset)| {
+                (format!("{scope}{master}"), *multiplier, *offset)
+            });
             let index = self.robot.joints.len();
-            self.mimics.extend(mimic.map(|(master, multiplier, offset)| (index, master, multiplier, offset)));
+            self.mimics.extend(
+                mimic.map(|(master, multiplier, offset)| (index, master, multiplier, offset)),
+            );
         }
         self.robot.joints.push(joint);
         Ok(())
@@ -380,8 +550,16 @@ impl Assembly<'_> {
         if axis.expressed_in.is_empty() {
             return Ok(axis.xyz);
         }
-        let unknown = || format!("there is no frame '{}' for its axis", short(&axis.expressed_in));
-        let full = self.frames.full_name(scope, &axis.expressed_in).ok_or_else(unknown)?;
+        let unknown = || {
+            format!(
+                "there is no frame '{}' for its axis",
+                short(&axis.expressed_in)
+            )
+        };
+        let full = self
+            .frames
+            .full_name(scope, &axis.expressed_in)
+            .ok_or_else(unknown)?;
         let frame = self.frames.in_world(&full).ok_or_else(unknown)?;
         Ok((joint.rotation.inverse() * frame.rotation * nalgebra::Vector3::from(axis.xyz)).into())
     }
@@ -393,15 +571,28 @@ impl Assembly<'_> {
         let link = self.frames.link_of(&full).ok_or_else(missing)?;
         if link == WORLD && !self.index.contains_key(WORLD) {
             self.index.insert(WORLD.to_owned(), self.robot.links.len());
-            self.robot.links.push(Link { name: WORLD.to_owned(), pose: self.model.inverse(), ..Link::default() });
+            self.robot.links.push(Link {
+                name: WORLD.to_owned(),
+                pose: self.model.inverse(),
+                ..Link::default()
+            });
         }
         self.index.get(&link).copied().ok_or_else(missing)
     }
 
     fn finish(mut self, source: &mut Source, node: Node) -> Robot {
         for (index, master, multiplier, offset) in &self.mimics {
-            if let Some(joint) = self.first_axes.get(master).copied().filter(|joint| joint != index) {
-                self.robot.joints[*index].mimic = Some(Mimic { joint, multiplier: *multiplier, offset: *offset });
+            if let Some(joint) = self
+                .first_axes
+                .get(master)
+                .copied()
+                .filter(|joint| joint != index)
+            {
+                self.robot.joints[*index].mimic = Some(Mimic {
+                    joint,
+                    multiplier: *multiplier,
+                    offset: *offset,
+                });
             }
         }
         for (index, ..) in self.mimics {
@@ -410,7 +601,11 @@ impl Assembly<'_> {
                 joint.mimic = None;
                 source.warn(
                     node,
-                    format!("joint '{}' (line {}) {reason}; it moves by itself", short(&joint.name), joint.line),
+                    format!(
+                        "joint '{}' (line {}) {reason}; it moves by itself",
+                        short(&joint.name),
+                        joint.line
+                    ),
                 );
             }
         }

@@ -21,8 +21,17 @@ pub struct MimicText {
     pub offset: f64,
 }
 
-const KNOWN: &[&str] =
-    &["parent", "child", "origin", "axis", "limit", "dynamics", "mimic", "calibration", "safety_controller"];
+const KNOWN: &[&str] = &[
+    "parent",
+    "child",
+    "origin",
+    "axis",
+    "limit",
+    "dynamics",
+    "mimic",
+    "calibration",
+    "safety_controller",
+];
 
 pub fn read_joint(source: &mut Source, node: Node) -> JointText {
     source.expect_children(node, KNOWN);
@@ -65,7 +74,13 @@ fn read_kind(source: &mut Source, node: Node) -> JointKind {
         "planar" => JointKind::Planar,
         "floating" => JointKind::Floating,
         other => {
-            source.warn(node, format!("the type '{}' is not known; the joint is taken for a fixed one", short(other)));
+            source.warn(
+                node,
+                format!(
+                    "the type '{}' is not known; the joint is taken for a fixed one",
+                    short(other)
+                ),
+            );
             JointKind::Fixed
         }
     }
@@ -73,10 +88,15 @@ fn read_kind(source: &mut Source, node: Node) -> JointKind {
 
 fn read_axis(source: &mut Source, node: Node) -> [f64; 3] {
     const DEFAULT: [f64; 3] = [1.0, 0.0, 0.0];
-    let Some(element) = source.child(node, "axis") else { return DEFAULT };
+    let Some(element) = source.child(node, "axis") else {
+        return DEFAULT;
+    };
     let axis = source.numbers(element, "xyz", DEFAULT);
     if axis == [0.0; 3] {
-        if matches!(node.attribute("type"), Some("revolute" | "continuous" | "prismatic" | "planar")) {
+        if matches!(
+            node.attribute("type"),
+            Some("revolute" | "continuous" | "prismatic" | "planar")
+        ) {
             source.warn(element, "has no direction; x is taken");
         }
         return DEFAULT;
@@ -85,20 +105,37 @@ fn read_axis(source: &mut Source, node: Node) -> [f64; 3] {
 }
 
 fn read_limits(source: &mut Source, node: Node) -> Limits {
-    let Some(element) = source.child(node, "limit") else { return Limits::default() };
+    let Some(element) = source.child(node, "limit") else {
+        return Limits::default();
+    };
     let mut number = |name: &str| source.number(element, name);
-    Limits { lower: number("lower"), upper: number("upper"), effort: number("effort"), velocity: number("velocity") }
+    Limits {
+        lower: number("lower"),
+        upper: number("upper"),
+        effort: number("effort"),
+        velocity: number("velocity"),
+    }
 }
 
 fn read_dynamics(source: &mut Source, node: Node) -> Dynamics {
-    let Some(element) = source.child(node, "dynamics") else { return Dynamics::default() };
+    let Some(element) = source.child(node, "dynamics") else {
+        return Dynamics::default();
+    };
     let mut number = |name: &str| source.number(element, name).unwrap_or(0.0);
-    Dynamics { damping: number("damping"), friction: number("friction"), ..Dynamics::default() }
+    Dynamics {
+        damping: number("damping"),
+        friction: number("friction"),
+        ..Dynamics::default()
+    }
 }
 
 fn read_mimic(source: &mut Source, node: Node) -> Option<MimicText> {
     let element = source.child(node, "mimic")?;
     let master = source.required(element, "joint");
     let multiplier = source.number(element, "multiplier").unwrap_or(1.0);
-    Some(MimicText { master, multiplier, offset: source.number(element, "offset").unwrap_or(0.0) })
+    Some(MimicText {
+        master,
+        multiplier,
+        offset: source.number(element, "offset").unwrap_or(0.0),
+    })
 }

@@ -8,7 +8,10 @@ use crate::positions::to_rpy;
 /// The text of a URDF file. Numbers are written so that the same ones are read again; frames of links become those of their joints, as URDF has it.
 pub fn write(robot: &Robot) -> String {
     let robot = robot.with_frames_at_joints();
-    let mut text = format!("<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n", escaped(&robot.name));
+    let mut text = format!(
+        "<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n",
+        escaped(&robot.name)
+    );
     for material in &robot.materials {
         write_material(&mut text, material, "  ");
     }
@@ -28,18 +31,29 @@ impl Robot {
     pub fn with_frames_at_joints(&self) -> Self {
         let mut robot = self.clone();
         let parents = self.parent_joints();
-        let shift = |link: usize| parents[link].map_or_else(Pose::identity, |joint| self.joints[joint].child_pose);
+        let shift = |link: usize| {
+            parents[link].map_or_else(Pose::identity, |joint| self.joints[joint].child_pose)
+        };
         for (index, link) in robot.links.iter_mut().enumerate() {
             let shift = shift(index);
-            link.inertial.iter_mut().for_each(|inertial| inertial.pose = shift * inertial.pose);
-            link.visuals.iter_mut().for_each(|visual| visual.pose = shift * visual.pose);
-            link.collisions.iter_mut().for_each(|collision| collision.pose = shift * collision.pose);
+            link.inertial
+                .iter_mut()
+                .for_each(|inertial| inertial.pose = shift * inertial.pose);
+            link.visuals
+                .iter_mut()
+                .for_each(|visual| visual.pose = shift * visual.pose);
+            link.collisions
+                .iter_mut()
+                .for_each(|collision| collision.pose = shift * collision.pose);
         }
         for joint in &mut robot.joints {
             joint.origin = shift(joint.parent) * joint.origin;
             joint.child_pose = Pose::identity();
         }
-        robot.sensors.iter_mut().for_each(|sensor| sensor.pose = shift(sensor.link) * sensor.pose);
+        robot
+            .sensors
+            .iter_mut()
+            .for_each(|sensor| sensor.pose = shift(sensor.link) * sensor.pose);
         robot
     }
 }
@@ -77,27 +91,44 @@ fn write_inertial(text: &mut String, inertial: &Inertial) {
     line!(text, "    <inertial>");
     write_origin(text, &inertial.pose);
     line!(text, "      <mass value=\"{}\"/>", inertial.mass);
-    line!(text, "      <inertia ixx=\"{xx}\" ixy=\"{xy}\" ixz=\"{xz}\" iyy=\"{yy}\" iyz=\"{yz}\" izz=\"{zz}\"/>");
+    line!(
+        text,
+        "      <inertia ixx=\"{xx}\" ixy=\"{xy}\" ixz=\"{xz}\" iyy=\"{yy}\" iyz=\"{yz}\" izz=\"{zz}\"/>"
+    );
     line!(text, "    </inertial>");
 }
 
 fn write_geometry(text: &mut String, geometry: &Geometry) {
     let element = match geometry {
         Geometry::Box { size: [x, y, z] } => format!("<box size=\"{x} {y} {z}\"/>"),
-        Geometry::Cylinder { radius, length } => format!("<cylinder radius=\"{radius}\" length=\"{length}\"/>"),
-        Geometry::Capsule { radius, length } => format!("<capsule radius=\"{radius}\" length=\"{length}\"/>"),
+        Geometry::Cylinder { radius, length } => {
+            format!("<cylinder radius=\"{radius}\" length=\"{length}\"/>")
+        }
+        Geometry::Capsule { radius, length } => {
+            format!("<capsule radius=\"{radius}\" length=\"{length}\"/>")
+        }
         Geometry::Sphere { radius } => format!("<sphere radius=\"{radius}\"/>"),
         Geometry::Ellipsoid { radii: [x, y, z] } => format!("<ellipsoid radii=\"{x} {y} {z}\"/>"),
         Geometry::Plane { normal: [x, y, z] } => format!("<plane normal=\"{x} {y} {z}\"/>"),
-        Geometry::Mesh { file, scale: [x, y, z] } => {
-            format!("<mesh filename=\"{}\" scale=\"{x} {y} {z}\"/>", escaped(file))
+        Geometry::Mesh {
+            file,
+            scale: [x, y, z],
+        } => {
+            format!(
+                "<mesh filename=\"{}\" scale=\"{x} {y} {z}\"/>",
+                escaped(file)
+            )
         }
     };
     line!(text, "      <geometry>{element}</geometry>");
 }
 
 fn write_material(text: &mut String, material: &Material, indent: &str) {
-    line!(text, "{indent}<material name=\"{}\">", escaped(&material.name));
+    line!(
+        text,
+        "{indent}<material name=\"{}\">",
+        escaped(&material.name)
+    );
     if let Some([r, g, b, a]) = material.color {
         line!(text, "{indent}  <color rgba=\"{r} {g} {b} {a}\"/>");
     }
@@ -108,9 +139,22 @@ fn write_material(text: &mut String, material: &Material, indent: &str) {
 }
 
 fn write_joint(text: &mut String, robot: &Robot, joint: &Joint) {
-    line!(text, "  <joint name=\"{}\" type=\"{}\">", escaped(&joint.name), kind_name(joint.kind));
-    line!(text, "    <parent link=\"{}\"/>", escaped(&robot.links[joint.parent].name));
-    line!(text, "    <child link=\"{}\"/>", escaped(&robot.links[joint.child].name));
+    line!(
+        text,
+        "  <joint name=\"{}\" type=\"{}\">",
+        escaped(&joint.name),
+        kind_name(joint.kind)
+    );
+    line!(
+        text,
+        "    <parent link=\"{}\"/>",
+        escaped(&robot.links[joint.parent].name)
+    );
+    line!(
+        text,
+        "    <child link=\"{}\"/>",
+        escaped(&robot.links[joint.child].name)
+    );
     write_origin(text, &joint.origin);
     if joint.kind != JointKind::Fixed {
         let [x, y, z] = joint.axis;
@@ -118,21 +162,37 @@ fn write_joint(text: &mut String, robot: &Robot, joint: &Joint) {
     }
     write_limits(text, joint);
     if joint.dynamics.damping != 0.0 || joint.dynamics.friction != 0.0 {
-        line!(text, "    <dynamics damping=\"{}\" friction=\"{}\"/>", joint.dynamics.damping, joint.dynamics.friction);
+        line!(
+            text,
+            "    <dynamics damping=\"{}\" friction=\"{}\"/>",
+            joint.dynamics.damping,
+            joint.dynamics.friction
+        );
     }
     if let Some(mimic) = &joint.mimic {
         let master = escaped(&robot.joints[mimic.joint].name);
-        line!(text, "    <mimic joint=\"{master}\" multiplier=\"{}\" offset=\"{}\"/>", mimic.multiplier, mimic.offset);
+        line!(
+            text,
+            "    <mimic joint=\"{master}\" multiplier=\"{}\" offset=\"{}\"/>",
+            mimic.multiplier,
+            mimic.offset
+        );
     }
     line!(text, "  </joint>");
 }
 
 fn write_limits(text: &mut String, joint: &Joint) {
     let limits = &joint.limits;
-    let values =
-        [("lower", limits.lower), ("upper", limits.upper), ("effort", limits.effort), ("velocity", limits.velocity)];
-    let attributes: String =
-        values.iter().filter_map(|(name, value)| value.map(|value| format!(" {name}=\"{value}\""))).collect();
+    let values = [
+        ("lower", limits.lower),
+        ("upper", limits.upper),
+        ("effort", limits.effort),
+        ("velocity", limits.velocity),
+    ];
+    let attributes: String = values
+        .iter()
+        .filter_map(|(name, value)| value.map(|value| format!(" {name}=\"{value}\"")))
+        .collect();
     if !attributes.is_empty() {
         line!(text, "    <limit{attributes}/>");
     }
@@ -153,12 +213,22 @@ fn kind_name(kind: JointKind) -> &'static str {
 fn write_origin(text: &mut String, pose: &Pose) {
     if *pose != Pose::identity() {
         let (p, [roll, pitch, yaw]) = (pose.translation.vector, to_rpy(&pose.rotation));
-        line!(text, "      <origin xyz=\"{} {} {}\" rpy=\"{roll} {pitch} {yaw}\"/>", p.x, p.y, p.z);
+        line!(
+            text,
+            "      <origin xyz=\"{} {} {}\" rpy=\"{roll} {pitch} {yaw}\"/>",
+            p.x,
+            p.y,
+            p.z
+        );
     }
 }
 
 fn name_attribute(name: &str) -> String {
-    if name.is_empty() { String::new() } else { format!(" name=\"{}\"", escaped(name)) }
+    if name.is_empty() {
+        String::new()
+    } else {
+        format!(" name=\"{}\"", escaped(name))
+    }
 }
 
 /// Text inside of an attribute. Characters that XML does not have are left out.

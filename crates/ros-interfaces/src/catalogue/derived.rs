@@ -1,7 +1,9 @@
 //! The structures of services and actions, which have names of their own, and those that actions of ROS 2 exchange.
 
 use crate::types::Structure;
-use crate::{Element, Field, FieldType, Generation, Interface, InterfaceKind, NumberType, Shape, TypeName};
+use crate::{
+    Element, Field, FieldType, Generation, Interface, InterfaceKind, NumberType, Shape, TypeName,
+};
 
 /// A structure of a service or an action.
 pub(super) struct Part {
@@ -25,14 +27,26 @@ enum Which {
     Event,
 }
 
-const SERVICE: &[(&str, Which)] = &[("_Request", Which::Written(0)), ("_Response", Which::Written(1))];
+const SERVICE: &[(&str, Which)] = &[
+    ("_Request", Which::Written(0)),
+    ("_Response", Which::Written(1)),
+];
 /// Without the underscore, as simROS2 calls them.
-const SERVICE_JOINED: &[(&str, Which)] = &[("Request", Which::Written(0)), ("Response", Which::Written(1))];
+const SERVICE_JOINED: &[(&str, Which)] = &[
+    ("Request", Which::Written(0)),
+    ("Response", Which::Written(1)),
+];
 const SERVICE_EVENT: &[(&str, Which)] = &[("_Event", Which::Event)];
-const ACTION: &[(&str, Which)] =
-    &[("_Goal", Which::Written(0)), ("_Result", Which::Written(1)), ("_Feedback", Which::Written(2))];
-const ACTION_JOINED: &[(&str, Which)] =
-    &[("Goal", Which::Written(0)), ("Result", Which::Written(1)), ("Feedback", Which::Written(2))];
+const ACTION: &[(&str, Which)] = &[
+    ("_Goal", Which::Written(0)),
+    ("_Result", Which::Written(1)),
+    ("_Feedback", Which::Written(2)),
+];
+const ACTION_JOINED: &[(&str, Which)] = &[
+    ("Goal", Which::Written(0)),
+    ("Result", Which::Written(1)),
+    ("Feedback", Which::Written(2)),
+];
 const ACTION_MESSAGES: &[(&str, Which)] = &[
     ("_SendGoal_Request", Which::SendGoalRequest),
     ("_SendGoal_Response", Which::SendGoalResponse),
@@ -50,12 +64,26 @@ pub(super) fn part_of(name: &TypeName, generation: Generation) -> Option<Part> {
         (InterfaceKind::Action, Generation::Ros1) => &[ACTION, ACTION_JOINED],
         (InterfaceKind::Action, Generation::Ros2) => &[ACTION_MESSAGES, ACTION, ACTION_JOINED],
     };
-    endings.iter().copied().flatten().find_map(|&(ending, which)| {
-        let interface = name.name.strip_suffix(ending).filter(|rest| !rest.is_empty())?;
-        let canonical = format!("{interface}_{}", ending.trim_start_matches('_'));
-        let of_package = |word: &str| TypeName { name: word.into(), ..name.clone() };
-        Some(Part { interface: of_package(interface), name: of_package(&canonical), which })
-    })
+    endings
+        .iter()
+        .copied()
+        .flatten()
+        .find_map(|&(ending, which)| {
+            let interface = name
+                .name
+                .strip_suffix(ending)
+                .filter(|rest| !rest.is_empty())?;
+            let canonical = format!("{interface}_{}", ending.trim_start_matches('_'));
+            let of_package = |word: &str| TypeName {
+                name: word.into(),
+                ..name.clone()
+            };
+            Some(Part {
+                interface: of_package(interface),
+                name: of_package(&canonical),
+                which,
+            })
+        })
 }
 
 impl Part {
@@ -65,31 +93,49 @@ impl Part {
             Which::Written(part) => return interface.parts.get(part).cloned().unwrap_or_default(),
             Which::SendGoalRequest => vec![goal_id(), self.part("goal", "_Goal", Shape::Single)],
             Which::SendGoalResponse => {
-                vec![number("accepted", NumberType::Bool), of_package("stamp", "builtin_interfaces", "Time")]
+                vec![
+                    number("accepted", NumberType::Bool),
+                    of_package("stamp", "builtin_interfaces", "Time"),
+                ]
             }
             Which::GetResultRequest => vec![goal_id()],
             Which::GetResultResponse => {
-                vec![number("status", NumberType::Int8), self.part("result", "_Result", Shape::Single)]
+                vec![
+                    number("status", NumberType::Int8),
+                    self.part("result", "_Result", Shape::Single),
+                ]
             }
-            Which::FeedbackMessage => vec![goal_id(), self.part("feedback", "_Feedback", Shape::Single)],
+            Which::FeedbackMessage => {
+                vec![goal_id(), self.part("feedback", "_Feedback", Shape::Single)]
+            }
             Which::Event => vec![
                 of_package("info", "service_msgs", "ServiceEventInfo"),
                 self.part("request", "_Request", Shape::Sequence(Some(1))),
                 self.part("response", "_Response", Shape::Sequence(Some(1))),
             ],
         };
-        Structure { constants: Vec::new(), fields }
+        Structure {
+            constants: Vec::new(),
+            fields,
+        }
     }
 
     /// A field that is another structure of the same interface.
     fn part(&self, name: &str, ending: &str, shape: Shape) -> Field<TypeName> {
-        let part = TypeName { name: format!("{}{ending}", self.interface.name), ..self.interface.clone() };
+        let part = TypeName {
+            name: format!("{}{ending}", self.interface.name),
+            ..self.interface.clone()
+        };
         field(name, Element::Nested(part), shape)
     }
 }
 
 fn field(name: &str, element: Element<TypeName>, shape: Shape) -> Field<TypeName> {
-    Field { name: name.into(), field_type: FieldType { element, shape }, default: None }
+    Field {
+        name: name.into(),
+        field_type: FieldType { element, shape },
+        default: None,
+    }
 }
 
 fn number(name: &str, number: NumberType) -> Field<TypeName> {
@@ -97,7 +143,11 @@ fn number(name: &str, number: NumberType) -> Field<TypeName> {
 }
 
 fn of_package(name: &str, package: &str, nested: &str) -> Field<TypeName> {
-    let nested = TypeName { package: package.into(), kind: InterfaceKind::Message, name: nested.into() };
+    let nested = TypeName {
+        package: package.into(),
+        kind: InterfaceKind::Message,
+        name: nested.into(),
+    };
     field(name, Element::Nested(nested), Shape::Single)
 }
 

@@ -36,15 +36,24 @@ impl Folders {
 
     /// The names of all files.
     pub(super) fn names(&self) -> impl Iterator<Item = TypeName> {
-        self.roots.iter().flat_map(|root| packages(root)).flat_map(|package| names_in(&package))
+        self.roots
+            .iter()
+            .flat_map(|root| packages(root))
+            .flat_map(|package| names_in(&package))
     }
 }
 
 /// The package's folder below `root` that has this file.
 fn package_folder(root: &Path, package: &str, file: &Path) -> Option<PathBuf> {
-    let itself = root.file_name().is_some_and(|name| name == package).then(|| root.to_path_buf());
-    let direct = itself.into_iter().chain([root.join("share").join(package), root.join(package)]);
-    let mut candidates = direct.chain(packages(root).filter(|folder| folder.file_name().is_some_and(|n| n == package)));
+    let itself = root
+        .file_name()
+        .is_some_and(|name| name == package)
+        .then(|| root.to_path_buf());
+    let direct = itself
+        .into_iter()
+        .chain([root.join("share").join(package), root.join(package)]);
+    let mut candidates = direct
+        .chain(packages(root).filter(|folder| folder.file_name().is_some_and(|n| n == package)));
     candidates.find(|folder| folder.join(file).is_file())
 }
 
@@ -56,9 +65,16 @@ fn packages(root: &Path) -> impl Iterator<Item = PathBuf> {
         while let Some((folder, depth)) = waiting.pop_front() {
             searched += 1;
             if depth < limits::FOLDERS && searched + waiting.len() < SEARCHED {
-                waiting.extend(folders_in(&folder).into_iter().map(|inner| (inner, depth + 1)));
+                waiting.extend(
+                    folders_in(&folder)
+                        .into_iter()
+                        .map(|inner| (inner, depth + 1)),
+                );
             }
-            if InterfaceKind::ALL.iter().any(|kind| folder.join(kind.word()).is_dir()) {
+            if InterfaceKind::ALL
+                .iter()
+                .any(|kind| folder.join(kind.word()).is_dir())
+            {
                 return Some(folder);
             }
         }
@@ -68,21 +84,34 @@ fn packages(root: &Path) -> impl Iterator<Item = PathBuf> {
 
 /// In order, so that the same type is found on every machine. Links are left out, which may lead in circles.
 fn folders_in(folder: &Path) -> Vec<PathBuf> {
-    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
-    let folders = entries.flatten().filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()));
+    let Ok(entries) = fs::read_dir(folder) else {
+        return Vec::new();
+    };
+    let folders = entries
+        .flatten()
+        .filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()));
     let mut folders: Vec<PathBuf> = folders.map(|entry| entry.path()).collect();
     folders.sort();
     folders
 }
 
 fn names_in(package: &Path) -> Vec<TypeName> {
-    let Some(name) = package.file_name().and_then(|name| name.to_str()) else { return Vec::new() };
+    let Some(name) = package.file_name().and_then(|name| name.to_str()) else {
+        return Vec::new();
+    };
     let of_kind = |kind: InterfaceKind| {
-        let entries = fs::read_dir(package.join(kind.word())).into_iter().flatten().flatten();
+        let entries = fs::read_dir(package.join(kind.word()))
+            .into_iter()
+            .flatten()
+            .flatten();
         entries.filter_map(move |entry| {
             let path = entry.path();
-            let fits = path.extension().is_some_and(|extension| extension == kind.word());
-            TypeName::new(name, kind, path.file_stem()?.to_str()?).ok().filter(|_| fits)
+            let fits = path
+                .extension()
+                .is_some_and(|extension| extension == kind.word());
+            TypeName::new(name, kind, path.file_stem()?.to_str()?)
+                .ok()
+                .filter(|_| fits)
         })
     };
     InterfaceKind::ALL.into_iter().flat_map(of_kind).collect()
@@ -99,6 +128,8 @@ fn read_text(path: &Path) -> Result<(String, String), InterfaceError> {
     let mut text = String::new();
     let file = fs::File::open(path).map_err(error)?;
     // One byte more than allowed is read, so that the parser reports the size.
-    file.take(limits::TEXT as u64 + 1).read_to_string(&mut text).map_err(error)?;
+    file.take(limits::TEXT as u64 + 1)
+        .read_to_string(&mut text)
+        .map_err(error)?;
     Ok((path.display().to_string(), text))
 }

@@ -13,7 +13,8 @@ use folders::Folders;
 
 use crate::types::Structure;
 use crate::{
-    Element, Field, FieldType, Generation, Interface, InterfaceError, InterfaceKind, Layout, TypeName, limits, parse,
+    Element, Field, FieldType, Generation, Interface, InterfaceError, InterfaceKind, Layout,
+    TypeName, limits, parse,
 };
 
 /// All types of one generation of ROS. Files are read when a type is first asked for.
@@ -34,8 +35,15 @@ impl Catalogue {
     #[must_use]
     pub fn new(generation: Generation) -> Self {
         let interfaces = built_in::interfaces(generation);
-        let by_name = interfaces.into_iter().map(|interface| (interface.name.clone(), Arc::new(interface)));
-        Self { generation, folders: Folders::default(), interfaces: by_name.collect(), layouts: BTreeMap::new() }
+        let by_name = interfaces
+            .into_iter()
+            .map(|interface| (interface.name.clone(), Arc::new(interface)));
+        Self {
+            generation,
+            folders: Folders::default(),
+            interfaces: by_name.collect(),
+            layouts: BTreeMap::new(),
+        }
     }
 
     /// Which system it is for.
@@ -63,7 +71,12 @@ impl Catalogue {
     /// The names of all interfaces that are known or found in the folders, in order.
     #[must_use]
     pub fn names(&self) -> Vec<TypeName> {
-        let mut names: Vec<TypeName> = self.interfaces.keys().cloned().chain(self.folders.names()).collect();
+        let mut names: Vec<TypeName> = self
+            .interfaces
+            .keys()
+            .cloned()
+            .chain(self.folders.names())
+            .collect();
         names.sort();
         names.dedup();
         names
@@ -77,7 +90,10 @@ impl Catalogue {
         if let Some(known) = self.interfaces.get(name) {
             return Ok(known.clone());
         }
-        let (path, text) = self.folders.read(name)?.ok_or_else(|| InterfaceError::Unknown(name.to_string()))?;
+        let (path, text) = self
+            .folders
+            .read(name)?
+            .ok_or_else(|| InterfaceError::Unknown(name.to_string()))?;
         let interface = Arc::new(parse::parse(name, &text, self.generation, &path)?);
         self.interfaces.insert(name.clone(), interface.clone());
         Ok(interface)
@@ -111,13 +127,23 @@ impl Catalogue {
         if name.kind != InterfaceKind::Service {
             return Err(InterfaceError::Unknown(name.to_string()));
         }
-        let part = |suffix| TypeName { name: format!("{}_{suffix}", name.name), ..name.clone() };
+        let part = |suffix| TypeName {
+            name: format!("{}_{suffix}", name.name),
+            ..name.clone()
+        };
         self.interface(&name)?;
-        Ok([self.layout_of(&part("Request"))?, self.layout_of(&part("Response"))?])
+        Ok([
+            self.layout_of(&part("Request"))?,
+            self.layout_of(&part("Response"))?,
+        ])
     }
 
     /// `outer` are the types that are being resolved.
-    fn resolve(&mut self, name: &TypeName, outer: &mut Vec<TypeName>) -> Result<Arc<Layout>, InterfaceError> {
+    fn resolve(
+        &mut self,
+        name: &TypeName,
+        outer: &mut Vec<TypeName>,
+    ) -> Result<Arc<Layout>, InterfaceError> {
         if let Some(known) = self.layouts.get(name) {
             return Ok(known.clone());
         }
@@ -129,7 +155,10 @@ impl Catalogue {
         }
         let structure = self.structure(name)?;
         outer.push(name.clone());
-        let fields = structure.fields.iter().map(|field| self.resolve_field(name, field, outer));
+        let fields = structure
+            .fields
+            .iter()
+            .map(|field| self.resolve_field(name, field, outer));
         let fields = fields.collect::<Result<Vec<_>, _>>();
         outer.pop();
         let layout = Arc::new(Layout::new(name.clone(), structure.constants, fields?));
@@ -159,7 +188,9 @@ impl Catalogue {
         let element = match &field.field_type.element {
             Element::Nested(name) => {
                 let nested = |problem: InterfaceError| match problem {
-                    InterfaceError::Cycle(_) | InterfaceError::Nesting(_) | InterfaceError::Nested { .. } => problem,
+                    InterfaceError::Cycle(_)
+                    | InterfaceError::Nesting(_)
+                    | InterfaceError::Nested { .. } => problem,
                     problem => InterfaceError::Nested {
                         outer: outer_name.to_string(),
                         inner: name.to_string(),
@@ -174,7 +205,14 @@ impl Catalogue {
             Element::Time => Element::Time,
             Element::Duration => Element::Duration,
         };
-        let field_type = FieldType { element, shape: field.field_type.shape };
-        Ok(Field { name: field.name.clone(), field_type, default: field.default.clone() })
+        let field_type = FieldType {
+            element,
+            shape: field.field_type.shape,
+        };
+        Ok(Field {
+            name: field.name.clone(),
+            field_type,
+            default: field.default.clone(),
+        })
     }
 }

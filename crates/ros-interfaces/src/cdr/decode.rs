@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::{BIG, LITTLE};
 use crate::{
-    Array, ByteOrder, DecodeError, Duration, Element, FieldType, Layout, Number, NumberType, Numbers, Record, Shape,
-    Time, Value, limits,
+    Array, ByteOrder, DecodeError, Duration, Element, FieldType, Layout, Number, NumberType,
+    Numbers, Record, Shape, Time, Value, limits,
 };
 
 type Result<T> = std::result::Result<T, DecodeError>;
@@ -18,16 +18,27 @@ const MAX_PADDING: usize = 7;
 /// # Errors
 /// If the representation is another one, bytes are missing or left, or there are too many nested records.
 pub fn decode(layout: &Arc<Layout>, bytes: &[u8]) -> Result<Record> {
-    let (head, body) = bytes.split_at_checked(4).ok_or(DecodeError::Short { length: bytes.len() })?;
+    let (head, body) = bytes.split_at_checked(4).ok_or(DecodeError::Short {
+        length: bytes.len(),
+    })?;
     let order = match head[..2] {
         _ if head[..2] == LITTLE[..2] => ByteOrder::Little,
         _ if head[..2] == BIG[..2] => ByteOrder::Big,
         _ => return Err(DecodeError::Representation([head[0], head[1]])),
     };
-    let mut reader = Reader { body, position: 0, order, records: 0 };
+    let mut reader = Reader {
+        body,
+        position: 0,
+        order,
+        records: 0,
+    };
     let record = reader.record(layout)?;
     let rest = body.len() - reader.position;
-    if rest > MAX_PADDING { Err(DecodeError::Long { rest }) } else { Ok(record) }
+    if rest > MAX_PADDING {
+        Err(DecodeError::Long { rest })
+    } else {
+        Ok(record)
+    }
 }
 
 struct Reader<'a> {
@@ -41,7 +52,10 @@ struct Reader<'a> {
 impl<'a> Reader<'a> {
     fn record(&mut self, layout: &Arc<Layout>) -> Result<Record> {
         self.count_record()?;
-        let values = layout.fields.iter().map(|field| self.value(&field.field_type));
+        let values = layout
+            .fields
+            .iter()
+            .map(|field| self.value(&field.field_type));
         let values = values.collect::<Result<_>>()?;
         // A structure of DDS has at least one member, so ROS 2 adds one.
         if layout.fields.is_empty() {
@@ -52,7 +66,11 @@ impl<'a> Reader<'a> {
 
     fn count_record(&mut self) -> Result<()> {
         self.records += 1;
-        if self.records > limits::RECORDS { Err(DecodeError::Records) } else { Ok(()) }
+        if self.records > limits::RECORDS {
+            Err(DecodeError::Records)
+        } else {
+            Ok(())
+        }
     }
 
     fn value(&mut self, field_type: &FieldType<Arc<Layout>>) -> Result<Value> {
@@ -90,8 +108,12 @@ impl<'a> Reader<'a> {
     fn array(&mut self, element: &Element<Arc<Layout>>, length: usize) -> Result<Array> {
         Ok(match element {
             Element::Number(number) => Array::Numbers(self.numbers(*number, length)?),
-            Element::String(bound) => Array::Strings(self.several(length, 4, |reader| reader.text(*bound))?),
-            Element::WString(bound) => Array::Strings(self.several(length, 4, |reader| reader.wide_text(*bound))?),
+            Element::String(bound) => {
+                Array::Strings(self.several(length, 4, |reader| reader.text(*bound))?)
+            }
+            Element::WString(bound) => {
+                Array::Strings(self.several(length, 4, |reader| reader.wide_text(*bound))?)
+            }
             Element::Time => Array::Times(self.several(length, 8, Self::time)?),
             Element::Duration => Array::Durations(self.several(length, 8, Self::duration)?),
             Element::Nested(layout) => {
@@ -114,13 +136,22 @@ impl<'a> Reader<'a> {
         if length > 0 {
             self.align(number.size());
         }
-        let size = length.checked_mul(number.size()).ok_or_else(|| self.short())?;
+        let size = length
+            .checked_mul(number.size())
+            .ok_or_else(|| self.short())?;
         let bytes = self.take(size)?;
-        number.read_all(bytes, self.order).ok_or_else(|| self.short())
+        number
+            .read_all(bytes, self.order)
+            .ok_or_else(|| self.short())
     }
 
     /// Elements of at least `size` bytes each.
-    fn several<T>(&mut self, length: usize, size: usize, read: impl Fn(&mut Self) -> Result<T>) -> Result<Vec<T>> {
+    fn several<T>(
+        &mut self,
+        length: usize,
+        size: usize,
+        read: impl Fn(&mut Self) -> Result<T>,
+    ) -> Result<Vec<T>> {
         let left = self.body.len().saturating_sub(self.position);
         if length.checked_mul(size).is_none_or(|least| least > left) {
             return Err(self.short());
@@ -145,17 +176,25 @@ impl<'a> Reader<'a> {
             ByteOrder::Big => u16::from_be_bytes([pair[0], pair[1]]),
         };
         let units: Vec<u16> = bytes.chunks_exact(2).map(unit).collect();
-        let text = String::from_utf16(&units).map_err(|_| DecodeError::Text)?.into_bytes();
+        let text = String::from_utf16(&units)
+            .map_err(|_| DecodeError::Text)?
+            .into_bytes();
         check_bound(text.len(), bound)?;
         Ok(text)
     }
 
     fn time(&mut self) -> Result<Time> {
-        Ok(Time { sec: self.word()?, nanosec: self.word()? })
+        Ok(Time {
+            sec: self.word()?,
+            nanosec: self.word()?,
+        })
     }
 
     fn duration(&mut self) -> Result<Duration> {
-        Ok(Duration { sec: self.word()?.cast_signed(), nanosec: self.word()?.cast_signed() })
+        Ok(Duration {
+            sec: self.word()?.cast_signed(),
+            nanosec: self.word()?.cast_signed(),
+        })
     }
 
     fn count(&mut self) -> Result<usize> {
@@ -174,14 +213,22 @@ impl<'a> Reader<'a> {
     }
 
     fn take(&mut self, length: usize) -> Result<&'a [u8]> {
-        let end = self.position.checked_add(length).ok_or_else(|| self.short())?;
-        let bytes = self.body.get(self.position..end).ok_or_else(|| self.short())?;
+        let end = self
+            .position
+            .checked_add(length)
+            .ok_or_else(|| self.short())?;
+        let bytes = self
+            .body
+            .get(self.position..end)
+            .ok_or_else(|| self.short())?;
         self.position = end;
         Ok(bytes)
     }
 
     fn short(&self) -> DecodeError {
-        DecodeError::Short { length: self.body.len() + 4 }
+        DecodeError::Short {
+            length: self.body.len() + 4,
+        }
     }
 }
 

@@ -3,12 +3,16 @@
 use std::sync::Arc;
 
 use super::LITTLE;
-use crate::{Array, ByteOrder, Duration, Element, FieldType, Layout, Number, Record, Shape, Time, Value};
+use crate::{
+    Array, ByteOrder, Duration, Element, FieldType, Layout, Number, Record, Shape, Time, Value,
+};
 
 /// The bytes of a record, with the head of four bytes.
 #[must_use]
 pub fn encode(record: &Record) -> Vec<u8> {
-    let mut writer = Writer { out: LITTLE.to_vec() };
+    let mut writer = Writer {
+        out: LITTLE.to_vec(),
+    };
     writer.record(record);
     writer.out
 }
@@ -24,7 +28,9 @@ impl Writer {
     }
 
     fn record(&mut self, record: &Record) {
-        record.iter().for_each(|(field, value)| self.value(value, &field.field_type));
+        record
+            .iter()
+            .for_each(|(field, value)| self.value(value, &field.field_type));
         // A structure of DDS has at least one member, so ROS 2 adds one.
         if record.values().is_empty() {
             self.out.push(0);
@@ -77,7 +83,9 @@ impl Writer {
         if matches!(element, Element::WString(_)) {
             let units: Vec<u16> = String::from_utf8_lossy(text).encode_utf16().collect();
             self.length(units.len());
-            units.iter().for_each(|unit| self.out.extend_from_slice(&unit.to_le_bytes()));
+            units
+                .iter()
+                .for_each(|unit| self.out.extend_from_slice(&unit.to_le_bytes()));
             return;
         }
         // With a zero at the end; one within would end the text for other readers.

@@ -11,7 +11,11 @@ pub(crate) fn parse_package(
     text: &str,
     generation: Generation,
 ) -> Result<Vec<Interface>, InterfaceError> {
-    let file = TextFile { file: package, generation, package };
+    let file = TextFile {
+        file: package,
+        generation,
+        package,
+    };
     let mut interfaces = Vec::new();
     let mut heading = None;
     let mut body: Vec<(usize, &str)> = Vec::new();
@@ -28,8 +32,11 @@ pub(crate) fn parse_package(
 }
 
 fn parse_heading(file: TextFile, number: usize, line: &str) -> Result<TypeName, InterfaceError> {
-    let (kind, name) = line.split_once(' ').ok_or_else(|| file.error(number, "no heading"))?;
-    let kind = InterfaceKind::of_word(kind).ok_or_else(|| file.error(number, "no kind of interface"))?;
+    let (kind, name) = line
+        .split_once(' ')
+        .ok_or_else(|| file.error(number, "no heading"))?;
+    let kind =
+        InterfaceKind::of_word(kind).ok_or_else(|| file.error(number, "no kind of interface"))?;
     TypeName::new(file.package, kind, name)
 }
 

@@ -2,7 +2,8 @@
 
 use super::TextFile;
 use crate::{
-    Array, Constant, Element, Field, FieldType, Generation, InterfaceKind, NumberType, Shape, TypeName, Value, limits,
+    Array, Constant, Element, Field, FieldType, Generation, InterfaceKind, NumberType, Shape,
+    TypeName, Value, limits,
 };
 
 /// What a line says.
@@ -31,7 +32,9 @@ pub(super) fn parse_line(line: &str, file: TextFile) -> Result<Option<Member>, S
     };
     let field_type = parse_type(type_text, file)?;
     let rest = rest.trim_start();
-    let end = rest.find(|c: char| c.is_whitespace() || c == '=' || c == '#').unwrap_or(rest.len());
+    let end = rest
+        .find(|c: char| c.is_whitespace() || c == '=' || c == '#')
+        .unwrap_or(rest.len());
     let (name, rest) = rest.split_at(end);
     let rest = rest.trim_start();
     match rest.strip_prefix('=') {
@@ -40,7 +43,12 @@ pub(super) fn parse_line(line: &str, file: TextFile) -> Result<Option<Member>, S
     }
 }
 
-fn constant(field_type: FieldType<TypeName>, name: &str, text: &str, file: TextFile) -> Result<Member, String> {
+fn constant(
+    field_type: FieldType<TypeName>,
+    name: &str,
+    text: &str,
+    file: TextFile,
+) -> Result<Member, String> {
     if field_type.shape != Shape::Single {
         return Err(format!("constant '{name}' is an array"));
     }
@@ -49,40 +57,73 @@ fn constant(field_type: FieldType<TypeName>, name: &str, text: &str, file: TextF
     // In ROS 1 a string is all that follows, quotes and number signs included.
     let raw = is_string && file.generation == Generation::Ros1;
     let text = if raw { text } else { without_comment(text) };
-    let value = if raw { Some(Value::String(text.into())) } else { scalar(&element, text) };
-    let value = value.ok_or_else(|| format!("'{text}' is no value of {element} for constant '{name}'"))?;
-    Ok(Member::Constant(Constant { name: name.into(), element, value, text: text.into() }))
+    let value = if raw {
+        Some(Value::String(text.into()))
+    } else {
+        scalar(&element, text)
+    };
+    let value =
+        value.ok_or_else(|| format!("'{text}' is no value of {element} for constant '{name}'"))?;
+    Ok(Member::Constant(Constant {
+        name: name.into(),
+        element,
+        value,
+        text: text.into(),
+    }))
 }
 
-fn field(field_type: FieldType<TypeName>, name: &str, rest: &str, file: TextFile) -> Result<Member, String> {
+fn field(
+    field_type: FieldType<TypeName>,
+    name: &str,
+    rest: &str,
+    file: TextFile,
+) -> Result<Member, String> {
     let text = without_comment(rest);
     let default = match text {
         "" => None,
-        _ if file.generation == Generation::Ros1 => return Err(format!("'{text}' after the name of a field")),
+        _ if file.generation == Generation::Ros1 => {
+            return Err(format!("'{text}' after the name of a field"));
+        }
         _ => {
             let value = default(&field_type, text);
-            Some(value.ok_or_else(|| format!("'{text}' is no value of {field_type} for field '{name}'"))?)
+            Some(value.ok_or_else(|| {
+                format!("'{text}' is no value of {field_type} for field '{name}'")
+            })?)
         }
     };
-    Ok(Member::Field(Field { name: name.into(), field_type, default }))
+    Ok(Member::Field(Field {
+        name: name.into(),
+        field_type,
+        default,
+    }))
 }
 
 /// `float64`, `string<=10`, `geometry_msgs/Point[]`, `Pose[3]`, `uint8[<=4]`.
 fn parse_type(text: &str, file: TextFile) -> Result<FieldType<TypeName>, String> {
-    let (element, shape) = match text.strip_suffix(']').and_then(|text| text.rsplit_once('[')) {
+    let (element, shape) = match text
+        .strip_suffix(']')
+        .and_then(|text| text.rsplit_once('['))
+    {
         Some((element, length)) => (element, parse_shape(length, file)?),
         None => (text, Shape::Single),
     };
-    Ok(FieldType { element: parse_element(element, file)?, shape })
+    Ok(FieldType {
+        element: parse_element(element, file)?,
+        shape,
+    })
 }
 
 fn parse_shape(length: &str, file: TextFile) -> Result<Shape, String> {
-    let bounded = length.strip_prefix("<=").filter(|_| file.generation == Generation::Ros2);
+    let bounded = length
+        .strip_prefix("<=")
+        .filter(|_| file.generation == Generation::Ros2);
     match (length, bounded) {
         ("", _) => Ok(Shape::Sequence(None)),
         (_, Some(bound)) => parse_length(bound).map(|bound| Shape::Sequence(Some(bound))),
         _ => match parse_length(length)? {
-            length if length > limits::FIXED_VALUES => Err(format!("an array of {length} elements is too long")),
+            length if length > limits::FIXED_VALUES => {
+                Err(format!("an array of {length} elements is too long"))
+            }
             length => Ok(Shape::Array(length)),
         },
     }
@@ -102,7 +143,11 @@ fn parse_element(text: &str, file: TextFile) -> Result<Element<TypeName>, String
         && let Some((word @ ("string" | "wstring"), bound)) = text.split_once("<=")
     {
         let bound = Some(parse_length(bound)?);
-        return Ok(if word == "string" { Element::String(bound) } else { Element::WString(bound) });
+        return Ok(if word == "string" {
+            Element::String(bound)
+        } else {
+            Element::WString(bound)
+        });
     }
     match (text, file.generation) {
         ("string", _) => Ok(Element::String(None)),
@@ -124,7 +169,11 @@ fn nested(text: &str, file: TextFile) -> Result<TypeName, String> {
     // A word in small letters without a package is a misspelt primitive type.
     let misspelt = !text.contains('/') && !text.starts_with(|c: char| c.is_ascii_uppercase());
     let name = TypeName::parse(&name, InterfaceKind::Message).map_err(|_| wrong())?;
-    if misspelt || name.kind != InterfaceKind::Message { Err(wrong()) } else { Ok(name) }
+    if misspelt || name.kind != InterfaceKind::Message {
+        Err(wrong())
+    } else {
+        Ok(name)
+    }
 }
 
 /// Up to a number sign that is not within quotes.
@@ -154,7 +203,9 @@ fn scalar(element: &Element<TypeName>, text: &str) -> Option<Value> {
         Element::Number(number) => number.parse(text).map(Value::Number),
         Element::String(bound) | Element::WString(bound) => {
             let text = string(text)?;
-            bound.is_none_or(|bound| text.len() <= bound).then(|| Value::String(text.into_bytes()))
+            bound
+                .is_none_or(|bound| text.len() <= bound)
+                .then(|| Value::String(text.into_bytes()))
         }
         Element::Time | Element::Duration | Element::Nested(_) => None,
     }
@@ -175,7 +226,9 @@ fn quoted(text: &str, quote: char) -> Option<(String, &str)> {
     let mut chars = text.char_indices().skip(1);
     while let Some((index, c)) = chars.next() {
         match c {
-            _ if c == quote => return Some((string, text[index + quote.len_utf8()..].trim_start())),
+            _ if c == quote => {
+                return Some((string, text[index + quote.len_utf8()..].trim_start()));
+            }
             '\\' => string.push(escape(chars.next()?.1)),
             _ => string.push(c),
         }
@@ -232,16 +285,23 @@ fn items(mut text: &str) -> Option<Vec<String>> {
     Some(items)
 }
 
-fn array(element: &Element<TypeName>, values: impl Iterator<Item = Option<Value>>) -> Option<Value> {
+fn array(
+    element: &Element<TypeName>,
+    values: impl Iterator<Item = Option<Value>>,
+) -> Option<Value> {
     let values = values.collect::<Option<Vec<_>>>()?;
     if let Element::Number(number) = element {
         let mut numbers = number.zeros(0);
-        let all = values.into_iter().all(|value| matches!(value, Value::Number(number) if numbers.push(number)));
+        let all = values
+            .into_iter()
+            .all(|value| matches!(value, Value::Number(number) if numbers.push(number)));
         return all.then_some(Value::Array(Array::Numbers(numbers)));
     }
     let strings = values.into_iter().map(|value| match value {
         Value::String(text) => Some(text),
         _ => None,
     });
-    strings.collect::<Option<Vec<_>>>().map(|strings| Value::Array(Array::Strings(strings)))
+    strings
+        .collect::<Option<Vec<_>>>()
+        .map(|strings| Value::Array(Array::Strings(strings)))
 }

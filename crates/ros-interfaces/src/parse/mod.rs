@@ -13,13 +13,25 @@ use crate::{Generation, Interface, InterfaceError, Structure, TypeName, limits};
 ///
 /// # Errors
 /// File, line, and what is wrong there.
-pub fn parse(name: &TypeName, text: &str, generation: Generation, file: &str) -> Result<Interface, InterfaceError> {
+pub fn parse(
+    name: &TypeName,
+    text: &str,
+    generation: Generation,
+    file: &str,
+) -> Result<Interface, InterfaceError> {
     let numbered = (1..).zip(text.lines());
-    let file = TextFile { file, generation, package: &name.package };
+    let file = TextFile {
+        file,
+        generation,
+        package: &name.package,
+    };
     if text.len() > limits::TEXT {
         return Err(file.error(1, format!("the text has more than {} bytes", limits::TEXT)));
     }
-    Ok(Interface { name: name.clone(), parts: file.parts(name, numbered)? })
+    Ok(Interface {
+        name: name.clone(),
+        parts: file.parts(name, numbered)?,
+    })
 }
 
 /// Where lines come from.
@@ -33,7 +45,11 @@ struct TextFile<'a> {
 
 impl TextFile<'_> {
     fn error(self, line: usize, problem: impl Into<String>) -> InterfaceError {
-        InterfaceError::Text { file: self.file.into(), line, problem: problem.into() }
+        InterfaceError::Text {
+            file: self.file.into(),
+            line,
+            problem: problem.into(),
+        }
     }
 
     /// The structures between lines of three dashes.
@@ -48,17 +64,21 @@ impl TextFile<'_> {
             last = number;
             if line.trim() == "---" {
                 parts.push(Structure::default());
-            } else if let Some(member) = parse_line(line, self).map_err(|problem| self.error(number, problem))? {
+            } else if let Some(member) =
+                parse_line(line, self).map_err(|problem| self.error(number, problem))?
+            {
                 let part = parts.last_mut().expect("there is at least one");
-                part.add(member).map_err(|problem| self.error(number, problem))?;
+                part.add(member)
+                    .map_err(|problem| self.error(number, problem))?;
             }
         }
         let expected = name.kind.parts();
         if parts.len() != expected {
             let found = parts.len();
-            return Err(
-                self.error(last.max(1), format!("{found} parts between lines of ---, where {expected} are expected"))
-            );
+            return Err(self.error(
+                last.max(1),
+                format!("{found} parts between lines of ---, where {expected} are expected"),
+            ));
         }
         Ok(parts)
     }
@@ -76,7 +96,10 @@ impl Structure {
             return Err(format!("there is a '{name}' already"));
         }
         if self.fields.len() + self.constants.len() == limits::MEMBERS {
-            return Err(format!("more than {} fields and constants", limits::MEMBERS));
+            return Err(format!(
+                "more than {} fields and constants",
+                limits::MEMBERS
+            ));
         }
         match member {
             Member::Constant(constant) => self.constants.push(constant),

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use crate::{
-    Array, ByteOrder, DecodeError, Duration, Element, FieldType, Layout, NumberType, Record, Shape, Time, Value, limits,
+    Array, ByteOrder, DecodeError, Duration, Element, FieldType, Layout, NumberType, Record, Shape,
+    Time, Value, limits,
 };
 
 type Result<T> = std::result::Result<T, DecodeError>;
@@ -13,10 +14,16 @@ type Result<T> = std::result::Result<T, DecodeError>;
 /// # Errors
 /// If bytes are missing or left, or there are too many nested records.
 pub fn decode(layout: &Arc<Layout>, bytes: &[u8]) -> Result<Record> {
-    let mut reader = Reader { rest: bytes, length: bytes.len(), records: 0 };
+    let mut reader = Reader {
+        rest: bytes,
+        length: bytes.len(),
+        records: 0,
+    };
     let record = reader.record(layout)?;
     if !reader.rest.is_empty() {
-        return Err(DecodeError::Long { rest: reader.rest.len() });
+        return Err(DecodeError::Long {
+            rest: reader.rest.len(),
+        });
     }
     Ok(record)
 }
@@ -32,13 +39,20 @@ struct Reader<'a> {
 impl<'a> Reader<'a> {
     fn record(&mut self, layout: &Arc<Layout>) -> Result<Record> {
         self.count_record()?;
-        let values = layout.fields.iter().map(|field| self.value(&field.field_type));
+        let values = layout
+            .fields
+            .iter()
+            .map(|field| self.value(&field.field_type));
         Ok(Record::of_codec(layout, values.collect::<Result<_>>()?))
     }
 
     fn count_record(&mut self) -> Result<()> {
         self.records += 1;
-        if self.records > limits::RECORDS { Err(DecodeError::Records) } else { Ok(()) }
+        if self.records > limits::RECORDS {
+            Err(DecodeError::Records)
+        } else {
+            Ok(())
+        }
     }
 
     fn value(&mut self, field_type: &FieldType<Arc<Layout>>) -> Result<Value> {
@@ -66,7 +80,11 @@ impl<'a> Reader<'a> {
         Ok(match element {
             Element::Number(number) => {
                 let bytes = self.take(number.size())?;
-                Value::Number(number.read(bytes, ByteOrder::Little).ok_or_else(|| self.short())?)
+                Value::Number(
+                    number
+                        .read(bytes, ByteOrder::Little)
+                        .ok_or_else(|| self.short())?,
+                )
             }
             Element::String(_) | Element::WString(_) => Value::String(self.string()?),
             Element::Time => Value::Time(self.time()?),
@@ -78,27 +96,43 @@ impl<'a> Reader<'a> {
     fn array(&mut self, element: &Element<Arc<Layout>>, length: usize) -> Result<Array> {
         Ok(match element {
             Element::Number(number) => Array::Numbers(self.numbers(*number, length)?),
-            Element::String(_) | Element::WString(_) => Array::Strings(self.several(length, 4, Self::string)?),
+            Element::String(_) | Element::WString(_) => {
+                Array::Strings(self.several(length, 4, Self::string)?)
+            }
             Element::Time => Array::Times(self.several(length, 8, Self::time)?),
             Element::Duration => Array::Durations(self.several(length, 8, Self::duration)?),
             Element::Nested(layout) => {
                 if length > limits::RECORDS - self.records {
                     return Err(DecodeError::Records);
                 }
-                Array::Records(self.several(length, layout.least_size, |reader| reader.record(layout))?)
+                Array::Records(
+                    self.several(length, layout.least_size, |reader| reader.record(layout))?,
+                )
             }
         })
     }
 
     fn numbers(&mut self, number: NumberType, length: usize) -> Result<crate::Numbers> {
-        let bytes = length.checked_mul(number.size()).ok_or_else(|| self.short())?;
+        let bytes = length
+            .checked_mul(number.size())
+            .ok_or_else(|| self.short())?;
         let bytes = self.take(bytes)?;
-        number.read_all(bytes, ByteOrder::Little).ok_or_else(|| self.short())
+        number
+            .read_all(bytes, ByteOrder::Little)
+            .ok_or_else(|| self.short())
     }
 
     /// Elements of at least `size` bytes each.
-    fn several<T>(&mut self, length: usize, size: usize, read: impl Fn(&mut Self) -> Result<T>) -> Result<Vec<T>> {
-        if length.checked_mul(size).is_none_or(|least| least > self.rest.len()) {
+    fn several<T>(
+        &mut self,
+        length: usize,
+        size: usize,
+        read: impl Fn(&mut Self) -> Result<T>,
+    ) -> Result<Vec<T>> {
+        if length
+            .checked_mul(size)
+            .is_none_or(|least| least > self.rest.len())
+        {
             return Err(self.short());
         }
         (0..length).map(|_| read(self)).collect()
@@ -110,11 +144,17 @@ impl<'a> Reader<'a> {
     }
 
     fn time(&mut self) -> Result<Time> {
-        Ok(Time { sec: u32::from_le_bytes(self.word()?), nanosec: u32::from_le_bytes(self.word()?) })
+        Ok(Time {
+            sec: u32::from_le_bytes(self.word()?),
+            nanosec: u32::from_le_bytes(self.word()?),
+        })
     }
 
     fn duration(&mut self) -> Result<Duration> {
-        Ok(Duration { sec: i32::from_le_bytes(self.word()?), nanosec: i32::from_le_bytes(self.word()?) })
+        Ok(Duration {
+            sec: i32::from_le_bytes(self.word()?),
+            nanosec: i32::from_le_bytes(self.word()?),
+        })
     }
 
     fn count(&mut self) -> Result<usize> {
@@ -127,12 +167,17 @@ impl<'a> Reader<'a> {
     }
 
     fn take(&mut self, length: usize) -> Result<&'a [u8]> {
-        let (bytes, rest) = self.rest.split_at_checked(length).ok_or_else(|| self.short())?;
+        let (bytes, rest) = self
+            .rest
+            .split_at_checked(length)
+            .ok_or_else(|| self.short())?;
         self.rest = rest;
         Ok(bytes)
     }
 
     fn short(&self) -> DecodeError {
-        DecodeError::Short { length: self.length }
+        DecodeError::Short {
+            length: self.length,
+        }
     }
 }

@@ -23,7 +23,10 @@ pub fn service_md5(request: &Layout, response: &Layout) -> String {
 }
 
 fn digest(text: &str) -> String {
-    Md5::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+    Md5::digest(text.as_bytes())
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
 }
 
 /// `sums` are those of nested types that are known already: a type may occur very often.
@@ -49,7 +52,10 @@ fn nested_sum(nested: &Layout, sums: &mut BTreeMap<TypeName, String>) -> String 
 }
 
 fn constants(layout: &Layout) -> impl Iterator<Item = String> {
-    layout.constants.iter().map(|constant| format!("{} {}={}", constant.element, constant.name, constant.text))
+    layout
+        .constants
+        .iter()
+        .map(|constant| format!("{} {}={}", constant.element, constant.name, constant.text))
 }
 
 /// The text of a type and of all types nested in it, as publishers send it to subscribers.
@@ -60,15 +66,26 @@ pub fn definition(layout: &Arc<Layout>) -> String {
     collect_nested(layout, &mut nested);
     for inner in nested {
         let line = "=".repeat(80);
-        write!(text, "\n{line}\nMSG: {}\n{}", inner.nested_name(), own_text(&inner))
-            .expect("a string takes everything");
+        write!(
+            text,
+            "\n{line}\nMSG: {}\n{}",
+            inner.nested_name(),
+            own_text(&inner)
+        )
+        .expect("a string takes everything");
     }
     text
 }
 
 fn own_text(layout: &Layout) -> String {
-    let fields = layout.fields.iter().map(|field| format!("{} {}", field.field_type, field.name));
-    constants(layout).chain(fields).map(|line| line + "\n").collect()
+    let fields = layout
+        .fields
+        .iter()
+        .map(|field| format!("{} {}", field.field_type, field.name));
+    constants(layout)
+        .chain(fields)
+        .map(|line| line + "\n")
+        .collect()
 }
 
 /// Each type once, in the order of the fields.

@@ -39,7 +39,9 @@ fn write_array(array: &Array, out: &mut Vec<u8>) {
         Array::Numbers(numbers) => numbers.write(out, ByteOrder::Little),
         Array::Strings(all) => all.iter().for_each(|text| write_string(text, out)),
         Array::Times(all) => all.iter().for_each(|&time| write_time(time, out)),
-        Array::Durations(all) => all.iter().for_each(|&duration| write_duration(duration, out)),
+        Array::Durations(all) => all
+            .iter()
+            .for_each(|&duration| write_duration(duration, out)),
         Array::Records(all) => all.iter().for_each(|record| write_record(record, out)),
     }
 }

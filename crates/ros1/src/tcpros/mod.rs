@@ -30,13 +30,21 @@ pub(crate) fn read_head(stream: &mut impl Read) -> Result<Head> {
     let mut head = Head::new();
     while let Some((length, after)) = rest.split_first_chunk() {
         let length = u32::from_le_bytes(*length) as usize;
-        let (field, after) = after.split_at_checked(length).ok_or_else(|| Error::protocol("a field of a head"))?;
+        let (field, after) = after
+            .split_at_checked(length)
+            .ok_or_else(|| Error::protocol("a field of a head"))?;
         let field = String::from_utf8_lossy(field);
-        let (name, value) = field.split_once('=').ok_or_else(|| Error::protocol("a field of a head"))?;
+        let (name, value) = field
+            .split_once('=')
+            .ok_or_else(|| Error::protocol("a field of a head"))?;
         head.insert(name.to_string(), value.to_string());
         rest = after;
     }
-    if rest.is_empty() { Ok(head) } else { Err(Error::protocol("the end of a head")) }
+    if rest.is_empty() {
+        Ok(head)
+    } else {
+        Err(Error::protocol("the end of a head"))
+    }
 }
 
 /// A field of a head; empty if it is not there.
@@ -46,7 +54,8 @@ pub(crate) fn field<'a>(head: &'a Head, name: &str) -> &'a str {
 
 /// Sends bytes with their length.
 pub(crate) fn write_frame(stream: &mut impl Write, bytes: &[u8]) -> Result<()> {
-    let length = u32::try_from(bytes.len()).map_err(|_| Error::protocol("a message of more than 4 GB"))?;
+    let length =
+        u32::try_from(bytes.len()).map_err(|_| Error::protocol("a message of more than 4 GB"))?;
     // One packet for a short message.
     if bytes.len() < 1 << 14 {
         stream.write_all(&[&length.to_le_bytes(), bytes].concat())?;
@@ -68,12 +77,18 @@ pub(crate) fn read_frame(stream: &mut impl Read, limit: usize) -> Result<Option<
     }
     let length = u32::from_le_bytes(length) as usize;
     if length > limit {
-        return Err(Error::protocol(format!("a message of {length} bytes, more than {limit}")));
+        return Err(Error::protocol(format!(
+            "a message of {length} bytes, more than {limit}"
+        )));
     }
     // Memory is taken as bytes arrive.
     let mut bytes = Vec::with_capacity(length.min(64 << 10));
     stream.take(length as u64).read_to_end(&mut bytes)?;
-    if bytes.len() == length { Ok(Some(bytes)) } else { Err(Error::protocol("half a message")) }
+    if bytes.len() == length {
+        Ok(Some(bytes))
+    } else {
+        Err(Error::protocol("half a message"))
+    }
 }
 
 #[cfg(test)]
@@ -83,10 +98,18 @@ mod tests {
     #[test]
     fn heads_are_read_as_they_are_written() {
         let mut bytes = Vec::new();
-        write_head(&mut bytes, &[("topic", "/a"), ("message_definition", "int8 x=1\n")]).expect("memory");
+        write_head(
+            &mut bytes,
+            &[("topic", "/a"), ("message_definition", "int8 x=1\n")],
+        )
+        .expect("memory");
         let head = read_head(&mut bytes.as_slice()).expect("a head");
         assert_eq!(
-            (field(&head, "topic"), field(&head, "message_definition"), field(&head, "x")),
+            (
+                field(&head, "topic"),
+                field(&head, "message_definition"),
+                field(&head, "x")
+            ),
             ("/a", "int8 x=1\n", "")
         );
     }

@@ -30,7 +30,9 @@ struct Connections {
 
 impl Shared {
     fn connections(&self) -> MutexGuard<'_, Connections> {
-        self.connections.lock().unwrap_or_else(PoisonError::into_inner)
+        self.connections
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Notes a connection, if there are not too many.
@@ -70,7 +72,11 @@ impl Server {
                 }
             }
         })?;
-        Ok(Self { address, shared, thread: Some(thread) })
+        Ok(Self {
+            address,
+            shared,
+            thread: Some(thread),
+        })
     }
 
     pub(crate) fn port(&self) -> u16 {
@@ -79,14 +85,23 @@ impl Server {
 }
 
 /// What cannot be served is closed.
-fn accept(stream: TcpStream, name: &str, shared: &Arc<Shared>, serve: impl FnOnce(Connection) + Send + 'static) {
-    let Some(number) = shared.open(&stream) else { return };
+fn accept(
+    stream: TcpStream,
+    name: &str,
+    shared: &Arc<Shared>,
+    serve: impl FnOnce(Connection) + Send + 'static,
+) {
+    let Some(number) = shared.open(&stream) else {
+        return;
+    };
     let theirs = shared.clone();
-    let started = thread::Builder::new().name(name.to_string()).spawn(move || {
-        let _ = stream.set_nodelay(true);
-        serve(stream);
-        theirs.connections().open.remove(&number);
-    });
+    let started = thread::Builder::new()
+        .name(name.to_string())
+        .spawn(move || {
+            let _ = stream.set_nodelay(true);
+            serve(stream);
+            theirs.connections().open.remove(&number);
+        });
     if started.is_err() {
         shared.connections().open.remove(&number);
     }

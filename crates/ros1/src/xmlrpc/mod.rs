@@ -60,12 +60,21 @@ mod tests {
             Parameter::text(""),
             Parameter::Binary(vec![0, 255, 7]),
             Parameter::Array(vec![Parameter::Array(vec![]), Parameter::Int(1)]),
-            Parameter::Struct(vec![("a".into(), Parameter::Int(1)), ("b<".into(), Parameter::text("x"))]),
+            Parameter::Struct(vec![
+                ("a".into(), Parameter::Int(1)),
+                ("b<".into(), Parameter::text("x")),
+            ]),
         ];
         let (method, read) = read_call(call_text("setParam", &values).as_bytes()).expect("a call");
-        assert_eq!((method.as_str(), read.as_slice()), ("setParam", &values[..]));
+        assert_eq!(
+            (method.as_str(), read.as_slice()),
+            ("setParam", &values[..])
+        );
         for value in values {
-            assert_eq!(read_response(response_text(&value).as_bytes()).expect("a response"), value);
+            assert_eq!(
+                read_response(response_text(&value).as_bytes()).expect("a response"),
+                value
+            );
         }
     }
 
@@ -83,7 +92,10 @@ mod tests {
             text_value(" x "),
             text_value(""),
         ];
-        assert_eq!(read_response(text.as_bytes()).expect("a response"), Parameter::Array(expected));
+        assert_eq!(
+            read_response(text.as_bytes()).expect("a response"),
+            Parameter::Array(expected)
+        );
         let fault = read_response(fault_text(3, "no < such").as_bytes()).expect_err("a fault");
         assert_eq!(fault.to_string(), "no < such");
     }
@@ -96,8 +108,18 @@ mod tests {
         );
         let entity = "<!DOCTYPE x [<!ENTITY a 'aaaaaaaaaa'>]><methodResponse><params><param><value>&a;</value></param></params></methodResponse>";
         let closed = "<value><array><data>".repeat(60) + &"</data></array></value>".repeat(60);
-        let closed = format!("<methodResponse><params><param>{closed}</param></params></methodResponse>");
-        for text in ["", "x", "<a/>", "<methodResponse/>", "<methodCall/>", &deep, entity, &closed] {
+        let closed =
+            format!("<methodResponse><params><param>{closed}</param></params></methodResponse>");
+        for text in [
+            "",
+            "x",
+            "<a/>",
+            "<methodResponse/>",
+            "<methodCall/>",
+            &deep,
+            entity,
+            &closed,
+        ] {
             assert!(read_response(text.as_bytes()).is_err(), "{text}");
             assert!(read_call(text.as_bytes()).is_err(), "{text}");
         }

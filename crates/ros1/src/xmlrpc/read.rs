@@ -18,7 +18,11 @@ pub(crate) fn read_call(bytes: &[u8]) -> Result<(String, Vec<Parameter>)> {
     if !root.has_tag_name("methodCall") {
         return Err(Error::protocol("no methodCall"));
     }
-    let method = child(root, "methodName").and_then(|node| node.text()).unwrap_or_default().trim().to_string();
+    let method = child(root, "methodName")
+        .and_then(|node| node.text())
+        .unwrap_or_default()
+        .trim()
+        .to_string();
     if method.is_empty() {
         return Err(Error::protocol("no methodName"));
     }
@@ -36,14 +40,25 @@ pub(crate) fn read_response(bytes: &[u8]) -> Result<Parameter> {
     if let Some(value) = child(root, "fault").and_then(|fault| child(fault, "value")) {
         return Err(Error::Peer(fault_reason(read_value(value, 0)?)));
     }
-    let values = if root.has_tag_name("methodResponse") { values_of_params(root)? } else { Vec::new() };
-    values.into_iter().next().ok_or_else(|| Error::protocol("an answer without a value"))
+    let values = if root.has_tag_name("methodResponse") {
+        values_of_params(root)?
+    } else {
+        Vec::new()
+    };
+    values
+        .into_iter()
+        .next()
+        .ok_or_else(|| Error::protocol("an answer without a value"))
 }
 
 fn fault_reason(fault: Parameter) -> String {
-    let Parameter::Struct(members) = fault else { return "a fault".into() };
+    let Parameter::Struct(members) = fault else {
+        return "a fault".into();
+    };
     let reason = members.into_iter().find(|(name, _)| name == "faultString");
-    reason.and_then(|(_, value)| value.as_text().map(String::from)).unwrap_or_else(|| "a fault".into())
+    reason
+        .and_then(|(_, value)| value.as_text().map(String::from))
+        .unwrap_or_else(|| "a fault".into())
 }
 
 fn text_of(bytes: &[u8]) -> Result<&str> {
@@ -51,7 +66,8 @@ fn text_of(bytes: &[u8]) -> Result<&str> {
 }
 
 fn parse(text: &str) -> Result<Document<'_>> {
-    bounded_xml::parse(text, NODES, DocumentType::Refused).map_err(|error| Error::protocol(format!("XML: {error}")))
+    bounded_xml::parse(text, NODES, DocumentType::Refused)
+        .map_err(|error| Error::protocol(format!("XML: {error}")))
 }
 
 fn child<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
@@ -59,11 +75,17 @@ fn child<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
 }
 
 fn values_of_params(root: Node) -> Result<Vec<Parameter>> {
-    let Some(params) = child(root, "params") else { return Ok(Vec::new()) };
-    let values = params.children().filter(|node| node.has_tag_name("param")).map(|param| {
-        let value = child(param, "value").ok_or_else(|| Error::protocol("a param without a value"))?;
-        read_value(value, 0)
-    });
+    let Some(params) = child(root, "params") else {
+        return Ok(Vec::new());
+    };
+    let values = params
+        .children()
+        .filter(|node| node.has_tag_name("param"))
+        .map(|param| {
+            let value =
+                child(param, "value").ok_or_else(|| Error::protocol("a param without a value"))?;
+            read_value(value, 0)
+        });
     values.collect()
 }
 
@@ -88,16 +110,26 @@ fn read_value(value: Node, depth: usize) -> Result<Parameter> {
         "double" => number().parse().map(Parameter::Double).map_err(|_| wrong()),
         "base64" => {
             let digits: String = text.split_whitespace().collect();
-            BASE64_STANDARD.decode(digits).map(Parameter::Binary).map_err(|_| wrong())
+            BASE64_STANDARD
+                .decode(digits)
+                .map(Parameter::Binary)
+                .map_err(|_| wrong())
         }
         "array" => {
-            let data = child(typed, "data").ok_or_else(|| Error::protocol("an array without data"))?;
+            let data =
+                child(typed, "data").ok_or_else(|| Error::protocol("an array without data"))?;
             let items = data.children().filter(|node| node.has_tag_name("value"));
-            items.map(|item| read_value(item, depth + 1)).collect::<Result<_>>().map(Parameter::Array)
+            items
+                .map(|item| read_value(item, depth + 1))
+                .collect::<Result<_>>()
+                .map(Parameter::Array)
         }
         "struct" => {
             let members = typed.children().filter(|node| node.has_tag_name("member"));
-            members.map(|member| read_member(member, depth)).collect::<Result<_>>().map(Parameter::Struct)
+            members
+                .map(|member| read_member(member, depth))
+                .collect::<Result<_>>()
+                .map(Parameter::Struct)
         }
         // Python's None, which the master returns for nothing.
         "nil" => Ok(Parameter::text("")),
@@ -108,12 +140,18 @@ fn read_value(value: Node, depth: usize) -> Result<Parameter> {
 }
 
 fn read_member(member: Node, depth: usize) -> Result<(String, Parameter)> {
-    let name = child(member, "name").map(content).ok_or_else(|| Error::protocol("a member without a name"))?;
-    let value = child(member, "value").ok_or_else(|| Error::protocol("a member without a value"))?;
+    let name = child(member, "name")
+        .map(content)
+        .ok_or_else(|| Error::protocol("a member without a name"))?;
+    let value =
+        child(member, "value").ok_or_else(|| Error::protocol("a member without a value"))?;
     Ok((name, read_value(value, depth + 1)?))
 }
 
 /// All text below a node; comments divide it.
 fn content(node: Node) -> String {
-    node.children().filter(Node::is_text).filter_map(|text| text.text()).collect()
+    node.children()
+        .filter(Node::is_text)
+        .filter_map(|text| text.text())
+        .collect()
 }

@@ -9,7 +9,8 @@ use super::Parameter;
 
 /// A call of a method.
 pub(crate) fn call_text(method: &str, arguments: &[Parameter]) -> String {
-    let mut text = format!("<?xml version=\"1.0\"?>\n<methodCall><methodName>{method}</methodName><params>");
+    let mut text =
+        format!("<?xml version=\"1.0\"?>\n<methodCall><methodName>{method}</methodName><params>");
     for argument in arguments {
         text.push_str("<param>");
         write_value(argument, &mut text);
@@ -27,8 +28,10 @@ pub(crate) fn response_text(value: &Parameter) -> String {
 
 /// The answer to a call that is none.
 pub(crate) fn fault_text(code: i32, reason: &str) -> String {
-    let members =
-        vec![("faultCode".into(), Parameter::Int(code)), ("faultString".into(), Parameter::String(reason.into()))];
+    let members = vec![
+        ("faultCode".into(), Parameter::Int(code)),
+        ("faultString".into(), Parameter::String(reason.into())),
+    ];
     let mut text = String::from("<?xml version=\"1.0\"?>\n<methodResponse><fault>");
     write_value(&Parameter::Struct(members), &mut text);
     text + "</fault></methodResponse>\n"
@@ -50,7 +53,8 @@ fn write_value(value: &Parameter, text: &mut String) {
         Parameter::Struct(members) => {
             text.push_str("<struct>");
             for (name, value) in members {
-                write!(text, "<member><name>{}</name>", escaped(name)).expect("a string takes everything");
+                write!(text, "<member><name>{}</name>", escaped(name))
+                    .expect("a string takes everything");
                 write_value(value, text);
                 text.push_str("</member>");
             }

@@ -92,7 +92,13 @@ impl ColourName {
 impl Colour {
     /// An opaque colour with default highlights.
     pub const fn new(ambient_diffuse: [f32; 3]) -> Self {
-        Self { ambient_diffuse, specular: [0.25; 3], emission: [0.0; 3], auxiliary: [0.5, 0.0, 0.0], opacity: 1.0 }
+        Self {
+            ambient_diffuse,
+            specular: [0.25; 3],
+            emission: [0.0; 3],
+            auxiliary: [0.5, 0.0, 0.0],
+            opacity: 1.0,
+        }
     }
 
     /// The numbers of one component.
@@ -115,7 +121,9 @@ impl Colour {
             ColourComponent::Auxiliary => &mut self.auxiliary,
             ColourComponent::Transparency => std::slice::from_mut(&mut self.opacity),
         };
-        slot.iter_mut().zip(value).for_each(|(number, new)| *number = *new as f32);
+        slot.iter_mut()
+            .zip(value)
+            .for_each(|(number, new)| *number = *new as f32);
     }
 }
 
@@ -141,7 +149,9 @@ impl Object {
     /// A colour of the object, if it has that one.
     pub fn colour(&self, slot: ColourSlot) -> Option<&Colour> {
         match (&self.kind, slot) {
-            (Kind::Shape(shape), ColourSlot::Mesh(index)) => Some(&shape.parts.get(index)?.appearance.colour),
+            (Kind::Shape(shape), ColourSlot::Mesh(index)) => {
+                Some(&shape.parts.get(index)?.appearance.colour)
+            }
             (Kind::Light(light), ColourSlot::Emitted) => Some(&light.colour),
             (Kind::ProximitySensor(sensor), ColourSlot::Emitted) => Some(&sensor.ray_colour),
             (Kind::Shape(_), _) => None,
@@ -152,7 +162,9 @@ impl Object {
 
     fn colour_mut(&mut self, slot: ColourSlot) -> Option<&mut Colour> {
         match (&mut self.kind, slot) {
-            (Kind::Shape(shape), ColourSlot::Mesh(index)) => Some(&mut shape.parts.get_mut(index)?.appearance.colour),
+            (Kind::Shape(shape), ColourSlot::Mesh(index)) => {
+                Some(&mut shape.parts.get_mut(index)?.appearance.colour)
+            }
             (Kind::Light(light), ColourSlot::Emitted) => Some(&mut light.colour),
             (Kind::ProximitySensor(sensor), ColourSlot::Emitted) => Some(&mut sensor.ray_colour),
             (Kind::Shape(_), _) => None,
@@ -180,9 +192,17 @@ fn read(slot: &[f32]) -> Vec<f64> {
 impl Shape {
     /// The colour of the first mesh called so, or of every mesh; None when there is none.
     pub fn colour(&self, name: &ColourName, component: ColourComponent) -> Option<Vec<f64>> {
-        let mut colours = self.parts.iter().map(|part| &part.appearance).filter(|a| name.covers(a));
+        let mut colours = self
+            .parts
+            .iter()
+            .map(|part| &part.appearance)
+            .filter(|a| name.covers(a));
         match name {
-            ColourName::Compound => Some(colours.flat_map(|a| read(a.colour.component(component))).collect()),
+            ColourName::Compound => Some(
+                colours
+                    .flat_map(|a| read(a.colour.component(component)))
+                    .collect(),
+            ),
             _ => colours.next().map(|a| read(a.colour.component(component))),
         }
     }
@@ -191,15 +211,35 @@ impl Shape {
     ///
     /// # Errors
     /// When `value` has too few numbers; nothing is changed then.
-    fn set_colour(&mut self, name: &ColourName, component: ColourComponent, value: &[f64]) -> SceneResult<()> {
+    fn set_colour(
+        &mut self,
+        name: &ColourName,
+        component: ColourComponent,
+        value: &[f64],
+    ) -> SceneResult<()> {
         let width = component.width();
-        let each = if *name == ColourName::Compound { width } else { 0 };
-        let needed = if each == 0 { width } else { width * self.parts.len() };
+        let each = if *name == ColourName::Compound {
+            width
+        } else {
+            0
+        };
+        let needed = if each == 0 {
+            width
+        } else {
+            width * self.parts.len()
+        };
         if value.len() < needed {
             return Err(SceneError::InvalidArgument);
         }
-        for (i, part) in self.parts.iter_mut().enumerate().filter(|(_, part)| name.covers(&part.appearance)) {
-            part.appearance.colour.set_component(component, &value[i * each..]);
+        for (i, part) in self
+            .parts
+            .iter_mut()
+            .enumerate()
+            .filter(|(_, part)| name.covers(&part.appearance))
+        {
+            part.appearance
+                .colour
+                .set_component(component, &value[i * each..]);
         }
         Ok(())
     }
@@ -217,7 +257,9 @@ impl Scene {
         component: ColourComponent,
         value: &[f64],
     ) -> SceneResult<()> {
-        self.try_modify(handle, Field::Appearance, |object| object.shape_mut()?.set_colour(name, component, value))
+        self.try_modify(handle, Field::Appearance, |object| {
+            object.shape_mut()?.set_colour(name, component, value)
+        })
     }
 
     /// A colour of any object; None when it has no such one. Shapes have one per mesh, lights and proximity sensors two.
@@ -228,7 +270,9 @@ impl Scene {
         component: ColourComponent,
     ) -> SceneResult<Option<Vec<f64>>> {
         let object = self.object(handle)?;
-        let colour = object.colour_slot(index).and_then(|slot| object.colour(slot));
+        let colour = object
+            .colour_slot(index)
+            .and_then(|slot| object.colour(slot));
         Ok(colour.map(|colour| read(colour.component(component))))
     }
 
@@ -274,11 +318,27 @@ mod tests {
 
     #[test]
     fn colours_are_kept_in_32_bits_and_not_limited() {
-        let mut shape = Shape::primitive(PrimitiveKind::Cuboid, [1.0; 3], Default::default()).unwrap();
-        shape.set_colour(&ColourName::All, ColourComponent::AmbientDiffuse, &[2.0, -1.0, 0.2]).unwrap();
-        let colour = shape.colour(&ColourName::Named(String::new()), ColourComponent::AmbientDiffuse);
+        let mut shape =
+            Shape::primitive(PrimitiveKind::Cuboid, [1.0; 3], Default::default()).unwrap();
+        shape
+            .set_colour(
+                &ColourName::All,
+                ColourComponent::AmbientDiffuse,
+                &[2.0, -1.0, 0.2],
+            )
+            .unwrap();
+        let colour = shape.colour(
+            &ColourName::Named(String::new()),
+            ColourComponent::AmbientDiffuse,
+        );
         assert_eq!(colour, Some(vec![2.0, -1.0, f64::from(0.2f32)]));
-        assert_eq!(shape.colour(&ColourName::Named("nope".into()), ColourComponent::AmbientDiffuse), None);
+        assert_eq!(
+            shape.colour(
+                &ColourName::Named("nope".into()),
+                ColourComponent::AmbientDiffuse
+            ),
+            None
+        );
     }
 
     #[test]
@@ -286,11 +346,28 @@ mod tests {
         let mut scene = Scene::new();
         let light = Kind::Light(Box::new(Light::new(LightType::Directional)));
         let light = scene.add("l", light).unwrap();
-        assert_eq!(scene.set_object_colour(light, 1, ColourComponent::Specular, &[1.0, 0.0, 0.0]), Ok(true));
-        assert_eq!(scene.object_colour(light, 1, ColourComponent::Specular), Ok(Some(vec![1.0, 0.0, 0.0])));
-        assert_eq!(scene.object_colour(light, 0, ColourComponent::Specular), Ok(Some(vec![0.25; 3])));
-        assert_eq!(scene.object_colour(light, 2, ColourComponent::Specular), Ok(None));
-        let dummy = scene.add("d", Kind::Dummy(crate::object::dummy::Dummy::new(0.1))).unwrap();
-        assert_eq!(scene.set_object_colour(dummy, 1, ColourComponent::Specular, &[0.0; 3]), Ok(false));
+        assert_eq!(
+            scene.set_object_colour(light, 1, ColourComponent::Specular, &[1.0, 0.0, 0.0]),
+            Ok(true)
+        );
+        assert_eq!(
+            scene.object_colour(light, 1, ColourComponent::Specular),
+            Ok(Some(vec![1.0, 0.0, 0.0]))
+        );
+        assert_eq!(
+            scene.object_colour(light, 0, ColourComponent::Specular),
+            Ok(Some(vec![0.25; 3]))
+        );
+        assert_eq!(
+            scene.object_colour(light, 2, ColourComponent::Specular),
+            Ok(None)
+        );
+        let dummy = scene
+            .add("d", Kind::Dummy(crate::object::dummy::Dummy::new(0.1)))
+            .unwrap();
+        assert_eq!(
+            scene.set_object_colour(dummy, 1, ColourComponent::Specular, &[0.0; 3]),
+            Ok(false)
+        );
     }
 }

@@ -31,7 +31,8 @@ impl Rectangle {
     /// Where its pixels are in an image of that width, row by row.
     fn places(self, width: usize) -> impl Iterator<Item = usize> {
         let [x, y] = self.position;
-        (y..y + self.size[1]).flat_map(move |row| (x..x + self.size[0]).map(move |column| row * width + column))
+        (y..y + self.size[1])
+            .flat_map(move |row| (x..x + self.size[0]).map(move |column| row * width + column))
     }
 }
 
@@ -42,8 +43,14 @@ impl Texture {
     /// None where the pixels are not as many as the size says: red, green and blue of each, and opacity if there is one.
     pub fn new(name: &str, size: [u32; 2], has_alpha: bool, pixels: &[u8]) -> Option<Self> {
         let possible = size.iter().all(|side| (1..=Self::MAX_SIDE).contains(side));
-        let texture = Self { name: name.to_owned(), size, has_alpha, pixels: pixels.into() };
-        (possible && texture.width() * size[1] as usize * texture.bytes_per_pixel() == pixels.len()).then_some(texture)
+        let texture = Self {
+            name: name.to_owned(),
+            size,
+            has_alpha,
+            pixels: pixels.into(),
+        };
+        (possible && texture.width() * size[1] as usize * texture.bytes_per_pixel() == pixels.len())
+            .then_some(texture)
     }
 
     /// Width and height, pixels.
@@ -71,8 +78,18 @@ impl Texture {
 
     /// Every pixel with an opacity.
     pub fn rgba(&self) -> Vec<u8> {
-        let of = |pixel: &[u8]| [pixel[0], pixel[1], pixel[2], pixel.get(3).copied().unwrap_or(u8::MAX)];
-        self.pixels.chunks_exact(self.bytes_per_pixel()).flat_map(of).collect()
+        let of = |pixel: &[u8]| {
+            [
+                pixel[0],
+                pixel[1],
+                pixel[2],
+                pixel.get(3).copied().unwrap_or(u8::MAX),
+            ]
+        };
+        self.pixels
+            .chunks_exact(self.bytes_per_pixel())
+            .flat_map(of)
+            .collect()
     }
 
     /// A part of the image, or all of it where a side is zero.
@@ -81,21 +98,32 @@ impl Texture {
     /// When it is not within the image.
     pub fn rectangle(&self, position: [i64; 2], size: [i64; 2]) -> SceneResult<Rectangle> {
         if size.iter().any(|side| *side <= 0) {
-            return Ok(Rectangle { position: [0, 0], size: self.size.map(|side| side as usize) });
+            return Ok(Rectangle {
+                position: [0, 0],
+                size: self.size.map(|side| side as usize),
+            });
         }
         let within = |axis: usize| {
-            let (at, side) = (u32::try_from(position[axis]).ok()?, u32::try_from(size[axis]).ok()?);
+            let (at, side) = (
+                u32::try_from(position[axis]).ok()?,
+                u32::try_from(size[axis]).ok()?,
+            );
             (at.checked_add(side)? <= self.size[axis]).then_some((at as usize, side as usize))
         };
         let outside = || SceneError::Refused("invalid arguments.".into());
         let ((x, width), (y, height)) = within(0).zip(within(1)).ok_or_else(outside)?;
-        Ok(Rectangle { position: [x, y], size: [width, height] })
+        Ok(Rectangle {
+            position: [x, y],
+            size: [width, height],
+        })
     }
 
     /// Red, green, blue of a part.
     pub fn read(&self, part: Rectangle) -> Vec<u8> {
         let step = self.bytes_per_pixel();
-        part.places(self.width()).flat_map(|place| self.pixels[step * place..][..3].iter().copied()).collect()
+        part.places(self.width())
+            .flat_map(|place| self.pixels[step * place..][..3].iter().copied())
+            .collect()
     }
 
     /// Replaces red, green, blue of a part; `remains` is how much of the old colours stays, 0 to 1. Opacities stay.
@@ -106,13 +134,21 @@ impl Texture {
         if rgb.len() != 3 * part.area() {
             return Err(SceneError::Refused("incorrect buffer size.".into()));
         }
-        let remains = if remains.is_finite() { remains.clamp(0.0, 1.0) } else { 0.0 };
-        let mix = |old: u8, new: u8| (remains * f64::from(old) + (1.0 - remains) * f64::from(new)).round() as u8;
+        let remains = if remains.is_finite() {
+            remains.clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        let mix = |old: u8, new: u8| {
+            (remains * f64::from(old) + (1.0 - remains) * f64::from(new)).round() as u8
+        };
         let (step, width) = (self.bytes_per_pixel(), self.width());
         let pixels = Rc::make_mut(&mut self.pixels);
         for (place, colour) in part.places(width).zip(rgb.chunks_exact(3)) {
             let old = &mut pixels[step * place..][..3];
-            old.iter_mut().zip(colour).for_each(|(old, new)| *old = mix(*old, *new));
+            old.iter_mut()
+                .zip(colour)
+                .for_each(|(old, new)| *old = mix(*old, *new));
         }
         Ok(())
     }
@@ -135,7 +171,10 @@ mod tests {
             let before = texture.read(part);
             assert_eq!(before[0], if has_alpha { 16 } else { 12 });
             texture.write(part, &[100; 6], 0.5).unwrap();
-            assert_eq!(texture.read(part)[0], ((f64::from(before[0]) + 100.0) / 2.0).round() as u8);
+            assert_eq!(
+                texture.read(part)[0],
+                ((f64::from(before[0]) + 100.0) / 2.0).round() as u8
+            );
             assert_eq!(texture.pixels()[..12], image(has_alpha).pixels()[..12]);
             assert_eq!(texture.rgba()[7], if has_alpha { 7 } else { 255 });
             assert!(texture.write(part, &[1; 5], 0.0).is_err());
@@ -145,10 +184,20 @@ mod tests {
     #[test]
     fn parts_outside_are_refused() {
         let texture = image(false);
-        assert_eq!(texture.read(texture.rectangle([9, 9], [0, 0]).unwrap()), texture.pixels());
-        for (position, size) in [([1, 0], [3, 1]), ([-1, 0], [1, 1]), ([0, 2], [1, 1]), ([i64::MAX, 0], [i64::MAX, 1])]
-        {
-            assert!(texture.rectangle(position, size).is_err(), "{position:?} {size:?}");
+        assert_eq!(
+            texture.read(texture.rectangle([9, 9], [0, 0]).unwrap()),
+            texture.pixels()
+        );
+        for (position, size) in [
+            ([1, 0], [3, 1]),
+            ([-1, 0], [1, 1]),
+            ([0, 2], [1, 1]),
+            ([i64::MAX, 0], [i64::MAX, 1]),
+        ] {
+            assert!(
+                texture.rectangle(position, size).is_err(),
+                "{position:?} {size:?}"
+            );
         }
         assert!(Texture::new("a", [0, 2], false, &[]).is_none());
         assert!(Texture::new("a", [u32::MAX, u32::MAX], false, &[]).is_none());

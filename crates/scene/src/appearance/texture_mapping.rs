@@ -50,7 +50,9 @@ impl MappingMode {
 
     /// From a number of a script; None for an unknown one.
     pub fn from_raw(raw: i64) -> Option<Self> {
-        [Self::PLANE, Self::CYLINDER, Self::SPHERE, Self::CUBE].into_iter().find(|mode| i64::from(mode.0) == raw)
+        [Self::PLANE, Self::CYLINDER, Self::SPHERE, Self::CUBE]
+            .into_iter()
+            .find(|mode| i64::from(mode.0) == raw)
     }
 }
 
@@ -133,22 +135,35 @@ impl TextureMapping {
         Self {
             interpolate: !options.contains(TextureOptions::NOT_INTERPOLATED),
             apply_mode: ApplyMode::decal_if(options.contains(TextureOptions::DECAL)),
-            repeat: [TextureOptions::REPEAT_U, TextureOptions::REPEAT_V].map(|axis| options.contains(axis)),
+            repeat: [TextureOptions::REPEAT_U, TextureOptions::REPEAT_V]
+                .map(|axis| options.contains(axis)),
             ..self
         }
     }
 
     /// Turns each triangle as [`Mesh::flip`](geometry::Mesh::flip) does.
     pub(crate) fn flip(&mut self) {
-        let turned = self.coordinates.as_chunks::<6>().0.iter().flat_map(|&[a, b, c, d, e, f]| [a, b, e, f, c, d]);
+        let turned = self
+            .coordinates
+            .as_chunks::<6>()
+            .0
+            .iter()
+            .flat_map(|&[a, b, c, d, e, f]| [a, b, e, f, c, d]);
         self.coordinates = turned.collect();
     }
 
     /// The same on some of the triangles only.
     pub(crate) fn of_triangles(&self, triangles: &[usize]) -> Self {
         let all = self.coordinates.as_chunks::<6>().0;
-        let some = triangles.iter().filter_map(|at| all.get(*at)).flatten().copied();
-        Self { coordinates: some.collect(), ..self.clone() }
+        let some = triangles
+            .iter()
+            .filter_map(|at| all.get(*at))
+            .flatten()
+            .copied();
+        Self {
+            coordinates: some.collect(),
+            ..self.clone()
+        }
     }
 }
 
@@ -182,9 +197,14 @@ impl Textures {
         if let Some((id, _)) = self.0.iter().find(|(_, other)| **other == texture) {
             return Ok(*id);
         }
-        let id = self.0.last_key_value().map_or(FIRST_TEXTURE, |(last, _)| last + 1);
+        let id = self
+            .0
+            .last_key_value()
+            .map_or(FIRST_TEXTURE, |(last, _)| last + 1);
         if id >= TEXTURE_END {
-            return Err(SceneError::Refused("the scene has too many textures.".into()));
+            return Err(SceneError::Refused(
+                "the scene has too many textures.".into(),
+            ));
         }
         self.0.insert(id, texture);
         Ok(id)
@@ -234,7 +254,11 @@ impl Scene {
         change: impl FnOnce(&mut Texture) -> SceneResult<R>,
     ) -> SceneResult<R> {
         let result = change(self.textures.get_mut(id)?)?;
-        let users: Vec<Handle> = self.objects().filter(|object| uses(object, id)).map(Object::handle).collect();
+        let users: Vec<Handle> = self
+            .objects()
+            .filter(|object| uses(object, id))
+            .map(Object::handle)
+            .collect();
         for user in users {
             self.modify(user, Field::Texture, |_| ())?;
         }
@@ -245,7 +269,11 @@ impl Scene {
     ///
     /// # Errors
     /// When the object is no shape, or the texture or sensor does not exist.
-    pub fn set_shape_texture(&mut self, handle: Handle, mapping: Option<TextureMapping>) -> SceneResult<()> {
+    pub fn set_shape_texture(
+        &mut self,
+        handle: Handle,
+        mapping: Option<TextureMapping>,
+    ) -> SceneResult<()> {
         match mapping.as_ref().map(|mapping| mapping.source) {
             Some(TextureSource::Texture(id)) => drop(self.textures.get(id)?),
             Some(TextureSource::Sensor(sensor)) => drop(self.object(sensor)?.vision_sensor()?),
@@ -273,7 +301,9 @@ impl Scene {
 }
 
 fn uses(object: &Object, id: i64) -> bool {
-    object.shape().is_ok_and(|shape| shape.texture_ids().any(|other| other == id))
+    object
+        .shape()
+        .is_ok_and(|shape| shape.texture_ids().any(|other| other == id))
 }
 
 fn no_texture() -> SceneError {
@@ -301,7 +331,11 @@ mod tests {
         let (a, b) = (cube(&mut scene), cube(&mut scene));
         let id = scene.textures_mut().add(image("a")).unwrap();
         assert_eq!(
-            (id, scene.textures_mut().add(image("b")), scene.textures_mut().add(image("a"))),
+            (
+                id,
+                scene.textures_mut().add(image("b")),
+                scene.textures_mut().add(image("a"))
+            ),
             (FIRST_TEXTURE, Ok(FIRST_TEXTURE + 1), Ok(FIRST_TEXTURE))
         );
         let mapping = TextureMapping::new(TextureSource::Texture(id));
@@ -319,7 +353,10 @@ mod tests {
     fn coordinates_follow_the_triangles() {
         let mut mapping = TextureMapping::new(TextureSource::Texture(FIRST_TEXTURE));
         mapping.coordinates = (0..12u8).map(f32::from).collect();
-        assert_eq!(*mapping.of_triangles(&[1]).coordinates, [6., 7., 8., 9., 10., 11.]);
+        assert_eq!(
+            *mapping.of_triangles(&[1]).coordinates,
+            [6., 7., 8., 9., 10., 11.]
+        );
         mapping.flip();
         assert_eq!(mapping.coordinates[..6], [0., 1., 4., 5., 2., 3.]);
     }

@@ -17,7 +17,9 @@ pub struct Drawings {
 impl Drawings {
     /// The drawing objects with their handles, in the order of their creation.
     pub fn iter(&self) -> impl Iterator<Item = (i64, &DrawingObject)> {
-        self.by_handle.iter().map(|(handle, drawing)| (*handle, drawing))
+        self.by_handle
+            .iter()
+            .map(|(handle, drawing)| (*handle, drawing))
     }
 
     /// The drawing object with that handle.
@@ -35,7 +37,10 @@ impl Drawings {
 
     /// One of them, which is about to change.
     fn get_mut(&mut self, handle: i64) -> SceneResult<&mut DrawingObject> {
-        let drawing = self.by_handle.get_mut(&handle).ok_or(SceneError::NoSuchObject)?;
+        let drawing = self
+            .by_handle
+            .get_mut(&handle)
+            .ok_or(SceneError::NoSuchObject)?;
         self.last_change += 1;
         drawing.changed_at = self.last_change;
         Ok(drawing)
@@ -55,7 +60,10 @@ impl Drawings {
     /// When there is no drawing object with that handle.
     pub fn remove(&mut self, handle: i64) -> SceneResult<()> {
         self.last_change += 1;
-        self.by_handle.remove(&handle).map(drop).ok_or(SceneError::NoSuchObject)
+        self.by_handle
+            .remove(&handle)
+            .map(drop)
+            .ok_or(SceneError::NoSuchObject)
     }
 
     /// Removes all drawing objects.
@@ -67,12 +75,18 @@ impl Drawings {
     /// Removes those that move with objects which are being removed.
     pub(crate) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
         self.last_change += 1;
-        self.by_handle.retain(|_, drawing| drawing.style.parent.is_none_or(|parent| !doomed.contains(&parent)));
+        self.by_handle.retain(|_, drawing| {
+            drawing
+                .style
+                .parent
+                .is_none_or(|parent| !doomed.contains(&parent))
+        });
     }
 
     pub(crate) fn forget_owner(&mut self, owner: i64) {
         self.last_change += 1;
-        self.by_handle.retain(|_, drawing| drawing.owner != Some(owner));
+        self.by_handle
+            .retain(|_, drawing| drawing.owner != Some(owner));
     }
 }
 
@@ -98,7 +112,10 @@ impl Scene {
         self.drawings.created += 1;
         self.drawings.last_change += 1;
         let handle = self.drawings.created;
-        let drawing = DrawingObject { changed_at: self.drawings.last_change, ..DrawingObject::new(style, owner) };
+        let drawing = DrawingObject {
+            changed_at: self.drawings.last_change,
+            ..DrawingObject::new(style, owner)
+        };
         self.drawings.by_handle.insert(handle, drawing);
         Ok(handle)
     }
@@ -109,9 +126,14 @@ impl Scene {
     /// When there is no drawing object with that handle.
     pub fn add_drawing_items(&mut self, handle: i64, numbers: &[f64]) -> SceneResult<usize> {
         let parent = self.drawings.get(handle)?.style.parent;
-        let frame = parent.map_or(Ok(super::Pose::identity()), |parent| self.world_pose(parent))?;
+        let frame = parent.map_or(Ok(super::Pose::identity()), |parent| {
+            self.world_pose(parent)
+        })?;
         let drawing = self.drawings.get_mut(handle)?;
-        Ok(numbers.chunks(drawing.item_len()).filter(|item| drawing.add(item, &frame)).count())
+        Ok(numbers
+            .chunks(drawing.item_len())
+            .filter(|item| drawing.add(item, &frame))
+            .count())
     }
 
     /// Removes what ends with the script `owner`: its collections, and its drawing objects that are not persistent.

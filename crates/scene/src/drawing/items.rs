@@ -34,7 +34,8 @@ impl Layout {
         Self {
             points: 3 * kind.points(),
             normal: if kind.has_normal(flags) { 3 } else { 0 },
-            colours: when(DrawingFlags::ITEM_COLOURS, 3) + when(DrawingFlags::VERTEX_COLOURS, 3 * kind.points()),
+            colours: when(DrawingFlags::ITEM_COLOURS, 3)
+                + when(DrawingFlags::VERTEX_COLOURS, 3 * kind.points()),
             size: when(DrawingFlags::ITEM_SIZES, 1),
             transparency: when(DrawingFlags::ITEM_TRANSPARENCY, 1),
         }
@@ -47,7 +48,11 @@ impl Layout {
 
 impl Items {
     pub(super) fn new(kind: DrawingKind, flags: DrawingFlags) -> Self {
-        Self { layout: Layout::new(kind, flags), numbers: Vec::new(), first: 0 }
+        Self {
+            layout: Layout::new(kind, flags),
+            numbers: Vec::new(),
+            first: 0,
+        }
     }
 
     pub(super) fn item_len(&self) -> usize {
@@ -61,14 +66,22 @@ impl Items {
     /// The items, the oldest first.
     pub(super) fn iter(&self) -> impl Iterator<Item = DrawingItem<'_>> {
         let (newer, older) = self.numbers.split_at(self.first * self.item_len());
-        let rows = older.chunks_exact(self.item_len()).chain(newer.chunks_exact(self.item_len()));
-        rows.map(|numbers| DrawingItem { layout: self.layout, numbers })
+        let rows = older
+            .chunks_exact(self.item_len())
+            .chain(newer.chunks_exact(self.item_len()));
+        rows.map(|numbers| DrawingItem {
+            layout: self.layout,
+            numbers,
+        })
     }
 
     /// Whether an item has all its points within `tolerance` of those of `item`.
     pub(super) fn has_near(&self, item: &[f64], tolerance: f64) -> bool {
-        let points = |row: &[f64]| -> Vec<[f64; 3]> { row[..self.layout.points].as_chunks().0.to_vec() };
-        let near = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>() < tolerance.powi(2);
+        let points =
+            |row: &[f64]| -> Vec<[f64; 3]> { row[..self.layout.points].as_chunks().0.to_vec() };
+        let near = |a: [f64; 3], b: [f64; 3]| {
+            (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>() < tolerance.powi(2)
+        };
         let new = points(item);
         tolerance > 0.0
             && self
@@ -110,12 +123,16 @@ impl<'a> DrawingItem<'a> {
 
     /// Where a small body faces, if it has a direction.
     pub fn normal(self) -> Option<[f64; 3]> {
-        self.part(self.layout.points, self.layout.normal).first_chunk().copied()
+        self.part(self.layout.points, self.layout.normal)
+            .first_chunk()
+            .copied()
     }
 
     /// Its own colours: none, one, one for each point, or both.
     pub fn colours(self) -> &'a [[f64; 3]] {
-        self.part(self.layout.points + self.layout.normal, self.layout.colours).as_chunks().0
+        self.part(self.layout.points + self.layout.normal, self.layout.colours)
+            .as_chunks()
+            .0
     }
 
     /// Its own size, as that of the drawing object.

@@ -52,7 +52,12 @@ impl DrawingObject {
     fn new(mut style: DrawingStyle, owner: Option<i64>) -> Self {
         style.max_items = style.max_items.clamp(1, Self::MAX_ITEMS);
         let owner = owner.filter(|_| !style.flags.contains(DrawingFlags::PERSISTENT));
-        Self { items: Items::new(style.kind, style.flags), style, owner, changed_at: 0 }
+        Self {
+            items: Items::new(style.kind, style.flags),
+            style,
+            owner,
+            changed_at: 0,
+        }
     }
 
     /// Number of its last change, among those of all drawing objects of the scene.
@@ -73,7 +78,9 @@ impl DrawingObject {
     /// Adds the item at the beginning of `numbers`, given in the frame `parent` maps to. False when there is no room or an equal item,
     /// or when there are too few numbers.
     pub(crate) fn add(&mut self, numbers: &[f64], parent: &Pose) -> bool {
-        let Some(numbers) = numbers.get(..self.item_len()) else { return false };
+        let Some(numbers) = numbers.get(..self.item_len()) else {
+            return false;
+        };
         if !numbers.iter().all(|number| number.is_finite()) {
             return false;
         }
@@ -84,7 +91,11 @@ impl DrawingObject {
         if self.items.has_near(&item, self.style.duplicate_tolerance) {
             return false;
         }
-        self.items.push(&item, self.style.max_items, self.style.flags.contains(DrawingFlags::CYCLIC))
+        self.items.push(
+            &item,
+            self.style.max_items,
+            self.style.flags.contains(DrawingFlags::CYCLIC),
+        )
     }
 
     fn make_local(&self, item: &mut [f64], parent: &Pose) {
@@ -111,20 +122,34 @@ mod tests {
 
     fn drawing(kind: DrawingKind, flags: DrawingFlags, max_items: usize) -> DrawingObject {
         let colour = Colour::new([1.0; 3]);
-        let style = DrawingStyle { kind, flags, size: 1.0, duplicate_tolerance: 0.0, parent: None, max_items, colour };
+        let style = DrawingStyle {
+            kind,
+            flags,
+            size: 1.0,
+            duplicate_tolerance: 0.0,
+            parent: None,
+            max_items,
+            colour,
+        };
         DrawingObject::new(style, None)
     }
 
     fn points(drawing: &DrawingObject) -> Vec<[f64; 3]> {
-        drawing.items().flat_map(|item| item.points().to_vec()).collect()
+        drawing
+            .items()
+            .flat_map(|item| item.points().to_vec())
+            .collect()
     }
 
     #[test]
     fn a_full_object_refuses_and_a_cyclic_one_replaces_the_oldest() {
         let mut plain = drawing(DrawingKind::Points, DrawingFlags::empty(), 2);
         let mut cyclic = drawing(DrawingKind::Points, DrawingFlags::CYCLIC, 2);
-        let add =
-            |to: &mut DrawingObject| (0..3).map(|i| to.add(&[f64::from(i), 0.0, 0.0], &Pose::identity())).collect();
+        let add = |to: &mut DrawingObject| {
+            (0..3)
+                .map(|i| to.add(&[f64::from(i), 0.0, 0.0], &Pose::identity()))
+                .collect()
+        };
         let (added, replaced): (Vec<bool>, Vec<bool>) = (add(&mut plain), add(&mut cyclic));
         assert_eq!((added, replaced), (vec![true, true, false], vec![true; 3]));
         assert_eq!(points(&plain), [[0.0; 3], [1.0, 0.0, 0.0]]);
@@ -139,7 +164,10 @@ mod tests {
         let mut world = drawing(DrawingKind::QuadPoints, DrawingFlags::empty(), 9);
         assert!(world.add(&[1.0, 2.0, 3.0, 0.0, 0.0, 1.0], &parent));
         let item = world.items().next().unwrap();
-        assert_eq!((item.points(), item.normal()), (&[[0.0, 2.0, 3.0]][..], Some([0.0, 0.0, 1.0])));
+        assert_eq!(
+            (item.points(), item.normal()),
+            (&[[0.0, 2.0, 3.0]][..], Some([0.0, 0.0, 1.0]))
+        );
         let mut local = drawing(DrawingKind::Points, DrawingFlags::LOCAL, 9);
         assert!(local.add(&[1.0, 2.0, 3.0], &parent));
         assert_eq!(points(&local), [[1.0, 2.0, 3.0]]);
@@ -155,11 +183,18 @@ mod tests {
 
     #[test]
     fn items_have_colours_sizes_and_transparency_of_their_own() {
-        let flags = DrawingFlags::ITEM_COLOURS | DrawingFlags::ITEM_SIZES | DrawingFlags::ITEM_TRANSPARENCY;
+        let flags =
+            DrawingFlags::ITEM_COLOURS | DrawingFlags::ITEM_SIZES | DrawingFlags::ITEM_TRANSPARENCY;
         let mut spheres = drawing(DrawingKind::SpherePoints, flags, 9);
         assert_eq!(spheres.item_len(), 8);
-        assert!(spheres.add(&[0.0, 0.0, 0.0, 1.0, 0.5, 0.0, 0.2, 0.25], &Pose::identity()));
+        assert!(spheres.add(
+            &[0.0, 0.0, 0.0, 1.0, 0.5, 0.0, 0.2, 0.25],
+            &Pose::identity()
+        ));
         let item = spheres.items().next().unwrap();
-        assert_eq!((item.colours(), item.size(), item.transparency()), (&[[1.0, 0.5, 0.0]][..], Some(0.2), Some(0.25)));
+        assert_eq!(
+            (item.colours(), item.size(), item.transparency()),
+            (&[[1.0, 0.5, 0.0]][..], Some(0.2), Some(0.25))
+        );
     }
 }

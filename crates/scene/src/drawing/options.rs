@@ -57,7 +57,9 @@ impl DrawingKind {
     /// Whether an item has a direction after its point. Cubes had one before 4.0.
     pub(super) fn has_normal(self, code: DrawingFlags) -> bool {
         match self {
-            Self::TrianglePoints | Self::QuadPoints | Self::DiscPoints => !code.contains(DrawingFlags::FACING_CAMERA),
+            Self::TrianglePoints | Self::QuadPoints | Self::DiscPoints => {
+                !code.contains(DrawingFlags::FACING_CAMERA)
+            }
             Self::CubePoints => code.contains(DrawingFlags::OLD_CUBES),
             _ => false,
         }
@@ -117,7 +119,15 @@ impl DrawingFlags {
 
     /// How much light passes through items without a transparency of their own, 0 to 1.
     pub fn transparency(self) -> f32 {
-        let parts = [(Self::TRANSPARENT_50, 0.5), (Self::TRANSPARENT_25, 0.25), (Self::TRANSPARENT_12, 0.125)];
-        parts.into_iter().filter(|(flag, _)| self.contains(*flag)).map(|(_, part)| part).sum()
+        let parts = [
+            (Self::TRANSPARENT_50, 0.5),
+            (Self::TRANSPARENT_25, 0.25),
+            (Self::TRANSPARENT_12, 0.125),
+        ];
+        parts
+            .into_iter()
+            .filter(|(flag, _)| self.contains(*flag))
+            .map(|(_, part)| part)
+            .sum()
     }
 }

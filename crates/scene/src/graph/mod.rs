@@ -154,7 +154,14 @@ pub struct GraphCurve {
 impl TransformationKind {
     /// From `sim.stream_transf_*`.
     pub fn from_code(code: i64) -> Option<Self> {
-        [Self::Raw, Self::Derivative, Self::Integral, Self::Cumulative].into_iter().find(|kind| kind.code() == code)
+        [
+            Self::Raw,
+            Self::Derivative,
+            Self::Integral,
+            Self::Cumulative,
+        ]
+        .into_iter()
+        .find(|kind| kind.code() == code)
     }
 
     /// The number of `sim.stream_transf_*`.
@@ -165,7 +172,13 @@ impl TransformationKind {
 
 impl Default for Transformation {
     fn default() -> Self {
-        Self { kind: TransformationKind::Raw, multiplier: 1.0, offset: 0.0, period: 1, cyclic_range: 0.0 }
+        Self {
+            kind: TransformationKind::Raw,
+            multiplier: 1.0,
+            offset: 0.0,
+            period: 1,
+            cyclic_range: 0.0,
+        }
     }
 }
 
@@ -173,7 +186,15 @@ impl GraphStream {
     /// A visible stream without samples.
     pub fn new(style: CurveStyle) -> Self {
         let (samples, transformation) = Default::default();
-        Self { style, visible: true, transformation, next: None, samples, fixed: None, source: None }
+        Self {
+            style,
+            visible: true,
+            transformation,
+            next: None,
+            samples,
+            fixed: None,
+            source: None,
+        }
     }
 }
 
@@ -217,12 +238,19 @@ impl Graph {
     /// # Errors
     /// When there is no such stream.
     pub fn stream_mut(&mut self, id: i64) -> SceneResult<&mut GraphStream> {
-        self.streams.iter_mut().find(|stream| stream.style.id == id).ok_or_else(no_curve)
+        self.streams
+            .iter_mut()
+            .find(|stream| stream.style.id == id)
+            .ok_or_else(no_curve)
     }
 
     /// A number no stream or curve has.
     fn free_id(&self) -> i64 {
-        let ids = self.streams.iter().map(|stream| stream.style.id).chain(self.curves.iter().map(|c| c.style.id));
+        let ids = self
+            .streams
+            .iter()
+            .map(|stream| stream.style.id)
+            .chain(self.curves.iter().map(|c| c.style.id));
         ids.max().map_or(0, |id| id.saturating_add(1))
     }
 
@@ -231,8 +259,14 @@ impl Graph {
     /// # Errors
     /// When there is no name, or the one with that name is fixed.
     pub fn add_stream(&mut self, mut stream: GraphStream) -> SceneResult<i64> {
-        let known = self.streams.iter_mut().find(|known| known.style.name == stream.style.name);
-        check_name(&stream.style.name, known.as_ref().is_some_and(|known| known.fixed.is_some()))?;
+        let known = self
+            .streams
+            .iter_mut()
+            .find(|known| known.style.name == stream.style.name);
+        check_name(
+            &stream.style.name,
+            known.as_ref().is_some_and(|known| known.fixed.is_some()),
+        )?;
         if let Some(known) = known {
             stream.style.id = known.style.id;
             (known.style, known.visible) = (stream.style, stream.visible);
@@ -250,9 +284,16 @@ impl Graph {
     /// # Errors
     /// As [`add_stream`](Self::add_stream); and when a stream of it does not exist.
     pub fn add_curve(&mut self, mut curve: GraphCurve) -> SceneResult<i64> {
-        let known = self.curves.iter().position(|known| known.style.name == curve.style.name);
-        check_name(&curve.style.name, known.is_some_and(|at| self.curves[at].fixed.is_some()))?;
-        let exists = |id: &i64| *id == -1 || self.streams.iter().any(|stream| stream.style.id == *id);
+        let known = self
+            .curves
+            .iter()
+            .position(|known| known.style.name == curve.style.name);
+        check_name(
+            &curve.style.name,
+            known.is_some_and(|at| self.curves[at].fixed.is_some()),
+        )?;
+        let exists =
+            |id: &i64| *id == -1 || self.streams.iter().any(|stream| stream.style.id == *id);
         if !curve.streams[..curve.dimensions].iter().all(exists) {
             return Err(no_curve());
         }
@@ -275,7 +316,11 @@ impl Graph {
         if self.curves.len() == before.0 {
             self.streams.retain(|stream| stream.style.id != id);
         }
-        if before == (self.curves.len(), self.streams.len()) { Err(no_curve()) } else { Ok(()) }
+        if before == (self.curves.len(), self.streams.len()) {
+            Err(no_curve())
+        } else {
+            Ok(())
+        }
     }
 
     /// A copy of a stream or curve that no recording changes. Its number.
@@ -285,22 +330,47 @@ impl Graph {
     pub fn fix_curve(&mut self, id: i64, name: &str) -> SceneResult<i64> {
         let free = self.free_id();
         let style = |style: &CurveStyle| {
-            let name = if name.is_empty() { format!("{} [static]", style.name) } else { name.to_owned() };
-            CurveStyle { id: free, name, ..style.clone() }
+            let name = if name.is_empty() {
+                format!("{} [static]", style.name)
+            } else {
+                name.to_owned()
+            };
+            CurveStyle {
+                id: free,
+                name,
+                ..style.clone()
+            }
         };
         if let Some(curve) = self.curves.iter().find(|curve| curve.style.id == id) {
             let fixed = Some(self.points(curve));
-            self.curves.push(GraphCurve { style: style(&curve.style), fixed, ..curve.clone() });
+            self.curves.push(GraphCurve {
+                style: style(&curve.style),
+                fixed,
+                ..curve.clone()
+            });
         } else {
-            let stream = self.streams.iter().find(|stream| stream.style.id == id).ok_or_else(no_curve)?;
+            let stream = self
+                .streams
+                .iter()
+                .find(|stream| stream.style.id == id)
+                .ok_or_else(no_curve)?;
             let (style, fixed) = (style(&stream.style), Some(self.values(stream)));
-            self.streams.push(GraphStream { fixed, visible: stream.visible, ..GraphStream::new(style) });
+            self.streams.push(GraphStream {
+                fixed,
+                visible: stream.visible,
+                ..GraphStream::new(style)
+            });
         }
         Ok(free)
     }
 
     /// Takes what a file holds. Samples that are not as many as the times are left out.
-    pub fn restore(&mut self, times: VecDeque<f64>, mut streams: Vec<GraphStream>, curves: Vec<GraphCurve>) {
+    pub fn restore(
+        &mut self,
+        times: VecDeque<f64>,
+        mut streams: Vec<GraphStream>,
+        curves: Vec<GraphCurve>,
+    ) {
         let slots = times.len();
         for stream in streams.iter_mut() {
             if stream.fixed.is_some() || stream.samples.len() != slots {

@@ -10,10 +10,18 @@ impl Graph {
             return;
         }
         let step = self.times.back().map(|last| time - last);
-        for stream in self.streams.iter_mut().filter(|stream| stream.fixed.is_none()) {
+        for stream in self
+            .streams
+            .iter_mut()
+            .filter(|stream| stream.fixed.is_none())
+        {
             let raw = stream.next.take();
-            let sample =
-                GraphSample { raw, transformed: stream.transformation.apply(raw, stream.samples.back(), step) };
+            let sample = GraphSample {
+                raw,
+                transformed: stream
+                    .transformation
+                    .apply(raw, stream.samples.back(), step),
+            };
             stream.samples.push_back(sample);
         }
         self.times.push_back(time);
@@ -54,14 +62,23 @@ impl Graph {
         }
         let slots = [0, 1, 2].map(|axis| {
             let id = curve.streams[axis];
-            let stream = self.streams.iter().find(|stream| stream.style.id == id && axis < curve.dimensions);
+            let stream = self
+                .streams
+                .iter()
+                .find(|stream| stream.style.id == id && axis < curve.dimensions);
             stream.map(|stream| stream.slots(self.times.len()))
         });
         let coordinate = |slot: usize, axis: usize| match &slots[axis] {
             Some(values) => values.get(slot).copied().flatten(),
             None => Some(curve.defaults[axis]),
         };
-        let point = |slot| Some([coordinate(slot, 0)?, coordinate(slot, 1)?, coordinate(slot, 2)?]);
+        let point = |slot| {
+            Some([
+                coordinate(slot, 0)?,
+                coordinate(slot, 1)?,
+                coordinate(slot, 2)?,
+            ])
+        };
         (0..self.times.len()).filter_map(point).collect()
     }
 }
@@ -69,9 +86,15 @@ impl Graph {
 impl GraphStream {
     /// The value of each of the slots of a graph: multiplied, moved, and averaged.
     fn slots(&self, all: usize) -> Vec<Option<f64>> {
-        let Transformation { multiplier, offset, period, .. } = self.transformation;
-        let scaled =
-            |sample: &GraphSample| Some(multiplier * sample.transformed? + offset).filter(|value| value.is_finite());
+        let Transformation {
+            multiplier,
+            offset,
+            period,
+            ..
+        } = self.transformation;
+        let scaled = |sample: &GraphSample| {
+            Some(multiplier * sample.transformed? + offset).filter(|value| value.is_finite())
+        };
         let before = std::iter::repeat_n(None, all.saturating_sub(self.samples.len()));
         let scaled: Vec<Option<f64>> = before.chain(self.samples.iter().map(scaled)).collect();
         match usize::try_from(period) {
@@ -91,24 +114,37 @@ fn averaged(values: &[Option<f64>], period: usize) -> Vec<Option<f64>> {
         if let Some(Some(oldest)) = slot.checked_sub(period).map(|gone| values[gone]) {
             (sum, count) = (sum - oldest, count - 1);
         }
-        newest.filter(|_| slot + 1 >= period).map(|_| sum / f64::from(count))
+        newest
+            .filter(|_| slot + 1 >= period)
+            .map(|_| sum / f64::from(count))
     };
     values.iter().enumerate().map(mean).collect()
 }
 
 impl Transformation {
     /// Transformed value; `before` is the previous sample, `step` seconds ago.
-    fn apply(&self, raw: Option<f64>, before: Option<&GraphSample>, step: Option<f64>) -> Option<f64> {
+    fn apply(
+        &self,
+        raw: Option<f64>,
+        before: Option<&GraphSample>,
+        step: Option<f64>,
+    ) -> Option<f64> {
         use TransformationKind::{Cumulative, Derivative, Integral, Raw};
         let raw = raw?;
         let before = before.and_then(|sample| Some((sample.raw?, sample.transformed, step?)));
         match (self.kind, before) {
             (Raw, _) => Some(raw),
             (Derivative, None) => None,
-            (Derivative, Some((last, _, step))) => (step > 0.0).then(|| self.difference(last, raw) / step),
-            (Integral, Some((last, Some(sum), step))) => Some(sum + step * (last + 0.5 * self.difference(last, raw))),
+            (Derivative, Some((last, _, step))) => {
+                (step > 0.0).then(|| self.difference(last, raw) / step)
+            }
+            (Integral, Some((last, Some(sum), step))) => {
+                Some(sum + step * (last + 0.5 * self.difference(last, raw)))
+            }
             (Integral, _) => Some(0.0),
-            (Cumulative, Some((last, Some(sum), _))) => Some(sum + last + self.difference(last, raw)),
+            (Cumulative, Some((last, Some(sum), _))) => {
+                Some(sum + last + self.difference(last, raw))
+            }
             (Cumulative, _) => Some(raw),
         }
     }
@@ -117,7 +153,11 @@ impl Transformation {
     fn difference(&self, last: f64, raw: f64) -> f64 {
         let difference = raw - last;
         let range = self.cyclic_range;
-        if range > 0.0 { difference - range * (difference / range).round() } else { difference }
+        if range > 0.0 {
+            difference - range * (difference / range).round()
+        } else {
+            difference
+        }
     }
 }
 
@@ -128,13 +168,25 @@ mod tests {
 
     fn style(name: &str) -> CurveStyle {
         let name = name.to_owned();
-        CurveStyle { id: 0, name, unit: String::new(), colour: [1.0; 3], label: true, linked: true }
+        CurveStyle {
+            id: 0,
+            name,
+            unit: String::new(),
+            colour: [1.0; 3],
+            label: true,
+            linked: true,
+        }
     }
 
     /// The values of a stream into which these are recorded, one each 0.05 s.
     fn recorded(transformation: Transformation, values: &[Option<f64>]) -> Vec<Option<f64>> {
         let mut graph = Graph::default();
-        let id = graph.add_stream(GraphStream { transformation, ..GraphStream::new(style("s")) }).unwrap();
+        let id = graph
+            .add_stream(GraphStream {
+                transformation,
+                ..GraphStream::new(style("s"))
+            })
+            .unwrap();
         for (slot, value) in values.iter().enumerate() {
             graph.stream_mut(id).unwrap().next = *value;
             graph.record(0.05 * slot as f64);
@@ -148,34 +200,75 @@ mod tests {
             (Some(a), Some(b)) => (a - b).abs() < 1e-9,
             (a, b) => a == b,
         };
-        assert!(found.len() == expected.len() && found.iter().zip(expected).all(near), "{found:?}");
+        assert!(
+            found.len() == expected.len() && found.iter().zip(expected).all(near),
+            "{found:?}"
+        );
     }
 
     #[test]
     fn transformations_are_those_of_the_specification() {
         let values = [Some(0.0), Some(1.0), Some(3.0)];
-        let kind = |kind| Transformation { kind, ..Transformation::default() };
-        assert_near(&recorded(kind(TransformationKind::Derivative), &values), &[None, Some(20.0), Some(40.0)]);
-        assert_near(&recorded(kind(TransformationKind::Integral), &values), &[Some(0.0), Some(0.025), Some(0.125)]);
-        assert_near(&recorded(kind(TransformationKind::Cumulative), &values), &[Some(0.0), Some(1.0), Some(4.0)]);
-        let cyclic = Transformation { cyclic_range: 6.0, ..kind(TransformationKind::Derivative) };
-        assert_near(&recorded(cyclic, &[Some(5.5), Some(0.5)]), &[None, Some(20.0)]);
+        let kind = |kind| Transformation {
+            kind,
+            ..Transformation::default()
+        };
+        assert_near(
+            &recorded(kind(TransformationKind::Derivative), &values),
+            &[None, Some(20.0), Some(40.0)],
+        );
+        assert_near(
+            &recorded(kind(TransformationKind::Integral), &values),
+            &[Some(0.0), Some(0.025), Some(0.125)],
+        );
+        assert_near(
+            &recorded(kind(TransformationKind::Cumulative), &values),
+            &[Some(0.0), Some(1.0), Some(4.0)],
+        );
+        let cyclic = Transformation {
+            cyclic_range: 6.0,
+            ..kind(TransformationKind::Derivative)
+        };
+        assert_near(
+            &recorded(cyclic, &[Some(5.5), Some(0.5)]),
+            &[None, Some(20.0)],
+        );
     }
 
     #[test]
     fn gaps_begin_anew() {
         let values = [Some(1.0), None, Some(3.0)];
-        let kind = |kind| Transformation { kind, ..Transformation::default() };
-        assert_near(&recorded(kind(TransformationKind::Derivative), &values), &[None, None, None]);
-        assert_near(&recorded(kind(TransformationKind::Integral), &values), &[Some(0.0), None, Some(0.0)]);
-        assert_near(&recorded(kind(TransformationKind::Cumulative), &values), &[Some(1.0), None, Some(3.0)]);
+        let kind = |kind| Transformation {
+            kind,
+            ..Transformation::default()
+        };
+        assert_near(
+            &recorded(kind(TransformationKind::Derivative), &values),
+            &[None, None, None],
+        );
+        assert_near(
+            &recorded(kind(TransformationKind::Integral), &values),
+            &[Some(0.0), None, Some(0.0)],
+        );
+        assert_near(
+            &recorded(kind(TransformationKind::Cumulative), &values),
+            &[Some(1.0), None, Some(3.0)],
+        );
     }
 
     #[test]
     fn averages_need_all_their_slots() {
-        let transformation = Transformation { multiplier: 2.0, offset: 1.0, period: 2, ..Transformation::default() };
+        let transformation = Transformation {
+            multiplier: 2.0,
+            offset: 1.0,
+            period: 2,
+            ..Transformation::default()
+        };
         let values = [Some(1.0), Some(3.0), None, Some(5.0)];
-        assert_near(&recorded(transformation, &values), &[None, Some(5.0), None, Some(11.0)]);
+        assert_near(
+            &recorded(transformation, &values),
+            &[None, Some(5.0), None, Some(11.0)],
+        );
     }
 
     #[test]
@@ -190,7 +283,10 @@ mod tests {
 
     #[test]
     fn the_oldest_slots_go_first() {
-        let mut graph = Graph { buffer_size: 2, ..Graph::default() };
+        let mut graph = Graph {
+            buffer_size: 2,
+            ..Graph::default()
+        };
         let (a, b) = (
             graph.add_stream(GraphStream::new(style("a"))).unwrap(),
             graph.add_stream(GraphStream::new(style("b"))).unwrap(),

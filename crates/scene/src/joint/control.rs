@@ -24,7 +24,9 @@ const MAX_SCREW_LEAD: f64 = 20.0 * PI;
 impl JointType {
     /// The type with a script's number, if there is one.
     pub fn from_code(code: i64) -> Option<Self> {
-        [Self::Revolute, Self::Prismatic, Self::Spherical].into_iter().find(|t| *t as i64 == code)
+        [Self::Revolute, Self::Prismatic, Self::Spherical]
+            .into_iter()
+            .find(|t| *t as i64 == code)
     }
 
     /// Alias of a new joint.
@@ -54,25 +56,38 @@ impl Control {
     /// The way of control with a script's number, if there is one.
     pub fn from_code(code: i64) -> Option<Self> {
         use Control::*;
-        [Free, Force, Velocity, Position, Spring, Callback].into_iter().find(|c| *c as i64 == code)
+        [Free, Force, Velocity, Position, Spring, Callback]
+            .into_iter()
+            .find(|c| *c as i64 == code)
     }
 
     /// Whether a script is called in each sub-step to decide what the joint does.
     pub fn calls_script(self) -> bool {
-        matches!(self, Self::Callback | Self::PositionOrCallback | Self::SpringOrCallback)
+        matches!(
+            self,
+            Self::Callback | Self::PositionOrCallback | Self::SpringOrCallback
+        )
     }
 }
 
 impl Joint {
     /// The position that results from setting `position`: wrapped if cyclic, else limited to the interval.
     pub(crate) fn limited(&self, position: f64) -> f64 {
-        if self.cyclic { wrap_angle(position) } else { position.max(self.min).min(self.min + self.range) }
+        if self.cyclic {
+            wrap_angle(position)
+        } else {
+            position.max(self.min).min(self.min + self.range)
+        }
     }
 
     /// Target position minus `position`; for cyclic joints the shortest way, and half a turn in the direction of its sign.
     pub fn position_error(&self, position: f64) -> f64 {
         let difference = self.target_position - position;
-        if self.cyclic { wrap_angle(difference) } else { difference }
+        if self.cyclic {
+            wrap_angle(difference)
+        } else {
+            difference
+        }
     }
 
     /// Upper end of the interval.
@@ -85,7 +100,11 @@ impl Joint {
     /// # Errors
     /// [`SceneError::SphericalJoint`].
     pub fn single_axis(&self) -> SceneResult<()> {
-        if self.joint_type == JointType::Spherical { Err(SceneError::SphericalJoint) } else { Ok(()) }
+        if self.joint_type == JointType::Spherical {
+            Err(SceneError::SphericalJoint)
+        } else {
+            Ok(())
+        }
     }
 
     /// Sets the interval. Becoming cyclic, a revolute joint loses its screw lead.
@@ -120,7 +139,9 @@ impl Joint {
         self.target_position = self.position;
         match mode {
             JointMode::Dependent => self.control = Control::Free,
-            JointMode::Kinematic | JointMode::Motion | JointMode::InverseKinematics => self.dependency = None,
+            JointMode::Kinematic | JointMode::Motion | JointMode::InverseKinematics => {
+                self.dependency = None
+            }
             JointMode::Dynamic => {
                 self.dependency = None;
                 self.free_force_of_velocity();
@@ -138,7 +159,10 @@ impl Joint {
     }
 
     fn free_force_of_velocity(&mut self) {
-        if matches!(self.control, Control::Force | Control::Spring | Control::SpringOrCallback) {
+        if matches!(
+            self.control,
+            Control::Force | Control::Spring | Control::SpringOrCallback
+        ) {
             self.target_velocity = UNREACHABLE_VELOCITY;
         }
     }
@@ -163,14 +187,22 @@ impl Joint {
                 self.target_velocity = -self.target_velocity;
             }
         } else {
-            self.target_force = force.max(0.0) * if self.target_velocity < 0.0 { -1.0 } else { 1.0 };
+            self.target_force = force.max(0.0)
+                * if self.target_velocity < 0.0 {
+                    -1.0
+                } else {
+                    1.0
+                };
         }
     }
 
     /// Sets the velocity, acceleration and jerk limits, in this order; a shorter list leaves the others.
     fn set_limits(&mut self, limits: &[f64]) {
         let fields = [&mut self.max_vel, &mut self.max_accel, &mut self.max_jerk];
-        fields.into_iter().zip(limits).for_each(|(field, limit)| *field = *limit);
+        fields
+            .into_iter()
+            .zip(limits)
+            .for_each(|(field, limit)| *field = *limit);
     }
 
     /// Starts or redirects a kinematic motion, keeping the velocity of one in progress.
@@ -193,17 +225,27 @@ impl Scene {
     /// # Errors
     /// For spherical joints and positions that are no number.
     pub fn set_joint_position(&mut self, handle: Handle, position: f64) -> SceneResult<bool> {
-        let Some(position) = self.accepted_position(handle, position)? else { return Ok(false) };
+        let Some(position) = self.accepted_position(handle, position)? else {
+            return Ok(false);
+        };
         self.move_joint(handle, position)?;
         Ok(true)
     }
 
     /// Where a joint goes that a script sets to a position; None for one that is moving towards a target.
-    pub(crate) fn accepted_position(&self, handle: Handle, position: f64) -> SceneResult<Option<f64>> {
+    pub(crate) fn accepted_position(
+        &self,
+        handle: Handle,
+        position: f64,
+    ) -> SceneResult<Option<f64>> {
         let joint = self.object(handle)?.joint()?;
         joint.single_axis()?;
         [position].finite().ok_or(SceneError::InvalidData)?;
-        let position = if joint.dependency.is_some() { position } else { joint.limited(position) };
+        let position = if joint.dependency.is_some() {
+            position
+        } else {
+            joint.limited(position)
+        };
         Ok(joint.motion.is_none().then_some(position))
     }
 
@@ -214,7 +256,12 @@ impl Scene {
     }
 
     /// Sets whether a joint is cyclic, and its lower limit and range; the position follows.
-    pub fn set_joint_interval(&mut self, handle: Handle, cyclic: bool, [min, range]: [f64; 2]) -> SceneResult<()> {
+    pub fn set_joint_interval(
+        &mut self,
+        handle: Handle,
+        cyclic: bool,
+        [min, range]: [f64; 2],
+    ) -> SceneResult<()> {
         [min, range].finite().ok_or(SceneError::InvalidData)?;
         self.modify_joint(handle, |joint| joint.set_interval(cyclic, min, range))?;
         self.relimit_joint(handle)
@@ -234,13 +281,22 @@ impl Scene {
     ///
     /// # Errors
     /// For spherical joints and targets that are no number.
-    pub fn set_joint_target_position(&mut self, handle: Handle, target: f64, limits: &[f64]) -> SceneResult<()> {
+    pub fn set_joint_target_position(
+        &mut self,
+        handle: Handle,
+        target: f64,
+        limits: &[f64],
+    ) -> SceneResult<()> {
         self.object(handle)?.joint()?.single_axis()?;
         [target].finite().ok_or(SceneError::InvalidData)?;
         limits.finite().ok_or(SceneError::InvalidData)?;
         self.control_joint(handle, |joint| {
             joint.set_limits(limits);
-            joint.target_position = if joint.cyclic { wrap_angle(target) } else { target };
+            joint.target_position = if joint.cyclic {
+                wrap_angle(target)
+            } else {
+                target
+            };
             joint.start(JointMotion::ToPosition);
         })
     }
@@ -258,12 +314,17 @@ impl Scene {
         initial: Option<f64>,
     ) -> SceneResult<()> {
         self.object(handle)?.joint()?.single_axis()?;
-        [target, initial.unwrap_or(0.0)].finite().ok_or(SceneError::InvalidData)?;
+        [target, initial.unwrap_or(0.0)]
+            .finite()
+            .ok_or(SceneError::InvalidData)?;
         limits.finite().ok_or(SceneError::InvalidData)?;
         self.control_joint(handle, |joint| {
             if joint.mode == JointMode::Kinematic {
                 let fields = [&mut joint.max_accel, &mut joint.max_jerk];
-                fields.into_iter().zip(limits).for_each(|(field, limit)| *field = *limit);
+                fields
+                    .into_iter()
+                    .zip(limits)
+                    .for_each(|(field, limit)| *field = *limit);
             }
             joint.set_target_velocity(target);
             joint.start(JointMotion::AtVelocity { initial });
@@ -271,13 +332,25 @@ impl Scene {
     }
 
     /// Changes what a joint is to do: targets, forces, gains.
-    pub fn control_joint<R>(&mut self, handle: Handle, change: impl FnOnce(&mut Joint) -> R) -> SceneResult<R> {
-        self.try_modify(handle, Field::JointControl, |object| object.joint_mut().map(change))
+    pub fn control_joint<R>(
+        &mut self,
+        handle: Handle,
+        change: impl FnOnce(&mut Joint) -> R,
+    ) -> SceneResult<R> {
+        self.try_modify(handle, Field::JointControl, |object| {
+            object.joint_mut().map(change)
+        })
     }
 
     /// Changes what kind of joint it is: mode, interval, master.
-    pub fn modify_joint<R>(&mut self, handle: Handle, change: impl FnOnce(&mut Joint) -> R) -> SceneResult<R> {
-        self.try_modify(handle, Field::Joint, |object| object.joint_mut().map(change))
+    pub fn modify_joint<R>(
+        &mut self,
+        handle: Handle,
+        change: impl FnOnce(&mut Joint) -> R,
+    ) -> SceneResult<R> {
+        self.try_modify(handle, Field::Joint, |object| {
+            object.joint_mut().map(change)
+        })
     }
 }
 
@@ -287,10 +360,22 @@ mod tests {
 
     #[test]
     fn a_cyclic_joint_takes_the_short_way_and_half_a_turn_as_it_was_asked() {
-        let joint = |target_position| Joint { target_position, ..Joint::new(JointType::Revolute, JointMode::Dynamic) };
-        assert_eq!((joint(PI).position_error(0.0), joint(-PI).position_error(0.0)), (PI, -PI));
+        let joint = |target_position| Joint {
+            target_position,
+            ..Joint::new(JointType::Revolute, JointMode::Dynamic)
+        };
+        assert_eq!(
+            (
+                joint(PI).position_error(0.0),
+                joint(-PI).position_error(0.0)
+            ),
+            (PI, -PI)
+        );
         assert!((joint(-3.0).position_error(3.0) - (2.0 * PI - 6.0)).abs() < 1e-12);
-        let limited = Joint { cyclic: false, ..joint(-3.0) };
+        let limited = Joint {
+            cyclic: false,
+            ..joint(-3.0)
+        };
         assert_eq!(limited.position_error(3.0), -6.0);
     }
 
@@ -307,7 +392,10 @@ mod tests {
     #[test]
     fn a_moving_joint_cannot_be_set() {
         let mut scene = Scene::new();
-        let kind = crate::Kind::Joint(Box::new(Joint::new(JointType::Prismatic, JointMode::Kinematic)));
+        let kind = crate::Kind::Joint(Box::new(Joint::new(
+            JointType::Prismatic,
+            JointMode::Kinematic,
+        )));
         let handle = scene.add("j", kind).unwrap();
         assert_eq!(scene.set_joint_position(handle, 0.7), Ok(true));
         assert_eq!(scene.object(handle).unwrap().joint().unwrap().position, 0.5);

@@ -8,8 +8,10 @@ use crate::{Field, Handle, Mark, Scene, SceneResult, Topic, Topics};
 /// Largest magnitude of offset and coefficient.
 const MAX_PARAMETER: f64 = 1e4;
 /// Changes after which joints may depend on other joints, or in another way.
-const DEPENDENCY_TOPICS: Topics =
-    Topics::NONE.with(Topic::Added).with(Topic::Removed).with_fields(&[Field::Joint, Field::Geometry, Field::Other]);
+const DEPENDENCY_TOPICS: Topics = Topics::NONE
+    .with(Topic::Added)
+    .with(Topic::Removed)
+    .with_fields(&[Field::Joint, Field::Geometry, Field::Other]);
 
 /// Who follows whom, kept until a joint changes.
 #[derive(Debug, Default)]
@@ -35,16 +37,30 @@ impl Scene {
         offset: f64,
         coefficient: f64,
     ) -> SceneResult<()> {
-        let spherical = |h: Handle| self.object(h)?.joint().map(|j| j.joint_type == JointType::Spherical);
+        let spherical = |h: Handle| {
+            self.object(h)?
+                .joint()
+                .map(|j| j.joint_type == JointType::Spherical)
+        };
         if spherical(handle)? || master.map_or(Ok(false), spherical)? || master == Some(handle) {
             return Ok(());
         }
         if let Some(master) = master {
             self.break_dependency_cycle(handle, master)?;
         }
-        let limited = |value: f64| if value.is_nan() { 0.0 } else { value.clamp(-MAX_PARAMETER, MAX_PARAMETER) };
+        let limited = |value: f64| {
+            if value.is_nan() {
+                0.0
+            } else {
+                value.clamp(-MAX_PARAMETER, MAX_PARAMETER)
+            }
+        };
         let (offset, coefficient) = (limited(offset), limited(coefficient));
-        let dependency = master.map(|master| JointDependency { master, offset, coefficient });
+        let dependency = master.map(|master| JointDependency {
+            master,
+            offset,
+            coefficient,
+        });
         self.modify_joint(handle, |joint| joint.dependency = dependency)?;
         self.follow_master(handle)
     }
@@ -76,7 +92,11 @@ impl Scene {
     }
 
     /// The position of a joint, and those that the joints take which follow it.
-    pub(crate) fn positions_with_followers(&mut self, handle: Handle, position: f64) -> Vec<(Handle, f64)> {
+    pub(crate) fn positions_with_followers(
+        &mut self,
+        handle: Handle,
+        position: f64,
+    ) -> Vec<(Handle, f64)> {
         self.refresh_dependent_joints();
         let mut positions = vec![(handle, position)];
         let mut next = 0;
@@ -101,14 +121,24 @@ impl Scene {
 
     /// Rebuilds the dependency graph when a joint may have changed it.
     fn refresh_dependent_joints(&mut self) {
-        if !self.journal.changed_since(self.dependent_joints.known.get_or_insert(Mark::new(DEPENDENCY_TOPICS))) {
+        if !self.journal.changed_since(
+            self.dependent_joints
+                .known
+                .get_or_insert(Mark::new(DEPENDENCY_TOPICS)),
+        ) {
             return;
         }
         let mut by_master: BTreeMap<Handle, Vec<(Handle, JointDependency)>> = BTreeMap::new();
         for object in self.objects() {
             let Ok(joint) = object.joint() else { continue };
-            if let Some(law) = joint.dependency.filter(|_| joint.mode == JointMode::Dependent) {
-                by_master.entry(law.master).or_default().push((object.handle(), law));
+            if let Some(law) = joint
+                .dependency
+                .filter(|_| joint.mode == JointMode::Dependent)
+            {
+                by_master
+                    .entry(law.master)
+                    .or_default()
+                    .push((object.handle(), law));
             }
         }
         self.dependent_joints.by_master = by_master;
@@ -117,7 +147,10 @@ impl Scene {
     /// Moves a dependent joint to where its master wants it.
     fn follow_master(&mut self, handle: Handle) -> SceneResult<()> {
         let joint = self.object(handle)?.joint()?;
-        match joint.dependency.filter(|_| joint.mode == JointMode::Dependent) {
+        match joint
+            .dependency
+            .filter(|_| joint.mode == JointMode::Dependent)
+        {
             Some(law) => {
                 let position = law.position(self.object(law.master)?.joint()?.position);
                 self.move_joint(handle, position)
@@ -131,7 +164,10 @@ impl Scene {
         let (mut handle, mut scale) = (handle, 1.0);
         loop {
             let joint = self.object(handle)?.joint()?;
-            match joint.dependency.filter(|_| joint.mode == JointMode::Dependent) {
+            match joint
+                .dependency
+                .filter(|_| joint.mode == JointMode::Dependent)
+            {
                 Some(law) => (handle, scale) = (law.master, scale * law.coefficient),
                 None => return Ok(scale * joint.velocity),
             }
@@ -153,8 +189,15 @@ mod tests {
 
     fn scene_with_joints(count: usize) -> (Scene, Vec<Handle>) {
         let mut scene = Scene::new();
-        let joint = || Kind::Joint(Box::new(Joint::new(JointType::Revolute, JointMode::Dependent)));
-        let handles = (0..count).map(|_| scene.add("j", joint()).unwrap()).collect();
+        let joint = || {
+            Kind::Joint(Box::new(Joint::new(
+                JointType::Revolute,
+                JointMode::Dependent,
+            )))
+        };
+        let handles = (0..count)
+            .map(|_| scene.add("j", joint()).unwrap())
+            .collect();
         (scene, handles)
     }
 
@@ -165,8 +208,12 @@ mod tests {
     #[test]
     fn a_chain_follows() {
         let (mut scene, j) = scene_with_joints(3);
-        scene.set_joint_dependency(j[1], Some(j[0]), 0.1, 2.0).unwrap();
-        scene.set_joint_dependency(j[2], Some(j[1]), 0.0, -1.0).unwrap();
+        scene
+            .set_joint_dependency(j[1], Some(j[0]), 0.1, 2.0)
+            .unwrap();
+        scene
+            .set_joint_dependency(j[2], Some(j[1]), 0.0, -1.0)
+            .unwrap();
         scene.set_joint_position(j[0], 0.3).unwrap();
         assert!((position(&scene, j[2]) + 0.7).abs() < 1e-12);
     }
@@ -174,10 +221,27 @@ mod tests {
     #[test]
     fn a_circle_is_opened_elsewhere() {
         let (mut scene, j) = scene_with_joints(3);
-        scene.set_joint_dependency(j[1], Some(j[0]), 0.0, 1.0).unwrap();
-        scene.set_joint_dependency(j[2], Some(j[1]), 0.0, 1.0).unwrap();
-        scene.set_joint_dependency(j[0], Some(j[2]), 0.0, 1.0).unwrap();
-        let master = |h: Handle| scene.object(h).unwrap().joint().unwrap().dependency.map(|d| d.master);
-        assert_eq!((master(j[0]), master(j[1]), master(j[2])), (Some(j[2]), None, Some(j[1])));
+        scene
+            .set_joint_dependency(j[1], Some(j[0]), 0.0, 1.0)
+            .unwrap();
+        scene
+            .set_joint_dependency(j[2], Some(j[1]), 0.0, 1.0)
+            .unwrap();
+        scene
+            .set_joint_dependency(j[0], Some(j[2]), 0.0, 1.0)
+            .unwrap();
+        let master = |h: Handle| {
+            scene
+                .object(h)
+                .unwrap()
+                .joint()
+                .unwrap()
+                .dependency
+                .map(|d| d.master)
+        };
+        assert_eq!(
+            (master(j[0]), master(j[1]), master(j[2])),
+            (Some(j[2]), None, Some(j[1]))
+        );
     }
 }

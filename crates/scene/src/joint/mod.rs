@@ -78,7 +78,9 @@ impl JointSolver {
 
     /// The solver that scripts call by `word`.
     pub fn from_word(word: &str) -> Option<Self> {
-        [Self::Exact, Self::Impulse].into_iter().find(|solver| solver.word() == word)
+        [Self::Exact, Self::Impulse]
+            .into_iter()
+            .find(|solver| solver.word() == word)
     }
 }
 
@@ -224,7 +226,10 @@ impl Joint {
             dependency: None,
             solver: JointSolver::Exact,
             explicit: false,
-            ik: IkSettings { weight: 1.0, max_step: if revolute { 10_f64.to_radians() } else { 0.1 } },
+            ik: IkSettings {
+                weight: 1.0,
+                max_step: if revolute { 10_f64.to_radians() } else { 0.1 },
+            },
             motion: None,
             size: [0.15, 0.02],
             error: None,

@@ -32,8 +32,9 @@ impl Scene {
         }
         for handle in resting {
             // The handle was just read.
-            let _ =
-                self.try_modify(handle, Field::JointPosition, |object| object.joint_mut().map(|j| j.velocity = 0.0));
+            let _ = self.try_modify(handle, Field::JointPosition, |object| {
+                object.joint_mut().map(|j| j.velocity = 0.0)
+            });
         }
         moving
     }
@@ -42,14 +43,19 @@ impl Scene {
     pub fn step_joint(&mut self, handle: Handle, step: JointStep) -> SceneResult<()> {
         let known = |value: f64| if value.is_finite() { value } else { 0.0 };
         let joint = self.object(handle)?.joint()?;
-        let position = step.position.filter(|p| p.is_finite()).map_or(joint.position, |p| joint.limited(p));
+        let position = step
+            .position
+            .filter(|p| p.is_finite())
+            .map_or(joint.position, |p| joint.limited(p));
         self.move_joint(handle, position)?;
         self.try_modify(handle, Field::JointPosition, |object| {
             let joint = object.joint_mut()?;
             (joint.velocity, joint.accel) = (known(step.velocity), known(step.accel));
             let ends = step.immobile || (joint.velocity == 0.0 && joint.accel == 0.0);
             joint.motion = match joint.motion {
-                Some(JointMotion::AtVelocity { .. }) if !ends => Some(JointMotion::AtVelocity { initial: None }),
+                Some(JointMotion::AtVelocity { .. }) if !ends => {
+                    Some(JointMotion::AtVelocity { initial: None })
+                }
                 motion => motion.filter(|_| !ends),
             };
             Ok(())
@@ -59,8 +65,11 @@ impl Scene {
     /// Ends all kinematic motions.
     pub fn stop_joint_motions(&mut self) {
         let in_motion = |joint: &Joint| joint.motion.is_some() || joint.velocity != 0.0;
-        let joints: Vec<Handle> =
-            self.objects.joints().filter_map(|(handle, joint)| in_motion(joint).then_some(handle)).collect();
+        let joints: Vec<Handle> = self
+            .objects
+            .joints()
+            .filter_map(|(handle, joint)| in_motion(joint).then_some(handle))
+            .collect();
         for handle in joints {
             // The handle was just read.
             let _ = self.modify_joint(handle, |joint| {

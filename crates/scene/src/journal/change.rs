@@ -52,7 +52,10 @@ impl Field {
     /// Whether such a change can move the object in its parent's frame, or the frame its children live in.
     pub(crate) fn can_move(self) -> bool {
         use Field::*;
-        matches!(self, Parent | Pose | Geometry | Joint | JointPosition | Other)
+        matches!(
+            self,
+            Parent | Pose | Geometry | Joint | JointPosition | Other
+        )
     }
 }
 
@@ -139,7 +142,10 @@ impl Topics {
     /// All topics.
     pub const ALL: Self = Self((1 << Topic::COUNT) - 1);
     /// Objects come, go, and get another parent or another place among their siblings.
-    pub const TREE: Self = Self::NONE.with(Topic::Added).with(Topic::Removed).with_fields(&[Field::Parent]);
+    pub const TREE: Self = Self::NONE
+        .with(Topic::Added)
+        .with(Topic::Removed)
+        .with_fields(&[Field::Parent]);
 
     /// These topics and one more.
     pub const fn with(self, topic: Topic) -> Self {
@@ -174,7 +180,8 @@ impl Topics {
     /// The numbers of its topics, rising.
     pub(super) fn indices(self) -> impl Iterator<Item = usize> {
         let rest = |bits: &u32| Some(bits & (bits - 1)).filter(|rest| *rest != 0);
-        std::iter::successors(Some(self.0).filter(|bits| *bits != 0), rest).map(|bits| bits.trailing_zeros() as usize)
+        std::iter::successors(Some(self.0).filter(|bits| *bits != 0), rest)
+            .map(|bits| bits.trailing_zeros() as usize)
     }
 }
 
@@ -184,7 +191,13 @@ mod tests {
 
     #[test]
     fn topics_have_numbers_of_their_own() {
-        let topics = [Topic::Added, Topic::Removed, Topic::Selection, Topic::Settings, Topic::Stored];
+        let topics = [
+            Topic::Added,
+            Topic::Removed,
+            Topic::Selection,
+            Topic::Settings,
+            Topic::Stored,
+        ];
         let fields = [Field::Alias, Field::Pose, Field::Inert, Field::Other].map(Topic::Field);
         let mut seen = Topics::NONE;
         for topic in topics.into_iter().chain(fields) {
@@ -192,7 +205,10 @@ mod tests {
             seen = seen.with(topic);
         }
         assert_eq!(seen.indices().count(), 9);
-        assert_eq!(Topics::ALL.indices().collect::<Vec<_>>(), (0..Topic::COUNT).collect::<Vec<_>>());
+        assert_eq!(
+            Topics::ALL.indices().collect::<Vec<_>>(),
+            (0..Topic::COUNT).collect::<Vec<_>>()
+        );
         assert_eq!(Topics::NONE.indices().count(), 0);
     }
 }

@@ -114,8 +114,15 @@ impl Log {
     }
 
     pub(super) fn follow(&self, topics: Topics) -> Cursor {
-        let cursor = Cursor { journal: Rc::clone(&self.identity), topics, next: Rc::new(Cell::new(NEVER_READ)) };
-        self.readers.borrow_mut().push(Reader { next: Rc::downgrade(&cursor.next), topics });
+        let cursor = Cursor {
+            journal: Rc::clone(&self.identity),
+            topics,
+            next: Rc::new(Cell::new(NEVER_READ)),
+        };
+        self.readers.borrow_mut().push(Reader {
+            next: Rc::downgrade(&cursor.next),
+            topics,
+        });
         self.wanted.set(self.wanted.get().and(topics));
         cursor
     }
@@ -129,21 +136,38 @@ impl Log {
             return Unread::Everything;
         }
         let stored = self.stored.range((next - self.first) as usize..);
-        Unread::Changes(Changes { stored, topics: cursor.topics })
+        Unread::Changes(Changes {
+            stored,
+            topics: cursor.topics,
+        })
     }
 
     /// Drops readers that are gone, changes that all have read, and the older half of a full log.
     fn trim(&mut self) {
         let readers = self.readers.get_mut();
         readers.retain(|reader| reader.next.strong_count() > 0);
-        self.wanted.set(readers.iter().fold(Topics::NONE, |wanted, reader| wanted.and(reader.topics)));
+        self.wanted.set(
+            readers
+                .iter()
+                .fold(Topics::NONE, |wanted, reader| wanted.and(reader.topics)),
+        );
         let end = self.first + self.stored.len() as u64;
-        let places = readers.iter().filter_map(|reader| reader.next.upgrade()).map(|next| next.get());
+        let places = readers
+            .iter()
+            .filter_map(|reader| reader.next.upgrade())
+            .map(|next| next.get());
         // A cursor that is already too far behind reports that everything changed, and needs none of this.
-        let slowest = places.filter(|next| (self.first..end).contains(next)).min().unwrap_or(end);
+        let slowest = places
+            .filter(|next| (self.first..end).contains(next))
+            .min()
+            .unwrap_or(end);
         let read = (slowest - self.first) as usize;
         let unread = self.stored.len() - read;
-        self.drop_oldest(if unread >= self.limit { read + unread.div_ceil(2) } else { read });
+        self.drop_oldest(if unread >= self.limit {
+            read + unread.div_ceil(2)
+        } else {
+            read
+        });
         self.trim_at = (2 * self.stored.len()).clamp(MIN_TRIM_LENGTH.min(self.limit), self.limit);
     }
 
@@ -154,7 +178,11 @@ impl Log {
 
     #[cfg(test)]
     pub(super) fn with_limit(limit: usize) -> Self {
-        Self { limit, trim_at: MIN_TRIM_LENGTH.min(limit), ..Self::default() }
+        Self {
+            limit,
+            trim_at: MIN_TRIM_LENGTH.min(limit),
+            ..Self::default()
+        }
     }
 
     #[cfg(test)]

@@ -60,7 +60,12 @@ pub struct Mark {
 impl Mark {
     /// Knows nothing yet.
     pub const fn new(topics: Topics) -> Self {
-        Self { topics, journal: None, total: 0, of_topics: 0 }
+        Self {
+            topics,
+            journal: None,
+            total: 0,
+            of_topics: 0,
+        }
     }
 }
 
@@ -84,7 +89,9 @@ impl Journal {
             Edited::Nothing => {}
             Edited::Written(name) => self.note_name(holder, namespace, name, true),
             Edited::Removed(name) => self.note_name(holder, namespace, name, false),
-            Edited::Cleared(names) => names.iter().for_each(|name| self.note_name(holder, namespace, name, false)),
+            Edited::Cleared(names) => names
+                .iter()
+                .for_each(|name| self.note_name(holder, namespace, name, false)),
         }
     }
 
@@ -94,7 +101,14 @@ impl Journal {
             self.changed_data.note(handle, namespace, name, written);
         }
         if self.is_followed(Topic::Stored) {
-            self.log.push(Topic::Stored, Change::Stored { holder, namespace, name: name.to_owned() });
+            self.log.push(
+                Topic::Stored,
+                Change::Stored {
+                    holder,
+                    namespace,
+                    name: name.to_owned(),
+                },
+            );
         }
     }
 
@@ -128,7 +142,10 @@ impl Journal {
     /// journal, it did.
     pub fn changed_since(&self, mark: &mut Mark) -> bool {
         let identity = self.log.identity();
-        let known = mark.journal.as_ref().is_some_and(|journal| Rc::ptr_eq(journal, identity));
+        let known = mark
+            .journal
+            .as_ref()
+            .is_some_and(|journal| Rc::ptr_eq(journal, identity));
         if known && mark.total == self.total {
             return false;
         }
@@ -158,7 +175,10 @@ impl Journal {
     /// A journal that stores no more than so many changes.
     #[cfg(test)]
     fn with_limit(limit: usize) -> Self {
-        Self { log: Log::with_limit(limit), ..Self::default() }
+        Self {
+            log: Log::with_limit(limit),
+            ..Self::default()
+        }
     }
 
     /// How many changes are stored.

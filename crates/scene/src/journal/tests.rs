@@ -33,7 +33,9 @@ fn read(journal: &Journal, cursor: &mut Cursor) -> Option<Vec<Change>> {
 
 fn scene_with_dummy() -> (Scene, Handle) {
     let mut scene = Scene::new();
-    let dummy = scene.add("d", Kind::Dummy(Dummy::new(0.01))).expect("there is room");
+    let dummy = scene
+        .add("d", Kind::Dummy(Dummy::new(0.01)))
+        .expect("there is room");
     (scene, dummy)
 }
 
@@ -69,8 +71,14 @@ fn a_reader_gets_only_what_it_asked_for() {
     journal.note(moved(1));
     journal.note(Change::Settings);
     assert_eq!(read(&journal, &mut poses), Some(vec![moved(1)]));
-    let Unread::Changes(changes) = journal.read(&mut all) else { panic!("nothing was lost") };
-    assert!(changes.rev().eq(&[Change::Settings, moved(1), Change::Selection]));
+    let Unread::Changes(changes) = journal.read(&mut all) else {
+        panic!("nothing was lost")
+    };
+    assert!(
+        changes
+            .rev()
+            .eq(&[Change::Settings, moved(1), Change::Selection])
+    );
 }
 
 #[test]
@@ -83,7 +91,10 @@ fn nothing_is_stored_that_nobody_reads() {
     assert_eq!(journal.stored(), 0);
     for handle in 0..100_000 {
         journal.note(moved(handle));
-        assert_eq!(read(&journal, &mut cursor).map(|changes| changes.len()), Some(1));
+        assert_eq!(
+            read(&journal, &mut cursor).map(|changes| changes.len()),
+            Some(1)
+        );
         assert!(journal.stored() <= 64, "what was read goes");
     }
 }
@@ -114,7 +125,11 @@ fn a_reader_too_far_behind_gets_everything_and_continues_from_there() {
         journal.note(moved(handle));
         assert!(journal.stored() <= 100);
         if handle % 40 == 39 {
-            assert_eq!(read(&journal, &mut quick).map(|changes| changes.len()), Some(40), "at {handle}");
+            assert_eq!(
+                read(&journal, &mut quick).map(|changes| changes.len()),
+                Some(40),
+                "at {handle}"
+            );
         }
     }
     assert_eq!(read(&journal, &mut slow), None);
@@ -129,7 +144,10 @@ fn a_reader_of_another_scene_gets_everything() {
     let mut mark = Mark::new(Topics::ALL);
     assert!(Journal::default().changed_since(&mut mark));
     let mut other = Journal::default();
-    assert!(other.changed_since(&mut mark), "it has no changes either, but is another one");
+    assert!(
+        other.changed_since(&mut mark),
+        "it has no changes either, but is another one"
+    );
     assert_eq!(read(&other, &mut cursor), None);
     other.note(moved(1));
     assert_eq!(read(&other, &mut cursor), Some(vec![moved(1)]));
@@ -139,11 +157,15 @@ fn a_reader_of_another_scene_gets_everything() {
 fn changes_made_while_reading_are_read_next_time() {
     let (mut scene, dummy) = scene_with_dummy();
     let mut cursor = follower(scene.journal(), POSES);
-    scene.set_local_pose(dummy, Pose::translation(1.0, 0.0, 0.0)).unwrap();
+    scene
+        .set_local_pose(dummy, Pose::translation(1.0, 0.0, 0.0))
+        .unwrap();
     let found = read(scene.journal(), &mut cursor).expect("nothing was lost");
     for change in &found {
         assert_eq!(*change, moved(dummy.0));
-        scene.set_local_pose(dummy, Pose::translation(2.0, 0.0, 0.0)).unwrap();
+        scene
+            .set_local_pose(dummy, Pose::translation(2.0, 0.0, 0.0))
+            .unwrap();
     }
     assert_eq!(read(scene.journal(), &mut cursor).as_ref(), Some(&found));
     assert_eq!(read(scene.journal(), &mut cursor), Some(vec![]));
@@ -168,11 +190,20 @@ fn a_mark_knows_what_it_was_asked_about() {
     let mut tree = Mark::new(Topics::TREE);
     assert!(scene.journal().changed_since(&mut tree));
     assert!(!scene.journal().changed_since(&mut tree));
-    scene.set_local_pose(dummy, Pose::translation(1.0, 0.0, 0.0)).unwrap();
+    scene
+        .set_local_pose(dummy, Pose::translation(1.0, 0.0, 0.0))
+        .unwrap();
     assert!(!scene.journal().changed_since(&mut tree));
     scene.remove(&[dummy]).unwrap();
     assert!(scene.journal().changed_since(&mut tree));
-    assert_eq!(scene.journal().counters(), Counters { creations: 1, destructions: 1, hierarchy: 2 });
+    assert_eq!(
+        scene.journal().counters(),
+        Counters {
+            creations: 1,
+            destructions: 1,
+            hierarchy: 2
+        }
+    );
 }
 
 #[test]
@@ -185,6 +216,11 @@ fn data_written_often_is_one_name() {
     journal.note_stored(object, Namespace::Signal, &Edited::Removed("x"));
     journal.note_stored(Holder::Scene, Namespace::Signal, &Edited::Written("y"));
     let names = ChangedNames::from([("x".to_owned(), false)]);
-    assert!(journal.take_changed_data().into_iter().eq([((Handle(3), Namespace::Signal), names)]));
+    assert!(
+        journal
+            .take_changed_data()
+            .into_iter()
+            .eq([((Handle(3), Namespace::Signal), names)])
+    );
     assert!(journal.take_changed_data().is_empty());
 }

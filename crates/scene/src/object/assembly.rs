@@ -23,6 +23,11 @@ impl Assembly {
 impl Default for Assembly {
     fn default() -> Self {
         let words = || vec![Self::WORD.to_owned()];
-        Self { pose: Pose::identity(), moves: false, child_words: words(), parent_words: words() }
+        Self {
+            pose: Pose::identity(),
+            moves: false,
+            child_words: words(),
+            parent_words: words(),
+        }
     }
 }

@@ -39,14 +39,28 @@ impl Dummy {
         let assembly_tag = "*".to_owned();
         let path_following = PathFollowing::default();
         let engine_values = InertValues::default();
-        Self { size, link: None, link_type: LinkType::Default, assembly_tag, path_following, engine_values }
+        Self {
+            size,
+            link: None,
+            link_type: LinkType::Default,
+            assembly_tag,
+            path_following,
+            engine_values,
+        }
     }
 }
 
 impl LinkType {
     /// The type with a script's number, if there is one.
     pub fn from_code(code: i64) -> Option<Self> {
-        [Self::LoopClosure, Self::Tendon, Self::Default, Self::Assembly].into_iter().find(|t| *t as i64 == code)
+        [
+            Self::LoopClosure,
+            Self::Tendon,
+            Self::Default,
+            Self::Assembly,
+        ]
+        .into_iter()
+        .find(|t| *t as i64 == code)
     }
 
     fn is_dynamic(self) -> bool {
@@ -66,7 +80,9 @@ impl Scene {
             return Ok(());
         }
         self.release_link(handle)?;
-        let Some(partner) = partner else { return Ok(()) };
+        let Some(partner) = partner else {
+            return Ok(());
+        };
         self.release_link(partner)?;
         self.modify_dummy(handle, |dummy| dummy.link = Some(partner))?;
         self.modify_dummy(partner, |dummy| {
@@ -78,7 +94,9 @@ impl Scene {
     }
 
     fn release_link(&mut self, handle: Handle) -> SceneResult<()> {
-        let Some(partner) = self.object(handle)?.dummy()?.link else { return Ok(()) };
+        let Some(partner) = self.object(handle)?.dummy()?.link else {
+            return Ok(());
+        };
         self.modify_dummy(handle, |dummy| dummy.link = None)?;
         self.modify_dummy(partner, |dummy| dummy.link = None)
     }
@@ -92,7 +110,13 @@ impl Scene {
         Ok(())
     }
 
-    fn modify_dummy<R>(&mut self, handle: Handle, change: impl FnOnce(&mut Dummy) -> R) -> SceneResult<R> {
-        self.try_modify(handle, Field::Dynamics, |object| object.dummy_mut().map(change))
+    fn modify_dummy<R>(
+        &mut self,
+        handle: Handle,
+        change: impl FnOnce(&mut Dummy) -> R,
+    ) -> SceneResult<R> {
+        self.try_modify(handle, Field::Dynamics, |object| {
+            object.dummy_mut().map(change)
+        })
     }
 }

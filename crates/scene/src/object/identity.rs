@@ -12,7 +12,10 @@ pub(crate) fn persistent_uid(uid: Uid) -> String {
 /// 16 bytes that an object shares with its copies.
 pub(crate) fn dna(uid: Uid) -> Vec<u8> {
     let half = splitmix64(!(uid as u64));
-    [half, splitmix64(half)].iter().flat_map(|part| part.to_be_bytes()).collect()
+    [half, splitmix64(half)]
+        .iter()
+        .flat_map(|part| part.to_be_bytes())
+        .collect()
 }
 
 /// The finaliser of SplitMix64 (Steele, Lea, Flood 2014): one to one, so that no two counts meet.

@@ -176,7 +176,9 @@ impl Kind {
             Self::Shape(_) => Layers::SHAPES,
             Self::Joint(_) => Layers::JOINTS,
             Self::Dummy(_) => Layers::DUMMIES,
-            Self::ProximitySensor(_) | Self::VisionSensor(_) | Self::ForceSensor(_) => Layers::SENSORS,
+            Self::ProximitySensor(_) | Self::VisionSensor(_) | Self::ForceSensor(_) => {
+                Layers::SENSORS
+            }
             Self::Camera(_) | Self::Light(_) => Layers::CAMERAS_AND_LIGHTS,
             Self::Graph(_) => Layers::GRAPHS,
             Self::OcTree(_) | Self::PointCloud(_) => Layers::VOXELS,
@@ -288,7 +290,11 @@ impl Object {
 
     /// Makes it a model base with these flags, or with all of [`ModelFlags::NOT_MODEL`] no model base.
     pub fn set_model_property(&mut self, flags: ModelFlags) {
-        self.model_property = if flags.contains(ModelFlags::NOT_MODEL) { ModelFlags::NOT_MODEL } else { flags };
+        self.model_property = if flags.contains(ModelFlags::NOT_MODEL) {
+            ModelFlags::NOT_MODEL
+        } else {
+            flags
+        };
     }
 
     /// From the object's frame to the frame its children live in.

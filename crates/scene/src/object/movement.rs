@@ -35,7 +35,9 @@ impl Default for Movement {
             forbidden: ForbiddenMovements::empty(),
             step: [0.0; 2],
             relativity: [MovementFrame::WORLD, MovementFrame::OWN],
-            preferred_axes: PreferredAxes::TRANSLATION_X | PreferredAxes::TRANSLATION_Y | PreferredAxes::ROTATION_Z,
+            preferred_axes: PreferredAxes::TRANSLATION_X
+                | PreferredAxes::TRANSLATION_Y
+                | PreferredAxes::ROTATION_Z,
         }
     }
 }

@@ -72,7 +72,10 @@ impl Objects {
     }
 
     pub(crate) fn get(&self, handle: Handle) -> SceneResult<&Object> {
-        self.slots.get(handle.index()).and_then(Option::as_deref).ok_or(SceneError::NoSuchObject)
+        self.slots
+            .get(handle.index())
+            .and_then(Option::as_deref)
+            .ok_or(SceneError::NoSuchObject)
     }
 
     /// An object to be changed in any way.
@@ -89,12 +92,16 @@ impl Objects {
 
     /// All objects in the order of their creation.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Object> {
-        self.by_uid.values().filter_map(|&handle| self.get(handle).ok())
+        self.by_uid
+            .values()
+            .filter_map(|&handle| self.get(handle).ok())
     }
 
     /// All joints in the order of their creation.
     pub(crate) fn joints(&self) -> impl Iterator<Item = (Handle, &Joint)> {
-        self.joints.values().filter_map(|&handle| Some((handle, self.get(handle).ok()?.joint().ok()?)))
+        self.joints
+            .values()
+            .filter_map(|&handle| Some((handle, self.get(handle).ok()?.joint().ok()?)))
     }
 
     /// All paths in the order of their creation.
@@ -137,7 +144,10 @@ impl Objects {
 }
 
 fn slot_mut(slots: &mut [Option<Box<Object>>], handle: Handle) -> SceneResult<&mut Object> {
-    slots.get_mut(handle.index()).and_then(Option::as_deref_mut).ok_or(SceneError::NoSuchObject)
+    slots
+        .get_mut(handle.index())
+        .and_then(Option::as_deref_mut)
+        .ok_or(SceneError::NoSuchObject)
 }
 
 fn is_sensor(kind: &Kind) -> bool {
@@ -151,7 +161,12 @@ mod tests {
 
     fn add(store: &mut Objects) -> SceneResult<Handle> {
         let handle = store.free_handle()?;
-        store.insert(Object::new(handle, 0, "dummy", Kind::Dummy(Dummy::new(0.01))));
+        store.insert(Object::new(
+            handle,
+            0,
+            "dummy",
+            Kind::Dummy(Dummy::new(0.01)),
+        ));
         Ok(handle)
     }
 
@@ -166,7 +181,10 @@ mod tests {
 
     #[test]
     fn a_full_store_says_so() {
-        let mut store = Objects { live: Handle::END as usize, ..Objects::default() };
+        let mut store = Objects {
+            live: Handle::END as usize,
+            ..Objects::default()
+        };
         assert_eq!(add(&mut store), Err(SceneError::TooManyObjects));
     }
 }

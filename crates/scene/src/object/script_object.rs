@@ -58,9 +58,16 @@ impl ExecutionPriority {
 impl ScriptType {
     /// The type with number `n`.
     pub fn from_number(n: i64) -> Option<Self> {
-        [Self::Main, Self::Simulation, Self::AddOn, Self::Customization, Self::Sandbox, Self::Passive]
-            .into_iter()
-            .find(|t| *t as i64 == n)
+        [
+            Self::Main,
+            Self::Simulation,
+            Self::AddOn,
+            Self::Customization,
+            Self::Sandbox,
+            Self::Passive,
+        ]
+        .into_iter()
+        .find(|t| *t as i64 == n)
     }
 }
 
@@ -90,7 +97,10 @@ pub struct ScriptObject {
 impl ScriptObject {
     /// A script as `sim.createScript` makes it: only Lua simulation and customization scripts start enabled.
     pub fn new(script_type: ScriptType, code: Vec<u8>, language: &str, disabled: bool) -> Self {
-        let runs = matches!(script_type, ScriptType::Simulation | ScriptType::Customization);
+        let runs = matches!(
+            script_type,
+            ScriptType::Simulation | ScriptType::Customization
+        );
         Self {
             script_type,
             code,

@@ -33,9 +33,9 @@ impl Viewers {
             (Self::All, _) => true,
             (Self::None, _) | (_, None) => false,
             (Self::One(one), Some(viewer)) => one == viewer,
-            (Self::Collection(collection), Some(viewer)) => {
-                scene.collection_objects(collection).is_ok_and(|members| members.contains(&viewer))
-            }
+            (Self::Collection(collection), Some(viewer)) => scene
+                .collection_objects(collection)
+                .is_ok_and(|members| members.contains(&viewer)),
         }
     }
 }

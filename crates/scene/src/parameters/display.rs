@@ -66,7 +66,12 @@ impl View {
         })
     }
 
-    fn set_float_param(&mut self, id: i64, [near, far, angle, ortho]: [i64; 4], value: f64) -> bool {
+    fn set_float_param(
+        &mut self,
+        id: i64,
+        [near, far, angle, ortho]: [i64; 4],
+        value: f64,
+    ) -> bool {
         match id {
             _ if id == near => self.clipping[0] = value,
             _ if id == far => self.clipping[1] = value,
@@ -79,10 +84,18 @@ impl View {
 }
 
 /// Parameter numbers of the near and far clipping plane, the opening angle and the orthographic size.
-const VISION_SENSOR_VIEW: [i64; 4] =
-    [vision::NEAR_CLIPPING, vision::FAR_CLIPPING, vision::PERSPECTIVE_ANGLE, vision::ORTHO_SIZE];
-const CAMERA_VIEW: [i64; 4] =
-    [camera::NEAR_CLIPPING, camera::FAR_CLIPPING, camera::PERSPECTIVE_ANGLE, camera::ORTHO_SIZE];
+const VISION_SENSOR_VIEW: [i64; 4] = [
+    vision::NEAR_CLIPPING,
+    vision::FAR_CLIPPING,
+    vision::PERSPECTIVE_ANGLE,
+    vision::ORTHO_SIZE,
+];
+const CAMERA_VIEW: [i64; 4] = [
+    camera::NEAR_CLIPPING,
+    camera::FAR_CLIPPING,
+    camera::PERSPECTIVE_ANGLE,
+    camera::ORTHO_SIZE,
+];
 
 impl VisionSensor {
     fn int_param(&self, id: i64) -> Option<i64> {
@@ -154,7 +167,9 @@ impl ForceSensor {
     fn float_param(&self, id: i64) -> Option<f64> {
         let error = self.error.unwrap_or_else(Pose::identity);
         Some(match id {
-            force::ERROR_X..=force::ERROR_Z => error.translation.vector[(id - force::ERROR_X) as usize],
+            force::ERROR_X..=force::ERROR_Z => {
+                error.translation.vector[(id - force::ERROR_X) as usize]
+            }
             force::ERROR_POS => error.translation.vector.norm(),
             force::ERROR_ANGLE => error.rotation.angle(),
             _ => return None,
@@ -179,7 +194,9 @@ impl Object {
             Kind::VisionSensor(sensor) => sensor.int_param(id),
             Kind::ProximitySensor(sensor) => sensor.int_param(id),
             Kind::Camera(camera) => camera.int_param(id),
-            Kind::Light(light) if id == light::POV_CASTS_SHADOWS => Some(light.casts_shadows.into()),
+            Kind::Light(light) if id == light::POV_CASTS_SHADOWS => {
+                Some(light.casts_shadows.into())
+            }
             _ => None,
         }
     }
@@ -188,9 +205,15 @@ impl Object {
     fn set_display_int_param(&mut self, id: i64, value: i64) -> bool {
         match &mut self.kind {
             Kind::VisionSensor(sensor) => return sensor.set_int_param(id, value),
-            Kind::ProximitySensor(sensor) if id == prox::ENTITY_TO_DETECT => sensor.entity = Entity::from_raw(value),
-            Kind::Camera(camera) if id == camera::PERSPECTIVE_OPERATION => camera.view.perspective = value != 0,
-            Kind::Light(light) if id == light::POV_CASTS_SHADOWS => light.casts_shadows = value != 0,
+            Kind::ProximitySensor(sensor) if id == prox::ENTITY_TO_DETECT => {
+                sensor.entity = Entity::from_raw(value)
+            }
+            Kind::Camera(camera) if id == camera::PERSPECTIVE_OPERATION => {
+                camera.view.perspective = value != 0
+            }
+            Kind::Light(light) if id == light::POV_CASTS_SHADOWS => {
+                light.casts_shadows = value != 0
+            }
             _ => return false,
         }
         true
@@ -210,7 +233,9 @@ impl Object {
 
     fn set_display_float_param(&mut self, id: i64, value: f64) -> bool {
         match &mut self.kind {
-            Kind::VisionSensor(sensor) => sensor.view.set_float_param(id, VISION_SENSOR_VIEW, value),
+            Kind::VisionSensor(sensor) => {
+                sensor.view.set_float_param(id, VISION_SENSOR_VIEW, value)
+            }
             Kind::Camera(camera) => camera.view.set_float_param(id, CAMERA_VIEW, value),
             Kind::Light(light) => light.set_float_param(id, value),
             _ => false,
@@ -231,19 +256,33 @@ impl Scene {
         })
     }
 
-    pub(crate) fn set_display_int(&mut self, handle: Handle, id: i64, value: i64) -> SceneResult<bool> {
+    pub(crate) fn set_display_int(
+        &mut self,
+        handle: Handle,
+        id: i64,
+        value: i64,
+    ) -> SceneResult<bool> {
         if id == camera::TRACKED_OBJECT && self.object(handle)?.camera().is_ok() {
             return self.track(handle, value).map(|()| true);
         }
-        self.modify(handle, Field::Sensor, |object| object.set_display_int_param(id, value))
+        self.modify(handle, Field::Sensor, |object| {
+            object.set_display_int_param(id, value)
+        })
     }
 
     /// Values that are not finite are ignored.
-    pub(crate) fn set_display_float(&mut self, handle: Handle, id: i64, value: f64) -> SceneResult<bool> {
+    pub(crate) fn set_display_float(
+        &mut self,
+        handle: Handle,
+        id: i64,
+        value: f64,
+    ) -> SceneResult<bool> {
         if !value.is_finite() {
             return Ok(self.object(handle)?.display_float_param(id).is_some());
         }
-        self.modify(handle, Field::Sensor, |object| object.set_display_float_param(id, value))
+        self.modify(handle, Field::Sensor, |object| {
+            object.set_display_float_param(id, value)
+        })
     }
 }
 
@@ -254,12 +293,23 @@ mod tests {
     #[test]
     fn the_numbers_of_a_camera_are_its_own() {
         let mut scene = Scene::new();
-        let camera = scene.add("c", Kind::Camera(Box::default())).expect("there is room");
+        let camera = scene
+            .add("c", Kind::Camera(Box::default()))
+            .expect("there is room");
         assert_eq!(scene.set_display_float(camera, 9001, 0.5), Ok(true));
         assert_eq!(scene.set_display_float(camera, 1004, 0.7), Ok(false));
         assert_eq!(scene.set_display_float(camera, 9001, f64::NAN), Ok(true));
-        assert_eq!(scene.object(camera).unwrap().display_float_param(9001), Some(0.5));
-        assert_eq!(scene.set_display_int(camera, 9011, camera.raw() + 1), Ok(true));
-        assert_eq!(scene.object(camera).unwrap().display_int_param(9011), Some(-1));
+        assert_eq!(
+            scene.object(camera).unwrap().display_float_param(9001),
+            Some(0.5)
+        );
+        assert_eq!(
+            scene.set_display_int(camera, 9011, camera.raw() + 1),
+            Ok(true)
+        );
+        assert_eq!(
+            scene.object(camera).unwrap().display_int_param(9011),
+            Some(-1)
+        );
     }
 }

@@ -35,11 +35,19 @@ pub enum Engine {
 
 impl Engine {
     /// All engines in the order of their numbers.
-    pub const ALL: [Self; 5] = [Self::Bullet, Self::Ode, Self::Vortex, Self::Newton, Self::Mujoco];
+    pub const ALL: [Self; 5] = [
+        Self::Bullet,
+        Self::Ode,
+        Self::Vortex,
+        Self::Newton,
+        Self::Mujoco,
+    ];
 
     /// The engine with the number of `sim.physics_*`.
     pub fn from_number(number: i64) -> Option<Self> {
-        Self::ALL.into_iter().find(|engine| engine.number() == number)
+        Self::ALL
+            .into_iter()
+            .find(|engine| engine.number() == number)
     }
 
     /// The number of `sim.physics_*`.
@@ -125,7 +133,10 @@ impl EngineParam {
 
 /// The parameters of `owner`, in the order of enumeration.
 pub fn engine_params(owner: EngineOwner) -> impl Iterator<Item = &'static EngineParam> {
-    rows().iter().map(|(param, ..)| param).filter(move |param| param.owner == owner)
+    rows()
+        .iter()
+        .map(|(param, ..)| param)
+        .filter(move |param| param.owner == owner)
 }
 
 /// A parameter with the numbers of its elements, and the number and the bit it shares with others.
@@ -142,7 +153,8 @@ fn row(line: &'static str) -> Row {
         panic!("a line of engine.tsv has eight fields: {line}")
     };
     let ty = ValueType::from_word(ty).expect("engine.tsv holds known types");
-    let integer = |text: &str| -> i64 { text.parse().expect("engine.tsv holds numbers as integers") };
+    let integer =
+        |text: &str| -> i64 { text.parse().expect("engine.tsv holds numbers as integers") };
     let param = EngineParam {
         owner: owner_of(owner).unwrap_or_else(|| panic!("an unknown owner in engine.tsv: {line}")),
         name,
@@ -150,10 +162,18 @@ fn row(line: &'static str) -> Row {
         flags: integer(flags),
         works: state == "works",
         is_property: state != "number",
-        default: ty.parse(default).expect("engine.tsv holds defaults of the row's type"),
+        default: ty
+            .parse(default)
+            .expect("engine.tsv holds defaults of the row's type"),
     };
-    let bit = bit.split_once(':').map(|(number, bit)| (integer(number), integer(bit)));
-    (param, numbers.split_whitespace().map(integer).collect(), bit)
+    let bit = bit
+        .split_once(':')
+        .map(|(number, bit)| (integer(number), integer(bit)));
+    (
+        param,
+        numbers.split_whitespace().map(integer).collect(),
+        bit,
+    )
 }
 
 /// The owner whose part of the table of properties has that name.
@@ -176,9 +196,17 @@ pub(crate) fn numbered(number: i64) -> Option<&'static Numbered> {
 fn numbers() -> BTreeMap<i64, Numbered> {
     let mut all = BTreeMap::new();
     for (param, numbers, bit) in rows() {
-        all.extend(numbers.iter().enumerate().map(|(at, &number)| (number, Numbered::Element(param, at))));
+        all.extend(
+            numbers
+                .iter()
+                .enumerate()
+                .map(|(at, &number)| (number, Numbered::Element(param, at))),
+        );
         let Some((number, bit)) = *bit else { continue };
-        match all.entry(number).or_insert_with(|| Numbered::Bits(Vec::new())) {
+        match all
+            .entry(number)
+            .or_insert_with(|| Numbered::Bits(Vec::new()))
+        {
             Numbered::Bits(switches) => switches.push((param, bit)),
             Numbered::Element(other, _) => panic!("{number} is {} and bits", other.name),
         }
@@ -206,15 +234,27 @@ mod tests {
     #[test]
     fn lists_have_as_many_numbers_as_elements() {
         for (param, numbers, _) in rows() {
-            let length = if let Data::Array(items) = &param.default { items.len() } else { 1 };
-            assert!(numbers.is_empty() || numbers.len() == length, "{}", param.name);
+            let length = if let Data::Array(items) = &param.default {
+                items.len()
+            } else {
+                1
+            };
+            assert!(
+                numbers.is_empty() || numbers.len() == length,
+                "{}",
+                param.name
+            );
         }
     }
 
     #[test]
     fn names_are_those_of_the_property() {
-        assert!(matches!(numbered(43_005), Some(Numbered::Element(param, 1)) if param.name == "mujoco.solref"));
+        assert!(
+            matches!(numbered(43_005), Some(Numbered::Element(param, 1)) if param.name == "mujoco.solref")
+        );
         assert!(matches!(numbered(25_006), Some(Numbered::Bits(bits)) if bits.len() == 9));
-        assert!(engine_params(super::EngineOwner::Joint).all(|param| param.split().1 != param.name));
+        assert!(
+            engine_params(super::EngineOwner::Joint).all(|param| param.split().1 != param.name)
+        );
     }
 }

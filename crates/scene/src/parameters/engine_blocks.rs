@@ -17,7 +17,10 @@ pub struct EngineRows {
 }
 
 const fn rows(first_real: i64, reals: usize, first_int: i64, ints: usize) -> EngineRows {
-    EngineRows { reals: (first_real, reals), ints: (first_int, ints) }
+    EngineRows {
+        reals: (first_real, reals),
+        ints: (first_int, ints),
+    }
 }
 
 /// In the order of [`Engine::ALL`].
@@ -56,7 +59,13 @@ pub trait EngineValues {
 
     /// Sets the parameters of one engine from the rows of a file.
     fn load_engine(&mut self, engine: Engine, reals: &[f64], ints: &[i32]) {
-        let Some(EngineRows { reals: (first_real, _), ints: (first_int, _) }) = self.rows(engine) else { return };
+        let Some(EngineRows {
+            reals: (first_real, _),
+            ints: (first_int, _),
+        }) = self.rows(engine)
+        else {
+            return;
+        };
         for (number, real) in (first_real..).zip(reals) {
             if real.is_finite() && !is_step_size(number) {
                 self.set_number(number, *real);
@@ -69,7 +78,9 @@ pub trait EngineValues {
 
     /// The rows of one engine; zero where a number has no counterpart.
     fn engine_rows(&self, engine: Engine) -> (Vec<f64>, Vec<i32>) {
-        let Some(rows) = self.rows(engine) else { return Default::default() };
+        let Some(rows) = self.rows(engine) else {
+            return Default::default();
+        };
         let ((first_real, reals), (first_int, ints)) = (rows.reals, rows.ints);
         let real = |at: usize| self.number(first_real + at as i64).unwrap_or_default();
         let int = |at: usize| self.number(first_int + at as i64).unwrap_or_default() as i32;
@@ -81,7 +92,9 @@ pub trait EngineValues {
         Some(match numbered(number)? {
             Numbered::Element(param, at) => element(&self.value(param), *at)?,
             Numbered::Bits(switches) => {
-                let on = switches.iter().filter(|(param, _)| self.value(param) == Data::Bool(true));
+                let on = switches
+                    .iter()
+                    .filter(|(param, _)| self.value(param) == Data::Bool(true));
                 on.fold(0, |bits, (_, bit)| bits | bit) as f64
             }
         })
@@ -173,6 +186,9 @@ mod tests {
             let (reals, ints) = material.engine_rows(engine);
             other.load_engine(engine, &reals, &ints);
         });
-        assert_eq!(Engine::ALL.map(|e| other.engine_rows(e)), Engine::ALL.map(|e| material.engine_rows(e)));
+        assert_eq!(
+            Engine::ALL.map(|e| other.engine_rows(e)),
+            Engine::ALL.map(|e| material.engine_rows(e))
+        );
     }
 }

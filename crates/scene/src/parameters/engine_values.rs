@@ -2,7 +2,8 @@
 //! they were set.
 
 use super::engine::{
-    Engine, EngineOwner, EngineParam, Numbered, SelectedEngine, engine_params, is_step_size, numbered,
+    Engine, EngineOwner, EngineParam, Numbered, SelectedEngine, engine_params, is_step_size,
+    numbered,
 };
 use crate::joint::Joint;
 use crate::shape::Material;
@@ -30,14 +31,26 @@ impl Scene {
     ///
     /// # Errors
     /// When the parameter belongs to another type of object, and for values that are not finite or of another type or length.
-    pub fn set_engine_value(&mut self, param: &EngineParam, object: Option<Handle>, value: Data) -> SceneResult<()> {
-        let value = param.ty.accept(&param.default, value).ok_or(SceneError::InvalidData)?;
+    pub fn set_engine_value(
+        &mut self,
+        param: &EngineParam,
+        object: Option<Handle>,
+        value: Data,
+    ) -> SceneResult<()> {
+        let value = param
+            .ty
+            .accept(&param.default, value)
+            .ok_or(SceneError::InvalidData)?;
         if param.owner == EngineOwner::Scene {
             self.modify_settings(|settings| settings.dynamics.engine_values.set(param.name, value));
             return Ok(());
         }
         let handle = object.ok_or(SceneError::InvalidArgument)?;
-        let field = if param.works { Field::Dynamics } else { Field::Inert };
+        let field = if param.works {
+            Field::Dynamics
+        } else {
+            Field::Inert
+        };
         self.try_modify(handle, field, |object| set_in(object, param, value))
     }
 
@@ -56,7 +69,11 @@ impl Scene {
             Numbered::Bits(switches) => {
                 let mut bits = 0;
                 for (param, bit) in switches {
-                    bits |= if self.engine_value(param, object)? == Data::Bool(true) { *bit } else { 0 };
+                    bits |= if self.engine_value(param, object)? == Data::Bool(true) {
+                        *bit
+                    } else {
+                        0
+                    };
                 }
                 Ok(bits as f64)
             }
@@ -67,7 +84,12 @@ impl Scene {
     ///
     /// # Errors
     /// When there is no such parameter, the object is not of its type, or the value is not finite.
-    pub fn set_engine_param(&mut self, number: i64, object: Option<Handle>, value: f64) -> SceneResult<()> {
+    pub fn set_engine_param(
+        &mut self,
+        number: i64,
+        object: Option<Handle>,
+        value: f64,
+    ) -> SceneResult<()> {
         if !value.is_finite() {
             return Err(SceneError::InvalidData);
         }
@@ -76,9 +98,9 @@ impl Scene {
                 let whole = with_element(self.engine_value(param, object)?, *at, value);
                 self.set_engine_value(param, object, whole)
             }
-            Numbered::Bits(switches) => switches
-                .iter()
-                .try_for_each(|(param, bit)| self.set_engine_value(param, object, Data::Bool(value as i64 & bit != 0))),
+            Numbered::Bits(switches) => switches.iter().try_for_each(|(param, bit)| {
+                self.set_engine_value(param, object, Data::Bool(value as i64 & bit != 0))
+            }),
         }
     }
 
@@ -156,20 +178,31 @@ impl Material {
 
     /// Friction and restitution that the selected engine would use.
     pub fn contact_values(&self, selected: SelectedEngine) -> (f64, f64) {
-        let value =
-            |name: &str| self.named_value(name).as_ref().and_then(|value| element(value, 0)).unwrap_or_default();
+        let value = |name: &str| {
+            self.named_value(name)
+                .as_ref()
+                .and_then(|value| element(value, 0))
+                .unwrap_or_default()
+        };
         match selected.engine {
             Engine::Ode => (value("ode.friction"), 0.0),
-            Engine::Vortex => (value("vortex.linearPrimaryAxisFrictionValue"), value("vortex.restitution")),
+            Engine::Vortex => (
+                value("vortex.linearPrimaryAxisFrictionValue"),
+                value("vortex.restitution"),
+            ),
             Engine::Newton => (value("newton.kineticFriction"), value("newton.restitution")),
             Engine::Mujoco => (value("mujoco.friction"), 0.0),
-            Engine::Bullet if selected.version == BULLET_283 => (value("bullet.friction"), self.restitution),
+            Engine::Bullet if selected.version == BULLET_283 => {
+                (value("bullet.friction"), self.restitution)
+            }
             Engine::Bullet => (self.friction, self.restitution),
         }
     }
 
     fn named_value(&self, name: &str) -> Option<Data> {
-        engine_params(EngineOwner::Material).find(|param| param.name == name).map(|param| self.engine_value(param))
+        engine_params(EngineOwner::Material)
+            .find(|param| param.name == name)
+            .map(|param| self.engine_value(param))
     }
 
     pub(crate) fn engine_value(&self, param: &EngineParam) -> Data {
@@ -194,12 +227,17 @@ impl Material {
 
 impl Joint {
     pub(crate) fn engine_value(&self, param: &EngineParam) -> Data {
-        engine_of_gains(param).map_or_else(|| value_in(&self.engine_values, param), |engine| self.gains[engine].into())
+        engine_of_gains(param).map_or_else(
+            || value_in(&self.engine_values, param),
+            |engine| self.gains[engine].into(),
+        )
     }
 
     pub(crate) fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
         match engine_of_gains(param) {
-            Some(engine) => self.gains[engine] = [0, 1, 2].map(|at| element(&value, at).unwrap_or_default()),
+            Some(engine) => {
+                self.gains[engine] = [0, 1, 2].map(|at| element(&value, at).unwrap_or_default())
+            }
             None => {
                 self.engine_values.set(param.name, value);
             }
@@ -209,8 +247,12 @@ impl Joint {
 
 /// The number of the engine whose gains of position control the parameter is.
 fn engine_of_gains(param: &EngineParam) -> Option<usize> {
-    let (engine, "posPid") = param.split() else { return None };
-    Engine::ALL.into_iter().position(|known| known.name() == engine)
+    let (engine, "posPid") = param.split() else {
+        return None;
+    };
+    Engine::ALL
+        .into_iter()
+        .position(|known| known.name() == engine)
 }
 
 #[cfg(test)]
@@ -223,12 +265,30 @@ mod tests {
     fn numbers_and_names_lead_to_the_same_value() {
         let mut scene = Scene::new();
         let joint = Joint::new(JointType::Revolute, JointMode::Dynamic);
-        let joint = scene.add("joint", Kind::Joint(Box::new(joint))).expect("there is room");
-        scene.set_engine_param(12_007, Some(joint), 0.5).expect("ODE has an integral gain");
-        assert_eq!(scene.object(joint).and_then(Object::joint).map(|joint| joint.gains[1]), Ok([0.1, 0.5, 0.0]));
-        let named = engine_params(EngineOwner::Joint).find(|param| param.name == "ode.posPid").expect("it has a row");
-        assert_eq!(scene.engine_value(named, Some(joint)), Ok(vec![0.1, 0.5, 0.0].into()));
-        assert_eq!(scene.engine_param(6003, Some(joint)), Err(SceneError::WrongType("shape")));
+        let joint = scene
+            .add("joint", Kind::Joint(Box::new(joint)))
+            .expect("there is room");
+        scene
+            .set_engine_param(12_007, Some(joint), 0.5)
+            .expect("ODE has an integral gain");
+        assert_eq!(
+            scene
+                .object(joint)
+                .and_then(Object::joint)
+                .map(|joint| joint.gains[1]),
+            Ok([0.1, 0.5, 0.0])
+        );
+        let named = engine_params(EngineOwner::Joint)
+            .find(|param| param.name == "ode.posPid")
+            .expect("it has a row");
+        assert_eq!(
+            scene.engine_value(named, Some(joint)),
+            Ok(vec![0.1, 0.5, 0.0].into())
+        );
+        assert_eq!(
+            scene.engine_param(6003, Some(joint)),
+            Err(SceneError::WrongType("shape"))
+        );
     }
 
     #[test]
@@ -236,16 +296,27 @@ mod tests {
         let selected = |engine, version| SelectedEngine { engine, version };
         let grip = Material::rest_stack_grasp();
         assert_eq!(grip.contact_values(selected(Engine::Bullet, 0)), (1.0, 0.0));
-        assert_eq!(grip.contact_values(selected(Engine::Bullet, BULLET_283)), (0.5, 0.0));
-        assert_eq!(Material::default().contact_values(selected(Engine::Ode, 0)), (0.71, 0.0));
-        assert_eq!(Material::default().contact_values(selected(Engine::Mujoco, 0)), (1.0, 0.0));
+        assert_eq!(
+            grip.contact_values(selected(Engine::Bullet, BULLET_283)),
+            (0.5, 0.0)
+        );
+        assert_eq!(
+            Material::default().contact_values(selected(Engine::Ode, 0)),
+            (0.71, 0.0)
+        );
+        assert_eq!(
+            Material::default().contact_values(selected(Engine::Mujoco, 0)),
+            (1.0, 0.0)
+        );
     }
 
     #[test]
     fn joined_switches_are_set_together() {
         let mut scene = Scene::new();
         assert_eq!(scene.engine_param(1002, None), Ok(1.0));
-        scene.set_engine_param(1002, None, 2.0).expect("Bullet has global switches");
+        scene
+            .set_engine_param(1002, None, 2.0)
+            .expect("Bullet has global switches");
         assert_eq!(scene.engine_param(2001, None), Ok(0.0));
         assert_eq!(scene.engine_param(2002, None), Ok(1.0));
         assert!(scene.set_engine_param(1002, None, f64::NAN).is_err());

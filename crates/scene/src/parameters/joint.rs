@@ -19,7 +19,10 @@ fn motor_control(motor: bool, controller: bool) -> Control {
 impl Joint {
     /// The value of an integer parameter; None when joints have no such parameter.
     pub fn int_param(&self, id: i64) -> Option<i64> {
-        let controlled = !matches!(self.control, Control::Free | Control::Force | Control::Velocity);
+        let controlled = !matches!(
+            self.control,
+            Control::Free | Control::Force | Control::Velocity
+        );
         Some(match id {
             2000 => i64::from(self.control != Control::Free),
             2001 => i64::from(controlled),
@@ -59,7 +62,9 @@ impl Joint {
             2012 => self.velocity,
             2013..=2016 => self.spherical.coords[element(2013)],
             2018 | 2019 => self.spring[element(2018)],
-            2022..=2024 => self.error.map_or(0.0, |e| e.translation.vector[element(2022)]),
+            2022..=2024 => self
+                .error
+                .map_or(0.0, |e| e.translation.vector[element(2022)]),
             2028 => self.error.map_or(0.0, |e| e.translation.vector.norm()),
             2029 => self.error.map_or(0.0, |e| e.rotation.angle()),
             // The older name of the limit.
@@ -79,7 +84,10 @@ impl Joint {
         let element = |first: i64| (id - first) as usize;
         match id {
             // From before engines had gains of their own.
-            2002..=2004 => self.gains.iter_mut().for_each(|gains| gains[element(2002)] = value),
+            2002..=2004 => self
+                .gains
+                .iter_mut()
+                .for_each(|gains| gains[element(2002)] = value),
             2013..=2016 => self.set_spherical(element(2013), value),
             2018 | 2019 => self.spring[element(2018)] = value,
             2017 | 2036 => self.max_vel = value,

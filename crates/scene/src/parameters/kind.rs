@@ -18,10 +18,17 @@ impl Scene {
     }
 
     /// Sets an integer parameter of the object's type; false when it has no such parameter.
-    pub(crate) fn set_kind_int_param(&mut self, handle: Handle, id: i64, value: i64) -> SceneResult<bool> {
+    pub(crate) fn set_kind_int_param(
+        &mut self,
+        handle: Handle,
+        id: i64,
+        value: i64,
+    ) -> SceneResult<bool> {
         match &self.object(handle)?.kind {
             Kind::Joint(_) => self.modify_joint(handle, |joint| joint.set_int_param(id, value)),
-            Kind::Shape(_) => self.set_shape_param(handle, id, |shape| shape.set_int_param(id, value)),
+            Kind::Shape(_) => {
+                self.set_shape_param(handle, id, |shape| shape.set_int_param(id, value))
+            }
             Kind::Dummy(_) if id == 10000 => match LinkType::from_code(value) {
                 Some(link_type) => self.set_link_type(handle, link_type).map(|()| true),
                 None => Ok(false),
@@ -33,7 +40,9 @@ impl Scene {
     /// The value of a float parameter of the object's type (SI units); None when it has no such parameter.
     pub(crate) fn kind_float_param(&self, handle: Handle, id: i64) -> SceneResult<Option<f64>> {
         Ok(match &self.object(handle)?.kind {
-            Kind::Joint(joint) if id == 2012 && joint.dependency.is_some() => Some(self.joint_velocity(handle)?),
+            Kind::Joint(joint) if id == 2012 && joint.dependency.is_some() => {
+                Some(self.joint_velocity(handle)?)
+            }
             Kind::Joint(joint) => joint.float_param(id),
             Kind::Shape(shape) => shape.float_param(id),
             Kind::Dummy(dummy) if id == 10003 => Some(dummy.size),
@@ -42,14 +51,21 @@ impl Scene {
     }
 
     /// Sets a float parameter of the object's type; false when it has no such parameter.
-    pub fn set_kind_float_param(&mut self, handle: Handle, id: i64, value: f64) -> SceneResult<bool> {
+    pub fn set_kind_float_param(
+        &mut self,
+        handle: Handle,
+        id: i64,
+        value: f64,
+    ) -> SceneResult<bool> {
         match &self.object(handle)?.kind {
             Kind::Joint(_) => {
                 let known = self.modify_joint(handle, |joint| joint.set_float_param(id, value))?;
                 self.relimit_joint(handle)?;
                 Ok(known)
             }
-            Kind::Shape(_) => self.set_shape_param(handle, id, |shape| shape.set_float_param(id, value)),
+            Kind::Shape(_) => {
+                self.set_shape_param(handle, id, |shape| shape.set_float_param(id, value))
+            }
             Kind::Dummy(_) if id == 10003 && value.is_finite() => {
                 self.try_modify(handle, Field::Appearance, |object| {
                     object.dummy_mut()?.size = value;

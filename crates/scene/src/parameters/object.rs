@@ -5,7 +5,10 @@
 use geometry::BoundingBox;
 use nalgebra::{Point3, Vector3};
 
-use crate::{Field, Handle, Kind, Layers, ModelFlags, Object, ObjectFlags, Pose, Scene, SceneResult, SpecialFlags};
+use crate::{
+    Field, Handle, Kind, Layers, ModelFlags, Object, ObjectFlags, Pose, Scene, SceneResult,
+    SpecialFlags,
+};
 
 /// `sim.dummystringparam_assemblytag`.
 const ASSEMBLY_TAG: i64 = 10004;
@@ -32,9 +35,15 @@ impl Scene {
     /// Sets an integer parameter; false when the object has no such parameter, or only one to read.
     pub fn set_int_param(&mut self, handle: Handle, id: i64, value: i64) -> SceneResult<bool> {
         match id {
-            10 => self.modify(handle, Field::Layer, |object| object.layer = Layers::from_number(value))?,
-            27 => self.modify(handle, Field::Inert, |object| object.self_collision_indicator = value)?,
-            38 => self.modify(handle, Field::Inert, |object| object.hierarchy_colour = value)?,
+            10 => self.modify(handle, Field::Layer, |object| {
+                object.layer = Layers::from_number(value)
+            })?,
+            27 => self.modify(handle, Field::Inert, |object| {
+                object.self_collision_indicator = value
+            })?,
+            38 => self.modify(handle, Field::Inert, |object| {
+                object.hierarchy_colour = value
+            })?,
             _ => return self.set_kind_int_param(handle, id, value),
         }
         Ok(true)
@@ -48,7 +57,9 @@ impl Scene {
             11..=13 => Some(measured.linear[(id - 11) as usize]),
             14 => Some(Vector3::from(measured.angular).norm()),
             15..=20 => Some(corner(object.extent(), id - 15)),
-            21..=26 => self.model_extent(handle)?.map(|extent| corner(extent, id - 21)),
+            21..=26 => self
+                .model_extent(handle)?
+                .map(|extent| corner(extent, id - 21)),
             34 => Some(object.size_factor),
             _ => return self.kind_float_param(handle, id),
         })
@@ -61,9 +72,10 @@ impl Scene {
             (_, 33) => Some(object.dna.clone()),
             (_, 35) => Some(object.persistent_uid.clone().into_bytes()),
             (Kind::Dummy(dummy), ASSEMBLY_TAG) => Some(dummy.assembly_tag.clone().into_bytes()),
-            (Kind::Shape(shape), COLOUR_NAME) => {
-                shape.parts.first().map(|part| part.appearance.colour_name.clone().into_bytes())
-            }
+            (Kind::Shape(shape), COLOUR_NAME) => shape
+                .parts
+                .first()
+                .map(|part| part.appearance.colour_name.clone().into_bytes()),
             _ => None,
         })
     }
@@ -79,7 +91,10 @@ impl Scene {
         self.modify(handle, field, |object| match &mut object.kind {
             Kind::Dummy(dummy) => dummy.assembly_tag = text,
             Kind::Shape(shape) => {
-                shape.parts.iter_mut().for_each(|part| part.appearance.colour_name.clone_from(&text));
+                shape
+                    .parts
+                    .iter_mut()
+                    .for_each(|part| part.appearance.colour_name.clone_from(&text));
             }
             _ => {}
         })?;
@@ -87,15 +102,26 @@ impl Scene {
     }
 
     /// Sets how sensors and calculations treat an object; any of the five detectable bits sets all of them.
-    pub fn set_special_property(&mut self, handle: Handle, mut flags: SpecialFlags) -> SceneResult<()> {
-        flags.set(SpecialFlags::DETECTABLE, flags.intersects(SpecialFlags::DETECTABLE));
-        self.modify(handle, Field::SpecialProperty, |object| object.special_property = flags)
+    pub fn set_special_property(
+        &mut self,
+        handle: Handle,
+        mut flags: SpecialFlags,
+    ) -> SceneResult<()> {
+        flags.set(
+            SpecialFlags::DETECTABLE,
+            flags.intersects(SpecialFlags::DETECTABLE),
+        );
+        self.modify(handle, Field::SpecialProperty, |object| {
+            object.special_property = flags
+        })
     }
 
     /// Whether an object is shown: its layer is active and no model above hides it.
     pub fn is_visible(&self, handle: Handle) -> SceneResult<bool> {
         let layer = self.object(handle)?.layer;
-        let hidden = self.calculated_model_property(handle).contains(ModelFlags::NOT_VISIBLE);
+        let hidden = self
+            .calculated_model_property(handle)
+            .contains(ModelFlags::NOT_VISIBLE);
         Ok(layer.intersects(self.settings().visibility_layers) && !hidden)
     }
 
@@ -105,7 +131,10 @@ impl Scene {
         let mut total: Option<Extent> = None;
         for handle in self.subtree(base) {
             let object = self.object(handle)?;
-            let left_out = handle != base && object.object_property.contains(ObjectFlags::HIDE_FROM_MODEL_BOX);
+            let left_out = handle != base
+                && object
+                    .object_property
+                    .contains(ObjectFlags::HIDE_FROM_MODEL_BOX);
             if left_out {
                 continue;
             }
@@ -138,7 +167,10 @@ impl Object {
             Kind::PointCloud(cloud) => return cloud.bounding_box(),
             Kind::Path(_) => [0.0; 3],
         };
-        BoundingBox { size, pose: Pose::identity() }
+        BoundingBox {
+            size,
+            pose: Pose::identity(),
+        }
     }
 
     /// Smallest and largest coordinates of the box along the axes of the object.
@@ -151,16 +183,29 @@ impl Object {
 
 /// Coordinate number `index` of min x, y, z, max x, y, z.
 fn corner((low, high): Extent, index: i64) -> f64 {
-    let (corner, axis) = if index < 3 { (low, index) } else { (high, index - 3) };
+    let (corner, axis) = if index < 3 {
+        (low, index)
+    } else {
+        (high, index - 3)
+    };
     corner[axis as usize]
 }
 
 /// The upright box around a box that is moved by `pose`.
 fn transformed((low, high): Extent, pose: &Pose) -> Extent {
     let corners = (0..8).map(|i| {
-        let pick = |axis: usize| if i >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        let pick = |axis: usize| {
+            if i >> axis & 1 == 0 {
+                low[axis]
+            } else {
+                high[axis]
+            }
+        };
         (pose * Point3::new(pick(0), pick(1), pick(2))).coords
     });
-    let empty = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+    let empty = (
+        Vector3::repeat(f64::INFINITY),
+        Vector3::repeat(f64::NEG_INFINITY),
+    );
     corners.fold(empty, |(l, h), corner| (l.inf(&corner), h.sup(&corner)))
 }

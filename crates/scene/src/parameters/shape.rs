@@ -11,7 +11,10 @@ impl Shape {
     }
 
     fn each_appearance(&mut self, change: impl FnMut(&mut Appearance)) {
-        self.parts.iter_mut().map(|part| &mut part.appearance).for_each(change);
+        self.parts
+            .iter_mut()
+            .map(|part| &mut part.appearance)
+            .for_each(change);
     }
 
     fn first_texture(&self) -> Option<&TextureMapping> {
@@ -19,7 +22,10 @@ impl Shape {
     }
 
     fn each_texture(&mut self, change: impl FnMut(&mut TextureMapping)) {
-        self.parts.iter_mut().filter_map(|part| part.texture.as_deref_mut()).for_each(change);
+        self.parts
+            .iter_mut()
+            .filter_map(|part| part.texture.as_deref_mut())
+            .for_each(change);
     }
 
     /// The value of an integer parameter; None when shapes have no such parameter.
@@ -70,7 +76,9 @@ impl Shape {
         Some(match id {
             3000..=3002 => initial.linear[(id - 3000) as usize],
             3005 => self.mass.mass,
-            3006..=3013 => self.first_texture().map_or(0.0, |texture| texture.param(id)),
+            3006..=3013 => self
+                .first_texture()
+                .map_or(0.0, |texture| texture.param(id)),
             3020..=3022 => initial.angular[(id - 3020) as usize],
             3025 => angle(|a| a.shading_angle),
             3026 => angle(|a| a.edge_angle),
@@ -131,9 +139,13 @@ mod tests {
 
     #[test]
     fn the_mask_is_kept_as_written() {
-        let mut shape = Shape::primitive(PrimitiveKind::Cuboid, [1.0; 3], Default::default()).unwrap();
+        let mut shape =
+            Shape::primitive(PrimitiveKind::Cuboid, [1.0; 3], Default::default()).unwrap();
         assert!(shape.set_int_param(3019, 0x12345));
         assert_eq!(shape.int_param(3019), Some(0x12345));
-        assert_eq!((shape.int_param(3003), shape.int_param(3999)), (Some(1), None));
+        assert_eq!(
+            (shape.int_param(3003), shape.int_param(3999)),
+            (Some(1), None)
+        );
     }
 }

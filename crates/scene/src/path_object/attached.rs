@@ -31,7 +31,9 @@ impl PathFollowing {
 
     fn attachment(self, is_child_of_path: bool) -> Option<Attachment> {
         match self.bits {
-            bits if bits & 0x2 != 0 && is_child_of_path && bits & 0x4 == 0 => Some(Attachment::Fixed),
+            bits if bits & 0x2 != 0 && is_child_of_path && bits & 0x4 == 0 => {
+                Some(Attachment::Fixed)
+            }
             bits if bits & 0x2 != 0 && is_child_of_path => Some(Attachment::Free),
             bits if bits & 0x8 != 0 && !is_child_of_path => Some(Attachment::Orientation),
             _ => None,
@@ -70,8 +72,16 @@ impl Scene {
     /// # Errors
     /// When the object is no path.
     pub fn reset_path(&mut self, path: Handle) -> SceneResult<()> {
-        let initial = self.object(path)?.initial.as_ref().and_then(|initial| initial.path_motion());
-        self.modify_path(path, |path| initial.into_iter().for_each(|motion| path.restore_motion(motion)))?;
+        let initial = self
+            .object(path)?
+            .initial
+            .as_ref()
+            .and_then(|initial| initial.path_motion());
+        self.modify_path(path, |path| {
+            initial
+                .into_iter()
+                .for_each(|motion| path.restore_motion(motion))
+        })?;
         self.move_attached(path)
     }
 
@@ -79,7 +89,11 @@ impl Scene {
     ///
     /// # Errors
     /// When the object is no path.
-    pub fn modify_path<R>(&mut self, path: Handle, change: impl FnOnce(&mut PathObject) -> R) -> SceneResult<R> {
+    pub fn modify_path<R>(
+        &mut self,
+        path: Handle,
+        change: impl FnOnce(&mut PathObject) -> R,
+    ) -> SceneResult<R> {
         self.try_modify(path, Field::Sensor, |object| Ok(change(object.path_mut()?)))
     }
 
@@ -111,10 +125,18 @@ impl Scene {
 
     fn turn_as_path(&mut self, dummy: Handle, path: Handle) -> SceneResult<()> {
         let world = self.world_pose(path)?;
-        let Some(pose) = closest(self.object(path)?.path()?, &(world.inverse() * self.world_pose(dummy)?)) else {
+        let Some(pose) = closest(
+            self.object(path)?.path()?,
+            &(world.inverse() * self.world_pose(dummy)?),
+        ) else {
             return Ok(());
         };
-        self.place(dummy, Placement::Rotation(world.rotation * pose.rotation), Frame::World, false)
+        self.place(
+            dummy,
+            Placement::Rotation(world.rotation * pose.rotation),
+            Frame::World,
+            false,
+        )
     }
 
     /// Returns a path that is handled explicitly.
@@ -123,7 +145,11 @@ impl Scene {
     /// When the object is no path, or is handled together with the others.
     pub fn explicit_path(&self, path: Handle) -> SceneResult<&PathObject> {
         let path = self.object(path)?.path()?;
-        if path.explicit { Ok(path) } else { Err(SceneError::NotExplicit) }
+        if path.explicit {
+            Ok(path)
+        } else {
+            Err(SceneError::NotExplicit)
+        }
     }
 
     /// A point of a path in the world.
@@ -138,5 +164,6 @@ impl Scene {
 /// The pose of the point of a path that is closest to a pose in its frame.
 fn closest(path: &PathObject, pose: &Pose) -> Option<Pose> {
     let point: Point3<f64> = pose.translation.vector.into();
-    path.at(path.closest_position(&point.coords)?).map(|point| point.pose)
+    path.at(path.closest_position(&point.coords)?)
+        .map(|point| point.pose)
 }

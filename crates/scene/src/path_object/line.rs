@@ -92,7 +92,11 @@ impl ControlPoint {
     /// With numbers brought into their limits.
     pub fn limited(mut self) -> Self {
         let within = |value: f64, low: f64, high: f64, other: f64| {
-            if value.is_finite() { value.clamp(low, high) } else { other }
+            if value.is_finite() {
+                value.clamp(low, high)
+            } else {
+                other
+            }
         };
         self.before = within(self.before, 0.1, 0.99, 0.5);
         self.after = within(self.after, 0.1, 0.99, 0.5);
@@ -102,7 +106,9 @@ impl ControlPoint {
         };
         self.velocity = within(self.velocity, 0.0, 1.0, 1.0);
         self.on_spot = within(self.on_spot, 0.0, f64::MAX, 0.0);
-        self.channels = self.channels.map(|channel| if channel.is_finite() { channel } else { 0.0 });
+        self.channels = self
+            .channels
+            .map(|channel| if channel.is_finite() { channel } else { 0.0 });
         self
     }
 
@@ -173,19 +179,31 @@ pub(super) fn line(points: &[ControlPoint], closed: bool) -> Vec<LinePoint> {
     line
 }
 
-fn corner(line: &mut Vec<LinePoint>, before: &ControlPoint, corner: &ControlPoint, after: &ControlPoint) {
+fn corner(
+    line: &mut Vec<LinePoint>,
+    before: &ControlPoint,
+    corner: &ControlPoint,
+    after: &ControlPoint,
+) {
     let middle = corner.point();
     if corner.count == 1 || !is_rounded(before, corner, after) {
         line.push(middle);
         return;
     }
-    let half_way = |other: &ControlPoint| LinePoint { flags: corner.flags, ..other.point().between(&middle, 0.5) };
+    let half_way = |other: &ControlPoint| LinePoint {
+        flags: corner.flags,
+        ..other.point().between(&middle, 0.5)
+    };
     let start = half_way(before).between(&middle, 1.0 - corner.before);
     let end = half_way(after).between(&middle, 1.0 - corner.after);
     line.push(start);
     for k in 1..corner.count - 1 {
         let t = k as f64 / (corner.count - 1) as f64;
-        line.push(start.between(&middle, t).between(&middle.between(&end, t), t));
+        line.push(
+            start
+                .between(&middle, t)
+                .between(&middle.between(&end, t), t),
+        );
     }
     line.push(end);
 }
@@ -194,7 +212,8 @@ fn corner(line: &mut Vec<LinePoint>, before: &ControlPoint, corner: &ControlPoin
 fn is_rounded(before: &ControlPoint, corner: &ControlPoint, after: &ControlPoint) -> bool {
     let [a, b, c] = [before, corner, after].map(|point| &point.pose);
     let apart = !is_same(a, b) && !is_same(b, c) && !is_same(a, c);
-    let way = |from: &Pose, to: &Pose| (to.translation.vector - from.translation.vector).normalize();
+    let way =
+        |from: &Pose, to: &Pose| (to.translation.vector - from.translation.vector).normalize();
     let bends = apart && way(a, b).dot(&way(b, c)) < PARALLEL;
     let (first, second) = (rotation_axis(a, b), rotation_axis(b, c));
     let product: f64 = first.0.iter().zip(second.0).map(|(x, y)| x * y).sum();

@@ -135,7 +135,11 @@ impl Default for PathMeasures {
             length_method: LengthMethod::DistanceElseAngle,
             angle_coefficient: 0.1 / std::f64::consts::FRAC_PI_2,
             on_spot_coefficient: 1.0,
-            profile: VelocityProfile { radius: 0.2, axis_change: 0.5, acceleration: 0.1 },
+            profile: VelocityProfile {
+                radius: 0.2,
+                axis_change: 0.5,
+                acceleration: 0.1,
+            },
         }
     }
 }
@@ -171,13 +175,18 @@ impl PathObject {
 
     /// Whether it leads back to its beginning. With fewer than three points it does not, whatever its attributes.
     pub fn is_closed(&self) -> bool {
-        self.attributes.contains(PathAttributes::CLOSED) && self.control_points.len() >= 3 && self.line.len() >= 3
+        self.attributes.contains(PathAttributes::CLOSED)
+            && self.control_points.len() >= 3
+            && self.line.len() >= 3
     }
 
     /// The points of the line in the path's frame; the first comes again at the end of a closed one.
     pub fn outline(&self) -> impl Iterator<Item = nalgebra::Vector3<f64>> {
         let end = self.line.first().filter(|_| self.is_closed());
-        self.line.iter().chain(end).map(|point| point.pose.translation.vector)
+        self.line
+            .iter()
+            .chain(end)
+            .map(|point| point.pose.translation.vector)
     }
 
     /// The control points in order, in the frame of the path.
@@ -199,9 +208,16 @@ impl PathObject {
     ///
     /// # Errors
     /// When there are too many.
-    pub fn insert(&mut self, index: usize, points: Vec<ControlPoint>, closed: bool) -> SceneResult<()> {
+    pub fn insert(
+        &mut self,
+        index: usize,
+        points: Vec<ControlPoint>,
+        closed: bool,
+    ) -> SceneResult<()> {
         if self.control_points.len() + points.len() > MAX_POINTS {
-            return Err(SceneError::Refused(format!("a path has at most {MAX_POINTS} control points.")));
+            return Err(SceneError::Refused(format!(
+                "a path has at most {MAX_POINTS} control points."
+            )));
         }
         let index = index.min(self.control_points.len());
         self.control_points.splice(index..index, points);
@@ -272,8 +288,16 @@ impl PathObject {
         let position = self.on_path(position);
         let segment = self.segment_at(position);
         let span = self.lengths[segment + 1] - self.lengths[segment];
-        let t = if span > 0.0 { (position - self.lengths[segment]) / span } else { 0.0 };
-        Some((&self.line[segment], &self.line[(segment + 1) % self.line.len()], t))
+        let t = if span > 0.0 {
+            (position - self.lengths[segment]) / span
+        } else {
+            0.0
+        };
+        Some((
+            &self.line[segment],
+            &self.line[(segment + 1) % self.line.len()],
+            t,
+        ))
     }
 
     /// The last segment that begins at or before a position.
@@ -287,10 +311,15 @@ impl PathObject {
         self.line.first()?;
         let mut best = (f64::INFINITY, 0.0);
         for (segment, span) in self.lengths.windows(2).enumerate() {
-            let [from, to] = [segment, (segment + 1) % self.line.len()].map(|at| self.line[at].pose.translation.vector);
+            let [from, to] = [segment, (segment + 1) % self.line.len()]
+                .map(|at| self.line[at].pose.translation.vector);
             let way = to - from;
             let square = way.norm_squared();
-            let t = if square > 0.0 { ((point - from).dot(&way) / square).clamp(0.0, 1.0) } else { 0.0 };
+            let t = if square > 0.0 {
+                ((point - from).dot(&way) / square).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
             let distance = (from + way * t - point).norm_squared();
             if distance < best.0 {
                 best = (distance, span[0] + t * (span[1] - span[0]));
@@ -302,9 +331,12 @@ impl PathObject {
     /// Computes what follows from the control points.
     fn update(&mut self) {
         if self.attributes.contains(PathAttributes::FLAT) {
-            self.control_points.iter_mut().for_each(|point| point.pose.translation.z = 0.0);
+            self.control_points
+                .iter_mut()
+                .for_each(|point| point.pose.translation.z = 0.0);
         }
-        let closed = self.attributes.contains(PathAttributes::CLOSED) && self.control_points.len() >= 3;
+        let closed =
+            self.attributes.contains(PathAttributes::CLOSED) && self.control_points.len() >= 3;
         self.orient_control_points(closed);
         self.line = line::line(&self.control_points, closed);
         if self.control_points.len() < 3 || self.line.len() < 3 {
@@ -321,7 +353,11 @@ impl PathObject {
         let mut length = 0.0;
         let mut lengths = Vec::with_capacity(self.line.len() + 1);
         lengths.extend(self.line.first().map(|_| 0.0));
-        let ends = self.line.iter().skip(1).chain(self.line.first().filter(|_| closed));
+        let ends = self
+            .line
+            .iter()
+            .skip(1)
+            .chain(self.line.first().filter(|_| closed));
         for (from, to) in self.line.iter().zip(ends) {
             length += self.segment_length(from, to);
             lengths.push(length);
@@ -330,7 +366,9 @@ impl PathObject {
     }
 
     fn segment_length(&self, from: &LinePoint, to: &LinePoint) -> f64 {
-        let length = self.length_method.length(&from.pose, &to.pose, self.angle_coefficient);
+        let length = self
+            .length_method
+            .length(&from.pose, &to.pose, self.angle_coefficient);
         length + (to.on_spot - from.on_spot).abs() * self.on_spot_coefficient
     }
 

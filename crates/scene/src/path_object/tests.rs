@@ -8,18 +8,36 @@ use crate::{Kind, Scene};
 
 fn at(x: f64, y: f64, count: usize) -> ControlPoint {
     let pose = Pose::translation(x, y, 0.0);
-    ControlPoint { pose, before: 0.5, after: 0.5, count, velocity: 1.0, on_spot: 0.0, flags: 0, channels: [0.0; 4] }
+    ControlPoint {
+        pose,
+        before: 0.5,
+        after: 0.5,
+        count,
+        velocity: 1.0,
+        on_spot: 0.0,
+        flags: 0,
+        channels: [0.0; 4],
+    }
 }
 
 fn path(attributes: i32, points: Vec<ControlPoint>) -> PathObject {
     let attributes = PathAttributes::from_bits_retain(attributes);
     let mut path = PathObject::new(attributes, PathMeasures::default());
-    path.insert(0, points, attributes.contains(PathAttributes::CLOSED)).expect("they are few");
+    path.insert(0, points, attributes.contains(PathAttributes::CLOSED))
+        .expect("they are few");
     path
 }
 
 fn square(attributes: i32) -> PathObject {
-    path(attributes | 4, vec![at(0.0, 0.0, 1), at(1.0, 0.0, 1), at(1.0, 1.0, 1), at(0.0, 1.0, 1)])
+    path(
+        attributes | 4,
+        vec![
+            at(0.0, 0.0, 1),
+            at(1.0, 0.0, 1),
+            at(1.0, 1.0, 1),
+            at(0.0, 1.0, 1),
+        ],
+    )
 }
 
 fn place(path: &PathObject, position: f64) -> [f64; 2] {
@@ -35,7 +53,10 @@ fn a_closed_path_wraps() {
     assert_eq!((path.position(), place(&path, 0.25)), (0.25, [0.25, 0.0]));
     assert_eq!(place(&path, 0.5 * path.length()), [1.0, 1.0]);
     assert_eq!(place(&path, 3.5), [0.0, 0.5]);
-    assert_eq!(path.closest_position(&nalgebra::Vector3::new(-1.0, 0.5, 0.0)), Some(3.5));
+    assert_eq!(
+        path.closest_position(&nalgebra::Vector3::new(-1.0, 0.5, 0.0)),
+        Some(3.5)
+    );
 }
 
 #[test]
@@ -44,7 +65,10 @@ fn an_open_path_ends() {
     path.set_position(9.0);
     assert_eq!(path.position(), 2.0);
     path.cut(0, usize::MAX);
-    assert_eq!((path.position(), path.length(), path.at(0.0)), (0.0, 0.0, None));
+    assert_eq!(
+        (path.position(), path.length(), path.at(0.0)),
+        (0.0, 0.0, None)
+    );
 }
 
 #[test]
@@ -56,8 +80,21 @@ fn too_few_points_cannot_be_closed() {
 #[test]
 fn corners_are_rounded_between_the_middles_of_their_ways() {
     let path = path(0, vec![at(0.0, 0.0, 1), at(2.0, 0.0, 3), at(2.0, 2.0, 1)]);
-    let places: Vec<[f64; 2]> = path.line.iter().map(|p| [p.pose.translation.x, p.pose.translation.y]).collect();
-    assert_eq!(places, [[0.0, 0.0], [1.5, 0.0], [1.875, 0.125], [2.0, 0.5], [2.0, 2.0]]);
+    let places: Vec<[f64; 2]> = path
+        .line
+        .iter()
+        .map(|p| [p.pose.translation.x, p.pose.translation.y])
+        .collect();
+    assert_eq!(
+        places,
+        [
+            [0.0, 0.0],
+            [1.5, 0.0],
+            [1.875, 0.125],
+            [2.0, 0.5],
+            [2.0, 2.0]
+        ]
+    );
 }
 
 #[test]
@@ -121,7 +158,10 @@ fn a_closed_path_goes_round_in_both_directions() {
 
 #[test]
 fn the_acceleration_between_two_points_is_constant() {
-    let slow = ControlPoint { velocity: 0.0, ..at(0.0, 0.0, 1) };
+    let slow = ControlPoint {
+        velocity: 0.0,
+        ..at(0.0, 0.0, 1)
+    };
     let mut path = path(0x20, vec![slow, at(1.0, 0.0, 1), at(2.0, 0.0, 1)]);
     path.set_target_velocity(1.0);
     path.advance(1.0);
@@ -150,12 +190,19 @@ fn bends_limit_the_velocity() {
     let corners = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.1], [0.0, 0.1]];
     let path = path(0x124, corners.map(|[x, y]| at(x, y, 1)).to_vec());
     let in_bend = 0.1 / FRAC_PI_2 / (2.0 * path.profile.radius);
-    assert!(path.velocities.iter().all(|velocity| (velocity - in_bend).abs() < 1e-9));
+    assert!(
+        path.velocities
+            .iter()
+            .all(|velocity| (velocity - in_bend).abs() < 1e-9)
+    );
 }
 
 #[test]
 fn a_profile_keeps_to_its_acceleration() {
-    let path = path(0x500, vec![at(0.0, 0.0, 1), at(1.0, 0.0, 1), at(9.0, 0.0, 1)]);
+    let path = path(
+        0x500,
+        vec![at(0.0, 0.0, 1), at(1.0, 0.0, 1), at(9.0, 0.0, 1)],
+    );
     let reached = (2.0 * path.profile.acceleration).sqrt();
     assert_eq!(path.velocities, [0.0, reached, 0.0]);
 }
@@ -165,27 +212,52 @@ fn scaling_keeps_the_place_on_the_path() {
     let mut path = square(0);
     path.set_position(1.5);
     path.scale(2.0);
-    assert_eq!((path.length(), path.position(), place(&path, 3.0)), (8.0, 3.0, [2.0, 1.0]));
+    assert_eq!(
+        (path.length(), path.position(), place(&path, 3.0)),
+        (8.0, 3.0, [2.0, 1.0])
+    );
 }
 
 #[test]
 fn dummies_move_along_their_path() {
     let mut scene = Scene::new();
     let path = path(0, vec![at(0.0, 0.0, 1), at(2.0, 0.0, 1)]);
-    let path = scene.add("path", Kind::Path(Box::new(path))).expect("there is room");
+    let path = scene
+        .add("path", Kind::Path(Box::new(path)))
+        .expect("there is room");
     let starts = [(2, [0.0; 3]), (6, [0.75, 1.0, 0.0]), (0, [0.0, 9.0, 0.0])];
     let dummies = starts.map(|(bits, [x, y, z])| {
-        let path_following = PathFollowing { bits, offsets: [0.25; 2] };
-        let dummy = Kind::Dummy(Dummy { path_following, ..Dummy::new(0.01) });
+        let path_following = PathFollowing {
+            bits,
+            offsets: [0.25; 2],
+        };
+        let dummy = Kind::Dummy(Dummy {
+            path_following,
+            ..Dummy::new(0.01)
+        });
         let handle = scene.add("pad", dummy).expect("there is room");
-        scene.set_parent(handle, Some(path), true).expect("both exist");
-        scene.set_local_pose(handle, Pose::translation(x, y, z)).expect("it exists");
+        scene
+            .set_parent(handle, Some(path), true)
+            .expect("both exist");
+        scene
+            .set_local_pose(handle, Pose::translation(x, y, z))
+            .expect("it exists");
         handle
     });
     scene.set_path_position(path, 1.0).expect("it is a path");
-    let places =
-        dummies.map(|dummy| -> [f64; 3] { scene.object(dummy).expect("it exists").pose().translation.vector.into() });
-    assert_eq!(places, [[1.25, 0.0, 0.0], [0.75, 0.0, 0.0], [0.0, 9.0, 0.0]]);
+    let places = dummies.map(|dummy| -> [f64; 3] {
+        scene
+            .object(dummy)
+            .expect("it exists")
+            .pose()
+            .translation
+            .vector
+            .into()
+    });
+    assert_eq!(
+        places,
+        [[1.25, 0.0, 0.0], [0.75, 0.0, 0.0], [0.0, 9.0, 0.0]]
+    );
 }
 
 #[test]
@@ -193,8 +265,16 @@ fn a_run_restores_the_motion() {
     let mut scene = Scene::new();
     let mut line = path(0x20, vec![at(0.0, 0.0, 1), at(2.0, 0.0, 1)]);
     line.set_motion(0.5, 0.1, 0.3, 1.0);
-    let handle = scene.add("path", Kind::Path(Box::new(line))).expect("there is room");
-    let motion = |scene: &Scene| scene.object(handle).and_then(|object| object.path()).expect("it is a path").motion();
+    let handle = scene
+        .add("path", Kind::Path(Box::new(line)))
+        .expect("there is room");
+    let motion = |scene: &Scene| {
+        scene
+            .object(handle)
+            .and_then(|object| object.path())
+            .expect("it is a path")
+            .motion()
+    };
     scene.store_initial_state();
     assert_eq!(motion(&scene), [0.5, 0.0, 1.0]);
     scene.handle_path(handle, 0.5).expect("it is a path");

@@ -43,7 +43,9 @@ impl PathObject {
             nominal_velocity: self.nominal_velocity,
             target_velocity: self.target_velocity,
         };
-        let infinite = self.attributes.contains(PathAttributes::INFINITE_ACCELERATION);
+        let infinite = self
+            .attributes
+            .contains(PathAttributes::INFINITE_ACCELERATION);
         let limits = TravelLimits {
             acceleration: (!infinite).then_some(self.max_acceleration),
             inverts_at_ends: self.attributes.contains(PathAttributes::INVERT_VELOCITY),
@@ -106,26 +108,46 @@ impl PathObject {
     fn motion_in_segment(&self, travel: &Travel, rest: f64) -> Slice {
         let forward = travel.nominal_velocity >= 0.0;
         let segment = self.segment_ahead(travel.position, forward);
-        let (begin, end) = if forward { (segment, segment + 1) } else { (segment + 1, segment) };
+        let (begin, end) = if forward {
+            (segment, segment + 1)
+        } else {
+            (segment + 1, segment)
+        };
         let [from, to] = [begin, end].map(|at| self.lengths[at]);
         let span = (to - from).abs();
         if span <= 0.0 {
-            return Slice { duration: 0.0, position: self.at_junction(to, forward) };
+            return Slice {
+                duration: 0.0,
+                position: self.at_junction(to, forward),
+            };
         }
         let [v0, v1] = [begin, end].map(|at| (travel.nominal_velocity * self.velocities[at]).abs());
         let acceleration = (v1 * v1 - v0 * v0) / (2.0 * span);
         let done = (self.unwrapped(travel.position, forward) - from).abs();
         let speed = (v0 * v0 + 2.0 * acceleration * done).max(0.0).sqrt();
         if speed < REST_VELOCITY && acceleration <= 0.0 {
-            return Slice { duration: rest, position: travel.position };
+            return Slice {
+                duration: rest,
+                position: travel.position,
+            };
         }
         let to_end = 2.0 * (span - done) / (speed + v1).max(f64::MIN_POSITIVE);
         if to_end <= rest {
-            return Slice { duration: to_end, position: self.at_junction(to, forward) };
+            return Slice {
+                duration: to_end,
+                position: self.at_junction(to, forward),
+            };
         }
         let way = speed * rest + 0.5 * acceleration * rest * rest;
-        let position = if forward { from + done + way } else { from - done - way };
-        Slice { duration: rest, position: self.on_path(position) }
+        let position = if forward {
+            from + done + way
+        } else {
+            from - done - way
+        };
+        Slice {
+            duration: rest,
+            position: self.on_path(position),
+        }
     }
 
     /// The segment that lies ahead.
@@ -139,18 +161,28 @@ impl PathObject {
 
     /// The start of a closed path is also its end.
     fn unwrapped(&self, position: f64, forward: bool) -> f64 {
-        if !forward && position <= 0.0 && self.is_closed() { self.length() } else { position }
+        if !forward && position <= 0.0 && self.is_closed() {
+            self.length()
+        } else {
+            position
+        }
     }
 
     /// A point of the line, as the position that lies before the next segment.
     fn at_junction(&self, length: f64, forward: bool) -> f64 {
-        if forward && length >= self.length() && self.is_closed() { 0.0 } else { length }
+        if forward && length >= self.length() && self.is_closed() {
+            0.0
+        } else {
+            length
+        }
     }
 }
 
 /// The nominal velocity after some seconds on its way to the target.
 fn approached(travel: &Travel, limits: TravelLimits, seconds: f64) -> f64 {
-    let Some(acceleration) = limits.acceleration else { return travel.target_velocity };
+    let Some(acceleration) = limits.acceleration else {
+        return travel.target_velocity;
+    };
     let change = acceleration.max(0.0) * seconds;
     let missing = travel.target_velocity - travel.nominal_velocity;
     travel.nominal_velocity + missing.clamp(-change, change)

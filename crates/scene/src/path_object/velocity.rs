@@ -16,18 +16,36 @@ impl PathObject {
         let profile = PathAttributes::TRANSLATION_PROFILE | PathAttributes::ROTATION_PROFILE;
         let is_automatic = self.attributes.intersects(profile);
         let count = self.line.len();
-        let mut velocities: Vec<f64> =
-            self.line.iter().map(|point| if is_automatic { 1.0 } else { point.velocity }).collect();
+        let mut velocities: Vec<f64> = self
+            .line
+            .iter()
+            .map(|point| if is_automatic { 1.0 } else { point.velocity })
+            .collect();
         if !closed && self.attributes.contains(PathAttributes::REST_AT_ENDS) {
-            velocities.first_mut().into_iter().for_each(|velocity| *velocity = 0.0);
-            velocities.last_mut().into_iter().for_each(|velocity| *velocity = 0.0);
+            velocities
+                .first_mut()
+                .into_iter()
+                .for_each(|velocity| *velocity = 0.0);
+            velocities
+                .last_mut()
+                .into_iter()
+                .for_each(|velocity| *velocity = 0.0);
         }
-        let inner = if closed { 0..count } else { 1..count.saturating_sub(1).max(1) };
+        let inner = if closed {
+            0..count
+        } else {
+            1..count.saturating_sub(1).max(1)
+        };
         for at in inner.filter(|_| count > 2) {
-            if self.attributes.contains(PathAttributes::TRANSLATION_PROFILE) {
+            if self
+                .attributes
+                .contains(PathAttributes::TRANSLATION_PROFILE)
+            {
                 velocities[at] = velocities[at].min(self.velocity_of_bend(at));
             }
-            if self.attributes.contains(PathAttributes::ROTATION_PROFILE) && self.rotation_changes(at) {
+            if self.attributes.contains(PathAttributes::ROTATION_PROFILE)
+                && self.rotation_changes(at)
+            {
                 velocities[at] = velocities[at].min(self.profile.axis_change);
             }
         }
@@ -50,7 +68,8 @@ impl PathObject {
 
     fn ways(&self, at: usize) -> [Vector3<f64>; 2] {
         let count = self.line.len();
-        let [a, b, c] = [at + count - 1, at, at + 1].map(|place| self.line[place % count].pose.translation.vector);
+        let [a, b, c] = [at + count - 1, at, at + 1]
+            .map(|place| self.line[place % count].pose.translation.vector);
         [b - a, c - b]
     }
 
@@ -83,7 +102,9 @@ impl PathObject {
 
     fn limit(&self, velocities: &mut [f64], at: usize, other: usize) {
         let distance = (self.lengths[at] - self.lengths[other]).abs();
-        let reachable = (2.0 * self.profile.acceleration.max(0.0) * distance + velocities[other].powi(2)).sqrt();
+        let reachable = (2.0 * self.profile.acceleration.max(0.0) * distance
+            + velocities[other].powi(2))
+        .sqrt();
         velocities[at] = velocities[at].min(reachable);
     }
 }

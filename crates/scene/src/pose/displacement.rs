@@ -22,7 +22,10 @@ enum Original {
 impl Scene {
     /// Begins a displacement. Nothing has moved yet.
     pub fn displace(&mut self) -> Displacement<'_> {
-        Displacement { scene: self, before: Vec::new() }
+        Displacement {
+            scene: self,
+            before: Vec::new(),
+        }
     }
 }
 
@@ -57,10 +60,13 @@ impl Displacement<'_> {
     /// # Errors
     /// For spherical joints, positions that are no number, and objects that are no joints.
     pub fn set_joint_position(&mut self, handle: Handle, position: f64) -> SceneResult<()> {
-        let Some(position) = self.scene.accepted_position(handle, position)? else { return Ok(()) };
+        let Some(position) = self.scene.accepted_position(handle, position)? else {
+            return Ok(());
+        };
         for (handle, position) in self.scene.positions_with_followers(handle, position) {
             let joint = self.scene.object_mut(handle)?.joint_mut()?;
-            self.before.push((handle, Original::JointPosition(joint.position)));
+            self.before
+                .push((handle, Original::JointPosition(joint.position)));
             joint.position = position;
         }
         Ok(())
@@ -70,10 +76,14 @@ impl Displacement<'_> {
 impl Drop for Displacement<'_> {
     fn drop(&mut self) {
         for (handle, original) in self.before.drain(..).rev() {
-            let Ok(object) = self.scene.object_mut(handle) else { continue };
+            let Ok(object) = self.scene.object_mut(handle) else {
+                continue;
+            };
             match original {
                 Original::Pose(pose) => object.pose = pose,
-                Original::JointPosition(position) => drop(object.joint_mut().map(|joint| joint.position = position)),
+                Original::JointPosition(position) => {
+                    drop(object.joint_mut().map(|joint| joint.position = position))
+                }
             }
         }
     }
@@ -95,7 +105,12 @@ mod tests {
     }
 
     fn joint(scene: &mut Scene, mode: JointMode) -> Handle {
-        scene.add("joint", Kind::Joint(Box::new(Joint::new(JointType::Prismatic, mode)))).unwrap()
+        scene
+            .add(
+                "joint",
+                Kind::Joint(Box::new(Joint::new(JointType::Prismatic, mode))),
+            )
+            .unwrap()
     }
 
     fn x_of(scene: &Scene, handle: Handle) -> f64 {
@@ -111,13 +126,21 @@ mod tests {
         let _ = scene.journal().read(&mut cursor);
         let mut displaced = scene.displace();
         for x in [1.0, 2.0] {
-            displaced.place(base, Placement::Position(Vector3::new(x, 0.0, 0.0)), Frame::World).unwrap();
+            displaced
+                .place(
+                    base,
+                    Placement::Position(Vector3::new(x, 0.0, 0.0)),
+                    Frame::World,
+                )
+                .unwrap();
             assert_eq!(x_of(displaced.scene(), below), x);
         }
         assert_eq!(displaced.moved().collect::<Vec<_>>(), [base, base]);
         drop(displaced);
         assert_eq!(x_of(&scene, below), 0.0);
-        let Unread::Changes(changes) = scene.journal().read(&mut cursor) else { panic!("few changes") };
+        let Unread::Changes(changes) = scene.journal().read(&mut cursor) else {
+            panic!("few changes")
+        };
         assert_eq!(changes.count(), 0);
     }
 
@@ -129,7 +152,18 @@ mod tests {
             for &handle in handles.iter().step_by(3) {
                 let there = Placement::Position(Vector3::new(1.0, 2.0, 3.0));
                 displaced.place(handle, there, Frame::World).unwrap();
-                assert!((displaced.scene().world_pose(handle).unwrap().translation.vector.x - 1.0).abs() < 1e-9);
+                assert!(
+                    (displaced
+                        .scene()
+                        .world_pose(handle)
+                        .unwrap()
+                        .translation
+                        .vector
+                        .x
+                        - 1.0)
+                        .abs()
+                        < 1e-9
+                );
             }
         });
     }
@@ -137,14 +171,29 @@ mod tests {
     #[test]
     fn joints_take_their_followers_along_and_stay_in_their_limits() {
         let mut scene = Scene::new();
-        let (master, follower) = (joint(&mut scene, JointMode::Kinematic), joint(&mut scene, JointMode::Dependent));
-        scene.set_joint_dependency(follower, Some(master), 0.1, 2.0).unwrap();
-        let position = |scene: &Scene, handle: Handle| scene.object(handle).unwrap().joint().unwrap().position;
+        let (master, follower) = (
+            joint(&mut scene, JointMode::Kinematic),
+            joint(&mut scene, JointMode::Dependent),
+        );
+        scene
+            .set_joint_dependency(follower, Some(master), 0.1, 2.0)
+            .unwrap();
+        let position =
+            |scene: &Scene, handle: Handle| scene.object(handle).unwrap().joint().unwrap().position;
         let mut displaced = scene.displace();
         displaced.set_joint_position(master, 7.0).unwrap();
-        assert_eq!((position(displaced.scene(), master), position(displaced.scene(), follower)), (0.5, 1.1));
+        assert_eq!(
+            (
+                position(displaced.scene(), master),
+                position(displaced.scene(), follower)
+            ),
+            (0.5, 1.1)
+        );
         drop(displaced);
-        assert_eq!((position(&scene, master), position(&scene, follower)), (0.0, 0.1));
+        assert_eq!(
+            (position(&scene, master), position(&scene, follower)),
+            (0.0, 0.1)
+        );
     }
 
     #[test]
@@ -153,7 +202,10 @@ mod tests {
         let base = dummy(&mut scene, None);
         let mut displaced = scene.displace();
         let nowhere = Placement::Position(Vector3::new(f64::NAN, 0.0, 0.0));
-        assert_eq!(displaced.place(base, nowhere, Frame::World), Err(SceneError::InvalidData));
+        assert_eq!(
+            displaced.place(base, nowhere, Frame::World),
+            Err(SceneError::InvalidData)
+        );
         assert!(displaced.set_joint_position(base, 0.0).is_err());
         assert_eq!(displaced.moved().count(), 0);
     }

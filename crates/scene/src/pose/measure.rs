@@ -42,7 +42,10 @@ impl Measurements {
     /// themselves. None for all objects.
     pub(crate) fn begin(&mut self) -> Option<(Vec<Handle>, Vec<Handle>)> {
         self.count += 1;
-        let (moved, in_motion) = (std::mem::take(&mut self.moved), std::mem::take(&mut self.in_motion));
+        let (moved, in_motion) = (
+            std::mem::take(&mut self.moved),
+            std::mem::take(&mut self.in_motion),
+        );
         self.complete.then_some((moved, in_motion))
     }
 
@@ -66,8 +69,12 @@ impl Scene {
         let is_followed = self.journal().is_followed(Topic::Field(Field::Measured));
         let mut in_motion = Vec::new();
         for handle in self.objects_to_measure() {
-            let Ok(now) = self.world_pose(handle) else { continue };
-            let Ok(object) = self.object_in_place(handle) else { continue };
+            let Ok(now) = self.world_pose(handle) else {
+                continue;
+            };
+            let Ok(object) = self.object_in_place(handle) else {
+                continue;
+            };
             let now = measured(object.measured.previous, now, dt);
             let before = std::mem::replace(&mut object.measured, now);
             if before.previous != object.measured.previous {
@@ -93,7 +100,11 @@ impl Scene {
             }
         }
         for handle in in_motion {
-            found.extend(self.objects.not_yet_measured(handle).map(|object| (object.uid, handle)));
+            found.extend(
+                self.objects
+                    .not_yet_measured(handle)
+                    .map(|object| (object.uid, handle)),
+            );
         }
         found.sort_unstable();
         found.into_iter().map(|(_, handle)| handle).collect()
@@ -106,7 +117,11 @@ pub(super) fn measured(previous: Option<Pose>, now: Pose, dt: Option<f64>) -> Me
         (Some(before), Some(dt)) if before != now => {
             let turns = before.rotation != now.rotation;
             let angular = |velocity: fn(&Pose, &Pose, f64) -> [f64; 3]| {
-                if turns { velocity(&before, &now, dt) } else { [0.0; 3] }
+                if turns {
+                    velocity(&before, &now, dt)
+                } else {
+                    [0.0; 3]
+                }
             };
             MeasuredVelocity {
                 previous: Some(now),
@@ -115,6 +130,9 @@ pub(super) fn measured(previous: Option<Pose>, now: Pose, dt: Option<f64>) -> Me
                 angular: angular(velocity::angular_velocity_axis),
             }
         }
-        _ => MeasuredVelocity { previous: Some(now), ..MeasuredVelocity::default() },
+        _ => MeasuredVelocity {
+            previous: Some(now),
+            ..MeasuredVelocity::default()
+        },
     }
 }

@@ -3,7 +3,9 @@
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use crate::joint::JointType;
-use crate::{Data, DynamicFlags, Field, Handle, Kind, Pose, Scene, SceneError, SceneResult, special};
+use crate::{
+    Data, DynamicFlags, Field, Handle, Kind, Pose, Scene, SceneError, SceneResult, special,
+};
 
 /// The frame a pose is expressed in, as scripts name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +27,9 @@ impl Frame {
             special::WORLD => Ok(Self::World),
             special::PARENT => Ok(Self::Parent),
             special::INVERSE => Ok(Self::Inverse),
-            _ => Handle::from_raw(raw).map(Self::Object).ok_or(SceneError::NoSuchObject),
+            _ => Handle::from_raw(raw)
+                .map(Self::Object)
+                .ok_or(SceneError::NoSuchObject),
         }
     }
 }
@@ -57,12 +61,17 @@ impl Scene {
     /// World pose of the frame the children of `handle` live in: the moving side of joints.
     pub(crate) fn full_world_pose(&self, handle: Handle) -> SceneResult<Pose> {
         let world = self.world_pose(handle)?;
-        Ok(self.object(handle)?.intrinsic_pose().map_or(world, |intrinsic| world * intrinsic))
+        Ok(self
+            .object(handle)?
+            .intrinsic_pose()
+            .map_or(world, |intrinsic| world * intrinsic))
     }
 
     /// World pose of the frame `handle` itself lives in.
     pub(crate) fn parent_frame(&self, handle: Handle) -> SceneResult<Pose> {
-        self.object(handle)?.parent().map_or(Ok(Pose::identity()), |parent| self.full_world_pose(parent))
+        self.object(handle)?
+            .parent()
+            .map_or(Ok(Pose::identity()), |parent| self.full_world_pose(parent))
     }
 
     /// World pose of `frame` as seen from `handle`. With `joint_base`, a joint means its fixed side.
@@ -83,8 +92,13 @@ impl Scene {
             Frame::Inverse => Ok(self.world_pose(handle)?.inverse()),
             // Straight from the store, so that a get and set loop does not drift.
             Frame::Parent => Ok(object.pose()),
-            Frame::Object(other) if !joint_base && object.parent() == Some(other) => Ok(object.pose()),
-            Frame::Object(_) => Ok(self.frame_pose(handle, frame, joint_base)?.inverse() * self.world_pose(handle)?),
+            Frame::Object(other) if !joint_base && object.parent() == Some(other) => {
+                Ok(object.pose())
+            }
+            Frame::Object(_) => {
+                Ok(self.frame_pose(handle, frame, joint_base)?.inverse()
+                    * self.world_pose(handle)?)
+            }
         }
     }
 
@@ -96,8 +110,14 @@ impl Scene {
         frame: Frame,
         joint_base: bool,
     ) -> SceneResult<()> {
-        let pose = if frame == Frame::Inverse { pose.inverse() } else { pose };
-        let local = self.frame_to_parent(handle, frame, joint_base)?.map_or(pose, |to_parent| to_parent * pose);
+        let pose = if frame == Frame::Inverse {
+            pose.inverse()
+        } else {
+            pose
+        };
+        let local = self
+            .frame_to_parent(handle, frame, joint_base)?
+            .map_or(pose, |to_parent| to_parent * pose);
         self.set_local_pose(handle, local)
     }
 
@@ -119,7 +139,13 @@ impl Scene {
 
     /// Places `handle` for a script; its children move along. What the physics moves is taken out of it and put back at the
     /// new place, so that it loses its velocity; not so where a joint or sensor is placed, which takes the bodies behind it along.
-    pub fn place(&mut self, handle: Handle, placement: Placement, frame: Frame, joint_base: bool) -> SceneResult<()> {
+    pub fn place(
+        &mut self,
+        handle: Handle,
+        placement: Placement,
+        frame: Frame,
+        joint_base: bool,
+    ) -> SceneResult<()> {
         let local = self.local_pose_of(handle, placement, frame, joint_base)?;
         self.set_local_pose(handle, local)?;
         let object = self.object(handle)?;
@@ -140,7 +166,9 @@ impl Scene {
         joint_base: bool,
     ) -> SceneResult<Pose> {
         let object = self.object(handle)?;
-        let to_local = self.frame_to_parent(handle, frame, joint_base)?.unwrap_or_else(Pose::identity);
+        let to_local = self
+            .frame_to_parent(handle, frame, joint_base)?
+            .unwrap_or_else(Pose::identity);
         let inverse = frame == Frame::Inverse;
         Ok(match placement {
             Placement::Pose(pose) => to_local * if inverse { pose.inverse() } else { pose },
@@ -149,14 +177,23 @@ impl Scene {
                 Pose::from_parts(Translation3::from(position), object.pose().rotation)
             }
             Placement::Rotation(rotation) => {
-                let rotation = if inverse { rotation.inverse() } else { rotation };
+                let rotation = if inverse {
+                    rotation.inverse()
+                } else {
+                    rotation
+                };
                 Pose::from_parts(object.pose().translation, to_local.rotation * rotation)
             }
         })
     }
 
     /// From `frame` to the frame `handle` lives in; None where the two are the same.
-    fn frame_to_parent(&self, handle: Handle, frame: Frame, joint_base: bool) -> SceneResult<Option<Pose>> {
+    fn frame_to_parent(
+        &self,
+        handle: Handle,
+        frame: Frame,
+        joint_base: bool,
+    ) -> SceneResult<Option<Pose>> {
         let parent = self.object(handle)?.parent();
         let is_same = match frame {
             Frame::Parent => true,
@@ -167,19 +204,27 @@ impl Scene {
         if is_same {
             return Ok(None);
         }
-        Ok(Some(self.parent_frame(handle)?.inverse() * self.frame_pose(handle, frame, joint_base)?))
+        Ok(Some(
+            self.parent_frame(handle)?.inverse() * self.frame_pose(handle, frame, joint_base)?,
+        ))
     }
 
     /// Requests that the physics rebuilds `handle` and all below it.
     pub(crate) fn reset_dynamics_below(&mut self, handle: Handle) -> SceneResult<()> {
         for object in self.subtree(handle) {
-            self.modify(object, Field::Dynamics, |object| object.dynamics_reset = true)?;
+            self.modify(object, Field::Dynamics, |object| {
+                object.dynamics_reset = true
+            })?;
         }
         Ok(())
     }
 
     /// Turns the moving side of a spherical joint; false when `handle` is anything else.
-    pub fn set_spherical_rotation(&mut self, handle: Handle, rotation: UnitQuaternion<f64>) -> SceneResult<bool> {
+    pub fn set_spherical_rotation(
+        &mut self,
+        handle: Handle,
+        rotation: UnitQuaternion<f64>,
+    ) -> SceneResult<bool> {
         match &self.object(handle)?.kind {
             Kind::Joint(joint) if joint.joint_type == JointType::Spherical => {}
             _ => return Ok(false),
@@ -196,7 +241,10 @@ const MAX_TRANSLATION: f64 = 1e100;
 
 /// Whether all numbers of a pose are finite, and small enough that composed poses are finite too.
 pub fn is_valid_pose(pose: &Pose) -> bool {
-    pose.translation.vector.iter().all(|x| x.abs() <= MAX_TRANSLATION)
+    pose.translation
+        .vector
+        .iter()
+        .all(|x| x.abs() <= MAX_TRANSLATION)
         && pose.rotation.coords.iter().all(|x| x.is_finite())
 }
 

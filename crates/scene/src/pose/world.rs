@@ -27,7 +27,8 @@ pub(crate) struct Moves {
 impl Moves {
     /// Notes that `object` may have moved in its parent's frame, or its children in its own.
     pub(crate) fn note(&mut self, object: &mut Object) {
-        self.measurements.note_move(object.handle, object.place.moved);
+        self.measurements
+            .note_move(object.handle, object.place.moved);
         self.last += 1;
         object.place.moved = self.last;
     }
@@ -154,7 +155,11 @@ impl Object {
 
     /// Local frames that determine the world poses of the object and its descendants, as bits.
     pub(crate) fn frames(&self) -> impl PartialEq + use<> {
-        (self.parent, bits(&self.pose), self.intrinsic_pose().as_ref().map(bits))
+        (
+            self.parent,
+            bits(&self.pose),
+            self.intrinsic_pose().as_ref().map(bits),
+        )
     }
 }
 

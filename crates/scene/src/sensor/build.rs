@@ -23,24 +23,39 @@ impl ProximitySensor {
     ) -> Self {
         let mut floats = floats.unwrap_or_else(|| default_volume(volume_type));
         let sizes = [1, 2, 3, 4, 5, 12];
-        sizes.into_iter().for_each(|i| floats[i] = floats[i].max(Volume::MIN_SIZE));
+        sizes
+            .into_iter()
+            .for_each(|i| floats[i] = floats[i].max(Volume::MIN_SIZE));
         let limit = |option: ProximityOptions, at: usize| {
-            if options.contains(option) && floats[at].is_finite() { floats[at].max(0.0) } else { 0.0 }
+            if options.contains(option) && floats[at].is_finite() {
+                floats[at].max(0.0)
+            } else {
+                0.0
+            }
         };
         Self {
-            volume: volume_of(volume_type, &integers, &floats, limit(ProximityOptions::CLOSE_THRESHOLD, 11)),
+            volume: volume_of(
+                volume_type,
+                &integers,
+                &floats,
+                limit(ProximityOptions::CLOSE_THRESHOLD, 11),
+            ),
             explicit: options.contains(ProximityOptions::EXPLICIT_HANDLING),
             size: floats[12],
             show_volume: !options.contains(ProximityOptions::HIDE_VOLUME),
             front_faces: !options.contains(ProximityOptions::IGNORE_FRONT_FACES),
             back_faces: !options.contains(ProximityOptions::IGNORE_BACK_FACES),
             exact: !options.contains(ProximityOptions::FAST),
-            randomized: options.contains(ProximityOptions::RANDOMIZED) && volume_type == VolumeType::Ray,
+            randomized: options.contains(ProximityOptions::RANDOMIZED)
+                && volume_type == VolumeType::Ray,
             samples: integers[4].max(1),
             required_samples: integers[5].max(1),
             angle_threshold: limit(ProximityOptions::ANGLE_THRESHOLD, 10),
             entity: Entity::ALL,
-            ray_colour: Colour { emission: RAY_EMISSION, ..Colour::new([0.0; 3]) },
+            ray_colour: Colour {
+                emission: RAY_EMISSION,
+                ..Colour::new([0.0; 3])
+            },
             file_faces: None,
             handled: false,
             detection: None,
@@ -48,7 +63,12 @@ impl ProximitySensor {
     }
 }
 
-fn volume_of(volume_type: VolumeType, integers: &[i64; 8], floats: &[f64; 15], close_threshold: f64) -> Volume {
+fn volume_of(
+    volume_type: VolumeType,
+    integers: &[i64; 8],
+    floats: &[f64; 15],
+    close_threshold: f64,
+) -> Volume {
     Volume {
         volume_type,
         offset: floats[0],
@@ -69,12 +89,34 @@ fn default_volume(volume_type: VolumeType) -> [f64; 15] {
     let [offset, range, x, y, far_x, far_y, radius, far_radius, angle] = match volume_type {
         VolumeType::Pyramid => [0.1, 0.2, 0.2, 0.1, 0.4, 0.2, 0.0, 0.0, 0.0],
         VolumeType::Cylinder => [0.1, 0.2, 0.0, 0.0, 0.0, 0.0, 0.1, 0.2, 0.0],
-        VolumeType::Disc => [0.0, 0.2, 0.0, 0.05, 0.0, 0.0, 0.1, 0.0, std::f64::consts::FRAC_PI_2],
-        VolumeType::Cone => [0.0, 0.2, 0.0, 0.0, 0.0, 0.0, 0.1, 0.0, std::f64::consts::FRAC_PI_2],
+        VolumeType::Disc => [
+            0.0,
+            0.2,
+            0.0,
+            0.05,
+            0.0,
+            0.0,
+            0.1,
+            0.0,
+            std::f64::consts::FRAC_PI_2,
+        ],
+        VolumeType::Cone => [
+            0.0,
+            0.2,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.1,
+            0.0,
+            std::f64::consts::FRAC_PI_2,
+        ],
         VolumeType::Ray => [0.1, 0.4, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     };
     let size = DISPLAY_SIZE;
-    [offset, range, x, y, far_x, far_y, 0.0, radius, far_radius, angle, 0.0, 0.0, size, 0.0, 0.0]
+    [
+        offset, range, x, y, far_x, far_y, 0.0, radius, far_radius, angle, 0.0, 0.0, size, 0.0, 0.0,
+    ]
 }
 
 impl VisionSensor {
@@ -83,13 +125,29 @@ impl VisionSensor {
     pub fn new(options: VisionOptions, resolution: [i64; 2], floats: Option<[f64; 11]>) -> Self {
         let perspective = options.contains(VisionOptions::PERSPECTIVE);
         let extent = if perspective { 60f64.to_radians() } else { 0.1 };
-        let defaults = [0.01, 10.0, extent, DISPLAY_SIZE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let defaults = [
+            0.01,
+            10.0,
+            extent,
+            DISPLAY_SIZE,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+        ];
         let [near, far, extent, size, _, _, red, green, blue, ..] = floats.unwrap_or(defaults);
         let mut view = View {
             perspective,
             resolution: [1; 2],
             clipping: [near, far],
-            angle: if perspective { extent } else { 60f64.to_radians() },
+            angle: if perspective {
+                extent
+            } else {
+                60f64.to_radians()
+            },
             ortho_size: if perspective { 0.1 } else { extent },
             show_frustum: !options.contains(VisionOptions::HIDE_FRUSTUM),
         };

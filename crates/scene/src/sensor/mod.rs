@@ -135,7 +135,11 @@ impl View {
 
     /// Half width, half height and distance of the picture `distance` metres ahead.
     pub fn frustum_corner(&self, distance: f64) -> [f64; 3] {
-        let large = if self.perspective { distance * (self.angle / 2.0).tan() } else { self.ortho_size / 2.0 };
+        let large = if self.perspective {
+            distance * (self.angle / 2.0).tan()
+        } else {
+            self.ortho_size / 2.0
+        };
         let [width, height] = self.resolution.map(f64::from);
         let larger = width.max(height);
         [large * width / larger, large * height / larger, distance]
@@ -168,7 +172,11 @@ impl Default for Camera {
             ortho_size: 2.0,
             show_frustum: false,
         };
-        Self { view, size: 0.05, tracked: None }
+        Self {
+            view,
+            size: 0.05,
+            tracked: None,
+        }
     }
 }
 

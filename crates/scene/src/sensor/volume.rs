@@ -18,11 +18,19 @@ pub enum VolumeType {
 }
 
 impl VolumeType {
-    const ALL: [Self; 5] = [Self::Pyramid, Self::Cylinder, Self::Disc, Self::Cone, Self::Ray];
+    const ALL: [Self; 5] = [
+        Self::Pyramid,
+        Self::Cylinder,
+        Self::Disc,
+        Self::Cone,
+        Self::Ray,
+    ];
 
     /// The type with the number of `sim.proximitysensor_*`.
     pub fn from_code(code: i64) -> Option<Self> {
-        Self::ALL.into_iter().find(|volume_type| volume_type.code() == code)
+        Self::ALL
+            .into_iter()
+            .find(|volume_type| volume_type.code() == code)
     }
 
     /// The number of `sim.proximitysensor_*`.
@@ -81,7 +89,10 @@ impl Volume {
             }
             VolumeType::Disc => self.disc(),
             VolumeType::Cone => self.cone(),
-            VolumeType::Ray => vec![[[0.0, 0.0, self.offset], [0.0, 0.0, self.offset + self.range]]],
+            VolumeType::Ray => vec![[
+                [0.0, 0.0, self.offset],
+                [0.0, 0.0, self.offset + self.range],
+            ]],
         }
     }
 
@@ -93,7 +104,12 @@ impl Volume {
         if self.close_threshold <= 0.0 || depth <= 0.0 {
             return Vec::new();
         }
-        let grown = |[near, far]: [f64; 2]| [near, near + (far - near) * depth / self.range.max(Self::MIN_SIZE)];
+        let grown = |[near, far]: [f64; 2]| {
+            [
+                near,
+                near + (far - near) * depth / self.range.max(Self::MIN_SIZE),
+            ]
+        };
         let mut near = self.clone();
         (near.range, near.x_size, near.y_size) = (depth, grown(self.x_size), grown(self.y_size));
         if self.volume_type == VolumeType::Cylinder {
@@ -119,7 +135,9 @@ impl Volume {
             VolumeType::Disc | VolumeType::Cone => self.sector_extent().to_vec(),
         };
         let with = |choose: fn(f64, f64) -> f64| {
-            points[1..].iter().fold(points[0], |all, point| [0, 1, 2].map(|axis| choose(all[axis], point[axis])))
+            points[1..].iter().fold(points[0], |all, point| {
+                [0, 1, 2].map(|axis| choose(all[axis], point[axis]))
+            })
         };
         [with(f64::min), with(f64::max)]
     }
@@ -127,10 +145,21 @@ impl Volume {
     fn sector_extent(&self) -> [Point; 2] {
         let half = (0.5 * self.angle).clamp(0.0, PI);
         let radius = (self.radius[0] + self.range).max(0.0);
-        let across = if half < FRAC_PI_2 { radius * half.sin() } else { radius };
-        let thickness = if self.volume_type == VolumeType::Disc { 0.5 * self.y_size[0] } else { across };
+        let across = if half < FRAC_PI_2 {
+            radius * half.sin()
+        } else {
+            radius
+        };
+        let thickness = if self.volume_type == VolumeType::Disc {
+            0.5 * self.y_size[0]
+        } else {
+            across
+        };
         let behind = (radius * half.cos()).min(0.0);
-        [[-across, -thickness, self.offset + behind], [across, thickness, self.offset + radius]]
+        [
+            [-across, -thickness, self.offset + behind],
+            [across, thickness, self.offset + radius],
+        ]
     }
 
     /// A flat sector around z, `y_size` thick.
@@ -150,14 +179,24 @@ impl Volume {
         let radii = [self.radius[0], self.radius[0] + self.range];
         let mut edges = Vec::new();
         for turned in [false, true] {
-            let place = |along: f64, across: f64| if turned { [0.0, across, along] } else { [across, 0.0, along] };
+            let place = |along: f64, across: f64| {
+                if turned {
+                    [0.0, across, along]
+                } else {
+                    [across, 0.0, along]
+                }
+            };
             let [mut boundary, inner] = [radii[1], radii[0]].map(|radius| self.arc(radius, place));
             boundary.extend(inner.into_iter().rev());
             edges.extend(closed(&boundary));
         }
         for radius in radii {
             let (sin, cos) = (0.5 * self.angle).sin_cos();
-            edges.extend(closed(&circle(radius * sin, self.offset + radius * cos, ARC_STEPS as i64)));
+            edges.extend(closed(&circle(
+                radius * sin,
+                self.offset + radius * cos,
+                ARC_STEPS as i64,
+            )));
         }
         edges
     }
@@ -176,14 +215,19 @@ impl Volume {
 }
 
 fn rectangle(x: f64, y: f64, z: f64) -> Vec<Point> {
-    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[i, j]| [0.5 * i * x, 0.5 * j * y, z]).to_vec()
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+        .map(|[i, j]| [0.5 * i * x, 0.5 * j * y, z])
+        .to_vec()
 }
 
 /// A polygon of `faces` corners (3 to 512) on a circle around z; x goes through the middle of a side.
 fn circle(radius: f64, z: f64, faces: i64) -> Vec<Point> {
     let corners = faces.clamp(3, 512);
     let corner = |i: i64| (TAU * (i as f64 + 0.5) / corners as f64).sin_cos();
-    (0..corners).map(corner).map(|(sin, cos)| [radius * cos, radius * sin, z]).collect()
+    (0..corners)
+        .map(corner)
+        .map(|(sin, cos)| [radius * cos, radius * sin, z])
+        .collect()
 }
 
 /// The edges of a closed polygon.
@@ -203,16 +247,28 @@ mod tests {
     use crate::sensor::{ProximityOptions, ProximitySensor};
 
     fn volume(volume_type: VolumeType) -> Volume {
-        ProximitySensor::new(volume_type, ProximityOptions::empty(), ProximitySensor::INTEGERS, None).volume
+        ProximitySensor::new(
+            volume_type,
+            ProximityOptions::empty(),
+            ProximitySensor::INTEGERS,
+            None,
+        )
+        .volume
     }
 
     #[test]
     fn edges_reach_from_offset_to_range() {
         let depths = |edges: &[[Point; 2]]| {
             let depths: Vec<f64> = edges.iter().flatten().map(|point| point[2]).collect();
-            (depths.iter().copied().fold(f64::MAX, f64::min), depths.iter().copied().fold(f64::MIN, f64::max))
+            (
+                depths.iter().copied().fold(f64::MAX, f64::min),
+                depths.iter().copied().fold(f64::MIN, f64::max),
+            )
         };
-        assert_eq!(volume(VolumeType::Ray).edges(), [[[0.0, 0.0, 0.1], [0.0, 0.0, 0.5]]]);
+        assert_eq!(
+            volume(VolumeType::Ray).edges(),
+            [[[0.0, 0.0, 0.1], [0.0, 0.0, 0.5]]]
+        );
         assert_eq!(volume(VolumeType::Pyramid).edges().len(), 12);
         let (near, far) = depths(&volume(VolumeType::Cylinder).edges());
         assert!((near - 0.1).abs() < 1e-12 && (far - 0.3).abs() < 1e-12);

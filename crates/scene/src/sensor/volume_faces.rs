@@ -34,13 +34,20 @@ impl ProximitySensor {
         if faces == self.faces() {
             return;
         }
-        self.file_faces = Some(Box::new(FileFaces { volume: self.volume.clone(), faces }));
+        self.file_faces = Some(Box::new(FileFaces {
+            volume: self.volume.clone(),
+            faces,
+        }));
     }
 
     /// The faces of the volume: those of the file, else computed ones. For volumes that are no convex piece with at most one hole, no
     /// planes are computed.
     pub fn faces(&self) -> VolumeFaces {
-        match self.file_faces.as_deref().filter(|known| known.volume == self.volume) {
+        match self
+            .file_faces
+            .as_deref()
+            .filter(|known| known.volume == self.volume)
+        {
             Some(known) => known.faces.clone(),
             None => self.computed_faces(),
         }
@@ -69,7 +76,12 @@ mod tests {
     use crate::sensor::volume_planes::Plane;
 
     fn sensor(volume_type: VolumeType) -> ProximitySensor {
-        ProximitySensor::new(volume_type, ProximityOptions::empty(), ProximitySensor::INTEGERS, None)
+        ProximitySensor::new(
+            volume_type,
+            ProximityOptions::empty(),
+            ProximitySensor::INTEGERS,
+            None,
+        )
     }
 
     #[test]
@@ -80,14 +92,26 @@ mod tests {
         let faces = sensor.faces();
         assert_eq!((faces.planes_inside.len(), faces.edges.len()), (56, 216));
         let expected = [0.95188, 0.0, -0.30648, -0.0046];
-        let near = |plane: &Plane| plane.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-5);
-        assert!(faces.planes_inside.as_chunks().0.iter().any(near), "{:?}", faces.planes_inside);
+        let near = |plane: &Plane| {
+            plane
+                .iter()
+                .zip(expected)
+                .all(|(a, b)| (a - b).abs() < 1e-5)
+        };
+        assert!(
+            faces.planes_inside.as_chunks().0.iter().any(near),
+            "{:?}",
+            faces.planes_inside
+        );
     }
 
     #[test]
     fn what_was_kept_holds_while_the_volume_does() {
         let mut sensor = sensor(VolumeType::Cone);
-        let faces = VolumeFaces { planes_outside: vec![1.0; 4], ..VolumeFaces::default() };
+        let faces = VolumeFaces {
+            planes_outside: vec![1.0; 4],
+            ..VolumeFaces::default()
+        };
         sensor.set_file_faces(faces.clone());
         assert_eq!(sensor.faces(), faces);
         sensor.volume.range *= 2.0;

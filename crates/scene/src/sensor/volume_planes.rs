@@ -30,7 +30,9 @@ impl Volume {
         match self.volume_type {
             _ if !self.is_finite() => Vec::new(),
             VolumeType::Pyramid => vec![self.prism_piece()],
-            VolumeType::Cylinder if self.radius.iter().any(|radius| *radius > 0.0) => vec![self.prism_piece()],
+            VolumeType::Cylinder if self.radius.iter().any(|radius| *radius > 0.0) => {
+                vec![self.prism_piece()]
+            }
             VolumeType::Cone if is_sector => Cone::of(self).pieces(),
             VolumeType::Disc if is_sector => self.disc_pieces(),
             _ => Vec::new(),
@@ -39,25 +41,44 @@ impl Volume {
 
     /// Whether all of its numbers are finite.
     fn is_finite(&self) -> bool {
-        let numbers = [self.offset, self.range, self.angle, self.inside_gap, self.close_threshold];
+        let numbers = [
+            self.offset,
+            self.range,
+            self.angle,
+            self.inside_gap,
+            self.close_threshold,
+        ];
         let pairs = [self.x_size, self.y_size, self.radius];
-        numbers.iter().chain(pairs.as_flattened()).all(|number| number.is_finite())
+        numbers
+            .iter()
+            .chain(pairs.as_flattened())
+            .all(|number| number.is_finite())
     }
 
     /// A pyramid or a cylinder; the gap is as long, and narrower by its factor.
     fn prism_piece(&self) -> ConvexPiece {
-        let caps = [[0.0, 0.0, -1.0, self.offset], [0.0, 0.0, 1.0, -(self.offset + self.range)]];
+        let caps = [
+            [0.0, 0.0, -1.0, self.offset],
+            [0.0, 0.0, 1.0, -(self.offset + self.range)],
+        ];
         let planes = caps.into_iter().chain(self.prism_sides(1.0)).collect();
         let gap = (self.inside_gap > 0.0).then(|| self.prism_sides(self.inside_gap));
-        ConvexPiece { planes, holes: gap.into_iter().collect() }
+        ConvexPiece {
+            planes,
+            holes: gap.into_iter().collect(),
+        }
     }
 
     fn prism_sides(&self, factor: f64) -> Vec<Plane> {
         let scaled = |[x, y, z]: [f64; 3]| Vector::new(factor * x, factor * y, z);
-        let [near, far] = self.ends().map(|end| end.into_iter().map(scaled).collect::<Vec<_>>());
+        let [near, far] = self
+            .ends()
+            .map(|end| end.into_iter().map(scaled).collect::<Vec<_>>());
         let side = |i: usize| {
             let next = (i + 1) % near.len();
-            facet([near[i], near[next], far[next], far[i]], |middle| Vector::new(middle.x, middle.y, 0.0))
+            facet([near[i], near[next], far[next], far[i]], |middle| {
+                Vector::new(middle.x, middle.y, 0.0)
+            })
         };
         (0..near.len()).filter_map(side).collect()
     }
@@ -74,8 +95,15 @@ impl Volume {
     /// A sector is convex up to half a turn; a wider one is two.
     fn disc_pieces(&self) -> Vec<ConvexPiece> {
         let half = self.half_angle();
-        let sectors = if half <= FRAC_PI_2 { vec![[-half, half]] } else { vec![[-half, 0.0], [0.0, half]] };
-        sectors.into_iter().map(|sector| self.disc_piece(sector)).collect()
+        let sectors = if half <= FRAC_PI_2 {
+            vec![[-half, half]]
+        } else {
+            vec![[-half, 0.0], [0.0, half]]
+        };
+        sectors
+            .into_iter()
+            .map(|sector| self.disc_piece(sector))
+            .collect()
     }
 
     /// The part between two angles from z towards x.
@@ -85,13 +113,19 @@ impl Volume {
         let rays = |[from, to]: [f64; 2]| [self.disc_ray(from, -1.0), self.disc_ray(to, 1.0)];
         let share = (sector[1] - sector[0]) / (2.0 * self.half_angle()).max(f64::MIN_POSITIVE);
         let arc = |end: usize| {
-            let facets = (2.0 * share * count(self.faces[end], 1) as f64).round().max(1.0) as usize;
+            let facets = (2.0 * share * count(self.faces[end], 1) as f64)
+                .round()
+                .max(1.0) as usize;
             self.disc_arc(self.arcs()[end], sector, facets)
         };
         let planes = caps.into_iter().chain(rays(sector)).chain(arc(1)).collect();
         let near = (self.radius[0] > 0.0).then(|| arc(0));
-        let gap = (self.inside_gap > 0.0).then(|| rays(sector.map(|angle| angle * self.inside_gap)).to_vec());
-        ConvexPiece { planes, holes: near.into_iter().chain(gap).collect() }
+        let gap = (self.inside_gap > 0.0)
+            .then(|| rays(sector.map(|angle| angle * self.inside_gap)).to_vec());
+        ConvexPiece {
+            planes,
+            holes: near.into_iter().chain(gap).collect(),
+        }
     }
 
     /// The plane of a straight side at an angle, with the larger angles (`side` 1) or the smaller ones (-1) outside.
@@ -120,7 +154,11 @@ struct Cone<'a> {
 
 impl<'a> Cone<'a> {
     fn of(volume: &'a Volume) -> Self {
-        Self { volume, half: volume.half_angle(), faces: count(volume.faces[0], 3) }
+        Self {
+            volume,
+            half: volume.half_angle(),
+            faces: count(volume.faces[0], 3),
+        }
     }
 
     /// The sector is convex up to a half ball; a wider one consists of its wedges.
@@ -129,22 +167,35 @@ impl<'a> Cone<'a> {
         if self.half <= FRAC_PI_2 {
             return vec![self.piece(&all, Vec::new())];
         }
-        all.iter().map(|&wedge| self.piece(&[wedge], self.wedge(wedge))).collect()
+        all.iter()
+            .map(|&wedge| self.piece(&[wedge], self.wedge(wedge)))
+            .collect()
     }
 
     /// The wedges together, inside of further planes.
     fn piece(&self, wedges: &[usize], mut planes: Vec<Plane>) -> ConvexPiece {
-        let slopes = |half: f64| wedges.iter().filter_map(move |&wedge| self.slope(wedge, half)).collect::<Vec<_>>();
+        let slopes = |half: f64| {
+            wedges
+                .iter()
+                .filter_map(move |&wedge| self.slope(wedge, half))
+                .collect::<Vec<_>>()
+        };
         let [near, far] = [0, 1].map(|end| {
             let bands = count(self.volume.subdivisions[end] + 1, 1);
-            let facet = |&wedge: &usize| (1..=bands).filter_map(move |band| self.facet(end, wedge, [band, bands]));
+            let facet = |&wedge: &usize| {
+                (1..=bands).filter_map(move |band| self.facet(end, wedge, [band, bands]))
+            };
             wedges.iter().flat_map(facet).collect::<Vec<_>>()
         });
         planes.extend(slopes(self.half));
         planes.extend(far);
         let near = (self.volume.radius[0] > 0.0).then_some(near);
-        let gap = (self.volume.inside_gap > 0.0).then(|| slopes(self.half * self.volume.inside_gap));
-        ConvexPiece { planes, holes: near.into_iter().chain(gap).collect() }
+        let gap =
+            (self.volume.inside_gap > 0.0).then(|| slopes(self.half * self.volume.inside_gap));
+        ConvexPiece {
+            planes,
+            holes: near.into_iter().chain(gap).collect(),
+        }
     }
 
     /// The direction of a corner around z; x goes through the middle of a face.
@@ -155,7 +206,11 @@ impl<'a> Cone<'a> {
     /// A corner at an angle from z.
     fn corner(&self, radius: f64, angle: f64, corner: usize) -> Vector {
         let across = self.azimuth(corner) * (radius * angle.sin());
-        Vector::new(across.x, across.y, self.volume.offset + radius * angle.cos())
+        Vector::new(
+            across.x,
+            across.y,
+            self.volume.offset + radius * angle.cos(),
+        )
     }
 
     /// The two planes through z around a wedge.
@@ -175,9 +230,14 @@ impl<'a> Cone<'a> {
     /// A facet on the near (0) or far (1) end of a wedge: one of so many bands from z outwards.
     fn facet(&self, end: usize, wedge: usize, [band, bands]: [usize; 2]) -> Option<Plane> {
         let radius = self.volume.arcs()[end];
-        let at = |band: usize, next: usize| self.corner(radius, self.half * band as f64 / bands as f64, wedge + next);
+        let at = |band: usize, next: usize| {
+            self.corner(radius, self.half * band as f64 / bands as f64, wedge + next)
+        };
         let centre = Vector::new(0.0, 0.0, self.volume.offset);
-        facet([at(band - 1, 0), at(band - 1, 1), at(band, 1), at(band, 0)], |middle| middle - centre)
+        facet(
+            [at(band - 1, 0), at(band - 1, 1), at(band, 1), at(band, 0)],
+            |middle| middle - centre,
+        )
     }
 }
 
@@ -188,7 +248,11 @@ fn facet([a, b, c, d]: [Vector; 4], outwards: impl FnOnce(Vector) -> Vector) -> 
     let across = (d - a) + (c - b);
     let normal = along.cross(&across).try_normalize(0.0)?;
     let middle = 0.25 * (a + b + c + d);
-    let normal = if normal.dot(&outwards(middle)) < 0.0 { -normal } else { normal };
+    let normal = if normal.dot(&outwards(middle)) < 0.0 {
+        -normal
+    } else {
+        normal
+    };
     Some([normal.x, normal.y, normal.z, -normal.dot(&middle)])
 }
 
@@ -203,18 +267,33 @@ mod tests {
     use crate::sensor::{ProximityOptions, ProximitySensor};
 
     fn volume(volume_type: VolumeType) -> Volume {
-        ProximitySensor::new(volume_type, ProximityOptions::empty(), ProximitySensor::INTEGERS, None).volume
+        ProximitySensor::new(
+            volume_type,
+            ProximityOptions::empty(),
+            ProximitySensor::INTEGERS,
+            None,
+        )
+        .volume
     }
 
     fn contains(pieces: &[ConvexPiece], point: [f64; 3]) -> bool {
         let inside = |planes: &[Plane]| {
-            planes.iter().all(|[x, y, z, d]| x * point[0] + y * point[1] + z * point[2] + d <= 1e-12)
+            planes
+                .iter()
+                .all(|[x, y, z, d]| x * point[0] + y * point[1] + z * point[2] + d <= 1e-12)
         };
-        pieces.iter().any(|piece| inside(&piece.planes) && !piece.holes.iter().any(|hole| inside(hole)))
+        pieces
+            .iter()
+            .any(|piece| inside(&piece.planes) && !piece.holes.iter().any(|hole| inside(hole)))
     }
 
     fn has(planes: &[Plane], expected: Plane) -> bool {
-        planes.iter().any(|plane| plane.iter().zip(expected).all(|(a, b)| (a - b).abs() < 2e-5))
+        planes.iter().any(|plane| {
+            plane
+                .iter()
+                .zip(expected)
+                .all(|(a, b)| (a - b).abs() < 2e-5)
+        })
     }
 
     /// Numbers of a file of 4.10.
@@ -223,10 +302,18 @@ mod tests {
         let mut cone = volume(VolumeType::Cone);
         (cone.range, cone.radius, cone.angle) = (1.0, [0.005, 0.0], PI / 6.0);
         (cone.faces, cone.subdivisions) = ([8, 1], [0, 2]);
-        let [ConvexPiece { planes, holes }] = &cone.pieces()[..] else { panic!("one piece") };
+        let [ConvexPiece { planes, holes }] = &cone.pieces()[..] else {
+            panic!("one piece")
+        };
         assert_eq!((planes.len(), holes.len(), holes[0].len()), (32, 1, 8));
-        assert!(has(planes, [0.9707, 0.0, -0.2403, 0.0]) && has(planes, [-0.68639, -0.68639, -0.2403, 0.0]));
-        assert!(has(planes, [0.04721, 0.0, 0.99889, -1.00388]) && has(planes, [0.0, -0.14107, 0.99, -1.00258]));
+        assert!(
+            has(planes, [0.9707, 0.0, -0.2403, 0.0])
+                && has(planes, [-0.68639, -0.68639, -0.2403, 0.0])
+        );
+        assert!(
+            has(planes, [0.04721, 0.0, 0.99889, -1.00388])
+                && has(planes, [0.0, -0.14107, 0.99, -1.00258])
+        );
         assert!(has(planes, [-0.16499, -0.16499, 0.9724, -1.00003]));
         assert!(has(&holes[0], [0.09975, 0.09975, 0.99, -0.00495]));
     }
@@ -236,10 +323,17 @@ mod tests {
         let mut disc = volume(VolumeType::Disc);
         (disc.range, disc.radius, disc.angle) = (2.0, [0.01, 0.2], PI / 3.0);
         (disc.faces, disc.y_size) = ([16, 32], [0.05, 0.1]);
-        let [ConvexPiece { planes, holes }] = &disc.pieces()[..] else { panic!("one piece") };
+        let [ConvexPiece { planes, holes }] = &disc.pieces()[..] else {
+            panic!("one piece")
+        };
         assert_eq!((planes.len(), holes.len(), holes[0].len()), (68, 1, 32));
-        assert!(has(planes, [0.00818, 0.0, 0.99997, -2.00993]) && has(planes, [0.0, -1.0, 0.0, -0.025]));
-        assert!(has(planes, [0.86603, 0.0, -0.5, 0.0]) && has(&holes[0], [-0.01636, 0.0, 0.99987, -0.01]));
+        assert!(
+            has(planes, [0.00818, 0.0, 0.99997, -2.00993]) && has(planes, [0.0, -1.0, 0.0, -0.025])
+        );
+        assert!(
+            has(planes, [0.86603, 0.0, -0.5, 0.0])
+                && has(&holes[0], [-0.01636, 0.0, 0.99987, -0.01])
+        );
     }
 
     #[test]
@@ -248,10 +342,17 @@ mod tests {
             let mut wide = volume(volume_type);
             (wide.angle, wide.offset, wide.radius) = (5.0, 0.5, [0.05, 0.0]);
             let pieces = wide.pieces();
-            let at = |angle: f64, distance: f64| [distance * angle.sin(), 0.0, 0.5 + distance * angle.cos()];
+            let at = |angle: f64, distance: f64| {
+                [distance * angle.sin(), 0.0, 0.5 + distance * angle.cos()]
+            };
             for inside in [0.0, 1.0, -1.0, 2.4, -2.4] {
-                assert!(contains(&pieces, at(inside, 0.1)), "{volume_type:?} {inside}");
-                assert!(!contains(&pieces, at(inside, 0.04)) && !contains(&pieces, at(inside, 0.3)));
+                assert!(
+                    contains(&pieces, at(inside, 0.1)),
+                    "{volume_type:?} {inside}"
+                );
+                assert!(
+                    !contains(&pieces, at(inside, 0.04)) && !contains(&pieces, at(inside, 0.3))
+                );
             }
             assert!(!contains(&pieces, at(2.6, 0.1)) && !contains(&pieces, at(-2.6, 0.1)));
         }
@@ -259,25 +360,54 @@ mod tests {
 
     #[test]
     fn a_gap_is_the_inner_part() {
-        for volume_type in [VolumeType::Pyramid, VolumeType::Cylinder, VolumeType::Cone, VolumeType::Disc] {
+        for volume_type in [
+            VolumeType::Pyramid,
+            VolumeType::Cylinder,
+            VolumeType::Cone,
+            VolumeType::Disc,
+        ] {
             let mut hollow = volume(volume_type);
-            (hollow.offset, hollow.range, hollow.radius, hollow.x_size) = (0.0, 1.0, [0.5; 2], [1.0; 2]);
+            (hollow.offset, hollow.range, hollow.radius, hollow.x_size) =
+                (0.0, 1.0, [0.5; 2], [1.0; 2]);
             let depth = 0.6;
-            assert!(contains(&hollow.pieces(), [0.0, 0.0, depth]), "{volume_type:?}");
+            assert!(
+                contains(&hollow.pieces(), [0.0, 0.0, depth]),
+                "{volume_type:?}"
+            );
             hollow.inside_gap = 0.5;
             let pieces = hollow.pieces();
-            assert!(!contains(&pieces, [0.0, 0.0, depth]) && !contains(&pieces, [0.2, 0.0, depth]), "{volume_type:?}");
-            assert!(contains(&pieces, [0.4, 0.0, depth]) && contains(&pieces, [-0.4, 0.0, depth]), "{volume_type:?}");
+            assert!(
+                !contains(&pieces, [0.0, 0.0, depth]) && !contains(&pieces, [0.2, 0.0, depth]),
+                "{volume_type:?}"
+            );
+            assert!(
+                contains(&pieces, [0.4, 0.0, depth]) && contains(&pieces, [-0.4, 0.0, depth]),
+                "{volume_type:?}"
+            );
         }
     }
 
     #[test]
     fn points_inside_are_behind_all_planes() {
-        for volume_type in [VolumeType::Pyramid, VolumeType::Cylinder, VolumeType::Cone, VolumeType::Disc] {
+        for volume_type in [
+            VolumeType::Pyramid,
+            VolumeType::Cylinder,
+            VolumeType::Cone,
+            VolumeType::Disc,
+        ] {
             let mut volume = volume(volume_type);
             volume.radius = [0.01, 0.02];
-            assert!(contains(&volume.pieces(), [0.0, 0.0, volume.offset + 0.5 * volume.range]), "{volume_type:?}");
-            assert!(!contains(&volume.pieces(), [0.0, 0.0, volume.offset - 0.01]));
+            assert!(
+                contains(
+                    &volume.pieces(),
+                    [0.0, 0.0, volume.offset + 0.5 * volume.range]
+                ),
+                "{volume_type:?}"
+            );
+            assert!(!contains(
+                &volume.pieces(),
+                [0.0, 0.0, volume.offset - 0.01]
+            ));
         }
         assert!(volume(VolumeType::Ray).pieces().is_empty());
     }

@@ -5,7 +5,9 @@ use std::rc::Rc;
 use geometry::BoundingBox;
 use geometry::MassProperties;
 use geometry::Mesh;
-use geometry::primitive::{PrimitiveKind, bounding_size, clamp_size, has_pure_size, heightfield, tessellate};
+use geometry::primitive::{
+    PrimitiveKind, bounding_size, clamp_size, has_pure_size, heightfield, tessellate,
+};
 
 use super::options::PrimitiveOptions;
 use super::{Appearance, HeightField, Material, Part, Primitive, Shape, ShapeDynamics, Velocity};
@@ -39,7 +41,11 @@ impl Shape {
     ///
     /// # Errors
     /// For height fields, which need heights.
-    pub fn primitive(kind: PrimitiveKind, size: [f64; 3], options: PrimitiveOptions) -> SceneResult<Self> {
+    pub fn primitive(
+        kind: PrimitiveKind,
+        size: [f64; 3],
+        options: PrimitiveOptions,
+    ) -> SceneResult<Self> {
         let size = clamp_size(kind, size);
         let has_ends = matches!(kind, PrimitiveKind::Cylinder | PrimitiveKind::Cone);
         let open_ends = has_ends && options.contains(PrimitiveOptions::OPEN_ENDS);
@@ -51,20 +57,33 @@ impl Shape {
         }
         mesh.compute_normals(appearance.shading_angle);
         let flat = matches!(kind, PrimitiveKind::Plane | PrimitiveKind::Disc);
-        let pure = !options.contains(PrimitiveOptions::PLAIN_MESH) && !open_ends && has_pure_size(kind, size);
-        let analytic = [size[0], size[1], if flat { FLAT_THICKNESS } else { size[2] }];
+        let pure = !options.contains(PrimitiveOptions::PLAIN_MESH)
+            && !open_ends
+            && has_pure_size(kind, size);
+        let analytic = [
+            size[0],
+            size[1],
+            if flat { FLAT_THICKNESS } else { size[2] },
+        ];
         let part = Part {
             uid: 0,
             mesh: Rc::new(mesh),
             pose: Pose::identity(),
-            primitive: pure.then_some(Primitive { kind, size: analytic, heights: None }),
+            primitive: pure.then_some(Primitive {
+                kind,
+                size: analytic,
+                heights: None,
+            }),
             convex: kind.is_convex() && !open_ends,
             mass: MassProperties::of_primitive_at_creation(kind, size, DENSITY),
             group: Vec::new(),
             appearance,
             texture: None,
         };
-        let bounding_box = BoundingBox { size: bounding_size(kind, size), pose: Pose::identity() };
+        let bounding_box = BoundingBox {
+            size: bounding_size(kind, size),
+            pose: Pose::identity(),
+        };
         let mut shape = Self::simple(part, bounding_box);
         shape.material = Material::rest_stack_grasp();
         Ok(shape)
@@ -103,14 +122,30 @@ impl Shape {
         let refused = || SceneError::Refused("invalid arguments.".into());
         let mut mesh = heightfield(columns, rows, width, heights).ok_or_else(refused)?;
         mesh.compute_normals(appearance.shading_angle);
-        let bounding_box = mesh.bounding_box(&nalgebra::UnitQuaternion::identity()).ok_or_else(refused)?;
+        let bounding_box = mesh
+            .bounding_box(&nalgebra::UnitQuaternion::identity())
+            .ok_or_else(refused)?;
         let mut part = mesh_part(mesh, appearance);
         part.convex = false;
         if !plain_mesh {
             // Kept with y growing by the row; scripts give the row at +y first.
-            let rising = heights.chunks(columns).take(rows).rev().flatten().copied().collect();
-            let heights = Some(Rc::new(HeightField { columns, rows, heights: rising }));
-            part.primitive = Some(Primitive { kind: PrimitiveKind::Heightfield, size: bounding_box.size, heights });
+            let rising = heights
+                .chunks(columns)
+                .take(rows)
+                .rev()
+                .flatten()
+                .copied()
+                .collect();
+            let heights = Some(Rc::new(HeightField {
+                columns,
+                rows,
+                heights: rising,
+            }));
+            part.primitive = Some(Primitive {
+                kind: PrimitiveKind::Heightfield,
+                size: bounding_box.size,
+                heights,
+            });
         }
         let mut shape = Self::simple(part, bounding_box);
         shape.dynamics.respondable = true;
@@ -143,7 +178,9 @@ mod tests {
 
     #[test]
     fn only_round_solids_are_pure() {
-        let make = |size| Shape::primitive(PrimitiveKind::Cylinder, size, PrimitiveOptions::default()).unwrap();
+        let make = |size| {
+            Shape::primitive(PrimitiveKind::Cylinder, size, PrimitiveOptions::default()).unwrap()
+        };
         assert!(make([0.2, 0.2, 0.4]).is_pure());
         assert!(!make([0.1, 0.2, 0.4]).is_pure() && make([0.1, 0.2, 0.4]).is_convex());
     }
@@ -151,9 +188,16 @@ mod tests {
     #[test]
     fn terrain_rises_with_its_rows() {
         let heights = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0];
-        let shape = Shape::terrain(3, 2, 2.0, &heights, Shape::terrain_appearance(), false).unwrap();
+        let shape =
+            Shape::terrain(3, 2, 2.0, &heights, Shape::terrain_appearance(), false).unwrap();
         assert_eq!(shape.bounding_box.size, [2.0, 1.0, 1.0]);
-        let field = shape.parts[0].primitive.as_ref().unwrap().heights.clone().unwrap();
+        let field = shape.parts[0]
+            .primitive
+            .as_ref()
+            .unwrap()
+            .heights
+            .clone()
+            .unwrap();
         assert_eq!(field.heights, [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
     }
 }

@@ -20,13 +20,23 @@ impl Shape {
     /// # Errors
     /// When a mesh has no area.
     pub fn decimated(&self, target: Target) -> SceneResult<Shape> {
-        let (all_triangles, all_vertices) = self.parts.iter().fold((0, 0), |(triangles, vertices), part| {
-            (triangles + part.mesh.triangles.len(), vertices + part.mesh.vertices.len())
-        });
+        let (all_triangles, all_vertices) =
+            self.parts
+                .iter()
+                .fold((0, 0), |(triangles, vertices), part| {
+                    (
+                        triangles + part.mesh.triangles.len(),
+                        vertices + part.mesh.vertices.len(),
+                    )
+                });
         let mut shapes = Vec::new();
         for part in &self.parts {
             let share = |all: usize, own: usize, target: usize| {
-                if target >= all { usize::MAX } else { (target as f64 * own as f64 / all as f64).ceil() as usize }
+                if target >= all {
+                    usize::MAX
+                } else {
+                    (target as f64 * own as f64 / all as f64).ceil() as usize
+                }
             };
             let target = Target {
                 triangles: share(all_triangles, part.mesh.triangles.len(), target.triangles),
@@ -41,7 +51,8 @@ impl Shape {
             shapes.push(Shape::from_mesh(mesh, part.appearance.clone())?);
         }
         let mut shape = Shape::compound(shapes)?;
-        (shape.mass, shape.dynamics, shape.material) = (self.mass, self.dynamics.clone(), self.material.clone());
+        (shape.mass, shape.dynamics, shape.material) =
+            (self.mass, self.dynamics.clone(), self.material.clone());
         Ok(shape)
     }
 }

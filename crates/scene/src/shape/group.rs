@@ -22,21 +22,38 @@ impl Shape {
             part.mass = self.mass.reexpressed(&part.pose.inverse());
         }
         let sum: f64 = parts.iter().map(|part| part.mass.mass).sum();
-        parts.iter_mut().for_each(|part| part.mass.set_mass(part.mass.mass * self.mass.mass / sum));
+        parts
+            .iter_mut()
+            .for_each(|part| part.mass.set_mass(part.mass.mass * self.mass.mass / sum));
         parts
     }
 
     /// Shapes that were grouped into this one: a list of parts each, without the number of their group.
     fn members(&self) -> Vec<Vec<Part>> {
-        let together = |a: &Part, b: &Part| a.group.first().is_some_and(|group| b.group.first() == Some(group));
-        let mut members: Vec<Vec<Part>> = self.parts.chunk_by(together).map(<[Part]>::to_vec).collect();
-        members.iter_mut().flatten().for_each(|part| drop(part.group.drain(..part.group.len().min(1))));
+        let together = |a: &Part, b: &Part| {
+            a.group
+                .first()
+                .is_some_and(|group| b.group.first() == Some(group))
+        };
+        let mut members: Vec<Vec<Part>> = self
+            .parts
+            .chunk_by(together)
+            .map(<[Part]>::to_vec)
+            .collect();
+        members
+            .iter_mut()
+            .flatten()
+            .for_each(|part| drop(part.group.drain(..part.group.len().min(1))));
         members
     }
 
     /// Whether physics knows all parts as solids, not as terrain.
     fn is_pure_solid(&self) -> bool {
-        let solid = |p: &Part| p.primitive.as_ref().is_some_and(|p| p.kind != PrimitiveKind::Heightfield);
+        let solid = |p: &Part| {
+            p.primitive
+                .as_ref()
+                .is_some_and(|p| p.kind != PrimitiveKind::Heightfield)
+        };
         self.parts.iter().all(solid)
     }
 }
@@ -50,7 +67,10 @@ impl Shape {
         if shapes.len() == 1 {
             return shapes.pop().ok_or(SceneError::OperationFailed);
         }
-        let placed: Vec<(Pose, &Shape)> = shapes.iter().map(|shape| (Pose::identity(), shape)).collect();
+        let placed: Vec<(Pose, &Shape)> = shapes
+            .iter()
+            .map(|shape| (Pose::identity(), shape))
+            .collect();
         grouped(&placed, shapes.last().ok_or(SceneError::OperationFailed)?)
     }
 }
@@ -61,19 +81,32 @@ impl Scene {
     ///
     /// # Errors
     /// When fewer than two of the handles are shapes.
-    pub fn group_shapes(&mut self, handles: &[i64], merge: bool) -> SceneResult<(Handle, Vec<Handle>)> {
+    pub fn group_shapes(
+        &mut self,
+        handles: &[i64],
+        merge: bool,
+    ) -> SceneResult<(Handle, Vec<Handle>)> {
         let members = self.shapes_among(handles);
-        let [.., master] = members.as_slice() else { return Err(SceneError::NotEnoughShapes) };
+        let [.., master] = members.as_slice() else {
+            return Err(SceneError::NotEnoughShapes);
+        };
         if members.len() < 2 {
             return Err(SceneError::NotEnoughShapes);
         }
         let frame = self.world_pose(*master)?;
         let mut placed = Vec::new();
         for &member in &members {
-            placed.push((frame.inverse() * self.world_pose(member)?, self.object(member)?.shape()?));
+            placed.push((
+                frame.inverse() * self.world_pose(member)?,
+                self.object(member)?.shape()?,
+            ));
         }
         let (_, last) = placed.last().ok_or(SceneError::NotEnoughShapes)?;
-        let shape = if merge { merged(&placed, last)? } else { grouped(&placed, last)? };
+        let shape = if merge {
+            merged(&placed, last)?
+        } else {
+            grouped(&placed, last)?
+        };
         let group = self.replace_shape(*master, shape)?;
         Ok((group, members))
     }
@@ -82,7 +115,11 @@ impl Scene {
     fn shapes_among(&self, handles: &[i64]) -> Vec<Handle> {
         let mut shapes = Vec::new();
         for handle in handles.iter().filter_map(|&raw| Handle::from_raw(raw)) {
-            if self.object(handle).is_ok_and(|object| object.shape().is_ok()) && !shapes.contains(&handle) {
+            if self
+                .object(handle)
+                .is_ok_and(|object| object.shape().is_ok())
+                && !shapes.contains(&handle)
+            {
                 shapes.push(handle);
             }
         }
@@ -101,7 +138,11 @@ impl Scene {
     /// A new object with the given shape and the pose, parent, position among siblings, name and flags of `model`.
     fn add_beside(&mut self, model: Handle, shape: Shape) -> SceneResult<Handle> {
         let source = self.object(model)?.clone();
-        let position = self.siblings(model)?.iter().position(|&h| h == model).unwrap_or(0);
+        let position = self
+            .siblings(model)?
+            .iter()
+            .position(|&h| h == model)
+            .unwrap_or(0);
         let new = self.add(source.alias(), Kind::Shape(Box::new(shape)))?;
         self.set_parent(new, source.parent(), false)?;
         self.set_local_pose(new, source.pose())?;
@@ -140,20 +181,42 @@ impl Scene {
     }
 
     /// A new object of several parts of `shape`, which the object `handle` is.
-    fn add_group(&mut self, handle: Handle, shape: &Shape, parts: &[Part], frame: Pose) -> SceneResult<Handle> {
+    fn add_group(
+        &mut self,
+        handle: Handle,
+        shape: &Shape,
+        parts: &[Part],
+        frame: Pose,
+    ) -> SceneResult<Handle> {
         let own = parts.last().ok_or(SceneError::OperationFailed)?.pose;
         let mut parts = parts.to_vec();
-        parts.iter_mut().for_each(|part| part.pose = own.inverse() * part.pose);
+        parts
+            .iter_mut()
+            .for_each(|part| part.pose = own.inverse() * part.pose);
         let masses: Vec<_> = parts.iter().map(|part| (part.pose, part.mass)).collect();
         let mass = MassProperties::combine(&masses).ok_or(SceneError::OperationFailed)?;
         let bounding_box = box_of(&parts).ok_or(SceneError::OperationFailed)?;
-        let group = self.add_beside(handle, Shape { parts, mass, bounding_box, ..shape.clone() })?;
+        let group = self.add_beside(
+            handle,
+            Shape {
+                parts,
+                mass,
+                bounding_box,
+                ..shape.clone()
+            },
+        )?;
         self.set_local_pose(group, frame * own)?;
         Ok(group)
     }
 
     /// A new object of one part of `shape`, which the object `handle` is.
-    fn add_piece(&mut self, handle: Handle, shape: &Shape, part: &Part, frame: Pose) -> SceneResult<Handle> {
+    fn add_piece(
+        &mut self,
+        handle: Handle,
+        shape: &Shape,
+        part: &Part,
+        frame: Pose,
+    ) -> SceneResult<Handle> {
         let mut own = part.clone();
         own.pose = Pose::identity();
         let box_of_part = box_of(std::slice::from_ref(&own)).ok_or(SceneError::OperationFailed)?;
@@ -177,16 +240,30 @@ impl Scene {
         let (pieces, pose) = self.convex_shapes(handle, DecompositionParameters::default())?;
         let parts: Vec<Part> = pieces.into_iter().flat_map(|piece| piece.parts).collect();
         let bounding_box = box_of(&parts).ok_or(SceneError::InvalidData)?;
-        Ok((Shape { parts, bounding_box, ..self.object(handle)?.shape()?.clone() }, pose))
+        Ok((
+            Shape {
+                parts,
+                bounding_box,
+                ..self.object(handle)?.shape()?.clone()
+            },
+            pose,
+        ))
     }
 
     /// Convex pieces of a shape as shapes in its frame, and the pose of that frame, with the appearance of the original.
     ///
     /// # Errors
     /// When the object is no shape or has no volume.
-    pub fn convex_shapes(&self, handle: Handle, fineness: DecompositionParameters) -> SceneResult<(Vec<Shape>, Pose)> {
+    pub fn convex_shapes(
+        &self,
+        handle: Handle,
+        fineness: DecompositionParameters,
+    ) -> SceneResult<(Vec<Shape>, Pose)> {
         let original = self.object(handle)?.shape()?;
-        let appearance = original.parts.first().map_or_else(Shape::mesh_appearance, |part| part.appearance.clone());
+        let appearance = original
+            .parts
+            .first()
+            .map_or_else(Shape::mesh_appearance, |part| part.appearance.clone());
         let mut pieces = Vec::new();
         for mesh in original.mesh().convex_pieces(fineness) {
             let mut piece = Shape::from_mesh(mesh, appearance.clone())?;
@@ -194,7 +271,9 @@ impl Scene {
             pieces.push(piece);
         }
         if pieces.is_empty() {
-            return Err(SceneError::Refused("the shape has no volume to divide.".into()));
+            return Err(SceneError::Refused(
+                "the shape has no volume to divide.".into(),
+            ));
         }
         Ok((pieces, self.world_pose(handle)?))
     }
@@ -205,7 +284,9 @@ impl Scene {
     /// For compounds.
     pub fn divide_shape(&mut self, handle: Handle) -> SceneResult<Option<Vec<Handle>>> {
         let shape = self.object(handle)?.shape()?.clone();
-        let [part] = shape.parts.as_slice() else { return Err(SceneError::DividesCompound) };
+        let [part] = shape.parts.as_slice() else {
+            return Err(SceneError::DividesCompound);
+        };
         let islands = part.mesh.islands();
         if islands.len() < 2 {
             return Ok(None);
@@ -213,11 +294,21 @@ impl Scene {
         let mut pieces = Vec::new();
         for triangles in islands {
             let mesh = part.mesh.of_triangles(&triangles);
-            let texture = part.texture.as_ref().map(|texture| Box::new(texture.of_triangles(&triangles)));
+            let texture = part
+                .texture
+                .as_ref()
+                .map(|texture| Box::new(texture.of_triangles(&triangles)));
             let frame = self.object(handle)?.pose();
             let convex = mesh.is_convex();
             let mass = MassProperties::default();
-            let island = Part { mesh: Rc::new(mesh), primitive: None, convex, mass, texture, ..part.clone() };
+            let island = Part {
+                mesh: Rc::new(mesh),
+                primitive: None,
+                convex,
+                mass,
+                texture,
+                ..part.clone()
+            };
             pieces.push(self.add_piece(handle, &shape, &island, frame)?);
         }
         Ok(Some(pieces))
@@ -248,24 +339,41 @@ fn grouped(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
             parts.push(part);
         }
     }
-    let masses: Vec<_> = placed.iter().map(|(pose, shape)| (*pose, shape.mass)).collect();
+    let masses: Vec<_> = placed
+        .iter()
+        .map(|(pose, shape)| (*pose, shape.mass))
+        .collect();
     let mass = MassProperties::combine(&masses).ok_or(SceneError::OperationFailed)?;
     let bounding_box = box_of(&parts).ok_or(SceneError::OperationFailed)?;
-    Ok(Shape { parts, mass, bounding_box, ..master.clone() })
+    Ok(Shape {
+        parts,
+        mass,
+        bounding_box,
+        ..master.clone()
+    })
 }
 
 /// One mesh in the master's frame, with the master's appearance, texture and mass.
 fn merged(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
     let mut mesh = Mesh::default();
-    placed.iter().for_each(|(pose, shape)| mesh.append(&shape.mesh(), pose));
-    let appearance = master.parts.first().map_or_else(Shape::mesh_appearance, |part| part.appearance.clone());
+    placed
+        .iter()
+        .for_each(|(pose, shape)| mesh.append(&shape.mesh(), pose));
+    let appearance = master
+        .parts
+        .first()
+        .map_or_else(Shape::mesh_appearance, |part| part.appearance.clone());
     let mut shape = Shape::from_mesh(mesh, appearance)?;
     shape.fit_box(Some(nalgebra::UnitQuaternion::identity()));
     (shape.mass, shape.parts[0].mass) = (master.mass, master.mass);
     shape.dynamics = master.dynamics.clone();
     shape.material = master.material.clone();
     // A projected texture is kept; coordinates per corner are dropped, since the other meshes have none.
-    let projected = master.parts.first().and_then(|part| part.texture.clone()).filter(|t| t.coordinates.is_empty());
+    let projected = master
+        .parts
+        .first()
+        .and_then(|part| part.texture.clone())
+        .filter(|t| t.coordinates.is_empty());
     shape.parts[0].texture = projected;
     Ok(shape)
 }
@@ -278,11 +386,14 @@ mod tests {
     fn masses_add_up() {
         let mut scene = Scene::new();
         let mut cube = || {
-            let shape = Shape::primitive(PrimitiveKind::Cuboid, [0.1; 3], Default::default()).unwrap();
+            let shape =
+                Shape::primitive(PrimitiveKind::Cuboid, [0.1; 3], Default::default()).unwrap();
             scene.add("c", Kind::Shape(Box::new(shape))).unwrap()
         };
         let (a, b) = (cube(), cube());
-        scene.set_world_pose(b, Pose::translation(0.4, 0.0, 0.0)).unwrap();
+        scene
+            .set_world_pose(b, Pose::translation(0.4, 0.0, 0.0))
+            .unwrap();
         let (group, members) = scene.group_shapes(&[a.raw(), 77, b.raw()], false).unwrap();
         let shape = scene.object(group).unwrap().shape().unwrap();
         assert_eq!((members, shape.parts.len()), (vec![a, b], 2));
@@ -294,15 +405,24 @@ mod tests {
     fn groups_of_groups_come_apart_level_by_level() {
         let mut scene = Scene::new();
         let mut cube = |x: f64| {
-            let shape = Shape::primitive(PrimitiveKind::Cuboid, [0.1; 3], Default::default()).unwrap();
+            let shape =
+                Shape::primitive(PrimitiveKind::Cuboid, [0.1; 3], Default::default()).unwrap();
             let cube = scene.add("c", Kind::Shape(Box::new(shape))).unwrap();
-            scene.set_world_pose(cube, Pose::translation(x, 0.0, 0.0)).unwrap();
+            scene
+                .set_world_pose(cube, Pose::translation(x, 0.0, 0.0))
+                .unwrap();
             cube.raw()
         };
         let cubes = [cube(0.0), cube(1.0), cube(2.0), cube(3.0)];
         let pair = scene.group_shapes(&cubes[..2], false).unwrap().0;
-        let three = scene.group_shapes(&[pair.raw(), cubes[2]], false).unwrap().0;
-        let four = scene.group_shapes(&[three.raw(), cubes[3]], false).unwrap().0;
+        let three = scene
+            .group_shapes(&[pair.raw(), cubes[2]], false)
+            .unwrap()
+            .0;
+        let four = scene
+            .group_shapes(&[three.raw(), cubes[3]], false)
+            .unwrap()
+            .0;
         let mut taken = |group| {
             let pieces = scene.ungroup_shape(group).unwrap().unwrap();
             let parts = |h: &Handle| scene.object(*h).unwrap().shape().unwrap().parts.len();

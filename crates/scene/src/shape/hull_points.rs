@@ -20,14 +20,19 @@ impl Scene {
             _ => Vec::new(),
         };
         let pose = self.world_pose(handle)?;
-        Ok(points.into_iter().map(|point| (pose * Point3::from(point)).into()).collect())
+        Ok(points
+            .into_iter()
+            .map(|point| (pose * Point3::from(point)).into())
+            .collect())
     }
 }
 
 fn corners(tree: &OcTree) -> Vec<[f64; 3]> {
     let half = tree.voxel_size() / 2.0;
     let of = |centre: [f64; 3]| {
-        (0..8).map(move |i| [0, 1, 2].map(|axis| centre[axis] + if i >> axis & 1 == 0 { -half } else { half }))
+        (0..8).map(move |i| {
+            [0, 1, 2].map(|axis| centre[axis] + if i >> axis & 1 == 0 { -half } else { half })
+        })
     };
     tree.voxels().flat_map(|(centre, _)| of(centre)).collect()
 }

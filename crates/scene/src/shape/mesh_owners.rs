@@ -11,7 +11,8 @@ pub(crate) struct MeshOwners(BTreeMap<Uid, Handle>);
 
 impl MeshOwners {
     pub(crate) fn note(&mut self, handle: Handle, shape: &Shape) {
-        self.0.extend(shape.parts.iter().map(|part| (part.uid, handle)));
+        self.0
+            .extend(shape.parts.iter().map(|part| (part.uid, handle)));
     }
 
     pub(crate) fn forget(&mut self, shape: &Shape) {

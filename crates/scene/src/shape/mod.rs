@@ -169,24 +169,37 @@ impl Material {
     /// A material with the frictions of Bullet 2.78, Bullet 2.83, ODE, and Newton's static and kinetic one.
     fn of_frictions([friction, others @ ..]: [f64; 5]) -> Self {
         let mut engine_values = InertValues::default();
-        let names = ["bullet.friction", "ode.friction", "newton.staticFriction", "newton.kineticFriction"];
+        let names = [
+            "bullet.friction",
+            "ode.friction",
+            "newton.staticFriction",
+            "newton.kineticFriction",
+        ];
         for (name, friction) in names.into_iter().zip(others) {
             engine_values.set(name, friction.into());
         }
-        Self { friction, restitution: 0.0, linear_damping: 0.0, angular_damping: 0.0, engine_values }
+        Self {
+            friction,
+            restitution: 0.0,
+            linear_damping: 0.0,
+            angular_damping: 0.0,
+            engine_values,
+        }
     }
 
     /// The preset with that number (`sim.dynmat_*`), if there is one (spec: dynamics 5).
     pub fn preset(id: i64) -> Option<Self> {
-        Some(Self::of_frictions(match id.checked_sub(Self::FIRST_PRESET)? {
-            0 => [0.71, 0.71, 0.71, 0.5, 0.5],
-            1 => [1.0, 1.0, 1.0, 2.0, 2.0],
-            2 => [0.41, 0.2, 0.41, 0.17, 0.17],
-            3 => [0.0; 5],
-            4 | 5 | 7 => GRASP_FRICTIONS,
-            6 | 8 => [1.0; 5],
-            _ => return None,
-        }))
+        Some(Self::of_frictions(
+            match id.checked_sub(Self::FIRST_PRESET)? {
+                0 => [0.71, 0.71, 0.71, 0.5, 0.5],
+                1 => [1.0, 1.0, 1.0, 2.0, 2.0],
+                2 => [0.41, 0.2, 0.41, 0.17, 0.17],
+                3 => [0.0; 5],
+                4 | 5 | 7 => GRASP_FRICTIONS,
+                6 | 8 => [1.0; 5],
+                _ => return None,
+            },
+        ))
     }
 
     /// The material of new primitives.

@@ -26,7 +26,9 @@ impl Shape {
     /// All meshes as one, in the shape frame.
     pub fn mesh(&self) -> Mesh {
         let mut mesh = Mesh::default();
-        self.parts.iter().for_each(|part| mesh.append(&part.mesh, &part.pose));
+        self.parts
+            .iter()
+            .for_each(|part| mesh.append(&part.mesh, &part.pose));
         mesh
     }
 
@@ -37,8 +39,13 @@ impl Shape {
     pub fn check_extent(&self, factor: f64) -> SceneResult<()> {
         let centre = self.bounding_box.pose.translation.vector;
         let lengths = self.bounding_box.size.iter().chain(centre.as_slice());
-        let places = self.parts.iter().flat_map(|part| part.pose.translation.vector.as_slice());
-        let fits = lengths.chain(places).all(|length| (length * factor).abs() <= MAX_COORDINATE);
+        let places = self
+            .parts
+            .iter()
+            .flat_map(|part| part.pose.translation.vector.as_slice());
+        let fits = lengths
+            .chain(places)
+            .all(|length| (length * factor).abs() <= MAX_COORDINATE);
         if fits { Ok(()) } else { Err(too_large()) }
     }
 
@@ -50,7 +57,10 @@ impl Shape {
     /// Turns the bounding box; None: the tightest, smallest extent along its x, largest along its z.
     pub fn fit_box(&mut self, orientation: Option<UnitQuaternion<f64>>) {
         let mesh = self.mesh();
-        let fitted = orientation.map_or_else(|| mesh.oriented_box(), |orientation| mesh.bounding_box(&orientation));
+        let fitted = orientation.map_or_else(
+            || mesh.oriented_box(),
+            |orientation| mesh.bounding_box(&orientation),
+        );
         if let Some(fitted) = fitted {
             self.bounding_box = fitted;
         }
@@ -79,18 +89,30 @@ impl Shape {
     /// # Errors
     /// For compounds that would be scaled by more than one factor.
     pub fn stretch(&mut self, factors: [f64; 3]) -> SceneResult<()> {
-        let [x, y, z] = factors.map(|f| if f.is_finite() { f.abs().max(1e-4) } else { 1.0 });
+        let [x, y, z] = factors.map(|f| {
+            if f.is_finite() {
+                f.abs().max(1e-4)
+            } else {
+                1.0
+            }
+        });
         let uniform = x == y && y == z;
         if self.is_compound() && !uniform {
             return Err(SceneError::InvalidArgument);
         }
-        let kind = self.parts.first().and_then(|part| part.primitive.as_ref()).map(|primitive| primitive.kind);
+        let kind = self
+            .parts
+            .first()
+            .and_then(|part| part.primitive.as_ref())
+            .map(|primitive| primitive.kind);
         let factors = match kind.filter(|_| !self.is_compound()) {
             Some(kind) => allowed_factors(kind, [x, y, z]),
             None => [x, y, z],
         };
         let box_frame = self.bounding_box.pose;
-        self.parts.iter_mut().for_each(|part| stretch_part(part, &box_frame, factors));
+        self.parts
+            .iter_mut()
+            .for_each(|part| stretch_part(part, &box_frame, factors));
         for (extent, factor) in self.bounding_box.size.iter_mut().zip(factors) {
             *extent *= factor;
         }
@@ -101,7 +123,10 @@ impl Shape {
     /// Sets mass, centre and inertia from a density (kg/m3); false when the shape has no volume.
     pub fn set_mass_from_density(&mut self, density: f64) -> bool {
         let primitive = match self.parts.as_slice() {
-            [part] => part.primitive.as_ref().map(|primitive| (primitive.kind, primitive.size)),
+            [part] => part
+                .primitive
+                .as_ref()
+                .map(|primitive| (primitive.kind, primitive.size)),
             _ => None,
         };
         match compute_mass_and_inertia(primitive, &self.mesh().vertices, density) {
@@ -139,15 +164,24 @@ fn stretch_part(part: &mut Part, box_frame: &Pose, factors: [f64; 3]) {
         mesh.transform(&to_box.inverse());
     }
     if let Some(primitive) = &mut part.primitive {
-        primitive.size.iter_mut().zip(factors).for_each(|(extent, factor)| *extent *= factor);
+        primitive
+            .size
+            .iter_mut()
+            .zip(factors)
+            .for_each(|(extent, factor)| *extent *= factor);
         if let Some(heights) = &mut primitive.heights {
-            Rc::make_mut(heights).heights.iter_mut().for_each(|height| *height *= z);
+            Rc::make_mut(heights)
+                .heights
+                .iter_mut()
+                .for_each(|height| *height *= z);
         }
     }
 }
 
 pub(crate) fn too_large() -> SceneError {
-    SceneError::Refused(format!("the object would be larger than {MAX_COORDINATE:e} m, which scene files cannot hold."))
+    SceneError::Refused(format!(
+        "the object would be larger than {MAX_COORDINATE:e} m, which scene files cannot hold."
+    ))
 }
 
 impl Scene {
@@ -155,7 +189,11 @@ impl Scene {
     ///
     /// # Errors
     /// When the object is no shape, `change` refuses, or the shape became larger than files can hold. The shape stays as it was then.
-    pub fn reshape<R>(&mut self, handle: Handle, change: impl FnOnce(&mut Shape) -> SceneResult<R>) -> SceneResult<R> {
+    pub fn reshape<R>(
+        &mut self,
+        handle: Handle,
+        change: impl FnOnce(&mut Shape) -> SceneResult<R>,
+    ) -> SceneResult<R> {
         self.try_modify(handle, Field::Geometry, |object| {
             let shape = object.shape_mut()?;
             let before = shape.clone();
@@ -170,7 +208,11 @@ impl Scene {
 
     /// Moves the frame of a shape to `world` (None: to its bounding box); geometry and children stay where they are in the world.
     /// Refused for a single primitive: false.
-    pub fn relocate_shape_frame(&mut self, handle: Handle, world: Option<Pose>) -> SceneResult<bool> {
+    pub fn relocate_shape_frame(
+        &mut self,
+        handle: Handle,
+        world: Option<Pose>,
+    ) -> SceneResult<bool> {
         let shape = self.object(handle)?.shape()?;
         if shape.is_fixed_primitive() {
             return Ok(false);
@@ -191,13 +233,19 @@ impl Scene {
     }
 
     /// Turns the bounding box of a shape to a world orientation (None: to the tightest). Refused for a single primitive: false.
-    pub fn align_shape_box(&mut self, handle: Handle, world: Option<UnitQuaternion<f64>>) -> SceneResult<bool> {
+    pub fn align_shape_box(
+        &mut self,
+        handle: Handle,
+        world: Option<UnitQuaternion<f64>>,
+    ) -> SceneResult<bool> {
         if self.object(handle)?.shape()?.is_fixed_primitive() {
             return Ok(false);
         }
         let frame = self.world_pose(handle)?.rotation;
         self.try_modify(handle, Field::Geometry, |object| {
-            object.shape_mut()?.fit_box(world.map(|world| frame.inverse() * world));
+            object
+                .shape_mut()?
+                .fit_box(world.map(|world| frame.inverse() * world));
             Ok(true)
         })
     }
@@ -206,7 +254,9 @@ impl Scene {
 /// A box along the axes of the frame around parts.
 pub fn box_of(parts: &[Part]) -> Option<BoundingBox> {
     let mut mesh = Mesh::default();
-    parts.iter().for_each(|part| mesh.append(&part.mesh, &part.pose));
+    parts
+        .iter()
+        .for_each(|part| mesh.append(&part.mesh, &part.pose));
     mesh.bounding_box(&UnitQuaternion::identity())
 }
 
@@ -216,7 +266,8 @@ mod tests {
 
     #[test]
     fn a_ball_stays_a_ball() {
-        let mut shape = Shape::primitive(PrimitiveKind::Spheroid, [0.2; 3], Default::default()).unwrap();
+        let mut shape =
+            Shape::primitive(PrimitiveKind::Spheroid, [0.2; 3], Default::default()).unwrap();
         shape.stretch([2.0, 3.0, 4.0]).unwrap();
         assert_eq!(shape.parts[0].primitive.as_ref().unwrap().size, [0.4; 3]);
         assert_eq!(shape.bounding_box.size, [0.4; 3]);

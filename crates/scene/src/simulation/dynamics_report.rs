@@ -23,7 +23,12 @@ pub struct JointReport {
 
 impl Scene {
     /// Puts a simulated shape where the engine has it, in the world; returns its pose in the parent's frame.
-    pub fn report_body(&mut self, shape: Handle, world: Option<Pose>, velocity: Velocity) -> SceneResult<Pose> {
+    pub fn report_body(
+        &mut self,
+        shape: Handle,
+        world: Option<Pose>,
+        velocity: Velocity,
+    ) -> SceneResult<Pose> {
         let local = match world {
             Some(world) => normalized(self.parent_frame(shape)?.inverse() * world),
             None => self.object(shape)?.pose(),
@@ -45,7 +50,9 @@ impl Scene {
             joint.spherical = report.rotation;
             joint.velocity = report.velocity;
             joint.raw_force = Some(report.effort);
-            joint.error = Some(normalized(joint.ideal_pose().inverse() * report.moving_side));
+            joint.error = Some(normalized(
+                joint.ideal_pose().inverse() * report.moving_side,
+            ));
             Ok(())
         })?;
         self.move_followers(joint, report.position)

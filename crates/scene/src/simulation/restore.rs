@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use crate::joint::Joint;
 use crate::shape::Velocity;
 use crate::{
-    DynamicFlags, Field, Handle, Kind, Layers, ModelFlags, Object, ObjectFlags, Pose, Scene, SceneResult, Uid,
+    DynamicFlags, Field, Handle, Kind, Layers, ModelFlags, Object, ObjectFlags, Pose, Scene,
+    SceneResult, Uid,
 };
 
 /// The state of one object at simulation start.
@@ -37,7 +38,9 @@ impl Scene {
         let objects = self.all_breadth_first();
         let unrestored = self.not_reset(&objects);
         for handle in objects {
-            let Ok(world) = self.world_pose(handle) else { continue };
+            let Ok(world) = self.world_pose(handle) else {
+                continue;
+            };
             let parent = self.uid_of_parent(handle);
             if let Ok(object) = self.object_in_place(handle) {
                 if object.is_model() {
@@ -68,19 +71,30 @@ impl Scene {
     /// Removes an object from all layers if it has [`ObjectFlags::HIDDEN_FOR_SIMULATION`].
     fn hide_for_simulation(&mut self, handle: Handle) {
         let hidden = self.object(handle).is_ok_and(|object| {
-            object.object_property.contains(ObjectFlags::HIDDEN_FOR_SIMULATION)
+            object
+                .object_property
+                .contains(ObjectFlags::HIDDEN_FOR_SIMULATION)
                 && !object.layer.is_empty()
                 && object.initial.is_some()
         });
         if hidden {
             // The handle was just read.
-            let _ = self.modify(handle, Field::Layer, |object| object.layer = Layers::empty());
+            let _ = self.modify(handle, Field::Layer, |object| {
+                object.layer = Layers::empty()
+            });
         }
     }
 
     /// The objects in models with [`ModelFlags::NOT_RESET`].
     fn not_reset(&self, objects: &[Handle]) -> BTreeSet<Handle> {
-        objects.iter().copied().filter(|&h| self.calculated_model_property(h).contains(ModelFlags::NOT_RESET)).collect()
+        objects
+            .iter()
+            .copied()
+            .filter(|&h| {
+                self.calculated_model_property(h)
+                    .contains(ModelFlags::NOT_RESET)
+            })
+            .collect()
     }
 
     fn uid_of_parent(&self, handle: Handle) -> Option<Uid> {
@@ -97,14 +111,22 @@ impl Scene {
         self.objects.moves_mut().measurements.forget();
         let mut restored = Vec::with_capacity(objects.len());
         for handle in objects {
-            let Ok(object) = self.object_in_place(handle) else { continue };
+            let Ok(object) = self.object_in_place(handle) else {
+                continue;
+            };
             object.measured = crate::MeasuredVelocity::default();
             (object.dynamic_flag, object.dynamics_reset) = (DynamicFlags::empty(), false);
             end_suspension(object);
-            match object.initial.take().filter(|_| !unrestored.contains(&handle)) {
+            match object
+                .initial
+                .take()
+                .filter(|_| !unrestored.contains(&handle))
+            {
                 Some(initial) => restored.push((handle, initial)),
                 // The handle was just read.
-                None => drop(self.modify(handle, Field::Other, |object| forget_run(&mut object.kind))),
+                None => {
+                    drop(self.modify(handle, Field::Other, |object| forget_run(&mut object.kind)))
+                }
             }
         }
         self.restore_parents(&restored);
@@ -120,7 +142,11 @@ impl Scene {
         for (handle, initial) in restored {
             let parent = initial.parent.and_then(|uid| self.by_uid(uid));
             let lost = initial.parent.is_some() && parent.is_none();
-            if !lost && self.object(*handle).is_ok_and(|object| object.parent() != parent) {
+            if !lost
+                && self
+                    .object(*handle)
+                    .is_ok_and(|object| object.parent() != parent)
+            {
                 moved.push((*handle, parent));
             }
         }
@@ -140,13 +166,21 @@ impl Scene {
             self.set_world_pose(handle, initial.world)?;
         }
         if self.object(handle)?.model_property != initial.model_property {
-            self.modify(handle, Field::ModelProperty, |object| object.model_property = initial.model_property)?;
+            self.modify(handle, Field::ModelProperty, |object| {
+                object.model_property = initial.model_property
+            })?;
         }
         let object = self.object(handle)?;
-        if object.object_property.contains(ObjectFlags::HIDDEN_FOR_SIMULATION) && object.layer != initial.layer {
+        if object
+            .object_property
+            .contains(ObjectFlags::HIDDEN_FOR_SIMULATION)
+            && object.layer != initial.layer
+        {
             self.modify(handle, Field::Layer, |object| object.layer = initial.layer)?;
         }
-        self.modify(handle, Field::Other, |object| initial.restore_kind(&mut object.kind))
+        self.modify(handle, Field::Other, |object| {
+            initial.restore_kind(&mut object.kind)
+        })
     }
 }
 
@@ -166,7 +200,14 @@ impl InitialState {
             _ => InitialKind::Other,
         };
         let (model_property, layer) = (object.model_property, object.layer);
-        Self { parent, local: object.pose(), world, model_property, layer, kind }
+        Self {
+            parent,
+            local: object.pose(),
+            world,
+            model_property,
+            layer,
+            kind,
+        }
     }
 
     /// Position, nominal and target velocity of a path.
@@ -180,7 +221,9 @@ impl InitialState {
     fn restore_kind(&self, kind: &mut Kind) {
         match (&mut *kind, &self.kind) {
             (Kind::Joint(joint), InitialKind::Joint(initial)) => restore_joint(joint, initial),
-            (Kind::Shape(shape), InitialKind::Shape(initial)) => shape.dynamics.initial_velocity = *initial,
+            (Kind::Shape(shape), InitialKind::Shape(initial)) => {
+                shape.dynamics.initial_velocity = *initial
+            }
             (Kind::Path(path), InitialKind::Path(motion)) => path.restore_motion(*motion),
             _ => {}
         }
@@ -228,7 +271,8 @@ fn restore_joint(joint: &mut Joint, initial: &Joint) {
     joint.motor_lock = initial.motor_lock;
     joint.target_force = initial.target_force;
     joint.spring = initial.spring;
-    (joint.max_vel, joint.max_accel, joint.max_jerk) = (initial.max_vel, initial.max_accel, initial.max_jerk);
+    (joint.max_vel, joint.max_accel, joint.max_jerk) =
+        (initial.max_vel, initial.max_accel, initial.max_jerk);
 }
 
 #[cfg(test)]
@@ -239,19 +283,33 @@ mod tests {
     #[test]
     fn a_tree_turned_upside_down_comes_back() {
         let mut scene = Scene::new();
-        let dummies: Vec<Handle> =
-            (0..3).map(|_| scene.add("d", Kind::Dummy(Dummy::new(0.01))).expect("there is room")).collect();
-        let [a, b, c] = dummies[..] else { unreachable!() };
+        let dummies: Vec<Handle> = (0..3)
+            .map(|_| {
+                scene
+                    .add("d", Kind::Dummy(Dummy::new(0.01)))
+                    .expect("there is room")
+            })
+            .collect();
+        let [a, b, c] = dummies[..] else {
+            unreachable!()
+        };
         scene.set_parent(b, Some(a), true).unwrap();
         scene.set_parent(c, Some(b), true).unwrap();
-        scene.set_world_pose(c, Pose::translation(1.0, 2.0, 3.0)).unwrap();
+        scene
+            .set_world_pose(c, Pose::translation(1.0, 2.0, 3.0))
+            .unwrap();
         scene.store_initial_state();
         scene.set_parent(c, None, true).unwrap();
         scene.set_parent(a, Some(c), true).unwrap();
-        scene.set_world_pose(c, Pose::translation(0.0, 0.0, 9.0)).unwrap();
+        scene
+            .set_world_pose(c, Pose::translation(0.0, 0.0, 9.0))
+            .unwrap();
         scene.restore_initial_state();
         assert_eq!(scene.object(c).unwrap().parent(), Some(b));
         assert_eq!(scene.object(a).unwrap().parent(), None);
-        assert_eq!(scene.world_pose(c).unwrap(), Pose::translation(1.0, 2.0, 3.0));
+        assert_eq!(
+            scene.world_pose(c).unwrap(),
+            Pose::translation(1.0, 2.0, 3.0)
+        );
     }
 }

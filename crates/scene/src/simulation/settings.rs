@@ -56,7 +56,13 @@ pub struct Calculations {
 
 impl Default for Calculations {
     fn default() -> Self {
-        Self { collision: true, distance: true, proximity_sensors: true, paths: true, inverse_kinematics: true }
+        Self {
+            collision: true,
+            distance: true,
+            proximity_sensors: true,
+            paths: true,
+            inverse_kinematics: true,
+        }
     }
 }
 

@@ -139,7 +139,11 @@ impl Button {
     /// # Errors
     /// When it is no slider.
     pub fn slider_position(&self) -> SceneResult<i64> {
-        if self.is_slider() { Ok(((self.slider + 1.0) * SLIDER_HALF) as i64) } else { Err(SceneError::NotASlider) }
+        if self.is_slider() {
+            Ok(((self.slider + 1.0) * SLIDER_HALF) as i64)
+        } else {
+            Err(SceneError::NotASlider)
+        }
     }
 
     /// Moves a slider to a position from 0 to 1000; others mean the nearest of these.
@@ -161,7 +165,10 @@ impl ButtonInterface {
     /// # Errors
     /// When no button has that number.
     pub fn button(&self, number: i64) -> SceneResult<&Button> {
-        let found = self.buttons.iter().find(|button| i64::from(button.number) == number);
+        let found = self
+            .buttons
+            .iter()
+            .find(|button| i64::from(button.number) == number);
         found.ok_or(SceneError::NoSuchButton)
     }
 
@@ -170,7 +177,10 @@ impl ButtonInterface {
     /// # Errors
     /// When no button has that number.
     pub fn button_mut(&mut self, number: i64) -> SceneResult<&mut Button> {
-        let found = self.buttons.iter_mut().find(|button| i64::from(button.number) == number);
+        let found = self
+            .buttons
+            .iter_mut()
+            .find(|button| i64::from(button.number) == number);
         found.ok_or(SceneError::NoSuchButton)
     }
 
@@ -199,7 +209,8 @@ pub struct ButtonInterfaces {
 impl ButtonInterfaces {
     /// Adds one; where its name is taken it gets a number.
     pub fn add(&mut self, mut interface: ButtonInterface) -> i64 {
-        interface.name = super::old_names::free_name(interface.name, |name| self.named(name).is_some());
+        interface.name =
+            super::old_names::free_name(interface.name, |name| self.named(name).is_some());
         let handle = FIRST_HANDLE + self.made;
         self.made += 1;
         self.revision += 1;
@@ -209,7 +220,10 @@ impl ButtonInterfaces {
 
     /// The handle of the one with that name.
     pub fn named(&self, name: &str) -> Option<i64> {
-        self.by_handle.iter().find(|(_, interface)| interface.name == name).map(|(handle, _)| *handle)
+        self.by_handle
+            .iter()
+            .find(|(_, interface)| interface.name == name)
+            .map(|(handle, _)| *handle)
     }
 
     /// The user interface with that handle.
@@ -217,7 +231,9 @@ impl ButtonInterfaces {
     /// # Errors
     /// When there is no such user interface.
     pub fn get(&self, handle: i64) -> SceneResult<&ButtonInterface> {
-        self.by_handle.get(&handle).ok_or(SceneError::NoSuchInterface)
+        self.by_handle
+            .get(&handle)
+            .ok_or(SceneError::NoSuchInterface)
     }
 
     /// The user interface with that handle, to be changed.
@@ -226,12 +242,16 @@ impl ButtonInterfaces {
     /// When there is no such user interface.
     pub fn get_mut(&mut self, handle: i64) -> SceneResult<&mut ButtonInterface> {
         self.revision += 1;
-        self.by_handle.get_mut(&handle).ok_or(SceneError::NoSuchInterface)
+        self.by_handle
+            .get_mut(&handle)
+            .ok_or(SceneError::NoSuchInterface)
     }
 
     /// With their handles, in the order in which they were added.
     pub fn iter(&self) -> impl Iterator<Item = (i64, &ButtonInterface)> {
-        self.by_handle.iter().map(|(handle, interface)| (*handle, interface))
+        self.by_handle
+            .iter()
+            .map(|(handle, interface)| (*handle, interface))
     }
 
     /// A number that grows with every change.
@@ -246,7 +266,10 @@ impl ButtonInterfaces {
     pub fn remove(&mut self, handle: i64) -> SceneResult<()> {
         self.revision += 1;
         self.events.remove(&handle);
-        self.by_handle.remove(&handle).map(|_| ()).ok_or(SceneError::NoSuchInterface)
+        self.by_handle
+            .remove(&handle)
+            .map(|_| ())
+            .ok_or(SceneError::NoSuchInterface)
     }
 
     /// Removes all user interfaces.
@@ -259,7 +282,11 @@ impl ButtonInterfaces {
     /// Removes those of objects that are removed.
     pub(crate) fn forget(&mut self, removed: &BTreeSet<Handle>) {
         let before = self.by_handle.len();
-        self.by_handle.retain(|_, interface| !interface.object.is_some_and(|object| removed.contains(&object)));
+        self.by_handle.retain(|_, interface| {
+            !interface
+                .object
+                .is_some_and(|object| removed.contains(&object))
+        });
         if self.by_handle.len() != before {
             self.revision += 1;
             let kept = &self.by_handle;

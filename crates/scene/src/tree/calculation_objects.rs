@@ -54,7 +54,10 @@ impl<R, const FIRST: i64> CalculationObjects<R, FIRST> {
 
     /// The handle of the one with that name.
     pub fn named(&self, name: &str) -> Option<i64> {
-        self.by_handle.iter().find(|(_, object)| object.name == name).map(|(handle, _)| *handle)
+        self.by_handle
+            .iter()
+            .find(|(_, object)| object.name == name)
+            .map(|(handle, _)| *handle)
     }
 
     /// The one with that handle.
@@ -69,24 +72,35 @@ impl<R, const FIRST: i64> CalculationObjects<R, FIRST> {
 
     /// With their handles, in the order in which they were added.
     pub fn iter(&self) -> impl Iterator<Item = (i64, &CalculationObject<R>)> {
-        self.by_handle.iter().map(|(handle, object)| (*handle, object))
+        self.by_handle
+            .iter()
+            .map(|(handle, object)| (*handle, object))
     }
 
     /// The handles of all, or of those that are not handled explicitly.
     pub fn handles(&self, with_explicit: bool) -> Vec<i64> {
-        self.iter().filter(|(_, object)| with_explicit || !object.explicit).map(|(handle, _)| handle).collect()
+        self.iter()
+            .filter(|(_, object)| with_explicit || !object.explicit)
+            .map(|(handle, _)| handle)
+            .collect()
     }
 
     /// Forgets the results of all, or of those that are not handled explicitly.
     pub fn reset(&mut self, with_explicit: bool) {
-        let objects = self.by_handle.values_mut().filter(|object| with_explicit || !object.explicit);
+        let objects = self
+            .by_handle
+            .values_mut()
+            .filter(|object| with_explicit || !object.explicit);
         objects.for_each(|object| object.result = None);
     }
 
     /// Removes those of an entity that is removed.
     fn forget(&mut self, removed: &BTreeSet<Handle>) {
-        let is_removed = |entity: &i64| Handle::from_raw(*entity).is_some_and(|handle| removed.contains(&handle));
-        self.by_handle.retain(|_, object| !object.entities.iter().any(is_removed));
+        let is_removed = |entity: &i64| {
+            Handle::from_raw(*entity).is_some_and(|handle| removed.contains(&handle))
+        };
+        self.by_handle
+            .retain(|_, object| !object.entities.iter().any(is_removed));
     }
 }
 
@@ -116,7 +130,11 @@ impl Scene {
         self.collision_objects.forget(removed);
         self.distance_objects.forget(removed);
         for object in self.collision_objects.by_handle.values_mut() {
-            if object.result.flatten().is_some_and(|pair| pair.iter().any(|handle| removed.contains(handle))) {
+            if object
+                .result
+                .flatten()
+                .is_some_and(|pair| pair.iter().any(|handle| removed.contains(handle)))
+            {
                 object.result = None;
             }
         }
@@ -142,9 +160,16 @@ mod tests {
     #[test]
     fn names_are_unique_and_handles_are_not_used_again() {
         let mut objects = DistanceObjects::default();
-        let handles = ["gap", "gap", "gap7", "gap7", "gap"].map(|name| objects.add(named(name, [3, -2])));
-        assert_eq!(handles, [2_020_002, 2_020_003, 2_020_004, 2_020_005, 2_020_006]);
-        let names: Vec<&str> = objects.iter().map(|(_, object)| object.name.as_str()).collect();
+        let handles =
+            ["gap", "gap", "gap7", "gap7", "gap"].map(|name| objects.add(named(name, [3, -2])));
+        assert_eq!(
+            handles,
+            [2_020_002, 2_020_003, 2_020_004, 2_020_005, 2_020_006]
+        );
+        let names: Vec<&str> = objects
+            .iter()
+            .map(|(_, object)| object.name.as_str())
+            .collect();
         assert_eq!(names, ["gap", "gap0", "gap7", "gap8", "gap1"]);
         objects.add(named("other", [5, 4]));
         objects.forget(&BTreeSet::from([Handle(3)]));

@@ -60,8 +60,13 @@ pub enum Members {
 impl CollectionItem {
     /// An item that adds `members`, or as `options` say.
     pub fn new(members: Members, options: ItemOptions) -> Self {
-        let [subtract, exclude_base] = [ItemOptions::SUBTRACT, ItemOptions::EXCLUDE_BASE].map(|o| options.contains(o));
-        Self { members, subtract, exclude_base }
+        let [subtract, exclude_base] =
+            [ItemOptions::SUBTRACT, ItemOptions::EXCLUDE_BASE].map(|o| options.contains(o));
+        Self {
+            members,
+            subtract,
+            exclude_base,
+        }
     }
 }
 
@@ -99,14 +104,24 @@ impl Collections {
     pub fn add(&mut self, overrides: bool, owner: Option<i64>) -> i64 {
         let handle = FIRST_HANDLE + self.made;
         self.made += 1;
-        self.by_handle.insert(handle, Collection { overrides, owner, ..Collection::default() });
+        self.by_handle.insert(
+            handle,
+            Collection {
+                overrides,
+                owner,
+                ..Collection::default()
+            },
+        );
         handle
     }
 
     /// The handle of the one with that name.
     pub fn named(&self, name: &str) -> Option<i64> {
         let is_it = |collection: &Collection| !name.is_empty() && collection.name == name;
-        self.by_handle.iter().find(|(_, collection)| is_it(collection)).map(|(handle, _)| *handle)
+        self.by_handle
+            .iter()
+            .find(|(_, collection)| is_it(collection))
+            .map(|(handle, _)| *handle)
     }
 
     /// Names a collection; where the name is taken it gets a number.
@@ -115,7 +130,9 @@ impl Collections {
     /// When there is none with that handle.
     pub fn set_name(&mut self, handle: i64, name: String) -> SceneResult<()> {
         self.get(handle)?;
-        let name = super::old_names::free_name(name, |name| self.named(name).is_some_and(|other| other != handle));
+        let name = super::old_names::free_name(name, |name| {
+            self.named(name).is_some_and(|other| other != handle)
+        });
         self.get_mut(handle)?.name = name;
         Ok(())
     }
@@ -127,7 +144,9 @@ impl Collections {
 
     /// All, in the order in which they were made.
     pub fn iter(&self) -> impl Iterator<Item = (i64, &Collection)> {
-        self.by_handle.iter().map(|(handle, collection)| (*handle, collection))
+        self.by_handle
+            .iter()
+            .map(|(handle, collection)| (*handle, collection))
     }
 
     /// Removes a collection; its objects stay.
@@ -135,7 +154,10 @@ impl Collections {
     /// # Errors
     /// When there is none with that handle.
     pub fn remove(&mut self, handle: i64) -> SceneResult<()> {
-        self.by_handle.remove(&handle).map(drop).ok_or(SceneError::NoSuchCollection)
+        self.by_handle
+            .remove(&handle)
+            .map(drop)
+            .ok_or(SceneError::NoSuchCollection)
     }
 
     /// The collection with that handle.
@@ -143,7 +165,9 @@ impl Collections {
     /// # Errors
     /// When there is none with that handle.
     pub fn get(&self, handle: i64) -> SceneResult<&Collection> {
-        self.by_handle.get(&handle).ok_or(SceneError::NoSuchCollection)
+        self.by_handle
+            .get(&handle)
+            .ok_or(SceneError::NoSuchCollection)
     }
 
     /// The collection with that handle, to be changed.
@@ -151,16 +175,23 @@ impl Collections {
     /// # Errors
     /// When there is none with that handle.
     pub fn get_mut(&mut self, handle: i64) -> SceneResult<&mut Collection> {
-        self.by_handle.get_mut(&handle).ok_or(SceneError::NoSuchCollection)
+        self.by_handle
+            .get_mut(&handle)
+            .ok_or(SceneError::NoSuchCollection)
     }
 
     pub(crate) fn forget_owner(&mut self, owner: i64) {
-        self.by_handle.retain(|_, collection| collection.owner != Some(owner));
+        self.by_handle
+            .retain(|_, collection| collection.owner != Some(owner));
     }
 
     pub(super) fn forget(&mut self, removed: &BTreeSet<Handle>) {
         for collection in self.by_handle.values_mut() {
-            collection.items.retain(|item| item.members.base().is_none_or(|base| !removed.contains(&base)));
+            collection.items.retain(|item| {
+                item.members
+                    .base()
+                    .is_none_or(|base| !removed.contains(&base))
+            });
         }
     }
 }
@@ -205,7 +236,8 @@ impl Scene {
             Members::Chain(tip) => std::iter::once(tip).chain(self.ancestors(tip)).collect(),
         };
         let base = item.members.base();
-        objects.retain(|&object| self.exists(object) && !(item.exclude_base && Some(object) == base));
+        objects
+            .retain(|&object| self.exists(object) && !(item.exclude_base && Some(object) == base));
         objects
     }
 }

@@ -10,7 +10,10 @@ use crate::object::viewers::Viewers;
 use crate::pose::placement::normalized;
 use crate::sensor::Entity;
 use crate::shape::Velocity;
-use crate::{CustomData, DynamicFlags, Handle, Kind, MeasuredVelocity, ModelFlags, Object, Scene, SceneResult};
+use crate::{
+    CustomData, DynamicFlags, Handle, Kind, MeasuredVelocity, ModelFlags, Object, Scene,
+    SceneResult,
+};
 
 bitflags! {
     /// Options of `sim.copyPasteObjects`.
@@ -37,36 +40,55 @@ impl Scene {
     ///
     /// # Errors
     /// When one of them does not exist.
-    pub fn objects_to_copy(&self, handles: &[Handle], options: CopyOptions) -> SceneResult<Vec<Handle>> {
+    pub fn objects_to_copy(
+        &self,
+        handles: &[Handle],
+        options: CopyOptions,
+    ) -> SceneResult<Vec<Handle>> {
         if let Some(&unknown) = handles.iter().find(|&&h| !self.exists(h)) {
             self.object(unknown)?;
         }
         let listed: BTreeSet<Handle> = handles.iter().copied().collect();
-        let mut chosen = if options.contains(CopyOptions::MODELS) { self.models_in(&listed) } else { listed };
+        let mut chosen = if options.contains(CopyOptions::MODELS) {
+            self.models_in(&listed)
+        } else {
+            listed
+        };
         let is_script = |h: &Handle| self.object(*h).and_then(Object::script).is_ok();
         if options.contains(CopyOptions::NO_SCRIPTS) {
             chosen.retain(|h| !is_script(h));
         } else {
-            let attached: Vec<Handle> = chosen.iter().flat_map(|&h| self.proxy_scripts(h)).collect();
+            let attached: Vec<Handle> =
+                chosen.iter().flat_map(|&h| self.proxy_scripts(h)).collect();
             chosen.extend(attached);
         }
         if chosen.len() <= 1 {
             return Ok(chosen.into_iter().collect());
         }
-        Ok(self.all_breadth_first().into_iter().filter(|h| chosen.contains(h)).collect())
+        Ok(self
+            .all_breadth_first()
+            .into_iter()
+            .filter(|h| chosen.contains(h))
+            .collect())
     }
 
     /// Everything that belongs to the models among `listed`.
     fn models_in(&self, listed: &BTreeSet<Handle>) -> BTreeSet<Handle> {
         let is_model = |h: &&Handle| self.object(**h).is_ok_and(Object::is_model);
-        listed.iter().filter(is_model).flat_map(|&base| self.subtree(base)).collect()
+        listed
+            .iter()
+            .filter(is_model)
+            .flat_map(|&base| self.subtree(base))
+            .collect()
     }
 
     /// Attached scripts of `handle`, which are copied with it.
     fn proxy_scripts(&self, handle: Handle) -> Vec<Handle> {
         let children = self.object(handle).map_or(&[][..], Object::children);
         let goes_along = |&&child: &&Handle| {
-            self.object(child).and_then(Object::script).is_ok_and(|script: &ScriptObject| script.parent_is_proxy)
+            self.object(child)
+                .and_then(Object::script)
+                .is_ok_and(|script: &ScriptObject| script.parent_is_proxy)
         };
         children.iter().filter(goes_along).copied().collect()
     }
@@ -89,7 +111,9 @@ impl Scene {
             Ok(())
         });
         for &copy in copies.values() {
-            self.modify(copy, crate::Field::Other, |object| redirect(object, &copies))?;
+            self.modify(copy, crate::Field::Other, |object| {
+                redirect(object, &copies)
+            })?;
         }
         self.number_names(&names)?;
         all.map(|()| copies)
@@ -103,14 +127,23 @@ impl Scene {
         options: CopyOptions,
     ) -> SceneResult<(Handle, String)> {
         let world = self.world_pose(original)?;
-        let parent = self.ancestors(original).find_map(|above| copies.get(&above).copied());
-        let direct = self.object(original)?.parent().is_some_and(|above| copies.contains_key(&above));
+        let parent = self
+            .ancestors(original)
+            .find_map(|above| copies.get(&above).copied());
+        let direct = self
+            .object(original)?
+            .parent()
+            .is_some_and(|above| copies.contains_key(&above));
         let mut object = self.object(original)?.clone();
         start_anew(&mut object, options);
         let (local, name) = (object.pose, std::mem::take(&mut object.old_name));
         let copy = self.insert_unnumbered(object)?;
         self.set_parent(copy, parent, false)?;
-        let pose = if direct { local } else { self.parent_frame(copy)?.inverse() * world };
+        let pose = if direct {
+            local
+        } else {
+            self.parent_frame(copy)?.inverse() * world
+        };
         self.object_mut(copy)?.pose = normalized(pose);
         self.store_state_of_copy(copy)?;
         Ok((copy, name))
@@ -124,7 +157,9 @@ fn start_anew(object: &mut Object, options: CopyOptions) {
     object.dynamic_flag = DynamicFlags::empty();
     object.dynamics_reset = false;
     match &mut object.kind {
-        Kind::Joint(joint) => (joint.motion, joint.error, joint.force, joint.raw_force) = (None, None, None, None),
+        Kind::Joint(joint) => {
+            (joint.motion, joint.error, joint.force, joint.raw_force) = (None, None, None, None)
+        }
         Kind::Shape(shape) => {
             shape.velocity = Velocity::default();
             (shape.force, shape.torque) = ([0.0; 3], [0.0; 3]);
@@ -132,7 +167,9 @@ fn start_anew(object: &mut Object, options: CopyOptions) {
                 shape.parts.iter_mut().for_each(|part| part.texture = None);
             }
         }
-        Kind::ForceSensor(sensor) => (sensor.raw, sensor.filtered, sensor.error) = (None, None, None),
+        Kind::ForceSensor(sensor) => {
+            (sensor.raw, sensor.filtered, sensor.error) = (None, None, None)
+        }
         Kind::ProximitySensor(sensor) => sensor.reset(),
         _ => {}
     }
@@ -153,12 +190,19 @@ fn redirect(object: &mut Object, copies: &BTreeMap<Handle, Handle>) {
     let copy_of = |handle: Handle| copies.get(&handle).copied();
     match &mut object.kind {
         Kind::Joint(joint) => {
-            joint.dependency = joint
-                .dependency
-                .and_then(|law| Some(crate::joint::JointDependency { master: copy_of(law.master)?, ..law }));
+            joint.dependency = joint.dependency.and_then(|law| {
+                Some(crate::joint::JointDependency {
+                    master: copy_of(law.master)?,
+                    ..law
+                })
+            });
         }
         Kind::Shape(shape) => {
-            for texture in shape.parts.iter_mut().filter_map(|part| part.texture.as_mut()) {
+            for texture in shape
+                .parts
+                .iter_mut()
+                .filter_map(|part| part.texture.as_mut())
+            {
                 if let TextureSource::Sensor(sensor) = texture.source {
                     texture.source = TextureSource::Sensor(copy_of(sensor).unwrap_or(sensor));
                 }
@@ -173,12 +217,21 @@ fn redirect(object: &mut Object, copies: &BTreeMap<Handle, Handle>) {
     if let Viewers::One(viewer) = object.viewers {
         object.viewers = Viewers::One(copy_of(viewer).unwrap_or(viewer));
     }
-    for handle in object.references.iter_mut().flat_map(|(_, list)| list.iter_mut()) {
-        *handle = Handle::from_raw(*handle).and_then(copy_of).map_or(-1, Handle::raw);
+    for handle in object
+        .references
+        .iter_mut()
+        .flat_map(|(_, list)| list.iter_mut())
+    {
+        *handle = Handle::from_raw(*handle)
+            .and_then(copy_of)
+            .map_or(-1, Handle::raw);
     }
 }
 
 /// The entity of a copied sensor: the copy of the original's entity, if there is one, else the same entity.
 fn redirected_entity(entity: Entity, copies: &BTreeMap<Handle, Handle>) -> Entity {
-    entity.object().and_then(|handle| copies.get(&handle)).map_or(entity, |copy| (*copy).into())
+    entity
+        .object()
+        .and_then(|handle| copies.get(&handle))
+        .map_or(entity, |copy| (*copy).into())
 }

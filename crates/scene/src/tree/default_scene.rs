@@ -30,7 +30,10 @@ impl Scene {
         self.set_world_pose(camera, looking_at_origin(CAMERA_AT))?;
         let lights = self.add("DefaultLights", Kind::Dummy(Dummy::new(0.1)))?;
         for at in LIGHTS_AT {
-            let light = self.add("light", Kind::Light(Box::new(Light::new(LightType::Directional))))?;
+            let light = self.add(
+                "light",
+                Kind::Light(Box::new(Light::new(LightType::Directional))),
+            )?;
             self.set_world_pose(light, looking_at_origin(at))?;
             self.set_parent(light, Some(lights), true)?;
         }
@@ -38,7 +41,8 @@ impl Scene {
     }
 
     fn add_floor(&mut self) -> SceneResult<Handle> {
-        let mut shape = Shape::primitive(PrimitiveKind::Cuboid, FLOOR, PrimitiveOptions::default())?;
+        let mut shape =
+            Shape::primitive(PrimitiveKind::Cuboid, FLOOR, PrimitiveOptions::default())?;
         shape.dynamics.respondable = true;
         shape.material = Material::preset(FLOOR_MATERIAL).unwrap_or_default();
         let floor = self.add("Floor", Kind::Shape(Box::new(shape)))?;
@@ -70,6 +74,9 @@ mod tests {
         assert!(floor.is_model() && floor.alias() == "Floor");
         let shape = floor.shape().unwrap();
         assert!(shape.dynamics.is_static && shape.dynamics.respondable && shape.is_pure());
-        assert_eq!(floor.pose().translation.z + 0.5 * shape.bounding_box.size[2], 0.0);
+        assert_eq!(
+            floor.pose().translation.z + 0.5 * shape.bounding_box.size[2],
+            0.0
+        );
     }
 }

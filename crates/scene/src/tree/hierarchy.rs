@@ -23,9 +23,15 @@ impl Scene {
     /// sibling has.
     pub fn child_order(&self, handle: Handle) -> SceneResult<Option<usize>> {
         let alias = self.object(handle)?.alias();
-        let is_namesake = |sibling: &&Handle| self.object(**sibling).is_ok_and(|object| object.alias() == alias);
+        let is_namesake = |sibling: &&Handle| {
+            self.object(**sibling)
+                .is_ok_and(|object| object.alias() == alias)
+        };
         let mut namesakes = self.siblings(handle)?.iter().filter(is_namesake);
-        let before = namesakes.by_ref().take_while(|&&sibling| sibling != handle).count();
+        let before = namesakes
+            .by_ref()
+            .take_while(|&&sibling| sibling != handle)
+            .count();
         Ok((before > 0 || namesakes.next().is_some()).then_some(before))
     }
 
@@ -35,10 +41,14 @@ impl Scene {
             None => &self.roots[..],
             Some(parent) => self.object(parent).map_or(&[][..], crate::Object::children),
         };
-        let named = children.iter().filter_map(|&child| Some((child, self.object(child).ok()?.alias())));
+        let named = children
+            .iter()
+            .filter_map(|&child| Some((child, self.object(child).ok()?.alias())));
         let named: Vec<(Handle, &str)> = named.collect();
         let mut namesakes: HashMap<&str, usize> = HashMap::new();
-        named.iter().for_each(|(_, alias)| *namesakes.entry(alias).or_default() += 1);
+        named
+            .iter()
+            .for_each(|(_, alias)| *namesakes.entry(alias).or_default() += 1);
         let mut next: HashMap<&str, usize> = HashMap::new();
         let ordered = named.into_iter().map(|(child, alias)| {
             let order = next.entry(alias).or_default();
@@ -57,7 +67,9 @@ impl Scene {
 
     /// Whether `ancestor` is `handle` or lies above it.
     pub fn is_ancestor_or_self(&self, ancestor: Handle, handle: Handle) -> bool {
-        std::iter::once(handle).chain(self.ancestors(handle)).any(|h| h == ancestor)
+        std::iter::once(handle)
+            .chain(self.ancestors(handle))
+            .any(|h| h == ancestor)
     }
 
     /// Parent, grandparent, ... up to the root.
@@ -76,7 +88,12 @@ impl Scene {
     ///
     /// # Errors
     /// When one of them does not exist, or `handle` is `parent` or an ancestor of it.
-    pub fn set_parent(&mut self, handle: Handle, parent: Option<Handle>, keep_in_place: bool) -> SceneResult<()> {
+    pub fn set_parent(
+        &mut self,
+        handle: Handle,
+        parent: Option<Handle>,
+        keep_in_place: bool,
+    ) -> SceneResult<()> {
         let old = self.object(handle)?.parent();
         if let Some(parent) = parent {
             self.object(parent)?;
@@ -134,7 +151,11 @@ impl Scene {
         let parent = self.object(handle)?.parent();
         let siblings = self.siblings_mut(parent)?;
         let len = siblings.len() as i64;
-        let target = if position < 0 { len + position } else { position };
+        let target = if position < 0 {
+            len + position
+        } else {
+            position
+        };
         if !(0..len).contains(&target) {
             return Err(SceneError::OperationFailed);
         }
@@ -160,9 +181,9 @@ impl Scene {
     /// When `base` does not exist.
     pub fn tree(&self, base: Option<Handle>, shallow: bool) -> SceneResult<Vec<Handle>> {
         Ok(match base {
-            Some(base) if shallow => {
-                std::iter::once(base).chain(self.object(base)?.children().iter().copied()).collect()
-            }
+            Some(base) if shallow => std::iter::once(base)
+                .chain(self.object(base)?.children().iter().copied())
+                .collect(),
             Some(base) => {
                 self.object(base)?;
                 self.subtree(base)
@@ -190,7 +211,9 @@ impl Scene {
             .chain(self.ancestors(handle))
             .filter_map(|h| self.object(h).ok())
             .filter(|object| object.is_model())
-            .fold(ModelFlags::empty(), |flags, object| flags | object.model_property)
+            .fold(ModelFlags::empty(), |flags, object| {
+                flags | object.model_property
+            })
     }
 
     /// Removes objects. Their children survive: they go to the nearest surviving ancestor and keep their place in the world, object

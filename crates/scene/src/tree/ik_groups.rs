@@ -48,7 +48,12 @@ pub struct IkGroupOptions {
 
 impl Default for IkGroupOptions {
     fn default() -> Self {
-        Self { enabled: true, ignores_max_steps: true, restores_on_bad_linear: false, restores_on_bad_angular: false }
+        Self {
+            enabled: true,
+            ignores_max_steps: true,
+            restores_on_bad_linear: false,
+            restores_on_bad_angular: false,
+        }
     }
 }
 
@@ -138,7 +143,10 @@ impl IkGroups {
 
     /// The handle of the one with that name.
     pub fn named(&self, name: &str) -> Option<i64> {
-        self.by_handle.iter().find(|(_, group)| group.name == name).map(|(handle, _)| *handle)
+        self.by_handle
+            .iter()
+            .find(|(_, group)| group.name == name)
+            .map(|(handle, _)| *handle)
     }
 
     /// The group with that handle.
@@ -163,17 +171,23 @@ impl IkGroups {
 
     /// With their handles, in the order in which they were added.
     pub fn iter(&self) -> impl Iterator<Item = (i64, &IkGroup)> {
-        self.by_handle.iter().map(|(handle, group)| (*handle, group))
+        self.by_handle
+            .iter()
+            .map(|(handle, group)| (*handle, group))
     }
 
     /// Removes elements whose tip is removed, and groups that are left without one.
     pub(super) fn forget(&mut self, removed: &BTreeSet<Handle>) {
         self.by_handle.retain(|_, group| {
             let before = group.elements.len();
-            group.elements.retain(|element| !removed.contains(&element.tip));
+            group
+                .elements
+                .retain(|element| !removed.contains(&element.tip));
             for element in &mut group.elements {
                 element.base = element.base.filter(|base| !removed.contains(base));
-                element.constraint_base = element.constraint_base.filter(|base| !removed.contains(base));
+                element.constraint_base = element
+                    .constraint_base
+                    .filter(|base| !removed.contains(base));
             }
             before == 0 || !group.elements.is_empty()
         });
@@ -198,12 +212,22 @@ mod tests {
 
     #[test]
     fn a_group_ends_with_its_last_tip() {
-        let element = |tip| IkElement { base: Some(Handle(9)), ..IkElement::new(Handle(tip)) };
-        let group = |elements| IkGroup { elements, ..IkGroup::new("ik") };
+        let element = |tip| IkElement {
+            base: Some(Handle(9)),
+            ..IkElement::new(Handle(tip))
+        };
+        let group = |elements| IkGroup {
+            elements,
+            ..IkGroup::new("ik")
+        };
         let mut groups = IkGroups::default();
-        let handles = [group(vec![element(1)]), group(vec![element(1), element(2)])].map(|group| groups.add(group));
+        let handles = [group(vec![element(1)]), group(vec![element(1), element(2)])]
+            .map(|group| groups.add(group));
         assert_eq!(handles, [2_030_003, 2_030_004]);
-        assert_eq!((groups.named("ik"), groups.named("ik0")), (Some(2_030_003), Some(2_030_004)));
+        assert_eq!(
+            (groups.named("ik"), groups.named("ik0")),
+            (Some(2_030_003), Some(2_030_004))
+        );
         groups.forget(&BTreeSet::from([Handle(1), Handle(9)]));
         assert!(groups.get(2_030_003).is_none());
         let left = groups.get(2_030_004).expect("it has another tip");

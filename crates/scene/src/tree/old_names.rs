@@ -21,7 +21,11 @@ pub(crate) struct OldNames {
 impl OldNames {
     /// Reserves a name for an object: the one that is asked for, or the next free number at its end.
     pub(crate) fn claim(&mut self, wished: String, handle: Handle) -> String {
-        let name = if self.handles.contains_key(&wished) { self.next_free(&wished) } else { wished };
+        let name = if self.handles.contains_key(&wished) {
+            self.next_free(&wished)
+        } else {
+            wished
+        };
         if self.handles.insert(name.clone(), handle).is_none() {
             *self.suffixes.entry(suffix(&name).0).or_default() += 1;
         }
@@ -67,7 +71,9 @@ impl OldNames {
             write!(name, "{number}").expect("a string takes all");
             !self.handles.contains_key(&name)
         };
-        (begin..).find(is_free).expect("there are fewer objects than numbers")
+        (begin..)
+            .find(is_free)
+            .expect("there are fewer objects than numbers")
     }
 
     /// The first suffix with which a stem is free.
@@ -86,16 +92,25 @@ impl OldNames {
         if stems.iter().all(|stem| !self.handles.contains_key(*stem)) {
             return -1;
         }
-        let first = stems.iter().map(|stem| self.first_free_suffix(stem)).max().unwrap_or(0);
+        let first = stems
+            .iter()
+            .map(|stem| self.first_free_suffix(stem))
+            .max()
+            .unwrap_or(0);
         let is_free = |number: &i64| {
-            stems.len() == 1 || stems.iter().all(|stem| !self.handles.contains_key(&with_suffix(stem, *number)))
+            stems.len() == 1
+                || stems
+                    .iter()
+                    .all(|stem| !self.handles.contains_key(&with_suffix(stem, *number)))
         };
         (first..limit).find(is_free).unwrap_or(limit)
     }
 
     /// The largest suffix in use; -1 if there is none.
     fn highest_suffix(&self) -> i64 {
-        self.suffixes.last_key_value().map_or(-1, |(&suffix, _)| suffix)
+        self.suffixes
+            .last_key_value()
+            .map_or(-1, |(&suffix, _)| suffix)
     }
 }
 
@@ -111,13 +126,16 @@ pub(super) fn free_name(name: String, is_taken: impl Fn(&str) -> bool) -> String
         return name;
     }
     let (stem, number) = split_number(&name);
-    let mut names = (number.map_or(0, |number| number.saturating_add(1))..=u64::MAX).map(|n| format!("{stem}{n}"));
+    let mut names = (number.map_or(0, |number| number.saturating_add(1))..=u64::MAX)
+        .map(|n| format!("{stem}{n}"));
     names.find(|name| !is_taken(name)).unwrap_or(name)
 }
 
 /// The number after the `#` of a name, -1 without one, and what is before it.
 pub fn suffix(name: &str) -> (i64, &str) {
-    let Some((stem, number)) = name.rsplit_once('#') else { return (-1, name) };
+    let Some((stem, number)) = name.rsplit_once('#') else {
+        return (-1, name);
+    };
     match number.parse::<u32>() {
         Ok(number) => (number.into(), stem),
         Err(_) if number.is_empty() => (-1, stem),
@@ -126,22 +144,38 @@ pub fn suffix(name: &str) -> (i64, &str) {
 }
 
 fn with_suffix(stem: &str, number: i64) -> String {
-    if number < 0 { stem.to_owned() } else { format!("{stem}#{number}") }
+    if number < 0 {
+        stem.to_owned()
+    } else {
+        format!("{stem}#{number}")
+    }
 }
 
 /// Whether a script may choose this name.
 pub fn is_legal(name: &str) -> bool {
-    let (stem, number) = name.split_once('#').map_or((name, None), |(stem, number)| (stem, Some(number)));
+    let (stem, number) = name
+        .split_once('#')
+        .map_or((name, None), |(stem, number)| (stem, Some(number)));
     let is_word = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '(' | ')');
     let is_number = |text: &str| {
-        !text.is_empty() && text.bytes().all(|c| c.is_ascii_digit()) && (text == "0" || !text.starts_with('0'))
+        !text.is_empty()
+            && text.bytes().all(|c| c.is_ascii_digit())
+            && (text == "0" || !text.starts_with('0'))
     };
-    !stem.is_empty() && name.len() <= MAX_NAME_BYTES && stem.chars().all(is_word) && number.is_none_or(is_number)
+    !stem.is_empty()
+        && name.len() <= MAX_NAME_BYTES
+        && stem.chars().all(is_word)
+        && number.is_none_or(is_number)
 }
 
 /// The name with words for all signs that were illegal before V-REP 2.3.
 pub fn alternative_name(name: &str) -> String {
-    let signs = [('#', "_HASHMARK_"), ('-', "_MINUSMARK_"), ('(', "_OPARENTHESISMARK_"), (')', "_CPARENTHESISMARK_")];
+    let signs = [
+        ('#', "_HASHMARK_"),
+        ('-', "_MINUSMARK_"),
+        ('(', "_OPARENTHESISMARK_"),
+        (')', "_CPARENTHESISMARK_"),
+    ];
     let word = |c: char| match signs.iter().find(|(sign, _)| *sign == c) {
         Some((_, word)) => (*word).to_owned(),
         None if c.is_ascii_alphanumeric() => c.to_string(),
@@ -186,7 +220,11 @@ impl Scene {
     /// # Errors
     /// When there is none.
     pub fn find_old_name(&self, name: &str) -> SceneResult<Handle> {
-        self.old_names.handles.get(name).copied().ok_or(SceneError::NoSuchPath)
+        self.old_names
+            .handles
+            .get(name)
+            .copied()
+            .ok_or(SceneError::NoSuchPath)
     }
 
     /// The object with that alternative name.
@@ -196,7 +234,9 @@ impl Scene {
     pub fn find_alternative_name(&self, name: &str) -> SceneResult<Handle> {
         let mut names = self.old_names.handles.iter();
         let found = names.find(|(known, _)| alternative_name(known) == name);
-        found.map(|(_, handle)| *handle).ok_or(SceneError::NoSuchPath)
+        found
+            .map(|(_, handle)| *handle)
+            .ok_or(SceneError::NoSuchPath)
     }
 
     /// Renames the objects of a model that was added, given their names in the model: all of one suffix get the same other suffix, the
@@ -212,7 +252,10 @@ impl Scene {
                 self.old_names.release(name);
             }
         }
-        let mut members: Vec<_> = group.iter().map(|(handle, name)| (suffix(name), *handle)).collect();
+        let mut members: Vec<_> = group
+            .iter()
+            .map(|(handle, name)| (suffix(name), *handle))
+            .collect();
         members.sort_by_key(|((own, _), _)| *own);
         let lowest = members.first().map_or(-1, |((own, _), _)| *own);
         let offset = self.old_names.highest_suffix() - lowest + 1;
@@ -235,20 +278,29 @@ mod tests {
     use crate::object::dummy::Dummy;
 
     fn add(scene: &mut Scene, name: &str) -> Handle {
-        let handle = scene.add("dummy", Kind::Dummy(Dummy::new(0.01))).expect("there is room");
+        let handle = scene
+            .add("dummy", Kind::Dummy(Dummy::new(0.01)))
+            .expect("there is room");
         scene.set_old_name(handle, name).expect("it exists");
         handle
     }
 
     fn name(scene: &Scene, handle: Handle) -> String {
-        scene.object(handle).expect("it exists").old_name().to_owned()
+        scene
+            .object(handle)
+            .expect("it exists")
+            .old_name()
+            .to_owned()
     }
 
     #[test]
     fn created_objects_get_the_next_number() {
         let mut scene = Scene::new();
         let made: Vec<Handle> = (0..3).map(|_| add(&mut scene, "dummy")).collect();
-        assert_eq!(made.iter().map(|&h| name(&scene, h)).collect::<Vec<_>>(), ["dummy", "dummy0", "dummy1"]);
+        assert_eq!(
+            made.iter().map(|&h| name(&scene, h)).collect::<Vec<_>>(),
+            ["dummy", "dummy0", "dummy1"]
+        );
         scene.remove(&[made[1]]).expect("it exists");
         let next = add(&mut scene, "dummy");
         assert_eq!(name(&scene, next), "dummy0");
@@ -259,9 +311,16 @@ mod tests {
     #[test]
     fn models_are_numbered_as_a_whole() {
         let mut scene = Scene::new();
-        for expected in [["bot", "bot_motor"], ["bot#0", "bot_motor#0"], ["bot#1", "bot_motor#1"]] {
+        for expected in [
+            ["bot", "bot_motor"],
+            ["bot#0", "bot_motor#0"],
+            ["bot#1", "bot_motor#1"],
+        ] {
             let names = ["bot", "bot_motor"];
-            let group: Vec<_> = names.iter().map(|name| (add(&mut scene, name), (*name).to_owned())).collect();
+            let group: Vec<_> = names
+                .iter()
+                .map(|name| (add(&mut scene, name), (*name).to_owned()))
+                .collect();
             scene.number_names(&group).expect("they exist");
             assert_eq!([0, 1].map(|at| name(&scene, group[at].0)), expected);
         }
@@ -272,9 +331,14 @@ mod tests {
     fn copies_of_a_model_get_the_smallest_number_with_which_all_names_are_free() {
         let mut scene = Scene::new();
         let copy = |scene: &mut Scene| {
-            let group: Vec<_> = ["bot", "motor"].map(|name| (add(scene, "copy"), name.to_owned())).into();
+            let group: Vec<_> = ["bot", "motor"]
+                .map(|name| (add(scene, "copy"), name.to_owned()))
+                .into();
             scene.number_names(&group).expect("they exist");
-            group.into_iter().map(|(handle, _)| handle).collect::<Vec<_>>()
+            group
+                .into_iter()
+                .map(|(handle, _)| handle)
+                .collect::<Vec<_>>()
         };
         let copies: Vec<_> = (0..5).map(|_| copy(&mut scene)).collect();
         assert_eq!(name(&scene, copies[4][1]), "motor#3");
@@ -283,18 +347,32 @@ mod tests {
         let next = [copy(&mut scene), copy(&mut scene)].map(|copy| name(&scene, copy[0]));
         assert_eq!(next, ["bot#1", "bot#4"]);
         let alone = add(&mut scene, "copy");
-        scene.number_names(&[(alone, "bot#7".to_owned())]).expect("it exists");
+        scene
+            .number_names(&[(alone, "bot#7".to_owned())])
+            .expect("it exists");
         assert_eq!(name(&scene, alone), "bot#2");
     }
 
     #[test]
     fn suffixes_are_split() {
-        assert_eq!([suffix("arm#12"), suffix("arm12"), suffix("arm#")], [(12, "arm"), (-1, "arm12"), (-1, "arm")]);
+        assert_eq!(
+            [suffix("arm#12"), suffix("arm12"), suffix("arm#")],
+            [(12, "arm"), (-1, "arm12"), (-1, "arm")]
+        );
     }
 
     #[test]
     fn illegal_names_are_refused() {
-        for name in ["", "#1", "arm#", "arm#00", "my arm", "a#b", "a#1#2", &"x".repeat(128)] {
+        for name in [
+            "",
+            "#1",
+            "arm#",
+            "arm#00",
+            "my arm",
+            "a#b",
+            "a#1#2",
+            &"x".repeat(128),
+        ] {
             assert!(!is_legal(name), "{name}");
         }
         for name in ["arm", "arm#0", "arm#12", "arm(2)", "a_b", &"x".repeat(127)] {

@@ -23,8 +23,18 @@ type Group = (Vec<Component>, usize);
 
 /// `alias` as it is kept: everything but letters, digits and underscores becomes an underscore.
 pub fn clean_alias(alias: &[u8]) -> String {
-    let legal = |&byte: &u8| if byte.is_ascii_alphanumeric() { char::from(byte) } else { '_' };
-    if alias.is_empty() { "_".to_owned() } else { alias.iter().map(legal).collect() }
+    let legal = |&byte: &u8| {
+        if byte.is_ascii_alphanumeric() {
+            char::from(byte)
+        } else {
+            '_'
+        }
+    };
+    if alias.is_empty() {
+        "_".to_owned()
+    } else {
+        alias.iter().map(legal).collect()
+    }
 }
 
 impl Scene {
@@ -32,30 +42,47 @@ impl Scene {
     pub fn set_alias(&mut self, handle: Handle, alias: &[u8]) -> SceneResult<()> {
         let alias = clean_alias(alias);
         let old_name = self.claim_old_name(handle, &alias)?;
-        self.modify(handle, Field::Alias, |object| (object.alias, object.old_name) = (alias, old_name))
+        self.modify(handle, Field::Alias, |object| {
+            (object.alias, object.old_name) = (alias, old_name)
+        })
     }
 
     /// The object at `path`, relative paths starting at `emitter`; `index` picks another match than the first.
     ///
     /// # Errors
     /// When there is none.
-    pub fn find(&self, path: &str, emitter: Option<Handle>, index: Option<usize>) -> SceneResult<Handle> {
-        let (base, rest) = self.path_base(path, emitter).ok_or(SceneError::NoSuchPath)?;
+    pub fn find(
+        &self,
+        path: &str,
+        emitter: Option<Handle>,
+        index: Option<usize>,
+    ) -> SceneResult<Handle> {
+        let (base, rest) = self
+            .path_base(path, emitter)
+            .ok_or(SceneError::NoSuchPath)?;
         if rest.is_empty() {
             return base.ok_or(SceneError::NoSuchPath);
         }
         let mut found = base;
         for (components, nth) in groups(rest, index) {
-            found = Some(self.search(found, &components, nth).ok_or(SceneError::NoSuchPath)?);
+            found = Some(
+                self.search(found, &components, nth)
+                    .ok_or(SceneError::NoSuchPath)?,
+            );
         }
         found.ok_or(SceneError::NoSuchPath)
     }
 
     /// Where the search begins (None: at the roots), and what is to be searched there.
-    fn path_base<'p>(&self, path: &'p str, emitter: Option<Handle>) -> Option<(Option<Handle>, &'p str)> {
+    fn path_base<'p>(
+        &self,
+        path: &'p str,
+        emitter: Option<Handle>,
+    ) -> Option<(Option<Handle>, &'p str)> {
         if let Some(rest) = path.strip_prefix('/') {
             let rest = rest.strip_suffix('/').unwrap_or(rest);
-            return (!rest.is_empty() && !rest.starts_with(['/', '.', ':'])).then_some((None, rest));
+            return (!rest.is_empty() && !rest.starts_with(['/', '.', ':']))
+                .then_some((None, rest));
         }
         let mut base = emitter;
         let mut rest = path.strip_suffix('/').unwrap_or(path);
@@ -66,7 +93,9 @@ impl Scene {
                 "." if first => base,
                 ".." => self.object(base?).ok()?.parent(),
                 ":" => base.and_then(|from| self.model_from(from)),
-                "::" => base.and_then(|from| self.model_from(from)).and_then(|model| self.model_above(model)),
+                "::" => base
+                    .and_then(|from| self.model_from(from))
+                    .and_then(|model| self.model_above(model)),
                 _ => return None,
             };
             (rest, first) = (after, false);
@@ -76,21 +105,30 @@ impl Scene {
 
     /// The nearest model base among `handle` and its ancestors.
     fn model_from(&self, handle: Handle) -> Option<Handle> {
-        std::iter::once(handle).chain(self.ancestors(handle)).find(|&h| self.object(h).is_ok_and(Object::is_model))
+        std::iter::once(handle)
+            .chain(self.ancestors(handle))
+            .find(|&h| self.object(h).is_ok_and(Object::is_model))
     }
 
     /// The nearest model base above `handle`.
     fn model_above(&self, handle: Handle) -> Option<Handle> {
-        self.ancestors(handle).find(|&h| self.object(h).is_ok_and(Object::is_model))
+        self.ancestors(handle)
+            .find(|&h| self.object(h).is_ok_and(Object::is_model))
     }
 
     /// The `nth` object below `base` that `components` lead to.
     fn search(&self, base: Option<Handle>, components: &[Component], nth: usize) -> Option<Handle> {
-        Search { scene: self, hits: HashMap::new() }.run(base, components, &mut { nth })
+        Search {
+            scene: self,
+            hits: HashMap::new(),
+        }
+        .run(base, components, &mut { nth })
     }
 
     fn children_of(&self, base: Option<Handle>) -> &[Handle] {
-        base.map_or(self.roots(), |base| self.object(base).map_or(&[], Object::children))
+        base.map_or(self.roots(), |base| {
+            self.object(base).map_or(&[], Object::children)
+        })
     }
 
     /// Position of an object among its siblings of the same alias; None when it is the only one.
@@ -124,7 +162,11 @@ impl Scene {
     /// The shortest path that leads to an object: models on the way up, and whatever else the lookup needs.
     pub fn short_path(&self, handle: Handle) -> SceneResult<String> {
         let parts = self.short_path_parts(handle)?;
-        if parts.len() > SHORT_PATH_PARTS { self.full_path(handle) } else { Ok(joined(&parts)) }
+        if parts.len() > SHORT_PATH_PARTS {
+            self.full_path(handle)
+        } else {
+            Ok(joined(&parts))
+        }
     }
 
     /// Parts of the short path, the object's own first.
@@ -150,21 +192,33 @@ impl Scene {
         let path = self.short_path(handle)?;
         let parts: Vec<&str> = path.split('/').skip(1).collect();
         match parts.as_slice() {
-            [first, _, .., last] if path.len() > PRINT_PATH_LENGTH => Ok(format!("/{first}/ ... /{last}")),
+            [first, _, .., last] if path.len() > PRINT_PATH_LENGTH => {
+                Ok(format!("/{first}/ ... /{last}"))
+            }
             _ => Ok(path),
         }
     }
 
     /// `alias__handle__`, which names an object for sure.
     pub fn handle_alias(&self, handle: Handle) -> SceneResult<String> {
-        Ok(format!("{}__{}__", self.object(handle)?.alias(), handle.raw()))
+        Ok(format!(
+            "{}__{}__",
+            self.object(handle)?.alias(),
+            handle.raw()
+        ))
     }
 
     /// The alias if no other object has it, otherwise alias and handle.
     pub fn unique_alias(&self, handle: Handle) -> SceneResult<String> {
         let alias = self.object(handle)?.alias();
-        let shared = self.objects().any(|object| object.handle() != handle && object.alias() == alias);
-        if shared { self.handle_alias(handle) } else { Ok(alias.to_owned()) }
+        let shared = self
+            .objects()
+            .any(|object| object.handle() != handle && object.alias() == alias);
+        if shared {
+            self.handle_alias(handle)
+        } else {
+            Ok(alias.to_owned())
+        }
     }
 
     /// Up to `models` model ancestors and the object, each with its `{n}`.
@@ -216,9 +270,18 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// The match number `nth`; otherwise `nth` is lowered by the number of matches.
-    fn run(&mut self, base: Option<Handle>, components: &[Component], nth: &mut usize) -> Option<Handle> {
+    fn run(
+        &mut self,
+        base: Option<Handle>,
+        components: &[Component],
+        nth: &mut usize,
+    ) -> Option<Handle> {
         let (first, rest) = components.split_first()?;
-        if let Some(hits) = self.hits.get(&(base, components.len())).filter(|&hits| hits <= nth) {
+        if let Some(hits) = self
+            .hits
+            .get(&(base, components.len()))
+            .filter(|&hits| hits <= nth)
+        {
             *nth -= hits;
             return None;
         }
@@ -259,7 +322,9 @@ impl Search<'_> {
     }
 
     fn matches(&self, component: &Component, handle: Handle) -> bool {
-        self.scene.object(handle).is_ok_and(|object| wildcard_match(&component.pattern, object.alias().as_bytes()))
+        self.scene
+            .object(handle)
+            .is_ok_and(|object| wildcard_match(&component.pattern, object.alias().as_bytes()))
     }
 }
 
@@ -284,8 +349,14 @@ fn groups(path: &str, index: Option<usize>) -> Vec<Group> {
 
 fn component(text: &str) -> Component {
     match numbered(text, '[', ']') {
-        Some((pattern, sibling)) => Component { pattern: pattern.into(), sibling: Some(sibling) },
-        None => Component { pattern: text.into(), sibling: None },
+        Some((pattern, sibling)) => Component {
+            pattern: pattern.into(),
+            sibling: Some(sibling),
+        },
+        None => Component {
+            pattern: text.into(),
+            sibling: None,
+        },
     }
 }
 
@@ -337,11 +408,23 @@ mod tests {
 
     #[test]
     fn wildcards() {
-        for (pattern, text) in [("a*", "a"), ("*", ""), ("a?c", "abc"), ("*b*d", "abcd"), ("a*b", "aabab")] {
-            assert!(wildcard_match(pattern.as_bytes(), text.as_bytes()), "{pattern} {text}");
+        for (pattern, text) in [
+            ("a*", "a"),
+            ("*", ""),
+            ("a?c", "abc"),
+            ("*b*d", "abcd"),
+            ("a*b", "aabab"),
+        ] {
+            assert!(
+                wildcard_match(pattern.as_bytes(), text.as_bytes()),
+                "{pattern} {text}"
+            );
         }
         for (pattern, text) in [("a?", "a"), ("?", ""), ("a", "ab"), ("*c", "ab")] {
-            assert!(!wildcard_match(pattern.as_bytes(), text.as_bytes()), "{pattern} {text}");
+            assert!(
+                !wildcard_match(pattern.as_bytes(), text.as_bytes()),
+                "{pattern} {text}"
+            );
         }
     }
 
@@ -356,7 +439,10 @@ mod tests {
         assert_eq!(scene.find("/A/C", None, None), Ok(inner));
         assert_eq!(scene.find("/C{1}", None, None), Ok(inner));
         assert_eq!(scene.find("/*{1}", None, None), Ok(outer));
-        assert_eq!(scene.find("/C{0}", None, Some(1)), Err(SceneError::NoSuchPath));
+        assert_eq!(
+            scene.find("/C{0}", None, Some(1)),
+            Err(SceneError::NoSuchPath)
+        );
         assert_eq!(scene.find("../../C", Some(b), None), Ok(outer));
         assert_eq!(scene.short_path(inner).unwrap(), "/A/C");
     }
@@ -368,8 +454,16 @@ mod tests {
         for _ in 0..200 {
             parent = Some(dummy(&mut scene, "x", parent));
         }
-        assert!(scene.find(&"/*".repeat(40).replace("/*/*", "/*/x"), None, None).is_ok());
-        assert!(scene.find(&format!("{}/y", "/*".repeat(40)), None, None).is_err());
+        assert!(
+            scene
+                .find(&"/*".repeat(40).replace("/*/*", "/*/x"), None, None)
+                .is_ok()
+        );
+        assert!(
+            scene
+                .find(&format!("{}/y", "/*".repeat(40)), None, None)
+                .is_err()
+        );
     }
 
     #[test]

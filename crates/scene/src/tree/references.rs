@@ -40,7 +40,10 @@ impl Object {
             Kind::ProximitySensor(sensor) => sensor.detection.is_some(),
             _ => false,
         };
-        by_kind || self.viewers != Viewers::All || !self.references.is_empty() || !self.original_references.is_empty()
+        by_kind
+            || self.viewers != Viewers::All
+            || !self.references.is_empty()
+            || !self.original_references.is_empty()
     }
 
     /// The lists of a kind.
@@ -53,22 +56,32 @@ impl Object {
 
     /// The handles referred to under `tag`; -1 for objects that are gone.
     pub fn referenced(&self, kind: References, tag: &str) -> &[i64] {
-        self.reference_lists(kind).iter().find(|(t, _)| t == tag).map_or(&[], |(_, list)| list)
+        self.reference_lists(kind)
+            .iter()
+            .find(|(t, _)| t == tag)
+            .map_or(&[], |(_, list)| list)
     }
 
     fn forget(&mut self, removed: &BTreeSet<Handle>) {
         let gone = |h: Handle| removed.contains(&h);
         match &mut self.kind {
-            Kind::Joint(joint) if joint.dependency.is_some_and(|d| gone(d.master)) => joint.dependency = None,
+            Kind::Joint(joint) if joint.dependency.is_some_and(|d| gone(d.master)) => {
+                joint.dependency = None
+            }
             Kind::Dummy(dummy) if dummy.link.is_some_and(gone) => dummy.link = None,
             Kind::Camera(camera) if camera.tracked.is_some_and(gone) => camera.tracked = None,
-            Kind::ProximitySensor(sensor) if sensor.detection.is_some_and(|found| gone(found.object)) => {
+            Kind::ProximitySensor(sensor)
+                if sensor.detection.is_some_and(|found| gone(found.object)) =>
+            {
                 sensor.detection = None;
             }
             _ => {}
         }
         self.viewers = self.viewers.without(removed);
-        let lists = self.references.iter_mut().chain(self.original_references.iter_mut());
+        let lists = self
+            .references
+            .iter_mut()
+            .chain(self.original_references.iter_mut());
         for handle in lists.flat_map(|(_, list)| list.iter_mut()) {
             if Handle::from_raw(*handle).is_some_and(gone) {
                 *handle = -1;
@@ -79,12 +92,21 @@ impl Object {
 
 impl Scene {
     /// Sets what `handle` refers to under `tag`; an empty list removes the tag. Unknown handles become -1.
-    pub fn set_references(&mut self, handle: Handle, kind: References, tag: &str, handles: &[i64]) -> SceneResult<()> {
+    pub fn set_references(
+        &mut self,
+        handle: Handle,
+        kind: References,
+        tag: &str,
+        handles: &[i64],
+    ) -> SceneResult<()> {
         let known = |raw: i64| {
             self.collections().get(raw).is_ok()
                 || Handle::from_raw(raw).is_some_and(|h| h.raw() == raw && self.exists(h))
         };
-        let list: Vec<i64> = handles.iter().map(|&raw| if known(raw) { raw } else { -1 }).collect();
+        let list: Vec<i64> = handles
+            .iter()
+            .map(|&raw| if known(raw) { raw } else { -1 })
+            .collect();
         self.modify(handle, Field::Other, |object| {
             let lists = match kind {
                 References::Following => &mut object.references,

@@ -23,7 +23,12 @@ impl Scene {
     ///
     /// # Errors
     /// When an object does not exist, the factor is too small, or an object would become too large; nothing is scaled then.
-    pub fn scale_objects(&mut self, handles: &[Handle], factor: f64, positions: bool) -> SceneResult<()> {
+    pub fn scale_objects(
+        &mut self,
+        handles: &[Handle],
+        factor: f64,
+        positions: bool,
+    ) -> SceneResult<()> {
         check_factors(&[factor])?;
         for &handle in handles {
             self.object(handle)?.check_scaling(factor)?;
@@ -32,7 +37,10 @@ impl Scene {
             self.modify(handle, Field::Geometry, |object| {
                 object.scale(factor);
                 if positions {
-                    let scaled = Pose { translation: (object.pose.translation.vector * factor).into(), ..object.pose };
+                    let scaled = Pose {
+                        translation: (object.pose.translation.vector * factor).into(),
+                        ..object.pose
+                    };
                     if is_valid_pose(&scaled) {
                         object.pose = scaled;
                     }
@@ -49,7 +57,8 @@ impl Scene {
     /// When the object does not exist, a factor is too small, or the object would become too large.
     pub fn scale_object(&mut self, handle: Handle, factors: [f64; 3]) -> SceneResult<()> {
         check_factors(&factors)?;
-        self.object(handle)?.check_scaling(factors.into_iter().fold(0.0, f64::max))?;
+        self.object(handle)?
+            .check_scaling(factors.into_iter().fold(0.0, f64::max))?;
         self.modify(handle, Field::Geometry, |object| match &mut object.kind {
             Kind::Shape(shape) => {
                 let factors = shape.possible_factors(factors);
@@ -65,7 +74,11 @@ impl Scene {
 
 fn check_factors(factors: &[f64]) -> SceneResult<()> {
     let possible = |f: &f64| f.is_finite() && *f >= MIN_FACTOR;
-    if factors.iter().all(possible) { Ok(()) } else { Err(SceneError::InvalidInput) }
+    if factors.iter().all(possible) {
+        Ok(())
+    } else {
+        Err(SceneError::InvalidInput)
+    }
 }
 
 impl Object {
@@ -74,7 +87,8 @@ impl Object {
         if self.size_factor * factor > MAX_COORDINATE {
             return Err(too_large());
         }
-        self.shape().map_or(Ok(()), |shape| shape.check_extent(factor))
+        self.shape()
+            .map_or(Ok(()), |shape| shape.check_extent(factor))
     }
 
     /// Scales all lengths, and what follows from them.
@@ -116,7 +130,11 @@ impl Object {
 
 impl Volume {
     fn scale(&mut self, factor: f64) {
-        let pairs = self.x_size.iter_mut().chain(&mut self.y_size).chain(&mut self.radius);
+        let pairs = self
+            .x_size
+            .iter_mut()
+            .chain(&mut self.y_size)
+            .chain(&mut self.radius);
         pairs.for_each(|length| *length *= factor);
         (self.offset, self.range) = (self.offset * factor, self.range * factor);
         self.close_threshold *= factor;
@@ -180,11 +198,15 @@ impl Shape {
 
     /// The factors a shape allows: round primitives stay round, compounds keep their proportions.
     fn possible_factors(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        let [part] = &self.parts[..] else { return [x; 3] };
+        let [part] = &self.parts[..] else {
+            return [x; 3];
+        };
         match part.primitive.as_ref().map(|primitive| primitive.kind) {
             Some(PrimitiveKind::Plane) => [x, y, 1.0],
             Some(PrimitiveKind::Disc) => [x, x, 1.0],
-            Some(PrimitiveKind::Cylinder | PrimitiveKind::Cone | PrimitiveKind::Heightfield) => [x, x, z],
+            Some(PrimitiveKind::Cylinder | PrimitiveKind::Cone | PrimitiveKind::Heightfield) => {
+                [x, x, z]
+            }
             Some(PrimitiveKind::Spheroid | PrimitiveKind::Capsule) => [x; 3],
             Some(PrimitiveKind::Cuboid) | None => [x, y, z],
         }
@@ -193,7 +215,9 @@ impl Shape {
     /// Scales along the axes of the bounding box, about the origin of the shape.
     fn scale_geometry(&mut self, factors: [f64; 3]) {
         let axes = self.bounding_box.pose.rotation.to_rotation_matrix();
-        let scale = axes.matrix() * Matrix3::from_diagonal(&Vector3::from(factors)) * axes.matrix().transpose();
+        let scale = axes.matrix()
+            * Matrix3::from_diagonal(&Vector3::from(factors))
+            * axes.matrix().transpose();
         for part in &mut self.parts {
             part.scale(&scale, factors);
         }
@@ -211,14 +235,22 @@ impl Part {
         self.pose.translation.vector = scale * before.translation.vector;
         let back = self.pose.inverse();
         let map = |vertex: &[f64; 3]| {
-            <[f64; 3]>::from((back * Point3::from(scale * (before * Point3::from(*vertex)).coords)).coords)
+            <[f64; 3]>::from(
+                (back * Point3::from(scale * (before * Point3::from(*vertex)).coords)).coords,
+            )
         };
-        let mesh = Mesh { vertices: self.mesh.vertices.iter().map(map).collect(), ..Mesh::clone(&self.mesh) };
+        let mesh = Mesh {
+            vertices: self.mesh.vertices.iter().map(map).collect(),
+            ..Mesh::clone(&self.mesh)
+        };
         self.mesh = Rc::new(with_normals(mesh, factors));
         if let Some(primitive) = &mut self.primitive {
             primitive.size = [0, 1, 2].map(|i| primitive.size[i] * factors[i]);
             if let Some(field) = &mut primitive.heights {
-                Rc::make_mut(field).heights.iter_mut().for_each(|height| *height *= factors[2]);
+                Rc::make_mut(field)
+                    .heights
+                    .iter_mut()
+                    .for_each(|height| *height *= factors[2]);
             }
         }
     }

@@ -26,7 +26,10 @@ impl Scene {
     /// Selects exactly these objects; unknown ones and repetitions are left out.
     pub fn select(&mut self, handles: &[Handle]) {
         let mut seen = BTreeSet::new();
-        let known = handles.iter().copied().filter(|&handle| self.exists(handle) && seen.insert(handle));
+        let known = handles
+            .iter()
+            .copied()
+            .filter(|&handle| self.exists(handle) && seen.insert(handle));
         let selection = Selection(known.collect());
         if self.selection != selection {
             self.selection = selection;

@@ -60,12 +60,18 @@ impl CustomData {
     /// The value with that tag.
     pub fn get(&self, tag: &str) -> Option<&Data> {
         let (ty, name) = ValueType::split_tag(tag);
-        self.entries.iter().find(|entry| entry.is(ty, name)).map(|entry| &entry.value)
+        self.entries
+            .iter()
+            .find(|entry| entry.is(ty, name))
+            .map(|entry| &entry.value)
     }
 
     /// The value `name` of whatever type.
     pub fn typed(&self, name: &str) -> Option<(ValueType, &Data)> {
-        self.entries.iter().find(|entry| entry.name == name).map(|entry| (entry.ty, &entry.value))
+        self.entries
+            .iter()
+            .find(|entry| entry.name == name)
+            .map(|entry| (entry.ty, &entry.value))
     }
 
     /// The tags in the order of their creation.
@@ -101,7 +107,11 @@ impl CustomData {
         match self.entries.iter_mut().find(|entry| entry.is(ty, name)) {
             Some(old) if old.value == value => return false,
             Some(old) => old.value = value,
-            None => self.entries.push(Entry { ty, name: name.to_owned(), value }),
+            None => self.entries.push(Entry {
+                ty,
+                name: name.to_owned(),
+                value,
+            }),
         }
         true
     }
@@ -115,16 +125,28 @@ impl CustomData {
 
     fn clear(&mut self) -> Edited<'static> {
         let names: Vec<String> = self.entries.drain(..).map(|entry| entry.name).collect();
-        if names.is_empty() { Edited::Nothing } else { Edited::Cleared(names) }
+        if names.is_empty() {
+            Edited::Nothing
+        } else {
+            Edited::Cleared(names)
+        }
     }
 }
 
 fn written(changed: bool, name: &str) -> Edited<'_> {
-    if changed { Edited::Written(name) } else { Edited::Nothing }
+    if changed {
+        Edited::Written(name)
+    } else {
+        Edited::Nothing
+    }
 }
 
 fn removed(existed: bool, name: &str) -> Edited<'_> {
-    if existed { Edited::Removed(name) } else { Edited::Nothing }
+    if existed {
+        Edited::Removed(name)
+    } else {
+        Edited::Nothing
+    }
 }
 
 /// The two kinds of named values.
@@ -149,7 +171,11 @@ pub enum Holder {
 
 impl Scene {
     /// Named values of an object, or of the scene itself (None).
-    pub fn named_values(&self, owner: Option<Handle>, namespace: Namespace) -> SceneResult<&CustomData> {
+    pub fn named_values(
+        &self,
+        owner: Option<Handle>,
+        namespace: Namespace,
+    ) -> SceneResult<&CustomData> {
         let Some(handle) = owner else {
             return Ok(match namespace {
                 Namespace::CustomData => &self.custom_data,
@@ -177,7 +203,11 @@ impl Scene {
             (Some(handle), Namespace::Signal) => &mut self.object_in_place(handle)?.signals,
         };
         let edited = values.edit(edit);
-        self.journal_mut().note_stored(owner.map_or(Holder::Scene, Holder::Object), namespace, &edited);
+        self.journal_mut().note_stored(
+            owner.map_or(Holder::Scene, Holder::Object),
+            namespace,
+            &edited,
+        );
         Ok(edited.any())
     }
 }
@@ -193,7 +223,10 @@ mod tests {
         assert_eq!(data.edit(int()), Edited::Written("x"));
         assert_eq!(data.edit(int()), Edited::Nothing);
         let buffer = Data::Buffer(vec![1]);
-        assert!(data.edit(Edit::Name("x", Some((ValueType::Buffer, buffer.clone())))).any());
+        assert!(
+            data.edit(Edit::Name("x", Some((ValueType::Buffer, buffer.clone()))))
+                .any()
+        );
         assert!(data.tags().eq(["x"]));
         assert_eq!(data.typed("x"), Some((ValueType::Buffer, &buffer)));
     }

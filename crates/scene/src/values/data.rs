@@ -46,13 +46,23 @@ impl Data {
 
     /// A map with text keys.
     pub fn map<const N: usize>(entries: [(&str, Data); N]) -> Self {
-        Self::Map(entries.into_iter().map(|(k, v)| (Key::Text(k.as_bytes().to_vec()), v)).collect())
+        Self::Map(
+            entries
+                .into_iter()
+                .map(|(k, v)| (Key::Text(k.as_bytes().to_vec()), v))
+                .collect(),
+        )
     }
 
     /// The entry `name` of a map.
     pub fn field(&self, name: &str) -> Option<&Data> {
-        let Self::Map(entries) = self else { return None };
-        entries.iter().find(|(key, _)| matches!(key, Key::Text(k) if k == name.as_bytes())).map(|(_, value)| value)
+        let Self::Map(entries) = self else {
+            return None;
+        };
+        entries
+            .iter()
+            .find(|(key, _)| matches!(key, Key::Text(k) if k == name.as_bytes()))
+            .map(|(_, value)| value)
     }
 
     /// Lua truth: everything but nil and false.
@@ -67,7 +77,10 @@ impl Data {
             Self::Int(_) | Self::Float(_) => 8,
             Self::Text(bytes) | Self::Buffer(bytes) => bytes.len(),
             Self::Array(items) => items.iter().map(Self::size).sum(),
-            Self::Map(entries) => entries.iter().map(|(key, value)| key.size() + value.size()).sum(),
+            Self::Map(entries) => entries
+                .iter()
+                .map(|(key, value)| key.size() + value.size())
+                .sum(),
         }
     }
 
@@ -83,7 +96,11 @@ impl Data {
 
 impl Key {
     fn size(&self) -> usize {
-        if let Self::Text(bytes) = self { bytes.len() } else { 8 }
+        if let Self::Text(bytes) = self {
+            bytes.len()
+        } else {
+            8
+        }
     }
 }
 

@@ -2,7 +2,9 @@
 
 /// The value of an entry; `key` names it and what it is in, the innermost first: `aperture@povray`.
 pub fn entry<'a>(text: &'a str, key: &str) -> Option<&'a str> {
-    key.rsplit('@').try_fold(text, |text, name| value(text, name.trim())).map(str::trim)
+    key.rsplit('@')
+        .try_fold(text, |text, name| value(text, name.trim()))
+        .map(str::trim)
 }
 
 /// The content of the braces after a name.
@@ -39,10 +41,20 @@ mod tests {
     fn entries_are_found_by_their_names() {
         let text = "povray {pattern {default} aperture { 0.1 }} openGL3 {lightProjection {nearPlane {0.1}}}";
         assert_eq!(entry(text, "aperture@povray"), Some("0.1"));
-        assert_eq!(entry(text, "nearPlane@lightProjection@openGL3"), Some("0.1"));
-        assert_eq!(entry(text, "povray"), Some("pattern {default} aperture { 0.1 }"));
         assert_eq!(
-            (entry(text, "nearPlane@openGL3"), entry("povray {open", "povray"), entry("", "")),
+            entry(text, "nearPlane@lightProjection@openGL3"),
+            Some("0.1")
+        );
+        assert_eq!(
+            entry(text, "povray"),
+            Some("pattern {default} aperture { 0.1 }")
+        );
+        assert_eq!(
+            (
+                entry(text, "nearPlane@openGL3"),
+                entry("povray {open", "povray"),
+                entry("", "")
+            ),
             (None, None, None)
         );
     }

@@ -43,13 +43,20 @@ impl Scene {
     ///
     /// # Errors
     /// When the object does not exist.
-    pub fn set_inert_value(&mut self, owner: Option<Handle>, name: &'static str, value: Data) -> SceneResult<()> {
+    pub fn set_inert_value(
+        &mut self,
+        owner: Option<Handle>,
+        name: &'static str,
+        value: Data,
+    ) -> SceneResult<()> {
         let values = match owner {
             None => &mut self.inert,
             Some(handle) => &mut self.object_in_place(handle)?.inert,
         };
         if values.set(name, value) {
-            let change = owner.map_or(Change::Settings, |handle| Change::Modified(handle, Field::Inert));
+            let change = owner.map_or(Change::Settings, |handle| {
+                Change::Modified(handle, Field::Inert)
+            });
             self.note(change);
         }
         Ok(())
@@ -66,16 +73,27 @@ mod tests {
     #[test]
     fn only_new_values_are_changes_and_copies_inherit_them() {
         let mut scene = Scene::new();
-        let dummy = scene.add("dummy", Kind::Dummy(Dummy::new(0.1))).expect("there is room");
+        let dummy = scene
+            .add("dummy", Kind::Dummy(Dummy::new(0.1)))
+            .expect("there is room");
         let mut cursor = scene.journal().follow(Topics::ALL);
         scene.journal().skip(&mut cursor);
         for _ in 0..2 {
-            scene.set_inert_value(Some(dummy), "assemblyTag", Data::text("a")).expect("the dummy exists");
+            scene
+                .set_inert_value(Some(dummy), "assemblyTag", Data::text("a"))
+                .expect("the dummy exists");
         }
-        let Unread::Changes(changes) = scene.journal().read(&mut cursor) else { panic!("nothing was lost") };
+        let Unread::Changes(changes) = scene.journal().read(&mut cursor) else {
+            panic!("nothing was lost")
+        };
         assert!(changes.eq(&[Change::Modified(dummy, Field::Inert)]));
-        let copies = scene.copy_objects(&[dummy], CopyOptions::empty()).expect("there is room");
-        assert_eq!(scene.inert_value(Some(copies[&dummy]), "assemblyTag"), Ok(Some(&Data::text("a"))));
+        let copies = scene
+            .copy_objects(&[dummy], CopyOptions::empty())
+            .expect("there is room");
+        assert_eq!(
+            scene.inert_value(Some(copies[&dummy]), "assemblyTag"),
+            Ok(Some(&Data::text("a")))
+        );
         assert_eq!(scene.inert_value(None, "assemblyTag"), Ok(None));
     }
 }

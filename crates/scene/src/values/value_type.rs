@@ -63,14 +63,19 @@ impl ValueType {
     /// Type and name of a tag.
     pub fn split_tag(tag: &str) -> (Self, &str) {
         let marked = Self::ALL.iter().filter(|ty| !ty.mark().is_empty());
-        marked.filter_map(|&ty| Some((ty, tag.strip_prefix(ty.mark())?))).next().unwrap_or((Self::Buffer, tag))
+        marked
+            .filter_map(|&ty| Some((ty, tag.strip_prefix(ty.mark())?)))
+            .next()
+            .unwrap_or((Self::Buffer, tag))
     }
 
     /// The value that a table says in words: numbers of lists are separated by spaces, nothing is false, 0, no text, an empty list, the
     /// origin or no rotation. None when the words are no value of this type.
     pub fn parse(self, text: &str) -> Option<Data> {
         match self {
-            Self::Bool => matches!(text, "" | "true" | "false").then_some(Data::Bool(text == "true")),
+            Self::Bool => {
+                matches!(text, "" | "true" | "false").then_some(Data::Bool(text == "true"))
+            }
             Self::Int | Self::Long if text.is_empty() => Some(Data::Int(0)),
             Self::Int | Self::Long => text.parse().ok().map(Data::Int),
             Self::Float if text.is_empty() => Some(Data::Float(0.0)),
@@ -104,22 +109,26 @@ impl ValueType {
 
     /// Whether values differ in size.
     pub fn may_be_large(self) -> bool {
-        matches!(self, Self::String | Self::Buffer | Self::Table | Self::FloatArray | Self::IntArray)
+        matches!(
+            self,
+            Self::String | Self::Buffer | Self::Table | Self::FloatArray | Self::IntArray
+        )
     }
 
     fn is_kind_of(self, value: &Data) -> bool {
         let is_int = |item: &Data| matches!(item, Data::Int(_));
         let is_float = |item: &Data| matches!(item, Data::Float(_));
         match (self, value) {
-            (Self::Bool, Data::Bool(_)) | (Self::Int | Self::Long, Data::Int(_)) | (Self::Float, Data::Float(_)) => {
-                true
-            }
+            (Self::Bool, Data::Bool(_))
+            | (Self::Int | Self::Long, Data::Int(_))
+            | (Self::Float, Data::Float(_)) => true,
             (Self::String, Data::Text(_)) | (Self::Buffer, Data::Buffer(_)) => true,
             (Self::Table, Data::Array(_) | Data::Map(_)) => true,
             (Self::IntArray | Self::IntArray2, Data::Array(items)) => items.iter().all(is_int),
-            (Self::FloatArray | Self::Vector2 | Self::Vector3 | Self::Color, Data::Array(items)) => {
-                items.iter().all(is_float)
-            }
+            (
+                Self::FloatArray | Self::Vector2 | Self::Vector3 | Self::Color,
+                Data::Array(items),
+            ) => items.iter().all(is_float),
             (Self::Quaternion | Self::Pose, Data::Array(items)) => items.iter().all(is_float),
             _ => false,
         }
@@ -127,7 +136,10 @@ impl ValueType {
 }
 
 fn list<T: std::str::FromStr + Clone + Into<Data>>(text: &str, empty: &[T]) -> Option<Data> {
-    let numbers: Vec<T> = text.split_whitespace().map(|word| word.parse().ok()).collect::<Option<_>>()?;
+    let numbers: Vec<T> = text
+        .split_whitespace()
+        .map(|word| word.parse().ok())
+        .collect::<Option<_>>()?;
     match numbers.len() {
         0 => Some(empty.to_vec().into()),
         length => (empty.is_empty() || length == empty.len()).then(|| numbers.into()),
@@ -151,7 +163,10 @@ mod tests {
 
     #[test]
     fn defaults_are_said_in_words() {
-        assert_eq!(ValueType::FloatArray.parse("0.02 1"), Some(vec![0.02, 1.0].into()));
+        assert_eq!(
+            ValueType::FloatArray.parse("0.02 1"),
+            Some(vec![0.02, 1.0].into())
+        );
         assert_eq!(ValueType::Color.parse(""), Some([0.0; 3].into()));
         assert_eq!(ValueType::Color.parse("1"), None);
         assert_eq!(ValueType::Int.parse("x"), None);
@@ -159,11 +174,21 @@ mod tests {
 
     #[test]
     fn lists_keep_the_length_of_their_default() {
-        let accept = |default: Data, value: Vec<f64>| ValueType::FloatArray.accept(&default, value.into());
-        assert_eq!(accept(vec![0.0; 2].into(), vec![1.0, 2.0, 3.0]), Some(vec![1.0, 2.0].into()));
+        let accept =
+            |default: Data, value: Vec<f64>| ValueType::FloatArray.accept(&default, value.into());
+        assert_eq!(
+            accept(vec![0.0; 2].into(), vec![1.0, 2.0, 3.0]),
+            Some(vec![1.0, 2.0].into())
+        );
         assert_eq!(accept(vec![0.0; 2].into(), vec![1.0]), None);
         assert_eq!(accept(vec![0.0; 2].into(), vec![1.0, f64::NAN]), None);
-        assert_eq!(accept(Data::Array(vec![]), vec![1.0]), Some(vec![1.0].into()));
-        assert_eq!(ValueType::FloatArray.accept(&Data::Array(vec![]), Data::Int(1)), None);
+        assert_eq!(
+            accept(Data::Array(vec![]), vec![1.0]),
+            Some(vec![1.0].into())
+        );
+        assert_eq!(
+            ValueType::FloatArray.accept(&Data::Array(vec![]), Data::Int(1)),
+            None
+        );
     }
 }

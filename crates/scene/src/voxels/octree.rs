@@ -35,7 +35,13 @@ impl OcTree {
     /// An octree without voxels. The edge of a cell is within 1 mm and 1 m.
     pub fn new(voxel_size: f64, point_size: f64) -> Self {
         let voxels = BTreeMap::new();
-        Self { voxel_size: cell_size(voxel_size), point_size, shows_points: false, random_colours: false, voxels }
+        Self {
+            voxel_size: cell_size(voxel_size),
+            point_size,
+            shows_points: false,
+            random_colours: false,
+            voxels,
+        }
     }
 
     /// The edge of a cell, metres.
@@ -48,7 +54,8 @@ impl OcTree {
         let old: Vec<_> = self.voxels().collect();
         self.voxel_size = cell_size(size);
         self.voxels.clear();
-        old.into_iter().for_each(|(centre, voxel)| self.insert(centre, voxel));
+        old.into_iter()
+            .for_each(|(centre, voxel)| self.insert(centre, voxel));
     }
 
     /// Scales all lengths.
@@ -93,7 +100,9 @@ impl OcTree {
     /// Centres in the frame of the object, and what is there.
     pub fn voxels(&self) -> impl Iterator<Item = ([f64; 3], Voxel)> {
         let middle = |at: i32| (f64::from(at) + 0.5) * self.voxel_size;
-        self.voxels.iter().map(move |([z, y, x], voxel)| ([*x, *y, *z].map(middle), *voxel))
+        self.voxels
+            .iter()
+            .map(move |([z, y, x], voxel)| ([*x, *y, *z].map(middle), *voxel))
     }
 
     /// The box around all voxels, in the frame of the object.
@@ -107,7 +116,9 @@ impl OcTree {
         let (first, last) = (layer(low), layer(high));
         let cells = [first, i32::MIN, i32::MIN]..=[last.max(first), i32::MAX, i32::MAX];
         let middle = |at: i32| (f64::from(at) + 0.5) * self.voxel_size;
-        self.voxels.range(cells).map(move |([z, y, x], _)| [*x, *y, *z].map(middle))
+        self.voxels
+            .range(cells)
+            .map(move |([z, y, x], _)| [*x, *y, *z].map(middle))
     }
 
     fn cell(&self, [x, y, z]: [f64; 3]) -> Option<Cell> {
@@ -121,14 +132,21 @@ impl OcTree {
 
 /// The edge of a cell, within what is sensible, metres.
 pub fn cell_size(wanted: f64) -> f64 {
-    if wanted.is_finite() { wanted.clamp(0.001, 1.0) } else { 0.001 }
+    if wanted.is_finite() {
+        wanted.clamp(0.001, 1.0)
+    } else {
+        0.001
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const VOXEL: Voxel = Voxel { colour: [1, 2, 3], tag: 4 };
+    const VOXEL: Voxel = Voxel {
+        colour: [1, 2, 3],
+        tag: 4,
+    };
 
     #[test]
     fn points_of_a_cell_are_one_voxel() {
@@ -136,7 +154,12 @@ mod tests {
         tree.insert([0.12, 0.07, -0.03], VOXEL);
         tree.insert([0.10001, 0.0501, -0.049], VOXEL);
         let (centre, voxel) = tree.voxels().next().unwrap();
-        assert!(centre.iter().zip([0.125, 0.075, -0.025]).all(|(a, b)| (a - b).abs() < 1e-12));
+        assert!(
+            centre
+                .iter()
+                .zip([0.125, 0.075, -0.025])
+                .all(|(a, b)| (a - b).abs() < 1e-12)
+        );
         assert_eq!((tree.len(), voxel), (1, VOXEL));
         assert_eq!(tree.voxel_at([0.11, 0.06, -0.01]), Some(&VOXEL));
         tree.remove([0.11, 0.06, -0.01]);
@@ -146,7 +169,9 @@ mod tests {
     #[test]
     fn what_is_nowhere_is_left_out() {
         let mut tree = OcTree::new(f64::NAN, 1.0);
-        [f64::NAN, f64::INFINITY, 1e300].into_iter().for_each(|far| tree.insert([far, 0.0, 0.0], VOXEL));
+        [f64::NAN, f64::INFINITY, 1e300]
+            .into_iter()
+            .for_each(|far| tree.insert([far, 0.0, 0.0], VOXEL));
         assert!(tree.is_empty());
     }
 }

@@ -38,7 +38,9 @@ impl PointCloud {
     /// Adds points, except for those that have another within `tolerance` metres. Points that are nowhere are left out.
     pub fn insert(&mut self, points: impl Iterator<Item = CloudPoint>, tolerance: f64) {
         let mut near = NeighbourGrid::new(tolerance);
-        self.points.iter().for_each(|point| near.add(point.position));
+        self.points
+            .iter()
+            .for_each(|point| near.add(point.position));
         for point in points.filter(|point| point.position.iter().all(|c| c.is_finite())) {
             if !near.finds(point.position) {
                 near.add(point.position);
@@ -67,7 +69,9 @@ impl PointCloud {
     /// Scales all lengths.
     pub fn scale(&mut self, factor: f64) {
         self.max_cell_size *= factor;
-        self.points.iter_mut().for_each(|point| point.position = point.position.map(|c| factor * c));
+        self.points
+            .iter_mut()
+            .for_each(|point| point.position = point.position.map(|c| factor * c));
     }
 }
 
@@ -79,7 +83,10 @@ struct NeighbourGrid {
 
 impl NeighbourGrid {
     fn new(tolerance: f64) -> Self {
-        Self { tolerance: if tolerance > 0.0 { tolerance } else { 0.0 }, cells: HashMap::new() }
+        Self {
+            tolerance: if tolerance > 0.0 { tolerance } else { 0.0 },
+            cells: HashMap::new(),
+        }
     }
 
     fn of(places: impl Iterator<Item = [f64; 3]>, tolerance: f64) -> Self {
@@ -97,13 +104,19 @@ impl NeighbourGrid {
 
     fn finds(&self, place: [f64; 3]) -> bool {
         let [x, y, z] = self.cell(place);
-        let close =
-            |other: &[f64; 3]| (0..3).map(|i| (other[i] - place[i]).powi(2)).sum::<f64>() <= self.tolerance.powi(2);
+        let close = |other: &[f64; 3]| {
+            (0..3).map(|i| (other[i] - place[i]).powi(2)).sum::<f64>() <= self.tolerance.powi(2)
+        };
         let beside = |at: i64| at.saturating_sub(1)..=at.saturating_add(1);
         !self.cells.is_empty()
             && beside(x).any(|x| {
-                beside(y)
-                    .any(|y| beside(z).any(|z| self.cells.get(&[x, y, z]).is_some_and(|cell| cell.iter().any(close))))
+                beside(y).any(|y| {
+                    beside(z).any(|z| {
+                        self.cells
+                            .get(&[x, y, z])
+                            .is_some_and(|cell| cell.iter().any(close))
+                    })
+                })
             })
     }
 
@@ -129,7 +142,10 @@ mod tests {
     }
 
     fn points(xs: &[f64]) -> impl Iterator<Item = CloudPoint> {
-        xs.iter().map(|x| CloudPoint { position: [*x, 0.0, 0.0], colour: [0; 3] })
+        xs.iter().map(|x| CloudPoint {
+            position: [*x, 0.0, 0.0],
+            colour: [0; 3],
+        })
     }
 
     #[test]

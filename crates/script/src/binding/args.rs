@@ -66,7 +66,12 @@ impl<'a> Args<'a> {
 
 impl<'a, S: Source<'a>> Args<'a, S> {
     pub(crate) fn new(source: S) -> Self {
-        Self { source, of: PhantomData, position: 0, count: source.count() }
+        Self {
+            source,
+            of: PhantomData,
+            position: 0,
+            count: source.count(),
+        }
     }
 
     /// Number of the argument being decoded, from 1.
@@ -75,17 +80,29 @@ impl<'a, S: Source<'a>> Args<'a, S> {
     }
 
     pub(crate) fn kind(&self) -> Type {
-        if self.position > self.count { Type::None } else { self.source.kind(self.position) }
+        if self.position > self.count {
+            Type::None
+        } else {
+            self.source.kind(self.position)
+        }
     }
 
     /// Reads the bytes of the argument, when it is a string.
     pub fn with_bytes<T>(&self, read: impl FnOnce(&[u8]) -> T + Send) -> Option<T> {
-        if self.position > self.count { None } else { self.source.with_bytes(self.position, read) }
+        if self.position > self.count {
+            None
+        } else {
+            self.source.with_bytes(self.position, read)
+        }
     }
 
     /// Fails unless there are `count` arguments.
     pub fn require(&self, count: usize) -> ApiResult<()> {
-        if (self.count as usize) < count { Err(ApiError::MoreArguments) } else { Ok(()) }
+        if (self.count as usize) < count {
+            Err(ApiError::MoreArguments)
+        } else {
+            Ok(())
+        }
     }
 
     /// The next argument, which must be there.
@@ -113,7 +130,10 @@ impl<'a, S: Source<'a>> Args<'a, S> {
         match self.kind() {
             Type::None => ApiError::MoreArguments,
             Type::Nil => ApiError::ArgumentType,
-            _ => ApiError::NotA { position: self.position, expected },
+            _ => ApiError::NotA {
+                position: self.position,
+                expected,
+            },
         }
     }
 
@@ -136,12 +156,19 @@ impl<'a, S: Source<'a>> Args<'a, S> {
 
     /// The error of Lua's own functions for an argument they cannot take.
     pub fn refused(&self, reason: &str) -> ApiError {
-        ApiError::BadArgument { position: self.position, reason: reason.into() }
+        ApiError::BadArgument {
+            position: self.position,
+            reason: reason.into(),
+        }
     }
 
     /// The argument, when it is an object of a library.
     pub fn object(&self) -> Option<LuaObject> {
-        if self.position > self.count { None } else { self.source.object(self.position) }
+        if self.position > self.count {
+            None
+        } else {
+            self.source.object(self.position)
+        }
     }
 
     /// The argument, when it is a number or a string of one.
@@ -156,7 +183,10 @@ impl<'a, S: Source<'a>> Args<'a, S> {
 
     fn number(&self) -> ApiResult<f64> {
         match self.kind() {
-            Type::Number | Type::String => self.source.number(self.position).ok_or_else(|| self.not_a("number")),
+            Type::Number | Type::String => self
+                .source
+                .number(self.position)
+                .ok_or_else(|| self.not_a("number")),
             _ => Err(self.not_a("number")),
         }
     }
@@ -193,7 +223,11 @@ impl<'a, S: Source<'a>> Args<'a, S> {
     }
 
     fn table_len(&self) -> ApiResult<usize> {
-        if self.kind() == Type::Table { Ok(self.source.list_len(self.position)) } else { Err(self.not_a("table")) }
+        if self.kind() == Type::Table {
+            Ok(self.source.list_len(self.position))
+        } else {
+            Err(self.not_a("table"))
+        }
     }
 
     fn fill(&self, out: &mut [f64]) -> ApiResult<()> {
@@ -205,7 +239,10 @@ impl<'a, S: Source<'a>> Args<'a, S> {
 }
 
 /// An element of a list is no number.
-const NO_NUMBER: ApiError = ApiError::NotA { position: -1, expected: "number" };
+const NO_NUMBER: ApiError = ApiError::NotA {
+    position: -1,
+    expected: "number",
+};
 
 macro_rules! scalars {
     ($($ty:ty, $name:literal, |$args:ident| $decode:expr;)*) => { $(
@@ -259,7 +296,10 @@ scalars! {
 fn text(item: Data) -> ApiResult<String> {
     match item {
         Data::Text(bytes) | Data::Buffer(bytes) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
-        _ => Err(ApiError::NotA { position: -1, expected: "string" }),
+        _ => Err(ApiError::NotA {
+            position: -1,
+            expected: "string",
+        }),
     }
 }
 
@@ -337,7 +377,11 @@ pub struct Table(pub Data);
 /// Without a table, an empty one: functions find as little in either.
 impl From<Table> for Data {
     fn from(Table(data): Table) -> Self {
-        if data == Self::Nil { Self::Array(Vec::new()) } else { data }
+        if data == Self::Nil {
+            Self::Array(Vec::new())
+        } else {
+            data
+        }
     }
 }
 
@@ -356,7 +400,10 @@ pub struct ObjectRef {
 impl ObjectRef {
     fn from_raw(raw: i64) -> ApiResult<Self> {
         let handle = Handle::from_raw(raw).ok_or(scene::SceneError::NoSuchObject)?;
-        Ok(Self { handle, flags: raw & !Handle::MASK })
+        Ok(Self {
+            handle,
+            flags: raw & !Handle::MASK,
+        })
     }
 
     /// Whether all bits of `flag` were added.
@@ -383,7 +430,10 @@ impl FromScript for Rest {
     const ABSENCE: Absence = Absence::Decoded;
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
-        (args.position..=args.count).map(|at| args.source.data(at)).collect::<Result<_, _>>().map(Self)
+        (args.position..=args.count)
+            .map(|at| args.source.data(at))
+            .collect::<Result<_, _>>()
+            .map(Self)
     }
 }
 

@@ -10,7 +10,10 @@ pub struct ByHandle<T> {
 
 impl<T> Default for ByHandle<T> {
     fn default() -> Self {
-        Self { last: 0, values: BTreeMap::new() }
+        Self {
+            last: 0,
+            values: BTreeMap::new(),
+        }
     }
 }
 

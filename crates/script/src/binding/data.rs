@@ -109,7 +109,10 @@ fn read_entries(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) 
     let mut cursor = stack.entries(table);
     while cursor.advance() {
         if items.len() == len || stack.integer(cursor.key()) != Some(items.len() as i64 + 1) {
-            let entries = (1..).zip(items).map(|(i, item)| (Key::Int(i), item)).collect();
+            let entries = (1..)
+                .zip(items)
+                .map(|(i, item)| (Key::Int(i), item))
+                .collect();
             return read_remaining(stack, &mut cursor, len, entries, above);
         }
         items.push(read(stack, cursor.value(), above)?);
@@ -117,7 +120,12 @@ fn read_entries(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) 
     if items.len() == len {
         return Ok(Data::Array(items));
     }
-    Ok(Data::Map((1..).zip(items).map(|(i, item)| (Key::Int(i), item)).collect()))
+    Ok(Data::Map(
+        (1..)
+            .zip(items)
+            .map(|(i, item)| (Key::Int(i), item))
+            .collect(),
+    ))
 }
 
 /// Reads the entries from that of the cursor on, of a table that is no list in order, behind those that were read.
@@ -141,7 +149,9 @@ fn read_remaining(
         return Ok(Data::Map(entries));
     }
     entries.sort_by_key(|(key, _)| if let Key::Int(i) = key { *i } else { 0 });
-    Ok(Data::Array(entries.into_iter().map(|(_, value)| value).collect()))
+    Ok(Data::Array(
+        entries.into_iter().map(|(_, value)| value).collect(),
+    ))
 }
 
 fn from_scalar(value: Scalar) -> Data {
@@ -173,7 +183,12 @@ fn read_key(stack: Stack<'_>, index: c_int) -> Key {
         },
         // A C string on its way through the original: it ends at the first NUL.
         Type::String => {
-            let up_to_nul = |text: &[u8]| text.split(|&byte| byte == 0).next().unwrap_or_default().to_vec();
+            let up_to_nul = |text: &[u8]| {
+                text.split(|&byte| byte == 0)
+                    .next()
+                    .unwrap_or_default()
+                    .to_vec()
+            };
             Key::Text(stack.with_bytes(index, up_to_nul).unwrap_or_default())
         }
         Type::Function => Key::Text(opaque("FUNCTION", stack, index)),

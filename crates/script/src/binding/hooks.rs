@@ -30,8 +30,12 @@ pub struct Hooks {
 
 impl Hooks {
     /// No hooks.
-    pub const NONE: Self =
-        Self { start_of_iteration: None, before_step: None, after_step: None, end_of_simulation: None };
+    pub const NONE: Self = Self {
+        start_of_iteration: None,
+        before_step: None,
+        after_step: None,
+        end_of_simulation: None,
+    };
 }
 
 /// The parts of the simulator that a hook may access.
@@ -54,7 +58,12 @@ impl Host<'_> {
     }
 
     /// Calls a handler of a script; None if it fails, which is logged.
-    pub fn call_handler(&self, script: &Rc<Script>, handler: &Handler, args: &[Data]) -> Option<Vec<Data>> {
+    pub fn call_handler(
+        &self,
+        script: &Rc<Script>,
+        handler: &Handler,
+        args: &[Data],
+    ) -> Option<Vec<Data>> {
         self.sim.call_handler(script, handler, args)
     }
 
@@ -93,7 +102,11 @@ impl Host<'_> {
     /// # Errors
     /// Those of the function.
     pub fn call_api(&self, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
-        let sandbox = self.sim.scripts.detached(ScriptType::Sandbox).ok_or(ApiError::NoSuchScript)?;
+        let sandbox = self
+            .sim
+            .scripts
+            .detached(ScriptType::Sandbox)
+            .ok_or(ApiError::NoSuchScript)?;
         self.sim.call_api(&sandbox, name, args)
     }
 
@@ -111,14 +124,25 @@ impl Sim {
     /// Runs the hooks of one moment, module by module in the order of the registry.
     pub(crate) fn run_hooks(self: &Rc<Self>, moment: impl Fn(&Hooks) -> Option<ModuleHook>) {
         let host = Host { sim: self };
-        self.modules.registry.hooks.iter().filter_map(moment).for_each(|hook| hook(&host));
+        self.modules
+            .registry
+            .hooks
+            .iter()
+            .filter_map(moment)
+            .for_each(|hook| hook(&host));
     }
 
     /// Whether a module holds the step back that is due. All are asked: each does what it has to do before a step.
     pub(crate) fn step_is_held(self: &Rc<Self>) -> bool {
         let host = Host { sim: self };
         let mut held = false;
-        for hook in self.modules.registry.hooks.iter().filter_map(|hooks| hooks.before_step) {
+        for hook in self
+            .modules
+            .registry
+            .hooks
+            .iter()
+            .filter_map(|hooks| hooks.before_step)
+        {
             held |= hook(&host);
         }
         held

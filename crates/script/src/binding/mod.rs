@@ -64,7 +64,10 @@ pub(crate) fn push_function_of_old_name(stack: Stack<'_>, id: FunctionId) {
 
 fn call_function(stack: Stack<'_>, number: usize) -> Result<c_int, String> {
     let env = stack.owner();
-    let bound = env.registry.function(number).ok_or("there is no such function.")?;
+    let bound = env
+        .registry
+        .function(number)
+        .ok_or("there is no such function.")?;
     if let Some(replacement) = bound.replacement {
         env.warn_deprecated(number, || deprecation_notice(&bound.name, replacement));
     }
@@ -72,11 +75,19 @@ fn call_function(stack: Stack<'_>, number: usize) -> Result<c_int, String> {
 }
 
 fn call_without_notice(stack: Stack<'_>, number: usize) -> Result<c_int, String> {
-    call_bound(stack, stack.owner().registry.function(number).ok_or("there is no such function.")?)
+    call_bound(
+        stack,
+        stack
+            .owner()
+            .registry
+            .function(number)
+            .ok_or("there is no such function.")?,
+    )
 }
 
 fn call_bound(stack: Stack<'_>, bound: &Bound) -> Result<c_int, String> {
-    let result = (bound.function.call)(&mut Args::new(stack)).or_else(|error| fail(stack, bound, &bound.worded(error)));
+    let result = (bound.function.call)(&mut Args::new(stack))
+        .or_else(|error| fail(stack, bound, &bound.worded(error)));
     if bound.function.mutates {
         stack.owner().collect_events();
     }
@@ -86,8 +97,10 @@ fn call_bound(stack: Stack<'_>, bound: &Bound) -> Result<c_int, String> {
 /// Raises the error; or returns -1 or nothing, where the script chose that errors are not raised (spec: vrep-era 2.2).
 fn fail(stack: Stack<'_>, bound: &Bound, error: &ApiError) -> Result<c_int, String> {
     let env = stack.owner();
-    let is_refusal =
-        !matches!(error, ApiError::NotImplemented(_) | ApiError::Interrupted | ApiError::BadArgument { .. });
+    let is_refusal = !matches!(
+        error,
+        ApiError::NotImplemented(_) | ApiError::Interrupted | ApiError::BadArgument { .. }
+    );
     if is_refusal {
         env.last_error.replace(error.to_string());
     }

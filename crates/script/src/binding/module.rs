@@ -60,7 +60,9 @@ impl Module {
 
     /// The names the module has in CoppeliaSim.
     pub(crate) fn reference_names(&self) -> impl Iterator<Item = &'static str> {
-        self.reference.lines().filter_map(|line| line.split('\t').next())
+        self.reference
+            .lines()
+            .filter_map(|line| line.split('\t').next())
     }
 
     /// The Lua files whose functions are members, out of all embedded ones.
@@ -69,7 +71,10 @@ impl Module {
         files: &'a [(&'static str, &'static str)],
     ) -> impl Iterator<Item = (&'static str, &'static str)> + 'a {
         let folder = self.lua_members;
-        files.iter().copied().filter(move |(path, _)| folder.is_some_and(|folder| path.starts_with(folder)))
+        files
+            .iter()
+            .copied()
+            .filter(move |(path, _)| folder.is_some_and(|folder| path.starts_with(folder)))
     }
 }
 

@@ -31,11 +31,18 @@ impl Param {
     /// When exactly one of name and type is that of all further arguments.
     pub const fn new<T: FromScript>(name: &'static str) -> Self {
         let default = match T::ABSENCE {
-            Absence::Nil => Some(DefaultValue { value: || Data::Nil, constant: None }),
+            Absence::Nil => Some(DefaultValue {
+                value: || Data::Nil,
+                constant: None,
+            }),
             Absence::Refused | Absence::Decoded => None,
         };
         let is_required = matches!(T::ABSENCE, Absence::Refused);
-        Self { default, is_required, ..Self::required(name, T::TYPE) }
+        Self {
+            default,
+            is_required,
+            ..Self::required(name, T::TYPE)
+        }
     }
 
     /// A parameter with a default.
@@ -43,7 +50,11 @@ impl Param {
     /// # Panics
     /// As [`Param::new`].
     pub const fn optional<T: FromScript>(name: &'static str, default: DefaultValue) -> Self {
-        Self { default: Some(default), is_required: false, ..Self::required(name, T::TYPE) }
+        Self {
+            default: Some(default),
+            is_required: false,
+            ..Self::required(name, T::TYPE)
+        }
     }
 
     /// A parameter of a function that decodes its arguments itself.
@@ -55,7 +66,12 @@ impl Param {
             takes_all(name) == takes_all(ty),
             "the parameter that takes all further arguments, and no other one, is named `...`: #[name(\"...\")]"
         );
-        Self { name, ty, default: None, is_required: true }
+        Self {
+            name,
+            ty,
+            default: None,
+            is_required: true,
+        }
     }
 
     /// How many arguments a call needs.
@@ -80,7 +96,10 @@ mod tests {
 
     #[test]
     fn arguments_are_required_up_to_the_last_one_without_which_a_call_fails() {
-        const ZERO: DefaultValue = DefaultValue { value: || Data::Int(0), constant: None };
+        const ZERO: DefaultValue = DefaultValue {
+            value: || Data::Int(0),
+            constant: None,
+        };
         let first = || Param::new::<i64>("first");
         let optional = || Param::optional::<i64>("second", ZERO);
         let nil = || Param::new::<Option<i64>>("third");

@@ -43,12 +43,19 @@ impl Bound {
     /// The error in the words of the module the function belongs to.
     pub(crate) fn worded(&self, error: ApiError) -> ApiError {
         match error {
-            ApiError::MoreArguments if self.plugin_errors => ApiError::Other("not enough arguments".into()),
+            ApiError::MoreArguments if self.plugin_errors => {
+                ApiError::Other("not enough arguments".into())
+            }
             ApiError::NotA { position, .. } if self.plugin_errors => {
-                let parameter = usize::try_from(position - 1).ok().and_then(|place| self.function.params.get(place));
+                let parameter = usize::try_from(position - 1)
+                    .ok()
+                    .and_then(|place| self.function.params.get(place));
                 parameter.map_or(error, |parameter| {
                     let expected = parameter.ty.split('[').next().unwrap_or_default();
-                    ApiError::Other(format!("read in arg {position} ({}): expected {expected}", parameter.name))
+                    ApiError::Other(format!(
+                        "read in arg {position} ({}): expected {expected}",
+                        parameter.name
+                    ))
                 })
             }
             _ => error,
@@ -128,8 +135,15 @@ impl Namespace {
 
     /// The members that need no Lua file, in the order in which the module lists them, then what is missing, in alphabetical order.
     pub(crate) fn listed(&self) -> impl Iterator<Item = (&'static str, Member)> {
-        let missing = self.names().into_iter().filter(|name| matches!(self.get(name), Some(Member::Missing(_))));
-        self.listed.iter().copied().chain(missing).filter_map(|name| Some((name, self.get(name)?)))
+        let missing = self
+            .names()
+            .into_iter()
+            .filter(|name| matches!(self.get(name), Some(Member::Missing(_))));
+        self.listed
+            .iter()
+            .copied()
+            .chain(missing)
+            .filter_map(|name| Some((name, self.get(name)?)))
     }
 
     /// The function of a global name from before there were modules that became no member.
@@ -161,7 +175,9 @@ pub fn member_by_rule(global: &str) -> Option<String> {
     let rest = global.strip_prefix("sim")?;
     match (rest.strip_prefix('_'), rest.chars().next()?) {
         (Some(constant), _) => Some(constant.to_owned()),
-        (None, first) if first.is_ascii_uppercase() => Some(first.to_ascii_lowercase().to_string() + &rest[1..]),
+        (None, first) if first.is_ascii_uppercase() => {
+            Some(first.to_ascii_lowercase().to_string() + &rest[1..])
+        }
         _ => None,
     }
 }
@@ -195,7 +211,10 @@ type ResultTypes = HashMap<&'static str, Vec<&'static str>>;
 
 impl Registry {
     /// Binds `modules`, of which the first is `sim`. `files` are the paths and texts of the embedded Lua files.
-    pub fn new(modules: &[&'static Module], files: &'static [(&'static str, &'static str)]) -> Self {
+    pub fn new(
+        modules: &[&'static Module],
+        files: &'static [(&'static str, &'static str)],
+    ) -> Self {
         let mut registry = Self {
             functions: Vec::new(),
             missing: Vec::new(),
@@ -203,7 +222,10 @@ impl Registry {
             namespaces: Vec::new(),
             by_name: HashMap::new(),
             hooks: modules.iter().map(|module| module.hooks).collect(),
-            files: files.iter().map(|&(name, source)| (name, Embedded::new(source))).collect(),
+            files: files
+                .iter()
+                .map(|&(name, source)| (name, Embedded::new(source)))
+                .collect(),
             result_types: OnceLock::new(),
         };
         for (place, &module) in modules.iter().enumerate() {
@@ -236,7 +258,11 @@ impl Registry {
         match name.rsplit_once('.') {
             Some((module, member)) => self.module(module)?.get(member),
             None => {
-                let global = self.globals.iter().find(|(global, _)| *global == name).map(|&(_, id)| id);
+                let global = self
+                    .globals
+                    .iter()
+                    .find(|(global, _)| *global == name)
+                    .map(|&(_, id)| id);
                 let old = || self.namespaces.first()?.old_function(name);
                 global.or_else(old).map(Member::Native)
             }
@@ -268,18 +294,31 @@ impl Registry {
 
     /// The types that a function is declared to return: a native one by its row, one in Lua by the comment above it. None without any.
     pub fn result_types(&self, name: &str) -> Option<&[&'static str]> {
-        self.result_types.get_or_init(|| self.declared_result_types()).get(name).map(Vec::as_slice)
+        self.result_types
+            .get_or_init(|| self.declared_result_types())
+            .get(name)
+            .map(Vec::as_slice)
     }
 
     fn declared_result_types(&self) -> ResultTypes {
-        let functions = self.namespaces.iter().flat_map(|namespace| namespace.module.public_functions());
+        let functions = self
+            .namespaces
+            .iter()
+            .flat_map(|namespace| namespace.module.public_functions());
         let native = functions.map(|function| (function.name, function.returns.to_vec()));
         let lines = self.files.values().flat_map(|file| file.source.lines());
         let comments = lines.filter_map(|line| line.strip_prefix("-- @api "));
-        native.chain(comments.filter_map(declared_in_comment)).filter(|(_, types)| !types.is_empty()).collect()
+        native
+            .chain(comments.filter_map(declared_in_comment))
+            .filter(|(_, types)| !types.is_empty())
+            .collect()
     }
 
-    fn bind(&mut self, module: &'static Module, files: &[(&'static str, &'static str)]) -> Namespace {
+    fn bind(
+        &mut self,
+        module: &'static Module,
+        files: &[(&'static str, &'static str)],
+    ) -> Namespace {
         let deprecated: HashMap<&str, &'static str> = pairs(module.deprecated).collect();
         let mut namespace = Namespace {
             module,
@@ -296,7 +335,12 @@ impl Registry {
             self.add_function(&mut namespace, function, &deprecated);
         }
         for function in module.inner.iter().copied().flatten() {
-            let id = self.add(function.name.into(), function, None, namespace.module.plugin_errors);
+            let id = self.add(
+                function.name.into(),
+                function,
+                None,
+                namespace.module.plugin_errors,
+            );
             namespace.inner.push((last_part(function.name), id));
         }
         for (old, new) in pairs(module.old_names) {
@@ -312,8 +356,13 @@ impl Registry {
     fn add_missing(&mut self, namespace: &mut Namespace) {
         let module = namespace.module;
         for name in module.reference_names() {
-            self.missing.push(Missing { module: module.name, name });
-            namespace.members.insert(name, Member::Missing(MissingId(self.missing.len() - 1)));
+            self.missing.push(Missing {
+                module: module.name,
+                name,
+            });
+            namespace
+                .members
+                .insert(name, Member::Missing(MissingId(self.missing.len() - 1)));
         }
     }
 
@@ -324,7 +373,12 @@ impl Registry {
         replacement: Option<&'static str>,
         plugin_errors: bool,
     ) -> FunctionId {
-        self.functions.push(Bound { name, function, replacement, plugin_errors });
+        self.functions.push(Bound {
+            name,
+            function,
+            replacement,
+            plugin_errors,
+        });
         FunctionId(self.functions.len() - 1)
     }
 
@@ -335,7 +389,12 @@ impl Registry {
         deprecated: &HashMap<&str, &'static str>,
     ) {
         if !function.name.contains('.') {
-            let id = self.add(function.name.into(), function, None, namespace.module.plugin_errors);
+            let id = self.add(
+                function.name.into(),
+                function,
+                None,
+                namespace.module.plugin_errors,
+            );
             if function.name.starts_with("sim") {
                 namespace.old_functions.insert(function.name, id);
             } else {
@@ -344,22 +403,39 @@ impl Registry {
             return;
         }
         let member = last_part(function.name);
-        let id =
-            self.add(function.name.into(), function, deprecated.get(member).copied(), namespace.module.plugin_errors);
+        let id = self.add(
+            function.name.into(),
+            function,
+            deprecated.get(member).copied(),
+            namespace.module.plugin_errors,
+        );
         namespace.members.insert(member, Member::Native(id));
         namespace.listed.push(member);
     }
 
     fn add_aliases(&mut self, namespace: &mut Namespace, deprecated: &HashMap<&str, &'static str>) {
         for (old, new) in pairs(namespace.module.aliases) {
-            let global = self.globals.iter().find(|(name, _)| *name == new).map(|&(_, id)| Member::Native(id));
+            let global = self
+                .globals
+                .iter()
+                .find(|(name, _)| *name == new)
+                .map(|&(_, id)| Member::Native(id));
             let replacement = deprecated.get(old).copied();
             let member = match namespace.get(new).filter(|_| old != new).or(global) {
                 Some(Member::Native(id)) => {
                     let name = format!("{}.{old}", namespace.module.name).into();
-                    Member::Native(self.add(name, self.bound(id).function, replacement, namespace.module.plugin_errors))
+                    Member::Native(self.add(
+                        name,
+                        self.bound(id).function,
+                        replacement,
+                        namespace.module.plugin_errors,
+                    ))
                 }
-                Some(Member::Lua { file, function, .. }) => Member::Lua { file, function, replacement },
+                Some(Member::Lua { file, function, .. }) => Member::Lua {
+                    file,
+                    function,
+                    replacement,
+                },
                 Some(Member::Constant(_) | Member::Missing(_)) | None => continue,
             };
             namespace.members.insert(old, member);
@@ -374,7 +450,9 @@ fn last_part(name: &'static str) -> &'static str {
 
 fn add_constants(namespace: &mut Namespace) {
     for (name, value) in pairs(namespace.module.constants) {
-        let value = value.parse().expect("a table of constants holds integers, which a test reads");
+        let value = value
+            .parse()
+            .expect("a table of constants holds integers, which a test reads");
         namespace.members.insert(name, Member::Constant(value));
         namespace.listed.push(name);
     }
@@ -383,7 +461,9 @@ fn add_constants(namespace: &mut Namespace) {
 /// `int a, float[3] b = module.name(...)`.
 fn declared_in_comment(declaration: &'static str) -> Option<(&'static str, Vec<&'static str>)> {
     let (results, name) = declaration.split_once('(')?.0.rsplit_once(" = ")?;
-    let types = results.split(',').filter_map(|result| result.trim().split(' ').next());
+    let types = results
+        .split(',')
+        .filter_map(|result| result.trim().split(' ').next());
     Some((name.trim(), types.collect()))
 }
 
@@ -394,10 +474,19 @@ fn add_lua_members(
     deprecated: &HashMap<&str, &'static str>,
 ) {
     for (file, source) in namespace.module.member_files(files) {
-        let declarations = source.lines().filter_map(|line| line.strip_prefix("function M."));
+        let declarations = source
+            .lines()
+            .filter_map(|line| line.strip_prefix("function M."));
         for function in declarations.filter_map(|declaration| declaration.split('(').next()) {
             let replacement = deprecated.get(function).copied();
-            namespace.members.insert(function, Member::Lua { file, function, replacement });
+            namespace.members.insert(
+                function,
+                Member::Lua {
+                    file,
+                    function,
+                    replacement,
+                },
+            );
         }
     }
 }
@@ -408,10 +497,17 @@ mod tests {
 
     #[test]
     fn members_are_listed_before_what_is_missing() {
-        static MODULE: Module =
-            Module { constants: "second\t2\nfirst\t1\n", reference: "z\nfirst\na\n", ..Module::new("m") };
+        static MODULE: Module = Module {
+            constants: "second\t2\nfirst\t1\n",
+            reference: "z\nfirst\na\n",
+            ..Module::new("m")
+        };
         let registry = Registry::new(&[&MODULE], &[]);
-        let listed: Vec<_> = registry.module("m").expect("it was bound").listed().collect();
+        let listed: Vec<_> = registry
+            .module("m")
+            .expect("it was bound")
+            .listed()
+            .collect();
         let names: Vec<_> = listed.iter().map(|(name, _)| *name).collect();
         assert_eq!(names, ["second", "first", "a", "z"]);
         assert!(matches!(listed[1].1, Member::Constant(1)));

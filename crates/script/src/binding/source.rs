@@ -121,14 +121,18 @@ impl<'a> Values<'a> {
     }
 
     fn get(self, position: c_int) -> Option<&'a Data> {
-        self.values.get(usize::try_from(position).ok()?.checked_sub(1)?)
+        self.values
+            .get(usize::try_from(position).ok()?.checked_sub(1)?)
     }
 
     /// Element `i` of a list.
     fn element(self, position: c_int, i: i64) -> Option<&'a Data> {
         match self.get(position)? {
             Data::Array(items) => items.get(usize::try_from(i).ok()?.checked_sub(1)?),
-            Data::Map(entries) => entries.iter().find(|(key, _)| *key == Key::Int(i)).map(|(_, value)| value),
+            Data::Map(entries) => entries
+                .iter()
+                .find(|(key, _)| *key == Key::Int(i))
+                .map(|(_, value)| value),
             _ => None,
         }
     }
@@ -181,7 +185,9 @@ impl<'a> Source<'a> for Values<'a> {
     fn list_len(self, position: c_int) -> usize {
         match self.get(position) {
             Some(Data::Array(items)) => items.len(),
-            Some(Data::Map(_)) => (1..).take_while(|&i| self.element(position, i).is_some()).count(),
+            Some(Data::Map(_)) => (1..)
+                .take_while(|&i| self.element(position, i).is_some())
+                .count(),
             _ => 0,
         }
     }
@@ -191,7 +197,11 @@ impl<'a> Source<'a> for Values<'a> {
     }
 
     fn numbers_into(self, position: c_int, first: i64, out: &mut [f64]) -> bool {
-        (first..).zip(out).all(|(i, number)| self.number_at(position, i).map(|found| *number = found).is_some())
+        (first..).zip(out).all(|(i, number)| {
+            self.number_at(position, i)
+                .map(|found| *number = found)
+                .is_some()
+        })
     }
 
     fn integer_at(self, position: c_int, i: i64) -> Option<i64> {
@@ -226,23 +236,37 @@ fn number_of(data: &Data) -> Option<f64> {
 
 /// Neither 2.0 nor "2" is one.
 fn integer_of(data: &Data) -> Option<i64> {
-    if let Data::Int(number) = data { Some(*number) } else { None }
+    if let Data::Int(number) = data {
+        Some(*number)
+    } else {
+        None
+    }
 }
 
 /// The number in a string, as Lua converts it; hexadecimal ones are integers here.
 fn numeral(text: &[u8]) -> Option<Data> {
-    let text = std::str::from_utf8(text).ok()?.trim_matches([' ', '\t', '\n', '\r', '\x0b', '\x0c']);
+    let text = std::str::from_utf8(text)
+        .ok()?
+        .trim_matches([' ', '\t', '\n', '\r', '\x0b', '\x0c']);
     let (sign, digits) = match text.strip_prefix('-') {
         Some(rest) => (-1, rest),
         None => (1, text.strip_prefix('+').unwrap_or(text)),
     };
-    if let Some(hexadecimal) = digits.strip_prefix("0x").or_else(|| digits.strip_prefix("0X")) {
-        return i64::from_str_radix(hexadecimal, 16).ok().map(|number| Data::Int(sign * number));
+    if let Some(hexadecimal) = digits
+        .strip_prefix("0x")
+        .or_else(|| digits.strip_prefix("0X"))
+    {
+        return i64::from_str_radix(hexadecimal, 16)
+            .ok()
+            .map(|number| Data::Int(sign * number));
     }
     if !digits.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
         return None;
     }
-    text.parse().map(Data::Int).or_else(|_| text.parse().map(Data::Float)).ok()
+    text.parse()
+        .map(Data::Int)
+        .or_else(|_| text.parse().map(Data::Float))
+        .ok()
 }
 
 /// A float in Lua's spelling: 14 digits, and always recognisable as one.
@@ -250,7 +274,11 @@ fn float_text(number: f64) -> String {
     const DIGITS: i32 = 14;
     if !number.is_finite() {
         let word = if number.is_nan() { "nan" } else { "inf" };
-        return if number.is_sign_negative() { format!("-{word}") } else { word.to_owned() };
+        return if number.is_sign_negative() {
+            format!("-{word}")
+        } else {
+            word.to_owned()
+        };
     }
     let scientific = format!("{number:.*e}", DIGITS as usize - 1);
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
@@ -264,7 +292,11 @@ fn float_text(number: f64) -> String {
         return format!("{}e{sign}{:02}", trimmed(mantissa), exponent.abs());
     }
     let plain = trimmed(&format!("{number:.*}", (DIGITS - 1 - exponent) as usize));
-    if plain.contains('.') { plain } else { plain + ".0" }
+    if plain.contains('.') {
+        plain
+    } else {
+        plain + ".0"
+    }
 }
 
 #[cfg(test)]

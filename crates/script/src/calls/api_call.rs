@@ -33,7 +33,9 @@ impl Sim {
         name: &str,
         args: &[Data],
     ) -> ApiResult<Vec<Data>> {
-        let runtime = caller.current_runtime().ok_or(ApiError::ScriptNotInitialized)?;
+        let runtime = caller
+            .current_runtime()
+            .ok_or(ApiError::ScriptNotInitialized)?;
         let registry = &self.modules.registry;
         match member {
             Some(Member::Native(id)) => call_native(&runtime, registry.bound(id), args),
@@ -54,11 +56,18 @@ impl Sim {
         function: &str,
         args: &[Data],
     ) -> ApiResult<Vec<Data>> {
-        let runtime = caller.current_runtime().ok_or(ApiError::ScriptNotInitialized)?;
+        let runtime = caller
+            .current_runtime()
+            .ok_or(ApiError::ScriptNotInitialized)?;
         self.call_library_in(&runtime, module, function, args)
     }
 
-    fn call_library(&self, runtime: &Rc<Runtime>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+    fn call_library(
+        &self,
+        runtime: &Rc<Runtime>,
+        name: &str,
+        args: &[Data],
+    ) -> ApiResult<Vec<Data>> {
         let (module, member) = name.rsplit_once('.').ok_or(ApiError::CallFailed)?;
         self.call_library_in(runtime, module, member, args)
     }
@@ -72,7 +81,9 @@ impl Sim {
     ) -> ApiResult<Vec<Data>> {
         let _level = Level::enter(&self.scripts, &runtime.env);
         let results = runtime.interpreter.call_library(module, member, args);
-        results.map_err(|error| ApiError::Other(error.text.lines().next().unwrap_or_default().to_owned()))
+        results.map_err(|error| {
+            ApiError::Other(error.text.lines().next().unwrap_or_default().to_owned())
+        })
     }
 }
 

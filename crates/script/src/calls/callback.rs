@@ -86,7 +86,11 @@ impl SysCall {
     pub(crate) const fn is_announced(self) -> bool {
         matches!(
             self,
-            Self::Init | Self::Cleanup | Self::AddOnScriptSuspend | Self::AddOnScriptResume | Self::UserConfig
+            Self::Init
+                | Self::Cleanup
+                | Self::AddOnScriptSuspend
+                | Self::AddOnScriptResume
+                | Self::UserConfig
         )
     }
 }

@@ -32,13 +32,23 @@ impl Sim {
         }
         // A removed object has no scripts.
         let mut scripts = self.scripts_of_object(object);
-        scripts.sort_by_key(|script| (script.owner().is_none(), script.script_type != ScriptType::Simulation));
+        scripts.sort_by_key(|script| {
+            (
+                script.owner().is_none(),
+                script.script_type != ScriptType::Simulation,
+            )
+        });
         scripts
     }
 }
 
 fn written_or_removed(names: ChangedNames) -> Data {
-    Data::Map(names.into_iter().map(|(name, written)| (Key::Text(name.into_bytes()), Data::Bool(written))).collect())
+    Data::Map(
+        names
+            .into_iter()
+            .map(|(name, written)| (Key::Text(name.into_bytes()), Data::Bool(written)))
+            .collect(),
+    )
 }
 
 fn name_of(namespace: Namespace) -> &'static str {

@@ -11,14 +11,23 @@ use scene::Data;
 
 impl Sim {
     /// Delivers a callback to the scripts of a group; returns how many ran it.
-    pub(crate) fn deliver_to(self: &Rc<Self>, group: ScriptGroup, call: SysCall, args: &[Data]) -> i64 {
+    pub(crate) fn deliver_to(
+        self: &Rc<Self>,
+        group: ScriptGroup,
+        call: SysCall,
+        args: &[Data],
+    ) -> i64 {
         let scripts = self.scripts_in(group);
-        scripts.iter().filter(|script| self.deliver(script, call, args).ran).count() as i64
+        scripts
+            .iter()
+            .filter(|script| self.deliver(script, call, args).ran)
+            .count() as i64
     }
 
     /// Simulation scripts, then customization scripts.
     pub(crate) fn deliver_to_embedded(self: &Rc<Self>, call: SysCall, args: &[Data]) -> i64 {
-        self.deliver_to(ScriptGroup::Simulation, call, args) + self.deliver_to(ScriptGroup::Customization, call, args)
+        self.deliver_to(ScriptGroup::Simulation, call, args)
+            + self.deliver_to(ScriptGroup::Customization, call, args)
     }
 
     /// Notes that a script has these callbacks; a script with `sysCall_event` receives events from now on.
@@ -40,8 +49,15 @@ impl Sim {
     }
 
     /// Calls scripts in turn until one returns a value.
-    pub(crate) fn first_answer(self: &Rc<Self>, scripts: &[Rc<Script>], call: SysCall, args: &[Data]) -> Option<Data> {
-        scripts.iter().find_map(|script| self.deliver(script, call, args).value)
+    pub(crate) fn first_answer(
+        self: &Rc<Self>,
+        scripts: &[Rc<Script>],
+        call: SysCall,
+        args: &[Data],
+    ) -> Option<Data> {
+        scripts
+            .iter()
+            .find_map(|script| self.deliver(script, call, args).value)
     }
 
     /// A message to all initialised scripts but the sender.
@@ -62,7 +78,10 @@ impl Sim {
         if !self.scripts.may_respond(SysCall::Msg) {
             return;
         }
-        let data = Data::map([("callType", Data::Int(call as i64)), ("script", Data::Int(script.id))]);
+        let data = Data::map([
+            ("callType", Data::Int(call as i64)),
+            ("script", Data::Int(script.id)),
+        ]);
         let message = Data::map([("id", Data::text("systemCall")), ("data", data)]);
         self.broadcast_message(script.id, &[message]);
     }
@@ -77,7 +96,10 @@ impl Sim {
             let is_main = script.script_type == scene::object::script_object::ScriptType::Main;
             if !is_main && script.base_state() == state::INITIALIZED {
                 let Reply { value, .. } = self.deliver(script, SysCall::BeforeMainScript, &[]);
-                vetoed |= value.as_ref().and_then(|v| v.field("doNotRunMainScript")).is_some_and(Data::truthy);
+                vetoed |= value
+                    .as_ref()
+                    .and_then(|v| v.field("doNotRunMainScript"))
+                    .is_some_and(Data::truthy);
             }
         }
         vetoed && !self.clock.stop_is_requested()

@@ -40,7 +40,10 @@ impl Drop for HeldFunction {
 impl HeldFunction {
     /// A function that the script with that environment has passed to the host.
     pub fn new(env: &Env, function: FunctionRef) -> Self {
-        Self { runtime: env.runtime().as_ref().map(Rc::downgrade), function }
+        Self {
+            runtime: env.runtime().as_ref().map(Rc::downgrade),
+            function,
+        }
     }
 
     fn runtime(&self) -> Option<Rc<Runtime>> {
@@ -53,7 +56,9 @@ impl Handler {
     pub fn new(cx: &Cx, given: ScriptFunction) -> Self {
         match given {
             ScriptFunction::Name(name) => Self::Name(name),
-            ScriptFunction::Value(function) => Self::Function(HeldFunction::new(cx.env(), function)),
+            ScriptFunction::Value(function) => {
+                Self::Function(HeldFunction::new(cx.env(), function))
+            }
         }
     }
 
@@ -77,7 +82,11 @@ impl ScriptCallback {
     /// From a parameter of the calling script.
     pub fn new(cx: &Cx, given: ScriptFunction) -> Self {
         let handler = Handler::new(cx, given);
-        Self { sim: cx.env().sim.clone(), script: Rc::downgrade(cx.script()), handler }
+        Self {
+            sim: cx.env().sim.clone(),
+            script: Rc::downgrade(cx.script()),
+            handler,
+        }
     }
 
     /// # Errors
@@ -105,7 +114,12 @@ impl ScriptCallback {
 impl Sim {
     /// Calls a handler; one by name is a function of `script`. A failure is logged and counted, and the script continues: it must not
     /// end because of what a peer has sent.
-    pub fn call_handler(self: &Rc<Self>, script: &Rc<Script>, handler: &Handler, args: &[Data]) -> Option<Vec<Data>> {
+    pub fn call_handler(
+        self: &Rc<Self>,
+        script: &Rc<Script>,
+        handler: &Handler,
+        args: &[Data],
+    ) -> Option<Vec<Data>> {
         match self.try_handler(script, handler, args) {
             Ok(results) => Some(results),
             Err(error) => {
@@ -120,13 +134,19 @@ impl Sim {
         }
     }
 
-    fn try_handler(self: &Rc<Self>, script: &Rc<Script>, handler: &Handler, args: &[Data]) -> ApiResult<Vec<Data>> {
+    fn try_handler(
+        self: &Rc<Self>,
+        script: &Rc<Script>,
+        handler: &Handler,
+        args: &[Data],
+    ) -> ApiResult<Vec<Data>> {
         let runtime = match handler {
             Handler::Name(_) => script.current_runtime(),
             Handler::Function(held) => held.runtime(),
         };
-        let runtime =
-            runtime.filter(|runtime| runtime.env.script.is_running()).ok_or(ApiError::ScriptNotInitialized)?;
+        let runtime = runtime
+            .filter(|runtime| runtime.env.script.is_running())
+            .ok_or(ApiError::ScriptNotInitialized)?;
         let results = self.run_handler(&runtime, handler, args);
         if runtime.env.depth.get() == 0 {
             self.complete_call(&runtime.env.script, SysCall::Ext, None);
@@ -134,7 +154,12 @@ impl Sim {
         results
     }
 
-    fn run_handler(self: &Rc<Self>, runtime: &Rc<Runtime>, handler: &Handler, args: &[Data]) -> ApiResult<Vec<Data>> {
+    fn run_handler(
+        self: &Rc<Self>,
+        runtime: &Rc<Runtime>,
+        handler: &Handler,
+        args: &[Data],
+    ) -> ApiResult<Vec<Data>> {
         let level = Level::enter(&self.scripts, &runtime.env);
         if level.too_deep {
             return Err(ApiError::TooDeep(MAX_DEPTH));
@@ -143,9 +168,12 @@ impl Sim {
             Handler::Name(_) => Callee::Named(handler.name().unwrap_or_default()),
             Handler::Function(held) => Callee::Function(held.function),
         };
-        runtime.interpreter.call(function, args).map_err(|error| match error {
-            CallError::NoSuchFunction => ApiError::CallFailed,
-            CallError::Script(error) => ApiError::Other(error.text),
-        })
+        runtime
+            .interpreter
+            .call(function, args)
+            .map_err(|error| match error {
+                CallError::NoSuchFunction => ApiError::CallFailed,
+                CallError::Script(error) => ApiError::Other(error.text),
+            })
     }
 }

@@ -25,8 +25,15 @@ impl Sim {
     ///
     /// # Errors
     /// In CoppeliaSim's words; the callee's own error is logged under its name and ends it.
-    pub fn call_function(self: &Rc<Self>, script: &Rc<Script>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
-        let runtime = script.current_runtime().ok_or(ApiError::ScriptNotInitialized)?;
+    pub fn call_function(
+        self: &Rc<Self>,
+        script: &Rc<Script>,
+        name: &str,
+        args: &[Data],
+    ) -> ApiResult<Vec<Data>> {
+        let runtime = script
+            .current_runtime()
+            .ok_or(ApiError::ScriptNotInitialized)?;
         if !script.is_running() {
             return Err(ApiError::CallFailed);
         }
@@ -41,7 +48,12 @@ impl Sim {
     }
 
     /// The inner result is the callee's own.
-    fn call_named(&self, runtime: &Runtime, name: &str, args: &[Data]) -> ApiResult<Result<Vec<Data>, ScriptError>> {
+    fn call_named(
+        &self,
+        runtime: &Runtime,
+        name: &str,
+        args: &[Data],
+    ) -> ApiResult<Result<Vec<Data>, ScriptError>> {
         let level = Level::enter_from_script(&self.scripts, &runtime.env);
         if level.too_deep {
             return Err(ApiError::TooDeep(MAX_DEPTH));
@@ -54,13 +66,22 @@ impl Sim {
     }
 
     /// Runs a string in a script: as an expression if it is one, else as a chunk. The script is not marked when it fails.
-    pub(crate) fn execute_string(self: &Rc<Self>, script: &Rc<Script>, code: &[u8]) -> ApiResult<Vec<Data>> {
-        let runtime = script.current_runtime().ok_or(ApiError::Scene(scene::SceneError::OperationFailed))?;
+    pub(crate) fn execute_string(
+        self: &Rc<Self>,
+        script: &Rc<Script>,
+        code: &[u8],
+    ) -> ApiResult<Vec<Data>> {
+        let runtime = script
+            .current_runtime()
+            .ok_or(ApiError::Scene(scene::SceneError::OperationFailed))?;
         let level = Level::enter_from_script(&self.scripts, &runtime.env);
         if level.too_deep {
             return Err(ApiError::TooDeep(MAX_DEPTH));
         }
-        runtime.interpreter.evaluate(code).map_err(|_| scene::SceneError::OperationFailed.into())
+        runtime
+            .interpreter
+            .evaluate(code)
+            .map_err(|_| scene::SceneError::OperationFailed.into())
     }
 
     /// Runs a file's text as a chunk in a script that lives already, as the sandbox does.
@@ -77,7 +98,9 @@ impl Sim {
         if let Some(file) = file {
             self.log.files.borrow_mut().insert(chunk_name, file);
         }
-        let Some(runtime) = script.current_runtime() else { return Err(ApiError::ScriptNotInitialized.to_string()) };
+        let Some(runtime) = script.current_runtime() else {
+            return Err(ApiError::ScriptNotInitialized.to_string());
+        };
         let outcome = {
             let _level = Level::enter(&self.scripts, &runtime.env);
             runtime.interpreter.run(code, chunk_name)
@@ -111,7 +134,9 @@ impl Sim {
 
     /// Whether an add-on starts by itself; its menu entry becomes its name.
     fn add_on_starts_itself(self: &Rc<Self>, script: &Rc<Script>) -> bool {
-        let Some(info) = self.add_on_info(script) else { return true };
+        let Some(info) = self.add_on_info(script) else {
+            return true;
+        };
         if let Some(Data::Text(menu)) = info.field("menu") {
             let menu = String::from_utf8_lossy(menu).replace('\n', " >> ");
             script.detached.borrow_mut().name = format!("{menu}@addOnScript");
@@ -139,7 +164,10 @@ impl Sim {
 
     /// Closes every interpreter. A script and its interpreter know each other: without this neither would ever go.
     pub fn close_all(&self) {
-        self.scripts.all().iter().for_each(|script| drop(script.runtime.take()));
+        self.scripts
+            .all()
+            .iter()
+            .for_each(|script| drop(script.runtime.take()));
     }
 
     /// Ends an add-on or the sandbox at application exit.

@@ -45,17 +45,24 @@ impl Sim {
 
     /// Replaces what was entered by its value as a Lua expression in the sandbox; one that fails changes nothing.
     fn evaluate_entry(self: &Rc<Self>, event: &Event) {
-        let (Some(Data::Text(entry)), Some(window), Some(widget)) = (event.args.last(), event.window, event.widget)
+        let (Some(Data::Text(entry)), Some(window), Some(widget)) =
+            (event.args.last(), event.window, event.widget)
         else {
             return;
         };
-        let Some(sandbox) = self.scripts.detached(ScriptType::Sandbox) else { return };
+        let Some(sandbox) = self.scripts.detached(ScriptType::Sandbox) else {
+            return;
+        };
         let code = [b"tostring(", entry.as_slice(), b")"].concat();
         if let Ok(results) = self.execute_string(&sandbox, &code)
             && let Some(Data::Text(result)) = results.first()
         {
             let ui = self.app.borrow().ui.clone();
-            ui.borrow_mut().replace_by_result(window, widget, String::from_utf8_lossy(result).into_owned());
+            ui.borrow_mut().replace_by_result(
+                window,
+                widget,
+                String::from_utf8_lossy(result).into_owned(),
+            );
         }
     }
 }

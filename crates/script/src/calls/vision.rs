@@ -14,11 +14,16 @@ impl Sim {
     ///
     /// # Errors
     /// When `sensor` is no vision sensor.
-    pub(crate) fn handle_vision_sensor(self: &Rc<Self>, sensor: Handle) -> SceneResult<VisionReading> {
+    pub(crate) fn handle_vision_sensor(
+        self: &Rc<Self>,
+        sensor: Handle,
+    ) -> SceneResult<VisionReading> {
         let external = {
             let scene = self.scene.borrow();
             let sensor = scene.object(sensor)?.vision_sensor()?;
-            sensor.external_image.then(|| sensor.reading.clone().unwrap_or_default())
+            sensor
+                .external_image
+                .then(|| sensor.reading.clone().unwrap_or_default())
         };
         if let Some(reading) = external {
             return Ok(reading);
@@ -40,9 +45,19 @@ impl Sim {
         let before = self.scene.borrow().object(sensor)?.vision_sensor()?.clone();
         let reading = self.take_picture(sensor, Some(entity))?;
         let mut scene = self.scene.borrow_mut();
-        let Ok(seen) = scene.object(sensor).and_then(|object| object.vision_sensor().cloned()) else {
+        let Ok(seen) = scene
+            .object(sensor)
+            .and_then(|object| object.vision_sensor().cloned())
+        else {
             // Its scripts have removed it: nothing was seen.
-            return Ok((reading, VisionSensor { image: Vec::new(), depth: Vec::new(), ..before }));
+            return Ok((
+                reading,
+                VisionSensor {
+                    image: Vec::new(),
+                    depth: Vec::new(),
+                    ..before
+                },
+            ));
         };
         scene.try_modify(sensor, Field::Measured, |object| {
             let sensor = object.vision_sensor_mut()?;
@@ -55,15 +70,31 @@ impl Sim {
         Ok((reading, seen))
     }
 
-    fn take_picture(self: &Rc<Self>, sensor: Handle, entity: Option<Entity>) -> SceneResult<VisionReading> {
-        let picture = self.perception.borrow_mut().vision.sensor_picture(&self.scene.borrow(), sensor, entity)?;
-        let first = self.scene.borrow_mut().try_modify(sensor, Field::Measured, |object| {
-            let sensor = object.vision_sensor_mut()?;
-            sensor.image = picture.image.unwrap_or_else(|| std::mem::take(&mut sensor.image));
-            sensor.depth = picture.depth.unwrap_or_else(|| std::mem::take(&mut sensor.depth));
-            let handles = |seen: Vec<Handle>| seen.into_iter().map(|handle| handle.0 as f32).collect();
-            Ok(picture.seen.map_or_else(|| sensor.first_packet(), handles))
-        })?;
+    fn take_picture(
+        self: &Rc<Self>,
+        sensor: Handle,
+        entity: Option<Entity>,
+    ) -> SceneResult<VisionReading> {
+        let picture = self.perception.borrow_mut().vision.sensor_picture(
+            &self.scene.borrow(),
+            sensor,
+            entity,
+        )?;
+        let first = self
+            .scene
+            .borrow_mut()
+            .try_modify(sensor, Field::Measured, |object| {
+                let sensor = object.vision_sensor_mut()?;
+                sensor.image = picture
+                    .image
+                    .unwrap_or_else(|| std::mem::take(&mut sensor.image));
+                sensor.depth = picture
+                    .depth
+                    .unwrap_or_else(|| std::mem::take(&mut sensor.depth));
+                let handles =
+                    |seen: Vec<Handle>| seen.into_iter().map(|handle| handle.0 as f32).collect();
+                Ok(picture.seen.map_or_else(|| sensor.first_packet(), handles))
+            })?;
         self.evaluate_picture(sensor, first)
     }
 
@@ -81,8 +112,16 @@ impl Sim {
         if self.vision_callback_runs(sensor) {
             return Ok(());
         }
-        let packet = self.scene.borrow().object(sensor)?.vision_sensor()?.first_packet();
-        let reading = VisionReading { triggered: false, ..self.evaluate_picture(sensor, packet)? };
+        let packet = self
+            .scene
+            .borrow()
+            .object(sensor)?
+            .vision_sensor()?
+            .first_packet();
+        let reading = VisionReading {
+            triggered: false,
+            ..self.evaluate_picture(sensor, packet)?
+        };
         self.store_reading(sensor, Some(reading));
         Ok(())
     }
@@ -91,9 +130,19 @@ impl Sim {
     ///
     /// # Errors
     /// When `sensor` is no vision sensor.
-    pub(crate) fn evaluate_picture(self: &Rc<Self>, sensor: Handle, first: Vec<f32>) -> SceneResult<VisionReading> {
-        let mut reading = VisionReading { triggered: false, packets: vec![first] };
-        if !self.scripts.may_respond_to_any(&[SysCall::Vision, SysCall::Trigger]) {
+    pub(crate) fn evaluate_picture(
+        self: &Rc<Self>,
+        sensor: Handle,
+        first: Vec<f32>,
+    ) -> SceneResult<VisionReading> {
+        let mut reading = VisionReading {
+            triggered: false,
+            packets: vec![first],
+        };
+        if !self
+            .scripts
+            .may_respond_to_any(&[SysCall::Vision, SysCall::Trigger])
+        {
             return Ok(reading);
         }
         let (scripts, picture) = (self.sensor_scripts(sensor), self.picture_data(sensor)?);
@@ -116,9 +165,17 @@ impl Sim {
         });
     }
 
-    fn collect_findings(self: &Rc<Self>, scripts: &[Rc<Script>], picture: &Data, reading: &mut VisionReading) {
+    fn collect_findings(
+        self: &Rc<Self>,
+        scripts: &[Rc<Script>],
+        picture: &Data,
+        reading: &mut VisionReading,
+    ) {
         for script in scripts {
-            let Some(found) = self.deliver(script, SysCall::Vision, std::slice::from_ref(picture)).value else {
+            let Some(found) = self
+                .deliver(script, SysCall::Vision, std::slice::from_ref(picture))
+                .value
+            else {
                 continue;
             };
             if let Some(&Data::Bool(triggered)) = found.field("trigger") {
@@ -131,7 +188,12 @@ impl Sim {
     }
 
     /// Notifies the scripts of what was found; they may decide otherwise.
-    fn trigger_vision(self: &Rc<Self>, scripts: &[Rc<Script>], sensor: Handle, reading: &mut VisionReading) {
+    fn trigger_vision(
+        self: &Rc<Self>,
+        scripts: &[Rc<Script>],
+        sensor: Handle,
+        reading: &mut VisionReading,
+    ) {
         let packets: Vec<Data> = reading.packets.iter().map(|packet| pack(packet)).collect();
         let data = Data::map([
             ("handle", sensor.raw().into()),
@@ -139,8 +201,12 @@ impl Sim {
             ("packedPackets", packets.into()),
         ]);
         for script in scripts {
-            let answer = self.deliver(script, SysCall::Trigger, std::slice::from_ref(&data)).value;
-            if let Some(&Data::Bool(triggered)) = answer.as_ref().and_then(|answer| answer.field("trigger")) {
+            let answer = self
+                .deliver(script, SysCall::Trigger, std::slice::from_ref(&data))
+                .value;
+            if let Some(&Data::Bool(triggered)) =
+                answer.as_ref().and_then(|answer| answer.field("trigger"))
+            {
                 reading.triggered = triggered;
             }
         }
@@ -164,12 +230,21 @@ impl Sim {
 
 /// A packet of numbers as scripts exchange it: 32-bit floats in a buffer.
 fn pack(packet: &[f32]) -> Data {
-    Data::Buffer(packet.iter().flat_map(|value| value.to_le_bytes()).collect())
+    Data::Buffer(
+        packet
+            .iter()
+            .flat_map(|value| value.to_le_bytes())
+            .collect(),
+    )
 }
 
 /// The numbers in a string or buffer of 32-bit floats; None for other values.
 fn unpack(packet: &Data) -> Option<Vec<f32>> {
-    let (Data::Text(bytes) | Data::Buffer(bytes)) = packet else { return None };
-    let numbers = bytes.chunks_exact(4).map(|bytes| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
+    let (Data::Text(bytes) | Data::Buffer(bytes)) = packet else {
+        return None;
+    };
+    let numbers = bytes
+        .chunks_exact(4)
+        .map(|bytes| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
     Some(numbers.collect())
 }

@@ -60,7 +60,10 @@ pub struct LineCounts {
 impl LineCounts {
     /// Adds the counts of another simulator or state.
     pub fn merge(&mut self, other: Self) {
-        other.texts.into_iter().for_each(|(text, counts)| self.add(text, &counts));
+        other
+            .texts
+            .into_iter()
+            .for_each(|(text, counts)| self.add(text, &counts));
         self.functions.extend(other.functions);
     }
 
@@ -70,7 +73,9 @@ impl LineCounts {
         if sums.len() < counts.len() {
             sums.resize(counts.len(), 0);
         }
-        sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum = sum.saturating_add(*count));
+        sums.iter_mut()
+            .zip(counts)
+            .for_each(|(sum, count)| *sum = sum.saturating_add(*count));
     }
 }
 
@@ -86,8 +91,15 @@ impl Sim {
 
     /// Returns the counts of all states since the last call. Scripts of the scene that have not run are included without counts.
     pub fn take_line_counts(&self) -> LineCounts {
-        let running: Vec<_> = self.scripts.all().iter().filter_map(|script| script.current_runtime()).collect();
-        running.iter().for_each(|runtime| self.collect_line_counts(&runtime.interpreter));
+        let running: Vec<_> = self
+            .scripts
+            .all()
+            .iter()
+            .filter_map(|script| script.current_runtime())
+            .collect();
+        running
+            .iter()
+            .for_each(|runtime| self.collect_line_counts(&runtime.interpreter));
         let mut counts = self.line_counts.take();
         let idle = self.countable_objects();
         idle.into_iter().for_each(|text| counts.add(text, &[]));
@@ -100,7 +112,11 @@ impl Sim {
             Kind::Script(script) if self.scripts.languages.contains(&script.language) => {
                 let path = scene.short_path(object.handle()).ok()?;
                 let text = script.code.as_slice().into();
-                Some(CountedText::Script { scene: scene.settings().path.clone(), path, text })
+                Some(CountedText::Script {
+                    scene: scene.settings().path.clone(),
+                    path,
+                    text,
+                })
             }
             _ => None,
         });
@@ -127,14 +143,18 @@ impl Sim {
         let scene = self.scene.try_borrow().ok()?;
         match (script.object, script.owner()) {
             (Some(object), _) => scene.short_path(object).ok(),
-            (None, Some(owner)) => {
-                Some(scene.short_path(owner).ok()? + super::lifecycle::source::log_suffix(script.script_type))
-            }
+            (None, Some(owner)) => Some(
+                scene.short_path(owner).ok()?
+                    + super::lifecycle::source::log_suffix(script.script_type),
+            ),
             (None, None) => Some(format!("/{}", script.detached.borrow().name)),
         }
     }
 
     pub(crate) fn scene_path(&self) -> String {
-        self.scene.try_borrow().map(|scene| scene.settings().path.clone()).unwrap_or_default()
+        self.scene
+            .try_borrow()
+            .map(|scene| scene.settings().path.clone())
+            .unwrap_or_default()
     }
 }

@@ -27,10 +27,16 @@ impl Sim {
         self.with_collector(|mut collector| collector.collect_clock());
         match self.new_changes() {
             None => self.restart_events(),
-            Some(NewChanges::One(change)) => self.with_collector(|mut collector| collector.collect(change)),
+            Some(NewChanges::One(change)) => {
+                self.with_collector(|mut collector| collector.collect(change))
+            }
             Some(NewChanges::Several(changes)) if changes.is_empty() => {}
             Some(NewChanges::Several(changes)) => {
-                self.with_collector(|mut collector| changes.into_iter().for_each(|change| collector.collect(change)));
+                self.with_collector(|mut collector| {
+                    changes
+                        .into_iter()
+                        .for_each(|change| collector.collect(change))
+                });
             }
         }
     }
@@ -38,11 +44,16 @@ impl Sim {
     /// The changes of the scene since the last call; None if some were lost.
     fn new_changes(&self) -> Option<NewChanges> {
         let mut guard = self.events.cursor.borrow_mut();
-        let Some(cursor) = guard.as_mut() else { return Some(NewChanges::Several(Vec::new())) };
+        let Some(cursor) = guard.as_mut() else {
+            return Some(NewChanges::Several(Vec::new()));
+        };
         match self.scene.borrow().journal().read(cursor) {
             Unread::Everything => None,
             Unread::Changes(mut changes) if changes.size_hint().1 == Some(1) => {
-                Some(changes.next().map_or_else(|| NewChanges::Several(Vec::new()), |one| NewChanges::One(one.clone())))
+                Some(changes.next().map_or_else(
+                    || NewChanges::Several(Vec::new()),
+                    |one| NewChanges::One(one.clone()),
+                ))
             }
             Unread::Changes(changes) => Some(NewChanges::Several(latest_of_each(changes))),
         }
@@ -60,7 +71,11 @@ impl Sim {
     }
 
     pub(super) fn clock_values(&self) -> (f64, u64, i64) {
-        (self.clock.time(), self.clock.steps(), self.clock.state() as i64)
+        (
+            self.clock.time(),
+            self.clock.steps(),
+            self.clock.state() as i64,
+        )
     }
 
     /// The events that introduce an object: its own, then those of its meshes.
@@ -92,23 +107,38 @@ impl Sim {
     }
 
     fn list_entry(self: &Rc<Self>, name: &'static str) -> Entry {
-        let list =
-            self.read_property(&PropertyTarget::Scene, name, ValueType::IntArray).unwrap_or(Data::Array(Vec::new()));
+        let list = self
+            .read_property(&PropertyTarget::Scene, name, ValueType::IntArray)
+            .unwrap_or(Data::Array(Vec::new()));
         let mut value = Vec::new();
         if self.events.protocol.get() == Protocol::V3 {
             encode::value(Protocol::V3, ValueType::IntArray, &list, &mut value);
-            return Entry { key: name.into(), value };
+            return Entry {
+                key: name.into(),
+                value,
+            };
         }
         let (key, meaning) = renamed("app.scene", name);
         encode::with_meaning(meaning, ValueType::IntArray, &list, &mut value);
-        Entry { key: key.into(), value }
+        Entry {
+            key: key.into(),
+            value,
+        }
     }
 
     pub(super) fn named_param_entry(&self, name: &str, value: Option<&Vec<u8>>) -> Entry {
         let mut bytes = Vec::new();
         let data = value.map_or(Data::Nil, |text| Data::Text(text.clone()));
-        encode::value(self.events.protocol.get(), ValueType::String, &data, &mut bytes);
-        Entry { key: format!("namedParam.{name}").into(), value: bytes }
+        encode::value(
+            self.events.protocol.get(),
+            ValueType::String,
+            &data,
+            &mut bytes,
+        );
+        Entry {
+            key: format!("namedParam.{name}").into(),
+            value: bytes,
+        }
     }
 }
 
@@ -132,7 +162,11 @@ impl Collector<'_> {
             Change::Modified(handle, field) => self.collect_modified(handle, field),
             Change::Selection => self.collect_selection(),
             Change::Settings => self.collect_settings(),
-            Change::Stored { holder, namespace, name } => self.collect_stored(holder, namespace, &name),
+            Change::Stored {
+                holder,
+                namespace,
+                name,
+            } => self.collect_stored(holder, namespace, &name),
         }
     }
 
@@ -162,11 +196,19 @@ impl Collector<'_> {
     }
 
     fn collect_added(&mut self, handle: Handle) {
-        let Ok(mut watched) = self.sim.scene.borrow().object(handle).map(|o| Watched::object(o, &self.watch.listeners))
+        let Ok(mut watched) = self
+            .sim
+            .scene
+            .borrow()
+            .object(handle)
+            .map(|o| Watched::object(o, &self.watch.listeners))
         else {
             return;
         };
-        self.sim.added(&mut watched).into_iter().for_each(|event| self.push(event));
+        self.sim
+            .added(&mut watched)
+            .into_iter()
+            .for_each(|event| self.push(event));
         self.watch.objects.insert(handle, watched);
         self.collect_orders(None);
         self.push_lists();
@@ -174,7 +216,9 @@ impl Collector<'_> {
 
     fn collect_removed(&mut self, handle: Handle, uid: Uid) {
         // An object that was created and removed between two events.
-        let Some(watched) = self.watch.objects.remove(&handle) else { return };
+        let Some(watched) = self.watch.objects.remove(&handle) else {
+            return;
+        };
         debug_assert_eq!(watched.source.uid, uid);
         for gone in watched.meshes.iter().chain([&watched]) {
             self.push(Event::new("objectRemoved", gone.source, Vec::new()));
@@ -184,13 +228,24 @@ impl Collector<'_> {
     }
 
     fn collect_modified(&mut self, handle: Handle, field: Field) {
-        let Ok(parent) = self.sim.scene.borrow().object(handle).map(scene::Object::parent) else { return };
+        let Ok(parent) = self
+            .sim
+            .scene
+            .borrow()
+            .object(handle)
+            .map(scene::Object::parent)
+        else {
+            return;
+        };
         if field == Field::Parent {
             self.collect_new_parent(handle, parent);
         }
         if let Some(watched) = self.watch.objects.get_mut(&handle) {
             watched.push_differences(self.sim, Some(field));
-            watched.meshes.iter_mut().for_each(|mesh| mesh.push_differences(self.sim, Some(field)));
+            watched
+                .meshes
+                .iter_mut()
+                .for_each(|mesh| mesh.push_differences(self.sim, Some(field)));
         }
         match field {
             Field::Geometry => self.collect_meshes(handle),
@@ -204,16 +259,29 @@ impl Collector<'_> {
 
     /// A shape has another image on it.
     fn collect_textures(&self, handle: Handle) {
-        let meshes = self.watch.objects.get(&handle).map_or(&[][..], |watched| &watched.meshes);
-        let events = meshes.iter().flat_map(|mesh| mesh.large(self.sim, Field::Texture));
+        let meshes = self
+            .watch
+            .objects
+            .get(&handle)
+            .map_or(&[][..], |watched| &watched.meshes);
+        let events = meshes
+            .iter()
+            .flat_map(|mesh| mesh.large(self.sim, Field::Texture));
         events.for_each(|event| self.push(event));
     }
 
     /// A shape has another geometry: meshes went, came, or look different.
     fn collect_meshes(&mut self, handle: Handle) {
         let (sim, events) = (self.sim, &self.sim.events);
-        let Some(watched) = self.watch.objects.get_mut(&handle) else { return };
-        let Ok(now) = sim.scene.borrow().object(handle).map(|o| Watched::meshes(o, &self.watch.listeners)) else {
+        let Some(watched) = self.watch.objects.get_mut(&handle) else {
+            return;
+        };
+        let Ok(now) = sim
+            .scene
+            .borrow()
+            .object(handle)
+            .map(|o| Watched::meshes(o, &self.watch.listeners))
+        else {
             return;
         };
         let before = std::mem::take(&mut watched.meshes);
@@ -224,7 +292,9 @@ impl Collector<'_> {
         watched.meshes = now;
         for mesh in &mut watched.meshes {
             if in_list(&before, mesh.source.uid) {
-                mesh.large(sim, Field::Geometry).into_iter().for_each(|event| events.push(event));
+                mesh.large(sim, Field::Geometry)
+                    .into_iter()
+                    .for_each(|event| events.push(event));
                 mesh.refresh(sim);
             } else {
                 let entries = mesh.describe(sim);
@@ -235,7 +305,9 @@ impl Collector<'_> {
 
     /// Collects the effects of a new parent on the siblings and the lists of the scene; the object itself comes after them.
     fn collect_new_parent(&mut self, handle: Handle, parent: Option<Handle>) {
-        let Some(watched) = self.watch.objects.get_mut(&handle) else { return };
+        let Some(watched) = self.watch.objects.get_mut(&handle) else {
+            return;
+        };
         let old = std::mem::replace(&mut watched.parent, parent);
         // A new parent is not sent as a new pose, whether the object stays in place or not.
         if let Some(pose) = watched.keys().index_of("pose") {
@@ -253,7 +325,10 @@ impl Collector<'_> {
         let orders = self.sim.scene.borrow().child_orders(parent);
         for (child, order) in orders {
             if let Some(watched) = self.watch.objects.get_mut(&child)
-                && !watched.was_sent("childOrder", &Data::Int(order.map_or(-1, |order| order as i64)))
+                && !watched.was_sent(
+                    "childOrder",
+                    &Data::Int(order.map_or(-1, |order| order as i64)),
+                )
             {
                 watched.push_difference(self.sim, "childOrder");
             }
@@ -279,15 +354,28 @@ impl Collector<'_> {
             Holder::App => (PropertyTarget::App, Source::APP),
             Holder::Scene => (PropertyTarget::Scene, Source::SCENE),
             Holder::Object(handle) => {
-                let Ok(uid) = self.sim.scene.borrow().object(handle).map(scene::Object::uid) else { return };
+                let Ok(uid) = self
+                    .sim
+                    .scene
+                    .borrow()
+                    .object(handle)
+                    .map(scene::Object::uid)
+                else {
+                    return;
+                };
                 (PropertyTarget::Object(handle), Source::object(handle, uid))
             }
         };
         let protocol = self.sim.events.protocol.get();
         let present = self.sim.with_named_values(&target, namespace, |values| {
-            values.typed(name).map(|value| stored_entry(protocol, namespace, name, value))
+            values
+                .typed(name)
+                .map(|value| stored_entry(protocol, namespace, name, value))
         });
-        let removed = || Entry { key: stored_key(namespace, name).into(), value: encode::null() };
+        let removed = || Entry {
+            key: stored_key(namespace, name).into(),
+            value: encode::null(),
+        };
         let entry = present.ok().flatten().unwrap_or_else(removed);
         self.push(Event::new("objectChanged", source, vec![entry]));
     }
@@ -303,7 +391,13 @@ impl Collector<'_> {
         self.watch.app.push_differences(self.sim, None);
         self.collect_named_params();
         self.collect_detached_scripts();
-        let scripts: Vec<Handle> = self.sim.scripts.all().iter().filter_map(|script| script.object).collect();
+        let scripts: Vec<Handle> = self
+            .sim
+            .scripts
+            .all()
+            .iter()
+            .filter_map(|script| script.object)
+            .collect();
         for handle in scripts {
             if let Some(watched) = self.watch.objects.get_mut(&handle) {
                 watched.push_difference(self.sim, "scriptState");
@@ -314,16 +408,35 @@ impl Collector<'_> {
     fn collect_named_params(&mut self) {
         let now = self.sim.app.borrow().named_params.clone();
         let before = std::mem::replace(&mut self.watch.named_params, now);
-        let names = before.keys().chain(self.watch.named_params.keys().filter(|name| !before.contains_key(*name)));
+        let names = before.keys().chain(
+            self.watch
+                .named_params
+                .keys()
+                .filter(|name| !before.contains_key(*name)),
+        );
         for name in names.filter(|name| before.get(*name) != self.watch.named_params.get(*name)) {
-            let entry = self.sim.named_param_entry(name, self.watch.named_params.get(name));
+            let entry = self
+                .sim
+                .named_param_entry(name, self.watch.named_params.get(name));
             self.push(Event::changed(Source::APP, vec![entry]));
         }
     }
 
     fn collect_detached_scripts(&mut self) {
-        let present: BTreeMap<i64, _> = self.sim.scripts.all_detached().into_iter().map(|s| (s.id, s)).collect();
-        let gone: Vec<i64> = self.watch.scripts.keys().copied().filter(|id| !present.contains_key(id)).collect();
+        let present: BTreeMap<i64, _> = self
+            .sim
+            .scripts
+            .all_detached()
+            .into_iter()
+            .map(|s| (s.id, s))
+            .collect();
+        let gone: Vec<i64> = self
+            .watch
+            .scripts
+            .keys()
+            .copied()
+            .filter(|id| !present.contains_key(id))
+            .collect();
         for id in gone {
             if let Some(watched) = self.watch.scripts.remove(&id) {
                 self.push(Event::new("objectRemoved", watched.source, Vec::new()));
@@ -349,7 +462,11 @@ impl Collector<'_> {
 /// Leaves out changes of a field of an object that are followed by another one: the physics reports after every sub-step.
 fn latest_of_each(changes: Changes<'_>) -> Vec<Change> {
     let mut seen = HashSet::new();
-    let mut latest: Vec<Change> = changes.rev().filter(|change| is_first(&mut seen, change)).cloned().collect();
+    let mut latest: Vec<Change> = changes
+        .rev()
+        .filter(|change| is_first(&mut seen, change))
+        .cloned()
+        .collect();
     latest.reverse();
     latest
 }

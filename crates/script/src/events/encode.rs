@@ -79,7 +79,10 @@ pub(super) fn with_meaning(meaning: Meaning, ty: ValueType, data: &Data, out: &m
         (Meaning::Handles, Data::Array(handles)) => {
             push_head(out, major::TAG, tag::HANDLES);
             push_head(out, major::ARRAY, handles.len() as u64);
-            handles.iter().filter_map(as_int).for_each(|handle| push_int(out, handle));
+            handles
+                .iter()
+                .filter_map(as_int)
+                .for_each(|handle| push_int(out, handle));
         }
         _ => value(Protocol::V4, ty, data, out),
     }
@@ -88,7 +91,10 @@ pub(super) fn with_meaning(meaning: Meaning, ty: ValueType, data: &Data, out: &m
 /// Elements have one width each: 32 bits, or 64 for integers beyond.
 fn plain_array(items: &[Data], out: &mut Vec<u8>) {
     out.push(LIST);
-    let wide = items.iter().filter_map(as_int).any(|i| i32::try_from(i).is_err());
+    let wide = items
+        .iter()
+        .filter_map(as_int)
+        .any(|i| i32::try_from(i).is_err());
     for item in items {
         match item {
             Data::Int(i) if wide => wide_int(out, *i),
@@ -111,7 +117,11 @@ fn wide_int(out: &mut Vec<u8>, i: i64) {
 }
 
 fn sign(i: i64) -> u8 {
-    if i < 0 { major::NEGATIVE } else { major::UNSIGNED }
+    if i < 0 {
+        major::NEGATIVE
+    } else {
+        major::UNSIGNED
+    }
 }
 
 /// CBOR counts negative integers from -1 down.
@@ -120,7 +130,11 @@ fn magnitude(i: i64) -> i64 {
 }
 
 fn as_int(item: &Data) -> Option<i64> {
-    if let Data::Int(i) = item { Some(*i) } else { None }
+    if let Data::Int(i) = item {
+        Some(*i)
+    } else {
+        None
+    }
 }
 
 fn tagged_array(ty: ValueType, items: &[Data], out: &mut Vec<u8>) {
@@ -137,13 +151,19 @@ fn tagged_array(ty: ValueType, items: &[Data], out: &mut Vec<u8>) {
 fn numbers(tag: u64, items: &[Data], out: &mut Vec<u8>) {
     push_head(out, major::TAG, tag);
     push_head(out, major::ARRAY, items.len() as u64);
-    items.iter().filter_map(Data::as_f64).for_each(|f| float(out, f));
+    items
+        .iter()
+        .filter_map(Data::as_f64)
+        .for_each(|f| float(out, f));
 }
 
 /// Four bytes, red green blue alpha; the factor is the original's.
 fn colour(items: &[Data], out: &mut Vec<u8>) {
     push_head(out, major::TAG, tag::COLOR);
-    let channels = items.iter().filter_map(Data::as_f64).map(|part| (part * 255.1) as u8);
+    let channels = items
+        .iter()
+        .filter_map(Data::as_f64)
+        .map(|part| (part * 255.1) as u8);
     let rgba: Vec<u8> = channels.chain([255]).collect();
     bytes(out, &rgba);
 }
@@ -156,20 +176,39 @@ fn column(items: &[Data], out: &mut Vec<u8>) {
     push_int(out, items.len() as i64);
     push_int(out, 1);
     push_head(out, major::ARRAY, items.len() as u64);
-    items.iter().filter_map(Data::as_f64).for_each(|f| float(out, f));
+    items
+        .iter()
+        .filter_map(Data::as_f64)
+        .for_each(|f| float(out, f));
 }
 
 fn integers(items: &[Data], out: &mut Vec<u8>) {
     let ints: Vec<i64> = items.iter().filter_map(as_int).collect();
     let narrow: Result<Vec<i32>, _> = ints.iter().map(|&i| i32::try_from(i)).collect();
     match narrow {
-        Ok(narrow) => packed(tag::INTS, narrow.iter().flat_map(|i| i.to_le_bytes()).collect(), out),
-        Err(_) => packed(tag::LONGS, ints.iter().flat_map(|i| i.to_le_bytes()).collect(), out),
+        Ok(narrow) => packed(
+            tag::INTS,
+            narrow.iter().flat_map(|i| i.to_le_bytes()).collect(),
+            out,
+        ),
+        Err(_) => packed(
+            tag::LONGS,
+            ints.iter().flat_map(|i| i.to_le_bytes()).collect(),
+            out,
+        ),
     }
 }
 
 fn doubles(items: &[Data], out: &mut Vec<u8>) {
-    packed(tag::DOUBLES, items.iter().filter_map(Data::as_f64).flat_map(f64::to_le_bytes).collect(), out);
+    packed(
+        tag::DOUBLES,
+        items
+            .iter()
+            .filter_map(Data::as_f64)
+            .flat_map(f64::to_le_bytes)
+            .collect(),
+        out,
+    );
 }
 
 fn packed(tag: u64, content: Vec<u8>, out: &mut Vec<u8>) {
@@ -192,10 +231,22 @@ mod tests {
         let v3 = |ty, data: Data| hex(Protocol::V3, ty, data);
         assert_eq!(v3(ValueType::Float, 0.5.into()), "fa3f000000");
         assert_eq!(v3(ValueType::Int, (-500).into()), "3901f3");
-        assert_eq!(v3(ValueType::IntArray, vec![1, -1].into()), "9f1a000000013a00000000ff");
-        assert_eq!(v3(ValueType::IntArray, vec![1 << 40].into()), "9f1b0000010000000000ff");
-        assert_eq!(v3(ValueType::Vector3, vec![1.0, 2.0, 3.0].into()), "9ffa3f800000fa40000000fa40400000ff");
-        assert_eq!(v3(ValueType::Table, Data::map([("a", 1.into())])), "45bf616101ff");
+        assert_eq!(
+            v3(ValueType::IntArray, vec![1, -1].into()),
+            "9f1a000000013a00000000ff"
+        );
+        assert_eq!(
+            v3(ValueType::IntArray, vec![1 << 40].into()),
+            "9f1b0000010000000000ff"
+        );
+        assert_eq!(
+            v3(ValueType::Vector3, vec![1.0, 2.0, 3.0].into()),
+            "9ffa3f800000fa40000000fa40400000ff"
+        );
+        assert_eq!(
+            v3(ValueType::Table, Data::map([("a", 1.into())])),
+            "45bf616101ff"
+        );
     }
 
     #[test]
@@ -205,7 +256,10 @@ mod tests {
             v4(ValueType::Vector3, vec![1.0, 2.0, 3.0].into()),
             "d82882820301".to_owned() + "83fa3f800000fa40000000fa40400000"
         );
-        assert_eq!(v4(ValueType::Color, vec![1.0, 0.5, 0.0].into()), "db0000000100000a9044ff7f00ff");
+        assert_eq!(
+            v4(ValueType::Color, vec![1.0, 0.5, 0.0].into()),
+            "db0000000100000a9044ff7f00ff"
+        );
         assert_eq!(v4(ValueType::IntArray, vec![-1].into()), "d84e44ffffffff");
         assert!(v4(ValueType::Pose, vec![0.0; 7].into()).starts_with("db000000010000339487fa"));
     }

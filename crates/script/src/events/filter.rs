@@ -23,7 +23,10 @@ impl EventFilters {
     /// The table a script gave to `sim.setEventFilters`; None when it filters nothing out. What is no handle or no name is ignored.
     pub fn from_table(table: &Data) -> Option<Self> {
         let targets: BTreeMap<i64, Keys> = match table {
-            Data::Map(entries) => entries.iter().filter_map(|(key, keys)| Some((handle(key)?, names(keys)))).collect(),
+            Data::Map(entries) => entries
+                .iter()
+                .filter_map(|(key, keys)| Some((handle(key)?, names(keys))))
+                .collect(),
             Data::Array(items) => (1..).zip(items.iter().map(names)).collect(),
             _ => BTreeMap::new(),
         };
@@ -55,7 +58,9 @@ fn handle(key: &Key) -> Option<i64> {
 }
 
 fn names(list: &Data) -> Keys {
-    let Data::Array(items) = list else { return Keys::default() };
+    let Data::Array(items) = list else {
+        return Keys::default();
+    };
     let text = |item: &Data| match item {
         Data::Text(name) => Some(String::from_utf8_lossy(name).into_owned()),
         _ => None,

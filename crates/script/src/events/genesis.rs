@@ -22,14 +22,29 @@ impl Sim {
             .partition(|watched| watched.source.class == Class::Main);
         let mut events = vec![Event::new("genesisBegin", Source::NONE, Vec::new())];
         events.extend(self.genesis_of_app(&no_listeners));
-        events.extend(outside.into_iter().map(|mut script| self.detached_added(&mut script)));
+        events.extend(
+            outside
+                .into_iter()
+                .map(|mut script| self.detached_added(&mut script)),
+        );
         events.push(self.genesis_of_scene(&no_listeners));
         for handle in self.scene.borrow().all_breadth_first() {
-            let watched = self.scene.borrow().object(handle).map(|object| Watched::object(object, &no_listeners));
-            events.extend(watched.into_iter().flat_map(|mut watched| self.added(&mut watched)));
+            let watched = self
+                .scene
+                .borrow()
+                .object(handle)
+                .map(|object| Watched::object(object, &no_listeners));
+            events.extend(
+                watched
+                    .into_iter()
+                    .flat_map(|mut watched| self.added(&mut watched)),
+            );
         }
         events.extend(LISTS.map(Event::list));
-        events.extend(main.into_iter().map(|mut script| self.detached_added(&mut script)));
+        events.extend(
+            main.into_iter()
+                .map(|mut script| self.detached_added(&mut script)),
+        );
         events.push(Event::new("genesisEnd", Source::NONE, Vec::new()));
         self.fill_in_lists(&mut events);
         events
@@ -39,7 +54,11 @@ impl Sim {
         let mut app = Watched::app(no_listeners);
         let mut entries = app.describe(self);
         let params = self.app.borrow().named_params.clone();
-        entries.extend(params.iter().map(|(name, value)| self.named_param_entry(name, Some(value))));
+        entries.extend(
+            params
+                .iter()
+                .map(|(name, value)| self.named_param_entry(name, Some(value))),
+        );
         entries.extend(app.stored(self, Namespace::Signal));
         let lasting = app.stored(self, Namespace::CustomData);
         [entries, lasting].map(|entries| Event::new("objectChanged", Source::APP, entries))

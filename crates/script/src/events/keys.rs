@@ -41,8 +41,10 @@ const SILENT: &[&str] = &[
 ];
 
 /// Too large to store the last value: sent when this changes, and with the geometry.
-const LARGE: &[(Field, &[&str])] =
-    &[(Field::Geometry, &["vertices", "indices", "normals"]), (Field::Texture, &["textureCoordinates", "rawTexture"])];
+const LARGE: &[(Field, &[&str])] = &[
+    (Field::Geometry, &["vertices", "indices", "normals"]),
+    (Field::Texture, &["textureCoordinates", "rawTexture"]),
+];
 
 /// Properties that share an event.
 const PAIRS: &[[&str; 2]] = &[["bbPose", "bbHSize"], ["parentUid", "parentHandle"]];
@@ -72,7 +74,14 @@ const FREQUENT: &[(Field, &[&str])] = &[
     ),
     (
         Field::JointPosition,
-        &["jointPosition", "quaternion", "intrinsicPose", "intrinsicError", "calcVelocity", "averageJointForce"],
+        &[
+            "jointPosition",
+            "quaternion",
+            "intrinsicPose",
+            "intrinsicError",
+            "calcVelocity",
+            "averageJointForce",
+        ],
     ),
     (
         Field::JointControl,
@@ -103,7 +112,11 @@ pub(super) struct StreamProperty {
 impl StreamProperty {
     /// The name listeners know it by.
     pub(super) fn key(&self, protocol: Protocol) -> &'static str {
-        if protocol == Protocol::V4 { self.renamed.0 } else { self.row.name }
+        if protocol == Protocol::V4 {
+            self.renamed.0
+        } else {
+            self.row.name
+        }
     }
 }
 
@@ -117,7 +130,11 @@ pub(super) struct Keys {
 impl Keys {
     fn of_class(class: &'static Class) -> Self {
         let (before, after) = class.rows();
-        let rows: Vec<&'static Row> = before.iter().chain(after).filter(|row| is_sent(row)).collect();
+        let rows: Vec<&'static Row> = before
+            .iter()
+            .chain(after)
+            .filter(|row| is_sent(row))
+            .collect();
         let index = |name: &str| rows.iter().position(|row| row.name == name);
         let partner = |name: &str| {
             let pair = PAIRS.iter().find(|pair| pair.contains(&name))?;
@@ -126,18 +143,31 @@ impl Keys {
         let properties = rows.iter().map(|row| StreamProperty {
             row,
             partner: partner(row.name),
-            large: LARGE.iter().find(|(_, names)| names.contains(&row.name)).map(|(field, _)| *field),
+            large: LARGE
+                .iter()
+                .find(|(_, names)| names.contains(&row.name))
+                .map(|(field, _)| *field),
             renamed: renamed(row.class, row.name),
         });
         let properties = properties.collect();
         let indices = |names: &[&str]| names.iter().filter_map(|name| index(name)).collect();
-        let frequent = FREQUENT.iter().map(|(field, names)| (*field, indices(names))).collect();
-        Self { properties, frequent, all: (0..rows.len()).collect() }
+        let frequent = FREQUENT
+            .iter()
+            .map(|(field, names)| (*field, indices(names)))
+            .collect();
+        Self {
+            properties,
+            frequent,
+            all: (0..rows.len()).collect(),
+        }
     }
 
     /// Indices of the properties a change of `field` can concern.
     pub(super) fn concerned(&self, field: Field) -> &[usize] {
-        self.frequent.iter().find(|(frequent, _)| *frequent == field).map_or(&self.all, |(_, indices)| indices)
+        self.frequent
+            .iter()
+            .find(|(frequent, _)| *frequent == field)
+            .map_or(&self.all, |(_, indices)| indices)
     }
 
     pub(super) fn all(&self) -> &[usize] {
@@ -145,7 +175,9 @@ impl Keys {
     }
 
     pub(super) fn index_of(&self, name: &str) -> Option<usize> {
-        self.properties.iter().position(|property| property.row.name == name)
+        self.properties
+            .iter()
+            .position(|property| property.row.name == name)
     }
 }
 
@@ -157,7 +189,11 @@ fn is_sent(row: &Row) -> bool {
 /// The properties sent for targets of that class: computed once per process.
 pub fn keys(class: &'static Class) -> &'static Keys {
     static KNOWN: LazyLock<Mutex<BTreeMap<usize, &'static Keys>>> = LazyLock::new(Mutex::default);
-    let mut known = KNOWN.lock().expect("nothing panics while it holds the lock");
+    let mut known = KNOWN
+        .lock()
+        .expect("nothing panics while it holds the lock");
     let address = std::ptr::from_ref(class) as usize;
-    known.entry(address).or_insert_with(|| Box::leak(Box::new(Keys::of_class(class))))
+    known
+        .entry(address)
+        .or_insert_with(|| Box::leak(Box::new(Keys::of_class(class))))
 }

@@ -75,17 +75,35 @@ impl EventStream {
     }
 
     fn no_listeners(&self) -> Listeners {
-        Listeners { protocol: self.protocol.get(), filters: Vec::new() }
+        Listeners {
+            protocol: self.protocol.get(),
+            filters: Vec::new(),
+        }
     }
 
     /// An event that a script defined.
-    pub(crate) fn push_user_event(&self, name: String, (handle, uid): (i64, i64), data: &Data, options: i64) {
+    pub(crate) fn push_user_event(
+        &self,
+        name: String,
+        (handle, uid): (i64, i64),
+        data: &Data,
+        options: i64,
+    ) {
         if !self.listening.get() {
             return;
         }
-        let source = Source { class: class_of(handle), handle, uid };
+        let source = Source {
+            class: class_of(handle),
+            handle,
+            uid,
+        };
         let topic = (options & MERGEABLE != 0).then(|| "".into());
-        let event = Event { name: name.into(), source, data: user_content(data), topic };
+        let event = Event {
+            name: name.into(),
+            source,
+            data: user_content(data),
+            topic,
+        };
         self.push(event);
     }
 
@@ -113,8 +131,11 @@ impl Sim {
     /// Another script listens to events.
     pub(crate) fn add_event_listener(self: &Rc<Self>) {
         self.collect_events();
-        let mut listeners =
-            self.events.watch.take().map_or_else(|| self.events.no_listeners(), |watch| watch.listeners);
+        let mut listeners = self
+            .events
+            .watch
+            .take()
+            .map_or_else(|| self.events.no_listeners(), |watch| watch.listeners);
         let first = listeners.filters.is_empty();
         listeners.filters.push(None);
         self.watch_for_listeners(listeners);
@@ -124,8 +145,14 @@ impl Sim {
     }
 
     /// Sets which events the state of `script` gets; None for all.
-    pub(crate) fn set_event_filters(self: &Rc<Self>, script: &Script, filters: Option<EventFilters>) {
-        let Some(runtime) = script.current_runtime() else { return };
+    pub(crate) fn set_event_filters(
+        self: &Rc<Self>,
+        script: &Script,
+        filters: Option<EventFilters>,
+    ) {
+        let Some(runtime) = script.current_runtime() else {
+            return;
+        };
         runtime.env.event_filters.replace(filters);
         if self.events.listening.get() {
             self.collect_events();
@@ -165,8 +192,13 @@ impl Sim {
         let scripts = self.scripts.all();
         let runtimes = scripts.iter().filter_map(|script| script.current_runtime());
         let listening = runtimes.filter(|runtime| runtime.env.responds_to(SysCall::Event));
-        let filters = listening.map(|runtime| runtime.env.event_filters.borrow().clone()).collect();
-        Listeners { filters, ..self.events.no_listeners() }
+        let filters = listening
+            .map(|runtime| runtime.env.event_filters.borrow().clone())
+            .collect();
+        Listeners {
+            filters,
+            ..self.events.no_listeners()
+        }
     }
 
     /// Delivers what has happened since the last dispatch, as one batch per script.
@@ -184,7 +216,12 @@ impl Sim {
     /// Listeners that are gone need no watching.
     fn update_listeners(self: &Rc<Self>) {
         let listeners = self.listeners();
-        let same = self.events.watch.borrow().as_ref().is_some_and(|watch| watch.listeners == listeners);
+        let same = self
+            .events
+            .watch
+            .borrow()
+            .as_ref()
+            .is_some_and(|watch| watch.listeners == listeners);
         if !same {
             self.collect_events();
             self.watch_for_listeners(listeners);
@@ -207,14 +244,23 @@ impl Sim {
     fn deliver_events(self: &Rc<Self>, events: &[Event], first: i64) {
         let mut whole: Option<Data> = None;
         for script in self.active_scripts().iter() {
-            let Some(runtime) = script.current_runtime() else { continue };
-            if script.base_state() != state::INITIALIZED || !runtime.env.responds_to(SysCall::Event) {
+            let Some(runtime) = script.current_runtime() else {
+                continue;
+            };
+            if script.base_state() != state::INITIALIZED || !runtime.env.responds_to(SysCall::Event)
+            {
                 continue;
             }
             let filters = runtime.env.event_filters.borrow().clone();
-            let batch = |filters: Option<&EventFilters>| queue::batch(events, first, filters).map(Data::Buffer);
+            let batch = |filters: Option<&EventFilters>| {
+                queue::batch(events, first, filters).map(Data::Buffer)
+            };
             let wanted = match &filters {
-                None => Some(whole.get_or_insert_with(|| batch(None).unwrap_or(Data::Nil)).clone()),
+                None => Some(
+                    whole
+                        .get_or_insert_with(|| batch(None).unwrap_or(Data::Nil))
+                        .clone(),
+                ),
                 Some(filters) => batch(Some(filters)),
             };
             if let Some(batch) = wanted {
@@ -248,13 +294,17 @@ impl Sim {
 
     /// More changed than the journal holds: listeners get a new snapshot.
     fn restart_events(self: &Rc<Self>) {
-        let Some(watch) = self.events.watch.take() else { return };
+        let Some(watch) = self.events.watch.take() else {
+            return;
+        };
         self.watch_for_listeners(watch.listeners);
         self.push_genesis();
     }
 
     fn push_genesis(self: &Rc<Self>) {
-        self.genesis().into_iter().for_each(|event| self.events.push(event));
+        self.genesis()
+            .into_iter()
+            .for_each(|event| self.events.push(event));
     }
 
     /// A snapshot of everything, as one batch. What is pending is dispatched first, so that the next batch continues the numbers.
@@ -278,7 +328,10 @@ fn int_entry(key: &'static str, value: i64) -> Entry {
 }
 
 fn data_entry(key: &'static str, value: &Data) -> Entry {
-    Entry { key: key.into(), value: cbor::encode(value) }
+    Entry {
+        key: key.into(),
+        value: cbor::encode(value),
+    }
 }
 
 fn class_of(handle: i64) -> Class {
@@ -292,11 +345,16 @@ fn class_of(handle: i64) -> Class {
 
 /// Named members can be filtered; anything else goes as it is.
 fn user_content(data: &Data) -> Content {
-    let Data::Map(members) = data else { return Content::User(cbor::encode(data)) };
+    let Data::Map(members) = data else {
+        return Content::User(cbor::encode(data));
+    };
     let entry = |(key, value): &(Key, Data)| match key {
         Key::Text(name) => {
             let key = String::from_utf8_lossy(name).into_owned();
-            Some(Entry { key: key.into(), value: cbor::encode(value) })
+            Some(Entry {
+                key: key.into(),
+                value: cbor::encode(value),
+            })
         }
         _ => None,
     };

@@ -15,7 +15,9 @@ pub enum Protocol {
 
 impl Protocol {
     pub(crate) fn from_number(number: i64) -> Option<Self> {
-        [Self::V3, Self::V4].into_iter().find(|&protocol| protocol as i64 == number)
+        [Self::V3, Self::V4]
+            .into_iter()
+            .find(|&protocol| protocol as i64 == number)
     }
 }
 
@@ -43,16 +45,24 @@ pub(super) fn renamed(class: &'static str, name: &'static str) -> (&'static str,
     static TABLE: LazyLock<Renamed> = LazyLock::new(read);
     if ENGINES.iter().any(|engine| name.starts_with(engine)) {
         // Few names, built once per class of targets.
-        return (Box::leak(format!("dynamics.{name}").into_boxed_str()), Meaning::Same);
+        return (
+            Box::leak(format!("dynamics.{name}").into_boxed_str()),
+            Meaning::Same,
+        );
     }
     let word = class.rsplit('.').next().unwrap_or(class);
-    TABLE.get(&(word, name)).copied().unwrap_or((name, Meaning::Same))
+    TABLE
+        .get(&(word, name))
+        .copied()
+        .unwrap_or((name, Meaning::Same))
 }
 
 fn read() -> Renamed {
     let row = |line: &'static str| {
         let fields: Vec<&'static str> = line.split('\t').collect();
-        let [class, old, new, meaning] = fields[..] else { panic!("a line of protocol4.tsv has four fields: {line}") };
+        let [class, old, new, meaning] = fields[..] else {
+            panic!("a line of protocol4.tsv has four fields: {line}")
+        };
         let meaning = match meaning {
             "not" => Meaning::Not,
             "handle" => Meaning::Handle,
@@ -72,8 +82,17 @@ mod tests {
     fn names_depend_on_the_class() {
         assert_eq!(renamed("app.scene", "scenePath"), ("path", Meaning::Same));
         assert_eq!(renamed("app", "scenePath"), ("paths.scenes", Meaning::Same));
-        assert_eq!(renamed("app.scene.object", "parentHandle"), ("parent", Meaning::Handle));
-        assert_eq!(renamed("app.scene.object.joint", "ode.bounce").0, "dynamics.ode.bounce");
-        assert_eq!(renamed("app.scene.object", "layer"), ("layer", Meaning::Same));
+        assert_eq!(
+            renamed("app.scene.object", "parentHandle"),
+            ("parent", Meaning::Handle)
+        );
+        assert_eq!(
+            renamed("app.scene.object.joint", "ode.bounce").0,
+            "dynamics.ode.bounce"
+        );
+        assert_eq!(
+            renamed("app.scene.object", "layer"),
+            ("layer", Meaning::Same)
+        );
     }
 }

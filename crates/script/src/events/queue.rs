@@ -37,12 +37,28 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    pub const NONE: Self = Self { class: Class::None, handle: -1, uid: -1 };
-    pub const APP: Self = Self { class: Class::App, handle: special::APP, uid: special::APP };
-    pub const SCENE: Self = Self { class: Class::Scene, handle: special::SCENE, uid: special::SCENE };
+    pub const NONE: Self = Self {
+        class: Class::None,
+        handle: -1,
+        uid: -1,
+    };
+    pub const APP: Self = Self {
+        class: Class::App,
+        handle: special::APP,
+        uid: special::APP,
+    };
+    pub const SCENE: Self = Self {
+        class: Class::Scene,
+        handle: special::SCENE,
+        uid: special::SCENE,
+    };
 
     pub(super) fn object(handle: Handle, uid: Uid) -> Self {
-        Self { class: Class::Object, handle: handle.raw(), uid }
+        Self {
+            class: Class::Object,
+            handle: handle.raw(),
+            uid,
+        }
     }
 }
 
@@ -75,18 +91,32 @@ type MergeId = (Name, Name, i64);
 
 impl Event {
     pub(super) fn new(name: &'static str, source: Source, entries: Vec<Entry>) -> Self {
-        Self { name: name.into(), source, data: Content::Entries(entries), topic: None }
+        Self {
+            name: name.into(),
+            source,
+            data: Content::Entries(entries),
+            topic: None,
+        }
     }
 
     /// The new value of properties that change together; only the latest is sent.
     pub(super) fn changed(source: Source, entries: Vec<Entry>) -> Self {
         let topic = entries.first().map(|entry| entry.key.clone());
-        Self { topic, ..Self::new("objectChanged", source, entries) }
+        Self {
+            topic,
+            ..Self::new("objectChanged", source, entries)
+        }
     }
 
     /// A list of the scene; its value is filled in at dispatch, since a list per new object would take quadratic time.
     pub(super) fn list(key: &'static str) -> Self {
-        Self::changed(Source::SCENE, vec![Entry { key: key.into(), value: Vec::new() }])
+        Self::changed(
+            Source::SCENE,
+            vec![Entry {
+                key: key.into(),
+                value: Vec::new(),
+            }],
+        )
     }
 
     pub(super) fn entries_mut(&mut self) -> &mut [Entry] {
@@ -112,8 +142,13 @@ impl Hasher for WordHasher {
 
     fn write(&mut self, bytes: &[u8]) {
         let (words, rest) = bytes.as_chunks::<8>();
-        words.iter().for_each(|word| self.write_u64(u64::from_le_bytes(*word)));
-        self.write_u64(rest.iter().fold(rest.len() as u64, |word, &byte| word << 8 | u64::from(byte)));
+        words
+            .iter()
+            .for_each(|word| self.write_u64(u64::from_le_bytes(*word)));
+        self.write_u64(
+            rest.iter()
+                .fold(rest.len() as u64, |word, &byte| word << 8 | u64::from(byte)),
+        );
     }
 
     fn write_u64(&mut self, word: u64) {
@@ -159,7 +194,11 @@ impl Queue {
 }
 
 /// Events as one batch, numbered from `first`; None when the filter leaves nothing.
-pub(super) fn batch(events: &[Event], first: i64, filters: Option<&EventFilters>) -> Option<Vec<u8>> {
+pub(super) fn batch(
+    events: &[Event],
+    first: i64,
+    filters: Option<&EventFilters>,
+) -> Option<Vec<u8>> {
     let mut out = vec![encode::LIST];
     for (seq, event) in (first..).zip(events) {
         write_event(event, seq, filters, &mut out);
@@ -218,8 +257,18 @@ mod tests {
     use super::{Class, Content, Entry, Event, Queue, Source, batch};
 
     fn event(uid: i64, key: &'static str, value: u8) -> Event {
-        let source = Source { class: Class::Object, handle: uid, uid };
-        Event::changed(source, vec![Entry { key: key.into(), value: vec![value] }])
+        let source = Source {
+            class: Class::Object,
+            handle: uid,
+            uid,
+        };
+        Event::changed(
+            source,
+            vec![Entry {
+                key: key.into(),
+                value: vec![value],
+            }],
+        )
     }
 
     fn values(events: &[Event]) -> Vec<u8> {
@@ -237,7 +286,10 @@ mod tests {
             queue.push(event(uid, key, value));
         }
         for value in [5, 6] {
-            queue.push(Event { topic: None, ..event(1, "c", value) });
+            queue.push(Event {
+                topic: None,
+                ..event(1, "c", value)
+            });
         }
         assert_eq!(values(&queue.take()), [2, 3, 4, 5, 6]);
         assert!(queue.is_empty());

@@ -44,8 +44,11 @@ impl Sim {
         let info = Data::map([("file", Data::text(path)), ("regularSave", true.into())]);
         self.broadcast(SysCall::BeforeSave, std::slice::from_ref(&info));
         self.write_named(&self.scene_file()?, name)?;
-        let path = std::path::absolute(path).map_or_else(|_| path.to_owned(), |p| p.to_string_lossy().into_owned());
-        self.scene.borrow_mut().modify_settings(|settings| settings.path = path);
+        let path = std::path::absolute(path)
+            .map_or_else(|_| path.to_owned(), |p| p.to_string_lossy().into_owned());
+        self.scene
+            .borrow_mut()
+            .modify_settings(|settings| settings.path = path);
         self.broadcast(SysCall::AfterSave, &[info]);
         self.notify_plugins(Moment::SceneSaved, [0; 4]);
         Ok(())
@@ -73,25 +76,34 @@ impl Sim {
     }
 
     fn check_unlocked(&self) -> ApiResult<()> {
-        if self.scene.borrow().settings().locked { Err(SceneError::Locked.into()) } else { Ok(()) }
+        if self.scene.borrow().settings().locked {
+            Err(SceneError::Locked.into())
+        } else {
+            Ok(())
+        }
     }
 
     /// The scripts outside of the tree: those attached to objects, and a main script of the scene's own.
     fn scripts_to_save(&self) -> Vec<LoadedScript> {
         let usual_main = self.modules.registry.main_script().as_bytes();
-        let saved = self.scripts.all_detached().into_iter().filter_map(|script| {
-            let detached = script.detached.borrow();
-            let own_main = script.script_type == ScriptType::Main && detached.code != usual_main;
-            (own_main || detached.owner.is_some()).then(|| LoadedScript {
-                script_type: script.script_type,
-                owner: detached.owner,
-                code: detached.code.clone(),
-                language: detached.language().to_owned(),
-                disabled: detached.disabled,
-                source: None,
-                exec_order: detached.priority.order(),
-            })
-        });
+        let saved = self
+            .scripts
+            .all_detached()
+            .into_iter()
+            .filter_map(|script| {
+                let detached = script.detached.borrow();
+                let own_main =
+                    script.script_type == ScriptType::Main && detached.code != usual_main;
+                (own_main || detached.owner.is_some()).then(|| LoadedScript {
+                    script_type: script.script_type,
+                    owner: detached.owner,
+                    code: detached.code.clone(),
+                    language: detached.language().to_owned(),
+                    disabled: detached.disabled,
+                    source: None,
+                    exec_order: detached.priority.order(),
+                })
+            });
         saved.collect()
     }
 }
@@ -101,9 +113,14 @@ impl Sim {
 /// # Errors
 /// When they cannot be read.
 pub fn readable_bytes(file: &File, variant: Option<Variant>) -> ApiResult<Vec<u8>> {
-    let bytes = variant.map_or_else(|| file.write(), |variant| xml::write(file, variant).into_bytes());
+    let bytes = variant.map_or_else(
+        || file.write(),
+        |variant| xml::write(file, variant).into_bytes(),
+    );
     match SceneFile::read(&bytes) {
         Ok(_) => Ok(bytes),
-        Err(error) => Err(ApiError::Other(format!("not saved, since it could not be loaded again: {error}"))),
+        Err(error) => Err(ApiError::Other(format!(
+            "not saved, since it could not be loaded again: {error}"
+        ))),
     }
 }

@@ -41,14 +41,21 @@ impl Sim {
         if !self.clock.is_stopped() {
             return Err(ApiError::Other("simulation is not stopped.".into()));
         }
-        if caller.object.is_some() || caller.owner().is_some() || caller.script_type == ScriptType::Main {
-            return Err(ApiError::Other("a script of the scene cannot replace the scene: use an add-on.".into()));
+        if caller.object.is_some()
+            || caller.owner().is_some()
+            || caller.script_type == ScriptType::Main
+        {
+            return Err(ApiError::Other(
+                "a script of the scene cannot replace the scene: use an add-on.".into(),
+            ));
         }
         self.broadcast(SysCall::BeforeInstanceSwitch, &[]);
         self.clear_scene()?;
         self.fill_scene(source)?;
         if let Some(path) = path {
-            self.scene.borrow_mut().modify_settings(|settings| settings.path = path);
+            self.scene
+                .borrow_mut()
+                .modify_settings(|settings| settings.path = path);
         }
         self.note_new_scene();
         self.broadcast(SysCall::AfterInstanceSwitch, &[]);
@@ -92,7 +99,10 @@ impl Sim {
             self.log(verbosity::INFOS, &text);
         }
         let loaded = file.add_to(&mut self.scene.borrow_mut(), is_scene)?;
-        loaded.scripts.iter().for_each(|script| self.add_loaded_script(script));
+        loaded
+            .scripts
+            .iter()
+            .for_each(|script| self.add_loaded_script(script));
         Ok(loaded)
     }
 
@@ -107,7 +117,12 @@ impl Sim {
                 }
             }
             (script_type, Some(owner)) => {
-                let mut object = ScriptObject::new(script_type, script.code.clone(), &script.language, script.disabled);
+                let mut object = ScriptObject::new(
+                    script_type,
+                    script.code.clone(),
+                    &script.language,
+                    script.disabled,
+                );
                 object.source.clone_from(&script.source);
                 self.attach_script(owner, &object, script.exec_order);
             }
@@ -117,7 +132,12 @@ impl Sim {
 
     /// Removes all objects, and forgets what belongs to a scene: settings, custom data, signals, a main script of its own.
     fn clear_scene(self: &Rc<Self>) -> ApiResult<()> {
-        let everything: Vec<_> = self.scene.borrow().objects().map(scene::Object::handle).collect();
+        let everything: Vec<_> = self
+            .scene
+            .borrow()
+            .objects()
+            .map(scene::Object::handle)
+            .collect();
         if !everything.is_empty() {
             self.remove_objects(&everything)?;
         }
@@ -141,10 +161,21 @@ impl Sim {
         Ok(())
     }
 
-    fn add_scene_script(self: &Rc<Self>, code: Vec<u8>, python_file: Option<String>) -> ApiResult<()> {
-        let language = if python_file.is_some() { "python" } else { "lua" };
+    fn add_scene_script(
+        self: &Rc<Self>,
+        code: Vec<u8>,
+        python_file: Option<String>,
+    ) -> ApiResult<()> {
+        let language = if python_file.is_some() {
+            "python"
+        } else {
+            "lua"
+        };
         let script = ScriptObject::new(ScriptType::Customization, code, language, false);
-        let handle = self.scene.borrow_mut().add("Script", Kind::Script(Box::new(script)))?;
+        let handle = self
+            .scene
+            .borrow_mut()
+            .add("Script", Kind::Script(Box::new(script)))?;
         let script = self.script(handle.raw()).ok_or(ApiError::NoSuchScript)?;
         script.file.replace(python_file);
         self.init_script(&script);

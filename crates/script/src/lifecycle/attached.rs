@@ -9,7 +9,12 @@ use scene::{Handle, Scene};
 
 impl Sim {
     /// Attaches a script to an object, as scenes before 4.7 have it.
-    pub(crate) fn attach_script(&self, owner: Handle, script: &ScriptObject, exec_order: i64) -> Rc<Script> {
+    pub(crate) fn attach_script(
+        &self,
+        owner: Handle,
+        script: &ScriptObject,
+        exec_order: i64,
+    ) -> Rc<Script> {
         self.scripts.add_detached(
             script.script_type,
             Detached {
@@ -26,7 +31,10 @@ impl Sim {
 
     /// A new script without an object; returns its handle.
     pub(crate) fn add_script_without_object(&self, script_type: ScriptType) -> i64 {
-        let detached = Detached { priority: ExecutionPriority::Normal, ..Detached::default() };
+        let detached = Detached {
+            priority: ExecutionPriority::Normal,
+            ..Detached::default()
+        };
         self.scripts.add_detached(script_type, detached).id
     }
 
@@ -40,15 +48,29 @@ impl Sim {
     pub(crate) fn scripts_of_object(&self, object: Handle) -> Vec<Rc<Script>> {
         let children = script_children(&self.scene.borrow(), object);
         let mut scripts = self.scripts.attached_to(object);
-        scripts.extend(children.into_iter().filter_map(|handle| self.script(handle.raw())));
+        scripts.extend(
+            children
+                .into_iter()
+                .filter_map(|handle| self.script(handle.raw())),
+        );
         scripts
     }
 
     /// The scripts a sensor calls: old ones before script objects, in each simulation scripts before customization scripts.
     pub(crate) fn sensor_scripts(&self, sensor: Handle) -> Vec<Rc<Script>> {
         let mut scripts = self.scripts_of_object(sensor);
-        scripts.retain(|script| matches!(script.script_type, ScriptType::Simulation | ScriptType::Customization));
-        scripts.sort_by_key(|script| (script.object.is_some(), script.script_type != ScriptType::Simulation));
+        scripts.retain(|script| {
+            matches!(
+                script.script_type,
+                ScriptType::Simulation | ScriptType::Customization
+            )
+        });
+        scripts.sort_by_key(|script| {
+            (
+                script.object.is_some(),
+                script.script_type != ScriptType::Simulation,
+            )
+        });
         scripts
     }
 
@@ -56,15 +78,21 @@ impl Sim {
     pub fn code_shown_as(&self, name: &str) -> Option<(String, Vec<u8>)> {
         let start = name.strip_suffix("...").filter(|start| !start.is_empty());
         let scripts = self.scripts.all();
-        let found = scripts.iter().map(|script| script.code(&self.scene.borrow()));
-        let mut named = found.filter(|(_, full)| full == name || start.is_some_and(|start| full.starts_with(start)));
+        let found = scripts
+            .iter()
+            .map(|script| script.code(&self.scene.borrow()));
+        let mut named = found
+            .filter(|(_, full)| full == name || start.is_some_and(|start| full.starts_with(start)));
         named.next().map(|(code, full)| (full, code))
     }
 
     /// Attaches to a copy what is attached to its original.
     pub(crate) fn copy_attached(&self, original: Handle, copy: Handle) {
         for script in self.scripts.attached_to(original) {
-            let detached = Detached { owner: Some(copy), ..script.detached.borrow().clone() };
+            let detached = Detached {
+                owner: Some(copy),
+                ..script.detached.borrow().clone()
+            };
             self.scripts.add_detached(script.script_type, detached);
         }
     }
@@ -72,9 +100,15 @@ impl Sim {
 
 /// The scripts among the children of an object, by priority.
 fn script_children(scene: &Scene, object: Handle) -> Vec<Handle> {
-    let children = scene.object(object).map(|o| o.children().to_vec()).unwrap_or_default();
-    let mut scripts: Vec<_> =
-        children.into_iter().filter_map(|h| scene.object(h).ok()).filter(|o| o.script().is_ok()).collect();
+    let children = scene
+        .object(object)
+        .map(|o| o.children().to_vec())
+        .unwrap_or_default();
+    let mut scripts: Vec<_> = children
+        .into_iter()
+        .filter_map(|h| scene.object(h).ok())
+        .filter(|o| o.script().is_ok())
+        .collect();
     scripts.sort_by_key(|object| object.priority);
     scripts.into_iter().map(scene::Object::handle).collect()
 }

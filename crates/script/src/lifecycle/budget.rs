@@ -16,7 +16,11 @@ pub struct Budget {
 impl Budget {
     /// At most `limit` bytes.
     pub(crate) fn new(limit: usize) -> Self {
-        Self { used: Cell::new(0), limit, in_host: Cell::new(true) }
+        Self {
+            used: Cell::new(0),
+            limit,
+            in_host: Cell::new(true),
+        }
     }
 
     /// Whether anything can be refused.

@@ -25,21 +25,37 @@ impl Sim {
     /// The only script that has functions for contacts, if it has one, no hooks, and no call of it is in progress.
     pub(crate) fn sole_responder(&self) -> Option<SoleResponder> {
         let scripts = self.active_scripts_reversed();
-        let script = scripts.iter().find(|script| !script.ignores(CONTACT_BITS))?;
+        let script = scripts
+            .iter()
+            .find(|script| !script.ignores(CONTACT_BITS))?;
         let runtime = script.current_runtime()?;
-        let call = CONTACT.into_iter().find(|call| runtime.env.may_respond() & CONTACT_BITS == call.bit())?;
-        let responder = SoleResponder { script: Rc::clone(script), runtime, call };
+        let call = CONTACT
+            .into_iter()
+            .find(|call| runtime.env.may_respond() & CONTACT_BITS == call.bit())?;
+        let responder = SoleResponder {
+            script: Rc::clone(script),
+            runtime,
+            call,
+        };
         let may_call = responder.runtime.env.depth.get() == 0 && self.scripts.depth() < MAX_DEPTH;
         (may_call && self.is_sole(&responder)).then_some(responder)
     }
 
     /// Whether nothing has changed that matters for the calls of scripts about contacts.
     fn is_sole(&self, responder: &SoleResponder) -> bool {
-        let SoleResponder { script, runtime, call } = responder;
+        let SoleResponder {
+            script,
+            runtime,
+            call,
+        } = responder;
         let is_same = |other: &Rc<Script>| Rc::ptr_eq(other, script);
         let env = &runtime.env;
         script.is_running()
-            && script.runtime.borrow().as_ref().is_some_and(|current| Rc::ptr_eq(current, runtime))
+            && script
+                .runtime
+                .borrow()
+                .as_ref()
+                .is_some_and(|current| Rc::ptr_eq(current, runtime))
             && env.defined.get() & CONTACT_BITS == call.bit()
             && env.hooked.get() & CONTACT_BITS == 0
             && !script.removed.get()
@@ -63,10 +79,18 @@ impl Sim {
         };
         let level = Level::enter(&self.scripts, &runtime.env);
         let result = loop {
-            let Some(values) = next(count) else { break Ok(None) };
+            let Some(values) = next(count) else {
+                break Ok(None);
+            };
             count += 1;
             level.begin_slice();
-            match runtime.interpreter.call_with_integers(*call, Integers { names, values: &values }) {
+            match runtime.interpreter.call_with_integers(
+                *call,
+                Integers {
+                    names,
+                    values: &values,
+                },
+            ) {
                 Ok(CallbackResult::Returned(Some(value))) => break Ok(Some(value)),
                 Err(error) => break Err(error),
                 Ok(_) if only_lua_ran() || self.is_sole(responder) => {}
@@ -79,7 +103,11 @@ impl Sim {
 
     fn complete_answer(
         self: &Rc<Self>,
-        SoleResponder { script, runtime, call }: &SoleResponder,
+        SoleResponder {
+            script,
+            runtime,
+            call,
+        }: &SoleResponder,
         result: Result<Option<Data>, ScriptError>,
     ) -> Option<Data> {
         let value = result.unwrap_or_else(|error| {

@@ -93,7 +93,10 @@ impl Env {
             looks_at_locals: Cell::new(0),
             host_calls: Cell::new(0),
             depth: Cell::new(0),
-            yields: Yields { delay_ms: Cell::new(2), ..Yields::default() },
+            yields: Yields {
+                delay_ms: Cell::new(2),
+                ..Yields::default()
+            },
             random: RefCell::new(Random::new(sim.options.seed)),
             event_filters: RefCell::default(),
             events_wanted: Rc::clone(&sim.events.listening),
@@ -184,7 +187,9 @@ impl Env {
             return false;
         }
         let hooks = self.hooks.borrow();
-        [&hooks.before, &hooks.after].iter().any(|list| list.get(&call).is_some_and(|hooks| !hooks.is_empty()))
+        [&hooks.before, &hooks.after]
+            .iter()
+            .any(|list| list.get(&call).is_some_and(|hooks| !hooks.is_empty()))
     }
 
     /// Notes that the callback gets a hook.
@@ -198,6 +203,8 @@ impl Env {
             return None;
         }
         let hooks = self.hooks.borrow();
-        if before { &hooks.before } else { &hooks.after }.get(&call).cloned()
+        if before { &hooks.before } else { &hooks.after }
+            .get(&call)
+            .cloned()
     }
 }

@@ -78,7 +78,11 @@ impl Detached {
 
     /// Scripts that are no objects are in Lua, unless a scene specifies another language.
     pub(crate) fn language(&self) -> &str {
-        if self.language.is_empty() { "lua" } else { &self.language }
+        if self.language.is_empty() {
+            "lua"
+        } else {
+            &self.language
+        }
     }
 }
 
@@ -142,9 +146,11 @@ impl Script {
     pub(crate) fn ignores(&self, callbacks: u64) -> bool {
         match self.state.get() {
             state::UNINITIALIZED => false,
-            state::INITIALIZED => {
-                self.runtime.borrow().as_ref().is_none_or(|runtime| runtime.env.may_respond() & callbacks == 0)
-            }
+            state::INITIALIZED => self
+                .runtime
+                .borrow()
+                .as_ref()
+                .is_none_or(|runtime| runtime.env.may_respond() & callbacks == 0),
             _ => true,
         }
     }
@@ -156,6 +162,9 @@ impl Script {
 
     /// Calls of this script in progress.
     pub(crate) fn depth(&self) -> usize {
-        self.runtime.borrow().as_ref().map_or(0, |runtime| runtime.env.depth.get())
+        self.runtime
+            .borrow()
+            .as_ref()
+            .map_or(0, |runtime| runtime.env.depth.get())
     }
 }

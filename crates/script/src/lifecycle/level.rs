@@ -30,7 +30,11 @@ impl<'a> Level<'a> {
         } else {
             env.yields.overall.set(env.yields.overall.get() + 1);
         }
-        Self { scripts, env, too_deep }
+        Self {
+            scripts,
+            env,
+            too_deep,
+        }
     }
 }
 
@@ -47,7 +51,10 @@ impl Drop for Level<'_> {
         let depth = self.env.depth.get() - 1;
         self.env.depth.set(depth);
         if depth > 0 {
-            self.env.yields.overall.set((self.env.yields.overall.get() - 1).max(0));
+            self.env
+                .yields
+                .overall
+                .set((self.env.yields.overall.get() - 1).max(0));
         }
     }
 }

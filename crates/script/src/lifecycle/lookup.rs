@@ -10,9 +10,19 @@ use scene::object::script_object::ScriptType;
 
 impl Sim {
     /// The script of that type attached to an object: the first of its children by priority, else the object itself.
-    pub(crate) fn script_attached_to(&self, object: Handle, script_type: ScriptType) -> Option<i64> {
-        let scripts = self.scripts_of_object(object).into_iter().chain(self.script(object.raw()));
-        scripts.into_iter().find(|script| script.script_type == script_type).map(|script| script.id)
+    pub(crate) fn script_attached_to(
+        &self,
+        object: Handle,
+        script_type: ScriptType,
+    ) -> Option<i64> {
+        let scripts = self
+            .scripts_of_object(object)
+            .into_iter()
+            .chain(self.script(object.raw()));
+        scripts
+            .into_iter()
+            .find(|script| script.script_type == script_type)
+            .map(|script| script.id)
     }
 
     /// The script of that type and name: a path for scene scripts, the display name for add-ons, nothing for main and sandbox.
@@ -21,7 +31,9 @@ impl Sim {
     /// When there is none.
     pub(crate) fn script_by_name(&self, script_type: ScriptType, name: &str) -> ApiResult<i64> {
         let found = match script_type {
-            ScriptType::Main | ScriptType::Sandbox => self.scripts.detached(script_type).map(|script| script.id),
+            ScriptType::Main | ScriptType::Sandbox => {
+                self.scripts.detached(script_type).map(|script| script.id)
+            }
             ScriptType::AddOn => self.add_on(name).map(|script| script.id),
             ScriptType::Simulation | ScriptType::Customization | ScriptType::Passive => {
                 let object = self.object_by_name(name).ok_or(ApiError::NoSuchScript)?;
@@ -32,8 +44,19 @@ impl Sim {
     }
 
     fn add_on(&self, name: &str) -> Option<Rc<Script>> {
-        let mut add_ons = self.scripts.all_detached().into_iter().filter(|s| s.script_type == ScriptType::AddOn);
-        add_ons.find(|script| script.detached.borrow().name.trim_end_matches("@addOnScript") == name)
+        let mut add_ons = self
+            .scripts
+            .all_detached()
+            .into_iter()
+            .filter(|s| s.script_type == ScriptType::AddOn);
+        add_ons.find(|script| {
+            script
+                .detached
+                .borrow()
+                .name
+                .trim_end_matches("@addOnScript")
+                == name
+        })
     }
 
     /// The object at a path or with an old-style name.

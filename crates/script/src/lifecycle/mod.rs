@@ -51,7 +51,10 @@ impl Sim {
         if script.state() == state::UNINITIALIZED && call != SysCall::Info {
             self.initialize(script);
             if call == SysCall::Init {
-                return Reply { ran: true, value: None };
+                return Reply {
+                    ran: true,
+                    value: None,
+                };
             }
         }
         if !script.is_running() {
@@ -102,8 +105,14 @@ impl Sim {
     ///
     /// # Errors
     /// When there is no such language.
-    pub fn create_runtime(self: &Rc<Self>, script: &Rc<Script>, language: &str) -> Result<Rc<Runtime>, ScriptError> {
-        self.scripts.languages.create(language, Rc::new(Env::new(self, script)))
+    pub fn create_runtime(
+        self: &Rc<Self>,
+        script: &Rc<Script>,
+        language: &str,
+    ) -> Result<Rc<Runtime>, ScriptError> {
+        self.scripts
+            .languages
+            .create(language, Rc::new(Env::new(self, script)))
     }
 
     fn run_text(self: &Rc<Self>, script: &Rc<Script>) -> Result<Rc<Runtime>, ScriptError> {
@@ -120,7 +129,11 @@ impl Sim {
             return Err(ScriptError::new(ApiError::TooDeep(MAX_DEPTH).to_string()));
         }
         let counted_as = self.counted_as(script, &text);
-        runtime.interpreter.load(&SourceText { text: &text, chunk_name: &chunk_name, counted_as })?;
+        runtime.interpreter.load(&SourceText {
+            text: &text,
+            chunk_name: &chunk_name,
+            counted_as,
+        })?;
         drop(level);
         Ok(runtime)
     }
@@ -136,8 +149,13 @@ impl Sim {
 
     /// Runs hooks and function of a callback in an interpreter that is ready for it.
     fn run_callback(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, args: &[Data]) -> Reply {
-        let Some(runtime) = script.current_runtime() else { return Reply::default() };
-        if !runtime.env.responds_to(call) && !call.resumes_threads() && !has_late_cleanup(&runtime, call) {
+        let Some(runtime) = script.current_runtime() else {
+            return Reply::default();
+        };
+        if !runtime.env.responds_to(call)
+            && !call.resumes_threads()
+            && !has_late_cleanup(&runtime, call)
+        {
             return Reply::default();
         }
         if call == SysCall::Cleanup {
@@ -152,15 +170,25 @@ impl Sim {
         if runtime.env.depth.get() == 0 {
             self.complete_call(script, call, outcome.value.as_ref());
         }
-        Reply { ran: outcome.ran, value: outcome.value }
+        Reply {
+            ran: outcome.ran,
+            value: outcome.value,
+        }
     }
 
-    fn call_with_hooks(self: &Rc<Self>, runtime: &Rc<Runtime>, call: SysCall, args: &[Data]) -> Outcome {
+    fn call_with_hooks(
+        self: &Rc<Self>,
+        runtime: &Rc<Runtime>,
+        call: SysCall,
+        args: &[Data],
+    ) -> Outcome {
         let env = &runtime.env;
         let level = Level::enter(&self.scripts, env);
         let mut outcome = Outcome::default();
         if level.too_deep {
-            outcome.errors.push(ScriptError::new(ApiError::TooDeep(MAX_DEPTH).to_string()));
+            outcome
+                .errors
+                .push(ScriptError::new(ApiError::TooDeep(MAX_DEPTH).to_string()));
             return outcome;
         }
         if call.resumes_threads() {
@@ -198,7 +226,12 @@ impl Sim {
     }
 
     /// Completes the outermost call of a script: ends it after an error, or does what it requested by `cmd`.
-    pub(crate) fn complete_call(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, value: Option<&Data>) {
+    pub(crate) fn complete_call(
+        self: &Rc<Self>,
+        script: &Rc<Script>,
+        call: SysCall,
+        value: Option<&Data>,
+    ) {
         if script.state() & state::ERROR != 0 {
             return self.end_failed(script);
         }
@@ -208,7 +241,9 @@ impl Sim {
         match value.and_then(|v| v.field("cmd")) {
             Some(Data::Text(cmd)) if cmd == b"restart" => self.reset(script),
             Some(Data::Text(cmd)) if cmd == b"cleanup" => self.end(script),
-            _ if script.script_type == ScriptType::AddOn && value == Some(&Data::Int(1)) => self.end(script),
+            _ if script.script_type == ScriptType::AddOn && value == Some(&Data::Int(1)) => {
+                self.end(script)
+            }
             _ => {}
         }
     }
@@ -246,9 +281,13 @@ impl Sim {
 
     /// Runs `sysCall_cleanup` in a script that is ending. Errors are logged and have no other effect.
     fn clean_up(self: &Rc<Self>, script: &Rc<Script>) {
-        let Some(runtime) = script.current_runtime() else { return };
+        let Some(runtime) = script.current_runtime() else {
+            return;
+        };
         script.set_base_state(state::ENDED);
-        if !runtime.env.responds_to(SysCall::Cleanup) && !has_late_cleanup(&runtime, SysCall::Cleanup) {
+        if !runtime.env.responds_to(SysCall::Cleanup)
+            && !has_late_cleanup(&runtime, SysCall::Cleanup)
+        {
             return;
         }
         let outcome = self.call_with_hooks(&runtime, SysCall::Cleanup, &[]);
@@ -282,9 +321,16 @@ impl Sim {
 
     fn clear_restart_flag(&self, handle: scene::Handle) -> bool {
         let mut scene = self.scene.borrow_mut();
-        let Ok(true) = scene.object(handle).and_then(|o| o.script()).map(|s| s.restart_on_error) else { return false };
-        let cleared =
-            scene.try_modify(handle, scene::Field::Other, |o| o.script_mut().map(|s| s.restart_on_error = false));
+        let Ok(true) = scene
+            .object(handle)
+            .and_then(|o| o.script())
+            .map(|s| s.restart_on_error)
+        else {
+            return false;
+        };
+        let cleared = scene.try_modify(handle, scene::Field::Other, |o| {
+            o.script_mut().map(|s| s.restart_on_error = false)
+        });
         cleared.is_ok()
     }
 }
@@ -318,7 +364,9 @@ impl Outcome {
     fn call_function(&mut self, runtime: &Runtime, call: SysCall, args: &[Data]) {
         match runtime.interpreter.call_callback(call, args) {
             Ok(CallbackResult::NotDefined) => {}
-            Ok(CallbackResult::Returned(value)) => (self.ran, self.function_ran, self.value) = (true, true, value),
+            Ok(CallbackResult::Returned(value)) => {
+                (self.ran, self.function_ran, self.value) = (true, true, value)
+            }
             Err(error) => {
                 self.ran = true;
                 self.errors.push(error);
@@ -329,7 +377,9 @@ impl Outcome {
 
 /// The callbacks that are there now that the text has run, as bits.
 fn defined_callbacks(runtime: &Runtime) -> u64 {
-    let defined = SysCall::ALL.iter().filter(|&&call| runtime.interpreter.defines(call));
+    let defined = SysCall::ALL
+        .iter()
+        .filter(|&&call| runtime.interpreter.defines(call));
     defined.fold(0, |bits, call| bits | call.bit())
 }
 

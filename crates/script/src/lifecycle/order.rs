@@ -8,7 +8,8 @@ use scene::object::script_object::{ExecutionPriority, ScriptType};
 use scene::{Field, Handle, Mark, ModelFlags, Object, Scene, Topics};
 
 /// Changes that can alter the order of scripts.
-const ORDER: Topics = Topics::TREE.with_fields(&[Field::ModelProperty, Field::Script, Field::Priority]);
+const ORDER: Topics =
+    Topics::TREE.with_fields(&[Field::ModelProperty, Field::Script, Field::Priority]);
 
 /// Scripts in the order they are called.
 pub(crate) type ScriptList = Rc<[Rc<Script>]>;
@@ -68,7 +69,12 @@ impl Sim {
         self.refresh_order();
         let cache = self.scripts.order.borrow();
         let stopped = self.clock.is_stopped();
-        if stopped { &cache.everyone_stopped } else { &cache.everyone }.clone()
+        if stopped {
+            &cache.everyone_stopped
+        } else {
+            &cache.everyone
+        }
+        .clone()
     }
 
     /// Reverse order, for contacts: sandbox, add-ons, main, then script objects by increasing depth.
@@ -80,21 +86,37 @@ impl Sim {
     /// Whether the test holds for all scripts that are called about contacts.
     pub(super) fn all_active_reversed(&self, test: impl FnMut(&Rc<Script>) -> bool) -> bool {
         self.refresh_order();
-        self.scripts.order.borrow().everyone_reversed.iter().all(test)
+        self.scripts
+            .order
+            .borrow()
+            .everyone_reversed
+            .iter()
+            .all(test)
     }
 
     fn refresh_order(&self) {
         let mut order = self.scripts.order.borrow_mut();
-        if !self.scene.borrow().journal().changed_since(order.known.get_or_insert_with(|| Mark::new(ORDER))) {
+        if !self
+            .scene
+            .borrow()
+            .journal()
+            .changed_since(order.known.get_or_insert_with(|| Mark::new(ORDER)))
+        {
             return;
         }
         drop(order);
         let (old, scripts) = (self.attached_by_depth(), self.objects_by_depth());
         let of_type = |scripts: &[Rc<Script>], t: ScriptType| -> ScriptList {
-            scripts.iter().filter(|s| s.script_type == t).cloned().collect()
+            scripts
+                .iter()
+                .filter(|s| s.script_type == t)
+                .cloned()
+                .collect()
         };
-        let [old_simulation, simulation] = [&old, &scripts].map(|list| of_type(list, ScriptType::Simulation));
-        let [old_customization, customization] = [&old, &scripts].map(|list| of_type(list, ScriptType::Customization));
+        let [old_simulation, simulation] =
+            [&old, &scripts].map(|list| of_type(list, ScriptType::Simulation));
+        let [old_customization, customization] =
+            [&old, &scripts].map(|list| of_type(list, ScriptType::Customization));
         let mut cache = self.scripts.order.borrow_mut();
         cache.simulation = joined(&[&old_simulation, &simulation]);
         cache.customization = joined(&[&old_customization, &customization]);
@@ -103,15 +125,29 @@ impl Sim {
         cache.main = self.detached_of(ScriptType::Main);
         cache.everyone_stopped = joined(&[&cache.customization, &cache.add_ons, &cache.sandbox]);
         let [objects, others] = [&cache.customization, &cache.simulation].map(reversed);
-        cache.everyone_reversed = joined(&[&cache.sandbox, &cache.add_ons, &cache.main, &objects, &others]);
-        let embedded = joined(&[&old_simulation, &old_customization, &simulation, &customization]);
+        cache.everyone_reversed = joined(&[
+            &cache.sandbox,
+            &cache.add_ons,
+            &cache.main,
+            &objects,
+            &others,
+        ]);
+        let embedded = joined(&[
+            &old_simulation,
+            &old_customization,
+            &simulation,
+            &customization,
+        ]);
         cache.everyone = joined(&[&embedded, &cache.main, &cache.add_ons, &cache.sandbox]);
     }
 
     /// Scripts that are objects, the deepest first.
     fn objects_by_depth(&self) -> Vec<Rc<Script>> {
         let order = by_depth(&self.scene.borrow(), |object| object.script().is_ok());
-        order.into_iter().filter_map(|handle| self.script(handle.raw())).collect()
+        order
+            .into_iter()
+            .filter_map(|handle| self.script(handle.raw()))
+            .collect()
     }
 
     /// Scripts attached to objects, those of the deepest objects first.
@@ -120,8 +156,13 @@ impl Sim {
         if owners.is_empty() {
             return Vec::new();
         }
-        let order = by_depth(&self.scene.borrow(), |object| owners.contains(&object.handle()));
-        order.into_iter().flat_map(|owner| self.scripts.attached_to(owner)).collect()
+        let order = by_depth(&self.scene.borrow(), |object| {
+            owners.contains(&object.handle())
+        });
+        order
+            .into_iter()
+            .flat_map(|owner| self.scripts.attached_to(owner))
+            .collect()
     }
 
     fn detached_of(&self, script_type: ScriptType) -> ScriptList {
@@ -134,13 +175,20 @@ impl Sim {
     /// Scripts whose `sysCall_joint` is called for a joint: those attached to it, to its parent, and so on to the root; simulation scripts of the whole chain
     /// first, then customization scripts, the main script, add-ons and the sandbox.
     pub(crate) fn joint_chain(&self, joint: Handle) -> Vec<Rc<Script>> {
-        let chain: Vec<Handle> = std::iter::once(joint).chain(self.scene.borrow().ancestors(joint)).collect();
-        let scripts: Vec<_> = chain.into_iter().flat_map(|object| self.scripts_of_object(object)).collect();
+        let chain: Vec<Handle> = std::iter::once(joint)
+            .chain(self.scene.borrow().ancestors(joint))
+            .collect();
+        let scripts: Vec<_> = chain
+            .into_iter()
+            .flat_map(|object| self.scripts_of_object(object))
+            .collect();
         let of_type = |t: ScriptType| scripts.iter().filter(move |s| s.script_type == t).cloned();
         let attached = of_type(ScriptType::Simulation).chain(of_type(ScriptType::Customization));
-        let detached =
-            [ScriptGroup::Main, ScriptGroup::AddOn, ScriptGroup::Sandbox].map(|group| self.scripts_in(group));
-        attached.chain(detached.iter().flat_map(|list| list.iter().cloned())).collect()
+        let detached = [ScriptGroup::Main, ScriptGroup::AddOn, ScriptGroup::Sandbox]
+            .map(|group| self.scripts_in(group));
+        attached
+            .chain(detached.iter().flat_map(|list| list.iter().cloned()))
+            .collect()
     }
 }
 
@@ -156,16 +204,27 @@ fn reversed(list: &ScriptList) -> ScriptList {
 /// first.
 fn by_depth(scene: &Scene, wanted: impl Fn(&Object) -> bool) -> Vec<Handle> {
     let mut found: Vec<(usize, Handle)> = Vec::new();
-    let mut pending: Vec<(usize, Handle)> = sorted(scene, scene.roots()).into_iter().rev().map(|h| (0, h)).collect();
+    let mut pending: Vec<(usize, Handle)> = sorted(scene, scene.roots())
+        .into_iter()
+        .rev()
+        .map(|h| (0, h))
+        .collect();
     while let Some((depth, handle)) = pending.pop() {
-        let Ok(object) = scene.object(handle) else { continue };
+        let Ok(object) = scene.object(handle) else {
+            continue;
+        };
         if object.is_model() && object.model_property.contains(ModelFlags::SCRIPTS_INACTIVE) {
             continue;
         }
         if wanted(object) {
             found.push((depth, handle));
         }
-        pending.extend(sorted(scene, object.children()).into_iter().rev().map(|h| (depth + 1, h)));
+        pending.extend(
+            sorted(scene, object.children())
+                .into_iter()
+                .rev()
+                .map(|h| (depth + 1, h)),
+        );
     }
     found.sort_by_key(|&(depth, _)| std::cmp::Reverse(depth));
     found.into_iter().map(|(_, handle)| handle).collect()
@@ -173,6 +232,10 @@ fn by_depth(scene: &Scene, wanted: impl Fn(&Object) -> bool) -> Vec<Handle> {
 
 fn sorted(scene: &Scene, siblings: &[Handle]) -> Vec<Handle> {
     let mut list = siblings.to_vec();
-    list.sort_by_key(|&h| scene.object(h).map_or(ExecutionPriority::Normal, |object| object.priority));
+    list.sort_by_key(|&h| {
+        scene
+            .object(h)
+            .map_or(ExecutionPriority::Normal, |object| object.priority)
+    });
     list
 }

@@ -23,7 +23,10 @@ impl Random {
     pub const DEFAULT_SEED: u32 = 123_456;
 
     pub(crate) fn new(seed: u32) -> Self {
-        Self { seed, generator: None }
+        Self {
+            seed,
+            generator: None,
+        }
     }
 
     /// Begins another sequence.
@@ -33,14 +36,19 @@ impl Random {
 
     /// The next number in [0, 1).
     pub fn next(&mut self) -> f64 {
-        let generator = self.generator.get_or_insert_with(|| Box::new(Mt::new(self.seed)));
+        let generator = self
+            .generator
+            .get_or_insert_with(|| Box::new(Mt::new(self.seed)));
         f64::from(generator.next_u32()) / 4_294_967_296.0
     }
 
     /// A word of letters and digits.
     pub(crate) fn string(&mut self, length: usize) -> String {
-        const LETTERS: &[u8; 62] = b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
-        (0..length).map(|_| char::from(LETTERS[(self.next() * 62.0) as usize])).collect()
+        const LETTERS: &[u8; 62] =
+            b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+        (0..length)
+            .map(|_| char::from(LETTERS[(self.next() * 62.0) as usize]))
+            .collect()
     }
 
     /// A rotation, all being equally likely (K. Shoemake, Uniform random rotations, Graphics Gems III).

@@ -39,13 +39,20 @@ impl Removals {
     }
 
     pub(crate) fn note_start(&self, scene: &Scene) {
-        self.at_start.replace(Some(scene.objects().map(Object::uid).collect()));
+        self.at_start
+            .replace(Some(scene.objects().map(Object::uid).collect()));
     }
 
     /// The objects that came since the start of the simulation.
     fn take_new(&self, scene: &Scene) -> Vec<Handle> {
-        let Some(known) = self.at_start.take() else { return Vec::new() };
-        scene.objects().filter(|object| !known.contains(&object.uid())).map(Object::handle).collect()
+        let Some(known) = self.at_start.take() else {
+            return Vec::new();
+        };
+        scene
+            .objects()
+            .filter(|object| !known.contains(&object.uid()))
+            .map(Object::handle)
+            .collect()
     }
 }
 
@@ -64,7 +71,10 @@ impl Sim {
     pub(crate) fn notify_created(self: &Rc<Self>, handles: &[Handle]) {
         if self.scripts.may_respond(SysCall::AfterCreate) {
             let list = raw(handles);
-            let data = Data::map([("objects", list.clone().into()), ("objectHandles", list.into())]);
+            let data = Data::map([
+                ("objects", list.clone().into()),
+                ("objectHandles", list.into()),
+            ]);
             self.broadcast(SysCall::AfterCreate, &[data]);
         }
     }
@@ -83,13 +93,21 @@ impl Sim {
             return Ok(BTreeMap::new());
         }
         let data = self.data_for([SysCall::BeforeCopy, SysCall::AfterCopy], || {
-            Data::map([("objects", raw(&originals).into()), ("objectHandles", marked(&originals))])
+            Data::map([
+                ("objects", raw(&originals).into()),
+                ("objectHandles", marked(&originals)),
+            ])
         });
         self.broadcast(SysCall::BeforeCopy, data.as_slice());
         let copies = self.scene.borrow_mut().copy_objects(&originals, options)?;
         self.broadcast(SysCall::AfterCopy, data.as_slice());
-        let created: Vec<Handle> = originals.iter().filter_map(|original| copies.get(original).copied()).collect();
-        copies.iter().for_each(|(original, copy)| self.copy_attached(*original, *copy));
+        let created: Vec<Handle> = originals
+            .iter()
+            .filter_map(|original| copies.get(original).copied())
+            .collect();
+        copies
+            .iter()
+            .for_each(|(original, copy)| self.copy_attached(*original, *copy));
         self.notify_created(&created);
         Ok(copies)
     }
@@ -100,16 +118,21 @@ impl Sim {
     /// When a handle is unknown or repeated; nothing happens then.
     pub fn remove_objects(self: &Rc<Self>, handles: &[Handle]) -> ApiResult<()> {
         self.check_removable(handles)?;
-        let removed: Vec<Handle> = handles.iter().copied().filter(|&handle| self.end_scripts_of(handle)).collect();
+        let removed: Vec<Handle> = handles
+            .iter()
+            .copied()
+            .filter(|&handle| self.end_scripts_of(handle))
+            .collect();
         if removed.len() < handles.len() {
-            let text =
-                "object removal can't be triggered from within the object itself: some objects were not removed.";
+            let text = "object removal can't be triggered from within the object itself: some objects were not removed.";
             self.log(verbosity::ERRORS, text);
         }
         if removed.is_empty() {
             return Ok(());
         }
-        let data = self.data_for([SysCall::BeforeDelete, SysCall::AfterDelete], || self.removal_data(&removed));
+        let data = self.data_for([SysCall::BeforeDelete, SysCall::AfterDelete], || {
+            self.removal_data(&removed)
+        });
         self.broadcast(SysCall::BeforeDelete, data.as_slice());
         self.remove_from_scene(removed)?;
         self.broadcast(SysCall::AfterDelete, data.as_slice());
@@ -128,7 +151,9 @@ impl Sim {
         self.scene.borrow_mut().remove(&handles)?;
         for handle in handles {
             self.scripts.remove_those_of(handle);
-            self.signal_owners.borrow_mut().forget(Holder::Object(handle));
+            self.signal_owners
+                .borrow_mut()
+                .forget(Holder::Object(handle));
         }
         Ok(())
     }
@@ -139,7 +164,11 @@ impl Sim {
         unique.sort_unstable();
         unique.dedup();
         let valid = unique.len() == handles.len() && handles.iter().all(|&h| scene.exists(h));
-        if valid { Ok(()) } else { Err(SceneError::InvalidHandles.into()) }
+        if valid {
+            Ok(())
+        } else {
+            Err(SceneError::InvalidHandles.into())
+        }
     }
 
     /// Cleans up the script an object is, if it is one; false when that script is executing.
@@ -159,17 +188,28 @@ impl Sim {
 
     fn removal_data(&self, handles: &[Handle]) -> Data {
         let all = handles.len() == self.scene.borrow().len();
-        Data::map([("objects", raw(handles).into()), ("allObjects", all.into()), ("objectHandles", marked(handles))])
+        Data::map([
+            ("objects", raw(handles).into()),
+            ("allObjects", all.into()),
+            ("objectHandles", marked(handles)),
+        ])
     }
 
     /// Removes a script that is attached to an object or to none: a customization script at the end of the loop iteration, a simulation
     /// script at once, but not while a simulation runs.
     pub(crate) fn remove_attached_script(self: &Rc<Self>, script: &Rc<Script>) {
         match script.script_type {
-            ScriptType::Customization => self.removals.delayed_scripts.borrow_mut().push(Rc::clone(script)),
+            ScriptType::Customization => self
+                .removals
+                .delayed_scripts
+                .borrow_mut()
+                .push(Rc::clone(script)),
             ScriptType::Simulation if self.clock.state() == SimulationState::Stopped => {
                 if script.depth() > 0 {
-                    self.removals.delayed_scripts.borrow_mut().push(Rc::clone(script));
+                    self.removals
+                        .delayed_scripts
+                        .borrow_mut()
+                        .push(Rc::clone(script));
                 } else {
                     self.end_attached_script(script);
                 }
@@ -217,5 +257,10 @@ fn raw(handles: &[Handle]) -> Vec<i64> {
 
 /// A map from each handle to true.
 fn marked(handles: &[Handle]) -> Data {
-    Data::Map(handles.iter().map(|handle| (Key::Int(handle.raw()), Data::Bool(true))).collect())
+    Data::Map(
+        handles
+            .iter()
+            .map(|handle| (Key::Int(handle.raw()), Data::Bool(true)))
+            .collect(),
+    )
 }

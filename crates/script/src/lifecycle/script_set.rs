@@ -69,7 +69,10 @@ impl ScriptSet {
 
     /// The number of changes of scripts of the scene so far, from 1.
     pub(super) fn edition(&self, scene: &Scene) -> u64 {
-        if scene.journal().changed_since(&mut self.edition_mark.borrow_mut()) {
+        if scene
+            .journal()
+            .changed_since(&mut self.edition_mark.borrow_mut())
+        {
             self.edition.set(self.edition.get() + 1);
         }
         self.edition.get()
@@ -90,7 +93,9 @@ impl ScriptSet {
     pub(crate) fn add(&self, script: &Rc<Script>) {
         self.by_id.borrow_mut().insert(script.id, Rc::clone(script));
         if script.object.is_none() {
-            self.detached.borrow_mut().insert(script.id, Rc::clone(script));
+            self.detached
+                .borrow_mut()
+                .insert(script.id, Rc::clone(script));
         }
     }
 
@@ -106,7 +111,11 @@ impl ScriptSet {
 
     /// The one script of that type without an object: main or sandbox.
     pub fn detached(&self, script_type: ScriptType) -> Option<Rc<Script>> {
-        self.detached.borrow().values().find(|script| script.script_type == script_type).cloned()
+        self.detached
+            .borrow()
+            .values()
+            .find(|script| script.script_type == script_type)
+            .cloned()
     }
 
     /// All scripts that are no objects, in the order of their creation.
@@ -120,7 +129,11 @@ impl ScriptSet {
             return Vec::new();
         }
         let scripts = self.detached.borrow();
-        let mut attached: Vec<_> = scripts.values().filter(|script| script.owner() == Some(object)).cloned().collect();
+        let mut attached: Vec<_> = scripts
+            .values()
+            .filter(|script| script.owner() == Some(object))
+            .cloned()
+            .collect();
         attached.sort_by_key(|script| script.script_type != ScriptType::Simulation);
         attached
     }
@@ -130,7 +143,11 @@ impl ScriptSet {
         if !self.has_attached.get() {
             return BTreeSet::new();
         }
-        self.detached.borrow().values().filter_map(|script| script.owner()).collect()
+        self.detached
+            .borrow()
+            .values()
+            .filter_map(|script| script.owner())
+            .collect()
     }
 
     /// Removes the script an object was, and those attached to it.
@@ -162,7 +179,8 @@ impl ScriptSet {
 
     /// Remembers that some script has these callbacks, so that the others need not be offered to anyone.
     pub(crate) fn note_callbacks(&self, bits: u64) {
-        self.callbacks_in_use.set(self.callbacks_in_use.get() | bits);
+        self.callbacks_in_use
+            .set(self.callbacks_in_use.get() | bits);
     }
 
     /// Whether a script can respond to `call`: one has or had the callback, or the call starts scripts.

@@ -14,7 +14,11 @@ impl Sim {
     /// Name in the log, language and text of a script.
     pub fn text_of(&self, script: &Script) -> (String, String, Vec<u8>) {
         let scene = self.scene.borrow();
-        (script.log_name(&scene), script.language(&scene), script.code(&scene).0)
+        (
+            script.log_name(&scene),
+            script.language(&scene),
+            script.code(&scene).0,
+        )
     }
 }
 
@@ -33,7 +37,10 @@ impl Script {
     pub(crate) fn code(&self, scene: &Scene) -> (Vec<u8>, String) {
         if let Some(object) = self.script_object(scene) {
             let name = object.source.as_deref().map(file_name);
-            return (object.code.clone(), name.unwrap_or_else(|| self.log_name(scene)));
+            return (
+                object.code.clone(),
+                name.unwrap_or_else(|| self.log_name(scene)),
+            );
         }
         let detached = self.detached.borrow();
         let name = match &detached.source {
@@ -47,7 +54,10 @@ impl Script {
     /// `lua` or `python`.
     pub(crate) fn language(&self, scene: &Scene) -> String {
         match self.object {
-            Some(_) => self.script_object(scene).map(|object| object.language.clone()).unwrap_or_default(),
+            Some(_) => self
+                .script_object(scene)
+                .map(|object| object.language.clone())
+                .unwrap_or_default(),
             None => self.detached.borrow().language().to_owned(),
         }
     }
@@ -55,7 +65,9 @@ impl Script {
     /// A script whose object is gone counts as disabled.
     pub(crate) fn is_disabled(&self, scene: &Scene) -> bool {
         match self.object {
-            Some(_) => self.script_object(scene).is_none_or(|object| object.disabled),
+            Some(_) => self
+                .script_object(scene)
+                .is_none_or(|object| object.disabled),
             None => self.detached.borrow().disabled,
         }
     }
@@ -67,5 +79,9 @@ impl Script {
 
 /// The part after the object's path in the name of an attached script.
 pub(crate) fn log_suffix(script_type: ScriptType) -> &'static str {
-    if script_type == ScriptType::Customization { "@customizationScript" } else { "@simulationScript" }
+    if script_type == ScriptType::Customization {
+        "@customizationScript"
+    } else {
+        "@simulationScript"
+    }
 }

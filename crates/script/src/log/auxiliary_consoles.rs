@@ -43,7 +43,11 @@ impl AuxiliaryConsoles {
 
     /// Closes those that last as long as the simulation; the handles of their windows.
     pub(crate) fn end_simulation(&mut self) -> Vec<String> {
-        let windows = self.open.values().filter(|console| console.closes_at_end).map(|console| console.window.clone());
+        let windows = self
+            .open
+            .values()
+            .filter(|console| console.closes_at_end)
+            .map(|console| console.window.clone());
         let windows = windows.collect();
         self.open.retain(|_, console| !console.closes_at_end);
         windows

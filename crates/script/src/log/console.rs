@@ -33,7 +33,11 @@ impl LogLine<'_> {
         let mut shown = format!("[{}:{}]   ", self.origin, verbosity::name(self.level));
         shown.extend(lines.next());
         for line in lines {
-            shown.push_str(if line.starts_with('[') { "\n    " } else { "\n" });
+            shown.push_str(if line.starts_with('[') {
+                "\n    "
+            } else {
+                "\n"
+            });
             shown.push_str(line);
         }
         shown
@@ -41,7 +45,11 @@ impl LogLine<'_> {
 
     /// The line as a terminal shows it to people, who look for files.
     pub fn located(&self) -> String {
-        LogLine { text: self.located.unwrap_or(self.text), ..*self }.decorated()
+        LogLine {
+            text: self.located.unwrap_or(self.text),
+            ..*self
+        }
+        .decorated()
     }
 
     /// The line as CoppeliaSim shows it: messages of its libraries have no author.
@@ -54,7 +62,11 @@ impl LogLine<'_> {
 
     /// The text; where it is marked as HTML, by `@html` at its end, without mark and tags.
     pub fn plain_text(&self) -> Cow<'_, str> {
-        self.text.strip_suffix(HTML_MARK).map_or(Cow::Borrowed(self.text), |html| Cow::Owned(without_tags(html)))
+        self.text
+            .strip_suffix(HTML_MARK)
+            .map_or(Cow::Borrowed(self.text), |html| {
+                Cow::Owned(without_tags(html))
+            })
     }
 }
 
@@ -62,7 +74,9 @@ fn without_tags(html: &str) -> String {
     let mut text = String::with_capacity(html.len());
     let mut rest = html;
     while let Some((before, tag)) = rest.split_once('<') {
-        let Some((_, after)) = tag.split_once('>') else { break };
+        let Some((_, after)) = tag.split_once('>') else {
+            break;
+        };
         text.push_str(before);
         rest = after;
     }
@@ -109,9 +123,16 @@ mod tests {
     use super::*;
 
     fn plain(text: &str) -> String {
-        LogLine { origin: "a", level: verbosity::SCRIPT_INFOS, text, located: None, time: 0.0, status: false }
-            .plain_text()
-            .into_owned()
+        LogLine {
+            origin: "a",
+            level: verbosity::SCRIPT_INFOS,
+            text,
+            located: None,
+            time: 0.0,
+            status: false,
+        }
+        .plain_text()
+        .into_owned()
     }
 
     #[test]
@@ -124,11 +145,32 @@ mod tests {
     #[test]
     fn messages_of_the_original_s_libraries_have_no_author() {
         let level = verbosity::SCRIPT_WARNINGS | verbosity::UNDECORATED;
-        let line = LogLine { origin: "CoppeliaSim", level, text: "refused", located: None, time: 0.0, status: false };
+        let line = LogLine {
+            origin: "CoppeliaSim",
+            level,
+            text: "refused",
+            located: None,
+            time: 0.0,
+            status: false,
+        };
         assert_eq!(line.original(), "refused");
         assert_eq!(line.decorated(), "[CoppeliaSim:warning]   refused");
-        assert_eq!(LogLine { origin: "/script", ..line }.original(), "[/script:warning]   refused");
-        assert_eq!(LogLine { level: verbosity::SCRIPT_WARNINGS, ..line }.original(), line.decorated());
+        assert_eq!(
+            LogLine {
+                origin: "/script",
+                ..line
+            }
+            .original(),
+            "[/script:warning]   refused"
+        );
+        assert_eq!(
+            LogLine {
+                level: verbosity::SCRIPT_WARNINGS,
+                ..line
+            }
+            .original(),
+            line.decorated()
+        );
     }
 
     #[test]
@@ -143,7 +185,10 @@ mod tests {
             status: false,
         };
         let shown = line.decorated();
-        let forged = shown.split(['\n', '\r']).skip(1).filter(|line| !line.starts_with("    "));
+        let forged = shown
+            .split(['\n', '\r'])
+            .skip(1)
+            .filter(|line| !line.starts_with("    "));
         assert_eq!(forged.count(), 0, "{shown}");
         assert_eq!(shown.lines().count(), 4, "{shown}");
     }

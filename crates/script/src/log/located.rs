@@ -23,7 +23,12 @@ impl ScriptFiles {
     }
 
     /// The error with files in its positions, and a hint below the message. A line of the library never stands for one of the script: the nearest call in a script does.
-    pub(crate) fn locate(&self, error: &str, hint: &str, is_library: impl Fn(&str) -> bool) -> String {
+    pub(crate) fn locate(
+        &self,
+        error: &str,
+        hint: &str,
+        is_library: impl Fn(&str) -> bool,
+    ) -> String {
         let (message, calls) = match error.find(TRACEBACK) {
             Some(at) => error.split_at(at),
             None => (error, ""),
@@ -37,10 +42,14 @@ impl ScriptFiles {
             (Some(rest), Some(caller)) => Cow::Owned(format!("{caller}: {rest}")),
             _ => Cow::Borrowed(message),
         };
-        let calls = calls.split_inclusive('\n').map(|line| match position(line) {
-            Some(position) if is_library(position.name) => Cow::Owned(line.replacen(position.text, "(library)", 1)),
-            _ => Cow::Borrowed(line),
-        });
+        let calls = calls
+            .split_inclusive('\n')
+            .map(|line| match position(line) {
+                Some(position) if is_library(position.name) => {
+                    Cow::Owned(line.replacen(position.text, "(library)", 1))
+                }
+                _ => Cow::Borrowed(line),
+            });
         let message = message.trim_end_matches('\n');
         let message = without_library(message, &is_library);
         let parts = [message, hint.to_owned(), calls.collect::<String>()];
@@ -51,15 +60,23 @@ impl ScriptFiles {
     fn with_files(&self, text: &str) -> String {
         self.by_name
             .iter()
-            .fold(text.to_owned(), |text, (name, file)| text.replace(&format!("{name}:"), &format!("{file}:")))
+            .fold(text.to_owned(), |text, (name, file)| {
+                text.replace(&format!("{name}:"), &format!("{file}:"))
+            })
     }
 }
 
 /// The message with the places in the library left out.
 fn without_library(message: &str, is_library: &impl Fn(&str) -> bool) -> String {
-    let starts = message.match_indices("[string \"").map(|(at, _)| &message[at..]);
-    let places = starts.filter_map(position).filter(|position| is_library(position.name));
-    places.fold(message.to_owned(), |text, position| text.replace(position.text, "(library)"))
+    let starts = message
+        .match_indices("[string \"")
+        .map(|(at, _)| &message[at..]);
+    let places = starts
+        .filter_map(position)
+        .filter(|position| is_library(position.name));
+    places.fold(message.to_owned(), |text, position| {
+        text.replace(position.text, "(library)")
+    })
 }
 
 /// Form in which Lua shows a chunk name: it shortens long ones.
@@ -72,7 +89,10 @@ fn shown(chunk_name: &str) -> String {
     if line.len() == chunk_name.len() && line.len() <= room {
         return format!("[string \"{line}\"]");
     }
-    let end = (0..=room.min(line.len())).rev().find(|&end| line.is_char_boundary(end)).unwrap_or_default();
+    let end = (0..=room.min(line.len()))
+        .rev()
+        .find(|&end| line.is_char_boundary(end))
+        .unwrap_or_default();
     format!("[string \"{}...\"]", &line[..end])
 }
 
@@ -91,8 +111,14 @@ fn position(line: &str) -> Option<Position<'_>> {
         Some(rest) => (line.find("\"]:")? + 2, rest.split("\"]:").next()?),
         None => (line.find(':')?, line.split(':').next()?),
     };
-    let digits = line[name_end + 1..].bytes().take_while(u8::is_ascii_digit).count();
-    (digits > 0).then(|| Position { text: &line[..name_end + 1 + digits], name })
+    let digits = line[name_end + 1..]
+        .bytes()
+        .take_while(u8::is_ascii_digit)
+        .count();
+    (digits > 0).then(|| Position {
+        text: &line[..name_end + 1 + digits],
+        name,
+    })
 }
 
 /// The message that needs a place: one without any, or with the line alone, as native functions have it, or with a line of the library; it comes
@@ -104,7 +130,9 @@ fn beginning<'a>(message: &'a str, is_library: &impl Fn(&str) -> bool) -> Option
     }
     match position(message) {
         None => Some(message),
-        Some(position) if is_library(position.name) => message[position.text.len()..].strip_prefix(": "),
+        Some(position) if is_library(position.name) => {
+            message[position.text.len()..].strip_prefix(": ")
+        }
         Some(_) => None,
     }
 }
@@ -121,8 +149,14 @@ mod tests {
 
     #[test]
     fn positions_are_those_of_files() {
-        assert_eq!(located("[string \"/Script\"]:3: broken"), "scenes/arm.lua:3: broken");
-        assert_eq!(located("[string \"/Other\"]:3: broken"), "[string \"/Other\"]:3: broken");
+        assert_eq!(
+            located("[string \"/Script\"]:3: broken"),
+            "scenes/arm.lua:3: broken"
+        );
+        assert_eq!(
+            located("[string \"/Other\"]:3: broken"),
+            "[string \"/Other\"]:3: broken"
+        );
         assert_eq!(located("without a place"), "without a place");
     }
 
@@ -136,16 +170,25 @@ mod tests {
             "scenes/arm.lua:12: in sim._getObject: object does not exist.\nstack traceback:\n\t[C]: in function 'sim._getObject'\n\t\
              (library): in function 'sim.getObject'\n\tscenes/arm.lua:12: in function 'f'"
         );
-        assert!(located(&format!("no module\n{calls}")).starts_with("scenes/arm.lua:12: no module\n"));
+        assert!(
+            located(&format!("no module\n{calls}")).starts_with("scenes/arm.lua:12: no module\n")
+        );
         let error = format!("[string \"base\"]:101: no module\n{calls}");
-        assert!(located(&error).starts_with("scenes/arm.lua:12: no module\n"), "{}", located(&error));
+        assert!(
+            located(&error).starts_with("scenes/arm.lua:12: no module\n"),
+            "{}",
+            located(&error)
+        );
     }
 
     #[test]
     fn a_hint_stands_below_the_message() {
         let error = "12: no such object.\nstack traceback:\n\t[C]: in ?";
         let located = ScriptFiles::default().locate(error, "did you mean it?", |_| false);
-        assert_eq!(located, "12: no such object.\ndid you mean it?\nstack traceback:\n\t[C]: in ?");
+        assert_eq!(
+            located,
+            "12: no such object.\ndid you mean it?\nstack traceback:\n\t[C]: in ?"
+        );
     }
 
     #[test]
@@ -153,6 +196,9 @@ mod tests {
         assert_eq!(shown("/Script"), "[string \"/Script\"]");
         assert_eq!(shown("@a/b.lua"), "a/b.lua");
         assert_eq!(shown("first\nsecond"), "[string \"first...\"]");
-        assert_eq!(shown(&"x".repeat(80)), format!("[string \"{}...\"]", "x".repeat(45)));
+        assert_eq!(
+            shown(&"x".repeat(80)),
+            format!("[string \"{}...\"]", "x".repeat(45))
+        );
     }
 }

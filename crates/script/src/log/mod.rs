@@ -73,19 +73,29 @@ impl Log {
 
     /// Whether this is the first such line; it is remembered.
     pub(super) fn is_first(&self, origin: &str, level: i64, text: &str) -> bool {
-        self.logged_once.borrow_mut().insert((origin.to_owned(), level, text.to_owned()))
+        self.logged_once
+            .borrow_mut()
+            .insert((origin.to_owned(), level, text.to_owned()))
     }
 
     /// Shows a line, unless the verbosity is below its level; `script` is the handle of the script it comes from.
     pub(super) fn show(&self, line: &LogLine<'_>, script: Option<i64>) {
         if verbosity::plain(line.level) <= self.verbosity() {
-            self.recent.borrow_mut().push(|| RecentLine::of_log(line, script));
+            self.recent
+                .borrow_mut()
+                .push(|| RecentLine::of_log(line, script));
             self.console.borrow_mut().log(line);
         }
     }
 
     /// One call of a script's `print` at that simulated time, seconds. `origin` names the script if that is asked for.
-    pub(crate) fn print(&self, line: &[u8], time: f64, script: i64, origin: impl FnOnce() -> String) {
+    pub(crate) fn print(
+        &self,
+        line: &[u8],
+        time: f64,
+        script: i64,
+        origin: impl FnOnce() -> String,
+    ) {
         self.recent.borrow_mut().push(|| RecentLine {
             time,
             level: None,

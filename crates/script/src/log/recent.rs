@@ -28,13 +28,20 @@ pub struct RecentLine {
 impl RecentLine {
     /// The name of its level as on the command line, or `print`.
     pub fn level_name(&self) -> &'static str {
-        let named = |level: i64| verbosity::NAMES.iter().find(|(_, number)| *number == verbosity::plain(level));
-        self.level.map_or("print", |level| named(level).map_or("infos", |(name, _)| name))
+        let named = |level: i64| {
+            verbosity::NAMES
+                .iter()
+                .find(|(_, number)| *number == verbosity::plain(level))
+        };
+        self.level.map_or("print", |level| {
+            named(level).map_or("infos", |(name, _)| name)
+        })
     }
 
     /// Whether a script raised an error that nobody caught.
     pub fn is_script_error(&self) -> bool {
-        self.level.is_some_and(|level| verbosity::plain(level) == verbosity::SCRIPT_ERRORS)
+        self.level
+            .is_some_and(|level| verbosity::plain(level) == verbosity::SCRIPT_ERRORS)
     }
 }
 
@@ -73,8 +80,12 @@ impl Recent {
 
     /// The lines after the first `seen` of all, which become all.
     pub(super) fn since(&self, seen: &mut u64) -> Vec<RecentLine> {
-        let Some(lines) = &self.lines else { return Vec::new() };
-        let known = usize::try_from(seen.saturating_sub(self.gone)).unwrap_or(usize::MAX).min(lines.len());
+        let Some(lines) = &self.lines else {
+            return Vec::new();
+        };
+        let known = usize::try_from(seen.saturating_sub(self.gone))
+            .unwrap_or(usize::MAX)
+            .min(lines.len());
         *seen = self.gone + lines.len() as u64;
         lines.range(known..).cloned().collect()
     }
@@ -82,7 +93,14 @@ impl Recent {
 
 impl RecentLine {
     pub(super) fn of_log(line: &LogLine<'_>, script: Option<i64>) -> Self {
-        let located = line.located.map(|located| LogLine { text: located, ..*line }.plain_text().into_owned());
+        let located = line.located.map(|located| {
+            LogLine {
+                text: located,
+                ..*line
+            }
+            .plain_text()
+            .into_owned()
+        });
         Self {
             time: line.time,
             level: Some(line.level),

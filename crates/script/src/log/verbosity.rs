@@ -60,5 +60,8 @@ pub fn name(level: i64) -> &'static str {
 
 /// The level with that name, as on the command line.
 pub fn from_name(name: &str) -> Option<i64> {
-    NAMES.iter().find(|(known, _)| *known == name).map(|(_, level)| *level)
+    NAMES
+        .iter()
+        .find(|(known, _)| *known == name)
+        .map(|(_, level)| *level)
 }

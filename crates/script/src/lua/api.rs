@@ -63,16 +63,37 @@ unsafe extern "C-unwind" {
     pub(super) safe fn lua_gethook(stack: Stack<'_>) -> Option<Hook>;
     pub(super) safe fn lua_gethookmask(stack: Stack<'_>) -> c_int;
     pub(super) safe fn lua_gethookcount(stack: Stack<'_>) -> c_int;
-    pub(super) safe fn lua_sethook(stack: Stack<'_>, hook: Option<Hook>, mask: c_int, interval: c_int);
-    safe fn lua_getstack(stack: Stack<'_>, level: c_int, record: &mut MaybeUninit<ffi::lua_Debug>) -> c_int;
+    pub(super) safe fn lua_sethook(
+        stack: Stack<'_>,
+        hook: Option<Hook>,
+        mask: c_int,
+        interval: c_int,
+    );
+    safe fn lua_getstack(
+        stack: Stack<'_>,
+        level: c_int,
+        record: &mut MaybeUninit<ffi::lua_Debug>,
+    ) -> c_int;
     pub(super) safe fn lua_isyieldable(stack: Stack<'_>) -> c_int;
     pub(super) safe fn lua_type(stack: Stack<'_>, slot: Slot) -> c_int;
     pub(super) safe fn lua_iscfunction(stack: Stack<'_>, slot: Slot) -> c_int;
     pub(super) safe fn lua_isinteger(stack: Stack<'_>, slot: Slot) -> c_int;
-    pub(super) safe fn lua_tonumberx(stack: Stack<'_>, slot: Slot, is_number: Option<&mut c_int>) -> f64;
-    pub(super) safe fn lua_tointegerx(stack: Stack<'_>, slot: Slot, is_integer: Option<&mut c_int>) -> i64;
+    pub(super) safe fn lua_tonumberx(
+        stack: Stack<'_>,
+        slot: Slot,
+        is_number: Option<&mut c_int>,
+    ) -> f64;
+    pub(super) safe fn lua_tointegerx(
+        stack: Stack<'_>,
+        slot: Slot,
+        is_integer: Option<&mut c_int>,
+    ) -> i64;
     pub(super) safe fn lua_toboolean(stack: Stack<'_>, slot: Slot) -> c_int;
-    pub(super) safe fn lua_tolstring(stack: Stack<'_>, slot: Slot, length: Option<&mut usize>) -> *const c_char;
+    pub(super) safe fn lua_tolstring(
+        stack: Stack<'_>,
+        slot: Slot,
+        length: Option<&mut usize>,
+    ) -> *const c_char;
     pub(super) safe fn lua_tocfunction(stack: Stack<'_>, slot: Slot) -> Option<ffi::lua_CFunction>;
     pub(super) safe fn lua_topointer(stack: Stack<'_>, slot: Slot) -> *const c_void;
     pub(super) safe fn lua_rawlen(stack: Stack<'_>, slot: Slot) -> u64;
@@ -85,7 +106,12 @@ unsafe extern "C-unwind" {
     pub(super) safe fn lua_pushvalue(room: Room<'_>, slot: Slot);
     pub(super) safe fn lua_pushthread(room: Room<'_>) -> c_int;
     pub(super) safe fn luaL_where(room: Room<'_>, level: c_int);
-    pub(super) safe fn luaL_traceback(room: Room<'_>, of: Stack<'_>, message: Option<&c_char>, level: c_int);
+    pub(super) safe fn luaL_traceback(
+        room: Room<'_>,
+        of: Stack<'_>,
+        message: Option<&c_char>,
+        level: c_int,
+    );
     pub(super) safe fn lua_createtable(room: Room<'_>, array: c_int, fields: c_int);
     pub(super) safe fn lua_getmetatable(room: Room<'_>, slot: Slot) -> c_int;
     pub(super) safe fn lua_getupvalue(room: Room<'_>, slot: Slot, number: c_int) -> *const c_char;
@@ -150,13 +176,21 @@ impl<'a> Stack<'a> {
             return Slot(index);
         }
         let top = lua_gettop(self);
-        Slot(if (-top..0).contains(&index) { top + index + 1 } else { top + 1 })
+        Slot(if (-top..0).contains(&index) {
+            top + index + 1
+        } else {
+            top + 1
+        })
     }
 
     /// The table at `index`.
     pub fn table(self, index: c_int) -> Table {
         let slot = self.slot(index);
-        assert_eq!(Type::from_raw(lua_type(self, slot)), Type::Table, "raw access is for tables");
+        assert_eq!(
+            Type::from_raw(lua_type(self, slot)),
+            Type::Table,
+            "raw access is for tables"
+        );
         Table(slot.0)
     }
 
@@ -219,7 +253,11 @@ impl<'a> Stack<'a> {
 
     /// The items of the table at `index`, converted, when its keys are 1, 2, 3 and so on, and all its values are numbers. Nothing runs
     /// meanwhile that could change it.
-    pub(crate) fn list_of_numbers<T>(self, index: c_int, convert: impl Fn(Scalar) -> T) -> Option<Vec<T>> {
+    pub(crate) fn list_of_numbers<T>(
+        self,
+        index: c_int,
+        convert: impl Fn(Scalar) -> T,
+    ) -> Option<Vec<T>> {
         let table = self.table(index);
         let len = lua_rawlen(self, Slot(table.0)) as usize;
         if len == 0 {
@@ -243,7 +281,10 @@ impl<'a> Stack<'a> {
     /// Pushes `table[key]`, where the table and the key are in slots.
     pub(crate) fn push_entry(self, table: c_int, key: c_int) -> Type {
         let (table, key) = (self.table(table), self.slot(key));
-        assert!(lua_type(self, key) != ffi::LUA_TNONE, "only what is there can be copied");
+        assert!(
+            lua_type(self, key) != ffi::LUA_TNONE,
+            "only what is there can be copied"
+        );
         lua_pushvalue(self.room(), key);
         Type::from_raw(lua_rawget(Top(self), table))
     }
@@ -276,20 +317,29 @@ impl<'a> Stack<'a> {
     /// Pops a table and makes it the metatable of the table or userdata at `index`.
     pub(crate) fn set_metatable(self, index: c_int) {
         self.table(-1);
-        assert!(matches!(self.kind(index), Type::Table | Type::UserData), "other values share their metatable");
+        assert!(
+            matches!(self.kind(index), Type::Table | Type::UserData),
+            "other values share their metatable"
+        );
         lua_setmetatable(Top(self), self.slot(index));
     }
 
     /// Cuts the stack to `top` values.
     pub(crate) fn set_top(self, top: c_int) {
-        assert!((0..=lua_gettop(self)).contains(&top), "a stack is only cut, never stretched");
+        assert!(
+            (0..=lua_gettop(self)).contains(&top),
+            "a stack is only cut, never stretched"
+        );
         lua_settop(self, Occupied(top));
     }
 
     /// Removes `count` values from the top.
     pub fn pop(self, count: c_int) {
         let top = lua_gettop(self);
-        assert!((0..=top).contains(&count), "only what is there can be popped");
+        assert!(
+            (0..=top).contains(&count),
+            "only what is there can be popped"
+        );
         lua_settop(self, Occupied(top - count));
     }
 
@@ -349,7 +399,12 @@ impl<'a> Stack<'a> {
     pub fn entries(self, index: c_int) -> Entries<'a> {
         let table = self.table(index).0;
         lua_pushnil(self.room_for(3));
-        Entries { stack: self, table, key: lua_gettop(self), is_first: true }
+        Entries {
+            stack: self,
+            table,
+            key: lua_gettop(self),
+            is_first: true,
+        }
     }
 }
 

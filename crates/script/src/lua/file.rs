@@ -26,7 +26,11 @@ impl Stack<'_> {
     pub fn lock_file(self, index: c_int, lock: FileLock) -> Option<io::Result<()>> {
         let _room = self.large_room();
         // SAFETY: userdata with that metatable are streams of Lua's io library. There is room for the metatables that are compared.
-        let stream = unsafe { ffi::luaL_testudata(self.raw(), index, c"FILE*".as_ptr()).cast::<Stream>().as_ref() }?;
+        let stream = unsafe {
+            ffi::luaL_testudata(self.raw(), index, c"FILE*".as_ptr())
+                .cast::<Stream>()
+                .as_ref()
+        }?;
         stream.close?;
         Some(apply(File(stream.file?, PhantomData), lock))
     }
@@ -42,7 +46,9 @@ pub(crate) fn report_closed_pipes(stack: Stack<'_>) {
     stack.raw_get_field(-1, "stdout");
     if stack.push_metatable(-1) {
         stack.raw_get_field(-1, "__index");
-        install::<{ guarded::FILE_WRITE }, _>(stack, "write", |_| Next::OriginalThen(report_closed_pipe));
+        install::<{ guarded::FILE_WRITE }, _>(stack, "write", |_| {
+            Next::OriginalThen(report_closed_pipe)
+        });
         stack.pop(2);
     }
     stack.pop(2);
@@ -74,5 +80,8 @@ fn apply(file: File<'_>, lock: FileLock) -> io::Result<()> {
 
 #[cfg(not(unix))]
 fn apply(_: File<'_>, _: FileLock) -> io::Result<()> {
-    Err(io::Error::new(io::ErrorKind::Unsupported, "not implemented in Swanilda on this system: lfs.lock"))
+    Err(io::Error::new(
+        io::ErrorKind::Unsupported,
+        "not implemented in Swanilda on this system: lfs.lock",
+    ))
 }

@@ -44,10 +44,13 @@ impl Stack<'_> {
         let _room = self.room();
         // SAFETY: there is room for one value. Pushes a block of that size, which Lua aligns for every type; it is written before anybody sees it.
         unsafe {
-            let block = ffi::lua_newuserdatauv(self.raw(), size_of::<LuaObject>(), 0).cast::<LuaObject>();
+            let block =
+                ffi::lua_newuserdatauv(self.raw(), size_of::<LuaObject>(), 0).cast::<LuaObject>();
             block.write(object);
         }
-        if self.push_registry(CLASSES) == Type::Table && self.raw_get_index(-1, object.class) == Type::Table {
+        if self.push_registry(CLASSES) == Type::Table
+            && self.raw_get_index(-1, object.class) == Type::Table
+        {
             self.remove(-2);
             self.set_metatable(-2);
         }
@@ -70,7 +73,11 @@ impl Stack<'_> {
         };
         self.pop(2);
         // SAFETY: a userdata of that size, which stays on the stack while it is copied; every pattern of bits is an object.
-        let object = unsafe { ffi::lua_touserdata(self.raw(), index).cast::<LuaObject>().read() };
+        let object = unsafe {
+            ffi::lua_touserdata(self.raw(), index)
+                .cast::<LuaObject>()
+                .read()
+        };
         class.filter(|&class| class == object.class).map(|_| object)
     }
 }

@@ -23,7 +23,10 @@ pub(super) const LARGEST: usize = STEP * CLASSES;
 const LARGE: usize = LARGEST + 1;
 /// Blocks of the pool begin so far behind a multiple of `STEP`. Lua itself requires an alignment of 8.
 const OFFSET: usize = 8;
-const _: () = assert!(ffi::SYS_MIN_ALIGN == STEP, "blocks of mlua's allocator must be told apart by their alignment");
+const _: () = assert!(
+    ffi::SYS_MIN_ALIGN == STEP,
+    "blocks of mlua's allocator must be told apart by their alignment"
+);
 
 /// Smallest and largest chunk, in lines of `STEP` bytes. A chunk has a quarter of what there is already: most scripts are small, and there may be thousands.
 const MIN_CHUNK: usize = (4 << 10) / STEP;
@@ -34,7 +37,10 @@ struct Free(Option<NonNull<Free>>);
 
 /// What chunks are made of, for its size and alignment.
 type Line = u128;
-const _: () = assert!(size_of::<Line>() == STEP && align_of::<Line>() == STEP, "blocks of the pool are aligned by it");
+const _: () = assert!(
+    size_of::<Line>() == STEP && align_of::<Line>() == STEP,
+    "blocks of the pool are aligned by it"
+);
 
 /// An allocator as Lua calls it, with the data it is called with.
 #[derive(Clone, Copy)]
@@ -64,7 +70,14 @@ impl Pool {
     /// # Safety
     /// `base` aborts the process rather than fail, aligns its blocks to `STEP`, and can be called as long as the pool is there.
     pub(super) unsafe fn new(budget: Rc<Budget>, base: Allocator) -> Self {
-        Self { budget, base, free: [None; CLASSES], chunks: Vec::new(), rest: NonNull::dangling(), rest_len: 0 }
+        Self {
+            budget,
+            base,
+            free: [None; CLASSES],
+            chunks: Vec::new(),
+            rest: NonNull::dangling(),
+            rest_len: 0,
+        }
     }
 
     /// The allocator that Lua calls: makes a block, resizes or frees one. Returns null for size 0.
@@ -72,9 +85,19 @@ impl Pool {
     /// # Safety
     /// A block is from this function, or from `base` before; it has `old_size` bytes, and is not used any more.
     #[inline]
-    pub(super) unsafe fn allocate(&mut self, old: *mut c_void, old_size: usize, size: usize) -> *mut c_void {
-        let Some(start) = NonNull::new(old.cast()) else { return self.new_block(size) };
-        let block = Block { start, size: old_size };
+    pub(super) unsafe fn allocate(
+        &mut self,
+        old: *mut c_void,
+        old_size: usize,
+        size: usize,
+    ) -> *mut c_void {
+        let Some(start) = NonNull::new(old.cast()) else {
+            return self.new_block(size);
+        };
+        let block = Block {
+            start,
+            size: old_size,
+        };
         if size == 0 {
             self.free_block(block);
             return null_mut();
@@ -84,12 +107,19 @@ impl Pool {
 
     fn resize(&mut self, block: Block, size: usize) -> *mut c_void {
         match size {
-            1..=LARGEST if block.is_pooled() && class_of(size) == class_of(block.size) => block.start.as_ptr().cast(),
+            1..=LARGEST if block.is_pooled() && class_of(size) == class_of(block.size) => {
+                block.start.as_ptr().cast()
+            }
             LARGE.. if !block.is_pooled() => self.call_base(Some(block), size),
             _ => {
                 let new = self.new_block(size);
                 // SAFETY: both blocks have the smaller of the sizes at least, and the new one is apart from the old one.
-                unsafe { block.start.as_ptr().copy_to_nonoverlapping(new.cast(), block.size.min(size)) };
+                unsafe {
+                    block
+                        .start
+                        .as_ptr()
+                        .copy_to_nonoverlapping(new.cast(), block.size.min(size))
+                };
                 self.free_block(block);
                 new
             }
@@ -116,7 +146,9 @@ impl Pool {
 
     /// Resizes one of its blocks, frees it, or makes one.
     fn call_base(&self, block: Option<Block>, size: usize) -> *mut c_void {
-        let (old, old_size) = block.map_or((null_mut(), 0), |block| (block.start.as_ptr().cast(), block.size));
+        let (old, old_size) = block.map_or((null_mut(), 0), |block| {
+            (block.start.as_ptr().cast(), block.size)
+        });
         // SAFETY: `base` can be called, and the block is one of its own.
         unsafe { (self.base.function)(self.base.data, old, old_size, size) }
     }
@@ -174,11 +206,18 @@ impl Block {
 }
 
 fn advanced(block: NonNull<u8>, bytes: usize) -> NonNull<u8> {
-    block.map_addr(|address| address.checked_add(bytes).expect("a chunk does not end at the end of memory"))
+    block.map_addr(|address| {
+        address
+            .checked_add(bytes)
+            .expect("a chunk does not end at the end of memory")
+    })
 }
 
 fn class_of(size: usize) -> usize {
-    debug_assert!((1..=LARGEST).contains(&size), "only small blocks are pooled");
+    debug_assert!(
+        (1..=LARGEST).contains(&size),
+        "only small blocks are pooled"
+    );
     (size - 1) / STEP
 }
 
@@ -192,8 +231,14 @@ mod tests {
     use super::{Allocator, LARGEST, Pool};
 
     /// An allocator as mlua has one: it needs the right size of every block it resizes or frees.
-    unsafe extern "C" fn base(_: *mut c_void, block: *mut c_void, old_size: usize, size: usize) -> *mut c_void {
-        let layout = |size| Layout::from_size_align(size, 16).expect("the sizes of the tests are small");
+    unsafe extern "C" fn base(
+        _: *mut c_void,
+        block: *mut c_void,
+        old_size: usize,
+        size: usize,
+    ) -> *mut c_void {
+        let layout =
+            |size| Layout::from_size_align(size, 16).expect("the sizes of the tests are small");
         // SAFETY: the tests say the size of every block.
         unsafe {
             match (block.is_null(), size) {
@@ -210,7 +255,15 @@ mod tests {
 
     fn pool() -> Pool {
         // SAFETY: `base` aligns to 16.
-        unsafe { Pool::new(Rc::default(), Allocator { function: base, data: null_mut() }) }
+        unsafe {
+            Pool::new(
+                Rc::default(),
+                Allocator {
+                    function: base,
+                    data: null_mut(),
+                },
+            )
+        }
     }
 
     /// Changes the size of a block as Lua does; the common part keeps its bytes.
@@ -230,7 +283,21 @@ mod tests {
         (0..size).for_each(|i| unsafe { block.cast::<u8>().add(i).write(i as u8) });
     }
 
-    const SIZES: [usize; 13] = [1, 16, 17, LARGEST, LARGEST + 1, 70_000, 1 << 20, 600, 513, LARGEST, 40, 33, 3];
+    const SIZES: [usize; 13] = [
+        1,
+        16,
+        17,
+        LARGEST,
+        LARGEST + 1,
+        70_000,
+        1 << 20,
+        600,
+        513,
+        LARGEST,
+        40,
+        33,
+        3,
+    ];
 
     #[test]
     fn blocks_keep_their_bytes_when_they_grow_and_shrink() {
@@ -254,14 +321,22 @@ mod tests {
             fill(old, old_size);
             let new = resize(&mut pool, old, old_size, size);
             assert!(resize(&mut pool, new, size, 0).is_null());
-            assert!(pool.free.iter().flatten().all(|free| free.as_ptr().addr() % 16 == 8), "{old_size} {size}");
+            assert!(
+                pool.free
+                    .iter()
+                    .flatten()
+                    .all(|free| free.as_ptr().addr() % 16 == 8),
+                "{old_size} {size}"
+            );
         }
     }
 
     #[test]
     fn blocks_are_apart_and_used_again() {
         let mut pool = pool();
-        let blocks: Vec<_> = (1..=LARGEST).map(|size| (resize(&mut pool, null_mut(), 0, size), size)).collect();
+        let blocks: Vec<_> = (1..=LARGEST)
+            .map(|size| (resize(&mut pool, null_mut(), 0, size), size))
+            .collect();
         for &(block, size) in &blocks {
             // SAFETY: the block has that size and is ours.
             unsafe { block.cast::<u8>().write_bytes(size as u8, size) };

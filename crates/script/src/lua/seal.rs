@@ -51,7 +51,9 @@ impl Stack<'_> {
     pub(super) fn to_mlua<T: FromLua>(self, index: c_int) -> mlua::Result<T> {
         self.push_value(index);
         self.set_named_registry(EXCHANGE);
-        let value = catch_unwind(AssertUnwindSafe(|| self.lua().named_registry_value(EXCHANGE)));
+        let value = catch_unwind(AssertUnwindSafe(|| {
+            self.lua().named_registry_value(EXCHANGE)
+        }));
         self.push_nil();
         self.set_named_registry(EXCHANGE);
         value.unwrap_or_else(|panic| resume_unwind(panic))
@@ -60,11 +62,21 @@ impl Stack<'_> {
 
 /// The line of the call, the function and the reason, as all functions of the simulator say it.
 fn text_of(error: &Error, budget: &Budget) -> String {
-    let Error::CallbackError { traceback, .. } = error else { return reason(error) };
-    let mut entries = traceback.lines().filter_map(|line| line.trim_start().split_once(": in "));
+    let Error::CallbackError { traceback, .. } = error else {
+        return reason(error);
+    };
+    let mut entries = traceback
+        .lines()
+        .filter_map(|line| line.trim_start().split_once(": in "));
     // Where memory may be refused, mlua begins with the caller.
-    let function = if budget.is_limited() { None } else { entries.next() };
-    let line: Option<i64> = entries.next().and_then(|(place, _)| place.rsplit_once(':')?.1.parse().ok());
+    let function = if budget.is_limited() {
+        None
+    } else {
+        entries.next()
+    };
+    let line: Option<i64> = entries
+        .next()
+        .and_then(|(place, _)| place.rsplit_once(':')?.1.parse().ok());
     let line = line.unwrap_or(-1);
     match function.and_then(|(_, name)| name.split('\'').nth(1)) {
         Some(name) => format!("{line}: in {name}: {}", reason(error)),
@@ -77,7 +89,11 @@ fn reason(error: &Error) -> String {
     match error {
         Error::CallbackError { cause, .. } => reason(cause),
         // The error of a Lua function comes with its traceback.
-        Error::RuntimeError(text) => text.split("\nstack traceback:").next().unwrap_or_default().to_owned(),
+        Error::RuntimeError(text) => text
+            .split("\nstack traceback:")
+            .next()
+            .unwrap_or_default()
+            .to_owned(),
         other => other.to_string(),
     }
 }

@@ -37,7 +37,8 @@ impl State {
         let lua = unsafe { Lua::unsafe_new_with(StdLib::NONE, LuaOptions::default()) };
         if env.budget.is_limited() {
             // From here on mlua expects memory to be refused, and allocates in protected calls only. The limit itself is the budget's.
-            lua.set_memory_limit(usize::MAX).expect("the state has the allocator of mlua");
+            lua.set_memory_limit(usize::MAX)
+                .expect("the state has the allocator of mlua");
         }
         let main = main_coroutine(&lua);
         env.budget.resize(0, lua.used_memory());
@@ -79,7 +80,10 @@ fn install_pool(main: NonNull<ffi::lua_State>, budget: Rc<Budget>) -> NonNull<Po
     // what came from it. The pool itself is leaked: `Foundation` frees it when the state is closed.
     unsafe {
         let function = ffi::lua_getallocf(main.as_ptr(), &raw mut data);
-        let pool = NonNull::from(Box::leak(Box::new(Pool::new(budget, Allocator { function, data }))));
+        let pool = NonNull::from(Box::leak(Box::new(Pool::new(
+            budget,
+            Allocator { function, data },
+        ))));
         ffi::lua_setallocf(main.as_ptr(), allocate, pool.as_ptr().cast());
         pool
     }
@@ -92,12 +96,16 @@ fn set_owner(main: NonNull<ffi::lua_State>, env: &Rc<Env>) {
     // SAFETY: mlua leaves the extra space alone in this version of Lua. The traversal of the registry changes nothing in it and needs
     // two slots, which an empty stack has.
     unsafe {
-        ffi::lua_getextraspace(main).cast::<*const Env>().write(owner);
+        ffi::lua_getextraspace(main)
+            .cast::<*const Env>()
+            .write(owner);
         ffi::lua_pushnil(main);
         while ffi::lua_next(main, ffi::LUA_REGISTRYINDEX) != 0 {
             let coroutine = ffi::lua_tothread(main, -1);
             if !coroutine.is_null() {
-                ffi::lua_getextraspace(coroutine).cast::<*const Env>().write(owner);
+                ffi::lua_getextraspace(coroutine)
+                    .cast::<*const Env>()
+                    .write(owner);
             }
             ffi::lua_settop(main, -2);
         }
@@ -109,7 +117,12 @@ fn set_owner(main: NonNull<ffi::lua_State>, env: &Rc<Env>) {
 const MAX_BLOCK: usize = 2 << 30;
 
 /// Lua's allocator. Out of memory ends the process, as it does everywhere in Rust.
-unsafe extern "C" fn allocate(pool: *mut c_void, old: *mut c_void, old_size: usize, size: usize) -> *mut c_void {
+unsafe extern "C" fn allocate(
+    pool: *mut c_void,
+    old: *mut c_void,
+    old_size: usize,
+    size: usize,
+) -> *mut c_void {
     // SAFETY: `install_pool` gave a pool that outlives the state, which is used from one thread; Lua passes the size it requested.
     unsafe {
         let pool = &mut *pool.cast::<Pool>();

@@ -12,8 +12,15 @@ use scene::object::script_object::ScriptType;
 /// Calls `test` with a state that has the standard libraries only.
 pub(super) fn with_state<T>(test: impl FnOnce(&State) -> T) -> T {
     let registry = Registry::without_functions();
-    let sim = Sim::new(Options::default(), registry, Box::new(Silent), Languages::default());
-    let script = sim.scripts.add_detached(ScriptType::Sandbox, Detached::default());
+    let sim = Sim::new(
+        Options::default(),
+        registry,
+        Box::new(Silent),
+        Languages::default(),
+    );
+    let script = sim
+        .scripts
+        .add_detached(ScriptType::Sandbox, Detached::default());
     test(&State::new(Rc::new(Env::new(&sim, &script))))
 }
 
@@ -48,7 +55,10 @@ fn entries_are_all_there_whatever_is_left_on_the_stack() {
         stack.push_numbers(&[1.5, 2.5, 3.5]);
         let (mut entries, mut sum) = (stack.entries(1), 0.0);
         while entries.advance() {
-            sum += [entries.key(), entries.value()].map(|at| stack.number(at).unwrap_or_default()).iter().sum::<f64>();
+            sum += [entries.key(), entries.value()]
+                .map(|at| stack.number(at).unwrap_or_default())
+                .iter()
+                .sum::<f64>();
             stack.push_bytes(b"more");
         }
         assert_eq!((sum, stack.top()), (13.5, 1));
@@ -59,7 +69,9 @@ fn entries_are_all_there_whatever_is_left_on_the_stack() {
 fn a_mistake_of_ours_is_a_panic() {
     with_state(|state| {
         let stack = state.stack();
-        let panics = |mistake: &dyn Fn(Stack<'_>)| catch_unwind(AssertUnwindSafe(|| mistake(stack))).is_err();
+        let panics = |mistake: &dyn Fn(Stack<'_>)| {
+            catch_unwind(AssertUnwindSafe(|| mistake(stack))).is_err()
+        };
         stack.push_int(1);
         let with_one_value: [&dyn Fn(Stack<'_>); 8] = [
             &|stack| stack.pop(2),
@@ -74,7 +86,9 @@ fn a_mistake_of_ours_is_a_panic() {
         assert!(with_one_value.iter().all(|mistake| panics(mistake)));
         stack.pop(1);
         assert!(panics(&|stack| stack.set_registry(c"none")));
-        assert!(panics(&|stack| stack.release_function(stack.keep_function())));
+        assert!(panics(
+            &|stack| stack.release_function(stack.keep_function())
+        ));
         assert_eq!(stack.top(), 0);
     });
 }
@@ -82,10 +96,20 @@ fn a_mistake_of_ours_is_a_panic() {
 #[test]
 fn a_panic_of_a_callback_is_an_error_that_scripts_can_catch() {
     with_state(|state| {
-        let broken = |_: Stack<'_>, number| if number == 7 { panic!("out of order") } else { Ok(0) };
+        let broken = |_: Stack<'_>, number| {
+            if number == 7 {
+                panic!("out of order")
+            } else {
+                Ok(0)
+            }
+        };
         push_callback(state.stack(), broken, 7);
         state.stack().set_global("broken");
-        let text: String = state.lua().load("return select(2, pcall(broken, 1, 2))").eval().expect("runs");
+        let text: String = state
+            .lua()
+            .load("return select(2, pcall(broken, 1, 2))")
+            .eval()
+            .expect("runs");
         assert!(text.ends_with("out of order"), "{text}");
     });
 }

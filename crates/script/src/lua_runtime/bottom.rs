@@ -24,7 +24,11 @@ pub(super) struct Bottom {
 
 impl Default for Bottom {
     fn default() -> Self {
-        Self { fixed: Cell::new(0), names: Cell::new(0), argument: ReusedArgument::at(GLOBALS + 1) }
+        Self {
+            fixed: Cell::new(0),
+            names: Cell::new(0),
+            argument: ReusedArgument::at(GLOBALS + 1),
+        }
     }
 }
 
@@ -58,7 +62,8 @@ impl Bottom {
 
     fn slot_of_name(&self, stack: Stack<'_>, call: SysCall) -> c_int {
         let names = self.names.get();
-        let slot = GLOBALS + self.argument.slots() + 1 + (names & (call.bit() - 1)).count_ones() as c_int;
+        let slot =
+            GLOBALS + self.argument.slots() + 1 + (names & (call.bit() - 1)).count_ones() as c_int;
         if names & call.bit() == 0 {
             stack.push_bytes(call.name().as_bytes());
             stack.insert(slot);

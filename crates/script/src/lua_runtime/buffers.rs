@@ -3,7 +3,9 @@
 use std::ffi::c_int;
 
 use super::stand_ins::go_on;
-use crate::binding::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE, is_buffer, push_buffer};
+use crate::binding::data::{
+    BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE, is_buffer, push_buffer,
+};
 use crate::lua::{Outcome, Stack, Type, accept_buffers, push_plain};
 
 /// Makes the metatable of all buffers and the functions for them, and lets Lua's functions take them for strings.
@@ -30,7 +32,11 @@ pub(super) fn install(stack: Stack<'_>) {
 }
 
 /// Sets a field of the table on top.
-fn set_field(stack: Stack<'_>, name: &str, function: impl Fn(Stack<'_>) -> Outcome + Copy + 'static) {
+fn set_field(
+    stack: Stack<'_>,
+    name: &str,
+    function: impl Fn(Stack<'_>) -> Outcome + Copy + 'static,
+) {
     push_plain(stack, function);
     stack.raw_set_field(-2, name);
 }
@@ -64,7 +70,10 @@ fn to_buffer(stack: Stack<'_>) -> Outcome {
 fn length(stack: Stack<'_>) -> Outcome {
     unwrap(stack, 1);
     if stack.kind(1) != Type::String {
-        return Outcome::Raise(format!("{}attempt to get length of what is no string", stack.place_of_call()));
+        return Outcome::Raise(format!(
+            "{}attempt to get length of what is no string",
+            stack.place_of_call()
+        ));
     }
     stack.push_int(stack.raw_len(1) as i64);
     Outcome::Results(1)
@@ -79,7 +88,10 @@ fn are_equal(stack: Stack<'_>) -> Outcome {
 fn concatenate(stack: Stack<'_>) -> Outcome {
     unwrap_two(stack);
     let (Some(first), Some(second)) = (stack.text(1), stack.text(2)) else {
-        return Outcome::Raise(format!("{}attempt to concatenate what is no string", stack.place_of_call()));
+        return Outcome::Raise(format!(
+            "{}attempt to concatenate what is no string",
+            stack.place_of_call()
+        ));
     };
     push_buffer(stack, &[first, second].concat());
     Outcome::Results(1)

@@ -13,13 +13,17 @@ pub struct Embedded {
 
 impl Embedded {
     pub(crate) fn new(source: &'static str) -> Self {
-        Self { source, bytecode: OnceLock::new() }
+        Self {
+            source,
+            bytecode: OnceLock::new(),
+        }
     }
 
     /// Compiled once per process. Error positions read `[string "name"]` as in scripts.
     pub(crate) fn bytecode(&self, name: &str) -> &Bytecode {
         self.bytecode.get_or_init(|| {
-            Bytecode::compile(self.source.as_bytes(), name).expect("a test compiles every embedded file")
+            Bytecode::compile(self.source.as_bytes(), name)
+                .expect("a test compiles every embedded file")
         })
     }
 }

@@ -42,7 +42,15 @@ const MODULES: &[&str] = &[
     "simROS2",
 ];
 
-const CLASSES: &[&str] = &["Matrix", "Vector", "Vector3", "Vector4", "Vector7", "Matrix3x3", "Matrix4x4"];
+const CLASSES: &[&str] = &[
+    "Matrix",
+    "Vector",
+    "Vector3",
+    "Vector4",
+    "Vector7",
+    "Matrix3x3",
+    "Matrix4x4",
+];
 
 /// The file with what they do.
 const FILE: &str = "swanilda.implicit";
@@ -66,7 +74,9 @@ pub(super) fn push_proxies(stack: Stack<'_>) {
 
 /// Whether a global of that name, which is missing, may be made by [`define`].
 pub(super) fn is_candidate(name: &[u8]) -> bool {
-    [b"sim", b"Mat", b"Vec"].iter().any(|start| name.starts_with(*start))
+    [b"sim", b"Mat", b"Vec"]
+        .iter()
+        .any(|start| name.starts_with(*start))
 }
 
 /// Makes the global of that name, and pushes it; false, and nothing pushed, for other names.
@@ -137,10 +147,13 @@ pub(super) fn pairs_globals(stack: Stack<'_>) -> Outcome {
 /// `remove(name)`: whether `name` is that of a module with a proxy. Then they go.
 pub(super) fn remove_proxies(stack: Stack<'_>) -> Outcome {
     let is_one = |name: &[u8]| MODULES.iter().any(|module| module.as_bytes() == name);
-    let is_one = stack.with_bytes(1, is_one) == Some(true) && stack.push_registry(PROXY) == Type::Table;
+    let is_one =
+        stack.with_bytes(1, is_one) == Some(true) && stack.push_registry(PROXY) == Type::Table;
     if is_one {
         let metatable = stack.top();
-        MODULES.iter().for_each(|name| remove_proxy(stack, name, metatable));
+        MODULES
+            .iter()
+            .for_each(|name| remove_proxy(stack, name, metatable));
         stack.push_nil();
         stack.set_registry(PROXY);
     }

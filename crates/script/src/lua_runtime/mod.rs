@@ -24,7 +24,8 @@ use super::coverage::LineCounts;
 use super::lifecycle::env::{Env, Hook};
 use super::lua::{LuaError, MULTIPLE, Stack, State, Type};
 use super::runtime::{
-    CallError, CallbackResult, Callee, FunctionRef, Integers, Interpreter, Language, Runtime, ScriptError, SourceText,
+    CallError, CallbackResult, Callee, FunctionRef, Integers, Interpreter, Language, Runtime,
+    ScriptError, SourceText,
 };
 use super::sim::Sim;
 use bottom::Bottom;
@@ -36,8 +37,10 @@ use user_modules::UserModule;
 const CALL: &[u8] = b"local module, member = ... return require(module)[member](select(3, ...))";
 
 /// Errors of Lua for code that yields where it cannot.
-const YIELD_ERRORS: [&str; 2] =
-    ["attempt to yield across a C-call boundary", "attempt to yield from outside a coroutine"];
+const YIELD_ERRORS: [&str; 2] = [
+    "attempt to yield across a C-call boundary",
+    "attempt to yield from outside a coroutine",
+];
 
 /// The language Lua.
 #[derive(Clone)]
@@ -48,13 +51,19 @@ pub struct LuaLanguage {
 impl LuaLanguage {
     /// With modules that the embedding program has written.
     pub fn new(user_modules: Vec<UserModule>) -> Self {
-        Self { user_modules: user_modules.into() }
+        Self {
+            user_modules: user_modules.into(),
+        }
     }
 
     /// An interpreter that is a part of another one.
     pub(crate) fn interpreter(&self, env: &Rc<Env>) -> LuaInterpreter {
         let (state, user_modules) = (State::new(Rc::clone(env)), Rc::clone(&self.user_modules));
-        LuaInterpreter { state, bottom: Bottom::default(), user_modules }
+        LuaInterpreter {
+            state,
+            bottom: Bottom::default(),
+            user_modules,
+        }
     }
 }
 
@@ -89,7 +98,11 @@ impl LuaInterpreter {
     }
 
     fn sim(&self) -> Result<Rc<Sim>, ScriptError> {
-        self.stack().owner().sim.upgrade().ok_or_else(|| ScriptError::new("the simulator is gone."))
+        self.stack()
+            .owner()
+            .sim
+            .upgrade()
+            .ok_or_else(|| ScriptError::new("the simulator is gone."))
     }
 
     /// Runs `work` on the stack, which is then as high as before.
@@ -104,7 +117,11 @@ impl LuaInterpreter {
 
 impl Interpreter for LuaInterpreter {
     fn start(&self) -> Result<(), ScriptError> {
-        Ok(startup::fill(&self.sim()?, &self.state, &self.user_modules)?)
+        Ok(startup::fill(
+            &self.sim()?,
+            &self.state,
+            &self.user_modules,
+        )?)
     }
 
     fn load(&self, source: &SourceText<'_>) -> Result<(), ScriptError> {
@@ -141,7 +158,11 @@ impl Interpreter for LuaInterpreter {
         })
     }
 
-    fn call_with_integers(&self, call: SysCall, table: Integers<'_>) -> Result<CallbackResult, ScriptError> {
+    fn call_with_integers(
+        &self,
+        call: SysCall,
+        table: Integers<'_>,
+    ) -> Result<CallbackResult, ScriptError> {
         let stack = self.stack();
         let Some(kind) = self.bottom.push_function(stack, call) else {
             return self.call_callback(call, &[table.to_data()]);
@@ -197,7 +218,12 @@ impl Interpreter for LuaInterpreter {
         })
     }
 
-    fn call_library(&self, module: &str, function: &str, args: &[Data]) -> Result<Vec<Data>, ScriptError> {
+    fn call_library(
+        &self,
+        module: &str,
+        function: &str,
+        args: &[Data],
+    ) -> Result<Vec<Data>, ScriptError> {
         self.on_stack(|stack| {
             let base = stack.top();
             stack.load_text(CALL, "call")?;
@@ -218,7 +244,9 @@ impl Interpreter for LuaInterpreter {
 
     fn take_line_counts(&self, sim: &Sim) -> LineCounts {
         let coverage = self.state.lua().app_data_ref::<Coverage>();
-        coverage.map(|coverage| coverage.take(sim, self.stack())).unwrap_or_default()
+        coverage
+            .map(|coverage| coverage.take(sim, self.stack()))
+            .unwrap_or_default()
     }
 }
 
@@ -226,7 +254,10 @@ impl From<LuaError> for ScriptError {
     fn from(error: LuaError) -> Self {
         // The original does not log a thread that yields where it cannot.
         let is_silent = YIELD_ERRORS.iter().any(|text| error.text.contains(text));
-        Self { text: error.text, is_silent }
+        Self {
+            text: error.text,
+            is_silent,
+        }
     }
 }
 
@@ -265,7 +296,9 @@ impl Drop for StackGuard<'_> {
 /// Pushes arguments for a call; returns their number.
 fn push_args(stack: Stack<'_>, args: &[Data]) -> Result<i32, LuaError> {
     if !stack.reserve(args.len() + 8) {
-        return Err(LuaError { text: "stack overflow: too many arguments.".into() });
+        return Err(LuaError {
+            text: "stack overflow: too many arguments.".into(),
+        });
     }
     args.iter().for_each(|arg| data::push_data(stack, arg));
     Ok(args.len() as i32)
@@ -309,11 +342,15 @@ fn push_named(stack: Stack<'_>, name: &str) -> Option<i32> {
 fn collect(stack: Stack<'_>, base: i32, arguments: i32) -> Result<Vec<Data>, LuaError> {
     stack.protected_call(arguments, MULTIPLE)?;
     let results = (base + 1..=stack.top()).map(|index| data::read_data(stack, index));
-    results.collect::<Result<_, _>>().map_err(|error| LuaError { text: error.to_string() })
+    results.collect::<Result<_, _>>().map_err(|error| LuaError {
+        text: error.to_string(),
+    })
 }
 
 fn load_expression_or_chunk(stack: Stack<'_>, code: &[u8]) -> Result<(), LuaError> {
     let name = String::from_utf8_lossy(code);
     let expression = [b"return ", code].concat();
-    stack.load_text(&expression, &name).or_else(|_| stack.load_text(code, &name))
+    stack
+        .load_text(&expression, &name)
+        .or_else(|_| stack.load_text(code, &name))
 }

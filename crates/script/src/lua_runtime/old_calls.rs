@@ -28,7 +28,8 @@ const CALLS: &[SysCall] = &[
 
 /// Whether a text is of that kind.
 pub(super) fn are_expected_by(code: &[u8]) -> bool {
-    SIGNS.iter().all(|sign| contains(code, sign)) && !contains(code, SysCall::Init.name().as_bytes())
+    SIGNS.iter().all(|sign| contains(code, sign))
+        && !contains(code, SysCall::Init.name().as_bytes())
 }
 
 fn contains(code: &[u8], part: &[u8]) -> bool {
@@ -54,9 +55,17 @@ mod tests {
 
     #[test]
     fn texts_that_ask_for_the_call() {
-        assert!(are_expected_by(b"if (sim_call_type==sim.syscb_init) then end"));
-        assert!(!are_expected_by(b"if (sim_call_type==sim.syscb_actuation) then end"));
-        assert!(!are_expected_by(b"if sim_call_type==sim.syscb_init then end function sysCall_init() end"));
-        assert!(!are_expected_by(b"function sysCall_msg(m) print(m.data.callType == sim.syscb_init) end"));
+        assert!(are_expected_by(
+            b"if (sim_call_type==sim.syscb_init) then end"
+        ));
+        assert!(!are_expected_by(
+            b"if (sim_call_type==sim.syscb_actuation) then end"
+        ));
+        assert!(!are_expected_by(
+            b"if sim_call_type==sim.syscb_init then end function sysCall_init() end"
+        ));
+        assert!(!are_expected_by(
+            b"function sysCall_msg(m) print(m.data.callType == sim.syscb_init) end"
+        ));
     }
 }

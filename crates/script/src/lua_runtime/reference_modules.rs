@@ -22,14 +22,26 @@ impl ReferenceModule {
         TABLE.lines().map(|line| {
             let mut columns = line.split('\t');
             let mut next = || columns.next().unwrap_or_default();
-            Self { name: next(), kind: next(), purpose: next(), instead: next() }
+            Self {
+                name: next(),
+                kind: next(),
+                purpose: next(),
+                instead: next(),
+            }
         })
     }
 
     /// The error for a script that requires a module that is missing here.
     pub(crate) fn missing(self) -> String {
-        let what = if self.kind == "plugin" { "plugin" } else { "Lua module" };
-        format!("{} is a {what} of CoppeliaSim that Swanilda does not have yet (docs/PLUGINS.md)", self.name)
+        let what = if self.kind == "plugin" {
+            "plugin"
+        } else {
+            "Lua module"
+        };
+        format!(
+            "{} is a {what} of CoppeliaSim that Swanilda does not have yet (docs/PLUGINS.md)",
+            self.name
+        )
     }
 }
 
@@ -42,7 +54,11 @@ mod tests {
         let all: Vec<_> = ReferenceModule::all().collect();
         assert!(all.iter().any(|module| module.name == "simIK"));
         for module in all {
-            assert!(["plugin", "library", "third-party library"].contains(&module.kind), "{}", module.name);
+            assert!(
+                ["plugin", "library", "third-party library"].contains(&module.kind),
+                "{}",
+                module.name
+            );
             assert!(!module.purpose.is_empty(), "{}", module.name);
         }
     }

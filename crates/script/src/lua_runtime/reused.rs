@@ -40,7 +40,11 @@ enum Use {
 impl ReusedArgument {
     /// With its slots from `first` on.
     pub(super) fn at(first: c_int) -> Self {
-        Self { first, slots: Cell::new(0), used: RefCell::default() }
+        Self {
+            first,
+            slots: Cell::new(0),
+            used: RefCell::default(),
+        }
     }
 
     /// How many slots it has.
@@ -52,9 +56,16 @@ impl ReusedArgument {
     pub(super) fn push(&self, stack: Stack<'_>, table: Integers<'_>) -> bool {
         let mut slot = self.used.borrow_mut();
         let function = stack.pointer(-1);
-        let is_same = |used: &&mut Reused| used.function == function && std::ptr::eq(used.names, table.names);
+        let is_same =
+            |used: &&mut Reused| used.function == function && std::ptr::eq(used.names, table.names);
         let Some(used) = slot.as_mut().filter(is_same) else {
-            *slot = Some(Reused { function, names: table.names, state: Use::New, values: Vec::new(), looks: 0 });
+            *slot = Some(Reused {
+                function,
+                names: table.names,
+                state: Use::New,
+                values: Vec::new(),
+                looks: 0,
+            });
             return false;
         };
         if used.state == Use::New || used.looks != stack.owner().looks_at_locals.get() {
@@ -63,8 +74,9 @@ impl ReusedArgument {
         if used.state != Use::Forgets {
             return false;
         }
-        let changed =
-            (self.first + 2..).zip(used.values.iter_mut().zip(table.values)).filter_map(|(name, (old, new))| {
+        let changed = (self.first + 2..)
+            .zip(used.values.iter_mut().zip(table.values))
+            .filter_map(|(name, (old, new))| {
                 let is_changed = std::mem::replace(old, *new) != *new;
                 is_changed.then_some((name, *new))
             });
@@ -76,7 +88,11 @@ impl ReusedArgument {
     fn prepare(&self, used: &mut Reused, stack: Stack<'_>, table: Integers<'_>) {
         used.looks = stack.owner().looks_at_locals.get();
         if used.state == Use::New {
-            used.state = if stack.forgets_its_argument() { Use::Forgets } else { Use::MayKeep };
+            used.state = if stack.forgets_its_argument() {
+                Use::Forgets
+            } else {
+                Use::MayKeep
+            };
         }
         if used.state == Use::MayKeep {
             return;

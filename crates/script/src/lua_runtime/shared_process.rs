@@ -16,10 +16,19 @@ pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
 
 /// Gets the name of a stream, and what a script has written there.
 fn write(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    let sim = stack.owner().sim.upgrade().ok_or("the simulator is gone.")?;
+    let sim = stack
+        .owner()
+        .sim
+        .upgrade()
+        .ok_or("the simulator is gone.")?;
     let is_error = stack.with_bytes(1, |name| name == b"stderr") == Some(true);
-    let stream = if is_error { OutputStream::Error } else { OutputStream::Output };
+    let stream = if is_error {
+        OutputStream::Error
+    } else {
+        OutputStream::Output
+    };
     let time = sim.clock.time();
-    sim.log.write(&stack.bytes(2).unwrap_or_default(), stream, time);
+    sim.log
+        .write(&stack.bytes(2).unwrap_or_default(), stream, time);
     Ok(0)
 }

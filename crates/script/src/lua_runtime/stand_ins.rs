@@ -44,8 +44,12 @@ pub(super) fn install(stack: Stack<'_>) {
     extend(stack, "string", |stack| go_on(stack, EXTENSIONS, "string"));
     extend(stack, "table", |stack| go_on(stack, EXTENSIONS, "table"));
     extend(stack, "math", |stack| go_on(stack, EXTENSIONS, "math"));
-    define_table(stack, "operator", |stack| go_on(stack, EXTENSIONS, "operator"));
-    define_table(stack, "simRemoteApi", |stack| go_on(stack, EXTENSIONS, "remoteApi"));
+    define_table(stack, "operator", |stack| {
+        go_on(stack, EXTENSIONS, "operator")
+    });
+    define_table(stack, "simRemoteApi", |stack| {
+        go_on(stack, EXTENSIONS, "remoteApi")
+    });
     define_table(stack, "_S", |stack| go_on(stack, EXTENSIONS, "interface"));
     push_plain(stack, |stack| go_on(stack, EXTENSIONS, "randomseed"));
     stack.push_global("math");
@@ -96,7 +100,11 @@ fn extend(stack: Stack<'_>, library: &str, index: impl Fn(Stack<'_>) -> Outcome 
 }
 
 /// A global table that finds its content when it is asked for.
-fn define_table(stack: Stack<'_>, name: &str, index: impl Fn(Stack<'_>) -> Outcome + Copy + 'static) {
+fn define_table(
+    stack: Stack<'_>,
+    name: &str,
+    index: impl Fn(Stack<'_>) -> Outcome + Copy + 'static,
+) {
     stack.new_table(0, 0);
     set_index(stack, index);
     stack.set_global(name);

@@ -9,7 +9,8 @@ use mlua::{Function, Lua, Table};
 use super::reference_modules::ReferenceModule;
 use super::user_modules::UserModule;
 use super::{
-    buffers, coverage, implicit, library_globals, shared_process, stand_ins, test_file, threads, user_modules,
+    buffers, coverage, implicit, library_globals, shared_process, stand_ins, test_file, threads,
+    user_modules,
 };
 use crate::binding::registry::{Member, MissingId, Namespace};
 use crate::binding::{deprecation_notice, error_text, push_function, push_function_of_old_name};
@@ -23,7 +24,11 @@ const SIM: &CStr = c"swanilda.sim";
 const LUA_MODULES: &CStr = c"swanilda.modules";
 
 /// Makes a state ready for a script's text.
-pub(super) fn fill(sim: &Rc<Sim>, state: &State, user_modules: &[UserModule]) -> Result<(), LuaError> {
+pub(super) fn fill(
+    sim: &Rc<Sim>,
+    state: &State,
+    user_modules: &[UserModule],
+) -> Result<(), LuaError> {
     let stack = state.stack();
     threads::install(stack);
     lua::install_coroutine_hooks(stack, threads::on_count);
@@ -76,7 +81,10 @@ fn run_base(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
 /// The number in the old name of a script's object; -1 without one.
 fn name_suffix(sim: &Sim, script: &Script) -> i64 {
     let scene = sim.scene.borrow();
-    let object = script.owner().or(script.object).and_then(|handle| scene.object(handle).ok());
+    let object = script
+        .owner()
+        .or(script.object)
+        .and_then(|handle| scene.object(handle).ok());
     object.map_or(-1, |object| scene::name_suffix(object.old_name()).0)
 }
 
@@ -95,8 +103,19 @@ fn scrambled(seed: u32) -> i64 {
 }
 
 /// Modules that CoppeliaSim has not, or no longer, and files that are no modules: a script's own file of that name goes first.
-const LAST: &[&str] =
-    &["base", "cbor", "class", "deprecate", "json", "main", "no_exit", "old_calls", "restricted", "say", "seal"];
+const LAST: &[&str] = &[
+    "base",
+    "cbor",
+    "class",
+    "deprecate",
+    "json",
+    "main",
+    "no_exit",
+    "old_calls",
+    "restricted",
+    "say",
+    "seal",
+];
 
 /// Puts the scene's folders first into `package.path` and `package.cpath`, and the embedded library into `package.searchers`.
 fn install_package(sim: &Sim, stack: Stack<'_>) {
@@ -112,13 +131,26 @@ const LIBRARY_EXTENSION: &str = if cfg!(windows) { "dll" } else { "so" };
 /// Where the modules of an installation of CoppeliaSim are. They go before the scene's own, as there.
 fn installed_paths(resources: &Path) -> String {
     let resources = resources.display();
-    let folders = ["", "lua/", "lua/models/deprecated/", "lua/deprecated/", "bwf/"];
-    folders.map(|folder| format!("{resources}/{folder}?.lua;{resources}/{folder}?/init.lua;")).concat()
+    let folders = [
+        "",
+        "lua/",
+        "lua/models/deprecated/",
+        "lua/deprecated/",
+        "bwf/",
+    ];
+    folders
+        .map(|folder| format!("{resources}/{folder}?.lua;{resources}/{folder}?/init.lua;"))
+        .concat()
 }
 
 /// Files in the scene's folders go before those of Lua's own default. The table `package` is on top.
 fn install_paths(sim: &Sim, stack: Stack<'_>) {
-    let mut path = sim.options.resources.as_deref().map(installed_paths).unwrap_or_default();
+    let mut path = sim
+        .options
+        .resources
+        .as_deref()
+        .map(installed_paths)
+        .unwrap_or_default();
     let mut cpath = String::new();
     for dir in &sim.options.package_dirs {
         let dir = dir.display();
@@ -169,7 +201,11 @@ fn search_last(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     if LAST.contains(&&*name) {
         return find_module(stack, &name);
     }
-    let wants_original = stack.owner().sim.upgrade().is_some_and(|sim| sim.options.original_errors);
+    let wants_original = stack
+        .owner()
+        .sim
+        .upgrade()
+        .is_some_and(|sim| sim.options.original_errors);
     match ReferenceModule::all().find(|module| module.name == name) {
         Some(module) if !wants_original => Err(module.missing()),
         _ => Ok(0),
@@ -178,7 +214,11 @@ fn search_last(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 
 /// Pushes the loader of a module, and the native functions for its file; or why there is none.
 fn find_module(stack: Stack<'_>, name: &str) -> Result<c_int, String> {
-    let sim = stack.owner().sim.upgrade().ok_or("the simulator is gone.")?;
+    let sim = stack
+        .owner()
+        .sim
+        .upgrade()
+        .ok_or("the simulator is gone.")?;
     let registry = &sim.modules.registry;
     let file = name.replace('.', "/");
     let namespace = registry.module(name);
@@ -256,7 +296,9 @@ pub(super) fn load_module(stack: Stack<'_>, sim: &Sim, name: &str) -> Result<(),
             library_globals::apply(stack, name);
             Ok(())
         }
-        None => Err(LuaError { text: format!("no module '{name}' in Swanilda's library") }),
+        None => Err(LuaError {
+            text: format!("no module '{name}' in Swanilda's library"),
+        }),
     }
 }
 
@@ -271,7 +313,11 @@ fn install_globals(sim: &Sim, stack: Stack<'_>) {
 }
 
 /// Gives the table on top a metatable with these metamethods.
-fn set_access(stack: Stack<'_>, index: impl lua::Callback, pairs: impl Fn(Stack<'_>) -> Outcome + Copy + 'static) {
+fn set_access(
+    stack: Stack<'_>,
+    index: impl lua::Callback,
+    pairs: impl Fn(Stack<'_>) -> Outcome + Copy + 'static,
+) {
     stack.new_table(0, 2);
     push_callback(stack, index, 0);
     stack.raw_set_field(-2, "__index");
@@ -290,8 +336,12 @@ fn install_sim(stack: Stack<'_>) {
 }
 
 fn index_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    let Some(name) = stack.bytes(2) else { return Ok(0) };
-    let Ok(name) = String::from_utf8(name) else { return Ok(0) };
+    let Some(name) = stack.bytes(2) else {
+        return Ok(0);
+    };
+    let Ok(name) = String::from_utf8(name) else {
+        return Ok(0);
+    };
     push_member(stack, &name)?;
     if stack.kind(-1) != Type::Nil {
         stack.push_value(-1);
@@ -319,8 +369,12 @@ fn pairs_sim(stack: Stack<'_>) -> Outcome {
 /// Modules and classes used without being asked for, and old global names, whose functions log no deprecation.
 fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     // Most globals that scripts look up without success are no functions of the simulator: the name is copied only if it is one.
-    let Some(true) = stack.with_bytes(2, implicit::is_candidate) else { return Ok(0) };
-    let Ok(name) = String::from_utf8(stack.bytes(2).unwrap_or_default()) else { return Ok(0) };
+    let Some(true) = stack.with_bytes(2, implicit::is_candidate) else {
+        return Ok(0);
+    };
+    let Ok(name) = String::from_utf8(stack.bytes(2).unwrap_or_default()) else {
+        return Ok(0);
+    };
     if implicit::define(stack, &name) {
         return Ok(1);
     }
@@ -330,7 +384,11 @@ fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
         Some(Member::Constant(value)) => stack.push_int(value),
         Some(Member::Missing(id)) => push_missing(stack, id),
         Some(Member::Lua { file, function, .. }) => {
-            let sim = stack.owner().sim.upgrade().ok_or("the simulator is gone.")?;
+            let sim = stack
+                .owner()
+                .sim
+                .upgrade()
+                .ok_or("the simulator is gone.")?;
             push_lua_member(stack, &sim, file, function)?;
         }
     }
@@ -344,11 +402,24 @@ fn push_member(stack: Stack<'_>, name: &str) -> Result<(), String> {
         Some(Member::Constant(value)) => stack.push_int(value),
         Some(Member::Native(id)) => push_function(stack, id),
         Some(Member::Missing(id)) => push_missing(stack, id),
-        Some(Member::Lua { file, function, replacement }) => {
-            let sim = stack.owner().sim.upgrade().ok_or("the simulator is gone.")?;
+        Some(Member::Lua {
+            file,
+            function,
+            replacement,
+        }) => {
+            let sim = stack
+                .owner()
+                .sim
+                .upgrade()
+                .ok_or("the simulator is gone.")?;
             push_lua_member(stack, &sim, file, function)?;
             if let Some(replacement) = replacement {
-                wrap_deprecated(stack, &sim, file, &deprecation_notice(&format!("sim.{name}"), replacement))?;
+                wrap_deprecated(
+                    stack,
+                    &sim,
+                    file,
+                    &deprecation_notice(&format!("sim.{name}"), replacement),
+                )?;
             }
         }
     }
@@ -360,12 +431,21 @@ fn push_missing(stack: Stack<'_>, id: MissingId) {
 }
 
 fn raise_missing(stack: Stack<'_>, number: usize) -> Result<c_int, String> {
-    let missing = stack.owner().registry.missing(number).ok_or("there is no such function.")?;
+    let missing = stack
+        .owner()
+        .registry
+        .missing(number)
+        .ok_or("there is no such function.")?;
     Err(error_text(&missing.error(), stack, ""))
 }
 
 /// Pushes a function of an embedded Lua file, loading the file if this state has not yet.
-fn push_lua_member(stack: Stack<'_>, sim: &Sim, file: &'static str, function: &str) -> Result<(), String> {
+fn push_lua_member(
+    stack: Stack<'_>,
+    sim: &Sim,
+    file: &'static str,
+    function: &str,
+) -> Result<(), String> {
     stack.push_registry(LUA_MODULES);
     if stack.raw_get_field(-1, file) != Type::Table {
         stack.pop(1);

@@ -25,7 +25,10 @@ impl CompiledTests {
     /// What is to be loaded for that test, numbered from 1.
     fn of_test(&self, number: usize) -> Option<Bytecode> {
         let lines = self.lines.get(number.checked_sub(1)?)?;
-        Some(self.bytecode.with_stubs(self.bodies.iter().filter(|body| body.lines != *lines)))
+        Some(
+            self.bytecode
+                .with_stubs(self.bodies.iter().filter(|body| body.lines != *lines)),
+        )
     }
 }
 
@@ -39,34 +42,64 @@ pub(super) fn add_functions(stack: Stack<'_>) {
 
 fn bench(stack: Stack<'_>) -> Option<Rc<TestBench>> {
     // Where lines are counted, the functions of all texts count.
-    let sim = stack.owner().sim.upgrade().filter(|sim| !sim.options.count_lines)?;
+    let sim = stack
+        .owner()
+        .sim
+        .upgrade()
+        .filter(|sim| !sim.options.count_lines)?;
     sim.test_bench.get().cloned()
 }
 
 /// `keep(chunk, lines)`: leaves a file with the runner. `lines` has two numbers for each test; it is nil when the file uses the names of
 /// tests for something else.
 fn keep(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    let Some(bench) = bench(stack) else { return Ok(0) };
+    let Some(bench) = bench(stack) else {
+        return Ok(0);
+    };
     let mut lines = Vec::new();
     if stack.kind(2) == Type::Table {
-        let number = |i: usize| stack.integer_at(2, i as i64).and_then(|line| usize::try_from(line).ok()).unwrap_or(0);
-        lines = (1..=stack.raw_len(2)).step_by(2).map(|i| (number(i), number(i + 1))).collect();
+        let number = |i: usize| {
+            stack
+                .integer_at(2, i as i64)
+                .and_then(|line| usize::try_from(line).ok())
+                .unwrap_or(0)
+        };
+        lines = (1..=stack.raw_len(2))
+            .step_by(2)
+            .map(|i| (number(i), number(i + 1)))
+            .collect();
     }
     stack.push_value(1);
     if let Some(bytecode) = stack.dump() {
-        let bodies = if lines.is_empty() { Vec::new() } else { bytecode.passed_functions(&TESTS) };
-        bench.compiled.replace(Some(Arc::new(CompiledTests { bytecode, bodies, lines })));
+        let bodies = if lines.is_empty() {
+            Vec::new()
+        } else {
+            bytecode.passed_functions(&TESTS)
+        };
+        bench.compiled.replace(Some(Arc::new(CompiledTests {
+            bytecode,
+            bodies,
+            lines,
+        })));
     }
     Ok(0)
 }
 
 /// `load(environment, number)`: the chunk of the file that was left with the runner, for all tests or for one; nothing when there is none.
 fn load(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    let Some(compiled) = bench(stack).and_then(|bench| bench.compiled.borrow().clone()) else { return Ok(0) };
-    let Some(tests) = compiled.downcast_ref::<CompiledTests>() else { return Ok(0) };
-    let number = stack.integer(2).and_then(|number| usize::try_from(number).ok());
+    let Some(compiled) = bench(stack).and_then(|bench| bench.compiled.borrow().clone()) else {
+        return Ok(0);
+    };
+    let Some(tests) = compiled.downcast_ref::<CompiledTests>() else {
+        return Ok(0);
+    };
+    let number = stack
+        .integer(2)
+        .and_then(|number| usize::try_from(number).ok());
     let of_test = number.and_then(|number| tests.of_test(number));
-    stack.load_bytecode(of_test.as_ref().unwrap_or(&tests.bytecode), "=").map_err(|error| error.text)?;
+    stack
+        .load_bytecode(of_test.as_ref().unwrap_or(&tests.bytecode), "=")
+        .map_err(|error| error.text)?;
     stack.push_value(1);
     stack.set_environment();
     Ok(1)

@@ -18,7 +18,11 @@ pub(crate) fn on_count(stack: Stack<'_>, can_yield: bool) -> HookAction {
     if let Some(error) = env.interruption(|| stack.traceback_from(0)) {
         return HookAction::Fail(error);
     }
-    if can_yield && slice_is_used_up(stack, env) { HookAction::Yield } else { HookAction::Continue }
+    if can_yield && slice_is_used_up(stack, env) {
+        HookAction::Yield
+    } else {
+        HookAction::Continue
+    }
 }
 
 fn slice_is_used_up(stack: Stack<'_>, env: &Env) -> bool {
@@ -29,7 +33,9 @@ fn slice_is_used_up(stack: Stack<'_>, env: &Env) -> bool {
     if env.is_interruptible() && auto_level(stack) != 0 {
         return false;
     }
-    yields.used.set(yields.used.get().saturating_add(HOOK_INTERVAL as u64));
+    yields
+        .used
+        .set(yields.used.get().saturating_add(HOOK_INTERVAL as u64));
     if yields.overall.get() != 0 || yields.used.get() < budget(env) || auto_level(stack) != 0 {
         return false;
     }
@@ -51,7 +57,10 @@ pub(crate) fn end_time_slice(stack: Stack<'_>) {
 
 /// Instructions in a slice.
 fn budget(env: &Env) -> u64 {
-    let per_ms = env.sim.upgrade().map_or(u64::MAX, |sim| sim.options.instructions_per_ms);
+    let per_ms = env
+        .sim
+        .upgrade()
+        .map_or(u64::MAX, |sim| sim.options.instructions_per_ms);
     u64::from(env.yields.delay_ms.get().max(1)).saturating_mul(per_ms)
 }
 

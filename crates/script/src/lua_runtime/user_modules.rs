@@ -35,7 +35,10 @@ fn preload(lua: &Lua, modules: &[UserModule]) -> mlua::Result<()> {
     let preload: Table = lua.globals().get::<Table>("package")?.get("preload")?;
     for UserModule { name, open } in modules {
         let open = Rc::clone(open);
-        preload.raw_set(name.as_str(), lua.create_function(move |lua, ()| open(lua))?)?;
+        preload.raw_set(
+            name.as_str(),
+            lua.create_function(move |lua, ()| open(lua))?,
+        )?;
     }
     Ok(())
 }

@@ -36,7 +36,10 @@ pub(super) fn length(value: f64) -> SceneResult<f64> {
 /// The first two numbers; fewer, infinite ones and NaN are refused.
 pub(super) fn pair(values: &[f64]) -> SceneResult<[f64; 2]> {
     let &[first, second] = values.first_chunk().ok_or_else(refused)?;
-    Ok([first.finite().ok_or_else(refused)?, second.finite().ok_or_else(refused)?])
+    Ok([
+        first.finite().ok_or_else(refused)?,
+        second.finite().ok_or_else(refused)?,
+    ])
 }
 
 impl Subject<'_> {
@@ -52,8 +55,12 @@ impl Subject<'_> {
     pub(super) fn script(&self) -> ApiResult<Rc<Script>> {
         match self.target {
             PropertyTarget::Script(script) => Ok(Rc::clone(script)),
-            PropertyTarget::Object(handle) => self.sim.script(handle.raw()).ok_or(ApiError::NoSuchScript),
-            PropertyTarget::App | PropertyTarget::Scene | PropertyTarget::Mesh(_) => Err(ApiError::NoSuchScript),
+            PropertyTarget::Object(handle) => {
+                self.sim.script(handle.raw()).ok_or(ApiError::NoSuchScript)
+            }
+            PropertyTarget::App | PropertyTarget::Scene | PropertyTarget::Mesh(_) => {
+                Err(ApiError::NoSuchScript)
+            }
         }
     }
 }

@@ -21,14 +21,19 @@ use ::scene::{Data, FIRST_MESH_UID, Handle, Namespace, Uid, ValueType, special};
 use access::{Accessor, Subject};
 use table::ValueSource;
 use types::{
-    app, colour, display, dummy, engine, force_sensor, joint, mesh, object, proximity_sensor, scene, script, shape,
-    view,
+    app, colour, display, dummy, engine, force_sensor, joint, mesh, object, proximity_sensor,
+    scene, script, shape, view,
 };
 
 pub(crate) use stored::SignalOwners;
-pub use table::{Class, Row, app_class, flags, mesh_class, object_class, scene_class, script_class};
+pub use table::{
+    Class, Row, app_class, flags, mesh_class, object_class, scene_class, script_class,
+};
 pub(crate) use types::app::AppData;
-pub use value::{Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2, Vector3};
+pub use value::{
+    Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2,
+    Vector3,
+};
 
 /// An entity with properties.
 #[derive(Clone)]
@@ -47,7 +52,11 @@ pub enum PropertyTarget {
 
 impl PropertyTarget {
     fn object(&self) -> Option<Handle> {
-        if let Self::Object(handle) = self { Some(*handle) } else { None }
+        if let Self::Object(handle) = self {
+            Some(*handle)
+        } else {
+            None
+        }
     }
 }
 
@@ -76,16 +85,25 @@ impl Sim {
             special::SANDBOX => self.scripts.detached(ScriptType::Sandbox),
             _ => match Handle::from_raw(raw).filter(|&handle| self.scene.borrow().exists(handle)) {
                 Some(handle) if raw < FIRST_MESH_UID => return Ok(PropertyTarget::Object(handle)),
-                _ if self.scene.borrow().mesh(raw).is_some() => return Ok(PropertyTarget::Mesh(raw)),
+                _ if self.scene.borrow().mesh(raw).is_some() => {
+                    return Ok(PropertyTarget::Mesh(raw));
+                }
                 _ => self.script(raw),
             },
         };
         let script = script.ok_or(ApiError::NoSuchTarget)?;
-        Ok(script.object.map_or_else(|| PropertyTarget::Script(script), PropertyTarget::Object))
+        Ok(script
+            .object
+            .map_or_else(|| PropertyTarget::Script(script), PropertyTarget::Object))
     }
 
     /// Value of a property of type `ty`.
-    pub fn read_property(self: &Rc<Self>, target: &PropertyTarget, name: &str, ty: ValueType) -> ApiResult<Data> {
+    pub fn read_property(
+        self: &Rc<Self>,
+        target: &PropertyTarget,
+        name: &str,
+        ty: ValueType,
+    ) -> ApiResult<Data> {
         let class = self.class_of(target)?;
         match parse_name(class, target, name) {
             Name::Stored(namespace, name) => self.read_stored(target, namespace, name, ty),
@@ -102,11 +120,16 @@ impl Sim {
         match &row.source {
             ValueSource::Works(accessor) => {
                 let read = accessor.read.ok_or(ApiError::PropertyNotReadable)?;
-                read(&Subject { sim: self, target }).map_err(|error| refusal(error, ApiError::PropertyNotReadable))
+                read(&Subject { sim: self, target })
+                    .map_err(|error| refusal(error, ApiError::PropertyNotReadable))
             }
-            ValueSource::Inert(default) => Ok(self.read_inert(target, row.name)?.unwrap_or_else(|| default.clone())),
+            ValueSource::Inert(default) => Ok(self
+                .read_inert(target, row.name)?
+                .unwrap_or_else(|| default.clone())),
             ValueSource::Constant(value) => Ok(value.clone()),
-            ValueSource::Engine(param) => Ok(self.scene.borrow().engine_value(param, target.object())?),
+            ValueSource::Engine(param) => {
+                Ok(self.scene.borrow().engine_value(param, target.object())?)
+            }
         }
     }
 
@@ -120,25 +143,38 @@ impl Sim {
     ) -> ApiResult<()> {
         let class = self.class_of(target)?;
         match parse_name(class, target, name) {
-            Name::Stored(namespace, name) => self.write_stored(target, namespace, name, (ty, value), writer),
+            Name::Stored(namespace, name) => {
+                self.write_stored(target, namespace, name, (ty, value), writer)
+            }
             Name::Param(name) => self.write_param(name, ty, value),
             Name::Static(name) => self.write_row(target, row_of(class, name, ty)?, value),
         }
     }
 
-    fn write_row(self: &Rc<Self>, target: &PropertyTarget, row: &Row, value: Data) -> ApiResult<()> {
+    fn write_row(
+        self: &Rc<Self>,
+        target: &PropertyTarget,
+        row: &Row,
+        value: Data,
+    ) -> ApiResult<()> {
         if row.flags & flags::NOT_WRITABLE != 0 || has_nan(&value) {
             return Err(ApiError::PropertyNotWritable);
         }
         match &row.source {
             ValueSource::Works(accessor) => self.write_through(accessor, target, row, value),
             ValueSource::Inert(default) => {
-                let value = row.ty.accept(default, value).ok_or(ApiError::PropertyNotWritable)?;
+                let value = row
+                    .ty
+                    .accept(default, value)
+                    .ok_or(ApiError::PropertyNotWritable)?;
                 self.write_inert(target, row.name, value)
             }
             ValueSource::Constant(_) => Err(ApiError::PropertyNotWritable),
             ValueSource::Engine(param) => {
-                let set = self.scene.borrow_mut().set_engine_value(param, target.object(), value);
+                let set = self
+                    .scene
+                    .borrow_mut()
+                    .set_engine_value(param, target.object(), value);
                 set.map_err(|_| ApiError::PropertyNotWritable)
             }
         }
@@ -166,10 +202,16 @@ impl Sim {
         let existed = match parse_name(class, target, name) {
             Name::Stored(namespace, name) => self.remove_stored(target, namespace, name)?,
             Name::Param(name) => self.app.borrow_mut().named_params.remove(name).is_some(),
-            Name::Static(name) if class.find(name).is_some() => return Err(ApiError::PropertyNotRemovable),
+            Name::Static(name) if class.find(name).is_some() => {
+                return Err(ApiError::PropertyNotRemovable);
+            }
             Name::Static(_) => false,
         };
-        if existed { Ok(()) } else { Err(ApiError::UnknownProperty) }
+        if existed {
+            Ok(())
+        } else {
+            Err(ApiError::UnknownProperty)
+        }
     }
 
     /// Type and flags of a property; None if unknown. The flag for large values depends on the present value.
@@ -179,12 +221,25 @@ impl Sim {
             Name::Stored(namespace, name) => self.stored_info(target, namespace, name)?,
             Name::Param(name) => {
                 let known = self.app.borrow().named_params.contains_key(name);
-                known.then_some((ValueType::String, flags::REMOVABLE | flags::MODEL_HASH_EXCLUDE))?
+                known.then_some((
+                    ValueType::String,
+                    flags::REMOVABLE | flags::MODEL_HASH_EXCLUDE,
+                ))?
             }
             Name::Static(name) => class.find(name).map(|row| (row.ty, row.flags))?,
         };
-        let large = ty.may_be_large() && self.read_property(target, name, ty).is_ok_and(|value| value.size() > LARGE);
-        Some((ty, if large { flags | flags::LARGE_DATA } else { flags }))
+        let large = ty.may_be_large()
+            && self
+                .read_property(target, name, ty)
+                .is_ok_and(|value| value.size() > LARGE);
+        Some((
+            ty,
+            if large {
+                flags | flags::LARGE_DATA
+            } else {
+                flags
+            },
+        ))
     }
 
     /// The property at `index` in the order of enumeration, with its class; None past the end. Static ones count only if they begin
@@ -197,7 +252,8 @@ impl Sim {
     ) -> Option<(String, &'static str)> {
         let (before, after) = self.rows_of(target).ok()?;
         let listed = |rows: &'static [Row]| {
-            rows.iter().filter(|row| row.flags & flags::DEPRECATED == 0 && row.name.starts_with(prefix))
+            rows.iter()
+                .filter(|row| row.flags & flags::DEPRECATED == 0 && row.name.starts_with(prefix))
         };
         let listing = |row: &'static Row| (row.name.to_owned(), row.class);
         if let Some(row) = listed(before).nth(index) {
@@ -225,14 +281,20 @@ impl Sim {
             PropertyTarget::Scene => scene_class(),
             PropertyTarget::Script(_) => script_class(),
             PropertyTarget::Mesh(_) => mesh_class(),
-            PropertyTarget::Object(handle) => object_class(&self.scene.borrow().object(*handle)?.kind),
+            PropertyTarget::Object(handle) => {
+                object_class(&self.scene.borrow().object(*handle)?.kind)
+            }
         })
     }
 }
 
 /// The error when the scene rejects a value: CoppeliaSim's has no reason.
 fn refusal(error: ApiError, words: ApiError) -> ApiError {
-    if matches!(error, ApiError::Scene(_)) { words } else { error }
+    if matches!(error, ApiError::Scene(_)) {
+        words
+    } else {
+        error
+    }
 }
 
 /// No static property can be what is no number.
@@ -247,7 +309,11 @@ fn has_nan(value: &Data) -> bool {
 /// The row of a static property, if it has the requested type.
 fn row_of(class: &'static Class, name: &str, ty: ValueType) -> ApiResult<&'static Row> {
     let row = class.find(name).ok_or(ApiError::UnknownProperty)?;
-    if row.ty == ty { Ok(row) } else { Err(ApiError::PropertyType) }
+    if row.ty == ty {
+        Ok(row)
+    } else {
+        Err(ApiError::PropertyType)
+    }
 }
 
 /// Splits a name; it may be prefixed by the class of the target.

@@ -78,30 +78,50 @@ impl Sim {
         Ok(format!("{:032x}", hash.0))
     }
 
-    fn hash_object(self: &Rc<Self>, hash: &mut Fnv, handle: Handle, members: &[Handle]) -> ApiResult<()> {
+    fn hash_object(
+        self: &Rc<Self>,
+        hash: &mut Fnv,
+        handle: Handle,
+        members: &[Handle],
+    ) -> ApiResult<()> {
         let (parent, meshes) = {
             let scene = self.scene.borrow();
             let object = scene.object(handle)?;
-            let parent = object.parent().and_then(|parent| members.iter().position(|&member| member == parent));
+            let parent = object
+                .parent()
+                .and_then(|parent| members.iter().position(|&member| member == parent));
             (parent, mesh_uids(&object.kind))
         };
         hash.part(b'o', format!("{parent:?}").as_bytes());
         self.hash_rows(hash, &PropertyTarget::Object(handle))?;
-        let custom_data = self.with_named_values(&PropertyTarget::Object(handle), Namespace::CustomData, |values| {
-            values.tags().map(|tag| (tag.clone(), values.get(&tag).cloned())).collect::<Vec<_>>()
-        })?;
+        let custom_data = self.with_named_values(
+            &PropertyTarget::Object(handle),
+            Namespace::CustomData,
+            |values| {
+                values
+                    .tags()
+                    .map(|tag| (tag.clone(), values.get(&tag).cloned()))
+                    .collect::<Vec<_>>()
+            },
+        )?;
         for (tag, value) in custom_data {
             hash.part(b'c', tag.as_bytes());
             hash.data(&value.unwrap_or(Data::Nil));
         }
-        meshes.into_iter().try_for_each(|uid| self.hash_rows(hash, &PropertyTarget::Mesh(uid)))
+        meshes
+            .into_iter()
+            .try_for_each(|uid| self.hash_rows(hash, &PropertyTarget::Mesh(uid)))
     }
 
     /// The static properties that count.
     fn hash_rows(self: &Rc<Self>, hash: &mut Fnv, target: &PropertyTarget) -> ApiResult<()> {
         let (before, after) = self.rows_of(target)?;
         let left_out = flags::MODEL_HASH_EXCLUDE | flags::NOT_READABLE | flags::DEPRECATED;
-        for row in before.iter().chain(after).filter(|row| row.flags & left_out == 0) {
+        for row in before
+            .iter()
+            .chain(after)
+            .filter(|row| row.flags & left_out == 0)
+        {
             hash.part(b'p', row.name.as_bytes());
             hash.data(&self.read_row(target, row)?);
         }

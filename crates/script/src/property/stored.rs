@@ -51,7 +51,10 @@ impl SignalOwners {
 
 /// Whether a new property may have that name.
 pub(crate) fn is_valid_name(name: &str) -> bool {
-    !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.'))
+    !name.is_empty()
+        && name
+            .bytes()
+            .all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.'))
 }
 
 impl PropertyTarget {
@@ -68,7 +71,11 @@ impl PropertyTarget {
 
 /// The object among the holders; None for the scene.
 fn object_of(holder: Holder) -> Option<Handle> {
-    if let Holder::Object(handle) = holder { Some(handle) } else { None }
+    if let Holder::Object(handle) = holder {
+        Some(handle)
+    } else {
+        None
+    }
 }
 
 impl Sim {
@@ -80,7 +87,9 @@ impl Sim {
     ) -> ApiResult<R> {
         if holder == Holder::App {
             return Ok(match namespace {
-                Namespace::CustomData => self.with_app_storage(|storage| read(storage.custom_data())),
+                Namespace::CustomData => {
+                    self.with_app_storage(|storage| read(storage.custom_data()))
+                }
                 Namespace::Signal => read(&self.app.borrow().signals),
             });
         }
@@ -91,13 +100,22 @@ impl Sim {
     /// All changes of named values go through here; returns whether anything changed.
     fn edit_stored(&self, holder: Holder, namespace: Namespace, edit: Edit<'_>) -> ApiResult<bool> {
         if holder != Holder::App {
-            return Ok(self.scene.borrow_mut().edit_named_values(object_of(holder), namespace, edit)?);
+            return Ok(self.scene.borrow_mut().edit_named_values(
+                object_of(holder),
+                namespace,
+                edit,
+            )?);
         }
         let edited = match namespace {
-            Namespace::CustomData => self.with_app_storage(|storage| storage.edit_custom_data(edit)),
+            Namespace::CustomData => {
+                self.with_app_storage(|storage| storage.edit_custom_data(edit))
+            }
             Namespace::Signal => self.app.borrow_mut().signals.edit(edit),
         };
-        self.scene.borrow_mut().journal_mut().note_stored(holder, namespace, &edited);
+        self.scene
+            .borrow_mut()
+            .journal_mut()
+            .note_stored(holder, namespace, &edited);
         Ok(edited.any())
     }
 
@@ -111,7 +129,11 @@ impl Sim {
         namespace: Namespace,
         read: impl FnOnce(&CustomData) -> R,
     ) -> ApiResult<R> {
-        self.with_stored(target.holder().ok_or(ApiError::NoSuchTarget)?, namespace, read)
+        self.with_stored(
+            target.holder().ok_or(ApiError::NoSuchTarget)?,
+            namespace,
+            read,
+        )
     }
 
     /// Changes custom data or signals; returns whether anything changed.
@@ -124,7 +146,11 @@ impl Sim {
         namespace: Namespace,
         edit: Edit<'_>,
     ) -> ApiResult<bool> {
-        self.edit_stored(target.holder().ok_or(ApiError::NoSuchTarget)?, namespace, edit)
+        self.edit_stored(
+            target.holder().ok_or(ApiError::NoSuchTarget)?,
+            namespace,
+            edit,
+        )
     }
 
     pub(super) fn read_stored(
@@ -165,7 +191,12 @@ impl Sim {
         Ok(())
     }
 
-    pub(super) fn remove_stored(&self, target: &PropertyTarget, namespace: Namespace, name: &str) -> ApiResult<bool> {
+    pub(super) fn remove_stored(
+        &self,
+        target: &PropertyTarget,
+        namespace: Namespace,
+        name: &str,
+    ) -> ApiResult<bool> {
         let holder = target.holder().ok_or(ApiError::UnknownProperty)?;
         if namespace == Namespace::Signal {
             self.signal_owners.borrow_mut().remove(holder, name);
@@ -173,25 +204,51 @@ impl Sim {
         self.edit_stored(holder, namespace, Edit::Name(name, None))
     }
 
-    pub(super) fn stored_info(&self, target: &PropertyTarget, namespace: Namespace, name: &str) -> Option<Info> {
-        let ty =
-            self.with_stored(target.holder()?, namespace, |values| values.typed(name).map(|(ty, _)| ty)).ok()??;
-        let volatile = if namespace == Namespace::Signal { flags::MODEL_HASH_EXCLUDE } else { 0 };
+    pub(super) fn stored_info(
+        &self,
+        target: &PropertyTarget,
+        namespace: Namespace,
+        name: &str,
+    ) -> Option<Info> {
+        let ty = self
+            .with_stored(target.holder()?, namespace, |values| {
+                values.typed(name).map(|(ty, _)| ty)
+            })
+            .ok()??;
+        let volatile = if namespace == Namespace::Signal {
+            flags::MODEL_HASH_EXCLUDE
+        } else {
+            0
+        };
         Some((ty, flags::REMOVABLE | volatile))
     }
 
     /// Names of custom data, then of signals, then of named parameters.
     pub fn stored_names(&self, target: &PropertyTarget) -> Vec<String> {
-        let Some(holder) = target.holder() else { return Vec::new() };
+        let Some(holder) = target.holder() else {
+            return Vec::new();
+        };
         let mut names = Vec::new();
-        for (namespace, prefix) in [(Namespace::CustomData, "customData"), (Namespace::Signal, "signal")] {
+        for (namespace, prefix) in [
+            (Namespace::CustomData, "customData"),
+            (Namespace::Signal, "signal"),
+        ] {
             let found = self.with_stored(holder, namespace, |values| {
-                values.names().map(|name| format!("{prefix}.{name}")).collect::<Vec<_>>()
+                values
+                    .names()
+                    .map(|name| format!("{prefix}.{name}"))
+                    .collect::<Vec<_>>()
             });
             names.extend(found.unwrap_or_default());
         }
         if holder == Holder::App {
-            names.extend(self.app.borrow().named_params.keys().map(|name| format!("namedParam.{name}")));
+            names.extend(
+                self.app
+                    .borrow()
+                    .named_params
+                    .keys()
+                    .map(|name| format!("namedParam.{name}")),
+            );
         }
         names
     }
@@ -214,11 +271,16 @@ impl Sim {
     }
 
     pub(super) fn write_param(&self, name: &str, ty: ValueType, value: Data) -> ApiResult<()> {
-        let (ValueType::String, Data::Text(text)) = (ty, value) else { return Err(ApiError::PropertyType) };
+        let (ValueType::String, Data::Text(text)) = (ty, value) else {
+            return Err(ApiError::PropertyType);
+        };
         if !is_valid_name(name) {
             return Err(ApiError::PropertyName);
         }
-        self.app.borrow_mut().named_params.insert(name.to_owned(), text);
+        self.app
+            .borrow_mut()
+            .named_params
+            .insert(name.to_owned(), text);
         Ok(())
     }
 }

@@ -7,8 +7,8 @@ use std::sync::LazyLock;
 
 use super::access::Accessor;
 use super::{
-    app, colour, display, dummy, engine, force_sensor, joint, mesh, model_hash, object, proximity_sensor, scene,
-    script, shape, view,
+    app, colour, display, dummy, engine, force_sensor, joint, mesh, model_hash, object,
+    proximity_sensor, scene, script, shape, view,
 };
 use ::scene::parameters::engine::{EngineOwner, EngineParam, engine_params};
 use ::scene::{Data, Kind, ValueType};
@@ -125,8 +125,13 @@ impl Hasher for NameHasher {
 }
 
 /// Definition of a class: its word, its path, the words that may precede it, its parts before and after the named values.
-type ClassSpec =
-    (&'static str, &'static str, &'static [&'static str], &'static [&'static str], &'static [&'static str]);
+type ClassSpec = (
+    &'static str,
+    &'static str,
+    &'static [&'static str],
+    &'static [&'static str],
+    &'static [&'static str],
+);
 
 /// The classes, in the order of [`CLASSES`].
 #[derive(Clone, Copy)]
@@ -229,15 +234,30 @@ fn classes() -> &'static [Class] {
 
 fn build(&(word, path, outer, before, after): &ClassSpec, parts: &Parts) -> Class {
     let rows_of = |names: &[&'static str]| -> Vec<Row> {
-        let with_class =
-            |part: &str, row: &Row| Row { class: if part == "object" { OBJECT_PATH } else { path }, ..row.clone() };
-        names.iter().flat_map(|&part| parts[part].iter().map(move |row| with_class(part, row))).collect()
+        let with_class = |part: &str, row: &Row| Row {
+            class: if part == "object" { OBJECT_PATH } else { path },
+            ..row.clone()
+        };
+        names
+            .iter()
+            .flat_map(|&part| parts[part].iter().map(move |row| with_class(part, row)))
+            .collect()
     };
     let (mut rows, own) = (rows_of(before), rows_of(after));
     let common = rows.len();
     rows.extend(own);
-    let by_name = rows.iter().enumerate().map(|(at, row)| (row.name, at)).collect();
-    Class { word, outer, rows, common, by_name }
+    let by_name = rows
+        .iter()
+        .enumerate()
+        .map(|(at, row)| (row.name, at))
+        .collect();
+    Class {
+        word,
+        outer,
+        rows,
+        common,
+        by_name,
+    }
 }
 
 type Parts = HashMap<&'static str, Vec<Row>>;
@@ -246,19 +266,42 @@ fn parts() -> Parts {
     let accessors = accessors();
     let mut parts = Parts::new();
     for line in lines() {
-        let Line { part, name, ty, flags, state, default } = line;
+        let Line {
+            part,
+            name,
+            ty,
+            flags,
+            state,
+            default,
+        } = line;
         let is_other_word = state == "works" && !default.is_empty();
-        let value = || ty.parse(default).expect("static.tsv holds defaults of the row's type");
-        let source = match (accessors.get(&(part, if is_other_word { default } else { name })), state) {
+        let value = || {
+            ty.parse(default)
+                .expect("static.tsv holds defaults of the row's type")
+        };
+        let source = match (
+            accessors.get(&(part, if is_other_word { default } else { name })),
+            state,
+        ) {
             (Some(accessor), _) => ValueSource::Works(accessor),
             (None, "inert") => ValueSource::Inert(value()),
             (None, "constant") => ValueSource::Constant(value()),
             _ => panic!("a property in static.tsv that works has an accessor: {part} {name}"),
         };
-        parts.entry(part).or_default().push(Row { name, ty, flags, source, class: "" });
+        parts.entry(part).or_default().push(Row {
+            name,
+            ty,
+            flags,
+            source,
+            class: "",
+        });
     }
     for (part, owner) in ENGINE_PARTS {
-        parts.entry(part).or_default().extend(engine_params(owner).filter(|param| param.is_property).map(engine_row));
+        parts.entry(part).or_default().extend(
+            engine_params(owner)
+                .filter(|param| param.is_property)
+                .map(engine_row),
+        );
     }
     parts
 }
@@ -286,7 +329,14 @@ fn lines() -> impl Iterator<Item = Line> {
         };
         let ty = ValueType::from_word(ty).expect("static.tsv holds known types");
         let flags = flags.parse().expect("static.tsv holds flags as integers");
-        Line { part, name, ty, flags, state, default }
+        Line {
+            part,
+            name,
+            ty,
+            flags,
+            state,
+            default,
+        }
     })
 }
 
@@ -301,7 +351,9 @@ pub fn described() -> Vec<Line> {
         default: "",
     };
     let engines = ENGINE_PARTS.into_iter().flat_map(|(part, owner)| {
-        engine_params(owner).filter(|param| param.is_property).map(move |param| engine_line(part, param))
+        engine_params(owner)
+            .filter(|param| param.is_property)
+            .map(move |param| engine_line(part, param))
     });
     lines().chain(engines).collect()
 }
@@ -315,7 +367,13 @@ const ENGINE_PARTS: [(&str, EngineOwner); 4] = [
 ];
 
 fn engine_row(param: &'static EngineParam) -> Row {
-    Row { name: param.name, ty: param.ty, flags: param.flags, source: ValueSource::Engine(param), class: "" }
+    Row {
+        name: param.name,
+        ty: param.ty,
+        flags: param.flags,
+        source: ValueSource::Engine(param),
+        class: "",
+    }
 }
 
 type Accessors = HashMap<(&'static str, &'static str), &'static Accessor>;
@@ -373,7 +431,10 @@ const FILES: &[(&str, &[Accessor])] = &[
 ];
 
 fn accessors() -> Accessors {
-    FILES.iter().flat_map(|&(part, rows)| rows.iter().map(move |row| ((part, row.name), row))).collect()
+    FILES
+        .iter()
+        .flat_map(|&(part, rows)| rows.iter().map(move |row| ((part, row.name), row)))
+        .collect()
 }
 
 #[cfg(test)]
@@ -385,7 +446,10 @@ mod tests {
         let parts = parts();
         for (part, name) in accessors().keys() {
             let row = parts[part].iter().find(|row| row.name == *name);
-            assert!(row.is_some_and(|row| matches!(row.source, ValueSource::Works(_))), "{part}: {name}");
+            assert!(
+                row.is_some_and(|row| matches!(row.source, ValueSource::Works(_))),
+                "{part}: {name}"
+            );
         }
     }
 
@@ -396,9 +460,18 @@ mod tests {
 
     #[test]
     fn what_works_works_in_every_direction_it_is_said_to() {
-        for (part, row) in parts().iter().flat_map(|(part, rows)| rows.iter().map(move |row| (part, row))) {
-            let ValueSource::Works(accessor) = row.source else { continue };
-            assert!(accessor.read.is_some() || row.flags & flags::NOT_READABLE != 0, "{part}: {} is read", row.name);
+        for (part, row) in parts()
+            .iter()
+            .flat_map(|(part, rows)| rows.iter().map(move |row| (part, row)))
+        {
+            let ValueSource::Works(accessor) = row.source else {
+                continue;
+            };
+            assert!(
+                accessor.read.is_some() || row.flags & flags::NOT_READABLE != 0,
+                "{part}: {} is read",
+                row.name
+            );
             assert!(
                 accessor.write.is_some() || row.flags & flags::NOT_WRITABLE != 0,
                 "{part}: {} is written",
@@ -412,7 +485,12 @@ mod tests {
         for class in classes() {
             let (before, after) = class.rows();
             for row in before.iter().chain(after) {
-                assert_eq!(class.find(row.name).map(|found| found.ty), Some(row.ty), "{}", row.name);
+                assert_eq!(
+                    class.find(row.name).map(|found| found.ty),
+                    Some(row.ty),
+                    "{}",
+                    row.name
+                );
             }
         }
         assert_eq!(app_class().without_words("app.sessionId"), "sessionId");

@@ -40,7 +40,9 @@ impl PropertyName {
 
     /// None for a name that is too long, or not UTF-8.
     fn short(name: &[u8]) -> Option<Self> {
-        ArrayString::from(std::str::from_utf8(name).ok()?).ok().map(Self::Short)
+        ArrayString::from(std::str::from_utf8(name).ok()?)
+            .ok()
+            .map(Self::Short)
     }
 }
 
@@ -203,7 +205,11 @@ impl PropertyValue for IntPair {
 }
 
 fn items(data: &Data) -> Option<&[Data]> {
-    if let Data::Array(items) = data { Some(items) } else { None }
+    if let Data::Array(items) = data {
+        Some(items)
+    } else {
+        None
+    }
 }
 
 fn floats(data: &Data) -> Option<Vec<f64>> {
@@ -211,19 +217,43 @@ fn floats(data: &Data) -> Option<Vec<f64>> {
 }
 
 fn integers(data: &Data) -> Option<Vec<i64>> {
-    items(data)?.iter().map(|item| if let Data::Int(i) = item { Some(*i) } else { None }).collect()
+    items(data)?
+        .iter()
+        .map(|item| {
+            if let Data::Int(i) = item {
+                Some(*i)
+            } else {
+                None
+            }
+        })
+        .collect()
 }
 
 /// The part of a table with a list and names that CBOR stores: the list.
 fn array_part(table: Data) -> Data {
-    let Data::Map(entries) = &table else { return table };
-    let at = |n: i64| entries.iter().find(|(key, _)| *key == Key::Int(n)).map(|(_, value)| value.clone());
+    let Data::Map(entries) = &table else {
+        return table;
+    };
+    let at = |n: i64| {
+        entries
+            .iter()
+            .find(|(key, _)| *key == Key::Int(n))
+            .map(|(_, value)| value.clone())
+    };
     let list: Vec<Data> = (1..).map_while(at).collect();
-    if list.is_empty() { table } else { Data::Array(list) }
+    if list.is_empty() {
+        table
+    } else {
+        Data::Array(list)
+    }
 }
 
 fn check_table<'a>(args: &Args<'a, impl Source<'a>>) -> ApiResult<()> {
-    if args.is_table(args.position()) { Ok(()) } else { Err(ApiError::ArgumentType) }
+    if args.is_table(args.position()) {
+        Ok(())
+    } else {
+        Err(ApiError::ArgumentType)
+    }
 }
 
 impl FromScript for Text {
@@ -282,13 +312,22 @@ mod tests {
 
     #[test]
     fn a_table_with_list_and_names_keeps_its_list() {
-        let entries = vec![(Key::Int(1), Data::Int(7)), (Key::Text(b"k".to_vec()), Data::Nil)];
-        assert_eq!(Table(Data::Map(entries)).into_data(), Data::Array(vec![Data::Int(7)]));
+        let entries = vec![
+            (Key::Int(1), Data::Int(7)),
+            (Key::Text(b"k".to_vec()), Data::Nil),
+        ];
+        assert_eq!(
+            Table(Data::Map(entries)).into_data(),
+            Data::Array(vec![Data::Int(7)])
+        );
     }
 
     #[test]
     fn stored_values_of_another_size_are_refused() {
         assert_eq!(Vector3::from_data(vec![1.0, 2.0].into()), None);
-        assert_eq!(Vector3::from_data(vec![1.0, 2.0, 3.0].into()), Some(Vector3([1.0, 2.0, 3.0])));
+        assert_eq!(
+            Vector3::from_data(vec![1.0, 2.0, 3.0].into()),
+            Some(Vector3([1.0, 2.0, 3.0]))
+        );
     }
 }

@@ -52,13 +52,23 @@ impl Conversation<'_> {
     ///
     /// # Errors
     /// The callback's, or when the process has ended.
-    pub(super) fn call_callback(self, call: SysCall, args: &[Data]) -> Result<Vec<Data>, ScriptError> {
-        let timeout = if call == SysCall::Cleanup { CLEANUP_TIMEOUT } else { Duration::ZERO };
+    pub(super) fn call_callback(
+        self,
+        call: SysCall,
+        args: &[Data],
+    ) -> Result<Vec<Data>, ScriptError> {
+        let timeout = if call == SysCall::Cleanup {
+            CLEANUP_TIMEOUT
+        } else {
+            Duration::ZERO
+        };
         if !self.wait_for_turn(Some(timeout))? {
             self.link.queue(call, args);
             return Ok(Vec::new());
         }
-        Ok(self.exchange(&message::call(call.name(), args), self.call_limit())?.unwrap_or_default())
+        Ok(self
+            .exchange(&message::call(call.name(), args), self.call_limit())?
+            .unwrap_or_default())
     }
 
     /// Lets the process do something by the letter of its handler.
@@ -72,7 +82,9 @@ impl Conversation<'_> {
         limit: Option<Duration>,
     ) -> Result<Vec<Data>, ScriptError> {
         self.wait_for_turn(None)?;
-        Ok(self.exchange(&message::request(kind, fields), limit)?.unwrap_or_default())
+        Ok(self
+            .exchange(&message::request(kind, fields), limit)?
+            .unwrap_or_default())
     }
 
     /// Waits for the next message of the script's thread, if it runs; false when there is none within `limit`.
@@ -95,9 +107,16 @@ impl Conversation<'_> {
     }
 
     /// Sends a message and serves the script until it answers.
-    fn exchange(self, message: &[u8], limit: Option<Duration>) -> Result<Option<Vec<Data>>, ScriptError> {
+    fn exchange(
+        self,
+        message: &[u8],
+        limit: Option<Duration>,
+    ) -> Result<Option<Vec<Data>>, ScriptError> {
         if let Some(script) = self.link.embedded() {
-            return outcome(self.link.read(&script.ask(message).map_err(ScriptError::new)?)?);
+            return outcome(
+                self.link
+                    .read(&script.ask(message).map_err(ScriptError::new)?)?,
+            );
         }
         self.link.send(message)?;
         loop {
@@ -119,9 +138,16 @@ impl Conversation<'_> {
     fn call_limit(self) -> Option<Duration> {
         let sim = self.env.sim.upgrade()?;
         let app = sim.app.borrow();
-        let text = app.named_params.get("python.callTimeout").and_then(|value| std::str::from_utf8(value).ok());
-        let seconds = text.and_then(|text| text.trim().parse().ok()).unwrap_or(CALL_TIMEOUT);
-        Duration::try_from_secs_f64(seconds).ok().filter(|limit| !limit.is_zero())
+        let text = app
+            .named_params
+            .get("python.callTimeout")
+            .and_then(|value| std::str::from_utf8(value).ok());
+        let seconds = text
+            .and_then(|text| text.trim().parse().ok())
+            .unwrap_or(CALL_TIMEOUT);
+        Duration::try_from_secs_f64(seconds)
+            .ok()
+            .filter(|limit| !limit.is_zero())
     }
 
     /// The answer to a call of the script's.
@@ -133,9 +159,15 @@ impl Conversation<'_> {
     }
 
     /// Calls a native function; None when it is not native, or needs Lua.
-    pub(super) fn call_native(self, name: &str, args: &[Data]) -> Option<Result<ApiResults<'static>, String>> {
+    pub(super) fn call_native(
+        self,
+        name: &str,
+        args: &[Data],
+    ) -> Option<Result<ApiResults<'static>, String>> {
         let registry = &self.env.registry;
-        let Some(Member::Native(id)) = registry.find(name) else { return None };
+        let Some(Member::Native(id)) = registry.find(name) else {
+            return None;
+        };
         let bound = registry.bound(id);
         if bound.replacement.is_some() {
             return None;
@@ -145,7 +177,10 @@ impl Conversation<'_> {
             self.env.collect_events();
         }
         match results {
-            Ok(values) => Some(Ok(ApiResults { values, declared: declared_by(bound) })),
+            Ok(values) => Some(Ok(ApiResults {
+                values,
+                declared: declared_by(bound),
+            })),
             Err(ApiError::NeedsLua) => None,
             Err(error) => Some(Err(format!("in {name}: {}", bound.worded(error)))),
         }
@@ -157,8 +192,13 @@ impl Conversation<'_> {
         let runtime = self.env.runtime().ok_or(gone)?;
         let sim = self.env.sim.upgrade().ok_or(gone)?;
         let _level = Level::enter(&sim.scripts, self.env);
-        let args: Vec<Data> = std::iter::once(Data::text(name)).chain(args.iter().cloned()).collect();
-        let results = runtime.interpreter.call_library(LIBRARY, "serve", &args).map_err(|error| error.text)?;
+        let args: Vec<Data> = std::iter::once(Data::text(name))
+            .chain(args.iter().cloned())
+            .collect();
+        let results = runtime
+            .interpreter
+            .call_library(LIBRARY, "serve", &args)
+            .map_err(|error| error.text)?;
         Ok(ApiResults::of_library(results))
     }
 
@@ -174,7 +214,9 @@ fn outcome(message: Message) -> Result<Option<Vec<Data>>, ScriptError> {
         Message::Results(results) => Ok(Some(results)),
         Message::Error(text) => Err(ScriptError::new(text)),
         // The rest is output, which was shown.
-        Message::NoFunction | Message::Call(..) | Message::Print(_) | Message::Write(..) => Ok(None),
+        Message::NoFunction | Message::Call(..) | Message::Print(_) | Message::Write(..) => {
+            Ok(None)
+        }
     }
 }
 
@@ -188,7 +230,10 @@ pub(super) fn answer(result: Result<ApiResults<'_>, String>) -> Vec<u8> {
 
 fn declared_by(bound: &Bound) -> Declared<'static> {
     let returns = bound.function.returns;
-    Declared { results: !returns.is_empty(), first: returns.first().copied().unwrap_or_default() }
+    Declared {
+        results: !returns.is_empty(),
+        first: returns.first().copied().unwrap_or_default(),
+    }
 }
 
 impl ApiResults<'static> {
@@ -196,12 +241,24 @@ impl ApiResults<'static> {
     pub(super) fn of_library(results: Vec<Data>) -> Self {
         let mut results = results.into_iter();
         let declared = match results.next() {
-            Some(Data::Text(first)) if first == b"string" => Declared { results: true, first: "string" },
-            Some(Data::Text(first)) if first == b"buffer" => Declared { results: true, first: "buffer" },
-            Some(Data::Text(_)) => Declared { results: true, first: "" },
+            Some(Data::Text(first)) if first == b"string" => Declared {
+                results: true,
+                first: "string",
+            },
+            Some(Data::Text(first)) if first == b"buffer" => Declared {
+                results: true,
+                first: "buffer",
+            },
+            Some(Data::Text(_)) => Declared {
+                results: true,
+                first: "",
+            },
             _ => Declared::default(),
         };
-        Self { values: results.collect(), declared }
+        Self {
+            values: results.collect(),
+            declared,
+        }
     }
 }
 
@@ -212,7 +269,10 @@ fn plain_error(text: &str) -> String {
         let line = before.rsplit(':').next().unwrap_or_default();
         !before.contains('\n') && !line.is_empty() && line.bytes().all(|byte| byte.is_ascii_digit())
     };
-    let after = text.split_once(": ").filter(|(before, _)| is_position(before)).map(|(_, after)| after);
+    let after = text
+        .split_once(": ")
+        .filter(|(before, _)| is_position(before))
+        .map(|(_, after)| after);
     after.unwrap_or(text).to_owned()
 }
 
@@ -224,7 +284,10 @@ mod tests {
     fn positions_of_the_library_are_left_out() {
         for (text, plain) in [
             ("17: in sim._getObject: no.", "in sim._getObject: no."),
-            ("[string \"x\"]:3: in sim.f: no.\nstack traceback:\n\t[C]: in ?", "in sim.f: no."),
+            (
+                "[string \"x\"]:3: in sim.f: no.\nstack traceback:\n\t[C]: in ?",
+                "in sim.f: no.",
+            ),
             ("in sim.f: line: 3", "in sim.f: line: 3"),
             ("No such function: 3: x", "No such function: 3: x"),
             ("", ""),

@@ -55,7 +55,10 @@ pub struct ScriptCalls {
 
 impl ScriptCalls {
     pub(super) fn new(env: &Rc<Env>) -> Self {
-        Self { env: Rc::downgrade(env), count: Cell::new(0) }
+        Self {
+            env: Rc::downgrade(env),
+            count: Cell::new(0),
+        }
     }
 
     /// Whether the function of that name returns at once: it reads or sets values, and runs no script.
@@ -72,19 +75,26 @@ impl ScriptCalls {
         let env = self.env.upgrade().ok_or("the script has ended.")?;
         let link = Conversation::link_of(&env);
         self.count.set(self.count.get() + 1);
-        link.look_after(&env, self.count.get()).map_err(|error| error.text)?;
+        link.look_after(&env, self.count.get())
+            .map_err(|error| error.text)?;
         let message = Message::decode(message).map_err(|error| error.to_string())?;
         let Message::Call(name, args) = message else {
             let shown = link.show(&env, message, &mut 0);
             return shown.map(|_| Vec::new()).map_err(|error| error.text);
         };
-        Ok(Conversation { env: &env, link: &link }.answer_of(&name, &args))
+        Ok(Conversation {
+            env: &env,
+            link: &link,
+        }
+        .answer_of(&name, &args))
     }
 }
 
 /// Whether a function returns at once: it reads or sets values, and runs no script.
 pub fn is_short(name: &str, member: &Member) -> bool {
     const SHORT: &[&str] = &["get", "set", "is", "has", "pack", "unpack", "read", "write"];
-    let name = name.strip_prefix("sim.").filter(|_| matches!(member, Member::Native(_)));
+    let name = name
+        .strip_prefix("sim.")
+        .filter(|_| matches!(member, Member::Native(_)));
     name.is_some_and(|name| SHORT.iter().any(|verb| name.starts_with(verb)))
 }

@@ -19,11 +19,17 @@ const MODULES: [(&str, &str); 5] = [
     ("swanilda_link", include_str!("child/swanilda_link.py")),
     ("swanilda_api", include_str!("child/swanilda_api.py")),
     ("swanilda_trace", include_str!("child/swanilda_trace.py")),
-    ("swanilda_coverage", include_str!("child/swanilda_coverage.py")),
+    (
+        "swanilda_coverage",
+        include_str!("child/swanilda_coverage.py"),
+    ),
     ("swanilda_script", include_str!("child/swanilda_script.py")),
 ];
 /// What takes the place of the guardian in the program's Python.
-const EMBEDDED: (&str, &str) = ("swanilda_embedded", include_str!("child/swanilda_embedded.py"));
+const EMBEDDED: (&str, &str) = (
+    "swanilda_embedded",
+    include_str!("child/swanilda_embedded.py"),
+);
 
 /// Where virtual environments have their Python.
 const VIRTUAL_ENVIRONMENTS: [&str; 2] = [".venv/bin/python", "venv/bin/python"];
@@ -37,7 +43,10 @@ pub(super) enum LaunchError {
         "The Python interpreter could not be called. It is currently set as: '{program}' ({reason}). Install Python 3.9 or newer, for \
          instance by 'apt install python3', or set another interpreter with -D python=PATH."
     )]
-    NotStarted { program: String, reason: std::io::Error },
+    NotStarted {
+        program: String,
+        reason: std::io::Error,
+    },
     #[error("Python cannot run scripts: {0}")]
     NotEmbedded(String),
 }
@@ -46,7 +55,9 @@ pub(super) enum LaunchError {
 pub(super) fn chosen_interpreter(sim: &Sim, by_script: Option<String>) -> Option<String> {
     let named = || {
         let app = sim.app.borrow();
-        app.named_params.get("python").map(|value| String::from_utf8_lossy(value).into_owned())
+        app.named_params
+            .get("python")
+            .map(|value| String::from_utf8_lossy(value).into_owned())
     };
     let by_script = by_script.filter(|program| !program.trim().is_empty());
     by_script.or_else(|| named().filter(|program| !program.trim().is_empty()))
@@ -59,15 +70,25 @@ pub(super) fn default_interpreter(folders: &[PathBuf]) -> String {
 
 /// The Python of a virtual environment in one of the folders.
 fn environment_beside(folders: &[PathBuf]) -> Option<String> {
-    let candidates = folders.iter().flat_map(|folder| VIRTUAL_ENVIRONMENTS.map(|python| folder.join(python)));
-    candidates.filter(|python| python.is_file()).find_map(|python| python.to_str().map(str::to_owned))
+    let candidates = folders
+        .iter()
+        .flat_map(|folder| VIRTUAL_ENVIRONMENTS.map(|python| folder.join(python)));
+    candidates
+        .filter(|python| python.is_file())
+        .find_map(|python| python.to_str().map(str::to_owned))
 }
 
 /// The folders of the script's file and of the scene, then those in which scripts find their modules.
 pub(super) fn scene_folders(sim: &Sim, script: &Script) -> Vec<PathBuf> {
-    let files = [script.file.borrow().clone().unwrap_or_default(), sim.scene_path()];
+    let files = [
+        script.file.borrow().clone().unwrap_or_default(),
+        sim.scene_path(),
+    ];
     let folder = |file: &String| Some(Path::new(file).parent()?.to_owned());
-    let folders = files.iter().filter_map(folder).filter(|folder| folder != Path::new(""));
+    let folders = files
+        .iter()
+        .filter_map(folder)
+        .filter(|folder| folder != Path::new(""));
     let mut all: Vec<PathBuf> = Vec::new();
     for folder in folders.chain(sim.options.package_dirs.iter().cloned()) {
         let folder = std::path::absolute(&folder).unwrap_or(folder);
@@ -82,9 +103,14 @@ pub(super) fn scene_folders(sim: &Sim, script: &Script) -> Vec<PathBuf> {
 ///
 /// # Errors
 /// When programs must not be started, or Python does not work.
-pub(super) fn embed(sim: &Sim, host: &dyn PythonHost, env: &Rc<Env>) -> Result<Rc<dyn EmbeddedScript>, LaunchError> {
+pub(super) fn embed(
+    sim: &Sim,
+    host: &dyn PythonHost,
+    env: &Rc<Env>,
+) -> Result<Rc<dyn EmbeddedScript>, LaunchError> {
     sim.options.permissions.check_run("python3")?;
-    host.start(&modules(&[EMBEDDED]), ScriptCalls::new(env)).map_err(LaunchError::NotEmbedded)
+    host.start(&modules(&[EMBEDDED]), ScriptCalls::new(env))
+        .map_err(LaunchError::NotEmbedded)
 }
 
 /// Starts a process without a script.
@@ -96,10 +122,21 @@ pub(super) fn start(sim: &Sim, interpreter: &str) -> Result<PeerProcess, LaunchE
     let path = Path::new(interpreter);
     let mut words = interpreter.split_whitespace();
     // A path may contain blanks.
-    let program = if path.is_file() { interpreter } else { words.next().unwrap_or(interpreter) };
-    let mut args: Vec<&str> = if path.is_file() { Vec::new() } else { words.collect() };
+    let program = if path.is_file() {
+        interpreter
+    } else {
+        words.next().unwrap_or(interpreter)
+    };
+    let mut args: Vec<&str> = if path.is_file() {
+        Vec::new()
+    } else {
+        words.collect()
+    };
     args.extend(["-c", GUARDIAN]);
-    let failed = |reason| LaunchError::NotStarted { program: interpreter.to_owned(), reason };
+    let failed = |reason| LaunchError::NotStarted {
+        program: interpreter.to_owned(),
+        reason,
+    };
     let mut process = PeerProcess::start(program, &args, None).map_err(failed)?;
     // One that has ended already is noticed when it is to load the script.
     let _ = process.send(&modules(&[]));
@@ -109,7 +146,8 @@ pub(super) fn start(sim: &Sim, interpreter: &str) -> Result<PeerProcess, LaunchE
 /// The modules of a process, and more.
 fn modules(more: &[(&str, &str)]) -> Vec<u8> {
     let mut message = Encoder::default();
-    let module = |&(name, text): &(&str, &str)| Data::Array(vec![Data::text(name), Data::text(text)]);
+    let module =
+        |&(name, text): &(&str, &str)| Data::Array(vec![Data::text(name), Data::text(text)]);
     let modules: Vec<Data> = MODULES.iter().chain(more).map(module).collect();
     message.list(&modules);
     message.into_bytes()

@@ -21,13 +21,19 @@ pub(super) fn read(counts: &Data, own: &Own, sim: &Sim) -> LineCounts {
     let mut all = LineCounts::default();
     let Data::Map(files) = counts else { return all };
     for (name, counted) in files {
-        let (Key::Text(name), Data::Array(parts)) = (name, counted) else { continue };
-        let [lines, functions] = &parts[..] else { continue };
+        let (Key::Text(name), Data::Array(parts)) = (name, counted) else {
+            continue;
+        };
+        let [lines, functions] = &parts[..] else {
+            continue;
+        };
         let name = String::from_utf8_lossy(name);
         let text = match name == own.name {
-            true => {
-                CountedText::Script { scene: sim.scene_path(), path: own.path.clone(), text: Arc::clone(&own.text) }
-            }
+            true => CountedText::Script {
+                scene: sim.scene_path(),
+                path: own.path.clone(),
+                text: Arc::clone(&own.text),
+            },
             false => CountedText::File(PathBuf::from(&*name)),
         };
         let functions = list(functions).filter_map(function).collect();
@@ -40,26 +46,55 @@ pub(super) fn read(counts: &Data, own: &Own, sim: &Sim) -> LineCounts {
 /// 1 for each of the lines.
 fn counts_of(lines: &[u32]) -> Vec<u64> {
     let mut counts = vec![0; lines.iter().copied().max().unwrap_or(0) as usize];
-    lines.iter().filter(|&&line| line > 0).for_each(|&line| counts[line as usize - 1] = 1);
+    lines
+        .iter()
+        .filter(|&&line| line > 0)
+        .for_each(|&line| counts[line as usize - 1] = 1);
     counts
 }
 
 fn function(value: &Data) -> Option<FunctionLines> {
-    let Data::Array(parts) = value else { return None };
-    let [Data::Int(line), name, lines] = &parts[..] else { return None };
+    let Data::Array(parts) = value else {
+        return None;
+    };
+    let [Data::Int(line), name, lines] = &parts[..] else {
+        return None;
+    };
     let lines = numbers(lines);
-    let name = if let Data::Text(name) = name { Some(String::from_utf8_lossy(name).into_owned()) } else { None };
-    (!lines.is_empty()).then_some(FunctionLines { line: u32::try_from(*line).ok()?, lines, name })
+    let name = if let Data::Text(name) = name {
+        Some(String::from_utf8_lossy(name).into_owned())
+    } else {
+        None
+    };
+    (!lines.is_empty()).then_some(FunctionLines {
+        line: u32::try_from(*line).ok()?,
+        lines,
+        name,
+    })
 }
 
 fn list(value: &Data) -> impl Iterator<Item = &Data> {
-    let items: &[Data] = if let Data::Array(items) = value { items } else { &[] };
+    let items: &[Data] = if let Data::Array(items) = value {
+        items
+    } else {
+        &[]
+    };
     items.iter()
 }
 
 /// Numbers of lines; a text has no more than its reader takes.
 fn numbers(value: &Data) -> Vec<u32> {
     const MAX_LINE: i64 = 1 << 24;
-    let line = |item: &Data| if let Data::Int(line) = item { Some(*line) } else { None };
-    list(value).filter_map(line).filter(|line| (0..=MAX_LINE).contains(line)).map(|line| line as u32).collect()
+    let line = |item: &Data| {
+        if let Data::Int(line) = item {
+            Some(*line)
+        } else {
+            None
+        }
+    };
+    list(value)
+        .filter_map(line)
+        .filter(|line| (0..=MAX_LINE).contains(line))
+        .map(|line| line as u32)
+        .collect()
 }

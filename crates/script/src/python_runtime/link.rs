@@ -66,7 +66,9 @@ impl Link {
 
     /// The script, if it runs in the program's Python.
     pub(super) fn embedded(&self) -> Option<Rc<dyn EmbeddedScript>> {
-        let Some(Peer::Embedded(script)) = &*self.peer.borrow() else { return None };
+        let Some(Peer::Embedded(script)) = &*self.peer.borrow() else {
+            return None;
+        };
         Some(Rc::clone(script))
     }
 
@@ -118,7 +120,11 @@ impl Link {
     ///
     /// # Errors
     /// When the process has ended, or the program is to end.
-    pub(super) fn receive(&self, env: &Env, limit: Option<Duration>) -> Result<Option<Message>, ScriptError> {
+    pub(super) fn receive(
+        &self,
+        env: &Env,
+        limit: Option<Duration>,
+    ) -> Result<Option<Message>, ScriptError> {
         let mut printed = 0;
         let mut begun = None;
         self.received.set(self.received.get() + 1);
@@ -126,7 +132,9 @@ impl Link {
         loop {
             let wait = limit.map_or(POLL_INTERVAL, |limit| limit.min(POLL_INTERVAL));
             if let Some(message) = self.next_message(wait)? {
-                let Some(message) = self.show(env, message, &mut printed)? else { continue };
+                let Some(message) = self.show(env, message, &mut printed)? else {
+                    continue;
+                };
                 self.show_rest(env);
                 return Ok(Some(message));
             }
@@ -143,13 +151,19 @@ impl Link {
     /// # Errors
     /// When it is.
     pub(super) fn look_after(&self, env: &Env, messages: u64) -> Result<(), ScriptError> {
-        if messages.is_multiple_of(CHECK_INTERVAL) { self.check_interruption(env) } else { Ok(()) }
+        if messages.is_multiple_of(CHECK_INTERVAL) {
+            self.check_interruption(env)
+        } else {
+            Ok(())
+        }
     }
 
     fn next_message(&self, limit: Duration) -> Result<Option<Message>, ScriptError> {
         let bytes = match self.embedded() {
             Some(script) => script.take(limit).map_err(ScriptError::new)?,
-            None => self.receive_of_process(limit).map_err(|error| self.ended(&error))?,
+            None => self
+                .receive_of_process(limit)
+                .map_err(|error| self.ended(&error))?,
         };
         bytes.map(|bytes| self.read(&bytes)).transpose()
     }
@@ -165,7 +179,9 @@ impl Link {
     pub(super) fn read(&self, bytes: &[u8]) -> Result<Message, ScriptError> {
         Message::decode(bytes).map_err(|error| {
             self.kill();
-            ScriptError::new(format!("the Python process of this script sent what cannot be read: {error}"))
+            ScriptError::new(format!(
+                "the Python process of this script sent what cannot be read: {error}"
+            ))
         })
     }
 
@@ -176,20 +192,32 @@ impl Link {
         message: Message,
         printed: &mut usize,
     ) -> Result<Option<Message>, ScriptError> {
-        let Some(sim) = env.sim.upgrade() else { return Ok(Some(message)) };
-        let (Message::Print(text) | Message::Write(_, text)) = &message else { return Ok(Some(message)) };
+        let Some(sim) = env.sim.upgrade() else {
+            return Ok(Some(message));
+        };
+        let (Message::Print(text) | Message::Write(_, text)) = &message else {
+            return Ok(Some(message));
+        };
         *printed = printed.saturating_add(text.len() + 1);
         if *printed > MAX_PRINTED {
             self.kill();
-            return Err(ScriptError::new("the Python process of this script wrote more than 64 MiB in one call."));
+            return Err(ScriptError::new(
+                "the Python process of this script wrote more than 64 MiB in one call.",
+            ));
         }
         let time = sim.clock.time();
         match &message {
             Message::Write(stream, text) => {
-                let stream = if *stream == 2 { OutputStream::Error } else { OutputStream::Output };
+                let stream = if *stream == 2 {
+                    OutputStream::Error
+                } else {
+                    OutputStream::Output
+                };
                 sim.log.write(text, stream, time);
             }
-            _ => sim.log.print(text, time, env.script.id, || env.script.log_name(&sim.scene.borrow())),
+            _ => sim.log.print(text, time, env.script.id, || {
+                env.script.log_name(&sim.scene.borrow())
+            }),
         }
         self.check_interruption(env)?;
         Ok(None)
@@ -205,9 +233,13 @@ impl Link {
             return;
         }
         let text = String::from_utf8_lossy(&text);
-        text.lines().for_each(|line| env.log(verbosity::SCRIPT_INFOS, line));
+        text.lines()
+            .for_each(|line| env.log(verbosity::SCRIPT_INFOS, line));
         if lost > 0 {
-            env.log(verbosity::SCRIPT_WARNINGS, &format!("{lost} more bytes of output, which came too fast."));
+            env.log(
+                verbosity::SCRIPT_WARNINGS,
+                &format!("{lost} more bytes of output, which came too fast."),
+            );
         }
     }
 
@@ -239,9 +271,16 @@ impl Link {
             (error, None) => error.to_string(),
         };
         // Only a process that has ended says no more.
-        let output = if status.is_some() { process.last_output() } else { process.take_output().0 };
+        let output = if status.is_some() {
+            process.last_output()
+        } else {
+            process.take_output().0
+        };
         let output = String::from_utf8_lossy(&output);
-        let text = format!("the Python process of this script has ended: {reason}.\n{}", output.trim_end());
+        let text = format!(
+            "the Python process of this script has ended: {reason}.\n{}",
+            output.trim_end()
+        );
         ScriptError::new(text.trim_end())
     }
 }

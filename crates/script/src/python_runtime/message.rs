@@ -33,11 +33,17 @@ impl Message {
     /// # Errors
     /// When the bytes are no message.
     pub(crate) fn decode(bytes: &[u8]) -> Result<Self, BadMessage> {
-        let Data::Array(fields) = decode(bytes)? else { return Err(BadMessage::Form) };
+        let Data::Array(fields) = decode(bytes)? else {
+            return Err(BadMessage::Form);
+        };
         let mut fields = fields.into_iter();
-        let Some(Data::Text(kind)) = fields.next() else { return Err(BadMessage::Form) };
+        let Some(Data::Text(kind)) = fields.next() else {
+            return Err(BadMessage::Form);
+        };
         let message = match (kind.as_slice(), fields.next(), fields.next()) {
-            (b"c", Some(Data::Text(name)), Some(Data::Array(args))) => Self::Call(lossy(&name), args),
+            (b"c", Some(Data::Text(name)), Some(Data::Array(args))) => {
+                Self::Call(lossy(&name), args)
+            }
             (b"r", Some(Data::Array(results)), None) => Self::Results(results),
             (b"e", Some(Data::Text(error)), None) => Self::Error(lossy(&error)),
             (b"n", None, None) => Self::NoFunction,
@@ -45,7 +51,11 @@ impl Message {
             (b"w", Some(Data::Int(stream)), Some(Data::Text(text))) => Self::Write(stream, text),
             _ => return Err(BadMessage::Form),
         };
-        if fields.next().is_none() { Ok(message) } else { Err(BadMessage::Form) }
+        if fields.next().is_none() {
+            Ok(message)
+        } else {
+            Err(BadMessage::Form)
+        }
     }
 }
 
@@ -94,17 +104,38 @@ mod tests {
     fn messages_are_read() {
         let bytes = call("sim.getObject", &[Data::text("/a"), Data::Nil]);
         let args = vec![Data::text("/a"), Data::Nil];
-        assert_eq!(Message::decode(&bytes), Ok(Message::Call("sim.getObject".into(), args)));
-        assert_eq!(Message::decode(&error("no")), Ok(Message::Error("no".into())));
-        assert_eq!(Message::decode(&results(&[], Declared::default())), Ok(Message::Results(Vec::new())));
+        assert_eq!(
+            Message::decode(&bytes),
+            Ok(Message::Call("sim.getObject".into(), args))
+        );
+        assert_eq!(
+            Message::decode(&error("no")),
+            Ok(Message::Error("no".into()))
+        );
+        assert_eq!(
+            Message::decode(&results(&[], Declared::default())),
+            Ok(Message::Results(Vec::new()))
+        );
     }
 
     #[test]
     fn what_is_no_message_is_refused() {
-        for bytes in [&b""[..], b"N", b"(\0\0\0\0", b"(\x01\0\0\0u\x01\0\0\0q", b"(\x01\0\0\0u\x01\0\0\0c"] {
+        for bytes in [
+            &b""[..],
+            b"N",
+            b"(\0\0\0\0",
+            b"(\x01\0\0\0u\x01\0\0\0q",
+            b"(\x01\0\0\0u\x01\0\0\0c",
+        ] {
             assert!(Message::decode(bytes).is_err(), "{bytes:?}");
         }
-        assert_eq!(Message::decode(&request("c", &[Data::Int(1), Data::Int(2)])), Err(BadMessage::Form));
-        assert_eq!(Message::decode(&request("n", &[Data::Int(1)])), Err(BadMessage::Form));
+        assert_eq!(
+            Message::decode(&request("c", &[Data::Int(1), Data::Int(2)])),
+            Err(BadMessage::Form)
+        );
+        assert_eq!(
+            Message::decode(&request("n", &[Data::Int(1)])),
+            Err(BadMessage::Form)
+        );
     }
 }

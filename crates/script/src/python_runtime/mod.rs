@@ -24,7 +24,8 @@ use super::lifecycle::env::{Env, Hook};
 use super::lifecycle::instance::Script;
 use super::lua_runtime::{LuaInterpreter, LuaLanguage};
 use super::runtime::{
-    CallError, CallbackResult, Callee, FunctionRef, Interpreter, Language, Runtime, ScriptError, SourceText,
+    CallError, CallbackResult, Callee, FunctionRef, Interpreter, Language, Runtime, ScriptError,
+    SourceText,
 };
 use super::sim::Sim;
 use conversation::{Conversation, LIBRARY};
@@ -119,11 +120,17 @@ struct Settings {
 
 impl PythonInterpreter {
     fn conversation(&self) -> Conversation<'_> {
-        Conversation { env: &self.env, link: &self.link }
+        Conversation {
+            env: &self.env,
+            link: &self.link,
+        }
     }
 
     fn sim(&self) -> Result<Rc<Sim>, ScriptError> {
-        self.env.sim.upgrade().ok_or_else(|| ScriptError::new("the simulator is gone."))
+        self.env
+            .sim
+            .upgrade()
+            .ok_or_else(|| ScriptError::new("the simulator is gone."))
     }
 
     /// Whether the text has this callback, and it is wanted.
@@ -153,23 +160,49 @@ impl PythonInterpreter {
     }
 
     /// The texts of the process, each with its name: the file that the script includes, then its own.
-    fn texts(&self, sim: &Sim, settings: &Settings, python: &[u8], name: &str) -> Result<Data, ScriptError> {
+    fn texts(
+        &self,
+        sim: &Sim,
+        settings: &Settings,
+        python: &[u8],
+        name: &str,
+    ) -> Result<Data, ScriptError> {
         let mut texts = Vec::new();
         if let Some(file) = &settings.file {
             let scene = launch::scene_folders(sim, &self.env.script);
-            let folders = settings.include_paths.iter().map(Path::new).chain(scene.iter().map(AsRef::as_ref));
-            let path = folders.map(|folder| folder.join(file)).find(|path| path.is_file());
-            let path = path.ok_or_else(|| ScriptError::new(format!("the included file '{file}' was not found.")))?;
-            sim.options.permissions.check_read(&path).map_err(|denied| ScriptError::new(denied.to_string()))?;
-            let text = read_bounded(&path).map_err(|error| ScriptError::new(format!("{}: {error}", path.display())))?;
-            texts.push(Data::Array(vec![Data::text(&path.to_string_lossy()), lossy(&text)]));
+            let folders = settings
+                .include_paths
+                .iter()
+                .map(Path::new)
+                .chain(scene.iter().map(AsRef::as_ref));
+            let path = folders
+                .map(|folder| folder.join(file))
+                .find(|path| path.is_file());
+            let path = path.ok_or_else(|| {
+                ScriptError::new(format!("the included file '{file}' was not found."))
+            })?;
+            sim.options
+                .permissions
+                .check_read(&path)
+                .map_err(|denied| ScriptError::new(denied.to_string()))?;
+            let text = read_bounded(&path)
+                .map_err(|error| ScriptError::new(format!("{}: {error}", path.display())))?;
+            texts.push(Data::Array(vec![
+                Data::text(&path.to_string_lossy()),
+                lossy(&text),
+            ]));
         }
         texts.push(Data::Array(vec![Data::text(name), lossy(python)]));
         Ok(Data::Array(texts))
     }
 
     /// Starts the process and runs the script's text in it.
-    fn begin(&self, text: &[u8], chunk_name: &str, counted_as: Option<&String>) -> Result<(), ScriptError> {
+    fn begin(
+        &self,
+        text: &[u8],
+        chunk_name: &str,
+        counted_as: Option<&String>,
+    ) -> Result<(), ScriptError> {
         let sim = self.sim()?;
         let parts = source::split(text);
         if !parts.lua.is_empty() {
@@ -178,23 +211,45 @@ impl PythonInterpreter {
         let mut settings = self.settings()?;
         settings.file = parts.include.or(settings.file.take());
         let file = self.env.script.file.borrow().clone();
-        let name = file.as_deref().or(chunk_name.strip_prefix('@')).unwrap_or("script");
+        let name = file
+            .as_deref()
+            .or(chunk_name.strip_prefix('@'))
+            .unwrap_or("script");
         let texts = self.texts(&sim, &settings, &parts.python, name)?;
         let peer = self.peer(&sim, settings.executable.take(), counted_as.is_some());
-        self.link.open(peer.map_err(|error| ScriptError::new(error.to_string()))?);
-        self.own.replace(counted_as.map(|path| Own { name: name.to_owned(), path: path.clone(), text: text.into() }));
-        let fields = [texts, folders(&sim, &self.env.script, &settings), Data::Bool(counted_as.is_some())];
-        let functions = self.conversation().request("l", &fields, Some(settings.init_limit))?;
+        self.link
+            .open(peer.map_err(|error| ScriptError::new(error.to_string()))?);
+        self.own.replace(counted_as.map(|path| Own {
+            name: name.to_owned(),
+            path: path.clone(),
+            text: text.into(),
+        }));
+        let fields = [
+            texts,
+            folders(&sim, &self.env.script, &settings),
+            Data::Bool(counted_as.is_some()),
+        ];
+        let functions = self
+            .conversation()
+            .request("l", &fields, Some(settings.init_limit))?;
         self.note_functions(&functions, settings.frequent)
     }
 
     /// What is to run the script: the program's Python, unless another one was chosen or lines are counted, which is for a process alone.
-    fn peer(&self, sim: &Sim, executable: Option<String>, is_counted: bool) -> Result<Peer, LaunchError> {
+    fn peer(
+        &self,
+        sim: &Sim,
+        executable: Option<String>,
+        is_counted: bool,
+    ) -> Result<Peer, LaunchError> {
         let chosen = launch::chosen_interpreter(sim, executable);
         match (&self.host, &chosen) {
-            (Some(host), None) if !is_counted => launch::embed(sim, &**host, &self.env).map(Peer::Embedded),
+            (Some(host), None) if !is_counted => {
+                launch::embed(sim, &**host, &self.env).map(Peer::Embedded)
+            }
             _ => {
-                let default = || launch::default_interpreter(&launch::scene_folders(sim, &self.env.script));
+                let default =
+                    || launch::default_interpreter(&launch::scene_folders(sim, &self.env.script));
                 launch::start(sim, &chosen.unwrap_or_else(default)).map(Peer::Process)
             }
         }
@@ -202,13 +257,25 @@ impl PythonInterpreter {
 
     fn note_functions(&self, functions: &[Data], frequent: u64) -> Result<(), ScriptError> {
         let names = functions.iter().filter_map(text_of);
-        let bits = names.filter_map(|name| SysCall::from_name(&name)).fold(0, |bits, call| bits | call.bit());
-        let usually_unwanted =
-            [SysCall::Contact, SysCall::ContactCallback, SysCall::Dyn, SysCall::DynCallback, SysCall::Event];
-        let unwanted = usually_unwanted.iter().fold(0, |bits, call| bits | call.bit()) & !frequent;
+        let bits = names
+            .filter_map(|name| SysCall::from_name(&name))
+            .fold(0, |bits, call| bits | call.bit());
+        let usually_unwanted = [
+            SysCall::Contact,
+            SysCall::ContactCallback,
+            SysCall::Dyn,
+            SysCall::DynCallback,
+            SysCall::Event,
+        ];
+        let unwanted = usually_unwanted
+            .iter()
+            .fold(0, |bits, call| bits | call.bit())
+            & !frequent;
         self.callbacks.set(bits & !unwanted);
         if !self.has(SysCall::Init) && !self.has(SysCall::Thread) {
-            return Err(ScriptError::new("can't find sysCall_init nor sysCall_thread functions"));
+            return Err(ScriptError::new(
+                "can't find sysCall_init nor sysCall_thread functions",
+            ));
         }
         if self.has(SysCall::Thread) {
             self.lua.call_library(LIBRARY, "defineThread", &[])?;
@@ -241,7 +308,9 @@ impl PythonInterpreter {
 
     /// Calls the function that gets all calls of others; None when it says that the script has no such function.
     fn call_extension(&self, name: &str, args: &[Data]) -> Result<Option<Vec<Data>>, ScriptError> {
-        let args: Vec<Data> = std::iter::once(Data::text(name)).chain(args.iter().cloned()).collect();
+        let args: Vec<Data> = std::iter::once(Data::text(name))
+            .chain(args.iter().cloned())
+            .collect();
         let results = self.conversation().call(SysCall::Ext.name(), &args)?;
         match results.as_deref() {
             Some([Data::Text(text)]) if &**text == NOT_FOUND => Ok(None),
@@ -256,7 +325,8 @@ impl PythonInterpreter {
 impl Interpreter for PythonInterpreter {
     fn start(&self) -> Result<(), ScriptError> {
         self.lua.start()?;
-        self.lua.set_global(conversation::NATIVES, thread::push_natives);
+        self.lua
+            .set_global(conversation::NATIVES, thread::push_natives);
         Ok(())
     }
 
@@ -300,14 +370,21 @@ impl Interpreter for PythonInterpreter {
             return self.begin(text, chunk_name, None);
         }
         let name = chunk_name.strip_prefix('@').unwrap_or(chunk_name);
-        self.conversation().request("x", &[lossy(text), Data::text(name)], None).map(drop)
+        self.conversation()
+            .request("x", &[lossy(text), Data::text(name)], None)
+            .map(drop)
     }
 
     fn evaluate(&self, text: &[u8]) -> Result<Vec<Data>, ScriptError> {
         self.conversation().request("v", &[lossy(text)], None)
     }
 
-    fn call_library(&self, module: &str, function: &str, args: &[Data]) -> Result<Vec<Data>, ScriptError> {
+    fn call_library(
+        &self,
+        module: &str,
+        function: &str,
+        args: &[Data],
+    ) -> Result<Vec<Data>, ScriptError> {
         self.lua.call_library(module, function, args)
     }
 
@@ -325,7 +402,11 @@ impl Interpreter for PythonInterpreter {
             && self.link.is_open()
             && let Ok(counts) = self.conversation().request("k", &[], Some(COUNT_TIMEOUT))
         {
-            all.merge(line_counts::read(counts.first().unwrap_or(&Data::Nil), own, sim));
+            all.merge(line_counts::read(
+                counts.first().unwrap_or(&Data::Nil),
+                own,
+                sim,
+            ));
         }
         all
     }
@@ -341,7 +422,11 @@ impl Drop for PythonInterpreter {
 fn folders(sim: &Sim, script: &Script, settings: &Settings) -> Data {
     let scene = launch::scene_folders(sim, script);
     let scene = scene.iter();
-    let folders = settings.paths.iter().cloned().chain(scene.map(|folder| folder.to_string_lossy().into_owned()));
+    let folders = settings
+        .paths
+        .iter()
+        .cloned()
+        .chain(scene.map(|folder| folder.to_string_lossy().into_owned()));
     Data::Array(folders.map(|folder| Data::text(&folder)).collect())
 }
 

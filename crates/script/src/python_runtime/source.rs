@@ -51,7 +51,9 @@ fn take(parts: &mut Parts, lua: &[u8]) {
 /// What stands behind the beginning of a block, and what ends it.
 fn block_start(line: &[u8]) -> Option<(&[u8], &'static [u8])> {
     let quotes: [&'static [u8]; 2] = [b"'''", b"\"\"\""];
-    quotes.into_iter().find_map(|quote| Some((line.strip_prefix(quote)?.strip_prefix(b"luaExec")?, quote)))
+    quotes
+        .into_iter()
+        .find_map(|quote| Some((line.strip_prefix(quote)?.strip_prefix(b"luaExec")?, quote)))
 }
 
 #[cfg(test)]
@@ -64,7 +66,10 @@ mod tests {
             b"#python\n\n#luaExec x = 5\n'''luaExec\nfunction f()\n    return x\nend\n'''\nimport os\n#luaExec y = 1\n";
         let parts = split(text);
         assert_eq!(parts.lua, b"x = 5\n\nfunction f()\nreturn x\nend\n\n");
-        assert_eq!(parts.python, b"#python\n\n#\n#\n#\n#\n#\n#\nimport os\n#luaExec y = 1\n");
+        assert_eq!(
+            parts.python,
+            b"#python\n\n#\n#\n#\n#\n#\n#\nimport os\n#luaExec y = 1\n"
+        );
     }
 
     #[test]
@@ -77,13 +82,27 @@ mod tests {
     #[test]
     fn a_block_may_end_on_its_line() {
         let parts = split(b"'''luaExec x = 1'''\ny = 2\n");
-        assert_eq!((parts.lua.as_slice(), parts.python.as_slice()), (&b"x = 1\n"[..], &b"#\ny = 2\n"[..]));
+        assert_eq!(
+            (parts.lua.as_slice(), parts.python.as_slice()),
+            (&b"x = 1\n"[..], &b"#\ny = 2\n"[..])
+        );
     }
 
     #[test]
     fn other_texts_stay_as_they_are() {
-        for text in [&b""[..], b"'''doc'''\n#luaExec x\n", b"x = 1", b"# a\r\n\r\nimport os\r\n"] {
-            assert_eq!(split(text), Parts { python: text.to_vec(), ..Parts::default() });
+        for text in [
+            &b""[..],
+            b"'''doc'''\n#luaExec x\n",
+            b"x = 1",
+            b"# a\r\n\r\nimport os\r\n",
+        ] {
+            assert_eq!(
+                split(text),
+                Parts {
+                    python: text.to_vec(),
+                    ..Parts::default()
+                }
+            );
         }
     }
 }

@@ -47,7 +47,10 @@ pub(super) fn push_natives(stack: Stack<'_>) {
 /// Lets the thread go on. Returns nothing when it has ended, false when it is busy, or the name of a function and its arguments.
 fn turn(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let link = Conversation::link_of(stack.owner());
-    let conversation = Conversation { env: stack.owner(), link: &link };
+    let conversation = Conversation {
+        env: stack.owner(),
+        link: &link,
+    };
     match conversation.turn(|| threads::auto_level(stack) == 0) {
         Ok(Turn::Ended) => Ok(0),
         Ok(Turn::Busy) => {
@@ -84,12 +87,18 @@ impl Conversation<'_> {
             if beside && self.link.thread_calls.get() >= calls_in_slice {
                 return Ok(self.busy());
             }
-            let timeout = if self.link.thread_active.get() { timeout } else { Duration::ZERO };
+            let timeout = if self.link.thread_active.get() {
+                timeout
+            } else {
+                Duration::ZERO
+            };
             let Some(message) = self.next_of_thread(beside.then_some(timeout))? else {
                 self.link.thread_active.set(false);
                 return Ok(self.busy());
             };
-            self.link.thread_calls.set(self.link.thread_calls.get().saturating_add(1));
+            self.link
+                .thread_calls
+                .set(self.link.thread_calls.get().saturating_add(1));
             self.link.busy.set(false);
             self.link.thread_active.set(true);
             self.run_queued()?;
@@ -134,7 +143,9 @@ impl Conversation<'_> {
 /// Answers the thread: gets whether its call succeeded, and what the library says of its results, or the error.
 fn reply(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let link = Conversation::link_of(stack.owner());
-    let values = (2..=stack.top()).map(|index| data::read_data(stack, index)).collect::<Result<Vec<_>, _>>();
+    let values = (2..=stack.top())
+        .map(|index| data::read_data(stack, index))
+        .collect::<Result<Vec<_>, _>>();
     let result = match values {
         Ok(values) if stack.truthy(1) => Ok(ApiResults::of_library(values)),
         Ok(_) => Err(String::from_utf8_lossy(&stack.text(2).unwrap_or_default()).into_owned()),
@@ -150,17 +161,24 @@ fn reply(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 /// Calls a function of the script with the arguments after its name.
 fn ask(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let link = Conversation::link_of(stack.owner());
-    let conversation = Conversation { env: stack.owner(), link: &link };
+    let conversation = Conversation {
+        env: stack.owner(),
+        link: &link,
+    };
     let name = String::from_utf8_lossy(&stack.bytes(1).unwrap_or_default()).into_owned();
     let args: Vec<Data> = (2..=stack.top())
         .map(|index| data::read_data(stack, index))
         .collect::<Result<_, _>>()
         .map_err(|error| error.to_string())?;
-    let results = conversation.call(&name, &args).map_err(|error| error.text)?;
+    let results = conversation
+        .call(&name, &args)
+        .map_err(|error| error.text)?;
     let results = results.ok_or_else(|| format!("there is no function {name} in this script."))?;
     if !stack.reserve(results.len() + 8) {
         return Err("stack overflow: too many results.".into());
     }
-    results.iter().for_each(|result| data::push_data(stack, result));
+    results
+        .iter()
+        .for_each(|result| data::push_data(stack, result));
     Ok(results.len() as c_int)
 }

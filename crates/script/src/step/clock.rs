@@ -34,7 +34,10 @@ impl SimulationState {
 
     /// The result of `sim.getSimulationStopping`.
     pub fn is_stopping(self) -> bool {
-        matches!(self, Self::Stopped | Self::AboutToStop | Self::LastBeforeStop)
+        matches!(
+            self,
+            Self::Stopped | Self::AboutToStop | Self::LastBeforeStop
+        )
     }
 }
 
@@ -161,7 +164,8 @@ impl Clock {
 
     /// The run pauses after that many more steps, without the last steps of a pause that a script asks for.
     pub(crate) fn pause_after(&self, steps: u64) {
-        self.pause_at_step.set(Some(self.steps().saturating_add(steps)));
+        self.pause_at_step
+            .set(Some(self.steps().saturating_add(steps)));
     }
 
     /// The run goes on where it would have paused.
@@ -204,7 +208,8 @@ impl Clock {
     /// forgiven except for one step.
     pub(crate) fn is_due(&self, wall: f64, dt: f64) -> bool {
         let latest_origin = wall - self.time.get() - 2.0 * dt;
-        self.real_time_origin.set(self.real_time_origin.get().max(latest_origin));
+        self.real_time_origin
+            .set(self.real_time_origin.get().max(latest_origin));
         self.time.get() + dt < wall - self.real_time_origin.get()
     }
 
@@ -212,7 +217,12 @@ impl Clock {
     pub(crate) fn state_after_step(&self) -> SimulationState {
         use SimulationState as S;
         let is_stopping = self.state().is_stopping() || self.stop_requested.get();
-        if !is_stopping && self.pause_at_step.get().is_some_and(|at| self.steps() >= at) {
+        if !is_stopping
+            && self
+                .pause_at_step
+                .get()
+                .is_some_and(|at| self.steps() >= at)
+        {
             self.pause_at_step.set(None);
             self.pause_requested.set(false);
             return S::Paused;

@@ -13,7 +13,10 @@ const FIELDS: [&str; 3] = ["handle1", "handle2", "engine"];
 
 impl Sim {
     /// The answers about pairs of shapes, one after the other.
-    pub(super) fn ask_about_contacts(self: &Rc<Self>, pairs: &[(Handle, Handle)]) -> Vec<ContactResponse> {
+    pub(super) fn ask_about_contacts(
+        self: &Rc<Self>,
+        pairs: &[(Handle, Handle)],
+    ) -> Vec<ContactResponse> {
         let mut responses = Vec::with_capacity(pairs.len());
         while let Some(&(first, second)) = pairs.get(responses.len()) {
             match self.sole_responder() {
@@ -44,13 +47,22 @@ impl Sim {
     }
 
     /// The answer of the first script that has one.
-    pub(super) fn ask_about_contact(self: &Rc<Self>, first: Handle, second: Handle) -> ContactResponse {
+    pub(super) fn ask_about_contact(
+        self: &Rc<Self>,
+        first: Handle,
+        second: Handle,
+    ) -> ContactResponse {
         let engine = self.engine();
         let values = [first.raw(), second.raw(), engine.number()];
-        let arguments = [Data::map([0, 1, 2].map(|field| (FIELDS[field], values[field].into())))];
-        let mut callbacks = CONTACT.into_iter().filter(|&callback| self.scripts.may_respond(callback));
-        let answer =
-            callbacks.find_map(|callback| self.first_answer(&self.active_scripts_reversed(), callback, &arguments));
+        let arguments = [Data::map(
+            [0, 1, 2].map(|field| (FIELDS[field], values[field].into())),
+        )];
+        let mut callbacks = CONTACT
+            .into_iter()
+            .filter(|&callback| self.scripts.may_respond(callback));
+        let answer = callbacks.find_map(|callback| {
+            self.first_answer(&self.active_scripts_reversed(), callback, &arguments)
+        });
         answer.map_or(ContactResponse::Default, |answer| response(&answer, engine))
     }
 
@@ -64,18 +76,27 @@ impl Sim {
 fn response(answer: &Data, engine: Engine) -> ContactResponse {
     let number = |engine: &str, name: &str| {
         let nested = answer.field(engine).and_then(|table| table.field(name));
-        nested.or_else(|| answer.field(&format!("{engine}.{name}"))).and_then(Data::as_f64)
+        nested
+            .or_else(|| answer.field(&format!("{engine}.{name}")))
+            .and_then(Data::as_f64)
     };
     let own = |[ode, newton]: [&str; 2]| match engine {
         Engine::Ode => number("ode", ode),
         Engine::Newton => number("newton", newton),
         _ => None,
     };
-    match (answer.field("ignoreContact"), answer.field("collisionResponse")) {
+    match (
+        answer.field("ignoreContact"),
+        answer.field("collisionResponse"),
+    ) {
         (Some(ignore), response) if !ignore.truthy() => match response.is_some_and(Data::truthy) {
             true => ContactResponse::Collide {
-                friction: own(["mu", "kineticFriction"]).or_else(|| number("bullet", "friction")).unwrap_or(1.0),
-                restitution: own(["bounce", "restitution"]).or_else(|| number("bullet", "restitution")).unwrap_or(0.0),
+                friction: own(["mu", "kineticFriction"])
+                    .or_else(|| number("bullet", "friction"))
+                    .unwrap_or(1.0),
+                restitution: own(["bounce", "restitution"])
+                    .or_else(|| number("bullet", "restitution"))
+                    .unwrap_or(0.0),
             },
             false => ContactResponse::NoCollision,
         },

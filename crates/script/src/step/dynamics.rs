@@ -23,7 +23,9 @@ impl Sim {
     pub(crate) fn handle_dynamics(self: &Rc<Self>, time_step: f64) -> ApiResult<i64> {
         let begun = self.with_dynamics(|dynamics, scene| dynamics.begin(scene, time_step));
         let busy = || ApiError::Other("the dynamics are already being handled.".into());
-        let Some(call) = begun.ok_or_else(busy)?.map_err(|_| busy())? else { return Ok(0) };
+        let Some(call) = begun.ok_or_else(busy)?.map_err(|_| busy())? else {
+            return Ok(0);
+        };
         for number in 1..=call.sub_steps {
             self.dynamics_callback(call, number, false);
             let driven = self.drive_joints(call, number);
@@ -31,13 +33,17 @@ impl Sim {
             self.dynamics_callback(call, number, true);
         }
         let triggers = self.with_dynamics(Dynamics::end).unwrap_or_default();
-        triggers.iter().for_each(|trigger| self.force_sensor_triggered(trigger));
+        triggers
+            .iter()
+            .for_each(|trigger| self.force_sensor_triggered(trigger));
         Ok(i64::from(call.sub_steps))
     }
 
     fn with_dynamics<R>(&self, work: impl FnOnce(&mut Dynamics, &mut Scene) -> R) -> Option<R> {
         let mut dynamics = self.dynamics.borrow_mut();
-        dynamics.as_mut().map(|dynamics| work(dynamics, &mut self.scene.borrow_mut()))
+        dynamics
+            .as_mut()
+            .map(|dynamics| work(dynamics, &mut self.scene.borrow_mut()))
     }
 
     fn dynamics_callback(self: &Rc<Self>, call: DynamicsCall, number: u32, after_step: bool) {
@@ -58,11 +64,19 @@ impl Sim {
 
     /// Sets the motors; a script's answer drives a joint in callback control. Returns whether there are such joints.
     fn drive_joints(self: &Rc<Self>, call: DynamicsCall, number: u32) -> bool {
-        let requests = self.with_dynamics(|dynamics, scene| dynamics.prepare(scene, number)).unwrap_or_default();
+        let requests = self
+            .with_dynamics(|dynamics, scene| dynamics.prepare(scene, number))
+            .unwrap_or_default();
         for request in &requests {
-            let Some(data) = self.joint_data(request, call, number) else { continue };
+            let Some(data) = self.joint_data(request, call, number) else {
+                continue;
+            };
             let answer = self.joint_callback(request.joint, &[data]);
-            let field = |names: [&str; 2]| names.into_iter().find_map(|name| answer.as_ref()?.field(name)?.as_f64());
+            let field = |names: [&str; 2]| {
+                names
+                    .into_iter()
+                    .find_map(|name| answer.as_ref()?.field(name)?.as_f64())
+            };
             let (velocity, force) = (field(["velocity", "vel"]), field(["force", "ctrl"]));
             if velocity.is_some() || force.is_some() {
                 self.with_dynamics(|dynamics, _| dynamics.drive(request.joint, velocity, force));
@@ -74,7 +88,8 @@ impl Sim {
     /// The scripts of the joint are called by the old name first.
     fn joint_callback(self: &Rc<Self>, joint: Handle, data: &[Data]) -> Option<Data> {
         if self.scripts.may_respond(SysCall::JointCallback)
-            && let Some(answer) = self.first_answer(&self.scripts_of_object(joint), SysCall::JointCallback, data)
+            && let Some(answer) =
+                self.first_answer(&self.scripts_of_object(joint), SysCall::JointCallback, data)
         {
             return Some(answer);
         }
@@ -83,29 +98,43 @@ impl Sim {
 
     fn joint_data(&self, request: &JointRequest, call: DynamicsCall, number: u32) -> Option<Data> {
         let scene = self.scene.borrow();
-        let joint = scene.object(request.joint).and_then(|object| object.joint()).ok()?;
+        let joint = scene
+            .object(request.joint)
+            .and_then(|object| object.joint())
+            .ok()?;
         Some(joint_data(joint, request, call, number))
     }
 
     /// One sub-step. Nothing is borrowed while the engine works, because scripts may filter contacts. `driven`: scripts drive joints.
     fn run_sub_step(self: &Rc<Self>, number: u32, driven: bool) {
         let contact_callbacks = self.scripts.may_respond_to_any(&CONTACT);
-        let script_access =
-            ScriptAccess { possible: driven || contact_callbacks || self.scripts.may_respond_to_any(&DYN) };
+        let script_access = ScriptAccess {
+            possible: driven || contact_callbacks || self.scripts.may_respond_to_any(&DYN),
+        };
         let filter = |first: Handle, second: Handle| self.ask_about_contact(first, second);
         let pairs = |dynamics: &mut Dynamics, _: &mut Scene| dynamics.pairs_near();
-        let near = if contact_callbacks { self.with_dynamics(pairs).unwrap_or_default() } else { Vec::new() };
+        let near = if contact_callbacks {
+            self.with_dynamics(pairs).unwrap_or_default()
+        } else {
+            Vec::new()
+        };
         let responses = self.ask_about_contacts(&near);
         let verdicts = Verdicts::new(near, responses);
-        let started =
-            self.with_dynamics(|dynamics, scene| dynamics.start_sub_step(scene, number, script_access, verdicts));
-        let Some(mut sub_step) = started.flatten() else { return };
+        let started = self.with_dynamics(|dynamics, scene| {
+            dynamics.start_sub_step(scene, number, script_access, verdicts)
+        });
+        let Some(mut sub_step) = started.flatten() else {
+            return;
+        };
         sub_step.run(contact_callbacks.then_some(&filter));
         let stopped = self.with_dynamics(|dynamics, scene| {
             dynamics.finish_sub_step(sub_step, scene);
             dynamics.take_frozen()
         });
-        stopped.into_iter().flatten().for_each(|shape| self.warn_of_infinite_motion(shape));
+        stopped
+            .into_iter()
+            .flatten()
+            .for_each(|shape| self.warn_of_infinite_motion(shape));
     }
 
     fn warn_of_infinite_motion(&self, shape: Handle) {

@@ -22,12 +22,17 @@ impl Sim {
 
     /// Calls the scripts above a joint, then those without an object, for its next step.
     fn move_joint(self: &Rc<Self>, handle: Handle) {
-        let Some(data) = self.motion_data(handle) else { return };
+        let Some(data) = self.motion_data(handle) else {
+            return;
+        };
         let answer = self.first_answer(&self.joint_chain(handle), SysCall::Joint, &[data]);
         let time_step = self.scene.borrow().settings().time_step;
         // A script may have removed the joint: then there is nothing to move.
         let _ = match answer {
-            Some(answer) => self.scene.borrow_mut().step_joint(handle, read_step(&answer)),
+            Some(answer) => self
+                .scene
+                .borrow_mut()
+                .step_joint(handle, read_step(&answer)),
             None => self.follow_profile(handle, time_step),
         };
     }
@@ -39,10 +44,14 @@ impl Sim {
     pub(crate) fn follow_profile(&self, handle: Handle, dt: f64) -> SceneResult<()> {
         let mut scene = self.scene.borrow_mut();
         let joint = scene.object(handle)?.joint()?;
-        let Some(motion) = joint.motion else { return Ok(()) };
+        let Some(motion) = joint.motion else {
+            return Ok(());
+        };
         let step = match motion {
             JointMotion::ToPosition => step_to_position(joint, dt),
-            JointMotion::AtVelocity { initial } => step_at_velocity(joint, initial.unwrap_or(joint.velocity), dt),
+            JointMotion::AtVelocity { initial } => {
+                step_at_velocity(joint, initial.unwrap_or(joint.velocity), dt)
+            }
         };
         scene.step_joint(handle, step)
     }
@@ -52,8 +61,12 @@ impl Sim {
         let scene = self.scene.borrow();
         let joint = scene.object(handle).ok()?.joint().ok()?;
         let motion = joint.motion?;
-        let Data::Map(mut entries) = describe(handle, joint) else { return None };
-        let mut add = |key: &str, value: f64| entries.push((Key::Text(key.as_bytes().to_vec()), value.into()));
+        let Data::Map(mut entries) = describe(handle, joint) else {
+            return None;
+        };
+        let mut add = |key: &str, value: f64| {
+            entries.push((Key::Text(key.as_bytes().to_vec()), value.into()))
+        };
         match motion {
             JointMotion::ToPosition => {
                 let error = joint.position_error(joint.position);
@@ -63,38 +76,81 @@ impl Sim {
             }
             JointMotion::AtVelocity { initial } => {
                 add("targetVel", joint.target_velocity);
-                initial.into_iter().for_each(|velocity| add("initVel", velocity));
+                initial
+                    .into_iter()
+                    .for_each(|velocity| add("initVel", velocity));
             }
         }
         Some(Data::Map(entries))
     }
 }
 
-const AT_REST: JointStep = JointStep { position: None, velocity: 0.0, accel: 0.0, immobile: true };
+const AT_REST: JointStep = JointStep {
+    position: None,
+    velocity: 0.0,
+    accel: 0.0,
+    immobile: true,
+};
 
 /// The first step of a planned motion. Where the limits allow no plan, the joint comes to rest.
 fn step_of(planned: Option<(f64, f64, f64)>) -> JointStep {
-    let moved = |(position, velocity, accel)| JointStep { position: Some(position), velocity, accel, immobile: false };
+    let moved = |(position, velocity, accel)| JointStep {
+        position: Some(position),
+        velocity,
+        accel,
+        immobile: false,
+    };
     planned.map_or(AT_REST, moved)
 }
 
 fn step_to_position(joint: &Joint, dt: f64) -> JointStep {
     let error = joint.position_error(joint.position);
-    let tolerance = if joint.is_revolute() { 0.01_f64.to_radians() } else { 0.0001 };
+    let tolerance = if joint.is_revolute() {
+        0.01_f64.to_radians()
+    } else {
+        0.0001
+    };
     if error.abs() <= tolerance && joint.velocity == 0.0 && joint.accel == 0.0 {
         return AT_REST;
     }
     let (position, velocity, accel) = (joint.position, joint.velocity, joint.accel);
     let limits = [joint.max_vel, joint.max_accel, joint.max_jerk];
-    step_of(position_step(position, velocity, accel, position + error, limits[0], limits[1], limits[2], dt).ok())
+    step_of(
+        position_step(
+            position,
+            velocity,
+            accel,
+            position + error,
+            limits[0],
+            limits[1],
+            limits[2],
+            dt,
+        )
+        .ok(),
+    )
 }
 
 fn step_at_velocity(joint: &Joint, velocity: f64, dt: f64) -> JointStep {
     let (position, target) = (joint.position, joint.target_velocity);
     if velocity == target && joint.accel == 0.0 {
-        return if target == 0.0 { AT_REST } else { step_of(Some((position + target * dt, target, 0.0))) };
+        return if target == 0.0 {
+            AT_REST
+        } else {
+            step_of(Some((position + target * dt, target, 0.0)))
+        };
     }
-    step_of(velocity_step(position, velocity, joint.accel, target, joint.max_accel, joint.max_jerk, dt).ok())
+    step_of(
+        velocity_step(
+            position,
+            velocity,
+            joint.accel,
+            target,
+            joint.max_accel,
+            joint.max_jerk,
+            dt,
+        )
+        .ok(),
+    )
 }
 
 fn describe(handle: Handle, joint: &Joint) -> Data {
@@ -116,7 +172,12 @@ fn describe(handle: Handle, joint: &Joint) -> Data {
 }
 
 fn read_step(answer: &Data) -> JointStep {
-    let number = |names: [&str; 2]| names.iter().find_map(|name| answer.field(name)).and_then(Data::as_f64);
+    let number = |names: [&str; 2]| {
+        names
+            .iter()
+            .find_map(|name| answer.field(name))
+            .and_then(Data::as_f64)
+    };
     JointStep {
         position: number(["pos", "position"]),
         velocity: number(["vel", "velocity"]).unwrap_or(0.0),

@@ -63,7 +63,10 @@ impl Sim {
         let scene = self.scene.borrow();
         let settings = scene.settings();
         !settings.real_time
-            || self.clock.is_due(self.clock.wall_seconds() * settings.real_time_factor, settings.time_step)
+            || self.clock.is_due(
+                self.clock.wall_seconds() * settings.real_time_factor,
+                settings.time_step,
+            )
     }
 
     fn notify_selection(self: &Rc<Self>) {
@@ -75,13 +78,21 @@ impl Sim {
 
     /// The argument of `sysCall_selChange`.
     pub(crate) fn selection_data(&self) -> Data {
-        let sel: Vec<i64> = self.scene.borrow().selection().iter().map(|h| h.raw()).collect();
+        let sel: Vec<i64> = self
+            .scene
+            .borrow()
+            .selection()
+            .iter()
+            .map(|h| h.raw())
+            .collect();
         Data::map([("sel", sel.into())])
     }
 
     /// One simulation step as the main script defines it.
     fn simulation_step(self: &Rc<Self>) {
-        let Some(main) = self.scripts.detached(ScriptType::Main) else { return };
+        let Some(main) = self.scripts.detached(ScriptType::Main) else {
+            return;
+        };
         if self.clock.state() == SimulationState::FirstAfterStop {
             self.run_phase(&main, SysCall::Init, Moment::SimulationInit);
         }
@@ -131,7 +142,10 @@ impl Sim {
 
     /// Suspend, suspended, resume: through the main script, or directly when it does not care.
     fn notify(self: &Rc<Self>, call: SysCall) {
-        let handled = self.scripts.detached(ScriptType::Main).is_some_and(|main| self.deliver(&main, call, &[]).ran);
+        let handled = self
+            .scripts
+            .detached(ScriptType::Main)
+            .is_some_and(|main| self.deliver(&main, call, &[]).ran);
         if !handled {
             self.deliver_to_embedded(call, &[]);
             self.deliver_to(ScriptGroup::AddOn, call, &[]);
@@ -154,7 +168,11 @@ impl Sim {
     /// The start procedure (spec: simulation 4).
     fn begin(self: &Rc<Self>) {
         self.notify_plugins(Moment::SimulationAboutToStart, [0; 4]);
-        for group in [ScriptGroup::Customization, ScriptGroup::AddOn, ScriptGroup::Sandbox] {
+        for group in [
+            ScriptGroup::Customization,
+            ScriptGroup::AddOn,
+            ScriptGroup::Sandbox,
+        ] {
             self.deliver_to(group, SysCall::BeforeSimulation, &[]);
         }
         self.removals.note_start(&self.scene.borrow());
@@ -183,7 +201,8 @@ impl Sim {
 
     fn warn_of_unusual_settings(&self) {
         if self.scene.borrow().settings().time_step != 0.05 {
-            let text = "Detected non-default settings (time steps and/or dyn. engine global settings).";
+            let text =
+                "Detected non-default settings (time steps and/or dyn. engine global settings).";
             self.log(verbosity::SCRIPT_WARNINGS, text);
         }
     }
@@ -229,7 +248,11 @@ impl Sim {
     }
 
     pub(crate) fn request_pause_after_error(&self) {
-        if self.scene.try_borrow().is_ok_and(|scene| scene.settings().pause_at_error) {
+        if self
+            .scene
+            .try_borrow()
+            .is_ok_and(|scene| scene.settings().pause_at_error)
+        {
             self.pause();
         }
     }
@@ -271,7 +294,11 @@ impl Sim {
         self.scene.borrow_mut().collision_objects_mut().reset(false);
         self.scene.borrow_mut().distance_objects_mut().reset(false);
         self.scene.borrow_mut().restore_initial_state();
-        for group in [ScriptGroup::Customization, ScriptGroup::AddOn, ScriptGroup::Sandbox] {
+        for group in [
+            ScriptGroup::Customization,
+            ScriptGroup::AddOn,
+            ScriptGroup::Sandbox,
+        ] {
             self.deliver_to(group, SysCall::AfterSimulation, &[]);
         }
         self.restart_failed_customization_scripts();
@@ -284,7 +311,11 @@ impl Sim {
     fn restart_failed_customization_scripts(self: &Rc<Self>) {
         for script in self.scripts_in(ScriptGroup::Customization).iter() {
             let wants = script.object.is_some_and(|handle| {
-                self.scene.borrow().object(handle).and_then(|o| o.script()).is_ok_and(|s| s.reset_after_sim_error)
+                self.scene
+                    .borrow()
+                    .object(handle)
+                    .and_then(|o| o.script())
+                    .is_ok_and(|s| s.reset_after_sim_error)
             });
             if wants && script.state() & state::ERROR != 0 {
                 self.reset(script);

@@ -14,21 +14,35 @@ impl Sim {
     ///
     /// # Errors
     /// When there is no such sensor, or it is not tagged for explicit handling.
-    pub(crate) fn handle_proximity_sensor(self: &Rc<Self>, sensor: Handle) -> SceneResult<Option<Detection>> {
-        if !self.scene.borrow().object(sensor)?.proximity_sensor()?.explicit {
+    pub(crate) fn handle_proximity_sensor(
+        self: &Rc<Self>,
+        sensor: Handle,
+    ) -> SceneResult<Option<Detection>> {
+        if !self
+            .scene
+            .borrow()
+            .object(sensor)?
+            .proximity_sensor()?
+            .explicit
+        {
             return Err(SceneError::NotExplicit);
         }
         self.sense(sensor)
     }
 
     /// Handles all sensors, or those that are not tagged for explicit handling; returns the nearest detection.
-    pub(crate) fn handle_proximity_sensors(self: &Rc<Self>, with_explicit: bool) -> Option<Detection> {
+    pub(crate) fn handle_proximity_sensors(
+        self: &Rc<Self>,
+        with_explicit: bool,
+    ) -> Option<Detection> {
         if !self.scene.borrow().has_sensors() {
             return None;
         }
         let sensors = self.proximity_sensors(with_explicit);
         // A script that is called may remove a sensor whose turn has not come.
-        let detections = sensors.into_iter().filter_map(|sensor| self.sense(sensor).ok().flatten());
+        let detections = sensors
+            .into_iter()
+            .filter_map(|sensor| self.sense(sensor).ok().flatten());
         detections.reduce(|a, b| if b.distance() < a.distance() { b } else { a })
     }
 
@@ -53,14 +67,25 @@ impl Sim {
     }
 
     fn proximity_sensors(&self, with_explicit: bool) -> Vec<Handle> {
-        let is_handled = |object: &&Object| object.proximity_sensor().is_ok_and(|s| with_explicit || !s.explicit);
-        self.scene.borrow().objects().filter(is_handled).map(Object::handle).collect()
+        let is_handled = |object: &&Object| {
+            object
+                .proximity_sensor()
+                .is_ok_and(|s| with_explicit || !s.explicit)
+        };
+        self.scene
+            .borrow()
+            .objects()
+            .filter(is_handled)
+            .map(Object::handle)
+            .collect()
     }
 
     /// Detects, calls the scripts of the sensor, and stores the result.
     fn sense(self: &Rc<Self>, sensor: Handle) -> SceneResult<Option<Detection>> {
         let uid = self.scene.borrow().object(sensor)?.uid();
-        let detected = self.detect_as_set(sensor)?.map(|detected| detected.detection);
+        let detected = self
+            .detect_as_set(sensor)?
+            .map(|detected| detected.detection);
         let detection = detected.filter(|detection| self.trigger(sensor, detection));
         let mut scene = self.scene.borrow_mut();
         // Scripts may have removed any object.
@@ -85,7 +110,9 @@ impl Sim {
                 Err(_) => return Ok(None),
             },
         };
-        self.perception.borrow_mut().detect(&scene, sensor, &group, DetectionMode::of(data))
+        self.perception
+            .borrow_mut()
+            .detect(&scene, sensor, &group, DetectionMode::of(data))
     }
 
     /// Calls the scripts of a sensor in turn until one says whether this is a detection; without an answer it is.
@@ -94,9 +121,14 @@ impl Sim {
             return true;
         }
         let data = trigger_data(sensor, detection);
-        let ask = |script| self.deliver(script, SysCall::Trigger, std::slice::from_ref(&data)).value;
+        let ask = |script| {
+            self.deliver(script, SysCall::Trigger, std::slice::from_ref(&data))
+                .value
+        };
         let scripts = self.scripts_of_object(sensor);
-        let answer = scripts.iter().find_map(|script| ask(script)?.field("trigger").cloned());
+        let answer = scripts
+            .iter()
+            .find_map(|script| ask(script)?.field("trigger").cloned());
         answer.is_none_or(|trigger| trigger.truthy())
     }
 }
@@ -104,7 +136,11 @@ impl Sim {
 fn with_flag(group: Group, entity: Entity, scene: &Scene) -> Group {
     match (group, entity) {
         (Group::List(mut list), Entity::Object(_)) => {
-            list.retain(|&object| scene.object(object).is_ok_and(|o| Purpose::Detection.includes(scene, o)));
+            list.retain(|&object| {
+                scene
+                    .object(object)
+                    .is_ok_and(|o| Purpose::Detection.includes(scene, o))
+            });
             Group::List(list)
         }
         (group, _) => group,
@@ -112,7 +148,12 @@ fn with_flag(group: Group, entity: Entity, scene: &Scene) -> Group {
 }
 
 /// Stores the result of a sensor; readers of properties are notified if it has changed.
-fn store(scene: &mut Scene, sensor: Handle, handled: bool, detection: Option<Detection>) -> SceneResult<()> {
+fn store(
+    scene: &mut Scene,
+    sensor: Handle,
+    handled: bool,
+    detection: Option<Detection>,
+) -> SceneResult<()> {
     let known = scene.object(sensor)?.proximity_sensor()?;
     if (known.handled, known.detection) == (handled, detection) {
         return Ok(());
@@ -126,7 +167,11 @@ fn store(scene: &mut Scene, sensor: Handle, handled: bool, detection: Option<Det
 
 /// The argument of `sysCall_trigger`, with the names of old versions too.
 fn trigger_data(sensor: Handle, detection: &Detection) -> Data {
-    let Detection { object, point, normal } = *detection;
+    let Detection {
+        object,
+        point,
+        normal,
+    } = *detection;
     Data::map([
         ("proximitySensor", sensor.raw().into()),
         ("object", object.raw().into()),

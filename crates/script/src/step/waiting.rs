@@ -32,7 +32,9 @@ impl Sim {
             if let Some(answer) = answer() {
                 return Ok(Some(answer));
             }
-            let left = limit.map_or(MAX_POLL_INTERVAL, |limit| limit.saturating_sub(begun.elapsed()));
+            let left = limit.map_or(MAX_POLL_INTERVAL, |limit| {
+                limit.saturating_sub(begun.elapsed())
+            });
             if left.is_zero() {
                 return Ok(None);
             }
@@ -54,24 +56,40 @@ mod tests {
 
     /// Runs with a simulator of its own.
     fn with_sim<R>(options: Options, test: impl FnOnce(&Sim) -> R) -> R {
-        test(&Sim::new(options, Registry::without_functions(), Box::new(Silent), Languages::default()))
+        test(&Sim::new(
+            options,
+            Registry::without_functions(),
+            Box::new(Silent),
+            Languages::default(),
+        ))
     }
 
     #[test]
     fn a_wait_ends_with_the_program() {
         let options = Options::default();
         let stop = options.stop.clone();
-        let waiting = std::thread::spawn(move || with_sim(options, |sim| sim.wait_for(None, || None::<()>)));
+        let waiting =
+            std::thread::spawn(move || with_sim(options, |sim| sim.wait_for(None, || None::<()>)));
         assert!(!waiting.is_finished());
         stop.store(true, Ordering::Relaxed);
-        assert_eq!(waiting.join().expect("it does not panic"), Err(ApiError::Interrupted));
+        assert_eq!(
+            waiting.join().expect("it does not panic"),
+            Err(ApiError::Interrupted)
+        );
     }
 
     #[test]
     fn a_wait_with_a_limit_ends() {
         with_sim(Options::default(), |sim| {
-            assert_eq!(sim.wait_for(Some(Duration::from_millis(2)), || None::<()>), Ok(None));
-            assert_eq!(sim.wait_for(Some(Duration::ZERO), || Some(1)), Ok(Some(1)), "the condition is checked first");
+            assert_eq!(
+                sim.wait_for(Some(Duration::from_millis(2)), || None::<()>),
+                Ok(None)
+            );
+            assert_eq!(
+                sim.wait_for(Some(Duration::ZERO), || Some(1)),
+                Ok(Some(1)),
+                "the condition is checked first"
+            );
         });
     }
 }

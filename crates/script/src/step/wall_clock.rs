@@ -1,7 +1,10 @@
 //! The wall clock, for the few functions that need it: `sim.getSystemTime`, real-time mode, event times, waiting.
 
 /// Now.
-#[allow(clippy::disallowed_methods, reason = "reading the wall clock is this function's job")]
+#[allow(
+    clippy::disallowed_methods,
+    reason = "reading the wall clock is this function's job"
+)]
 pub fn now() -> std::time::Instant {
     std::time::Instant::now()
 }
@@ -25,22 +28,40 @@ pub fn utc_date_and_time() -> String {
 fn date_and_time(seconds: u64) -> String {
     let (days, second) = (seconds / 86_400 + 719_468, seconds % 86_400);
     let (era, day_of_era) = (days / 146_097, days % 146_097);
-    let year_of_era = (day_of_era - day_of_era / 1_460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let year_of_era =
+        (day_of_era - day_of_era / 1_460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
     let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
     let from_march = (5 * day_of_year + 2) / 153;
     let day = day_of_year - (153 * from_march + 2) / 5 + 1;
-    let month = if from_march < 10 { from_march + 3 } else { from_march - 9 };
+    let month = if from_march < 10 {
+        from_march + 3
+    } else {
+        from_march - 9
+    };
     let year = era * 400 + year_of_era + u64::from(month <= 2);
-    format!("{year:04}-{month:02}-{day:02} {:02}:{:02}:{:02}", second / 3600, second / 60 % 60, second % 60)
+    format!(
+        "{year:04}-{month:02}-{day:02} {:02}:{:02}:{:02}",
+        second / 3600,
+        second / 60 % 60,
+        second % 60
+    )
 }
 
-#[allow(clippy::disallowed_methods, reason = "reading the wall clock is this function's job")]
+#[allow(
+    clippy::disallowed_methods,
+    reason = "reading the wall clock is this function's job"
+)]
 fn unix_time() -> std::time::Duration {
-    std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default()
+    std::time::SystemTime::now()
+        .duration_since(std::time::UNIX_EPOCH)
+        .unwrap_or_default()
 }
 
 /// Lets some time pass.
-#[allow(clippy::disallowed_methods, reason = "a script that waits for the world outside has asked for it")]
+#[allow(
+    clippy::disallowed_methods,
+    reason = "a script that waits for the world outside has asked for it"
+)]
 pub(crate) fn pause(time: std::time::Duration) {
     std::thread::sleep(time);
 }

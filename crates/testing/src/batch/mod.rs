@@ -64,13 +64,22 @@ impl Batch {
         let mut combinations = vec![Vec::new()];
         for (name, values) in &self.sweeps {
             let extend = |known: &Vec<(String, String)>| {
-                let with = |value: &String| [known.clone(), vec![(name.clone(), value.clone())]].concat();
+                let with =
+                    |value: &String| [known.clone(), vec![(name.clone(), value.clone())]].concat();
                 values.iter().map(with).collect::<Vec<_>>()
             };
             combinations = combinations.iter().flat_map(extend).collect();
         }
-        let all = combinations.iter().flat_map(|params| self.seeds.iter().map(move |&seed| (seed, params.clone())));
-        all.enumerate().map(|(i, (seed, params))| Run { number: i + 1, seed, params }).collect()
+        let all = combinations
+            .iter()
+            .flat_map(|params| self.seeds.iter().map(move |&seed| (seed, params.clone())));
+        all.enumerate()
+            .map(|(i, (seed, params))| Run {
+                number: i + 1,
+                seed,
+                params,
+            })
+            .collect()
     }
 }
 
@@ -89,7 +98,12 @@ pub fn run(
         Task::Simulate(Job {
             case: Arc::new(case(batch, run)),
             scene: Arc::clone(&scene),
-            params: batch.fixed.clone().into_iter().chain(run.params.iter().cloned()).collect(),
+            params: batch
+                .fixed
+                .clone()
+                .into_iter()
+                .chain(run.params.iter().cloned())
+                .collect(),
             time: batch.time,
         })
     };
@@ -106,15 +120,30 @@ pub fn run(
 }
 
 fn case(batch: &Batch, run: &Run) -> TestCase {
-    let name = run.params.iter().map(|(name, value)| format!("{name}={value}")).collect();
-    TestCase { index: run.number, name, seed: run.seed, ..TestCase::of_file(&batch.scene) }
+    let name = run
+        .params
+        .iter()
+        .map(|(name, value)| format!("{name}={value}"))
+        .collect();
+    TestCase {
+        index: run.number,
+        name,
+        seed: run.seed,
+        ..TestCase::of_file(&batch.scene)
+    }
 }
 
 fn row(run: &Run, outcome: &Outcome) -> Row {
     Row {
         run: run.clone(),
-        error: (outcome.status != Status::Passed)
-            .then(|| outcome.message.lines().next().unwrap_or_default().to_owned()),
+        error: (outcome.status != Status::Passed).then(|| {
+            outcome
+                .message
+                .lines()
+                .next()
+                .unwrap_or_default()
+                .to_owned()
+        }),
         steps: outcome.steps,
         time: outcome.time,
         results: outcome.results.clone(),
@@ -127,7 +156,12 @@ mod tests {
 
     #[test]
     fn every_combination_is_run() {
-        let sweep = |name: &str, values: &[&str]| (name.to_owned(), values.iter().map(|v| (*v).to_owned()).collect());
+        let sweep = |name: &str, values: &[&str]| {
+            (
+                name.to_owned(),
+                values.iter().map(|v| (*v).to_owned()).collect(),
+            )
+        };
         let batch = Batch {
             scene: "a.lua".into(),
             seeds: vec![4, 5],
@@ -138,7 +172,10 @@ mod tests {
         let runs = batch.runs();
         assert_eq!(runs.len(), 12);
         assert_eq!((runs[0].seed, runs[1].seed), (4, 5));
-        assert_eq!(runs[2].params, [("kp".to_owned(), "1".to_owned()), ("kd".into(), "y".into())]);
+        assert_eq!(
+            runs[2].params,
+            [("kp".to_owned(), "1".to_owned()), ("kd".into(), "y".into())]
+        );
         assert!(runs.iter().enumerate().all(|(i, run)| run.number == i + 1));
     }
 }

@@ -40,9 +40,13 @@ impl Scene {
         let input = SceneInput::read(path, &Permissions::all())?;
         if let SceneInput::File(file) = &input {
             // A damaged file is reported before anything runs.
-            file.scene().map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+            file.scene()
+                .map_err(|error| format!("cannot read {}: {error}", path.display()))?;
         }
-        Ok(Self { path: std::path::absolute(path).map_err(|error| error.to_string())?, input })
+        Ok(Self {
+            path: std::path::absolute(path).map_err(|error| error.to_string())?,
+            input,
+        })
     }
 }
 
@@ -53,10 +57,15 @@ pub(in super::super) fn simulate(config: &Config, job: &Job, stop: &Arc<AtomicBo
         seed: job.case.seed,
         stop: Arc::clone(stop),
         threads: config.threads,
-        limits: Some(Limits { memory: config.allowance.memory }),
+        limits: Some(Limits {
+            memory: config.allowance.memory,
+        }),
         named_params: job.params.clone(),
         package_dirs: folder.map(Path::to_owned).into_iter().collect(),
-        permissions: folder.map_or_else(|| config.permissions.clone(), |folder| config.permissions_in(folder)),
+        permissions: folder.map_or_else(
+            || config.permissions.clone(),
+            |folder| config.permissions_in(folder),
+        ),
         resources: config.resources.clone(),
         ..Options::default()
     };
@@ -88,8 +97,9 @@ fn conclude(outcome: &mut Outcome, report: RunReport) {
     (outcome.steps, outcome.time, outcome.console) = (report.steps, report.time, report.lines);
     outcome.params_read = report.params_read;
     let results = report.params.into_iter();
-    outcome.results =
-        results.filter_map(|(name, value)| Some((name.strip_prefix(RESULT)?.to_owned(), value))).collect();
+    outcome.results = results
+        .filter_map(|(name, value)| Some((name.strip_prefix(RESULT)?.to_owned(), value)))
+        .collect();
     if report.errors > 0 {
         let error = outcome.console.iter().find(|line| line.level == "error");
         outcome.message = error.map_or_else(

@@ -18,7 +18,9 @@ use permissions::Permissions;
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
     /// The folder belongs to a batch of another scene or other runs.
-    #[error("{0} holds the results of another batch: choose another folder, or begin anew with --force.")]
+    #[error(
+        "{0} holds the results of another batch: choose another folder, or begin anew with --force."
+    )]
     Other(PathBuf),
     /// The scene cannot be read.
     #[error("{0}")]
@@ -50,18 +52,29 @@ impl Store {
             return Err(StoreError::Other(folder.to_owned()));
         }
         fs::write(&manifest, description).map_err(about)?;
-        let text = if anew { String::new() } else { fs::read_to_string(&log).unwrap_or_default() };
+        let text = if anew {
+            String::new()
+        } else {
+            fs::read_to_string(&log).unwrap_or_default()
+        };
         let rows = rows(&text, &batch.runs());
         // A line cut off by an interruption is left out.
         let lines: String = rows.values().map(|row| line(row) + "\n").collect();
         replace(&log, &lines).map_err(about)?;
         let log = OpenOptions::new().append(true).open(&log).map_err(about)?;
-        Ok(Self { folder: folder.to_owned(), rows, log })
+        Ok(Self {
+            folder: folder.to_owned(),
+            rows,
+            log,
+        })
     }
 
     /// The runs that are not done yet.
     pub fn missing(&self, runs: &[Run]) -> Vec<Run> {
-        runs.iter().filter(|run| !self.rows.contains_key(&run.number)).cloned().collect()
+        runs.iter()
+            .filter(|run| !self.rows.contains_key(&run.number))
+            .cloned()
+            .collect()
     }
 
     /// Keeps a row.
@@ -69,7 +82,8 @@ impl Store {
     /// # Errors
     /// When it cannot be written.
     pub fn add(&mut self, row: Row) -> Result<(), StoreError> {
-        writeln!(self.log, "{}", line(&row)).map_err(|error| StoreError::Io(self.folder.clone(), error))?;
+        writeln!(self.log, "{}", line(&row))
+            .map_err(|error| StoreError::Io(self.folder.clone(), error))?;
         self.rows.insert(row.run.number, row);
         Ok(())
     }
@@ -79,7 +93,9 @@ impl Store {
     /// # Errors
     /// When it cannot be written.
     pub fn add_line(&mut self, text: &str, runs: &[Run]) -> Result<bool, StoreError> {
-        let Some(row) = rows(text, runs).into_values().next() else { return Ok(false) };
+        let Some(row) = rows(text, runs).into_values().next() else {
+            return Ok(false);
+        };
         let is_new = !self.rows.contains_key(&row.run.number);
         if is_new {
             self.add(row)?;
@@ -106,20 +122,42 @@ impl Store {
         let lines: String = self.rows.values().map(|row| line(row) + "\n").collect();
         replace(&self.folder.join("runs.jsonl"), &lines).map_err(about)?;
         let table = self.folder.join("results.csv");
-        replace(&table, &self.csv().map_err(|error| about(io::Error::other(error)))?).map_err(about)?;
+        replace(
+            &table,
+            &self.csv().map_err(|error| about(io::Error::other(error)))?,
+        )
+        .map_err(about)?;
         Ok(table)
     }
 
     fn csv(&self) -> Result<String, Box<dyn std::error::Error + Send + Sync>> {
-        let params: BTreeSet<&String> =
-            self.rows.values().flat_map(|row| row.run.params.iter().map(|p| &p.0)).collect();
-        let results: BTreeSet<&String> = self.rows.values().flat_map(|row| row.results.keys()).collect();
+        let params: BTreeSet<&String> = self
+            .rows
+            .values()
+            .flat_map(|row| row.run.params.iter().map(|p| &p.0))
+            .collect();
+        let results: BTreeSet<&String> = self
+            .rows
+            .values()
+            .flat_map(|row| row.results.keys())
+            .collect();
         let mut table = csv::Writer::from_writer(Vec::new());
-        let head = ["run", "seed"].into_iter().chain(params.iter().map(|name| name.as_str()));
-        table.write_record(head.chain(["error", "steps", "time"]).chain(results.iter().map(|name| name.as_str())))?;
+        let head = ["run", "seed"]
+            .into_iter()
+            .chain(params.iter().map(|name| name.as_str()));
+        table.write_record(
+            head.chain(["error", "steps", "time"])
+                .chain(results.iter().map(|name| name.as_str())),
+        )?;
         for row in self.rows.values() {
-            let param =
-                |name: &&String| row.run.params.iter().find(|p| p.0 == **name).map_or("", |p| p.1.as_str()).to_owned();
+            let param = |name: &&String| {
+                row.run
+                    .params
+                    .iter()
+                    .find(|p| p.0 == **name)
+                    .map_or("", |p| p.1.as_str())
+                    .to_owned()
+            };
             let result = |name: &&String| row.results.get(*name).cloned().unwrap_or_default();
             let mut record = vec![row.run.number.to_string(), row.run.seed.to_string()];
             record.extend(params.iter().map(param));
@@ -137,7 +175,11 @@ impl Store {
 
 /// Identity of a batch: the scene's contents, the runs and their limits.
 fn describe(batch: &Batch) -> Result<String, String> {
-    let sweeps: Vec<Value> = batch.sweeps.iter().map(|(name, values)| json!([name, values])).collect();
+    let sweeps: Vec<Value> = batch
+        .sweeps
+        .iter()
+        .map(|(name, values)| json!([name, values]))
+        .collect();
     let scene = SceneInput::read(&batch.scene, &Permissions::all())?.bytes();
     let description = json!({
         "scene": batch.scene.display().to_string(), "checksum": format!("{:016x}", checksum(&scene)), "seeds": batch.seeds,
@@ -148,7 +190,9 @@ fn describe(batch: &Batch) -> Result<String, String> {
 
 /// FNV-1a, 64 bits: enough to notice that a file has changed.
 fn checksum(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 /// Time is a sum of steps: its last digits are rounding errors.
@@ -164,8 +208,17 @@ impl Row {
 }
 
 fn line(row: &Row) -> String {
-    let params: Map<String, Value> = row.run.params.iter().map(|(name, value)| (name.clone(), typed(value))).collect();
-    let results: Map<String, Value> = row.results.iter().map(|(name, value)| (name.clone(), typed(value))).collect();
+    let params: Map<String, Value> = row
+        .run
+        .params
+        .iter()
+        .map(|(name, value)| (name.clone(), typed(value)))
+        .collect();
+    let results: Map<String, Value> = row
+        .results
+        .iter()
+        .map(|(name, value)| (name.clone(), typed(value)))
+        .collect();
     json!({
         "run": row.run.number, "seed": row.run.seed, "params": params, "error": row.error, "steps": row.steps,
         "time": seconds(row.time), "results": results,
@@ -176,11 +229,16 @@ fn line(row: &Row) -> String {
 /// A number where the text is one that is written so.
 fn typed(text: &str) -> Value {
     let is_written_so = |number: &serde_json::Number| number.to_string().as_str() == text;
-    serde_json::from_str(text).ok().filter(is_written_so).map_or_else(|| Value::from(text), Value::Number)
+    serde_json::from_str(text)
+        .ok()
+        .filter(is_written_so)
+        .map_or_else(|| Value::from(text), Value::Number)
 }
 
 fn untyped(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+    value
+        .as_str()
+        .map_or_else(|| value.to_string(), str::to_owned)
 }
 
 /// The rows of a log that belong to the runs; damaged lines are left out, so that their runs are made again.
@@ -189,12 +247,24 @@ fn rows(text: &str, runs: &[Run]) -> BTreeMap<usize, Row> {
     let row = |line: &str| {
         let value: Value = serde_json::from_str(line).ok()?;
         let run = *by_number.get(&usize::try_from(value["run"].as_u64()?).ok()?)?;
-        let results =
-            value["results"].as_object()?.iter().map(|(name, value)| (name.clone(), untyped(value))).collect();
+        let results = value["results"]
+            .as_object()?
+            .iter()
+            .map(|(name, value)| (name.clone(), untyped(value)))
+            .collect();
         let error = value["error"].as_str().map(str::to_owned);
-        Some(Row { run: run.clone(), error, steps: value["steps"].as_u64()?, time: value["time"].as_f64()?, results })
+        Some(Row {
+            run: run.clone(),
+            error,
+            steps: value["steps"].as_u64()?,
+            time: value["time"].as_f64()?,
+            results,
+        })
     };
-    text.lines().filter_map(row).map(|row| (row.run.number, row)).collect()
+    text.lines()
+        .filter_map(row)
+        .map(|row| (row.run.number, row))
+        .collect()
 }
 
 /// Writes a file, all of it or nothing.
@@ -211,12 +281,31 @@ mod tests {
 
     #[test]
     fn rows_come_back_and_damaged_ones_do_not() {
-        let run = Run { number: 1, seed: 7, params: vec![("kp".into(), "1.50".into())] };
-        let results =
-            [("a".to_owned(), "0.1".to_owned()), ("b".into(), "1e3".into()), ("c".into(), "007".into())].into();
-        let row = Row { run: run.clone(), error: Some("x\n\"y\"".into()), steps: 3, time: 0.15, results };
+        let run = Run {
+            number: 1,
+            seed: 7,
+            params: vec![("kp".into(), "1.50".into())],
+        };
+        let results = [
+            ("a".to_owned(), "0.1".to_owned()),
+            ("b".into(), "1e3".into()),
+            ("c".into(), "007".into()),
+        ]
+        .into();
+        let row = Row {
+            run: run.clone(),
+            error: Some("x\n\"y\"".into()),
+            steps: 3,
+            time: 0.15,
+            results,
+        };
         let text = line(&row);
-        assert_eq!(rows(&text, std::slice::from_ref(&run)).into_values().collect::<Vec<_>>(), [row]);
+        assert_eq!(
+            rows(&text, std::slice::from_ref(&run))
+                .into_values()
+                .collect::<Vec<_>>(),
+            [row]
+        );
         for end in 0..text.len() {
             assert!(rows(&text[..end], std::slice::from_ref(&run)).is_empty());
         }

@@ -1,5 +1,8 @@
 //! Measured overhead of coverage on this machine.
-#![allow(clippy::disallowed_methods, reason = "what something costs is told by the wall clock")]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "what something costs is told by the wall clock"
+)]
 
 use std::time::{Duration, Instant};
 
@@ -21,7 +24,11 @@ pub(super) fn of_a_loop() -> Option<f64> {
 
 fn time_of(count_lines: bool) -> Option<Duration> {
     let limits = Some(Limits { memory: 1 << 30 });
-    let mut sim = Simulator::new(Options { limits, count_lines, ..Options::default() });
+    let mut sim = Simulator::new(Options {
+        limits,
+        count_lines,
+        ..Options::default()
+    });
     let script = sim.add_script(ScriptKind::Customization, "", SCRIPT).ok()?;
     let mut best = Duration::MAX;
     for _ in 0..TRIES {

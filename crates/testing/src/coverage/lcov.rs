@@ -22,12 +22,19 @@ fn write_record(text: &mut String, path: &Path, record: &FileCoverage) -> std::f
     for (line, count) in &record.lines {
         writeln!(text, "DA:{line},{count}")?;
     }
-    writeln!(text, "LF:{}\nLH:{}\nend_of_record", record.lines.len(), record.hit())
+    writeln!(
+        text,
+        "LF:{}\nLH:{}\nend_of_record",
+        record.lines.len(),
+        record.hit()
+    )
 }
 
 /// A record is read line by line: characters that would end a line are replaced.
 fn one_line(path: &Path) -> String {
-    path.display().to_string().replace(|c: char| c.is_control(), "_")
+    path.display()
+        .to_string()
+        .replace(|c: char| c.is_control(), "_")
 }
 
 fn write_functions(text: &mut String, record: &FileCoverage) -> std::fmt::Result {
@@ -38,7 +45,11 @@ fn write_functions(text: &mut String, record: &FileCoverage) -> std::fmt::Result
     for (function, name) in record.functions.iter().zip(&names) {
         writeln!(text, "FNDA:{},{name}", record.calls(function))?;
     }
-    let hit = record.functions.iter().filter(|function| record.calls(function) > 0).count();
+    let hit = record
+        .functions
+        .iter()
+        .filter(|function| record.calls(function) > 0)
+        .count();
     writeln!(text, "FNF:{}\nFNH:{hit}", record.functions.len())
 }
 
@@ -46,8 +57,15 @@ fn write_functions(text: &mut String, record: &FileCoverage) -> std::fmt::Result
 fn names(record: &FileCoverage) -> Vec<String> {
     let mut known = HashSet::new();
     let name = |function: &script::coverage::FunctionLines| {
-        let name = function.name.clone().unwrap_or_else(|| format!("anonymous@{}", function.line));
-        if known.insert(name.clone()) { name } else { format!("{name}@{}", function.line) }
+        let name = function
+            .name
+            .clone()
+            .unwrap_or_else(|| format!("anonymous@{}", function.line));
+        if known.insert(name.clone()) {
+            name
+        } else {
+            format!("{name}@{}", function.line)
+        }
     };
     record.functions.iter().map(name).collect()
 }
@@ -72,6 +90,9 @@ mod tests {
     fn a_file_name_is_one_line() {
         let record = FileCoverage::new(executable(b"x = 1").expect("it compiles"));
         let text = text(&[("a\nend_of_record\r.lua".into(), record)].into());
-        assert!(text.starts_with("TN:\nSF:a_end_of_record_.lua\nFN"), "{text}");
+        assert!(
+            text.starts_with("TN:\nSF:a_end_of_record_.lua\nFN"),
+            "{text}"
+        );
     }
 }

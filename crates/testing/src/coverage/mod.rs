@@ -32,7 +32,10 @@ pub struct Coverage {
 impl Coverage {
     /// The coverage of `counts` for the file `report`, without the tests themselves (`tests`).
     pub(super) fn new(report: &Path, tests: &[PathBuf], counts: LineCounts) -> Self {
-        Self { cost: cost::of_a_loop(), ..Self::of(report, tests, counts) }
+        Self {
+            cost: cost::of_a_loop(),
+            ..Self::of(report, tests, counts)
+        }
     }
 
     /// The same, without the cost of counting.
@@ -48,11 +51,22 @@ impl Coverage {
     }
 
     /// Adds a text; None for the functions of one in Lua.
-    fn add(&mut self, places: &mut Places, text: &CountedText, counts: &[u64], functions: Option<Vec<FunctionLines>>) {
+    fn add(
+        &mut self,
+        places: &mut Places,
+        text: &CountedText,
+        counts: &[u64],
+        functions: Option<Vec<FunctionLines>>,
+    ) {
         let Some(place) = places.of(text) else { return };
         let functions = functions.or_else(|| executable(&place.text));
-        let Some(functions) = functions.filter(|functions| !functions.is_empty()) else { return };
-        let record = self.records.entry(place.path.clone()).or_insert_with(|| FileCoverage::new(functions));
+        let Some(functions) = functions.filter(|functions| !functions.is_empty()) else {
+            return;
+        };
+        let record = self
+            .records
+            .entry(place.path.clone())
+            .or_insert_with(|| FileCoverage::new(functions));
         record.add(counts);
         if place.is_copy {
             self.copies.insert(place.path, place.text);
@@ -77,7 +91,8 @@ impl Coverage {
 }
 
 fn write_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let about = |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
+    let about =
+        |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(about)?;
     }

@@ -18,7 +18,11 @@ pub struct FileCoverage {
 
 impl FileCoverage {
     pub(super) fn new(mut functions: Vec<FunctionLines>) -> Self {
-        let lines = functions.iter().flat_map(|function| &function.lines).map(|&line| (line, 0)).collect();
+        let lines = functions
+            .iter()
+            .flat_map(|function| &function.lines)
+            .map(|&line| (line, 0))
+            .collect();
         // For a function in one line it is unknown whether it was called or only created.
         functions.retain(|function| function.line > 0 && function.lines[0] > function.line);
         Self { lines, functions }
@@ -38,7 +42,12 @@ impl FileCoverage {
 
     /// The count of the first line of a function.
     pub(super) fn calls(&self, function: &FunctionLines) -> u64 {
-        function.lines.first().and_then(|line| self.lines.get(line)).copied().unwrap_or_default()
+        function
+            .lines
+            .first()
+            .and_then(|line| self.lines.get(line))
+            .copied()
+            .unwrap_or_default()
     }
 
     /// First and last lines of the parts that never ran; lines that cannot run do not divide them.
@@ -64,14 +73,20 @@ mod tests {
     #[test]
     fn missed_lines_are_listed_as_ranges() {
         let counts = [(1, 1), (2, 0), (4, 0), (5, 3), (9, 0)];
-        let record = FileCoverage { lines: counts.into(), functions: Vec::new() };
+        let record = FileCoverage {
+            lines: counts.into(),
+            functions: Vec::new(),
+        };
         assert_eq!(record.missed(), [(2, 4), (9, 9)]);
         assert_eq!(record.hit(), 2);
     }
 
     #[test]
     fn counts_are_summed_over_the_lines_that_can_run() {
-        let mut record = FileCoverage { lines: [(2, 1), (3, 0)].into(), functions: Vec::new() };
+        let mut record = FileCoverage {
+            lines: [(2, 1), (3, 0)].into(),
+            functions: Vec::new(),
+        };
         record.add(&[7, 2]);
         assert_eq!(record.lines, [(2, 3), (3, 0)].into());
     }

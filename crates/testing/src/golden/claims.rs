@@ -20,7 +20,9 @@ impl Claims {
             }
         }
         if let Some(name) = taken {
-            outcome.fail(&format!("golden '{name}' is the name of another test's recording: choose another."));
+            outcome.fail(&format!(
+                "golden '{name}' is the name of another test's recording: choose another."
+            ));
         }
     }
 }

@@ -55,15 +55,32 @@ impl Divergence {
     /// The deviation in units of the tolerance.
     fn ratio(&self) -> f64 {
         let deviation = (self.actual - self.expected).abs();
-        if deviation.is_nan() { f64::INFINITY } else { deviation / self.tolerance }
+        if deviation.is_nan() {
+            f64::INFINITY
+        } else {
+            deviation / self.tolerance
+        }
     }
 }
 
 impl fmt::Display for Divergence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { time, column, expected, actual, tolerance } = self;
-        write!(f, "at {time:.3} s {column} is {actual:.9}, expected {expected:.9} (off by ")?;
-        write!(f, "{:.3e}, allowed {tolerance:.3e})", (actual - expected).abs())
+        let Self {
+            time,
+            column,
+            expected,
+            actual,
+            tolerance,
+        } = self;
+        write!(
+            f,
+            "at {time:.3} s {column} is {actual:.9}, expected {expected:.9} (off by "
+        )?;
+        write!(
+            f,
+            "{:.3e}, allowed {tolerance:.3e})",
+            (actual - expected).abs()
+        )
     }
 }
 
@@ -71,11 +88,27 @@ impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Columns { missing, new } => {
-                write!(f, "it has other quantities: missing [{}], new [{}].", missing.join(", "), new.join(", "))
+                write!(
+                    f,
+                    "it has other quantities: missing [{}], new [{}].",
+                    missing.join(", "),
+                    new.join(", ")
+                )
             }
-            Self::Length { expected, actual } => write!(f, "it ends at {actual:.3} s, expected {expected:.3} s."),
-            Self::Values { first, worst, samples, off, .. } => {
-                write!(f, "{off} of {samples} samples are off.\n  first: {first}\n  worst: {worst}")
+            Self::Length { expected, actual } => {
+                write!(f, "it ends at {actual:.3} s, expected {expected:.3} s.")
+            }
+            Self::Values {
+                first,
+                worst,
+                samples,
+                off,
+                ..
+            } => {
+                write!(
+                    f,
+                    "{off} of {samples} samples are off.\n  first: {first}\n  worst: {worst}"
+                )
             }
         }
     }
@@ -83,25 +116,40 @@ impl fmt::Display for Difference {
 
 /// Compares `actual` with `expected` at the times of the latter, between samples along straight lines. With a tolerance of time, all of
 /// it may be early or late: the best shift counts. None when they are alike.
-pub(super) fn compare(expected: &Trace, actual: &Trace, tolerances: &Tolerances) -> Option<Difference> {
+pub(super) fn compare(
+    expected: &Trace,
+    actual: &Trace,
+    tolerances: &Tolerances,
+) -> Option<Difference> {
     if let Some(difference) = other_columns(expected, actual) {
         return Some(difference);
     }
     let place = |column| actual.columns.iter().position(|other| other == column);
     let columns: Vec<usize> = expected.columns.iter().filter_map(place).collect();
     let (last_expected, last_actual) = (last_time(expected), last_time(actual));
-    if (last_expected - last_actual).abs() > tolerances.time + interval(expected).max(interval(actual)) * 0.5 {
-        return Some(Difference::Length { expected: last_expected, actual: last_actual });
+    if (last_expected - last_actual).abs()
+        > tolerances.time + interval(expected).max(interval(actual)) * 0.5
+    {
+        return Some(Difference::Length {
+            expected: last_expected,
+            actual: last_actual,
+        });
     }
     let find = |shift| divergences(expected, actual, &columns, tolerances, shift);
-    let best = shifts(expected, tolerances.time).map(find).min_by(|a, b| worst_ratio(a).total_cmp(&worst_ratio(b)))?;
+    let best = shifts(expected, tolerances.time)
+        .map(find)
+        .min_by(|a, b| worst_ratio(a).total_cmp(&worst_ratio(b)))?;
     difference(expected, best)
 }
 
 /// The difference of two traces of other quantities.
 fn other_columns(expected: &Trace, actual: &Trace) -> Option<Difference> {
     let absent = |from: &Trace, of: &Trace| -> Vec<String> {
-        of.columns.iter().filter(|column| !from.columns.contains(column)).cloned().collect()
+        of.columns
+            .iter()
+            .filter(|column| !from.columns.contains(column))
+            .cloned()
+            .collect()
     };
     let (missing, new) = (absent(actual, expected), absent(expected, actual));
     (!missing.is_empty() || !new.is_empty()).then_some(Difference::Columns { missing, new })
@@ -121,8 +169,14 @@ fn interval(trace: &Trace) -> f64 {
 fn shifts(expected: &Trace, time: f64) -> impl Iterator<Item = f64> {
     const MAX_SHIFTS: f64 = 200.0;
     let step = (interval(expected) / 4.0).max(time / MAX_SHIFTS);
-    let count = if step > 0.0 { (time / step).floor().min(MAX_SHIFTS) as i32 } else { 0 };
-    (0..=count).flat_map(move |i| [f64::from(i) * step, f64::from(-i) * step]).skip(1)
+    let count = if step > 0.0 {
+        (time / step).floor().min(MAX_SHIFTS) as i32
+    } else {
+        0
+    };
+    (0..=count)
+        .flat_map(move |i| [f64::from(i) * step, f64::from(-i) * step])
+        .skip(1)
 }
 
 fn divergences(
@@ -137,11 +191,20 @@ fn divergences(
         let (before, after, share) = surrounding(actual, row[0] + shift);
         for (i, &column) in columns.iter().enumerate() {
             let name = &expected.columns[i];
-            let (wanted, got) = (row[i + 1], between(before[column + 1], after[column + 1], share));
+            let (wanted, got) = (
+                row[i + 1],
+                between(before[column + 1], after[column + 1], share),
+            );
             let tolerance = tolerance(tolerances, name, wanted);
             if !is_close(wanted, got, tolerance) {
                 let column = name.clone();
-                found.push(Divergence { time: row[0], column, expected: wanted, actual: got, tolerance });
+                found.push(Divergence {
+                    time: row[0],
+                    column,
+                    expected: wanted,
+                    actual: got,
+                    tolerance,
+                });
             }
         }
     }
@@ -150,10 +213,17 @@ fn divergences(
 
 /// The rows around a time, and how far it is from the first to the second; at the ends the last one there is.
 fn surrounding(trace: &Trace, time: f64) -> (&[f64], &[f64], f64) {
-    let after = trace.rows.partition_point(|row| row[0] < time).min(trace.rows.len() - 1);
+    let after = trace
+        .rows
+        .partition_point(|row| row[0] < time)
+        .min(trace.rows.len() - 1);
     let before = after.saturating_sub(1);
     let (a, b) = (&trace.rows[before], &trace.rows[after]);
-    let share = if b[0] > a[0] { ((time - a[0]) / (b[0] - a[0])).clamp(0.0, 1.0) } else { 1.0 };
+    let share = if b[0] > a[0] {
+        ((time - a[0]) / (b[0] - a[0])).clamp(0.0, 1.0)
+    } else {
+        1.0
+    };
     (a, b, share)
 }
 
@@ -167,12 +237,21 @@ fn between(a: f64, b: f64, share: f64) -> f64 {
 
 fn tolerance(tolerances: &Tolerances, column: &str, expected: f64) -> f64 {
     let whole = column.rsplit_once('.').map_or(column, |(whole, _)| whole);
-    let own = tolerances.columns.get(column).or_else(|| tolerances.columns.get(whole));
-    own.copied().unwrap_or_else(|| tolerances.absolute.max(tolerances.relative * expected.abs()))
+    let own = tolerances
+        .columns
+        .get(column)
+        .or_else(|| tolerances.columns.get(whole));
+    own.copied().unwrap_or_else(|| {
+        tolerances
+            .absolute
+            .max(tolerances.relative * expected.abs())
+    })
 }
 
 fn is_close(expected: f64, actual: f64, tolerance: f64) -> bool {
-    expected == actual || expected.is_nan() && actual.is_nan() || (expected - actual).abs() <= tolerance
+    expected == actual
+        || expected.is_nan() && actual.is_nan()
+        || (expected - actual).abs() <= tolerance
 }
 
 fn worst_ratio(found: &[Divergence]) -> f64 {
@@ -180,7 +259,10 @@ fn worst_ratio(found: &[Divergence]) -> f64 {
 }
 
 fn difference(expected: &Trace, found: Vec<Divergence>) -> Option<Difference> {
-    let worst = found.iter().max_by(|a, b| a.ratio().total_cmp(&b.ratio()))?.clone();
+    let worst = found
+        .iter()
+        .max_by(|a, b| a.ratio().total_cmp(&b.ratio()))?
+        .clone();
     let mut columns: Vec<String> = Vec::new();
     for divergence in &found {
         if !columns.contains(&divergence.column) {
@@ -190,7 +272,13 @@ fn difference(expected: &Trace, found: Vec<Divergence>) -> Option<Difference> {
     let mut times: Vec<f64> = found.iter().map(|divergence| divergence.time).collect();
     times.dedup();
     let (samples, off) = (expected.rows.len(), times.len());
-    Some(Difference::Values { first: found.into_iter().next()?, worst, samples, off, columns })
+    Some(Difference::Values {
+        first: found.into_iter().next()?,
+        worst,
+        samples,
+        off,
+        columns,
+    })
 }
 
 #[cfg(test)]
@@ -203,11 +291,19 @@ mod tests {
             vec![time, amplitude * (time - late).sin(), 1.0]
         };
         let count = (2.0 / dt).round() as i32;
-        Trace { columns: vec!["a".into(), "b".into()], rows: (0..=count).map(row).collect() }
+        Trace {
+            columns: vec!["a".into(), "b".into()],
+            rows: (0..=count).map(row).collect(),
+        }
     }
 
     fn tolerances(absolute: f64, time: f64) -> Tolerances {
-        Tolerances { absolute, relative: 0.0, time, ..Tolerances::default() }
+        Tolerances {
+            absolute,
+            relative: 0.0,
+            time,
+            ..Tolerances::default()
+        }
     }
 
     #[test]
@@ -216,23 +312,40 @@ mod tests {
         let mut actual = expected.clone();
         actual.rows[10][1] += 0.01;
         actual.rows[20][2] -= 0.5;
-        let Some(Difference::Values { first, worst, off, columns, .. }) =
-            compare(&expected, &actual, &tolerances(1e-3, 0.0))
+        let Some(Difference::Values {
+            first,
+            worst,
+            off,
+            columns,
+            ..
+        }) = compare(&expected, &actual, &tolerances(1e-3, 0.0))
         else {
             panic!("they differ");
         };
-        assert_eq!((first.column.as_str(), worst.column.as_str(), off), ("a", "b", 2));
-        assert!((first.time - 0.5).abs() < 1e-9 && (worst.time - 1.0).abs() < 1e-9 && columns == ["a", "b"]);
+        assert_eq!(
+            (first.column.as_str(), worst.column.as_str(), off),
+            ("a", "b", 2)
+        );
+        assert!(
+            (first.time - 0.5).abs() < 1e-9
+                && (worst.time - 1.0).abs() < 1e-9
+                && columns == ["a", "b"]
+        );
         assert_eq!(compare(&expected, &actual, &tolerances(0.6, 0.0)), None);
-        let own =
-            Tolerances { columns: [("a".to_owned(), 0.02), ("b".to_owned(), 0.6)].into(), ..tolerances(0.0, 0.0) };
+        let own = Tolerances {
+            columns: [("a".to_owned(), 0.02), ("b".to_owned(), 0.6)].into(),
+            ..tolerances(0.0, 0.0)
+        };
         assert_eq!(compare(&expected, &actual, &own), None);
     }
 
     #[test]
     fn other_time_steps_and_shifts_are_aligned() {
         let expected = sine(0.05, 0.0, 1.0);
-        assert_eq!(compare(&expected, &sine(0.02, 0.0, 1.0), &tolerances(1e-3, 0.0)), None);
+        assert_eq!(
+            compare(&expected, &sine(0.02, 0.0, 1.0), &tolerances(1e-3, 0.0)),
+            None
+        );
         let late = sine(0.05, 0.1, 1.0);
         assert!(compare(&expected, &late, &tolerances(1e-2, 0.0)).is_some());
         // The end of a delayed trace is missing: its last value is used instead.
@@ -244,19 +357,31 @@ mod tests {
         let expected = sine(0.05, 0.0, 1.0);
         let mut short = expected.clone();
         short.rows.truncate(30);
-        assert!(matches!(compare(&expected, &short, &tolerances(9.0, 0.0)), Some(Difference::Length { .. })));
+        assert!(matches!(
+            compare(&expected, &short, &tolerances(9.0, 0.0)),
+            Some(Difference::Length { .. })
+        ));
         let mut other = expected.clone();
         other.columns.swap(0, 1);
-        assert!(matches!(compare(&expected, &other, &tolerances(1e-6, 0.0)), Some(Difference::Values { .. })));
+        assert!(matches!(
+            compare(&expected, &other, &tolerances(1e-6, 0.0)),
+            Some(Difference::Values { .. })
+        ));
         other.columns[0] = "c".into();
-        assert!(matches!(compare(&expected, &other, &tolerances(9.0, 0.0)), Some(Difference::Columns { .. })));
+        assert!(matches!(
+            compare(&expected, &other, &tolerances(9.0, 0.0)),
+            Some(Difference::Columns { .. })
+        ));
     }
 
     #[test]
     fn what_is_no_number_is_equal_to_itself_only() {
         let mut expected = sine(0.05, 0.0, 1.0);
         expected.rows[3][1] = f64::NAN;
-        assert_eq!(compare(&expected, &expected.clone(), &tolerances(0.0, 0.0)), None);
+        assert_eq!(
+            compare(&expected, &expected.clone(), &tolerances(0.0, 0.0)),
+            None
+        );
         assert!(compare(&expected, &sine(0.05, 0.0, 1.0), &tolerances(9.0, 0.0)).is_some());
         assert!(compare(&sine(0.05, 0.0, 1.0), &expected, &tolerances(9.0, 0.0)).is_some());
     }

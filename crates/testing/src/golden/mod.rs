@@ -73,7 +73,9 @@ impl Comparison {
     /// Compares a recording with its file.
     pub(super) fn new(test: &TestCase, golden: Golden) -> Self {
         match golden.content {
-            GoldenContent::Trace { trace, tolerances } => Self::of_trace(test, golden.name, trace, &tolerances),
+            GoldenContent::Trace { trace, tolerances } => {
+                Self::of_trace(test, golden.name, trace, &tolerances)
+            }
             GoldenContent::Image(snapshot) => Self::of_image(test, golden.name, snapshot),
         }
     }
@@ -83,26 +85,46 @@ impl Comparison {
         let (expected, result) = match read(&path, &name, &actual) {
             Ok(Some(expected)) => {
                 let result = compare::compare(&expected, &actual, tolerances);
-                (Some(expected), result.map_or(ComparisonResult::Equal, ComparisonResult::Different))
+                (
+                    Some(expected),
+                    result.map_or(ComparisonResult::Equal, ComparisonResult::Different),
+                )
             }
             Ok(None) => (None, ComparisonResult::Missing),
             Err(reason) => (None, ComparisonResult::Unusable(reason)),
         };
-        Self { name, path, recordings: Recordings::Traces { actual, expected }, result }
+        Self {
+            name,
+            path,
+            recordings: Recordings::Traces { actual, expected },
+            result,
+        }
     }
 
     fn of_image(test: &TestCase, name: String, actual: Snapshot) -> Self {
         let path = path_of(&test.file, &name, "png");
-        let recorded = if is_name(&name) { snapshot::read(&path) } else { Err(WRONG_NAME.into()) };
+        let recorded = if is_name(&name) {
+            snapshot::read(&path)
+        } else {
+            Err(WRONG_NAME.into())
+        };
         let (expected, result) = match recorded {
             Ok(Some(expected)) => {
                 let result = snapshot::compare(&expected, &actual);
-                (Some(expected), result.map_or(ComparisonResult::Equal, ComparisonResult::DifferentImage))
+                (
+                    Some(expected),
+                    result.map_or(ComparisonResult::Equal, ComparisonResult::DifferentImage),
+                )
             }
             Ok(None) => (None, ComparisonResult::Missing),
             Err(reason) => (None, ComparisonResult::Unusable(reason)),
         };
-        Self { name, path, recordings: Recordings::Images { actual, expected }, result }
+        Self {
+            name,
+            path,
+            recordings: Recordings::Images { actual, expected },
+            result,
+        }
     }
 
     /// Whether it makes the test fail.
@@ -115,12 +137,16 @@ impl Comparison {
         let about = format!("golden '{}' ({})", self.name, self.path.display());
         match &self.result {
             ComparisonResult::Equal => None,
-            ComparisonResult::Missing => {
-                Some(format!("{about}: there is no such file. Record it with --update-golden."))
-            }
+            ComparisonResult::Missing => Some(format!(
+                "{about}: there is no such file. Record it with --update-golden."
+            )),
             ComparisonResult::Unusable(reason) => Some(format!("{about}: {reason}")),
-            ComparisonResult::Different(difference) => Some(format!("{about}: {difference}\n{IF_RIGHT}")),
-            ComparisonResult::DifferentImage(difference) => Some(format!("{about}: {difference}\n{IF_RIGHT}")),
+            ComparisonResult::Different(difference) => {
+                Some(format!("{about}: {difference}\n{IF_RIGHT}"))
+            }
+            ComparisonResult::DifferentImage(difference) => {
+                Some(format!("{about}: {difference}\n{IF_RIGHT}"))
+            }
         }
     }
 
@@ -179,9 +205,19 @@ fn read(path: &Path, name: &str, actual: &Trace) -> Result<Option<Trace>, String
 /// Compares the recordings a test has left. One that is wrong fails the test; with `update` it is left for [`record`].
 pub(super) fn judge(outcome: &mut Outcome, update: bool) {
     let goldens = std::mem::take(&mut outcome.goldens);
-    outcome.comparisons = goldens.into_iter().map(|golden| Comparison::new(&outcome.test, golden)).collect();
-    let usable = |comparison: &&Comparison| matches!(comparison.result, ComparisonResult::Unusable(_)) || !update;
-    let messages: Vec<_> = outcome.comparisons.iter().filter(usable).filter_map(Comparison::message).collect();
+    outcome.comparisons = goldens
+        .into_iter()
+        .map(|golden| Comparison::new(&outcome.test, golden))
+        .collect();
+    let usable = |comparison: &&Comparison| {
+        matches!(comparison.result, ComparisonResult::Unusable(_)) || !update
+    };
+    let messages: Vec<_> = outcome
+        .comparisons
+        .iter()
+        .filter(usable)
+        .filter_map(Comparison::message)
+        .collect();
     if !messages.is_empty() && !outcome.is_bad() {
         outcome.fail(&messages.join("\n"));
     }
@@ -192,8 +228,11 @@ pub(super) fn record(outcome: &mut Outcome) {
     if outcome.status != Status::Passed || outcome.test.repetition > 0 {
         return;
     }
-    let failed =
-        |c: &mut Comparison| c.record().err().map(|error| format!("cannot write {}: {error}", c.path.display()));
+    let failed = |c: &mut Comparison| {
+        c.record()
+            .err()
+            .map(|error| format!("cannot write {}: {error}", c.path.display()))
+    };
     let problems: Vec<_> = outcome.comparisons.iter_mut().filter_map(failed).collect();
     if !problems.is_empty() {
         outcome.fail(&problems.join("\n"));
@@ -203,10 +242,24 @@ pub(super) fn record(outcome: &mut Outcome) {
 /// Writes pictures of differing recordings into `folder`; the message has their paths.
 pub(super) fn draw(outcome: &mut Outcome, folder: &Path) {
     let mut notes = String::new();
-    for comparison in outcome.comparisons.iter().filter(|comparison| comparison.is_bad()) {
-        let Some(png) = comparison.png() else { continue };
-        let stem = outcome.test.file.file_stem().unwrap_or_default().to_string_lossy();
-        let path = folder.join(format!("{stem}.{}.{}.png", comparison.name, outcome.test.seed));
+    for comparison in outcome
+        .comparisons
+        .iter()
+        .filter(|comparison| comparison.is_bad())
+    {
+        let Some(png) = comparison.png() else {
+            continue;
+        };
+        let stem = outcome
+            .test
+            .file
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy();
+        let path = folder.join(format!(
+            "{stem}.{}.{}.png",
+            comparison.name, outcome.test.seed
+        ));
         match std::fs::create_dir_all(folder).and_then(|()| std::fs::write(&path, png)) {
             Ok(()) => notes += &format!("\nplot: {}", path.display()),
             Err(error) => notes += &format!("\ncannot write {}: {error}", path.display()),

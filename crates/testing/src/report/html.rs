@@ -15,13 +15,19 @@ use script::test_bench::ConsoleLine;
 const STYLE: &str = include_str!("html/page.css");
 const SCRIPT: &str = include_str!("html/page.js");
 
-const STATUSES: [(Status, &str); 4] =
-    [(Status::Failed, "failed"), (Status::Error, "errors"), (Status::Pending, "pending"), (Status::Passed, "passed")];
+const STATUSES: [(Status, &str); 4] = [
+    (Status::Failed, "failed"),
+    (Status::Error, "errors"),
+    (Status::Pending, "pending"),
+    (Status::Passed, "passed"),
+];
 
 /// The report on a whole run, for a file in `folder`: recordings are linked relative to it.
 pub fn report(summary: &Summary, folder: &Path) -> String {
     let title = title(summary);
-    let files: String = parts::files(summary).map(|outcomes| file(outcomes, folder)).collect();
+    let files: String = parts::files(summary)
+        .map(|outcomes| file(outcomes, folder))
+        .collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; \
@@ -42,7 +48,11 @@ const CONTROLS: &str = "<form class=\"controls\" role=\"search\" hidden>\n\
 fn title(summary: &Summary) -> String {
     let bad = summary.count(Status::Failed) + summary.count(Status::Error);
     let total = summary.outcomes.len();
-    let interrupted = if summary.interrupted { ", interrupted" } else { "" };
+    let interrupted = if summary.interrupted {
+        ", interrupted"
+    } else {
+        ""
+    };
     match (bad, total) {
         (_, 0) => format!("No tests{interrupted}"),
         (0, _) => format!("No test of {total} failed{interrupted}"),
@@ -62,20 +72,38 @@ fn counts(summary: &Summary) -> String {
             )
         })
         .collect();
-    let rest = [(summary.not_run, "not run"), (summary.deselected, "deselected")];
-    let rest =
-        rest.iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("<li><b>{count}</b> {word}</li>\n"));
+    let rest = [
+        (summary.not_run, "not run"),
+        (summary.deselected, "deselected"),
+    ];
+    let rest = rest
+        .iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, word)| format!("<li><b>{count}</b> {word}</li>\n"));
     let wall = format!("<li>{}</li>\n", duration(summary.wall.as_secs_f64()));
-    format!("<ul class=\"counts\">\n{boxes}{}{wall}</ul>\n", rest.collect::<String>())
+    format!(
+        "<ul class=\"counts\">\n{boxes}{}{wall}</ul>\n",
+        rest.collect::<String>()
+    )
 }
 
 fn file(outcomes: &[Outcome], folder: &Path) -> String {
     let path = outcomes[0].test.file.to_string_lossy();
     let bad = outcomes.iter().filter(|outcome| outcome.is_bad()).count();
-    let failed = if bad > 0 { format!(", {bad} failed") } else { String::new() };
-    let tests: String = outcomes.iter().map(|outcome| test(outcome, folder)).collect();
+    let failed = if bad > 0 {
+        format!(", {bad} failed")
+    } else {
+        String::new()
+    };
+    let tests: String = outcomes
+        .iter()
+        .map(|outcome| test(outcome, folder))
+        .collect();
     let count = plural(outcomes.len(), "test");
-    format!("<section>\n<h2>{} <small>{count}{failed}</small></h2>\n{tests}</section>\n", Quoted(&path))
+    format!(
+        "<section>\n<h2>{} <small>{count}{failed}</small></h2>\n{tests}</section>\n",
+        Quoted(&path)
+    )
 }
 
 fn test(outcome: &Outcome, folder: &Path) -> String {
@@ -90,7 +118,10 @@ fn test(outcome: &Outcome, folder: &Path) -> String {
         message(outcome),
         outcome.excerpts.iter().map(excerpt).collect::<String>(),
         facts(outcome),
-        outcome.recording.as_deref().map_or_else(String::new, |page| recording(page, folder)),
+        outcome
+            .recording
+            .as_deref()
+            .map_or_else(String::new, |page| recording(page, folder)),
         outcome.comparisons.iter().map(plot).collect::<String>(),
         console(&outcome.console),
         folded("trace", "Traceback", outcome.trace.trim()),
@@ -101,7 +132,10 @@ fn message(outcome: &Outcome) -> String {
     if outcome.message.is_empty() {
         return String::new();
     }
-    format!("<pre class=\"message\">{}</pre>\n", Quoted(&outcome.message))
+    format!(
+        "<pre class=\"message\">{}</pre>\n",
+        Quoted(&outcome.message)
+    )
 }
 
 fn excerpt(excerpt: &Excerpt) -> String {
@@ -109,42 +143,75 @@ fn excerpt(excerpt: &Excerpt) -> String {
         .numbered()
         .map(|(number, code, is_meant)| {
             let line = format!("<span class=\"number\">{number:>4}</span> {}", Quoted(code));
-            if is_meant { format!("<mark>{line}</mark>\n") } else { line + "\n" }
+            if is_meant {
+                format!("<mark>{line}</mark>\n")
+            } else {
+                line + "\n"
+            }
         })
         .collect();
     let place = format!("{}:{}", excerpt.place, excerpt.line);
-    format!("<figure><figcaption>{}</figcaption><pre>{lines}</pre></figure>\n", Quoted(&place))
+    format!(
+        "<figure><figcaption>{}</figcaption><pre>{lines}</pre></figure>\n",
+        Quoted(&place)
+    )
 }
 
 fn facts(outcome: &Outcome) -> String {
     let mut facts = Vec::new();
-    facts.extend(outcome.script.as_ref().map(|script| format!("in script {script}")));
+    facts.extend(
+        outcome
+            .script
+            .as_ref()
+            .map(|script| format!("in script {script}")),
+    );
     facts.extend(parts::moment(outcome));
     facts.push(format!("with seed {}", outcome.test.seed));
-    facts.extend(outcome.test.line.map(|line| format!("defined in line {line}")));
+    facts.extend(
+        outcome
+            .test
+            .line
+            .map(|line| format!("defined in line {line}")),
+    );
     format!("<p class=\"facts\">{}</p>\n", Quoted(&facts.join(", ")))
 }
 
 /// A link to the page that plays a failed test.
 fn recording(page: &Path, folder: &Path) -> String {
     let address = address_below(folder, page);
-    format!("<p class=\"recording\"><a href=\"{}\">Play the recording</a></p>\n", Quoted(&address))
+    format!(
+        "<p class=\"recording\"><a href=\"{}\">Play the recording</a></p>\n",
+        Quoted(&address)
+    )
 }
 
 /// The address of a file in a page that lies in `folder`.
 fn address_below(folder: &Path, file: &Path) -> String {
     let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let (folder, file) = (absolute(folder), absolute(file));
-    let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
+    let common = folder
+        .components()
+        .zip(file.components())
+        .take_while(|(a, b)| a == b)
+        .count();
     let up = folder.components().skip(common).map(|_| "..".to_owned());
-    let down = file.components().skip(common).map(|part| encoded(&part.as_os_str().to_string_lossy()));
+    let down = file
+        .components()
+        .skip(common)
+        .map(|part| encoded(&part.as_os_str().to_string_lossy()));
     up.chain(down).collect::<Vec<_>>().join("/")
 }
 
 /// RFC 3986: what has a meaning in addresses as the codes of its bytes.
 fn encoded(name: &str) -> String {
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~".contains(&byte);
-    let code = |byte: u8| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };
+    let code = |byte: u8| {
+        if plain(byte) {
+            char::from(byte).to_string()
+        } else {
+            format!("%{byte:02X}")
+        }
+    };
     name.bytes().map(code).collect()
 }
 
@@ -158,7 +225,11 @@ fn plot(comparison: &Comparison) -> String {
         },
         (None, Recordings::Traces { .. }) => return String::new(),
     };
-    let about = format!("golden '{}'{}", comparison.name, if comparison.is_bad() { " differs" } else { "" });
+    let about = format!(
+        "golden '{}'{}",
+        comparison.name,
+        if comparison.is_bad() { " differs" } else { "" }
+    );
     let open = if comparison.is_bad() { " open" } else { "" };
     format!(
         "<details class=\"plot\"{open}>\n<summary>Plot of {0}</summary>\n\
@@ -172,21 +243,30 @@ fn plot(comparison: &Comparison) -> String {
 fn console(lines: &[ConsoleLine]) -> String {
     let line = |line: &ConsoleLine| {
         let text = parts::console_line(line);
-        format!("<span class=\"{}\">{}</span>\n", Quoted(line.level), Quoted(&text))
+        format!(
+            "<span class=\"{}\">{}</span>\n",
+            Quoted(line.level),
+            Quoted(&text)
+        )
     };
     if lines.is_empty() {
         return String::new();
     }
     let text: String = lines.iter().map(line).collect();
     let count = plural(lines.len(), "line");
-    format!("<details class=\"console\">\n<summary>Console ({count})</summary>\n<pre>{text}</pre>\n</details>\n")
+    format!(
+        "<details class=\"console\">\n<summary>Console ({count})</summary>\n<pre>{text}</pre>\n</details>\n"
+    )
 }
 
 fn folded(class: &str, title: &str, text: &str) -> String {
     if text.is_empty() {
         return String::new();
     }
-    format!("<details class=\"{class}\">\n<summary>{title}</summary>\n<pre>{}</pre>\n</details>\n", Quoted(text))
+    format!(
+        "<details class=\"{class}\">\n<summary>{title}</summary>\n<pre>{}</pre>\n</details>\n",
+        Quoted(text)
+    )
 }
 
 fn plural(count: usize, word: &str) -> String {
@@ -194,7 +274,11 @@ fn plural(count: usize, word: &str) -> String {
 }
 
 fn duration(seconds: f64) -> String {
-    if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.2} s") }
+    if seconds < 1.0 {
+        format!("{:.1} ms", seconds * 1e3)
+    } else {
+        format!("{seconds:.2} s")
+    }
 }
 
 /// Escaped text for any place in the page.
@@ -224,8 +308,18 @@ mod tests {
         let page = report(&sample::summary(), Path::new(""));
         assert_eq!(page.matches("<section>").count(), 2);
         assert_eq!(page.matches("<details class=\"test ").count(), 5);
-        assert_eq!(page.matches(" open>\n<summary><span").count(), 2, "what failed is unfolded");
-        for part in ["<b>1</b> failed", "<b>2</b> not run", "2 of 5 tests failed", "Console (2 lines)", "1.50 s"] {
+        assert_eq!(
+            page.matches(" open>\n<summary><span").count(),
+            2,
+            "what failed is unfolded"
+        );
+        for part in [
+            "<b>1</b> failed",
+            "<b>2</b> not run",
+            "2 of 5 tests failed",
+            "Console (2 lines)",
+            "1.50 s",
+        ] {
             assert!(page.contains(part), "{part}");
         }
     }

@@ -8,10 +8,15 @@ use script::test_bench::ConsoleLine;
 
 /// The first line: how many tests will run.
 pub fn begin(tests: &[impl AsRef<TestCase>]) -> String {
-    let mut files: Vec<_> = tests.iter().map(|test| test.as_ref().file.to_string_lossy()).collect();
+    let mut files: Vec<_> = tests
+        .iter()
+        .map(|test| test.as_ref().file.to_string_lossy())
+        .collect();
     files.sort();
     files.dedup();
-    line(&json!({"type": "begin", "version": env!("CARGO_PKG_VERSION"), "tests": tests.len(), "files": files}))
+    line(
+        &json!({"type": "begin", "version": env!("CARGO_PKG_VERSION"), "tests": tests.len(), "files": files}),
+    )
 }
 
 /// The line of a test that is over.
@@ -81,18 +86,34 @@ mod tests {
     #[test]
     fn each_moment_is_one_line() {
         let summary = sample::summary();
-        let tests: Vec<_> = summary.outcomes.iter().map(|outcome| outcome.test.clone()).collect();
+        let tests: Vec<_> = summary
+            .outcomes
+            .iter()
+            .map(|outcome| outcome.test.clone())
+            .collect();
         let mut text = super::begin(&tests);
         text.extend(summary.outcomes.iter().map(super::test));
         text += &super::end(&summary);
-        let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        let lines: Vec<Value> = text
+            .lines()
+            .map(|line| serde_json::from_str(line).unwrap())
+            .collect();
         assert_eq!(lines.len(), 7);
-        assert_eq!(lines[0]["files"], serde_json::json!(["a/x_test.lua", "b_test.lua"]));
+        assert_eq!(
+            lines[0]["files"],
+            serde_json::json!(["a/x_test.lua", "b_test.lua"])
+        );
         let failed = &lines[2];
-        assert_eq!((&failed["status"], &failed["line"], &failed["seed"]), (&"failed".into(), &2.into(), &7.into()));
+        assert_eq!(
+            (&failed["status"], &failed["line"], &failed["seed"]),
+            (&"failed".into(), &2.into(), &7.into())
+        );
         assert_eq!(failed["console"][0]["text"], sample::HOSTILE);
         assert_eq!(failed["excerpts"][0]["lines"][0], "one");
-        assert_eq!((&lines[6]["errors"], &lines[6]["notRun"]), (&1.into(), &2.into()));
+        assert_eq!(
+            (&lines[6]["errors"], &lines[6]["notRun"]),
+            (&1.into(), &2.into())
+        );
     }
 
     #[test]

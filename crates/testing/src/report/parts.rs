@@ -20,34 +20,56 @@ pub(super) fn word(status: Status) -> &'static str {
 
 /// How many of the outcomes ended so.
 pub(super) fn count(outcomes: &[Outcome], status: Status) -> usize {
-    outcomes.iter().filter(|outcome| outcome.status == status).count()
+    outcomes
+        .iter()
+        .filter(|outcome| outcome.status == status)
+        .count()
 }
 
 /// The failure message, with all details.
 pub(super) fn details(outcome: &Outcome) -> String {
     let mut parts = vec![outcome.message.clone()];
     parts.extend(outcome.excerpts.iter().map(|excerpt| excerpt.text(">")));
-    parts.extend(outcome.script.as_ref().map(|script| format!("in script {script}")));
+    parts.extend(
+        outcome
+            .script
+            .as_ref()
+            .map(|script| format!("in script {script}")),
+    );
     parts.extend(moment(outcome));
     if !outcome.trace.trim().is_empty() {
         parts.push(outcome.trace.trim().to_owned());
     }
-    parts.iter().map(|part| part.trim_end()).collect::<Vec<_>>().join("\n\n")
+    parts
+        .iter()
+        .map(|part| part.trim_end())
+        .collect::<Vec<_>>()
+        .join("\n\n")
 }
 
 /// When it ended, if there was a simulation.
 pub fn moment(outcome: &Outcome) -> Option<String> {
     let steps = outcome.steps;
     (steps > 0).then(|| {
-        format!("at simulated time {:.3} s, after {steps} step{}", outcome.time, if steps == 1 { "" } else { "s" })
+        format!(
+            "at simulated time {:.3} s, after {steps} step{}",
+            outcome.time,
+            if steps == 1 { "" } else { "s" }
+        )
     })
 }
 
 /// A line of the console with its time and its author.
 pub fn console_line(line: &ConsoleLine) -> String {
     let origin = line.origin.as_deref();
-    let author = origin.map(|origin| format!("[{origin}:{}] ", line.level)).unwrap_or_default();
-    format!("{:.3} {author}{}", line.time, line.located.as_ref().unwrap_or(&line.text))
+    let author = origin
+        .map(|origin| format!("[{origin}:{}] ", line.level))
+        .unwrap_or_default();
+    format!(
+        "{:.3} {author}{}",
+        line.time,
+        line.located.as_ref().unwrap_or(&line.text)
+    )
 }
 
 /// Replaces characters that XML documents must not contain by U+FFFD.
@@ -68,11 +90,19 @@ pub(super) mod sample {
     use crate::{Excerpt, Outcome, Status, Summary, TestCase};
     use script::test_bench::ConsoleLine;
 
-    pub const HOSTILE: &str = "<script>alert('x')</script> ]]> & \"q\" \u{0}\u{1b}[31m\u{fffe} # -->";
+    pub const HOSTILE: &str =
+        "<script>alert('x')</script> ]]> & \"q\" \u{0}\u{1b}[31m\u{fffe} # -->";
 
     pub fn outcome(file: &str, index: usize, name: &str, status: Status, message: &str) -> Outcome {
         let name = vec!["group".to_owned(), name.to_owned()];
-        let test = TestCase { file: PathBuf::from(file), index, name, line: Some(3), repetition: 0, seed: 7 };
+        let test = TestCase {
+            file: PathBuf::from(file),
+            index,
+            name,
+            line: Some(3),
+            repetition: 0,
+            seed: 7,
+        };
         let mut outcome = Outcome::new(Arc::new(test), status, message);
         (outcome.time, outcome.steps, outcome.wall) = (0.5, 10, Duration::from_millis(1500));
         outcome
@@ -80,12 +110,28 @@ pub(super) mod sample {
 
     /// One of each status in one file, and one that passed in another.
     pub fn summary() -> Summary {
-        let mut failed = outcome("a/x_test.lua", 2, HOSTILE, Status::Failed, &format!("first line\n{HOSTILE}"));
+        let mut failed = outcome(
+            "a/x_test.lua",
+            2,
+            HOSTILE,
+            Status::Failed,
+            &format!("first line\n{HOSTILE}"),
+        );
         failed.line = Some(2);
-        failed.excerpts = Vec::from_iter(Excerpt::of("a/x_test.lua", format!("one\n{HOSTILE}\n").as_bytes(), 2));
+        failed.excerpts = Vec::from_iter(Excerpt::of(
+            "a/x_test.lua",
+            format!("one\n{HOSTILE}\n").as_bytes(),
+            2,
+        ));
         failed.script = Some("/Robot/script".into());
         failed.console = vec![
-            ConsoleLine { time: 0.05, origin: None, level: "print", text: HOSTILE.into(), located: None },
+            ConsoleLine {
+                time: 0.05,
+                origin: None,
+                level: "print",
+                text: HOSTILE.into(),
+                located: None,
+            },
             ConsoleLine {
                 time: 0.1,
                 origin: Some("/Robot/script".into()),
@@ -94,7 +140,13 @@ pub(super) mod sample {
                 located: None,
             },
         ];
-        let mut todo = outcome("a/x_test.lua", 4, "todo", Status::Pending, "not written yet");
+        let mut todo = outcome(
+            "a/x_test.lua",
+            4,
+            "todo",
+            Status::Pending,
+            "not written yet",
+        );
         todo.todo = true;
         Summary {
             outcomes: vec![

@@ -13,14 +13,22 @@ pub fn begin(count: usize) -> String {
 
 /// The lines of a test that is over; `number` counts them from 1.
 pub fn test(number: usize, outcome: &Outcome) -> String {
-    let word = if outcome.is_bad() || outcome.todo { "not ok" } else { "ok" };
+    let word = if outcome.is_bad() || outcome.todo {
+        "not ok"
+    } else {
+        "ok"
+    };
     let title = escaped(&outcome.test.id());
     let directive = match outcome.status {
         Status::Pending if outcome.todo => format!(" # TODO {}", escaped(&outcome.message)),
         Status::Pending => format!(" # SKIP {}", escaped(&outcome.message)),
         _ => String::new(),
     };
-    let diagnostic = if outcome.is_bad() { diagnostic(outcome) } else { String::new() };
+    let diagnostic = if outcome.is_bad() {
+        diagnostic(outcome)
+    } else {
+        String::new()
+    };
     format!("{word} {number} - {title}{directive}\n{diagnostic}")
 }
 
@@ -28,7 +36,10 @@ pub fn test(number: usize, outcome: &Outcome) -> String {
 pub fn end(summary: &Summary) -> String {
     match summary {
         _ if summary.interrupted => "Bail out! interrupted\n".into(),
-        _ if summary.not_run > 0 => format!("Bail out! {} tests were not run: one has failed\n", summary.not_run),
+        _ if summary.not_run > 0 => format!(
+            "Bail out! {} tests were not run: one has failed\n",
+            summary.not_run
+        ),
         _ => String::new(),
     }
 }
@@ -36,7 +47,14 @@ pub fn end(summary: &Summary) -> String {
 fn diagnostic(outcome: &Outcome) -> String {
     let mut block = Block::default();
     block.text("message", &outcome.message);
-    block.text("severity", if outcome.status == Status::Failed { "fail" } else { "error" });
+    block.text(
+        "severity",
+        if outcome.status == Status::Failed {
+            "fail"
+        } else {
+            "error"
+        },
+    );
     block.text("file", &outcome.test.file.to_string_lossy());
     if let Some(line) = outcome.line.or(outcome.test.line) {
         block.number("line", line);
@@ -44,13 +62,19 @@ fn diagnostic(outcome: &Outcome) -> String {
     if let Some(script) = &outcome.script {
         block.text("script", script);
     }
-    for (key, excerpt) in ["source", "source2", "source3", "source4"].iter().zip(&outcome.excerpts) {
+    for (key, excerpt) in ["source", "source2", "source3", "source4"]
+        .iter()
+        .zip(&outcome.excerpts)
+    {
         block.text(key, &excerpt.text(">"));
     }
     block.number("time", format_args!("{:.3}", outcome.time));
     block.number("steps", outcome.steps);
     block.number("seed", outcome.test.seed);
-    block.number("duration_ms", format_args!("{:.3}", outcome.wall.as_secs_f64() * 1e3));
+    block.number(
+        "duration_ms",
+        format_args!("{:.3}", outcome.wall.as_secs_f64() * 1e3),
+    );
     if !outcome.console.is_empty() {
         let console: Vec<_> = outcome.console.iter().map(parts::console_line).collect();
         block.text("console", &console.join("\n"));
@@ -83,14 +107,20 @@ impl Block {
 
 fn can_stand_as_it_is(text: &str) -> bool {
     let is_plain = |c: char| {
-        c == '\n' || !c.is_control() && parts::allowed(c) == c && !matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}')
+        c == '\n'
+            || !c.is_control()
+                && parts::allowed(c) == c
+                && !matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}')
     };
     !text.starts_with([' ', '\n']) && text.chars().all(is_plain)
 }
 
 /// Without what would begin a directive or another line.
 fn escaped(text: &str) -> String {
-    let one_line: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let one_line: String = text
+        .chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
     one_line.replace('\\', "\\\\").replace('#', "\\#")
 }
 
@@ -108,10 +138,26 @@ mod tests {
         }
         text += &end(&summary);
         let points: Vec<_> = text.lines().filter(|line| !line.starts_with(' ')).collect();
-        assert_eq!(points[..3], ["TAP version 14", "1..5", "ok 1 - a/x_test.lua::group passes"]);
-        assert!(points[3].starts_with("not ok 2 - a/x_test.lua::group <script>") && points[3].ends_with("\\# -->"));
-        assert_eq!(points[5], "not ok 4 - a/x_test.lua::group todo # TODO not written yet");
-        assert_eq!(points[6], "ok 5 - b_test.lua::group skips # SKIP later \\# on");
+        assert_eq!(
+            points[..3],
+            [
+                "TAP version 14",
+                "1..5",
+                "ok 1 - a/x_test.lua::group passes"
+            ]
+        );
+        assert!(
+            points[3].starts_with("not ok 2 - a/x_test.lua::group <script>")
+                && points[3].ends_with("\\# -->")
+        );
+        assert_eq!(
+            points[5],
+            "not ok 4 - a/x_test.lua::group todo # TODO not written yet"
+        );
+        assert_eq!(
+            points[6],
+            "ok 5 - b_test.lua::group skips # SKIP later \\# on"
+        );
         assert_eq!(points[7], "Bail out! 2 tests were not run: one has failed");
     }
 
@@ -129,7 +175,10 @@ mod tests {
         block.text("a", "one\n\n  two\n");
         block.text("b", " one\ntwo");
         block.text("c", "one\n\u{1b}");
-        assert_eq!(block.0, "  a: |-\n    one\n\n      two\n  b: \" one\\ntwo\"\n  c: \"one\\n\\u001b\"\n");
+        assert_eq!(
+            block.0,
+            "  a: |-\n    one\n\n      two\n  b: \" one\\ntwo\"\n  c: \"one\\n\\u001b\"\n"
+        );
     }
 
     #[test]

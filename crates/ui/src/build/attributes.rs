@@ -43,13 +43,25 @@ pub(super) struct Attributes<'a> {
 
 impl<'a> Attributes<'a> {
     pub(super) fn new(element: &'a Element, warnings: &'a RefCell<Vec<Warning>>) -> Self {
-        Self { element, known: element.attributes.iter().map(|_| Cell::new(false)).collect(), warnings }
+        Self {
+            element,
+            known: element
+                .attributes
+                .iter()
+                .map(|_| Cell::new(false))
+                .collect(),
+            warnings,
+        }
     }
 
     /// The value of an attribute. One with a hyphen had a name without before.
     pub(super) fn get(&self, name: &'static str) -> Option<&'a str> {
         let new = self.find(name);
-        let old = if name.contains('-') { self.replaced(&name.replace('-', ""), name) } else { None };
+        let old = if name.contains('-') {
+            self.replaced(&name.replace('-', ""), name)
+        } else {
+            None
+        };
         new.or(old)
     }
 
@@ -67,7 +79,10 @@ impl<'a> Attributes<'a> {
     /// The value of an attribute by the name it had before.
     pub(super) fn replaced(&self, old: &str, new: &'static str) -> Option<&'a str> {
         let value = self.find(old)?;
-        self.warnings.borrow_mut().push(Warning::Deprecated { old: old.to_owned(), new });
+        self.warnings.borrow_mut().push(Warning::Deprecated {
+            old: old.to_owned(),
+            new,
+        });
         Some(value)
     }
 
@@ -76,7 +91,8 @@ impl<'a> Attributes<'a> {
     }
 
     pub(super) fn bool(&self, name: &'static str, default: bool) -> Result<bool> {
-        self.get(name).map_or(Ok(default), |value| bool_of(value, name))
+        self.get(name)
+            .map_or(Ok(default), |value| bool_of(value, name))
     }
 
     pub(super) fn int(&self, name: &'static str, default: i64) -> Result<i64> {
@@ -90,7 +106,9 @@ impl<'a> Attributes<'a> {
 
     /// Integers with single commas between them.
     pub(super) fn ints<const N: usize>(&self, name: &'static str) -> Result<Option<[i64; N]>> {
-        let Some(value) = self.get(name) else { return Ok(None) };
+        let Some(value) = self.get(name) else {
+            return Ok(None);
+        };
         let numbers = value.split(',').map(int_of).collect::<Result<Vec<_>>>()?;
         let wrong = || format!("attribute '{name}' must have exactly {N} elements");
         numbers.try_into().map(Some).map_err(|_| wrong())
@@ -102,19 +120,33 @@ impl<'a> Attributes<'a> {
         choices: &[&'static str],
         default: &'static str,
     ) -> Result<&'static str> {
-        let Some(value) = self.get(name) else { return Ok(default) };
+        let Some(value) = self.get(name) else {
+            return Ok(default);
+        };
         let found = choices.iter().find(|choice| **choice == value);
         found.copied().ok_or_else(|| {
             let all: Vec<String> = choices.iter().map(|choice| format!("'{choice}'")).collect();
-            format!("invalid value for attribute '{name}': '{value}' (must be one of: {})", all.join(", "))
+            format!(
+                "invalid value for attribute '{name}': '{value}' (must be one of: {})",
+                all.join(", ")
+            )
         })
     }
 
     /// Notes the attributes that nobody has read.
     pub(super) fn warn_of_unknown(&self) {
         let mut warnings = self.warnings.borrow_mut();
-        for ((attribute, _), _) in self.element.attributes.iter().zip(&self.known).filter(|(_, known)| !known.get()) {
-            warnings.push(Warning::Unknown { attribute: attribute.clone(), widget: self.element.name.clone() });
+        for ((attribute, _), _) in self
+            .element
+            .attributes
+            .iter()
+            .zip(&self.known)
+            .filter(|(_, known)| !known.get())
+        {
+            warnings.push(Warning::Unknown {
+                attribute: attribute.clone(),
+                widget: self.element.name.clone(),
+            });
         }
     }
 }
@@ -123,16 +155,25 @@ pub(super) fn bool_of(value: &str, name: &str) -> Result<bool> {
     match value {
         "true" => Ok(true),
         "false" => Ok(false),
-        _ => Err(format!("invalid value '{value}' for attribute '{name}': must be true or false")),
+        _ => Err(format!(
+            "invalid value '{value}' for attribute '{name}': must be true or false"
+        )),
     }
 }
 
 const NO_NUMBER: &str = "bad lexical cast: source type value could not be interpreted as target";
 
 fn int_of(value: &str) -> Result<i64> {
-    value.parse::<i32>().map(i64::from).map_err(|_| NO_NUMBER.to_owned())
+    value
+        .parse::<i32>()
+        .map(i64::from)
+        .map_err(|_| NO_NUMBER.to_owned())
 }
 
 fn float_of(value: &str) -> Result<f64> {
-    value.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(|| NO_NUMBER.to_owned())
+    value
+        .parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite())
+        .ok_or_else(|| NO_NUMBER.to_owned())
 }

@@ -1,8 +1,8 @@
 //! Elements of widgets with one value.
 
 use super::super::widgets::{
-    Button, Checkbox, Combobox, Edit, Label, ProgressBar, Radiobutton, Slider, Spinbox, TextBrowser, TextType,
-    WidgetKind,
+    Button, Checkbox, Combobox, Edit, Label, ProgressBar, Radiobutton, Slider, Spinbox,
+    TextBrowser, TextType, WidgetKind,
 };
 use super::super::xml::Element;
 use super::attributes::{Attributes, Result, bool_of};
@@ -14,7 +14,10 @@ const DECIMALS: i64 = 6;
 
 pub(super) fn button(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
     let repeats = attributes.bool("auto-repeat", false)?;
-    let times = [attributes.int("auto-repeat-delay", 0)?, attributes.int("auto-repeat-interval", 200)?];
+    let times = [
+        attributes.int("auto-repeat-delay", 0)?,
+        attributes.int("auto-repeat-interval", 200)?,
+    ];
     attributes.bool("default", false)?;
     let checkable = attributes.bool("checkable", false)?;
     Ok(WidgetKind::Button(Button {
@@ -30,7 +33,11 @@ pub(super) fn button(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetK
 pub(super) fn checkbox(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
     Ok(WidgetKind::Checkbox(Checkbox {
         text: attributes.text("text", "???"),
-        value: if attributes.bool("checked", false)? { 2 } else { 0 },
+        value: if attributes.bool("checked", false)? {
+            2
+        } else {
+            0
+        },
         checkable: attributes.bool("checkable", true)?,
         auto_exclusive: attributes.bool("auto-exclusive", false)?,
     }))
@@ -81,12 +88,18 @@ pub(super) fn spinbox(_: &Element, attributes: &Attributes<'_>) -> Result<Widget
     let maximum = attributes.float("maximum")?.unwrap_or(100.0);
     let step = attributes.float("step")?.unwrap_or(1.0);
     let decimals = attributes.int("decimals", -1)?;
-    let has_fraction = [minimum, maximum, step].iter().any(|number| number - number.floor() > FRACTION);
+    let has_fraction = [minimum, maximum, step]
+        .iter()
+        .any(|number| number - number.floor() > FRACTION);
     let is_float = match attributes.get("float").filter(|value| *value != "auto") {
         Some(value) => bool_of(value, "float")?,
         None => has_fraction || decimals >= 0,
     };
-    let decimals = is_float.then_some(if decimals < 0 { DECIMALS } else { decimals.min(15) } as i32);
+    let decimals = is_float.then_some(if decimals < 0 {
+        DECIMALS
+    } else {
+        decimals.min(15)
+    } as i32);
     let whole = |number: f64| if is_float { number } else { number.trunc() };
     let mut spinbox = Spinbox {
         value: 0.0,
@@ -102,11 +115,15 @@ pub(super) fn spinbox(_: &Element, attributes: &Attributes<'_>) -> Result<Widget
 }
 
 pub(super) fn label(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
-    Ok(WidgetKind::Label(Label { text: attributes.text("text", ""), word_wrap: attributes.bool("word-wrap", false)? }))
+    Ok(WidgetKind::Label(Label {
+        text: attributes.text("text", ""),
+        word_wrap: attributes.bool("word-wrap", false)?,
+    }))
 }
 
 pub(super) fn progress_bar(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
-    let orientation = attributes.choice("orientation", &["horizontal", "vertical"], "horizontal")?;
+    let orientation =
+        attributes.choice("orientation", &["horizontal", "vertical"], "horizontal")?;
     Ok(WidgetKind::ProgressBar(ProgressBar {
         minimum: attributes.int("minimum", 0)?,
         maximum: attributes.int("maximum", 100)?,
@@ -118,8 +135,15 @@ pub(super) fn progress_bar(_: &Element, attributes: &Attributes<'_>) -> Result<W
 }
 
 pub(super) fn text_browser(_: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
-    let is_html = attributes.replaced("html", "type").map(|value| bool_of(value, "html")).transpose()?;
-    let default = if is_html == Some(false) { "plain" } else { "html" };
+    let is_html = attributes
+        .replaced("html", "type")
+        .map(|value| bool_of(value, "html"))
+        .transpose()?;
+    let default = if is_html == Some(false) {
+        "plain"
+    } else {
+        "html"
+    };
     Ok(WidgetKind::TextBrowser(TextBrowser {
         text: attributes.text("text", ""),
         text_type: TextType::named(attributes.choice("type", &TextType::NAMES, default)?),

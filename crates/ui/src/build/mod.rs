@@ -28,16 +28,38 @@ const SIMPLE: &[(&str, Read, &[&str])] = &[
     ("spinbox", inputs::spinbox, &["on-change"]),
     ("label", inputs::label, &["on-link-activated"]),
     ("progressbar", inputs::progress_bar, &[]),
-    ("text-browser", inputs::text_browser, &["on-change", "on-link-activated"]),
-    ("image", collections::image, &["on-mouse-down", "on-mouse-up", "on-mouse-move"]),
-    ("svg", collections::svg, &["on-mouse-down", "on-mouse-up", "on-mouse-move"]),
-    ("table", collections::table, &["on-cell-activate", "on-selection-change", "on-key-press"]),
+    (
+        "text-browser",
+        inputs::text_browser,
+        &["on-change", "on-link-activated"],
+    ),
+    (
+        "image",
+        collections::image,
+        &["on-mouse-down", "on-mouse-up", "on-mouse-move"],
+    ),
+    (
+        "svg",
+        collections::svg,
+        &["on-mouse-down", "on-mouse-up", "on-mouse-move"],
+    ),
+    (
+        "table",
+        collections::table,
+        &["on-cell-activate", "on-selection-change", "on-key-press"],
+    ),
     ("tree", collections::tree, &["on-selection-change"]),
     ("plot", collections::plot, &["on-click", "on-legend-click"]),
     (
         "properties",
         collections::properties,
-        &["on-selection-change", "on-key-press", "on-double-click", "on-context-menu-triggered", "on-property-edit"],
+        &[
+            "on-selection-change",
+            "on-key-press",
+            "on-double-click",
+            "on-context-menu-triggered",
+            "on-property-edit",
+        ],
     ),
     ("scene3d", collections::scene3d, &["on-click"]),
 ];
@@ -51,7 +73,11 @@ pub(super) fn window(text: &str, anonymous: &mut i64) -> Result<(Window, Vec<War
     if root.name != "ui" {
         return Err("root element must be <ui>".into());
     }
-    let builder = Builder { widgets: BTreeMap::new(), anonymous, warnings: RefCell::default() };
+    let builder = Builder {
+        widgets: BTreeMap::new(),
+        anonymous,
+        warnings: RefCell::default(),
+    };
     builder.window(&root)
 }
 
@@ -79,7 +105,11 @@ impl Builder<'_> {
             style: attributes.text("style", ""),
             resizable: attributes.bool("resizable", false)?,
             closeable: attributes.bool("closeable", false)?,
-            placement: Placement::named(attributes.choice("placement", &Placement::NAMES, "center")?),
+            placement: Placement::named(attributes.choice(
+                "placement",
+                &Placement::NAMES,
+                "center",
+            )?),
             activate: attributes.bool("activate", true)?,
             on_close: attributes.text("on-close", ""),
             ..Window::default()
@@ -95,7 +125,12 @@ impl Builder<'_> {
     }
 
     /// The attributes and children of an element that contains widgets.
-    fn container(&mut self, element: &Element, attributes: &Attributes<'_>, parent: Option<i64>) -> Result<Container> {
+    fn container(
+        &mut self,
+        element: &Element,
+        attributes: &Attributes<'_>,
+        parent: Option<i64>,
+    ) -> Result<Container> {
         let mut container = Container {
             layout: Layout::named(attributes.choice("layout", &Layout::NAMES, "vbox")?),
             margins: attributes.ints("content-margins")?.unwrap_or([7; 4]),
@@ -118,7 +153,10 @@ impl Builder<'_> {
             "br" if layout == Layout::Grid => Ok(Item::Break),
             "stretch" if layout.is_box() => {
                 let attributes = Attributes::new(element, &self.warnings);
-                attributes.int("factor", 0).map(Item::Stretch).map_err(|error| format!("stretch: {error}"))
+                attributes
+                    .int("factor", 0)
+                    .map(Item::Stretch)
+                    .map_err(|error| format!("stretch: {error}"))
             }
             "stretch" => Err("stretch must be placed in a widget with vbox/hbox layout".into()),
             name if is_widget(name) => self.widget(element, layout, parent).map(Item::Widget),
@@ -153,9 +191,9 @@ impl Builder<'_> {
                 Ok(*self.anonymous)
             }
             ..=0 => Err("id must be a positive integer".into()),
-            _ if self.widgets.contains_key(&id) => {
-                Err(format!("id must be unique (within ui scope). duplicate id: {id}"))
-            }
+            _ if self.widgets.contains_key(&id) => Err(format!(
+                "id must be unique (within ui scope). duplicate id: {id}"
+            )),
             _ => Ok(id),
         }
     }
@@ -201,35 +239,57 @@ impl Builder<'_> {
         let kind = match element.name.as_str() {
             "group" => {
                 let flat = attributes.bool("flat", false)?;
-                WidgetKind::Group(Group { container: self.container(element, attributes, Some(id))?, flat })
+                WidgetKind::Group(Group {
+                    container: self.container(element, attributes, Some(id))?,
+                    flat,
+                })
             }
             "tab" => {
                 let title = attributes.text("title", "???");
-                WidgetKind::Tab(Tab { title, container: self.container(element, attributes, Some(id))? })
+                WidgetKind::Tab(Tab {
+                    title,
+                    container: self.container(element, attributes, Some(id))?,
+                })
             }
             "tabs" => self.tabs(id, element, attributes)?,
             name => {
                 let found = SIMPLE.iter().find(|(known, ..)| *known == name);
-                let (_, read, handlers) = found.ok_or_else(|| format!("invalid element <{name}>"))?;
-                let named = |attribute: &&'static str| Some((*attribute, attributes.get(attribute)?.to_owned()));
-                let handlers = handlers.iter().filter_map(named).filter(|(_, name)| !name.is_empty()).collect();
+                let (_, read, handlers) =
+                    found.ok_or_else(|| format!("invalid element <{name}>"))?;
+                let named = |attribute: &&'static str| {
+                    Some((*attribute, attributes.get(attribute)?.to_owned()))
+                };
+                let handlers = handlers
+                    .iter()
+                    .filter_map(named)
+                    .filter(|(_, name)| !name.is_empty())
+                    .collect();
                 return Ok((read(element, attributes)?, handlers));
             }
         };
         Ok((kind, BTreeMap::new()))
     }
 
-    fn tabs(&mut self, id: i64, element: &Element, attributes: &Attributes<'_>) -> Result<WidgetKind> {
+    fn tabs(
+        &mut self,
+        id: i64,
+        element: &Element,
+        attributes: &Attributes<'_>,
+    ) -> Result<WidgetKind> {
         let positions = ["north", "south", "east", "west"];
-        let mut tabs =
-            Tabs { position: attributes.choice("tab-position", &positions, "north")?, current: 0, pages: Vec::new() };
+        let mut tabs = Tabs {
+            position: attributes.choice("tab-position", &positions, "north")?,
+            current: 0,
+            pages: Vec::new(),
+        };
         attributes.bool("document-mode", false)?;
         attributes.choice("tab-shape", &["rounded", "triangular"], "rounded")?;
         for child in &element.children {
             if child.name != "tab" {
                 return Err("element must be <tab>".into());
             }
-            tabs.pages.push(self.widget(child, Layout::VerticalBox, Some(id))?);
+            tabs.pages
+                .push(self.widget(child, Layout::VerticalBox, Some(id))?);
         }
         Ok(WidgetKind::Tabs(tabs))
     }
@@ -238,7 +298,8 @@ impl Builder<'_> {
     fn check_last_radiobutton(&mut self, container: &Container) {
         let mut found = false;
         for id in container.widgets().collect::<Vec<_>>().into_iter().rev() {
-            if let Some(WidgetKind::Radiobutton(button)) = self.widgets.get_mut(&id).map(|widget| &mut widget.kind)
+            if let Some(WidgetKind::Radiobutton(button)) =
+                self.widgets.get_mut(&id).map(|widget| &mut widget.kind)
                 && button.auto_exclusive
                 && button.checked
             {

@@ -41,14 +41,30 @@ pub(crate) fn action(json: &Value) -> Result<Action, String> {
     let fields = Fields(json);
     let kind = fields.text("type")?;
     if kind == "banner" {
-        return Ok(Action::Banner { banner: fields.int("banner")?, key: fields.text("key")? });
+        return Ok(Action::Banner {
+            banner: fields.int("banner")?,
+            key: fields.text("key")?,
+        });
     }
     let window = fields.text("window")?;
     Ok(match kind.as_str() {
-        "close" => Action::Close { window, escape: fields.flag("escape") },
-        "move" => Action::Move { window, position: fields.ints("position")? },
-        "resize" => Action::Resize { window, size: fields.ints("size")? },
-        _ => Action::Widget { window, widget: fields.int("widget")?, input: input(&fields, &kind)? },
+        "close" => Action::Close {
+            window,
+            escape: fields.flag("escape"),
+        },
+        "move" => Action::Move {
+            window,
+            position: fields.ints("position")?,
+        },
+        "resize" => Action::Resize {
+            window,
+            size: fields.ints("size")?,
+        },
+        _ => Action::Widget {
+            window,
+            widget: fields.int("widget")?,
+            input: input(&fields, &kind)?,
+        },
     })
 }
 
@@ -60,7 +76,13 @@ fn input(fields: &Fields<'_>, kind: &str) -> Result<Input, String> {
         "finish" => Input::Finish,
         "select" if fields.has("column") => Input::SelectCell(place()?),
         "select" => Input::Select(fields.int("item").or_else(|_| fields.int("row"))?),
-        "cell" => Input::Cell(place()?, fields.has("text").then(|| fields.text("text")).transpose()?),
+        "cell" => Input::Cell(
+            place()?,
+            fields
+                .has("text")
+                .then(|| fields.text("text"))
+                .transpose()?,
+        ),
         "expand" => Input::Expand(fields.int("item")?, fields.flag("expanded")),
         "key" => Input::Key {
             key: fields.int("key")?,
@@ -69,18 +91,29 @@ fn input(fields: &Fields<'_>, kind: &str) -> Result<Input, String> {
         },
         "mouse" => {
             let at = [fields.int("x")?, fields.int("y")?];
-            Input::Mouse { mouse: mouse(&fields.text("event")?)?, at, modifiers: fields.modifiers() }
+            Input::Mouse {
+                mouse: mouse(&fields.text("event")?)?,
+                at,
+                modifiers: fields.modifiers(),
+            }
         }
         "link" => Input::Link(fields.text("href")?),
         "point" => {
             let at = [fields.number("x")?, fields.number("y")?];
-            Input::Point { curve: fields.text("curve")?, index: fields.int("index")?, at }
+            Input::Point {
+                curve: fields.text("curve")?,
+                index: fields.int("index")?,
+                at,
+            }
         }
         "legend" => Input::Legend(fields.text("curve")?),
         "node" => Input::Node(fields.int("node")?),
         "menu" => Input::Menu(fields.text("key")?),
         "doubleClick" => Input::DoubleClick(place()?),
-        "property" => Input::Property { name: fields.text("name")?, text: fields.text("text")? },
+        "property" => Input::Property {
+            name: fields.text("name")?,
+            text: fields.text("text")?,
+        },
         _ => return Err(format!("there is no input of type '{kind}'")),
     })
 }
@@ -112,16 +145,21 @@ impl<'a> Fields<'a> {
     }
 
     fn get(&self, name: &str) -> Result<&'a Value, String> {
-        self.0.get(name).ok_or_else(|| format!("the field '{name}' is missing"))
+        self.0
+            .get(name)
+            .ok_or_else(|| format!("the field '{name}' is missing"))
     }
 
     fn text(&self, name: &str) -> Result<String, String> {
         let text = self.get(name)?.as_str();
-        text.map(str::to_owned).ok_or_else(|| format!("the field '{name}' is no text"))
+        text.map(str::to_owned)
+            .ok_or_else(|| format!("the field '{name}' is no text"))
     }
 
     fn number(&self, name: &str) -> Result<f64, String> {
-        self.get(name)?.as_f64().ok_or_else(|| format!("the field '{name}' is no number"))
+        self.get(name)?
+            .as_f64()
+            .ok_or_else(|| format!("the field '{name}' is no number"))
     }
 
     fn int(&self, name: &str) -> Result<i64, String> {
@@ -142,8 +180,17 @@ impl<'a> Fields<'a> {
     }
 
     fn modifiers(&self) -> Modifiers {
-        let held = |name: &str| self.0.get("modifiers").and_then(|all| all.get(name)).and_then(Value::as_bool);
+        let held = |name: &str| {
+            self.0
+                .get("modifiers")
+                .and_then(|all| all.get(name))
+                .and_then(Value::as_bool)
+        };
         let held = |name| held(name).unwrap_or(false);
-        Modifiers { shift: held("shift"), control: held("control"), alt: held("alt") }
+        Modifiers {
+            shift: held("shift"),
+            control: held("control"),
+            alt: held("alt"),
+        }
     }
 }

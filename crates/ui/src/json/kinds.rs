@@ -13,8 +13,12 @@ const MAX_HEADERS: i64 = 1000;
 impl Window {
     pub(super) fn kind_json(&self, kind: &WidgetKind) -> Value {
         match kind {
-            WidgetKind::Group(group) => json!({"flat": group.flat, "content": self.container_json(&group.container)}),
-            WidgetKind::Tab(tab) => json!({"title": tab.title, "content": self.container_json(&tab.container)}),
+            WidgetKind::Group(group) => {
+                json!({"flat": group.flat, "content": self.container_json(&group.container)})
+            }
+            WidgetKind::Tab(tab) => {
+                json!({"title": tab.title, "content": self.container_json(&tab.container)})
+            }
             WidgetKind::Tabs(tabs) => {
                 let pages = tabs.pages.iter().filter_map(|page| self.widgets.get(page));
                 let pages: Vec<Value> = pages.map(|page| self.widget_json(page)).collect();
@@ -110,7 +114,9 @@ fn tree_json(tree: &Tree) -> Value {
         .map(|(id, item)| json!({"id": id, "parent": item.parent, "texts": item.texts, "expanded": item.expanded}));
     let last = tree.column_headers.keys().next_back().copied();
     let header = |column: i64| tree.column_headers.get(&column).map_or("", String::as_str);
-    let headers: Vec<&str> = (0..=last.unwrap_or(-1).min(MAX_HEADERS)).map(header).collect();
+    let headers: Vec<&str> = (0..=last.unwrap_or(-1).min(MAX_HEADERS))
+        .map(header)
+        .collect();
     json!({
         "items": items.collect::<Vec<_>>(), "columnCount": tree.column_count, "columnHeaders": headers,
         "showHeader": tree.show_header, "autosizeHeader": tree.autosize_header, "sortable": tree.sortable,
@@ -132,7 +138,13 @@ fn plot_json(plot: &Plot) -> Value {
 }
 
 fn curve_json(curve: &Curve) -> Value {
-    let coordinate = |axis: usize| curve.points.iter().map(|point| point[axis]).collect::<Vec<f64>>();
+    let coordinate = |axis: usize| {
+        curve
+            .points
+            .iter()
+            .map(|point| point[axis])
+            .collect::<Vec<f64>>()
+    };
     let options = &curve.options;
     json!({
         "name": curve.name, "type": curve.curve_type.name(), "color": curve.color, "style": curve.style,

@@ -114,7 +114,11 @@ impl Spinbox {
             Some(decimals) => {
                 let scale = 10_f64.powi(decimals.clamp(0, 15));
                 let scaled = value * scale;
-                if scaled.is_finite() { scaled.round() / scale } else { value }
+                if scaled.is_finite() {
+                    scaled.round() / scale
+                } else {
+                    value
+                }
             }
         };
         rounded.min(self.maximum).max(self.minimum)

@@ -11,7 +11,8 @@ mod tree;
 use std::collections::BTreeMap;
 
 pub use inputs::{
-    Button, Checkbox, Combobox, Edit, Label, ProgressBar, Radiobutton, Slider, Spinbox, TextBrowser, TextType,
+    Button, Checkbox, Combobox, Edit, Label, ProgressBar, Radiobutton, Slider, Spinbox,
+    TextBrowser, TextType,
 };
 pub use picture::{Image, Svg};
 pub use plot::{Curve, CurveOptions, CurveType, Plot};
@@ -39,10 +40,19 @@ pub enum Layout {
 
 impl Layout {
     pub(super) const NAMES: [&'static str; 5] = ["vbox", "hbox", "grid", "form", "none"];
-    const ALL: [Self; 5] = [Self::VerticalBox, Self::HorizontalBox, Self::Grid, Self::Form, Self::None];
+    const ALL: [Self; 5] = [
+        Self::VerticalBox,
+        Self::HorizontalBox,
+        Self::Grid,
+        Self::Form,
+        Self::None,
+    ];
 
     pub(super) fn named(name: &str) -> Self {
-        let found = Self::NAMES.iter().zip(Self::ALL).find(|(known, _)| **known == name);
+        let found = Self::NAMES
+            .iter()
+            .zip(Self::ALL)
+            .find(|(known, _)| **known == name);
         found.map_or_else(Self::default, |(_, layout)| layout)
     }
 
@@ -82,7 +92,13 @@ pub struct Container {
 impl Container {
     /// The widgets in it, in their order.
     pub(crate) fn widgets(&self) -> impl Iterator<Item = i64> {
-        self.items.iter().filter_map(|item| if let Item::Widget(id) = item { Some(*id) } else { None })
+        self.items.iter().filter_map(|item| {
+            if let Item::Widget(id) = item {
+                Some(*id)
+            } else {
+                None
+            }
+        })
     }
 }
 

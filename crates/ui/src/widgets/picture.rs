@@ -23,10 +23,20 @@ pub(super) const MAX_PIXELS: usize = 1 << 24;
 impl Image {
     /// A transparent picture; nothing for a size that is not positive.
     pub(crate) fn blank(width: i64, height: i64) -> Self {
-        let sides = usize::try_from(width).ok().zip(usize::try_from(height).ok());
+        let sides = usize::try_from(width)
+            .ok()
+            .zip(usize::try_from(height).ok());
         let fits = |&(width, height): &(usize, usize)| width.saturating_mul(height) <= MAX_PIXELS;
-        let (width, height) = sides.filter(fits).filter(|(w, h)| *w > 0 && *h > 0).unwrap_or_default();
-        Self { width, height, pixels: vec![0; 4 * width * height], ..Self::default() }
+        let (width, height) = sides
+            .filter(fits)
+            .filter(|(w, h)| *w > 0 && *h > 0)
+            .unwrap_or_default();
+        Self {
+            width,
+            height,
+            pixels: vec![0; 4 * width * height],
+            ..Self::default()
+        }
     }
 
     /// Sets the picture from red, green, blue of each pixel, the bottom row first.
@@ -42,10 +52,16 @@ impl Image {
 
 /// Width, height, and pixels with the top row first, of an image of a vision sensor.
 pub(super) fn rgba_of(data: &[u8], width: i64, height: i64) -> UiResult<(usize, usize, Vec<u8>)> {
-    let (columns, rows) = (usize::try_from(width).unwrap_or(0), usize::try_from(height).unwrap_or(0));
+    let (columns, rows) = (
+        usize::try_from(width).unwrap_or(0),
+        usize::try_from(height).unwrap_or(0),
+    );
     let expected = columns.saturating_mul(rows).saturating_mul(3);
     if expected != data.len() {
-        return Err(UiError::ImageSize { expected, found: data.len() });
+        return Err(UiError::ImageSize {
+            expected,
+            found: data.len(),
+        });
     }
     let mut pixels = Vec::with_capacity(expected / 3 * 4);
     for row in data.chunks_exact((3 * columns).max(1)).rev() {

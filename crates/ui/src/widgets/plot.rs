@@ -92,19 +92,27 @@ impl Curve {
         // Keys mostly arrive in order, so that sorting what is sorted is cheap.
         self.points.extend(points);
         self.points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let Some(limit) = limit.filter(|limit| self.points.len() > *limit) else { return };
+        let Some(limit) = limit.filter(|limit| self.points.len() > *limit) else {
+            return;
+        };
         if cyclic {
             let oldest = self.points[self.points.len() - limit][0];
-            self.points.retain(|point| point[0].total_cmp(&oldest).is_ge());
+            self.points
+                .retain(|point| point[0].total_cmp(&oldest).is_ge());
         } else {
             let last = self.points[limit - 1][0];
-            self.points.retain(|point| point[0].total_cmp(&last).is_le());
+            self.points
+                .retain(|point| point[0].total_cmp(&last).is_le());
         }
     }
 
     /// The smallest and the largest value of a coordinate, 1 for x and 2 for y; None without finite ones.
     fn range(&self, coordinate: usize) -> Option<[f64; 2]> {
-        let values = self.points.iter().map(|point| point[coordinate]).filter(|value| value.is_finite());
+        let values = self
+            .points
+            .iter()
+            .map(|point| point[coordinate])
+            .filter(|value| value.is_finite());
         values.fold(None, |range: Option<[f64; 2]>, value| {
             let [low, high] = range.unwrap_or([value; 2]);
             Some([low.min(value), high.max(value)])
@@ -164,11 +172,17 @@ impl Plot {
     /// # Errors
     /// When there is no curve of that name.
     pub fn curve(&self, name: &str) -> UiResult<&Curve> {
-        self.curves.iter().find(|curve| curve.name == name).ok_or_else(|| no_curve(name))
+        self.curves
+            .iter()
+            .find(|curve| curve.name == name)
+            .ok_or_else(|| no_curve(name))
     }
 
     fn curve_mut(&mut self, name: &str) -> UiResult<&mut Curve> {
-        self.curves.iter_mut().find(|curve| curve.name == name).ok_or_else(|| no_curve(name))
+        self.curves
+            .iter_mut()
+            .find(|curve| curve.name == name)
+            .ok_or_else(|| no_curve(name))
     }
 
     /// Adds a curve.
@@ -177,7 +191,10 @@ impl Plot {
     /// When there is a curve of that name.
     pub fn add_curve(&mut self, curve: Curve) -> UiResult<()> {
         if self.curve(&curve.name).is_ok() {
-            return Err(UiError::other(format!("curve with name \"{}\" already exists", curve.name)));
+            return Err(UiError::other(format!(
+                "curve with name \"{}\" already exists",
+                curve.name
+            )));
         }
         self.curves.push(curve);
         Ok(())
@@ -196,7 +213,10 @@ impl Plot {
         let (limit, cyclic) = (self.max_buffer_size, self.cyclic_buffer);
         let curve = self.curve_mut(name)?;
         if curve.curve_type != curve_type {
-            return Err(UiError::other(format!("curve must be of type '{}'", curve_type.name())));
+            return Err(UiError::other(format!(
+                "curve must be of type '{}'",
+                curve_type.name()
+            )));
         }
         curve.add(points, limit, cyclic);
         Ok(())
@@ -240,7 +260,10 @@ impl Plot {
         for (axis, range) in ranges.iter_mut().enumerate() {
             let found = curves.iter().filter_map(|curve| curve.range(axis + 1));
             let kept = only_enlarge[axis].then_some(*range);
-            let united = kept.into_iter().chain(found).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+            let united = kept
+                .into_iter()
+                .chain(found)
+                .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
             *range = united.unwrap_or(*range);
         }
         self.ranges = ranges;

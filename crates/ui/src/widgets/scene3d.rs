@@ -63,10 +63,20 @@ impl Scene3d {
         if parent != -1 && !self.nodes.contains_key(&parent) {
             return Err(UiError::other("parent node id does not exist"));
         }
-        let place = type_code.checked_sub(44100).and_then(|place| usize::try_from(place).ok());
+        let place = type_code
+            .checked_sub(44100)
+            .and_then(|place| usize::try_from(place).ok());
         let node_type = place.and_then(|place| NODE_TYPES.get(place).copied());
         let node_type = node_type.ok_or_else(|| UiError::other("invalid node type"))?;
-        self.nodes.insert(id, Node { node_type, parent, enabled: true, params: BTreeMap::new() });
+        self.nodes.insert(
+            id,
+            Node {
+                node_type,
+                parent,
+                enabled: true,
+                params: BTreeMap::new(),
+            },
+        );
         Ok(())
     }
 
@@ -75,6 +85,8 @@ impl Scene3d {
     /// # Errors
     /// When there is no such node.
     pub fn node_mut(&mut self, id: i64) -> UiResult<&mut Node> {
-        self.nodes.get_mut(&id).ok_or_else(|| UiError::other("invalid node id"))
+        self.nodes
+            .get_mut(&id)
+            .ok_or_else(|| UiError::other("invalid node id"))
     }
 }

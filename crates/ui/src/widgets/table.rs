@@ -46,7 +46,11 @@ pub struct Cell {
 impl Cell {
     /// An editable cell with a text.
     pub fn of_text(text: String) -> Self {
-        Self { text, editable: true, image: None }
+        Self {
+            text,
+            editable: true,
+            image: None,
+        }
     }
 }
 
@@ -93,7 +97,9 @@ impl Table {
 
     /// The text of a cell; empty where there is none.
     pub fn text(&self, row: i64, column: i64) -> &str {
-        self.cells.get(&(row, column)).map_or("", |cell| cell.text.as_str())
+        self.cells
+            .get(&(row, column))
+            .map_or("", |cell| cell.text.as_str())
     }
 
     /// Sets the text of a cell; whether it was another one. Nothing happens outside of the table.
@@ -101,7 +107,10 @@ impl Table {
         if !self.contains(row, column) {
             return false;
         }
-        let cell = self.cells.entry((row, column)).or_insert_with(|| Cell::of_text(String::new()));
+        let cell = self
+            .cells
+            .entry((row, column))
+            .or_insert_with(|| Cell::of_text(String::new()));
         let differs = cell.text != text;
         cell.text = text;
         differs
@@ -119,7 +128,8 @@ impl Table {
     pub fn resize(&mut self, rows: i64, columns: i64) {
         (self.row_count, self.column_count) = (rows.max(0), columns.max(0));
         let (rows, columns) = (self.row_count, self.column_count);
-        self.cells.retain(|(row, column), _| *row < rows && *column < columns);
+        self.cells
+            .retain(|(row, column), _| *row < rows && *column < columns);
         self.row_headers.retain(|row, _| *row < rows);
         self.column_headers.retain(|column, _| *column < columns);
         if self.selection[0] >= rows || self.selection[1] >= columns {
@@ -133,7 +143,13 @@ impl Table {
             return;
         }
         self.row_count = self.row_count.saturating_add(1);
-        self.remap(|(row, column)| if row >= at { (row + 1, column) } else { (row, column) });
+        self.remap(|(row, column)| {
+            if row >= at {
+                (row + 1, column)
+            } else {
+                (row, column)
+            }
+        });
         self.copy(|(row, column)| (row == at + 1).then_some((at, column)));
     }
 
@@ -143,7 +159,13 @@ impl Table {
             return;
         }
         self.column_count = self.column_count.saturating_add(1);
-        self.remap(|(row, column)| if column >= at { (row, column + 1) } else { (row, column) });
+        self.remap(|(row, column)| {
+            if column >= at {
+                (row, column + 1)
+            } else {
+                (row, column)
+            }
+        });
         self.copy(|(row, column)| (column == at + 1).then_some((row, at)));
     }
 
@@ -153,7 +175,13 @@ impl Table {
             return;
         }
         self.cells.retain(|(row, _), _| *row != at);
-        self.remap(|(row, column)| if row > at { (row - 1, column) } else { (row, column) });
+        self.remap(|(row, column)| {
+            if row > at {
+                (row - 1, column)
+            } else {
+                (row, column)
+            }
+        });
         self.resize(self.row_count - 1, self.column_count);
     }
 
@@ -163,16 +191,29 @@ impl Table {
             return;
         }
         self.cells.retain(|(_, column), _| *column != at);
-        self.remap(|(row, column)| if column > at { (row, column - 1) } else { (row, column) });
+        self.remap(|(row, column)| {
+            if column > at {
+                (row, column - 1)
+            } else {
+                (row, column)
+            }
+        });
         self.resize(self.row_count, self.column_count - 1);
     }
 
     fn remap(&mut self, place: impl Fn((i64, i64)) -> (i64, i64)) {
-        self.cells = std::mem::take(&mut self.cells).into_iter().map(|(at, cell)| (place(at), cell)).collect();
+        self.cells = std::mem::take(&mut self.cells)
+            .into_iter()
+            .map(|(at, cell)| (place(at), cell))
+            .collect();
     }
 
     fn copy(&mut self, to: impl Fn((i64, i64)) -> Option<(i64, i64)>) {
-        let copies: Vec<_> = self.cells.iter().filter_map(|(at, cell)| Some((to(*at)?, cell.clone()))).collect();
+        let copies: Vec<_> = self
+            .cells
+            .iter()
+            .filter_map(|(at, cell)| Some((to(*at)?, cell.clone())))
+            .collect();
         self.cells.extend(copies);
     }
 
@@ -188,6 +229,9 @@ impl Table {
         if !row_fits || !column_fits {
             return [-1; 2];
         }
-        [if has_row { row } else { -1 }, if has_column { column } else { -1 }]
+        [
+            if has_row { row } else { -1 },
+            if has_column { column } else { -1 },
+        ]
     }
 }

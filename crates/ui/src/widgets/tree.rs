@@ -44,7 +44,15 @@ impl Tree {
             return;
         }
         self.added += 1;
-        self.items.insert(id, TreeItem { parent, texts, expanded, order: self.added });
+        self.items.insert(
+            id,
+            TreeItem {
+                parent,
+                texts,
+                expanded,
+                order: self.added,
+            },
+        );
     }
 
     /// Whether `item` is `ancestor` or below it.
@@ -61,8 +69,12 @@ impl Tree {
 
     /// The items of a parent, 0 for the top, in their order.
     pub(crate) fn children(&self, parent: i64) -> Vec<i64> {
-        let mut found: Vec<(u64, i64)> =
-            self.items.iter().filter(|(_, item)| item.parent == parent).map(|(id, item)| (item.order, *id)).collect();
+        let mut found: Vec<(u64, i64)> = self
+            .items
+            .iter()
+            .filter(|(_, item)| item.parent == parent)
+            .map(|(id, item)| (item.order, *id))
+            .collect();
         found.sort_unstable();
         found.into_iter().map(|(_, id)| id).collect()
     }
@@ -104,7 +116,12 @@ impl Tree {
     }
 
     fn depth(&self, id: i64) -> i64 {
-        let parent = |id: &i64| self.items.get(id).map(|item| item.parent).filter(|parent| *parent != 0);
+        let parent = |id: &i64| {
+            self.items
+                .get(id)
+                .map(|item| item.parent)
+                .filter(|parent| *parent != 0)
+        };
         std::iter::successors(parent(&id), parent).count() as i64
     }
 }

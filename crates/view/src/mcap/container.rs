@@ -78,12 +78,26 @@ impl<W: Write> Container<W> {
     pub(super) fn add_channel(&mut self, topic: &str, schema: &str, descriptors: &[u8]) -> u16 {
         self.schemas += 1;
         let channel = self.counts.len() as u16;
-        let of_schema =
-            [&self.schemas.to_le_bytes()[..], &text(schema), &text("protobuf"), &bytes(descriptors)].concat();
+        let of_schema = [
+            &self.schemas.to_le_bytes()[..],
+            &text(schema),
+            &text("protobuf"),
+            &bytes(descriptors),
+        ]
+        .concat();
         let schema_id = self.schemas.to_le_bytes();
-        let of_channel =
-            [&channel.to_le_bytes()[..], &schema_id, &text(topic), &text("protobuf"), &bytes(&[])].concat();
-        for defined in [record(op::SCHEMA, &of_schema), record(op::CHANNEL, &of_channel)] {
+        let of_channel = [
+            &channel.to_le_bytes()[..],
+            &schema_id,
+            &text(topic),
+            &text("protobuf"),
+            &bytes(&[]),
+        ]
+        .concat();
+        for defined in [
+            record(op::SCHEMA, &of_schema),
+            record(op::CHANNEL, &of_channel),
+        ] {
             self.chunk.extend_from_slice(&defined);
             self.definitions.extend_from_slice(&defined);
         }
@@ -93,35 +107,62 @@ impl<W: Write> Container<W> {
 
     /// Adds a message at a time in nanoseconds.
     pub(super) fn add(&mut self, channel: u16, time: u64, message: &[u8]) -> Result<()> {
-        self.indexed.entry(channel).or_default().push((time, self.chunk.len() as u64));
-        let head = [&channel.to_le_bytes()[..], &self.sequence.to_le_bytes(), &time.to_le_bytes(), &time.to_le_bytes()];
-        self.chunk.extend(record(op::MESSAGE, &[&head.concat(), message].concat()));
+        self.indexed
+            .entry(channel)
+            .or_default()
+            .push((time, self.chunk.len() as u64));
+        let head = [
+            &channel.to_le_bytes()[..],
+            &self.sequence.to_le_bytes(),
+            &time.to_le_bytes(),
+            &time.to_le_bytes(),
+        ];
+        self.chunk
+            .extend(record(op::MESSAGE, &[&head.concat(), message].concat()));
         self.sequence = self.sequence.wrapping_add(1);
         self.counts[usize::from(channel)] += 1;
         for times in [&mut self.times, &mut self.chunk_times] {
             let (first, last) = times.unwrap_or((time, time));
             *times = Some((first.min(time), last.max(time)));
         }
-        if self.chunk.len() >= CHUNK { self.end_chunk() } else { Ok(()) }
+        if self.chunk.len() >= CHUNK {
+            self.end_chunk()
+        } else {
+            Ok(())
+        }
     }
 
     fn end_chunk(&mut self) -> Result<()> {
-        let Some((first, last)) = self.chunk_times.take() else { return Ok(()) };
+        let Some((first, last)) = self.chunk_times.take() else {
+            return Ok(());
+        };
         let (start, records) = (self.place, std::mem::take(&mut self.chunk));
         let times = [first.to_le_bytes(), last.to_le_bytes()].concat();
         let size = (records.len() as u64).to_le_bytes();
         let sum = crc32fast::hash(&records).to_le_bytes();
         let compressed = compress_to_vec(records.as_slice(), CompressionLevel::Fastest);
         let compressed_size = (compressed.len() as u64).to_le_bytes();
-        let head = [&times, &size[..], &sum, &text(COMPRESSION), &compressed_size].concat();
+        let head = [
+            &times,
+            &size[..],
+            &sum,
+            &text(COMPRESSION),
+            &compressed_size,
+        ]
+        .concat();
         self.write(&record(op::CHUNK, &[head, compressed].concat()))?;
         let length = self.place - start;
         let mut places = Vec::new();
         for (channel, messages) in std::mem::take(&mut self.indexed) {
             places.extend([&channel.to_le_bytes()[..], &self.place.to_le_bytes()].concat());
-            let entries: Vec<u8> =
-                messages.iter().flat_map(|(a, b)| [a.to_le_bytes(), b.to_le_bytes()].concat()).collect();
-            self.write(&record(op::MESSAGE_INDEX, &[&channel.to_le_bytes()[..], &bytes(&entries)].concat()))?;
+            let entries: Vec<u8> = messages
+                .iter()
+                .flat_map(|(a, b)| [a.to_le_bytes(), b.to_le_bytes()].concat())
+                .collect();
+            self.write(&record(
+                op::MESSAGE_INDEX,
+                &[&channel.to_le_bytes()[..], &bytes(&entries)].concat(),
+            ))?;
         }
         let indices = (self.place - start - length).to_le_bytes();
         let index = [
@@ -134,7 +175,8 @@ impl<W: Write> Container<W> {
             &compressed_size,
             &size,
         ];
-        self.chunk_indices.extend(record(op::CHUNK_INDEX, &index.concat()));
+        self.chunk_indices
+            .extend(record(op::CHUNK_INDEX, &index.concat()));
         self.chunks += 1;
         Ok(())
     }
@@ -145,9 +187,9 @@ impl<W: Write> Container<W> {
         self.write(&record(op::DATA_END, &[0; 4]))?;
         let summary = self.place;
         let (first, last) = self.times.unwrap_or_default();
-        let counts = (0u16..)
-            .zip(&self.counts)
-            .flat_map(|(channel, count)| [&channel.to_le_bytes()[..], &count.to_le_bytes()].concat());
+        let counts = (0u16..).zip(&self.counts).flat_map(|(channel, count)| {
+            [&channel.to_le_bytes()[..], &count.to_le_bytes()].concat()
+        });
         let statistics = [
             &u64::from(self.sequence).to_le_bytes()[..],
             &self.schemas.to_le_bytes(),
@@ -158,10 +200,16 @@ impl<W: Write> Container<W> {
             &last.to_le_bytes(),
             &bytes(&counts.collect::<Vec<_>>()),
         ];
-        let parts = [std::mem::take(&mut self.definitions), std::mem::take(&mut self.chunk_indices)];
+        let parts = [
+            std::mem::take(&mut self.definitions),
+            std::mem::take(&mut self.chunk_indices),
+        ];
         parts.iter().try_for_each(|part| self.write(part))?;
         self.write(&record(op::STATISTICS, &statistics.concat()))?;
-        self.write(&record(op::FOOTER, &[&summary.to_le_bytes()[..], &[0; 12]].concat()))?;
+        self.write(&record(
+            op::FOOTER,
+            &[&summary.to_le_bytes()[..], &[0; 12]].concat(),
+        ))?;
         self.write(MAGIC)?;
         self.out.flush()
     }

@@ -40,8 +40,14 @@ enum Channel {
 ///
 /// # Errors
 /// When it is damaged, or the file cannot be written.
-pub fn write<R: Read + Seek, W: Write>(recording: &mut Recording<R>, out: W) -> Result<(), RecordingError> {
-    let mut file = File { container: Container::new(out)?, channels: BTreeMap::new() };
+pub fn write<R: Read + Seek, W: Write>(
+    recording: &mut Recording<R>,
+    out: W,
+) -> Result<(), RecordingError> {
+    let mut file = File {
+        container: Container::new(out)?,
+        channels: BTreeMap::new(),
+    };
     let mut objects = Objects::default();
     for number in 0..recording.index().chunks.len() {
         let chunk = recording.chunk(number)?;
@@ -63,8 +69,14 @@ struct File<W> {
 }
 
 impl<W: Write> File<W> {
-    fn add_text(&mut self, objects: &mut Objects, text: &str, time: f64) -> Result<(), RecordingError> {
-        let message: Value = serde_json::from_str(text).map_err(|_| RecordingError::Damaged("a message is no JSON"))?;
+    fn add_text(
+        &mut self,
+        objects: &mut Objects,
+        text: &str,
+        time: f64,
+    ) -> Result<(), RecordingError> {
+        let message: Value = serde_json::from_str(text)
+            .map_err(|_| RecordingError::Damaged("a message is no JSON"))?;
         let changed = objects.update(&message);
         if let Some(scene) = objects.scene_update(&changed, time) {
             self.add(Channel::Scene, "/scene", scene, time)?;
@@ -78,7 +90,12 @@ impl<W: Write> File<W> {
         Ok(())
     }
 
-    fn add_binary(&mut self, objects: &Objects, bytes: &[u8], time: f64) -> Result<(), RecordingError> {
+    fn add_binary(
+        &mut self,
+        objects: &Objects,
+        bytes: &[u8],
+        time: f64,
+    ) -> Result<(), RecordingError> {
         let cut = || RecordingError::Damaged("a message is cut off");
         match bytes.first() {
             Some(&POSES) => {
@@ -94,7 +111,13 @@ impl<W: Write> File<W> {
         }
     }
 
-    fn add(&mut self, channel: Channel, topic: &str, message: Proto, time: f64) -> Result<(), RecordingError> {
+    fn add(
+        &mut self,
+        channel: Channel,
+        topic: &str,
+        message: Proto,
+        time: f64,
+    ) -> Result<(), RecordingError> {
         let channel_id = match self.channels.get(&channel) {
             Some(id) => *id,
             None => {
@@ -105,12 +128,16 @@ impl<W: Write> File<W> {
                     Channel::Log => "foxglove.Log",
                     Channel::Image(_) => "foxglove.RawImage",
                 };
-                let id = self.container.add_channel(topic, schema, &schemas::descriptors());
+                let id = self
+                    .container
+                    .add_channel(topic, schema, &schemas::descriptors());
                 self.channels.insert(channel, id);
                 id
             }
         };
-        Ok(self.container.add(channel_id, nanoseconds(time), &message.into_bytes())?)
+        Ok(self
+            .container
+            .add(channel_id, nanoseconds(time), &message.into_bytes())?)
     }
 }
 
@@ -121,7 +148,9 @@ fn nanoseconds(time: f64) -> u64 {
 /// A `google.protobuf.Timestamp` or `Duration`.
 fn timestamp(time: f64) -> Proto {
     let time = nanoseconds(time);
-    Proto::new().int(1, time / 1_000_000_000).int(2, time % 1_000_000_000)
+    Proto::new()
+        .int(1, time / 1_000_000_000)
+        .int(2, time % 1_000_000_000)
 }
 
 /// A `foxglove.Log`.
@@ -134,5 +163,9 @@ fn log(line: &Value) -> Proto {
     };
     let text = |name: &str| line[name].as_str().unwrap_or_default();
     let time = timestamp(line["time"].as_f64().unwrap_or_default());
-    Proto::new().message(1, time).int(2, level).text(3, text("text")).text(4, text("origin"))
+    Proto::new()
+        .message(1, time)
+        .int(2, level)
+        .text(3, text("text"))
+        .text(4, text("origin"))
 }

@@ -45,15 +45,26 @@ impl Objects {
     pub(super) fn update(&mut self, message: &Value) -> Changed {
         let mut changed = Changed::default();
         let objects = message["objects"].as_array().into_iter().flatten();
-        let objects: Vec<(i64, &Value)> =
-            objects.filter_map(|object| Some((object["handle"].as_i64()?, object))).collect();
+        let objects: Vec<(i64, &Value)> = objects
+            .filter_map(|object| Some((object["handle"].as_i64()?, object)))
+            .collect();
         if message["type"] == "snapshot" {
             let there: BTreeSet<i64> = objects.iter().map(|(handle, _)| *handle).collect();
-            let gone: Vec<i64> = self.objects.keys().filter(|handle| !there.contains(handle)).copied().collect();
+            let gone: Vec<i64> = self
+                .objects
+                .keys()
+                .filter(|handle| !there.contains(handle))
+                .copied()
+                .collect();
             changed.all_gone = self.objects.is_empty();
-            gone.into_iter().for_each(|handle| self.remove(handle, &mut changed));
+            gone.into_iter()
+                .for_each(|handle| self.remove(handle, &mut changed));
         }
-        let removed = message["removed"].as_array().into_iter().flatten().filter_map(Value::as_i64);
+        let removed = message["removed"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .filter_map(Value::as_i64);
         removed.for_each(|handle| self.remove(handle, &mut changed));
         for (handle, object) in objects {
             if self.objects.get(&handle) != Some(object) {
@@ -78,10 +89,16 @@ impl Objects {
         while let Some(object) = self.objects.get(&next).filter(|_| names.len() < MAX_DEPTH) {
             let alias = object["alias"].as_str().unwrap_or("object");
             let order = object["childOrder"].as_i64().filter(|order| *order >= 0);
-            names.push(order.map_or_else(|| format!("/{alias}"), |order| format!("/{alias}[{order}]")));
+            names.push(
+                order.map_or_else(|| format!("/{alias}"), |order| format!("/{alias}[{order}]")),
+            );
             next = object["parent"].as_i64().unwrap_or(-1);
         }
-        if names.is_empty() { format!("/{handle}") } else { names.into_iter().rev().collect() }
+        if names.is_empty() {
+            format!("/{handle}")
+        } else {
+            names.into_iter().rev().collect()
+        }
     }
 
     /// A `foxglove.FrameTransforms` of a message with poses; None if that is damaged.
@@ -95,8 +112,15 @@ impl Objects {
         let transforms = poses.filter_map(|pose| {
             let handle = i64::from(i32::from_le_bytes(*pose.first_chunk()?));
             let numbers: Vec<f64> = pose[4..].chunks_exact(4).filter_map(number).collect();
-            let transform = Proto::new().message(1, timestamp(time)).text(2, WORLD).text(3, &self.frame(handle));
-            Some(transform.message(4, Proto::doubles(&numbers[..3])).message(5, Proto::doubles(&numbers[3..])))
+            let transform = Proto::new()
+                .message(1, timestamp(time))
+                .text(2, WORLD)
+                .text(3, &self.frame(handle));
+            Some(
+                transform
+                    .message(4, Proto::doubles(&numbers[..3]))
+                    .message(5, Proto::doubles(&numbers[3..])),
+            )
         });
         Some(Proto::new().messages(1, transforms))
     }
@@ -109,8 +133,15 @@ impl Objects {
         if pixels.len() as u64 != 3 * u64::from(width) * u64::from(height) {
             return None;
         }
-        let image = Proto::new().message(1, timestamp(time)).fixed32(2, width).fixed32(3, height).text(4, "rgb8");
-        let image = image.fixed32(5, 3 * width).bytes(6, pixels).text(7, &self.frame(handle));
+        let image = Proto::new()
+            .message(1, timestamp(time))
+            .fixed32(2, width)
+            .fixed32(3, height)
+            .text(4, "rgb8");
+        let image = image
+            .fixed32(5, 3 * width)
+            .bytes(6, pixels)
+            .text(7, &self.frame(handle));
         Some((handle, image))
     }
 
@@ -118,7 +149,11 @@ impl Objects {
     pub(super) fn joint_states(&self, handles: &BTreeSet<i64>, time: f64) -> Option<Proto> {
         let joints = handles.iter().filter_map(|handle| {
             let position = self.objects.get(handle)?["jointPosition"].as_f64()?;
-            Some(Proto::new().text(1, &self.frame(*handle)).double(2, position))
+            Some(
+                Proto::new()
+                    .text(1, &self.frame(*handle))
+                    .double(2, position),
+            )
         });
         let joints: Vec<Proto> = joints.collect();
         let states = Proto::new().message(1, timestamp(time));
@@ -128,14 +163,29 @@ impl Objects {
     /// A `foxglove.SceneUpdate` of what changed; None if no shape did.
     pub(super) fn scene_update(&self, changed: &Changed, time: f64) -> Option<Proto> {
         const ALL: u64 = 1;
-        let deletion = |kind, frame: &str| Proto::new().message(1, timestamp(time)).int(2, kind).text(3, frame);
-        let mut deletions: Vec<Proto> = changed.gone.iter().map(|frame| deletion(0, frame)).collect();
+        let deletion = |kind, frame: &str| {
+            Proto::new()
+                .message(1, timestamp(time))
+                .int(2, kind)
+                .text(3, frame)
+        };
+        let mut deletions: Vec<Proto> = changed
+            .gone
+            .iter()
+            .map(|frame| deletion(0, frame))
+            .collect();
         if changed.all_gone {
             deletions.push(deletion(ALL, ""));
         }
         let mut entities = Vec::new();
         for handle in &changed.handles {
-            let Some(object) = self.objects.get(handle).filter(|object| object["meshes"].is_array()) else { continue };
+            let Some(object) = self
+                .objects
+                .get(handle)
+                .filter(|object| object["meshes"].is_array())
+            else {
+                continue;
+            };
             if object["visible"] == true {
                 entities.push(self.entity(*handle, object, time));
             } else {
@@ -149,10 +199,20 @@ impl Objects {
     /// A `foxglove.SceneEntity` of a shape, in its frame.
     fn entity(&self, handle: i64, object: &Value, time: f64) -> Proto {
         let frame = self.frame(handle);
-        let entity = Proto::new().message(1, timestamp(time)).text(2, &frame).text(3, &frame);
-        let triangles = object["meshes"].as_array().into_iter().flatten().filter_map(|mesh| self.triangles(mesh));
+        let entity = Proto::new()
+            .message(1, timestamp(time))
+            .text(2, &frame)
+            .text(3, &frame);
+        let triangles = object["meshes"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .filter_map(|mesh| self.triangles(mesh));
         // They move with their frame.
-        entity.message(4, timestamp(0.0)).int(5, 1).messages(12, triangles)
+        entity
+            .message(4, timestamp(0.0))
+            .int(5, 1)
+            .messages(12, triangles)
     }
 
     /// A `foxglove.TriangleListPrimitive`.
@@ -160,10 +220,22 @@ impl Objects {
         let blob = self.meshes.get(&Hash::from_text(mesh["blob"].as_str()?)?)?;
         let part = |at: usize| mesh["color"]["diffuse"][at].as_f64().unwrap_or(0.5);
         let opacity = 1.0 - mesh["transparency"].as_f64().unwrap_or(0.0);
-        let pose = Proto::new().message(1, Proto::doubles(&[0.0; 3])).message(2, Proto::doubles(&[0.0, 0.0, 0.0, 1.0]));
-        let primitive = Proto::new().message(1, pose).messages(2, blob.points.iter().map(|p| Proto::doubles(p)));
-        let indices: Vec<u8> = blob.indices.iter().flat_map(|index| index.to_le_bytes()).collect();
-        Some(primitive.message(3, Proto::doubles(&[part(0), part(1), part(2), opacity])).bytes(5, &indices))
+        let pose = Proto::new()
+            .message(1, Proto::doubles(&[0.0; 3]))
+            .message(2, Proto::doubles(&[0.0, 0.0, 0.0, 1.0]));
+        let primitive = Proto::new()
+            .message(1, pose)
+            .messages(2, blob.points.iter().map(|p| Proto::doubles(p)));
+        let indices: Vec<u8> = blob
+            .indices
+            .iter()
+            .flat_map(|index| index.to_le_bytes())
+            .collect();
+        Some(
+            primitive
+                .message(3, Proto::doubles(&[part(0), part(1), part(2), opacity]))
+                .bytes(5, &indices),
+        )
     }
 }
 
@@ -177,11 +249,23 @@ impl Mesh {
         let size = |count: u32| usize::try_from(count).ok()?.checked_mul(12);
         let (positions, rest) = rest.split_at_checked(size(vertices)?)?;
         let (indices, _) = rest.split_at_checked(size(triangles)?)?;
-        let point = |bytes: &[u8]| Some([number(&bytes[..4])?, number(&bytes[4..8])?, number(&bytes[8..])?]);
-        let points = positions.chunks_exact(12).map(point).collect::<Option<_>>()?;
+        let point = |bytes: &[u8]| {
+            Some([
+                number(&bytes[..4])?,
+                number(&bytes[4..8])?,
+                number(&bytes[8..])?,
+            ])
+        };
+        let points = positions
+            .chunks_exact(12)
+            .map(point)
+            .collect::<Option<_>>()?;
         let index = |bytes: &[u8]| Some(u32::from_le_bytes(*bytes.first_chunk()?));
         let indices: Vec<u32> = indices.chunks_exact(4).map(index).collect::<Option<_>>()?;
-        indices.iter().all(|index| *index < vertices).then_some(Self { points, indices })
+        indices
+            .iter()
+            .all(|index| *index < vertices)
+            .then_some(Self { points, indices })
     }
 }
 

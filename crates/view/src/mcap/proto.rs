@@ -69,11 +69,16 @@ impl Proto {
 
     /// A repeated field of messages.
     pub fn messages(self, field: u32, all: impl IntoIterator<Item = Self>) -> Self {
-        all.into_iter().fold(self, |message, one| message.message(field, one))
+        all.into_iter()
+            .fold(self, |message, one| message.message(field, one))
     }
 
     /// Doubles in the fields 1, 2, 3 and so on: vectors, quaternions, colours.
     pub(super) fn doubles(numbers: &[f64]) -> Self {
-        (1..).zip(numbers).fold(Self::new(), |message, (field, number)| message.double(field, *number))
+        (1..)
+            .zip(numbers)
+            .fold(Self::new(), |message, (field, number)| {
+                message.double(field, *number)
+            })
     }
 }

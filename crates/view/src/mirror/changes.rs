@@ -39,12 +39,18 @@ impl Changes {
     /// The messages that make a reader see them: a text, and the poses.
     pub fn messages(self) -> Vec<Message> {
         let text = self.text().map(Message::Text);
-        text.into_iter().chain(self.poses.map(Message::Binary)).collect()
+        text.into_iter()
+            .chain(self.poses.map(Message::Binary))
+            .collect()
     }
 
     /// The text; none if only poses changed.
     fn text(&self) -> Option<String> {
-        let kind = if self.is_snapshot { "snapshot" } else { "update" };
+        let kind = if self.is_snapshot {
+            "snapshot"
+        } else {
+            "update"
+        };
         let mut text = format!("{{\"type\":\"{kind}\"");
         let empty = text.len();
         if let Some(scene) = &self.scene {

@@ -18,7 +18,12 @@ pub(super) struct Entries<K, T> {
 
 impl<K, T> Default for Entries<K, T> {
     fn default() -> Self {
-        Self { present: BTreeMap::new(), removed: BTreeMap::new(), last_change: 0, forgotten: 0 }
+        Self {
+            present: BTreeMap::new(),
+            removed: BTreeMap::new(),
+            last_change: 0,
+            forgotten: 0,
+        }
     }
 }
 
@@ -64,14 +69,25 @@ impl<K: Ord + Clone, T: PartialEq> Entries<K, T> {
         let mut revisions: Vec<Revision> = self.removed.values().copied().collect();
         revisions.sort_unstable();
         self.forgotten = revisions[revisions.len() / 2];
-        self.removed.retain(|_, revision| *revision > self.forgotten);
+        self.removed
+            .retain(|_, revision| *revision > self.forgotten);
     }
 
     /// Takes over new entries, in the order of their keys; with `all`, there are no others. Returns whether anything changed.
-    pub(super) fn apply(&mut self, entries: Vec<(K, T)>, removed: &[K], all: bool, revision: Revision) -> bool {
+    pub(super) fn apply(
+        &mut self,
+        entries: Vec<(K, T)>,
+        removed: &[K],
+        all: bool,
+        revision: Revision,
+    ) -> bool {
         let mut gone = removed.to_vec();
         if all {
-            let there = |key: &K| entries.binary_search_by(|(known, _)| known.cmp(key)).is_ok();
+            let there = |key: &K| {
+                entries
+                    .binary_search_by(|(known, _)| known.cmp(key))
+                    .is_ok()
+            };
             gone.extend(self.keys().filter(|key| !there(key)));
         }
         for key in gone {
@@ -95,13 +111,19 @@ impl<K: Ord + Clone, T: PartialEq> Entries<K, T> {
     /// Entries that changed after a revision, in the order of their keys.
     pub(super) fn since(&self, seen: Revision) -> impl Iterator<Item = &T> {
         let any = self.last_change > seen;
-        let changed = self.present.values().filter(move |(revision, _)| *revision > seen);
+        let changed = self
+            .present
+            .values()
+            .filter(move |(revision, _)| *revision > seen);
         changed.take_while(move |_| any).map(|(_, entry)| entry)
     }
 
     /// Keys of the entries that went after a revision and did not come back.
     pub(super) fn removed_since(&self, seen: Revision) -> Vec<K> {
-        let newer = self.removed.iter().filter(|(_, revision)| **revision > seen);
+        let newer = self
+            .removed
+            .iter()
+            .filter(|(_, revision)| **revision > seen);
         newer.map(|(key, _)| key.clone()).collect()
     }
 }
@@ -135,14 +157,18 @@ impl Poses {
         if self.last_change <= seen {
             return None;
         }
-        let changed = self.by_handle.iter().filter(|(_, (revision, _))| *revision > seen);
+        let changed = self
+            .by_handle
+            .iter()
+            .filter(|(_, (revision, _))| *revision > seen);
         let mut bytes = vec![1, 0, 0, 0, 0, 0, 0, 0];
         bytes.extend_from_slice(&time.to_le_bytes());
         let mut count = 0u32;
         for (handle, (_, pose)) in changed {
             count += 1;
             bytes.extend_from_slice(&(*handle as i32).to_le_bytes());
-            pose.iter().for_each(|number| bytes.extend_from_slice(&number.to_le_bytes()));
+            pose.iter()
+                .for_each(|number| bytes.extend_from_slice(&number.to_le_bytes()));
         }
         bytes[4..8].copy_from_slice(&count.to_le_bytes());
         Some(bytes)

@@ -68,7 +68,12 @@ impl Mirror {
         }
         self.apply_objects(seen.objects, seen.removed, seen.is_complete, next);
         let mut changed = self.objects.changed_at(next);
-        changed |= self.drawings.apply(seen.drawings, &seen.removed_drawings, seen.is_complete, next);
+        changed |= self.drawings.apply(
+            seen.drawings,
+            &seen.removed_drawings,
+            seen.is_complete,
+            next,
+        );
         changed |= self.poses.apply(&seen.poses, next);
         changed |= self.apply_scene(seen.scene, seen.time, next);
         changed |= self.apply_selection(seen.selection, next);
@@ -79,9 +84,19 @@ impl Mirror {
         self.revision != before
     }
 
-    fn apply_objects(&mut self, objects: Vec<(i64, ObservedObject)>, mut removed: Vec<i64>, all: bool, next: Revision) {
+    fn apply_objects(
+        &mut self,
+        objects: Vec<(i64, ObservedObject)>,
+        mut removed: Vec<i64>,
+        all: bool,
+        next: Revision,
+    ) {
         if all {
-            let there = |handle: &i64| objects.binary_search_by_key(handle, |(handle, _)| *handle).is_ok();
+            let there = |handle: &i64| {
+                objects
+                    .binary_search_by_key(handle, |(handle, _)| *handle)
+                    .is_ok()
+            };
             removed.extend(self.objects.keys().filter(|handle| !there(handle)));
         }
         for handle in removed {
@@ -107,7 +122,9 @@ impl Mirror {
     /// Takes over interfaces of scripts. Returns whether anything changed.
     pub(crate) fn apply_windows(&mut self, seen: ObservedWindows) -> bool {
         let next = self.revision + 1;
-        let mut changed = self.windows.apply(seen.windows, &seen.removed, seen.is_complete, next);
+        let mut changed = self
+            .windows
+            .apply(seen.windows, &seen.removed, seen.is_complete, next);
         for (name, list) in seen.lists {
             changed |= self.apply_list(name, list, next);
         }
@@ -135,7 +152,11 @@ impl Mirror {
     }
 
     fn retain(&mut self, blob: &Arc<Blob>, next: Revision) {
-        let entry = || UsedBlob { blob: Arc::clone(blob), users: 0, revision: next };
+        let entry = || UsedBlob {
+            blob: Arc::clone(blob),
+            users: 0,
+            revision: next,
+        };
         self.blobs.entry(blob.hash).or_insert_with(entry).users += 1;
     }
 
@@ -152,20 +173,25 @@ impl Mirror {
 
     fn apply_scene(&mut self, scene: Option<String>, time: f64, next: Revision) -> bool {
         self.time = time;
-        let Some(scene) = scene.filter(|scene| **scene != *self.scene.1) else { return false };
+        let Some(scene) = scene.filter(|scene| **scene != *self.scene.1) else {
+            return false;
+        };
         self.scene = (next, scene.into());
         true
     }
 
     fn apply_selection(&mut self, selection: Option<Vec<i64>>, next: Revision) -> bool {
-        let Some(selection) = selection.filter(|selection| *selection != self.selection.1) else { return false };
+        let Some(selection) = selection.filter(|selection| *selection != self.selection.1) else {
+            return false;
+        };
         self.selection = (next, selection);
         true
     }
 
     fn apply_log(&mut self, lines: Vec<String>, next: Revision) -> bool {
         let changed = !lines.is_empty();
-        self.log.extend(lines.into_iter().map(|line| (next, line.into())));
+        self.log
+            .extend(lines.into_iter().map(|line| (next, line.into())));
         let surplus = self.log.len().saturating_sub(LOG_LINES);
         self.log.drain(..surplus);
         changed
@@ -178,7 +204,10 @@ impl Mirror {
 
     /// Blobs that came after a revision, in the order of their names.
     pub(crate) fn blobs_since(&self, seen: Revision) -> impl Iterator<Item = &Arc<Blob>> {
-        self.blobs.values().filter(move |used| used.revision > seen).map(|used| &used.blob)
+        self.blobs
+            .values()
+            .filter(move |used| used.revision > seen)
+            .map(|used| &used.blob)
     }
 
     /// What changed since a reader saw the state with that number (0: never); None if nothing did. Takes time in proportion to the number of
@@ -195,28 +224,62 @@ impl Mirror {
             revision: self.revision,
             is_snapshot,
             scene: newer(&self.scene),
-            objects: self.objects.since(since).map(|object| Arc::clone(&object.text)).collect(),
-            removed: if is_snapshot { Vec::new() } else { self.objects.removed_since(since) },
+            objects: self
+                .objects
+                .since(since)
+                .map(|object| Arc::clone(&object.text))
+                .collect(),
+            removed: if is_snapshot {
+                Vec::new()
+            } else {
+                self.objects.removed_since(since)
+            },
             drawings: self.drawings.since(since).cloned().collect(),
-            removed_drawings: if is_snapshot { Vec::new() } else { self.drawings.removed_since(since) },
+            removed_drawings: if is_snapshot {
+                Vec::new()
+            } else {
+                self.drawings.removed_since(since)
+            },
             windows: self.windows.since(since).cloned().collect(),
-            removed_windows: if is_snapshot { Vec::new() } else { self.windows.removed_since(since) },
-            lists: self.lists.iter().filter_map(|(name, list)| Some((*name, newer(list)?))).collect(),
+            removed_windows: if is_snapshot {
+                Vec::new()
+            } else {
+                self.windows.removed_since(since)
+            },
+            lists: self
+                .lists
+                .iter()
+                .filter_map(|(name, list)| Some((*name, newer(list)?)))
+                .collect(),
             selection: (self.selection.0 > since || is_snapshot).then(|| self.selection.1.clone()),
-            log: self.log.range(new_lines..).map(|(_, line)| Arc::clone(line)).collect(),
+            log: self
+                .log
+                .range(new_lines..)
+                .map(|(_, line)| Arc::clone(line))
+                .collect(),
             poses: self.poses.since(since, self.time),
         })
     }
 
     /// Everything, but of the log only what came after a revision: for readers that keep the lines before.
     pub(crate) fn snapshot_with_lines_since(&self, seen: Revision) -> Option<Changes> {
-        let log = self.changes_since(seen).map(|changes| changes.log).unwrap_or_default();
-        self.changes_since(0).map(|changes| Changes { log, is_snapshot: true, ..changes })
+        let log = self
+            .changes_since(seen)
+            .map(|changes| changes.log)
+            .unwrap_or_default();
+        self.changes_since(0).map(|changes| Changes {
+            log,
+            is_snapshot: true,
+            ..changes
+        })
     }
 
     /// The messages that bring a reader from a state up to the present one, and the number of that.
     #[cfg(test)]
     pub(crate) fn update_since(&self, seen: Revision) -> (Revision, Vec<Message>) {
-        self.changes_since(seen).map_or((self.revision, Vec::new()), |changes| (changes.revision, changes.messages()))
+        self.changes_since(seen)
+            .map_or((self.revision, Vec::new()), |changes| {
+                (changes.revision, changes.messages())
+            })
     }
 }

@@ -35,7 +35,10 @@ impl Mirror {
         for (sensor, image) in found.images {
             changed |= put(self.on_demand.images.entry(sensor), image, next);
         }
-        if let Some(contacts) = found.contacts.filter(|new| !self.on_demand.has_contacts(new)) {
+        if let Some(contacts) = found
+            .contacts
+            .filter(|new| !self.on_demand.has_contacts(new))
+        {
             self.on_demand.contacts = Some((next, contacts.into()));
             changed = true;
         }
@@ -50,31 +53,52 @@ impl Mirror {
 
     /// Forgets values of objects that nobody inspects, and images that nobody watches.
     pub(crate) fn forget_unwanted(&mut self, inspected: &BTreeSet<i64>, watched: &BTreeSet<i64>) {
-        self.on_demand.rows.retain(|handle, _| inspected.contains(handle));
-        self.on_demand.images.retain(|sensor, _| watched.contains(sensor));
+        self.on_demand
+            .rows
+            .retain(|handle, _| inspected.contains(handle));
+        self.on_demand
+            .images
+            .retain(|sensor, _| watched.contains(sensor));
     }
 
     /// The last image of a sensor as a message, with its revision, unless a reader has seen it.
     pub(crate) fn image_since(&self, sensor: i64, seen: Revision) -> Option<(Revision, Arc<[u8]>)> {
-        self.on_demand.images.get(&sensor).filter(|(revision, _)| *revision > seen).cloned()
+        self.on_demand
+            .images
+            .get(&sensor)
+            .filter(|(revision, _)| *revision > seen)
+            .cloned()
     }
 
     /// The last contacts as a message, in the same way.
     pub(crate) fn contacts_since(&self, seen: Revision) -> Option<(Revision, Arc<[u8]>)> {
-        self.on_demand.contacts.as_ref().filter(|(revision, _)| *revision > seen).cloned()
+        self.on_demand
+            .contacts
+            .as_ref()
+            .filter(|(revision, _)| *revision > seen)
+            .cloned()
     }
 
     /// Rows of properties that changed since a revision, and the present one; None if none did.
-    pub(crate) fn rows_since(&self, handle: i64, seen: Revision) -> Option<(Revision, Vec<Arc<str>>)> {
+    pub(crate) fn rows_since(
+        &self,
+        handle: i64,
+        seen: Revision,
+    ) -> Option<(Revision, Vec<Arc<str>>)> {
         let rows = self.on_demand.rows.get(&handle)?.values();
-        let newer: Vec<_> = rows.filter(|(revision, _)| *revision > seen).map(|(_, row)| Arc::clone(row)).collect();
+        let newer: Vec<_> = rows
+            .filter(|(revision, _)| *revision > seen)
+            .map(|(_, row)| Arc::clone(row))
+            .collect();
         (!newer.is_empty()).then_some((self.revision, newer))
     }
 }
 
 impl OnDemand {
     fn has_contacts(&self, contacts: &[u8]) -> bool {
-        self.contacts.as_ref().is_some_and(|(_, known)| **known == *contacts)
+        self.contacts
+            .as_ref()
+            .is_some_and(|(_, known)| **known == *contacts)
     }
 
     fn apply_rows(&mut self, handle: i64, rows: Vec<(String, String)>, next: Revision) -> bool {

@@ -8,12 +8,21 @@ use super::*;
 use crate::blobs::Blob;
 
 fn object(text: &str, blobs: &[Arc<Blob>]) -> ObservedObject {
-    ObservedObject { text: text.into(), blobs: blobs.to_vec() }
+    ObservedObject {
+        text: text.into(),
+        blobs: blobs.to_vec(),
+    }
 }
 
 fn with_objects(objects: &[(i64, &str)]) -> Observation {
-    let objects = objects.iter().map(|(handle, text)| (*handle, object(text, &[]))).collect();
-    Observation { objects, ..Observation::default() }
+    let objects = objects
+        .iter()
+        .map(|(handle, text)| (*handle, object(text, &[])))
+        .collect();
+    Observation {
+        objects,
+        ..Observation::default()
+    }
 }
 
 /// A mirror with two objects.
@@ -22,7 +31,13 @@ fn mirror() -> Mirror {
     let seen = with_objects(&[(1, r#"{"handle":1}"#), (2, r#"{"handle":2}"#)]);
     let poses = vec![(1, [1.0; 7]), (2, [2.0; 7])];
     let scene = Some(r#"{"time":0}"#.to_owned());
-    assert!(mirror.apply(Observation { is_another_scene: true, is_complete: true, poses, scene, ..seen }));
+    assert!(mirror.apply(Observation {
+        is_another_scene: true,
+        is_complete: true,
+        poses,
+        scene,
+        ..seen
+    }));
     mirror
 }
 
@@ -35,7 +50,10 @@ fn read(mirror: &Mirror, seen: Revision) -> (Value, Vec<i32>) {
             Message::Text(json) => text = serde_json::from_str(&json).expect("the text is JSON"),
             Message::Binary(bytes) => {
                 assert_eq!(bytes[..4], [1, 0, 0, 0]);
-                assert_eq!(bytes.len(), 16 + 32 * u32::from_le_bytes(bytes[4..8].try_into().unwrap()) as usize);
+                assert_eq!(
+                    bytes.len(),
+                    16 + 32 * u32::from_le_bytes(bytes[4..8].try_into().unwrap()) as usize
+                );
                 let handle = |row: &[u8]| i32::from_le_bytes(row[..4].try_into().unwrap());
                 moved = bytes[16..].chunks_exact(32).map(handle).collect();
             }
@@ -49,7 +67,10 @@ fn a_new_reader_gets_everything() {
     let (text, moved) = read(&mirror(), 0);
     assert_eq!(text["type"], "snapshot");
     assert_eq!(text["objects"], json!([{"handle": 1}, {"handle": 2}]));
-    assert_eq!((&text["selection"], &text["log"], &text["removed"]), (&json!([]), &json!([]), &json!([])));
+    assert_eq!(
+        (&text["selection"], &text["log"], &text["removed"]),
+        (&json!([]), &json!([]), &json!([]))
+    );
     assert_eq!(moved, [1, 2]);
 }
 
@@ -58,25 +79,50 @@ fn others_get_what_changed_and_nothing_twice() {
     let mut mirror = mirror();
     let first = mirror.revision();
     assert_eq!(mirror.update_since(first), (first, Vec::new()));
-    assert!(!mirror.apply(with_objects(&[(1, r#"{"handle":1}"#)])), "that is as it was");
+    assert!(
+        !mirror.apply(with_objects(&[(1, r#"{"handle":1}"#)])),
+        "that is as it was"
+    );
     let poses = vec![(1, [1.0; 7]), (2, [3.0; 7])];
-    assert!(mirror.apply(Observation { poses, ..with_objects(&[(1, r#"{"handle":1,"a":1}"#)]) }));
+    assert!(mirror.apply(Observation {
+        poses,
+        ..with_objects(&[(1, r#"{"handle":1,"a":1}"#)])
+    }));
     let second = mirror.revision();
-    assert!(mirror.apply(Observation { selection: Some(vec![2]), ..Observation::default() }));
-    assert_eq!(read(&mirror, second), (json!({"type": "update", "selection": [2]}), vec![]));
+    assert!(mirror.apply(Observation {
+        selection: Some(vec![2]),
+        ..Observation::default()
+    }));
+    assert_eq!(
+        read(&mirror, second),
+        (json!({"type": "update", "selection": [2]}), vec![])
+    );
     let expected = json!({"type": "update", "selection": [2], "objects": [{"handle": 1, "a": 1}]});
-    assert_eq!(read(&mirror, first), (expected, vec![2]), "who is slow gets both at once");
+    assert_eq!(
+        read(&mirror, first),
+        (expected, vec![2]),
+        "who is slow gets both at once"
+    );
 }
 
 #[test]
 fn what_is_gone_is_named_until_it_comes_back() {
     let mut mirror = mirror();
     let first = mirror.revision();
-    mirror.apply(Observation { removed: vec![2], ..Observation::default() });
-    assert_eq!(read(&mirror, first).0, json!({"type": "update", "removed": [2]}));
+    mirror.apply(Observation {
+        removed: vec![2],
+        ..Observation::default()
+    });
+    assert_eq!(
+        read(&mirror, first).0,
+        json!({"type": "update", "removed": [2]})
+    );
     assert_eq!(read(&mirror, 0).0["objects"], json!([{"handle": 1}]));
     mirror.apply(with_objects(&[(2, r#"{"handle":2,"uid":9}"#)]));
-    assert_eq!(read(&mirror, first).0, json!({"type": "update", "objects": [{"handle": 2, "uid": 9}]}));
+    assert_eq!(
+        read(&mirror, first).0,
+        json!({"type": "update", "objects": [{"handle": 2, "uid": 9}]})
+    );
 }
 
 #[test]
@@ -85,13 +131,23 @@ fn another_scene_and_too_many_removals_begin_anew() {
     let first = mirror.revision();
     for handle in 10..20_020 {
         mirror.apply(with_objects(&[(handle, "{}")]));
-        mirror.apply(Observation { removed: vec![handle], ..Observation::default() });
+        mirror.apply(Observation {
+            removed: vec![handle],
+            ..Observation::default()
+        });
     }
     assert_eq!(read(&mirror, first).0["type"], "snapshot");
     let last = mirror.revision();
-    assert!(mirror.apply(Observation { is_another_scene: true, is_complete: true, ..Observation::default() }));
+    assert!(mirror.apply(Observation {
+        is_another_scene: true,
+        is_complete: true,
+        ..Observation::default()
+    }));
     let (text, _) = read(&mirror, last);
-    assert_eq!((&text["type"], &text["objects"]), (&json!("snapshot"), &json!([])));
+    assert_eq!(
+        (&text["type"], &text["objects"]),
+        (&json!("snapshot"), &json!([]))
+    );
 }
 
 #[test]
@@ -100,7 +156,10 @@ fn blobs_stay_while_objects_show_them() {
     let mut mirror = Mirror::default();
     let seen = |handle, text: &str| {
         let objects = vec![(handle, object(text, &[Arc::clone(&blob)]))];
-        Observation { objects, ..Observation::default() }
+        Observation {
+            objects,
+            ..Observation::default()
+        }
     };
     mirror.apply(seen(1, "{}"));
     let first = mirror.revision();
@@ -109,9 +168,15 @@ fn blobs_stay_while_objects_show_them() {
     mirror.apply(seen(1, "[]"));
     mirror.apply(seen(1, "[]"));
     assert_eq!(mirror.blobs_since(first).count(), 0, "it was there before");
-    mirror.apply(Observation { removed: vec![1], ..Observation::default() });
+    mirror.apply(Observation {
+        removed: vec![1],
+        ..Observation::default()
+    });
     assert_eq!(mirror.blob(blob.hash).as_deref(), Some(&*blob));
-    mirror.apply(Observation { removed: vec![2], ..Observation::default() });
+    mirror.apply(Observation {
+        removed: vec![2],
+        ..Observation::default()
+    });
     assert_eq!(mirror.blob(blob.hash), None);
 }
 
@@ -120,7 +185,10 @@ fn the_log_is_bounded() {
     let mut mirror = mirror();
     let first = mirror.revision();
     for line in 0..2 * LOG_LINES {
-        mirror.apply(Observation { log: vec![line.to_string()], ..Observation::default() });
+        mirror.apply(Observation {
+            log: vec![line.to_string()],
+            ..Observation::default()
+        });
     }
     let (text, _) = read(&mirror, first);
     let lines = text["log"].as_array().unwrap();
@@ -137,8 +205,19 @@ fn windows_of_scripts_come_change_and_go() {
     assert!(!mirror.apply_windows(windows(changes)));
     let second = mirror.revision();
     let (text, _) = read(&mirror, first);
-    assert_eq!(text, json!({"type": "update", "windows": [{"id": "1:UI", "title": "a"}], "dialogs": []}));
-    assert_eq!(read(&mirror, 0).0["windows"], json!([{"id": "1:UI", "title": "a"}]));
-    assert!(mirror.apply_windows(windows(json!({"complete": true, "windows": [], "dialogs": []}))));
-    assert_eq!(read(&mirror, second).0, json!({"type": "update", "removedWindows": ["1:UI"]}));
+    assert_eq!(
+        text,
+        json!({"type": "update", "windows": [{"id": "1:UI", "title": "a"}], "dialogs": []})
+    );
+    assert_eq!(
+        read(&mirror, 0).0["windows"],
+        json!([{"id": "1:UI", "title": "a"}])
+    );
+    assert!(mirror.apply_windows(windows(
+        json!({"complete": true, "windows": [], "dialogs": []})
+    )));
+    assert_eq!(
+        read(&mirror, second).0,
+        json!({"type": "update", "removedWindows": ["1:UI"]})
+    );
 }

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 
 use scene::Scene;
-use scene::tree::button_interfaces::{Button, ButtonInterface, ButtonKind, button_property, ui_property};
+use scene::tree::button_interfaces::{
+    Button, ButtonInterface, ButtonKind, button_property, ui_property,
+};
 
 /// Buttons are at least as high on a page, pixels.
 const LEAST_HEIGHT: i32 = 24;
@@ -30,11 +32,22 @@ pub(crate) struct ChangedButtonWindows {
 
 impl ButtonWindows {
     /// All user interfaces, if any of them may look different now, or `all` are asked for.
-    pub(crate) fn changes(&mut self, scene: &Scene, scene_uid: i64, all: bool) -> Option<ChangedButtonWindows> {
+    pub(crate) fn changes(
+        &mut self,
+        scene: &Scene,
+        scene_uid: i64,
+        all: bool,
+    ) -> Option<ChangedButtonWindows> {
         let interfaces = scene.button_interfaces();
-        let selection = scene.selection().iter().map(|handle| handle.raw()).collect();
+        let selection = scene
+            .selection()
+            .iter()
+            .map(|handle| handle.raw())
+            .collect();
         let now = Some((scene_uid, interfaces.revision(), selection));
-        if !all && (self.seen == now || (self.shown.is_empty() && interfaces.iter().next().is_none())) {
+        if !all
+            && (self.seen == now || (self.shown.is_empty() && interfaces.iter().next().is_none()))
+        {
             return None;
         }
         self.seen = now;
@@ -42,13 +55,19 @@ impl ButtonWindows {
             .iter()
             .filter(|(_, interface)| scene.shows_button_interface(interface))
             .map(|(handle, interface)| {
-                (json!(window_id(handle)).to_string(), window(handle, interface).to_string().into())
+                (
+                    json!(window_id(handle)).to_string(),
+                    window(handle, interface).to_string().into(),
+                )
             })
             .collect();
         windows.sort();
         let ids: Vec<String> = windows.iter().map(|(id, _)| id.clone()).collect();
         let removed = std::mem::replace(&mut self.shown, ids);
-        let removed = removed.into_iter().filter(|id| self.shown.binary_search(id).is_err()).collect();
+        let removed = removed
+            .into_iter()
+            .filter(|id| self.shown.binary_search(id).is_err())
+            .collect();
         Some(ChangedButtonWindows { windows, removed })
     }
 }
@@ -64,7 +83,10 @@ pub(crate) fn handle_of(window: &str) -> Option<i64> {
 
 fn window(handle: i64, interface: &ButtonInterface) -> Value {
     let scale = scale(interface);
-    let buttons = interface.buttons.iter().map(|button| widget(button, geometry(interface, button, scale)));
+    let buttons = interface
+        .buttons
+        .iter()
+        .map(|button| widget(button, geometry(interface, button, scale)));
     json!({
         "id": window_id(handle), "source": "buttonInterface", "owner": interface.object.map_or(-1, |object| object.raw()),
         "title": interface.name, "visible": true, "enabled": true, "modal": false, "resizable": false, "closeable": false,
@@ -76,8 +98,14 @@ fn window(handle: i64, interface: &ButtonInterface) -> Value {
 
 /// Cells were small: the lowest button becomes as high as a finger or a text needs.
 fn scale(interface: &ButtonInterface) -> f64 {
-    let heights = interface.buttons.iter().map(|button| cells(button.span[1]) * pixels(interface.cell_size[1]));
-    let lowest = heights.filter(|height| *height > 0).min().unwrap_or(LEAST_HEIGHT);
+    let heights = interface
+        .buttons
+        .iter()
+        .map(|button| cells(button.span[1]) * pixels(interface.cell_size[1]));
+    let lowest = heights
+        .filter(|height| *height > 0)
+        .min()
+        .unwrap_or(LEAST_HEIGHT);
     (f64::from(LEAST_HEIGHT) / f64::from(lowest)).clamp(1.0, 2.5)
 }
 
@@ -91,14 +119,24 @@ fn pixels(size: i32) -> i32 {
 
 /// Left, top, width, height.
 fn geometry(interface: &ButtonInterface, button: &Button, scale: f64) -> [i64; 4] {
-    let length =
-        |count: i32, axis: usize| (f64::from(cells(count) * pixels(interface.cell_size[axis])) * scale).round() as i64;
-    [length(button.cell[0], 0), length(button.cell[1], 1), length(button.span[0], 0), length(button.span[1], 1)]
+    let length = |count: i32, axis: usize| {
+        (f64::from(cells(count) * pixels(interface.cell_size[axis])) * scale).round() as i64
+    };
+    [
+        length(button.cell[0], 0),
+        length(button.cell[1], 1),
+        length(button.span[0], 0),
+        length(button.span[1], 1),
+    ]
 }
 
 fn widget(button: &Button, geometry: [i64; 4]) -> Value {
     let down = button.has(button_property::IS_DOWN);
-    let text = if down && !button.down_label.is_empty() { &button.down_label } else { &button.label };
+    let text = if down && !button.down_label.is_empty() {
+        &button.down_label
+    } else {
+        &button.label
+    };
     let mut widget = json!({
         "id": button.number, "geometry": geometry, "visible": true, "style": "", "stretch": -1, "handlers": [],
         "enabled": button.has(button_property::ENABLED) && !button.has(button_property::IGNORE_MOUSE),
@@ -109,9 +147,13 @@ fn widget(button: &Button, geometry: [i64; 4]) -> Value {
             "kind": "button", "text": text, "checkable": button.has(button_property::STAY_DOWN), "checked": down,
             "holds": true, "autoExclusive": false, "icon": "", "repeat": null,
         }),
-        ButtonKind::Label => json!({"kind": "label", "text": text, "wordWrap": false, "plain": true, "enabled": true}),
+        ButtonKind::Label => {
+            json!({"kind": "label", "text": text, "wordWrap": false, "plain": true, "enabled": true})
+        }
         ButtonKind::Slider => slider(button, geometry[3] > geometry[2]),
-        ButtonKind::EditBox => json!({"kind": "edit", "value": button.label, "password": false, "selected": false}),
+        ButtonKind::EditBox => {
+            json!({"kind": "edit", "value": button.label, "password": false, "selected": false})
+        }
     };
     if let (Value::Object(all), Value::Object(special)) = (&mut widget, special) {
         all.extend(special);

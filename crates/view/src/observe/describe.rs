@@ -37,11 +37,20 @@ pub(super) fn object(
     if let (Value::Object(all), Value::Object(own)) = (&mut value, own) {
         all.extend(own);
     }
-    ObservedObject { text: value.to_string().into(), blobs }
+    ObservedObject {
+        text: value.to_string().into(),
+        blobs,
+    }
 }
 
 /// A dummy that only keeps the lights of a scene together would stand large in the middle of small robots.
 fn holds_only_lights(scene: &Scene, object: &Object) -> bool {
-    let is_light = |child: &Handle| scene.object(*child).is_ok_and(|child| matches!(child.kind, Kind::Light(_)));
-    matches!(object.kind, Kind::Dummy(_)) && !object.children().is_empty() && object.children().iter().all(is_light)
+    let is_light = |child: &Handle| {
+        scene
+            .object(*child)
+            .is_ok_and(|child| matches!(child.kind, Kind::Light(_)))
+    };
+    matches!(object.kind, Kind::Dummy(_))
+        && !object.children().is_empty()
+        && object.children().iter().all(is_light)
 }

@@ -12,23 +12,37 @@ use scene::drawing::{DrawingItem, DrawingObject};
 
 impl Observer {
     /// Drawing objects that changed, or all; and the identifiers of those that are gone.
-    pub(super) fn observe_drawings(&mut self, scene: &Scene, all: bool) -> (Vec<(i64, Arc<str>)>, Vec<i64>) {
+    pub(super) fn observe_drawings(
+        &mut self,
+        scene: &Scene,
+        all: bool,
+    ) -> (Vec<(i64, Arc<str>)>, Vec<i64>) {
         let drawings = scene.drawings();
         let seen = std::mem::replace(&mut self.drawings_seen, drawings.last_change());
         if seen == drawings.last_change() && !all {
             return (Vec::new(), Vec::new());
         }
-        let changed = drawings.iter().filter(|(_, drawing)| all || drawing.changed_at() > seen);
-        let described = changed.map(|(id, drawing)| (id, describe(id, drawing).into())).collect();
+        let changed = drawings
+            .iter()
+            .filter(|(_, drawing)| all || drawing.changed_at() > seen);
+        let described = changed
+            .map(|(id, drawing)| (id, describe(id, drawing).into()))
+            .collect();
         let present = drawings.iter().map(|(id, _)| id).collect();
         let before = std::mem::replace(&mut self.known_drawings, present);
-        (described, before.difference(&self.known_drawings).copied().collect())
+        (
+            described,
+            before.difference(&self.known_drawings).copied().collect(),
+        )
     }
 }
 
 fn describe(id: i64, drawing: &DrawingObject) -> String {
     let style = &drawing.style;
-    let has_colours = drawing.items().next().is_some_and(|item| !item.colours().is_empty());
+    let has_colours = drawing
+        .items()
+        .next()
+        .is_some_and(|item| !item.colours().is_empty());
     let has_sizes = style.flags.contains(DrawingFlags::ITEM_SIZES);
     let base = style.colour;
     let emits = base.emission.iter().any(|part| *part > 0.0);
@@ -44,10 +58,16 @@ fn describe(id: i64, drawing: &DrawingObject) -> String {
         "stride": stride(drawing),
     });
     if has_colours {
-        value["colors"] = drawing.items().flat_map(|item| item_colour(drawing, item)).collect();
+        value["colors"] = drawing
+            .items()
+            .flat_map(|item| item_colour(drawing, item))
+            .collect();
     }
     if has_sizes {
-        value["sizes"] = drawing.items().map(|item| item.size().unwrap_or(style.size)).collect();
+        value["sizes"] = drawing
+            .items()
+            .map(|item| item.size().unwrap_or(style.size))
+            .collect();
     }
     value.to_string()
 }
@@ -74,7 +94,10 @@ fn numbers(item: DrawingItem<'_>) -> Vec<f32> {
 }
 
 fn stride(drawing: &DrawingObject) -> usize {
-    let normal = drawing.items().next().is_some_and(|item| item.normal().is_some());
+    let normal = drawing
+        .items()
+        .next()
+        .is_some_and(|item| item.normal().is_some());
     3 * drawing.style.kind.points() + if normal { 4 } else { 0 }
 }
 
@@ -84,7 +107,9 @@ fn towards(direction: [f64; 3]) -> [f32; 4] {
     let half_turn = UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(0.0, 1.0, 0.0, 0.0));
     let direction = Vector3::from(direction);
     let turn = match direction.try_normalize(1e-12) {
-        Some(direction) => UnitQuaternion::rotation_between(&Vector3::z(), &direction).unwrap_or(half_turn),
+        Some(direction) => {
+            UnitQuaternion::rotation_between(&Vector3::z(), &direction).unwrap_or(half_turn)
+        }
         None => UnitQuaternion::identity(),
     };
     let [x, y, z, w]: [f64; 4] = turn.coords.into();

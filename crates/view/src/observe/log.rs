@@ -22,7 +22,9 @@ pub(super) fn describe(line: &RecentLine) -> String {
 }
 
 fn shortened(text: &str) -> &str {
-    text.char_indices().nth(MAX_CHARACTERS).map_or(text, |(end, _)| &text[..end])
+    text.char_indices()
+        .nth(MAX_CHARACTERS)
+        .map_or(text, |(end, _)| &text[..end])
 }
 
 /// The line in a message such as `[string "/Robot/Script"]:12: attempt ...`, or `12: attempt ...`.
@@ -31,7 +33,9 @@ pub(super) fn line_of(message: &str) -> Option<u64> {
         let (digits, _) = text.split_once(':')?;
         digits.parse().ok()
     };
-    let after_name = message.split_once("\"]:").and_then(|(_, rest)| number(rest));
+    let after_name = message
+        .split_once("\"]:")
+        .and_then(|(_, rest)| number(rest));
     after_name.or_else(|| number(message))
 }
 

@@ -29,12 +29,17 @@ pub(super) fn of_kind(
     let color = object.colour.ambient_diffuse;
     match &object.kind {
         Kind::Shape(shape) => {
-            let parts = shape.parts.iter().map(|part| mesh(scene, part, meshes, blobs));
+            let parts = shape
+                .parts
+                .iter()
+                .map(|part| mesh(scene, part, meshes, blobs));
             json!({ "meshes": parts.collect::<Vec<_>>() })
         }
         Kind::Joint(joint) => of_joint(joint, color),
         Kind::Dummy(dummy) => match dummy.link {
-            Some(linked) => json!({ "size": dummy.size, "color": color, "linkedDummy": linked.raw() }),
+            Some(linked) => {
+                json!({ "size": dummy.size, "color": color, "linkedDummy": linked.raw() })
+            }
             None => json!({ "size": dummy.size, "color": color }),
         },
         Kind::ForceSensor(sensor) => json!({ "size": sensor.size, "color": color }),
@@ -47,13 +52,36 @@ pub(super) fn of_kind(
         Kind::Light(light) => of_light(light),
         Kind::ProximitySensor(sensor) => of_proximity_sensor(sensor, color),
         Kind::OcTree(octree) => {
-            let voxels: Vec<_> = octree.voxels().map(|(centre, voxel)| (centre, voxel.colour)).collect();
-            let size = if octree.shows_points { octree.point_size } else { octree.voxel_size() };
-            of_points(Blob::points(&voxels), size, &object.colour, octree.shows_points, blobs)
+            let voxels: Vec<_> = octree
+                .voxels()
+                .map(|(centre, voxel)| (centre, voxel.colour))
+                .collect();
+            let size = if octree.shows_points {
+                octree.point_size
+            } else {
+                octree.voxel_size()
+            };
+            of_points(
+                Blob::points(&voxels),
+                size,
+                &object.colour,
+                octree.shows_points,
+                blobs,
+            )
         }
         Kind::PointCloud(cloud) => {
-            let points: Vec<_> = cloud.points.iter().map(|point| (point.position, point.colour)).collect();
-            of_points(Blob::points(&points), cloud.point_size as f64, &object.colour, true, blobs)
+            let points: Vec<_> = cloud
+                .points
+                .iter()
+                .map(|point| (point.position, point.colour))
+                .collect();
+            of_points(
+                Blob::points(&points),
+                cloud.point_size as f64,
+                &object.colour,
+                true,
+                blobs,
+            )
         }
         Kind::Path(_) => json!({ "color": color }),
         Kind::Graph(graph) => json!({ "size": graph.size, "color": color }),
@@ -68,7 +96,10 @@ fn colours(colour: &Colour) -> Value {
 fn mesh(scene: &Scene, part: &Part, meshes: &mut Meshes, blobs: &mut Blobs) -> Value {
     let blob = meshes.mesh(part);
     let appearance = &part.appearance;
-    let texture = part.texture.as_deref().and_then(|mapping| texture(scene, mapping, meshes, blobs));
+    let texture = part
+        .texture
+        .as_deref()
+        .and_then(|mapping| texture(scene, mapping, meshes, blobs));
     let value = json!({
         "blob": blob.hash.to_string(),
         "color": colours(&appearance.colour),
@@ -83,7 +114,12 @@ fn mesh(scene: &Scene, part: &Part, meshes: &mut Meshes, blobs: &mut Blobs) -> V
     value
 }
 
-fn texture(scene: &Scene, mapping: &TextureMapping, meshes: &mut Meshes, blobs: &mut Blobs) -> Option<Value> {
+fn texture(
+    scene: &Scene,
+    mapping: &TextureMapping,
+    meshes: &mut Meshes,
+    blobs: &mut Blobs,
+) -> Option<Value> {
     let blob = meshes.image(scene, mapping.source)?;
     let value = json!({
         "blob": blob.hash.to_string(),
@@ -145,7 +181,14 @@ fn of_light(light: &Light) -> Value {
 }
 
 fn of_proximity_sensor(sensor: &ProximitySensor, color: [f32; 3]) -> Value {
-    let volume: Vec<f32> = sensor.volume.edges().iter().flatten().flatten().map(|number| *number as f32).collect();
+    let volume: Vec<f32> = sensor
+        .volume
+        .edges()
+        .iter()
+        .flatten()
+        .flatten()
+        .map(|number| *number as f32)
+        .collect();
     let detection = sensor.detection.map(|detection| {
         json!({ "point": detection.point, "distance": detection.distance(), "object": detection.object.raw() })
     });
@@ -154,9 +197,14 @@ fn of_proximity_sensor(sensor: &ProximitySensor, color: [f32; 3]) -> Value {
     })
 }
 
-fn of_points(blob: Arc<Blob>, size: f64, colour: &Colour, as_points: bool, blobs: &mut Blobs) -> Value {
-    let value =
-        json!({ "blob": blob.hash.to_string(), "size": size, "points": as_points, "color": colour.ambient_diffuse });
+fn of_points(
+    blob: Arc<Blob>,
+    size: f64,
+    colour: &Colour,
+    as_points: bool,
+    blobs: &mut Blobs,
+) -> Value {
+    let value = json!({ "blob": blob.hash.to_string(), "size": size, "points": as_points, "color": colour.ambient_diffuse });
     blobs.push(blob);
     value
 }

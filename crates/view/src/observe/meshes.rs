@@ -51,7 +51,9 @@ impl Key {
 
 /// Whether a mesh shows what a vision sensor sees.
 pub(super) fn is_screen(part: &Part) -> bool {
-    part.texture.as_ref().is_some_and(|texture| matches!(texture.source, TextureSource::Sensor(_)))
+    part.texture
+        .as_ref()
+        .is_some_and(|texture| matches!(texture.source, TextureSource::Sensor(_)))
 }
 
 impl Meshes {
@@ -60,8 +62,10 @@ impl Meshes {
         let edges = part.appearance.edges.then_some(part.appearance.edge_angle);
         self.has_new = true;
         // The copy of the part keeps the addresses in use while they are a key.
-        let (_, blob) =
-            self.meshes.entry(Key::of(part, edges)).or_insert_with(|| (part.clone(), Blob::mesh(part, edges)));
+        let (_, blob) = self
+            .meshes
+            .entry(Key::of(part, edges))
+            .or_insert_with(|| (part.clone(), Blob::mesh(part, edges)));
         Arc::clone(blob)
     }
 
@@ -71,23 +75,31 @@ impl Meshes {
             TextureSource::Texture(id) => id,
             TextureSource::Sensor(sensor) => {
                 let sensor = scene.object(sensor).ok()?.vision_sensor().ok()?;
-                let rgba: Vec<u8> =
-                    sensor.image().chunks_exact(3).flat_map(|pixel| [pixel[0], pixel[1], pixel[2], u8::MAX]).collect();
+                let rgba: Vec<u8> = sensor
+                    .image()
+                    .chunks_exact(3)
+                    .flat_map(|pixel| [pixel[0], pixel[1], pixel[2], u8::MAX])
+                    .collect();
                 return Some(Blob::image(sensor.view.resolution, &rgba));
             }
         };
         let texture = scene.textures().get(id).ok()?;
         self.has_new = true;
         let at = texture.pixels().as_ptr() as usize;
-        let (_, blob) = self.images.entry(at).or_insert_with(|| (texture.clone(), Blob::texture(texture)));
+        let (_, blob) = self
+            .images
+            .entry(at)
+            .or_insert_with(|| (texture.clone(), Blob::texture(texture)));
         Some(Arc::clone(blob))
     }
 
     /// Forgets blobs that no object shows any more.
     pub(super) fn drop_unused(&mut self) {
         if std::mem::take(&mut self.has_new) {
-            self.meshes.retain(|_, (_, blob)| Arc::strong_count(blob) > 1);
-            self.images.retain(|_, (_, blob)| Arc::strong_count(blob) > 1);
+            self.meshes
+                .retain(|_, (_, blob)| Arc::strong_count(blob) > 1);
+            self.images
+                .retain(|_, (_, blob)| Arc::strong_count(blob) > 1);
         }
     }
 }

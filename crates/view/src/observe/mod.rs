@@ -31,21 +31,24 @@ pub(crate) use scene::{RECORDING, Source};
 pub(crate) use windows::{ObservedWindows, WindowObserver};
 
 /// Changes of what pages show.
-const SHOWN: Topics = Topics::TREE.with(Topic::Selection).with(Topic::Settings).with_fields(&[
-    Field::Alias,
-    Field::Pose,
-    Field::Layer,
-    Field::ObjectProperty,
-    Field::ModelProperty,
-    Field::Geometry,
-    Field::Appearance,
-    Field::Texture,
-    Field::Joint,
-    Field::JointPosition,
-    Field::Sensor,
-    Field::Script,
-    Field::Other,
-]);
+const SHOWN: Topics = Topics::TREE
+    .with(Topic::Selection)
+    .with(Topic::Settings)
+    .with_fields(&[
+        Field::Alias,
+        Field::Pose,
+        Field::Layer,
+        Field::ObjectProperty,
+        Field::ModelProperty,
+        Field::Geometry,
+        Field::Appearance,
+        Field::Texture,
+        Field::Joint,
+        Field::JointPosition,
+        Field::Sensor,
+        Field::Script,
+        Field::Other,
+    ]);
 
 /// What changed. Lists are in the order of handles.
 #[derive(Debug, Default)]
@@ -73,7 +76,11 @@ pub(crate) struct Observation {
 impl Observation {
     /// Nothing but lines of the log, at a time (seconds).
     pub(crate) fn of_lines(lines: &[RecentLine], time: f64) -> Self {
-        Self { time, log: lines.iter().map(log::describe).collect(), ..Self::default() }
+        Self {
+            time,
+            log: lines.iter().map(log::describe).collect(),
+            ..Self::default()
+        }
     }
 }
 
@@ -130,23 +137,37 @@ impl Observer {
     /// What changed since the last call; everything at first. Takes time in proportion to that.
     pub(crate) fn observe(&mut self, source: &Source<'_>, lines: &[RecentLine]) -> Observation {
         let scene = source.now.scene;
-        let is_another_scene = self.scene_uid.replace(source.now.scene_uid) != Some(source.now.scene_uid);
+        let is_another_scene =
+            self.scene_uid.replace(source.now.scene_uid) != Some(source.now.scene_uid);
         if is_another_scene {
-            *self = Self { scene_uid: self.scene_uid, ..Self::default() };
+            *self = Self {
+                scene_uid: self.scene_uid,
+                ..Self::default()
+            };
         }
         let failed = self.note_errors(lines);
         let mut concerned = self.read_journal(scene);
-        concerned.objects.extend(failed.into_iter().filter(|handle| scene.exists(*handle)));
-        concerned.objects.extend(self.restless.iter().copied().filter(|handle| scene.exists(*handle)));
+        concerned
+            .objects
+            .extend(failed.into_iter().filter(|handle| scene.exists(*handle)));
+        concerned.objects.extend(
+            self.restless
+                .iter()
+                .copied()
+                .filter(|handle| scene.exists(*handle)),
+        );
         let layers = scene.settings().visibility_layers.bits();
         if std::mem::replace(&mut self.visibility_layers, layers) != layers {
-            concerned.objects.extend(scene.objects().map(::scene::Object::handle));
+            concerned
+                .objects
+                .extend(scene.objects().map(::scene::Object::handle));
         }
         self.place_in_tree(scene, &mut concerned);
         let complete = concerned.is_complete;
         let (mut drawings, mut removed_drawings) = self.observe_drawings(scene, complete);
         let looked_at = (&concerned.objects, complete);
-        self.path_lines.observe(scene, looked_at, &mut drawings, &mut removed_drawings);
+        self.path_lines
+            .observe(scene, looked_at, &mut drawings, &mut removed_drawings);
         Observation {
             is_another_scene,
             is_complete: complete,
@@ -157,8 +178,13 @@ impl Observer {
             removed_drawings,
             scene: Some(source.describe()),
             time: source.now.time,
-            selection: (complete || concerned.selection)
-                .then(|| scene.selection().iter().map(|handle| handle.raw()).collect()),
+            selection: (complete || concerned.selection).then(|| {
+                scene
+                    .selection()
+                    .iter()
+                    .map(|handle| handle.raw())
+                    .collect()
+            }),
             log: lines.iter().map(log::describe).collect(),
         }
     }
@@ -171,11 +197,15 @@ impl Observer {
     /// What the journal says.
     fn read_journal(&mut self, scene: &Scene) -> Concerned {
         let mut concerned = Concerned::default();
-        let cursor = self.cursor.get_or_insert_with(|| scene.journal().follow(SHOWN));
+        let cursor = self
+            .cursor
+            .get_or_insert_with(|| scene.journal().follow(SHOWN));
         match scene.journal().read(cursor) {
             Unread::Everything => {
                 concerned.is_complete = true;
-                concerned.objects.extend(scene.objects().map(::scene::Object::handle));
+                concerned
+                    .objects
+                    .extend(scene.objects().map(::scene::Object::handle));
                 self.places.clear();
                 self.restless.retain(|handle| scene.exists(*handle));
             }
@@ -189,14 +219,25 @@ impl Observer {
     /// since only their order counts.
     fn place_in_tree(&mut self, scene: &Scene, concerned: &mut Concerned) {
         if concerned.is_complete {
-            let parents = scene.objects().filter(|object| !object.children().is_empty());
-            let families = parents.map(::scene::Object::children).chain([scene.roots()]);
-            self.places = families.flat_map(|family| family.iter().copied().zip(0..)).collect();
+            let parents = scene
+                .objects()
+                .filter(|object| !object.children().is_empty());
+            let families = parents
+                .map(::scene::Object::children)
+                .chain([scene.roots()]);
+            self.places = families
+                .flat_map(|family| family.iter().copied().zip(0..))
+                .collect();
             return;
         }
         for &handle in &concerned.new {
-            let Ok(siblings) = scene.siblings(handle) else { continue };
-            let place = siblings.iter().rposition(|sibling| *sibling == handle).unwrap_or(0);
+            let Ok(siblings) = scene.siblings(handle) else {
+                continue;
+            };
+            let place = siblings
+                .iter()
+                .rposition(|sibling| *sibling == handle)
+                .unwrap_or(0);
             self.places.insert(handle, place);
         }
         for handle in &concerned.replaced {
@@ -212,7 +253,10 @@ impl Observer {
     fn note_errors(&mut self, lines: &[RecentLine]) -> Vec<Handle> {
         let failures = lines.iter().filter(|line| line.is_script_error());
         let errors = failures.filter_map(|line| {
-            let error = ScriptError { line: log::line_of(&line.text), message: line.text.clone() };
+            let error = ScriptError {
+                line: log::line_of(&line.text),
+                message: line.text.clone(),
+            };
             Some((line.script?, error))
         });
         let mut failed = Vec::new();
@@ -223,7 +267,11 @@ impl Observer {
         failed
     }
 
-    fn describe_all(&mut self, scene: &Scene, handles: &BTreeSet<Handle>) -> Vec<(i64, ObservedObject)> {
+    fn describe_all(
+        &mut self,
+        scene: &Scene,
+        handles: &BTreeSet<Handle>,
+    ) -> Vec<(i64, ObservedObject)> {
         let described = handles.iter().filter_map(|&handle| {
             let object = scene.object(handle).ok()?;
             if is_restless(&object.kind) {
@@ -233,7 +281,10 @@ impl Observer {
             }
             let error = self.script_errors.get(&handle.raw());
             let place = self.places.get(&handle).copied().unwrap_or(0);
-            Some((handle.raw(), describe::object(scene, object, place, error, &mut self.meshes)))
+            Some((
+                handle.raw(),
+                describe::object(scene, object, place, error, &mut self.meshes),
+            ))
         });
         let described = described.collect();
         self.meshes.drop_unused();
@@ -274,7 +325,12 @@ impl Concerned {
         }
         if matches!(
             field,
-            Field::Parent | Field::Pose | Field::Geometry | Field::Joint | Field::JointPosition | Field::Other
+            Field::Parent
+                | Field::Pose
+                | Field::Geometry
+                | Field::Joint
+                | Field::JointPosition
+                | Field::Other
         ) {
             self.moved.insert(handle);
         }

@@ -17,7 +17,12 @@ pub(super) struct Moved {
 
 impl Moved {
     /// Poses of `moved` and what is below, or of all objects. In the order of handles.
-    pub(super) fn poses(&mut self, scene: &Scene, moved: &BTreeSet<Handle>, all: bool) -> Vec<(i64, [f32; 7])> {
+    pub(super) fn poses(
+        &mut self,
+        scene: &Scene,
+        moved: &BTreeSet<Handle>,
+        all: bool,
+    ) -> Vec<(i64, [f32; 7])> {
         self.found.clear();
         if all {
             self.found.extend(scene.objects().map(Object::handle));
@@ -27,7 +32,10 @@ impl Moved {
         self.found.sort_unstable();
         let pose = |handle: &Handle| {
             let pose = scene.world_pose(*handle).ok()?;
-            Some((handle.raw(), pose_to_array(&pose).map(|number| number as f32)))
+            Some((
+                handle.raw(),
+                pose_to_array(&pose).map(|number| number as f32),
+            ))
         };
         self.found.iter().filter_map(pose).collect()
     }

@@ -46,9 +46,15 @@ impl PathLines {
 /// None for what is no path, or shows no line.
 fn describe(scene: &Scene, handle: Handle) -> Option<String> {
     let object = scene.object(handle).ok()?;
-    let Kind::Path(path) = &object.kind else { return None };
-    let is_shown = path.attributes().contains(PathAttributes::SHOW_LINE) && scene.is_visible(handle).unwrap_or(false);
-    let places: Vec<f32> = path.outline().flat_map(|place| [place.x as f32, place.y as f32, place.z as f32]).collect();
+    let Kind::Path(path) = &object.kind else {
+        return None;
+    };
+    let is_shown = path.attributes().contains(PathAttributes::SHOW_LINE)
+        && scene.is_visible(handle).unwrap_or(false);
+    let places: Vec<f32> = path
+        .outline()
+        .flat_map(|place| [place.x as f32, place.y as f32, place.z as f32])
+        .collect();
     let is_line = places.len() >= 6 && places.iter().all(|number| number.is_finite());
     (is_shown && is_line).then(|| {
         let value = json!({

@@ -25,13 +25,20 @@ pub(crate) struct Source<'a> {
 impl<'a> Source<'a> {
     /// A simulator as it is now, with its scene.
     pub(crate) fn of(sim: &Simulator, scene: &'a Scene) -> Self {
-        Self { now: sim.situation(scene), is_read_only: false, mode: "live" }
+        Self {
+            now: sim.situation(scene),
+            is_read_only: false,
+            mode: "live",
+        }
     }
 
     /// The name of the scene's file.
     pub(crate) fn name(&self) -> String {
         let name = Path::new(&self.now.scene.settings().path).file_name();
-        name.map_or_else(|| "untitled".to_owned(), |name| name.to_string_lossy().into_owned())
+        name.map_or_else(
+            || "untitled".to_owned(),
+            |name| name.to_string_lossy().into_owned(),
+        )
     }
 
     /// The scene as JSON.
@@ -39,7 +46,11 @@ impl<'a> Source<'a> {
         let settings = self.now.scene.settings();
         let name = self.name();
         // Recordings are passed on, so they do not contain the path of the scene file.
-        let path = if self.mode == RECORDING { &name } else { &settings.path };
+        let path = if self.mode == RECORDING {
+            &name
+        } else {
+            &settings.path
+        };
         json!({
             "name": name,
             "path": path,

@@ -19,11 +19,18 @@ struct Stage {
 
 impl Stage {
     fn new() -> Self {
-        Self { scene: Scene::new(), observer: Observer::default(), mirror: Mirror::default(), seen: 0 }
+        Self {
+            scene: Scene::new(),
+            observer: Observer::default(),
+            mirror: Mirror::default(),
+            seen: 0,
+        }
     }
 
     fn dummy(&mut self, alias: &str) -> Handle {
-        self.scene.add(alias, Kind::Dummy(Dummy::new(0.01))).unwrap()
+        self.scene
+            .add(alias, Kind::Dummy(Dummy::new(0.01)))
+            .unwrap()
     }
 
     fn observe(&mut self) -> Observation {
@@ -67,18 +74,31 @@ fn handles(objects: &[(i64, ObservedObject)]) -> Vec<i64> {
 #[test]
 fn only_what_moved_is_placed_again() {
     let mut stage = Stage::new();
-    let (base, child, other) = (stage.dummy("base"), stage.dummy("child"), stage.dummy("other"));
+    let (base, child, other) = (
+        stage.dummy("base"),
+        stage.dummy("child"),
+        stage.dummy("other"),
+    );
     stage.scene.set_parent(child, Some(base), true).unwrap();
     let first = stage.observe();
     assert!(first.is_complete && first.is_another_scene);
     assert_eq!((first.objects.len(), first.poses.len()), (3, 3));
     assert!(stage.observe().poses.is_empty());
-    stage.scene.set_local_pose(base, Pose::translation(1.0, 0.0, 0.0)).unwrap();
+    stage
+        .scene
+        .set_local_pose(base, Pose::translation(1.0, 0.0, 0.0))
+        .unwrap();
     let second = stage.observe();
     assert!(second.objects.is_empty() && !second.is_complete);
-    let moved = [(base.raw(), [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]), (child.raw(), [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])];
+    let moved = [
+        (base.raw(), [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
+        (child.raw(), [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
+    ];
     assert_eq!(second.poses, moved);
-    stage.scene.set_local_pose(other, Pose::translation(0.0, 0.0, 0.0)).unwrap();
+    stage
+        .scene
+        .set_local_pose(other, Pose::translation(0.0, 0.0, 0.0))
+        .unwrap();
     assert_eq!(stage.observe().poses.len(), 1);
 }
 
@@ -88,12 +108,23 @@ fn siblings_learn_their_new_order() {
     let (first, second, third) = (stage.dummy("a"), stage.dummy("b"), stage.dummy("c"));
     let places = |update: &Value| -> Vec<(i64, i64)> {
         let objects = update["objects"].as_array().cloned().unwrap_or_default();
-        let place = |object: &Value| (object["handle"].as_i64().unwrap(), object["childOrder"].as_i64().unwrap());
+        let place = |object: &Value| {
+            (
+                object["handle"].as_i64().unwrap(),
+                object["childOrder"].as_i64().unwrap(),
+            )
+        };
         objects.iter().map(place).collect()
     };
-    assert_eq!(places(&stage.update()), [(first.raw(), 0), (second.raw(), 1), (third.raw(), 2)]);
+    assert_eq!(
+        places(&stage.update()),
+        [(first.raw(), 0), (second.raw(), 1), (third.raw(), 2)]
+    );
     stage.scene.set_hierarchy_order(third, 0).unwrap();
-    assert_eq!(places(&stage.update()), [(first.raw(), 1), (second.raw(), 2), (third.raw(), 0)]);
+    assert_eq!(
+        places(&stage.update()),
+        [(first.raw(), 1), (second.raw(), 2), (third.raw(), 0)]
+    );
     stage.scene.remove(&[third]).unwrap();
     let update = stage.update();
     assert_eq!(
@@ -110,7 +141,9 @@ fn a_layer_that_is_switched_off_hides_all_on_it() {
     let mut stage = Stage::new();
     stage.dummy("a");
     assert_eq!(stage.update()["objects"][0]["visible"], true);
-    stage.scene.modify_settings(|settings| settings.visibility_layers = ::scene::Layers::empty());
+    stage
+        .scene
+        .modify_settings(|settings| settings.visibility_layers = ::scene::Layers::empty());
     assert_eq!(stage.update()["objects"][0]["visible"], false);
 }
 
@@ -123,7 +156,10 @@ fn errors_belong_to_their_script() {
         "lua",
         false,
     );
-    let script = stage.scene.add("Script", Kind::Script(Box::new(script))).unwrap();
+    let script = stage
+        .scene
+        .add("Script", Kind::Script(Box::new(script)))
+        .unwrap();
     stage.update();
     let line = RecentLine {
         time: 1.0,
@@ -162,12 +198,21 @@ fn drawing_objects_are_sent_when_they_change() {
     let drawing = stage.scene.add_drawing(style, None).unwrap();
     stage.update();
     assert!(stage.update()["drawings"].is_null());
-    stage.scene.add_drawing_items(drawing, &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0]).unwrap();
+    stage
+        .scene
+        .add_drawing_items(drawing, &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0])
+        .unwrap();
     let shown = stage.update()["drawings"][0].clone();
-    assert_eq!((&shown["itemType"], &shown["stride"]), (&"line".into(), &6.into()));
+    assert_eq!(
+        (&shown["itemType"], &shown["stride"]),
+        (&"line".into(), &6.into())
+    );
     assert_eq!(shown["items"].as_array().map(Vec::len), Some(6));
     stage.scene.drawings_mut().remove(drawing).unwrap();
-    assert_eq!(stage.update()["removedDrawings"], serde_json::json!([drawing]));
+    assert_eq!(
+        stage.update()["removedDrawings"],
+        serde_json::json!([drawing])
+    );
 }
 
 #[test]
@@ -187,31 +232,66 @@ fn lines_of_old_paths_are_sent_when_they_change() {
         flags: 0,
         channels: [0.0; 4],
     };
-    stage.scene.modify_path(handle, |path| path.insert(0, vec![point(0.0), point(1.0)], false)).unwrap().unwrap();
+    stage
+        .scene
+        .modify_path(handle, |path| {
+            path.insert(0, vec![point(0.0), point(1.0)], false)
+        })
+        .unwrap()
+        .unwrap();
     let shown = stage.update()["drawings"][0].clone();
-    assert_eq!(shown["items"], serde_json::json!([0.0, 0.0, 0.0, 1.0, 0.0, 0.0]));
-    assert_eq!((&shown["itemType"], &shown["parent"]), (&"lineStrip".into(), &handle.raw().into()));
+    assert_eq!(
+        shown["items"],
+        serde_json::json!([0.0, 0.0, 0.0, 1.0, 0.0, 0.0])
+    );
+    assert_eq!(
+        (&shown["itemType"], &shown["parent"]),
+        (&"lineStrip".into(), &handle.raw().into())
+    );
     stage.scene.remove(&[handle]).unwrap();
-    assert_eq!(stage.update()["removedDrawings"], serde_json::json!([-handle.raw()]));
+    assert_eq!(
+        stage.update()["removedDrawings"],
+        serde_json::json!([-handle.raw()])
+    );
 }
 
 #[test]
 fn shapes_share_their_meshes() {
     let mut stage = Stage::new();
     stage.scene.add_default_objects().unwrap();
-    let shape = stage.scene.objects().find(|object| object.shape().is_ok()).unwrap().handle();
+    let shape = stage
+        .scene
+        .objects()
+        .find(|object| object.shape().is_ok())
+        .unwrap()
+        .handle();
     stage.update();
     let before = stage.mirror.blobs_since(0).count();
-    let copies = stage.scene.copy_objects(&[shape], ::scene::CopyOptions::empty()).unwrap();
+    let copies = stage
+        .scene
+        .copy_objects(&[shape], ::scene::CopyOptions::empty())
+        .unwrap();
     let update = stage.update();
-    assert!(!copies.is_empty() && update["objects"].as_array().is_some_and(|objects| !objects.is_empty()));
+    assert!(
+        !copies.is_empty()
+            && update["objects"]
+                .as_array()
+                .is_some_and(|objects| !objects.is_empty())
+    );
     assert_eq!(stage.mirror.blobs_since(0).count(), before);
-    let mesh = update["objects"].as_array().unwrap().iter().find_map(|object| object["meshes"][0]["blob"].as_str());
+    let mesh = update["objects"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find_map(|object| object["meshes"][0]["blob"].as_str());
     let hash = Hash::from_text(mesh.unwrap()).unwrap();
     let blob = stage.mirror.blob(hash).unwrap();
     assert_eq!(&blob.bytes[..4], b"MESH");
     let count = |at: usize| u32::from_le_bytes(blob.bytes[at..at + 4].try_into().unwrap()) as usize;
     let (vertices, triangles, edges, flags) = (count(4), count(8), count(12), count(16));
     let coordinates = if flags == 1 { 24 * triangles } else { 0 };
-    assert_eq!(blob.bytes.len(), 20 + 12 * vertices + 48 * triangles + coordinates + 8 * edges);
+    assert_eq!(
+        blob.bytes.len(),
+        20 + 12 * vertices + 48 * triangles + coordinates + 8 * edges
+    );
 }

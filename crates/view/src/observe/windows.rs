@@ -53,15 +53,18 @@ impl ObservedWindows {
     /// From `Simulator::ui_changes`.
     pub(crate) fn of(changes: &Value) -> Self {
         let list = |name: &str| changes[name].as_array().into_iter().flatten();
-        let mut windows: Vec<(String, Arc<str>)> =
-            list("windows").map(|window| (window["id"].to_string(), window.to_string().into())).collect();
+        let mut windows: Vec<(String, Arc<str>)> = list("windows")
+            .map(|window| (window["id"].to_string(), window.to_string().into()))
+            .collect();
         windows.sort();
         let known = LISTS.into_iter().filter(|name| changes[*name].is_array());
         Self {
             windows,
             removed: list("removed").map(Value::to_string).collect(),
             is_complete: changes["complete"] == true,
-            lists: known.map(|name| (name, changes[name].to_string().into())).collect(),
+            lists: known
+                .map(|name| (name, changes[name].to_string().into()))
+                .collect(),
         }
     }
 }

@@ -12,7 +12,9 @@ use simulator::Simulator;
 /// When there is no graph with that handle.
 pub(super) fn curves(sim: &Simulator, handle: i64) -> Result<Value, String> {
     let scene = sim.scene();
-    let object = Handle::from_raw(handle).ok_or(SceneError::NoSuchObject).and_then(|handle| scene.object(handle));
+    let object = Handle::from_raw(handle)
+        .ok_or(SceneError::NoSuchObject)
+        .and_then(|handle| scene.object(handle));
     let object = object.map_err(|error| error.to_string())?;
     let graph = object.graph().map_err(|error| error.to_string())?;
     let over_time: Vec<Value> = of_streams(graph);
@@ -20,7 +22,10 @@ pub(super) fn curves(sim: &Simulator, handle: i64) -> Result<Value, String> {
     let flat: Vec<Value> = flat
         .map(|curve| {
             let points = graph.points(curve);
-            curve_of(&curve.style, points.iter().map(|point| [point[0], point[1]]).collect())
+            curve_of(
+                &curve.style,
+                points.iter().map(|point| [point[0], point[1]]).collect(),
+            )
         })
         .collect();
     Ok(json!({ "title": object.alias(), "curves": over_time, "xyCurves": flat }))
@@ -28,7 +33,9 @@ pub(super) fn curves(sim: &Simulator, handle: i64) -> Result<Value, String> {
 
 fn of_streams(graph: &Graph) -> Vec<Value> {
     let visible = graph.streams().iter().filter(|stream| stream.visible);
-    visible.map(|stream| curve_of(&stream.style, graph.values(stream))).collect()
+    visible
+        .map(|stream| curve_of(&stream.style, graph.values(stream)))
+        .collect()
 }
 
 fn curve_of(style: &CurveStyle, points: Vec<[f64; 2]>) -> Value {

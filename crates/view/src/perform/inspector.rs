@@ -14,8 +14,13 @@ const UNITS: &str = include_str!("units.tsv");
 /// # Errors
 /// When there is nothing with that handle.
 pub(crate) fn rows(sim: &Simulator, handle: i64) -> Result<Vec<(String, Value)>, String> {
-    let rows = sim.property_rows(handle).map_err(|error| error.to_string())?;
-    Ok(rows.into_iter().map(|row| (row.name.clone(), describe(&row))).collect())
+    let rows = sim
+        .property_rows(handle)
+        .map_err(|error| error.to_string())?;
+    Ok(rows
+        .into_iter()
+        .map(|row| (row.name.clone(), describe(&row)))
+        .collect())
 }
 
 fn describe(row: &PropertyRow) -> Value {
@@ -40,8 +45,29 @@ fn group(row: &PropertyRow) -> &'static str {
         "object" if begins(&["pose", "bb", "mov", "calc"]) => "pose",
         "object" if begins(&["model"]) => "model",
         _ if begins(&["color", "applyColor", "rayColor", "lightColor"]) => "color",
-        _ if begins(&["bullet", "ode", "vortex", "newton", "mujoco", "rapier", "engineProperties"]) => "engine",
-        _ if begins(&["dyn", "respondable", "mass", "inertia", "centerOfMass", "init", "principal", "kinematic"]) => {
+        _ if begins(&[
+            "bullet",
+            "ode",
+            "vortex",
+            "newton",
+            "mujoco",
+            "rapier",
+            "engineProperties",
+        ]) =>
+        {
+            "engine"
+        }
+        _ if begins(&[
+            "dyn",
+            "respondable",
+            "mass",
+            "inertia",
+            "centerOfMass",
+            "init",
+            "principal",
+            "kinematic",
+        ]) =>
+        {
             "dynamics"
         }
         class => class,
@@ -49,7 +75,11 @@ fn group(row: &PropertyRow) -> &'static str {
 }
 
 fn unit(name: &str) -> Option<&'static str> {
-    UNITS.lines().find_map(|line| line.split_once('\t').filter(|(known, _)| *known == name).map(|(_, unit)| unit))
+    UNITS.lines().find_map(|line| {
+        line.split_once('\t')
+            .filter(|(known, _)| *known == name)
+            .map(|(_, unit)| unit)
+    })
 }
 
 /// The name in words: `jointPosition` is a joint position.
@@ -58,7 +88,10 @@ fn label(name: &str) -> String {
     for letter in name.chars() {
         match letter {
             '.' | '_' => words.push(' '),
-            letter if letter.is_ascii_uppercase() && words.ends_with(|last: char| last.is_ascii_lowercase()) => {
+            letter
+                if letter.is_ascii_uppercase()
+                    && words.ends_with(|last: char| last.is_ascii_lowercase()) =>
+            {
                 words.push(' ');
                 words.push(letter.to_ascii_lowercase());
             }

@@ -19,7 +19,11 @@ pub(crate) use inspector::rows;
 ///
 /// # Errors
 /// Why it cannot be done, in a sentence.
-pub(crate) fn perform(sim: &mut Simulator, action: &Action, lines: &mut Vec<RecentLine>) -> Result<Value, String> {
+pub(crate) fn perform(
+    sim: &mut Simulator,
+    action: &Action,
+    lines: &mut Vec<RecentLine>,
+) -> Result<Value, String> {
     match action {
         Action::Play => sim.play(),
         Action::Pause => sim.pause(),
@@ -27,7 +31,10 @@ pub(crate) fn perform(sim: &mut Simulator, action: &Action, lines: &mut Vec<Rece
         Action::Step(count) => sim.step_and_pause(*count),
         Action::Speed(factor) => sim.set_pace(*factor),
         Action::Select(handles) => {
-            let handles: Vec<Handle> = handles.iter().filter_map(|handle| Handle::from_raw(*handle)).collect();
+            let handles: Vec<Handle> = handles
+                .iter()
+                .filter_map(|handle| Handle::from_raw(*handle))
+                .collect();
             sim.scene_mut().select(&handles);
         }
         Action::Inspect(None) | Action::Watch(_) | Action::Show { .. } => {}
@@ -35,16 +42,31 @@ pub(crate) fn perform(sim: &mut Simulator, action: &Action, lines: &mut Vec<Rece
             let rows = rows(sim, *handle)?.into_iter().map(|(_, row)| row);
             return Ok(rows.collect());
         }
-        Action::Set { handle, name, value } => set(sim, *handle, name, value)?,
+        Action::Set {
+            handle,
+            name,
+            value,
+        } => set(sim, *handle, name, value)?,
         Action::Script(handle) => {
-            let (name, language, text) = sim.script_text(*handle).map_err(|error| error.to_string())?;
-            return Ok(json!({ "name": name, "language": language, "text": String::from_utf8_lossy(&text) }));
+            let (name, language, text) = sim
+                .script_text(*handle)
+                .map_err(|error| error.to_string())?;
+            return Ok(
+                json!({ "name": name, "language": language, "text": String::from_utf8_lossy(&text) }),
+            );
         }
         Action::Configure(handle) => {
-            return sim.configure(*handle).map(Value::Bool).map_err(|error| error.to_string());
+            return sim
+                .configure(*handle)
+                .map(Value::Bool)
+                .map_err(|error| error.to_string());
         }
         Action::Graph(handle) => return graph::curves(sim, *handle),
-        Action::Ui { window, widget, input } => use_window(sim, window, widget, input)?,
+        Action::Ui {
+            window,
+            widget,
+            input,
+        } => use_window(sim, window, widget, input)?,
         Action::Answer { .. } => return Err("no dialog waits for an answer".into()),
         Action::Run(code) => return run(sim, code, lines).map(Value::String),
     }
@@ -52,7 +74,12 @@ pub(crate) fn perform(sim: &mut Simulator, action: &Action, lines: &mut Vec<Rece
 }
 
 /// What a person does with a window of a script, or with a user interface of V-REP.
-fn use_window(sim: &mut Simulator, window: &Value, widget: &Value, input: &Value) -> Result<(), String> {
+fn use_window(
+    sim: &mut Simulator,
+    window: &Value,
+    widget: &Value,
+    input: &Value,
+) -> Result<(), String> {
     match window.as_str().and_then(handle_of) {
         Some(interface) => button_interfaces::input(sim, interface, widget, input),
         None => sim.ui_input(&ui_input(window, widget, input)?),
@@ -72,10 +99,15 @@ fn ui_input(window: &Value, widget: &Value, input: &Value) -> Result<Value, Stri
 
 /// Sets a property, with the function that scripts use.
 fn set(sim: &mut Simulator, handle: i64, name: &str, value: &Value) -> Result<(), String> {
-    let ty = sim.property_type(handle, name).map_err(|error| error.to_string())?;
-    let data = values::from_json(ty, value).ok_or_else(|| format!("{name} is {}", values::kind(ty)))?;
+    let ty = sim
+        .property_type(handle, name)
+        .map_err(|error| error.to_string())?;
+    let data =
+        values::from_json(ty, value).ok_or_else(|| format!("{name} is {}", values::kind(ty)))?;
     let arguments = [Data::Int(handle), Data::text(name), data];
-    sim.call_api(values::setter(ty), &arguments).map(drop).map_err(|error| error.to_string())
+    sim.call_api(values::setter(ty), &arguments)
+        .map(drop)
+        .map_err(|error| error.to_string())
 }
 
 /// What code prints, and its errors.
@@ -84,7 +116,11 @@ fn run(sim: &mut Simulator, code: &str, lines: &mut Vec<RecentLine>) -> Result<S
     sim.evaluate(code).map_err(|error| error.to_string())?;
     let said = sim.take_recent_lines();
     let sandbox = Some(sim.sandbox());
-    let own: Vec<&str> = said.iter().filter(|line| line.script == sandbox).map(|line| line.text.as_str()).collect();
+    let own: Vec<&str> = said
+        .iter()
+        .filter(|line| line.script == sandbox)
+        .map(|line| line.text.as_str())
+        .collect();
     let text = own.join("\n");
     lines.extend(said);
     Ok(text)
@@ -109,18 +145,38 @@ mod tests {
     fn code_runs_in_the_sandbox_and_answers_what_it_prints() {
         let mut sim = simulator();
         assert_eq!(done(&mut sim, &Action::Run("1 + 1".into())), Ok("2".into()));
-        assert_eq!(done(&mut sim, &Action::Run("x = 5 print('<b>', x)".into())), Ok("<b>, 5".into()));
+        assert_eq!(
+            done(&mut sim, &Action::Run("x = 5 print('<b>', x)".into())),
+            Ok("<b>, 5".into())
+        );
         let error = done(&mut sim, &Action::Run("error('no')".into())).unwrap();
-        assert!(error.as_str().is_some_and(|text| text.contains("no")), "{error}");
+        assert!(
+            error.as_str().is_some_and(|text| text.contains("no")),
+            "{error}"
+        );
     }
 
     #[test]
     fn properties_are_set_with_the_checks_of_scripts() {
         let mut sim = simulator();
         sim.scene_mut().add_default_objects().unwrap();
-        let floor = sim.scene().objects().find(|object| object.shape().is_ok()).unwrap().handle().raw();
-        let mut set =
-            |name: &str, value: Value| done(&mut sim, &Action::Set { handle: floor, name: name.into(), value });
+        let floor = sim
+            .scene()
+            .objects()
+            .find(|object| object.shape().is_ok())
+            .unwrap()
+            .handle()
+            .raw();
+        let mut set = |name: &str, value: Value| {
+            done(
+                &mut sim,
+                &Action::Set {
+                    handle: floor,
+                    name: name.into(),
+                    value,
+                },
+            )
+        };
         assert_eq!(set("alias", "Ground".into()), Ok(true.into()));
         assert_eq!(set("pose", json!([0, 0, 1, 0, 0, 0, 1])), Ok(true.into()));
         for (name, value) in [
@@ -132,24 +188,44 @@ mod tests {
             ("layer", 1.5.into()),
         ] {
             let outcome = set(name, value.clone());
-            assert!(outcome.as_ref().is_err_and(|reason| !reason.is_empty()), "{name} {value}: {outcome:?}");
+            assert!(
+                outcome.as_ref().is_err_and(|reason| !reason.is_empty()),
+                "{name} {value}: {outcome:?}"
+            );
         }
-        assert!(done(&mut sim, &Action::Set { handle: 999, name: "alias".into(), value: "a".into() }).is_err());
-        assert_eq!(sim.scene().object(Handle(floor as u32)).unwrap().alias(), "Ground");
+        assert!(
+            done(
+                &mut sim,
+                &Action::Set {
+                    handle: 999,
+                    name: "alias".into(),
+                    value: "a".into()
+                }
+            )
+            .is_err()
+        );
+        assert_eq!(
+            sim.scene().object(Handle(floor as u32)).unwrap().alias(),
+            "Ground"
+        );
     }
 
     #[test]
     fn rows_have_values_types_and_units() {
         let mut sim = simulator();
         sim.scene_mut().add_default_objects().unwrap();
-        let handles: Vec<i64> = sim.scene().objects().map(|object| object.handle().raw()).collect();
+        let handles: Vec<i64> = sim
+            .scene()
+            .objects()
+            .map(|object| object.handle().raw())
+            .collect();
         for handle in handles.into_iter().chain([-12, -13]) {
             let rows = done(&mut sim, &Action::Inspect(Some(handle))).unwrap();
             let rows = rows.as_array().unwrap();
             assert!(rows.len() > 10, "{handle}");
-            assert!(
-                rows.iter().all(|row| row["name"].is_string() && row["type"].is_string() && row["group"].is_string())
-            );
+            assert!(rows.iter().all(|row| row["name"].is_string()
+                && row["type"].is_string()
+                && row["group"].is_string()));
         }
         assert!(done(&mut sim, &Action::Inspect(Some(123_456))).is_err());
     }
@@ -199,15 +275,24 @@ mod tests {
             }
             assert_eq!(sim.state(), State::Stopped, "after {:?}", states.last());
         }
-        assert!(states.contains(&State::LastBeforePause) && states.contains(&State::Paused), "{states:?}");
+        assert!(
+            states.contains(&State::LastBeforePause) && states.contains(&State::Paused),
+            "{states:?}"
+        );
     }
 
     #[test]
     fn texts_of_scripts_are_read() {
         let mut sim = simulator();
-        let script = sim.add_script(ScriptKind::Customization, "", b"-- \xff hello").unwrap().handle();
+        let script = sim
+            .add_script(ScriptKind::Customization, "", b"-- \xff hello")
+            .unwrap()
+            .handle();
         let read = done(&mut sim, &Action::Script(script)).unwrap();
-        assert_eq!((&read["language"], &read["text"]), (&"lua".into(), &"-- \u{fffd} hello".into()));
+        assert_eq!(
+            (&read["language"], &read["text"]),
+            (&"lua".into(), &"-- \u{fffd} hello".into())
+        );
         assert!(done(&mut sim, &Action::Script(-99)).is_err());
         assert!(done(&mut sim, &Action::Graph(script)).is_err());
     }

@@ -17,12 +17,14 @@ pub(super) fn to_json(value: &Data) -> Value {
         Data::Bool(value) => (*value).into(),
         Data::Int(value) => (*value).into(),
         Data::Float(value) => (*value).into(),
-        Data::Text(bytes) => {
-            std::str::from_utf8(bytes).map_or_else(|_| json!({ "bytes": bytes.len() }), |text| text.into())
-        }
+        Data::Text(bytes) => std::str::from_utf8(bytes)
+            .map_or_else(|_| json!({ "bytes": bytes.len() }), |text| text.into()),
         Data::Buffer(bytes) => json!({ "bytes": bytes.len() }),
         Data::Array(items) => items.iter().map(to_json).collect(),
-        Data::Map(entries) => entries.iter().map(|(key, value)| (name(key), to_json(value))).collect(),
+        Data::Map(entries) => entries
+            .iter()
+            .map(|(key, value)| (name(key), to_json(value)))
+            .collect(),
     }
 }
 
@@ -39,11 +41,15 @@ fn name(key: &Key) -> String {
 pub(super) fn from_json(ty: ValueType, value: &Value) -> Option<Data> {
     let floats = |count: Option<usize>| {
         let numbers: Option<Vec<f64>> = value.as_array()?.iter().map(Value::as_f64).collect();
-        numbers.filter(|numbers| count.is_none_or(|count| numbers.len() == count)).map(Data::from)
+        numbers
+            .filter(|numbers| count.is_none_or(|count| numbers.len() == count))
+            .map(Data::from)
     };
     let integers = |count: Option<usize>| {
         let numbers: Option<Vec<i64>> = value.as_array()?.iter().map(Value::as_i64).collect();
-        numbers.filter(|numbers| count.is_none_or(|count| numbers.len() == count)).map(Data::from)
+        numbers
+            .filter(|numbers| count.is_none_or(|count| numbers.len() == count))
+            .map(Data::from)
     };
     match ty {
         ValueType::Bool => value.as_bool().map(Data::Bool),

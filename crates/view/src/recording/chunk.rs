@@ -38,7 +38,11 @@ pub struct TimedMessage<'a> {
 }
 
 /// Appends a message to a chunk.
-pub(super) fn push(chunk: &mut Vec<u8>, time: f64, content: Content<'_>) -> Result<(), std::io::Error> {
+pub(super) fn push(
+    chunk: &mut Vec<u8>,
+    time: f64,
+    content: Content<'_>,
+) -> Result<(), std::io::Error> {
     let (kind, hash, bytes) = match content {
         Content::Text(text) => (0, &[][..], text.as_bytes()),
         Content::Binary(bytes) => (1, &[][..], bytes),
@@ -71,17 +75,24 @@ pub fn messages(chunk: &[u8]) -> impl Iterator<Item = Result<TimedMessage<'_>, R
 
 fn first<'a>(rest: &mut &'a [u8]) -> Result<TimedMessage<'a>, RecordingError> {
     let cut = RecordingError::Damaged("a message is cut off");
-    let Some((head, after)) = rest.split_first_chunk::<MESSAGE_HEAD>() else { return Err(cut) };
+    let Some((head, after)) = rest.split_first_chunk::<MESSAGE_HEAD>() else {
+        return Err(cut);
+    };
     let [a, b, c, d, e, f, g, h, kind, length @ ..] = *head;
     let length = u32::from_le_bytes(length) as usize;
-    let Some((bytes, after)) = after.split_at_checked(length) else { return Err(cut) };
+    let Some((bytes, after)) = after.split_at_checked(length) else {
+        return Err(cut);
+    };
     *rest = after;
     let time = f64::from_le_bytes([a, b, c, d, e, f, g, h]);
     if !time.is_finite() {
         return Err(RecordingError::Damaged("a message has no time"));
     }
     let content = match kind {
-        0 => Content::Text(std::str::from_utf8(bytes).map_err(|_| RecordingError::Damaged("a text is no UTF-8"))?),
+        0 => Content::Text(
+            std::str::from_utf8(bytes)
+                .map_err(|_| RecordingError::Damaged("a text is no UTF-8"))?,
+        ),
         1 => Content::Binary(bytes),
         2 => {
             let (hash, bytes) = bytes.split_first_chunk::<HASH>().ok_or(cut)?;
@@ -100,11 +111,17 @@ pub(super) fn compress(bytes: &[u8]) -> Vec<u8> {
 /// What a zstd frame contains, at most so many bytes.
 pub(super) fn decompress(frame: &[u8], limit: u64) -> Result<Vec<u8>, RecordingError> {
     let damaged = |_| RecordingError::Damaged("it cannot be decompressed");
-    let decoder = StreamingDecoder::new(frame).map_err(|_| RecordingError::Damaged("it is not compressed by zstd"))?;
+    let decoder = StreamingDecoder::new(frame)
+        .map_err(|_| RecordingError::Damaged("it is not compressed by zstd"))?;
     let mut bytes = Vec::new();
-    decoder.take(limit + 1).read_to_end(&mut bytes).map_err(damaged)?;
+    decoder
+        .take(limit + 1)
+        .read_to_end(&mut bytes)
+        .map_err(damaged)?;
     if bytes.len() as u64 > limit {
-        return Err(RecordingError::Damaged("it is too large when it is decompressed"));
+        return Err(RecordingError::Damaged(
+            "it is too large when it is decompressed",
+        ));
     }
     Ok(bytes)
 }

@@ -9,9 +9,14 @@ use scene::{Kind, Scene};
 /// The message; None for a scene without graphs.
 pub(super) fn message(scene: &Scene) -> Option<String> {
     let graphs = scene.objects().filter_map(|object| {
-        let Kind::Graph(graph) = &object.kind else { return None };
+        let Kind::Graph(graph) = &object.kind else {
+            return None;
+        };
         let path = scene.short_path(object.handle()).unwrap_or_default();
-        Some(graph_json(&GraphData::new(graph, &path), object.handle().raw()))
+        Some(graph_json(
+            &GraphData::new(graph, &path),
+            object.handle().raw(),
+        ))
     });
     let graphs: Vec<Value> = graphs.collect();
     (!graphs.is_empty()).then(|| json!({ "type": "graphs", "graphs": graphs }).to_string())
@@ -49,13 +54,21 @@ fn style_json(style: &CurveStyle) -> Value {
 /// The graphs of such a message, with their handles; None if it is another one.
 pub fn read(message: &Value) -> Option<Vec<(i64, GraphData)>> {
     (message["type"] == "graphs").then_some(())?;
-    message["graphs"].as_array()?.iter().map(|graph| Some((graph["handle"].as_i64()?, graph_data(graph)?))).collect()
+    message["graphs"]
+        .as_array()?
+        .iter()
+        .map(|graph| Some((graph["handle"].as_i64()?, graph_data(graph)?)))
+        .collect()
 }
 
 fn graph_data(value: &Value) -> Option<GraphData> {
     let stream = |value: &Value| {
         let values = rows(&value["values"])?;
-        Some(StreamData { style: style(value)?, visible: value["visible"].as_bool()?, values })
+        Some(StreamData {
+            style: style(value)?,
+            visible: value["visible"].as_bool()?,
+            values,
+        })
     };
     let curve = |value: &Value| {
         Some(CurveData {
@@ -69,9 +82,21 @@ fn graph_data(value: &Value) -> Option<GraphData> {
         title: value["path"].as_str()?.to_owned(),
         background: colour(&value["background"])?,
         foreground: colour(&value["foreground"])?,
-        times: value["times"].as_array()?.iter().map(Value::as_f64).collect::<Option<_>>()?,
-        streams: value["streams"].as_array()?.iter().map(stream).collect::<Option<_>>()?,
-        curves: value["curves"].as_array()?.iter().map(curve).collect::<Option<_>>()?,
+        times: value["times"]
+            .as_array()?
+            .iter()
+            .map(Value::as_f64)
+            .collect::<Option<_>>()?,
+        streams: value["streams"]
+            .as_array()?
+            .iter()
+            .map(stream)
+            .collect::<Option<_>>()?,
+        curves: value["curves"]
+            .as_array()?
+            .iter()
+            .map(curve)
+            .collect::<Option<_>>()?,
     })
 }
 
@@ -80,7 +105,11 @@ fn rows<const N: usize>(value: &Value) -> Option<Vec<[f64; N]>> {
 }
 
 fn numbers<const N: usize>(value: &Value) -> Option<[f64; N]> {
-    let numbers: Vec<f64> = value.as_array()?.iter().map(Value::as_f64).collect::<Option<_>>()?;
+    let numbers: Vec<f64> = value
+        .as_array()?
+        .iter()
+        .map(Value::as_f64)
+        .collect::<Option<_>>()?;
     numbers.try_into().ok()
 }
 

@@ -50,7 +50,13 @@ pub enum MarkKind {
 }
 
 impl MarkKind {
-    const ALL: [Self; 5] = [Self::Error, Self::Signal, Self::Broadcast, Self::Contact, Self::Failure];
+    const ALL: [Self; 5] = [
+        Self::Error,
+        Self::Signal,
+        Self::Broadcast,
+        Self::Contact,
+        Self::Failure,
+    ];
 
     fn name(self) -> &'static str {
         match self {
@@ -85,7 +91,13 @@ pub struct Index {
 impl Index {
     /// Adds a mark, unless there are very many of its kind.
     pub(crate) fn mark(&mut self, mark: Mark) {
-        if self.marks.iter().filter(|other| other.kind == mark.kind).count() < MAX_MARKS {
+        if self
+            .marks
+            .iter()
+            .filter(|other| other.kind == mark.kind)
+            .count()
+            < MAX_MARKS
+        {
             self.marks.push(mark);
         }
     }
@@ -94,13 +106,17 @@ impl Index {
     pub(crate) fn json(&self, blob: impl Fn(Hash, usize) -> Value) -> Value {
         let place = |chunk: &ChunkPlace| json!({ "time": chunk.time, "place": chunk.place, "length": chunk.length });
         let mark = |mark: &Mark| {
-            let mut value = json!({ "time": mark.time, "kind": mark.kind.name(), "text": mark.text });
+            let mut value =
+                json!({ "time": mark.time, "kind": mark.kind.name(), "text": mark.text });
             if let Some(handle) = mark.handle {
                 value["handle"] = handle.into();
             }
             value
         };
-        let blobs = self.blobs.iter().map(|(hash, chunk)| (hash.to_string(), blob(*hash, *chunk)));
+        let blobs = self
+            .blobs
+            .iter()
+            .map(|(hash, chunk)| (hash.to_string(), blob(*hash, *chunk)));
         json!({
             "version": super::VERSION,
             "name": self.name,
@@ -120,22 +136,31 @@ impl Index {
 
     /// The index of a file whose chunks end at `end`. Nothing is trusted: places lie in the file, one after the other.
     pub(super) fn from_bytes(bytes: &[u8], end: u64) -> Result<Self, RecordingError> {
-        let value: Value =
-            serde_json::from_slice(bytes).map_err(|_| RecordingError::Damaged("its index is no JSON"))?;
+        let value: Value = serde_json::from_slice(bytes)
+            .map_err(|_| RecordingError::Damaged("its index is no JSON"))?;
         Self::from_json(&value, end).ok_or(RecordingError::Damaged("its index is wrong"))
     }
 
     fn from_json(value: &Value, end: u64) -> Option<Self> {
-        let chunks: Vec<ChunkPlace> = value["chunks"].as_array()?.iter().map(chunk_place).collect::<Option<_>>()?;
+        let chunks: Vec<ChunkPlace> = value["chunks"]
+            .as_array()?
+            .iter()
+            .map(chunk_place)
+            .collect::<Option<_>>()?;
         let mut next = FILE_HEAD;
         for chunk in &chunks {
             if chunk.place < next || end - CHUNK_HEAD < u64::from(chunk.length) {
                 return None;
             }
-            next = chunk.place.checked_add(CHUNK_HEAD + u64::from(chunk.length)).filter(|next| *next <= end)?;
+            next = chunk
+                .place
+                .checked_add(CHUNK_HEAD + u64::from(chunk.length))
+                .filter(|next| *next <= end)?;
         }
         let blob = |(hash, chunk): (&String, &Value)| {
-            let chunk = usize::try_from(chunk.as_u64()?).ok().filter(|chunk| *chunk < chunks.len())?;
+            let chunk = usize::try_from(chunk.as_u64()?)
+                .ok()
+                .filter(|chunk| *chunk < chunks.len())?;
             Some((Hash::from_text(hash)?, chunk))
         };
         Some(Self {
@@ -143,8 +168,16 @@ impl Index {
             start: value["start"].as_f64()?,
             end: value["end"].as_f64()?,
             time_step: value["timeStep"].as_f64()?,
-            blobs: value["blobs"].as_object()?.iter().map(blob).collect::<Option<_>>()?,
-            marks: value["marks"].as_array()?.iter().map(mark).collect::<Option<_>>()?,
+            blobs: value["blobs"]
+                .as_object()?
+                .iter()
+                .map(blob)
+                .collect::<Option<_>>()?,
+            marks: value["marks"]
+                .as_array()?
+                .iter()
+                .map(mark)
+                .collect::<Option<_>>()?,
             chunks,
         })
     }
@@ -152,14 +185,20 @@ impl Index {
 
 fn chunk_place(value: &Value) -> Option<ChunkPlace> {
     let length = value["length"].as_u64()?.try_into().ok()?;
-    Some(ChunkPlace { time: value["time"].as_f64()?, place: value["place"].as_u64()?, length })
+    Some(ChunkPlace {
+        time: value["time"].as_f64()?,
+        place: value["place"].as_u64()?,
+        length,
+    })
 }
 
 fn mark(value: &Value) -> Option<Mark> {
     let kind = value["kind"].as_str()?;
     Some(Mark {
         time: value["time"].as_f64()?,
-        kind: MarkKind::ALL.into_iter().find(|known| known.name() == kind)?,
+        kind: MarkKind::ALL
+            .into_iter()
+            .find(|known| known.name() == kind)?,
         text: value["text"].as_str()?.to_owned(),
         handle: value["handle"].as_i64(),
     })

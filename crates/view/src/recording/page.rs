@@ -22,18 +22,29 @@ pub fn html<R: Read + Seek>(
     read: &dyn Fn(&str) -> Option<String>,
     out: &mut impl Write,
 ) -> Result<(), RecordingError> {
-    let wrong_page = || std::io::Error::other("the page of the viewer is not as its recordings need it");
+    let wrong_page =
+        || std::io::Error::other("the page of the viewer is not as its recordings need it");
     let page = read("index.html").ok_or_else(wrong_page)?;
     let (head, rest) = page.split_once(STYLE).ok_or_else(wrong_page)?;
     let (body, end) = rest.split_once(SCRIPT).ok_or_else(wrong_page)?;
     let style = read("style.css").ok_or_else(wrong_page)?;
     let program = read("main.js").ok_or_else(wrong_page)?;
     write!(out, "{head}<style>\n{style}</style>{body}")?;
-    let index = recording.index().json(|_, chunk| chunk.into()).to_string().replace('<', "\\u003c");
-    writeln!(out, "<script type=\"application/json\" id=\"recording\">{index}</script>")?;
+    let index = recording
+        .index()
+        .json(|_, chunk| chunk.into())
+        .to_string()
+        .replace('<', "\\u003c");
+    writeln!(
+        out,
+        "<script type=\"application/json\" id=\"recording\">{index}</script>"
+    )?;
     for number in 0..recording.index().chunks.len() {
         let chunk = STANDARD.encode(gzip(&recording.chunk(number)?)?);
-        writeln!(out, "<script type=\"application/octet-stream\" data-chunk=\"{number}\">{chunk}</script>")?;
+        writeln!(
+            out,
+            "<script type=\"application/octet-stream\" data-chunk=\"{number}\">{chunk}</script>"
+        )?;
     }
     // Within a script element, `</` could end it.
     let program = program.replace("</script", "<\\/script");

@@ -7,7 +7,8 @@ use serde_json::Value;
 
 use super::chunk::{self, Content};
 use super::{
-    CHUNK_HEAD, ChunkPlace, END, FILE_END, FILE_HEAD, Index, MAGIC, MAX_CHUNK, Mark, MarkKind, RecordingError, VERSION,
+    CHUNK_HEAD, ChunkPlace, END, FILE_END, FILE_HEAD, Index, MAGIC, MAX_CHUNK, Mark, MarkKind,
+    RecordingError, VERSION,
 };
 use crate::blobs::Hash;
 
@@ -52,7 +53,11 @@ impl<R: Read + Seek> Recording<R> {
     /// # Errors
     /// When there is no such chunk, or it is damaged.
     pub fn chunk(&mut self, number: usize) -> Result<Vec<u8>, RecordingError> {
-        let place = self.index.chunks.get(number).ok_or(RecordingError::Damaged("there is no such chunk"))?;
+        let place = self
+            .index
+            .chunks
+            .get(number)
+            .ok_or(RecordingError::Damaged("there is no such chunk"))?;
         let end = place.place + CHUNK_HEAD + u64::from(place.length);
         Ok(read_at(&mut self.file, place.place, end)?.1)
     }
@@ -62,11 +67,15 @@ impl<R: Read + Seek> Recording<R> {
     /// # Errors
     /// When it is not there, or its chunk is damaged.
     pub(crate) fn blob(&mut self, hash: Hash) -> Result<Option<Vec<u8>>, RecordingError> {
-        let Some(&number) = self.index.blobs.get(&hash) else { return Ok(None) };
+        let Some(&number) = self.index.blobs.get(&hash) else {
+            return Ok(None);
+        };
         let chunk = self.chunk(number)?;
         for message in chunk::messages(&chunk) {
             match message?.content {
-                Content::Blob { hash: this, bytes } if this == hash.0 => return Ok(Some(bytes.to_vec())),
+                Content::Blob { hash: this, bytes } if this == hash.0 => {
+                    return Ok(Some(bytes.to_vec()));
+                }
                 _ => {}
             }
         }
@@ -77,7 +86,8 @@ impl<R: Read + Seek> Recording<R> {
 fn check_head(file: &mut (impl Read + Seek)) -> Result<(), RecordingError> {
     file.rewind()?;
     let mut head = [0; FILE_HEAD as usize];
-    file.read_exact(&mut head).map_err(|_| RecordingError::NoRecording)?;
+    file.read_exact(&mut head)
+        .map_err(|_| RecordingError::NoRecording)?;
     let [magic @ .., a, b, c, d, _, _, _, _] = head;
     match (magic == *MAGIC, u32::from_le_bytes([a, b, c, d])) {
         (false, _) => Err(RecordingError::NoRecording),
@@ -87,7 +97,10 @@ fn check_head(file: &mut (impl Read + Seek)) -> Result<(), RecordingError> {
 }
 
 /// The place of the index and the end of the chunks; None for a file without an end.
-fn end_of_chunks(file: &mut (impl Read + Seek), length: u64) -> Result<Option<(u64, u64)>, RecordingError> {
+fn end_of_chunks(
+    file: &mut (impl Read + Seek),
+    length: u64,
+) -> Result<Option<(u64, u64)>, RecordingError> {
     if length < FILE_HEAD + FILE_END {
         return Ok(None);
     }
@@ -102,7 +115,11 @@ fn end_of_chunks(file: &mut (impl Read + Seek), length: u64) -> Result<Option<(u
 }
 
 /// Head and content of what is at `place`, which ends at `end` at the latest.
-fn read_at(file: &mut (impl Read + Seek), place: u64, end: u64) -> Result<(Head, Vec<u8>), RecordingError> {
+fn read_at(
+    file: &mut (impl Read + Seek),
+    place: u64,
+    end: u64,
+) -> Result<(Head, Vec<u8>), RecordingError> {
     let cut = |_| RecordingError::Damaged("it is cut off");
     file.seek(SeekFrom::Start(place))?;
     let mut head = [0; CHUNK_HEAD as usize];
@@ -127,7 +144,10 @@ fn read_at(file: &mut (impl Read + Seek), place: u64, end: u64) -> Result<(Head,
 
 /// The index of a file that has none: of all chunks up to the first that is not whole.
 fn scan(file: &mut (impl Read + Seek), length: u64) -> Result<Index, RecordingError> {
-    let mut index = Index { time_step: 0.05, ..Index::default() };
+    let mut index = Index {
+        time_step: 0.05,
+        ..Index::default()
+    };
     let mut place = FILE_HEAD;
     while let Ok((head, chunk)) = read_at(file, place, length) {
         let Ok(found) = Found::of(&chunk) else { break };
@@ -135,7 +155,11 @@ fn scan(file: &mut (impl Read + Seek), length: u64) -> Result<Index, RecordingEr
             break;
         }
         let number = index.chunks.len();
-        index.chunks.push(ChunkPlace { time: head.time, place, length: head.length });
+        index.chunks.push(ChunkPlace {
+            time: head.time,
+            place,
+            length: head.length,
+        });
         place += CHUNK_HEAD + u64::from(head.length);
         for hash in found.blobs {
             index.blobs.entry(hash).or_insert(number);
@@ -177,12 +201,21 @@ impl Found {
 
     /// The name of the scene, and errors in the log.
     fn read_text(&mut self, text: &str, time: f64) {
-        let Ok(message) = serde_json::from_str::<BTreeMap<String, Value>>(text) else { return };
+        let Ok(message) = serde_json::from_str::<BTreeMap<String, Value>>(text) else {
+            return;
+        };
         if let Some(scene) = message.get("scene").filter(|_| self.name.is_empty()) {
-            scene["name"].as_str().unwrap_or_default().clone_into(&mut self.name);
+            scene["name"]
+                .as_str()
+                .unwrap_or_default()
+                .clone_into(&mut self.name);
             self.time_step = scene["timeStep"].as_f64();
         }
-        let lines = message.get("log").and_then(Value::as_array).into_iter().flatten();
+        let lines = message
+            .get("log")
+            .and_then(Value::as_array)
+            .into_iter()
+            .flatten();
         let errors = lines.filter(|line| line["level"] == "scripterrors");
         self.marks.extend(errors.map(|line| Mark {
             time,

@@ -40,11 +40,24 @@ impl<W: Write> Recorder<W> {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub(crate) fn new(file: W, source: &Source<'_>, lines: &[RecentLine], recorded: Recorded) -> std::io::Result<Self> {
+    pub(crate) fn new(
+        file: W,
+        source: &Source<'_>,
+        lines: &[RecentLine],
+        recorded: Recorded,
+    ) -> std::io::Result<Self> {
         let writer = Writer::new(file, &source.name(), source.now.scene.settings().time_step)?;
         let (observer, mirror) = (Observer::default(), Mirror::default());
         let images = (recorded == Recorded::SceneAndImages).then(Images::default);
-        let mut recorder = Self { images, observer, mirror, seen: 0, writer, before: 0.0, last: source.now.time };
+        let mut recorder = Self {
+            images,
+            observer,
+            mirror,
+            seen: 0,
+            writer,
+            before: 0.0,
+            last: source.now.time,
+        };
         recorder.record(source, lines)?;
         Ok(recorder)
     }
@@ -53,7 +66,11 @@ impl<W: Write> Recorder<W> {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub(crate) fn record(&mut self, source: &Source<'_>, lines: &[RecentLine]) -> std::io::Result<()> {
+    pub(crate) fn record(
+        &mut self,
+        source: &Source<'_>,
+        lines: &[RecentLine],
+    ) -> std::io::Result<()> {
         if source.now.time < self.last {
             // Another simulation has begun: the timeline goes on.
             self.before += self.last;
@@ -84,15 +101,25 @@ impl<W: Write> Recorder<W> {
             true => self.mirror.snapshot_with_lines_since(self.seen),
             false => self.mirror.changes_since(self.seen),
         };
-        let Some(changes) = changes else { return Ok(()) };
+        let Some(changes) = changes else {
+            return Ok(());
+        };
         self.seen = changes.revision;
-        changes.messages().iter().try_for_each(|message| self.writer.add(time, message))
+        changes
+            .messages()
+            .iter()
+            .try_for_each(|message| self.writer.add(time, message))
     }
 
     fn add_images(&mut self, scene: &Scene) -> std::io::Result<()> {
         let time = self.time();
-        let new = self.images.as_mut().map(|images| images.of_all(scene, time)).unwrap_or_default();
-        new.into_iter().try_for_each(|image| self.writer.add(time, &Message::Binary(image)))
+        let new = self
+            .images
+            .as_mut()
+            .map(|images| images.of_all(scene, time))
+            .unwrap_or_default();
+        new.into_iter()
+            .try_for_each(|image| self.writer.add(time, &Message::Binary(image)))
     }
 
     /// Of the timeline, seconds.
@@ -108,7 +135,12 @@ impl<W: Write> Recorder<W> {
 
     /// Notes what happened now.
     pub(crate) fn mark(&mut self, kind: MarkKind, text: &str, handle: Option<i64>) {
-        self.writer.mark(Mark { time: self.time(), kind, text: text.to_owned(), handle });
+        self.writer.mark(Mark {
+            time: self.time(),
+            kind,
+            text: text.to_owned(),
+            handle,
+        });
     }
 
     /// Completes the file, with the last lines of the log and what graphs have recorded.

@@ -28,11 +28,20 @@ impl<W: Write + 'static> RunRecorder<W> {
     /// # Errors
     /// When the file cannot be written.
     pub fn start(sim: &Simulator, file: W, recorded: Recorded) -> std::io::Result<Self> {
-        let recorder = sim.with_present(|present| Recorder::new(file, &source(present), &present.lines, recorded))?;
+        let recorder = sim.with_present(|present| {
+            Recorder::new(file, &source(present), &present.lines, recorded)
+        })?;
         let (signals, contacts) = Default::default();
-        let state = Rc::new(RefCell::new(State { recorder: Some(recorder), failure: None, signals, contacts }));
+        let state = Rc::new(RefCell::new(State {
+            recorder: Some(recorder),
+            failure: None,
+            signals,
+            contacts,
+        }));
         let watching = Rc::clone(&state);
-        sim.watch(Some(Box::new(move |present| watching.borrow_mut().add(present))));
+        sim.watch(Some(Box::new(move |present| {
+            watching.borrow_mut().add(present)
+        })));
         Ok(Self(state))
     }
 
@@ -58,7 +67,9 @@ impl<W: Write + 'static> RunRecorder<W> {
 
 impl<W: Write> State<W> {
     fn add(&mut self, present: &Present<'_>) {
-        let Some(recorder) = &mut self.recorder else { return };
+        let Some(recorder) = &mut self.recorder else {
+            return;
+        };
         if let Err(error) = recorder.record(&source(present), &present.lines) {
             (self.recorder, self.failure) = (None, Some(error));
         }
@@ -68,13 +79,23 @@ impl<W: Write> State<W> {
     /// Marks signals that come and go, messages, and shapes that touch each other now.
     fn mark_changes(&mut self, present: &Present<'_>) {
         let signals = std::mem::replace(&mut self.signals, present.signals.clone());
-        let (set, cleared) = (present.signals.difference(&signals), signals.difference(&present.signals));
+        let (set, cleared) = (
+            present.signals.difference(&signals),
+            signals.difference(&present.signals),
+        );
         set.for_each(|name| self.mark(MarkKind::Signal, name, None));
         cleared.for_each(|name| self.mark(MarkKind::Signal, &format!("{name} is cleared"), None));
-        present.broadcasts.iter().for_each(|name| self.mark(MarkKind::Broadcast, name, None));
+        present
+            .broadcasts
+            .iter()
+            .for_each(|name| self.mark(MarkKind::Broadcast, name, None));
         let contacts = std::mem::replace(&mut self.contacts, present.contacts.clone());
         for [first, second] in present.contacts.difference(&contacts) {
-            let text = format!("{} and {}", path(present.now.scene, *first), path(present.now.scene, *second));
+            let text = format!(
+                "{} and {}",
+                path(present.now.scene, *first),
+                path(present.now.scene, *second)
+            );
             self.mark(MarkKind::Contact, &text, Some(first.raw()));
         }
     }
@@ -87,9 +108,15 @@ impl<W: Write> State<W> {
 }
 
 fn source<'a>(present: &Present<'a>) -> Source<'a> {
-    Source { now: present.now, is_read_only: true, mode: RECORDING }
+    Source {
+        now: present.now,
+        is_read_only: true,
+        mode: RECORDING,
+    }
 }
 
 fn path(scene: &Scene, handle: Handle) -> String {
-    scene.short_path(handle).unwrap_or_else(|_| handle.raw().to_string())
+    scene
+        .short_path(handle)
+        .unwrap_or_else(|_| handle.raw().to_string())
 }

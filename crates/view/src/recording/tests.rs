@@ -18,17 +18,26 @@ fn recording() -> Vec<u8> {
         let time = 0.05 * f64::from(step);
         if writer.chunk_is_full(time) {
             writer.end_chunk().expect("memory takes all");
-            let snapshot = r#"{"type":"snapshot","scene":{"name":"a<b>.ttt","timeStep":0.05},"objects":[]}"#;
+            let snapshot =
+                r#"{"type":"snapshot","scene":{"name":"a<b>.ttt","timeStep":0.05},"objects":[]}"#;
             writer.add(time, &text(snapshot)).expect("memory takes all");
         }
-        writer.add(time, &Message::Binary(vec![1, 0, 0, step as u8])).expect("memory takes all");
+        writer
+            .add(time, &Message::Binary(vec![1, 0, 0, step as u8]))
+            .expect("memory takes all");
         if step == 30 {
             let blob = Blob::points(&[([1.0, 2.0, 3.0], [4, 5, 6])]);
             writer.add_blob(time, &blob).expect("memory takes all");
             writer.add_blob(time, &blob).expect("memory takes all");
-            let update = r#"{"type":"update","log":[{"level":"scripterrors","text":"no","handle":7}]}"#;
+            let update =
+                r#"{"type":"update","log":[{"level":"scripterrors","text":"no","handle":7}]}"#;
             writer.add(time, &text(update)).expect("memory takes all");
-            writer.mark(Mark { time, kind: MarkKind::Error, text: "no".into(), handle: Some(7) });
+            writer.mark(Mark {
+                time,
+                kind: MarkKind::Error,
+                text: "no".into(),
+                handle: Some(7),
+            });
         }
     }
     writer.finish().expect("memory takes all")
@@ -40,11 +49,19 @@ fn open(file: &[u8]) -> Result<Recording<Cursor<&[u8]>>, RecordingError> {
 
 /// Reads everything; whether that was possible.
 fn read_all(file: &[u8]) -> bool {
-    let Ok(mut recording) = open(file) else { return false };
-    let (chunks, blobs) = (recording.index().chunks.len(), recording.index().blobs.clone());
-    let blobs_are_there = blobs.keys().all(|hash| matches!(recording.blob(*hash), Ok(Some(_))));
+    let Ok(mut recording) = open(file) else {
+        return false;
+    };
+    let (chunks, blobs) = (
+        recording.index().chunks.len(),
+        recording.index().blobs.clone(),
+    );
+    let blobs_are_there = blobs
+        .keys()
+        .all(|hash| matches!(recording.blob(*hash), Ok(Some(_))));
     let is_sound = |chunk: &[u8]| messages(chunk).all(|message| message.is_ok());
-    blobs_are_there && (0..chunks).all(|number| recording.chunk(number).is_ok_and(|chunk| is_sound(&chunk)))
+    blobs_are_there
+        && (0..chunks).all(|number| recording.chunk(number).is_ok_and(|chunk| is_sound(&chunk)))
 }
 
 #[test]
@@ -52,17 +69,37 @@ fn what_is_written_is_read() {
     let file = recording();
     let mut recording = open(&file).expect("it is complete");
     let index = recording.index().clone();
-    assert_eq!((index.name.as_str(), index.start, index.time_step), ("a<b>.ttt", 0.0, 0.05));
+    assert_eq!(
+        (index.name.as_str(), index.start, index.time_step),
+        ("a<b>.ttt", 0.0, 0.05)
+    );
     assert!((index.end - 2.45).abs() < 1e-9);
     let times: Vec<f64> = index.chunks.iter().map(|chunk| chunk.time).collect();
-    assert!(times.iter().zip([0.0, 1.0, 2.0]).all(|(a, b)| (a - b).abs() < 1e-9) && times.len() == 3, "{times:?}");
+    assert!(
+        times
+            .iter()
+            .zip([0.0, 1.0, 2.0])
+            .all(|(a, b)| (a - b).abs() < 1e-9)
+            && times.len() == 3,
+        "{times:?}"
+    );
     assert_eq!(index.marks.len(), 1);
     assert_eq!(index.blobs.values().collect::<Vec<_>>(), [&1]);
     let hash = *index.blobs.keys().next().expect("there is one");
-    assert_eq!(recording.blob(hash).expect("it is sound").expect("it is there")[..4], *b"PNTS");
+    assert_eq!(
+        recording
+            .blob(hash)
+            .expect("it is sound")
+            .expect("it is there")[..4],
+        *b"PNTS"
+    );
     let chunk = recording.chunk(1).expect("it is sound");
-    let all: Vec<TimedMessage> = messages(&chunk).collect::<Result<_, _>>().expect("it is sound");
-    assert!(matches!(all[0].content, Content::Text(text) if text.starts_with("{\"type\":\"snapshot\"")));
+    let all: Vec<TimedMessage> = messages(&chunk)
+        .collect::<Result<_, _>>()
+        .expect("it is sound");
+    assert!(
+        matches!(all[0].content, Content::Text(text) if text.starts_with("{\"type\":\"snapshot\""))
+    );
     assert_eq!(all[1].content, Content::Binary(&[1, 0, 0, 20]));
     assert_eq!(all.len(), 1 + 20 + 2);
     assert!(recording.chunk(3).is_err());
@@ -79,7 +116,11 @@ fn a_file_without_an_end_is_read_from_the_front() {
             Ok(recording) => {
                 let index = recording.index();
                 assert!(read_all(cut), "{length}");
-                assert_eq!(index.chunks[..], whole.chunks[..index.chunks.len()], "{length}");
+                assert_eq!(
+                    index.chunks[..],
+                    whole.chunks[..index.chunks.len()],
+                    "{length}"
+                );
                 assert_eq!(index.name, whole.name);
                 found.push(index.chunks.len());
                 if index.chunks.len() == 3 {
@@ -104,7 +145,13 @@ fn what_is_damaged_never_panics() {
             read_all(&damaged);
         }
     }
-    for nonsense in [&b""[..], b"SWRECORD", b"SWRECORD\x01\0\0\0\0\0\0\0", &[0xff; 200], &file[1..]] {
+    for nonsense in [
+        &b""[..],
+        b"SWRECORD",
+        b"SWRECORD\x01\0\0\0\0\0\0\0",
+        &[0xff; 200],
+        &file[1..],
+    ] {
         assert!(!read_all(nonsense));
     }
     let mut newer = file;
@@ -120,7 +167,9 @@ fn an_index_leads_to_nothing_outside_of_the_file() {
         )
     };
     let is_read = |chunks: &str| Index::from_bytes(index(chunks).as_bytes(), 1000).is_ok();
-    assert!(is_read(r#"{"time":0,"place":16,"length":100},{"time":1,"place":132,"length":10}"#));
+    assert!(is_read(
+        r#"{"time":0,"place":16,"length":100},{"time":1,"place":132,"length":10}"#
+    ));
     for wrong in [
         r#"{"time":0,"place":0,"length":100}"#,
         r#"{"time":0,"place":900,"length":100}"#,
@@ -141,7 +190,10 @@ fn a_bomb_is_not_unpacked_whole() {
     for _ in 0..100 {
         frame.extend([0x02, 0x00, 0x10, 0x00]);
     }
-    assert!(matches!(chunk::decompress(&frame, 1 << 20), Err(RecordingError::Damaged(_))));
+    assert!(matches!(
+        chunk::decompress(&frame, 1 << 20),
+        Err(RecordingError::Damaged(_))
+    ));
 }
 
 #[test]

@@ -31,14 +31,26 @@ impl<W: Write> Writer<W> {
         file.write_all(MAGIC)?;
         file.write_all(&VERSION.to_le_bytes())?;
         file.write_all(&[0; 4])?;
-        let index = Index { name: name.to_owned(), time_step, ..Index::default() };
-        Ok(Self { file, place: FILE_HEAD, chunk: Vec::new(), begun: 0.0, index })
+        let index = Index {
+            name: name.to_owned(),
+            time_step,
+            ..Index::default()
+        };
+        Ok(Self {
+            file,
+            place: FILE_HEAD,
+            chunk: Vec::new(),
+            begun: 0.0,
+            index,
+        })
     }
 
     /// Whether the next message shall be in another chunk.
     pub(crate) fn chunk_is_full(&self, time: f64) -> bool {
         // Times are sums of steps: differences below a microsecond are rounding errors.
-        self.chunk.is_empty() || self.chunk.len() >= CHUNK_SIZE || time - self.begun > CHUNK_DURATION - 1e-6
+        self.chunk.is_empty()
+            || self.chunk.len() >= CHUNK_SIZE
+            || time - self.begun > CHUNK_DURATION - 1e-6
     }
 
     /// Writes the chunk, so that the next message begins another one.
@@ -51,7 +63,11 @@ impl<W: Write> Writer<W> {
         }
         let chunk = std::mem::take(&mut self.chunk);
         let length = self.write_compressed(&chunk, self.begun)?;
-        self.index.chunks.push(ChunkPlace { time: self.begun, place: self.place, length });
+        self.index.chunks.push(ChunkPlace {
+            time: self.begun,
+            place: self.place,
+            length,
+        });
         self.place += super::CHUNK_HEAD + u64::from(length);
         Ok(())
     }
@@ -80,7 +96,13 @@ impl<W: Write> Writer<W> {
             return Ok(());
         }
         self.index.blobs.insert(blob.hash, number);
-        self.push(time, Content::Blob { hash: blob.hash.0, bytes: &blob.bytes })
+        self.push(
+            time,
+            Content::Blob {
+                hash: blob.hash.0,
+                bytes: &blob.bytes,
+            },
+        )
     }
 
     /// Adds a message.

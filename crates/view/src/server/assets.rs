@@ -18,13 +18,18 @@ static ASSETS: &[Asset] = include!(concat!(env!("OUT_DIR"), "/page_files.rs"));
 
 /// The file with that name.
 pub(super) fn find(name: &str) -> Option<&'static Asset> {
-    ASSETS.binary_search_by_key(&name, |asset| asset.name).ok().map(|at| &ASSETS[at])
+    ASSETS
+        .binary_search_by_key(&name, |asset| asset.name)
+        .ok()
+        .map(|at| &ASSETS[at])
 }
 
 /// The text of a file.
 pub fn page_file(name: &str) -> Option<String> {
     let mut text = String::new();
-    GzDecoder::new(find(name)?.gzip).read_to_string(&mut text).ok()?;
+    GzDecoder::new(find(name)?.gzip)
+        .read_to_string(&mut text)
+        .ok()?;
     Some(text)
 }
 
@@ -56,6 +61,10 @@ mod tests {
         let page = find("index.html").expect("there is a page");
         assert_eq!(page.gzip[..2], [0x1f, 0x8b]);
         assert!(find("../index.html").is_none() && find("").is_none());
-        assert!(ASSETS.iter().all(|asset| content_type(asset.name) != "application/octet-stream"));
+        assert!(
+            ASSETS
+                .iter()
+                .all(|asset| content_type(asset.name) != "application/octet-stream")
+        );
     }
 }

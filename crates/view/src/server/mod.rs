@@ -82,7 +82,10 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 impl Shared {
     pub(crate) fn new(is_read_only: bool) -> Self {
-        Self { is_read_only, ..Self::default() }
+        Self {
+            is_read_only,
+            ..Self::default()
+        }
     }
 
     pub(crate) fn mirror(&self) -> MutexGuard<'_, Mirror> {

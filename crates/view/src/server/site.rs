@@ -43,13 +43,18 @@ pub(super) fn inside<'a>(secret: &str, path: &'a str) -> Option<&'a str> {
     let path = path.split(['?', '#']).next()?;
     let (token, rest) = path.strip_prefix('/')?.split_once('/')?;
     // All bytes are compared, so that time says nothing about how many of them are right.
-    let differences = token.bytes().zip(secret.bytes()).fold(0, |all, (a, b)| all | (a ^ b));
+    let differences = token
+        .bytes()
+        .zip(secret.bytes())
+        .fold(0, |all, (a, b)| all | (a ^ b));
     (differences == 0 && token.len() == secret.len()).then_some(rest)
 }
 
 impl Site for ViewSite {
     fn get(&self, path: &str, known: Option<&str>) -> SiteReply {
-        let Some(name) = inside(&self.token, path) else { return not_found() };
+        let Some(name) = inside(&self.token, path) else {
+            return not_found();
+        };
         if let Some(hash) = name.strip_prefix("blob/") {
             let blob = Hash::from_text(hash).and_then(|hash| self.shared.mirror().blob(hash));
             return blob.map_or_else(not_found, blob_reply);
@@ -82,19 +87,34 @@ pub(super) fn common_headers() -> Vec<(&'static str, String)> {
 pub(super) fn not_found() -> SiteReply {
     let mut headers = common_headers();
     headers.push(("Content-Type", "text/plain; charset=utf-8".to_owned()));
-    SiteReply { status: 404, headers, body: Arc::new(b"There is nothing at this address.".to_vec()) }
+    SiteReply {
+        status: 404,
+        headers,
+        body: Arc::new(b"There is nothing at this address.".to_vec()),
+    }
 }
 
 /// Every page asks for a recording first: that there is none is no error.
 fn no_recording() -> SiteReply {
-    SiteReply { status: 204, headers: common_headers(), body: Arc::new(Vec::new()) }
+    SiteReply {
+        status: 204,
+        headers: common_headers(),
+        body: Arc::new(Vec::new()),
+    }
 }
 
 fn blob_reply(blob: Arc<Blob>) -> SiteReply {
     let mut headers = common_headers();
     headers.push(("Content-Type", "application/octet-stream".to_owned()));
-    headers.push(("Cache-Control", "private, max-age=31536000, immutable".to_owned()));
-    SiteReply { status: 200, headers, body: blob }
+    headers.push((
+        "Cache-Control",
+        "private, max-age=31536000, immutable".to_owned(),
+    ));
+    SiteReply {
+        status: 200,
+        headers,
+        body: blob,
+    }
 }
 
 pub(super) fn asset_reply(asset: &'static Asset, known: Option<&str>) -> SiteReply {
@@ -103,11 +123,19 @@ pub(super) fn asset_reply(asset: &'static Asset, known: Option<&str>) -> SiteRep
     headers.push(("ETag", tag.clone()));
     headers.push(("Cache-Control", "no-cache".to_owned()));
     if known == Some(&*tag) {
-        return SiteReply { status: 304, headers, body: Arc::new(Vec::new()) };
+        return SiteReply {
+            status: 304,
+            headers,
+            body: Arc::new(Vec::new()),
+        };
     }
     headers.push(("Content-Type", assets::content_type(asset.name).to_owned()));
     headers.push(("Content-Encoding", "gzip".to_owned()));
-    SiteReply { status: 200, headers, body: Arc::new(asset.gzip) }
+    SiteReply {
+        status: 200,
+        headers,
+        body: Arc::new(asset.gzip),
+    }
 }
 
 impl AsRef<[u8]> for Blob {
@@ -121,14 +149,24 @@ mod tests {
     use super::*;
 
     fn site() -> ViewSite {
-        ViewSite::new(Arc::default(), "0123456789abcdef0123456789abcdef".to_owned())
+        ViewSite::new(
+            Arc::default(),
+            "0123456789abcdef0123456789abcdef".to_owned(),
+        )
     }
 
     #[test]
     fn addresses_without_the_secret_lead_nowhere() {
         let site = site();
-        assert_eq!(site.get("/0123456789abcdef0123456789abcdef/", None).status, 200);
-        assert_eq!(site.get("/0123456789abcdef0123456789abcdef/?x=1", None).status, 200);
+        assert_eq!(
+            site.get("/0123456789abcdef0123456789abcdef/", None).status,
+            200
+        );
+        assert_eq!(
+            site.get("/0123456789abcdef0123456789abcdef/?x=1", None)
+                .status,
+            200
+        );
         for path in [
             "",
             "/",
@@ -144,7 +182,10 @@ mod tests {
             assert_eq!(site.get(path, None).status, 404, "{path}");
             assert!(site.open(path).is_none());
         }
-        assert!(site.open("/0123456789abcdef0123456789abcdef/stream").is_some());
+        assert!(
+            site.open("/0123456789abcdef0123456789abcdef/stream")
+                .is_some()
+        );
         assert!(site.open("/stream").is_none());
     }
 
@@ -152,10 +193,22 @@ mod tests {
     fn a_browser_that_has_a_file_is_not_sent_it_again() {
         let site = site();
         let reply = site.get("/0123456789abcdef0123456789abcdef/", None);
-        let tag = reply.headers.iter().find(|(name, _)| *name == "ETag").expect("files have a tag").1.clone();
-        assert_eq!(site.get("/0123456789abcdef0123456789abcdef/", Some(&tag)).status, 304);
+        let tag = reply
+            .headers
+            .iter()
+            .find(|(name, _)| *name == "ETag")
+            .expect("files have a tag")
+            .1
+            .clone();
+        assert_eq!(
+            site.get("/0123456789abcdef0123456789abcdef/", Some(&tag))
+                .status,
+            304
+        );
         assert!(
-            reply.headers.iter().any(|(name, value)| *name == "Content-Security-Policy" && !value.contains("unsafe"))
+            reply.headers.iter().any(
+                |(name, value)| *name == "Content-Security-Policy" && !value.contains("unsafe")
+            )
         );
     }
 
@@ -163,12 +216,20 @@ mod tests {
     fn a_simulator_that_runs_has_no_recording() {
         let reply = site().get("/0123456789abcdef0123456789abcdef/recording", None);
         assert_eq!((reply.status, (*reply.body).as_ref().len()), (204, 0));
-        assert_eq!(site().get("/0123456789abcdef0123456789abcdef/recording/0", None).status, 404);
+        assert_eq!(
+            site()
+                .get("/0123456789abcdef0123456789abcdef/recording/0", None)
+                .status,
+            404
+        );
     }
 
     #[test]
     fn secrets_differ() {
-        assert_ne!(ViewSite::new_token().unwrap(), ViewSite::new_token().unwrap());
+        assert_ne!(
+            ViewSite::new_token().unwrap(),
+            ViewSite::new_token().unwrap()
+        );
         assert_eq!(ViewSite::new_token().unwrap().len(), 32);
     }
 }

@@ -26,7 +26,15 @@ pub(super) struct Page {
 impl Page {
     pub(super) fn new(shared: Arc<Shared>) -> Self {
         let id = shared.add_page();
-        Self { id, shared, seen: 0, watched: BTreeMap::new(), inspected: None, contacts: None, replies: Arc::default() }
+        Self {
+            id,
+            shared,
+            seen: 0,
+            watched: BTreeMap::new(),
+            inspected: None,
+            contacts: None,
+            replies: Arc::default(),
+        }
     }
 
     /// Carries out what concerns only this page; otherwise returns what is for the simulation.
@@ -36,19 +44,24 @@ impl Page {
         }
         match &request.action {
             Action::Watch(handles) => {
-                self.watched =
-                    handles.iter().map(|handle| (*handle, self.watched.get(handle).copied().unwrap_or(0))).collect();
+                self.watched = handles
+                    .iter()
+                    .map(|handle| (*handle, self.watched.get(handle).copied().unwrap_or(0)))
+                    .collect();
                 let sensors = self.watched.keys().copied().collect();
-                self.shared.change_demand(self.id, |demand| demand.sensors = sensors);
+                self.shared
+                    .change_demand(self.id, |demand| demand.sensors = sensors);
             }
             Action::Show { contacts } => {
                 self.contacts = contacts.then_some(0);
-                self.shared.change_demand(self.id, |demand| demand.contacts = *contacts);
+                self.shared
+                    .change_demand(self.id, |demand| demand.contacts = *contacts);
             }
             Action::Inspect(handle) => {
                 let now = self.shared.mirror().revision();
                 self.inspected = handle.map(|handle| (handle, now));
-                self.shared.change_demand(self.id, |demand| demand.inspected = *handle);
+                self.shared
+                    .change_demand(self.id, |demand| demand.inspected = *handle);
                 return Ok(Some(request));
             }
             _ => return Ok(Some(request)),
@@ -99,8 +112,17 @@ impl Visitor for Page {
             Ok(None) => None,
             Ok(Some(Request { id, action })) => {
                 let replies = Arc::clone(&self.replies);
-                let accepted = self.shared.submit(Pending { id: id.clone(), action, replies });
-                (!accepted).then(|| (id, "the simulator has too many requests to answer".to_owned()))
+                let accepted = self.shared.submit(Pending {
+                    id: id.clone(),
+                    action,
+                    replies,
+                });
+                (!accepted).then(|| {
+                    (
+                        id,
+                        "the simulator has too many requests to answer".to_owned(),
+                    )
+                })
             }
             Err(refused) => Some(refused),
         };
@@ -122,7 +144,9 @@ impl Visitor for Page {
         messages.extend(self.on_demand());
         messages.extend(lock(&self.replies).drain(..).map(SiteMessage::Text));
         if let Some(reason) = self.shared.end_reason() {
-            messages.push(SiteMessage::Text(json!({ "type": "end", "reason": reason }).to_string()));
+            messages.push(SiteMessage::Text(
+                json!({ "type": "end", "reason": reason }).to_string(),
+            ));
         }
         messages
     }

@@ -18,7 +18,10 @@ pub fn finish_base64(rest: &[u8]) -> String {
 pub fn decode_base64(text: &[u8]) -> (Vec<u8>, Vec<u8>) {
     let mut out = Vec::with_capacity(text.len() / 4 * 3);
     let mut group = Vec::with_capacity(4);
-    for &letter in text.iter().filter(|&&letter| value_of(letter).is_some() || letter == b'=') {
+    for &letter in text
+        .iter()
+        .filter(|&&letter| value_of(letter).is_some() || letter == b'=')
+    {
         group.push(letter);
         if group.len() == 4 {
             decode_group(&group, &mut out);
@@ -44,8 +47,14 @@ fn value_of(letter: u8) -> Option<u32> {
 
 /// One byte less for each `=` at the end of the group.
 fn decode_group(group: &[u8], out: &mut Vec<u8>) {
-    let bits = group.iter().fold(0, |bits, &letter| bits << 6 | value_of(letter).unwrap_or_default());
-    let padding = group.iter().rev().take_while(|&&letter| letter == b'=').count();
+    let bits = group.iter().fold(0, |bits, &letter| {
+        bits << 6 | value_of(letter).unwrap_or_default()
+    });
+    let padding = group
+        .iter()
+        .rev()
+        .take_while(|&&letter| letter == b'=')
+        .count();
     out.extend_from_slice(&bits.to_be_bytes()[1..4 - padding.min(2)]);
 }
 
@@ -57,7 +66,10 @@ mod tests {
     fn chunks_fit_together() {
         assert_eq!(encode_base64(b"hello"), ("aGVs".to_owned(), &b"lo"[..]));
         assert_eq!(finish_base64(b"lo"), "bG8=");
-        assert_eq!(decode_base64(b"aG Vs\nbG8="), (b"hello".to_vec(), Vec::new()));
+        assert_eq!(
+            decode_base64(b"aG Vs\nbG8="),
+            (b"hello".to_vec(), Vec::new())
+        );
         assert_eq!(decode_base64(b"aGVsb"), (b"hel".to_vec(), b"b".to_vec()));
         assert_eq!(decode_base64(b"===="), (vec![0], Vec::new()));
     }

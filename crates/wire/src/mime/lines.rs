@@ -107,7 +107,10 @@ mod tests {
     #[test]
     fn all_line_ends_become_one() {
         let mut out = Vec::new();
-        assert_eq!(unify_line_ends(b"a\rb\nc\r\nd\n\re\n\nf\r", 0, b"|", &mut out), b'\r');
+        assert_eq!(
+            unify_line_ends(b"a\rb\nc\r\nd\n\re\n\nf\r", 0, b"|", &mut out),
+            b'\r'
+        );
         assert_eq!(text(out), "a|b|c|d|e||f|");
     }
 

@@ -63,7 +63,11 @@ fn encode_byte(byte: u8, out: &mut Vec<u8>) {
 
 fn quote(byte: u8, out: &mut Vec<u8>) {
     const DIGITS: &[u8; 16] = b"0123456789ABCDEF";
-    out.extend([b'=', DIGITS[usize::from(byte >> 4)], DIGITS[usize::from(byte & 15)]]);
+    out.extend([
+        b'=',
+        DIGITS[usize::from(byte >> 4)],
+        DIGITS[usize::from(byte & 15)],
+    ]);
 }
 
 /// Decodes; an escape that is not complete comes back. What is no escape stays as it is.
@@ -94,9 +98,14 @@ mod tests {
     use super::*;
 
     fn encode(chunks: &[&str]) -> String {
-        let mut encoder = QuotedPrintable { marker: b"\r\n", pending: Vec::new() };
+        let mut encoder = QuotedPrintable {
+            marker: b"\r\n",
+            pending: Vec::new(),
+        };
         let mut out = Vec::new();
-        chunks.iter().for_each(|chunk| encoder.encode(chunk.as_bytes(), &mut out));
+        chunks
+            .iter()
+            .for_each(|chunk| encoder.encode(chunk.as_bytes(), &mut out));
         encoder.finish(&mut out);
         String::from_utf8(out).expect("quoted-printable is ASCII")
     }
@@ -112,7 +121,13 @@ mod tests {
 
     #[test]
     fn decoding_takes_escapes_apart() {
-        assert_eq!(decode_quoted_printable(b"=C3=a9 x=\r\ny=zz"), ("é xy=zz".as_bytes().to_vec(), &b""[..]));
-        assert_eq!(decode_quoted_printable(b"ab=C"), (b"ab".to_vec(), &b"=C"[..]));
+        assert_eq!(
+            decode_quoted_printable(b"=C3=a9 x=\r\ny=zz"),
+            ("é xy=zz".as_bytes().to_vec(), &b""[..])
+        );
+        assert_eq!(
+            decode_quoted_printable(b"ab=C"),
+            (b"ab".to_vec(), &b"=C"[..])
+        );
     }
 }

@@ -29,7 +29,10 @@ impl<'a> FieldReader<'a> {
     /// # Errors
     /// When there are fewer.
     pub fn take(&mut self, count: usize) -> Result<&'a [u8], Violation> {
-        let (taken, rest) = self.bytes.split_at_checked(count).ok_or(Violation::Malformed)?;
+        let (taken, rest) = self
+            .bytes
+            .split_at_checked(count)
+            .ok_or(Violation::Malformed)?;
         self.bytes = rest;
         Ok(taken)
     }
@@ -95,7 +98,11 @@ impl<'a> FieldReader<'a> {
     /// # Errors
     /// When there is no zero.
     pub fn text(&mut self) -> Result<&'a [u8], Violation> {
-        let end = self.bytes.iter().position(|&byte| byte == 0).ok_or(Violation::Malformed)?;
+        let end = self
+            .bytes
+            .iter()
+            .position(|&byte| byte == 0)
+            .ok_or(Violation::Malformed)?;
         let text = self.take(end)?;
         self.take(1)?;
         Ok(text)
@@ -112,7 +119,10 @@ pub struct FieldWriter {
 impl FieldWriter {
     /// An empty message, whose numbers are going to be in that order.
     pub fn new(order: ByteOrder) -> Self {
-        Self { bytes: Vec::new(), order }
+        Self {
+            bytes: Vec::new(),
+            order,
+        }
     }
 
     /// What was written.
@@ -179,7 +189,10 @@ mod tests {
             writer.bytes(b"rest");
             let bytes = writer.into_bytes();
             let mut reader = FieldReader::new(&bytes, order);
-            assert_eq!((reader.byte(), reader.short(), reader.int()), (Ok(7), Ok(0x1234), Ok(-2)));
+            assert_eq!(
+                (reader.byte(), reader.short(), reader.int()),
+                (Ok(7), Ok(0x1234), Ok(-2))
+            );
             assert_eq!((reader.float(), reader.text()), (Ok(0.5), Ok(&b"ab"[..])));
             assert_eq!((reader.rest(), reader.is_empty()), (&b"rest"[..], true));
         }
@@ -194,8 +207,17 @@ mod tests {
 
     #[test]
     fn what_is_not_there_is_an_error() {
-        assert_eq!(FieldReader::new(&[1, 2, 3], ByteOrder::Little).int(), Err(Violation::Malformed));
-        assert_eq!(FieldReader::new(b"no end", ByteOrder::Little).text(), Err(Violation::Malformed));
-        assert_eq!(FieldReader::new(&[0xff; 4], ByteOrder::Little).size(), Err(Violation::Malformed));
+        assert_eq!(
+            FieldReader::new(&[1, 2, 3], ByteOrder::Little).int(),
+            Err(Violation::Malformed)
+        );
+        assert_eq!(
+            FieldReader::new(b"no end", ByteOrder::Little).text(),
+            Err(Violation::Malformed)
+        );
+        assert_eq!(
+            FieldReader::new(&[0xff; 4], ByteOrder::Little).size(),
+            Err(Violation::Malformed)
+        );
     }
 }

@@ -115,7 +115,12 @@ pub struct Stamp {
 pub(super) fn parse(message: &[u8], order: ByteOrder) -> Result<(Head, Vec<Piece>), Violation> {
     let mut reader = FieldReader::new(message, order);
     let has_checksum = reader.short()? != 0;
-    let head = Head { has_checksum, version: reader.byte()?, id: reader.int()?, time: reader.int()? };
+    let head = Head {
+        has_checksum,
+        version: reader.byte()?,
+        id: reader.int()?,
+        time: reader.int()?,
+    };
     // Server time, scene and state: for replies only.
     reader.take(7)?;
     let mut pieces = Vec::new();
@@ -139,8 +144,12 @@ fn parse_piece(reader: &mut FieldReader<'_>, order: ByteOrder) -> Result<Piece, 
     reader.take(4)?;
     let status = reader.byte()?;
     reader.take(1)?;
-    let data_size = size.checked_sub(COMMAND_HEADER + key_size).ok_or(Violation::Malformed)?;
-    let full = full.checked_sub(COMMAND_HEADER + key_size).ok_or(Violation::Malformed)?;
+    let data_size = size
+        .checked_sub(COMMAND_HEADER + key_size)
+        .ok_or(Violation::Malformed)?;
+    let full = full
+        .checked_sub(COMMAND_HEADER + key_size)
+        .ok_or(Violation::Malformed)?;
     if full > MAX_SIZE {
         return Err(Violation::TooLarge);
     }
@@ -151,8 +160,19 @@ fn parse_piece(reader: &mut FieldReader<'_>, order: ByteOrder) -> Result<Piece, 
     let key = reader.take(key_size)?.to_vec();
     check_key(id, &key, order)?;
     let data = reader.take(data_size)?.to_vec();
-    let command = Command { id, mode, key, data, delay, is_appended: status & APPENDED != 0 };
-    Ok(Piece { command, offset, full })
+    let command = Command {
+        id,
+        mode,
+        key,
+        data,
+        delay,
+        is_appended: status & APPENDED != 0,
+    };
+    Ok(Piece {
+        command,
+        offset,
+        full,
+    })
 }
 
 /// The layout of a key belongs to the range of the command's number.
@@ -167,7 +187,11 @@ fn check_key(id: u16, key: &[u8], order: ByteOrder) -> Result<(), Violation> {
         // Unknown: refused when it is executed.
         _ => drop(reader.rest()),
     }
-    if reader.is_empty() { Ok(()) } else { Err(Violation::Malformed) }
+    if reader.is_empty() {
+        Ok(())
+    } else {
+        Err(Violation::Malformed)
+    }
 }
 
 /// The head of a reply.
@@ -180,7 +204,12 @@ pub(super) struct ReplyHead {
 }
 
 /// A reply as a message: with a checksum for the old clients that send one.
-pub(super) fn reply(head: ReplyHead, commands: &[u8], with_checksum: bool, order: ByteOrder) -> Vec<u8> {
+pub(super) fn reply(
+    head: ReplyHead,
+    commands: &[u8],
+    with_checksum: bool,
+    order: ByteOrder,
+) -> Vec<u8> {
     let mut writer = FieldWriter::new(order);
     writer.byte(VERSION);
     writer.int(head.id);
@@ -199,12 +228,13 @@ pub(super) fn reply(head: ReplyHead, commands: &[u8], with_checksum: bool, order
 /// CRC-16 with the polynomial 0x1021, most significant bit first, without final change (XMODEM).
 fn checksum(bytes: &[u8]) -> u16 {
     bytes.iter().fold(0, |crc, &byte| {
-        (0..8).fold(
-            crc ^ u16::from(byte) << 8,
-            |crc: u16, _| {
-                if crc & 0x8000 == 0 { crc << 1 } else { crc << 1 ^ 0x1021 }
-            },
-        )
+        (0..8).fold(crc ^ u16::from(byte) << 8, |crc: u16, _| {
+            if crc & 0x8000 == 0 {
+                crc << 1
+            } else {
+                crc << 1 ^ 0x1021
+            }
+        })
     })
 }
 
@@ -255,7 +285,9 @@ mod tests {
         assert!(check(0x1001, b"1234") && !check(0x1001, b"123"));
         assert!(check(0x200e, b"12345678") && !check(0x200e, b"123456789"));
         assert!(check(0x3001, b"name\0") && !check(0x3001, b"name") && !check(0x3001, b"na\0me\0"));
-        assert!(check(0x3401, b"1234object\0function\0") && !check(0x3401, b"1234object\0function"));
+        assert!(
+            check(0x3401, b"1234object\0function\0") && !check(0x3401, b"1234object\0function")
+        );
         assert!(check(0x7000, b"anything"));
     }
 }

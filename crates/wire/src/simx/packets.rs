@@ -46,7 +46,9 @@ impl Packets {
         let mut start = 0;
         let mut complete = None;
         while complete.is_none() {
-            let Some((taken, is_last)) = self.take_packet(start)? else { break };
+            let Some((taken, is_last)) = self.take_packet(start)? else {
+                break;
+            };
             start += taken;
             if is_last {
                 complete = Some(std::mem::take(&mut self.message));
@@ -65,16 +67,23 @@ impl Packets {
             Some(&OTHER_ORDER) => ByteOrder::Big,
             Some(_) => return Err(Violation::Malformed),
         };
-        let Some(header) = bytes.get(2..HEADER) else { return Ok(None) };
+        let Some(header) = bytes.get(2..HEADER) else {
+            return Ok(None);
+        };
         let mut header = FieldReader::new(header, order);
         let (length, missing) = (usize::from(header.short()?), header.short()?);
-        if self.missing.is_some_and(|before| before != missing.wrapping_add(1)) {
+        if self
+            .missing
+            .is_some_and(|before| before != missing.wrapping_add(1))
+        {
             return Err(Violation::Malformed);
         }
         if self.message.len() + length > MAX_SIZE {
             return Err(Violation::TooLarge);
         }
-        let Some(content) = bytes.get(HEADER..HEADER + length) else { return Ok(None) };
+        let Some(content) = bytes.get(HEADER..HEADER + length) else {
+            return Ok(None);
+        };
         self.message.extend_from_slice(content);
         self.order = order;
         self.missing = (missing > 0).then_some(missing);
@@ -85,7 +94,11 @@ impl Packets {
 /// A message as packets of at most `max_packet` bytes; of more, where it would be too many for clients.
 pub fn cut(message: &[u8], max_packet: usize, order: ByteOrder) -> Vec<u8> {
     let usual = max_packet.saturating_sub(HEADER).clamp(1, MAX_CONTENT);
-    let size = if message.len().div_ceil(usual) <= MAX_PACKETS { usual } else { MAX_CONTENT };
+    let size = if message.len().div_ceil(usual) <= MAX_PACKETS {
+        usual
+    } else {
+        MAX_CONTENT
+    };
     let count = message.len().div_ceil(size);
     let mut writer = FieldWriter::new(order);
     for (place, content) in message.chunks(size).enumerate() {
@@ -116,9 +129,16 @@ mod tests {
     #[test]
     fn messages_are_the_same_in_pieces_of_any_length() {
         let message: Vec<u8> = (0..3046).map(|i| i as u8).collect();
-        let bytes = [cut(&message, 1300, ByteOrder::Little), cut(b"x", 1300, ByteOrder::Little)].concat();
+        let bytes = [
+            cut(&message, 1300, ByteOrder::Little),
+            cut(b"x", 1300, ByteOrder::Little),
+        ]
+        .concat();
         for piece in [1, 7, 1300, usize::MAX] {
-            assert_eq!(read(&bytes, piece), Ok(vec![message.clone(), b"x".to_vec()]));
+            assert_eq!(
+                read(&bytes, piece),
+                Ok(vec![message.clone(), b"x".to_vec()])
+            );
         }
     }
 
@@ -128,20 +148,34 @@ mod tests {
         assert_eq!(bytes[..6], [1, 0, 0x0e, 5, 2, 0]);
         assert_eq!(bytes[1300..1306], [1, 0, 0x0e, 5, 1, 0]);
         assert_eq!(bytes[2600..2606], [1, 0, 0xca, 1, 0, 0]);
-        assert_eq!(cut(&[0; 55], 1300, ByteOrder::Big)[..6], [1, 0, 0, 0x37, 0, 0]);
+        assert_eq!(
+            cut(&[0; 55], 1300, ByteOrder::Big)[..6],
+            [1, 0, 0, 0x37, 0, 0]
+        );
     }
 
     #[test]
     fn large_messages_have_larger_packets() {
         let bytes = cut(&vec![0; 50_000_000], 1300, ByteOrder::Little);
         let left = u16::from_le_bytes([bytes[4], bytes[5]]);
-        assert_eq!((u16::from_le_bytes([bytes[2], bytes[3]]), left), (29_994, 1667));
+        assert_eq!(
+            (u16::from_le_bytes([bytes[2], bytes[3]]), left),
+            (29_994, 1667)
+        );
     }
 
     #[test]
     fn what_is_no_packet_is_an_error() {
         assert_eq!(read(b"GET / HTTP/1.1\r\n", 100), Err(Violation::Malformed));
-        assert_eq!(read(&[1, 0, 0, 0, 2, 0, 1, 0, 0, 0, 2, 0], 100), Err(Violation::Malformed), "2 left twice");
-        assert_eq!(read(&[1, 0, 9, 0, 0, 0, 1], 100), Ok(vec![]), "the content is still to come");
+        assert_eq!(
+            read(&[1, 0, 0, 0, 2, 0, 1, 0, 0, 0, 2, 0], 100),
+            Err(Violation::Malformed),
+            "2 left twice"
+        );
+        assert_eq!(
+            read(&[1, 0, 9, 0, 0, 0, 1], 100),
+            Ok(vec![]),
+            "the content is still to come"
+        );
     }
 }

@@ -49,7 +49,11 @@ struct Client {
 
 impl Default for ReplyHead {
     fn default() -> Self {
-        Self { id: -1, client_time: 0, stamp: Stamp::default() }
+        Self {
+            id: -1,
+            client_time: 0,
+            stamp: Stamp::default(),
+        }
     }
 }
 
@@ -103,7 +107,10 @@ pub struct Answer {
 impl Answer {
     /// The result of a command that failed: no data.
     pub fn failure() -> Self {
-        Self { failed: true, ..Self::default() }
+        Self {
+            failed: true,
+            ..Self::default()
+        }
     }
 }
 
@@ -136,7 +143,10 @@ impl Batch {
 impl Session {
     /// A server without a client; `is_monitored` keeps lines about what happens, see [`take_lines`](Self::take_lines).
     pub fn new(is_monitored: bool) -> Self {
-        Self { monitor: is_monitored.then(VecDeque::new), ..Self::default() }
+        Self {
+            monitor: is_monitored.then(VecDeque::new),
+            ..Self::default()
+        }
     }
 
     /// A client has come.
@@ -145,7 +155,10 @@ impl Session {
         self.connections += 1;
         self.peer = Some(peer);
         self.client = Client::default();
-        self.head = ReplyHead { stamp: self.head.stamp, ..ReplyHead::default() };
+        self.head = ReplyHead {
+            stamp: self.head.stamp,
+            ..ReplyHead::default()
+        };
         self.note(|| "connected to client.".into());
     }
 
@@ -178,7 +191,10 @@ impl Session {
 
     /// What has happened since the last time.
     pub fn take_lines(&mut self) -> Vec<String> {
-        self.monitor.as_mut().map(|lines| lines.drain(..).collect()).unwrap_or_default()
+        self.monitor
+            .as_mut()
+            .map(|lines| lines.drain(..).collect())
+            .unwrap_or_default()
     }
 
     fn note(&mut self, line: impl FnOnce() -> String) {
@@ -204,12 +220,28 @@ impl Session {
     ///
     /// # Errors
     /// When the connection is to be closed.
-    pub fn receive(&mut self, message: &[u8], order: ByteOrder, now: i64) -> Result<Received, Violation> {
+    pub fn receive(
+        &mut self,
+        message: &[u8],
+        order: ByteOrder,
+        now: i64,
+    ) -> Result<Received, Violation> {
         let (head, pieces) = message::parse(message, order)?;
         let traffic = &mut self.traffic;
-        traffic.between_requests = now - if traffic.last_request == 0 { now } else { traffic.last_request };
+        traffic.between_requests = now
+            - if traffic.last_request == 0 {
+                now
+            } else {
+                traffic.last_request
+            };
         (traffic.last_request, traffic.commands_in_request) = (now, pieces.len());
-        self.note(|| format!("data received: {} bytes (message ID = {})", message.len(), head.id));
+        self.note(|| {
+            format!(
+                "data received: {} bytes (message ID = {})",
+                message.len(),
+                head.id
+            )
+        });
         let client = &mut self.client;
         (client.order, client.has_checksum) = (order, head.has_checksum);
         (client.version, client.last) = (Some(head.version), Some((head.id, head.time)));
@@ -221,7 +253,10 @@ impl Session {
                 client.is_waiting = true;
             }
         }
-        Ok(Received { is_waiting: self.is_waiting(), ends })
+        Ok(Received {
+            is_waiting: self.is_waiting(),
+            ends,
+        })
     }
 
     /// The reply to the message that was received, which fetches the results; `now` is in milliseconds.
@@ -229,14 +264,23 @@ impl Session {
         let client = &mut self.client;
         let mut writer = FieldWriter::new(client.order);
         writer.bytes(&client.outbox);
-        client.splits.retain_mut(|split| !split.write_next(&mut writer));
-        let reply = message::reply(self.head, &writer.into_bytes(), client.has_checksum, client.order);
+        client
+            .splits
+            .retain_mut(|split| !split.write_next(&mut writer));
+        let reply = message::reply(
+            self.head,
+            &writer.into_bytes(),
+            client.has_checksum,
+            client.order,
+        );
         client.outbox = Vec::new();
         let results = std::mem::take(&mut client.results);
         (self.traffic.last_reply, self.traffic.commands_in_reply) = (now, results);
         let (id, streams) = (self.head.id, client.pending.streams());
         let size = reply.len();
-        self.note(|| format!("reply sent: {size} bytes (message ID = {id}, stream cmd cnt = {streams})"));
+        self.note(|| {
+            format!("reply sent: {size} bytes (message ID = {id}, stream cmd cnt = {streams})")
+        });
         self.head.id = -1;
         reply
     }
@@ -248,7 +292,11 @@ impl Session {
             return None;
         }
         let (id, client_time) = client.last?;
-        let head = ReplyHead { id, client_time, stamp };
+        let head = ReplyHead {
+            id,
+            client_time,
+            stamp,
+        };
         client.is_waiting = false;
         let is_sent = |place| client.splits.iter().all(|split| split.place != place);
         let jobs = client.pending.take_due(stamp.system_time, is_sent);
@@ -258,7 +306,14 @@ impl Session {
             return None;
         }
         client.is_executing = true;
-        Some(Batch { connection, head, order, jobs: jobs.into(), answers: Vec::new(), size: 0 })
+        Some(Batch {
+            connection,
+            head,
+            order,
+            jobs: jobs.into(),
+            answers: Vec::new(),
+            size: 0,
+        })
     }
 
     /// Takes the results of commands. Those of a client that is gone are dropped.
@@ -276,9 +331,12 @@ impl Session {
             }
             if job.command.mode == Mode::Discontinue {
                 let identity = job.command.identity();
-                self.client.splits.retain(|split| split.command.identity() != identity);
+                self.client
+                    .splits
+                    .retain(|split| split.command.identity() != identity);
             }
-            self.client.add_result(job, answer, batch.head.stamp.simulation_time, &mut writer);
+            self.client
+                .add_result(job, answer, batch.head.stamp.simulation_time, &mut writer);
         }
         self.client.outbox = writer.into_bytes();
     }
@@ -295,9 +353,24 @@ impl Client {
         };
         self.results += 1;
         if in_pieces {
-            self.splits.push(Split { place: job.place, command, failed, time, data, sent: 0 });
+            self.splits.push(Split {
+                place: job.place,
+                command,
+                failed,
+                time,
+                data,
+                sent: 0,
+            });
         } else {
-            ReplyPiece { command: &command, failed, time, offset: 0, full: data.len(), data: &data }.write(writer);
+            ReplyPiece {
+                command: &command,
+                failed,
+                time,
+                offset: 0,
+                full: data.len(),
+                data: &data,
+            }
+            .write(writer);
         }
     }
 }
@@ -311,7 +384,17 @@ mod tests {
         let size = 28_i32.to_le_bytes();
         let head = [&[0, 0, 11][..], &5_i32.to_le_bytes(), &[0; 11]].concat();
         let mode = (1 << 16 | 0x3001_i32).to_le_bytes();
-        [&head[..], &size, &size, &2_i16.to_le_bytes(), &[0; 4], &mode, &[0; 8], b"a\0"].concat()
+        [
+            &head[..],
+            &size,
+            &size,
+            &2_i16.to_le_bytes(),
+            &[0; 4],
+            &mode,
+            &[0; 8],
+            b"a\0",
+        ]
+        .concat()
     }
 
     fn id(reply: &[u8]) -> i32 {
@@ -322,12 +405,17 @@ mod tests {
     fn the_id_of_a_message_comes_with_its_results() {
         let mut session = Session::new(false);
         session.connect("127.0.0.1".into());
-        let received = session.receive(&message(), ByteOrder::default(), 0).expect("it is a message");
+        let received = session
+            .receive(&message(), ByteOrder::default(), 0)
+            .expect("it is a message");
         assert!(received.is_waiting);
         let mut batch = session.due(Stamp::default()).expect("a command is due");
         assert!(session.is_waiting(), "it is being executed");
         assert_eq!(id(&session.reply(0)), -1);
-        batch.answer(Answer { data: vec![1, 2, 3, 4], ..Answer::default() });
+        batch.answer(Answer {
+            data: vec![1, 2, 3, 4],
+            ..Answer::default()
+        });
         session.complete(batch);
         assert!(!session.is_waiting());
         assert_eq!(id(&session.reply(0)), 5);

@@ -28,10 +28,21 @@ pub(super) fn size_of_piece(command: &Command) -> usize {
 impl Split {
     /// Writes the next piece; returns whether it is the last.
     pub(super) fn write_next(&mut self, writer: &mut FieldWriter) -> bool {
-        let end = self.data.len().min(self.sent + size_of_piece(&self.command));
+        let end = self
+            .data
+            .len()
+            .min(self.sent + size_of_piece(&self.command));
         let (offset, full) = (self.sent, self.data.len());
         let (failed, time) = (self.failed, self.time);
-        ReplyPiece { command: &self.command, failed, time, offset, full, data: &self.data[offset..end] }.write(writer);
+        ReplyPiece {
+            command: &self.command,
+            failed,
+            time,
+            offset,
+            full,
+            data: &self.data[offset..end],
+        }
+        .write(writer);
         self.sent = end;
         end == full
     }

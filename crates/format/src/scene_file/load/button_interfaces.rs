@@ -11,7 +11,9 @@ use scene::{Handle, Scene};
 pub(super) fn add(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) {
     for chunk in &file.contents.button_blocks {
         let name = numbered(scene, file, objects, text(chunk.name.as_ref()));
-        scene.button_interfaces_mut().add(interface(chunk, name, map));
+        scene
+            .button_interfaces_mut()
+            .add(interface(chunk, name, map));
     }
 }
 
@@ -35,7 +37,8 @@ fn interface(chunk: &ButtonBlock, name: String, map: &HandleMap) -> ButtonInterf
 
 /// None where the file does not say what it is.
 fn button(chunk: &ButtonChunk) -> Option<Button> {
-    let ([attributes, number, length, height, x, y], label, down_label, slider) = chunk.look.as_ref()?;
+    let ([attributes, number, length, height, x, y], label, down_label, slider) =
+        chunk.look.as_ref()?;
     Some(Button {
         number: *number,
         attributes: *attributes,
@@ -43,7 +46,11 @@ fn button(chunk: &ButtonChunk) -> Option<Button> {
         span: [*length, *height],
         label: label.decode(),
         down_label: down_label.decode(),
-        slider: if slider.is_finite() { slider.clamp(-1.0, 1.0) } else { 0.0 },
+        slider: if slider.is_finite() {
+            slider.clamp(-1.0, 1.0)
+        } else {
+            0.0
+        },
         colours: chunk.colours.unwrap_or_default(),
     })
 }

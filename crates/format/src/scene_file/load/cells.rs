@@ -20,15 +20,28 @@ pub(in crate::scene_file) fn octree(chunk: &file::OcTree) -> Result<OcTree> {
     let flags = chunk.flags.unwrap_or(0);
     let mut tree = OcTree::new(voxel_size, point_size.into());
     (tree.random_colours, tree.shows_points) = (flags & 4 != 0, flags & 8 != 0);
-    let blobs = [(&chunk.cells_v3, true), (&chunk.cells_v2, true), (&chunk.cells_v1, false)];
+    let blobs = [
+        (&chunk.cells_v3, true),
+        (&chunk.cells_v2, true),
+        (&chunk.cells_v1, false),
+    ];
     if let Some((blob, double)) = first(blobs) {
-        let mut bytes = Blob { bytes: blob, double };
+        let mut bytes = Blob {
+            bytes: blob,
+            double,
+        };
         let (_, root) = bytes.head()?;
         bytes.cells(root, |bytes, cell| {
             let kind = bytes.byte()?;
             if kind != 0 {
                 let colour = bytes.colour(kind)?;
-                tree.insert(cell.centre, Voxel { colour, tag: bytes.int()? as u32 });
+                tree.insert(
+                    cell.centre,
+                    Voxel {
+                        colour,
+                        tag: bytes.int()? as u32,
+                    },
+                );
             }
             Ok(())
         })?;
@@ -55,26 +68,46 @@ pub(in crate::scene_file) fn point_cloud(chunk: &file::PointCloud) -> Result<Poi
         random_colours: flags & 4 != 0,
         points: Vec::new(),
     };
-    let blobs = [(&chunk.cells_v3, true), (&chunk.cells_v2, true), (&chunk.cells_v1, false)];
+    let blobs = [
+        (&chunk.cells_v3, true),
+        (&chunk.cells_v2, true),
+        (&chunk.cells_v1, false),
+    ];
     let points = match first(blobs) {
-        Some((blob, double)) => cloud_points(Blob { bytes: blob, double })?,
+        Some((blob, double)) => cloud_points(Blob {
+            bytes: blob,
+            double,
+        })?,
         None => plain_points(chunk.points.as_ref(), None).collect(),
     };
-    cloud.insert(points.into_iter().map(|(position, colour)| CloudPoint { position, colour }), 0.0);
+    cloud.insert(
+        points
+            .into_iter()
+            .map(|(position, colour)| CloudPoint { position, colour }),
+        0.0,
+    );
     Ok(cloud)
 }
 
 /// The newest tree a file has.
 fn first(blobs: [(&Option<crate::ttt::Rest<u8>>, bool); 3]) -> Option<(&[u8], bool)> {
-    blobs.into_iter().find_map(|(blob, double)| Some((blob.as_ref()?.0.as_slice(), double)))
+    blobs
+        .into_iter()
+        .find_map(|(blob, double)| Some((blob.as_ref()?.0.as_slice(), double)))
 }
 
 fn plain_points(
     points: Option<&Counted<(Point, [u8; 3])>>,
     old: Option<&Counted<([f32; 3], [u8; 3])>>,
 ) -> impl Iterator<Item = (Point, [u8; 3])> {
-    let old = old.into_iter().flat_map(|all| &all.0).map(|(point, colour)| (point.map(f64::from), *colour));
-    points.into_iter().flat_map(|all| all.0.iter().copied()).chain(old)
+    let old = old
+        .into_iter()
+        .flat_map(|all| &all.0)
+        .map(|(point, colour)| (point.map(f64::from), *colour));
+    points
+        .into_iter()
+        .flat_map(|all| all.0.iter().copied())
+        .chain(old)
 }
 
 fn cloud_points(mut bytes: Blob<'_>) -> Result<Vec<(Point, [u8; 3])>> {
@@ -82,7 +115,9 @@ fn cloud_points(mut bytes: Blob<'_>) -> Result<Vec<(Point, [u8; 3])>> {
     bytes.int()?;
     let mut points = Vec::new();
     bytes.cells(root, |bytes, cell| {
-        let count = usize::try_from(bytes.int()?).map_err(|_| "a cell has a negative number of points")? / 3;
+        let count = usize::try_from(bytes.int()?)
+            .map_err(|_| "a cell has a negative number of points")?
+            / 3;
         if count * 3 > bytes.bytes.len() {
             return Err("a cell has more points than there are".into());
         }
@@ -112,7 +147,11 @@ impl Cell {
     fn child(&self, number: usize) -> Self {
         let side = |axis: usize| if number >> axis & 1 == 1 { 0.25 } else { -0.25 };
         let centre = std::array::from_fn(|axis| self.centre[axis] + side(axis) * self.edge);
-        Self { centre, edge: 0.5 * self.edge, depth: self.depth + 1 }
+        Self {
+            centre,
+            edge: 0.5 * self.edge,
+            depth: self.depth + 1,
+        }
     }
 
     /// The last one first, as they lie on a stack.
@@ -132,11 +171,22 @@ impl<'a> Blob<'a> {
     /// The version, and the cell that holds all others.
     fn head(&mut self) -> Result<(u8, Cell)> {
         let (version, edge, _) = (self.byte()?, self.real()?, self.real()?);
-        Ok((version, Cell { centre: self.point()?, edge, depth: 0 }))
+        Ok((
+            version,
+            Cell {
+                centre: self.point()?,
+                edge,
+                depth: 0,
+            },
+        ))
     }
 
     /// Reads the cells within `root`, depth first; `visit` reads what a cell holds.
-    fn cells(&mut self, root: Cell, mut visit: impl FnMut(&mut Self, &Cell) -> Result<()>) -> Result<()> {
+    fn cells(
+        &mut self,
+        root: Cell,
+        mut visit: impl FnMut(&mut Self, &Cell) -> Result<()>,
+    ) -> Result<()> {
         let mut pending: Vec<Cell> = root.children().collect();
         while let Some(cell) = pending.pop() {
             visit(self, &cell)?;
@@ -151,7 +201,10 @@ impl<'a> Blob<'a> {
     }
 
     fn take<const N: usize>(&mut self) -> Result<&'a [u8; N]> {
-        let (head, tail) = self.bytes.split_first_chunk().ok_or("a tree of cells ends too early")?;
+        let (head, tail) = self
+            .bytes
+            .split_first_chunk()
+            .ok_or("a tree of cells ends too early")?;
         self.bytes = tail;
         Ok(head)
     }
@@ -193,7 +246,10 @@ mod tests {
     #[test]
     fn damaged_trees_are_errors() {
         let cloud = |bytes: &[u8]| {
-            point_cloud(&file::PointCloud { cells_v2: Some(Rest(bytes.to_vec())), ..Default::default() })
+            point_cloud(&file::PointCloud {
+                cells_v2: Some(Rest(bytes.to_vec())),
+                ..Default::default()
+            })
         };
         let head = [&[2][..], &[0; 40], &20i32.to_le_bytes()].concat();
         let with = |rest: &[u8]| cloud(&[&head[..], rest].concat());

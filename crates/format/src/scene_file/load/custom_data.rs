@@ -9,7 +9,12 @@ use wire::pack;
 const PACKED_TAGS: i32 = 356_248_756;
 
 /// Takes the blocks of the new layout, or else those of the old one: the numbers of these become tags that begin with `prefix`.
-pub(super) fn fill(data: &mut CustomData, new: Option<&Chunk>, old: Option<&OldCustomData>, prefix: &str) {
+pub(super) fn fill(
+    data: &mut CustomData,
+    new: Option<&Chunk>,
+    old: Option<&OldCustomData>,
+    prefix: &str,
+) {
     let new = new.map(|chunk| chunk.blocks.as_slice()).unwrap_or_default();
     for (tag, block) in new {
         put(data, &tag.decode(), &block.0);
@@ -63,10 +68,17 @@ fn value(ty: ValueType, block: &[u8]) -> Option<Data> {
         ValueType::Bool => Data::Bool(block.iter().any(|byte| *byte != 0)),
         ValueType::Int | ValueType::Long => Data::Int(whole(block)?),
         ValueType::Float => Data::Float(float(block)?),
-        ValueType::IntArray | ValueType::IntArray2 => list(block.chunks(4).map(|c| whole(c).map(Data::Int)).collect())?,
+        ValueType::IntArray | ValueType::IntArray2 => {
+            list(block.chunks(4).map(|c| whole(c).map(Data::Int)).collect())?
+        }
         ValueType::Color if block.len() == 12 => {
             let (parts, _) = block.as_chunks::<4>();
-            Data::Array(parts.iter().map(|c| Data::Float(f32::from_le_bytes(*c).into())).collect())
+            Data::Array(
+                parts
+                    .iter()
+                    .map(|c| Data::Float(f32::from_le_bytes(*c).into()))
+                    .collect(),
+            )
         }
         _ => list(block.chunks(8).map(|c| float(c).map(Data::Float)).collect())?,
     })
@@ -82,7 +94,9 @@ mod tests {
         packed.extend(16i32.to_le_bytes());
         packed.extend(3i32.to_le_bytes());
         packed.extend(b"ab\0data.");
-        let old = OldCustomData { blocks: vec![(7, Text(b"seven".to_vec())), (PACKED_TAGS, Text(packed))] };
+        let old = OldCustomData {
+            blocks: vec![(7, Text(b"seven".to_vec())), (PACKED_TAGS, Text(packed))],
+        };
         let mut data = CustomData::default();
         fill(&mut data, None, Some(&old), "_old_");
         assert_eq!(data.get("_old_7_"), Some(&Data::Buffer(b"seven".to_vec())));
@@ -92,7 +106,10 @@ mod tests {
     #[test]
     fn lists_that_lie_end() {
         for size in [i32::MIN, -1, 0, 3, 5, i32::MAX] {
-            assert_eq!(packed_tags(&[size.to_le_bytes(), size.to_le_bytes()].concat()).count(), 0);
+            assert_eq!(
+                packed_tags(&[size.to_le_bytes(), size.to_le_bytes()].concat()).count(),
+                0
+            );
         }
     }
 

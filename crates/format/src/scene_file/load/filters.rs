@@ -53,16 +53,29 @@ const END: &str = "    return found\nend\n";
 
 /// The script that replaces the image filters of a vision sensor; None where they change nothing.
 pub(super) fn script(object: &FileObject, handle: Handle) -> Option<LoadedScript> {
-    let Class::VisionSensor(sensor) = &object.class else { return None };
-    let filters = sensor.filter.as_ref()?.filters.iter().filter(|filter| filter.enabled.unwrap_or(1) != 0);
-    let filters: Vec<(i32, &Filter)> = filters.filter_map(|filter| Some((filter.kind?[0], filter))).collect();
-    if filters.iter().all(|(kind, _)| [ORIGINAL_IMAGE, TO_OUTPUT].contains(kind)) {
+    let Class::VisionSensor(sensor) = &object.class else {
+        return None;
+    };
+    let filters = sensor
+        .filter
+        .as_ref()?
+        .filters
+        .iter()
+        .filter(|filter| filter.enabled.unwrap_or(1) != 0);
+    let filters: Vec<(i32, &Filter)> = filters
+        .filter_map(|filter| Some((filter.kind?[0], filter)))
+        .collect();
+    if filters
+        .iter()
+        .all(|(kind, _)| [ORIGINAL_IMAGE, TO_OUTPUT].contains(kind))
+    {
         return None;
     }
     let mut code = HEAD.to_owned();
     for (kind, filter) in filters {
-        let line = call(kind, filter)
-            .unwrap_or_else(|| format!("error('the image filter {kind} of V-REP 3 is not implemented in Swanilda')"));
+        let line = call(kind, filter).unwrap_or_else(|| {
+            format!("error('the image filter {kind} of V-REP 3 is not implemented in Swanilda')")
+        });
         let _ = writeln!(code, "    {line}");
     }
     Some(LoadedScript {
@@ -81,9 +94,17 @@ fn call(kind: i32, filter: &Filter) -> Option<String> {
     if let Some((_, name)) = PLAIN.iter().find(|(plain, _)| *plain == kind) {
         return Some(format!("simVision.{name}(sensor)"));
     }
-    let floats = filter.floats.as_ref().map_or(&[][..], |Counted(floats)| floats);
+    let floats = filter
+        .floats
+        .as_ref()
+        .map_or(&[][..], |Counted(floats)| floats);
     let ints = filter.ints.as_ref().map_or(&[][..], |Counted(ints)| ints);
-    let bits = filter.bytes.as_ref().and_then(|Counted(bytes)| bytes.first()).copied().unwrap_or(0);
+    let bits = filter
+        .bytes
+        .as_ref()
+        .and_then(|Counted(bytes)| bytes.first())
+        .copied()
+        .unwrap_or(0);
     let bit = |number: u8| bits >> number & 1 == 1;
     let found = |call: String| format!("note({call})");
     Some(match (kind, floats) {
@@ -92,7 +113,10 @@ fn call(kind: i32, filter: &Filter) -> Option<String> {
         (16, [x, y, ..]) => format!("simVision.shiftWorkImg(sensor, {{{x}, {y}}}, {})", bit(0)),
         (17, [x, y, ..]) => format!("simVision.resizeWorkImg(sensor, {{{x}, {y}}})"),
         (21, [threshold, ..]) => format!("simVision.edgeDetectionOnWorkImg(sensor, {threshold})"),
-        (22, [x, y, ..]) => format!("simVision.rectangularCutWorkImg(sensor, {{{x}, {y}}}, {})", bit(0)),
+        (22, [x, y, ..]) => format!(
+            "simVision.rectangularCutWorkImg(sensor, {{{x}, {y}}}, {})",
+            bit(0)
+        ),
         (23, [radius, ..]) => format!("simVision.circularCutWorkImg(sensor, {radius}, {})", bit(0)),
         (25, [start, end, ..]) => {
             let grey = ints.first().is_some_and(|grey| *grey != 0);
@@ -101,25 +125,42 @@ fn call(kind: i32, filter: &Filter) -> Option<String> {
         (26, [a, b, c, d, e, f, ..]) => {
             let [keep, rgb, to_buffer] = [0, 1, 2].map(bit);
             let colours = format!("{{{a}, {b}, {c}}}, {{{d}, {e}, {f}}}");
-            format!("simVision.selectiveColorOnWorkImg(sensor, {colours}, {rgb}, {keep}, {to_buffer})")
+            format!(
+                "simVision.selectiveColorOnWorkImg(sensor, {colours}, {rgb}, {keep}, {to_buffer})"
+            )
         }
         (27, [a, b, c, d, e, f, g, h, i, ..]) => {
             let colours = format!("{{{a}, {b}, {c}}}, {{{d}, {e}, {f}}}, {{{g}, {h}, {i}}}");
-            format!("simVision.scaleAndOffsetWorkImg(sensor, {colours}, {})", bit(0))
+            format!(
+                "simVision.scaleAndOffsetWorkImg(sensor, {colours}, {})",
+                bit(0)
+            )
         }
         (28, [_, _, _, _, _, _, _, _, _, _, ..]) => {
             let numbers: Vec<String> = floats[..10].iter().map(f32::to_string).collect();
-            found(format!("simVision.binaryWorkImg(sensor, {}, {})", numbers.join(", "), bit(0)))
+            found(format!(
+                "simVision.binaryWorkImg(sensor, {}, {})",
+                numbers.join(", "),
+                bit(0)
+            ))
         }
         (33, [distance, ..]) => format!("simVision.colorSegmentationOnWorkImg(sensor, {distance})"),
-        (34, [threshold, smallest, ..]) => {
-            found(format!("simVision.blobDetectionOnWorkImg(sensor, {threshold}, {smallest}, {})", bit(0)))
-        }
+        (34, [threshold, smallest, ..]) => found(format!(
+            "simVision.blobDetectionOnWorkImg(sensor, {threshold}, {smallest}, {})",
+            bit(0)
+        )),
         (35, _) => {
-            let [columns, rows, ..] = ints else { return None };
-            found(format!("simVision.coordinatesFromWorkImg(sensor, {{{columns}, {rows}}}, {})", bit(0)))
+            let [columns, rows, ..] = ints else {
+                return None;
+            };
+            found(format!(
+                "simVision.coordinatesFromWorkImg(sensor, {{{columns}, {rows}}}, {})",
+                bit(0)
+            ))
         }
-        (36, [threshold, ..]) => found(format!("simVision.changedPixelsOnWorkImg(sensor, {threshold})")),
+        (36, [threshold, ..]) => found(format!(
+            "simVision.changedPixelsOnWorkImg(sensor, {threshold})"
+        )),
         _ => return None,
     })
 }
@@ -140,10 +181,26 @@ mod tests {
     #[test]
     fn filters_become_calls() {
         let calls = [
-            (1, filter(&[], &[], &[]), "simVision.sensorImgToWorkImg(sensor)"),
-            (25, filter(&[], &[1], &[1.0, 0.0]), "simVision.intensityScaleOnWorkImg(sensor, 1, 0, true)"),
-            (34, filter(&[1], &[], &[0.3, 0.0]), "note(simVision.blobDetectionOnWorkImg(sensor, 0.3, 0, true))"),
-            (35, filter(&[0], &[342, 1], &[]), "note(simVision.coordinatesFromWorkImg(sensor, {342, 1}, false))"),
+            (
+                1,
+                filter(&[], &[], &[]),
+                "simVision.sensorImgToWorkImg(sensor)",
+            ),
+            (
+                25,
+                filter(&[], &[1], &[1.0, 0.0]),
+                "simVision.intensityScaleOnWorkImg(sensor, 1, 0, true)",
+            ),
+            (
+                34,
+                filter(&[1], &[], &[0.3, 0.0]),
+                "note(simVision.blobDetectionOnWorkImg(sensor, 0.3, 0, true))",
+            ),
+            (
+                35,
+                filter(&[0], &[342, 1], &[]),
+                "note(simVision.coordinatesFromWorkImg(sensor, {342, 1}, false))",
+            ),
         ];
         for (kind, filter, expected) in calls {
             assert_eq!(call(kind, &filter).as_deref(), Some(expected));
@@ -152,7 +209,9 @@ mod tests {
 
     #[test]
     fn numbers_that_are_missing_make_no_call() {
-        for kind in [3, 15, 16, 17, 18, 21, 22, 25, 26, 27, 28, 32, 33, 34, 35, 36, 37, 1000, -5] {
+        for kind in [
+            3, 15, 16, 17, 18, 21, 22, 25, 26, 27, 28, 32, 33, 34, 35, 36, 37, 1000, -5,
+        ] {
             assert_eq!(call(kind, &Filter::default()), None, "{kind}");
         }
     }

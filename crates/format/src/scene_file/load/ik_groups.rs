@@ -18,7 +18,13 @@ pub(super) fn add(scene: &mut Scene, file: &File, objects: &[Handle], map: &Hand
     }
 }
 
-fn group(scene: &Scene, file: &File, objects: &[Handle], map: &HandleMap, chunk: &GroupChunk) -> IkGroup {
+fn group(
+    scene: &Scene,
+    file: &File,
+    objects: &[Handle],
+    map: &HandleMap,
+    chunk: &GroupChunk,
+) -> IkGroup {
     let text = |text: &Option<Text>| text.as_ref().map(Text::decode).unwrap_or_default();
     IkGroup {
         name: numbered(scene, file, objects, text(&chunk.name)),
@@ -28,21 +34,31 @@ fn group(scene: &Scene, file: &File, objects: &[Handle], map: &HandleMap, chunk:
         flags: chunk.flags.unwrap_or(0) & !EXPLICIT,
         performed_after: chunk.do_on.unwrap_or(-1),
         max_iterations: chunk.max_iter.unwrap_or(3),
-        damping: chunk.damping.filter(|damping| damping.is_finite()).unwrap_or(0.1),
-        elements: chunk.elements.iter().filter_map(|chunk| element(chunk, map)).collect(),
+        damping: chunk
+            .damping
+            .filter(|damping| damping.is_finite())
+            .unwrap_or(0.1),
+        elements: chunk
+            .elements
+            .iter()
+            .filter_map(|chunk| element(chunk, map))
+            .collect(),
         ..IkGroup::new("")
     }
 }
 
 fn element(chunk: &ElementChunk, map: &HandleMap) -> Option<IkElement> {
     let [tip, base] = chunk.tip_and_base?;
-    let finite = |numbers: Option<[f64; 2]>| numbers.filter(|numbers| numbers.iter().all(|number| number.is_finite()));
+    let finite = |numbers: Option<[f64; 2]>| {
+        numbers.filter(|numbers| numbers.iter().all(|number| number.is_finite()))
+    };
     let degrees = |[angle, distance]: [f32; 2]| [f64::from(angle).to_radians(), distance.into()];
     Some(IkElement {
         tip: map.get(&tip).copied()?,
         base: map.get(&base).copied(),
         constraint_base: chunk.alt_base.and_then(|base| map.get(&base).copied()),
-        precisions: finite(chunk.precisions.or(chunk.old_precisions.map(degrees))).unwrap_or([0.001; 2]),
+        precisions: finite(chunk.precisions.or(chunk.old_precisions.map(degrees)))
+            .unwrap_or([0.001; 2]),
         weights: finite(chunk.weights).unwrap_or([1.0; 2]),
         constraints: chunk.constraints.unwrap_or(0),
         flags: chunk.flags.unwrap_or(0),

@@ -29,10 +29,22 @@ pub(super) fn joint(context: &Context<'_>, chunk: &Chunk) -> Joint {
     position(&mut joint, chunk);
     control(&mut joint, chunk);
     gains(&mut joint, chunk);
-    if let Some([length, diameter]) = chunk.sizes.filter(|sizes| sizes.iter().all(|s| s.is_finite())) {
+    if let Some([length, diameter]) = chunk
+        .sizes
+        .filter(|sizes| sizes.iter().all(|s| s.is_finite()))
+    {
         joint.size = [length, diameter];
     }
-    material::load_all(&mut joint, [&chunk.bullet, &chunk.ode, &chunk.vortex, &chunk.newton, &chunk.mujoco]);
+    material::load_all(
+        &mut joint,
+        [
+            &chunk.bullet,
+            &chunk.ode,
+            &chunk.vortex,
+            &chunk.newton,
+            &chunk.mujoco,
+        ],
+    );
     debug_assert!(context.header.serialization > 0);
     joint
 }
@@ -49,7 +61,10 @@ fn mode(chunk: &Chunk) -> JointMode {
 
 fn limits(joint: &mut Joint, chunk: &Chunk) {
     joint.cyclic = chunk.switches.unwrap_or(0) & 0x1 != 0;
-    if let Some([min, range]) = chunk.limits.filter(|limits| limits.iter().all(|l| l.is_finite())) {
+    if let Some([min, range]) = chunk
+        .limits
+        .filter(|limits| limits.iter().all(|l| l.is_finite()))
+    {
         (joint.min, joint.range) = (min, range);
     }
     joint.enforce_limits = chunk.switches_2.unwrap_or(0) & 0x4 != 0;
@@ -57,7 +72,10 @@ fn limits(joint: &mut Joint, chunk: &Chunk) {
     [joint.max_vel, joint.max_accel, joint.max_jerk] = chunk.max_vel_accel_jerk.unwrap_or(fast);
     // Up to 4.3 joints that physics moved had a velocity limit of their own.
     let physical = joint.hybrid || joint.mode == JointMode::Dynamic;
-    if let Some(limit) = chunk.upper_velocity_limit.filter(|limit| physical && *limit > 0.0) {
+    if let Some(limit) = chunk
+        .upper_velocity_limit
+        .filter(|limit| physical && *limit > 0.0)
+    {
         joint.max_vel = limit.into();
     }
 }
@@ -67,10 +85,23 @@ fn position(joint: &mut Joint, chunk: &Chunk) {
     if let Some(rotation) = chunk.spherical {
         joint.spherical = unit_quaternion(rotation);
     }
-    let lead = chunk.screw_lead.or(chunk.screw_pitch.map(|pitch| pitch * TAU)).unwrap_or(0.0);
-    joint.screw_lead = if joint.is_revolute() && lead.is_finite() { lead } else { 0.0 };
-    joint.ik.weight = chunk.ik_weight.filter(|weight| weight.is_finite()).unwrap_or(joint.ik.weight);
-    joint.ik.max_step = chunk.ik_max_step.filter(|step| step.is_finite()).unwrap_or(joint.ik.max_step);
+    let lead = chunk
+        .screw_lead
+        .or(chunk.screw_pitch.map(|pitch| pitch * TAU))
+        .unwrap_or(0.0);
+    joint.screw_lead = if joint.is_revolute() && lead.is_finite() {
+        lead
+    } else {
+        0.0
+    };
+    joint.ik.weight = chunk
+        .ik_weight
+        .filter(|weight| weight.is_finite())
+        .unwrap_or(joint.ik.weight);
+    joint.ik.max_step = chunk
+        .ik_max_step
+        .filter(|step| step.is_finite())
+        .unwrap_or(joint.ik.max_step);
     joint.target_position = chunk.target_pos.filter(|p| p.is_finite()).unwrap_or(0.0);
 }
 
@@ -78,8 +109,14 @@ fn control(joint: &mut Joint, chunk: &Chunk) {
     let [velocity, force] = chunk.motor.unwrap_or([0.0, MAX_FORCE]);
     joint.target_velocity = velocity;
     // Velocity and force push the same way.
-    joint.target_force = if velocity * force < 0.0 { -force } else { force };
-    joint.control = chunk.dyn_ctrl_mode.map_or_else(|| old_control(chunk), control_of);
+    joint.target_force = if velocity * force < 0.0 {
+        -force
+    } else {
+        force
+    };
+    joint.control = chunk
+        .dyn_ctrl_mode
+        .map_or_else(|| old_control(chunk), control_of);
     joint.motor_lock = chunk.switches_2.unwrap_or(0) & 0x2 != 0;
     let smooth = chunk.switches_3.is_some_and(|switches| switches & 1 != 0);
     joint.position_profile = smooth || chunk.pos_ctrl_profile.unwrap_or(0) != 0;
@@ -113,14 +150,18 @@ fn old_control(chunk: &Chunk) -> Control {
 /// Spring constants and gains; before 4.4 one set of gains for all engines, before 3.1.1 in other units.
 fn gains(joint: &mut Joint, chunk: &Chunk) {
     let old = chunk.old_pid.map(|pid| pid.map(f64::from));
-    let oldest = chunk.oldest_pid.map(|[p, i, d]| [p.into(), f64::from(i) / OLD_STEP, f64::from(d) / OLD_STEP]);
+    let oldest = chunk
+        .oldest_pid
+        .map(|[p, i, d]| [p.into(), f64::from(i) / OLD_STEP, f64::from(d) / OLD_STEP]);
     let pid = old.or(oldest);
     if let Some(pid) = pid {
         joint.gains = [pid; 5];
     }
     match chunk.spring {
         Some(spring) => joint.spring = spring,
-        None if chunk.switches.unwrap_or(0) & 0xb0 == 0xb0 => spring_of_gains(joint, pid.unwrap_or([0.1, 0.0, 0.0])),
+        None if chunk.switches.unwrap_or(0) & 0xb0 == 0xb0 => {
+            spring_of_gains(joint, pid.unwrap_or([0.1, 0.0, 0.0]))
+        }
         None => {}
     }
 }
@@ -139,16 +180,27 @@ fn spring_of_gains(joint: &mut Joint, [p, i, d]: [f64; 3]) {
 pub(super) fn force_sensor(chunk: &ForceSensorChunk) -> ForceSensor {
     let mut sensor = ForceSensor::default();
     sensor.size = chunk.size.unwrap_or(sensor.size);
-    let old = chunk.old_thresholds.map(|(thresholds, violations)| (thresholds.map(f64::from), violations));
+    let old = chunk
+        .old_thresholds
+        .map(|(thresholds, violations)| (thresholds.map(f64::from), violations));
     if let Some(([force, torque], violations)) = chunk.thresholds.or(old) {
         (sensor.force_threshold, sensor.torque_threshold) = (force, torque);
         sensor.consecutive_violations = violations.max(1) as u32;
     }
     let switches = chunk.switches.unwrap_or(0);
-    (sensor.force_threshold_enabled, sensor.torque_threshold_enabled) = (switches & 1 != 0, switches & 2 != 0);
+    (
+        sensor.force_threshold_enabled,
+        sensor.torque_threshold_enabled,
+    ) = (switches & 1 != 0, switches & 2 != 0);
     if let Some([samples, filter]) = chunk.filter {
-        sensor.sample_size = usize::try_from(samples).unwrap_or(1).clamp(1, ForceSensor::MAX_SAMPLES);
-        sensor.filter = if filter == 1 { ForceFilter::Median } else { ForceFilter::Average };
+        sensor.sample_size = usize::try_from(samples)
+            .unwrap_or(1)
+            .clamp(1, ForceSensor::MAX_SAMPLES);
+        sensor.filter = if filter == 1 {
+            ForceFilter::Median
+        } else {
+            ForceFilter::Average
+        };
     }
     sensor
 }
@@ -156,13 +208,19 @@ pub(super) fn force_sensor(chunk: &ForceSensorChunk) -> ForceSensor {
 /// Without its partner, which may come later.
 pub(super) fn dummy(chunk: &DummyChunk) -> Dummy {
     let mut dummy = Dummy::new(chunk.size.unwrap_or(0.01));
-    dummy.link_type = chunk.link_type.and_then(|code| LinkType::from_code(code.into())).unwrap_or(LinkType::Default);
+    dummy.link_type = chunk
+        .link_type
+        .and_then(|code| LinkType::from_code(code.into()))
+        .unwrap_or(LinkType::Default);
     if let Some(tag) = chunk.assembly_tag.as_ref().map(Text::decode) {
         dummy.assembly_tag = tag;
     }
     dummy.path_following = PathFollowing {
         bits: chunk.switches.unwrap_or(0) & PathFollowing::BITS,
-        offsets: chunk.path_offsets.or(chunk.path_off.map(|offset| [offset.into(); 2])).unwrap_or_default(),
+        offsets: chunk
+            .path_offsets
+            .or(chunk.path_off.map(|offset| [offset.into(); 2]))
+            .unwrap_or_default(),
     };
     if let Some(mujoco) = &chunk.mujoco {
         dummy.load_engine(Engine::Mujoco, &mujoco.reals, &mujoco.ints);

@@ -65,11 +65,22 @@ impl SceneFile {
     /// # Errors
     /// When geometry, a tree of cells or a pose is damaged.
     pub fn new(file: File) -> FileResult<Self> {
-        let mut context = Context { header: &file.header, file: &file, meshes: Meshes::new(&file) };
+        let mut context = Context {
+            header: &file.header,
+            file: &file,
+            meshes: Meshes::new(&file),
+        };
         let objects = &file.contents.objects;
         objects.iter().try_for_each(stands_somewhere)?;
-        let kinds = objects.iter().map(|object| kind_of(&mut context, object)).collect::<Result<_, _>>()?;
-        Ok(Self { file, kinds, attached_sources: Vec::new() })
+        let kinds = objects
+            .iter()
+            .map(|object| kind_of(&mut context, object))
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
+            file,
+            kinds,
+            attached_sources: Vec::new(),
+        })
     }
 
     /// With the names of the files that the texts of its scripts are from.
@@ -95,7 +106,11 @@ impl SceneFile {
 
     /// The scripts, as they would run here. The usual main script is not among them.
     pub fn scripts(&self) -> Vec<ScriptCode> {
-        let context = Context { header: &self.file.header, file: &self.file, meshes: Meshes::new(&self.file) };
+        let context = Context {
+            header: &self.file.header,
+            file: &self.file,
+            meshes: Meshes::new(&self.file),
+        };
         script::texts(&context)
     }
 
@@ -105,13 +120,28 @@ impl SceneFile {
     /// When the scene is full.
     pub fn add_to(self, scene: &mut Scene, settings: bool) -> SceneResult<Loaded> {
         let file_is_model = self.is_model();
-        let Self { file, kinds, attached_sources } = self;
-        let context = Context { header: &file.header, file: &file, meshes: Meshes::new(&file) };
+        let Self {
+            file,
+            kinds,
+            attached_sources,
+        } = self;
+        let context = Context {
+            header: &file.header,
+            file: &file,
+            meshes: Meshes::new(&file),
+        };
         let textures = texture::add(scene, &file.contents.textures)?;
-        let objects = file.contents.objects.iter().zip(kinds).map(|(object, kind)| add(scene, &context, object, kind));
+        let objects = file
+            .contents
+            .objects
+            .iter()
+            .zip(kinds)
+            .map(|(object, kind)| add(scene, &context, object, kind));
         let objects = objects.collect::<SceneResult<Vec<Handle>>>()?;
         let known = file.contents.objects.iter().zip(&objects);
-        let map: HandleMap = known.filter_map(|(object, handle)| Some((object.common.handles?[0], *handle))).collect();
+        let map: HandleMap = known
+            .filter_map(|(object, handle)| Some((object.common.handles?[0], *handle)))
+            .collect();
         let root = place(scene, &file, &objects, &map)?;
         let collections = references::connect(scene, &file, &objects, &map)?;
         connect_textures(scene, &objects, &textures, &map)?;
@@ -122,9 +152,16 @@ impl SceneFile {
             script::hand_over(scene, script, &context, &map)?;
         }
         let sources = attached_sources.into_iter().chain(std::iter::repeat(None));
-        let scripts =
-            file.contents.scripts.iter().zip(sources).filter_map(|(script, source)| {
-                Some(LoadedScript { source, ..script::attached(script, &context, &map)? })
+        let scripts = file
+            .contents
+            .scripts
+            .iter()
+            .zip(sources)
+            .filter_map(|(script, source)| {
+                Some(LoadedScript {
+                    source,
+                    ..script::attached(script, &context, &map)?
+                })
             });
         let scripts: Vec<LoadedScript> = scripts.collect();
         let is_attached = |script: &LoadedScript| script.owner.is_some();
@@ -134,19 +171,38 @@ impl SceneFile {
         references::calculation_objects(scene, &file, &objects, &map, &collections);
         ik_groups::add(scene, &file, &objects, &map);
         button_interfaces::add(scene, &file, &objects, &map);
-        let filters = file.contents.objects.iter().zip(&objects).filter_map(|(o, handle)| filters::script(o, *handle));
+        let filters = file
+            .contents
+            .objects
+            .iter()
+            .zip(&objects)
+            .filter_map(|(o, handle)| filters::script(o, *handle));
         let scripts: Vec<LoadedScript> = scripts.into_iter().chain(filters).collect();
-        Ok(Loaded { objects, root, scripts })
+        Ok(Loaded {
+            objects,
+            root,
+            scripts,
+        })
     }
 }
 
-fn add(scene: &mut Scene, context: &Context<'_>, object: &FileObject, kind: Kind) -> SceneResult<Handle> {
+fn add(
+    scene: &mut Scene,
+    context: &Context<'_>,
+    object: &FileObject,
+    kind: Kind,
+) -> SceneResult<Handle> {
     let handle = scene.add(&common::alias(&object.common), kind)?;
     common::fill(scene, context, handle, object)?;
     Ok(handle)
 }
 
-fn connect_textures(scene: &mut Scene, objects: &[Handle], textures: &TextureMap, map: &HandleMap) -> SceneResult<()> {
+fn connect_textures(
+    scene: &mut Scene,
+    objects: &[Handle],
+    textures: &TextureMap,
+    map: &HandleMap,
+) -> SceneResult<()> {
     for &handle in objects {
         let textured = |shape: &Shape| shape.parts.iter().any(|part| part.texture.is_some());
         if scene.object(handle)?.shape().is_ok_and(textured) {
@@ -166,18 +222,26 @@ fn kind_of(context: &mut Context<'_>, object: &FileObject) -> FileResult<Kind> {
         Class::Joint(joint) => Kind::Joint(Box::new(joint::joint(context, joint))),
         Class::ForceSensor(sensor) => Kind::ForceSensor(Box::new(joint::force_sensor(sensor))),
         Class::Dummy(dummy) => Kind::Dummy(joint::dummy(dummy)),
-        Class::ProximitySensor(sensor) => Kind::ProximitySensor(Box::new(sensors::proximity_sensor(context, sensor))),
+        Class::ProximitySensor(sensor) => {
+            Kind::ProximitySensor(Box::new(sensors::proximity_sensor(context, sensor)))
+        }
         Class::VisionSensor(sensor) => Kind::VisionSensor(Box::new(sensors::vision_sensor(sensor))),
         Class::Camera(camera) => Kind::Camera(Box::new(sensors::camera(camera))),
         Class::Light(light) => Kind::Light(Box::new(sensors::light(light))),
         Class::Graph(graph) => Kind::Graph(Box::new(graph::graph(graph))),
-        Class::OcTree(tree) => Kind::OcTree(Box::new(cells::octree(tree).map_err(|what| damaged(object, what))?)),
-        Class::PointCloud(cloud) => {
-            Kind::PointCloud(Box::new(cells::point_cloud(cloud).map_err(|what| damaged(object, what))?))
-        }
+        Class::OcTree(tree) => Kind::OcTree(Box::new(
+            cells::octree(tree).map_err(|what| damaged(object, what))?,
+        )),
+        Class::PointCloud(cloud) => Kind::PointCloud(Box::new(
+            cells::point_cloud(cloud).map_err(|what| damaged(object, what))?,
+        )),
         Class::ScriptObject(script) => Kind::Script(Box::new(script::object(script, context))),
         Class::Path(path) => Kind::Path(Box::new(path::path(path))),
-        Class::Mirror(_) | Class::Mill(_) | Class::Marker(_) | Class::CustomSceneObject(_) | Class::Unknown(_) => {
+        Class::Mirror(_)
+        | Class::Mill(_)
+        | Class::Marker(_)
+        | Class::CustomSceneObject(_)
+        | Class::Unknown(_) => {
             let mut dummy = Dummy::new(0.01);
             dummy.link_type = LinkType::Default;
             Kind::Dummy(dummy)
@@ -187,7 +251,9 @@ fn kind_of(context: &mut Context<'_>, object: &FileObject) -> FileResult<Kind> {
 
 fn stands_somewhere(object: &FileObject) -> FileResult<()> {
     match object.common.pose.and_then(|pose| pose.pose()) {
-        Some(pose) if !is_valid_pose(&pose) => Err(damaged(object, "the pose of an object is no place".into())),
+        Some(pose) if !is_valid_pose(&pose) => {
+            Err(damaged(object, "the pose of an object is no place".into()))
+        }
         _ => Ok(()),
     }
 }
@@ -195,13 +261,26 @@ fn stands_somewhere(object: &FileObject) -> FileResult<()> {
 fn damaged(object: &FileObject, what: String) -> FileError {
     let name = common::alias(&object.common);
     let path = format!("{} ({name})", String::from_utf8_lossy(&object.class.tag()));
-    FileError::Chunk { offset: object.offset, path, what }
+    FileError::Chunk {
+        offset: object.offset,
+        path,
+        what,
+    }
 }
 
 /// Gives all their parents and their order; the last object without parent is the model.
-fn place(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) -> SceneResult<Option<Handle>> {
-    let parent_of =
-        |at: usize| file.contents.objects[at].common.handles.and_then(|[_, parent]| map.get(&parent).copied());
+fn place(
+    scene: &mut Scene,
+    file: &File,
+    objects: &[Handle],
+    map: &HandleMap,
+) -> SceneResult<Option<Handle>> {
+    let parent_of = |at: usize| {
+        file.contents.objects[at]
+            .common
+            .handles
+            .and_then(|[_, parent]| map.get(&parent).copied())
+    };
     for at in sibling_order(file) {
         match parent_of(at) {
             // A file that makes an object its own ancestor is wrong; the object stays at the top.
@@ -211,7 +290,10 @@ fn place(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) ->
             _ => scene.set_hierarchy_order(objects[at], -1)?,
         }
     }
-    Ok((0..objects.len()).rev().find(|at| parent_of(*at).is_none()).map(|at| objects[at]))
+    Ok((0..objects.len())
+        .rev()
+        .find(|at| parent_of(*at).is_none())
+        .map(|at| objects[at]))
 }
 
 /// The objects as siblings come one after another: as in the file, those that share parent and alias by their numbers.
@@ -220,13 +302,19 @@ fn sibling_order(file: &File) -> Vec<usize> {
     let mut namesakes: BTreeMap<(i32, String), Vec<usize>> = BTreeMap::new();
     for (at, object) in objects.iter().enumerate() {
         let parent = object.common.handles.map_or(-1, |[_, parent]| parent);
-        namesakes.entry((parent, common::alias(&object.common))).or_default().push(at);
+        namesakes
+            .entry((parent, common::alias(&object.common)))
+            .or_default()
+            .push(at);
     }
     let mut order: Vec<usize> = (0..objects.len()).collect();
     for places in namesakes.into_values().filter(|places| places.len() > 1) {
         let mut sorted = places.clone();
         sorted.sort_by_key(|at| objects[*at].common.child_order.unwrap_or(-1));
-        places.iter().zip(sorted).for_each(|(place, at)| order[*place] = at);
+        places
+            .iter()
+            .zip(sorted)
+            .for_each(|(place, at)| order[*place] = at);
     }
     order
 }

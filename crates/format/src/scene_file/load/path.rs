@@ -15,12 +15,15 @@ const SHAPING: u8 = 0xf;
 pub(super) fn path(chunk: &Path) -> PathObject {
     let usual = PathControl::default();
     let line = chunk.path.as_ref().unwrap_or(&usual);
-    let attributes = line.attributes.map_or(PathAttributes::DEFAULT, PathAttributes::from_bits_retain);
+    let attributes = line
+        .attributes
+        .map_or(PathAttributes::DEFAULT, PathAttributes::from_bits_retain);
     let mut path = PathObject::new(attributes, measures(line));
     let points = line.points.iter().filter_map(control_point).collect();
     // A path with too many points stays empty.
     let _ = path.insert(0, points, attributes.contains(PathAttributes::CLOSED));
-    if let Some([position, max_acceleration, nominal, target]) = line.motion.filter(|m| m.iter().all(|n| n.is_finite()))
+    if let Some([position, max_acceleration, nominal, target]) =
+        line.motion.filter(|m| m.iter().all(|n| n.is_finite()))
     {
         path.set_motion(position, max_acceleration, nominal, target);
     }
@@ -34,15 +37,26 @@ pub(super) fn path(chunk: &Path) -> PathObject {
 fn measures(line: &PathControl) -> PathMeasures {
     let usual = PathMeasures::default();
     let finite = |value: f64, other: f64| if value.is_finite() { value } else { other };
-    let (angle, method) = line.length.unwrap_or((usual.angle_coefficient, usual.length_method as i32));
-    let profile = line.averages.filter(|numbers| numbers.iter().all(|n| n.is_finite())).map_or(
-        usual.profile,
-        |[radius, axis_change, acceleration]| VelocityProfile { radius, axis_change, acceleration },
-    );
+    let (angle, method) = line
+        .length
+        .unwrap_or((usual.angle_coefficient, usual.length_method as i32));
+    let profile = line
+        .averages
+        .filter(|numbers| numbers.iter().all(|n| n.is_finite()))
+        .map_or(usual.profile, |[radius, axis_change, acceleration]| {
+            VelocityProfile {
+                radius,
+                axis_change,
+                acceleration,
+            }
+        });
     PathMeasures {
         length_method: LengthMethod::from_number(method.into()).unwrap_or(usual.length_method),
         angle_coefficient: finite(angle, usual.angle_coefficient),
-        on_spot_coefficient: finite(line.on_spot_coeff.unwrap_or(usual.on_spot_coefficient), usual.on_spot_coefficient),
+        on_spot_coefficient: finite(
+            line.on_spot_coeff.unwrap_or(usual.on_spot_coefficient),
+            usual.on_spot_coefficient,
+        ),
         profile,
     }
 }
@@ -54,7 +68,19 @@ fn control_point(point: &PathPoint) -> Option<ControlPoint> {
     let on_spot = point.on_spot.unwrap_or(0.0);
     let count = usize::try_from((*count).max(1)).ok()?;
     let (before, after, velocity) = (*before, *after, *velocity);
-    Some(ControlPoint { pose, before, after, count, velocity, on_spot, flags, channels }.limited())
+    Some(
+        ControlPoint {
+            pose,
+            before,
+            after,
+            count,
+            velocity,
+            on_spot,
+            flags,
+            channels,
+        }
+        .limited(),
+    )
 }
 
 fn shaping(chunk: &Path, flags: u8) -> Shaping {
@@ -63,7 +89,14 @@ fn shaping(chunk: &Path, flags: u8) -> Shaping {
         flags,
         scale: chunk.shaping_scale.unwrap_or(1.0),
         element: chunk.element.unwrap_or((0.05, 0)),
-        section: chunk.section.as_ref().map(|section| section.0.clone()).unwrap_or_default(),
-        colour: chunk.colour.as_ref().map_or(white, |chunk| colour(chunk, white, false)),
+        section: chunk
+            .section
+            .as_ref()
+            .map(|section| section.0.clone())
+            .unwrap_or_default(),
+        colour: chunk
+            .colour
+            .as_ref()
+            .map_or(white, |chunk| colour(chunk, white, false)),
     }
 }

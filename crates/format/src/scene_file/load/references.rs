@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::HandleMap;
-use crate::ttt::chunks::{Collection as CollectionChunk, CollectionElement, Common, Joint as JointChunk};
+use crate::ttt::chunks::{
+    Collection as CollectionChunk, CollectionElement, Common, Joint as JointChunk,
+};
 use crate::ttt::tree::{Class, Object as FileObject};
 use crate::ttt::{Counted, EngineBlock, File, Text};
 use scene::joint::{JointDependency, JointMode};
@@ -11,7 +13,8 @@ use scene::object::viewers::Viewers;
 use scene::sensor::Entity;
 use scene::tree::calculation_objects::CalculationObject;
 use scene::{
-    CollectionItem, Field, Handle, Members, ReferenceLists, References, Scene, SceneResult, name_suffix, special,
+    CollectionItem, Field, Handle, Members, ReferenceLists, References, Scene, SceneResult,
+    name_suffix, special,
 };
 
 /// Larger numbers are handles of collections.
@@ -32,13 +35,19 @@ pub(super) fn connect(
 ) -> SceneResult<CollectionMap> {
     let collections = collections(scene, file, objects, map)?;
     let entity = |handle: i32| match handle {
-        0..=LAST_OBJECT => map.get(&handle).map_or(Entity::ALL, |object| (*object).into()),
-        _ => collections.get(&handle).map_or(Entity::ALL, |collection| Entity::from_raw(*collection)),
+        0..=LAST_OBJECT => map
+            .get(&handle)
+            .map_or(Entity::ALL, |object| (*object).into()),
+        _ => collections
+            .get(&handle)
+            .map_or(Entity::ALL, |collection| Entity::from_raw(*collection)),
     };
     for (object, handle) in file.contents.objects.iter().zip(objects) {
         connect_one(scene, object, *handle, map)?;
         watch(scene, object, *handle, entity)?;
-        scene.modify(*handle, Field::Other, |new| new.viewers = viewers(&object.common, map, &collections))?;
+        scene.modify(*handle, Field::Other, |new| {
+            new.viewers = viewers(&object.common, map, &collections)
+        })?;
         for (tag, list) in lists(&object.common, map) {
             scene.set_references(*handle, References::Following, &tag, &list)?;
         }
@@ -68,7 +77,9 @@ pub(super) fn calculation_objects(
     };
     let text = |text: &Option<Text>| text.as_ref().map(Text::decode).unwrap_or_default();
     for chunk in &file.contents.collisions {
-        let Some(entities) = entities(chunk.entities_and_handle) else { continue };
+        let Some(entities) = entities(chunk.entities_and_handle) else {
+            continue;
+        };
         let name = numbered(scene, file, objects, text(&chunk.name));
         scene.collision_objects_mut().add(CalculationObject {
             name,
@@ -81,13 +92,18 @@ pub(super) fn calculation_objects(
         });
     }
     for chunk in &file.contents.distances {
-        let Some(entities) = entities(chunk.entities_and_handle) else { continue };
+        let Some(entities) = entities(chunk.entities_and_handle) else {
+            continue;
+        };
         let name = numbered(scene, file, objects, text(&chunk.name));
         scene.distance_objects_mut().add(CalculationObject {
             name,
             persistent_uid: text(&chunk.persistent_id),
             entities,
-            threshold: chunk.threshold.filter(|threshold| threshold.is_finite()).unwrap_or(0.0),
+            threshold: chunk
+                .threshold
+                .filter(|threshold| threshold.is_finite())
+                .unwrap_or(0.0),
             explicit: false,
             switches: chunk.flags.unwrap_or(0),
             result: None,
@@ -98,8 +114,13 @@ pub(super) fn calculation_objects(
 /// A name of the file with the suffix that objects with the same suffix have in the scene.
 pub(super) fn numbered(scene: &Scene, file: &File, objects: &[Handle], name: String) -> String {
     let (own, stem) = name_suffix(&name);
-    let has_it =
-        |object: &FileObject| object.common.name.as_ref().is_some_and(|name| name_suffix(&name.decode()).0 == own);
+    let has_it = |object: &FileObject| {
+        object
+            .common
+            .name
+            .as_ref()
+            .is_some_and(|name| name_suffix(&name.decode()).0 == own)
+    };
     let at = file.contents.objects.iter().position(has_it);
     let object = at.and_then(|at| scene.object(objects[at]).ok());
     match object.map_or(own, |object| name_suffix(object.old_name()).0) {
@@ -109,7 +130,12 @@ pub(super) fn numbered(scene: &Scene, file: &File, objects: &[Handle], name: Str
     }
 }
 
-fn connect_one(scene: &mut Scene, object: &FileObject, handle: Handle, map: &HandleMap) -> SceneResult<()> {
+fn connect_one(
+    scene: &mut Scene,
+    object: &FileObject,
+    handle: Handle,
+    map: &HandleMap,
+) -> SceneResult<()> {
     match &object.class {
         Class::Dummy(dummy) => {
             if let Some(partner) = dummy.linked_dummy.and_then(|partner| map.get(&partner)) {
@@ -123,7 +149,8 @@ fn connect_one(scene: &mut Scene, object: &FileObject, handle: Handle, map: &Han
         }
         Class::Joint(joint) => {
             let is_joint = |of: Handle| scene.object(of).is_ok_and(|object| object.joint().is_ok());
-            let dependency = dependency(joint, map).filter(|law| law.master != handle && is_joint(law.master));
+            let dependency =
+                dependency(joint, map).filter(|law| law.master != handle && is_joint(law.master));
             if let Some(law) = dependency {
                 scene.break_dependency_cycle(handle, law.master)?;
             }
@@ -137,13 +164,22 @@ fn connect_one(scene: &mut Scene, object: &FileObject, handle: Handle, map: &Han
             })?;
         }
         Class::Camera(camera) => {
-            if let Some(tracked) = camera.tracked_and_size.and_then(|(tracked, _)| map.get(&tracked)) {
+            if let Some(tracked) = camera
+                .tracked_and_size
+                .and_then(|(tracked, _)| map.get(&tracked))
+            {
                 scene.track(handle, tracked.raw())?;
             }
         }
         Class::Graph(_) => scene.try_modify(handle, Field::Other, |object| {
-            let sources = object.graph_mut()?.streams_mut().iter_mut().filter_map(|stream| stream.source.as_mut());
-            sources.for_each(|source| source.object = source.object.and_then(|o| map.get(&(o.0 as i32)).copied()));
+            let sources = object
+                .graph_mut()?
+                .streams_mut()
+                .iter_mut()
+                .filter_map(|stream| stream.source.as_mut());
+            sources.for_each(|source| {
+                source.object = source.object.and_then(|o| map.get(&(o.0 as i32)).copied())
+            });
             Ok(())
         })?,
         _ => {}
@@ -156,26 +192,43 @@ fn dependency(joint: &JointChunk, map: &HandleMap) -> Option<JointDependency> {
     if let Some((master, [coefficient, offset])) = joint.dependency
         && let Some(master) = map.get(&master)
     {
-        return Some(JointDependency { master: *master, offset, coefficient });
+        return Some(JointDependency {
+            master: *master,
+            offset,
+            coefficient,
+        });
     }
     let pair = |block: &Option<EngineBlock>, master: usize, coefficient: usize, offset: usize| {
         let block = block.as_ref()?;
         let real = |at: usize| block.reals.get(at).copied().unwrap_or(0.0);
         let master = *map.get(block.ints.get(master)?)?;
-        Some(JointDependency { master, offset: real(offset), coefficient: real(coefficient) })
+        Some(JointDependency {
+            master,
+            offset: real(offset),
+            coefficient: real(coefficient),
+        })
     };
     // The polynomial of MuJoCo begins with the offset; Vortex and Newton have factor and offset.
-    pair(&joint.mujoco, 1, 23, 22).or_else(|| pair(&joint.vortex, 5, 49, 50)).or_else(|| pair(&joint.newton, 1, 0, 1))
+    pair(&joint.mujoco, 1, 23, 22)
+        .or_else(|| pair(&joint.vortex, 5, 49, 50))
+        .or_else(|| pair(&joint.newton, 1, 0, 1))
 }
 
 /// Sets the entity of a sensor.
-fn watch(scene: &mut Scene, object: &FileObject, handle: Handle, entity: impl Fn(i32) -> Entity) -> SceneResult<()> {
+fn watch(
+    scene: &mut Scene,
+    object: &FileObject,
+    handle: Handle,
+    entity: impl Fn(i32) -> Entity,
+) -> SceneResult<()> {
     let seen = match &object.class {
         Class::ProximitySensor(sensor) => sensor.detectable,
         Class::VisionSensor(sensor) => sensor.renderable,
         _ => None,
     };
-    let Some(seen) = seen.filter(|seen| *seen >= 0).map(entity) else { return Ok(()) };
+    let Some(seen) = seen.filter(|seen| *seen >= 0).map(entity) else {
+        return Ok(());
+    };
     scene.modify(handle, Field::Sensor, |object| {
         if let Ok(sensor) = object.proximity_sensor_mut() {
             sensor.entity = seen;
@@ -189,43 +242,82 @@ fn watch(scene: &mut Scene, object: &FileObject, handle: Handle, entity: impl Fn
 fn viewers(common: &Common, map: &HandleMap, collections: &CollectionMap) -> Viewers {
     match common.authorized_viewable.unwrap_or(-1) {
         NOBODY => Viewers::None,
-        handle @ 0..=LAST_OBJECT => map.get(&handle).map_or(Viewers::All, |viewer| Viewers::One(*viewer)),
-        handle => collections.get(&handle).map_or(Viewers::All, |collection| Viewers::Collection(*collection)),
+        handle @ 0..=LAST_OBJECT => map
+            .get(&handle)
+            .map_or(Viewers::All, |viewer| Viewers::One(*viewer)),
+        handle => collections
+            .get(&handle)
+            .map_or(Viewers::All, |collection| Viewers::Collection(*collection)),
     }
 }
 
 fn lists(common: &Common, map: &HandleMap) -> ReferenceLists {
     let new = |handle: &i32| map.get(handle).map_or(-1, |handle| handle.raw());
-    let untagged = common
-        .references
+    let untagged = common.references.iter().map(|Counted(all)| {
+        (
+            String::new(),
+            all.iter().map(|[_, handle, _]| new(handle)).collect(),
+        )
+    });
+    let tagged = common
+        .tagged_references
         .iter()
-        .map(|Counted(all)| (String::new(), all.iter().map(|[_, handle, _]| new(handle)).collect()));
-    let tagged =
-        common.tagged_references.iter().map(|(tag, Counted(all))| (tag.decode(), all.iter().map(new).collect()));
-    untagged.chain(tagged).filter(|(_, list): &(String, Vec<i64>)| !list.is_empty()).collect()
+        .map(|(tag, Counted(all))| (tag.decode(), all.iter().map(new).collect()));
+    untagged
+        .chain(tagged)
+        .filter(|(_, list): &(String, Vec<i64>)| !list.is_empty())
+        .collect()
 }
 
 /// Originals are known by their persistent identity: what a model refers to may be in the scene already.
 fn original_lists(common: &Common, file: &File, objects: &[Handle]) -> ReferenceLists {
     let by_id = |id: &[u8]| {
-        let same = |o: &FileObject| o.common.persistent_id.as_ref().is_some_and(|own| own.0 == id);
+        let same = |o: &FileObject| {
+            o.common
+                .persistent_id
+                .as_ref()
+                .is_some_and(|own| own.0 == id)
+        };
         let at = file.contents.objects.iter().position(same);
         at.map_or(-1, |at| objects[at].raw())
     };
     let untagged = common.original_references.iter().map(|Counted(all)| {
-        (String::new(), all.iter().map(|r| r.persistent_id.as_ref().map_or(-1, |id| by_id(&id.0))).collect())
+        (
+            String::new(),
+            all.iter()
+                .map(|r| r.persistent_id.as_ref().map_or(-1, |id| by_id(&id.0)))
+                .collect(),
+        )
     });
     let tagged = common.tagged_original_references.iter();
-    let tagged = tagged.map(|(tag, Counted(all))| (tag.decode(), all.iter().map(|(_, id)| by_id(&id.0)).collect()));
-    untagged.chain(tagged).filter(|(_, list): &(String, Vec<i64>)| !list.is_empty()).collect()
+    let tagged = tagged.map(|(tag, Counted(all))| {
+        (
+            tag.decode(),
+            all.iter().map(|(_, id)| by_id(&id.0)).collect(),
+        )
+    });
+    untagged
+        .chain(tagged)
+        .filter(|(_, list): &(String, Vec<i64>)| !list.is_empty())
+        .collect()
 }
 
 /// Collections that were kept with the scene, before 4.2; from their handles in the file to those of the scene.
-fn collections(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) -> SceneResult<CollectionMap> {
+fn collections(
+    scene: &mut Scene,
+    file: &File,
+    objects: &[Handle],
+    map: &HandleMap,
+) -> SceneResult<CollectionMap> {
     let mut made = BTreeMap::new();
     for chunk in &file.contents.collections {
-        let handle = scene.collections_mut().add(chunk.flags.unwrap_or(0) & 1 != 0, None);
-        let items = chunk.elements.iter().filter_map(|element| item(element, map));
+        let handle = scene
+            .collections_mut()
+            .add(chunk.flags.unwrap_or(0) & 1 != 0, None);
+        let items = chunk
+            .elements
+            .iter()
+            .filter_map(|element| item(element, map));
         scene.collections_mut().get_mut(handle)?.items = items.collect();
         if let Some(name) = collection_name(chunk) {
             let name = numbered(scene, file, objects, name);
@@ -256,5 +348,9 @@ fn item(element: &CollectionElement, map: &HandleMap) -> Option<CollectionItem> 
         _ => Members::All,
     };
     let subtract = element.flags.unwrap_or(1) & 1 == 0;
-    Some(CollectionItem { members, subtract, exclude_base: matches!(kind, 2 | 4) })
+    Some(CollectionItem {
+        members,
+        subtract,
+        exclude_base: matches!(kind, 2 | 4),
+    })
 }

@@ -43,7 +43,11 @@ pub(super) fn object(chunk: &ObjectChunk, context: &Context<'_>) -> ScriptObject
 }
 
 /// A script outside of the tree. None for the usual main script, and for callback scripts, which later programs do not run either.
-pub(super) fn attached(chunk: &Chunk, context: &Context<'_>, map: &HandleMap) -> Option<LoadedScript> {
+pub(super) fn attached(
+    chunk: &Chunk,
+    context: &Context<'_>,
+    map: &HandleMap,
+) -> Option<LoadedScript> {
     let script_type = type_of(chunk)?;
     let switches = chunk.switches.unwrap_or(0);
     let owner = match script_type {
@@ -66,7 +70,10 @@ pub(super) fn attached(chunk: &Chunk, context: &Context<'_>, map: &HandleMap) ->
 /// All scripts of a file that run, in its order.
 pub(super) fn texts(context: &Context<'_>) -> Vec<ScriptCode> {
     let contents = &context.file.contents;
-    let known = contents.objects.iter().filter_map(|object| Some((object.common.handles?[0], object)));
+    let known = contents
+        .objects
+        .iter()
+        .filter_map(|object| Some((object.common.handles?[0], object)));
     let objects: ByHandle<'_> = known.collect();
     let attached = contents.scripts.iter().filter_map(|chunk| {
         let name = match type_of(chunk)? {
@@ -77,13 +84,23 @@ pub(super) fn texts(context: &Context<'_>) -> Vec<ScriptCode> {
         };
         Some((name, chunk))
     });
-    let in_tree = contents.objects.iter().filter_map(|object| match &object.class {
-        Class::ScriptObject(script) => Some((path(&objects, object.common.handles?[0]), script.script.as_ref()?)),
-        _ => None,
-    });
+    let in_tree = contents
+        .objects
+        .iter()
+        .filter_map(|object| match &object.class {
+            Class::ScriptObject(script) => Some((
+                path(&objects, object.common.handles?[0]),
+                script.script.as_ref()?,
+            )),
+            _ => None,
+        });
     let code = |(name, chunk)| {
         let (code, language) = text(chunk, context);
-        ScriptCode { name, code, language }
+        ScriptCode {
+            name,
+            code,
+            language,
+        }
     };
     attached.chain(in_tree).map(code).collect()
 }
@@ -102,7 +119,10 @@ fn path(objects: &ByHandle<'_>, handle: i32) -> String {
     };
     let chain = std::iter::successors(objects.get(&handle).copied(), parent).take(MAX_DEPTH);
     let names: Vec<String> = chain.map(|object| alias(&object.common)).collect();
-    names.iter().rev().fold(String::new(), |path, name| path + "/" + name)
+    names
+        .iter()
+        .rev()
+        .fold(String::new(), |path, name| path + "/" + name)
 }
 
 /// Whether what counts is not the text, but the main script that comes with the program.
@@ -114,8 +134,15 @@ fn is_usual_main(chunk: &Chunk, context: &Context<'_>) -> bool {
 ///
 /// # Errors
 /// Never: the objects are in the scene.
-pub(super) fn hand_over(scene: &mut Scene, chunk: &Chunk, context: &Context<'_>, map: &HandleMap) -> SceneResult<()> {
-    let Some(&owner) = map.get(&owner(chunk)) else { return Ok(()) };
+pub(super) fn hand_over(
+    scene: &mut Scene,
+    chunk: &Chunk,
+    context: &Context<'_>,
+    map: &HandleMap,
+) -> SceneResult<()> {
+    let Some(&owner) = map.get(&owner(chunk)) else {
+        return Ok(());
+    };
     let params = user_params(chunk.params.as_ref());
     scene.modify(owner, Field::Other, |object| {
         if object.user_params.is_empty() {
@@ -134,14 +161,26 @@ fn type_of(chunk: &Chunk) -> Option<ScriptType> {
 /// Customization scripts of 3.2 to 3.6 name their object in a chunk of its own.
 fn owner(chunk: &Chunk) -> i32 {
     let [_, owner, _] = chunk.ids.unwrap_or([-1; 3]);
-    if owner >= 0 { owner } else { chunk.cust_obj_handle.or(chunk.coi).unwrap_or(-1) }
+    if owner >= 0 {
+        owner
+    } else {
+        chunk.cust_obj_handle.or(chunk.coi).unwrap_or(-1)
+    }
 }
 
 /// The text, ready to run, and its language.
 fn text(chunk: &Chunk, context: &Context<'_>) -> (Vec<u8>, String) {
-    let text = chunk.text.as_ref().map(|ScriptText(text)| text.as_slice()).unwrap_or_default();
+    let text = chunk
+        .text
+        .as_ref()
+        .map(|ScriptText(text)| text.as_slice())
+        .unwrap_or_default();
     let (text, marked) = without_language_mark(text);
-    let language = chunk.lang.as_ref().map(Text::decode).filter(|l| !l.is_empty());
+    let language = chunk
+        .lang
+        .as_ref()
+        .map(Text::decode)
+        .filter(|l| !l.is_empty());
     let language = language.unwrap_or_else(|| marked.unwrap_or("lua").to_owned());
     if language != "lua" {
         return (text, language);
@@ -151,7 +190,11 @@ fn text(chunk: &Chunk, context: &Context<'_>) -> (Vec<u8>, String) {
 
 fn origin(chunk: &Chunk, context: &Context<'_>) -> Origin {
     let switches = chunk.switches.unwrap_or(0);
-    let thread = if switches & ONCE == 0 { Thread::Again } else { Thread::Once };
+    let thread = if switches & ONCE == 0 {
+        Thread::Again
+    } else {
+        Thread::Once
+    };
     let before_calls = is_before_calls(chunk, context);
     Origin {
         thread: (switches & THREADED != 0).then_some(thread),
@@ -170,7 +213,10 @@ fn is_before_calls(chunk: &Chunk, context: &Context<'_>) -> bool {
 fn without_language_mark(text: &[u8]) -> (Vec<u8>, Option<&'static str>) {
     let mut at = 0;
     while at < text.len() {
-        let end = text[at..].iter().position(|byte| *byte == b'\n').map_or(text.len(), |length| at + length + 1);
+        let end = text[at..]
+            .iter()
+            .position(|byte| *byte == b'\n')
+            .map_or(text.len(), |length| at + length + 1);
         let line = text[at..end].trim_ascii();
         let comment = line.strip_prefix(b"--").or_else(|| line.strip_prefix(b"#"));
         match comment.map(first_word) {
@@ -188,12 +234,18 @@ fn without_language_mark(text: &[u8]) -> (Vec<u8>, Option<&'static str>) {
 
 fn first_word(comment: &[u8]) -> &[u8] {
     let comment = comment.trim_ascii_start();
-    let end = comment.iter().position(|byte| !byte.is_ascii_alphanumeric()).unwrap_or(comment.len());
+    let end = comment
+        .iter()
+        .position(|byte| !byte.is_ascii_alphanumeric())
+        .unwrap_or(comment.len());
     &comment[..end]
 }
 
 fn skip_blank_lines(mut text: &[u8]) -> &[u8] {
-    while let Some(end) = text.iter().position(|byte| *byte == b'\n').filter(|end| text[..*end].trim_ascii().is_empty())
+    while let Some(end) = text
+        .iter()
+        .position(|byte| *byte == b'\n')
+        .filter(|end| text[..*end].trim_ascii().is_empty())
     {
         text = &text[end + 1..];
     }
@@ -207,11 +259,21 @@ mod tests {
     #[test]
     fn the_mark_of_the_language_is_taken_out() {
         let lua = |text: &str| (text.as_bytes().to_vec(), Some("lua"));
-        assert_eq!(without_language_mark(b"--lua\n\nsim = require 'sim'"), lua("sim = require 'sim'"));
-        assert_eq!(without_language_mark(b"-- a robot\n--lua\nx = 1"), lua("-- a robot\nx = 1"));
+        assert_eq!(
+            without_language_mark(b"--lua\n\nsim = require 'sim'"),
+            lua("sim = require 'sim'")
+        );
+        assert_eq!(
+            without_language_mark(b"-- a robot\n--lua\nx = 1"),
+            lua("-- a robot\nx = 1")
+        );
         assert_eq!(without_language_mark(b"#python\nx = 1").1, Some("python"));
         for unmarked in ["", "x = 1 --lua", "-- luanda\nx", "--[[lua]]", "\n\n"] {
-            assert_eq!(without_language_mark(unmarked.as_bytes()), (unmarked.as_bytes().to_vec(), None), "{unmarked}");
+            assert_eq!(
+                without_language_mark(unmarked.as_bytes()),
+                (unmarked.as_bytes().to_vec(), None),
+                "{unmarked}"
+            );
         }
     }
 }

@@ -6,7 +6,9 @@ use crate::ttt::chunks as file;
 use scene::appearance::colour::Colour;
 use scene::sensor::volume::{Volume, VolumeType};
 use scene::sensor::volume_faces::VolumeFaces;
-use scene::sensor::{Camera, Entity, Light, LightType, ProximitySensor, RenderMode, View, VisionSensor};
+use scene::sensor::{
+    Camera, Entity, Light, LightType, ProximitySensor, RenderMode, View, VisionSensor,
+};
 
 /// Where this bit of a colour is clear, it is translucent.
 const OPAQUE: u8 = 0x4;
@@ -26,10 +28,14 @@ pub(super) fn colour(chunk: &file::Colour, default: Colour, brighter: bool) -> C
         (colour.specular, colour.emission, colour.auxiliary) = (specular, emission, auxiliary);
     } else if let Some(values) = chunk.oldest_values {
         let [ambient, diffuse, specular, emission] = groups(values);
-        (colour.ambient_diffuse, colour.specular, colour.emission) = (joined(ambient, diffuse), specular, emission);
+        (colour.ambient_diffuse, colour.specular, colour.emission) =
+            (joined(ambient, diffuse), specular, emission);
     }
     if brighter {
-        let factor = colour.ambient_diffuse.iter().fold(BRIGHTER, |factor, c| factor.min(1.0 / c.max(1e-6)));
+        let factor = colour
+            .ambient_diffuse
+            .iter()
+            .fold(BRIGHTER, |factor, c| factor.min(1.0 / c.max(1e-6)));
         colour.ambient_diffuse = colour.ambient_diffuse.map(|c| c * factor.max(1.0));
     }
     if chunk.flags.is_some_and(|flags| flags & OPAQUE == 0) {
@@ -50,7 +56,10 @@ fn joined(ambient: [f32; 3], diffuse: [f32; 3]) -> [f32; 3] {
     sum.map(|c| c / largest)
 }
 
-pub(super) fn proximity_sensor(context: &Context<'_>, chunk: &file::ProximitySensor) -> ProximitySensor {
+pub(super) fn proximity_sensor(
+    context: &Context<'_>,
+    chunk: &file::ProximitySensor,
+) -> ProximitySensor {
     let switches = chunk.switches.unwrap_or(0);
     let bit = |bit: u8| switches >> bit & 1 == 1;
     let old_angle = chunk.old_angle_threshold.filter(|_| bit(2));
@@ -67,11 +76,12 @@ pub(super) fn proximity_sensor(context: &Context<'_>, chunk: &file::ProximitySen
         samples: samples.into(),
         required_samples: required.into(),
         angle_threshold: chunk.angle_threshold.or(old_angle).unwrap_or(0.0),
-        entity: chunk.detectable.map_or(Entity::ALL, |raw| Entity::from_raw(raw.into())),
-        ray_colour: chunk
-            .colour3
-            .as_ref()
-            .map_or(Colour::new([1.0; 3]), |c| colour(c, Colour::new([1.0; 3]), context.header.serialization < 17)),
+        entity: chunk
+            .detectable
+            .map_or(Entity::ALL, |raw| Entity::from_raw(raw.into())),
+        ray_colour: chunk.colour3.as_ref().map_or(Colour::new([1.0; 3]), |c| {
+            colour(c, Colour::new([1.0; 3]), context.header.serialization < 17)
+        }),
         file_faces: None,
         handled: false,
         detection: None,
@@ -84,7 +94,10 @@ pub(super) fn proximity_sensor(context: &Context<'_>, chunk: &file::ProximitySen
 
 /// Faces of the volume, if the file contains them.
 fn faces(chunk: &file::Volume) -> Option<VolumeFaces> {
-    let list = |list: &Option<Counted<f64>>| list.as_ref().map_or_else(Vec::new, |Counted(list)| list.clone());
+    let list = |list: &Option<Counted<f64>>| {
+        list.as_ref()
+            .map_or_else(Vec::new, |Counted(list)| list.clone())
+    };
     chunk.planes_inside.is_some().then(|| VolumeFaces {
         planes_inside: list(&chunk.planes_inside),
         planes_outside: list(&chunk.planes_outside),
@@ -107,9 +120,13 @@ fn volume_type(number: Option<i32>) -> VolumeType {
 fn volume(volume_type: VolumeType, chunk: Option<&file::Volume>) -> Volume {
     let none = file::Volume::default();
     let chunk = chunk.unwrap_or(&none);
-    let [offset, range, x, y, x_far, y_far, radius, radius_far, angle] = chunk.sizes.unwrap_or_default();
-    let [faces, faces_far, subdivisions, subdivisions_far] = chunk.faces.unwrap_or([32, 1, 1, 0]).map(i64::from);
-    let old_threshold = chunk.old_smallest_distance.filter(|_| chunk.switches.unwrap_or(0) & 1 == 1);
+    let [offset, range, x, y, x_far, y_far, radius, radius_far, angle] =
+        chunk.sizes.unwrap_or_default();
+    let [faces, faces_far, subdivisions, subdivisions_far] =
+        chunk.faces.unwrap_or([32, 1, 1, 0]).map(i64::from);
+    let old_threshold = chunk
+        .old_smallest_distance
+        .filter(|_| chunk.switches.unwrap_or(0) & 1 == 1);
     Volume {
         volume_type,
         offset,
@@ -126,7 +143,10 @@ fn volume(volume_type: VolumeType, chunk: Option<&file::Volume>) -> Volume {
 }
 
 pub(super) fn vision_sensor(chunk: &file::VisionSensor) -> VisionSensor {
-    let [ortho_size, angle, near, far] = chunk.optics.unwrap_or([1.0, 60f64.to_radians(), 0.05, 10.0]);
+    let [ortho_size, angle, near, far] =
+        chunk
+            .optics
+            .unwrap_or([1.0, 60f64.to_radians(), 0.05, 10.0]);
     let (third, second) = (chunk.switches_3.unwrap_or(0), chunk.switches_2.unwrap_or(0));
     let mut view = View {
         perspective: third & 1 != 0,
@@ -140,8 +160,13 @@ pub(super) fn vision_sensor(chunk: &file::VisionSensor) -> VisionSensor {
     VisionSensor {
         view,
         explicit: third & 2 != 0,
-        size: chunk.size.or(chunk.old_size.map(|[size, ..]| size.into())).unwrap_or(0.01),
-        entity: chunk.renderable.map_or(Entity::ALL, |raw| Entity::from_raw(raw.into())),
+        size: chunk
+            .size
+            .or(chunk.old_size.map(|[size, ..]| size.into()))
+            .unwrap_or(0.01),
+        entity: chunk
+            .renderable
+            .map_or(Entity::ALL, |raw| Entity::from_raw(raw.into())),
         render_mode: match chunk.render_mode {
             // The same with a window of its own.
             Some(6) => RenderMode::EXTERNAL,
@@ -208,8 +233,11 @@ fn emitted(chunk: &file::Colour, default: Colour) -> Colour {
     let second = |values: &[f32]| [values[3], values[4], values[5]];
     if let Some(values) = &chunk.values {
         colour.ambient_diffuse = second(values);
-    } else if let Some(values) =
-        chunk.old_values.as_ref().map(|v| &v[..]).or(chunk.oldest_values.as_ref().map(|v| &v[..]))
+    } else if let Some(values) = chunk
+        .old_values
+        .as_ref()
+        .map(|v| &v[..])
+        .or(chunk.oldest_values.as_ref().map(|v| &v[..]))
     {
         colour.ambient_diffuse = [second(values).iter().sum::<f32>() / 3.0; 3];
     }

@@ -16,7 +16,9 @@ use crate::ttt::chunks::{MeshData, MeshNode, Shape as Chunk, ShapeGeometry};
 use crate::ttt::tree::{Mesh as FileMesh, MeshTree};
 use scene::Pose;
 use scene::appearance::texture_mapping::TextureMapping;
-use scene::shape::{Appearance, HeightField, Part, Primitive, RespondableMask, Shape, ShapeDynamics, Velocity};
+use scene::shape::{
+    Appearance, HeightField, Part, Primitive, RespondableMask, Shape, ShapeDynamics, Velocity,
+};
 
 /// Smallest moment of inertia per kilogram (m2) that counts.
 const MIN_MOMENT: f64 = 1e-8;
@@ -49,11 +51,20 @@ pub(super) fn shape(context: &mut Context<'_>, chunk: &Chunk) -> Result<Shape, S
     Ok(shape)
 }
 
-fn parts<'a>(context: &mut Context<'_>, geometry: &'a ShapeGeometry) -> Result<(&'a MeshNode, Vec<Part>), String> {
+fn parts<'a>(
+    context: &mut Context<'_>,
+    geometry: &'a ShapeGeometry,
+) -> Result<(&'a MeshNode, Vec<Part>), String> {
     if let Some(mesh) = &geometry.mesh {
-        return Ok((&mesh.node, vec![part(context, mesh, &Pose::identity(), true)?]));
+        return Ok((
+            &mesh.node,
+            vec![part(context, mesh, &Pose::identity(), true)?],
+        ));
     }
-    let group = geometry.group.as_ref().ok_or("a shape has neither a mesh nor a group of meshes")?;
+    let group = geometry
+        .group
+        .as_ref()
+        .ok_or("a shape has neither a mesh nor a group of meshes")?;
     let mut parts = Vec::new();
     collect(context, group, &Pose::identity(), &mut parts)?;
     if parts.is_empty() {
@@ -63,7 +74,12 @@ fn parts<'a>(context: &mut Context<'_>, geometry: &'a ShapeGeometry) -> Result<(
 }
 
 /// The meshes of a group, whose frame in the shape is `frame`.
-fn collect(context: &mut Context<'_>, group: &MeshNode, frame: &Pose, parts: &mut Vec<Part>) -> Result<(), String> {
+fn collect(
+    context: &mut Context<'_>,
+    group: &MeshNode,
+    frame: &Pose,
+    parts: &mut Vec<Part>,
+) -> Result<(), String> {
     for (number, child) in (0..).zip(&group.children) {
         match child {
             MeshTree::Mesh(mesh) => {
@@ -75,7 +91,9 @@ fn collect(context: &mut Context<'_>, group: &MeshNode, frame: &Pose, parts: &mu
                 collect(context, inner, &node_frame(inner, frame), parts)?;
                 // A mesh that is alone in its group is no group.
                 if parts.len() > first + 1 {
-                    parts[first..].iter_mut().for_each(|part| part.group.insert(0, number));
+                    parts[first..]
+                        .iter_mut()
+                        .for_each(|part| part.group.insert(0, number));
                 }
             }
         }
@@ -93,16 +111,30 @@ fn node_frame(node: &MeshNode, parent: &Pose) -> Pose {
 }
 
 /// One mesh in a node whose frame in the shape is `frame`. A primitive lies in a frame of its own, centred; a mesh in that of the node.
-fn part(context: &mut Context<'_>, mesh: &FileMesh, frame: &Pose, simple: bool) -> Result<Part, String> {
+fn part(
+    context: &mut Context<'_>,
+    mesh: &FileMesh,
+    frame: &Pose,
+    simple: bool,
+) -> Result<Part, String> {
     let (node, data) = (&mesh.node, &mesh.data);
     let vertices = vertex_frame(node, data, frame);
     let primitive = primitive(data);
-    let centred = primitive.as_ref().is_some_and(|p| p.kind != PrimitiveKind::Heightfield);
-    let triangles = context.meshes.mesh(data, if centred { &IDENTITY } else { &vertices })?;
+    let centred = primitive
+        .as_ref()
+        .is_some_and(|p| p.kind != PrimitiveKind::Heightfield);
+    let triangles = context
+        .meshes
+        .mesh(data, if centred { &IDENTITY } else { &vertices })?;
     let (triangles, convex) = convexity(node, data, triangles);
     let corners = 6 * triangles.triangles.len();
     let fits = |t: &TextureMapping| t.coordinates.is_empty() || t.coordinates.len() == corners;
-    let texture = data.texture.as_ref().and_then(texture::mapping).filter(fits).map(Box::new);
+    let texture = data
+        .texture
+        .as_ref()
+        .and_then(texture::mapping)
+        .filter(fits)
+        .map(Box::new);
     let in_node = if centred { vertices } else { Pose::identity() };
     Ok(Part {
         uid: 0,
@@ -132,18 +164,29 @@ fn vertex_frame(node: &MeshNode, data: &MeshData, frame: &Pose) -> Pose {
 /// Mass properties in the frame of the node, which is `frame` in the shape.
 fn mass(node: &MeshNode, frame: &Pose) -> MassProperties {
     let mut properties = MassProperties::default();
-    properties.set_mass(node.mass.filter(|mass| mass.is_finite() && *mass > 0.0).unwrap_or(0.001));
+    properties.set_mass(
+        node.mass
+            .filter(|mass| mass.is_finite() && *mass > 0.0)
+            .unwrap_or(0.001),
+    );
     let (com, inertia) = match (node.inertia, node.centre_of_mass, &node.old_inertia) {
         (Some(inertia), Some(com), _) => (com, Matrix3::from_row_slice(&inertia)),
         (_, _, Some((axes, moments))) => {
             // Old files say it in the frame of the shape, along the principal axes.
             let axes = frame.inverse() * axes.pose().unwrap_or_default();
             let turn = axes.rotation.to_rotation_matrix().into_inner();
-            (axes.translation.vector.into(), turn * Matrix3::from_diagonal(&(*moments).into()) * turn.transpose())
+            (
+                axes.translation.vector.into(),
+                turn * Matrix3::from_diagonal(&(*moments).into()) * turn.transpose(),
+            )
         }
         _ => return properties,
     };
-    if com.iter().chain(inertia.iter()).all(|number| number.is_finite()) {
+    if com
+        .iter()
+        .chain(inertia.iter())
+        .all(|number| number.is_finite())
+    {
         (properties.com, properties.inertia) = (com, lifted(inertia));
     }
     properties
@@ -164,19 +207,34 @@ fn primitive(data: &MeshData) -> Option<Primitive> {
     }
     let kind = PrimitiveKind::from_code(i64::from(kind))?;
     let heights = match &data.heightfield {
-        Some(field) if kind == PrimitiveKind::Heightfield && field.columns > 1 && field.rows > 1 => {
-            Some(Rc::new(HeightField { columns: field.columns, rows: field.rows, heights: field.heights.clone() }))
+        Some(field)
+            if kind == PrimitiveKind::Heightfield && field.columns > 1 && field.rows > 1 =>
+        {
+            Some(Rc::new(HeightField {
+                columns: field.columns,
+                rows: field.rows,
+                heights: field.heights.clone(),
+            }))
         }
         _ if kind == PrimitiveKind::Heightfield => return None,
         _ => None,
     };
-    Some(Primitive { kind, size: round(kind, size), heights })
+    Some(Primitive {
+        kind,
+        size: round(kind, size),
+        heights,
+    })
 }
 
 /// Old files leave the second diameter of round bodies out.
 fn round(kind: PrimitiveKind, [x, y, z]: [f64; 3]) -> [f64; 3] {
-    let is_round =
-        matches!(kind, PrimitiveKind::Cylinder | PrimitiveKind::Cone | PrimitiveKind::Capsule | PrimitiveKind::Disc);
+    let is_round = matches!(
+        kind,
+        PrimitiveKind::Cylinder
+            | PrimitiveKind::Cone
+            | PrimitiveKind::Capsule
+            | PrimitiveKind::Disc
+    );
     [x, if is_round && y == 0.0 { x } else { y }, z]
 }
 
@@ -189,7 +247,11 @@ fn convexity(node: &MeshNode, data: &MeshData, mesh: Rc<Mesh>) -> (Rc<Mesh>, boo
     if is_nearly_convex(&mesh) {
         return (mesh, true);
     }
-    let hull = if claimed { Mesh::convex_hull(&mesh.vertices) } else { None };
+    let hull = if claimed {
+        Mesh::convex_hull(&mesh.vertices)
+    } else {
+        None
+    };
     hull.map_or((mesh, false), |hull| (Rc::new(hull), true))
 }
 
@@ -198,10 +260,15 @@ fn box_around(parts: &[Part]) -> Option<BoundingBox> {
     let upright = nalgebra::UnitQuaternion::identity();
     if let [part] = parts {
         let own = part.mesh.bounding_box(&upright)?;
-        return Some(BoundingBox { size: own.size, pose: part.pose * own.pose });
+        return Some(BoundingBox {
+            size: own.size,
+            pose: part.pose * own.pose,
+        });
     }
     let mut all = Mesh::default();
-    parts.iter().for_each(|part| all.append(&part.mesh, &part.pose));
+    parts
+        .iter()
+        .for_each(|part| all.append(&part.mesh, &part.pose));
     all.bounding_box(&upright)
 }
 
@@ -209,8 +276,16 @@ fn appearance(data: &MeshData) -> Appearance {
     let mut appearance = Appearance::new([1.0; 3]);
     if let Some(chunk) = &data.colour {
         appearance.colour = colour(chunk, appearance.colour, false);
-        appearance.colour_extension = chunk.extension_string.as_ref().map(crate::ttt::Text::decode).unwrap_or_default();
-        appearance.colour_name = chunk.name.as_ref().map(crate::ttt::Text::decode).unwrap_or_default();
+        appearance.colour_extension = chunk
+            .extension_string
+            .as_ref()
+            .map(crate::ttt::Text::decode)
+            .unwrap_or_default();
+        appearance.colour_name = chunk
+            .name
+            .as_ref()
+            .map(crate::ttt::Text::decode)
+            .unwrap_or_default();
     }
     let switches = data.switches.unwrap_or(0);
     (appearance.edges, appearance.culling, appearance.wireframe) =
@@ -233,8 +308,13 @@ fn dynamics(chunk: &Chunk) -> ShapeDynamics {
         start_asleep: first & 0x40 != 0,
         respondable: second & 0x1 != 0,
         dynamic_when_parented: second & 0x20 != 0,
-        respondable_mask: chunk.respondable_mask.map_or(RespondableMask::ALL, |mask| RespondableMask(mask.into())),
+        respondable_mask: chunk
+            .respondable_mask
+            .map_or(RespondableMask::ALL, |mask| RespondableMask(mask.into())),
         respondable_suspend_count: 0,
-        initial_velocity: Velocity { linear: [lx, ly, lz], angular: [ax, ay, az] },
+        initial_velocity: Velocity {
+            linear: [lx, ly, lz],
+            angular: [ax, ay, az],
+        },
     }
 }

@@ -38,12 +38,18 @@ const COROUTINES: u16 = 40200;
 impl Origin {
     /// Of a file with that header.
     pub fn of(header: &Header) -> Self {
-        Self { version: header.version, ..Self::default() }
+        Self {
+            version: header.version,
+            ..Self::default()
+        }
     }
 
     /// Of a text nothing is known of: whatever was there since V-REP may be in it.
     pub fn unknown() -> Self {
-        Self { thread: Some(Thread::Once), ..Self::default() }
+        Self {
+            thread: Some(Thread::Once),
+            ..Self::default()
+        }
     }
 
     fn is_before(&self, version: u16) -> bool {
@@ -62,7 +68,11 @@ pub(crate) fn lua(code: Vec<u8>, origin: &Origin) -> Vec<u8> {
     // Names are ASCII; whatever encoding a comment has, its bytes come back as they were.
     let text: String = code.iter().copied().map(char::from).collect();
     let new = migrate(&text, origin);
-    if new == text { code } else { new.chars().map(|c| c as u8).collect() }
+    if new == text {
+        code
+    } else {
+        new.chars().map(|c| c as u8).collect()
+    }
 }
 
 fn migrate(text: &str, origin: &Origin) -> String {
@@ -85,8 +95,12 @@ fn migrate(text: &str, origin: &Origin) -> String {
     }
     match origin.thread {
         Some(_) if is_empty(&text) => text,
-        Some(thread) if origin.is_before(COROUTINES) => threads::coroutine(&text, thread, origin.version == 0),
-        None if origin.before_calls && !is_empty(&text) => texts::called_each_step(&text, origin.in_sensing),
+        Some(thread) if origin.is_before(COROUTINES) => {
+            threads::coroutine(&text, thread, origin.version == 0)
+        }
+        None if origin.before_calls && !is_empty(&text) => {
+            texts::called_each_step(&text, origin.in_sensing)
+        }
         _ => text,
     }
 }

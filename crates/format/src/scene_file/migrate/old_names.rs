@@ -10,8 +10,11 @@ const OLD: &str = include_str!("old_names.tsv");
 /// `40201<TAB>old<TAB>new`: replaced in files of programs older than that.
 const RENAMED: &str = include_str!("renamed.tsv");
 
-static NAMES: LazyLock<HashMap<&str, &str>> =
-    LazyLock::new(|| OLD.lines().filter_map(|line| line.split_once('\t')).collect());
+static NAMES: LazyLock<HashMap<&str, &str>> = LazyLock::new(|| {
+    OLD.lines()
+        .filter_map(|line| line.split_once('\t'))
+        .collect()
+});
 
 static RENAMES: LazyLock<HashMap<&str, (u16, &str)>> = LazyLock::new(|| {
     let row = |line: &'static str| {
@@ -30,7 +33,10 @@ pub fn current(old: &str) -> Option<&'static str> {
 /// The name that has replaced `word` since `version`. None where it stays.
 pub(super) fn since(word: &str, version: u16) -> Option<&'static str> {
     let named = current(word);
-    let renamed = RENAMES.get(named.unwrap_or(word)).filter(|(until, _)| version < *until).map(|(_, new)| *new);
+    let renamed = RENAMES
+        .get(named.unwrap_or(word))
+        .filter(|(until, _)| version < *until)
+        .map(|(_, new)| *new);
     renamed.or(named)
 }
 
@@ -71,15 +77,27 @@ mod tests {
             names("h=simGetObjectHandle('a',sim_handle_all) -- simWait", 40900),
             "h=sim.getObjectHandle('a',sim.handle_all) -- sim.wait"
         );
-        for kept in ["mysimWait()", "simWaitForMe()", "sim", "a.simWait", "é simple"] {
+        for kept in [
+            "mysimWait()",
+            "simWaitForMe()",
+            "sim",
+            "a.simWait",
+            "é simple",
+        ] {
             assert_eq!(names(kept, 40900), kept);
         }
     }
 
     #[test]
     fn names_change_with_versions() {
-        assert_eq!(names("simGetBooleanParameter()", 40201), "sim.getBoolParameter()");
-        assert_eq!(names("simGetBooleanParameter()", 40200), "sim.getBoolParam()");
+        assert_eq!(
+            names("simGetBooleanParameter()", 40201),
+            "sim.getBoolParameter()"
+        );
+        assert_eq!(
+            names("simGetBooleanParameter()", 40200),
+            "sim.getBoolParam()"
+        );
         assert_eq!(names("sim.rmlPos()", 40300), "sim.ruckigPos()");
         assert_eq!(names("sim.rmlPos()", 40301), "sim.rmlPos()");
         assert_eq!(
@@ -87,8 +105,14 @@ mod tests {
             "sim.getObjectSel() simIK.createGroup()"
         );
         assert_eq!(names("simPackFloats()", 30302), "sim.packFloatTable()");
-        assert_eq!(names("sim.childscriptcall_actuation", 30500), "sim.syscb_actuation");
+        assert_eq!(
+            names("sim.childscriptcall_actuation", 30500),
+            "sim.syscb_actuation"
+        );
         // This one changed its results, so it keeps its name.
-        assert_eq!(names("sim.getObjectFloatParameter()", 30500), "sim.getObjectFloatParameter()");
+        assert_eq!(
+            names("sim.getObjectFloatParameter()", 30500),
+            "sim.getObjectFloatParameter()"
+        );
     }
 }

@@ -7,10 +7,17 @@ use super::old_names::is_part;
 use super::texts::end_of_argument;
 
 /// Functions that had the other meaning.
-const FUNCTIONS: [&str; 4] = ["getObjectPosition", "getObjectOrientation", "getObjectQuaternion", "getObjectMatrix"];
+const FUNCTIONS: [&str; 4] = [
+    "getObjectPosition",
+    "getObjectOrientation",
+    "getObjectQuaternion",
+    "getObjectMatrix",
+];
 
 pub(super) fn relative_to_joints(text: &str) -> String {
-    FUNCTIONS.iter().fold(text.to_owned(), |text, function| redirect(&text, function))
+    FUNCTIONS
+        .iter()
+        .fold(text.to_owned(), |text, function| redirect(&text, function))
 }
 
 /// Sends the calls of one function through its helper, which is put in front where there are such calls.
@@ -23,16 +30,26 @@ fn redirect(text: &str, function: &str) -> String {
     for part in parts {
         let redirected = !is_absolute(part) && !out.ends_with(is_part);
         is_needed |= redirected;
-        out.push_str(if redirected { &helper } else { call.trim_end_matches('(') });
+        out.push_str(if redirected {
+            &helper
+        } else {
+            call.trim_end_matches('(')
+        });
         out.push('(');
         out.push_str(part);
     }
-    if is_needed && !text.contains(&helper) { helper_text(function) + &out } else { out }
+    if is_needed && !text.contains(&helper) {
+        helper_text(function) + &out
+    } else {
+        out
+    }
 }
 
 /// Whether the second of these arguments is the world, or is missing.
 fn is_absolute(arguments: &str) -> bool {
-    let Some(second) = arguments[end_of_argument(arguments)..].strip_prefix(',') else { return true };
+    let Some(second) = arguments[end_of_argument(arguments)..].strip_prefix(',') else {
+        return true;
+    };
     ["-1", "sim.handle_world"].contains(&second[..end_of_argument(second)].trim())
 }
 
@@ -68,10 +85,16 @@ mod tests {
 
     #[test]
     fn relative_calls_ask_for_the_base_of_joints() {
-        let new = relative_to_joints("p=sim.getObjectPosition(h,joint)\nq=sim.getObjectPosition(h,-1)");
-        let [helper, calls] = new.split("end\np=").collect::<Vec<_>>()[..] else { panic!("helper and calls: {new}") };
+        let new =
+            relative_to_joints("p=sim.getObjectPosition(h,joint)\nq=sim.getObjectPosition(h,-1)");
+        let [helper, calls] = new.split("end\np=").collect::<Vec<_>>()[..] else {
+            panic!("helper and calls: {new}")
+        };
         assert!(helper.starts_with("function __getObjectPosition__(object,frame)\n"));
         assert_eq!(helper.lines().count(), 9);
-        assert_eq!(calls, "__getObjectPosition__(h,joint)\nq=sim.getObjectPosition(h,-1)");
+        assert_eq!(
+            calls,
+            "__getObjectPosition__(h,joint)\nq=sim.getObjectPosition(h,-1)"
+        );
     }
 }

@@ -1,13 +1,16 @@
 //! Small text replacements: dialogs, colours, a script's own object, the stop condition, scripts without callbacks.
 
 /// The functions in front of scripts from before 3.1.4. `sim.setShapeColor` knows the mark.
-const COLOURS: &str = "function colorCorrectionFunction(shape) return '@backCompatibility1:'..shape end ";
+const COLOURS: &str =
+    "function colorCorrectionFunction(shape) return '@backCompatibility1:'..shape end ";
 
 /// Attributes of dialogs in XML got a dash with 3.4.1.
 pub(super) fn dialog_attributes(text: &str) -> String {
     ["close", "change", "click"]
         .iter()
-        .fold(text.to_owned(), |text, event| text.replace(&format!(" on{event}="), &format!(" on-{event}=")))
+        .fold(text.to_owned(), |text, event| {
+            text.replace(&format!(" on{event}="), &format!(" on-{event}="))
+        })
 }
 
 /// Shapes whose colour is set are marked, so that the colour means what it did.
@@ -41,19 +44,31 @@ pub(super) fn end_of_argument(text: &str) -> usize {
 
 /// The function that returned the object of a script was replaced in 4.2.
 pub(super) fn own_object(text: &str) -> String {
-    text.replace("sim.getObjectAssociatedWithScript(sim.handle_self)", "sim.getObjectHandle(sim.handle_self)")
+    text.replace(
+        "sim.getObjectAssociatedWithScript(sim.handle_self)",
+        "sim.getObjectHandle(sim.handle_self)",
+    )
 }
 
 /// Threads used to ask whether the simulation is about to end. Coroutines are ended from outside, so the answer is always that it goes on.
 pub(super) fn end_of_simulation(text: &str) -> String {
-    ["sim.simulation_advancing_abouttostop", "sim_simulation_advancing_abouttostop"]
-        .iter()
-        .fold(text.to_owned(), |text, state| text.replace(&format!("sim.getSimulationState()~={state}"), "true"))
+    [
+        "sim.simulation_advancing_abouttostop",
+        "sim_simulation_advancing_abouttostop",
+    ]
+    .iter()
+    .fold(text.to_owned(), |text, state| {
+        text.replace(&format!("sim.getSimulationState()~={state}"), "true")
+    })
 }
 
 /// Before 3.1.3 the whole text ran once per step.
 pub(super) fn called_each_step(text: &str, in_sensing: bool) -> String {
-    let call = if in_sensing { "sysCall_sensing" } else { "sysCall_actuation" };
+    let call = if in_sensing {
+        "sysCall_sensing"
+    } else {
+        "sysCall_actuation"
+    };
     format!("function {call}() {text}\nend\n")
 }
 
@@ -73,11 +88,16 @@ mod tests {
     #[test]
     fn the_shape_is_marked_and_nothing_else() {
         let new = colours("sim.setShapeColor(f(a,b),nil,0,{1,0,0})");
-        assert!(new.ends_with("sim.setShapeColor(colorCorrectionFunction(f(a,b)),nil,0,{1,0,0})"), "{new}");
+        assert!(
+            new.ends_with("sim.setShapeColor(colorCorrectionFunction(f(a,b)),nil,0,{1,0,0})"),
+            "{new}"
+        );
         assert!(!new.contains('\n'), "lines stay");
         assert_eq!(colours(&new), new, "once");
         assert_eq!(colours("sim.wait(1)"), "sim.wait(1)");
-        assert!(colours("sim.setShapeColor(").ends_with("sim.setShapeColor(colorCorrectionFunction()"));
+        assert!(
+            colours("sim.setShapeColor(").ends_with("sim.setShapeColor(colorCorrectionFunction()")
+        );
     }
 
     #[test]
@@ -86,17 +106,28 @@ mod tests {
             own_object("h=sim.getObjectAssociatedWithScript(sim.handle_self)"),
             "h=sim.getObjectHandle(sim.handle_self)"
         );
-        assert_eq!(own_object("sim.getObjectAssociatedWithScript(s)"), "sim.getObjectAssociatedWithScript(s)");
         assert_eq!(
-            end_of_simulation("while sim.getSimulationState()~=sim.simulation_advancing_abouttostop do"),
+            own_object("sim.getObjectAssociatedWithScript(s)"),
+            "sim.getObjectAssociatedWithScript(s)"
+        );
+        assert_eq!(
+            end_of_simulation(
+                "while sim.getSimulationState()~=sim.simulation_advancing_abouttostop do"
+            ),
             "while true do"
         );
-        assert_eq!(end_of_simulation("(sim.getSimulationState()~=sim_simulation_advancing_abouttostop)"), "(true)");
+        assert_eq!(
+            end_of_simulation("(sim.getSimulationState()~=sim_simulation_advancing_abouttostop)"),
+            "(true)"
+        );
     }
 
     #[test]
     fn a_text_without_calls_becomes_one() {
-        assert_eq!(called_each_step("x=1", false), "function sysCall_actuation() x=1\nend\n");
+        assert_eq!(
+            called_each_step("x=1", false),
+            "function sysCall_actuation() x=1\nend\n"
+        );
         assert!(called_each_step("x=1", true).starts_with("function sysCall_sensing()"));
     }
 }

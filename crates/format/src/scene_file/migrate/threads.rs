@@ -15,7 +15,10 @@ pub(super) fn coroutine(text: &str, thread: Thread, named: bool) -> String {
     if named {
         return text.to_owned();
     }
-    format!("{} function coroutineMain() {text}\nend\n", whole_host(thread))
+    format!(
+        "{} function coroutineMain() {text}\nend\n",
+        whole_host(thread)
+    )
 }
 
 /// Makes the coroutine, and resumes it. As many lines as in the original, since errors tell them.
@@ -28,7 +31,10 @@ fn host(thread: Thread) -> String {
 
 /// The same in one line, so that the lines of the text stay.
 fn whole_host(thread: Thread) -> String {
-    let resume: Vec<String> = resume(thread).split_whitespace().map(str::to_owned).collect();
+    let resume: Vec<String> = resume(thread)
+        .split_whitespace()
+        .map(str::to_owned)
+        .collect();
     format!(
         "local __steps=0 function sysCall_init() corout=coroutine.create(coroutineMain) end function sysCall_actuation() \
          __steps=__steps+1 if __steps>{STEPS_BEFORE_THREADS} then {} end end",
@@ -58,7 +64,8 @@ mod tests {
         assert_eq!(new.lines().count(), 13 + 2);
         assert!(!new.contains("else"));
         assert!(
-            coroutine("sysCall_threadmain=f", Thread::Again, false).contains("else\n        corout=coroutine.create")
+            coroutine("sysCall_threadmain=f", Thread::Again, false)
+                .contains("else\n        corout=coroutine.create")
         );
     }
 
@@ -66,7 +73,16 @@ mod tests {
     fn a_text_that_is_a_thread_keeps_its_lines() {
         let new = coroutine("x=1\nsim.wait(1)", Thread::Once, false);
         assert_eq!(new.lines().nth(1), Some("sim.wait(1)"));
-        assert!(new.lines().next().is_some_and(|line| line.ends_with("function coroutineMain() x=1")), "{new}");
-        assert_eq!(coroutine("x=1", Thread::Once, true), "x=1", "nothing says that this is a thread");
+        assert!(
+            new.lines()
+                .next()
+                .is_some_and(|line| line.ends_with("function coroutineMain() x=1")),
+            "{new}"
+        );
+        assert_eq!(
+            coroutine("x=1", Thread::Once, true),
+            "x=1",
+            "nothing says that this is a thread"
+        );
     }
 }

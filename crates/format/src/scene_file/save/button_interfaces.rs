@@ -6,8 +6,11 @@ use scene::tree::button_interfaces::{Button, ButtonInterface};
 
 pub(super) fn blocks(context: &Context<'_>, is_model: bool) -> Vec<ButtonBlock> {
     let interfaces = context.scene.button_interfaces().iter();
-    let saved = interfaces.filter(|(_, interface)| !is_model || context.file_handle(interface.object) >= 0);
-    saved.map(|(handle, interface)| block(context, handle, interface)).collect()
+    let saved =
+        interfaces.filter(|(_, interface)| !is_model || context.file_handle(interface.object) >= 0);
+    saved
+        .map(|(handle, interface)| block(context, handle, interface))
+        .collect()
 }
 
 fn block(context: &Context<'_>, handle: i64, interface: &ButtonInterface) -> ButtonBlock {
@@ -30,7 +33,12 @@ fn button(button: &Button) -> ButtonChunk {
     let ([x, y], [length, height]) = (button.cell, button.span);
     let numbers = [button.attributes, button.number, length, height, x, y];
     ButtonChunk {
-        look: Some((numbers, button.label.as_str().into(), button.down_label.as_str().into(), button.slider)),
+        look: Some((
+            numbers,
+            button.label.as_str().into(),
+            button.down_label.as_str().into(),
+            button.slider,
+        )),
         colours: Some(button.colours),
         texture: None,
     }

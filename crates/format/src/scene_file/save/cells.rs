@@ -13,7 +13,10 @@ type Point = [f64; 3];
 pub(super) fn octree(tree: &OcTree, colour: Option<file::Colour>) -> file::OcTree {
     let voxels: Vec<(Point, Voxel)> = tree.voxels().collect();
     let blob = (!voxels.is_empty()).then(|| {
-        let mut out = Blob { bytes: vec![VERSION], smallest: tree.voxel_size() };
+        let mut out = Blob {
+            bytes: vec![VERSION],
+            smallest: tree.voxel_size(),
+        };
         let root = out.root(voxels.iter().map(|(centre, _)| *centre));
         out.children(root, voxels, &mut |out, _, voxels, is_leaf| {
             let voxel = voxels.first().filter(|_| is_leaf);
@@ -28,7 +31,11 @@ pub(super) fn octree(tree: &OcTree, colour: Option<file::Colour>) -> file::OcTre
     });
     file::OcTree {
         sizes: Some((tree.voxel_size(), tree.point_size as i32)),
-        flags: Some(bits(&[(tree.random_colours, 2), (tree.shows_points, 3), (true, 4)])),
+        flags: Some(bits(&[
+            (tree.random_colours, 2),
+            (tree.shows_points, 3),
+            (true, 4),
+        ])),
         colour,
         cells_v2: blob,
         ..file::OcTree::default()
@@ -36,10 +43,17 @@ pub(super) fn octree(tree: &OcTree, colour: Option<file::Colour>) -> file::OcTre
 }
 
 pub(super) fn point_cloud(cloud: &PointCloud, colour: Option<file::Colour>) -> file::PointCloud {
-    let points: Vec<(Point, CloudPoint)> = cloud.points.iter().map(|point| (point.position, *point)).collect();
+    let points: Vec<(Point, CloudPoint)> = cloud
+        .points
+        .iter()
+        .map(|point| (point.position, *point))
+        .collect();
     let limit = cloud.max_points_in_cell.max(1) as usize;
     let blob = (cloud.uses_octree && !points.is_empty()).then(|| {
-        let mut out = Blob { bytes: vec![VERSION], smallest: cloud.max_cell_size };
+        let mut out = Blob {
+            bytes: vec![VERSION],
+            smallest: cloud.max_cell_size,
+        };
         let root = out.root(cloud.points.iter().map(|point| point.position));
         out.int(cloud.max_points_in_cell as i32);
         out.children(root, points, &mut |out, cell, points, is_leaf| {
@@ -49,12 +63,24 @@ pub(super) fn point_cloud(cloud: &PointCloud, colour: Option<file::Colour>) -> f
         });
         Rest(out.bytes)
     });
-    let plain = || Counted(cloud.points.iter().map(|point| (point.position, point.colour)).collect());
+    let plain = || {
+        Counted(
+            cloud
+                .points
+                .iter()
+                .map(|point| (point.position, point.colour))
+                .collect(),
+        )
+    };
     file::PointCloud {
         sizes: Some((cloud.max_cell_size, cloud.point_size as i32)),
         display_ratio: Some(cloud.display_fraction),
         cells: Some((cloud.max_points_in_cell as i32, cloud.max_cell_size)),
-        flags: Some(bits(&[(cloud.random_colours, 2), (true, 3), (!cloud.uses_octree, 4)])),
+        flags: Some(bits(&[
+            (cloud.random_colours, 2),
+            (true, 3),
+            (!cloud.uses_octree, 4),
+        ])),
         colour,
         points: (!cloud.uses_octree && !cloud.points.is_empty()).then(plain),
         cells_v2: blob,
@@ -79,12 +105,21 @@ struct Blob {
 impl Blob {
     /// A cell around the origin that holds all points; its edge is the smallest one, doubled as often as needed.
     fn root(&mut self, points: impl Iterator<Item = Point>) -> Cell {
-        let reach = points.flatten().fold(0.0, |reach: f64, c| reach.max(c.abs()));
-        let mut cell = Cell { centre: [0.0; 3], edge: 2.0 * self.smallest, halvings: 1 };
+        let reach = points
+            .flatten()
+            .fold(0.0, |reach: f64, c| reach.max(c.abs()));
+        let mut cell = Cell {
+            centre: [0.0; 3],
+            edge: 2.0 * self.smallest,
+            halvings: 1,
+        };
         while 0.5 * cell.edge <= reach && cell.halvings < 50 {
             (cell.edge, cell.halvings) = (2.0 * cell.edge, cell.halvings + 1);
         }
-        [cell.edge, self.smallest].into_iter().chain(cell.centre).for_each(|number| self.real(number));
+        [cell.edge, self.smallest]
+            .into_iter()
+            .chain(cell.centre)
+            .for_each(|number| self.real(number));
         cell
     }
 
@@ -98,13 +133,19 @@ impl Blob {
     ) {
         let mut sorted: [Vec<(Point, T)>; 8] = Default::default();
         for (point, item) in items {
-            let number = (0..3).fold(0, |number, axis| number | usize::from(point[axis] >= cell.centre[axis]) << axis);
+            let number = (0..3).fold(0, |number, axis| {
+                number | usize::from(point[axis] >= cell.centre[axis]) << axis
+            });
             sorted[number].push((point, item));
         }
         for (number, items) in sorted.into_iter().enumerate() {
             let side = |axis: usize| if number >> axis & 1 == 1 { 0.25 } else { -0.25 };
             let centre = std::array::from_fn(|axis| cell.centre[axis] + side(axis) * cell.edge);
-            let child = Cell { centre, edge: 0.5 * cell.edge, halvings: cell.halvings - 1 };
+            let child = Cell {
+                centre,
+                edge: 0.5 * cell.edge,
+                halvings: cell.halvings - 1,
+            };
             let is_leaf = items.is_empty() || child.halvings == 0;
             let divided = write(self, &child, &items, is_leaf);
             self.bytes.push(divided.into());
@@ -120,7 +161,9 @@ impl Blob {
         for (position, _) in points {
             (0..3).for_each(|axis| self.real(position[axis] - cell.centre[axis]));
         }
-        points.iter().for_each(|(_, point)| self.bytes.extend(point.colour));
+        points
+            .iter()
+            .for_each(|(_, point)| self.bytes.extend(point.colour));
     }
 
     fn int(&mut self, number: i32) {
@@ -143,7 +186,13 @@ mod tests {
         for i in 0..200u32 {
             let far = f64::from(i * i % 97) * 0.11 - 4.0;
             let point = [far, f64::from(i) * 0.03, -far * far];
-            tree.insert(point, Voxel { colour: [i as u8, 2, 3], tag: i });
+            tree.insert(
+                point,
+                Voxel {
+                    colour: [i as u8, 2, 3],
+                    tag: i,
+                },
+            );
         }
         assert_eq!(load::octree(&octree(&tree, None)).unwrap(), tree);
     }
@@ -159,13 +208,17 @@ mod tests {
             cloud.uses_octree = uses_octree;
             cloud.insert((0..300).map(point), 0.0);
             let mut again = load::point_cloud(&point_cloud(&cloud, None)).unwrap();
-            let order =
-                |a: &CloudPoint, b: &CloudPoint| a.colour.cmp(&b.colour).then(a.position[1].total_cmp(&b.position[1]));
+            let order = |a: &CloudPoint, b: &CloudPoint| {
+                a.colour
+                    .cmp(&b.colour)
+                    .then(a.position[1].total_cmp(&b.position[1]))
+            };
             again.points.sort_by(order);
             cloud.points.sort_by(order);
             assert_eq!(again.points.len(), 300);
-            let near =
-                |(a, b): (&CloudPoint, &CloudPoint)| (0..3).all(|i| (a.position[i] - b.position[i]).abs() < 1e-9);
+            let near = |(a, b): (&CloudPoint, &CloudPoint)| {
+                (0..3).all(|i| (a.position[i] - b.position[i]).abs() < 1e-9)
+            };
             assert!(again.points.iter().zip(&cloud.points).all(near));
         }
     }

@@ -33,7 +33,11 @@ fn chunk(colour: &Colour, first: [f32; 3], second: [f32; 3]) -> Chunk {
     }
 }
 
-fn groups(first: [f32; 3], second: [f32; 3], [specular, emission, auxiliary]: [[f32; 3]; 3]) -> [f32; 15] {
+fn groups(
+    first: [f32; 3],
+    second: [f32; 3],
+    [specular, emission, auxiliary]: [[f32; 3]; 3],
+) -> [f32; 15] {
     let all = [first, second, specular, emission, auxiliary];
     std::array::from_fn(|i| all[i / 3][i % 3])
 }

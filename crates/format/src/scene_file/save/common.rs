@@ -19,7 +19,10 @@ pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Comm
     let mut common = Common {
         signature: Some([57, 58, 59]),
         pose: Some(object.pose().into()),
-        handles: Some([object.handle().0 as i32, context.file_handle(object.parent())]),
+        handles: Some([
+            object.handle().0 as i32,
+            context.file_handle(object.parent()),
+        ]),
         alias: Some(object.alias().into()),
         name: Some(object.old_name().into()),
         alt_name: Some(alternative_name(object.old_name()).as_str().into()),
@@ -30,7 +33,10 @@ pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Comm
         switches_2: Some(model | old_switches(movement.forbidden)),
         switches: Some(model | switches(movement.forbidden) | u8::from(object.assembly.moves) << 7),
         assembly_pose: Some(object.assembly.pose.into()),
-        assembly: Some((words(&object.assembly.child_words), words(&object.assembly.parent_words))),
+        assembly: Some((
+            words(&object.assembly.child_words),
+            words(&object.assembly.parent_words),
+        )),
         extension_string: Some(object.extension_string.as_str().into()),
         locks: Some((movement.forbidden.bits() >> 4 & 3) as u8),
         special_property: Some(object.special_property.bits() as i32),
@@ -38,7 +44,11 @@ pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Comm
         layer: Some(object.layer.bits()),
         script_exec_priority: Some(object.priority as i32),
         child_order: Some(order),
-        translation: Some((movement.preferred_axes.bits() as i32, movement.relativity[0].0 as i32, movement.step[0])),
+        translation: Some((
+            movement.preferred_axes.bits() as i32,
+            movement.relativity[0].0 as i32,
+            movement.step[0],
+        )),
         rotation: Some((movement.relativity[1].0 as i32, movement.step[1])),
         size_factor: Some(object.size_factor),
         size_values: Some(object.size_values),
@@ -66,7 +76,10 @@ fn viewers(context: &Context<'_>, object: &Object) -> i32 {
 
 /// The place among the siblings of the same alias; -1 for an alias of one's own.
 fn namesake_order(context: &Context<'_>, object: &Object) -> SceneResult<i32> {
-    Ok(context.scene.child_order(object.handle())?.map_or(-1, |order| order as i32))
+    Ok(context
+        .scene
+        .child_order(object.handle())?
+        .map_or(-1, |order| order as i32))
 }
 
 /// Bits of what a hand may not do, moving and turning apart.
@@ -83,11 +96,20 @@ fn switches(forbidden: ForbiddenMovements) -> u8 {
 }
 
 fn old_switches(forbidden: ForbiddenMovements) -> u8 {
-    bits(forbidden, &[(ForbiddenMovements::TRANSLATION_RUNNING, 0x2), (ForbiddenMovements::TRANSLATION_STOPPED, 0x4)])
+    bits(
+        forbidden,
+        &[
+            (ForbiddenMovements::TRANSLATION_RUNNING, 0x2),
+            (ForbiddenMovements::TRANSLATION_STOPPED, 0x4),
+        ],
+    )
 }
 
 fn bits(forbidden: ForbiddenMovements, table: &[(ForbiddenMovements, u8)]) -> u8 {
-    table.iter().filter(|(flag, _)| forbidden.contains(*flag)).fold(0, |bits, (_, bit)| bits | bit)
+    table
+        .iter()
+        .filter(|(flag, _)| forbidden.contains(*flag))
+        .fold(0, |bits, (_, bit)| bits | bit)
 }
 
 fn words(words: &[String]) -> Counted<Text> {
@@ -95,10 +117,14 @@ fn words(words: &[String]) -> Counted<Text> {
 }
 
 fn user_params(object: &Object) -> Option<UserParams> {
-    let params =
-        object.user_params.iter().map(|(name, value)| (name.as_str().into(), "".into(), value.as_str().into(), 0));
+    let params = object
+        .user_params
+        .iter()
+        .map(|(name, value)| (name.as_str().into(), "".into(), value.as_str().into(), 0));
     let params: Vec<_> = params.collect();
-    (!params.is_empty()).then_some(UserParams { params: Some(Counted(params)) })
+    (!params.is_empty()).then_some(UserParams {
+        params: Some(Counted(params)),
+    })
 }
 
 fn acknowledgment(object: &Object) -> Text {
@@ -112,10 +138,20 @@ fn references(context: &Context<'_>, object: &Object, common: &mut Common) {
     for (tag, list) in &object.references {
         let handles = list.iter().map(|raw| reference(context, *raw));
         if tag.is_empty() {
-            let kind = |handle: i32| if handle >= 2_000_000 { COLLECTION } else { SCENE_OBJECT };
-            common.references = Some(Counted(handles.map(|handle| [kind(handle), handle, 0]).collect()));
+            let kind = |handle: i32| {
+                if handle >= 2_000_000 {
+                    COLLECTION
+                } else {
+                    SCENE_OBJECT
+                }
+            };
+            common.references = Some(Counted(
+                handles.map(|handle| [kind(handle), handle, 0]).collect(),
+            ));
         } else {
-            common.tagged_references.push((tag.as_str().into(), Counted(handles.collect())));
+            common
+                .tagged_references
+                .push((tag.as_str().into(), Counted(handles.collect())));
         }
     }
 }
@@ -130,7 +166,16 @@ fn reference(context: &Context<'_>, raw: i64) -> i32 {
 
 /// Originals are known by their identity, wherever they are.
 fn originals(context: &Context<'_>, object: &Object, common: &mut Common) {
-    let known = |raw: i64| Some(context.scene.object(Handle::from_raw(raw)?).ok()?.persistent_uid.as_str());
+    let known = |raw: i64| {
+        Some(
+            context
+                .scene
+                .object(Handle::from_raw(raw)?)
+                .ok()?
+                .persistent_uid
+                .as_str(),
+        )
+    };
     let pair = |raw: &i64| known(*raw).map_or((-1, Text::default()), |id| (*raw as i32, id.into()));
     for (tag, list) in &object.original_references {
         let pairs = list.iter().map(pair);
@@ -142,7 +187,9 @@ fn originals(context: &Context<'_>, object: &Object, common: &mut Common) {
             };
             common.original_references = Some(Counted(pairs.map(of).collect()));
         } else {
-            common.tagged_original_references.push((tag.as_str().into(), Counted(pairs.collect())));
+            common
+                .tagged_original_references
+                .push((tag.as_str().into(), Counted(pairs.collect())));
         }
     }
 }

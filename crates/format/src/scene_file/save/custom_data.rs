@@ -23,9 +23,14 @@ fn bytes(ty: ValueType, value: &Data) -> Option<Vec<u8>> {
         _ if ty == ValueType::Table => pack::encode(value)?,
         Data::Bool(on) => vec![u8::from(*on)],
         Data::Int(int) if ty == ValueType::Long => int.to_le_bytes().to_vec(),
-        Data::Int(int) => i32::try_from(*int).map_or_else(|_| int.to_le_bytes().to_vec(), |i| i.to_le_bytes().to_vec()),
+        Data::Int(int) => i32::try_from(*int)
+            .map_or_else(|_| int.to_le_bytes().to_vec(), |i| i.to_le_bytes().to_vec()),
         Data::Float(float) => float.to_le_bytes().to_vec(),
-        Data::Array(items) => items.iter().map(|item| element(ty, item)).collect::<Option<Vec<_>>>()?.concat(),
+        Data::Array(items) => items
+            .iter()
+            .map(|item| element(ty, item))
+            .collect::<Option<Vec<_>>>()?
+            .concat(),
         Data::Nil | Data::Map(_) => return None,
     })
 }

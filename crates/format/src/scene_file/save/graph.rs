@@ -9,12 +9,24 @@ use scene::graph::{CurveStyle, Graph, GraphCurve, GraphSample, GraphStream, OldS
 /// Streams and curves that scripts made outlive them here.
 const NO_SCRIPT: i32 = -1;
 
-pub(super) fn graph(context: &Context<'_>, graph: &Graph, colour: Option<file::Colour>) -> file::Graph {
+pub(super) fn graph(
+    context: &Context<'_>,
+    graph: &Graph,
+    colour: Option<file::Colour>,
+) -> file::Graph {
     let [r, g, b] = graph.background;
     let [x, y, z] = graph.foreground;
-    let of_time = |old: bool| graph.streams().iter().filter(move |stream| stream.source.is_some() == old);
+    let of_time = |old: bool| {
+        graph
+            .streams()
+            .iter()
+            .filter(move |stream| stream.source.is_some() == old)
+    };
     let old_curves = |dimensions: usize| {
-        let curves = graph.curves.iter().filter(move |curve| curve.old && curve.dimensions == dimensions);
+        let curves = graph
+            .curves
+            .iter()
+            .filter(move |curve| curve.old && curve.dimensions == dimensions);
         curves.map(old_curve).collect()
     };
     file::Graph {
@@ -23,14 +35,34 @@ pub(super) fn graph(context: &Context<'_>, graph: &Graph, colour: Option<file::C
         bgfg: Some([r, g, b, x, y, z]),
         buffer: Some([graph.buffer_size as i32, graph.times().len() as i32]),
         times: Some(Rest(graph.times().collect())),
-        streams: of_time(false).map(|of| stream(of, graph.times().len())).collect(),
-        curves: graph.curves.iter().filter(|curve| !curve.old).map(curve).collect(),
+        streams: of_time(false)
+            .map(|of| stream(of, graph.times().len()))
+            .collect(),
+        curves: graph
+            .curves
+            .iter()
+            .filter(|curve| !curve.old)
+            .map(curve)
+            .collect(),
         old_streams: of_time(true)
-            .filter_map(|stream| Some(old_stream(context, stream, stream.source?, graph.times().len())))
+            .filter_map(|stream| {
+                Some(old_stream(
+                    context,
+                    stream,
+                    stream.source?,
+                    graph.times().len(),
+                ))
+            })
             .collect(),
         old_curves_3d: old_curves(3),
         old_curves_2d: old_curves(2),
-        gps: Some(bits(&[(graph.cyclic, 0), (true, 1), (true, 2), (true, 3), (graph.explicit, 4)])),
+        gps: Some(bits(&[
+            (graph.cyclic, 0),
+            (true, 1),
+            (true, 2),
+            (true, 3),
+            (graph.explicit, 4),
+        ])),
         ..file::Graph::default()
     }
 }
@@ -53,10 +85,22 @@ fn stream(stream: &GraphStream, slots: usize) -> file::DataStream {
             transformation.period as i32,
             transformation.cyclic_range,
         )),
-        flags: Some(flags(stream.visible, style, stream.fixed.as_ref().map(|_| 4))),
-        data: (!stream.samples.is_empty())
-            .then(|| Rest(samples(stream, slots).flat_map(|sample| slot(&sample)).collect())),
-        static_values: stream.fixed.as_ref().map(|points| Counted(points.as_flattened().to_vec())),
+        flags: Some(flags(
+            stream.visible,
+            style,
+            stream.fixed.as_ref().map(|_| 4),
+        )),
+        data: (!stream.samples.is_empty()).then(|| {
+            Rest(
+                samples(stream, slots)
+                    .flat_map(|sample| slot(&sample))
+                    .collect(),
+            )
+        }),
+        static_values: stream
+            .fixed
+            .as_ref()
+            .map(|points| Counted(points.as_flattened().to_vec())),
     }
 }
 
@@ -79,7 +123,12 @@ fn slot(sample: &GraphSample) -> [u8; 18] {
 fn curve(curve: &GraphCurve) -> file::Curve {
     let style = &curve.style;
     let fixed = |points: &Vec<[f64; 3]>| {
-        Counted(points.iter().flat_map(|point| point[..curve.dimensions].iter().copied()).collect())
+        Counted(
+            points
+                .iter()
+                .flat_map(|point| point[..curve.dimensions].iter().copied())
+                .collect(),
+        )
     };
     file::Curve {
         name_and_unit: Some((style.name.as_str().into(), style.unit.as_str().into())),
@@ -88,7 +137,11 @@ fn curve(curve: &GraphCurve) -> file::Curve {
         colour: Some(style.colour),
         offsets: Some(curve.defaults),
         streams: Some(curve.streams.map(|id| id as i32)),
-        flags: Some(flags(curve.relative, style, curve.fixed.as_ref().map(|_| 3))),
+        flags: Some(flags(
+            curve.relative,
+            style,
+            curve.fixed.as_ref().map(|_| 3),
+        )),
         static_values: curve.fixed.as_ref().map(fixed),
     }
 }
@@ -96,16 +149,35 @@ fn curve(curve: &GraphCurve) -> file::Curve {
 /// One of the two numbers of a sample.
 type Half = fn(&GraphSample) -> Option<f64>;
 
-fn old_stream(context: &Context<'_>, stream: &GraphStream, source: OldSource, slots: usize) -> file::OldDataStream {
+fn old_stream(
+    context: &Context<'_>,
+    stream: &GraphStream,
+    source: OldSource,
+    slots: usize,
+) -> file::OldDataStream {
     let (style, transformation) = (&stream.style, &stream.transformation);
-    let all: Vec<GraphSample> = if stream.samples.is_empty() { Vec::new() } else { samples(stream, slots).collect() };
+    let all: Vec<GraphSample> = if stream.samples.is_empty() {
+        Vec::new()
+    } else {
+        samples(stream, slots).collect()
+    };
     let values = |of: Half| all.iter().map(|sample| of(sample).unwrap_or(0.0)).collect();
-    let valid = |of: Half| Rest(all.iter().map(|sample| of(sample).is_some().into()).collect());
+    let valid = |of: Half| {
+        Rest(
+            all.iter()
+                .map(|sample| of(sample).is_some().into())
+                .collect(),
+        )
+    };
     let (raw, transformed): (Half, Half) = (|s| s.raw, |s| s.transformed);
     file::OldDataStream {
         name: Some(style.name.as_str().into()),
         id: Some(style.id as i32),
-        source: Some([source.data_type, context.file_handle(source.object), source.auxiliary]),
+        source: Some([
+            source.data_type,
+            context.file_handle(source.object),
+            source.auxiliary,
+        ]),
         colour: Some(style.colour),
         zoom_and_offset: Some([transformation.multiplier, transformation.offset]),
         ma_count: Some(transformation.period as i32),

@@ -6,9 +6,20 @@ use crate::ttt::chunks::{IkElement as ElementChunk, IkGroup as GroupChunk};
 use scene::tree::ik_groups::{IkElement, IkGroup};
 
 pub(super) fn groups(context: &Context<'_>) -> Vec<GroupChunk> {
-    let is_saved = |group: &IkGroup| group.elements.iter().all(|element| context.saved.contains(&element.tip));
-    let groups = context.scene.ik_groups().iter().filter(|(_, group)| is_saved(group));
-    groups.map(|(handle, saved)| group(context, handle, saved)).collect()
+    let is_saved = |group: &IkGroup| {
+        group
+            .elements
+            .iter()
+            .all(|element| context.saved.contains(&element.tip))
+    };
+    let groups = context
+        .scene
+        .ik_groups()
+        .iter()
+        .filter(|(_, group)| is_saved(group));
+    groups
+        .map(|(handle, saved)| group(context, handle, saved))
+        .collect()
 }
 
 fn group(context: &Context<'_>, handle: i64, group: &IkGroup) -> GroupChunk {
@@ -21,7 +32,10 @@ fn group(context: &Context<'_>, handle: i64, group: &IkGroup) -> GroupChunk {
         do_on: Some(group.performed_after),
         flags: Some(group.flags | if group.explicit { EXPLICIT_IK_GROUP } else { 0 }),
         persistent_id: Some(group.persistent_uid.as_str().into()),
-        elements: (0..).zip(&group.elements).map(|(at, saved)| element(context, at, saved)).collect(),
+        elements: (0..)
+            .zip(&group.elements)
+            .map(|(at, saved)| element(context, at, saved))
+            .collect(),
         ..GroupChunk::default()
     }
 }
@@ -29,7 +43,9 @@ fn group(context: &Context<'_>, handle: i64, group: &IkGroup) -> GroupChunk {
 fn element(context: &Context<'_>, at: i32, element: &IkElement) -> ElementChunk {
     ElementChunk {
         handle: Some(at),
-        tip_and_base: Some([Some(element.tip), element.base].map(|object| context.file_handle(object))),
+        tip_and_base: Some(
+            [Some(element.tip), element.base].map(|object| context.file_handle(object)),
+        ),
         alt_base: Some(context.file_handle(element.constraint_base)),
         precisions: Some(element.precisions),
         constraints: Some(element.constraints),

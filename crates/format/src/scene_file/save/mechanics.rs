@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 
 use super::{Context, shape};
 use crate::ttt::EngineBlock;
-use crate::ttt::chunks::{Colour, Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk};
+use crate::ttt::chunks::{
+    Colour, Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk,
+};
 use scene::joint::{Control, Joint};
 use scene::object::dummy::Dummy;
 use scene::parameters::engine::Engine;
@@ -65,17 +67,24 @@ fn switches(joint: &Joint) -> u8 {
 /// Master, coefficient, offset. A joint whose master is not saved depends on none.
 fn dependency(context: &Context<'_>, joint: &Joint) -> (i32, [f64; 2]) {
     match joint.dependency {
-        Some(law) => (context.file_handle(Some(law.master)), [law.coefficient, law.offset]),
+        Some(law) => (
+            context.file_handle(Some(law.master)),
+            [law.coefficient, law.offset],
+        ),
         None => (-1, [1.0, 0.0]),
     }
 }
 
 pub(super) fn force_sensor(sensor: &ForceSensor, colour: Option<Colour>) -> ForceSensorChunk {
-    let switches = u8::from(sensor.force_threshold_enabled) | u8::from(sensor.torque_threshold_enabled) << 1;
+    let switches =
+        u8::from(sensor.force_threshold_enabled) | u8::from(sensor.torque_threshold_enabled) << 1;
     ForceSensorChunk {
         size: Some(sensor.size),
         switches: Some(switches),
-        thresholds: Some(([sensor.force_threshold, sensor.torque_threshold], sensor.consecutive_violations as i32)),
+        thresholds: Some((
+            [sensor.force_threshold, sensor.torque_threshold],
+            sensor.consecutive_violations as i32,
+        )),
         filter: Some([sensor.sample_size as i32, sensor.filter as i32]),
         colour,
         ..ForceSensorChunk::default()

@@ -29,7 +29,12 @@ pub(super) struct Written {
 
 impl Written {
     pub(super) fn refer(&self, data: &mut MeshData) {
-        [data.vertices_at, data.indices_at, data.normals_at, data.edges_at] = self.at;
+        [
+            data.vertices_at,
+            data.indices_at,
+            data.normals_at,
+            data.edges_at,
+        ] = self.at;
     }
 }
 
@@ -51,15 +56,28 @@ impl Pool {
     }
 
     fn add(&mut self, mesh: &Mesh, edge_angle: f64) -> Written {
-        let singles = |list: &[[f64; 3]]| list.as_flattened().iter().map(|c| *c as f32).collect::<Vec<f32>>();
+        let singles = |list: &[[f64; 3]]| {
+            list.as_flattened()
+                .iter()
+                .map(|c| *c as f32)
+                .collect::<Vec<f32>>()
+        };
         let arrays = Arrays {
             vertices: singles(&mesh.vertices),
-            indices: mesh.triangles.as_flattened().iter().map(|i| *i as i32).collect(),
+            indices: mesh
+                .triangles
+                .as_flattened()
+                .iter()
+                .map(|i| *i as i32)
+                .collect(),
             normals: Some(singles(&mesh.normals)),
             edges: Some(edges::drawn(mesh, edge_angle)),
         };
         let (low, high) = mesh.aabb().unwrap_or_default();
-        Written { at: self.arrays.add(arrays), size: std::array::from_fn(|axis| high[axis] - low[axis]) }
+        Written {
+            at: self.arrays.add(arrays),
+            size: std::array::from_fn(|axis| high[axis] - low[axis]),
+        }
     }
 }
 

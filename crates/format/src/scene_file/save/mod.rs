@@ -42,7 +42,9 @@ struct Context<'a> {
 impl Context<'_> {
     /// The handle as the file has it: those of the scene, -1 for what is not saved.
     fn file_handle(&self, handle: Option<Handle>) -> i32 {
-        handle.filter(|handle| self.saved.contains(handle)).map_or(-1, |handle| handle.0 as i32)
+        handle
+            .filter(|handle| self.saved.contains(handle))
+            .map_or(-1, |handle| handle.0 as i32)
     }
 }
 
@@ -55,7 +57,9 @@ pub fn scene(scene: &Scene, scripts: &[LoadedScript]) -> SceneResult<File> {
     let mut contents = contents(scene, &order, None, scripts)?;
     settings::fill(&mut contents, scene);
     let main = scripts.iter().find(|script| script.owner.is_none());
-    contents.scripts.insert(0, main.map_or_else(script::usual_main, script::main));
+    contents
+        .scripts
+        .insert(0, main.map_or_else(script::usual_main, script::main));
     Ok(file(FileKind::Scene, contents))
 }
 
@@ -67,13 +71,21 @@ pub fn model(scene: &Scene, base: Handle, scripts: &[LoadedScript]) -> SceneResu
     let order = depth_first(scene, &[base]);
     let mut contents = contents(scene, &order, Some(base), scripts)?;
     contents.model_info = Some(ModelInfo {
-        pose_box_step: Some((scene.world_pose(base)?.into(), model_size(scene, &order, base)?, 0.0)),
+        pose_box_step: Some((
+            scene.world_pose(base)?.into(),
+            model_size(scene, &order, base)?,
+            0.0,
+        )),
     });
     Ok(file(FileKind::Model, contents))
 }
 
 fn file(kind: FileKind, contents: Contents) -> File {
-    File { header: Header::current(kind), contents, skipped: Vec::new() }
+    File {
+        header: Header::current(kind),
+        contents,
+        skipped: Vec::new(),
+    }
 }
 
 /// Parents before children, children in their order.
@@ -89,10 +101,26 @@ fn depth_first(scene: &Scene, roots: &[Handle]) -> Vec<Handle> {
     order
 }
 
-fn contents(scene: &Scene, order: &[Handle], base: Option<Handle>, scripts: &[LoadedScript]) -> SceneResult<Contents> {
-    let mut context = Context { scene, saved: order.iter().copied().collect(), pool: Pool::default() };
-    let objects = order.iter().map(|handle| object(&mut context, *handle, base)).collect::<SceneResult<Vec<_>>>()?;
-    let attached = scripts.iter().filter(|script| script.owner.is_some_and(|owner| context.saved.contains(&owner)));
+fn contents(
+    scene: &Scene,
+    order: &[Handle],
+    base: Option<Handle>,
+    scripts: &[LoadedScript],
+) -> SceneResult<Contents> {
+    let mut context = Context {
+        scene,
+        saved: order.iter().copied().collect(),
+        pool: Pool::default(),
+    };
+    let objects = order
+        .iter()
+        .map(|handle| object(&mut context, *handle, base))
+        .collect::<SceneResult<Vec<_>>>()?;
+    let attached = scripts.iter().filter(|script| {
+        script
+            .owner
+            .is_some_and(|owner| context.saved.contains(&owner))
+    });
     let textures = match base {
         None => texture::all(scene, |_| true),
         Some(_) => {
@@ -115,10 +143,16 @@ fn contents(scene: &Scene, order: &[Handle], base: Option<Handle>, scripts: &[Lo
 }
 
 fn shapes<'a>(scene: &'a Scene, order: &[Handle]) -> impl Iterator<Item = &'a Shape> {
-    order.iter().filter_map(|handle| scene.object(*handle).ok()?.shape().ok())
+    order
+        .iter()
+        .filter_map(|handle| scene.object(*handle).ok()?.shape().ok())
 }
 
-fn object(context: &mut Context<'_>, handle: Handle, base: Option<Handle>) -> SceneResult<FileObject> {
+fn object(
+    context: &mut Context<'_>,
+    handle: Handle,
+    base: Option<Handle>,
+) -> SceneResult<FileObject> {
     let object = context.scene.object(handle)?;
     let mut common = common::common(context, object)?;
     if base == Some(handle) {
@@ -126,7 +160,11 @@ fn object(context: &mut Context<'_>, handle: Handle, base: Option<Handle>) -> Sc
         common.pose = Some(context.scene.world_pose(handle)?.into());
         (common.handles, common.child_order) = (Some([handle.0 as i32, -1]), Some(-1));
     }
-    Ok(FileObject { offset: 0, common, class: class(context, object) })
+    Ok(FileObject {
+        offset: 0,
+        common,
+        class: class(context, object),
+    })
 }
 
 fn class(context: &mut Context<'_>, object: &Object) -> Class {
@@ -136,19 +174,25 @@ fn class(context: &mut Context<'_>, object: &Object) -> Class {
     match &object.kind {
         Kind::Shape(shape) => Class::Shape(Box::new(shape::shape(context, shape))),
         Kind::Joint(joint) => Class::Joint(Box::new(mechanics::joint(context, joint, colour))),
-        Kind::ForceSensor(sensor) => Class::ForceSensor(Box::new(mechanics::force_sensor(sensor, colour))),
+        Kind::ForceSensor(sensor) => {
+            Class::ForceSensor(Box::new(mechanics::force_sensor(sensor, colour)))
+        }
         Kind::Dummy(dummy) => Class::Dummy(Box::new(mechanics::dummy(context, dummy, colour))),
         Kind::ProximitySensor(sensor) => {
             Class::ProximitySensor(Box::new(sensors::proximity_sensor(context, sensor, colour)))
         }
         Kind::Path(path) => Class::Path(Box::new(path::path(path, colour))),
-        Kind::VisionSensor(sensor) => Class::VisionSensor(Box::new(sensors::vision_sensor(context, sensor, colour))),
+        Kind::VisionSensor(sensor) => {
+            Class::VisionSensor(Box::new(sensors::vision_sensor(context, sensor, colour)))
+        }
         Kind::Camera(camera) => Class::Camera(Box::new(sensors::camera(context, camera, colour))),
         Kind::Light(light) => Class::Light(Box::new(sensors::light(light, colour))),
         Kind::Graph(graph) => Class::Graph(Box::new(graph::graph(context, graph, colour))),
         Kind::OcTree(tree) => Class::OcTree(Box::new(cells::octree(tree, colour))),
         Kind::PointCloud(cloud) => Class::PointCloud(Box::new(cells::point_cloud(cloud, colour))),
-        Kind::Script(script) => Class::ScriptObject(Box::new(script::object(script, object.handle(), colour))),
+        Kind::Script(script) => {
+            Class::ScriptObject(Box::new(script::object(script, object.handle(), colour)))
+        }
     }
 }
 
@@ -157,16 +201,26 @@ fn model_size(scene: &Scene, order: &[Handle], base: Handle) -> SceneResult<[f64
     let into_base = scene.world_pose(base)?.inverse();
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for handle in order {
-        let Ok(shape) = scene.object(*handle)?.shape() else { continue };
+        let Ok(shape) = scene.object(*handle)?.shape() else {
+            continue;
+        };
         let frame: Pose = into_base * scene.world_pose(*handle)? * shape.bounding_box.pose;
         for corner in 0..8 {
             let half = std::array::from_fn(|axis| {
                 let side: f64 = shape.bounding_box.size[axis];
-                if corner >> axis & 1 == 1 { side / 2.0 } else { -side / 2.0 }
+                if corner >> axis & 1 == 1 {
+                    side / 2.0
+                } else {
+                    -side / 2.0
+                }
             });
             let point: [f64; 3] = (frame * nalgebra::Point3::from(half)).into();
-            (0..3).for_each(|axis| (low[axis], high[axis]) = (low[axis].min(point[axis]), high[axis].max(point[axis])));
+            (0..3).for_each(|axis| {
+                (low[axis], high[axis]) = (low[axis].min(point[axis]), high[axis].max(point[axis]))
+            });
         }
     }
-    Ok(std::array::from_fn(|axis| (high[axis] - low[axis]).max(0.0)))
+    Ok(std::array::from_fn(|axis| {
+        (high[axis] - low[axis]).max(0.0)
+    }))
 }

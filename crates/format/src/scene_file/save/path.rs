@@ -29,7 +29,12 @@ fn line(path: &PathObject, colour: Option<Colour>) -> PathControl {
         line: Some((path.line_size, path.point_size)),
         attributes: Some(path.attributes().bits()),
         colour,
-        motion: Some([path.position(), path.max_acceleration, path.nominal_velocity, path.target_velocity]),
+        motion: Some([
+            path.position(),
+            path.max_acceleration,
+            path.nominal_velocity,
+            path.target_velocity,
+        ]),
         length: Some((measures.angle_coefficient, measures.length_method as i32)),
         on_spot_coeff: Some(measures.on_spot_coefficient),
         averages: Some([profile.radius, profile.axis_change, profile.acceleration]),
@@ -39,7 +44,12 @@ fn line(path: &PathObject, colour: Option<Colour>) -> PathControl {
 fn point(point: &ControlPoint) -> PathPoint {
     let rounding = [point.before, point.after];
     PathPoint {
-        point: Some((point.pose.into(), rounding, point.count as i32, point.velocity)),
+        point: Some((
+            point.pose.into(),
+            rounding,
+            point.count as i32,
+            point.velocity,
+        )),
         on_spot: Some(point.on_spot),
         auxiliary: Some((point.flags, point.channels)),
     }

@@ -16,9 +16,21 @@ const USUAL_MAIN_SCRIPT: &[u8] = b"require('defaultMainScript')";
 
 /// A script in the tree.
 pub(super) fn object(script: &ScriptObject, handle: Handle, colour: Option<Colour>) -> ObjectChunk {
-    let mut chunk = chunk(script.script_type, handle.0 as i32, &script.code, &script.language);
+    let mut chunk = chunk(
+        script.script_type,
+        handle.0 as i32,
+        &script.code,
+        &script.language,
+    );
     chunk.switches = Some(switches(script.disabled));
-    chunk.switches_2 = Some(SINCE_3_1_4 | if script.parent_is_proxy { PARENT_IS_PROXY } else { 0 });
+    chunk.switches_2 = Some(
+        SINCE_3_1_4
+            | if script.parent_is_proxy {
+                PARENT_IS_PROXY
+            } else {
+                0
+            },
+    );
     ObjectChunk {
         size: Some(script.size),
         switches: Some(script.reset_after_sim_error.into()),
@@ -72,6 +84,10 @@ fn marked(code: &[u8], language: &str) -> Vec<u8> {
     if first_line.trim_ascii().is_empty() && !code.is_empty() {
         return code.to_vec();
     }
-    let mark: &[u8] = if language == "python" { b"#python\n" } else { b"--lua\n" };
+    let mark: &[u8] = if language == "python" {
+        b"#python\n"
+    } else {
+        b"--lua\n"
+    };
     [mark, code].concat()
 }

@@ -18,7 +18,10 @@ type Colour = Option<file::Colour>;
 
 /// A number of bits, each from its switch.
 pub(super) fn bits(switches: &[(bool, u8)]) -> u8 {
-    switches.iter().filter(|(on, _)| *on).fold(0, |bits, (_, bit)| bits | 1 << bit)
+    switches
+        .iter()
+        .filter(|(on, _)| *on)
+        .fold(0, |bits, (_, bit)| bits | 1 << bit)
 }
 
 /// An object, a collection, or everything.
@@ -66,7 +69,17 @@ fn volume(volume: &Volume, faces: VolumeFaces) -> file::Volume {
     file::Volume {
         // Sensors and their volumes have different numbers: a ray is 34 and 4.
         volume_type: Some(volume.volume_type.index() as i32),
-        sizes: Some([volume.offset, volume.range, x, y, x_far, y_far, radius, radius_far, volume.angle]),
+        sizes: Some([
+            volume.offset,
+            volume.range,
+            x,
+            y,
+            x_far,
+            y_far,
+            radius,
+            radius_far,
+            volume.angle,
+        ]),
         inside_angle: Some(volume.inside_gap),
         faces: Some([sides, sides_far, subdivisions, subdivisions_far]),
         smallest_distance: Some(volume.close_threshold),
@@ -81,7 +94,11 @@ fn volume(volume: &Volume, faces: VolumeFaces) -> file::Volume {
     }
 }
 
-pub(super) fn vision_sensor(context: &Context<'_>, sensor: &VisionSensor, colour: Colour) -> file::VisionSensor {
+pub(super) fn vision_sensor(
+    context: &Context<'_>,
+    sensor: &VisionSensor,
+    colour: Colour,
+) -> file::VisionSensor {
     let view = &sensor.view;
     let third = [
         (view.perspective, 0),
@@ -91,10 +108,19 @@ pub(super) fn vision_sensor(context: &Context<'_>, sensor: &VisionSensor, colour
         (sensor.local_lights, 6),
         (sensor.background_from_environment, 7),
     ];
-    let second =
-        [(sensor.external_image, 0), (sensor.ignore_image, 1), (sensor.ignore_depth, 2), (sensor.omit_statistics, 4)];
+    let second = [
+        (sensor.external_image, 0),
+        (sensor.ignore_image, 1),
+        (sensor.ignore_depth, 2),
+        (sensor.omit_statistics, 4),
+    ];
     file::VisionSensor {
-        optics: Some([view.ortho_size, view.angle, view.clipping[0], view.clipping[1]]),
+        optics: Some([
+            view.ortho_size,
+            view.angle,
+            view.clipping[0],
+            view.clipping[1],
+        ]),
         resolution: Some(view.resolution.map(|pixels| pixels as i32)),
         renderable: Some(entity(context, sensor.entity)),
         default_buffer: Some(sensor.background),
@@ -127,7 +153,10 @@ pub(super) fn camera(context: &Context<'_>, camera: &Camera, colour: Colour) -> 
 
 pub(super) fn light(light: &Light, colour: Colour) -> file::Light {
     file::Light {
-        kind_and_size: Some(([light.light_type as i32, light.spot_exponent as i32], light.size)),
+        kind_and_size: Some((
+            [light.light_type as i32, light.spot_exponent as i32],
+            light.size,
+        )),
         spot_cutoff: Some(light.spot_cutoff),
         attenuation: Some(light.attenuation),
         switches: Some(bits(&[(light.enabled, 0), (!light.casts_shadows, 2)])),

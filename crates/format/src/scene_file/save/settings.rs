@@ -6,11 +6,14 @@ use super::{Context, custom_data, shape};
 use crate::scene_file::load::UNNAMED_COLLECTION;
 use crate::ttt::Counted;
 use crate::ttt::chunks::{
-    Collection, CollectionElement, Dynamics, Environment, ModuleSettings, Page, Simulation, View, Views,
+    Collection, CollectionElement, Dynamics, Environment, ModuleSettings, Page, Simulation, View,
+    Views,
 };
 use crate::ttt::tree::Contents;
 use scene::object::viewers::Viewers;
-use scene::{Calculations, Collection as Collected, CollectionItem, Kind, Members, Object, Scene, Settings};
+use scene::{
+    Calculations, Collection as Collected, CollectionItem, Kind, Members, Object, Scene, Settings,
+};
 
 /// The preset of the physics, and of the step, that means settings of one's own.
 const CUSTOM: i32 = 5;
@@ -54,7 +57,12 @@ fn simulation(settings: &Settings) -> Simulation {
         dt: Some(settings.time_step),
         passes_per_frame: Some(settings.steps_per_rendering as i32),
         old_preset: Some(CUSTOM),
-        switches: Some(switches.iter().filter(|(on, _)| *on).fold(0, |bits, (_, bit)| bits | bit)),
+        switches: Some(
+            switches
+                .iter()
+                .filter(|(on, _)| *on)
+                .fold(0, |bits, (_, bit)| bits | bit),
+        ),
         old_rt_coef: Some(settings.real_time_factor as f32),
         rt_coef: Some(settings.real_time_factor),
         old_pause: Some(settings.time_to_pause as f32),
@@ -103,7 +111,9 @@ fn environment(scene: &Scene) -> Environment {
         fog_colour: fog.colour,
         bg_up: around.background.map(|[up, _]| up),
         bg_down: around.background.map(|[_, down]| down),
-        switches: Some(around.display | u8::from(fog.enabled) << 4 | u8::from(scene.settings().locked) << 5),
+        switches: Some(
+            around.display | u8::from(fog.enabled) << 4 | u8::from(scene.settings().locked) << 5,
+        ),
         extension_string: Some(around.extension_string.as_str().into()),
         ..Environment::default()
     }
@@ -111,7 +121,9 @@ fn environment(scene: &Scene) -> Environment {
 
 /// A page with the first camera, so that there is something to see.
 fn views(scene: &Scene) -> Option<Views> {
-    let camera = scene.objects().find(|object| matches!(object.kind, Kind::Camera(_)))?;
+    let camera = scene
+        .objects()
+        .find(|object| matches!(object.kind, Kind::Camera(_)))?;
     let view = View {
         linked_object: Some(camera.handle().0 as i32),
         place: Some([-0.5, -0.5, 1.0, 1.0]),
@@ -120,28 +132,68 @@ fn views(scene: &Scene) -> Option<Views> {
         va3: Some(1),
     };
     let sizes = Some(Counted(vec![0.25, 0.25, 0.05, 0.05]));
-    let page = Page { page_type: Some(0), views: vec![view], sizes_pos: sizes, ..Page::default() };
-    Some(Views { pages: vec![page], empty_pages: vec![0; FURTHER_PAGES], active_page: Some(0) })
+    let page = Page {
+        page_type: Some(0),
+        views: vec![view],
+        sizes_pos: sizes,
+        ..Page::default()
+    };
+    Some(Views {
+        pages: vec![page],
+        empty_pages: vec![0; FURTHER_PAGES],
+        active_page: Some(0),
+    })
 }
 
 /// The collections that saved objects refer to; others live only as long as the scripts that made them.
 pub(super) fn collections(context: &Context<'_>) -> Vec<Collection> {
     let mut used = BTreeSet::new();
-    for object in context.saved.iter().filter_map(|handle| context.scene.object(*handle).ok()) {
+    for object in context
+        .saved
+        .iter()
+        .filter_map(|handle| context.scene.object(*handle).ok())
+    {
         used.extend(entity(object));
         if let Viewers::Collection(collection) = object.viewers {
             used.insert(collection);
         }
-        used.extend(object.references.iter().flat_map(|(_, list)| list.iter().copied()));
+        used.extend(
+            object
+                .references
+                .iter()
+                .flat_map(|(_, list)| list.iter().copied()),
+        );
     }
     let is_whole = |collection: &&(i64, &Collected)| {
         let mut bases = collection.1.items.iter().map(|item| item.members.base());
-        !collection.1.name.is_empty() && bases.all(|base| base.is_some_and(|base| context.saved.contains(&base)))
+        !collection.1.name.is_empty()
+            && bases.all(|base| base.is_some_and(|base| context.saved.contains(&base)))
     };
-    used.extend(context.scene.collections().iter().filter(|entry| is_whole(&entry)).map(|(handle, _)| handle));
-    used.extend(context.scene.collision_objects().iter().flat_map(|(_, object)| object.entities));
-    used.extend(context.scene.distance_objects().iter().flat_map(|(_, object)| object.entities));
-    used.into_iter().filter_map(|handle| collection(context, handle)).collect()
+    used.extend(
+        context
+            .scene
+            .collections()
+            .iter()
+            .filter(|entry| is_whole(&entry))
+            .map(|(handle, _)| handle),
+    );
+    used.extend(
+        context
+            .scene
+            .collision_objects()
+            .iter()
+            .flat_map(|(_, object)| object.entities),
+    );
+    used.extend(
+        context
+            .scene
+            .distance_objects()
+            .iter()
+            .flat_map(|(_, object)| object.entities),
+    );
+    used.into_iter()
+        .filter_map(|handle| collection(context, handle))
+        .collect()
 }
 
 fn entity(object: &Object) -> Option<i64> {
@@ -162,7 +214,12 @@ fn collection(context: &Context<'_>, handle: i64) -> Option<Collection> {
         name: Some(name.as_str().into()),
         handle: Some(handle as i32),
         flags: Some(collection.overrides.into()),
-        elements: collection.items.iter().enumerate().map(|(at, item)| element(context, item, at)).collect(),
+        elements: collection
+            .items
+            .iter()
+            .enumerate()
+            .map(|(at, item)| element(context, item, at))
+            .collect(),
         ..Collection::default()
     })
 }

@@ -4,7 +4,9 @@ use geometry::MassProperties;
 use geometry::PrimitiveKind;
 
 use super::{Context, colour, texture};
-use crate::ttt::chunks::{Material as MaterialChunk, MeshData, MeshNode, Shape as Chunk, ShapeGeometry};
+use crate::ttt::chunks::{
+    Material as MaterialChunk, MeshData, MeshNode, Shape as Chunk, ShapeGeometry,
+};
 use crate::ttt::tree::{Mesh as FileMesh, MeshTree};
 use crate::ttt::{EngineBlock, Heights};
 use scene::Pose;
@@ -32,58 +34,113 @@ struct Place {
 
 pub(super) fn shape(context: &mut Context<'_>, shape: &Shape) -> Chunk {
     let geometry = match shape.parts.as_slice() {
-        [part] => ShapeGeometry { mesh: Some(simple(context, shape, part)), ..ShapeGeometry::default() },
-        parts => ShapeGeometry { group: Some(group(context, shape, parts)), ..ShapeGeometry::default() },
+        [part] => ShapeGeometry {
+            mesh: Some(simple(context, shape, part)),
+            ..ShapeGeometry::default()
+        },
+        parts => ShapeGeometry {
+            group: Some(group(context, shape, parts)),
+            ..ShapeGeometry::default()
+        },
     };
     let dynamics = &shape.dynamics;
-    let [linear, angular] = [dynamics.initial_velocity.linear, dynamics.initial_velocity.angular];
+    let [linear, angular] = [
+        dynamics.initial_velocity.linear,
+        dynamics.initial_velocity.angular,
+    ];
     Chunk {
         geometry: Some(geometry),
         material: Some(material(&shape.material)),
         respondable_mask: Some(dynamics.respondable_mask.bits()),
-        initial_velocity: Some([linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]]),
+        initial_velocity: Some([
+            linear[0], linear[1], linear[2], angular[0], angular[1], angular[2],
+        ]),
         switches: Some(switches(dynamics)),
-        switches_3: Some(u8::from(dynamics.respondable) | u8::from(dynamics.dynamic_when_parented) << 5),
+        switches_3: Some(
+            u8::from(dynamics.respondable) | u8::from(dynamics.dynamic_when_parented) << 5,
+        ),
         ..Chunk::default()
     }
 }
 
 fn switches(dynamics: &ShapeDynamics) -> u8 {
-    let bits = [(!dynamics.kinematic, 0x2), (dynamics.start_asleep, 0x40), (!dynamics.is_static, 0x80)];
-    bits.iter().filter(|(on, _)| *on).fold(0, |bits, (_, bit)| bits | bit)
+    let bits = [
+        (!dynamics.kinematic, 0x2),
+        (dynamics.start_asleep, 0x40),
+        (!dynamics.is_static, 0x80),
+    ];
+    bits.iter()
+        .filter(|(on, _)| *on)
+        .fold(0, |bits, (_, bit)| bits | bit)
 }
 
 /// The node of a simple shape is its frame. A primitive is centred in its box; a mesh is written in the box of the shape.
 fn simple(context: &mut Context<'_>, shape: &Shape, part: &Part) -> FileMesh {
-    let vertices = if is_centred(part) { part.pose } else { shape.bounding_box.pose };
-    let place = Place { vertices, ..Place::root(shape) };
+    let vertices = if is_centred(part) {
+        part.pose
+    } else {
+        shape.bounding_box.pose
+    };
+    let place = Place {
+        vertices,
+        ..Place::root(shape)
+    };
     let mut mesh = mesh(context, part, place);
     mesh.node.box_size = Some(shape.bounding_box.size);
     mesh
 }
 
 fn group(context: &mut Context<'_>, shape: &Shape, parts: &[Part]) -> MeshNode {
-    let mut root = node(&Place::root(shape), shape.bounding_box.size, shape.is_convex());
+    let mut root = node(
+        &Place::root(shape),
+        shape.bounding_box.size,
+        shape.is_convex(),
+    );
     root.children = children(context, parts, 0, &Pose::identity(), &mut 0);
     root
 }
 
 /// The members of a group whose frame in the shape is `frame`: parts, or groups of those that are together at this depth.
 /// `named` counts the nodes that have a name.
-fn children(context: &mut Context<'_>, parts: &[Part], depth: usize, frame: &Pose, named: &mut usize) -> Vec<MeshTree> {
+fn children(
+    context: &mut Context<'_>,
+    parts: &[Part],
+    depth: usize,
+    frame: &Pose,
+    named: &mut usize,
+) -> Vec<MeshTree> {
     let together = |a: &Part, b: &Part| {
-        depth < MAX_GROUP_DEPTH && a.group.get(depth).is_some_and(|group| b.group.get(depth) == Some(group))
+        depth < MAX_GROUP_DEPTH
+            && a.group
+                .get(depth)
+                .is_some_and(|group| b.group.get(depth) == Some(group))
     };
     let members = parts.chunk_by(together).map(|member| {
         *named += 1;
         let name = format!("sub__{named}");
         match member {
             [part] => {
-                let vertices = if is_centred(part) { Pose::identity() } else { centre(part) };
-                let place = Place { name, group: *frame, node: part.pose, vertices, mass: part.mass };
+                let vertices = if is_centred(part) {
+                    Pose::identity()
+                } else {
+                    centre(part)
+                };
+                let place = Place {
+                    name,
+                    group: *frame,
+                    node: part.pose,
+                    vertices,
+                    mass: part.mass,
+                };
                 MeshTree::Mesh(Box::new(mesh(context, part, place)))
             }
-            parts => MeshTree::Group(Box::new(subgroup(context, parts, (name, depth + 1), frame, named))),
+            parts => MeshTree::Group(Box::new(subgroup(
+                context,
+                parts,
+                (name, depth + 1),
+                frame,
+                named,
+            ))),
         }
     });
     members.collect()
@@ -98,9 +155,16 @@ fn subgroup(
     named: &mut usize,
 ) -> MeshNode {
     let frame = parts.last().map_or(*outer, |part| part.pose);
-    let own: Vec<Part> = parts.iter().map(|part| Part { pose: frame.inverse() * part.pose, ..part.clone() }).collect();
+    let own: Vec<Part> = parts
+        .iter()
+        .map(|part| Part {
+            pose: frame.inverse() * part.pose,
+            ..part.clone()
+        })
+        .collect();
     let masses: Vec<_> = own.iter().map(|part| (part.pose, part.mass)).collect();
-    let (vertices, size) = box_of(&own).map_or_else(Default::default, |around| (around.pose, around.size));
+    let (vertices, size) =
+        box_of(&own).map_or_else(Default::default, |around| (around.pose, around.size));
     let place = Place {
         name,
         group: *outer,
@@ -117,13 +181,21 @@ impl Place {
     fn root(shape: &Shape) -> Self {
         let name = "sub__0".into();
         let node = Pose::identity();
-        Self { name, group: node, node, vertices: shape.bounding_box.pose, mass: shape.mass }
+        Self {
+            name,
+            group: node,
+            node,
+            vertices: shape.bounding_box.pose,
+            mass: shape.mass,
+        }
     }
 }
 
 /// Whether the vertices lie around the origin of the part's frame because the primitive does.
 fn is_centred(part: &Part) -> bool {
-    part.primitive.as_ref().is_some_and(|primitive| primitive.kind != PrimitiveKind::Heightfield)
+    part.primitive
+        .as_ref()
+        .is_some_and(|primitive| primitive.kind != PrimitiveKind::Heightfield)
 }
 
 /// The middle of the vertices of a part.
@@ -136,10 +208,19 @@ fn centre(part: &Part) -> Pose {
 fn mesh(context: &mut Context<'_>, part: &Part, place: Place) -> FileMesh {
     // Vertices are known in the frame of the part.
     let moved = (place.node * place.vertices).inverse() * part.pose;
-    let frame = if is_identity(&moved) { Pose::identity() } else { moved };
-    let written = context.pool.write(&part.mesh, &frame, part.appearance.edge_angle);
+    let frame = if is_identity(&moved) {
+        Pose::identity()
+    } else {
+        moved
+    };
+    let written = context
+        .pool
+        .write(&part.mesh, &frame, part.appearance.edge_angle);
     let node = node(&place, written.size, part.convex);
-    let (code, size) = part.primitive.as_ref().map_or((0, [0.0; 3]), |p| (p.kind.code() as i32, p.size));
+    let (code, size) = part
+        .primitive
+        .as_ref()
+        .map_or((0, [0.0; 3]), |p| (p.kind.code() as i32, p.size));
     let mut data = MeshData {
         primitive: Some((code, size)),
         inside_scaling: Some(0.0),
@@ -147,7 +228,10 @@ fn mesh(context: &mut Context<'_>, part: &Part, place: Place) -> FileMesh {
         switches: Some(drawing(&part.appearance)),
         switches_2: Some(part.convex.into()),
         heightfield: Some(heights(part.primitive.as_ref())),
-        texture: part.texture.as_deref().map(|mapping| texture::mapping(context, mapping)),
+        texture: part
+            .texture
+            .as_deref()
+            .map(|mapping| texture::mapping(context, mapping)),
         ..MeshData::default()
     };
     appearance(&mut data, &part.appearance);
@@ -186,7 +270,9 @@ fn drawing(appearance: &Appearance) -> u8 {
         (appearance.wireframe, 0x4),
         (appearance.edge_borders_hidden, 0x80),
     ];
-    bits.iter().filter(|(on, _)| *on).fold(CONVEXITY_KNOWN, |bits, (_, bit)| bits | bit)
+    bits.iter()
+        .filter(|(on, _)| *on)
+        .fold(CONVEXITY_KNOWN, |bits, (_, bit)| bits | bit)
 }
 
 fn appearance(data: &mut MeshData, appearance: &Appearance) {
@@ -199,8 +285,14 @@ fn appearance(data: &mut MeshData, appearance: &Appearance) {
 }
 
 fn heights(primitive: Option<&Primitive>) -> Heights {
-    let Some(field) = primitive.and_then(|primitive| primitive.heights.as_ref()) else { return Heights::default() };
-    Heights { columns: field.columns, rows: field.rows, heights: field.heights.clone() }
+    let Some(field) = primitive.and_then(|primitive| primitive.heights.as_ref()) else {
+        return Heights::default();
+    };
+    Heights {
+        columns: field.columns,
+        rows: field.rows,
+        heights: field.heights.clone(),
+    }
 }
 
 fn material(material: &Material) -> MaterialChunk {

@@ -9,7 +9,12 @@ use scene::appearance::texture_mapping::{ApplyMode, TextureMapping, TextureSourc
 
 /// The images of a scene, or those of a model that are `used`.
 pub(super) fn all(scene: &Scene, used: impl Fn(i64) -> bool) -> Vec<Chunk> {
-    scene.textures().iter().filter(|(id, _)| used(*id)).map(|(id, texture)| image(id, texture)).collect()
+    scene
+        .textures()
+        .iter()
+        .filter(|(id, _)| used(*id))
+        .map(|(id, texture)| image(id, texture))
+        .collect()
 }
 
 fn image(id: i64, texture: &Texture) -> Chunk {

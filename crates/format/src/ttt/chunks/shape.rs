@@ -3,7 +3,9 @@
 use super::Colour;
 use crate::ttt::stream::streams;
 use crate::ttt::tree::{Mesh, MeshTree};
-use crate::ttt::value::{EngineBlock, Heights, Indices, Normals, PositionFirst, Rest, RotationFirst, Text};
+use crate::ttt::value::{
+    EngineBlock, Heights, Indices, Normals, PositionFirst, Rest, RotationFirst, Text,
+};
 
 streams! {
     /// A shape, except for what all objects have.

@@ -14,7 +14,10 @@ impl<T: Value> Value for Counted<T> {
     fn read(input: &mut Reader<'_>, real: Real) -> FileResult<Self> {
         // Every value takes a byte at least, so a number that lies ends in an error before it costs memory.
         let count = input.count(1)?;
-        (0..count).map(|_| T::read(input, real)).collect::<FileResult<_>>().map(Self)
+        (0..count)
+            .map(|_| T::read(input, real))
+            .collect::<FileResult<_>>()
+            .map(Self)
     }
 
     fn write(&self, out: &mut Writer) {
@@ -28,7 +31,10 @@ impl<T: Value> Value for Counted<T> {
 
     fn from_node(node: &Node) -> NodeResult<Self> {
         let items = node.list()?.iter().enumerate();
-        items.map(|(i, item)| at(&i.to_string(), T::from_node(item))).collect::<NodeResult<_>>().map(Self)
+        items
+            .map(|(i, item)| at(&i.to_string(), T::from_node(item)))
+            .collect::<NodeResult<_>>()
+            .map(Self)
     }
 }
 
@@ -40,9 +46,18 @@ impl<T: Plain> Value for Rest<T> {
     fn read(input: &mut Reader<'_>, real: Real) -> FileResult<Self> {
         let size = T::size(real);
         if !input.left().is_multiple_of(size) {
-            return Err(input.error(format!("{} bytes are not a multiple of {size}", input.left())));
+            return Err(input.error(format!(
+                "{} bytes are not a multiple of {size}",
+                input.left()
+            )));
         }
-        Ok(Self(input.take_rest().chunks_exact(size).map(|bytes| T::get(bytes, real)).collect()))
+        Ok(Self(
+            input
+                .take_rest()
+                .chunks_exact(size)
+                .map(|bytes| T::get(bytes, real))
+                .collect(),
+        ))
     }
 
     fn write(&self, out: &mut Writer) {
@@ -61,9 +76,19 @@ impl<T: Plain> Value for Rest<T> {
 
     fn from_node(node: &Node) -> NodeResult<Self> {
         if T::size(Real::Double) > 1 {
-            return node.list()?.iter().map(T::of_node).collect::<NodeResult<_>>().map(Self);
+            return node
+                .list()?
+                .iter()
+                .map(T::of_node)
+                .collect::<NodeResult<_>>()
+                .map(Self);
         }
-        Ok(Self(node.bytes()?.chunks_exact(1).map(|byte| T::get(byte, Real::Double)).collect()))
+        Ok(Self(
+            node.bytes()?
+                .chunks_exact(1)
+                .map(|byte| T::get(byte, Real::Double))
+                .collect(),
+        ))
     }
 }
 

@@ -20,11 +20,16 @@ impl Value for Heights {
         let (columns, rows) = (input.count(0)?, input.count(0)?);
         let Rest(heights) = Rest::read(input, real)?;
         if columns.checked_mul(rows) != Some(heights.len()) {
-            return Err(
-                input.error(format!("{columns} times {rows} heights are announced, {} are there", heights.len()))
-            );
+            return Err(input.error(format!(
+                "{columns} times {rows} heights are announced, {} are there",
+                heights.len()
+            )));
         }
-        Ok(Self { columns, rows, heights })
+        Ok(Self {
+            columns,
+            rows,
+            heights,
+        })
     }
 
     fn write(&self, out: &mut Writer) {
@@ -35,16 +40,34 @@ impl Value for Heights {
 
     fn to_node(&self) -> Node {
         let count = |n: usize| Node::Int(n as i64);
-        Node::table([("columns", count(self.columns)), ("rows", count(self.rows)), ("heights", list(&self.heights))])
+        Node::table([
+            ("columns", count(self.columns)),
+            ("rows", count(self.rows)),
+            ("heights", list(&self.heights)),
+        ])
     }
 
     fn from_node(node: &Node) -> NodeResult<Self> {
-        let count = |name| usize::try_from(node.need(name)?.int()?).map_err(|_| "a number is out of range".to_owned());
-        let (columns, rows, heights) = (count("columns")?, count("rows")?, of_list::<f64>(node.need("heights")?)?);
+        let count = |name| {
+            usize::try_from(node.need(name)?.int()?)
+                .map_err(|_| "a number is out of range".to_owned())
+        };
+        let (columns, rows, heights) = (
+            count("columns")?,
+            count("rows")?,
+            of_list::<f64>(node.need("heights")?)?,
+        );
         if columns.checked_mul(rows) != Some(heights.len()) {
-            return Err(format!("{} heights are not {columns} times {rows}", heights.len()));
+            return Err(format!(
+                "{} heights are not {columns} times {rows}",
+                heights.len()
+            ));
         }
-        Ok(Self { columns, rows, heights })
+        Ok(Self {
+            columns,
+            rows,
+            heights,
+        })
     }
 }
 
@@ -82,7 +105,11 @@ fn unpack_indices(input: &mut Reader<'_>) -> FileResult<Vec<i32>> {
         let first = input.take(1)?[0];
         let more = usize::from(first >> 6);
         let low = i32::from(first & 63);
-        let high = input.take(more)?.iter().enumerate().map(|(i, byte)| i32::from(*byte) << (6 + 8 * i));
+        let high = input
+            .take(more)?
+            .iter()
+            .enumerate()
+            .map(|(i, byte)| i32::from(*byte) << (6 + 8 * i));
         previous = previous.wrapping_add(low + high.sum::<i32>() - MIDDLE[more]);
         Ok(previous)
     };
@@ -118,5 +145,9 @@ impl Value for Normals {
 fn unpack_normal(packed: u16) -> [f32; 3] {
     let parts = [0, 5, 10].map(|shift| f32::from(packed >> shift & 31) - 15.0);
     let length = parts.iter().map(|c| c * c).sum::<f32>().sqrt();
-    if length > 0.0 { parts.map(|c| c / length) } else { parts }
+    if length > 0.0 {
+        parts.map(|c| c / length)
+    } else {
+        parts
+    }
 }

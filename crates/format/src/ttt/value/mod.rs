@@ -84,7 +84,9 @@ impl Plain for f64 {
     fn get(bytes: &[u8], real: Real) -> Self {
         match real {
             Real::Single => f32::get(bytes, real).into(),
-            Real::Double => Self::from_le_bytes(bytes.try_into().expect("as many bytes as the size says")),
+            Real::Double => {
+                Self::from_le_bytes(bytes.try_into().expect("as many bytes as the size says"))
+            }
         }
     }
 
@@ -215,7 +217,11 @@ mod tests {
 
     #[test]
     fn the_text_of_a_script_comes_back() {
-        let text = ScriptText("function sysCall_init()\n\tprint('h\u{e4}')\nend".as_bytes().to_vec());
+        let text = ScriptText(
+            "function sysCall_init()\n\tprint('h\u{e4}')\nend"
+                .as_bytes()
+                .to_vec(),
+        );
         let hidden = written(&text);
         assert_ne!(hidden, text.0);
         assert_eq!(read::<ScriptText>(&hidden, b"Ste").unwrap(), text);

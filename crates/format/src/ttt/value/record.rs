@@ -18,7 +18,9 @@ impl Value for EngineBlock {
     fn read(input: &mut Reader<'_>, real: Real) -> FileResult<Self> {
         let reals = input.count(f64::size(real))?;
         let ints = input.count(4)?;
-        let reals = (0..reals).map(|_| f64::read(input, real)).collect::<FileResult<_>>()?;
+        let reals = (0..reals)
+            .map(|_| f64::read(input, real))
+            .collect::<FileResult<_>>()?;
         let ints = (0..ints).map(|_| input.int()).collect::<FileResult<_>>()?;
         Ok(Self { reals, ints })
     }
@@ -35,7 +37,10 @@ impl Value for EngineBlock {
     }
 
     fn from_node(node: &Node) -> NodeResult<Self> {
-        Ok(Self { reals: of_list(node.need("reals")?)?, ints: of_list(node.need("ints")?)? })
+        Ok(Self {
+            reals: of_list(node.need("reals")?)?,
+            ints: of_list(node.need("ints")?)?,
+        })
     }
 }
 
@@ -50,8 +55,16 @@ pub struct OriginalReference {
 impl Value for OriginalReference {
     fn read(input: &mut Reader<'_>, real: Real) -> FileResult<Self> {
         let [kind, handle] = Value::read(input, real)?;
-        let persistent_id = if handle < 0 { None } else { Some(Text::read(input, real)?) };
-        Ok(Self { kind, handle, persistent_id })
+        let persistent_id = if handle < 0 {
+            None
+        } else {
+            Some(Text::read(input, real)?)
+        };
+        Ok(Self {
+            kind,
+            handle,
+            persistent_id,
+        })
     }
 
     fn write(&self, out: &mut Writer) {
@@ -62,12 +75,26 @@ impl Value for OriginalReference {
     }
 
     fn to_node(&self) -> Node {
-        let id = self.persistent_id.as_ref().map(|id| ("persistent_id", id.to_node()));
-        Node::table([("kind", self.kind.node()), ("handle", self.handle.node())].into_iter().chain(id))
+        let id = self
+            .persistent_id
+            .as_ref()
+            .map(|id| ("persistent_id", id.to_node()));
+        Node::table(
+            [("kind", self.kind.node()), ("handle", self.handle.node())]
+                .into_iter()
+                .chain(id),
+        )
     }
 
     fn from_node(node: &Node) -> NodeResult<Self> {
-        let (kind, handle) = (i32::of_node(node.need("kind")?)?, i32::of_node(node.need("handle")?)?);
-        Ok(Self { kind, handle, persistent_id: node.get("persistent_id").map(Text::from_node).transpose()? })
+        let (kind, handle) = (
+            i32::of_node(node.need("kind")?)?,
+            i32::of_node(node.need("handle")?)?,
+        );
+        Ok(Self {
+            kind,
+            handle,
+            persistent_id: node.get("persistent_id").map(Text::from_node).transpose()?,
+        })
     }
 }

@@ -25,7 +25,10 @@ impl From<&str> for Text {
 
 /// Bytes as UTF-8, or as Latin-1 where they are not UTF-8.
 pub fn decode(bytes: &[u8]) -> String {
-    std::str::from_utf8(bytes).map_or_else(|_| bytes.iter().map(|b| char::from(*b)).collect(), str::to_owned)
+    std::str::from_utf8(bytes).map_or_else(
+        |_| bytes.iter().map(|b| char::from(*b)).collect(),
+        str::to_owned,
+    )
 }
 
 impl Value for Text {
@@ -59,7 +62,10 @@ impl Value for ScriptText {
     fn read(input: &mut Reader<'_>, _: Real) -> FileResult<Self> {
         let mut text = input.take_rest().to_vec();
         shift_text(&mut text, u8::wrapping_add);
-        let length = text.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
+        let length = text
+            .iter()
+            .rposition(|byte| *byte != 0)
+            .map_or(0, |last| last + 1);
         text.truncate(length);
         Ok(Self(text))
     }
@@ -81,12 +87,22 @@ impl Value for ScriptText {
 
 /// Moves every byte but the first and the last by a number that depends on its place and on these two.
 fn shift_text(text: &mut [u8], shift: fn(u8, u8) -> u8) {
-    let [first, middle @ .., last] = text else { return };
+    let [first, middle @ .., last] = text else {
+        return;
+    };
     let start = i64::from(*first as i8 / 2);
     let end = i64::from(*last as i8) * 3;
     for (i, byte) in (1i64..).zip(middle) {
-        let terms = [(1, i + start + end), (2, -(3 * i + start)), (4, i / 2 + end)];
-        let amount: i64 = terms.iter().filter(|(bit, _)| i & bit != 0).map(|(_, term)| term).sum();
+        let terms = [
+            (1, i + start + end),
+            (2, -(3 * i + start)),
+            (4, i / 2 + end),
+        ];
+        let amount: i64 = terms
+            .iter()
+            .filter(|(bit, _)| i & bit != 0)
+            .map(|(_, term)| term)
+            .sum();
         *byte = shift(*byte, amount as u8);
     }
 }

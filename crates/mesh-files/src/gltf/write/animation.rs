@@ -9,7 +9,11 @@ impl Buffer {
     /// None where nothing moves: an animation without channels is not allowed.
     pub(super) fn animation(&mut self, animation: &Animation) -> Option<Value> {
         let (mut samplers, mut channels) = (Vec::new(), Vec::new());
-        for track in animation.tracks.iter().filter(|track| !track.times.is_empty()) {
+        for track in animation
+            .tracks
+            .iter()
+            .filter(|track| !track.times.is_empty())
+        {
             let times: Vec<[f64; 1]> = track.times.iter().map(|time| [*time]).collect();
             let input = self.vectors(&times, true, None);
             for (path, output) in self.paths(track) {
@@ -30,7 +34,10 @@ impl Buffer {
     fn paths(&mut self, track: &Track) -> Vec<(&'static str, usize)> {
         let mut paths = Vec::new();
         if track.translations.len() == track.times.len() {
-            paths.push(("translation", self.vectors(&track.translations, false, None)));
+            paths.push((
+                "translation",
+                self.vectors(&track.translations, false, None),
+            ));
         }
         if track.rotations.len() == track.times.len() {
             paths.push(("rotation", self.vectors(&track.rotations, false, None)));

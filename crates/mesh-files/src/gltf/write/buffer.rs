@@ -28,20 +28,28 @@ pub(super) struct Buffer {
 impl Buffer {
     pub(super) fn new(textures: &[Texture]) -> Self {
         let mut buffer = Self::default();
-        buffer.images = textures.iter().map(|texture| buffer.image(texture)).collect();
+        buffer.images = textures
+            .iter()
+            .map(|texture| buffer.image(texture))
+            .collect();
         buffer
     }
 
     /// Adds the lists to the document; the bytes of the buffer.
     pub(super) fn finish(self, document: &mut Map<String, Value>) -> Vec<u8> {
-        let textures = (0..self.images.len()).map(|source| json!({ "source": source })).collect();
+        let textures = (0..self.images.len())
+            .map(|source| json!({ "source": source }))
+            .collect();
         insert(document, "materials", self.materials);
         insert(document, "textures", textures);
         insert(document, "images", self.images);
         insert(document, "accessors", self.accessors);
         insert(document, "bufferViews", self.views);
         if !self.bytes.is_empty() {
-            document.insert("buffers".into(), json!([{ "byteLength": self.bytes.len() }]));
+            document.insert(
+                "buffers".into(),
+                json!([{ "byteLength": self.bytes.len() }]),
+            );
         }
         self.bytes
     }
@@ -54,7 +62,8 @@ impl Buffer {
 
     fn primitive(&mut self, part: &Part) -> Value {
         let (positions, normals, uv, indices) = vertices(part);
-        let mut attributes = json!({ "POSITION": self.vectors(&positions, true, Some(ARRAY_BUFFER)) });
+        let mut attributes =
+            json!({ "POSITION": self.vectors(&positions, true, Some(ARRAY_BUFFER)) });
         if !normals.is_empty() {
             attributes["NORMAL"] = self.vectors(&normals, false, Some(ARRAY_BUFFER)).into();
         }
@@ -72,13 +81,19 @@ impl Buffer {
         has_bounds: bool,
         target: Option<u32>,
     ) -> usize {
-        let bytes: Vec<u8> = rows.as_flattened().iter().flat_map(|x| (*x as f32).to_le_bytes()).collect();
+        let bytes: Vec<u8> = rows
+            .as_flattened()
+            .iter()
+            .flat_map(|x| (*x as f32).to_le_bytes())
+            .collect();
         let view = self.view(&bytes, target);
         let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][N - 1];
         let mut accessor = json!({ "bufferView": view, "componentType": FLOAT, "count": rows.len(), "type": kind });
         if has_bounds {
             let bound = |pick: fn(f32, f32) -> f32| -> Vec<f32> {
-                (0..N).filter_map(|k| rows.iter().map(|row| row[k] as f32).reduce(pick)).collect()
+                (0..N)
+                    .filter_map(|k| rows.iter().map(|row| row[k] as f32).reduce(pick))
+                    .collect()
             };
             accessor["min"] = json!(bound(f32::min));
             accessor["max"] = json!(bound(f32::max));
@@ -88,7 +103,10 @@ impl Buffer {
     }
 
     fn indices(&mut self, indices: &[u32]) -> usize {
-        let bytes: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
+        let bytes: Vec<u8> = indices
+            .iter()
+            .flat_map(|index| index.to_le_bytes())
+            .collect();
         let view = self.view(&bytes, Some(ELEMENT_ARRAY_BUFFER));
         self.accessors.push(
             json!({ "bufferView": view, "componentType": UNSIGNED_INT, "count": indices.len(), "type": "SCALAR" }),
@@ -100,7 +118,10 @@ impl Buffer {
     fn material(&mut self, source: &Material) -> usize {
         let value = material(source, self.images.len());
         let next = self.materials.len();
-        let number = *self.known_materials.entry(value.to_string()).or_insert(next);
+        let number = *self
+            .known_materials
+            .entry(value.to_string())
+            .or_insert(next);
         if number == next {
             self.materials.push(value);
         }
@@ -119,7 +140,8 @@ impl Buffer {
 
     fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        let mut view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
+        let mut view =
+            json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
         if let Some(target) = target {
             view["target"] = json!(target);
         }
@@ -136,26 +158,62 @@ type Vertices = (Vec<[f64; 3]>, Vec<[f64; 3]>, Vec<[f64; 2]>, Vec<u32>);
 fn vertices(part: &Part) -> Vertices {
     let (has_normals, has_uv) = (!part.normals.is_empty(), !part.uv.is_empty());
     if !(has_normals || has_uv) {
-        return (part.vertices.clone(), Vec::new(), Vec::new(), part.triangles.as_flattened().to_vec());
+        return (
+            part.vertices.clone(),
+            Vec::new(),
+            Vec::new(),
+            part.triangles.as_flattened().to_vec(),
+        );
     }
     let mut table = Table::<8>::default();
     let corner = |(number, index): (usize, &u32)| {
-        let normal = part.normals.as_flattened().get(number).map_or([0.0; 3], |normal| unit_or_up(*normal));
-        let [u, v] = part.uv.as_flattened().get(number).map_or([0.0; 2], |[u, v]| [*u, 1.0 - v]);
+        let normal = part
+            .normals
+            .as_flattened()
+            .get(number)
+            .map_or([0.0; 3], |normal| unit_or_up(*normal));
+        let [u, v] = part
+            .uv
+            .as_flattened()
+            .get(number)
+            .map_or([0.0; 2], |[u, v]| [*u, 1.0 - v]);
         let ([x, y, z], [a, b, c]) = (part.vertices[*index as usize], normal);
         table.index([x, y, z, a, b, c, u, v])
     };
-    let indices = part.triangles.as_flattened().iter().enumerate().map(corner).collect();
+    let indices = part
+        .triangles
+        .as_flattened()
+        .iter()
+        .enumerate()
+        .map(corner)
+        .collect();
     let rows = &table.seen;
-    let normals = rows.iter().filter(|_| has_normals).map(|row| [row[3], row[4], row[5]]).collect();
-    let uv = rows.iter().filter(|_| has_uv).map(|row| [row[6], row[7]]).collect();
-    (rows.iter().map(|row| [row[0], row[1], row[2]]).collect(), normals, uv, indices)
+    let normals = rows
+        .iter()
+        .filter(|_| has_normals)
+        .map(|row| [row[3], row[4], row[5]])
+        .collect();
+    let uv = rows
+        .iter()
+        .filter(|_| has_uv)
+        .map(|row| [row[6], row[7]])
+        .collect();
+    (
+        rows.iter().map(|row| [row[0], row[1], row[2]]).collect(),
+        normals,
+        uv,
+        indices,
+    )
 }
 
 /// glTF wants unit normals everywhere: a corner without one gets some direction.
 fn unit_or_up(normal: [f64; 3]) -> [f64; 3] {
     let unit = crate::transform::unit(normal);
-    if unit == [0.0; 3] { [0.0, 0.0, 1.0] } else { unit }
+    if unit == [0.0; 3] {
+        [0.0, 0.0, 1.0]
+    } else {
+        unit
+    }
 }
 
 fn material(material: &Material, textures: usize) -> Value {

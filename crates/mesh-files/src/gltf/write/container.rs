@@ -10,7 +10,11 @@ pub(super) fn binary(json: &str, mut buffer: Vec<u8>) -> Result<Vec<u8>, WriteEr
     let mut json = json.as_bytes().to_vec();
     json.resize(json.len().next_multiple_of(4), b' ');
     buffer.resize(buffer.len().next_multiple_of(4), 0);
-    let length = |bytes: usize| u32::try_from(bytes).map_err(|_| WriteError::TooLarge).map(u32::to_le_bytes);
+    let length = |bytes: usize| {
+        u32::try_from(bytes)
+            .map_err(|_| WriteError::TooLarge)
+            .map(u32::to_le_bytes)
+    };
     let binary_head = if buffer.is_empty() { 0 } else { 8 };
     let mut file = b"glTF\x02\0\0\0".to_vec();
     file.extend(length(12 + 8 + json.len() + binary_head + buffer.len())?);
@@ -27,5 +31,8 @@ pub(super) fn binary(json: &str, mut buffer: Vec<u8>) -> Result<Vec<u8>, WriteEr
 
 /// Bytes as a URI.
 pub(super) fn data_uri(bytes: &[u8]) -> String {
-    format!("data:application/octet-stream;base64,{}", STANDARD.encode(bytes))
+    format!(
+        "data:application/octet-stream;base64,{}",
+        STANDARD.encode(bytes)
+    )
 }

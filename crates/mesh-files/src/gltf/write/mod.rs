@@ -29,13 +29,23 @@ pub(crate) fn write(file: &MeshFile) -> Result<Vec<u8>, WriteError> {
     let turned = turned_up(file.up);
     let parent = turned.is_some().then_some(0);
     let own = meshes.iter().enumerate().map(|(number, mesh)| Node {
-        name: if mesh[0].name.is_empty() { format!("part{number}") } else { mesh[0].name.clone() },
+        name: if mesh[0].name.is_empty() {
+            format!("part{number}")
+        } else {
+            mesh[0].name.clone()
+        },
         parent,
         mesh: Some(number),
         ..Node::default()
     });
     let nodes: Vec<Node> = turned.into_iter().chain(own).collect();
-    let (document, bytes) = Contents { nodes: &nodes, meshes, textures: &file.textures, animations: &[] }.document();
+    let (document, bytes) = Contents {
+        nodes: &nodes,
+        meshes,
+        textures: &file.textures,
+        animations: &[],
+    }
+    .document();
     container::binary(&document.to_string(), bytes)
 }
 
@@ -47,7 +57,10 @@ fn turned_up(up: Option<UpAxis>) -> Option<Node> {
         Some(UpAxis::X) => [0.0, 0.0, half, half],
         _ => [-half, 0.0, 0.0, half],
     };
-    Some(Node { rotation, ..Node::default() })
+    Some(Node {
+        rotation,
+        ..Node::default()
+    })
 }
 
 impl Asset {
@@ -78,19 +91,32 @@ impl Asset {
         check_parts(self.meshes.iter().flatten())?;
         self.check_nodes()?;
         let meshes = self.meshes.iter().map(Vec::as_slice).collect();
-        let contents = Contents { nodes: &self.nodes, meshes, textures: &self.textures, animations: &self.animations };
+        let contents = Contents {
+            nodes: &self.nodes,
+            meshes,
+            textures: &self.textures,
+            animations: &self.animations,
+        };
         Ok(contents.document())
     }
 
     fn check_nodes(&self) -> Result<(), WriteError> {
         let is_sound = |number: usize, node: &Node| {
             let mut numbers = node.translation.iter().chain(&node.rotation);
-            let has_mesh = |mesh: usize| self.meshes.get(mesh).is_some_and(|parts| parts.iter().any(has_triangles));
+            let has_mesh = |mesh: usize| {
+                self.meshes
+                    .get(mesh)
+                    .is_some_and(|parts| parts.iter().any(has_triangles))
+            };
             numbers.all(|x| x.is_finite())
                 && node.parent.is_none_or(|parent| parent < number)
                 && node.mesh.is_none_or(has_mesh)
         };
-        let wrong = self.nodes.iter().enumerate().position(|(number, node)| !is_sound(number, node));
+        let wrong = self
+            .nodes
+            .iter()
+            .enumerate()
+            .position(|(number, node)| !is_sound(number, node));
         wrong.map_or(Ok(()), |node| Err(WriteError::NoSuchNode { node }))
     }
 }
@@ -104,21 +130,39 @@ impl Contents<'_> {
     fn document(&self) -> (Value, Vec<u8>) {
         let mut buffer = Buffer::new(self.textures);
         let meshes: Vec<Value> = self.meshes.iter().map(|parts| buffer.mesh(parts)).collect();
-        let animations: Vec<Value> =
-            self.animations.iter().filter_map(|animation| buffer.animation(animation)).collect();
+        let animations: Vec<Value> = self
+            .animations
+            .iter()
+            .filter_map(|animation| buffer.animation(animation))
+            .collect();
         let (cameras, lights) = views::cameras_and_lights(self.nodes);
         let mut document = Map::new();
-        document.insert("asset".into(), json!({ "version": "2.0", "generator": "Swanilda" }));
+        document.insert(
+            "asset".into(),
+            json!({ "version": "2.0", "generator": "Swanilda" }),
+        );
         document.insert("scene".into(), json!(0));
-        let roots: Vec<usize> = (0..self.nodes.len()).filter(|&node| self.nodes[node].parent.is_none()).collect();
-        document.insert("scenes".into(), json!([if roots.is_empty() { json!({}) } else { json!({ "nodes": roots }) }]));
+        let roots: Vec<usize> = (0..self.nodes.len())
+            .filter(|&node| self.nodes[node].parent.is_none())
+            .collect();
+        document.insert(
+            "scenes".into(),
+            json!([if roots.is_empty() {
+                json!({})
+            } else {
+                json!({ "nodes": roots })
+            }]),
+        );
         insert(&mut document, "nodes", views::nodes(self.nodes));
         insert(&mut document, "meshes", meshes);
         insert(&mut document, "animations", animations);
         insert(&mut document, "cameras", cameras);
         if !lights.is_empty() {
             document.insert("extensionsUsed".into(), json!(["KHR_lights_punctual"]));
-            document.insert("extensions".into(), json!({ "KHR_lights_punctual": { "lights": lights } }));
+            document.insert(
+                "extensions".into(),
+                json!({ "KHR_lights_punctual": { "lights": lights } }),
+            );
         }
         let bytes = buffer.finish(&mut document);
         (Value::Object(document), bytes)

@@ -48,8 +48,14 @@ fn frame(node: &Node, children: &[usize]) -> Value {
 }
 
 pub(super) fn cameras_and_lights(nodes: &[Node]) -> (Vec<Value>, Vec<Value>) {
-    let cameras = nodes.iter().filter_map(|node| node.camera.as_ref()).map(camera);
-    let lights = nodes.iter().filter_map(|node| node.light.as_ref()).map(light);
+    let cameras = nodes
+        .iter()
+        .filter_map(|node| node.camera.as_ref())
+        .map(camera);
+    let lights = nodes
+        .iter()
+        .filter_map(|node| node.light.as_ref())
+        .map(light);
     (cameras.collect(), lights.collect())
 }
 

@@ -51,15 +51,25 @@ impl ActionClient {
     /// Calls back for feedback and results that have arrived.
     pub(in crate::sim_ros2) fn spin(&self) {
         for _ in 0..self.feedback.waiting() {
-            let Some(sample) = self.feedback.take() else { break };
-            let Ok(message) = cdr::decode(&self.feedback_layout, &sample.payload) else { continue };
+            let Some(sample) = self.feedback.take() else {
+                break;
+            };
+            let Ok(message) = cdr::decode(&self.feedback_layout, &sample.payload) else {
+                continue;
+            };
             // Feedback of all clients' goals comes here.
             if let Some(id) = GoalId::of(&message).filter(|id| self.is_pending(*id)) {
                 let feedback = goal::nested_data(&message, "feedback", self.style.get());
-                self.on_feedback.call_logged(&[Data::text(&id.text()), feedback]);
+                self.on_feedback
+                    .call_logged(&[Data::text(&id.text()), feedback]);
             }
         }
-        let pending: Vec<(i64, GoalId)> = self.pending.borrow().iter().map(|(number, id)| (*number, *id)).collect();
+        let pending: Vec<(i64, GoalId)> = self
+            .pending
+            .borrow()
+            .iter()
+            .map(|(number, id)| (*number, *id))
+            .collect();
         for (number, id) in pending {
             if let Some(answer) = self.results.answer(number) {
                 self.pending.borrow_mut().remove(&number);
@@ -77,9 +87,12 @@ impl ActionClient {
             Ok(answer) => {
                 let code = Status::result_code(goal::integer(&answer, "status").unwrap_or(0));
                 let result = goal::nested_data(&answer, "result", self.style.get());
-                self.on_result.call_logged(&[Data::text(&id.text()), Data::Int(code), result]);
+                self.on_result
+                    .call_logged(&[Data::text(&id.text()), Data::Int(code), result]);
             }
-            Err(error) => self.on_result.warn(&format!("the result of an action was left out: {error}")),
+            Err(error) => self
+                .on_result
+                .warn(&format!("the result of an action was left out: {error}")),
         }
     }
 
@@ -122,11 +135,27 @@ fn create_action_client(
     let layouts = interfaces::action(cx, &action_type)?;
     let running = running(cx)?;
     let full = running.resolve(&action_name)?;
-    let feedback = running.subscription(&format!("{full}/_action/feedback"), &layouts.feedback, Qos::default())?;
+    let feedback = running.subscription(
+        &format!("{full}/_action/feedback"),
+        &layouts.feedback,
+        Qos::default(),
+    )?;
     let client = ActionClient {
-        goals: Client::new(&running, &format!("{full}/_action/send_goal"), layouts.send_goal),
-        cancel: Client::new(&running, &format!("{full}/_action/cancel_goal"), layouts.cancel),
-        results: Client::new(&running, &format!("{full}/_action/get_result"), layouts.get_result),
+        goals: Client::new(
+            &running,
+            &format!("{full}/_action/send_goal"),
+            layouts.send_goal,
+        ),
+        cancel: Client::new(
+            &running,
+            &format!("{full}/_action/cancel_goal"),
+            layouts.cancel,
+        ),
+        results: Client::new(
+            &running,
+            &format!("{full}/_action/get_result"),
+            layouts.get_result,
+        ),
         feedback,
         feedback_layout: layouts.feedback,
         on_goal_response: ScriptCallback::new(cx, goal_response_callback),
@@ -149,7 +178,13 @@ fn create_action_client(
 fn send_goal(cx: &mut Cx, action_client_handle: String, goal: Table) -> Result<bool> {
     let client = get(cx, &action_client_handle, client)?;
     let id = client.new_id();
-    let request = goal::message(&client.goals.request, id, "goal", &goal.0, client.style.get());
+    let request = goal::message(
+        &client.goals.request,
+        id,
+        "goal",
+        &goal.0,
+        client.style.get(),
+    );
     let request = request.map_err(ApiError::Other)?;
     let node = node(cx);
     let found = cx.wait_for(Some(SERVER_TIMEOUT), || {
@@ -160,13 +195,18 @@ fn send_goal(cx: &mut Cx, action_client_handle: String, goal: Table) -> Result<b
     let response = ask(cx, &client.goals, &request)?;
     let accepted = goal::integer(&response, "accepted") == Some(1);
     if accepted {
-        let asked =
-            ros_values::from_data(&client.results.request, &Data::map([("goal_id", id.to_data())]), Style::default());
+        let asked = ros_values::from_data(
+            &client.results.request,
+            &Data::map([("goal_id", id.to_data())]),
+            Style::default(),
+        );
         let number = client.results.send(&asked.map_err(ApiError::Other)?);
         client.pending.borrow_mut().insert(number, id);
         client.last.set(Some(id));
     }
-    client.on_goal_response.call_logged(&[Data::text(&id.text()), Data::Bool(accepted)]);
+    client
+        .on_goal_response
+        .call_logged(&[Data::text(&id.text()), Data::Bool(accepted)]);
     Ok(accepted)
 }
 
@@ -177,9 +217,12 @@ fn send_goal(cx: &mut Cx, action_client_handle: String, goal: Table) -> Result<b
 #[api("simROS2.cancelLastGoal")]
 fn cancel_last_goal(cx: &mut Cx, action_client_handle: String) -> Result<bool> {
     let client = get(cx, &action_client_handle, client)?;
-    let Some(id) = client.last.get() else { return Ok(false) };
+    let Some(id) = client.last.get() else {
+        return Ok(false);
+    };
     let info = Data::map([("goal_info", Data::map([("goal_id", id.to_data())]))]);
-    let request = ros_values::from_data(&client.cancel.request, &info, Style::default()).map_err(ApiError::Other)?;
+    let request = ros_values::from_data(&client.cancel.request, &info, Style::default())
+        .map_err(ApiError::Other)?;
     let response = ask(cx, &client.cancel, &request)?;
     let cancelling = match response.get("goals_canceling") {
         Some(Value::Array(goals)) => !goals.is_empty(),
@@ -200,7 +243,12 @@ fn shutdown_action_client(cx: &mut Cx, action_client_handle: String) -> Result<(
 ///
 /// @param actionClientHandle the client
 #[api("simROS2.actionClientTreatUInt8ArrayAsString")]
-fn action_client_treat_u_int8_array_as_string(cx: &mut Cx, action_client_handle: String) -> Result<()> {
-    get(cx, &action_client_handle, client)?.style.set(Style { bytes_as_strings: true });
+fn action_client_treat_u_int8_array_as_string(
+    cx: &mut Cx,
+    action_client_handle: String,
+) -> Result<()> {
+    get(cx, &action_client_handle, client)?.style.set(Style {
+        bytes_as_strings: true,
+    });
     Ok(())
 }

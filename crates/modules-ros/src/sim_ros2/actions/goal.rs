@@ -50,14 +50,22 @@ impl GoalId {
 
     /// `unique_identifier_msgs/msg/UUID` as a table.
     pub(super) fn to_data(self) -> Data {
-        let bytes = self.0.iter().map(|byte| Data::Int((*byte).into())).collect();
+        let bytes = self
+            .0
+            .iter()
+            .map(|byte| Data::Int((*byte).into()))
+            .collect();
         Data::map([("uuid", Data::Array(bytes))])
     }
 
     /// The field `goal_id` of a message.
     pub(super) fn of(record: &Record) -> Option<Self> {
-        let Value::Record(id) = record.get("goal_id")? else { return None };
-        let Value::Array(Array::Numbers(Numbers::UInt8(bytes))) = id.get("uuid")? else { return None };
+        let Value::Record(id) = record.get("goal_id")? else {
+            return None;
+        };
+        let Value::Array(Array::Numbers(Numbers::UInt8(bytes))) = id.get("uuid")? else {
+            return None;
+        };
         bytes.as_slice().try_into().ok().map(Self)
     }
 }
@@ -70,10 +78,16 @@ pub(super) fn message(
     data: &Data,
     style: Style,
 ) -> Result<Record, String> {
-    let mut record = ros_values::from_data(layout, &Data::map([("goal_id", id.to_data())]), Style::default())?;
+    let mut record = ros_values::from_data(
+        layout,
+        &Data::map([("goal_id", id.to_data())]),
+        Style::default(),
+    )?;
     if let Some(nested) = nested_layout(layout, field) {
         let nested = ros_values::from_data(&nested, data, style)?;
-        record.set(field, Value::Record(nested)).map_err(|error| error.to_string())?;
+        record
+            .set(field, Value::Record(nested))
+            .map_err(|error| error.to_string())?;
     }
     Ok(record)
 }
@@ -91,7 +105,9 @@ pub(super) fn nested_layout(
 
 /// A field that is a structure, as scripts see it.
 pub(super) fn nested_data(record: &Record, field: &str, style: Style) -> Data {
-    record.get(field).map_or(Data::Nil, |value| ros_values::value_to_data(value, style))
+    record
+        .get(field)
+        .map_or(Data::Nil, |value| ros_values::value_to_data(value, style))
 }
 
 /// A field that is an integer or a truth value.
@@ -112,7 +128,12 @@ mod tests {
         let id = GoalId([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 255]);
         assert_eq!(id.text(), "000102030405060708090a0b0c0d0eff");
         assert_eq!(GoalId::parse(&id.text()), Some(id));
-        for bad in ["", "1", "000102030405060708090A0B0C0D0EFF", "+00102030405060708090a0b0c0d0eff"] {
+        for bad in [
+            "",
+            "1",
+            "000102030405060708090A0B0C0D0EFF",
+            "+00102030405060708090a0b0c0d0eff",
+        ] {
             assert_eq!(GoalId::parse(bad), None, "{bad}");
         }
     }

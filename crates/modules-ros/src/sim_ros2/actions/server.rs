@@ -58,7 +58,10 @@ struct Goal {
 
 impl Goal {
     fn info(&self) -> Data {
-        Data::map([("goal_id", self.id.to_data()), ("stamp", times::to_data(self.stamp))])
+        Data::map([
+            ("goal_id", self.id.to_data()),
+            ("stamp", times::to_data(self.stamp)),
+        ])
     }
 }
 
@@ -67,14 +70,43 @@ impl ActionServer {
     ///
     /// # Errors
     /// When it is none.
-    pub(super) fn new(running: &Rc<Running>, full: &str, layouts: ActionLayouts, callbacks: Callbacks) -> Result<Self> {
-        let durable = Qos { durability: Durability::TransientLocal, history: History::KeepLast(1), ..Qos::default() };
+    pub(super) fn new(
+        running: &Rc<Running>,
+        full: &str,
+        layouts: ActionLayouts,
+        callbacks: Callbacks,
+    ) -> Result<Self> {
+        let durable = Qos {
+            durability: Durability::TransientLocal,
+            history: History::KeepLast(1),
+            ..Qos::default()
+        };
         Ok(Self {
-            send_goal: Server::new(running, &format!("{full}/_action/send_goal"), layouts.send_goal.clone()),
-            cancel: Server::new(running, &format!("{full}/_action/cancel_goal"), layouts.cancel.clone()),
-            get_result: Server::new(running, &format!("{full}/_action/get_result"), layouts.get_result.clone()),
-            feedback: running.publisher(&format!("{full}/_action/feedback"), &layouts.feedback, Qos::default())?,
-            status: running.publisher(&format!("{full}/_action/status"), &layouts.status, durable)?,
+            send_goal: Server::new(
+                running,
+                &format!("{full}/_action/send_goal"),
+                layouts.send_goal.clone(),
+            ),
+            cancel: Server::new(
+                running,
+                &format!("{full}/_action/cancel_goal"),
+                layouts.cancel.clone(),
+            ),
+            get_result: Server::new(
+                running,
+                &format!("{full}/_action/get_result"),
+                layouts.get_result.clone(),
+            ),
+            feedback: running.publisher(
+                &format!("{full}/_action/feedback"),
+                &layouts.feedback,
+                Qos::default(),
+            )?,
+            status: running.publisher(
+                &format!("{full}/_action/status"),
+                &layouts.status,
+                durable,
+            )?,
             layouts,
             callbacks,
             style: Cell::default(),
@@ -96,11 +128,26 @@ impl ActionServer {
     }
 
     fn goal_arrived(&self, call: Call, request: &Record) {
-        let (Some(id), Some(Value::Record(goal))) = (GoalId::of(request), request.get("goal")) else { return };
-        let args = [Data::text(&id.text()), ros_values::to_data(goal, self.style.get())];
-        let active = self.goals.borrow().iter().filter(|goal| goal.status.is_active()).count();
+        let (Some(id), Some(Value::Record(goal))) = (GoalId::of(request), request.get("goal"))
+        else {
+            return;
+        };
+        let args = [
+            Data::text(&id.text()),
+            ros_values::to_data(goal, self.style.get()),
+        ];
+        let active = self
+            .goals
+            .borrow()
+            .iter()
+            .filter(|goal| goal.status.is_active())
+            .count();
         let is_possible = active < MAX_ACTIVE && self.status_of(id).is_none();
-        let decision = if is_possible { self.callbacks.goal.call_logged(&args) } else { None };
+        let decision = if is_possible {
+            self.callbacks.goal.call_logged(&args)
+        } else {
+            None
+        };
         let status = match decision.and_then(|results| results.into_iter().next()) {
             Some(Data::Int(ACCEPT_AND_EXECUTE)) => Some(Status::Executing),
             Some(Data::Int(ACCEPT_AND_DEFER)) => Some(Status::Accepted),
@@ -109,9 +156,19 @@ impl ActionServer {
         let stamp = times::ros_time();
         if let Some(status) = status {
             let (goal, waiting) = (goal.clone(), Vec::new());
-            self.goals.borrow_mut().push(Goal { id, goal, stamp, status, result: None, waiting });
+            self.goals.borrow_mut().push(Goal {
+                id,
+                goal,
+                stamp,
+                status,
+                result: None,
+                waiting,
+            });
         }
-        let response = Data::map([("accepted", Data::Bool(status.is_some())), ("stamp", times::to_data(stamp))]);
+        let response = Data::map([
+            ("accepted", Data::Bool(status.is_some())),
+            ("stamp", times::to_data(stamp)),
+        ]);
         self.reply(&self.send_goal, call, &response);
         if status.is_some() {
             self.publish_status();
@@ -121,7 +178,9 @@ impl ActionServer {
 
     /// One goal is meant, or all without an identity.
     fn cancel_arrived(&self, call: Call, request: &Record) {
-        let Some(Value::Record(info)) = request.get("goal_info") else { return };
+        let Some(Value::Record(info)) = request.get("goal_info") else {
+            return;
+        };
         let asked = GoalId::of(info).filter(|id| id.0 != [0; 16]);
         let is_meant = |goal: &&Goal| asked.is_none_or(|id| goal.id == id);
         let meant: Vec<(GoalId, Record, Status, Data)> = self
@@ -133,7 +192,10 @@ impl ActionServer {
             .collect();
         let mut cancelling = Vec::new();
         for (id, goal, status, info) in &meant {
-            let args = [Data::text(&id.text()), ros_values::to_data(goal, self.style.get())];
+            let args = [
+                Data::text(&id.text()),
+                ros_values::to_data(goal, self.style.get()),
+            ];
             if matches!(status, Status::Accepted | Status::Executing)
                 && let Some(results) = self.callbacks.cancel.call_logged(&args)
                 && results.first() == Some(&Data::Int(ACCEPT_CANCEL))
@@ -148,13 +210,18 @@ impl ActionServer {
             (true, Some((_, _, status, _))) if asked.is_some() && !status.is_active() => 3,
             (true, _) => 1,
         };
-        let response = Data::map([("return_code", Data::Int(code)), ("goals_canceling", Data::Array(cancelling))]);
+        let response = Data::map([
+            ("return_code", Data::Int(code)),
+            ("goals_canceling", Data::Array(cancelling)),
+        ]);
         self.reply(&self.cancel, call, &response);
         self.publish_status();
     }
 
     fn result_asked(&self, call: Call, request: &Record) {
-        let Some(id) = GoalId::of(request) else { return };
+        let Some(id) = GoalId::of(request) else {
+            return;
+        };
         let mut goals = self.goals.borrow_mut();
         match goals.iter_mut().find(|goal| goal.id == id) {
             Some(goal) if goal.status.is_active() => goal.waiting.push(call),
@@ -180,12 +247,18 @@ impl ActionServer {
 
     /// The state of a goal.
     pub(super) fn status_of(&self, id: GoalId) -> Option<Status> {
-        self.goals.borrow().iter().find(|goal| goal.id == id).map(|goal| goal.status)
+        self.goals
+            .borrow()
+            .iter()
+            .find(|goal| goal.id == id)
+            .map(|goal| goal.status)
     }
 
     fn change(&self, id: GoalId, status: Status) -> bool {
         let mut goals = self.goals.borrow_mut();
-        let goal = goals.iter_mut().find(|goal| goal.id == id && goal.status.is_active());
+        let goal = goals
+            .iter_mut()
+            .find(|goal| goal.id == id && goal.status.is_active());
         goal.map(|goal| goal.status = status).is_some()
     }
 
@@ -198,7 +271,13 @@ impl ActionServer {
     /// # Errors
     /// When the table is none of the feedback's type.
     pub(super) fn publish_feedback(&self, id: GoalId, feedback: &Data) -> Result<()> {
-        let message = goal::message(&self.layouts.feedback, id, "feedback", feedback, self.style.get());
+        let message = goal::message(
+            &self.layouts.feedback,
+            id,
+            "feedback",
+            feedback,
+            self.style.get(),
+        );
         self.feedback.publish(&message.map_err(ApiError::Other)?);
         Ok(())
     }
@@ -208,15 +287,22 @@ impl ActionServer {
     /// # Errors
     /// When the table is none of the result's type.
     pub(super) fn finish(&self, id: GoalId, status: Status, result: &Data) -> Result<()> {
-        let Some(layout) = goal::nested_layout(&self.layouts.get_result[1], "result") else { return Ok(()) };
-        let result = ros_values::from_data(&layout, result, self.style.get()).map_err(ApiError::Other)?;
+        let Some(layout) = goal::nested_layout(&self.layouts.get_result[1], "result") else {
+            return Ok(());
+        };
+        let result =
+            ros_values::from_data(&layout, result, self.style.get()).map_err(ApiError::Other)?;
         let waiting = {
             let mut goals = self.goals.borrow_mut();
-            let Some(goal) = goals.iter_mut().find(|goal| goal.id == id) else { return Ok(()) };
+            let Some(goal) = goals.iter_mut().find(|goal| goal.id == id) else {
+                return Ok(());
+            };
             (goal.status, goal.result) = (status, Some(result.clone()));
             std::mem::take(&mut goal.waiting)
         };
-        waiting.into_iter().for_each(|call| self.send_result(call, status, Some(result.clone())));
+        waiting
+            .into_iter()
+            .for_each(|call| self.send_result(call, status, Some(result.clone())));
         self.publish_status();
         self.forget_finished();
         Ok(())
@@ -233,8 +319,16 @@ impl ActionServer {
     }
 
     fn publish_status(&self) {
-        let entry = |goal: &Goal| Data::map([("goal_info", goal.info()), ("status", Data::Int(goal.status as i64))]);
-        let list = Data::map([("status_list", Data::Array(self.goals.borrow().iter().map(entry).collect()))]);
+        let entry = |goal: &Goal| {
+            Data::map([
+                ("goal_info", goal.info()),
+                ("status", Data::Int(goal.status as i64)),
+            ])
+        };
+        let list = Data::map([(
+            "status_list",
+            Data::Array(self.goals.borrow().iter().map(entry).collect()),
+        )]);
         if let Ok(message) = ros_values::from_data(&self.layouts.status, &list, Style::default()) {
             self.status.publish(&message);
         }

@@ -36,15 +36,25 @@ fn server(entity: Entity) -> Option<Rc<ActionServer>> {
 fn goal(cx: &Cx, handle: &str, uuid: &str) -> Result<(Rc<ActionServer>, GoalId, Status)> {
     let server = get(cx, handle, server)?;
     let known = GoalId::parse(uuid).and_then(|id| Some((id, server.status_of(id)?)));
-    let (id, status) = known.ok_or_else(|| ApiError::Other(format!("goal handle '{uuid}' does not exist")))?;
+    let (id, status) =
+        known.ok_or_else(|| ApiError::Other(format!("goal handle '{uuid}' does not exist")))?;
     Ok((server, id, status))
 }
 
 /// Ends a goal that is in one of these states.
-fn finish(cx: &Cx, handle: &str, uuid: &str, result: &Table, from: &[Status], to: Status) -> Result<()> {
+fn finish(
+    cx: &Cx,
+    handle: &str,
+    uuid: &str,
+    result: &Table,
+    from: &[Status],
+    to: Status,
+) -> Result<()> {
     let (server, id, status) = goal(cx, handle, uuid)?;
     if !from.contains(&status) {
-        return Err(ApiError::Other(format!("goal '{uuid}' is {status:?} and cannot become {to:?}")));
+        return Err(ApiError::Other(format!(
+            "goal '{uuid}' is {status:?} and cannot become {to:?}"
+        )));
     }
     server.finish(id, to, &result.0)
 }
@@ -73,7 +83,12 @@ fn create_action_server(
         cancel: ScriptCallback::new(cx, handle_cancel_callback),
         accepted: ScriptCallback::new(cx, handle_accepted_callback),
     };
-    let server = ActionServer::new(&running, &running.resolve(&action_name)?, layouts, callbacks)?;
+    let server = ActionServer::new(
+        &running,
+        &running.resolve(&action_name)?,
+        layouts,
+        callbacks,
+    )?;
     Ok(add(cx, Entity::ActionServer(Rc::new(server))))
 }
 
@@ -105,7 +120,9 @@ fn action_server_action_execute(
 ) -> Result<()> {
     let (server, id, status) = goal(cx, &action_server_handle, &goal_uuid)?;
     if status != Status::Accepted {
-        return Err(ApiError::Other(format!("goal '{goal_uuid}' is {status:?} and cannot become Executing")));
+        return Err(ApiError::Other(format!(
+            "goal '{goal_uuid}' is {status:?} and cannot become Executing"
+        )));
     }
     server.execute(id);
     Ok(())
@@ -124,7 +141,14 @@ fn action_server_action_succeed(
     result: Table,
 ) -> Result<()> {
     let from = [Status::Executing, Status::Canceling];
-    finish(cx, &action_server_handle, &goal_uuid, &result, &from, Status::Succeeded)
+    finish(
+        cx,
+        &action_server_handle,
+        &goal_uuid,
+        &result,
+        &from,
+        Status::Succeeded,
+    )
 }
 
 /// Ends a goal that failed.
@@ -140,7 +164,14 @@ fn action_server_action_abort(
     result: Table,
 ) -> Result<()> {
     let from = [Status::Executing, Status::Canceling];
-    finish(cx, &action_server_handle, &goal_uuid, &result, &from, Status::Aborted)
+    finish(
+        cx,
+        &action_server_handle,
+        &goal_uuid,
+        &result,
+        &from,
+        Status::Aborted,
+    )
 }
 
 /// Ends a goal that is being cancelled.
@@ -155,7 +186,14 @@ fn action_server_action_canceled(
     #[name("goalUUID")] goal_uuid: String,
     result: Table,
 ) -> Result<()> {
-    finish(cx, &action_server_handle, &goal_uuid, &result, &[Status::Canceling], Status::Canceled)
+    finish(
+        cx,
+        &action_server_handle,
+        &goal_uuid,
+        &result,
+        &[Status::Canceling],
+        Status::Canceled,
+    )
 }
 
 /// Whether a goal is not finished.
@@ -212,7 +250,12 @@ fn shutdown_action_server(cx: &mut Cx, action_server_handle: String) -> Result<(
 ///
 /// @param actionServerHandle the server
 #[api("simROS2.actionServerTreatUInt8ArrayAsString")]
-fn action_server_treat_u_int8_array_as_string(cx: &mut Cx, action_server_handle: String) -> Result<()> {
-    get(cx, &action_server_handle, server)?.style.set(Style { bytes_as_strings: true });
+fn action_server_treat_u_int8_array_as_string(
+    cx: &mut Cx,
+    action_server_handle: String,
+) -> Result<()> {
+    get(cx, &action_server_handle, server)?.style.set(Style {
+        bytes_as_strings: true,
+    });
     Ok(())
 }

@@ -34,14 +34,16 @@ impl Random {
     }
 
     fn kind(&mut self) -> Kind {
-        let joint = |joint_type| Kind::Joint(Box::new(Joint::new(joint_type, JointMode::Kinematic)));
+        let joint =
+            |joint_type| Kind::Joint(Box::new(Joint::new(joint_type, JointMode::Kinematic)));
         match self.below(6) {
             0 => joint(JointType::Revolute),
             1 => joint(JointType::Prismatic),
             2 => joint(JointType::Spherical),
             3 => Kind::ForceSensor(Box::default()),
             4 => Kind::Shape(Box::new(
-                Shape::primitive(PrimitiveKind::Cuboid, [0.1, 0.2, 0.3], Default::default()).expect("a cuboid"),
+                Shape::primitive(PrimitiveKind::Cuboid, [0.1, 0.2, 0.3], Default::default())
+                    .expect("a cuboid"),
             )),
             _ => Kind::Dummy(Dummy::new(0.01)),
         }
@@ -60,12 +62,17 @@ impl Play {
     }
 
     fn joints(&self) -> Vec<Handle> {
-        self.handles().into_iter().filter(|&h| self.scene.object(h).unwrap().joint().is_ok()).collect()
+        self.handles()
+            .into_iter()
+            .filter(|&h| self.scene.object(h).unwrap().joint().is_ok())
+            .collect()
     }
 
     fn add(&mut self) {
         let kind = self.random.kind();
-        let parent = Some(self.handles()).filter(|all| !all.is_empty()).map(|all| self.random.of(&all));
+        let parent = Some(self.handles())
+            .filter(|all| !all.is_empty())
+            .map(|all| self.random.of(&all));
         let new = self.scene.add("o", kind).unwrap();
         self.scene.set_parent(new, parent, false).unwrap();
         self.scene.set_local_pose(new, self.random.pose()).unwrap();
@@ -82,12 +89,20 @@ impl Play {
             3 => scene.set_local_pose(handle, pose).unwrap(),
             4 => scene.set_world_pose(handle, pose).unwrap(),
             5 => drop(scene.set_hierarchy_order(handle, 0)),
-            6 => scene.scale_objects(&[handle, other][..1 + usize::from(handle != other)], 1.1, true).unwrap(),
+            6 => scene
+                .scale_objects(
+                    &[handle, other][..1 + usize::from(handle != other)],
+                    1.1,
+                    true,
+                )
+                .unwrap(),
             7 if all.len() > 30 => scene.remove(&scene.subtree(handle)[..1]).unwrap(),
             7 if all.len() > 20 => scene.remove(&scene.subtree(handle)).unwrap(),
             7 => {
                 let originals = scene.subtree(handle);
-                scene.copy_objects(&originals, CopyOptions::empty()).unwrap();
+                scene
+                    .copy_objects(&originals, CopyOptions::empty())
+                    .unwrap();
             }
             _ => self.add(),
         }
@@ -103,10 +118,17 @@ impl Play {
             1 => drop(scene.set_spherical_rotation(joint, rotation).unwrap()),
             2 => drop(scene.set_joint_interval(joint, value > 0.0, [value, 0.3])),
             3 => scene.set_joint_mode(joint, JointMode::Dependent).unwrap(),
-            4 => scene.set_joint_dependency(joint, Some(other), value, 2.0 * value).unwrap(),
-            5 => scene.modify_joint(joint, |joint| joint.set_screw_lead(value)).unwrap(),
+            4 => scene
+                .set_joint_dependency(joint, Some(other), value, 2.0 * value)
+                .unwrap(),
+            5 => scene
+                .modify_joint(joint, |joint| joint.set_screw_lead(value))
+                .unwrap(),
             6 => scene.move_joint(joint, value).unwrap(),
-            _ => scene.set_kind_float_param(joint, 2013, value).map(drop).unwrap(),
+            _ => scene
+                .set_kind_float_param(joint, 2013, value)
+                .map(drop)
+                .unwrap(),
         }
     }
 
@@ -129,9 +151,11 @@ impl Play {
             3 => self.measure(Some(0.05).filter(|_| report.position > -0.9)),
             4 => scene.store_initial_state(),
             5 => scene.restore_initial_state(),
-            _ => {
-                scene.modify(handle, Field::Measured, |object| object.dynamic_flag = DynamicFlags::RESPONDABLE).unwrap()
-            }
+            _ => scene
+                .modify(handle, Field::Measured, |object| {
+                    object.dynamic_flag = DynamicFlags::RESPONDABLE
+                })
+                .unwrap(),
         }
     }
 
@@ -145,20 +169,34 @@ impl Play {
             .collect();
         self.scene.measure_velocities(dt);
         for (handle, expected) in expected {
-            assert_eq!(self.scene.object(handle).unwrap().measured, expected, "{handle:?}");
+            assert_eq!(
+                self.scene.object(handle).unwrap().measured,
+                expected,
+                "{handle:?}"
+            );
         }
     }
 
     #[track_caller]
     fn check(&self, handle: Handle) {
-        let composed = self.scene.composed_pose(self.scene.object(handle).unwrap()).unwrap();
-        assert_eq!(bits(&self.scene.world_pose(handle).unwrap()), bits(&composed), "{handle:?}");
+        let composed = self
+            .scene
+            .composed_pose(self.scene.object(handle).unwrap())
+            .unwrap();
+        assert_eq!(
+            bits(&self.scene.world_pose(handle).unwrap()),
+            bits(&composed),
+            "{handle:?}"
+        );
     }
 }
 
 /// Checks cached poses during `turns` random operations. `other` is one more operation, for tests of the layers above.
 pub(crate) fn check_cached_poses(turns: usize, mut other: impl FnMut(&mut Scene, &mut Random)) {
-    let mut play = Play { scene: Scene::new(), random: Random(random::Random::new(1)) };
+    let mut play = Play {
+        scene: Scene::new(),
+        random: Random(random::Random::new(1)),
+    };
     (0..15).for_each(|_| play.add());
     let mut most = 0;
     for turn in 0..turns {
@@ -199,10 +237,23 @@ fn moving_a_parent_visits_no_child() {
         scene.world_pose(child).unwrap();
     }
     let checked = |scene: &Scene, handle: Handle| scene.object(handle).unwrap().place.checked.get();
-    let before = children.iter().map(|&child| checked(&scene, child)).collect::<Vec<_>>();
-    scene.set_local_pose(base, Pose::translation(1.0, 0.0, 0.0)).unwrap();
-    assert!(children.iter().map(|&child| checked(&scene, child)).eq(before));
-    assert_eq!(scene.world_pose(children[1]).unwrap(), Pose::translation(1.0, 0.0, 0.0));
+    let before = children
+        .iter()
+        .map(|&child| checked(&scene, child))
+        .collect::<Vec<_>>();
+    scene
+        .set_local_pose(base, Pose::translation(1.0, 0.0, 0.0))
+        .unwrap();
+    assert!(
+        children
+            .iter()
+            .map(|&child| checked(&scene, child))
+            .eq(before)
+    );
+    assert_eq!(
+        scene.world_pose(children[1]).unwrap(),
+        Pose::translation(1.0, 0.0, 0.0)
+    );
     // The base was checked on the way; the next child need not check it again.
     assert_eq!(checked(&scene, base), scene.objects.moves().last);
 }

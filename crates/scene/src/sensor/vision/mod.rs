@@ -81,7 +81,11 @@ pub struct VisionReading {
 impl VisionSensor {
     /// How many pixels a picture has.
     pub fn pixels(&self) -> usize {
-        self.view.resolution.iter().map(|&side| side as usize).product()
+        self.view
+            .resolution
+            .iter()
+            .map(|&side| side as usize)
+            .product()
     }
 
     /// How many bytes a picture has.

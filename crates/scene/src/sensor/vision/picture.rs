@@ -20,7 +20,13 @@ impl Area {
     /// The whole of a picture.
     pub fn whole(resolution: [u32; 2]) -> Self {
         let [width, height] = resolution.map(|side| side as usize);
-        Self { x: 0, y: 0, width, height, stride: width }
+        Self {
+            x: 0,
+            y: 0,
+            width,
+            height,
+            stride: width,
+        }
     }
 
     /// The part of a picture that starts at `position`; the whole picture when the width is not positive. None when it reaches outside.
@@ -36,7 +42,13 @@ impl Area {
         };
         let (x, width) = within(position[0], size[0], whole.width)?;
         let (y, height) = within(position[1], size[1], whole.height)?;
-        Some(Self { x, y, width, height, ..whole })
+        Some(Self {
+            x,
+            y,
+            width,
+            height,
+            ..whole
+        })
     }
 
     /// How many pixels it has.
@@ -66,18 +78,28 @@ pub(super) fn grey_level(pixel: &[u8]) -> u8 {
 impl VisionSensor {
     /// Red, green, blue of each pixel, from the lowest row; black before there was a picture.
     pub fn image(&self) -> Cow<'_, [u8]> {
-        if self.image.is_empty() { vec![0; self.image_len()].into() } else { self.image.as_slice().into() }
+        if self.image.is_empty() {
+            vec![0; self.image_len()].into()
+        } else {
+            self.image.as_slice().into()
+        }
     }
 
     /// Depth of each pixel, 0 near to 1 far; far before there was a picture.
     pub fn depth(&self) -> Cow<'_, [f32]> {
-        if self.depth.is_empty() { vec![1.0; self.pixels()].into() } else { self.depth.as_slice().into() }
+        if self.depth.is_empty() {
+            vec![1.0; self.pixels()].into()
+        } else {
+            self.depth.as_slice().into()
+        }
     }
 
     /// Pixels of a part: red, green, blue or one grey level. With `alpha`, another byte follows: 255 up to that depth, 0 behind it.
     pub fn image_part(&self, area: Area, grey: bool, alpha: Option<f32>) -> Vec<u8> {
         let (image, depth) = (self.image(), self.depth());
-        let mut part = Vec::with_capacity(area.pixels() * (if grey { 1 } else { 3 } + usize::from(alpha.is_some())));
+        let mut part = Vec::with_capacity(
+            area.pixels() * (if grey { 1 } else { 3 } + usize::from(alpha.is_some())),
+        );
         for pixel in area.indices() {
             let colour = &image[3 * pixel..3 * pixel + 3];
             match grey {
@@ -108,7 +130,11 @@ impl VisionSensor {
         let mut image = std::mem::take(&mut self.image);
         image.resize(self.image_len(), 0);
         for (pixel, colour) in area.indices().zip(pixels.chunks_exact(bytes)) {
-            let colour = if grey { [colour[0]; 3] } else { [colour[0], colour[1], colour[2]] };
+            let colour = if grey {
+                [colour[0]; 3]
+            } else {
+                [colour[0], colour[1], colour[2]]
+            };
             image[3 * pixel..3 * pixel + 3].copy_from_slice(&colour);
         }
         self.image = image;
@@ -122,7 +148,9 @@ impl VisionSensor {
         }
         let mut depth = std::mem::take(&mut self.depth);
         depth.resize(self.pixels(), 1.0);
-        area.indices().zip(values).for_each(|(pixel, &value)| depth[pixel] = value);
+        area.indices()
+            .zip(values)
+            .for_each(|(pixel, &value)| depth[pixel] = value);
         self.depth = depth;
         true
     }
@@ -145,26 +173,43 @@ mod tests {
         let (sensor, resolution) = (sensor(), [3, 2]);
         let part = Area::part(resolution, [1, 0], [2, 2]).unwrap();
         assert_eq!(sensor.image_part(part, true, None), [4, 7, 13, 16]);
-        assert_eq!(sensor.image_part(part, false, None), [3, 4, 5, 6, 7, 8, 12, 13, 14, 15, 16, 17]);
-        assert_eq!(sensor.image_part(part, true, Some(0.4)), [4, 255, 7, 255, 13, 0, 16, 0]);
+        assert_eq!(
+            sensor.image_part(part, false, None),
+            [3, 4, 5, 6, 7, 8, 12, 13, 14, 15, 16, 17]
+        );
+        assert_eq!(
+            sensor.image_part(part, true, Some(0.4)),
+            [4, 255, 7, 255, 13, 0, 16, 0]
+        );
         assert_eq!(sensor.depth_part(part, false), [0.2, 0.4, 0.8, 1.0]);
-        assert_eq!(sensor.depth_part(Area::part(resolution, [2, 1], [1, 1]).unwrap(), true), [10.0]);
+        assert_eq!(
+            sensor.depth_part(Area::part(resolution, [2, 1], [1, 1]).unwrap(), true),
+            [10.0]
+        );
     }
 
     #[test]
     fn what_reaches_outside_is_no_part() {
         let part = |position, size| Area::part([3, 2], position, size);
         assert_eq!(part([0, 0], [0, 7]), Some(Area::whole([3, 2])));
-        for (position, size) in
-            [([1, 0], [3, 1]), ([-1, 0], [1, 1]), ([0, 0], [1, 0]), ([0, 1], [1, 2]), ([i64::MAX, 0], [i64::MAX, 1])]
-        {
+        for (position, size) in [
+            ([1, 0], [3, 1]),
+            ([-1, 0], [1, 1]),
+            ([0, 0], [1, 0]),
+            ([0, 1], [1, 2]),
+            ([i64::MAX, 0], [i64::MAX, 1]),
+        ] {
             assert_eq!(part(position, size), None, "{position:?} {size:?}");
         }
     }
 
     #[test]
     fn written_parts_are_read_back() {
-        let mut sensor = VisionSensor { image: Vec::new(), depth: Vec::new(), ..sensor() };
+        let mut sensor = VisionSensor {
+            image: Vec::new(),
+            depth: Vec::new(),
+            ..sensor()
+        };
         let part = Area::part([3, 2], [1, 1], [2, 1]).unwrap();
         assert!(!sensor.set_image_part(part, &[1, 2, 3], true) && sensor.image.is_empty());
         assert!(sensor.set_image_part(part, &[9, 8], true));

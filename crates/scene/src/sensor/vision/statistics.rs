@@ -14,7 +14,11 @@ struct Statistics {
 
 impl Statistics {
     fn of(image: &[u8]) -> Self {
-        let mut statistics = Self { smallest: [255; CHANNELS], largest: [0; CHANNELS], sums: [0; CHANNELS] };
+        let mut statistics = Self {
+            smallest: [255; CHANNELS],
+            largest: [0; CHANNELS],
+            sums: [0; CHANNELS],
+        };
         for pixel in image.chunks_exact(3) {
             let levels = [grey_level(pixel), pixel[0], pixel[1], pixel[2]];
             for (channel, level) in levels.into_iter().enumerate() {
@@ -30,7 +34,11 @@ impl Statistics {
 impl VisionSensor {
     /// First packet of a picture, made by the simulator: its statistics, unless they are switched off.
     pub fn first_packet(&self) -> Vec<f32> {
-        if self.omit_statistics { Vec::new() } else { self.statistics() }
+        if self.omit_statistics {
+            Vec::new()
+        } else {
+            self.statistics()
+        }
     }
 
     /// Smallest, largest and mean value of intensity, red, green, blue and depth, 0 to 1. Means of colours are whole steps of a byte.
@@ -47,7 +55,10 @@ impl VisionSensor {
         ];
         let rows = image.into_iter().zip(depths);
         rows.flat_map(|(levels, depth)| {
-            levels.into_iter().map(|level| f32::from(level) / 255.0).chain(std::iter::once(depth))
+            levels
+                .into_iter()
+                .map(|level| f32::from(level) / 255.0)
+                .chain(std::iter::once(depth))
         })
         .collect()
     }
@@ -66,8 +77,14 @@ mod tests {
         let level = |level: f32| level / 255.0;
         let expected = [level(3.0), 0.0, 0.0, level(10.0), 0.25];
         assert_eq!(sensor.statistics()[..5], expected);
-        assert_eq!(sensor.statistics()[5..10], [level(88.0), 1.0, level(1.0), level(10.0), 0.5]);
-        assert_eq!(sensor.statistics()[10..], [level(45.0), level(127.0), 0.0, level(10.0), 0.375]);
+        assert_eq!(
+            sensor.statistics()[5..10],
+            [level(88.0), 1.0, level(1.0), level(10.0), 0.5]
+        );
+        assert_eq!(
+            sensor.statistics()[10..],
+            [level(45.0), level(127.0), 0.0, level(10.0), 0.375]
+        );
     }
 
     #[test]

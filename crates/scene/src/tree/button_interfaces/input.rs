@@ -72,7 +72,11 @@ impl Button {
 
     fn event(&self) -> ButtonEvent {
         let slider = self.slider_position().unwrap_or(0);
-        ButtonEvent { number: self.number, attributes: self.attributes, slider }
+        ButtonEvent {
+            number: self.number,
+            attributes: self.attributes,
+            slider,
+        }
     }
 
     fn refusal(&self) -> Option<String> {
@@ -80,7 +84,8 @@ impl Button {
         if !self.has(button_property::ENABLED) {
             return Some(format!("button {what} is disabled"));
         }
-        self.has(button_property::IGNORE_MOUSE).then(|| format!("button {what} takes no inputs"))
+        self.has(button_property::IGNORE_MOUSE)
+            .then(|| format!("button {what} takes no inputs"))
     }
 }
 
@@ -102,22 +107,35 @@ impl Scene {
         let has = |property| interface.attributes & property != 0;
         let is_selected = |object: Handle| self.selection().contains(&object);
         has(ui_property::VISIBLE)
-            && (!has(ui_property::VISIBLE_WHEN_OBJECT_SELECTED) || interface.object.is_none_or(is_selected))
+            && (!has(ui_property::VISIBLE_WHEN_OBJECT_SELECTED)
+                || interface.object.is_none_or(is_selected))
     }
 
     /// Applies what a user does with a button; scripts see the event in the next pass (spec: vrep-era 2.6).
     ///
     /// # Errors
     /// Why it is refused.
-    pub fn use_button(&mut self, handle: i64, number: i64, input: ButtonInput) -> Result<(), String> {
-        let interface = self.button_interfaces.get(handle).map_err(|error| error.to_string())?;
+    pub fn use_button(
+        &mut self,
+        handle: i64,
+        number: i64,
+        input: ButtonInput,
+    ) -> Result<(), String> {
+        let interface = self
+            .button_interfaces
+            .get(handle)
+            .map_err(|error| error.to_string())?;
         if !self.shows_button_interface(interface) {
             return Err(format!("'{}' is not visible", interface.name));
         }
-        let object = interface.object.filter(|_| interface.attributes & ui_property::SELECT_ASSOCIATED_OBJECT != 0);
+        let object = interface
+            .object
+            .filter(|_| interface.attributes & ui_property::SELECT_ASSOCIATED_OBJECT != 0);
         if input == ButtonInput::Click {
-            self.button_interfaces.take(handle, number, ButtonInput::Hold(true))?;
-            self.button_interfaces.take(handle, number, ButtonInput::Hold(false))?;
+            self.button_interfaces
+                .take(handle, number, ButtonInput::Hold(true))?;
+            self.button_interfaces
+                .take(handle, number, ButtonInput::Hold(false))?;
         } else {
             self.button_interfaces.take(handle, number, input)?;
         }
@@ -130,23 +148,34 @@ impl Scene {
 
 impl ButtonInterfaces {
     fn take(&mut self, handle: i64, number: i64, input: ButtonInput) -> Result<(), String> {
-        let waiting = self.events.get(&handle).map_or(0, |events| events.waiting.len());
+        let waiting = self
+            .events
+            .get(&handle)
+            .map_or(0, |events| events.waiting.len());
         if waiting >= MAX_WAITING {
             return Err("too many inputs are waiting for the simulator".into());
         }
         let is_release = input == ButtonInput::Hold(false);
         let interface = self.get_mut(handle).map_err(|error| error.to_string())?;
-        let button = interface.button_mut(number).map_err(|error| error.to_string())?;
+        let button = interface
+            .button_mut(number)
+            .map_err(|error| error.to_string())?;
         if let Some(reason) = button.refusal() {
             return Err(reason);
         }
-        let raises = button.take(input).ok_or_else(|| format!("button {number} does not take this input"))?;
+        let raises = button
+            .take(input)
+            .ok_or_else(|| format!("button {number} does not take this input"))?;
         let event = button.event();
         if is_release {
             interface.act(event.attributes);
         }
         if raises {
-            self.events.entry(handle).or_default().waiting.push_back(event);
+            self.events
+                .entry(handle)
+                .or_default()
+                .waiting
+                .push_back(event);
         }
         Ok(())
     }

@@ -48,7 +48,10 @@ impl<'a> Cx<'a> {
     }
 
     fn new(env: &'a Env, stack: Option<Stack<'a>>) -> ApiResult<Self> {
-        let sim = env.sim.upgrade().ok_or_else(|| ApiError::Other("the simulator is gone.".into()))?;
+        let sim = env
+            .sim
+            .upgrade()
+            .ok_or_else(|| ApiError::Other("the simulator is gone.".into()))?;
         Ok(Self { sim, env, stack })
     }
 
@@ -81,7 +84,11 @@ impl<'a> Cx<'a> {
     ///
     /// # Errors
     /// When the program is being stopped.
-    pub fn wait_for<T>(&self, limit: Option<Duration>, answer: impl FnMut() -> Option<T>) -> ApiResult<Option<T>> {
+    pub fn wait_for<T>(
+        &self,
+        limit: Option<Duration>,
+        answer: impl FnMut() -> Option<T>,
+    ) -> ApiResult<Option<T>> {
         self.sim.wait_for(limit, answer)
     }
 
@@ -97,7 +104,8 @@ impl<'a> Cx<'a> {
 
     /// Whether the caller is a thread that may hand over to the simulation now.
     pub fn can_yield(&self) -> bool {
-        self.env().yields.overall.get() == 0 && self.stack.is_some_and(|stack| !stack.is_main_coroutine())
+        self.env().yields.overall.get() == 0
+            && self.stack.is_some_and(|stack| !stack.is_main_coroutine())
     }
 
     /// Level of the calling coroutine: 0 means it may be pre-empted.
@@ -105,7 +113,9 @@ impl<'a> Cx<'a> {
     /// # Errors
     /// When the call does not come from Lua.
     pub fn auto_level(&self) -> ApiResult<i64> {
-        self.stack.map(threads::auto_level).ok_or(ApiError::NeedsLua)
+        self.stack
+            .map(threads::auto_level)
+            .ok_or(ApiError::NeedsLua)
     }
 
     /// Sets the level of the calling coroutine.
@@ -113,7 +123,9 @@ impl<'a> Cx<'a> {
     /// # Errors
     /// When the call does not come from Lua.
     pub fn set_auto_level(&mut self, level: i64) -> ApiResult<()> {
-        self.stack.map(|stack| threads::set_auto_level(stack, level)).ok_or(ApiError::NeedsLua)
+        self.stack
+            .map(|stack| threads::set_auto_level(stack, level))
+            .ok_or(ApiError::NeedsLua)
     }
 
     /// Ends the time slice of the calling thread, as work does that takes longer in the original.

@@ -24,7 +24,11 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When a handle is unknown or the scene is full.
-    pub fn copy_objects(&mut self, handles: &[Handle], options: CopyOptions) -> ApiResult<BTreeMap<Handle, Handle>> {
+    pub fn copy_objects(
+        &mut self,
+        handles: &[Handle],
+        options: CopyOptions,
+    ) -> ApiResult<BTreeMap<Handle, Handle>> {
         self.sim.copy_objects(handles, options)
     }
 

@@ -10,7 +10,9 @@ impl Cx<'_> {
     /// A line of a script's `print`.
     pub fn print(&self, line: &[u8]) {
         let origin = || self.script().log_name(&self.sim.scene.borrow());
-        self.sim.log.print(line, self.sim.clock.time(), self.script().id, origin);
+        self.sim
+            .log
+            .print(line, self.sim.clock.time(), self.script().id, origin);
     }
 
     /// Remembers a path that leads to no object, for the hint beside the error.

@@ -19,7 +19,8 @@ impl Cx<'_> {
     /// # Errors
     /// When native code is not allowed.
     pub fn load_plugin(&mut self, name: &str) -> ApiResult<Option<Rc<Plugin>>> {
-        self.permissions().check_native(&format!("loading the plugin '{name}'"))?;
+        self.permissions()
+            .check_native(&format!("loading the plugin '{name}'"))?;
         Ok(self.sim.load_plugin(self.script(), name))
     }
 
@@ -27,7 +28,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// The plugin's.
-    pub fn call_plugin(&mut self, plugin: &str, function: usize, args: Vec<Data>) -> ApiResult<Vec<Data>> {
+    pub fn call_plugin(
+        &mut self,
+        plugin: &str,
+        function: usize,
+        args: Vec<Data>,
+    ) -> ApiResult<Vec<Data>> {
         self.sim.call_plugin(self.script(), plugin, function, args)
     }
 

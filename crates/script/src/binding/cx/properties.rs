@@ -21,7 +21,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is no such property, or it cannot be read.
-    pub fn read_property(&self, target: &PropertyTarget, name: &str, ty: ValueType) -> ApiResult<Data> {
+    pub fn read_property(
+        &self,
+        target: &PropertyTarget,
+        name: &str,
+        ty: ValueType,
+    ) -> ApiResult<Data> {
         self.sim.read_property(target, name, ty)
     }
 
@@ -29,7 +34,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is no such property, or it cannot be written.
-    pub fn write_property(&mut self, target: &PropertyTarget, name: &str, value: (ValueType, Data)) -> ApiResult<()> {
+    pub fn write_property(
+        &mut self,
+        target: &PropertyTarget,
+        name: &str,
+        value: (ValueType, Data),
+    ) -> ApiResult<()> {
         self.sim.write_property(target, name, value, self.script())
     }
 
@@ -47,7 +57,12 @@ impl Cx<'_> {
     }
 
     /// The property at `index` in the order of enumeration, with its class; None past the end.
-    pub fn property_name(&self, target: &PropertyTarget, index: usize, prefix: &str) -> Option<(String, &'static str)> {
+    pub fn property_name(
+        &self,
+        target: &PropertyTarget,
+        index: usize,
+        prefix: &str,
+    ) -> Option<(String, &'static str)> {
         self.sim.property_name(target, index, prefix)
     }
 
@@ -89,12 +104,14 @@ impl Cx<'_> {
 
     /// Bytes in the application's file, which is read at its first use.
     pub fn stored_block(&self, section: StorageSection, tag: &str) -> Option<Vec<u8>> {
-        self.sim.with_app_storage(|storage| storage.blocks(section).get(tag).cloned())
+        self.sim
+            .with_app_storage(|storage| storage.blocks(section).get(tag).cloned())
     }
 
     /// The tags of the bytes in the application's file, in alphabetical order.
     pub fn stored_tags(&self, section: StorageSection) -> Vec<String> {
-        self.sim.with_app_storage(|storage| storage.blocks(section).keys().cloned().collect())
+        self.sim
+            .with_app_storage(|storage| storage.blocks(section).keys().cloned().collect())
     }
 
     /// Changes what is in the application's file.

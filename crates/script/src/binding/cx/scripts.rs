@@ -39,7 +39,12 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// In CoppeliaSim's words; the callee's own error is logged under its name and ends it.
-    pub fn call_function(&mut self, script: &Rc<Script>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+    pub fn call_function(
+        &mut self,
+        script: &Rc<Script>,
+        name: &str,
+        args: &[Data],
+    ) -> ApiResult<Vec<Data>> {
         self.sim.call_function(script, name, args)
     }
 
@@ -89,7 +94,9 @@ impl Cx<'_> {
         match self.stack.filter(|_| script.id == self.script().id) {
             Some(stack) => Ok(stack.traceback()),
             None => {
-                let runtime = script.current_runtime().ok_or(ApiError::ScriptNotInitialized)?;
+                let runtime = script
+                    .current_runtime()
+                    .ok_or(ApiError::ScriptNotInitialized)?;
                 Ok(runtime.interpreter.traceback())
             }
         }

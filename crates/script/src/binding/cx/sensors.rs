@@ -9,12 +9,21 @@ use scene::{Handle, Scene};
 impl Cx<'_> {
     /// Queries the geometry of the scene. The index behind that changes, but no result depends on it.
     pub fn query<R>(&self, query: impl FnOnce(&mut Perception, &Scene) -> R) -> R {
-        query(&mut self.sim.perception.borrow_mut(), &self.sim.scene.borrow())
+        query(
+            &mut self.sim.perception.borrow_mut(),
+            &self.sim.scene.borrow(),
+        )
     }
 
     /// The same where objects are displaced for the query (`Scene::displace`).
-    pub fn query_displaced<R>(&mut self, query: impl FnOnce(&mut Perception, &mut Scene) -> R) -> R {
-        query(&mut self.sim.perception.borrow_mut(), &mut self.sim.scene.borrow_mut())
+    pub fn query_displaced<R>(
+        &mut self,
+        query: impl FnOnce(&mut Perception, &mut Scene) -> R,
+    ) -> R {
+        query(
+            &mut self.sim.perception.borrow_mut(),
+            &mut self.sim.scene.borrow_mut(),
+        )
     }
 
     /// Handles a proximity sensor that is tagged for explicit handling: detects, calls its scripts, stores the result.

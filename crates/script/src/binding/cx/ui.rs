@@ -81,14 +81,21 @@ impl Cx<'_> {
             Item::Banner(banner) => ui.borrow().dialogs.has_banner(*banner),
             Item::View(view) => ui.borrow().views.contains(*view),
         });
-        opened.push(Ownership { ui: Rc::downgrade(&ui), item });
+        opened.push(Ownership {
+            ui: Rc::downgrade(&ui),
+            item,
+        });
     }
 
     /// Reads a window.
     ///
     /// # Errors
     /// When there is no such window, or those of `read`.
-    pub fn read_window<T>(&self, handle: &str, read: impl FnOnce(&Window) -> UiResult<T>) -> ApiResult<T> {
+    pub fn read_window<T>(
+        &self,
+        handle: &str,
+        read: impl FnOnce(&Window) -> UiResult<T>,
+    ) -> ApiResult<T> {
         Ok(self.read_ui(|ui| ui.window(handle).and_then(read))?)
     }
 
@@ -96,7 +103,11 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is no such window, or those of `change`.
-    pub fn change_window<T>(&mut self, handle: &str, change: impl FnOnce(&mut Window) -> UiResult<T>) -> ApiResult<T> {
+    pub fn change_window<T>(
+        &mut self,
+        handle: &str,
+        change: impl FnOnce(&mut Window) -> UiResult<T>,
+    ) -> ApiResult<T> {
         Ok(self.change_ui(|ui| ui.change(handle, change))?)
     }
 

@@ -12,15 +12,23 @@ impl Cx<'_> {
     /// # Errors
     /// When `sensor` is no vision sensor.
     pub fn handle_vision_sensor(&mut self, sensor: Handle) -> ApiResult<VisionReading> {
-        self.sim.handle_vision_sensor(sensor).map_err(ApiError::Scene)
+        self.sim
+            .handle_vision_sensor(sensor)
+            .map_err(ApiError::Scene)
     }
 
     /// The same with an entity of the caller's choice; the sensor is as before afterwards. Returns the picture too.
     ///
     /// # Errors
     /// When `sensor` is no vision sensor.
-    pub fn check_vision_sensor(&mut self, sensor: Handle, entity: Entity) -> ApiResult<(VisionReading, VisionSensor)> {
-        self.sim.check_vision_sensor(sensor, entity).map_err(ApiError::Scene)
+    pub fn check_vision_sensor(
+        &mut self,
+        sensor: Handle,
+        entity: Entity,
+    ) -> ApiResult<(VisionReading, VisionSensor)> {
+        self.sim
+            .check_vision_sensor(sensor, entity)
+            .map_err(ApiError::Scene)
     }
 
     /// Width, height, and red, green, blue of each pixel (the lowest row first) of the last picture of a vision sensor; without one, and for
@@ -36,7 +44,9 @@ impl Cx<'_> {
             return Ok((sensor.view.resolution, sensor.image.clone()));
         }
         let mut perception = self.sim.perception.borrow_mut();
-        let picture = perception.vision.view(&scene, Some(from), None, Channels::COLOUR)?;
+        let picture = perception
+            .vision
+            .view(&scene, Some(from), None, Channels::COLOUR)?;
         Ok((picture.resolution, picture.colour))
     }
 
@@ -74,11 +84,21 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// Then, and when `sensor` is no vision sensor.
-    pub fn change_picture(&mut self, sensor: Handle, change: impl FnOnce(&mut VisionSensor) -> bool) -> ApiResult<()> {
+    pub fn change_picture(
+        &mut self,
+        sensor: Handle,
+        change: impl FnOnce(&mut VisionSensor) -> bool,
+    ) -> ApiResult<()> {
         let refused = || SceneError::Refused("incorrect buffer size.".into());
-        Ok(self.scene_mut().try_modify(sensor, Field::Measured, |object| {
-            if change(object.vision_sensor_mut()?) { Ok(()) } else { Err(refused()) }
-        })?)
+        Ok(self
+            .scene_mut()
+            .try_modify(sensor, Field::Measured, |object| {
+                if change(object.vision_sensor_mut()?) {
+                    Ok(())
+                } else {
+                    Err(refused())
+                }
+            })?)
     }
 
     /// Calls the scripts of a sensor for a picture that was set, unless they are looking at its picture already.
@@ -86,7 +106,9 @@ impl Cx<'_> {
     /// # Errors
     /// When `sensor` is no vision sensor.
     pub fn evaluate_set_picture(&mut self, sensor: Handle) -> ApiResult<()> {
-        self.sim.evaluate_set_picture(sensor).map_err(ApiError::Scene)
+        self.sim
+            .evaluate_set_picture(sensor)
+            .map_err(ApiError::Scene)
     }
 
     /// Forgets the results of a sensor.

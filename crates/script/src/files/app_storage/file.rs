@@ -29,7 +29,10 @@ pub(in crate::files::app_storage) enum Failure {
     #[error("the app storage {} was written by a newer version of Swanilda: it is left alone.", .0.display())]
     TooNew(PathBuf),
     #[error("the app storage {} cannot be used: {error}.", path.display())]
-    Unusable { path: PathBuf, error: std::io::Error },
+    Unusable {
+        path: PathBuf,
+        error: std::io::Error,
+    },
     #[error("the app storage cannot be used: {0}")]
     Denied(#[from] Denied),
     #[error("there is no folder for the app storage: name one (--data-dir).")]
@@ -38,18 +41,28 @@ pub(in crate::files::app_storage) enum Failure {
 
 /// The system's folder for application data of the user.
 pub(in crate::files::app_storage) fn user_folder() -> Option<PathBuf> {
-    Some(directories::ProjectDirs::from("", "", "swanilda")?.data_dir().to_owned())
+    Some(
+        directories::ProjectDirs::from("", "", "swanilda")?
+            .data_dir()
+            .to_owned(),
+    )
 }
 
 /// # Errors
 /// When scripts may not read the file in `folder`.
-pub(in crate::files::app_storage) fn check_read(folder: &Path, permissions: &Permissions) -> Result<(), Failure> {
+pub(in crate::files::app_storage) fn check_read(
+    folder: &Path,
+    permissions: &Permissions,
+) -> Result<(), Failure> {
     Ok(permissions.check_read(&folder.join(NAME))?)
 }
 
 /// # Errors
 /// When scripts may not change the file in `folder`.
-pub(in crate::files::app_storage) fn check_write(folder: &Path, permissions: &Permissions) -> Result<(), Failure> {
+pub(in crate::files::app_storage) fn check_write(
+    folder: &Path,
+    permissions: &Permissions,
+) -> Result<(), Failure> {
     check_read(folder, permissions)?;
     Ok(permissions.check_write(&folder.join(NAME))?)
 }
@@ -81,9 +94,17 @@ pub(in crate::files::app_storage) fn update(
     folder: &Path,
     change: impl FnOnce(&mut Contents),
 ) -> Result<(Contents, Option<Failure>), Failure> {
-    let unusable = |error| Failure::Unusable { path: folder.join(NAME), error };
+    let unusable = |error| Failure::Unusable {
+        path: folder.join(NAME),
+        error,
+    };
     fs::create_dir_all(folder).map_err(unusable)?;
-    let lock = File::options().create(true).truncate(false).write(true).open(folder.join(LOCK)).map_err(unusable)?;
+    let lock = File::options()
+        .create(true)
+        .truncate(false)
+        .write(true)
+        .open(folder.join(LOCK))
+        .map_err(unusable)?;
     wait_for_lock(&lock, LOCK_TIMEOUT).map_err(unusable)?;
     let (mut contents, failure) = match read(folder) {
         Ok(contents) => (contents, None),
@@ -103,7 +124,10 @@ fn wait_for_lock(lock: &File, longest: Duration) -> std::io::Result<()> {
             Ok(()) => return Ok(()),
             Err(TryLockError::Error(error)) => return Err(error),
             Err(TryLockError::WouldBlock) if wall_clock::now() > deadline => {
-                return Err(std::io::Error::new(ErrorKind::TimedOut, "another program holds its lock"));
+                return Err(std::io::Error::new(
+                    ErrorKind::TimedOut,
+                    "another program holds its lock",
+                ));
             }
             Err(TryLockError::WouldBlock) => wall_clock::pause(Duration::from_millis(1)),
         }
@@ -124,7 +148,10 @@ fn replace(folder: &Path, bytes: &[u8]) -> std::io::Result<()> {
 /// Gives a corrupt file the first free of the names `*.corrupt-N`.
 fn set_aside(path: PathBuf) -> Failure {
     let named = |n: u32| path.with_file_name(format!("{NAME}.corrupt-{n}"));
-    let aside = (1..u32::MAX).map(named).find(|aside| !aside.exists()).unwrap_or_else(|| named(u32::MAX));
+    let aside = (1..u32::MAX)
+        .map(named)
+        .find(|aside| !aside.exists())
+        .unwrap_or_else(|| named(u32::MAX));
     match fs::rename(&path, &aside) {
         Ok(()) => Failure::Corrupt { path, aside },
         Err(error) => Failure::Unusable { path, error },
@@ -133,7 +160,9 @@ fn set_aside(path: PathBuf) -> Failure {
 
 fn encode(contents: &Contents) -> Data {
     let values = |data: &CustomData| {
-        let pairs = data.tags().filter_map(|tag| Some(Data::Array(vec![Data::text(&tag), data.get(&tag)?.clone()])));
+        let pairs = data
+            .tags()
+            .filter_map(|tag| Some(Data::Array(vec![Data::text(&tag), data.get(&tag)?.clone()])));
         Data::Array(pairs.collect())
     };
     Data::map([
@@ -145,7 +174,12 @@ fn encode(contents: &Contents) -> Data {
 }
 
 fn encode_blocks(blocks: &Blocks) -> Data {
-    let entry = |(tag, bytes): (&String, &Vec<u8>)| (Key::Text(tag.clone().into_bytes()), Data::Buffer(bytes.clone()));
+    let entry = |(tag, bytes): (&String, &Vec<u8>)| {
+        (
+            Key::Text(tag.clone().into_bytes()),
+            Data::Buffer(bytes.clone()),
+        )
+    };
     Data::Map(blocks.iter().map(entry).collect())
 }
 
@@ -155,19 +189,30 @@ fn decode(data: &Data) -> Option<Contents> {
         tags: decode_blocks(data.field("tags")?)?,
         persistent: decode_blocks(data.field("persistent")?)?,
     };
-    let Data::Array(pairs) = data.field("customData")? else { return None };
+    let Data::Array(pairs) = data.field("customData")? else {
+        return None;
+    };
     for pair in pairs {
         let Data::Array(pair) = pair else { return None };
-        let [Data::Text(tag), value] = pair.as_slice() else { return None };
-        contents.custom_data.edit(Edit::Tag(std::str::from_utf8(tag).ok()?, Some(value.clone())));
+        let [Data::Text(tag), value] = pair.as_slice() else {
+            return None;
+        };
+        contents.custom_data.edit(Edit::Tag(
+            std::str::from_utf8(tag).ok()?,
+            Some(value.clone()),
+        ));
     }
     Some(contents)
 }
 
 fn decode_blocks(data: &Data) -> Option<Blocks> {
-    let Data::Map(entries) = data else { return None };
+    let Data::Map(entries) = data else {
+        return None;
+    };
     let entry = |(key, value): &(Key, Data)| match (key, value) {
-        (Key::Text(tag), Data::Buffer(bytes)) => Some((String::from_utf8(tag.clone()).ok()?, bytes.clone())),
+        (Key::Text(tag), Data::Buffer(bytes)) => {
+            Some((String::from_utf8(tag.clone()).ok()?, bytes.clone()))
+        }
         _ => None,
     };
     entries.iter().map(entry).collect()
@@ -186,7 +231,8 @@ mod tests {
         let file = tempfile::NamedTempFile::new().expect("a temporary file can be made");
         let other = file.reopen().expect("it can be opened again");
         FileExt::lock(&other).expect("nobody else has it");
-        let error = wait_for_lock(file.as_file(), Duration::from_millis(5)).expect_err("the other has it");
+        let error =
+            wait_for_lock(file.as_file(), Duration::from_millis(5)).expect_err("the other has it");
         assert_eq!(error.kind(), std::io::ErrorKind::TimedOut);
         drop(other);
         wait_for_lock(file.as_file(), Duration::ZERO).expect("the other has gone");

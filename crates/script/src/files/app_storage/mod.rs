@@ -77,7 +77,10 @@ impl Contents {
     fn copy_item(&mut self, item: &Dirty, other: &Self) {
         match item {
             Dirty::CustomData(name) => {
-                let value = other.custom_data.typed(name).map(|(ty, value)| (ty, value.clone()));
+                let value = other
+                    .custom_data
+                    .typed(name)
+                    .map(|(ty, value)| (ty, value.clone()));
                 self.custom_data.edit(Edit::Name(name, value));
             }
             Dirty::Block(section, tag) => {
@@ -94,12 +97,18 @@ impl Contents {
 impl AppStorage {
     /// Storage in `folder`; None for the folder where the system keeps data of the user's programs.
     pub(crate) fn new(folder: Option<&Path>) -> Self {
-        Self { folder: folder.map(Path::to_owned).or_else(file::user_folder), ..Self::default() }
+        Self {
+            folder: folder.map(Path::to_owned).or_else(file::user_folder),
+            ..Self::default()
+        }
     }
 
     /// The same with the permissions of the scripts that use it.
     pub(crate) fn restricted(self, permissions: &Permissions) -> Self {
-        Self { permissions: permissions.clone(), ..self }
+        Self {
+            permissions: permissions.clone(),
+            ..self
+        }
     }
 
     pub(crate) fn custom_data(&mut self) -> &CustomData {
@@ -112,8 +121,12 @@ impl AppStorage {
         let edited = self.contents.custom_data.edit(edit);
         match &edited {
             Edited::Nothing => {}
-            Edited::Written(name) | Edited::Removed(name) => self.mark(Dirty::CustomData((*name).to_owned())),
-            Edited::Cleared(names) => names.iter().for_each(|name| self.mark(Dirty::CustomData(name.clone()))),
+            Edited::Written(name) | Edited::Removed(name) => {
+                self.mark(Dirty::CustomData((*name).to_owned()))
+            }
+            Edited::Cleared(names) => names
+                .iter()
+                .for_each(|name| self.mark(Dirty::CustomData(name.clone()))),
         }
         edited
     }
@@ -155,7 +168,11 @@ impl AppStorage {
 
     /// Logs an error of the file; a corrupt one has been renamed by then, and is replaced by an empty one.
     fn report(&mut self, failure: Failure) {
-        let level = if matches!(failure, Failure::Corrupt { .. }) { verbosity::WARNINGS } else { verbosity::ERRORS };
+        let level = if matches!(failure, Failure::Corrupt { .. }) {
+            verbosity::WARNINGS
+        } else {
+            verbosity::ERRORS
+        };
         self.notices.push((level, failure.to_string()));
     }
 
@@ -168,7 +185,9 @@ impl AppStorage {
             None => Err(Failure::NoFolder),
             Some(folder) => file::check_write(folder, &self.permissions).and_then(|()| {
                 file::update(folder, |contents| {
-                    self.dirty.iter().for_each(|item| contents.copy_item(item, &self.contents));
+                    self.dirty
+                        .iter()
+                        .for_each(|item| contents.copy_item(item, &self.contents));
                 })
             }),
         };
@@ -191,9 +210,14 @@ impl Sim {
     pub(crate) fn with_app_storage<R>(&self, use_it: impl FnOnce(&mut AppStorage) -> R) -> R {
         let (result, notices) = {
             let mut app = self.app.borrow_mut();
-            (use_it(&mut app.storage), std::mem::take(&mut app.storage.notices))
+            (
+                use_it(&mut app.storage),
+                std::mem::take(&mut app.storage.notices),
+            )
         };
-        notices.iter().for_each(|(level, text)| self.log(*level, text));
+        notices
+            .iter()
+            .for_each(|(level, text)| self.log(*level, text));
         result
     }
 
@@ -228,8 +252,14 @@ mod tests {
         storage.set_block(StorageSection::Tags, "&int&.n", Some(vec![0, 255]));
         storage.save();
         let mut again = AppStorage::new(Some(folder.path()));
-        assert_eq!(again.custom_data().typed("n"), Some((ValueType::Int, &Data::Int(7))));
-        assert_eq!(again.blocks(StorageSection::Tags).get("&int&.n"), Some(&vec![0, 255]));
+        assert_eq!(
+            again.custom_data().typed("n"),
+            Some((ValueType::Int, &Data::Int(7)))
+        );
+        assert_eq!(
+            again.blocks(StorageSection::Tags).get("&int&.n"),
+            Some(&vec![0, 255])
+        );
         assert!(again.blocks(StorageSection::Persistent).is_empty() && again.notices.is_empty());
     }
 
@@ -242,18 +272,34 @@ mod tests {
         a.save();
         b.edit_custom_data(number("b", 2));
         b.save();
-        assert_eq!(b.custom_data().typed("a"), Some((ValueType::Int, &Data::Int(1))));
-        assert_eq!(AppStorage::new(Some(folder.path())).custom_data().tags().count(), 2);
+        assert_eq!(
+            b.custom_data().typed("a"),
+            Some((ValueType::Int, &Data::Int(1)))
+        );
+        assert_eq!(
+            AppStorage::new(Some(folder.path()))
+                .custom_data()
+                .tags()
+                .count(),
+            2
+        );
     }
 
     #[test]
     fn a_corrupt_file_is_set_aside() {
         let folder = tempfile::tempdir().expect("a temporary folder can be made");
         for n in 1..=2 {
-            std::fs::write(folder.path().join("app-storage.cbor"), b"nonsense").expect("our own folder is writable");
+            std::fs::write(folder.path().join("app-storage.cbor"), b"nonsense")
+                .expect("our own folder is writable");
             let mut storage = AppStorage::new(Some(folder.path()));
             assert_eq!(storage.custom_data().tags().count(), 0);
-            assert!(storage.notices[0].1.contains(&format!("app-storage.cbor.corrupt-{n}")), "{:?}", storage.notices);
+            assert!(
+                storage.notices[0]
+                    .1
+                    .contains(&format!("app-storage.cbor.corrupt-{n}")),
+                "{:?}",
+                storage.notices
+            );
             let aside = folder.path().join(format!("app-storage.cbor.corrupt-{n}"));
             assert_eq!(std::fs::read(aside).ok().as_deref(), Some(&b"nonsense"[..]));
         }
@@ -270,6 +316,9 @@ mod tests {
         storage.save();
         storage.save();
         assert_eq!(storage.notices.len(), 1, "{:?}", storage.notices);
-        assert_eq!(storage.blocks(StorageSection::Persistent).get("t"), Some(&vec![1]));
+        assert_eq!(
+            storage.blocks(StorageSection::Persistent).get("t"),
+            Some(&vec![1])
+        );
     }
 }

@@ -3,8 +3,8 @@
 use std::ffi::c_int;
 
 use super::{
-    Pair, Room, Table, Top, lua_checkstack, lua_createtable, lua_gettop, lua_pushboolean, lua_pushinteger, lua_pushnil,
-    lua_pushnumber, lua_rawset, lua_rawseti,
+    Pair, Room, Table, Top, lua_checkstack, lua_createtable, lua_gettop, lua_pushboolean,
+    lua_pushinteger, lua_pushnil, lua_pushnumber, lua_rawset, lua_rawseti,
 };
 use crate::lua::Stack;
 use crate::lua::stack::tables::MAX_HINT;
@@ -29,7 +29,10 @@ impl<'a> Room<'a> {
         }
         let hint = |count: usize| count.min(MAX_HINT) as c_int;
         lua_createtable(self, hint(items), hint(fields));
-        Ok(NewTable { stack, index: lua_gettop(stack) })
+        Ok(NewTable {
+            stack,
+            index: lua_gettop(stack),
+        })
     }
 }
 
@@ -87,6 +90,10 @@ impl<'a> NewTable<'a> {
     /// Every entry begins and ends with the table on top, so that it is there, and room for a key and a value, as long as `push` pushes a
     /// value.
     fn check(&self, values: c_int) {
-        assert_eq!(lua_gettop(self.stack), self.index + values, "each entry is a key and a value");
+        assert_eq!(
+            lua_gettop(self.stack),
+            self.index + values,
+            "each entry is a key and a value"
+        );
     }
 }

@@ -45,7 +45,11 @@ impl Prototype<'_> {
             return true;
         }
         let is_captured = |inner: &Prototype<'_>| inner.captures(ARGUMENT as u8);
-        !self.inner.iter().any(is_captured) && self.code.iter().all(|&instruction| only_reads_fields(instruction))
+        !self.inner.iter().any(is_captured)
+            && self
+                .code
+                .iter()
+                .all(|&instruction| only_reads_fields(instruction))
     }
 }
 
@@ -61,9 +65,13 @@ fn only_reads_fields(instruction: u32) -> bool {
         op::SETI | op::SETFIELD => a || c && c_is_register,
         op::SETTABLE | op::SELF => a || b || c && c_is_register,
         op::ADD..=op::SHR => a || b || c,
-        op::MOVE | op::ADDI | op::ADDK..=op::SHLI | op::MMBIN | op::UNM..=op::LEN | op::EQ..=op::LE | op::TESTSET => {
-            a || b
-        }
+        op::MOVE
+        | op::ADDI
+        | op::ADDK..=op::SHLI
+        | op::MMBIN
+        | op::UNM..=op::LEN
+        | op::EQ..=op::LE
+        | op::TESTSET => a || b,
         // All others have one register at most, or count up from it.
         ..op::EXTRAARG => a,
         _ => true,
@@ -76,7 +84,8 @@ mod tests {
 
     /// Whether the function that a text returns forgets its argument.
     fn forgets(function: &str) -> bool {
-        let code = Bytecode::compile(format!("local up return {function}").as_bytes(), "=test").unwrap();
+        let code =
+            Bytecode::compile(format!("local up return {function}").as_bytes(), "=test").unwrap();
         code.main_function().unwrap().inner[0].forgets_its_argument()
     }
 

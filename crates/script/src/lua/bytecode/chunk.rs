@@ -61,7 +61,10 @@ impl<'a> Chunk<'a> {
         let mut reader = Reader(bytes);
         let header = reader.take(HEADER_SIZE)?;
         let _upvalues = reader.byte()?;
-        Some(Self { header, main: reader.function()? })
+        Some(Self {
+            header,
+            main: reader.function()?,
+        })
     }
 
     pub(super) fn write(&self) -> Vec<u8> {
@@ -86,7 +89,11 @@ impl Prototype<'_> {
     }
 
     fn constant(&mut self, bytes: Vec<u8>) -> usize {
-        if let Some(known) = self.constants.iter().position(|constant| **constant == *bytes) {
+        if let Some(known) = self
+            .constants
+            .iter()
+            .position(|constant| **constant == *bytes)
+        {
             return known;
         }
         self.constants.push(Cow::Owned(bytes));
@@ -95,7 +102,9 @@ impl Prototype<'_> {
 
     /// Adds an upvalue, which is upvalue `outer` of the enclosing function, and returns its index. None if there are too many.
     pub(super) fn add_upvalue(&mut self, name: &str, outer: u8) -> Option<u8> {
-        let number = u8::try_from(self.upvalues.len()).ok().filter(|&number| number < u8::MAX)?;
+        let number = u8::try_from(self.upvalues.len())
+            .ok()
+            .filter(|&number| number < u8::MAX)?;
         self.upvalues.push([u8::from(self.line == 0), outer, 0]);
         let mut bytes = Vec::new();
         write_text(&mut bytes, name.as_bytes());
@@ -105,12 +114,16 @@ impl Prototype<'_> {
 
     /// Whether it uses the variable in a register of the enclosing function.
     pub(super) fn captures(&self, register: u8) -> bool {
-        self.upvalues.iter().any(|&[is_local, index, _]| is_local != 0 && index == register)
+        self.upvalues
+            .iter()
+            .any(|&[is_local, index, _]| is_local != 0 && index == register)
     }
 
     /// Whether it, or a function inside it, has a local variable of that name.
     pub(super) fn has_local(&self, name: &[u8]) -> bool {
-        self.locals.iter().any(|local| text_of(local.name) == Some(name))
+        self.locals
+            .iter()
+            .any(|local| text_of(local.name) == Some(name))
             || self.inner.iter().any(|inner| inner.has_local(name))
     }
 
@@ -136,9 +149,13 @@ impl Prototype<'_> {
         write_size(out, self.last_line);
         out.extend([self.parameters, u8::from(self.is_vararg), self.registers]);
         write_size(out, self.code.len());
-        self.code.iter().for_each(|instruction| out.extend(instruction.to_ne_bytes()));
+        self.code
+            .iter()
+            .for_each(|instruction| out.extend(instruction.to_ne_bytes()));
         write_size(out, self.constants.len());
-        self.constants.iter().for_each(|constant| out.extend(&**constant));
+        self.constants
+            .iter()
+            .for_each(|constant| out.extend(&**constant));
         write_size(out, self.upvalues.len());
         self.upvalues.iter().for_each(|upvalue| out.extend(upvalue));
         write_size(out, self.inner.len());
@@ -151,14 +168,18 @@ impl Prototype<'_> {
             write_size(out, local.end);
         }
         write_size(out, self.upvalue_names.len());
-        self.upvalue_names.iter().for_each(|name| out.extend(&**name));
+        self.upvalue_names
+            .iter()
+            .for_each(|name| out.extend(&**name));
     }
 
     fn write_lines(&self, out: &mut Vec<u8>) {
         let (mut previous, mut since) = (self.line as i64, 0);
         let (mut differences, mut absolute) = (Vec::new(), Vec::new());
         for (place, &line) in self.lines.iter().enumerate() {
-            let difference = i8::try_from(i64::from(line) - previous).ok().filter(|&difference| difference != ABSOLUTE);
+            let difference = i8::try_from(i64::from(line) - previous)
+                .ok()
+                .filter(|&difference| difference != ABSOLUTE);
             match difference.filter(|_| since < MAX_DIFFERENCES) {
                 Some(difference) => differences.push(difference as u8),
                 None => {
@@ -182,9 +203,9 @@ impl Prototype<'_> {
 
 /// Whether an encoded constant is that text, which is short.
 pub(super) fn is_short_string(constant: &[u8], text: &str) -> bool {
-    constant
-        .split_first()
-        .is_some_and(|(&kind, encoded)| kind == SHORT_STRING && text_of(encoded) == Some(text.as_bytes()))
+    constant.split_first().is_some_and(|(&kind, encoded)| {
+        kind == SHORT_STRING && text_of(encoded) == Some(text.as_bytes())
+    })
 }
 
 /// The text of an encoded string.
@@ -270,13 +291,19 @@ impl<'a> Reader<'a> {
         let source = self.text()?;
         let (line, last_line) = (self.size()?, self.size()?);
         let (parameters, is_vararg, registers) = (self.byte()?, self.byte()? != 0, self.byte()?);
-        let code = self.list(|reader| Some(u32::from_ne_bytes(reader.take(4)?.try_into().ok()?)))?;
+        let code =
+            self.list(|reader| Some(u32::from_ne_bytes(reader.take(4)?.try_into().ok()?)))?;
         let constants = self.list(Self::constant)?;
         let upvalues = self.list(|reader| reader.take(3)?.try_into().ok())?;
         let inner = self.list(Self::function)?;
         let lines = self.lines(line)?;
-        let locals =
-            self.list(|reader| Some(Local { name: reader.text()?, begin: reader.size()?, end: reader.size()? }))?;
+        let locals = self.list(|reader| {
+            Some(Local {
+                name: reader.text()?,
+                begin: reader.size()?,
+                end: reader.size()?,
+            })
+        })?;
         let upvalue_names = self.list(|reader| reader.text().map(Cow::Borrowed))?;
         Some(Prototype {
             raw: &before[..before.len() - self.0.len()],
@@ -325,7 +352,9 @@ mod tests {
             + &"\n".repeat(500)
             + &"b = b .. 'y' for i = 1, 3 do b = b .. i end\n".repeat(200)
             + "return function(...) local t <close> = nil return b, a, nil, true, ... end\n";
-        let bytes = super::super::Bytecode::compile(text.as_bytes(), "=text").expect("it compiles").0;
+        let bytes = super::super::Bytecode::compile(text.as_bytes(), "=text")
+            .expect("it compiles")
+            .0;
         assert_eq!(Chunk::read(&bytes).expect("it is read").write(), bytes);
         assert!((0..bytes.len()).all(|end| Chunk::read(&bytes[..end]).is_none()));
     }

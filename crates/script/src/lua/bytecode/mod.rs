@@ -33,8 +33,12 @@ pub(crate) struct Instrumented {
 impl Bytecode {
     /// Compiles Lua text in a state of its own.
     pub(crate) fn compile(code: &[u8], chunk_name: &str) -> Result<Self, String> {
-        let lua = Lua::new_with(StdLib::NONE, LuaOptions::default()).map_err(|error| error.to_string())?;
-        let chunk = lua.load(code).set_name(chunk_name.replace('\0', " ")).set_mode(ChunkMode::Text);
+        let lua = Lua::new_with(StdLib::NONE, LuaOptions::default())
+            .map_err(|error| error.to_string())?;
+        let chunk = lua
+            .load(code)
+            .set_name(chunk_name.replace('\0', " "))
+            .set_mode(ChunkMode::Text);
         match chunk.into_function() {
             Ok(function) => Ok(Self(function.dump(false))),
             Err(Error::SyntaxError { message, .. }) => Err(message),
@@ -53,14 +57,20 @@ impl Bytecode {
     }
 
     /// The same with functions that do nothing in place of these, which are in the order of `passed_functions` of this very bytecode.
-    pub(crate) fn with_stubs<'a>(&self, functions: impl Iterator<Item = &'a PassedFunction>) -> Self {
+    pub(crate) fn with_stubs<'a>(
+        &self,
+        functions: impl Iterator<Item = &'a PassedFunction>,
+    ) -> Self {
         Self(stubs::with_stubs(&self.0, functions))
     }
 
     /// The function with probes on these lines; None where there is no room for them.
     pub(crate) fn with_probes(&self, lines: &BTreeSet<u32>) -> Option<Instrumented> {
         let (bytes, upvalue) = probes::with_probes(&self.0, lines)?;
-        Some(Instrumented { bytecode: Self(bytes), upvalue })
+        Some(Instrumented {
+            bytecode: Self(bytes),
+            upvalue,
+        })
     }
 }
 
@@ -88,9 +98,19 @@ impl Stack<'_> {
         let _room = self.room();
         // SAFETY: `luaL_loadbufferx` reports errors as values; there is room for one. Bytecode comes from Lua's compiler.
         let status = unsafe {
-            ffi::luaL_loadbufferx(self.raw(), code.as_ptr().cast(), code.len(), name.as_ptr(), mode.as_ptr())
+            ffi::luaL_loadbufferx(
+                self.raw(),
+                code.as_ptr().cast(),
+                code.len(),
+                name.as_ptr(),
+                mode.as_ptr(),
+            )
         };
-        if status == ffi::LUA_OK { Ok(()) } else { Err(self.pop_error()) }
+        if status == ffi::LUA_OK {
+            Ok(())
+        } else {
+            Err(self.pop_error())
+        }
     }
 
     /// The bytecode of the Lua function on top, which is popped; None for another value.
@@ -98,14 +118,21 @@ impl Stack<'_> {
         let function = self.to_mlua::<Function>(-1);
         self.pop(1);
         // The dump of a native function is empty.
-        function.ok().map(|function| function.dump(false)).filter(|bytes| !bytes.is_empty()).map(Bytecode)
+        function
+            .ok()
+            .map(|function| function.dump(false))
+            .filter(|bytes| !bytes.is_empty())
+            .map(Bytecode)
     }
 
     /// Whether the function on top cannot have kept its argument when it has returned.
     pub(crate) fn forgets_its_argument(self) -> bool {
         self.push_value(-1);
         let code = self.dump();
-        code.is_some_and(|code| code.main_function().is_some_and(|function| function.forgets_its_argument()))
+        code.is_some_and(|code| {
+            code.main_function()
+                .is_some_and(|function| function.forgets_its_argument())
+        })
     }
 
     /// The name of the text of the function on top; None when that is no Lua function.
@@ -113,7 +140,8 @@ impl Stack<'_> {
         // SAFETY: `lua_getinfo` takes the function it is asked about from the stack. `source` has `srclen` bytes and lives as long as the
         // function, which is still there.
         unsafe {
-            if ffi::lua_isfunction(self.raw(), -1) == 0 || ffi::lua_iscfunction(self.raw(), -1) != 0 {
+            if ffi::lua_isfunction(self.raw(), -1) == 0 || ffi::lua_iscfunction(self.raw(), -1) != 0
+            {
                 return None;
             }
             let mut record: ffi::lua_Debug = std::mem::zeroed();
@@ -132,8 +160,10 @@ impl Stack<'_> {
         }
         // SAFETY: the old function, the table and the new function are on top. `lua_upvalueid` returns null for upvalues that do not exist.
         unsafe {
-            let has = |function, upvalue| !ffi::lua_upvalueid(self.raw(), function, upvalue).is_null();
-            let is_lua = ffi::lua_isfunction(self.raw(), -3) != 0 && ffi::lua_iscfunction(self.raw(), -3) == 0;
+            let has =
+                |function, upvalue| !ffi::lua_upvalueid(self.raw(), function, upvalue).is_null();
+            let is_lua = ffi::lua_isfunction(self.raw(), -3) != 0
+                && ffi::lua_iscfunction(self.raw(), -3) == 0;
             if !is_lua || (1..=upvalues).any(|i| !has(-1, i) || !has(-3, i)) {
                 return self.pop(2);
             }

@@ -54,7 +54,10 @@ fn add_to(function: &mut Prototype<'_>, outer: u8, lines: &BTreeSet<u32>) -> Opt
     let upvalue = function.add_upvalue(NAME, outer)?;
     let probes = Probes::new(function, upvalue, lines)?;
     probes.insert(function)?;
-    function.inner.iter_mut().try_for_each(|inner| add_to(inner, upvalue, lines).map(drop))?;
+    function
+        .inner
+        .iter_mut()
+        .try_for_each(|inner| add_to(inner, upvalue, lines).map(drop))?;
     Some(upvalue)
 }
 
@@ -92,13 +95,17 @@ fn target(place: usize, instruction: u32) -> Option<usize> {
 fn aimed(instruction: u32, place: usize, target: usize) -> Option<u32> {
     let (next, target) = (place as i64 + 1, target as i64);
     let in_17 = |distance: i64| {
-        let distance = (0..=MAX_17).contains(&distance).then_some(distance as u32)?;
+        let distance = (0..=MAX_17)
+            .contains(&distance)
+            .then_some(distance as u32)?;
         Some(instruction & 0x7fff | distance << 15)
     };
     match code(instruction) {
         op::JMP => {
             let distance = target - next + ZERO_25;
-            (0..=MAX_25).contains(&distance).then_some(instruction & 0x7f | (distance as u32) << 7)
+            (0..=MAX_25)
+                .contains(&distance)
+                .then_some(instruction & 0x7f | (distance as u32) << 7)
         }
         op::FORLOOP | op::TFORLOOP => in_17(next - target),
         op::FORPREP => in_17(target - next - 1),
@@ -120,8 +127,13 @@ impl Probes {
         let lines = places(function, counted);
         let scratch = function.registers;
         let distinct: BTreeSet<u32> = lines.iter().flatten().copied().collect();
-        let instructions = distinct.into_iter().map(|line| Some((line, probe(function, scratch, upvalue, line)?)));
-        Some(Self { lines, instructions: instructions.collect::<Option<_>>()? })
+        let instructions = distinct
+            .into_iter()
+            .map(|line| Some((line, probe(function, scratch, upvalue, line)?)));
+        Some(Self {
+            lines,
+            instructions: instructions.collect::<Option<_>>()?,
+        })
     }
 
     fn insert(&self, function: &mut Prototype<'_>) -> Option<()> {
@@ -137,7 +149,9 @@ impl Probes {
         starts.push(end);
         let (mut instructions, mut lines) = (Vec::with_capacity(end), Vec::with_capacity(end));
         for (i, &instruction) in function.code.iter().enumerate() {
-            self.lines[i].iter().for_each(|line| instructions.extend(&self.instructions[line]));
+            self.lines[i]
+                .iter()
+                .for_each(|line| instructions.extend(&self.instructions[line]));
             let moved = match target(i, instruction) {
                 Some(target) => aimed(instruction, places[i], *starts.get(target)?)?,
                 None => instruction,
@@ -169,7 +183,9 @@ fn places(function: &Prototype<'_>, counted: &BTreeSet<u32>) -> Vec<Vec<u32>> {
         }
         // No probe can be inserted between these two instructions.
         if let (op::TFORPREP, Some(call)) = (code(code_of[i]), target(i, code_of[i]))
-            && line_of.get(call).is_some_and(|line| *line != line_of[i] && counted.contains(line))
+            && line_of
+                .get(call)
+                .is_some_and(|line| *line != line_of[i] && counted.contains(line))
         {
             places[i].push(line_of[call]);
         }
@@ -181,7 +197,10 @@ fn entered_from_other_lines(function: &Prototype<'_>) -> Vec<bool> {
     let mut entered = vec![false; function.code.len()];
     for (i, &instruction) in function.code.iter().enumerate() {
         if let Some(target) = target(i, instruction)
-            && function.lines.get(target).is_some_and(|line| *line != function.lines[i])
+            && function
+                .lines
+                .get(target)
+                .is_some_and(|line| *line != function.lines[i])
         {
             entered[target] = true;
         }
@@ -201,8 +220,13 @@ fn is_recorded_before(function: &Prototype<'_>, i: usize) -> bool {
 /// Whether a probe can be inserted before an instruction: not if the previous instruction requires it to be next, or leaves a variable
 /// number of values for it.
 fn accepts_probe_before(function: &Prototype<'_>, i: usize) -> bool {
-    let belongs = matches!(code(function.code[i]), op::MMBIN..=op::MMBINK | op::EXTRAARG | op::TFORCALL | op::TFORLOOP);
-    let Some(before) = i.checked_sub(1).map(|before| function.code[before]) else { return !belongs };
+    let belongs = matches!(
+        code(function.code[i]),
+        op::MMBIN..=op::MMBINK | op::EXTRAARG | op::TFORCALL | op::TFORLOOP
+    );
+    let Some(before) = i.checked_sub(1).map(|before| function.code[before]) else {
+        return !belongs;
+    };
     let has_next = match code(before) {
         op::LFALSESKIP | op::EQ..=op::TESTSET | op::TAILCALL => true,
         op::CALL | op::VARARG => c(before) == 0,
@@ -215,8 +239,13 @@ fn accepts_probe_before(function: &Prototype<'_>, i: usize) -> bool {
 fn probe(function: &mut Prototype<'_>, scratch: u8, upvalue: u8, line: u32) -> Option<Vec<u32>> {
     let upvalue = u32::from(upvalue);
     if function.constant_count() < MAX_8 {
-        let (key, truth) = (function.constant_text(&line.to_string()), function.constant_true());
-        return Some(vec![op::SETTABUP | upvalue << 7 | 1 << 15 | (key as u32) << 16 | (truth as u32) << 24]);
+        let (key, truth) = (
+            function.constant_text(&line.to_string()),
+            function.constant_true(),
+        );
+        return Some(vec![
+            op::SETTABUP | upvalue << 7 | 1 << 15 | (key as u32) << 16 | (truth as u32) << 24,
+        ]);
     }
     function.registers = scratch.checked_add(2)?;
     let (table, number) = (u32::from(scratch), u32::from(scratch) + 1);

@@ -38,13 +38,21 @@ pub(super) fn passed_functions(bytecode: &[u8], callees: &[&str]) -> Vec<PassedF
     found
 }
 
-fn collect(function: &Prototype<'_>, start: usize, callees: &[&str], found: &mut Vec<PassedFunction>) {
+fn collect(
+    function: &Prototype<'_>,
+    start: usize,
+    callees: &[&str],
+    found: &mut Vec<PassedFunction>,
+) {
     let is_passed = passed(function, callees);
     for (inner, is_passed) in function.inner.iter().zip(is_passed) {
         if is_passed {
             let begin = inner.raw.as_ptr().addr() - start;
             let lines = (inner.line, inner.last_line);
-            found.push(PassedFunction { lines, place: begin..begin + inner.raw.len() });
+            found.push(PassedFunction {
+                lines,
+                place: begin..begin + inner.raw.len(),
+            });
         } else {
             collect(inner, start, callees, found);
         }
@@ -72,8 +80,13 @@ fn passed(function: &Prototype<'_>, callees: &[&str]) -> Vec<bool> {
 
 /// Whether a register has got one of these globals by an instruction before `place`.
 fn is_global(function: &Prototype<'_>, place: usize, register: u32, names: &[&str]) -> bool {
-    let mut before = function.code[..place].iter().rev().map(|&instruction| Instruction(instruction));
-    let Some(get) = before.find(|instruction| instruction.a() == register) else { return false };
+    let mut before = function.code[..place]
+        .iter()
+        .rev()
+        .map(|&instruction| Instruction(instruction));
+    let Some(get) = before.find(|instruction| instruction.a() == register) else {
+        return false;
+    };
     let constant = function.constants.get(get.c() as usize);
     get.code() == op::GETTABUP
         && function.upvalue_name(get.b() as usize) == Some(b"_ENV")
@@ -81,7 +94,10 @@ fn is_global(function: &Prototype<'_>, place: usize, register: u32, names: &[&st
 }
 
 /// The bytecode with stubs in place of these functions, which are in its order.
-pub(super) fn with_stubs<'a>(bytecode: &[u8], functions: impl Iterator<Item = &'a PassedFunction>) -> Vec<u8> {
+pub(super) fn with_stubs<'a>(
+    bytecode: &[u8],
+    functions: impl Iterator<Item = &'a PassedFunction>,
+) -> Vec<u8> {
     let mut out = Vec::with_capacity(bytecode.len());
     let mut end = 0;
     for function in functions {
@@ -103,8 +119,17 @@ fn write_stub(out: &mut Vec<u8>, (line, last_line): (usize, usize)) {
     out.extend([parameters, is_vararg, registers]);
     write_size(out, 1);
     out.extend((op::RETURN0 | 1 << 16).to_ne_bytes());
-    let (constants, upvalues, inner, lines, absolute_lines, locals, upvalue_names) = (0, 0, 0, 0, 0, 0, 0);
-    for count in [constants, upvalues, inner, lines, absolute_lines, locals, upvalue_names] {
+    let (constants, upvalues, inner, lines, absolute_lines, locals, upvalue_names) =
+        (0, 0, 0, 0, 0, 0, 0);
+    for count in [
+        constants,
+        upvalues,
+        inner,
+        lines,
+        absolute_lines,
+        locals,
+        upvalue_names,
+    ] {
         write_size(out, count);
     }
 }
@@ -142,14 +167,27 @@ mod tests {
     /// The lines of the functions that can be replaced.
     fn lines(text: &str) -> Vec<(usize, usize)> {
         let bytecode = Bytecode::compile(text.as_bytes(), "=text").expect("it compiles");
-        bytecode.passed_functions(&["it"]).into_iter().map(|function| function.lines).collect()
+        bytecode
+            .passed_functions(&["it"])
+            .into_iter()
+            .map(|function| function.lines)
+            .collect()
     }
 
     #[test]
     fn functions_are_found_where_nothing_else_refers_to_them() {
-        assert_eq!(lines("it('a', function()\nend)\nit('b' .. 1, function() x() end)"), [(1, 2), (3, 3)]);
-        assert_eq!(lines("describe('g', function()\n it('a', function() end) end)"), [(2, 2)]);
-        assert_eq!(lines("it('a', function() it('b', function() end) end)").len(), 1);
+        assert_eq!(
+            lines("it('a', function()\nend)\nit('b' .. 1, function() x() end)"),
+            [(1, 2), (3, 3)]
+        );
+        assert_eq!(
+            lines("describe('g', function()\n it('a', function() end) end)"),
+            [(2, 2)]
+        );
+        assert_eq!(
+            lines("it('a', function() it('b', function() end) end)").len(),
+            1
+        );
     }
 
     #[test]
@@ -178,7 +216,9 @@ mod tests {
         with_state(|state| {
             let stack = state.stack();
             let define = "function it(name, body) _G[name] = {debug.getinfo(body, 'S').linedefined, body()} end";
-            stack.load_text(define.as_bytes(), "=define").expect("it compiles");
+            stack
+                .load_text(define.as_bytes(), "=define")
+                .expect("it compiles");
             stack.protected_call(0, 0).expect("runs");
             stack.load_bytecode(&reduced, "=text").expect("it loads");
             stack.protected_call(0, 1).expect("runs");
@@ -187,6 +227,9 @@ mod tests {
             assert_eq!(results.get::<Vec<i64>>("a").expect("a list"), [2]);
             assert_eq!(results.get::<Vec<i64>>("b").expect("a list"), [3, 8]);
         });
-        assert_eq!(bytecode.with_stubs(passed.iter().filter(|_| false)), bytecode);
+        assert_eq!(
+            bytecode.with_stubs(passed.iter().filter(|_| false)),
+            bytecode
+        );
     }
 }

@@ -47,8 +47,17 @@ impl Original {
 }
 
 /// Pushes a function. It finds the number, if it has one, with [`Stack::number_of_function`].
-pub(in crate::lua) fn push_function<F: Function>(stack: Stack<'_>, number: Option<i64>, _function: F) {
-    const { assert!(size_of::<F>() == 0, "Lua stores the type of a function, and no values") };
+pub(in crate::lua) fn push_function<F: Function>(
+    stack: Stack<'_>,
+    number: Option<i64>,
+    _function: F,
+) {
+    const {
+        assert!(
+            size_of::<F>() == 0,
+            "Lua stores the type of a function, and no values"
+        )
+    };
     let _room = stack.room();
     if let Some(number) = number {
         stack.push_int(number);
@@ -97,7 +106,11 @@ unsafe fn call_lowest(raw: *mut ffi::lua_State) -> c_int {
 }
 
 /// Where [`call_lowest`] goes on after what it called has yielded: all that is on the stack are results.
-unsafe extern "C-unwind" fn after_yield(raw: *mut ffi::lua_State, _: c_int, _: ffi::lua_KContext) -> c_int {
+unsafe extern "C-unwind" fn after_yield(
+    raw: *mut ffi::lua_State,
+    _: c_int,
+    _: ffi::lua_KContext,
+) -> c_int {
     // SAFETY: Lua calls with a living coroutine.
     unsafe { ffi::lua_gettop(raw) }
 }

@@ -76,20 +76,26 @@ impl<F: Fn(Stack<'_>) -> Next + Copy + 'static> Guard for F {}
 static ORIGINALS: [OnceLock<Original>; guarded::COUNT] = [const { OnceLock::new() }; _];
 
 /// Puts a guard in front of the function `name` of the table on top.
-pub(in crate::lua) fn install<const FUNCTION: usize, F: Guard>(stack: Stack<'_>, name: &str, guard: F) {
+pub(in crate::lua) fn install<const FUNCTION: usize, F: Guard>(
+    stack: Stack<'_>,
+    name: &str,
+    guard: F,
+) {
     stack.raw_get_field(-1, name);
     let original = Original::at(stack, -1);
     stack.pop(1);
     if let Some(original) = original {
         ORIGINALS[FUNCTION].get_or_init(|| original);
     }
-    push_function(stack, None, move |stack| match (guard(stack), ORIGINALS[FUNCTION].get()) {
-        (Next::Return(results), _) => Exit::Results(results),
-        (Next::Refuse(reason), _) => Exit::Refuse(reason),
-        (Next::Raise, _) => Exit::Raise,
-        (Next::Original, Some(&original)) => Exit::Original(original, None),
-        (Next::OriginalThen(then), Some(&original)) => Exit::Original(original, Some(then)),
-        (_, None) => Exit::Results(0),
+    push_function(stack, None, move |stack| {
+        match (guard(stack), ORIGINALS[FUNCTION].get()) {
+            (Next::Return(results), _) => Exit::Results(results),
+            (Next::Refuse(reason), _) => Exit::Refuse(reason),
+            (Next::Raise, _) => Exit::Raise,
+            (Next::Original, Some(&original)) => Exit::Original(original, None),
+            (Next::OriginalThen(then), Some(&original)) => Exit::Original(original, Some(then)),
+            (_, None) => Exit::Results(0),
+        }
     });
     stack.raw_set_field(-2, name);
 }

@@ -27,7 +27,9 @@ pub(crate) struct LuaError {
 
 impl From<Error> for LuaError {
     fn from(error: Error) -> Self {
-        Self { text: error.to_string() }
+        Self {
+            text: error.to_string(),
+        }
     }
 }
 
@@ -35,7 +37,10 @@ impl Stack<'_> {
     /// Calls the function below its `arguments` on the stack, replacing them by `results` values.
     pub(crate) fn protected_call(self, arguments: c_int, results: c_int) -> Result<(), LuaError> {
         let handler = self.top() - arguments;
-        assert!(arguments >= 0 && handler > 0, "only what is there can be called");
+        assert!(
+            arguments >= 0 && handler > 0,
+            "only what is there can be called"
+        );
         self.push_message_handler();
         self.insert(handler);
         let outcome = self.call_above(handler, arguments, results);
@@ -50,10 +55,21 @@ impl Stack<'_> {
     }
 
     /// Like [`protected_call`](Self::protected_call), with a message handler that is on the stack already, anywhere below the function.
-    pub(crate) fn call_above(self, handler: c_int, arguments: c_int, results: c_int) -> Result<(), LuaError> {
+    pub(crate) fn call_above(
+        self,
+        handler: c_int,
+        arguments: c_int,
+        results: c_int,
+    ) -> Result<(), LuaError> {
         let function = self.top() - arguments;
-        assert!(arguments >= 0 && 0 < handler && handler < function, "only what is there can be called");
-        assert!(results <= 0 || api::lua_checkstack(self, results) != 0, "stack overflow");
+        assert!(
+            arguments >= 0 && 0 < handler && handler < function,
+            "only what is there can be called"
+        );
+        assert!(
+            results <= 0 || api::lua_checkstack(self, results) != 0,
+            "stack overflow"
+        );
         let budget = self.budget();
         let before = budget.enter(false);
         let running = Running::begin(self);
@@ -61,11 +77,18 @@ impl Stack<'_> {
         let status = unsafe { ffi::lua_pcall(self.raw(), arguments, results, handler) };
         drop(running);
         budget.leave(before);
-        if status == ffi::LUA_OK { Ok(()) } else { Err(self.pop_error()) }
+        if status == ffi::LUA_OK {
+            Ok(())
+        } else {
+            Err(self.pop_error())
+        }
     }
 
     pub(super) fn pop_error(self) -> LuaError {
-        let text = self.text(-1).map_or_else(|| "(error unknown)".into(), |t| String::from_utf8_lossy(&t).into_owned());
+        let text = self.text(-1).map_or_else(
+            || "(error unknown)".into(),
+            |t| String::from_utf8_lossy(&t).into_owned(),
+        );
         self.pop(1);
         LuaError { text }
     }
@@ -74,12 +97,16 @@ impl Stack<'_> {
     /// names; -1 when that is not a Lua function.
     pub(crate) fn line_of_caller(self, is_library: impl Fn(&str) -> bool) -> c_int {
         let in_library = |frame: &Frame<'_>| frame.source().to_str().is_ok_and(&is_library);
-        let Some(caller) = self.frame(1, Facts::LINE_AND_SOURCE) else { return -1 };
+        let Some(caller) = self.frame(1, Facts::LINE_AND_SOURCE) else {
+            return -1;
+        };
         if !in_library(&caller) {
             return caller.line();
         }
         let frames = (2..).map_while(|level| self.frame(level, Facts::LINE_AND_SOURCE));
-        let script = frames.into_iter().find(|frame| !frame.is_native() && !in_library(frame));
+        let script = frames
+            .into_iter()
+            .find(|frame| !frame.is_native() && !in_library(frame));
         script.unwrap_or(caller).line()
     }
 
@@ -89,7 +116,10 @@ impl Stack<'_> {
         let place = self.place_of_call();
         match (position, is_method) {
             (1, true) => format!("{place}calling '{name}' on bad self ({reason})"),
-            (_, true) => format!("{place}bad argument #{} to '{name}' ({reason})", position - 1),
+            (_, true) => format!(
+                "{place}bad argument #{} to '{name}' ({reason})",
+                position - 1
+            ),
             (_, false) => format!("{place}bad argument #{position} to '{name}' ({reason})"),
         }
     }
@@ -97,7 +127,12 @@ impl Stack<'_> {
     /// The name the running function was called by, and whether as a method.
     fn called_as(self) -> (String, bool) {
         let frame = self.frame(0, Facts::NAME);
-        let called = frame.and_then(|frame| Some((frame.name()?.to_string_lossy().into_owned(), frame.is_method())));
+        let called = frame.and_then(|frame| {
+            Some((
+                frame.name()?.to_string_lossy().into_owned(),
+                frame.is_method(),
+            ))
+        });
         called.unwrap_or_else(|| ("?".into(), false))
     }
 
@@ -139,7 +174,12 @@ fn message_handler(stack: Stack<'_>) -> Exit {
     seal_top(stack);
     if let Some(mut message) = stack.text(-1) {
         // Up to the first NUL, as in Lua.
-        message.truncate(message.iter().position(|&byte| byte == 0).unwrap_or(message.len()));
+        message.truncate(
+            message
+                .iter()
+                .position(|&byte| byte == 0)
+                .unwrap_or(message.len()),
+        );
         message.push(b'\n');
         message.extend(stack.traceback_from(1).into_bytes());
         stack.push_bytes(&message);

@@ -37,7 +37,12 @@ fn watch(stack: Stack<'_>) {
     let coroutine = coroutine(stack);
     let mask = api::lua_gethookmask(coroutine);
     match api::lua_gethook(coroutine) {
-        None => api::lua_sethook(coroutine, Some(Hook::COUNT), ffi::LUA_MASKCOUNT, HOOK_INTERVAL),
+        None => api::lua_sethook(
+            coroutine,
+            Some(Hook::COUNT),
+            ffi::LUA_MASKCOUNT,
+            HOOK_INTERVAL,
+        ),
         Some(own) if [Hook::COUNT, Hook::BESIDE, Hook::BESIDE_COUNTING].contains(&own) => {}
         Some(of_library) => {
             OF_LIBRARY.get_or_init(|| of_library);
@@ -54,17 +59,27 @@ fn watch(stack: Stack<'_>) {
 /// Puts the hook of the library back.
 fn unwatch(stack: Stack<'_>) {
     let coroutine = coroutine(stack);
-    let (mask, interval) = (api::lua_gethookmask(coroutine), api::lua_gethookcount(coroutine));
+    let (mask, interval) = (
+        api::lua_gethookmask(coroutine),
+        api::lua_gethookcount(coroutine),
+    );
     let of_library = OF_LIBRARY.get().copied();
     match api::lua_gethook(coroutine) {
-        Some(own) if own == Hook::BESIDE_COUNTING => api::lua_sethook(coroutine, of_library, mask, interval),
-        Some(own) if own == Hook::BESIDE => api::lua_sethook(coroutine, of_library, mask & !ffi::LUA_MASKCOUNT, 0),
+        Some(own) if own == Hook::BESIDE_COUNTING => {
+            api::lua_sethook(coroutine, of_library, mask, interval)
+        }
+        Some(own) if own == Hook::BESIDE => {
+            api::lua_sethook(coroutine, of_library, mask & !ffi::LUA_MASKCOUNT, 0)
+        }
         _ => {}
     }
 }
 
 /// Beside a hook that counts nothing.
-pub(in crate::lua) unsafe extern "C-unwind" fn beside_hook(raw: *mut ffi::lua_State, record: *mut ffi::lua_Debug) {
+pub(in crate::lua) unsafe extern "C-unwind" fn beside_hook(
+    raw: *mut ffi::lua_State,
+    record: *mut ffi::lua_Debug,
+) {
     // SAFETY: Lua's call is passed on. Nothing is owned here.
     unsafe {
         if (*record).event == ffi::LUA_HOOKCOUNT {

@@ -27,7 +27,9 @@ static ON_COUNT: std::sync::OnceLock<OnCount> = std::sync::OnceLock::new();
 pub(crate) fn install_coroutine_hooks(stack: Stack<'_>, on_count: OnCount) {
     ON_COUNT.get_or_init(|| on_count);
     stack.push_global("coroutine");
-    install::<{ guarded::COROUTINE_CREATE }, _>(stack, "create", |_| Next::OriginalThen(hook_created));
+    install::<{ guarded::COROUTINE_CREATE }, _>(stack, "create", |_| {
+        Next::OriginalThen(hook_created)
+    });
     install::<{ guarded::COROUTINE_WRAP }, _>(stack, "wrap", |_| Next::OriginalThen(hook_wrapped));
     stack.pop(1);
     if stack.owner().is_interruptible() {
@@ -51,13 +53,27 @@ fn hook_wrapped(stack: Stack<'_>) {
 
 /// Switches the count hook of the running coroutine on or off. That of the main coroutine and of a watched state does not change.
 pub(crate) fn set_count_hook(stack: Stack<'_>, on: bool) {
-    set_interval(stack, if on || stack.owner().is_interruptible() { HOOK_INTERVAL } else { 0 });
+    set_interval(
+        stack,
+        if on || stack.owner().is_interruptible() {
+            HOOK_INTERVAL
+        } else {
+            0
+        },
+    );
 }
 
 /// Puts the count hook of the running coroutine back after an interruption: as of a new coroutine, where it may be a hook for nothing.
 pub(super) fn restore_count_hook(stack: Stack<'_>) {
     let is_main = api::lua_pushthread(stack.room()) != 0;
-    set_hook(stack, if is_main && !stack.owner().is_interruptible() { 0 } else { HOOK_INTERVAL });
+    set_hook(
+        stack,
+        if is_main && !stack.owner().is_interruptible() {
+            0
+        } else {
+            HOOK_INTERVAL
+        },
+    );
     stack.pop(1);
 }
 
@@ -78,7 +94,12 @@ fn set_interval(stack: Stack<'_>, interval: c_int) {
 fn set_hook(stack: Stack<'_>, interval: c_int) {
     let mask = if interval > 0 { ffi::LUA_MASKCOUNT } else { 0 };
     if let Some(coroutine) = stack.coroutine(stack.slot(-1)) {
-        api::lua_sethook(coroutine, (mask != 0).then_some(Hook::COUNT), mask, interval);
+        api::lua_sethook(
+            coroutine,
+            (mask != 0).then_some(Hook::COUNT),
+            mask,
+            interval,
+        );
     }
 }
 
@@ -94,7 +115,10 @@ pub(crate) enum HookAction {
 }
 
 /// The hook: yields without values, or raises an error, as the host decides.
-pub(in crate::lua) unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
+pub(in crate::lua) unsafe extern "C-unwind" fn hook(
+    raw: *mut ffi::lua_State,
+    _: *mut ffi::lua_Debug,
+) {
     // SAFETY: Lua calls the hook of a running coroutine. Yields and errors leave it by `longjmp`; nothing is owned here.
     unsafe {
         match next_step(Stack::from_raw(raw)) {
@@ -115,7 +139,9 @@ pub(super) enum Step {
 }
 
 pub(super) fn next_step(stack: Stack<'_>) -> Step {
-    let Some(on_count) = ON_COUNT.get() else { return Step::Continue };
+    let Some(on_count) = ON_COUNT.get() else {
+        return Step::Continue;
+    };
     let budget = stack.budget();
     let before = budget.enter(true);
     let step = step(stack, || {
@@ -161,7 +187,11 @@ mod tests {
             assert_eq!(step(state.stack(), || HookAction::Continue), Step::Continue);
             assert_eq!(step(state.stack(), || panic!("out of order")), Step::Raise);
             let text = String::from_utf8(state.stack().text(-1).unwrap_or_default());
-            assert!(text.as_ref().is_ok_and(|text| text.ends_with("out of order")), "{text:?}");
+            assert!(
+                text.as_ref()
+                    .is_ok_and(|text| text.ends_with("out of order")),
+                "{text:?}"
+            );
         });
     }
 }

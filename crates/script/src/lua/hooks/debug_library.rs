@@ -51,7 +51,11 @@ fn get_registry(stack: Stack<'_>) -> Outcome {
 }
 
 fn access_upvalue(stack: Stack<'_>) -> Next {
-    if api::lua_iscfunction(stack, stack.slot(1)) != 0 { Next::Return(0) } else { Next::Original }
+    if api::lua_iscfunction(stack, stack.slot(1)) != 0 {
+        Next::Return(0)
+    } else {
+        Next::Original
+    }
 }
 
 fn get_metatable(stack: Stack<'_>) -> Next {
@@ -65,17 +69,27 @@ fn get_metatable(stack: Stack<'_>) -> Next {
 }
 
 fn set_metatable(stack: Stack<'_>) -> Next {
-    if stack.kind(1) == Type::UserData { Next::Refuse(c"userdata keep their metatables") } else { Next::Original }
+    if stack.kind(1) == Type::UserData {
+        Next::Refuse(c"userdata keep their metatables")
+    } else {
+        Next::Original
+    }
 }
 
 fn get_local(stack: Stack<'_>) -> Next {
     let looks = &stack.owner().looks_at_locals;
     looks.set(looks.get() + 1);
-    nil_if(stack, Local::from_arguments(stack).is_some_and(|local| local.is_native))
+    nil_if(
+        stack,
+        Local::from_arguments(stack).is_some_and(|local| local.is_native),
+    )
 }
 
 fn set_local(stack: Stack<'_>) -> Next {
-    nil_if(stack, Local::from_arguments(stack).is_some_and(|local| local.is_native || local.is_temporary))
+    nil_if(
+        stack,
+        Local::from_arguments(stack).is_some_and(|local| local.is_native || local.is_temporary),
+    )
 }
 
 fn nil_if(stack: Stack<'_>, refused: bool) -> Next {
@@ -100,11 +114,18 @@ impl Local {
         let first = if stack.kind(1) == Type::Thread { 2 } else { 1 };
         let level = argument(stack, first)?;
         let number = argument(stack, first + 1)?;
-        let coroutine = if first == 2 { stack.coroutine(Slot::FIRST)? } else { stack };
+        let coroutine = if first == 2 {
+            stack.coroutine(Slot::FIRST)?
+        } else {
+            stack
+        };
         let frame = coroutine.frame(level, Facts::SOURCE)?;
         let name = coroutine.reserve(1).then(|| frame.local_name(number))?;
         let is_temporary = number > 0 && name.is_some_and(|name| name.to_bytes().starts_with(b"("));
-        Some(Self { is_native: frame.is_native(), is_temporary })
+        Some(Self {
+            is_native: frame.is_native(),
+            is_temporary,
+        })
     }
 }
 

@@ -71,7 +71,10 @@ pub fn calls_begun() -> u64 {
 /// Where code was when it was last interrupted: the function written in C that it waits for, chunks and lines.
 pub fn place_of_interruption() -> Option<String> {
     let length = PLACE_LENGTH.load(Ordering::Acquire);
-    let bytes: Vec<u8> = PLACE[..length].iter().map(|byte| byte.load(Ordering::Relaxed)).collect();
+    let bytes: Vec<u8> = PLACE[..length]
+        .iter()
+        .map(|byte| byte.load(Ordering::Relaxed))
+        .collect();
     (length > 0).then(|| String::from_utf8_lossy(&bytes).into_owned())
 }
 
@@ -113,7 +116,9 @@ fn resumed_by(coroutine: Stack<'_>) -> Option<Stack<'_>> {
     if !coroutine.frame(0, Facts::SOURCE)?.is_native() {
         return None;
     }
-    let candidates = [Slot::FIRST, Slot::NUMBER].into_iter().filter_map(|slot| coroutine.coroutine(slot));
+    let candidates = [Slot::FIRST, Slot::NUMBER]
+        .into_iter()
+        .filter_map(|slot| coroutine.coroutine(slot));
     candidates.into_iter().find(|candidate| {
         candidate.raw() != coroutine.raw()
             && api::lua_status(*candidate) == ffi::LUA_OK
@@ -126,7 +131,12 @@ fn note_place(coroutine: Stack<'_>) {
     let mut place = Place { length: 0 };
     let mut lines = 0;
     for level in 0..MAX_LEVELS {
-        let Some(frame) = coroutine.frame(level, Facts::ALL).filter(|_| lines < MAX_LINES) else { break };
+        let Some(frame) = coroutine
+            .frame(level, Facts::ALL)
+            .filter(|_| lines < MAX_LINES)
+        else {
+            break;
+        };
         if frame.line() > 0 {
             place.push(if lines > 0 { b", called from " } else { b"" });
             place.push(frame.chunk().to_bytes());

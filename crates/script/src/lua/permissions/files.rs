@@ -26,7 +26,9 @@ pub(super) fn install(stack: Stack<'_>) {
 }
 
 fn open(stack: Stack<'_>) -> Next {
-    let Some(path) = path(stack, 1) else { return Next::Original };
+    let Some(path) = path(stack, 1) else {
+        return Next::Original;
+    };
     let mode = c_text(stack, 2).unwrap_or_else(|| b"r".to_vec());
     unless_denied(stack, check_mode(permissions(stack), &path, &mode))
 }
@@ -37,21 +39,32 @@ fn check_mode(permissions: &Permissions, path: &Path, mode: &[u8]) -> Result<(),
     if is_both || mode.starts_with(b"r") {
         permissions.check_read(path)?;
     }
-    if is_both || !mode.starts_with(b"r") { permissions.check_write(path) } else { Ok(()) }
+    if is_both || !mode.starts_with(b"r") {
+        permissions.check_write(path)
+    } else {
+        Ok(())
+    }
 }
 
 /// `io.lines` and `io.input`: of a file by name, if there is a name.
 fn read_named(stack: Stack<'_>) -> Next {
-    path(stack, 1).map_or(Next::Original, |path| or_raise(stack, permissions(stack).check_read(&path)))
+    path(stack, 1).map_or(Next::Original, |path| {
+        or_raise(stack, permissions(stack).check_read(&path))
+    })
 }
 
 fn write_named(stack: Stack<'_>) -> Next {
-    path(stack, 1).map_or(Next::Original, |path| or_raise(stack, permissions(stack).check_write(&path)))
+    path(stack, 1).map_or(Next::Original, |path| {
+        or_raise(stack, permissions(stack).check_write(&path))
+    })
 }
 
 fn run(stack: Stack<'_>) -> Next {
     let command = c_text(stack, 1).unwrap_or_default();
-    or_raise(stack, permissions(stack).check_run(&String::from_utf8_lossy(&command)))
+    or_raise(
+        stack,
+        permissions(stack).check_run(&String::from_utf8_lossy(&command)),
+    )
 }
 
 /// Without a command it returns whether there is a shell.
@@ -68,11 +81,15 @@ fn environment(stack: Stack<'_>) -> Next {
 }
 
 fn remove(stack: Stack<'_>) -> Next {
-    path(stack, 1).map_or(Next::Original, |path| unless_denied(stack, permissions(stack).check_write_entry(&path)))
+    path(stack, 1).map_or(Next::Original, |path| {
+        unless_denied(stack, permissions(stack).check_write_entry(&path))
+    })
 }
 
 fn rename(stack: Stack<'_>) -> Next {
-    let (Some(old), Some(new)) = (path(stack, 1), path(stack, 2)) else { return Next::Original };
+    let (Some(old), Some(new)) = (path(stack, 1), path(stack, 2)) else {
+        return Next::Original;
+    };
     unless_denied(stack, permissions(stack).check_rename(&old, &new))
 }
 
@@ -87,5 +104,9 @@ fn temporary_name(stack: Stack<'_>) -> Next {
 
 /// The folder of Lua's temporary files.
 fn temporary() -> PathBuf {
-    if cfg!(unix) { "/tmp/lua_XXXXXX".into() } else { std::env::temp_dir().join("lua_XXXXXX") }
+    if cfg!(unix) {
+        "/tmp/lua_XXXXXX".into()
+    } else {
+        std::env::temp_dir().join("lua_XXXXXX")
+    }
 }

@@ -36,7 +36,9 @@ fn load_file(stack: Stack<'_>) -> Next {
 
 /// Lua's function is to see the mode for text, in that argument.
 fn set_text_mode(stack: Stack<'_>, mode: c_int) -> Next {
-    let Err(denied) = permissions(stack).check_native("bytecode") else { return Next::Original };
+    let Err(denied) = permissions(stack).check_native("bytecode") else {
+        return Next::Original;
+    };
     while stack.top() < mode {
         stack.push_nil();
     }
@@ -58,19 +60,31 @@ fn set_text_mode(stack: Stack<'_>, mode: c_int) -> Next {
 }
 
 fn load_library(stack: Stack<'_>) -> Next {
-    or_raise(stack, permissions(stack).check_native("loading native libraries"))
+    or_raise(
+        stack,
+        permissions(stack).check_native("loading native libraries"),
+    )
 }
 
 /// `package.searchpath(name, path, separator, replacement)`: the first file that is there, of those that may be read.
 fn search_path(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    let needed = |index| c_text(stack, index).ok_or_else(|| stack.argument_error(index, "string expected"));
-    let optional = |index, default: &[u8]| match stack.top() < index || stack.kind(index) == Type::Nil {
-        true => Ok(default.to_vec()),
-        false => needed(index),
-    };
+    let needed =
+        |index| c_text(stack, index).ok_or_else(|| stack.argument_error(index, "string expected"));
+    let optional =
+        |index, default: &[u8]| match stack.top() < index || stack.kind(index) == Type::Nil {
+            true => Ok(default.to_vec()),
+            false => needed(index),
+        };
     let (name, templates) = (needed(1)?, needed(2)?);
-    let (separator, replacement) = (optional(3, b".")?, optional(4, std::path::MAIN_SEPARATOR_STR.as_bytes())?);
-    let name = if separator.is_empty() { name } else { replaced(&name, &separator, &replacement) };
+    let (separator, replacement) = (
+        optional(3, b".")?,
+        optional(4, std::path::MAIN_SEPARATOR_STR.as_bytes())?,
+    );
+    let name = if separator.is_empty() {
+        name
+    } else {
+        replaced(&name, &separator, &replacement)
+    };
     let mut missing = Vec::new();
     for template in templates.split(|&byte| byte == b';') {
         let file = replaced(template, b"?", &name);
@@ -81,7 +95,15 @@ fn search_path(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
             return Ok(1);
         }
         let reason = checked.err().map(|_| " that may be read");
-        missing.push([b"no file '".as_slice(), &file, b"'", reason.unwrap_or_default().as_bytes()].concat());
+        missing.push(
+            [
+                b"no file '".as_slice(),
+                &file,
+                b"'",
+                reason.unwrap_or_default().as_bytes(),
+            ]
+            .concat(),
+        );
     }
     stack.push_nil();
     stack.push_bytes(&missing.join(b"\n\t".as_slice()));

@@ -25,7 +25,9 @@ fn permissions(stack: Stack<'_>) -> &Permissions {
 
 /// Continues where it is allowed; else returns nil, the reason and the system's number for it.
 fn unless_denied(stack: Stack<'_>, checked: Result<(), Denied>) -> Next {
-    let Err(denied) = checked else { return Next::Original };
+    let Err(denied) = checked else {
+        return Next::Original;
+    };
     stack.push_nil();
     stack.push_bytes(denied.to_string().as_bytes());
     stack.push_int(Denied::ERRNO.into());
@@ -34,7 +36,9 @@ fn unless_denied(stack: Stack<'_>, checked: Result<(), Denied>) -> Next {
 
 /// Continues where it is allowed, else raises an error of the caller's line.
 fn or_raise(stack: Stack<'_>, checked: Result<(), Denied>) -> Next {
-    let Err(denied) = checked else { return Next::Original };
+    let Err(denied) = checked else {
+        return Next::Original;
+    };
     stack.push_bytes(format!("{}{denied}", stack.place_of_call()).as_bytes());
     Next::Raise
 }
@@ -45,7 +49,10 @@ fn c_text(stack: Stack<'_>, index: c_int) -> Option<Vec<u8>> {
         return None;
     }
     let mut text = stack.text(index)?;
-    let end = text.iter().position(|&byte| byte == 0).unwrap_or(text.len());
+    let end = text
+        .iter()
+        .position(|&byte| byte == 0)
+        .unwrap_or(text.len());
     text.truncate(end);
     Some(text)
 }

@@ -36,7 +36,10 @@ impl<'a> Stack<'a> {
             ffi::lua_getinfo(self.raw(), facts.0.as_ptr(), record.as_mut_ptr());
             record.assume_init()
         };
-        Some(Frame { stack: self, record })
+        Some(Frame {
+            stack: self,
+            record,
+        })
     }
 }
 
@@ -63,7 +66,8 @@ impl Frame<'_> {
 
     /// Its chunk, as errors name it.
     pub(in crate::lua) fn chunk(&self) -> &CStr {
-        self.text(self.record.short_src.as_ptr()).unwrap_or_default()
+        self.text(self.record.short_src.as_ptr())
+            .unwrap_or_default()
     }
 
     /// The name its chunk was loaded by.

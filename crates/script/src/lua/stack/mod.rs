@@ -61,7 +61,10 @@ impl<'a> Stack<'a> {
     /// # Safety
     /// `raw` must stay a coroutine of a living state for `'a`, used from this thread only.
     pub(super) unsafe fn from_raw(raw: *mut ffi::lua_State) -> Self {
-        Self { raw, _state: PhantomData }
+        Self {
+            raw,
+            _state: PhantomData,
+        }
     }
 
     pub(super) fn raw(self) -> *mut ffi::lua_State {
@@ -135,12 +138,18 @@ impl<'a> Stack<'a> {
         let start = api::lua_tolstring(self, self.slot(index), Some(&mut length));
         // SAFETY: the bytes of a string on the stack, which was not converted. They do not move, and are freed only by Lua: `read` cannot call
         // it, since it holds nothing that leads to a state (`Stack`, `Lua`, `Env` are not `Send`).
-        Some(read(unsafe { std::slice::from_raw_parts(start.cast(), length) }))
+        Some(read(unsafe {
+            std::slice::from_raw_parts(start.cast(), length)
+        }))
     }
 
     /// The string at `index`, which stays alive while it is looked at, wherever else it is.
     pub fn string(self, index: c_int) -> Option<SharedString> {
-        if self.kind(index) == Type::String { self.to_mlua(index).ok().map(SharedString) } else { None }
+        if self.kind(index) == Type::String {
+            self.to_mlua(index).ok().map(SharedString)
+        } else {
+            None
+        }
     }
 
     /// A copy of the bytes of the string at `index`.
@@ -201,7 +210,10 @@ impl<'a> Stack<'a> {
 
     /// Pushes a copy of the value at `index`.
     pub fn push_value(self, index: c_int) {
-        assert!(self.kind(index) != Type::None, "only what is there can be copied");
+        assert!(
+            self.kind(index) != Type::None,
+            "only what is there can be copied"
+        );
         let slot = self.slot(index);
         api::lua_pushvalue(self.room(), slot);
     }
@@ -219,7 +231,11 @@ impl<'a> Stack<'a> {
 
     /// The positive index of the same slot.
     pub fn absolute(self, index: c_int) -> c_int {
-        if index < 0 { self.top() + index + 1 } else { index }
+        if index < 0 {
+            self.top() + index + 1
+        } else {
+            index
+        }
     }
 
     pub(crate) fn same(self, a: c_int, b: c_int) -> bool {

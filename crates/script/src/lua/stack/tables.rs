@@ -115,7 +115,11 @@ impl Stack<'_> {
 
     /// Pushes the value that [`set_registry`](Self::set_registry) stored under `key`.
     pub(crate) fn push_registry(self, key: &'static CStr) -> Type {
-        Type::from_raw(api::lua_rawgetp(self.room(), Table::REGISTRY, key.as_ptr().cast()))
+        Type::from_raw(api::lua_rawgetp(
+            self.room(),
+            Table::REGISTRY,
+            key.as_ptr().cast(),
+        ))
     }
 
     /// Pops a value and stores it under the address of `key`.
@@ -152,7 +156,11 @@ impl Stack<'_> {
     }
 
     pub(crate) fn push_function(self, function: FunctionRef) -> Type {
-        Type::from_raw(api::lua_rawgeti(self.room(), Table::REGISTRY, i64::from(function.number())))
+        Type::from_raw(api::lua_rawgeti(
+            self.room(),
+            Table::REGISTRY,
+            i64::from(function.number()),
+        ))
     }
 
     pub(crate) fn release_function(self, function: FunctionRef) {

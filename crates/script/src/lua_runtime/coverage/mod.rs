@@ -66,7 +66,11 @@ fn count(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 pub(super) fn begin(stack: Stack<'_>, source: &SourceText<'_>, path: &str) {
     if let Some(coverage) = stack.lua().app_data_ref::<Coverage>() {
         let (chunk_name, text) = (source.chunk_name.into(), source.text.into());
-        coverage.own.replace(Some(Own { chunk_name, path: path.to_owned(), text }));
+        coverage.own.replace(Some(Own {
+            chunk_name,
+            path: path.to_owned(),
+            text,
+        }));
         coverage.count_function(stack);
     }
 }
@@ -74,10 +78,19 @@ pub(super) fn begin(stack: Stack<'_>, source: &SourceText<'_>, path: &str) {
 impl Coverage {
     /// Inserts probes into the function on top, which was just compiled, if its text is counted.
     fn count_function(&self, stack: Stack<'_>) {
-        let Some(chunk_name) = stack.chunk_name_of_function() else { return };
-        let Some(lines) = self.lines_of(&chunk_name) else { return };
+        let Some(chunk_name) = stack.chunk_name_of_function() else {
+            return;
+        };
+        let Some(lines) = self.lines_of(&chunk_name) else {
+            return;
+        };
         stack.push_value(-1);
-        let Some(instrumented) = stack.dump().and_then(|bytecode| bytecode.with_probes(&lines)) else { return };
+        let Some(instrumented) = stack
+            .dump()
+            .and_then(|bytecode| bytecode.with_probes(&lines))
+        else {
+            return;
+        };
         push_notes(stack, &chunk_name);
         stack.replace_function(&instrumented);
     }
@@ -94,11 +107,19 @@ impl Coverage {
         let own = self.own.borrow();
         let text = match own.as_ref().filter(|own| own.chunk_name == chunk_name) {
             Some(own) => own.text.to_vec(),
-            None => read_text(Path::new(&*String::from_utf8_lossy(chunk_name.strip_prefix(b"@")?)))?,
+            None => read_text(Path::new(&*String::from_utf8_lossy(
+                chunk_name.strip_prefix(b"@")?,
+            )))?,
         };
         let functions = executable(&text).unwrap_or_default();
-        let lines: BTreeSet<u32> = functions.into_iter().flat_map(|function| function.lines).collect();
-        texts.push(Text { chunk_name: chunk_name.into(), lines: lines.clone() });
+        let lines: BTreeSet<u32> = functions
+            .into_iter()
+            .flat_map(|function| function.lines)
+            .collect();
+        texts.push(Text {
+            chunk_name: chunk_name.into(),
+            lines: lines.clone(),
+        });
         Some(lines)
     }
 
@@ -107,9 +128,14 @@ impl Coverage {
         let mut all = LineCounts::default();
         let own = self.own.borrow();
         for text in self.texts.borrow().iter() {
-            let counted = match own.as_ref().filter(|own| *own.chunk_name == *text.chunk_name) {
+            let counted = match own
+                .as_ref()
+                .filter(|own| *own.chunk_name == *text.chunk_name)
+            {
                 Some(own) => own.counted(sim, &stack.owner().script),
-                None => CountedText::File(PathBuf::from(String::from_utf8_lossy(&text.chunk_name[1..]).into_owned())),
+                None => CountedText::File(PathBuf::from(
+                    String::from_utf8_lossy(&text.chunk_name[1..]).into_owned(),
+                )),
             };
             all.add(counted, &text.take_notes(stack));
         }
@@ -162,7 +188,13 @@ fn push_notes(stack: Stack<'_>, chunk_name: &[u8]) {
 
 impl Own {
     fn counted(&self, sim: &Sim, script: &Script) -> CountedText {
-        let path = sim.path_of_script(script).unwrap_or_else(|| self.path.clone());
-        CountedText::Script { scene: sim.scene_path(), path, text: Arc::clone(&self.text) }
+        let path = sim
+            .path_of_script(script)
+            .unwrap_or_else(|| self.path.clone());
+        CountedText::Script {
+            scene: sim.scene_path(),
+            path,
+            text: Arc::clone(&self.text),
+        }
     }
 }

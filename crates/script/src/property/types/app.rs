@@ -85,7 +85,9 @@ impl AppData {
 
     pub(crate) fn new(options: &Options) -> Self {
         let params = options.named_params.iter();
-        let named_params = params.map(|(name, value)| (name.clone(), value.as_bytes().to_vec())).collect();
+        let named_params = params
+            .map(|(name, value)| (name.clone(), value.as_bytes().to_vec()))
+            .collect();
         Self {
             named_params,
             storage: AppStorage::new(options.data_dir.as_deref()).restricted(&options.permissions),
@@ -111,13 +113,21 @@ pub(in crate::property) const APP: &[Accessor] = subject_properties! {
 
 /// Levels by their name, to be written only.
 pub(in crate::property) const VERBOSITY_WORDS: &[Accessor] = &[
-    Accessor { name: "consoleVerbosityStr", read: None, write: Some(set_console_level) },
+    Accessor {
+        name: "consoleVerbosityStr",
+        read: None,
+        write: Some(set_console_level),
+    },
     Accessor {
         name: "statusbarVerbosityStr",
         read: None,
         write: Some(|s, word| set_level(s, "statusbarVerbosity", word)),
     },
-    Accessor { name: "dialogVerbosityStr", read: None, write: Some(|s, word| set_level(s, "dialogVerbosity", word)) },
+    Accessor {
+        name: "dialogVerbosityStr",
+        read: None,
+        write: Some(|s, word| set_level(s, "dialogVerbosity", word)),
+    },
 ];
 
 /// Folders of this program, and of the user's installation of CoppeliaSim: empty without one, as what they hold is part of the program.
@@ -164,7 +174,12 @@ fn set_console_level(subject: &Subject<'_>, word: Data) -> ApiResult<()> {
 }
 
 fn set_level(subject: &Subject<'_>, property: &'static str, word: Data) -> ApiResult<()> {
-    subject.sim.app.borrow_mut().inert.set(property, level_of(word)?.into());
+    subject
+        .sim
+        .app
+        .borrow_mut()
+        .inert
+        .set(property, level_of(word)?.into());
     Ok(())
 }
 
@@ -191,7 +206,11 @@ fn installed_folders(options: &Options) -> InertValues {
 /// A folder of the installation of CoppeliaSim; None without an installation.
 fn installed(options: &Options, folder: &str) -> Option<String> {
     let resources = options.resources.as_deref()?;
-    Some(text_of(Some(&if folder.is_empty() { resources.to_owned() } else { resources.join(folder) })))
+    Some(text_of(Some(&if folder.is_empty() {
+        resources.to_owned()
+    } else {
+        resources.join(folder)
+    })))
 }
 
 fn text_of(path: Option<&Path>) -> String {
@@ -201,6 +220,10 @@ fn text_of(path: Option<&Path>) -> String {
 impl Sim {
     /// Distinguishes this run of this simulator from others.
     fn session_id(&self) -> String {
-        format!("{:x}-{:x}", std::process::id(), std::ptr::from_ref(self).addr())
+        format!(
+            "{:x}-{:x}",
+            std::process::id(),
+            std::ptr::from_ref(self).addr()
+        )
     }
 }

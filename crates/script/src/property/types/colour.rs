@@ -11,7 +11,12 @@ impl Subject<'_> {
     fn coloured(&self, slot: ColourSlot) -> ApiResult<(Handle, ColourSlot)> {
         match self.target {
             PropertyTarget::Mesh(uid) => {
-                let (shape, index) = self.sim.scene.borrow().mesh(*uid).ok_or(ApiError::NoSuchTarget)?;
+                let (shape, index) = self
+                    .sim
+                    .scene
+                    .borrow()
+                    .mesh(*uid)
+                    .ok_or(ApiError::NoSuchTarget)?;
                 Ok((shape, ColourSlot::Mesh(index)))
             }
             _ => Ok((self.object()?, slot)),
@@ -21,24 +26,52 @@ impl Subject<'_> {
     fn colour(&self, slot: ColourSlot, component: ColourComponent) -> ApiResult<Vec<f64>> {
         let (handle, slot) = self.coloured(slot)?;
         let scene = self.sim.scene.borrow();
-        let colour = scene.object(handle)?.colour(slot).ok_or(ApiError::PropertyNotReadable)?;
-        Ok(colour.component(component).iter().map(|&part| part.into()).collect())
+        let colour = scene
+            .object(handle)?
+            .colour(slot)
+            .ok_or(ApiError::PropertyNotReadable)?;
+        Ok(colour
+            .component(component)
+            .iter()
+            .map(|&part| part.into())
+            .collect())
     }
 
     fn rgb(&self, slot: ColourSlot, component: ColourComponent) -> ApiResult<Color> {
-        let rgb = self.colour(slot, component)?.try_into().map_err(|_| ApiError::PropertyNotReadable)?;
+        let rgb = self
+            .colour(slot, component)?
+            .try_into()
+            .map_err(|_| ApiError::PropertyNotReadable)?;
         Ok(Color(rgb))
     }
 
-    fn set_colour(&self, slot: ColourSlot, component: ColourComponent, value: &[f64]) -> ApiResult<()> {
+    fn set_colour(
+        &self,
+        slot: ColourSlot,
+        component: ColourComponent,
+        value: &[f64],
+    ) -> ApiResult<()> {
         let (handle, slot) = self.coloured(slot)?;
-        let known = self.sim.scene.borrow_mut().set_colour(handle, slot, component, value)?;
-        if known { Ok(()) } else { Err(ApiError::PropertyNotWritable) }
+        let known = self
+            .sim
+            .scene
+            .borrow_mut()
+            .set_colour(handle, slot, component, value)?;
+        if known {
+            Ok(())
+        } else {
+            Err(ApiError::PropertyNotWritable)
+        }
     }
 
     /// 0 for opaque: the contrary of what is kept.
     fn transparency(&self, slot: ColourSlot) -> ApiResult<f64> {
-        Ok(1.0 - self.colour(slot, ColourComponent::Transparency)?.first().copied().unwrap_or(1.0))
+        Ok(1.0
+            - self
+                .colour(slot, ColourComponent::Transparency)?
+                .first()
+                .copied()
+                .unwrap_or(1.0))
     }
 
     fn set_transparency(&self, slot: ColourSlot, transparency: f64) -> ApiResult<()> {
@@ -63,8 +96,7 @@ macro_rules! colours {
 pub(in crate::property) const COLOUR: &[Accessor] =
     colours!(Body: "color.diffuse", "color.specular", "color.emission", "color.transparency");
 
-pub(in crate::property) const RAY_COLOUR: &[Accessor] =
-    colours!(Emitted: "rayColor.diffuse", "rayColor.specular", "rayColor.emission", "rayColor.transparency");
+pub(in crate::property) const RAY_COLOUR: &[Accessor] = colours!(Emitted: "rayColor.diffuse", "rayColor.specular", "rayColor.emission", "rayColor.transparency");
 
 pub(in crate::property) const LIGHT_COLOUR: &[Accessor] =
     colours!(Emitted: "lightColor.diffuse", "lightColor.specular", "lightColor.emission");

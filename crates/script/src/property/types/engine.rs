@@ -29,7 +29,8 @@ fn read(subject: &Subject<'_>, owner: EngineOwner) -> ApiResult<String> {
     let scene = subject.sim.scene.borrow();
     let engine = scene.settings().dynamics.engine.engine.name();
     let mut values = Map::new();
-    for param in engine_params(owner).filter(|param| param.is_property && param.split().0 == engine) {
+    for param in engine_params(owner).filter(|param| param.is_property && param.split().0 == engine)
+    {
         let value = scene.engine_value(param, subject.target.object())?;
         values.insert(param.split().1.to_owned(), to_json(&value));
     }
@@ -42,8 +43,11 @@ fn write(subject: &Subject<'_>, owner: EngineOwner, json: &str) -> ApiResult<()>
     let mut changes: Vec<(&EngineParam, Data)> = Vec::new();
     for param in engine_params(owner).filter(|param| param.is_property) {
         let (engine, name) = param.split();
-        let Some(value) = json.get(engine).and_then(|values| values.get(name)) else { continue };
-        let value = from_json(param.ty, value).and_then(|value| param.ty.accept(&param.default, value));
+        let Some(value) = json.get(engine).and_then(|values| values.get(name)) else {
+            continue;
+        };
+        let value =
+            from_json(param.ty, value).and_then(|value| param.ty.accept(&param.default, value));
         changes.push((param, value.ok_or(ApiError::PropertyNotWritable)?));
     }
     if !json.is_object() {
@@ -71,9 +75,12 @@ fn from_json(ty: ValueType, value: &Value) -> Option<Data> {
         ValueType::Bool => value.as_bool().map(Data::Bool),
         ValueType::Int => value.as_i64().map(Data::Int),
         ValueType::Float => value.as_f64().map(Data::Float),
-        _ => {
-            value.as_array()?.iter().map(|item| item.as_f64().map(Data::Float)).collect::<Option<_>>().map(Data::Array)
-        }
+        _ => value
+            .as_array()?
+            .iter()
+            .map(|item| item.as_f64().map(Data::Float))
+            .collect::<Option<_>>()
+            .map(Data::Array),
     }
 }
 

@@ -37,8 +37,10 @@ pub(in crate::property) const FORCE_SENSOR: &[Accessor] = object_properties! {
 
 fn set_filter(object: &mut Object, filter: i64) -> SceneResult<()> {
     let sensor = object.force_sensor_mut()?;
-    sensor.filter =
-        [ForceFilter::Average, ForceFilter::Median].into_iter().find(|f| *f as i64 == filter).ok_or_else(refused)?;
+    sensor.filter = [ForceFilter::Average, ForceFilter::Median]
+        .into_iter()
+        .find(|f| *f as i64 == filter)
+        .ok_or_else(refused)?;
     sensor.samples.clear();
     Ok(())
 }

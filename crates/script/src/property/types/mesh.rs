@@ -14,7 +14,11 @@ use scene::{Field, Object, Uid};
 
 impl Sim {
     /// The result of `read` for a mesh and its shape.
-    pub(in crate::property) fn with_mesh<R>(&self, uid: Uid, read: impl FnOnce(&Object, &Part) -> R) -> ApiResult<R> {
+    pub(in crate::property) fn with_mesh<R>(
+        &self,
+        uid: Uid,
+        read: impl FnOnce(&Object, &Part) -> R,
+    ) -> ApiResult<R> {
         let scene = self.scene.borrow();
         let (handle, index) = scene.mesh(uid).ok_or(ApiError::NoSuchTarget)?;
         let object = scene.object(handle)?;
@@ -24,13 +28,21 @@ impl Sim {
 
 impl Subject<'_> {
     fn with_mesh<R>(&self, read: impl FnOnce(&Object, &Part) -> R) -> ApiResult<R> {
-        let PropertyTarget::Mesh(uid) = *self.target else { return Err(ApiError::NoSuchTarget) };
+        let PropertyTarget::Mesh(uid) = *self.target else {
+            return Err(ApiError::NoSuchTarget);
+        };
         self.sim.with_mesh(uid, read)
     }
 
     fn change_mesh(&self, change: impl FnOnce(&mut Part)) -> ApiResult<()> {
-        let PropertyTarget::Mesh(uid) = *self.target else { return Err(ApiError::NoSuchTarget) };
-        let changed = self.sim.scene.borrow_mut().modify_mesh(uid, Field::Appearance, change);
+        let PropertyTarget::Mesh(uid) = *self.target else {
+            return Err(ApiError::NoSuchTarget);
+        };
+        let changed = self
+            .sim
+            .scene
+            .borrow_mut()
+            .modify_mesh(uid, Field::Appearance, change);
         changed.ok_or(ApiError::NoSuchTarget)
     }
 

@@ -1,6 +1,9 @@
 //! Accessors of the properties, by what they belong to: the application, the scene, objects of a type, meshes, parameters of engines.
 
-use super::{Color, IntPair, Long, PoseArray, PropertyTarget, PropertyValue, Quaternion, Text, Vector3, access, table};
+use super::{
+    Color, IntPair, Long, PoseArray, PropertyTarget, PropertyValue, Quaternion, Text, Vector3,
+    access, table,
+};
 
 pub(super) mod app;
 pub(super) mod colour;

@@ -8,8 +8,8 @@ use super::{Long, PoseArray, Text, Vector3};
 use crate::Bytes;
 use scene::object::movement::MovementFrame;
 use scene::{
-    ForbiddenMovements, Handle, Layers, ModelFlags, Object, ObjectFlags, PreferredAxes, Scene, SceneResult,
-    SpecialFlags, clean_alias,
+    ForbiddenMovements, Handle, Layers, ModelFlags, Object, ObjectFlags, PreferredAxes, Scene,
+    SceneResult, SpecialFlags, clean_alias,
 };
 
 pub(in crate::property) const OWN: &[Accessor] = object_properties! {
@@ -142,7 +142,12 @@ fn int_pair(values: &[i64]) -> SceneResult<[i64; 2]> {
 }
 
 fn select(scene: &mut Scene, handle: Handle, on: bool) {
-    let mut selection: Vec<Handle> = scene.selection().iter().copied().filter(|&h| h != handle).collect();
+    let mut selection: Vec<Handle> = scene
+        .selection()
+        .iter()
+        .copied()
+        .filter(|&h| h != handle)
+        .collect();
     if on {
         selection.push(handle);
     }

@@ -15,7 +15,9 @@ impl Sim {
     /// Sets the simulation step, seconds. Without effect while the simulation is not stopped, as in CoppeliaSim.
     pub(crate) fn set_time_step(&self, step: f64) {
         if self.clock.is_stopped() && !step.is_nan() {
-            self.scene.borrow_mut().modify_settings(|settings| settings.time_step = step.clamp(0.0001, 10.0));
+            self.scene
+                .borrow_mut()
+                .modify_settings(|settings| settings.time_step = step.clamp(0.0001, 10.0));
         }
     }
 
@@ -36,7 +38,9 @@ impl Sim {
     pub(crate) fn set_engine(&self, number: i64, version: i64) -> ApiResult<()> {
         let engine = Engine::from_number(number).ok_or(SceneError::InvalidArgument)?;
         if self.clock.is_stopped() {
-            self.scene.borrow_mut().modify_settings(|s| s.dynamics.engine = SelectedEngine { engine, version });
+            self.scene
+                .borrow_mut()
+                .modify_settings(|s| s.dynamics.engine = SelectedEngine { engine, version });
         }
         Ok(())
     }
@@ -44,7 +48,9 @@ impl Sim {
     /// Sets how many simulation steps there are to an image. Without effect while the simulation is not stopped.
     fn set_steps_per_rendering(&self, steps: i64) {
         if self.clock.is_stopped() {
-            self.scene.borrow_mut().modify_settings(|settings| settings.steps_per_rendering = steps.max(1));
+            self.scene
+                .borrow_mut()
+                .modify_settings(|settings| settings.steps_per_rendering = steps.max(1));
         }
     }
 
@@ -59,13 +65,16 @@ impl Sim {
 
     /// Distinguishes this scene also from those of other simulators with other seeds.
     fn scene_uid_text(&self) -> String {
-        Random::new(self.options.seed.wrapping_add(self.scene_uid() as u32)).string(SCENE_UID_LETTERS)
+        Random::new(self.options.seed.wrapping_add(self.scene_uid() as u32))
+            .string(SCENE_UID_LETTERS)
     }
 
     /// Turns real-time mode on or off. Without effect while the simulation is not stopped.
     pub(crate) fn set_real_time(&self, on: bool) {
         if self.clock.is_stopped() {
-            self.scene.borrow_mut().modify_settings(|settings| settings.real_time = on);
+            self.scene
+                .borrow_mut()
+                .modify_settings(|settings| settings.real_time = on);
         }
     }
 }

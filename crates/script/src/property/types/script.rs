@@ -32,8 +32,12 @@ impl Subject<'_> {
         let script = self.script()?;
         match script.object {
             Some(handle) => {
-                let change = |o: &mut scene::Object| -> SceneResult<()> { o.script_mut().map(object) };
-                self.sim.scene.borrow_mut().try_modify(handle, Field::Script, change)?;
+                let change =
+                    |o: &mut scene::Object| -> SceneResult<()> { o.script_mut().map(object) };
+                self.sim
+                    .scene
+                    .borrow_mut()
+                    .try_modify(handle, Field::Script, change)?;
             }
             None => detached(&mut script.detached.borrow_mut()),
         }
@@ -52,7 +56,10 @@ impl Subject<'_> {
         let script = self.script()?;
         match script.object {
             Some(handle) => {
-                self.sim.scene.borrow_mut().modify(handle, Field::Priority, |object| object.priority = priority)?;
+                self.sim
+                    .scene
+                    .borrow_mut()
+                    .modify(handle, Field::Priority, |object| object.priority = priority)?;
             }
             None => {
                 script.detached.borrow_mut().priority = priority;
@@ -66,7 +73,12 @@ impl Subject<'_> {
         let script = self.script()?;
         match script.object {
             Some(handle) => Ok(self.sim.scene.borrow().object(handle)?.alias().to_owned()),
-            None => Ok(script.detached.borrow().name.trim_end_matches(ADD_ON_SUFFIX).to_owned()),
+            None => Ok(script
+                .detached
+                .borrow()
+                .name
+                .trim_end_matches(ADD_ON_SUFFIX)
+                .to_owned()),
         }
     }
 }
