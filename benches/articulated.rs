@@ -21,7 +21,7 @@ const STEP: f64 = 0.005;
 const PASS: usize = 10;
 const G: f64 = 9.81;
 const FORCE: f64 = 200.0;
-const LARGEST_SPEED: f64 = std::f64::consts::TAU;
+const MAX_SPEED: f64 = std::f64::consts::TAU;
 
 /// A chain of boxes along z or inclined in the plane of x and z; joint i sits at the lower (near) end of box i.
 struct Chain {
@@ -192,7 +192,7 @@ impl<'a> Raw<'a> {
         };
         for i in 0..self.links.len() {
             let velocity =
-                (0.1 * (target - self.angle(i)) / STEP).clamp(-LARGEST_SPEED, LARGEST_SPEED);
+                (0.1 * (target - self.angle(i)) / STEP).clamp(-MAX_SPEED, MAX_SPEED);
             let data =
                 match self.kind {
                     Kind::Impulse { .. } => self

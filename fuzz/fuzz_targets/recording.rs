@@ -27,7 +27,7 @@ mod blobs {
     pub(crate) use crate::hash::Hash;
 }
 
-use format::{CHUNK_HEAD, END, FILE_END, FILE_HEAD, LARGEST_CHUNK, MAGIC, RecordingError, VERSION};
+use format::{CHUNK_HEAD, END, FILE_END, FILE_HEAD, MAX_CHUNK, MAGIC, RecordingError, VERSION};
 use index::{ChunkPlace, Index, Mark, MarkKind};
 use reader::Recording;
 

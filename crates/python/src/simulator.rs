@@ -160,16 +160,16 @@ impl Simulator {
         self.serve(py, 0.0)
     }
 
-    /// One iteration of the loop, then browsers that show the simulator are served, waiting up to `patience` seconds for what they ask.
+    /// One iteration of the loop, then browsers that show the simulator are served, waiting up to `timeout` seconds for what they ask.
     #[pyo3(name = "_serve")]
-    fn serve(&self, py: Python<'_>, patience: f64) -> PyResult<()> {
-        let patience = Duration::try_from_secs_f64(patience).unwrap_or_default();
+    fn serve(&self, py: Python<'_>, timeout: f64) -> PyResult<()> {
+        let timeout = Duration::try_from_secs_f64(timeout).unwrap_or_default();
         let number = self.number;
         py.detach(|| -> PyResult<()> {
             let world = worlds::get(number)?;
             let mut simulator = world.borrow()?;
             simulator.iterate();
-            world.show(&mut simulator, patience);
+            world.show(&mut simulator, timeout);
             Ok(())
         })?;
         self.world()?.raise()

@@ -52,10 +52,10 @@ pub struct World {
 }
 
 impl World {
-    /// Shows browsers what changed, and does what they ask for, waiting up to `patience` for that.
-    pub fn show(&self, simulator: &mut Simulator, patience: Duration) {
+    /// Shows browsers what changed, and does what they ask for, waiting up to `timeout` for that.
+    pub fn show(&self, simulator: &mut Simulator, timeout: Duration) {
         if let Some(viewer) = &mut *self.viewer.borrow_mut() {
-            viewer.attend(simulator, patience);
+            viewer.attend(simulator, timeout);
         }
     }
 
