@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn cached_poses_are_right_before_and_after() {
-        check_cached_poses(600, |scene, _| {
+        check_cached_poses(3_000, |scene, _| {
             let handles: Vec<Handle> = scene.objects().map(crate::Object::handle).collect();
             let mut displaced = scene.displace();
             for &handle in handles.iter().step_by(3) {

@@ -197,7 +197,7 @@ pub(crate) fn check_cached_poses(turns: usize, mut other: impl FnMut(&mut Scene,
         scene: Scene::new(),
         random: Random(random::Random::new(1)),
     };
-    (0..15).for_each(|_| play.add());
+    (0..25).for_each(|_| play.add());
     let mut most = 0;
     for turn in 0..turns {
         other(&mut play.scene, &mut play.random);
