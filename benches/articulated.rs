@@ -191,8 +191,7 @@ impl<'a> Raw<'a> {
             return;
         };
         for i in 0..self.links.len() {
-            let velocity =
-                (0.1 * (target - self.angle(i)) / STEP).clamp(-MAX_SPEED, MAX_SPEED);
+            let velocity = (0.1 * (target - self.angle(i)) / STEP).clamp(-MAX_SPEED, MAX_SPEED);
             let data =
                 match self.kind {
                     Kind::Impulse { .. } => self
