@@ -12,23 +12,19 @@ mod native_tests;
 mod picture;
 mod run;
 mod scene;
+mod servers;
 mod ui;
 mod viewing;
 
 use std::cell::{Ref, RefMut};
 use std::collections::BTreeSet;
-use std::net::{SocketAddr, TcpListener};
 use std::path::Path;
 use std::rc::Rc;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-use std::time::Duration;
 
 use ::scene::object::script_object::{ScriptObject, ScriptType};
 use ::scene::{Data, Handle, Kind, Scene};
 use format::scene_file::SceneFile;
 use format::script_file;
-use io::ZmqServer;
 use script::coverage::LineCounts;
 use script::{ApiError, Detached, SceneSource, Script, Sim, SysCall, TestBench};
 
@@ -43,14 +39,6 @@ pub use script::{
     SimulationState, VideoFailure, VideoOptions, VideoView,
 };
 pub use viewing::PropertyRow;
-
-/// The add-on that serves clients by ZeroMQ.
-const ZMQ_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.zmq'";
-/// The add-on that serves clients by WebSocket.
-const WS_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.ws'";
-
-/// The add-on that streams events to CoppeliaSim's web front end.
-const VISUALIZATION_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.visualization'";
 
 /// Why a request to a [`Simulator`] failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -143,101 +131,6 @@ impl Simulator {
         let _ = sim.sim.test_bench.set(Rc::clone(bench));
         let _ = sim.scene_mut().add_default_objects();
         sim
-    }
-
-    /// Lets the clients that connect to `listener` by ZeroMQ call functions: the remote API. Returns the address it listens at.
-    /// A client may make a loop iteration last as long as it likes; set `stop` to end such an iteration.
-    ///
-    /// # Errors
-    /// When the server cannot start.
-    pub fn serve_zmq(
-        &mut self,
-        listener: TcpListener,
-        stop: Arc<AtomicBool>,
-    ) -> std::io::Result<SocketAddr> {
-        let address = listener.local_addr()?;
-        let server = ZmqServer::start(self.sim.event_loop.get()?, listener, stop)?;
-        modules_messaging::remote::set_zmq_server(&self.sim.modules.states, server);
-        let port = address.port().to_string().into_bytes();
-        self.sim
-            .app
-            .borrow_mut()
-            .named_params
-            .insert("zmqRemoteApi.rpcPort".to_owned(), port);
-        let add_on = self.sim.scripts.add_detached(
-            ScriptType::AddOn,
-            Detached::of_text("ZMQ remote API server@addOnScript", ZMQ_ADD_ON),
-        );
-        self.sim.start_detached(&add_on);
-        Ok(address)
-    }
-
-    /// The same for clients that connect by WebSocket.
-    ///
-    /// # Errors
-    /// When the listener cannot be used.
-    pub fn serve_ws(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
-        let address = listener.local_addr()?;
-        modules_messaging::remote::set_web_socket_listener(&self.sim.modules.states, listener);
-        let port = address.port().to_string().into_bytes();
-        self.sim
-            .app
-            .borrow_mut()
-            .named_params
-            .insert("wsRemoteApi.port".to_owned(), port);
-        let add_on = self.sim.scripts.add_detached(
-            ScriptType::AddOn,
-            Detached::of_text("WebSocket remote API server@addOnScript", WS_ADD_ON),
-        );
-        self.sim.start_detached(&add_on);
-        Ok(address)
-    }
-
-    /// Serves programs with `simxStart`, one at a time: the legacy remote API. Clients may use the synchronous mode.
-    ///
-    /// # Errors
-    /// When the listener cannot be used.
-    pub fn serve_legacy(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
-        let event_loop = self.sim.event_loop.get()?;
-        let age = Duration::from_secs_f64(self.sim.clock.wall_seconds());
-        modules_messaging::sim_remote_api::serve(
-            &self.sim.modules.states,
-            &event_loop,
-            listener,
-            age,
-        )
-    }
-
-    /// Streams events (protocol 3) to those that connect by WebSocket, as CoppeliaSim's add-on "Visualization stream" does.
-    ///
-    /// # Errors
-    /// When the listener cannot be used.
-    pub fn serve_visualization_stream(
-        &mut self,
-        listener: TcpListener,
-    ) -> std::io::Result<SocketAddr> {
-        let address = listener.local_addr()?;
-        modules_messaging::remote::set_visualization_listener(&self.sim.modules.states, listener);
-        let port = address.port().to_string().into_bytes();
-        self.sim
-            .app
-            .borrow_mut()
-            .named_params
-            .insert("visualizationStream.ws.port".to_owned(), port);
-        let detached = Detached::of_text("Visualization stream@addOnScript", VISUALIZATION_ADD_ON);
-        let add_on = self.sim.scripts.add_detached(ScriptType::AddOn, detached);
-        self.sim.start_detached(&add_on);
-        Ok(address)
-    }
-
-    /// Waits until a socket has received something, at most `timeout`, and says whether it waited; without sockets it returns false at once.
-    pub fn wait_for_request(&self, timeout: Duration) -> bool {
-        self.sim.event_loop.wait_for_input(timeout)
-    }
-
-    /// Whether scripts have ZeroMQ sockets, whose messages `wait_for_request` does not notice.
-    pub fn has_zmq_sockets(&self) -> bool {
-        modules_messaging::sim_zmq::has_sockets(&self.sim.modules.states)
     }
 
     /// Adds a script in Lua, or in Python if its first line is `#python`. Customization scripts, add-ons and the sandbox start at once; a simulation script starts with the simulation.

@@ -61,14 +61,14 @@ impl Surfaces {
             .texture
             .as_deref()
             .and_then(|mapping| self.texture(scene, mapping));
-        let looks = &part.appearance;
+        let appearance = &part.appearance;
         Some(ModelPart {
             mesh,
             auxiliary: Material {
-                culling: looks.culling,
-                ..Material::unlit(looks.colour.auxiliary)
+                culling: appearance.culling,
+                ..Material::unlit(appearance.colour.auxiliary)
             },
-            material: material(looks, texture),
+            material: material(appearance, texture),
             pose: part.pose,
         })
     }
@@ -164,18 +164,18 @@ pub fn texture_coordinates(part: &Part) -> Vec<[f32; 2]> {
     }
 }
 
-fn material(looks: &Appearance, texture: Option<Texture>) -> Material {
+fn material(appearance: &Appearance, texture: Option<Texture>) -> Material {
     Material {
-        culling: looks.culling,
-        wireframe: looks.wireframe,
-        edges: looks.edges.then_some(Edges {
-            angle: looks.edge_angle,
-            borders: !looks.edge_borders_hidden,
+        culling: appearance.culling,
+        wireframe: appearance.wireframe,
+        edges: appearance.edges.then_some(Edges {
+            angle: appearance.edge_angle,
+            borders: !appearance.edge_borders_hidden,
             colour: EDGE_COLOUR,
             width: EDGE_WIDTH,
         }),
         texture,
-        ..of_colour(&looks.colour)
+        ..of_colour(&appearance.colour)
     }
 }
 

@@ -1,0 +1,106 @@
+//! Servers of a simulator: the remote APIs and the stream of events.
+
+use std::net::{SocketAddr, TcpListener};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use ::scene::object::script_object::ScriptType;
+use io::ZmqServer;
+use script::Detached;
+
+use super::Simulator;
+
+/// The add-on that serves clients by ZeroMQ.
+const ZMQ_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.zmq'";
+/// The add-on that serves clients by WebSocket.
+const WS_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.ws'";
+
+/// The add-on that streams events to CoppeliaSim's web front end.
+const VISUALIZATION_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.visualization'";
+
+impl Simulator {
+    /// Lets the clients that connect to `listener` by ZeroMQ call functions: the remote API. Returns the address it listens at.
+    /// A client may make a loop iteration last as long as it likes; set `stop` to end such an iteration.
+    ///
+    /// # Errors
+    /// When the server cannot start.
+    pub fn serve_zmq(
+        &mut self,
+        listener: TcpListener,
+        stop: Arc<AtomicBool>,
+    ) -> std::io::Result<SocketAddr> {
+        let address = listener.local_addr()?;
+        let server = ZmqServer::start(self.sim.event_loop.get()?, listener, stop)?;
+        modules_messaging::remote::set_zmq_server(&self.sim.modules.states, server);
+        self.name_port("zmqRemoteApi.rpcPort", address);
+        self.start_server("ZMQ remote API server@addOnScript", ZMQ_ADD_ON);
+        Ok(address)
+    }
+
+    /// The same for clients that connect by WebSocket.
+    ///
+    /// # Errors
+    /// When the listener cannot be used.
+    pub fn serve_ws(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
+        let address = listener.local_addr()?;
+        modules_messaging::remote::set_web_socket_listener(&self.sim.modules.states, listener);
+        self.name_port("wsRemoteApi.port", address);
+        self.start_server("WebSocket remote API server@addOnScript", WS_ADD_ON);
+        Ok(address)
+    }
+
+    /// Serves programs with `simxStart`, one at a time: the legacy remote API. Clients may use the synchronous mode.
+    ///
+    /// # Errors
+    /// When the listener cannot be used.
+    pub fn serve_legacy(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
+        let event_loop = self.sim.event_loop.get()?;
+        let age = Duration::from_secs_f64(self.sim.clock.wall_seconds());
+        modules_messaging::sim_remote_api::serve(
+            &self.sim.modules.states,
+            &event_loop,
+            listener,
+            age,
+        )
+    }
+
+    /// Streams events (protocol 3) to those that connect by WebSocket, as CoppeliaSim's add-on "Visualization stream" does.
+    ///
+    /// # Errors
+    /// When the listener cannot be used.
+    pub fn serve_visualization_stream(
+        &mut self,
+        listener: TcpListener,
+    ) -> std::io::Result<SocketAddr> {
+        let address = listener.local_addr()?;
+        modules_messaging::remote::set_visualization_listener(&self.sim.modules.states, listener);
+        self.name_port("visualizationStream.ws.port", address);
+        self.start_server("Visualization stream@addOnScript", VISUALIZATION_ADD_ON);
+        Ok(address)
+    }
+
+    /// Waits until a socket has received something, at most `timeout`, and says whether it waited; without sockets it returns false at once.
+    pub fn wait_for_request(&self, timeout: Duration) -> bool {
+        self.sim.event_loop.wait_for_input(timeout)
+    }
+
+    /// Whether scripts have ZeroMQ sockets, whose messages `wait_for_request` does not notice.
+    pub fn has_zmq_sockets(&self) -> bool {
+        modules_messaging::sim_zmq::has_sockets(&self.sim.modules.states)
+    }
+
+    /// Tells scripts the port of a server, as a named parameter.
+    fn name_port(&self, parameter: &str, address: SocketAddr) {
+        let port = address.port().to_string().into_bytes();
+        let named_params = &mut self.sim.app.borrow_mut().named_params;
+        named_params.insert(parameter.to_owned(), port);
+    }
+
+    /// Starts the add-on that answers the clients of a server.
+    fn start_server(&self, name: &str, code: &[u8]) {
+        let detached = Detached::of_text(name, code);
+        let add_on = self.sim.scripts.add_detached(ScriptType::AddOn, detached);
+        self.sim.start_detached(&add_on);
+    }
+}
