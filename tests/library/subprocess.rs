@@ -261,13 +261,14 @@ fn nothing_is_left() {
             simSubprocess.kill(simSubprocess.execAsync('sleep', {'60'}))
         end
         some()
+        -- The pipes of the first programs may still be closing while they are counted: fewer later is no fault.
         local open = #names('/dev/fd')
         for _ = 1, 20 do some() end
         for _ = 1, 2000 do
-            if #names('/dev/fd') == open then break end
+            if #names('/dev/fd') <= open then break end
             socket.sleep(0.005)
         end
-        print(#names('/dev/fd') - open, children())";
+        print(math.max(#names('/dev/fd') - open, 0), children())";
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
     let scene = folder.path().join("scene.lua");
     std::fs::write(&scene, code).expect("our own folder is writable");
