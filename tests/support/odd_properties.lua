@@ -18,7 +18,7 @@ local NOT = {code = true, pauseSimulationAtTime = true, pauseSimulationAtError =
 local function objects()
     local found = {
         sim.createDummy(0.1), sim.createForceSensor(0, {0, 1, 1, 0, 0}, {0.05, 100, 10, 0, 0}), sim.createOctree(0.05, 0, 1),
-        sim.createPointCloud(), sim.createVisionSensor(2), sim.createVisionSensor(0),
+        sim.createPointCloud(0.02, 20, 0, 4), sim.createVisionSensor(2), sim.createVisionSensor(0),
         sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.2, 0.3}), sim.createScript(sim.scripttype_passive, '', 0, 'lua'),
     }
     for _, kind in ipairs {sim.joint_revolute, sim.joint_prismatic, sim.joint_spherical} do

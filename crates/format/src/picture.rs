@@ -9,7 +9,7 @@ use image::ExtendedColorType;
 #[cfg(feature = "pictures")]
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::{self, FilterType};
-use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits, RgbaImage};
+use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits, Rgba32FImage, RgbaImage};
 
 /// No picture is larger: it could hardly be meant.
 const MAX_SIDE: u32 = 16_384;
@@ -28,6 +28,9 @@ pub enum PictureError {
     /// A side has no pixel or too many.
     #[error("the resolution of an image lies between 1 and {MAX_SIDE}.")]
     Resolution,
+    /// Two images that are to become one have sides of different lengths.
+    #[error("the images have different sizes.")]
+    Sizes,
     /// The extension of a file names no known kind.
     #[error("unknown kind of image: {0} (known: png, jpg, bmp, tga).")]
     Kind(String),
@@ -170,12 +173,57 @@ impl Picture {
         layout: Layout,
     ) -> Result<Self, PictureError> {
         let (width, height) = (side(size[0])?, side(size[1])?);
-        let picture = self.to_dynamic();
+        let picture = match self.layout {
+            Layout::Rgba => self.multiplied_by_alpha().into(),
+            Layout::Grey | Layout::Rgb => self.to_dynamic(),
+        };
         let scaled = match keep_aspect {
             true => picture.resize(width, height, FilterType::Triangle),
             false => picture.resize_exact(width, height, FilterType::Triangle),
         };
-        Ok(Self::from_dynamic(&scaled, layout))
+        Ok(match scaled {
+            DynamicImage::ImageRgba32F(scaled) => Self::from_dynamic(&truncated(&scaled), layout),
+            scaled => Self::from_dynamic(&scaled, layout),
+        })
+    }
+
+    /// The pixels with colours multiplied by their alpha, so that transparent ones weigh nothing in a mean.
+    fn multiplied_by_alpha(&self) -> Rgba32FImage {
+        let mut pixels = self.to_dynamic().into_rgba32f();
+        for image::Rgba([red, green, blue, alpha]) in pixels.pixels_mut() {
+            [red, green, blue]
+                .into_iter()
+                .for_each(|colour| *colour *= *alpha);
+        }
+        pixels
+    }
+
+    /// This picture and another of the same layout and the same height side by side, or, with the same width, this one first and the
+    /// other's rows after it.
+    ///
+    /// # Errors
+    /// When their sizes do not fit.
+    pub fn beside(&self, other: &Self, horizontally: bool) -> Result<Self, PictureError> {
+        let (own, others) = (self.resolution(), other.resolution());
+        let (along, across) = if horizontally { (0, 1) } else { (1, 0) };
+        if own[across] != others[across] || self.layout != other.layout {
+            return Err(PictureError::Sizes);
+        }
+        let mut size = own;
+        size[along] += others[along];
+        let rows = |picture: &Self| picture.width as usize * picture.layout as usize;
+        let bytes = if horizontally {
+            let pairs = self
+                .bytes
+                .chunks(rows(self))
+                .zip(other.bytes.chunks(rows(other)));
+            pairs
+                .flat_map(|(left, right)| [left, right].concat())
+                .collect()
+        } else {
+            [self.bytes.as_slice(), &other.bytes].concat()
+        };
+        Self::new(bytes, size, self.layout)
     }
 
     /// The picture mirrored left to right, top to bottom, or both.
@@ -225,6 +273,15 @@ impl Picture {
             bytes,
         }
     }
+}
+
+/// Bytes of a picture of floats; fractions of a byte are cut, as the original does.
+fn truncated(picture: &Rgba32FImage) -> DynamicImage {
+    let byte = |value: f32| (value * 255.0 + 1e-3) as u8;
+    let bytes = RgbaImage::from_fn(picture.width(), picture.height(), |x, y| {
+        image::Rgba(picture.get_pixel(x, y).0.map(byte))
+    });
+    bytes.into()
 }
 
 fn side(pixels: i64) -> Result<u32, PictureError> {

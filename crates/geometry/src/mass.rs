@@ -91,6 +91,10 @@ impl MassProperties {
             &pose.rotation,
         );
         self.inertia = absolute / self.mass;
+        for axis in 0..3 {
+            let moment = &mut self.inertia[(axis, axis)];
+            *moment = moment.max(MIN_MOMENT);
+        }
         self.com = pose.translation.vector.into();
     }
 

@@ -50,18 +50,19 @@ fn owner(cx: &Cx, raw: i64) -> Result<Owner> {
 /// @param objectHandle object, sim.handle_scene, sim.handle_app or sim.handle_appstorage
 /// @param tagName its name; tags that begin or end with `@tmp` are not saved; an empty one removes all tags
 /// @param data empty or nil: removes the tag
+/// @return result 1
 #[api("sim.writeCustomStringData")]
 fn write_custom_string_data(
     cx: &mut Cx,
     object_handle: Number,
     tag_name: String,
     #[default(None)] data: Option<Bytes>,
-) -> Result<()> {
+) -> Result<i64> {
     let owner = owner(cx, object_handle.0)?;
     let bytes = data.map(|data| data.0).filter(|bytes| !bytes.is_empty());
     if matches!(owner, Owner::AppStorage) {
         write_app_storage(cx, &tag_name, bytes);
-        return Ok(());
+        return Ok(1);
     }
     let edit = if tag_name.is_empty() {
         Edit::Clear
@@ -72,7 +73,7 @@ fn write_custom_string_data(
         Owner::Scene(target) => drop(cx.edit_named_values(&target, Namespace::CustomData, edit)?),
         Owner::App | Owner::AppStorage => drop(cx.app_mut().raw_data.edit(edit)),
     }
-    Ok(())
+    Ok(1)
 }
 
 fn write_app_storage(cx: &mut Cx, tag: &str, bytes: Option<Vec<u8>>) {

@@ -7,7 +7,7 @@ use api_macro::api;
 use nalgebra::{Point3, Vector3};
 
 use crate::{ApiFn, Cx, Result, functions};
-use scene::{Data, Handle, Pose, Scene, SceneError, special};
+use scene::{Data, Handle, Pose, Scene, SceneError, flag, special};
 use script::{Number, Rest};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![add_banner, remove_banner, camera_fit_to_view];
@@ -51,9 +51,10 @@ fn add_banner(
 fn remove_banner(cx: &mut Cx, #[name("bannerID")] banner_id: Number) -> Result<i64> {
     let state = cx.module_state::<Banners>();
     let mut banners = state.0.borrow_mut();
+    let is_silent = banner_id.0 & flag::SILENT_ERROR != 0;
     if banner_id.0 == special::ALL {
         banners.clear();
-    } else if !banners.remove(&banner_id.0) {
+    } else if !banners.remove(&(banner_id.0 & !flag::SILENT_ERROR)) && !is_silent {
         return Err(SceneError::NoSuchObject.into());
     }
     Ok(1)

@@ -121,10 +121,11 @@ fn numbers(data: &Data) -> Result<Vec<f64>> {
 #[api("sim.removeDrawingObject")]
 fn remove_drawing_object(cx: &mut Cx, drawing_object_handle: Number) -> Result<i64> {
     let mut scene = cx.scene_mut();
-    if drawing_object_handle.0 == special::ALL {
-        scene.drawings_mut().remove_all();
-    } else {
-        scene.drawings_mut().remove(drawing_object_handle.0)?;
+    let drawings = scene.drawings_mut();
+    match drawing_object_handle.0 {
+        special::ALL => drawings.remove_all(),
+        raw if raw & flag::SILENT_ERROR != 0 => drop(drawings.remove(raw & !flag::SILENT_ERROR)),
+        raw => drawings.remove(raw)?,
     }
     Ok(1)
 }

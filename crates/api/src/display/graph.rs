@@ -218,8 +218,9 @@ fn duplicate_graph_curve_to_static(
 /// @param graphHandle the graph
 /// @param graphType 0: streams over time, 1: curves of two dimensions, 2: of three
 /// @param curveIndex which one of them, from 0
-/// @return label, attributes, curveColor, xData, yData, minMax, curveId, curveWidth nothing past the last one; a curve of three dimensions has
-/// zData after yData. Attributes are 2: with label, 4: points are linked, 16: recording does not change it. minMax: the smallest and the
+/// @return label, curveType, curveColor, xData, yData, minMax, curveId, curveWidth nothing past the last one; a curve of three dimensions has
+/// zData after yData. The type is 0: a line, 1: points that are not linked, plus 2: recording does not change it, 4: its label is not shown, 8: in
+/// three dimensions, in the frame of the graph. minMax: the smallest and the
 /// largest x, then of y and z
 #[api("sim.getGraphCurve")]
 fn get_graph_curve(
@@ -246,13 +247,11 @@ fn get_graph_curve(
         .nth(index);
     Ok(Results(curve.map_or_else(Vec::new, |curve| {
         let points = graph.points(curve);
-        described(
-            &curve.style,
-            curve.fixed.is_some(),
-            &points,
-            dimensions,
-            curve.width,
-        )
+        let kind = CurveKind {
+            fixed: curve.fixed.is_some(),
+            relative: curve.relative && dimensions == 3,
+        };
+        described(&curve.style, kind, &points, dimensions, curve.width)
     })))
 }
 
@@ -267,24 +266,30 @@ fn shown_stream(graph: &Graph, index: usize) -> Option<Vec<Data>> {
         .into_iter()
         .map(|[time, value]| [time, value, 0.0])
         .collect();
-    Some(described(
-        &stream.style,
-        stream.fixed.is_some(),
-        &points,
-        2,
-        1,
-    ))
+    let kind = CurveKind {
+        fixed: stream.fixed.is_some(),
+        relative: false,
+    };
+    Some(described(&stream.style, kind, &points, 2, 1))
+}
+
+/// What the type of a curve says besides its style.
+struct CurveKind {
+    fixed: bool,
+    relative: bool,
 }
 
 fn described(
     style: &CurveStyle,
-    fixed: bool,
+    kind: CurveKind,
     points: &[[f64; 3]],
     dimensions: usize,
     width: i64,
 ) -> Vec<Data> {
-    let attributes =
-        i64::from(style.label) << 1 | i64::from(style.linked) << 2 | i64::from(fixed) << 4;
+    let kind = i64::from(!style.linked)
+        | i64::from(kind.fixed) << 1
+        | i64::from(!style.label) << 2
+        | i64::from(kind.relative) << 3;
     let axis = |axis: usize| points.iter().map(|point| point[axis]).collect::<Vec<f64>>();
     let extremes = |axis: usize| {
         let values = points.iter().map(|point| point[axis]);
@@ -297,7 +302,7 @@ fn described(
     };
     let mut all = vec![
         Data::text(&style.name),
-        attributes.into(),
+        kind.into(),
         style.colour.map(f64::from).into(),
     ];
     all.extend((0..dimensions).map(|i| axis(i).into()));
@@ -351,8 +356,9 @@ fn set_graph_user_data(
 ///
 /// @param objectHandle the graph, sim.handle_all or sim.handle_all_except_explicit
 /// @param simulationTime of the values
+/// @return result 1
 #[api("sim.handleGraph")]
-fn handle_graph(cx: &mut Cx, object_handle: Number, simulation_time: f64) -> Result<()> {
+fn handle_graph(cx: &mut Cx, object_handle: Number, simulation_time: f64) -> Result<i64> {
     let time = simulation_time
         .finite()
         .ok_or(SceneError::InvalidArgument)?;
@@ -362,21 +368,22 @@ fn handle_graph(cx: &mut Cx, object_handle: Number, simulation_time: f64) -> Res
             Ok(())
         })?;
     }
-    Ok(())
+    Ok(1)
 }
 
 /// Clears the recorded data.
 ///
 /// @param objectHandle the graph, sim.handle_all or sim.handle_all_except_explicit
+/// @return result 1
 #[api("sim.resetGraph")]
-fn reset_graph(cx: &mut Cx, object_handle: Number) -> Result<()> {
+fn reset_graph(cx: &mut Cx, object_handle: Number) -> Result<i64> {
     for handle in graphs(cx, object_handle)? {
         change(cx, handle, |graph| {
             graph.reset();
             Ok(())
         })?;
     }
-    Ok(())
+    Ok(1)
 }
 
 /// The graph, or all of them.

@@ -8,10 +8,15 @@ use crate::{ApiError, ApiFn, Cx, Result, functions};
 use format::picture::{Layout, Picture, PictureError};
 use format::scene_file::write_whole;
 use permissions::read_bounded;
-use script::{Bytes, IntPair};
+use script::{Bytes, IntPair, Number};
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![load_image, save_image, get_scaled_image, transform_image];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    load_image,
+    save_image,
+    get_scaled_image,
+    transform_image,
+    combine_rgb_images
+];
 
 /// Default quality of JPEG files.
 const QUALITY: u8 = 90;
@@ -23,6 +28,12 @@ mod option {
     pub const KEEP_ASPECT: i64 = 4;
     pub const FLIP_X: i64 = 2;
     pub const FLIP_Y: i64 = 4;
+}
+
+/// `sim.imgcomb_*`.
+mod combination {
+    pub const VERTICAL: i64 = 0;
+    pub const HORIZONTAL: i64 = 1;
 }
 
 pub(crate) fn failure(error: PictureError) -> ApiError {
@@ -147,6 +158,34 @@ fn transform_image(_cx: &Cx, image: Bytes, resolution: [f64; 2], options: i64) -
             .flipped(has(option::FLIP_X), has(option::FLIP_Y))
             .into_bytes(),
     ))
+}
+
+/// Two images in one.
+///
+/// @param img1 red, green, blue of each pixel
+/// @param img1Res width and height
+/// @param img2 the second image: to the right of the first one, or with its rows after those of the first one
+/// @param img2Res width and height
+/// @param operation sim.imgcomb_horizontal or sim.imgcomb_vertical
+/// @return outImg
+#[api("sim.combineRgbImages")]
+fn combine_rgb_images(
+    _cx: &Cx,
+    img1: Bytes,
+    img1_res: [f64; 2],
+    img2: Bytes,
+    img2_res: [f64; 2],
+    operation: Number,
+) -> Result<Bytes> {
+    let first = Picture::new(img1.0, whole(img1_res), Layout::Rgb).map_err(failure)?;
+    let second = Picture::new(img2.0, whole(img2_res), Layout::Rgb).map_err(failure)?;
+    let is_horizontal = match operation.0 {
+        combination::HORIZONTAL => true,
+        combination::VERTICAL => false,
+        _ => return Err(ApiError::Other("invalid operation.".into())),
+    };
+    let both = first.beside(&second, is_horizontal).map_err(failure)?;
+    Ok(Bytes(both.into_bytes()))
 }
 
 fn whole(resolution: [f64; 2]) -> [i64; 2] {

@@ -127,7 +127,7 @@ fn is_dynamically_enabled(cx: &Cx, object_handle: Handle) -> Result<bool> {
 ///
 /// @param dynamicPass index of the sub-step, from 0, or sim.handle_all
 /// @param objectHandle a shape, or sim.handle_all; the shape then comes first in the result
-/// @param index from 0
+/// @param index from 0; sim.handleflag_extended may be added, which changes nothing
 /// @return collidingObjects the two shapes
 /// @return collisionPoint world, metres
 /// @return reactionForce what the second shape does to the first, world axes, newtons
@@ -151,7 +151,7 @@ fn get_contact_info(
             dynamic_pass == special::ALL || dynamic_pass == i64::from(contact.sub_step)
         })
         .filter(|contact| shape.is_none_or(|shape| contact.shapes.contains(&shape)))
-        .nth(usize::try_from(index).unwrap_or(usize::MAX));
+        .nth(usize::try_from(index & !flag::EXTENDED).unwrap_or(usize::MAX));
     let Some(contact) = found else {
         return Ok(Default::default());
     };

@@ -116,16 +116,17 @@ fn get_joint_interval(cx: &Cx, object_handle: Handle) -> Result<(bool, [f64; 2])
 /// @param objectHandle the joint
 /// @param cyclic whether it has no limits
 /// @param interval lower limit and range (not the upper limit), rad or metres
+/// @return result 1
 #[api("sim.setJointInterval")]
 fn set_joint_interval(
     cx: &mut Cx,
     object_handle: Handle,
     cyclic: bool,
     interval: [f64; 2],
-) -> Result<()> {
-    Ok(cx
-        .scene_mut()
-        .set_joint_interval(object_handle, cyclic, interval)?)
+) -> Result<i64> {
+    cx.scene_mut()
+        .set_joint_interval(object_handle, cyclic, interval)?;
+    Ok(1)
 }
 
 /// Position of a joint.

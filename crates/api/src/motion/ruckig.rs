@@ -112,13 +112,15 @@ fn ruckig_step(cx: &mut Cx, handle: Number, cycle_time: f64) -> Result<(i64, Vec
 /// Removes a trajectory.
 ///
 /// @param handle from sim.ruckigPos or sim.ruckigVel
+/// @return result 1
 #[api("sim.ruckigRemove")]
-fn ruckig_remove(cx: &mut Cx, handle: Number) -> Result<()> {
+fn ruckig_remove(cx: &mut Cx, handle: Number) -> Result<i64> {
     trajectories(cx)
         .borrow_mut()
         .remove(handle.0)
         .map(drop)
-        .ok_or_else(unknown)
+        .ok_or_else(unknown)?;
+    Ok(1)
 }
 
 /// The trajectories of the calling script.

@@ -2,7 +2,7 @@
 
 use api_macro::api;
 
-use crate::{ApiFn, Cx, Result, functions};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::{CopyOptions, Handle, SceneError};
 use script::{Handles, Number};
 
@@ -26,6 +26,9 @@ fn copy_paste_objects(
     object_handles: Handles,
     #[default(0)] options: Number,
 ) -> Result<Option<Vec<i64>>> {
+    if object_handles.0.is_empty() {
+        return Err(ApiError::TableSize);
+    }
     let handles = handles(&object_handles)?;
     let copies = cx.copy_objects(&handles, CopyOptions::from_bits_retain(options.0))?;
     let aligned = handles
@@ -39,17 +42,18 @@ fn copy_paste_objects(
 /// @param objectHandles the objects
 /// @param scalingFactor at least 0.0001
 /// @param scalePositionsToo also where they are in their parents' frames
+/// @return result 1
 #[api("sim.scaleObjects")]
 fn scale_objects(
     cx: &mut Cx,
     object_handles: Handles,
     scaling_factor: f64,
     scale_positions_too: bool,
-) -> Result<()> {
+) -> Result<i64> {
     let handles = handles(&object_handles)?;
-    Ok(cx
-        .scene_mut()
-        .scale_objects(&handles, scaling_factor, scale_positions_too)?)
+    cx.scene_mut()
+        .scale_objects(&handles, scaling_factor, scale_positions_too)?;
+    Ok(1)
 }
 
 /// Scales an object along its axes; mass and inertia stay.
@@ -59,6 +63,7 @@ fn scale_objects(
 /// @param yScale at least 0.0001; as x for round things
 /// @param zScale at least 0.0001; as x for spheres
 /// @param options ignored
+/// @return result 1
 #[api("sim.scaleObject")]
 fn scale_object(
     cx: &mut Cx,
@@ -67,8 +72,8 @@ fn scale_object(
     y_scale: f64,
     z_scale: f64,
     #[default(0)] _options: Number,
-) -> Result<()> {
-    Ok(cx
-        .scene_mut()
-        .scale_object(object_handle, [x_scale, y_scale, z_scale])?)
+) -> Result<i64> {
+    cx.scene_mut()
+        .scale_object(object_handle, [x_scale, y_scale, z_scale])?;
+    Ok(1)
 }

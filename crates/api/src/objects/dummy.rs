@@ -31,12 +31,14 @@ fn get_link_dummy(cx: &Cx, dummy_handle: Handle) -> Result<i64> {
 ///
 /// @param dummyHandle the dummy
 /// @param linkDummyHandle its new partner, -1 for none
+/// @return result 1
 #[api("sim.setLinkDummy")]
-fn set_link_dummy(cx: &mut Cx, dummy_handle: Handle, link_dummy_handle: f64) -> Result<()> {
+fn set_link_dummy(cx: &mut Cx, dummy_handle: Handle, link_dummy_handle: f64) -> Result<i64> {
     let partner = if link_dummy_handle < 0.0 {
         None
     } else {
         Handle::from_raw(link_dummy_handle as i64)
     };
-    Ok(cx.scene_mut().link_dummies(dummy_handle, partner)?)
+    cx.scene_mut().link_dummies(dummy_handle, partner)?;
+    Ok(1)
 }

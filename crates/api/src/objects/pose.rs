@@ -58,7 +58,7 @@ fn set_object_position(
     position: Operand<3, LegacyFrame>,
     #[default(special::WORLD, "sim.handle_world")] relative_to_object_handle: Operand<
         3,
-        PositionFrame,
+        StrictFrame,
     >,
 ) -> Result<()> {
     let (position, frame) = arrange(position, relative_to_object_handle)?;
@@ -262,20 +262,12 @@ fn get_object_child_pose(cx: &Cx, object_handle: Handle) -> Result<[f64; 7]> {
 ///
 /// @param objectHandle the joint
 /// @param pose of which the rotation is taken
-/// @return result 1, or -1 if it is no spherical joint
 #[api("sim.setObjectChildPose")]
-fn set_object_child_pose(cx: &mut Cx, object_handle: Handle, pose: [f64; 7]) -> Result<i64> {
+fn set_object_child_pose(cx: &mut Cx, object_handle: Handle, pose: [f64; 7]) -> Result<()> {
     let pose = pose::pose_from_array(&checked(pose)?);
-    Ok(
-        if cx
-            .scene_mut()
-            .set_spherical_rotation(object_handle, pose.rotation)?
-        {
-            1
-        } else {
-            -1
-        },
-    )
+    cx.scene_mut()
+        .set_spherical_rotation(object_handle, pose.rotation)?;
+    Ok(())
 }
 
 /// From a joint to its moving side.
@@ -293,7 +285,6 @@ fn get_joint_matrix(cx: &Cx, object_handle: Handle) -> Result<[f64; 12]> {
 ///
 /// @param objectHandle the joint
 /// @param matrix of which the rotation is taken
-/// @return result 1, or -1 if it is no spherical joint
 #[api("sim.setSphericalJointMatrix")]
 fn set_spherical_joint_matrix(
     cx: &mut Cx,
@@ -416,7 +407,7 @@ pub(crate) fn checked<const N: usize>(numbers: [f64; N]) -> Result<[f64; N]> {
     }
 }
 
-/// A frame, as the position functions read it: a float is the world, and the inverse is not known to them.
+/// A frame, as sim.getObjectPosition reads it: a float is the world, and the inverse is not known to them.
 struct PositionFrame(Frame);
 /// A frame, as the other functions read it: it must be an integer.
 struct StrictFrame(Frame);
@@ -458,7 +449,7 @@ frames! {
     PositionFrame |args| match i64::from_script(args) {
         Ok(special::INVERSE) => Err(SceneError::NoSuchObject.into()),
         Ok(raw) => Ok(Frame::from_raw(raw)?),
-        Err(_) => Ok(Frame::World),
+        Err(_) => f64::from_script(args).map(|_| Frame::World),
     };
     StrictFrame |args| Ok::<_, ApiError>(Frame::from_raw(i64::from_script(args)?)?);
     LegacyFrame |args| {

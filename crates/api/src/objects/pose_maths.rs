@@ -131,6 +131,9 @@ fn multiply_poses(_cx: &Cx, pose_in1: [f64; 7], pose_in2: [f64; 7]) -> Result<[f
 /// @return outVectors three numbers for each vector
 #[api("sim.multiplyVector")]
 fn multiply_vector(_cx: &Cx, matrix: Vec<f64>, in_vectors: Vec<f64>) -> Result<Vec<f64>> {
+    if in_vectors.len() < 3 {
+        return Err(ApiError::TableSize);
+    }
     Ok(pose::multiply_vector(&matrix, &in_vectors)?)
 }
 

@@ -41,13 +41,14 @@ fn get_object_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
 ///
 /// @param objectHandle the object
 /// @param property sim.objectproperty_* bits
+/// @return result 1
 #[api("sim.setObjectProperty")]
-fn set_object_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<()> {
-    Ok(cx
-        .scene_mut()
+fn set_object_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<i64> {
+    cx.scene_mut()
         .modify(object_handle, Field::ObjectProperty, |object| {
             object.object_property = ObjectFlags::from_bits_retain(property.0)
-        })?)
+        })?;
+    Ok(1)
 }
 
 /// Special properties of an object: collidable, measurable, detectable; its own flags, without those of models.
@@ -63,11 +64,16 @@ fn get_object_special_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
 ///
 /// @param objectHandle the object
 /// @param property sim.objectspecialproperty_* bits
+/// @return result 1
 #[api("sim.setObjectSpecialProperty")]
-fn set_object_special_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<()> {
-    Ok(cx
-        .scene_mut()
-        .set_special_property(object_handle, SpecialFlags::from_bits_retain(property.0))?)
+fn set_object_special_property(
+    cx: &mut Cx,
+    object_handle: Handle,
+    property: Number,
+) -> Result<i64> {
+    cx.scene_mut()
+        .set_special_property(object_handle, SpecialFlags::from_bits_retain(property.0))?;
+    Ok(1)
 }
 
 /// Flags of a model.
@@ -83,13 +89,14 @@ fn get_model_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
 ///
 /// @param objectHandle the object
 /// @param property sim.modelproperty_* bits
+/// @return result 1
 #[api("sim.setModelProperty")]
-fn set_model_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<()> {
+fn set_model_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<i64> {
     let change =
         |object: &mut Object| object.set_model_property(ModelFlags::from_bits_retain(property.0));
-    Ok(cx
-        .scene_mut()
-        .modify(object_handle, Field::ModelProperty, change)?)
+    cx.scene_mut()
+        .modify(object_handle, Field::ModelProperty, change)?;
+    Ok(1)
 }
 
 fn explicit_flag(object: &mut Object) -> std::result::Result<&mut bool, SceneError> {
@@ -290,17 +297,18 @@ fn get_referenced_handles(
 /// @param objectHandle the object; with sim.handleflag_keeporiginal: its copies refer to the same objects
 /// @param referencedHandles empty to remove the list
 /// @param tag name of the list
+/// @return result 1
 #[api("sim.setReferencedHandles")]
 fn set_referenced_handles(
     cx: &mut Cx,
     object_handle: ObjectRef,
     referenced_handles: Handles,
     #[default("")] tag: String,
-) -> Result<()> {
+) -> Result<i64> {
     let kind = references(object_handle);
-    Ok(cx
-        .scene_mut()
-        .set_references(object_handle.handle, kind, &tag, &referenced_handles.0)?)
+    cx.scene_mut()
+        .set_references(object_handle.handle, kind, &tag, &referenced_handles.0)?;
+    Ok(1)
 }
 
 /// Names of the lists of handles an object refers to.

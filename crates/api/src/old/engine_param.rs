@@ -49,15 +49,17 @@ fn get_engine_float_param(cx: &Cx, param_id: Number, object_handle: Number) -> R
 /// @param paramId sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
 /// @param objectHandle a shape, joint or dummy; -1 for a global parameter
 /// @param floatParam the value
+/// @return result 1
 #[api("sim.setEngineFloatParam")]
 fn set_engine_float_param(
     cx: &mut Cx,
     param_id: Number,
     object_handle: Number,
     float_param: f64,
-) -> Result<()> {
+) -> Result<i64> {
     let target = target(object_handle)?;
-    set(cx, param_id.0, target, float_param)
+    set(cx, param_id.0, target, float_param)?;
+    Ok(1)
 }
 
 /// An integer parameter of a physics engine.
@@ -77,15 +79,17 @@ fn get_engine_int32_param(cx: &Cx, param_id: Number, object_handle: Number) -> R
 /// @param paramId sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
 /// @param objectHandle a shape, joint or dummy; -1 for a global parameter
 /// @param int32Param the value
+/// @return result 1
 #[api("sim.setEngineInt32Param")]
 fn set_engine_int32_param(
     cx: &mut Cx,
     param_id: Number,
     object_handle: Number,
     int32_param: Number,
-) -> Result<()> {
+) -> Result<i64> {
     let target = target(object_handle)?;
-    set(cx, param_id.0, target, int32_param.0 as f64)
+    set(cx, param_id.0, target, int32_param.0 as f64)?;
+    Ok(1)
 }
 
 /// A switch of a physics engine.
@@ -106,13 +110,15 @@ fn get_engine_bool_param(cx: &Cx, param_id: Number, object_handle: Number) -> Re
 /// @param paramId sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
 /// @param objectHandle a shape, joint or dummy; -1 for a global parameter
 /// @param boolParam the value
+/// @return result 1
 #[api("sim.setEngineBoolParam")]
 fn set_engine_bool_param(
     cx: &mut Cx,
     param_id: Number,
     object_handle: Number,
     bool_param: bool,
-) -> Result<()> {
+) -> Result<i64> {
     let target = target(object_handle)?;
-    set(cx, param_id.0, target, f64::from(u8::from(bool_param)))
+    set(cx, param_id.0, target, f64::from(u8::from(bool_param)))?;
+    Ok(1)
 }

@@ -115,22 +115,25 @@ fn set_object_float_param(
     )?))
 }
 
-/// Parameter of an object that is a list of numbers. No object has one.
+/// Parameter of an object that is a list of numbers.
 ///
 /// @param objectHandle the object
-/// @param parameterID its number
-/// @return params nothing
+/// @param parameterID sim.visionfarrayparam_viewfrustum or sim.camerafarrayparam_viewfrustum: half the width, half the height and the distance of
+/// the near clipping plane, then those of the far one
+/// @return params nothing when the object has no such parameter
 #[api("sim.getObjectFloatArrayParam")]
 fn get_object_float_array_param(
     cx: &Cx,
     object_handle: Handle,
-    #[name("parameterID")] _parameter_id: Number,
+    #[name("parameterID")] parameter_id: Number,
 ) -> Result<Option<Vec<f64>>> {
-    cx.scene().object(object_handle)?;
-    Ok(None)
+    let scene = cx.scene();
+    Ok(scene
+        .object(object_handle)?
+        .float_array_param(parameter_id.0))
 }
 
-/// Sets a parameter of an object that is a list of numbers. No object has one, so this does nothing.
+/// Sets a parameter of an object that is a list of numbers. No object has one that can be set, so this does nothing.
 ///
 /// @param objectHandle the object
 /// @param parameterID its number

@@ -183,10 +183,11 @@ pub(crate) fn sensors_are_handled(cx: &Cx, parameter: i64) -> bool {
 ///
 /// @param parameter sim.boolparam_*
 /// @param boolState the new state
+/// @return result 1
 #[api("sim.setBoolParam")]
-fn set_bool_param(cx: &mut Cx, parameter: Number, bool_state: bool) -> Result<()> {
+fn set_bool_param(cx: &mut Cx, parameter: Number, bool_state: bool) -> Result<i64> {
     if param_property::write(cx, SWITCHES, parameter.0, bool_state)? {
-        return Ok(());
+        return Ok(1);
     }
     match parameter.0 {
         switch::EXIT_REQUEST => cx.request_quit(bool_state),
@@ -201,7 +202,7 @@ fn set_bool_param(cx: &mut Cx, parameter: Number, bool_state: bool) -> Result<()
             cx.app_mut().idle_params.bools.insert(number, bool_state);
         }
     }
-    Ok(())
+    Ok(1)
 }
 
 fn switch_calculation(cx: &mut Cx, switch: impl FnOnce(&mut Calculations)) {
@@ -236,8 +237,9 @@ fn get_float_param(cx: &Cx, parameter: Number) -> Result<f64> {
 ///
 /// @param parameter sim.floatparam_*
 /// @param parameterValue the new value
+/// @return result 1
 #[api("sim.setFloatParam")]
-fn set_float_param(cx: &mut Cx, parameter: Number, parameter_value: f64) -> Result<()> {
+fn set_float_param(cx: &mut Cx, parameter: Number, parameter_value: f64) -> Result<i64> {
     if !param_property::write(cx, FLOATS, parameter.0, parameter_value)? {
         let number = known(parameter.0, float::LAST)?;
         cx.app_mut()
@@ -245,7 +247,7 @@ fn set_float_param(cx: &mut Cx, parameter: Number, parameter_value: f64) -> Resu
             .floats
             .insert(number, parameter_value);
     }
-    Ok(())
+    Ok(1)
 }
 
 /// A parameter of three numbers.
@@ -275,8 +277,9 @@ fn get_array_param(cx: &Cx, parameter: Number) -> Result<[f64; 3]> {
 ///
 /// @param parameter sim.arrayparam_*
 /// @param parameterValues the new values
+/// @return result 1
 #[api("sim.setArrayParam")]
-fn set_array_param(cx: &mut Cx, parameter: Number, parameter_values: [f64; 3]) -> Result<()> {
+fn set_array_param(cx: &mut Cx, parameter: Number, parameter_values: [f64; 3]) -> Result<i64> {
     match parameter.0 {
         array::AMBIENT_LIGHT => {
             param_property::write(cx, LIGHT, array::AMBIENT_LIGHT, Color(parameter_values))?;
@@ -294,7 +297,7 @@ fn set_array_param(cx: &mut Cx, parameter: Number, parameter_values: [f64; 3]) -
                 .insert(number, parameter_values);
         }
     }
-    Ok(())
+    Ok(1)
 }
 
 /// A string parameter; empty if it has no value in Swanilda.
@@ -331,18 +334,19 @@ fn get_string_param(cx: &Cx, parameter: Number) -> Result<Text> {
 ///
 /// @param parameter sim.stringparam_*
 /// @param parameterValue the new value
+/// @return result 1
 #[api("sim.setStringParam")]
-fn set_string_param(cx: &mut Cx, parameter: Number, parameter_value: Bytes) -> Result<()> {
+fn set_string_param(cx: &mut Cx, parameter: Number, parameter_value: Bytes) -> Result<i64> {
     let number = known(parameter.0, string::LAST)?;
     if param_property::write(cx, TEXTS, number, Text(parameter_value.0.clone()))? {
-        return Ok(());
+        return Ok(1);
     }
     param_property::write(cx, LEVELS, number, Text(parameter_value.0.clone()))?;
     cx.app_mut()
         .idle_params
         .texts
         .insert(number, parameter_value.0);
-    Ok(())
+    Ok(1)
 }
 
 /// A named parameter: from the command line, or set by a script.
@@ -363,14 +367,16 @@ fn get_named_string_param(cx: &Cx, param_name: String) -> Result<Option<Text>> {
 ///
 /// @param paramName its name
 /// @param stringParam the new value
+/// @return result 1
 #[api("sim.setNamedStringParam")]
-fn set_named_string_param(cx: &mut Cx, param_name: String, string_param: Text) -> Result<()> {
+fn set_named_string_param(cx: &mut Cx, param_name: String, string_param: Text) -> Result<i64> {
     let value = (Text::TYPE, string_param.into_data());
     cx.write_property(
         &PropertyTarget::App,
         &format!("namedParam.{param_name}"),
         value,
-    )
+    )?;
+    Ok(1)
 }
 
 /// Calls the handlers of what came from outside: what persons did with windows (simUI). It happens at the end of each loop iteration anyway.

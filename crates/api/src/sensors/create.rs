@@ -63,7 +63,7 @@ fn create_proximity_sensor(
 #[api("sim.createVisionSensor")]
 fn create_vision_sensor(
     cx: &mut Cx,
-    #[default(0)] options: Number,
+    options: Number,
     #[default(None)] int_params: Option<Vec<i64>>,
     #[default(None)] float_params: Option<Vec<f64>>,
 ) -> Result<Handle> {
@@ -80,12 +80,7 @@ fn create_vision_sensor(
 /// @param pointSize for display, pixels
 /// @return handle the octree
 #[api("sim.createOctree")]
-fn create_octree(
-    cx: &mut Cx,
-    #[default(0.025)] voxel_size: f64,
-    #[default(0)] options: Number,
-    #[default(4.0)] point_size: f64,
-) -> Result<Handle> {
+fn create_octree(cx: &mut Cx, voxel_size: f64, options: Number, point_size: f64) -> Result<Handle> {
     let mut octree = OcTree::new(voxel_size, point_size);
     octree.random_colours =
         StorageOptions::from_bits_retain(options.0).contains(StorageOptions::RANDOM_COLOURS);
@@ -102,10 +97,10 @@ fn create_octree(
 #[api("sim.createPointCloud")]
 fn create_point_cloud(
     cx: &mut Cx,
-    #[default(0.02)] max_voxel_size: f64,
-    #[default(20)] max_pt_cnt_per_voxel: Number,
-    #[default(0)] options: Number,
-    #[default(4.0)] point_size: f64,
+    max_voxel_size: f64,
+    max_pt_cnt_per_voxel: Number,
+    options: Number,
+    point_size: f64,
 ) -> Result<Handle> {
     let options = StorageOptions::from_bits_retain(options.0);
     let max_points_in_cell = max_pt_cnt_per_voxel.0.max(1);

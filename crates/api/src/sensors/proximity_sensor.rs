@@ -207,12 +207,13 @@ fn sensor_and_mode(
 /// Forgets what a sensor that is tagged for explicit handling, or all sensors detected.
 ///
 /// @param sensorHandle a sensor, sim.handle_all or sim.handle_all_except_explicit
+/// @return result 1
 #[api("sim.resetProximitySensor")]
-fn reset_proximity_sensor(cx: &mut Cx, sensor_handle: Number) -> Result<()> {
+fn reset_proximity_sensor(cx: &mut Cx, sensor_handle: Number) -> Result<i64> {
     match sensor_handle.0 {
         special::ALL => cx.reset_proximity_sensors(true),
         special::ALL_EXCEPT_EXPLICIT => cx.reset_proximity_sensors(false),
         raw => cx.reset_proximity_sensor(Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?)?,
     }
-    Ok(())
+    Ok(1)
 }

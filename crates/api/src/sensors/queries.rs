@@ -4,7 +4,7 @@ use api_macro::api;
 
 use crate::{ApiFn, Cx, Result, functions};
 use perception::entity::Entity;
-use scene::{Handle, Scene, special};
+use scene::{Handle, Scene};
 use script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
@@ -32,7 +32,7 @@ fn raw(objects: Option<[Handle; 2]>) -> Vec<i64> {
 fn check_collision(
     cx: &Cx,
     entity1_handle: Number,
-    #[default(special::ALL, "sim.handle_all")] entity2_handle: Number,
+    entity2_handle: Number,
 ) -> Result<(i64, Vec<i64>)> {
     let found = cx.query(|perception, scene| {
         let entities = entities(scene, [entity1_handle, entity2_handle])?;
@@ -85,7 +85,7 @@ fn check_collision_ex(
 fn check_distance(
     cx: &Cx,
     entity1_handle: Number,
-    #[default(special::ALL, "sim.handle_all")] entity2_handle: Number,
+    entity2_handle: Number,
     #[default(0.0)] threshold: f64,
 ) -> Result<(i64, Vec<f64>, Vec<i64>)> {
     let below = if threshold > 0.0 {

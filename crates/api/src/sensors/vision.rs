@@ -24,6 +24,9 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// `sim.boolparam_vision_sensor_handling_enabled`.
 const HANDLING_ENABLED: i64 = 10;
 
+/// Packets that results have at least: those that are missing are empty.
+const MIN_PACKETS: usize = 2;
+
 /// Bits of the options of pictures.
 mod option {
     pub const GREY: i64 = 1;
@@ -43,8 +46,7 @@ fn handle_vision_sensor(cx: &mut Cx, sensor_handle: Number) -> Result<Results> {
     if sensor_handle.0 < 0 {
         packets.clear();
     }
-    packets.resize(packets.len().max(2), Vec::new());
-    Ok(Results(results(count, &packets)))
+    Ok(Results(results(count, packets)))
 }
 
 /// Measures with all proximity sensors and takes pictures with all vision sensors that are not handled explicitly. For the usual main
@@ -90,9 +92,7 @@ fn check_vision_sensor(
     entity_handle: Number,
 ) -> Result<Results> {
     let (reading, _) = cx.check_vision_sensor(sensor_handle, entity(cx, entity_handle)?)?;
-    let mut packets = reading.packets;
-    packets.resize(packets.len().max(2), Vec::new());
-    Ok(Results(results(reading.triggered.into(), &packets)))
+    Ok(Results(results(reading.triggered.into(), reading.packets)))
 }
 
 /// The picture of an entity that a vision sensor takes. The picture and the results of the sensor stay as they are.
@@ -158,18 +158,16 @@ fn read_vision_sensor(cx: &Cx, sensor_handle: Handle) -> Result<Results> {
         .as_ref();
     Ok(Results(reading.map_or_else(
         || vec![Data::Int(-1)],
-        |reading| results(reading.triggered.into(), &reading.packets),
+        |reading| results(reading.triggered.into(), reading.packets.clone()),
     )))
 }
 
 /// Result and packets as scripts receive them.
-fn results(result: i64, packets: &[Vec<f32>]) -> Vec<Data> {
-    let packets = packets.iter().map(|packet| {
-        packet
-            .iter()
-            .map(|&value| f64::from(value))
-            .collect::<Vec<_>>()
-    });
+fn results(result: i64, mut packets: Vec<Vec<f32>>) -> Vec<Data> {
+    packets.resize(packets.len().max(MIN_PACKETS), Vec::new());
+    let packets = packets
+        .into_iter()
+        .map(|packet| packet.into_iter().map(f64::from).collect::<Vec<_>>());
     std::iter::once(Data::Int(result))
         .chain(packets.map(Data::from))
         .collect()
@@ -178,12 +176,13 @@ fn results(result: i64, packets: &[Vec<f32>]) -> Vec<Data> {
 /// Clears the results of vision sensors.
 ///
 /// @param sensorHandle a sensor, sim.handle_all or sim.handle_all_except_explicit
+/// @return result 1
 #[api("sim.resetVisionSensor")]
-fn reset_vision_sensor(cx: &mut Cx, sensor_handle: Number) -> Result<()> {
+fn reset_vision_sensor(cx: &mut Cx, sensor_handle: Number) -> Result<i64> {
     for sensor in sensors(cx, sensor_handle)? {
         cx.reset_vision_sensor(sensor);
     }
-    Ok(())
+    Ok(1)
 }
 
 /// The sensor, which must be handled explicitly, or all.
@@ -297,6 +296,7 @@ pub(crate) fn unpacked(bytes: &[u8]) -> Vec<f32> {
 /// @param options 1: a byte of grey per pixel; 2: depths instead, as 32-bit floats from 0 (near) to 1 (far); 4: scripts are not called
 /// @param pos lower left corner of the part
 /// @param size width and height of the part; nothing for the whole image
+/// @return result 1
 #[api("sim.setVisionSensorImg")]
 fn set_vision_sensor_img(
     cx: &mut Cx,
@@ -305,7 +305,7 @@ fn set_vision_sensor_img(
     #[default(0)] options: Number,
     #[default([0.0; 2])] pos: [f64; 2],
     #[default([0.0; 2])] size: [f64; 2],
-) -> Result<()> {
+) -> Result<i64> {
     let part = area(
         cx.scene().object(sensor_handle)?.vision_sensor()?,
         pos,
@@ -316,11 +316,10 @@ fn set_vision_sensor_img(
         true => image.0.len().is_multiple_of(4) && sensor.set_depth_part(part, &unpacked(&image.0)),
         false => sensor.set_image_part(part, &image.0, has(option::GREY)),
     })?;
-    if has(option::NO_CALLBACK) {
-        Ok(())
-    } else {
-        cx.evaluate_set_picture(sensor_handle)
+    if !has(option::NO_CALLBACK) {
+        cx.evaluate_set_picture(sensor_handle)?;
     }
+    Ok(1)
 }
 
 /// Resolution of a vision sensor.

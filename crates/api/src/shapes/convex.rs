@@ -93,7 +93,7 @@ fn convex_decompose(
 ///
 /// @param path poses of 7 numbers, two at least
 /// @param section points x and y, two at least; closed when the last is the first
-/// @param options 4: the last pose is followed by the first
+/// @param options 4: the path is closed: its last pose stands for the first
 /// @param upVector y axis of the section points towards it, z along the path; zeros: the poses of the path define the orientation
 /// @return shapeHandle the shape
 #[api("sim.generateShapeFromPath")]
@@ -115,9 +115,13 @@ fn generate_shape_from_path(
     {
         return Err(SceneError::InvalidData.into());
     }
-    let poses: Vec<_> = path.as_chunks().0.iter().map(pose_from_array).collect();
+    let mut poses: Vec<_> = path.as_chunks().0.iter().map(pose_from_array).collect();
     let up = Some(up_vector).filter(|up| up.iter().any(|c| *c != 0.0));
     let closed = PathShapeOptions::from_bits_retain(options.0).contains(PathShapeOptions::CLOSED);
+    if closed {
+        // Closed paths end where they begin.
+        poses.pop();
+    }
     let extrusion = Extrusion { closed, up };
     let mesh = extrusion
         .mesh(&poses, section.as_chunks().0)

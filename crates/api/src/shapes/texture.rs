@@ -182,6 +182,7 @@ fn get_shape_texture_id(cx: &Cx, shape_handle: Handle) -> Result<i64> {
 /// @param uvScaling size of the image, metres
 /// @param position of the projection
 /// @param orientation of the projection, Euler angles
+/// @return result 1
 #[api("sim.setShapeTexture")]
 #[expect(clippy::too_many_arguments, reason = "the reference has them")]
 fn set_shape_texture(
@@ -193,9 +194,10 @@ fn set_shape_texture(
     uv_scaling: [f64; 2],
     #[default(None)] position: Option<[f64; 3]>,
     #[default(None)] orientation: Option<[f64; 3]>,
-) -> Result<()> {
+) -> Result<i64> {
     if texture_id.0 == -1 {
-        return Ok(cx.scene_mut().set_shape_texture(shape_handle, None)?);
+        cx.scene_mut().set_shape_texture(shape_handle, None)?;
+        return Ok(1);
     }
     let source = TextureSource::from_raw(texture_id.0).ok_or(SceneError::InvalidArgument)?;
     let mapping = TextureMapping {
@@ -207,9 +209,9 @@ fn set_shape_texture(
         )?,
         ..TextureMapping::new(source).with_options(TextureOptions::from_bits_retain(options.0))
     };
-    Ok(cx
-        .scene_mut()
-        .set_shape_texture(shape_handle, Some(mapping))?)
+    cx.scene_mut()
+        .set_shape_texture(shape_handle, Some(mapping))?;
+    Ok(1)
 }
 
 /// Reads a part of a texture.
@@ -248,6 +250,7 @@ fn read_texture(
 /// @param sizeX columns; 0 for the whole texture
 /// @param sizeY rows; 0 for the whole texture
 /// @param interpol how much of the old colours stays, 0 to 1
+/// @return result 1
 #[api("sim.writeTexture")]
 #[expect(clippy::too_many_arguments, reason = "the reference has them")]
 fn write_texture(
@@ -260,12 +263,13 @@ fn write_texture(
     #[default(0)] size_x: Number,
     #[default(0)] size_y: Number,
     #[default(0.0)] interpol: f64,
-) -> Result<()> {
+) -> Result<i64> {
     let _ = options;
-    Ok(cx.scene_mut().modify_texture(texture_id, |texture| {
+    cx.scene_mut().modify_texture(texture_id, |texture| {
         let part = texture.rectangle([pos_x.0, pos_y.0], [size_x.0, size_y.0])?;
         texture.write(part, &texture_data.0, interpol)
-    })?)
+    })?;
+    Ok(1)
 }
 
 /// The texture of `sim.createShape`: two coordinates for each of `corners` corners, and the pixels of an image.

@@ -76,14 +76,25 @@ fn box_around(points: &[Vector3<f64>], orientation: &UnitQuaternion<f64>) -> Opt
     })
 }
 
-/// Smaller volume by more than rounding, or among flat boxes the smaller surface.
+/// Smaller volume by more than rounding; of solid boxes with the same volume the thinner one, of flat ones that with the smaller surface.
 fn tighter(a: &BoundingBox, b: &BoundingBox) -> bool {
     let volume = |s: &[f64; 3]| s[0] * s[1] * s[2];
     let surface = |s: &[f64; 3]| s[0] * s[1] + s[1] * s[2] + s[2] * s[0];
+    let thickness = |s: &[f64; 3]| s[0].min(s[1]).min(s[2]);
     let largest = b.size.iter().fold(0.0_f64, |m, s| m.max(*s));
+    let rounding = 1e-9 * largest.powi(3);
     let gain = volume(&b.size) - volume(&a.size);
-    let flat = gain.abs() <= 1e-9 * largest.powi(3);
-    gain > 1e-9 * largest.powi(3) || flat && surface(&a.size) < surface(&b.size) * (1.0 - 1e-9)
+    if gain.abs() > rounding {
+        return gain > 0.0;
+    }
+    let measure = |s: &[f64; 3]| {
+        if volume(&b.size) > rounding {
+            thickness(s)
+        } else {
+            surface(s)
+        }
+    };
+    measure(&a.size) < measure(&b.size) * (1.0 - 1e-9)
 }
 
 /// The orientation of a box with its axes reordered to size x <= y <= z.

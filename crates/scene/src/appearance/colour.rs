@@ -23,8 +23,8 @@ pub struct Colour {
 pub enum ColourSlot {
     /// Of everything but shapes.
     Body,
-    /// Emitted light, or the ray of a proximity sensor.
-    Emitted,
+    /// The second one: emitted light, the ray of a proximity sensor, the other part of a joint or force sensor.
+    Second,
     /// Of one mesh of a shape.
     Mesh(usize),
 }
@@ -34,6 +34,8 @@ pub enum ColourSlot {
 pub enum ColourComponent {
     /// Reflected ambient and diffuse light.
     AmbientDiffuse,
+    /// From before ambient and diffuse light were one: black, and not kept.
+    Diffuse,
     /// Highlights.
     Specular,
     /// Emitted light.
@@ -59,7 +61,8 @@ impl ColourComponent {
     /// The component with a script's number, if there is one.
     pub fn from_code(code: i64) -> Option<Self> {
         Some(match code {
-            0 | 1 => Self::AmbientDiffuse,
+            0 => Self::AmbientDiffuse,
+            1 => Self::Diffuse,
             2 => Self::Specular,
             3 => Self::Emission,
             4 => Self::Transparency,
@@ -105,6 +108,7 @@ impl Colour {
     pub fn component(&self, component: ColourComponent) -> &[f32] {
         match component {
             ColourComponent::AmbientDiffuse => &self.ambient_diffuse,
+            ColourComponent::Diffuse => &[0.0; 3],
             ColourComponent::Specular => &self.specular,
             ColourComponent::Emission => &self.emission,
             ColourComponent::Auxiliary => &self.auxiliary,
@@ -116,6 +120,7 @@ impl Colour {
     pub fn set_component(&mut self, component: ColourComponent, value: &[f64]) {
         let slot: &mut [f32] = match component {
             ColourComponent::AmbientDiffuse => &mut self.ambient_diffuse,
+            ColourComponent::Diffuse => &mut [],
             ColourComponent::Specular => &mut self.specular,
             ColourComponent::Emission => &mut self.emission,
             ColourComponent::Auxiliary => &mut self.auxiliary,
@@ -127,6 +132,9 @@ impl Colour {
     }
 }
 
+/// The second colour of new joints and force sensors.
+pub(crate) const SECOND_COLOUR: Colour = Colour::new([0.22; 3]);
+
 impl Kind {
     /// The colour of a new object; shapes have theirs in their meshes. Values as files of the original hold them.
     pub(crate) fn default_colour(&self) -> Colour {
@@ -135,10 +143,10 @@ impl Kind {
             Self::Graph(_) => [0.15; 3],
             Self::Camera(_) => [1.0, 0.294, 0.294],
             Self::Dummy(_) => [1.0, 0.8, 0.55],
-            Self::ProximitySensor(_) => [1.0, 0.217, 0.665],
+            Self::ProximitySensor(_) => [0.9, 0.0, 0.5],
             Self::Path(_) => [0.1, 0.75, 1.0],
             Self::VisionSensor(_) => [0.05, 0.42, 1.0],
-            Self::ForceSensor(_) => [1.0, 0.111, 0.111],
+            Self::ForceSensor(_) => [0.22, 0.9, 0.45],
             Self::Light(_) => [0.7075, 0.7075, 0.9925],
             Self::Shape(_) | Self::OcTree(_) | Self::PointCloud(_) | Self::Script(_) => [1.0; 3],
         })
@@ -152,8 +160,11 @@ impl Object {
             (Kind::Shape(shape), ColourSlot::Mesh(index)) => {
                 Some(&shape.parts.get(index)?.appearance.colour)
             }
-            (Kind::Light(light), ColourSlot::Emitted) => Some(&light.colour),
-            (Kind::ProximitySensor(sensor), ColourSlot::Emitted) => Some(&sensor.ray_colour),
+            (Kind::Light(light), ColourSlot::Second) => Some(&light.colour),
+            (Kind::ProximitySensor(sensor), ColourSlot::Second) => Some(&sensor.ray_colour),
+            (Kind::Joint(_) | Kind::ForceSensor(_), ColourSlot::Second) => {
+                Some(&self.second_colour)
+            }
             (Kind::Shape(_), _) => None,
             (_, ColourSlot::Body) => Some(&self.colour),
             _ => None,
@@ -165,20 +176,23 @@ impl Object {
             (Kind::Shape(shape), ColourSlot::Mesh(index)) => {
                 Some(&mut shape.parts.get_mut(index)?.appearance.colour)
             }
-            (Kind::Light(light), ColourSlot::Emitted) => Some(&mut light.colour),
-            (Kind::ProximitySensor(sensor), ColourSlot::Emitted) => Some(&mut sensor.ray_colour),
+            (Kind::Light(light), ColourSlot::Second) => Some(&mut light.colour),
+            (Kind::ProximitySensor(sensor), ColourSlot::Second) => Some(&mut sensor.ray_colour),
+            (Kind::Joint(_) | Kind::ForceSensor(_), ColourSlot::Second) => {
+                Some(&mut self.second_colour)
+            }
             (Kind::Shape(_), _) => None,
             (_, ColourSlot::Body) => Some(&mut self.colour),
             _ => None,
         }
     }
 
-    /// The colour scripts give a number: meshes of shapes in order; otherwise 0 the body, 1 what it emits.
+    /// The colour scripts give a number: meshes of shapes in order; otherwise 0 the body, 1 the second one.
     fn colour_slot(&self, index: usize) -> Option<ColourSlot> {
         let slot = match (&self.kind, index) {
             (Kind::Shape(_), _) => ColourSlot::Mesh(index),
             (_, 0) => ColourSlot::Body,
-            (_, 1) => ColourSlot::Emitted,
+            (_, 1) => ColourSlot::Second,
             _ => return None,
         };
         self.colour(slot).is_some().then_some(slot)
@@ -262,7 +276,7 @@ impl Scene {
         })
     }
 
-    /// A colour of any object; None when it has no such one. Shapes have one per mesh, lights and proximity sensors two.
+    /// A colour of any object; None when it has no such one. Shapes have one per mesh, lights, joints, proximity and force sensors two.
     pub fn object_colour(
         &self,
         handle: Handle,

@@ -107,7 +107,7 @@ impl Joint {
         }
     }
 
-    /// Sets the interval. Becoming cyclic, a revolute joint loses its screw lead.
+    /// Sets the interval. A prismatic joint cannot be cyclic; a revolute one that becomes cyclic loses its screw lead.
     pub fn set_interval(&mut self, cyclic: bool, min: f64, range: f64) {
         let revolute = self.is_revolute();
         let pick = |(turn, length): (f64, f64)| if revolute { turn } else { length };
@@ -115,7 +115,7 @@ impl Joint {
         if cyclic && revolute {
             self.screw_lead = 0.0;
         }
-        self.cyclic = cyclic;
+        self.cyclic = cyclic && self.joint_type != JointType::Prismatic;
         self.min = min.clamp(-pick(MAX_LOWER_LIMIT), pick(MAX_LOWER_LIMIT));
         self.range = range.clamp(narrowest, pick(MAX_RANGE));
     }
@@ -196,13 +196,25 @@ impl Joint {
         }
     }
 
-    /// Sets the velocity, acceleration and jerk limits, in this order; a shorter list leaves the others.
+    /// Sets the velocity, acceleration and jerk limits, in this order; a shorter list leaves the others. A motor takes the first only, as
+    /// in the original: the others are set as parameters of the joint.
     fn set_limits(&mut self, limits: &[f64]) {
+        let count = if self.mode == JointMode::Kinematic {
+            3
+        } else {
+            1
+        };
         let fields = [&mut self.max_vel, &mut self.max_accel, &mut self.max_jerk];
         fields
             .into_iter()
             .zip(limits)
+            .take(count)
             .for_each(|(field, limit)| *field = *limit);
+    }
+
+    /// Whether targets have no effect: the joint follows its master.
+    fn ignores_targets(&self) -> bool {
+        self.mode == JointMode::Dependent
     }
 
     /// Starts or redirects a kinematic motion, keeping the velocity of one in progress.
@@ -249,10 +261,11 @@ impl Scene {
         Ok(joint.motion.is_none().then_some(position))
     }
 
-    /// Sets the mode of a joint.
+    /// Sets the mode of a joint. One that becomes dependent moves at once to where its master wants it.
     pub fn set_joint_mode(&mut self, handle: Handle, mode: JointMode) -> SceneResult<()> {
         self.modify_joint(handle, |joint| joint.set_mode(mode))?;
-        self.relimit_joint(handle)
+        self.relimit_joint(handle)?;
+        self.follow_master(handle)
     }
 
     /// Sets whether a joint is cyclic, and its lower limit and range; the position follows.
@@ -291,6 +304,9 @@ impl Scene {
         [target].finite().ok_or(SceneError::InvalidData)?;
         limits.finite().ok_or(SceneError::InvalidData)?;
         self.control_joint(handle, |joint| {
+            if joint.ignores_targets() {
+                return;
+            }
             joint.set_limits(limits);
             joint.target_position = if joint.cyclic {
                 wrap_angle(target)
@@ -319,6 +335,9 @@ impl Scene {
             .ok_or(SceneError::InvalidData)?;
         limits.finite().ok_or(SceneError::InvalidData)?;
         self.control_joint(handle, |joint| {
+            if joint.ignores_targets() {
+                return;
+            }
             if joint.mode == JointMode::Kinematic {
                 let fields = [&mut joint.max_accel, &mut joint.max_jerk];
                 fields

@@ -145,7 +145,7 @@ impl Scene {
     }
 
     /// Moves a dependent joint to where its master wants it.
-    fn follow_master(&mut self, handle: Handle) -> SceneResult<()> {
+    pub(super) fn follow_master(&mut self, handle: Handle) -> SceneResult<()> {
         let joint = self.object(handle)?.joint()?;
         match joint
             .dependency

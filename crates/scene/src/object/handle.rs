@@ -78,6 +78,10 @@ pub mod flag {
     pub const AXIS: i64 = 0x40_0000;
     /// Quaternions with w first instead of last.
     pub const WXYZ_QUATERNION: i64 = 0x100_0000;
+    /// A handle that does not exist is no error.
+    pub const SILENT_ERROR: i64 = 0x200_0000;
+    /// With an index: more results.
+    pub const EXTENDED: i64 = 0x40_0000;
     /// Forces that were added before are dropped.
     pub const RESET_FORCE: i64 = 0x40_0000;
     /// Several drawing items are added at once.

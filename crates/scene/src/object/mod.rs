@@ -16,7 +16,7 @@ use flags::{DynamicFlags, Layers, ModelFlags, ObjectFlags, SpecialFlags};
 use script_object::{ExecutionPriority, ScriptObject};
 use viewers::Viewers;
 
-use crate::appearance::colour::Colour;
+use crate::appearance::colour::{Colour, SECOND_COLOUR};
 use crate::graph::Graph;
 use crate::joint::Joint;
 use crate::path_object::PathObject;
@@ -52,6 +52,8 @@ pub struct Object {
     pub layer: Layers,
     /// Of the body; shapes have theirs in their meshes.
     pub colour: Colour,
+    /// Of the other part of joints and force sensors.
+    pub(crate) second_colour: Colour,
     /// How a user may move it.
     pub movement: Movement,
     /// The cameras and vision sensors that see it.
@@ -217,6 +219,7 @@ impl Object {
             model_property: ModelFlags::NOT_MODEL,
             layer: kind.default_layer(),
             colour: kind.default_colour(),
+            second_colour: SECOND_COLOUR,
             movement: Movement::default(),
             viewers: Viewers::All,
             hierarchy_colour: -1,

@@ -17,6 +17,18 @@ mod vision {
     pub const PERSPECTIVE_OPERATION: i64 = 1018;
     pub const RGB_IGNORED: i64 = 1020;
     pub const DEPTH_IGNORED: i64 = 1021;
+    pub const VIEW_FRUSTUM: i64 = 1019;
+
+    /// Of ways of rendering that there are no more: the values they always have.
+    pub const OLD_INTEGERS: [(i64, i64); 6] = [
+        (1006, 0),
+        (1007, 0xf81),
+        (1009, 0),
+        (1010, 0),
+        (1013, 0),
+        (1016, 10),
+    ];
+    pub const OLD_FLOATS: [(i64, f64); 2] = [(1014, 2.0), (1015, 0.05)];
 }
 
 /// `sim.proxintparam_*`.
@@ -50,10 +62,34 @@ mod camera {
     pub const FAR_CLIPPING: i64 = 9009;
     pub const PERSPECTIVE_OPERATION: i64 = 9010;
     pub const TRACKED_OBJECT: i64 = 9011;
+    pub const VIEW_FRUSTUM: i64 = 9013;
 }
 
 /// `sim.octreefloatparam_voxelsize`.
 const OCTREE_VOXEL_SIZE: i64 = 13000;
+
+/// The value that a parameter of the past always has.
+fn old_value<T: Copy>(table: &[(i64, T)], id: i64) -> Option<T> {
+    let row = table.iter().find(|(known, _)| *known == id);
+    row.map(|&(_, value)| value)
+}
+
+impl Object {
+    /// The value of a parameter that is a list of numbers: the upper right corners of the near and the far side of what a camera or
+    /// vision sensor sees, in metres.
+    pub fn float_array_param(&self, id: i64) -> Option<Vec<f64>> {
+        let view = match (&self.kind, id) {
+            (Kind::VisionSensor(sensor), vision::VIEW_FRUSTUM) => &sensor.view,
+            (Kind::Camera(camera), camera::VIEW_FRUSTUM) => &camera.view,
+            _ => return None,
+        };
+        Some(
+            view.clipping
+                .map(|distance| view.frustum_corner(distance))
+                .concat(),
+        )
+    }
+}
 
 impl View {
     fn float_param(&self, id: i64, [near, far, angle, ortho]: [i64; 4]) -> Option<f64> {
@@ -107,7 +143,7 @@ impl VisionSensor {
             vision::PERSPECTIVE_OPERATION => self.view.perspective.into(),
             vision::RGB_IGNORED => self.ignore_image.into(),
             vision::DEPTH_IGNORED => self.ignore_depth.into(),
-            _ => return None,
+            _ => return old_value(&vision::OLD_INTEGERS, id),
         })
     }
 
@@ -222,7 +258,10 @@ impl Object {
     /// A float parameter of a camera, sensor or light (SI units); None when it has no such parameter.
     pub(crate) fn display_float_param(&self, id: i64) -> Option<f64> {
         match &self.kind {
-            Kind::VisionSensor(sensor) => sensor.view.float_param(id, VISION_SENSOR_VIEW),
+            Kind::VisionSensor(sensor) => sensor
+                .view
+                .float_param(id, VISION_SENSOR_VIEW)
+                .or_else(|| old_value(&vision::OLD_FLOATS, id)),
             Kind::Camera(camera) => camera.view.float_param(id, CAMERA_VIEW),
             Kind::Light(light) => light.float_param(id),
             Kind::ForceSensor(sensor) => sensor.float_param(id),

@@ -56,7 +56,7 @@ impl Scene {
         Ok(match id {
             11..=13 => Some(measured.linear[(id - 11) as usize]),
             14 => Some(Vector3::from(measured.angular).norm()),
-            15..=20 => Some(corner(object.extent(), id - 15)),
+            15..=20 => Some(corner(object.own_extent(), id - 15)),
             21..=26 => self
                 .model_extent(handle)?
                 .map(|extent| corner(extent, id - 21)),
@@ -170,6 +170,17 @@ impl Object {
         BoundingBox {
             size,
             pose: Pose::identity(),
+        }
+    }
+
+    /// Smallest and largest coordinates of its box as parameters have it: those of shapes in the frame of the box.
+    fn own_extent(&self) -> Extent {
+        match &self.kind {
+            Kind::Shape(shape) => {
+                let half = Vector3::from(shape.bounding_box.size) * 0.5;
+                (-half, half)
+            }
+            _ => self.extent(),
         }
     }
 

@@ -43,7 +43,9 @@ impl ProximitySensor {
             explicit: options.contains(ProximityOptions::EXPLICIT_HANDLING),
             size: floats[12],
             show_volume: !options.contains(ProximityOptions::HIDE_VOLUME),
-            front_faces: !options.contains(ProximityOptions::IGNORE_FRONT_FACES),
+            // A sensor that ignored both would detect nothing.
+            front_faces: !options.contains(ProximityOptions::IGNORE_FRONT_FACES)
+                || options.contains(ProximityOptions::IGNORE_BACK_FACES),
             back_faces: !options.contains(ProximityOptions::IGNORE_BACK_FACES),
             exact: !options.contains(ProximityOptions::FAST),
             randomized: options.contains(ProximityOptions::RANDOMIZED)

@@ -94,13 +94,12 @@ impl Scene {
             return Err(SceneError::NotEnoughShapes);
         }
         let frame = self.world_pose(*master)?;
-        let mut placed = Vec::new();
+        let mut shapes = Vec::new();
         for &member in &members {
-            placed.push((
-                frame.inverse() * self.world_pose(member)?,
-                self.object(member)?.shape()?,
-            ));
+            let pose = frame.inverse() * self.world_pose(member)?;
+            shapes.push((pose, self.named_shape(member)?));
         }
+        let placed: Vec<_> = shapes.iter().map(|(pose, shape)| (*pose, shape)).collect();
         let (_, last) = placed.last().ok_or(SceneError::NotEnoughShapes)?;
         let shape = if merge {
             merged(&placed, last)?
@@ -109,6 +108,16 @@ impl Scene {
         };
         let group = self.replace_shape(*master, shape)?;
         Ok((group, members))
+    }
+
+    /// A shape whose only part, if it has one, knows the alias of the object.
+    fn named_shape(&self, handle: Handle) -> SceneResult<Shape> {
+        let object = self.object(handle)?;
+        let mut shape = object.shape()?.clone();
+        if let [part] = shape.parts.as_mut_slice() {
+            object.alias().clone_into(&mut part.alias);
+        }
+        Ok(shape)
     }
 
     /// Shapes among `handles`, each once.
@@ -160,7 +169,7 @@ impl Scene {
         Ok(new)
     }
 
-    /// Splits a compound into shapes of its parts. None for a simple shape. The original is kept.
+    /// Splits a compound into shapes of its parts, with the aliases they had. None for a simple shape. The original is kept.
     ///
     /// # Errors
     /// When the object is no shape.
@@ -228,6 +237,9 @@ impl Scene {
         piece.dynamics = shape.dynamics.clone();
         piece.material = shape.material.clone();
         let piece = self.add_beside(handle, piece)?;
+        if !part.alias.is_empty() {
+            self.set_alias(piece, part.alias.as_bytes())?;
+        }
         self.set_local_pose(piece, frame * part.pose)?;
         Ok(piece)
     }

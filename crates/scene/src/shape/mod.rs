@@ -55,6 +55,8 @@ pub struct Part {
     pub convex: bool,
     /// Mass, centre of mass and inertia in the part's frame.
     pub mass: MassProperties,
+    /// Alias of the shape it was before it was grouped; empty if that is not known.
+    pub alias: String,
     /// Of a group of groups: the number of the member it is in, then of the member of that member, and so on.
     pub group: Vec<u32>,
     /// Visual attributes.

@@ -101,7 +101,7 @@ bitflags! {
     /// Options of `sim.generateShapeFromPath`.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct PathShapeOptions: i64 {
-        /// The last pose is followed by the first.
+        /// The path is closed: its last pose stands for the first.
         const CLOSED = 0x4;
         const _ = !0;
     }

@@ -36,19 +36,10 @@ bitflags! {
 }
 
 impl Scene {
-    /// The objects a copy of `handles` consists of, parents before children.
-    ///
-    /// # Errors
-    /// When one of them does not exist.
-    pub fn objects_to_copy(
-        &self,
-        handles: &[Handle],
-        options: CopyOptions,
-    ) -> SceneResult<Vec<Handle>> {
-        if let Some(&unknown) = handles.iter().find(|&&h| !self.exists(h)) {
-            self.object(unknown)?;
-        }
-        let listed: BTreeSet<Handle> = handles.iter().copied().collect();
+    /// The objects a copy of `handles` consists of, parents before children. Unknown handles are skipped.
+    pub fn objects_to_copy(&self, handles: &[Handle], options: CopyOptions) -> Vec<Handle> {
+        let known = handles.iter().filter(|&&handle| self.exists(handle));
+        let listed: BTreeSet<Handle> = known.copied().collect();
         let mut chosen = if options.contains(CopyOptions::MODELS) {
             self.models_in(&listed)
         } else {
@@ -63,13 +54,12 @@ impl Scene {
             chosen.extend(attached);
         }
         if chosen.len() <= 1 {
-            return Ok(chosen.into_iter().collect());
+            return chosen.into_iter().collect();
         }
-        Ok(self
-            .all_breadth_first()
+        self.all_breadth_first()
             .into_iter()
             .filter(|h| chosen.contains(h))
-            .collect())
+            .collect()
     }
 
     /// Everything that belongs to the models among `listed`.

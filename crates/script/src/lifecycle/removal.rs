@@ -88,7 +88,7 @@ impl Sim {
         handles: &[Handle],
         options: CopyOptions,
     ) -> ApiResult<BTreeMap<Handle, Handle>> {
-        let originals = self.scene.borrow().objects_to_copy(handles, options)?;
+        let originals = self.scene.borrow().objects_to_copy(handles, options);
         if originals.is_empty() {
             return Ok(BTreeMap::new());
         }

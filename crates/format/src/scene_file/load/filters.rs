@@ -16,10 +16,9 @@ const ORIGINAL_IMAGE: i32 = 1;
 const TO_OUTPUT: i32 = 4;
 
 /// Filters without parameters.
-const PLAIN: [(i32, &str); 19] = [
+const PLAIN: [(i32, &str); 18] = [
     (ORIGINAL_IMAGE, "sensorImgToWorkImg"),
     (2, "sensorDepthMapToWorkImg"),
-    (TO_OUTPUT, "workImgToSensorImg"),
     (5, "workImgToBuffer1"),
     (6, "workImgToBuffer2"),
     (7, "buffer1ToWorkImg"),
@@ -91,6 +90,10 @@ pub(super) fn script(object: &FileObject, handle: Handle) -> Option<LoadedScript
 
 /// The call that does what a filter did; None for one that is not known.
 fn call(kind: i32, filter: &Filter) -> Option<String> {
+    if kind == TO_OUTPUT {
+        // The work image stays, for the filters that follow.
+        return Some("simVision.workImgToSensorImg(sensor, false)".to_owned());
+    }
     if let Some((_, name)) = PLAIN.iter().find(|(plain, _)| *plain == kind) {
         return Some(format!("simVision.{name}(sensor)"));
     }

@@ -16,6 +16,9 @@ const VISIBLE: u8 = 0x1;
 const RELATIVE: u8 = 0x1;
 const LABEL: u8 = 0x2;
 const LINKED: u8 = 0x4;
+/// Static values count.
+const STREAM_IS_STATIC: u8 = 0x10;
+const CURVE_IS_STATIC: u8 = 0x8;
 /// Of a curve from before 4.2.
 const OLD_IN_WORLD: u8 = 0x10;
 
@@ -99,6 +102,7 @@ fn stream(chunk: &file::DataStream, slots: usize) -> GraphStream {
     stream.fixed = chunk
         .static_values
         .as_ref()
+        .filter(|_| flags & STREAM_IS_STATIC != 0)
         .map(|Counted(values)| values.as_chunks().0.to_vec());
     stream
 }
@@ -130,11 +134,12 @@ fn curve(chunk: &file::Curve) -> GraphCurve {
     let flags = chunk.flags.unwrap_or(RELATIVE | LABEL | LINKED);
     let [id, dimensions, width] = chunk.id_dim_width.unwrap_or([0, 2, 1]);
     let dimensions = dimensions.clamp(2, 3) as usize;
-    let fixed = chunk.static_values.as_ref().map(|Counted(values)| {
-        let point =
-            |point: &[f64]| std::array::from_fn(|axis| point.get(axis).copied().unwrap_or(0.0));
-        values.chunks_exact(dimensions).map(point).collect()
-    });
+    let point = |point: &[f64]| std::array::from_fn(|axis| point.get(axis).copied().unwrap_or(0.0));
+    let fixed = chunk
+        .static_values
+        .as_ref()
+        .filter(|_| flags & CURVE_IS_STATIC != 0)
+        .map(|Counted(values)| values.chunks_exact(dimensions).map(point).collect());
     GraphCurve {
         style: style(chunk.name_and_unit.as_ref(), Some(id), chunk.colour, flags),
         width: width.into(),

@@ -143,6 +143,7 @@ fn part(
         primitive,
         convex,
         mass: mass(node, frame).reexpressed(&in_node.inverse()),
+        alias: String::new(),
         group: Vec::new(),
         appearance: appearance(data),
         texture,

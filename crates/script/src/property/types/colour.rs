@@ -96,7 +96,7 @@ macro_rules! colours {
 pub(in crate::property) const COLOUR: &[Accessor] =
     colours!(Body: "color.diffuse", "color.specular", "color.emission", "color.transparency");
 
-pub(in crate::property) const RAY_COLOUR: &[Accessor] = colours!(Emitted: "rayColor.diffuse", "rayColor.specular", "rayColor.emission", "rayColor.transparency");
+pub(in crate::property) const RAY_COLOUR: &[Accessor] = colours!(Second: "rayColor.diffuse", "rayColor.specular", "rayColor.emission", "rayColor.transparency");
 
 pub(in crate::property) const LIGHT_COLOUR: &[Accessor] =
-    colours!(Emitted: "lightColor.diffuse", "lightColor.specular", "lightColor.emission");
+    colours!(Second: "lightColor.diffuse", "lightColor.specular", "lightColor.emission");
