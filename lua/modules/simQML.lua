@@ -188,7 +188,7 @@ function simQML.imageDataURL(data, width, height, format, data_format)
     if not isImage or #bytes ~= width * height * layout[1] then error('invalid image size', 2) end
     local pixels = bytes:gsub(layout[2], layout[3])
     local image = require('sim').saveImage(pixels, {width, height}, layout[4], '.' .. kind, -1)
-    return ('data:image/%s;base64,'):format(kind == 'jpg' and 'jpeg' or kind) .. require('base64').encode(tostring(image))
+    return ('data:image/%s;base64,'):format(kind == 'jpg' and 'jpeg' or kind) .. tostring(require('base64').encode(image))
 end
 
 --- The version of Qt: there is none.
