@@ -4,7 +4,7 @@ Bootstrap of a fresh Lua state; runs once, before any user code.
 Does: the wrapped standard functions that are no native ones (require, pcall, assert), and the loading of what a script may use but
 usually does not.
 Returns the function that does it. What stands for those functions until then is native: see stand_ins.rs and implicit.rs.
-Does not: hold any of those functions (swanilda/display.lua, functional.lua, ...), nor the sim table.
+Does not: hold any of those functions (swanilda/display.lua, functional/functions.lua, ...), nor the sim table.
 
 Every script runs this file: each closure and table here costs memory in each of them.
 ]]
@@ -74,13 +74,20 @@ loadstring, unpack, quit, exit = load, unpack_, quitSimulator, quitSimulator
 sim_plugin_namespaces = {}
 registerScriptFuncHook('sysCall_init', beginThread, false)
 
+-- A tail call: it looks for the variables of its caller.
+function f(...)
+    f = quietRequire('var.functions').f
+    return f(...)
+end
+
 local files = {}
 
 -- Calls a function of a file. It replaces what stood for it as a global, unless the script has put its own there.
 return function(module, name, standIn, ...)
     local functions = files[module]
     if not functions then
-        functions = quietRequire(module)
+        local isInParts = module == 'functional' or module == 'var'
+        functions = quietRequire(isInParts and module .. '.functions' or module)
         files[module] = functions
     end
     local f = functions[name]

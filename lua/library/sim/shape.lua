@@ -28,7 +28,7 @@ local CHANGE_ARGS = {{type = 'int'}, {type = 'table', item_type = 'float', size 
 -- @param component sim.colorcomponent_*
 -- @return originalColors for sim.restoreEntityColor
 function M.changeEntityColor(...)
-    local entity, color, component = require('checkargs')(CHANGE_ARGS, ...)
+    local entity, color, component = require('checkargs.check')(CHANGE_ARGS, ...)
     local saved = {}
     for i, shape in ipairs(shapesOf(entity)) do
         local _, data = sim.getShapeColor(shape, '@compound', component)
@@ -42,7 +42,7 @@ end
 -- @api sim.restoreEntityColor(map[] originalColors)
 -- @param originalColors from sim.changeEntityColor; objects that are gone are left out
 function M.restoreEntityColor(...)
-    local saved = require('checkargs')({{type = 'table'}}, ...)
+    local saved = require('checkargs.check')({{type = 'table'}}, ...)
     for _, entry in ipairs(saved) do
         if sim.isHandle(entry.handle) then sim.setShapeColor(entry.handle, '@compound', entry.comp, entry.data) end
     end

@@ -28,7 +28,7 @@ end
 --- The function that a callback means: itself, or the one of that name when it is called.
 function M.functionOf(callback)
     if type(callback) == 'string' then
-        local found = require('var').getvar(callback)
+        local found = require('var.functions').getvar(callback)
         return isCallable(found) and found or error("the callback '" .. callback .. "' is not a function.", 0)
     end
     return callback or function() end
