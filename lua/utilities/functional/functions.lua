@@ -1,7 +1,5 @@
 --[[
-Functions over functions and tables: map, filter, reduce and their kin, and the operators as functions.
-
-Base makes them global. They work on arrays; nothing here is lazy.
+The functions of the module functional, which are global in every script. They work on arrays; nothing here is lazy.
 ]]
 
 local M = {}
@@ -35,13 +33,12 @@ function M.map(f, ...)
     return result
 end
 
---- Folds from the left; without an initial value the first element is the start.
--- @api any result = functional.reduce(func f, table t, any initial = nil)
+--- Folds from the left: f(... f(f(initial, t[1]), t[2]) ..., t[#t]).
+-- @api any result = functional.reduce(func f, table t, any initial = 0)
 function M.reduce(f, t, initial)
-    local first = 1
-    if initial == nil then initial, first = t[1], 2 end
-    for i = first, #t do initial = f(initial, t[i]) end
-    return initial
+    local result = initial == nil and 0 or initial
+    for _, value in ipairs(t) do result = f(result, value) end
+    return result
 end
 
 --- The elements for which f is true.
@@ -166,18 +163,19 @@ M.operator = {
     le = function(a, b) return a <= b end,
 }
 
---- The sum of the elements.
--- @api float result = functional.sum(float[] t)
-function M.sum(t) return M.reduce(M.operator.add, t, 0) end
+--- The sum of the elements, and of an initial value.
+-- @api float result = functional.sum(float[] t, float initial = 0)
+function M.sum(t, initial) return M.reduce(M.operator.add, t, initial) end
 
---- The product of the elements.
--- @api float result = functional.prod(float[] t)
-function M.prod(t) return M.reduce(M.operator.mul, t, 1) end
+--- The product of the elements and an initial value. CoppeliaSim begins with 0 without one, as in reduce: give it 1.
+-- @api float result = functional.prod(float[] t, float initial = 0)
+function M.prod(t, initial) return M.reduce(M.operator.mul, t, initial) end
 
 function M.unittest()
     local double = function(x) return 2 * x end
     local same = require('tablex.functions').eq
-    assert(same(M.map(double, {1, 2}), {2, 4}) and same(M.range(2, 6, 2), {2, 4, 6}) and M.sum{1, 2, 3} == 6 and M.prod{2, 3} == 6)
+    assert(same(M.map(double, {1, 2}), {2, 4}) and same(M.range(2, 6, 2), {2, 4, 6}) and M.sum{1, 2, 3} == 6)
+    assert(M.prod({2, 3}, 1) == 6 and M.prod{2, 3} == 0 and M.reduce(math.max, {-2, -1}) == 0 and M.reduce(math.max, {-2, -1}, -9) == -1)
     assert(same(M.filter(function(x) return x > 1 end, {1, 2, 3}), {2, 3}) and same(M.zip({1, 2}, {3, 4}), {{1, 3}, {2, 4}}))
     assert(M.partial(math.max, 5)(3) == 5 and M.any(M.identity, {false, true}) and not M.all(M.identity, {false, true}))
     print(debug.getinfo(1, 'S').source, 'tests passed')

@@ -1,7 +1,5 @@
 --[[
-Extensions of the math library: what Lua 5.1 to 5.3 had, and a few more.
-
-Base copies these into the global math the first time one of them is asked for.
+The functions of the module mathx. They come into the global math the first time one of them is asked for.
 ]]
 
 local M = {}

@@ -1,7 +1,6 @@
 --[[
-Extensions of the string library: splitting, trimming, classes of characters, blocks of text.
-
-Base copies these into the global string the first time one of them is asked for. Bytes, not characters, except utf8sub.
+The functions of the module stringx. They come into the global string the first time one of them is asked for. They count bytes, not
+characters, except utf8sub.
 ]]
 
 local M = {}
@@ -111,9 +110,9 @@ function M.islower(s) return s:find('^%l+$') ~= nil end
 -- @api string result = stringx.isnumeric(string s)
 function M.isnumeric(s) return s:match('^%d+$') end
 
---- The text if it consists of printable characters, else nil.
--- @api string result = stringx.isprintable(string s)
-function M.isprintable(s) return s:match('^[%g ]*$') end
+--- Whether a text consists of printable characters.
+-- @api bool result = stringx.isprintable(string s)
+function M.isprintable(s) return s:find('^[%g ]*$') ~= nil end
 
 --- The text if it consists of white space, else nil.
 -- @api string result = stringx.isspace(string s)

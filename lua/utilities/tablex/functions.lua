@@ -1,7 +1,5 @@
 --[[
-Extensions of the table library: comparing, slicing, joining, flattening.
-
-Base copies these into the global table the first time one of them is asked for.
+The functions of the module tablex. They come into the global table the first time one of them is asked for.
 ]]
 
 local M = {}
@@ -194,10 +192,9 @@ function M.add(...)
 end
 
 --- Appends the elements of the other tables to t.
--- @api table t = tablex.extend(table t, ...)
+-- @api tablex.extend(table t, ...)
 function M.extend(t, ...)
     for _, other in ipairs{...} do table.move(other, 1, #other, #t + 1, t) end
-    return t
 end
 
 --- A list with a value several times.
@@ -282,11 +279,15 @@ function M.items(t, opts)
     return result
 end
 
---- The table of a list of pairs {key, value}.
--- @api table result = tablex.frompairs(table items)
-function M.frompairs(items)
+--- The table of a list of pairs {key, value}, or of an iterator such as pairs(t).
+-- @api table result = tablex.frompairs(any items, any state = nil, any key = nil)
+function M.frompairs(items, state, key)
     local result = {}
-    for _, item in ipairs(items) do result[item[1]] = item[2] end
+    if type(items) == 'function' then
+        for name, value in items, state, key do result[name] = value end
+    else
+        for _, item in ipairs(items) do result[item[1]] = item[2] end
+    end
     return result
 end
 
