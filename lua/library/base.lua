@@ -55,7 +55,7 @@ end
 
 function require(name)
     if math.type(name) == 'integer' and package.loaded.sim then return quietRequire('swanilda.modload').fromScript(name) end
-    local module = quietRequire(name)
+    local module = quietRequire(name == 'sim.Object' and 'swanilda.object' or name)
     if proxies and not proxies.loading and removeProxies(name) then
         if proxies.implicit then quietRequire('swanilda.implicit').forbid(name) end
         proxies = nil
