@@ -5,7 +5,7 @@ Vector4, poses Vector7, matrices Matrix4x4, inertias Matrix3x3. Load it once; it
 Arguments may still be plain tables. A Matrix4x4 goes to sim as its first three rows.
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 require 'matrix' -- scripts find the classes as globals
 local classes = require 'matrix-2'
 local Matrix, Vector3, Vector4, Vector7 = classes.Matrix, classes.Vector3, classes.Vector4, classes.Vector7

@@ -2,7 +2,7 @@
 What `require 'sim.Object'` returns: the class of objects, which CoppeliaSim 4.10 has but cannot make an object of.
 ]]
 
-local MESSAGE <const> = 'sim.Object works from CoppeliaSim 4.11 on: use handles, as in sim'
+local MESSAGE <const> = 'sim.Object makes no objects in CoppeliaSim 4.10: use handles, as in sim'
 
 return setmetatable({}, {
     __call = function() error(MESSAGE, 2) end,

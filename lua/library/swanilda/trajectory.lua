@@ -4,7 +4,7 @@ Shared by sim/motion.lua and sim/pose.lua: checks and limits of a motion, the tr
 Not a group of sim functions: those are in lua/library/sim.
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local M = {}
 
 -- What 4.10 uses when no limit is passed at all: the motion becomes a jump.

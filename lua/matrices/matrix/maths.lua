@@ -76,7 +76,7 @@ function Matrix:log(base)
 end
 
 -- The generator of the script: same numbers in every run.
-local function randomFloat() return (package.loaded.sim or require 'sim').getRandom() end
+local function randomFloat() return _quietRequire('sim').getRandom() end
 
 --- Random numbers in the shape of the matrix: from 0 to 1, or integers from a to b (1 to a).
 -- @api Matrix m = Matrix:random(int a = nil, int b = nil)

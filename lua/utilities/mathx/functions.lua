@@ -71,7 +71,7 @@ end
 
 -- The generator of the script (sim.getRandom): same numbers in every run.
 local function scriptRandom(...)
-    local sim = package.loaded.sim or require 'sim'
+    local sim = _quietRequire 'sim'
     return sim.getRandom(...)
 end
 
