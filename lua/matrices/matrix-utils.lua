@@ -6,7 +6,7 @@ Arguments may still be plain tables. A Matrix4x4 goes to sim as its first three 
 ]]
 
 local sim = _quietRequire 'sim'
-require 'matrix' -- scripts find the classes as globals
+require 'matrix.globals' -- scripts find the classes as globals
 local classes = require 'matrix-2'
 local Matrix, Vector3, Vector4, Vector7 = classes.Matrix, classes.Vector3, classes.Vector4, classes.Vector7
 local Matrix3x3, Matrix4x4 = classes.Matrix3x3, classes.Matrix4x4

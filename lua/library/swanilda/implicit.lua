@@ -42,7 +42,7 @@ local function class(standIn)
     local name = rawget(standIn, getmetatable(standIn))
     if rawget(_G, name) == standIn then
         addLog(WARNING, "module 'matrix' was implicitly loaded.")
-        _quietRequire('matrix')
+        _quietRequire('matrix.globals')
     end
     return _G[name]
 end
