@@ -1,8 +1,8 @@
 --[[
 Bootstrap of a fresh Lua state; runs once, before any user code.
 
-Does: the wrapped standard functions that are no native ones (require, pcall, assert), and the loading of what a script may use but
-usually does not.
+Does: the wrapped standard functions that are no native ones (require, pcall, assert), arithmetic with texts, and the loading of what a script
+may use but usually does not.
 Returns the function that does it. What stands for those functions until then is native: see stand_ins.rs and implicit.rs.
 Does not: hold any of those functions (swanilda/display.lua, functional/functions.lua, ...), nor the sim table.
 
@@ -67,6 +67,18 @@ end
 -- For other files of the library.
 rawset(_ENV, '_quietRequire', quietRequire)
 rawset(_ENV, '_randomseed', math.randomseed)
+
+---------------------------------------------------------------- texts as numbers
+
+local texts, arithmetic = getmetatable(''), nil
+for event, f in pairs(texts) do
+    if type(f) == 'function' then
+        texts[event] = function(a, b)
+            arithmetic = arithmetic or quietRequire('swanilda.arithmetic')
+            return arithmetic(event, a, b)
+        end
+    end
+end
 
 ---------------------------------------------------------------- things loaded at first use
 
