@@ -102,9 +102,9 @@ function M.isalpha(s) return s:match('^%a+$') end
 -- @api string result = stringx.isidentifier(string s)
 function M.isidentifier(s) return s:match('^[%a_][%w_]*$') end
 
---- Whether a text consists of lower-case letters.
+--- Whether a text has no upper-case letters.
 -- @api bool result = stringx.islower(string s)
-function M.islower(s) return s:find('^%l+$') ~= nil end
+function M.islower(s) return s == s:lower() end
 
 --- The text if it consists of digits, else nil.
 -- @api string result = stringx.isnumeric(string s)
@@ -118,9 +118,9 @@ function M.isprintable(s) return s:find('^[%g ]*$') ~= nil end
 -- @api string result = stringx.isspace(string s)
 function M.isspace(s) return s:match('^%s+$') end
 
---- Whether a text consists of upper-case letters.
+--- Whether a text has no lower-case letters.
 -- @api bool result = stringx.isupper(string s)
-function M.isupper(s) return s:find('^%u+$') ~= nil end
+function M.isupper(s) return s == s:upper() end
 
 --- The text with an upper-case first letter.
 -- @api string result = stringx.capitalize(string s)

@@ -52,7 +52,7 @@ local function checked(...)
     return x, text
 end
 print(checked(1), pcall(checked), pcall(checked, 'a'))
-print(select('#', table.extend({}, {1})), table.frompairs{{'a', 1}}, table.frompairs(pairs{b = 2}), ('a b'):isprintable(), ('a\0'):isprintable())
+print(select('#', table.extend({}, {1})), table.frompairs{{'a', 1}}, table.frompairs(pairs{b = 2}), ('a b'):isprintable(), ('a\0'):isprintable(), ('ab1'):islower(), ('aB'):islower(), ('A1'):isupper(), ('Ab'):isupper())
 
 -- variables by name
 own = {list = {1, {name = 'inner'}}, ['a b'] = 2}
@@ -69,4 +69,6 @@ print(text, none)
 print(type(import 'itertools'), type(itertools))
 import('itertools', 'product', 'chain')
 import 'dkjson.*'
+import 'simEigen.*'
+print(Matrix, Vector, Quaternion, Pose)
 print(type(product), type(chain), type(encode), pcall(import, 'itertools', 'nothing'))
