@@ -71,12 +71,10 @@ rawset(_ENV, '_randomseed', math.randomseed)
 ---------------------------------------------------------------- texts as numbers
 
 local texts, arithmetic = getmetatable(''), nil
-for event, f in pairs(texts) do
-    if type(f) == 'function' then
-        texts[event] = function(a, b)
-            arithmetic = arithmetic or quietRequire('swanilda.arithmetic')
-            return arithmetic(event, a, b)
-        end
+for event in ('add sub mul div mod pow unm idiv band bor bxor shl shr bnot'):gmatch('%a+') do
+    texts['__' .. event] = function(a, b)
+        arithmetic = arithmetic or quietRequire('swanilda.arithmetic')
+        return arithmetic(event, a, b)
     end
 end
 
