@@ -70,12 +70,9 @@ rawset(_ENV, '_randomseed', math.randomseed)
 
 ---------------------------------------------------------------- texts as numbers
 
-local texts, arithmetic = getmetatable(''), nil
+local texts = getmetatable('')
 for event in ('add sub mul div mod pow unm idiv band bor bxor shl shr bnot'):gmatch('%a+') do
-    texts['__' .. event] = function(a, b)
-        arithmetic = arithmetic or quietRequire('swanilda.arithmetic')
-        return arithmetic(event, a, b)
-    end
+    texts['__' .. event] = function(a, b) return quietRequire('swanilda.arithmetic')[event](a, b) end
 end
 
 ---------------------------------------------------------------- things loaded at first use

@@ -1,5 +1,7 @@
 --[[
 Arithmetic with texts that are numbers, as in Lua 5.3: the result is a float, where Lua 5.4 keeps integers; bitwise operators accept texts too.
+
+Returns the functions of the events, by name: add, band, ...
 ]]
 
 local ARITHMETIC = {
@@ -22,6 +24,8 @@ local BITWISE = {
     bnot = function(a) return ~a end,
 }
 
+local M = {}
+
 local function numberOf(value) return (type(value) == 'string' or type(value) == 'number') and tonumber(value) or nil end
 
 -- The other operand's own, if it is no text.
@@ -31,22 +35,26 @@ local function ownOperation(event, a, b)
     return type(meta) == 'table' and meta['__' .. event]
 end
 
-local function bitwise(event, x, y)
-    local i, j = math.tointeger(x), math.tointeger(y)
-    if not (i and j) then error('number has no integer representation', 3) end
-    return BITWISE[event](i, j)
+for event, compute in pairs(ARITHMETIC) do
+    M[event] = function(a, b)
+        local x, y = numberOf(a), numberOf(b)
+        if x and y then return compute(x + 0.0, y + 0.0) end
+        local own = ownOperation(event, a, b)
+        if own then return own(a, b) end
+        error(("attempt to %s a '%s' with a '%s'"):format(event, type(a), type(b)), 2)
+    end
 end
 
---- The result of an operation of which an operand is a text.
-return function(event, a, b)
-    local x, y = numberOf(a), numberOf(b)
-    if x and y then
-        if not BITWISE[event] then return ARITHMETIC[event](x + 0.0, y + 0.0) end
-        local result = bitwise(event, x, y)
-        return result
+for event, compute in pairs(BITWISE) do
+    M[event] = function(a, b)
+        local x, y = numberOf(a), numberOf(b)
+        local own = not (x and y) and ownOperation(event, a, b)
+        if own then return own(a, b) end
+        if not (x and y) then error(('attempt to perform bitwise operation on a %s value'):format(type(x and b or a)), 2) end
+        x, y = math.tointeger(x), math.tointeger(y)
+        if not (x and y) then error('number has no integer representation', 2) end
+        return compute(x, y)
     end
-    local own = ownOperation(event, a, b)
-    if own then return own(a, b) end
-    if BITWISE[event] then error(("attempt to perform bitwise operation on a %s value"):format(type(x and b or a)), 2) end
-    error(("attempt to %s a '%s' with a '%s'"):format(event, type(a), type(b)), 2)
 end
+
+return M
