@@ -1,10 +1,10 @@
 --[[
 Bootstrap of a fresh Lua state; runs once, before any user code.
 
-Does: the wrapped standard functions that are no native ones (require, pcall, assert), and the loading of what a script may use but
-usually does not.
+Does: the wrapped standard functions that are no native ones (require, pcall, assert), arithmetic with texts, and the loading of what a script
+may use but usually does not.
 Returns the function that does it. What stands for those functions until then is native: see stand_ins.rs and implicit.rs.
-Does not: hold any of those functions (swanilda/display.lua, functional.lua, ...), nor the sim table.
+Does not: hold any of those functions (swanilda/display.lua, functional/functions.lua, ...), nor the sim table.
 
 Every script runs this file: each closure and table here costs memory in each of them.
 ]]
@@ -55,7 +55,7 @@ end
 
 function require(name)
     if math.type(name) == 'integer' and package.loaded.sim then return quietRequire('swanilda.modload').fromScript(name) end
-    local module = quietRequire(name)
+    local module = quietRequire(name == 'sim.Object' and 'swanilda.object' or name)
     if proxies and not proxies.loading and removeProxies(name) then
         if proxies.implicit then quietRequire('swanilda.implicit').forbid(name) end
         proxies = nil
@@ -68,11 +68,24 @@ end
 rawset(_ENV, '_quietRequire', quietRequire)
 rawset(_ENV, '_randomseed', math.randomseed)
 
+---------------------------------------------------------------- texts as numbers
+
+local texts = getmetatable('')
+for event in ('add sub mul div mod pow unm idiv band bor bxor shl shr bnot'):gmatch('%a+') do
+    texts['__' .. event] = function(a, b) return quietRequire('swanilda.arithmetic')[event](a, b) end
+end
+
 ---------------------------------------------------------------- things loaded at first use
 
 loadstring, unpack, quit, exit = load, unpack_, quitSimulator, quitSimulator
 sim_plugin_namespaces = {}
 registerScriptFuncHook('sysCall_init', beginThread, false)
+
+-- A tail call: it looks for the variables of its caller.
+function f(...)
+    f = quietRequire('var.functions').f
+    return f(...)
+end
 
 local files = {}
 
@@ -80,7 +93,8 @@ local files = {}
 return function(module, name, standIn, ...)
     local functions = files[module]
     if not functions then
-        functions = quietRequire(module)
+        local isInParts = module == 'functional' or module == 'var'
+        functions = quietRequire(isInParts and module .. '.functions' or module)
         files[module] = functions
     end
     local f = functions[name]

@@ -5,7 +5,7 @@ The values are custom data of the model (`__config__`), so other scripts read an
 earliest in the next pass. The window opens with `sysCall_userConfig`; everything else works without it (spec: models 4).
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 local schemas = require 'swanilda.config.schema'
 
 ConfigUI = {handleMap = {}}

@@ -4,7 +4,7 @@ Script of the conveyor systems of CoppeliaSim 4.1 and 4.2: `conveyorSystem = req
 ]]
 
 path = require 'path_customization' -- scripts find these as globals, as in the original
-simQHull = require 'simQHull'
+simQHull = _quietRequire 'simQHull'
 local along = require 'swanilda.conveyors.along'
 local control = require 'swanilda.conveyors.control'
 local parts = require 'swanilda.conveyors.parts'

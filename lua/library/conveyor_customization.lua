@@ -4,7 +4,7 @@ scripts drive it by the packed custom data `CONVMOV`: {vel=}, {offset=} (spec: m
 ]]
 
 path = require 'path_customization' -- scripts find these as globals, as in the original
-simQHull = require 'simQHull'
+simQHull = _quietRequire 'simQHull'
 local belt = require 'swanilda.conveyors.belt'
 local control = require 'swanilda.conveyors.control'
 local parts = require 'swanilda.conveyors.parts'

@@ -8,7 +8,7 @@ A script may decide itself what is recorded and when: its own `sysCall_init` cal
 Its dialog is a window of simUI. The plots are those of `swanilda view`, so `updateCurves`, `clearCurves` and `prepareCurves`, which draw, do nothing (spec: models 3).
 ]]
 
-sim = package.loaded.sim or require 'sim' -- scripts find it as a global, as in the original
+sim = _quietRequire 'sim' -- scripts find it as a global, as in the original
 local graph = {}
 _S.graph = graph
 

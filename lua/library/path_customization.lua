@@ -9,7 +9,7 @@ which is called when the path was made anew. One with its own `sysCall_init` cal
 local model = require 'swanilda.pathmodel'
 local points = require 'swanilda.paths.points'
 local line = require 'swanilda.paths.line'
-sim = package.loaded.sim or require 'sim' -- scripts find it as a global, as in the original
+sim = _quietRequire 'sim' -- scripts find it as a global, as in the original
 local path = {ctrlPts = {}, ctrlPtsMap = {}, paths = {}}
 _S.path = path
 

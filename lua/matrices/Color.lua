@@ -6,7 +6,7 @@ Colours: red, green, blue and alpha from 0 to 1.
 
 local class = require 'middleclass'
 local head = require 'org.conman.cbor_c'
-local simCBOR = require 'simCBOR'
+local simCBOR = _quietRequire 'simCBOR'
 
 local Color = class 'Color'
 

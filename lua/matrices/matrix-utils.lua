@@ -5,8 +5,11 @@ Vector4, poses Vector7, matrices Matrix4x4, inertias Matrix3x3. Load it once; it
 Arguments may still be plain tables. A Matrix4x4 goes to sim as its first three rows.
 ]]
 
-local sim = require 'sim'
-require 'matrix'
+local sim = _quietRequire 'sim'
+require 'matrix.globals' -- scripts find the classes as globals
+local classes = require 'matrix-2'
+local Matrix, Vector3, Vector4, Vector7 = classes.Matrix, classes.Vector3, classes.Vector4, classes.Vector7
+local Matrix3x3, Matrix4x4 = classes.Matrix3x3, classes.Matrix4x4
 
 local function homogeneous(data)
     return Matrix4x4(table.move({0, 0, 0, 1}, 1, 4, 13, table.move(data, 1, 12, 1, {})))

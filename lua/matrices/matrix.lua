@@ -1,21 +1,7 @@
 --[[
-Matrices and vectors. Loading this makes Matrix, Vector, Vector3, Vector4, Vector7, Matrix3x3 and Matrix4x4 global.
+Matrices and vectors. Loading this makes Matrix, Vector, Vector3, Vector4, Vector7, Matrix3x3 and Matrix4x4 global; it returns nothing.
 
-    Matrix{{1, 2}, {3, 4}}, Matrix(rows, cols, data)    data: numbers by rows, one number, f(i, j), or nothing for zeros
-    Vector{1, 2, 3}, Vector(length, data)               columns; Vector3{x, y, z}, Matrix4x4(data) and so on check the size
-    m[i], m[i][j], m[i] = x, #m                         a row (shared, not copied), or an element of a vector
-    a * b                                               product of matrices; with a number: of each element
-    a + b, a - b, a / b, a // b, a % b, a ^ b, -a       element by element, with a matrix or a number
-    a .. b, a == b                                      beside each other; equal in shape and all elements
-
-As CBOR a matrix is tag 40 on {{rows, columns}, numbers}.
+They are the classes of matrix-2. CoppeliaSim has deprecated this module in favour of simEigen, and says so when it is loaded.
 ]]
 
-Matrix = require 'matrix.core'
-require 'matrix.maths'
-require 'matrix.linear'
-local space = require 'matrix.space'
-Vector, Vector3, Vector4, Vector7 = space.Vector, space.Vector3, space.Vector4, space.Vector7
-Matrix3x3, Matrix4x4 = space.Matrix3x3, space.Matrix4x4
-
-return Matrix
+require 'matrix.globals'

@@ -23,8 +23,7 @@ simCBOR.Tags = {
 local function toMatrix(value)
     local size, data = value[1], value[2]
     if type(size) ~= 'table' or type(data) ~= 'table' then error('tag 40: not a matrix') end
-    require('matrix')
-    return Matrix(size[1], size[2], data)
+    return require('matrix-2').Matrix(size[1], size[2], data)
 end
 
 local function toColor(value)

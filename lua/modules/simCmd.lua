@@ -22,7 +22,7 @@ end
 -- @api simCmd.exec(string lang, string code)
 -- @param lang only Lua
 function simCmd.exec(...)
-    local lang, code = require('checkargs')({{type = 'string'}, {type = 'string'}}, ...)
+    local lang, code = require('checkargs.check')({{type = 'string'}, {type = 'string'}}, ...)
     if lang:lower() ~= 'lua' then error('not implemented in Swanilda: simCmd.exec in ' .. lang, 2) end
     show(sim.executeScriptString(code .. '@Lua', selected or sim.getScript(sim.scripttype_sandbox)))
 end
@@ -30,7 +30,7 @@ end
 --- Chooses the script in which `exec` runs code; the sandbox is chosen first.
 -- @api simCmd.setSelectedScript(int scriptHandle, string lang = '')
 function simCmd.setSelectedScript(...)
-    selected = require('checkargs')({{type = 'int'}, {type = 'string', default = ''}}, ...)
+    selected = require('checkargs.check')({{type = 'int'}, {type = 'string', default = ''}}, ...)
 end
 
 --- A few hints for beginners.
@@ -47,7 +47,7 @@ function simCmd.helpClose() end
 
 --- No effect: there is no window.
 -- @api simCmd.setVisible(bool visible)
-function simCmd.setVisible(...) require('checkargs')({{type = 'bool'}}, ...) end
+function simCmd.setVisible(...) require('checkargs.check')({{type = 'bool'}}, ...) end
 
 --- No effect: there is no window.
 -- @api simCmd.clearHistory()

@@ -7,7 +7,7 @@ The solver and all that deals with objects is native; here are options, postures
 local _, simIK = ...
 
 local sim = require 'sim'
-local check = require 'checkargs'
+local check = require 'checkargs.check'
 local callbacks = require 'simIK.callbacks'
 local configs = require 'simIK.configs'
 local overlays = require 'simIK.overlays'

@@ -7,7 +7,7 @@ Planning is native; here are helpers for joints, paths and drawings.
 local _, simOMPL = ...
 
 local sim = require 'sim'
-local check = require 'checkargs'
+local check = require 'checkargs.check'
 
 local GREY <const> = {0.5, 0.5, 0.5}
 

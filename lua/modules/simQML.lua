@@ -187,8 +187,10 @@ function simQML.imageDataURL(data, width, height, format, data_format)
     local isImage = math.type(width) == 'integer' and math.type(height) == 'integer' and width > 0 and height > 0
     if not isImage or #bytes ~= width * height * layout[1] then error('invalid image size', 2) end
     local pixels = bytes:gsub(layout[2], layout[3])
-    local image = require('sim').saveImage(pixels, {width, height}, layout[4], '.' .. kind, -1)
-    return ('data:image/%s;base64,'):format(kind == 'jpg' and 'jpeg' or kind) .. require('base64').encode(tostring(image))
+    local sim = require 'sim'
+    local image = sim.saveImage(pixels, {width, height}, layout[4], '.' .. kind, -1)
+    local encoded = sim.transformBuffer(image, sim.buffer_uint8, 1, 0, sim.buffer_base64)
+    return ('data:image/%s;base64,'):format(kind == 'jpg' and 'jpeg' or kind) .. tostring(encoded)
 end
 
 --- The version of Qt: there is none.

@@ -1,5 +1,5 @@
 --[[
-Base 64 of bytes (RFC 4648). Functions accept strings and buffers and return strings.
+Base 64 of bytes (RFC 4648). Functions accept strings and buffers and return buffers.
 ]]
 
 local base64 = {}
@@ -14,7 +14,7 @@ for i = 0, 63 do
 end
 
 --- The base-64 form of some bytes.
--- @api string encoded = base64.encode(buffer data)
+-- @api buffer encoded = base64.encode(buffer data)
 function base64.encode(data)
     data = tostring(data)
     local missing = -#data % 3
@@ -23,11 +23,11 @@ function base64.encode(data)
         local bits = a << 16 | b << 8 | c
         return letters[bits >> 18] .. letters[bits >> 12 & 63] .. letters[bits >> 6 & 63] .. letters[bits & 63]
     end)
-    return encoded:sub(1, #encoded - missing) .. ('='):rep(missing)
+    return tobuffer(encoded:sub(1, #encoded - missing) .. ('='):rep(missing))
 end
 
 --- The bytes of base-64 text. Also accepts the URL alphabet, white space and missing padding; other characters are an error.
--- @api string data = base64.decode(buffer encoded)
+-- @api buffer data = base64.decode(buffer encoded)
 function base64.decode(encoded)
     local text = tostring(encoded):gsub('%s+', ''):gsub('=?=?$', '')
     local missing = -#text % 4
@@ -36,7 +36,7 @@ function base64.decode(encoded)
         local bits = values[a] << 18 | values[b] << 12 | values[c] << 6 | values[d]
         return char(bits >> 16, bits >> 8 & 255, bits & 255)
     end)
-    return data:sub(1, #data - missing)
+    return tobuffer(data:sub(1, #data - missing))
 end
 
 return base64

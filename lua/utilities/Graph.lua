@@ -247,7 +247,7 @@ function Graph:render(options)
     local file = assert(io.open(input, 'w'))
     file:write(self:tographviz(options))
     file:close()
-    local result, message = require('simSubprocess').exec('dot', {'-T' .. format, '-o' .. output, input})
+    local result, message = _quietRequire('simSubprocess').exec('dot', {'-T' .. format, '-o' .. output, input})
     os.remove(input)
     if result ~= 0 then error('dot: ' .. tostring(message), 2) end
     return output

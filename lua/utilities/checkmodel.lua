@@ -7,7 +7,7 @@ Looks for what makes the physics of a model hard: masses of linked bodies that d
     showObjectsGraph(graph)                       a picture by Graphviz's `dot`; returns the name of the file
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 local Graph = require 'Graph'
 local checkmodel = {}
 

@@ -4,7 +4,7 @@ Copies of values.
 An object whose metatable has __copy or __deepcopy is copied by that.
 ]]
 
-local tablex = require 'tablex'
+local tablex = require 'tablex.functions'
 
 local copy = {}
 

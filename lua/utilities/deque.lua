@@ -41,29 +41,29 @@ function deque:append(x) push(self, 1, x) end
 -- @api deque:appendleft(any x)
 function deque:appendleft(x) push(self, -1, x) end
 
---- Removes and returns the first element; nil if there is none.
+--- Removes and returns the first element; an error if there is none.
 -- @api any x = deque:popleft()
 function deque:popleft()
     local list = rawget(self, SLOT)
-    if list.first > list.last then return nil end
+    if list.first > list.last then error('deque is empty', 2) end
     local x = list[list.first]
     list[list.first], list.first = nil, list.first + 1
     return x
 end
 
---- Removes and returns the last element; nil if there is none.
+--- Removes and returns the last element; an error if there is none.
 -- @api any x = deque:popright()
 function deque:popright()
     local list = rawget(self, SLOT)
-    if list.first > list.last then return nil end
+    if list.first > list.last then error('deque is empty', 2) end
     local x = list[list.last]
     list[list.last], list.last = nil, list.last - 1
     return x
 end
 
---- Removes and returns the last element; nil if there is none.
+--- Removes and returns the last element; an error if there is none.
 -- @api any x = deque:pop()
-function deque:pop() return self:popright() end
+deque.pop = deque.popright
 
 function deque:__len()
     local list = rawget(self, SLOT)

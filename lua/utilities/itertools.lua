@@ -1,42 +1,37 @@
 --[[
-Chains of iterators, and tables of arrangements.
-
-Iterators are functions that return nil at their end, like those of table.iter or string.gmatch.
+Chains of tables, and tables of arrangements.
 ]]
 
 local itertools = {}
 
---- The values of several iterators, one after the other.
--- @api func next = itertools.chain(...)
-function itertools.chain(...)
-    local iterators, current = {...}, 1
-    local function pass(first, ...)
-        if first ~= nil then return true, first, ... end
-        return false
-    end
-    local function unwrap(found, ...)
-        if found then return ... end
+-- The keys and values of each table in turn, those that iterate(table) gives. A function among them is an iterator itself: it gives its own
+-- values until the first of them is nil.
+local function chained(iterate, ...)
+    local sources, current = {...}, 0
+    local function nothing() end
+    local step, state, key = nothing, nil, nil
+    local function following(first, ...)
+        if first ~= nil then
+            key = first
+            return first, ...
+        end
         current = current + 1
-        if not iterators[current] then return nil end
-        return unwrap(pass(iterators[current]()))
+        local source = sources[current]
+        step, state, key = source or nothing, nil, nil
+        if source == nil then return nil end
+        if type(source) ~= 'function' then step, state, key = iterate(source) end
+        return following(step(state, key))
     end
-    return function()
-        if not iterators[current] then return nil end
-        return unwrap(pass(iterators[current]()))
-    end
+    return function() return following(step(state, key)) end
 end
 
---- The same, with a running number in front of each value.
+--- The keys and values of several tables, one after the other.
+-- @api func next = itertools.chain(...)
+function itertools.chain(...) return chained(pairs, ...) end
+
+--- The indices and elements of several tables, one after the other: up to the first that is nil in each.
 -- @api func next = itertools.ichain(...)
-function itertools.ichain(...)
-    local iterator, i = itertools.chain(...), 0
-    return function()
-        local value = iterator()
-        if value == nil then return nil end
-        i = i + 1
-        return i, value
-    end
-end
+function itertools.ichain(...) return chained(ipairs, ...) end
 
 --- All rows with one element of each table.
 -- @api table rows = itertools.product(table tables)

@@ -5,7 +5,7 @@ A level is a number of sim.verbosity_*, or 'error', 'warning', 'info', 'debug', 
 dropped ('info' at first); the rest go to sim.addLog, where the verbosity of the script decides.
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 
 local LEVELS = {
     error = sim.verbosity_scripterrors, warning = sim.verbosity_scriptwarnings, info = sim.verbosity_scriptinfos,

@@ -14,7 +14,7 @@ It defines the globals that old scripts count on: `include`, `getObjectsWithTag`
 `table`, `string` and `math`.
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local globals = require 'swanilda.old_helpers'
 local utils = {}
 
@@ -38,13 +38,13 @@ function utils.createCustomUi(xml, title, position, closeable, onClose, modal, r
         .. (closeable and attribute('on-close', onClose) or '') .. attribute('modal', modal or false)
         .. attribute('resizable', resizable or false) .. attribute('activate', activate ~= false)
         .. (size and attribute('size', size[1] .. ',' .. size[2]) or '') .. ' ' .. placement .. ' ' .. (attributes or '')
-    return require('simUI').create(text .. '>' .. xml .. '</ui>')
+    return _quietRequire('simUI').create(text .. '>' .. xml .. '</ui>')
 end
 
-function utils.getSelectedEditWidget(ui) return require('simUI').getCurrentEditWidget(ui) end
+function utils.getSelectedEditWidget(ui) return _quietRequire('simUI').getCurrentEditWidget(ui) end
 
 function utils.setSelectedEditWidget(ui, id)
-    if id and id >= 0 then require('simUI').setCurrentEditWidget(ui, id) end
+    if id and id >= 0 then _quietRequire('simUI').setCurrentEditWidget(ui, id) end
 end
 
 function utils.getRadiobuttonValFromBool(on) return on and 1 or 0 end
@@ -72,7 +72,7 @@ function utils.fastIdleLoop() end
 --- Whether a plugin is there.
 function utils.isPluginLoaded(name)
     local module = name:sub(1, 3) == 'sim' and name or 'sim' .. name
-    return (pcall(require, module))
+    return (pcall(_quietRequire, module))
 end
 
 ---------------------------------------------------------------- tools

@@ -7,7 +7,7 @@ Calling the module is v4. Without set_rng it uses rng.math_random(), which draws
 local uuid = {rng = {}}
 
 function uuid.rng.math_random()
-    local random = (package.loaded.sim or require 'sim').getRandom
+    local random = _quietRequire('sim').getRandom
     return function(n)
         local bytes = {}
         for i = 1, n do bytes[i] = string.char(math.min(255, math.floor(random() * 256))) end

@@ -10,10 +10,12 @@ use modules::ALL;
 /// Files of the library for its own use.
 const INNER: &[&str] = &[
     "base",
+    "checkargs/check",
     "deprecate",
     "json_scanner",
     "coverage_loaders",
     "defaultMainScript",
+    "functional/functions",
     "luassert/arguments",
     "luassert/array",
     "luassert/assert",
@@ -30,7 +32,9 @@ const INNER: &[&str] = &[
     "luassert/say",
     "luassert/state",
     "main",
+    "mathx/functions",
     "matrix/core",
+    "matrix/globals",
     "matrix/linear",
     "matrix/maths",
     "matrix/space",
@@ -54,6 +58,7 @@ const INNER: &[&str] = &[
     "simIK/overlays",
     "simIK/paths",
     "simZMQ/proxy",
+    "stringx/functions",
     "swanilda/calls",
     "swanilda/console",
     "swanilda/display",
@@ -64,6 +69,7 @@ const INNER: &[&str] = &[
     "swanilda/extensions",
     "swanilda/implicit",
     "swanilda/modload",
+    "swanilda/object",
     "swanilda/old_helpers",
     "swanilda/pathmodel",
     "swanilda/paths/dialog",
@@ -77,6 +83,8 @@ const INNER: &[&str] = &[
     "swanilda/test/scripts",
     "swanilda/thread",
     "swanilda/trajectory",
+    "tablex/functions",
+    "var/functions",
 ];
 
 /// `docs/api/modules.md`.

@@ -5,7 +5,7 @@ Add-ons that start only if somebody wants it: `require('addOns.autoStart').setup
     get(options), set(options, on), setup(options)     options: ns, readNamedParam (true), default (false)
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 local autoStart = {}
 
 local YES <const> = {['true'] = true, ['1'] = true, on = true, yes = true}

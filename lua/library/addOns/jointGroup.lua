@@ -2,7 +2,7 @@
 Groups of joints of a model: `require('addOns.jointGroup').getJointGroups(model)`.
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 local jointGroup = {}
 
 --- The objects below a model that are groups of joints.

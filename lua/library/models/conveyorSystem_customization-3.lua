@@ -3,7 +3,7 @@ Script of conveyors along a path: `conveyorSystem = require('models.conveyorSyst
 those of configUi; scripts drive it by custom data: `__ctrl__` {vel=} or {pos=}, `__state__` {pos, vel}.
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 local path = require 'models.path_customization-2'
 require 'configUi'
 local along = require 'swanilda.conveyors.along'

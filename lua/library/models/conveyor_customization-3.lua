@@ -3,7 +3,7 @@ Script of straight conveyors with pads or rollers: `conveyor = require('models.c
 control points (spec: models 5). Settings are those of configUi; scripts drive it by custom data: `__ctrl__` {vel=} or {pos=}, `__state__` {pos, vel}.
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 local path = require 'models.path_customization-2'
 require 'configUi'
 local belt = require 'swanilda.conveyors.belt'

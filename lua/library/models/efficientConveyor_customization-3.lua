@@ -3,7 +3,7 @@ Script of conveyors that are one box, whose surface moves what lies on it: `conv
 with the shapes `forwarder`, `visible1` and `visible2` (spec: models 5). Driven as the other conveyors, by `__ctrl__` and `__state__`.
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 require 'configUi'
 local control = require 'swanilda.conveyors.control'
 local parts = require 'swanilda.conveyors.parts'

@@ -5,7 +5,7 @@ handle `path` is the path, whose table data `path` are the states and whose refe
 Globals of the script: fkMaxVel (1), fkMaxAccel (5): limits of each joint.
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 
 local SAMPLES <const>, SPEED <const>, ACCELERATION <const> = 1000, 1, 5
 local states, joints

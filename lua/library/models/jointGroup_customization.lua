@@ -8,7 +8,7 @@ scripts call (spec: models 6):
     followPath(path, parameters)                  a temporary script moves the joints along the states of a path
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 
 local MAX_VEL <const>, MAX_ACCEL <const>, MAX_JERK <const> = math.rad(1440), math.rad(720), math.rad(360)
 local motion

@@ -2,7 +2,7 @@
 Paths of robots, states of joints one after the other, as objects of the scene: `require('models.robotConfigPath-3').create(states, parent, jointGroup)` (spec: models 6).
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 local robotConfigPath = {}
 
 -- States as a list: rows of a matrix or columns of it, whichever have as many values as there are joints.

@@ -4,7 +4,7 @@ Script of the paths that models.robotConfigPath-3 makes: settings show one of th
     getPath()                                     the states, a list of lists of positions
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 require 'configUi'
 
 local SCHEMA <const> = {

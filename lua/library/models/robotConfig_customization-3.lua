@@ -6,7 +6,7 @@ Globals of the script: model (':', the model it is in), color ({1, 0, 0}), trans
 Functions: hasModelClone, createModelClone, removeModelClone, getConfig, setConfig, saveConfig, restoreConfig, saveIkTarget, restoreIkTarget, reset.
 ]]
 
-local sim = require 'sim'
+local sim = _quietRequire 'sim'
 
 local GHOST <const>, CONFIG <const>, TARGET <const> = 'customData.robotConfigGhost', 'config', 'ikTargetPose'
 local BARE <const> = 2 | 4 | 8 -- copies without scripts, custom data and referenced handles

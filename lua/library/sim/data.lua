@@ -132,7 +132,7 @@ function M.writeCustomTableData(...)
     if areComplete(select('#', ...), handle, tag, data) then
         options = WRITE_ARGS[4].default
     else
-        handle, tag, data, options = require('checkargs')(WRITE_ARGS, ...)
+        handle, tag, data, options = require('checkargs.check')(WRITE_ARGS, ...)
     end
     if next(data) == nil then return M.writeCustomDataBlockEx(handle, tag, '') end
     local dataType = options.dataType or 'table'
@@ -148,7 +148,7 @@ end
 function M.readCustomTableData(...)
     local handle, tag = ...
     if select('#', ...) ~= 2 or integer(handle) ~= 'integer' or type(tag) ~= 'string' then
-        handle, tag = require('checkargs')(READ_ARGS, ...)
+        handle, tag = require('checkargs.check')(READ_ARGS, ...)
     end
     local data = sim.readCustomStringData(handle, tag)
     if not data or #data == 0 then return {} end
@@ -184,7 +184,7 @@ local function persistentTags() return sim.getPersistentDataTags() or {} end
 -- @param pattern of Lua
 -- @return tags in the order of sim.getPersistentDataTags
 function M.getMatchingPersistentDataTags(...)
-    local pattern = require('checkargs')({{type = 'string'}}, ...)
+    local pattern = require('checkargs.check')({{type = 'string'}}, ...)
     local matching = {}
     for _, tag in ipairs(persistentTags()) do
         if tag:match(pattern) then matching[#matching + 1] = tag end

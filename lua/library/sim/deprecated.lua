@@ -12,7 +12,7 @@ local M = {}
 -- @param original table
 -- @return copy shares nothing with the original
 function M.copyTable(original)
-    local copy = require('tablex').deepcopy(original)
+    local copy = require('tablex.functions').deepcopy(original)
     return copy
 end
 
@@ -57,7 +57,7 @@ local ANGLES = {{type = 'float'}, {type = 'float'}, {type = 'float'}}
 -- @return pitch about the new y
 -- @return roll about the new x
 function M.alphaBetaGammaToYawPitchRoll(...)
-    local alpha, beta, gamma = require('checkargs')(ANGLES, ...)
+    local alpha, beta, gamma = require('checkargs.check')(ANGLES, ...)
     local sa, ca, sb, cb = math.sin(alpha), math.cos(alpha), math.sin(beta), math.cos(beta)
     local sg, cg = math.sin(gamma), math.cos(gamma)
     local r31 = sa * sg - ca * sb * cg
@@ -77,7 +77,7 @@ end
 -- @return beta about the new y
 -- @return gamma about the new z
 function M.yawPitchRollToAlphaBetaGamma(...)
-    local yaw, pitch, roll = require('checkargs')(ANGLES, ...)
+    local yaw, pitch, roll = require('checkargs.check')(ANGLES, ...)
     local sy, cy, sp, cp = math.sin(yaw), math.cos(yaw), math.sin(pitch), math.cos(pitch)
     local sr, cr = math.sin(roll), math.cos(roll)
     local r13 = sy * sr + cy * sp * cr

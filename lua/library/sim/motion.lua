@@ -105,7 +105,7 @@ local LEGACY_ARGS = {
 
 local function fromLegacyArgs(...)
     local flags, pos, vel, accel, maxVel, maxAccel, maxJerk, targetPos, targetVel, callback, aux, cyclic, timeStep =
-        require('checkargs').checkargsEx({level = 1}, LEGACY_ARGS, ...)
+        require('checkargs.check').checkargsEx({level = 1}, LEGACY_ARGS, ...)
     local n = #pos
     local params = {
         flags = flags, pos = pos, vel = vel, accel = accel, auxData = aux, cyclicJoints = cyclic, timeStep = timeStep,

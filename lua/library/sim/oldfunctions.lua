@@ -7,7 +7,7 @@ The steps of a blocking move are in swanilda/oldmotion.lua.
 local sim = ...
 local M = {warnsOnceForAll = true}
 
-local function check(types, ...) return require('checkargs').checkargsEx({level = 0}, types, ...) end
+local function check(types, ...) return require('checkargs.check').checkargsEx({level = 0}, types, ...) end
 
 ---------------------------------------------------------------- bits
 

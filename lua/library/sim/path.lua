@@ -13,7 +13,7 @@ local END_GAP <const> = 1e-8 -- 4.10 never reaches the end of a path, it stops t
 local ROUND <const> = 2 * math.pi
 
 -- A tail call: its own frame is gone when checkargs looks for the checked function.
-local function check(types, ...) return require('checkargs').checkargsEx({level = 0}, types, ...) end
+local function check(types, ...) return require('checkargs.check').checkargsEx({level = 0}, types, ...) end
 
 local function wrap(angle)
     if angle >= -math.pi and angle <= math.pi then return angle end -- both ends stay what they are
@@ -51,7 +51,7 @@ local LENGTHS_ARGS = {{type = 'table', item_type = 'float', size = '2..*'}, {typ
 -- @return total the last of them
 function M.getPathLengths(...)
     local path, dof, distance = check(LENGTHS_ARGS, ...)
-    if type(distance) == 'string' then distance = require('var').getvar(distance) or distance end
+    if type(distance) == 'string' then distance = require('var.functions').getvar(distance) or distance end
     if not (distance == nil or isCallable(distance)) then error('distCallback is not a function.', 2) end
     distance = distance or pointDistance
     local count = dof > 0 and #path // dof or 0

@@ -10,7 +10,7 @@ local MAX_ALTERNATIVES <const> = 10000
 local MAX_POINTS <const> = 100000 -- beyond, a mistyped number would keep the script busy for minutes
 
 -- A tail call: its own frame is gone when checkargs looks for the checked function.
-local function check(types, ...) return require('checkargs').checkargsEx({level = 0}, types, ...) end
+local function check(types, ...) return require('checkargs.check').checkargsEx({level = 0}, types, ...) end
 
 local CREATE_ARGS = {
     {type = 'table', item_type = 'float', size = '14..*'}, {type = 'int', default = 0}, {type = 'int', default = 100},

@@ -182,7 +182,7 @@ local LEGACY_ARGS = {
 
 local function fromLegacyArgs(...)
     local flags, pose, maxVel, maxAccel, maxJerk, targetPose, callback, aux, metric, timeStep =
-        require('checkargs').checkargsEx({level = 1}, LEGACY_ARGS, ...)
+        require('checkargs.check').checkargsEx({level = 1}, LEGACY_ARGS, ...)
     local field = #pose == 12 and 'matrix' or 'pose'
     local params = {flags = flags, pose = pose, targetPose = targetPose, auxData = aux, metric = metric, timeStep = timeStep}
     motion.addOlder(params, metric and 1 or 4, {vel = maxVel, accel = maxAccel, jerk = maxJerk}, callback, field, 4)

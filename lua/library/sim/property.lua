@@ -197,7 +197,7 @@ function M.setTableProperty(...)
     local target, name, value, options = ...
     local isComplete = select('#', ...) == 3 and math.type(target) == 'integer' and type(name) == 'string'
     if not (isComplete and type(value) == 'table') then
-        target, name, value, options = require('checkargs')(TABLE_ARGS, ...)
+        target, name, value, options = require('checkargs.check')(TABLE_ARGS, ...)
     end
     sim._setTableProperty(target, name, value, options)
 end

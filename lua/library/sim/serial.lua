@@ -17,7 +17,7 @@ local OPEN_ARGS = {{type = 'string'}, {type = 'int'}}
 -- @param baudrate one of the usual rates from 50 to 230400
 -- @return portHandle -1 if it cannot be opened
 function M.serialOpen(...)
-    local path, baudRate = require('checkargs')(OPEN_ARGS, ...)
+    local path, baudRate = require('checkargs.check')(OPEN_ARGS, ...)
     local handle = sim._serialOpen(path, baudRate)
     if handle > 0 then unread[handle] = '' end
     return handle
@@ -27,7 +27,7 @@ end
 -- @api sim.serialClose(int portHandle)
 -- @param portHandle from sim.serialOpen
 function M.serialClose(...)
-    local handle = require('checkargs')({{type = 'int'}}, ...)
+    local handle = require('checkargs.check')({{type = 'int'}}, ...)
     sim._serialClose(handle)
     unread[handle] = nil
 end
@@ -58,7 +58,7 @@ local READ_ARGS = {
 -- @param timeout seconds of wall-clock time after which a wait ends with what there is; 0: none
 -- @return data empty if there is nothing
 function M.serialRead(...)
-    local handle, length, blocking, closingString, timeout = require('checkargs')(READ_ARGS, ...)
+    local handle, length, blocking, closingString, timeout = require('checkargs.check')(READ_ARGS, ...)
     length, closingString = math.max(length, 0), tostring(closingString)
     if not unread[handle] then error('sim.serialRead: not a port this script has opened', 2) end
     local start = sim.getSystemTime()

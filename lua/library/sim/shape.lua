@@ -1,5 +1,5 @@
 --[[
-Colours and looks of shapes, saved and restored as a whole.
+Colours and looks of shapes, saved and restored as a whole; shapes of texts.
 
 Does not draw; the values themselves are native.
 ]]
@@ -28,7 +28,7 @@ local CHANGE_ARGS = {{type = 'int'}, {type = 'table', item_type = 'float', size 
 -- @param component sim.colorcomponent_*
 -- @return originalColors for sim.restoreEntityColor
 function M.changeEntityColor(...)
-    local entity, color, component = require('checkargs')(CHANGE_ARGS, ...)
+    local entity, color, component = require('checkargs.check')(CHANGE_ARGS, ...)
     local saved = {}
     for i, shape in ipairs(shapesOf(entity)) do
         local _, data = sim.getShapeColor(shape, '@compound', component)
@@ -42,7 +42,7 @@ end
 -- @api sim.restoreEntityColor(map[] originalColors)
 -- @param originalColors from sim.changeEntityColor; objects that are gone are left out
 function M.restoreEntityColor(...)
-    local saved = require('checkargs')({{type = 'table'}}, ...)
+    local saved = require('checkargs.check')({{type = 'table'}}, ...)
     for _, entry in ipairs(saved) do
         if sim.isHandle(entry.handle) then sim.setShapeColor(entry.handle, '@compound', entry.comp, entry.data) end
     end
@@ -88,6 +88,23 @@ function M.setShapeAppearance(handle, appearance)
         end
     end
     return handle
+end
+
+local TEXT_ARGS <const> = {
+    {type = 'string'}, {type = 'table', item_type = 'float', size = 3, default = {1, 1, 1}}, {type = 'float', default = 0.1},
+    {type = 'bool', default = false}, {type = 'string', default_nil = true},
+}
+
+--- Makes a model of the letters of a text. They are strokes of our own.
+-- @api int modelHandle = sim.generateTextShape(string txt, float[3] color = {1, 1, 1}, float height = 0.1, bool centered = false, string alphabetLocation = nil)
+-- @param txt with line ends
+-- @param height of a capital letter
+-- @param centered the middle of each line is at x = 0
+-- @param alphabetLocation has no effect
+-- @return modelHandle a dummy with the shape
+function M.generateTextShape(...)
+    local text, color, height, centered = require('checkargs.check')(TEXT_ARGS, ...)
+    return (require('textUtils').generateTextShape(text, color, height, centered))
 end
 
 return M

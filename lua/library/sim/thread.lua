@@ -55,7 +55,7 @@ local WAIT_ARGS = {{type = 'float'}, {type = 'bool', default = true}}
 -- @param simulationTime false: wall-clock time
 -- @return timeLeft overshoot in seconds, 0 for wall-clock time
 function M.wait(...)
-    local dt, simulationTime = require('checkargs')(WAIT_ARGS, ...)
+    local dt, simulationTime = require('checkargs.check')(WAIT_ARGS, ...)
     local now = simulationTime and sim.getSimulationTime or sim.getSystemTime
     local start = now()
     local elapsed = 0.0

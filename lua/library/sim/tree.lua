@@ -25,7 +25,7 @@ local VISIT_ARGS = {{type = 'int'}, {type = 'func'}, {type = 'table', default = 
 -- @param rootHandle first object visited, or sim.handle_scene
 -- @param visitor function(handle); false: leave out what is below
 function M.visitTree(...)
-    local root, visitor = require('checkargs')(VISIT_ARGS, ...)
+    local root, visitor = require('checkargs.check')(VISIT_ARGS, ...)
     if type(visitor) == 'string' then visitor = _G[visitor] end
     if root ~= sim.handle_scene then return visit(root, visitor) end
     for _, object in ipairs(sim.getObjectsInTree(sim.handle_scene, sim.handle_all, 2)) do visit(object, visitor) end

@@ -8,7 +8,7 @@ local M = {}
 -- The extensions are copied in when the first missing name is asked for.
 local function extend(library, module, key)
     setmetatable(library, nil)
-    for name, f in pairs(_quietRequire(module)) do
+    for name, f in pairs(_quietRequire(module .. '.functions')) do
         if library[name] == nil then library[name] = f end
     end
     return library[key]
@@ -18,7 +18,7 @@ function M.string(library, key) return extend(library, 'stringx', key) end
 function M.table(library, key) return extend(library, 'tablex', key) end
 function M.math(library, key) return extend(library, 'mathx', key) end
 
-function M.operator(_, key) return _quietRequire('functional').operator[key] end
+function M.operator(_, key) return _quietRequire('functional.functions').operator[key] end
 
 --- Where the original keeps the functions of its interface. Native plugins are in another table.
 function M.interface(_, key) return key == 'sim' and _quietRequire('sim') or nil end

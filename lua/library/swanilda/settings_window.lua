@@ -5,7 +5,7 @@ A field is a table of `kind` (check, number, choice, text), `text` (its label), 
 `maximum` and `step`, choices `items`.
 ]]
 
-local simUI = require 'simUI'
+local simUI = _quietRequire 'simUI'
 local escaped = require('swanilda.config.controls').escaped
 local M = {}
 

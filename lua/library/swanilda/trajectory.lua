@@ -4,7 +4,7 @@ Shared by sim/motion.lua and sim/pose.lua: checks and limits of a motion, the tr
 Not a group of sim functions: those are in lua/library/sim.
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local M = {}
 
 -- What 4.10 uses when no limit is passed at all: the motion becomes a jump.
@@ -28,7 +28,7 @@ end
 --- The function that a callback means: itself, or the one of that name when it is called.
 function M.functionOf(callback)
     if type(callback) == 'string' then
-        local found = require('var').getvar(callback)
+        local found = require('var.functions').getvar(callback)
         return isCallable(found) and found or error("the callback '" .. callback .. "' is not a function.", 0)
     end
     return callback or function() end

@@ -49,9 +49,9 @@ local function fromFunction(rows, cols, f)
     return data
 end
 
--- Matrix{{1, 2}, {3, 4}}, Matrix(rows, cols, data): data are a table by rows, a number, a function of i and j, or nothing for 0.
+-- Matrix{{1, 2}, {3, 4}}, Matrix{1, 2} (a column), Matrix(rows, cols, data): data are a table by rows, a number, a function of i and j, or nothing for 0.
 local function construct(_, rows, cols, data)
-    if type(rows) == 'table' then return Matrix:fromtable(rows) end
+    if type(rows) == 'table' then return Matrix:fromtable(rows) or construct(nil, #rows, 1, rows) end
     rows, cols = inferredSize(rows, cols, data)
     checkSize(rows, cols)
     if type(data) == 'table' then return new(rows, cols, copiedData(rows, cols, data)) end
@@ -59,12 +59,12 @@ local function construct(_, rows, cols, data)
     return new(rows, cols, filled(rows, cols, data or 0))
 end
 
---- From rows, from the numbers of a column, or from {dims = {rows, cols}, data = numbers}.
+--- From rows, or from {dims = {rows, cols}, data = numbers}; nil for other tables.
 -- @api Matrix m = Matrix:fromtable(table t)
 function Matrix:fromtable(t)
     if isMatrix(t) then return t:copy() end
     if t.dims and t.data then return construct(nil, t.dims[1], t.dims[2], t.data) end
-    if type(t[1]) ~= 'table' then return construct(nil, #t, 1, t) end
+    if type(t[1]) ~= 'table' then return nil end
     local data = {}
     for i, row in ipairs(t) do
         if #row ~= #t[1] then error(('Matrix: row %d has %d elements, not %d'):format(i, #row, #t[1]), 2) end
@@ -73,11 +73,11 @@ function Matrix:fromtable(t)
     return new(#t, #t[1], data)
 end
 
---- Rows as tables; with 'data' the numbers by rows; with 'dims' a table accepted by fromtable.
--- @api table t = Matrix:totable(string format = nil)
+--- Rows as tables; with a table as format {dims = {rows, cols}, data = numbers}; nil with another format.
+-- @api table t = Matrix:totable(any format = nil)
 function Matrix:totable(format)
-    if format == 'data' then return self:data() end
-    if format == 'dims' then return {dims = {self._rows, self._cols}, data = self:data()} end
+    if type(format) == 'table' then return {dims = {self._rows, self._cols}, data = self:data()} end
+    if format ~= nil then return nil end
     local rows = {}
     for i = 1, self._rows do rows[i] = self:row(i):data() end
     return rows
@@ -109,13 +109,34 @@ function Matrix:offset(i, j)
 end
 
 --- An element.
--- @api float value = Matrix:get(int i, int j)
-function Matrix:get(i, j) return self._data[self:offset(i, j)] end
+-- @api float value = Matrix:item(int i, int j)
+function Matrix:item(i, j) return self._data[self:offset(i, j)] end
 
 --- Sets an element.
+-- @api Matrix:setitem(int i, int j, float value)
+function Matrix:setitem(i, j, value) self._data[self:offset(i, j)] = value end
+
+local warned = {}
+
+local function deprecated(old, instead)
+    if warned[old] then return end
+    warned[old] = true
+    addLog(430, ('m:%s is deprecated. use m:%s instead'):format(old, instead)) -- sim.verbosity_scriptwarnings
+end
+
+--- Older name of item.
+-- @api float value = Matrix:get(int i, int j)
+function Matrix:get(i, j)
+    deprecated('get(i, j)', 'item(i, j)')
+    return self:item(i, j)
+end
+
+--- Older name of setitem.
 -- @api Matrix:set(int i, int j, float value)
-function Matrix:set(i, j, value) self._data[self:offset(i, j)] = value end
-Matrix.item, Matrix.setitem = Matrix.get, Matrix.set
+function Matrix:set(i, j, value)
+    deprecated('set(i, j, value)', 'setitem(i, j, value)')
+    self:setitem(i, j, value)
+end
 
 --- The numbers by rows, copied.
 -- @api float[] data = Matrix:data()
@@ -132,7 +153,7 @@ function Matrix:copy() return new(self._rows, self._cols, self:data()) end
 -- @api Matrix m = Matrix:slice(int fromrow, int fromcol, int torow, int tocol)
 function Matrix:slice(fromrow, fromcol, torow, tocol)
     return construct(nil, math.max(0, torow - fromrow + 1), math.max(0, tocol - fromcol + 1), function(i, j)
-        return self:get(fromrow + i - 1, fromcol + j - 1)
+        return self:item(fromrow + i - 1, fromcol + j - 1)
     end)
 end
 
@@ -152,7 +173,7 @@ function Matrix:rowref(i) return new(1, self._cols, self._data, self:offset(i, 1
 function Matrix:assign(startrow, startcol, m)
     if not isMatrix(m) then m = Matrix:fromtable(m) end
     for i = 1, m._rows do
-        for j = 1, m._cols do self:set(startrow + i - 1, startcol + j - 1, m:get(i, j)) end
+        for j = 1, m._cols do self:setitem(startrow + i - 1, startcol + j - 1, m:item(i, j)) end
     end
     return self
 end
@@ -175,7 +196,7 @@ function Matrix:setcol(j, m) return self:assign(1, j, new(self._rows, 1, numbers
 -- @api Matrix m = Matrix:flip(int dim = 1)
 function Matrix:flip(dim)
     return construct(nil, self._rows, self._cols, function(i, j)
-        return dim == 2 and self:get(i, self._cols + 1 - j) or dim ~= 2 and self:get(self._rows + 1 - i, j)
+        return dim == 2 and self:item(i, self._cols + 1 - j) or dim ~= 2 and self:item(self._rows + 1 - i, j)
     end)
 end
 
@@ -197,7 +218,7 @@ end
 -- @api Matrix m = Matrix:at(any rowidx = nil, any colidx = nil)
 function Matrix:at(rowidx, colidx)
     rowidx, colidx = indices(rowidx, self._rows), indices(colidx, self._cols)
-    return construct(nil, #rowidx, #colidx, function(i, j) return self:get(rowidx[i], colidx[j]) end)
+    return construct(nil, #rowidx, #colidx, function(i, j) return self:item(rowidx[i], colidx[j]) end)
 end
 
 --- A copy without a row.
@@ -244,13 +265,12 @@ function Matrix:horzcat(...)
     end
     return result
 end
-Matrix.__concat = Matrix.horzcat
 
 --- n times below, m times beside each other.
 -- @api Matrix m = Matrix:repmat(int n, int m)
 function Matrix:repmat(n, m)
     return construct(nil, n * self._rows, m * self._cols, function(i, j)
-        return self:get((i - 1) % self._rows + 1, (j - 1) % self._cols + 1)
+        return self:item((i - 1) % self._rows + 1, (j - 1) % self._cols + 1)
     end)
 end
 
@@ -324,7 +344,7 @@ function Matrix:print(name, opts)
     for i = 1, self._rows do
         local cells = {}
         for j = 1, self._cols do
-            local value = self:get(i, j)
+            local value = self:item(i, j)
             cells[j] = ('%12s'):format(type(value) == 'number' and format:format(value) or tostring(value))
         end
         lines[#lines + 1] = table.concat(cells)

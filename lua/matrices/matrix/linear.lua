@@ -14,7 +14,7 @@ end
 
 --- Transposed.
 -- @api Matrix m = Matrix:t()
-function Matrix:t() return Matrix(self._cols, self._rows, function(i, j) return self:get(j, i) end) end
+function Matrix:t() return Matrix(self._cols, self._rows, function(i, j) return self:item(j, i) end) end
 
 --- Product of matrices, or of each element and a number.
 -- @api Matrix m = Matrix:mul(any m)
@@ -25,7 +25,7 @@ function Matrix:mul(m)
     end
     return Matrix(self._rows, m._cols, function(i, j)
         local sum = 0
-        for k = 1, self._cols do sum = sum + self:get(i, k) * m:get(k, j) end
+        for k = 1, self._cols do sum = sum + self:item(i, k) * m:item(k, j) end
         return sum
     end)
 end
@@ -78,8 +78,8 @@ end
 -- @api Matrix m = Matrix:kron(Matrix m)
 function Matrix:kron(m)
     return Matrix(self._rows * m._rows, self._cols * m._cols, function(i, j)
-        local a = self:get((i - 1) // m._rows + 1, (j - 1) // m._cols + 1)
-        return a * m:get((i - 1) % m._rows + 1, (j - 1) % m._cols + 1)
+        local a = self:item((i - 1) // m._rows + 1, (j - 1) // m._cols + 1)
+        return a * m:item((i - 1) % m._rows + 1, (j - 1) % m._cols + 1)
     end)
 end
 
@@ -95,7 +95,7 @@ end
 function Matrix:nonhom()
     if self._rows == 1 and self._cols > 1 then return self:t():nonhom():t() end
     local n = self._rows
-    return Matrix(n - 1, self._cols, function(i, j) return self:get(i, j) / self:get(n, j) end)
+    return Matrix(n - 1, self._cols, function(i, j) return self:item(i, j) / self:item(n, j) end)
 end
 
 --- The Euclidean norm of all elements.
@@ -109,7 +109,7 @@ function Matrix:normalized() return self / self:norm() end
 --- The diagonal as a column; Matrix:diag(t) is a matrix with the diagonal t.
 -- @api Matrix m = Matrix:diag(any t = nil)
 function Matrix:diag(t)
-    if t == nil then return Matrix(math.min(self._rows, self._cols), 1, function(i) return self:get(i, i) end) end
+    if t == nil then return Matrix(math.min(self._rows, self._cols), 1, function(i) return self:item(i, i) end) end
     local values = isMatrix(t) and t:data() or t
     return Matrix(#values, #values, function(i, j) return i == j and values[i] or 0 end)
 end
@@ -134,16 +134,16 @@ end
 local function pivotRow(m, from, col)
     local best = from
     for i = from + 1, m._rows do
-        if math.abs(m:get(i, col)) > math.abs(m:get(best, col)) then best = i end
+        if math.abs(m:item(i, col)) > math.abs(m:item(best, col)) then best = i end
     end
     return best
 end
 
--- Clears a column below its pivot; if `jordan`, above it too, and the pivot becomes 1.
+-- Makes a pivot 1 and clears the column below it; if `jordan`, above it too.
 local function eliminate(m, row, col, jordan)
-    if jordan then m:setrow(row, m:row(row) / m:get(row, col)) end
+    m:setrow(row, m:row(row) / m:item(row, col))
     for i = jordan and 1 or row + 1, m._rows do
-        local factor = i ~= row and m:get(i, col) / m:get(row, col) or 0
+        local factor = i ~= row and m:item(i, col) or 0
         if factor ~= 0 then m:setrow(i, m:row(i) - m:row(row) * factor) end
     end
 end
@@ -155,7 +155,7 @@ function Matrix:gauss(jordan)
     for col = 1, m._cols do
         if row > m._rows then break end
         local pivot = pivotRow(m, row, col)
-        local value = m:get(pivot, col)
+        local value = m:item(pivot, col)
         if value == 0 then
             if col <= m._rows then det = 0.0 end
         else
@@ -171,10 +171,16 @@ function Matrix:gauss(jordan)
     return m, det
 end
 
---- The determinant.
+--- The determinant; up to 3 x 3 by its formula, which is exact for integers.
 -- @api float det = Matrix:det()
 function Matrix:det()
     checkSquare(self)
+    local m = self:data()
+    if #m == 1 then return m[1] end
+    if #m == 4 then return m[1] * m[4] - m[2] * m[3] end
+    if #m == 9 then
+        return m[1] * (m[5] * m[9] - m[6] * m[8]) - m[2] * (m[4] * m[9] - m[6] * m[7]) + m[3] * (m[4] * m[8] - m[5] * m[7])
+    end
     return (select(2, self:gauss()))
 end
 
@@ -194,7 +200,7 @@ end
 local function orthogonalize(u, v, p, q)
     local alpha, beta, gamma = 0, 0, 0
     for i = 1, u._rows do
-        local a, b = u:get(i, p), u:get(i, q)
+        local a, b = u:item(i, p), u:item(i, q)
         alpha, beta, gamma = alpha + a * a, beta + b * b, gamma + a * b
     end
     if math.abs(gamma) <= 1e-15 * (alpha * beta) ^ 0.5 then return true end
@@ -203,9 +209,9 @@ local function orthogonalize(u, v, p, q)
     local c = 1 / (1 + t * t) ^ 0.5
     for _, m in ipairs{u, v} do
         for i = 1, m._rows do
-            local a, b = m:get(i, p), m:get(i, q)
-            m:set(i, p, c * (a - t * b))
-            m:set(i, q, c * (t * a + b))
+            local a, b = m:item(i, p), m:item(i, q)
+            m:setitem(i, p, c * (a - t * b))
+            m:setitem(i, q, c * (t * a + b))
         end
     end
     return false

@@ -9,13 +9,13 @@ local function isMatrix(value) return type(value) == 'table' and getmetatable(va
 --- f(i, j, element) of each element.
 -- @api Matrix m = Matrix:applyfuncidx(func f)
 function Matrix:applyfuncidx(f)
-    return Matrix(self._rows, self._cols, function(i, j) return f(i, j, self:get(i, j)) end)
+    return Matrix(self._rows, self._cols, function(i, j) return f(i, j, self:item(i, j)) end)
 end
 
 --- f(element) of each element.
 -- @api Matrix m = Matrix:applyfunc(func f)
 function Matrix:applyfunc(f)
-    return Matrix(self._rows, self._cols, function(i, j) return f(self:get(i, j)) end)
+    return Matrix(self._rows, self._cols, function(i, j) return f(self:item(i, j)) end)
 end
 
 --- f(a, b) of the elements of two matrices.
@@ -24,7 +24,7 @@ function Matrix:applyfunc2(m2, f)
     if not self:sameshape(m2) then
         error(('Matrix: shapes differ: %d x %d, %d x %d'):format(self._rows, self._cols, m2._rows, m2._cols), 3)
     end
-    return Matrix(self._rows, self._cols, function(i, j) return f(self:get(i, j), m2:get(i, j)) end)
+    return Matrix(self._rows, self._cols, function(i, j) return f(self:item(i, j), m2:item(i, j)) end)
 end
 
 --- op of the elements of two matrices, or of each element and a number.
@@ -76,7 +76,7 @@ function Matrix:log(base)
 end
 
 -- The generator of the script: same numbers in every run.
-local function randomFloat() return (package.loaded.sim or require 'sim').getRandom() end
+local function randomFloat() return _quietRequire('sim').getRandom() end
 
 --- Random numbers in the shape of the matrix: from 0 to 1, or integers from a to b (1 to a).
 -- @api Matrix m = Matrix:random(int a = nil, int b = nil)
@@ -228,7 +228,7 @@ function Matrix:where(cond, x, y)
     return cond:applyfuncidx(function(i, j, c)
         local source = c and c ~= 0 and x
         if not source then source = y end
-        return isMatrix(source) and source:get(i, j) or source
+        return isMatrix(source) and source:item(i, j) or source
     end)
 end
 

@@ -1,8 +1,8 @@
 --[[
 Vectors, and rotations and poses as matrices: Vector, Vector3, Vector4, Vector7, Matrix3x3, Matrix4x4.
 
-Quaternions are x, y, z, w; Euler angles CoppeliaSim's (Rx * Ry * Rz); poses position and quaternion; angles in radians. All are
-Matrix objects; vectors are columns. Where a function takes t, the numbers are written into that plain table.
+Quaternions are x, y, z, w; Euler angles CoppeliaSim's (Rx * Ry * Rz); poses position and quaternion; angles in radians. Matrices and vectors,
+which are columns, are Matrix objects; quaternions, Euler angles, positions and poses taken from a matrix are plain tables: a new one, or t.
 ]]
 
 local Matrix = require 'matrix.core'
@@ -40,10 +40,7 @@ local Vector = setmetatable({}, {
 })
 M.Vector = Vector
 
-local function result(class, list, t)
-    if t == nil then return class(list) end
-    return table.move(list, 1, #list, 1, t)
-end
+local function result(list, t) return table.move(list, 1, #list, 1, t or {}) end
 
 ---------------------------------------------------------------- vectors
 
@@ -159,7 +156,7 @@ end
 
 -- Quaternion of a rotation, from its largest component (Shepperd 1978).
 local function quaternion(m)
-    local function r(i, j) return m:get(i, j) end
+    local function r(i, j) return m:item(i, j) end
     local trace = r(1, 1) + r(2, 2) + r(3, 3)
     if trace > 0 then
         local s = (trace + 1) ^ 0.5 * 2
@@ -174,18 +171,18 @@ local function quaternion(m)
 end
 
 local function euler(m)
-    local b = math.asin(math.max(-1, math.min(1, m:get(1, 3))))
-    if math.abs(m:get(1, 3)) > 1 - 1e-12 then return {math.atan(m:get(3, 2), m:get(2, 2)), b, 0.0} end
-    return {math.atan(-m:get(2, 3), m:get(3, 3)), b, math.atan(-m:get(1, 2), m:get(1, 1))}
+    local b = math.asin(math.max(-1, math.min(1, m:item(1, 3))))
+    if math.abs(m:item(1, 3)) > 1 - 1e-12 then return {math.atan(m:item(3, 2), m:item(2, 2)), b, 0.0} end
+    return {math.atan(-m:item(2, 3), m:item(3, 3)), b, math.atan(-m:item(1, 2), m:item(1, 1))}
 end
 
 --- The quaternion of a rotation; its numbers are written into t if that is a table.
--- @api Matrix q = Matrix3x3:toquaternion(Matrix m, table t = nil)
-function Matrix3x3:toquaternion(m, t) return result(Vector4, quaternion(m), t) end
+-- @api float[4] q = Matrix3x3:toquaternion(Matrix m, table t = nil)
+function Matrix3x3:toquaternion(m, t) return result(quaternion(m), t) end
 
 --- The Euler angles of a rotation; they are written into t if that is a table.
--- @api Matrix e = Matrix3x3:toeuler(Matrix m, table t = nil)
-function Matrix3x3:toeuler(m, t) return result(Vector3, euler(m), t) end
+-- @api float[3] e = Matrix3x3:toeuler(Matrix m, table t = nil)
+function Matrix3x3:toeuler(m, t) return result(euler(m), t) end
 
 --- All rotations equally likely (Shoemake 1992).
 -- @api Matrix m = Matrix3x3:random()
@@ -209,7 +206,7 @@ end
 --- The pose of a rotation and a position.
 -- @api Matrix m = Matrix4x4:fromrt(any r, any t)
 function Matrix4x4:fromrt(r, t)
-    local m = Matrix:eye(4) * 1.0
+    local m = Matrix:eye(4)
     m:assign(1, 1, r)
     return m:assign(1, 4, Vector3(t))
 end
@@ -242,29 +239,29 @@ end
 function Matrix4x4:torotation(m) return m:slice(1, 1, 3, 3) end
 
 --- The quaternion of a pose; its numbers are written into t if that is a table.
--- @api Matrix q = Matrix4x4:toquaternion(Matrix m, table t = nil)
-function Matrix4x4:toquaternion(m, t) return result(Vector4, quaternion(m), t) end
+-- @api float[4] q = Matrix4x4:toquaternion(Matrix m, table t = nil)
+function Matrix4x4:toquaternion(m, t) return result(quaternion(m), t) end
 
 --- The Euler angles of a pose; they are written into t if that is a table.
--- @api Matrix e = Matrix4x4:toeuler(Matrix m, table t = nil)
-function Matrix4x4:toeuler(m, t) return result(Vector3, euler(m), t) end
+-- @api float[3] e = Matrix4x4:toeuler(Matrix m, table t = nil)
+function Matrix4x4:toeuler(m, t) return result(euler(m), t) end
 
 --- The position of a pose; its numbers are written into t if that is a table.
--- @api Matrix v = Matrix4x4:toposition(Matrix m, table t = nil)
-function Matrix4x4:toposition(m, t) return result(Vector3, m:slice(1, 4, 3, 4):data(), t) end
+-- @api float[3] v = Matrix4x4:toposition(Matrix m, table t = nil)
+function Matrix4x4:toposition(m, t) return result(m:slice(1, 4, 3, 4):data(), t) end
 
 --- The position and quaternion of a pose; its numbers are written into t if that is a table.
--- @api Matrix p = Matrix4x4:topose(Matrix m, table t = nil)
+-- @api float[7] p = Matrix4x4:topose(Matrix m, table t = nil)
 function Matrix4x4:topose(m, t)
     local pose = table.move(quaternion(m), 1, 4, 4, m:slice(1, 4, 3, 4):data())
-    return result(Vector7, pose, t)
+    return result(pose, t)
 end
 
 --- The inverse of a pose: quicker than that of any matrix.
 -- @api Matrix m = Matrix4x4:inv(Matrix m)
 function Matrix4x4:inv(m)
     local back = Matrix4x4:torotation(m):t()
-    return Matrix4x4:fromrt(back, -(back * Matrix4x4:toposition(m)))
+    return Matrix4x4:fromrt(back, -(back * m:slice(1, 4, 3, 4)))
 end
 
 --- A random pose.

@@ -174,7 +174,7 @@ return function(simEigen)
         end
     end
 
-    setmetatable(Matrix, {__call = create})
+    setmetatable(Matrix, {__call = create, __tostring = function() return 'class Matrix' end})
 
     ---------------------------------------------------------------- vectors
 
@@ -198,5 +198,5 @@ return function(simEigen)
         return v
     end
 
-    setmetatable(Vector, {__call = Vector.new})
+    setmetatable(Vector, {__call = Vector.new, __tostring = function() return 'class Vector' end})
 end

@@ -114,5 +114,5 @@ return function(simEigen)
         return head.encode(0xC0, 4294980500) .. cbor.encode(self:data())
     end
 
-    setmetatable(Pose, {__call = create})
+    setmetatable(Pose, {__call = create, __tostring = function() return 'class Pose' end})
 end

@@ -147,5 +147,5 @@ return function(simEigen)
         return head.encode(0xC0, 4294980000) .. cbor.encode(self:data())
     end
 
-    setmetatable(Quaternion, {__call = create})
+    setmetatable(Quaternion, {__call = create, __tostring = function() return 'class Quaternion' end})
 end

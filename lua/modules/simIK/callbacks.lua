@@ -17,7 +17,7 @@ end
 
 --- The function that the native solver calls.
 function callbacks.of(callback, aux)
-    local Matrix = require 'matrix'
+    local Matrix = require('matrix-2').Matrix
     local call = type(callback) == 'string' and _G[callback] or callback
     return function(data)
         data.jacobian = Matrix(#data.rows, #data.cols, data.jacobian)

@@ -1,15 +1,16 @@
 -- topic: modules
 -- as: sandbox
 -- passes: 0
--- note: base64, base16, cbor, simCBOR
+-- spec: libraries 1; base64, base16, cbor, simCBOR
 local base64, base16, cbor, simCBOR = require 'base64', require 'base16', require 'cbor', require 'simCBOR'
 for _, s in ipairs{'', 'f', 'fo', 'foo', 'foob', '\0\xff\xfe'} do
     local e = base64.encode(s)
-    print(e, base64.decode(e) == s, base64.decode((e:gsub('=', ''))) == s, base16.encode(s), base16.decode(base16.encode(s):upper()) == s)
+    print(isbuffer(e), tostring(e), base64.decode(e) == tobuffer(s), base64.decode((e:gsub('=', ''))) == tobuffer(s))
+    print(base16.encode(s), base16.decode(base16.encode(s):lower()) == s)
 end
-print(base16.encode(base64.decode('_-8 \n')), base64.encode(tobuffer('abc')))
-print(pcall(base64.decode, 'a'), pcall(base64.decode, 'ab*d'), pcall(base16.decode, 'abc'), pcall(base16.decode, 'zz'))
-local function hex(s) return base16.encode(s) end
+print(base16.encode(base64.decode('_-8 \n')), tostring(base64.encode(tobuffer('abc'))), base16.decode('6') == '\6', base16.decode('61 6') == 'a\6')
+print(pcall(base64.decode, 'a'), pcall(base64.decode, 'ab*d'), pcall(base16.decode, 'zz'))
+local function hex(s) return base16.encode(s):lower() end
 print(hex(cbor.encode{1, 'a', {k = 2.5}}), hex(cbor.encode{}), hex(cbor.encode(cbor.null)), hex(cbor.encode(cbor.tagged(100, 'x'))))
 local value = cbor.decode('\x84\xf6\x01\x61a\xd8\x64\x05')
 print(value[1] == cbor.null, value[2], value[3], value[4].tag, value[4].value, tostring(value[1]))

@@ -3,7 +3,7 @@ Shared by configUi.lua: the controls of the window of settings. Each has `create
 leave the value as it is).
 ]]
 
-local simUI = require 'simUI'
+local simUI = _quietRequire 'simUI'
 local schemas = require 'swanilda.config.schema'
 
 local M = {}

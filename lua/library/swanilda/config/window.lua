@@ -2,7 +2,7 @@
 Shared by configUi.lua: the window of settings. Tabs if there are several, groups in them, columns in groups; a label before each control.
 ]]
 
-local simUI = require 'simUI'
+local simUI = _quietRequire 'simUI'
 local controls = require 'swanilda.config.controls'
 local schemas = require 'swanilda.config.schema'
 
@@ -123,7 +123,7 @@ function M.changed(owner)
     showEnabled(owner)
 end
 
-local function packed(owner) return require('sim').packTable(owner.config) end
+local function packed(owner) return _quietRequire('sim').packTable(owner.config) end
 
 --- A button was pushed.
 function M.event(owner, id)

@@ -5,7 +5,7 @@ A plan has `isClosed`, `width`, `useRollers`, `pad` {length, thickness, spacing}
 `respondableBase` and `border` {length, height, thickness}, nil without borders.
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local parts = require 'swanilda.conveyors.parts'
 local M = {}
 

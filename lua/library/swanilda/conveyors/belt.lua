@@ -2,7 +2,7 @@
 Shared by the scripts of straight conveyors: the way around both ends, pads on it or rollers between them, and the frame (spec: models 5).
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local parts = require 'swanilda.conveyors.parts'
 local M = {}
 
@@ -65,7 +65,7 @@ function M.frame(poses, radius, width, config)
             end
         end
     end
-    local vertices, indices = require('simConvex').qhull(corners)
+    local vertices, indices = _quietRequire('simConvex').qhull(corners)
     local shape = sim.createShape(0, 0, vertices, indices)
     sim.setShapeColor(shape, nil, sim.colorcomponent_ambient_diffuse, parts.colour(config.frameColor))
     sim.setBoolProperty(shape, 'respondable', config.respondable and true or false)

@@ -5,7 +5,7 @@ position into custom data of the model.
 `M.drive` is for the later models (`__ctrl__`, `__state__`), `M.oldDrive` for those of 4.1 and 4.2 (`CONVMOV`).
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local M = {}
 
 local COMMAND <const>, STATE <const>, INFO <const> = '__ctrl__', '__state__', '__info__'

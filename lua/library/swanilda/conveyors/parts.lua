@@ -2,7 +2,7 @@
 Shared by the scripts of conveyors: pads and rollers, which carry what lies on a conveyor, and boxes beside it. Parts have a data block, so that they are found again.
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local M = {}
 
 local PAD <const>, ROLLER <const> = 'PATHPAD', 'PATHROL'

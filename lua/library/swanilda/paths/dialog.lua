@@ -2,7 +2,7 @@
 Shared by path_customization.lua: the dialog of a path, and that of one of its control points, which opens with it when the point is selected.
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local window = require 'swanilda.settings_window'
 local points = require 'swanilda.paths.points'
 local M = {}

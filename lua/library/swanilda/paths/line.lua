@@ -2,7 +2,7 @@
 Shared by path_customization.lua: the line of a path in pictures, a drawing object that ends with the script (spec: models 2).
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local M = {}
 
 local KIND <const> = sim.drawing_linestrip | sim.drawing_local | sim.drawing_followparentvisibility

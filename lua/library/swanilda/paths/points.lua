@@ -2,7 +2,7 @@
 Shared by pathmodel.lua: the control points of a path, dummies right below it with the data block ABC_PATHCTRLPT (spec: paths 2).
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local M = {}
 
 local TAG <const> = 'customData.ABC_PATHCTRLPT'

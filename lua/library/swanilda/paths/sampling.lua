@@ -5,7 +5,7 @@ A row is what a path has at a point: position, quaternion, virtual distance and 
 fourth coordinate in distances. Knows no objects of the scene.
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+local sim = _quietRequire 'sim'
 local quaternion = require 'swanilda.quaternion'
 local M = {}
 
