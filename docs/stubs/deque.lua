@@ -14,15 +14,15 @@ function deque:append(x) end
 --- Adds an element at the start.
 function deque:appendleft(x) end
 
---- Removes and returns the last element; nil if there is none.
+--- Removes and returns the last element; an error if there is none.
 ---@return any x
 function deque:pop() end
 
---- Removes and returns the first element; nil if there is none.
+--- Removes and returns the first element; an error if there is none.
 ---@return any x
 function deque:popleft() end
 
---- Removes and returns the last element; nil if there is none.
+--- Removes and returns the last element; an error if there is none.
 ---@return any x
 function deque:popright() end
 

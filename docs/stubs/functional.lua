@@ -4,100 +4,100 @@
 
 --- Functions over functions and tables: map, filter, reduce and their kin, and the operators as functions.
 ---
---- Base makes them global. They work on arrays; nothing here is lazy.
-local M = {}
+--- Every script has them as globals from the start. This module is there for scripts that require it: it changes nothing and returns nothing.
+local module = {}
 
 --- Whether f (default: the value itself) is true for all elements.
 ---@param f function
 ---@param t? table
 ---@return boolean result
-function M.all(f, t) end
+function module.all(f, t) end
 
 --- Whether f (default: the value itself) is true for some element.
 ---@param f function
 ---@param t? table
 ---@return boolean result
-function M.any(f, t) end
+function module.any(f, t) end
 
 --- Calls f with the elements of the last argument appended to the others.
 ---@param f function
 ---@param ... any
 ---@return any result
-function M.apply(f, ...) end
+function module.apply(f, ...) end
 
 --- The elements for which f is true.
 ---@param f function
 ---@param t table
 ---@return table result
-function M.filter(f, t) end
+function module.filter(f, t) end
 
 --- Calls f(a[i], b[i], ...) for all elements.
 ---@param f function
 ---@param ... any
-function M.foreach(f, ...) end
+function module.foreach(f, ...) end
 
 --- Its arguments.
 ---@param ... any
 ---@return any result
-function M.identity(...) end
+function module.identity(...) end
 
 --- Iterator over the elements, without the index.
 ---@param t table
 ---@return function next
-function M.iter(t) end
+function module.iter(t) end
 
 --- Table of f(a[i], b[i], ...).
 ---@param f function
 ---@param ... any
 ---@return table result
-function M.map(f, ...) end
+function module.map(f, ...) end
 
 --- A function that returns `not f(...)`.
 ---@param f function
 ---@return function result
-function M.negate(f) end
+function module.negate(f) end
 
 --- f with its first arguments fixed.
 ---@param f function
 ---@param ... any
 ---@return function result
-function M.partial(f, ...) end
+function module.partial(f, ...) end
 
---- The product of the elements.
+--- The product of the elements and an initial value. CoppeliaSim begins with 0 without one, as in reduce: give it 1.
 ---@param t number[]
+---@param initial? number
 ---@return number result
-function M.prod(t) end
+function module.prod(t, initial) end
 
 --- range(to), range(from, to), range(from, to, step): the numbers, both ends included.
 ---@param from number
 ---@param to? number
 ---@param step? number
 ---@return number[] result
-function M.range(from, to, step) end
+function module.range(from, to, step) end
 
---- Folds from the left; without an initial value the first element is the start.
+--- Folds from the left: f(... f(f(initial, t[1]), t[2]) ..., t[#t]).
 ---@param f function
 ---@param t table
 ---@param initial? any
 ---@return any result
-function M.reduce(f, t, initial) end
+function module.reduce(f, t, initial) end
 
 --- Makes a function global, for interfaces that want a name, and returns the name.
 ---@param f function
 ---@param name? string
 ---@return string name
-function M.reify(f, name) end
+function module.reify(f, name) end
 
---- The sum of the elements.
+--- The sum of the elements, and of an initial value.
 ---@param t number[]
+---@param initial? number
 ---@return number result
-function M.sum(t) end
-
-function M.unittest() end
+function module.sum(t, initial) end
 
 --- Rows of several tables: zip({1, 2}, {3, 4}) is {{1, 3}, {2, 4}}.
 ---@param ... any
 ---@return table rows
-function M.zip(...) end
+function module.zip(...) end
 
-return M
+return module

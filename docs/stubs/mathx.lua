@@ -4,83 +4,83 @@
 
 --- Extensions of the math library: what Lua 5.1 to 5.3 had, and a few more.
 ---
---- Base copies these into the global math the first time one of them is asked for.
-local M = {}
+--- They are functions of `math` from the start. This module is there for scripts that require it: it returns nothing.
+local module = {}
 
 --- The angle of the vector (x, y).
 ---@param y number
 ---@param x number
 ---@return number angle
-function M.atan2(y, x) end
+function module.atan2(y, x) end
 
 --- The hyperbolic cosine.
 ---@param x number
 ---@return number result
-function M.cosh(x) end
+function module.cosh(x) end
 
 --- x = m * 2^e with 0.5 <= |m| < 1.
 ---@param x number
 ---@return number m
 ---@return integer e
-function M.frexp(x) end
+function module.frexp(x) end
 
 --- The length of the vector (x, y).
 ---@param x number
 ---@param y number
 ---@return number result
-function M.hypot(x, y) end
+function module.hypot(x, y) end
 
 --- x * 2^e.
 ---@param x number
 ---@param e integer
 ---@return number result
-function M.ldexp(x, e) end
+function module.ldexp(x, e) end
 
 --- The decimal logarithm.
 ---@param x number
 ---@return number result
-function M.log10(x) end
+function module.log10(x) end
 
 --- The median of a list of numbers.
 ---@param t number[]
 ---@return number result
-function M.median(t) end
+function module.median(t) end
 
 --- The remainder of a division, with the sign of x.
 ---@param x number
 ---@param y number
 ---@return number result
-function M.mod(x, y) end
+function module.mod(x, y) end
 
 --- x to the power of y.
 ---@param x number
 ---@param y number
 ---@return number result
-function M.pow(x, y) end
+function module.pow(x, y) end
 
 --- Like math.random, on the generator of sim.getRandom.
 ---@param low? integer
 ---@param high? integer
 ---@return number result
-function M.random2(low, high) end
+function module.random2(low, high) end
 
 --- Seeds the generator of sim.getRandom.
 ---@param seed integer
-function M.randomseed2(seed) end
+function module.randomseed2(seed) end
 
 --- -1, 0 or 1.
 ---@param x number
 ---@return integer result
-function M.sign(x) end
+function module.sign(x) end
 
 --- The hyperbolic sine.
 ---@param x number
 ---@return number result
-function M.sinh(x) end
+function module.sinh(x) end
 
 --- The hyperbolic tangent.
 ---@param x number
 ---@return number result
-function M.tanh(x) end
+function module.tanh(x) end
 
-return M
+return module

@@ -353,7 +353,7 @@ function sim.changeEntityColor(entityHandle, color, component) end
 
 --- Whether the surfaces of two entities intersect. Flags of objects that are named alone do not count.
 ---@param entity1Handle integer an object or a collection
----@param entity2Handle? integer the same, or sim.handle_all for all other collidable objects
+---@param entity2Handle integer the same, or sim.handle_all for all other collidable objects
 ---@return integer result 1 if they collide, else 0
 ---@return integer[] collidingObjects the first pair that collides; -1 for none
 function sim.checkCollision(entity1Handle, entity2Handle) end
@@ -367,7 +367,7 @@ function sim.checkCollisionEx(entity1Handle, entity2Handle) end
 
 --- The smallest distance between the surfaces of two entities. Flags of objects that are named alone do not count.
 ---@param entity1Handle integer an object or a collection
----@param entity2Handle? integer the same, or sim.handle_all for all other measurable objects
+---@param entity2Handle integer the same, or sim.handle_all for all other measurable objects
 ---@param threshold? number larger distances do not count, metres; 0 for no limit
 ---@return integer result 1 if there is a distance, else 0
 ---@return number[] distanceData x, y, z of the closest point on each entity, and the distance, metres
@@ -496,6 +496,15 @@ function sim.closePath(path, lengths) end
 ---@return integer result 1
 function sim.closeScene() end
 
+--- Two images in one.
+---@param img1 string|table red, green, blue of each pixel
+---@param img1Res number[] width and height
+---@param img2 string|table the second image: to the right of the first one, or with its rows after those of the first one
+---@param img2Res number[] width and height
+---@param operation integer sim.imgcomb_horizontal or sim.imgcomb_vertical
+---@return string|table outImg
+function sim.combineRgbImages(img1, img1Res, img2, img2Res, operation) end
+
 --- Computes the Jacobian of a group of inverse kinematics of V-REP, for sim.getIkGroupMatrix.
 ---@deprecated the simIK functionality
 ---@param ikGroupHandle integer the group
@@ -614,9 +623,9 @@ function sim.createJoint(jointType, jointMode, options, sizes) end
 function sim.createMeshShape(options, shadingAngle, vertices, indices, normals, textureCoordinates, texture, textureResolution) end
 
 --- A new, empty octree at the world's origin.
----@param voxelSize? number edge of a voxel, metres
----@param options? integer 2: random colours; others for display
----@param pointSize? number for display, pixels
+---@param voxelSize number edge of a voxel, metres
+---@param options integer 2: random colours; others for display
+---@param pointSize number for display, pixels
 ---@return integer handle the octree
 function sim.createOctree(voxelSize, options, pointSize) end
 
@@ -633,10 +642,10 @@ function sim.createOctree(voxelSize, options, pointSize) end
 function sim.createPath(ctrlPts, options, subdiv, smoothness, orientationMode, upVector) end
 
 --- A new, empty point cloud at the world's origin.
----@param maxVoxelSize? number largest cell, metres
----@param maxPtCntPerVoxel? integer most points in a cell
----@param options? integer 2: random colours, 8: points are not kept in an octree; others for display
----@param pointSize? number for display, pixels
+---@param maxVoxelSize number largest cell, metres
+---@param maxPtCntPerVoxel integer most points in a cell
+---@param options integer 2: random colours, 8: points are not kept in an octree; others for display
+---@param pointSize number for display, pixels
 ---@return integer handle the point cloud
 function sim.createPointCloud(maxVoxelSize, maxPtCntPerVoxel, options, pointSize) end
 
@@ -702,7 +711,7 @@ function sim.createShape(options, shadingAngle, vertices, indices, normals, text
 function sim.createTexture(fileName, options, planeSizes, scalingUV, xy_g, fixedResolution, resolution) end
 
 --- A new vision sensor at the world's origin; it looks along z.
----@param options? integer 1: explicit handling, 2: perspective
+---@param options integer 1: explicit handling, 2: perspective
 ---@param intParams? integer[] width and height in pixels, 0, 0
 ---@param floatParams? number[] near and far plane in metres, angle in rad or size in metres, display size, ...
 ---@return integer sensorHandle the sensor
@@ -835,10 +844,19 @@ function sim.generateIkPath(ikGroupHandle, jointHandles, ptCnt, collisionPairs, 
 --- A new shape: a section moved along a path. Its frame is the world's, its ends are open.
 ---@param path number[] poses of 7 numbers, two at least
 ---@param section number[] points x and y, two at least; closed when the last is the first
----@param options? integer 4: the last pose is followed by the first
+---@param options? integer 4: the path is closed: its last pose stands for the first
 ---@param upVector? number[] y axis of the section points towards it, z along the path; zeros: the poses of the path define the orientation
 ---@return integer shapeHandle the shape
 function sim.generateShapeFromPath(path, section, options, upVector) end
+
+--- Makes a model of the letters of a text. They are strokes of our own.
+---@param txt string with line ends
+---@param color? number[]
+---@param height? number of a capital letter
+---@param centered? boolean the middle of each line is at x = 0
+---@param alphabetLocation? string has no effect
+---@return integer modelHandle a dummy with the shape
+function sim.generateTextShape(txt, color, height, centered, alphabetLocation) end
 
 --- The fastest motion along a path within limits of velocity and acceleration, from rest to rest.
 ---@param path number[] flat table of points
@@ -981,7 +999,7 @@ function sim.getConfigForTipPose(ikGroupHandle, jointHandles, distanceThreshold,
 --- A contact of the last dynamics call. Four empty tables when there is none with that index.
 ---@param dynamicPass integer index of the sub-step, from 0, or sim.handle_all
 ---@param objectHandle integer a shape, or sim.handle_all; the shape then comes first in the result
----@param index integer from 0
+---@param index integer from 0; sim.handleflag_extended may be added, which changes nothing
 ---@return any collidingObjects the two shapes
 function sim.getContactInfo(dynamicPass, objectHandle, index) end
 
@@ -1123,12 +1141,13 @@ function sim.getGenesisEvents() end
 
 --- A curve with its points. Streams that are not shown, and slots with gaps, are left out.
 ---
---- zData after yData. Attributes are 2: with label, 4: points are linked, 16: recording does not change it. minMax: the smallest and the
+--- zData after yData. The type is 0: a line, 1: points that are not linked, plus 2: recording does not change it, 4: its label is not shown, 8: in
+--- three dimensions, in the frame of the graph. minMax: the smallest and the
 --- largest x, then of y and z
 ---@param graphHandle integer the graph
 ---@param graphType integer 0: streams over time, 1: curves of two dimensions, 2: of three
 ---@param curveIndex integer which one of them, from 0
----@return any label attributes, curveColor, xData, yData, minMax, curveId, curveWidth nothing past the last one; a curve of three dimensions has
+---@return any label curveType, curveColor, xData, yData, minMax, curveId, curveWidth nothing past the last one; a curve of three dimensions has
 function sim.getGraphCurve(graphHandle, graphType, curveIndex) end
 
 --- Display settings of a graph.
@@ -1394,10 +1413,12 @@ function sim.getObjectChildPose(objectHandle) end
 ---@return number[] rgbData red, green, blue; nothing when the object has no such colour
 function sim.getObjectColor(objectHandle, index, colorComponent) end
 
---- Parameter of an object that is a list of numbers. No object has one.
+--- Parameter of an object that is a list of numbers.
+---
+--- the near clipping plane, then those of the far one
 ---@param objectHandle integer the object
----@param parameterID integer its number
----@return number[] params nothing
+---@param parameterID integer sim.visionfarrayparam_viewfrustum or sim.camerafarrayparam_viewfrustum: half the width, half the height and the distance of
+---@return number[] params nothing when the object has no such parameter
 function sim.getObjectFloatArrayParam(objectHandle, parameterID) end
 
 --- Float parameter of an object.
@@ -2199,6 +2220,7 @@ function sim.handleExtCalls() end
 --- Records a slot: the values set on the streams, and gaps for the others.
 ---@param objectHandle integer the graph, sim.handle_all or sim.handle_all_except_explicit
 ---@param simulationTime number of the values
+---@return integer result 1
 function sim.handleGraph(objectHandle, simulationTime) end
 
 --- Computes groups of inverse kinematics of V-REP, and moves their joints. The usual main script does it for those that are not
@@ -2905,6 +2927,7 @@ function sim.resetDynamicObject(objectHandle) end
 
 --- Clears the recorded data.
 ---@param objectHandle integer the graph, sim.handle_all or sim.handle_all_except_explicit
+---@return integer result 1
 function sim.resetGraph(objectHandle) end
 
 --- Does nothing: mills are gone.
@@ -2917,10 +2940,12 @@ function sim.resetMilling(objectHandle) end
 
 --- Forgets what a sensor that is tagged for explicit handling, or all sensors detected.
 ---@param sensorHandle integer a sensor, sim.handle_all or sim.handle_all_except_explicit
+---@return integer result 1
 function sim.resetProximitySensor(sensorHandle) end
 
 --- Clears the results of vision sensors.
 ---@param sensorHandle integer a sensor, sim.handle_all or sim.handle_all_except_explicit
+---@return integer result 1
 function sim.resetVisionSensor(sensorHandle) end
 
 --- Undoes sim.changeEntityColor.
@@ -2987,6 +3012,7 @@ function sim.rmlPos(dofs, baseCycleTime, flags, currentPosVelAccel, maxVelAccelJ
 --- Removes a trajectory.
 ---@deprecated sim.ruckigRemove
 ---@param handle integer from sim.ruckigPos or sim.ruckigVel
+---@return integer result 1
 function sim.rmlRemove(handle) end
 
 --- Follows a trajectory.
@@ -3031,6 +3057,7 @@ function sim.ruckigPos(dofs, baseCycleTime, flags, currentPosVelAccel, maxVelAcc
 
 --- Removes a trajectory.
 ---@param handle integer from sim.ruckigPos or sim.ruckigVel
+---@return integer result 1
 function sim.ruckigRemove(handle) end
 
 --- Follows a trajectory.
@@ -3078,12 +3105,14 @@ function sim.saveScene(filename) end
 ---@param yScale number at least 0.0001; as x for round things
 ---@param zScale number at least 0.0001; as x for spheres
 ---@param options? integer ignored
+---@return integer result 1
 function sim.scaleObject(objectHandle, xScale, yScale, zScale, options) end
 
 --- Scales objects with their masses.
 ---@param objectHandles integer[] the objects
 ---@param scalingFactor number at least 0.0001
 ---@param scalePositionsToo boolean also where they are in their parents' frames
+---@return integer result 1
 function sim.scaleObjects(objectHandles, scalingFactor, scalePositionsToo) end
 
 --- Runs a function later, at a point in time.
@@ -3136,12 +3165,14 @@ function sim.serialSend(portHandle, data) end
 --- Sets a parameter of three numbers.
 ---@param parameter integer sim.arrayparam_*
 ---@param parameterValues number[] the new values
+---@return integer result 1
 function sim.setArrayParam(parameter, parameterValues) end
 
 --- Sets a parameter of three numbers.
 ---@deprecated properties
 ---@param parameter integer sim.arrayparam_*
 ---@param parameterValues number[] the new values
+---@return integer result 1
 function sim.setArrayParameter(parameter, parameterValues) end
 
 --- Allows or forbids that the running coroutine is pre-empted.
@@ -3157,12 +3188,14 @@ function sim.setAutoYieldDelay(delay) end
 --- Turns a switch on or off.
 ---@param parameter integer sim.boolparam_*
 ---@param boolState boolean the new state
+---@return integer result 1
 function sim.setBoolParam(parameter, boolState) end
 
 --- Turns a switch on or off.
 ---@deprecated properties
 ---@param parameter integer sim.boolparam_*
 ---@param boolState boolean the new state
+---@return integer result 1
 function sim.setBoolParameter(parameter, boolState) end
 
 --- Sets a property; names below `customData.` and `signal.` are created.
@@ -3210,6 +3243,7 @@ function sim.setDoubleSignal(signalName, signalValue) end
 ---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
 ---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
 ---@param boolParam boolean the value
+---@return integer result 1
 function sim.setEngineBoolParam(paramId, objectHandle, boolParam) end
 
 --- Sets a switch of a physics engine.
@@ -3217,12 +3251,14 @@ function sim.setEngineBoolParam(paramId, objectHandle, boolParam) end
 ---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
 ---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
 ---@param boolParam boolean the value
+---@return integer result 1
 function sim.setEngineBoolParameter(paramId, objectHandle, boolParam) end
 
 --- Sets a float parameter of a physics engine. The step size changes only while the simulation is stopped.
 ---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
 ---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
 ---@param floatParam number the value
+---@return integer result 1
 function sim.setEngineFloatParam(paramId, objectHandle, floatParam) end
 
 --- Sets a float parameter of a physics engine. The step size changes only while the simulation is stopped.
@@ -3230,12 +3266,14 @@ function sim.setEngineFloatParam(paramId, objectHandle, floatParam) end
 ---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
 ---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
 ---@param floatParam number the value
+---@return integer result 1
 function sim.setEngineFloatParameter(paramId, objectHandle, floatParam) end
 
 --- Sets an integer parameter of a physics engine.
 ---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
 ---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
 ---@param int32Param integer the value
+---@return integer result 1
 function sim.setEngineInt32Param(paramId, objectHandle, int32Param) end
 
 --- Sets an integer parameter of a physics engine.
@@ -3243,6 +3281,7 @@ function sim.setEngineInt32Param(paramId, objectHandle, int32Param) end
 ---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
 ---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
 ---@param int32Param integer the value
+---@return integer result 1
 function sim.setEngineInt32Parameter(paramId, objectHandle, int32Param) end
 
 --- Selects the events delivered to `sysCall_event` of this script. The filter ends with the script's Lua state.
@@ -3264,12 +3303,14 @@ function sim.setFloatArrayProperty(target, propertyName, propertyState, options)
 --- Sets a float parameter. Time steps change only while the simulation is stopped.
 ---@param parameter integer sim.floatparam_*
 ---@param parameterValue number the new value
+---@return integer result 1
 function sim.setFloatParam(parameter, parameterValue) end
 
 --- Sets a float parameter. Time steps change only while the simulation is stopped.
 ---@deprecated properties
 ---@param parameter integer sim.floatparam_*
 ---@param parameterValue number the new value
+---@return integer result 1
 function sim.setFloatParameter(parameter, parameterValue) end
 
 --- Sets a property; names below `customData.` and `signal.` are created.
@@ -3391,6 +3432,7 @@ function sim.setJointForce(jointHandle, forceOrTorque) end
 ---@param objectHandle integer the joint
 ---@param cyclic boolean whether it has no limits
 ---@param interval number[] lower limit and range (not the upper limit), rad or metres
+---@return integer result 1
 function sim.setJointInterval(objectHandle, cyclic, interval) end
 
 --- Sets the target force of a joint; its sign follows the target velocity.
@@ -3444,6 +3486,7 @@ function sim.setLightParameters(lightHandle, state, reserved, diffusePart, specu
 --- Links two dummies; earlier partners of both are released.
 ---@param dummyHandle integer the dummy
 ---@param linkDummyHandle number its new partner, -1 for none
+---@return integer result 1
 function sim.setLinkDummy(dummyHandle, linkDummyHandle) end
 
 --- Sets a property; names below `customData.` and `signal.` are created.
@@ -3456,6 +3499,7 @@ function sim.setLongProperty(target, propertyName, propertyState, options) end
 --- Makes an object a model base with these flags, or with sim.modelproperty_not_model no model base.
 ---@param objectHandle integer the object
 ---@param property integer sim.modelproperty_* bits
+---@return integer result 1
 function sim.setModelProperty(objectHandle, property) end
 
 --- Chooses the number that old names without one take in this script.
@@ -3481,6 +3525,7 @@ function sim.setNamedInt32Param(name, value) end
 --- Sets a named parameter.
 ---@param paramName string its name
 ---@param stringParam string the new value
+---@return integer result 1
 function sim.setNamedStringParam(paramName, stringParam) end
 
 --- Renames an object. Everything but letters, digits and underscores becomes an underscore.
@@ -3491,7 +3536,6 @@ function sim.setObjectAlias(objectHandle, objectAlias) end
 --- Turns the moving side of a spherical joint. Other objects are left as they are.
 ---@param objectHandle integer the joint
 ---@param pose number[] of which the rotation is taken
----@return integer result 1, or -1 if it is no spherical joint
 function sim.setObjectChildPose(objectHandle, pose) end
 
 --- Colours an object.
@@ -3502,7 +3546,7 @@ function sim.setObjectChildPose(objectHandle, pose) end
 ---@return boolean result false when the object has no such colour
 function sim.setObjectColor(objectHandle, index, colorComponent, rgbData) end
 
---- Sets a parameter of an object that is a list of numbers. No object has one, so this does nothing.
+--- Sets a parameter of an object that is a list of numbers. No object has one that can be set, so this does nothing.
 ---@param objectHandle integer the object
 ---@param parameterID integer its number
 ---@param params number[] the values
@@ -3584,6 +3628,7 @@ function sim.setObjectPosition(objectHandle, position, relativeToObjectHandle) e
 --- Sets the flags of an object.
 ---@param objectHandle integer the object
 ---@param property integer sim.objectproperty_* bits
+---@return integer result 1
 function sim.setObjectProperty(objectHandle, property) end
 
 --- Turns an object; its position stays.
@@ -3611,6 +3656,7 @@ function sim.setObjectSizeValues(objectHandle, sizeValues) end
 --- Sets what an object can be to sensors and checks.
 ---@param objectHandle integer the object
 ---@param property integer sim.objectspecialproperty_* bits
+---@return integer result 1
 function sim.setObjectSpecialProperty(objectHandle, property) end
 
 --- Sets a text parameter of an object. One it does not have, or that can only be read, is left alone.
@@ -3676,6 +3722,7 @@ function sim.setQuaternionProperty(target, propertyName, propertyState, options)
 ---@param objectHandle integer the object; with sim.handleflag_keeporiginal: its copies refer to the same objects
 ---@param referencedHandles integer[] empty to remove the list
 ---@param tag? string name of the list
+---@return integer result 1
 function sim.setReferencedHandles(objectHandle, referencedHandles, tag) end
 
 --- Sets an attribute of a script.
@@ -3774,6 +3821,7 @@ function sim.setShapeMaterial(shapeHandle, materialIdOrShapeHandle) end
 ---@param uvScaling number[] size of the image, metres
 ---@param position? number[] of the projection
 ---@param orientation? number[] of the projection, Euler angles
+---@return integer result 1
 function sim.setShapeTexture(shapeHandle, textureId, mappingMode, options, uvScaling, position, orientation) end
 
 --- Names an object after another one: the old name, with the suffix and the first free number.
@@ -3797,17 +3845,20 @@ function sim.setStepping(enable) end
 ---@deprecated sim.setStringProperty(sim.handle_app, 'namedParam.name', value)
 ---@param paramName string its name
 ---@param stringParam string the new value
+---@return integer result 1
 function sim.setStringNamedParam(paramName, stringParam) end
 
 --- Sets a string parameter.
 ---@param parameter integer sim.stringparam_*
 ---@param parameterValue string|table the new value
+---@return integer result 1
 function sim.setStringParam(parameter, parameterValue) end
 
 --- Sets a string parameter.
 ---@deprecated properties
 ---@param parameter integer sim.stringparam_*
 ---@param parameterValue string|table the new value
+---@return integer result 1
 function sim.setStringParameter(parameter, parameterValue) end
 
 --- Sets a property; names below `customData.` and `signal.` are created.
@@ -3900,6 +3951,7 @@ function sim.setVisionSensorImage(sensorHandle, image) end
 ---@param options? integer 1: a byte of grey per pixel; 2: depths instead, as 32-bit floats from 0 (near) to 1 (far); 4: scripts are not called
 ---@param pos? number[] lower left corner of the part
 ---@param size? number[] width and height of the part; nothing for the whole image
+---@return integer result 1
 function sim.setVisionSensorImg(sensorHandle, image, options, pos, size) end
 
 --- Allows or forbids yielding altogether, in this script.
@@ -4138,6 +4190,7 @@ function sim.writeCustomDataBlockEx(handle, tag, data, options) end
 ---@param objectHandle integer object, sim.handle_scene, sim.handle_app or sim.handle_appstorage
 ---@param tagName string its name; tags that begin or end with `@tmp` are not saved; an empty one removes all tags
 ---@param data? string|table empty or nil: removes the tag
+---@return integer result 1
 function sim.writeCustomStringData(objectHandle, tagName, data) end
 
 --- Writes a table as custom data.
@@ -4156,6 +4209,7 @@ function sim.writeCustomTableData(handle, tag, data, options) end
 ---@param sizeX? integer columns; 0 for the whole texture
 ---@param sizeY? integer rows; 0 for the whole texture
 ---@param interpol? number how much of the old colours stays, 0 to 1
+---@return integer result 1
 function sim.writeTexture(textureId, options, textureData, posX, posY, sizeX, sizeY, interpol) end
 
 --- From yaw, pitch and roll to the angles of sim.getObjectOrientation.

@@ -4,14 +4,14 @@
 
 --- Extensions of the string library: splitting, trimming, classes of characters, blocks of text.
 ---
---- Base copies these into the global string the first time one of them is asked for. Bytes, not characters, except utf8sub.
-local M = {}
+--- They are functions of `string`, and methods of texts, from the start. This module is there for scripts that require it: it returns nothing.
+local module = {}
 
 --- Puts blocks of text side by side.
 ---@param blocks string[]
 ---@param spacing? integer
 ---@return string result
-function M.blockhstack(blocks, spacing) end
+function module.blockhstack(blocks, spacing) end
 
 --- Fills a text of several lines with spaces and lines, up to a width and a height.
 ---@param block string
@@ -19,178 +19,176 @@ function M.blockhstack(blocks, spacing) end
 ---@param height? integer
 ---@param clip? boolean
 ---@return string result
-function M.blockpad(block, width, height, clip) end
+function module.blockpad(block, width, height, clip) end
 
 --- Width and height of a text of several lines.
 ---@param block string
 ---@return integer width
 ---@return integer height
-function M.blocksize(block) end
+function module.blocksize(block) end
 
 --- The numbers of the bytes of a text.
 ---@param s string
 ---@return integer[] result
-function M.bytes(s) end
+function module.bytes(s) end
 
 --- The text with an upper-case first letter.
 ---@param s string
 ---@return string result
-function M.capitalize(s) end
+function module.capitalize(s) end
 
 --- The characters of a text (bytes).
 ---@param s string
 ---@return string[] result
-function M.chars(s) end
+function module.chars(s) end
 
 --- Shortens to maxLen, ending in three dots.
 ---@param s string
 ---@param maxLen? integer
 ---@param opts? table
 ---@return string result
-function M.elide(s, maxLen, opts) end
+function module.elide(s, maxLen, opts) end
 
 --- Whether a text ends with another.
 ---@param s string
 ---@param suffix string
 ---@return boolean result
-function M.endswith(s, suffix) end
+function module.endswith(s, suffix) end
 
 --- Replaces the special characters of HTML; with opts.entities = false only < and >.
 ---@param s string
 ---@param opts? table
 ---@return string result
-function M.escapehtml(s, opts) end
+function module.escapehtml(s, opts) end
 
 --- Escapes backslashes, newlines and the quote used around the text.
 ---@param s string
 ---@param context? string
 ---@return string result
-function M.escapequotes(s, context) end
+function module.escapequotes(s, context) end
 
 --- Escapes what is magic in a pattern.
 ---@param s string
 ---@return string result
-function M.escpat(s) end
+function module.escpat(s) end
 
 --- Iterator over the parts of text between matches of pattern.
 ---@param text string
 ---@param pattern string
 ---@param plain? boolean
 ---@return function next
-function M.gsplit(text, pattern, plain) end
+function module.gsplit(text, pattern, plain) end
 
 --- The text if it consists of letters and digits, else nil.
 ---@param s string
 ---@return string result
-function M.isalnum(s) end
+function module.isalnum(s) end
 
 --- The text if it consists of letters, else nil.
 ---@param s string
 ---@return string result
-function M.isalpha(s) end
+function module.isalpha(s) end
 
 --- The text if it is a Lua name, else nil.
 ---@param s string
 ---@return string result
-function M.isidentifier(s) end
+function module.isidentifier(s) end
 
---- Whether a text consists of lower-case letters.
+--- Whether a text has no upper-case letters.
 ---@param s string
 ---@return boolean result
-function M.islower(s) end
+function module.islower(s) end
 
 --- The text if it consists of digits, else nil.
 ---@param s string
 ---@return string result
-function M.isnumeric(s) end
+function module.isnumeric(s) end
 
---- The text if it consists of printable characters, else nil.
+--- Whether a text consists of printable characters.
 ---@param s string
----@return string result
-function M.isprintable(s) end
+---@return boolean result
+function module.isprintable(s) end
 
 --- The text if it consists of white space, else nil.
 ---@param s string
 ---@return string result
-function M.isspace(s) end
+function module.isspace(s) end
 
---- Whether a text consists of upper-case letters.
+--- Whether a text has no lower-case letters.
 ---@param s string
 ---@return boolean result
-function M.isupper(s) end
+function module.isupper(s) end
 
 --- Removes white space at the start.
 ---@param s string
 ---@return string result
-function M.ltrim(s) end
+function module.ltrim(s) end
 
 --- Fills with blanks up to width; a negative width aligns to the right.
 ---@param s string
 ---@param width integer
 ---@param clip? boolean
 ---@return string result
-function M.pad(s, width, clip) end
+function module.pad(s, width, clip) end
 
 --- Splits at any character class, but not inside quotes.
 ---@param s string
 ---@param pattern? string
 ---@return string[] parts
-function M.qsplit(s, pattern) end
+function module.qsplit(s, pattern) end
 
 --- Text of {tag = 'a', attribute = 'x', child, 'text', ...}.
 ---@param node any
 ---@param order? string[]
 ---@return string text
-function M.renderxml(node, order) end
+function module.renderxml(node, order) end
 
 --- Removes white space at the end.
 ---@param s string
 ---@return string result
-function M.rtrim(s) end
+function module.rtrim(s) end
 
 --- The parts of a text between matches of a pattern.
 ---@param text string
 ---@param pattern string
 ---@param plain? boolean
 ---@return string[] parts
-function M.split(text, pattern, plain) end
+function module.split(text, pattern, plain) end
 
 --- Whether a text starts with another.
 ---@param s string
 ---@param prefix string
 ---@return boolean result
-function M.startswith(s, prefix) end
+function module.startswith(s, prefix) end
 
 --- Removes the marks of Markdown; opts.keeplinks keeps links.
 ---@param s string
 ---@param opts? table
 ---@return string result
-function M.stripmarkdown(s, opts) end
+function module.stripmarkdown(s, opts) end
 
 --- The rest of a text after a prefix; no value where it begins otherwise.
 ---@param s string
 ---@param prefix string
 ---@return string result
-function M.stripprefix(s, prefix) end
+function module.stripprefix(s, prefix) end
 
 --- The beginning of a text before a suffix; no value where it ends otherwise.
 ---@param s string
 ---@param suffix string
 ---@return string result
-function M.stripsuffix(s, suffix) end
+function module.stripsuffix(s, suffix) end
 
 --- Removes white space at both ends.
 ---@param s string
 ---@return string result
-function M.trim(s) end
-
-function M.unittest() end
+function module.trim(s) end
 
 --- Like sub, counting UTF-8 characters.
 ---@param s string
 ---@param i integer
 ---@param j? integer
 ---@return string result
-function M.utf8sub(s, i, j) end
+function module.utf8sub(s, i, j) end
 
-return M
+return module

@@ -4,149 +4,150 @@
 
 --- Extensions of the table library: comparing, slicing, joining, flattening.
 ---
---- Base copies these into the global table the first time one of them is asked for.
-local M = {}
+--- They are functions of `table` from the start. This module is there for scripts that require it: it returns nothing.
+local module = {}
 
 --- A new table with the elements of all.
 ---@param ... any
 ---@return table result
-function M.add(...) end
+function module.add(...) end
 
 --- Tables of n elements each, the last one with the rest.
 ---@param t table
 ---@param n integer
 ---@return table result
-function M.batched(t, n) end
+function module.batched(t, n) end
 
 --- Index at which an element would keep a sorted table sorted.
 ---@param t table
 ---@param value any
 ---@return integer index
-function M.bisect(t, value) end
+function module.bisect(t, value) end
 
 --- A copy whose elements are the same values.
 ---@param t any
 ---@return any copy
-function M.clone(t) end
+function module.clone(t) end
 
 --- Replaces elements that are tables by their elements, depth times.
 ---@param t table
 ---@param depth? integer
 ---@return table result
-function M.collapse(t, depth) end
+function module.collapse(t, depth) end
 
 --- -1, 0 or 1 by the first element that differs.
 ---@param a table
 ---@param b table
 ---@param compare? function
 ---@return integer order
-function M.compare(a, b, compare) end
+function module.compare(a, b, compare) end
 
 --- A copy in which tables are copied too; a table met twice is copied once.
 ---@param t any
 ---@param opts? any
 ---@param copies? table
 ---@return any copy
-function M.deepcopy(t, opts, copies) end
+function module.deepcopy(t, opts, copies) end
 
 --- Whether two values are equal, tables by content. Anything that is not a table is not compared: false.
 ---@param a any
 ---@param b any
 ---@return boolean result
-function M.eq(a, b) end
+function module.eq(a, b) end
 
 --- Appends the elements of the other tables to t.
 ---@param t table
 ---@param ... any
----@return table t
-function M.extend(t, ...) end
+function module.extend(t, ...) end
 
 --- The entries whose key starts with opts.matchKeyPrefix.
 ---@param t table
 ---@param opts? table
 ---@return table result
-function M.filter(t, opts) end
+function module.filter(t, opts) end
 
 --- Index of item, or nothing.
 ---@param t table
 ---@param item any
 ---@param equals? function
 ---@return integer index
-function M.find(t, item, equals) end
+function module.find(t, item, equals) end
 
 --- Nested maps become one map with keys like a.b.c.
 ---@param t table
 ---@param opts? table
 ---@return table result
-function M.flatten(t, opts) end
+function module.flatten(t, opts) end
 
 --- A table of the values of an iterator such as ipairs(t).
 ---@param iterator function
 ---@param state any
 ---@param index any
 ---@return table result
-function M.fromipairs(iterator, state, index) end
+function module.fromipairs(iterator, state, index) end
 
---- The table of a list of pairs {key, value}.
----@param items table
+--- The table of a list of pairs {key, value}, or of an iterator such as pairs(t).
+---@param items any
+---@param state? any
+---@param key? any
 ---@return table result
-function M.frompairs(items) end
+function module.frompairs(items, state, key) end
 
 --- Number of elements, as in Lua 5.0.
 ---@param t table
 ---@return integer n
-function M.getn(t) end
+function module.getn(t) end
 
 --- A function that looks keys up in t.
 ---@param t table
 ---@return function result
-function M.index(t) end
+function module.index(t) end
 
 --- Values become keys.
 ---@param t table
 ---@param opts? table
 ---@return table result
-function M.invert(t, opts) end
+function module.invert(t, opts) end
 
 --- Whether the keys of a table are 1 to n.
 ---@param t table
 ---@return boolean result
-function M.isarray(t) end
+function module.isarray(t) end
 
 --- Pairs {key, value}; sorted by key if opts.sort.
 ---@param t table
 ---@param opts? table
 ---@return table items
-function M.items(t, opts) end
+function module.items(t, opts) end
 
 --- Text of the elements with sep between them; strings are not quoted.
 ---@param t table
 ---@param sep? string
 ---@return string text
-function M.join(t, sep) end
+function module.join(t, sep) end
 
 --- The keys of a table.
 ---@param t table
 ---@return table keys
-function M.keys(t) end
+function module.keys(t) end
 
 --- Prints a table.
 ---@param t table
-function M.print(t) end
+function module.print(t) end
 
 --- A list with a value several times.
 ---@param value any
 ---@param size integer
 ---@return table result
-function M.rep(value, size) end
+function module.rep(value, size) end
 
 --- The elements in reverse order.
 ---@param t table
 ---@return table result
-function M.reversed(t) end
+function module.reversed(t) end
 
 --- Without effect; for old code.
-function M.setn(...) end
+function module.setn(...) end
 
 --- The elements from an index to another.
 ---@param t table
@@ -154,43 +155,41 @@ function M.setn(...) end
 ---@param last? integer
 ---@param step? integer
 ---@return table result
-function M.slice(t, first, last, step) end
+function module.slice(t, first, last, step) end
 
 --- A sorted copy.
 ---@param t table
 ---@param compare? function
 ---@return table result
-function M.sorted(t, compare) end
+function module.sorted(t, compare) end
 
 --- The text of a table; with a separator, that between its entries.
 ---@param t table
 ---@param sep? string
 ---@return string text
-function M.tostring(t, sep) end
+function module.tostring(t, sep) end
 
 --- The reverse of flatten.
 ---@param t table
 ---@return table result
-function M.unflatten(t) end
-
-function M.unittest() end
+function module.unflatten(t) end
 
 --- Unpacks up to n values starting at i.
 ---@param t table
 ---@param n? integer
 ---@param i? integer
 ---@return any values
-function M.unpackx(t, n, i) end
+function module.unpackx(t, n, i) end
 
 --- Copies the entries of the other tables into t.
 ---@param t table
 ---@param ... any
 ---@return table t
-function M.update(t, ...) end
+function module.update(t, ...) end
 
 --- The values of a table.
 ---@param t table
 ---@return table values
-function M.values(t) end
+function module.values(t) end
 
-return M
+return module

@@ -85,17 +85,17 @@ class _addOns_jointGroup:
 
 class _base16:
     def decode(self, encoded: bytes | str, /) -> str:
-        """The bytes of hexadecimal text. White space is skipped; other characters are an error.
+        """The bytes of hexadecimal text. White space is skipped; the last digit of an odd number of them is a byte by itself; other characters are an error.
         """
     def encode(self, data: bytes | str, /) -> str:
         """The hexadecimal form of some bytes.
         """
 
 class _base64:
-    def decode(self, encoded: bytes | str, /) -> str:
+    def decode(self, encoded: bytes | str, /) -> bytes:
         """The bytes of base-64 text. Also accepts the URL alphabet, white space and missing padding; other characters are an error.
         """
-    def encode(self, data: bytes | str, /) -> str:
+    def encode(self, data: bytes | str, /) -> bytes:
         """The base-64 form of some bytes.
         """
 
@@ -154,7 +154,6 @@ class _checkargs:
     def getdefault(self, t: Sequence[Any] | Mapping[Any, Any], /) -> Any:
         """The default of a type.
         """
-    def unittest(self, /) -> Any: ...
 
 class _checkmodel:
     def buildDynamicObjectsGraph(self, parent: Any | None = ..., /) -> Any:
@@ -243,25 +242,42 @@ class _functional:
     def partial(self, f: Callable[..., Any] | str, /, *args: Any) -> Any:
         """f with its first arguments fixed.
         """
-    def prod(self, t: Sequence[float], /) -> float:
-        """The product of the elements.
+    def prod(self, t: Sequence[float], initial: float | None = ..., /) -> float:
+        """The product of the elements and an initial value. CoppeliaSim begins with 0 without one, as in reduce: give it 1.
         """
     def range(self, from_: float, to: float | None = ..., step: float | None = ..., /) -> list[float]:
         """range(to), range(from, to), range(from, to, step): the numbers, both ends included.
         """
     def reduce(self, f: Callable[..., Any] | str, t: Sequence[Any] | Mapping[Any, Any], initial: Any | None = ..., /) -> Any:
-        """Folds from the left; without an initial value the first element is the start.
+        """Folds from the left: f(... f(f(initial, t[1]), t[2]) ..., t[#t]).
         """
     def reify(self, f: Callable[..., Any] | str, name: str | None = ..., /) -> str:
         """Makes a function global, for interfaces that want a name, and returns the name.
         """
-    def sum(self, t: Sequence[float], /) -> float:
-        """The sum of the elements.
+    def sum(self, t: Sequence[float], initial: float | None = ..., /) -> float:
+        """The sum of the elements, and of an initial value.
         """
-    def unittest(self, /) -> Any: ...
     def zip(self, /, *args: Any) -> Any:
         """Rows of several tables: zip({1, 2}, {3, 4}) is {{1, 3}, {2, 4}}.
         """
+
+class _gcode:
+    def F(self, value: Any | None = ..., /) -> Any:
+        """The speed is in units a minute; in `speed` in metres a second.
+        """
+    def G20(self, /) -> Any: ...
+    def G21(self, /) -> Any: ...
+    def G28(self, /) -> Any: ...
+    def G4(self, /) -> Any: ...
+    def G90(self, /) -> Any: ...
+    def G91(self, /) -> Any: ...
+    def N(self, _: Any | None = ..., /) -> Any: ...
+    def P(self, value: Any | None = ..., /) -> Any: ...
+    def R(self, value: Any | None = ..., /) -> Any: ...
+    def onBeginLine(self, _: Any | None = ..., /) -> Any: ...
+    def onBeginProgram(self, _: Any | None = ..., /) -> Any: ...
+    def onEndLine(self, _: Any | None = ..., /) -> Any: ...
+    def onEndProgram(self, _: Any | None = ..., /) -> Any: ...
 
 class _graph_customization:
     def cleanup(self, /) -> Any: ...
@@ -287,7 +303,7 @@ class _graph_customization:
 
 class _itertools:
     def chain(self, /, *args: Any) -> Any:
-        """The values of several iterators, one after the other.
+        """The keys and values of several tables, one after the other.
         """
     def combinations(self, t: Sequence[Any] | Mapping[Any, Any], length: int | None = ..., /) -> Any:
         """Selections of elements in the order of t.
@@ -296,7 +312,7 @@ class _itertools:
         """Selections in the order of t, in which elements may repeat.
         """
     def ichain(self, /, *args: Any) -> Any:
-        """The same, with a running number in front of each value.
+        """The indices and elements of several tables, one after the other: up to the first that is nil in each.
         """
     def permutations(self, t: Sequence[Any] | Mapping[Any, Any], length: int | None = ..., /) -> Any:
         """Ordered selections of elements.
@@ -2326,7 +2342,7 @@ class _sim:
         color: red, green, blue
         component: sim.colorcomponent_*
         """
-    def checkCollision(self, entity1Handle: int, entity2Handle: int | None = ..., /) -> tuple[int, list[int]]:
+    def checkCollision(self, entity1Handle: int, entity2Handle: int, /) -> tuple[int, list[int]]:
         """Whether the surfaces of two entities intersect. Flags of objects that are named alone do not count.
         entity1Handle: an object or a collection
         entity2Handle: the same, or sim.handle_all for all other collidable objects
@@ -2336,7 +2352,7 @@ class _sim:
         entity1Handle: an object or a collection
         entity2Handle: the same, or sim.handle_all for all other collidable objects
         """
-    def checkDistance(self, entity1Handle: int, entity2Handle: int | None = ..., threshold: float | None = ..., /) -> tuple[int, list[float], list[int]]:
+    def checkDistance(self, entity1Handle: int, entity2Handle: int, threshold: float | None = ..., /) -> tuple[int, list[float], list[int]]:
         """The smallest distance between the surfaces of two entities. Flags of objects that are named alone do not count.
         entity1Handle: an object or a collection
         entity2Handle: the same, or sim.handle_all for all other measurable objects
@@ -2430,6 +2446,14 @@ class _sim:
         """
     def closeScene(self, /) -> int:
         """Closes the scene and opens the default scene. For add-ons and the sandbox, while the simulation is stopped.
+        """
+    def combineRgbImages(self, img1: bytes | str, img1Res: Sequence[float], img2: bytes | str, img2Res: Sequence[float], operation: int, /) -> bytes:
+        """Two images in one.
+        img1: red, green, blue of each pixel
+        img1Res: width and height
+        img2: the second image: to the right of the first one, or with its rows after those of the first one
+        img2Res: width and height
+        operation: sim.imgcomb_horizontal or sim.imgcomb_vertical
         """
     def computeJacobian(self, ikGroupHandle: int, options: int, /) -> int:
         """Computes the Jacobian of a group of inverse kinematics of V-REP, for sim.getIkGroupMatrix.
@@ -2533,7 +2557,7 @@ class _sim:
         texture: red, green, blue of each pixel, the top row first
         textureResolution: width and height
         """
-    def createOctree(self, voxelSize: float | None = ..., options: int | None = ..., pointSize: float | None = ..., /) -> int:
+    def createOctree(self, voxelSize: float, options: int, pointSize: float, /) -> int:
         """A new, empty octree at the world's origin.
         voxelSize: edge of a voxel, metres
         options: 2: random colours; others for display
@@ -2550,7 +2574,7 @@ class _sim:
         orientationMode: axes along the path and up: 0 xy, 1 xz, 2 yx, 3 yz, 4 zx, 5 zy
         upVector: what is up when the orientation is computed
         """
-    def createPointCloud(self, maxVoxelSize: float | None = ..., maxPtCntPerVoxel: int | None = ..., options: int | None = ..., pointSize: float | None = ..., /) -> int:
+    def createPointCloud(self, maxVoxelSize: float, maxPtCntPerVoxel: int, options: int, pointSize: float, /) -> int:
         """A new, empty point cloud at the world's origin.
         maxVoxelSize: largest cell, metres
         maxPtCntPerVoxel: most points in a cell
@@ -2610,7 +2634,7 @@ class _sim:
         fixedResolution: 1: the image of a file is brought to the resolution too
         resolution: of a new image, pixels; 256 times 256 by default
         """
-    def createVisionSensor(self, options: int | None = ..., intParams: Sequence[int] | None = ..., floatParams: Sequence[float] | None = ..., /) -> int:
+    def createVisionSensor(self, options: int, intParams: Sequence[int] | None = ..., floatParams: Sequence[float] | None = ..., /) -> int:
         """A new vision sensor at the world's origin; it looks along z.
         options: 1: explicit handling, 2: perspective
         intParams: width and height in pixels, 0, 0
@@ -2730,8 +2754,15 @@ class _sim:
         """A new shape: a section moved along a path. Its frame is the world's, its ends are open.
         path: poses of 7 numbers, two at least
         section: points x and y, two at least; closed when the last is the first
-        options: 4: the last pose is followed by the first
+        options: 4: the path is closed: its last pose stands for the first
         upVector: y axis of the section points towards it, z along the path; zeros: the poses of the path define the orientation
+        """
+    def generateTextShape(self, txt: str, color: Sequence[float] | None = ..., height: float | None = ..., centered: bool | None = ..., alphabetLocation: str | None = ..., /) -> int:
+        """Makes a model of the letters of a text. They are strokes of our own.
+        txt: with line ends
+        height: of a capital letter
+        centered: the middle of each line is at x = 0
+        alphabetLocation: has no effect
         """
     def generateTimeOptimalTrajectory(self, path: Sequence[float], pathLengths: Sequence[float], minMaxVel: Sequence[float], minMaxAccel: Sequence[float], trajPtSamples: int | None = ..., boundaryCondition: str | None = ..., timeout: float | None = ..., calculationScriptHandle: int | None = ..., /) -> tuple[list[float], list[float], int]:
         """The fastest motion along a path within limits of velocity and acceleration, from rest to rest.
@@ -2851,7 +2882,7 @@ class _sim:
         """A contact of the last dynamics call. Four empty tables when there is none with that index.
         dynamicPass: index of the sub-step, from 0, or sim.handle_all
         objectHandle: a shape, or sim.handle_all; the shape then comes first in the result
-        index: from 0
+        index: from 0; sim.handleflag_extended may be added, which changes nothing
         """
     def getCustomizationScriptAssociatedWithObject(self, objectHandle: int, /) -> int:
         """The customization script of an object.
@@ -2968,7 +2999,8 @@ class _sim:
     def getGraphCurve(self, graphHandle: int, graphType: int, curveIndex: int, /) -> Any:
         """A curve with its points. Streams that are not shown, and slots with gaps, are left out.
 
-        zData after yData. Attributes are 2: with label, 4: points are linked, 16: recording does not change it. minMax: the smallest and the
+        zData after yData. The type is 0: a line, 1: points that are not linked, plus 2: recording does not change it, 4: its label is not shown, 8: in
+        three dimensions, in the frame of the graph. minMax: the smallest and the
         largest x, then of y and z
         graphHandle: the graph
         graphType: 0: streams over time, 1: curves of two dimensions, 2: of three
@@ -3183,9 +3215,11 @@ class _sim:
         colorComponent: sim.colorcomponent_*
         """
     def getObjectFloatArrayParam(self, objectHandle: int, parameterID: int, /) -> list[float]:
-        """Parameter of an object that is a list of numbers. No object has one.
+        """Parameter of an object that is a list of numbers.
+
+        the near clipping plane, then those of the far one
         objectHandle: the object
-        parameterID: its number
+        parameterID: sim.visionfarrayparam_viewfrustum or sim.camerafarrayparam_viewfrustum: half the width, half the height and the distance of
         """
     def getObjectFloatParam(self, objectHandle: int, parameterID: int, /) -> float:
         """Float parameter of an object.
@@ -3814,7 +3848,7 @@ class _sim:
     def handleExtCalls(self, /) -> Any:
         """Calls the handlers of what came from outside: what persons did with windows (simUI). It happens at the end of each loop iteration anyway.
         """
-    def handleGraph(self, objectHandle: int, simulationTime: float, /) -> None:
+    def handleGraph(self, objectHandle: int, simulationTime: float, /) -> int:
         """Records a slot: the values set on the streams, and gaps for the others.
         objectHandle: the graph, sim.handle_all or sim.handle_all_except_explicit
         simulationTime: of the values
@@ -4400,7 +4434,7 @@ class _sim:
         """Resets an object in the physics at the next dynamics call: it loses its velocity.
         objectHandle: the object, with sim.handleflag_model also everything below it, or sim.handle_all
         """
-    def resetGraph(self, objectHandle: int, /) -> None:
+    def resetGraph(self, objectHandle: int, /) -> int:
         """Clears the recorded data.
         objectHandle: the graph, sim.handle_all or sim.handle_all_except_explicit
         """
@@ -4412,11 +4446,11 @@ class _sim:
         """Does nothing: mills are gone.
         objectHandle: any
         """
-    def resetProximitySensor(self, sensorHandle: int, /) -> None:
+    def resetProximitySensor(self, sensorHandle: int, /) -> int:
         """Forgets what a sensor that is tagged for explicit handling, or all sensors detected.
         sensorHandle: a sensor, sim.handle_all or sim.handle_all_except_explicit
         """
-    def resetVisionSensor(self, sensorHandle: int, /) -> None:
+    def resetVisionSensor(self, sensorHandle: int, /) -> int:
         """Clears the results of vision sensors.
         sensorHandle: a sensor, sim.handle_all or sim.handle_all_except_explicit
         """
@@ -4468,7 +4502,7 @@ class _sim:
         selection: 0 leaves an axis out
         targetPosVel: positions, then velocities
         """
-    def rmlRemove(self, handle: int, /) -> None:
+    def rmlRemove(self, handle: int, /) -> int:
         """Removes a trajectory.
         Deprecated: use sim.ruckigRemove.
         handle: from sim.ruckigPos or sim.ruckigVel
@@ -4507,7 +4541,7 @@ class _sim:
         selection: 0 leaves an axis out
         targetPosVel: positions, then velocities
         """
-    def ruckigRemove(self, handle: int, /) -> None:
+    def ruckigRemove(self, handle: int, /) -> int:
         """Removes a trajectory.
         handle: from sim.ruckigPos or sim.ruckigVel
         """
@@ -4543,7 +4577,7 @@ class _sim:
         """Writes the scene to a file, which becomes the scene's, or returns its bytes. CoppeliaSim reads them since 4.5.1.
         filename: a `.ttt` file, or a `.simscene.xml` file, with `@simpleXml` behind it for the simple variant; nothing for the bytes
         """
-    def scaleObject(self, objectHandle: int, xScale: float, yScale: float, zScale: float, options: int | None = ..., /) -> None:
+    def scaleObject(self, objectHandle: int, xScale: float, yScale: float, zScale: float, options: int | None = ..., /) -> int:
         """Scales an object along its axes; mass and inertia stay.
         objectHandle: the object
         xScale: at least 0.0001
@@ -4551,7 +4585,7 @@ class _sim:
         zScale: at least 0.0001; as x for spheres
         options: ignored
         """
-    def scaleObjects(self, objectHandles: Sequence[int], scalingFactor: float, scalePositionsToo: bool, /) -> None:
+    def scaleObjects(self, objectHandles: Sequence[int], scalingFactor: float, scalePositionsToo: bool, /) -> int:
         """Scales objects with their masses.
         objectHandles: the objects
         scalingFactor: at least 0.0001
@@ -4597,12 +4631,12 @@ class _sim:
         portHandle: from sim.serialOpen
         data: the bytes
         """
-    def setArrayParam(self, parameter: int, parameterValues: Sequence[float], /) -> None:
+    def setArrayParam(self, parameter: int, parameterValues: Sequence[float], /) -> int:
         """Sets a parameter of three numbers.
         parameter: sim.arrayparam_*
         parameterValues: the new values
         """
-    def setArrayParameter(self, parameter: int, parameterValues: Sequence[float], /) -> None:
+    def setArrayParameter(self, parameter: int, parameterValues: Sequence[float], /) -> int:
         """Sets a parameter of three numbers.
         Deprecated: use properties.
         parameter: sim.arrayparam_*
@@ -4617,12 +4651,12 @@ class _sim:
         the machine; a second is a fixed number of them.
         delay: seconds, rounded to milliseconds
         """
-    def setBoolParam(self, parameter: int, boolState: bool, /) -> None:
+    def setBoolParam(self, parameter: int, boolState: bool, /) -> int:
         """Turns a switch on or off.
         parameter: sim.boolparam_*
         boolState: the new state
         """
-    def setBoolParameter(self, parameter: int, boolState: bool, /) -> None:
+    def setBoolParameter(self, parameter: int, boolState: bool, /) -> int:
         """Turns a switch on or off.
         Deprecated: use properties.
         parameter: sim.boolparam_*
@@ -4665,39 +4699,39 @@ class _sim:
         signalName: letters, digits, `_` and `.`
         signalValue: the new value
         """
-    def setEngineBoolParam(self, paramId: int, objectHandle: int, boolParam: bool, /) -> None:
+    def setEngineBoolParam(self, paramId: int, objectHandle: int, boolParam: bool, /) -> int:
         """Sets a switch of a physics engine.
         paramId: sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
         objectHandle: a shape, joint or dummy; -1 for a global parameter
         boolParam: the value
         """
-    def setEngineBoolParameter(self, paramId: int, objectHandle: int, boolParam: bool, /) -> None:
+    def setEngineBoolParameter(self, paramId: int, objectHandle: int, boolParam: bool, /) -> int:
         """Sets a switch of a physics engine.
         Deprecated: use properties.
         paramId: sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
         objectHandle: a shape, joint or dummy; -1 for a global parameter
         boolParam: the value
         """
-    def setEngineFloatParam(self, paramId: int, objectHandle: int, floatParam: float, /) -> None:
+    def setEngineFloatParam(self, paramId: int, objectHandle: int, floatParam: float, /) -> int:
         """Sets a float parameter of a physics engine. The step size changes only while the simulation is stopped.
         paramId: sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
         objectHandle: a shape, joint or dummy; -1 for a global parameter
         floatParam: the value
         """
-    def setEngineFloatParameter(self, paramId: int, objectHandle: int, floatParam: float, /) -> None:
+    def setEngineFloatParameter(self, paramId: int, objectHandle: int, floatParam: float, /) -> int:
         """Sets a float parameter of a physics engine. The step size changes only while the simulation is stopped.
         Deprecated: use properties.
         paramId: sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
         objectHandle: a shape, joint or dummy; -1 for a global parameter
         floatParam: the value
         """
-    def setEngineInt32Param(self, paramId: int, objectHandle: int, int32Param: int, /) -> None:
+    def setEngineInt32Param(self, paramId: int, objectHandle: int, int32Param: int, /) -> int:
         """Sets an integer parameter of a physics engine.
         paramId: sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
         objectHandle: a shape, joint or dummy; -1 for a global parameter
         int32Param: the value
         """
-    def setEngineInt32Parameter(self, paramId: int, objectHandle: int, int32Param: int, /) -> None:
+    def setEngineInt32Parameter(self, paramId: int, objectHandle: int, int32Param: int, /) -> int:
         """Sets an integer parameter of a physics engine.
         Deprecated: use properties.
         paramId: sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
@@ -4720,12 +4754,12 @@ class _sim:
         propertyState: the new value
         options: noError: no error when that fails
         """
-    def setFloatParam(self, parameter: int, parameterValue: float, /) -> None:
+    def setFloatParam(self, parameter: int, parameterValue: float, /) -> int:
         """Sets a float parameter. Time steps change only while the simulation is stopped.
         parameter: sim.floatparam_*
         parameterValue: the new value
         """
-    def setFloatParameter(self, parameter: int, parameterValue: float, /) -> None:
+    def setFloatParameter(self, parameter: int, parameterValue: float, /) -> int:
         """Sets a float parameter. Time steps change only while the simulation is stopped.
         Deprecated: use properties.
         parameter: sim.floatparam_*
@@ -4838,7 +4872,7 @@ class _sim:
         jointHandle: the joint
         forceOrTorque: N or N m
         """
-    def setJointInterval(self, objectHandle: int, cyclic: bool, interval: Sequence[float], /) -> None:
+    def setJointInterval(self, objectHandle: int, cyclic: bool, interval: Sequence[float], /) -> int:
         """Changes the interval of a joint; the position follows.
         objectHandle: the joint
         cyclic: whether it has no limits
@@ -4888,7 +4922,7 @@ class _sim:
         diffusePart: red, green, blue
         specularPart: red, green, blue
         """
-    def setLinkDummy(self, dummyHandle: int, linkDummyHandle: float, /) -> None:
+    def setLinkDummy(self, dummyHandle: int, linkDummyHandle: float, /) -> int:
         """Links two dummies; earlier partners of both are released.
         dummyHandle: the dummy
         linkDummyHandle: its new partner, -1 for none
@@ -4900,7 +4934,7 @@ class _sim:
         propertyState: the new value
         options: noError: no error when that fails
         """
-    def setModelProperty(self, objectHandle: int, property: int, /) -> None:
+    def setModelProperty(self, objectHandle: int, property: int, /) -> int:
         """Makes an object a model base with these flags, or with sim.modelproperty_not_model no model base.
         objectHandle: the object
         property: sim.modelproperty_* bits
@@ -4924,7 +4958,7 @@ class _sim:
         name: of the parameter
         value: stored as text
         """
-    def setNamedStringParam(self, paramName: str, stringParam: str, /) -> None:
+    def setNamedStringParam(self, paramName: str, stringParam: str, /) -> int:
         """Sets a named parameter.
         paramName: its name
         stringParam: the new value
@@ -4934,7 +4968,7 @@ class _sim:
         objectHandle: the object
         objectAlias: need not be unique
         """
-    def setObjectChildPose(self, objectHandle: int, pose: Sequence[float], /) -> int:
+    def setObjectChildPose(self, objectHandle: int, pose: Sequence[float], /) -> None:
         """Turns the moving side of a spherical joint. Other objects are left as they are.
         objectHandle: the joint
         pose: of which the rotation is taken
@@ -4947,7 +4981,7 @@ class _sim:
         rgbData: red, green, blue
         """
     def setObjectFloatArrayParam(self, objectHandle: int, parameterID: int, params: Sequence[float], /) -> None:
-        """Sets a parameter of an object that is a list of numbers. No object has one, so this does nothing.
+        """Sets a parameter of an object that is a list of numbers. No object has one that can be set, so this does nothing.
         objectHandle: the object
         parameterID: its number
         params: the values
@@ -5019,7 +5053,7 @@ class _sim:
         position: metres
         relativeToObjectHandle: the frame it is expressed in
         """
-    def setObjectProperty(self, objectHandle: int, property: int, /) -> None:
+    def setObjectProperty(self, objectHandle: int, property: int, /) -> int:
         """Sets the flags of an object.
         objectHandle: the object
         property: sim.objectproperty_* bits
@@ -5044,7 +5078,7 @@ class _sim:
         objectHandle: the object
         sizeValues: one for each axis
         """
-    def setObjectSpecialProperty(self, objectHandle: int, property: int, /) -> None:
+    def setObjectSpecialProperty(self, objectHandle: int, property: int, /) -> int:
         """Sets what an object can be to sensors and checks.
         objectHandle: the object
         property: sim.objectspecialproperty_* bits
@@ -5106,7 +5140,7 @@ class _sim:
         propertyState: the new value
         options: noError: no error when that fails
         """
-    def setReferencedHandles(self, objectHandle: int, referencedHandles: Sequence[int], tag: str | None = ..., /) -> None:
+    def setReferencedHandles(self, objectHandle: int, referencedHandles: Sequence[int], tag: str | None = ..., /) -> int:
         """Makes an object refer to others; copies then refer to the copies.
         objectHandle: the object; with sim.handleflag_keeporiginal: its copies refer to the same objects
         referencedHandles: empty to remove the list
@@ -5193,7 +5227,7 @@ class _sim:
         shapeHandle: the shape
         materialIdOrShapeHandle: sim.dynmat_* or a shape
         """
-    def setShapeTexture(self, shapeHandle: int, textureId: int, mappingMode: int, options: int, uvScaling: Sequence[float], position: Sequence[float] | None = ..., orientation: Sequence[float] | None = ..., /) -> None:
+    def setShapeTexture(self, shapeHandle: int, textureId: int, mappingMode: int, options: int, uvScaling: Sequence[float], position: Sequence[float] | None = ..., orientation: Sequence[float] | None = ..., /) -> int:
         """Puts an image on all meshes of a shape.
         shapeHandle: the shape
         textureId: a texture, or a vision sensor whose image is used; -1 removes the texture
@@ -5219,18 +5253,18 @@ class _sim:
         """Sets whether a thread is interrupted only where it asks for it (sim.step).
         enable: true: one level more, false: one level less; an integer sets the level
         """
-    def setStringNamedParam(self, paramName: str, stringParam: str, /) -> None:
+    def setStringNamedParam(self, paramName: str, stringParam: str, /) -> int:
         """Sets a named parameter.
         Deprecated: use sim.setStringProperty(sim.handle_app, 'namedParam.name', value).
         paramName: its name
         stringParam: the new value
         """
-    def setStringParam(self, parameter: int, parameterValue: bytes | str, /) -> None:
+    def setStringParam(self, parameter: int, parameterValue: bytes | str, /) -> int:
         """Sets a string parameter.
         parameter: sim.stringparam_*
         parameterValue: the new value
         """
-    def setStringParameter(self, parameter: int, parameterValue: bytes | str, /) -> None:
+    def setStringParameter(self, parameter: int, parameterValue: bytes | str, /) -> int:
         """Sets a string parameter.
         Deprecated: use properties.
         parameter: sim.stringparam_*
@@ -5312,7 +5346,7 @@ class _sim:
         sensorHandle: the sensor
         image: a list of numbers from 0 to 1, or a string of bytes (32-bit floats for depths)
         """
-    def setVisionSensorImg(self, sensorHandle: int, image: bytes | str, options: int | None = ..., pos: Sequence[float] | None = ..., size: Sequence[float] | None = ..., /) -> None:
+    def setVisionSensorImg(self, sensorHandle: int, image: bytes | str, options: int | None = ..., pos: Sequence[float] | None = ..., size: Sequence[float] | None = ..., /) -> int:
         """Replaces the image of a vision sensor, or a part of it, and calls the sensor's scripts (`sysCall_vision`).
         sensorHandle: the sensor
         image: red, green, blue of each pixel, from the lowest row
@@ -5520,7 +5554,7 @@ class _sim:
         data: empty: removes the tag
         options: dataType: the kind
         """
-    def writeCustomStringData(self, objectHandle: int, tagName: str, data: bytes | str | None = ..., /) -> None:
+    def writeCustomStringData(self, objectHandle: int, tagName: str, data: bytes | str | None = ..., /) -> int:
         """Writes custom data.
         objectHandle: object, sim.handle_scene, sim.handle_app or sim.handle_appstorage
         tagName: its name; tags that begin or end with `@tmp` are not saved; an empty one removes all tags
@@ -5533,7 +5567,7 @@ class _sim:
         data: empty: removes the tag
         options: dataType: table (default) or cbor
         """
-    def writeTexture(self, textureId: int, options: int, textureData: bytes | str, posX: int | None = ..., posY: int | None = ..., sizeX: int | None = ..., sizeY: int | None = ..., interpol: float | None = ..., /) -> None:
+    def writeTexture(self, textureId: int, options: int, textureData: bytes | str, posX: int | None = ..., posY: int | None = ..., sizeX: int | None = ..., sizeY: int | None = ..., interpol: float | None = ..., /) -> int:
         """Writes a part of a texture, on all shapes it is on.
         textureId: the texture
         options: not used
@@ -10212,19 +10246,19 @@ class _stringx:
         """The text if it is a Lua name, else nil.
         """
     def islower(self, s: str, /) -> bool:
-        """Whether a text consists of lower-case letters.
+        """Whether a text has no upper-case letters.
         """
     def isnumeric(self, s: str, /) -> str:
         """The text if it consists of digits, else nil.
         """
-    def isprintable(self, s: str, /) -> str:
-        """The text if it consists of printable characters, else nil.
+    def isprintable(self, s: str, /) -> bool:
+        """Whether a text consists of printable characters.
         """
     def isspace(self, s: str, /) -> str:
         """The text if it consists of white space, else nil.
         """
     def isupper(self, s: str, /) -> bool:
-        """Whether a text consists of upper-case letters.
+        """Whether a text has no lower-case letters.
         """
     def ltrim(self, s: str, /) -> str:
         """Removes white space at the start.
@@ -10259,7 +10293,6 @@ class _stringx:
     def trim(self, s: str, /) -> str:
         """Removes white space at both ends.
         """
-    def unittest(self, /) -> Any: ...
     def utf8sub(self, s: str, i: int, j: int | None = ..., /) -> str:
         """Like sub, counting UTF-8 characters.
         """
@@ -10395,7 +10428,7 @@ class _tablex:
     def eq(self, a: Any | None = ..., b: Any | None = ..., /) -> bool:
         """Whether two values are equal, tables by content. Anything that is not a table is not compared: false.
         """
-    def extend(self, t: Sequence[Any] | Mapping[Any, Any], /, *args: Any) -> Any:
+    def extend(self, t: Sequence[Any] | Mapping[Any, Any], /, *args: Any) -> None:
         """Appends the elements of the other tables to t.
         """
     def filter(self, t: Sequence[Any] | Mapping[Any, Any], opts: Sequence[Any] | Mapping[Any, Any] | None = ..., /) -> Any:
@@ -10410,8 +10443,8 @@ class _tablex:
     def fromipairs(self, iterator: Callable[..., Any] | str, state: Any | None = ..., index: Any | None = ..., /) -> Any:
         """A table of the values of an iterator such as ipairs(t).
         """
-    def frompairs(self, items: Sequence[Any] | Mapping[Any, Any], /) -> Any:
-        """The table of a list of pairs {key, value}.
+    def frompairs(self, items: Any | None = ..., state: Any | None = ..., key: Any | None = ..., /) -> Any:
+        """The table of a list of pairs {key, value}, or of an iterator such as pairs(t).
         """
     def getn(self, t: Sequence[Any] | Mapping[Any, Any], /) -> int:
         """Number of elements, as in Lua 5.0.
@@ -10458,7 +10491,6 @@ class _tablex:
     def unflatten(self, t: Sequence[Any] | Mapping[Any, Any], /) -> Any:
         """The reverse of flatten.
         """
-    def unittest(self, /) -> Any: ...
     def unpackx(self, t: Sequence[Any] | Mapping[Any, Any], n: int | None = ..., i: int | None = ..., /) -> Any:
         """Unpacks up to n values starting at i.
         """
@@ -10467,6 +10499,16 @@ class _tablex:
         """
     def values(self, t: Sequence[Any] | Mapping[Any, Any], /) -> Any:
         """The values of a table.
+        """
+
+class _textUtils:
+    def generateTextShape(self, txt: str, color: Sequence[float] | None = ..., height: float | None = ..., centered: bool | None = ..., alphabetModel: Any | None = ..., parentDummy: int | None = ..., shapeOnly: bool | None = ..., /) -> int:
+        """Makes a shape of a text.
+        height: of a capital letter
+        centered: the middle of each line is at x = 0, not its start
+        alphabetModel: has no effect: the letters are our own
+        parentDummy: the model to add the shape to; else a new dummy
+        shapeOnly: the result is the shape, without a model
         """
 
 class _utils:
@@ -10512,18 +10554,17 @@ class _uuid:
 
 class _var:
     def f(self, text: str, /) -> str:
-        """'x is {x}' with the local or global variables of the caller; {x:%.3f} formats.
+        """'x is {x}' with the local or global variables of the caller; {x=} writes the name too, {x:.3f} formats. Unknown names stay as they are.
         """
     def getlocals(self, level: int | None = ..., /) -> Any:
         """Local variables of the function at a level of the stack (1: the caller), by name.
         """
     def getvar(self, name: str, context: Sequence[Any] | Mapping[Any, Any] | None = ..., /) -> Any:
-        """Value of a.b.c, starting in context (default: the globals); nil where a part is missing.
+        """Value of a name such as a.b[2]['c'], starting in context (default: the globals); nil where a part is missing.
         """
     def setvar(self, name: str, value: Any | None = ..., context: Sequence[Any] | Mapping[Any, Any] | None = ..., /) -> None:
-        """Sets a.b.c; missing tables on the way are created.
+        """Sets the variable of a name such as a.b[2]['c']; missing tables on the way are created.
         """
-    def unittest(self, /) -> Any: ...
 
 class Requires:
     @overload
@@ -10560,6 +10601,8 @@ class Requires:
     def require(self, name: Literal["dkjson"], script: int | None = None) -> _dkjson: ...
     @overload
     def require(self, name: Literal["functional"], script: int | None = None) -> _functional: ...
+    @overload
+    def require(self, name: Literal["gcode"], script: int | None = None) -> _gcode: ...
     @overload
     def require(self, name: Literal["graph_customization"], script: int | None = None) -> _graph_customization: ...
     @overload
@@ -10704,6 +10747,8 @@ class Requires:
     def require(self, name: Literal["swanilda.test.windows"], script: int | None = None) -> _swanilda_test_windows: ...
     @overload
     def require(self, name: Literal["tablex"], script: int | None = None) -> _tablex: ...
+    @overload
+    def require(self, name: Literal["textUtils"], script: int | None = None) -> _textUtils: ...
     @overload
     def require(self, name: Literal["utils"], script: int | None = None) -> _utils: ...
     @overload

@@ -134,8 +134,8 @@ x.show('cut', flags & simIK.calc_stepstoobig ~= 0)
 x.back()
 simIK.setElementFlags(env, group, element, 0)
 print('disabled', simIK.getElementFlags(env, group, element), (simIK.handleGroups(env, {group})))
-local matrix = require 'matrix'
-print('display', select('#', simIK.debugJacobianDisplay{jacobian = matrix{{1, 2}, {3, 4}}, e = matrix{{5}, {6}}}))
+require 'matrix'
+print('display', select('#', simIK.debugJacobianDisplay{jacobian = Matrix{{1, 2}, {3, 4}}, e = Matrix{{5}, {6}}}))
 
 -- The same arm in the scene.
 local joints, parent = {}, -1
