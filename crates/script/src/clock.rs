@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::time::Instant;
 
-use super::wall_clock;
+use crate::wall_clock;
 
 /// The state of the simulation; numbers are `sim.simulation_*` of 4.10.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

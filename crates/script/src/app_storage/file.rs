@@ -10,7 +10,7 @@ use std::time::Duration;
 use fs4::{FileExt, TryLockError};
 
 use super::{Blocks, Contents};
-use crate::step::wall_clock;
+use crate::wall_clock;
 use permissions::{Denied, Permissions};
 use scene::{CustomData, Data, Edit, Key};
 use wire::cbor;
@@ -23,7 +23,7 @@ const LOCK_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// Why the file is not what it should be.
 #[derive(Debug, thiserror::Error)]
-pub(in crate::files::app_storage) enum Failure {
+pub(super) enum Failure {
     #[error("the app storage {} is corrupt: it was set aside as {} and a new one begun.", path.display(), aside.display())]
     Corrupt { path: PathBuf, aside: PathBuf },
     #[error("the app storage {} was written by a newer version of Swanilda: it is left alone.", .0.display())]
@@ -40,7 +40,7 @@ pub(in crate::files::app_storage) enum Failure {
 }
 
 /// The system's folder for application data of the user.
-pub(in crate::files::app_storage) fn user_folder() -> Option<PathBuf> {
+pub(super) fn user_folder() -> Option<PathBuf> {
     Some(
         directories::ProjectDirs::from("", "", "swanilda")?
             .data_dir()
@@ -50,19 +50,13 @@ pub(in crate::files::app_storage) fn user_folder() -> Option<PathBuf> {
 
 /// # Errors
 /// When scripts may not read the file in `folder`.
-pub(in crate::files::app_storage) fn check_read(
-    folder: &Path,
-    permissions: &Permissions,
-) -> Result<(), Failure> {
+pub(super) fn check_read(folder: &Path, permissions: &Permissions) -> Result<(), Failure> {
     Ok(permissions.check_read(&folder.join(NAME))?)
 }
 
 /// # Errors
 /// When scripts may not change the file in `folder`.
-pub(in crate::files::app_storage) fn check_write(
-    folder: &Path,
-    permissions: &Permissions,
-) -> Result<(), Failure> {
+pub(super) fn check_write(folder: &Path, permissions: &Permissions) -> Result<(), Failure> {
     check_read(folder, permissions)?;
     Ok(permissions.check_write(&folder.join(NAME))?)
 }
@@ -71,7 +65,7 @@ pub(in crate::files::app_storage) fn check_write(
 ///
 /// # Errors
 /// When it cannot be read. A corrupt file has another name then.
-pub(in crate::files::app_storage) fn read(folder: &Path) -> Result<Contents, Failure> {
+pub(super) fn read(folder: &Path) -> Result<Contents, Failure> {
     let path = folder.join(NAME);
     let bytes = match fs::read(&path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Contents::default()),
@@ -90,7 +84,7 @@ pub(in crate::files::app_storage) fn read(folder: &Path) -> Result<Contents, Fai
 ///
 /// # Errors
 /// When it cannot be read or written; it is as it was then.
-pub(in crate::files::app_storage) fn update(
+pub(super) fn update(
     folder: &Path,
     change: impl FnOnce(&mut Contents),
 ) -> Result<(Contents, Option<Failure>), Failure> {

@@ -9,7 +9,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::log::verbosity;
-use crate::sim::Sim;
 use file::Failure;
 use permissions::Permissions;
 use scene::{CustomData, Edit, Edited};
@@ -55,7 +54,7 @@ pub struct AppStorage {
     /// Saving failed, and nothing was changed since: it would fail again.
     failed: bool,
     /// Warnings for the user.
-    notices: Vec<(i64, String)>,
+    pub(crate) notices: Vec<(i64, String)>,
 }
 
 impl Contents {
@@ -177,7 +176,7 @@ impl AppStorage {
     }
 
     /// Brings the file up to date.
-    fn save(&mut self) {
+    pub(crate) fn save(&mut self) {
         if self.dirty.is_empty() || self.failed {
             return;
         }
@@ -202,28 +201,6 @@ impl AppStorage {
                 self.report(failure);
             }
         }
-    }
-}
-
-impl Sim {
-    /// Reads or changes the storage, and logs what went wrong with its file.
-    pub(crate) fn with_app_storage<R>(&self, use_it: impl FnOnce(&mut AppStorage) -> R) -> R {
-        let (result, notices) = {
-            let mut app = self.app.borrow_mut();
-            (
-                use_it(&mut app.storage),
-                std::mem::take(&mut app.storage.notices),
-            )
-        };
-        notices
-            .iter()
-            .for_each(|(level, text)| self.log(*level, text));
-        result
-    }
-
-    /// Writes what scripts have changed to the file.
-    pub fn save_app_storage(&self) {
-        self.with_app_storage(AppStorage::save);
     }
 }
 

@@ -1,8 +1,8 @@
 //! The stream of events.
 
 use super::Cx;
-use crate::calls::callback::SysCall;
-use crate::events::EventFilters;
+use crate::event_stream::EventFilters;
+use crate::sys_call::SysCall;
 use scene::Data;
 
 impl Cx<'_> {

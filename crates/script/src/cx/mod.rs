@@ -5,6 +5,8 @@
 
 mod events;
 mod files;
+mod handlers;
+mod host;
 mod objects;
 mod output;
 mod outside;
@@ -19,12 +21,13 @@ use std::cell::{Ref, RefMut};
 use std::rc::Rc;
 use std::time::Duration;
 
+use crate::binding::args::Args;
+use crate::binding::source::{Caller, Source};
 use crate::error::{ApiError, ApiResult};
-use crate::lifecycle::env::Env;
-use crate::lifecycle::instance::Script;
+use crate::host::{Env, Script, Sim};
 use crate::lua::Stack;
 use crate::lua_runtime::threads;
-use crate::sim::{Options, Sim};
+use crate::options::Options;
 use permissions::Permissions;
 use scene::Scene;
 
@@ -37,17 +40,26 @@ pub struct Cx<'a> {
     stack: Option<Stack<'a>>,
 }
 
+impl<'a, S: Source<'a>> Args<'a, S> {
+    /// The context of the call.
+    ///
+    /// # Errors
+    /// When the simulator is gone.
+    pub fn context(&self) -> ApiResult<Cx<'a>> {
+        Cx::new(self.caller())
+    }
+}
+
 impl<'a> Cx<'a> {
-    pub(crate) fn of(stack: Stack<'a>) -> ApiResult<Self> {
-        Self::new(stack.owner(), Some(stack))
-    }
-
-    /// The context of a call with plain values, on behalf of the script of an environment.
-    pub(crate) fn without_lua(env: &'a Env) -> ApiResult<Self> {
-        Self::new(env, None)
-    }
-
-    fn new(env: &'a Env, stack: Option<Stack<'a>>) -> ApiResult<Self> {
+    fn new(caller: Caller<'a>) -> ApiResult<Self> {
+        let (env, stack): (&Env, _) = match caller {
+            Caller::Lua(stack) => (stack.env(), Some(stack)),
+            Caller::Environment(env) => (
+                env.downcast_ref()
+                    .expect("functions are called with an environment"),
+                None,
+            ),
+        };
         let sim = env
             .sim
             .upgrade()
@@ -77,7 +89,7 @@ impl<'a> Cx<'a> {
 
     /// Whether the program is being stopped.
     pub fn is_interrupted(&self) -> bool {
-        self.sim.is_interrupted()
+        self.sim.options.is_interrupted()
     }
 
     /// Asks again and again until there is an answer; None when there is none within `limit`.
@@ -89,7 +101,7 @@ impl<'a> Cx<'a> {
         limit: Option<Duration>,
         answer: impl FnMut() -> Option<T>,
     ) -> ApiResult<Option<T>> {
-        self.sim.wait_for(limit, answer)
+        self.sim.options.wait_for(limit, answer)
     }
 
     /// The state of a module for the simulator: created by the first call, dropped with the simulator.

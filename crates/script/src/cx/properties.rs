@@ -3,9 +3,10 @@
 use std::cell::{Ref, RefMut};
 
 use super::Cx;
+use crate::app_storage::{AppStorage, StorageSection};
 use crate::error::ApiResult;
-use crate::files::app_storage::{AppStorage, StorageSection};
-use crate::property::{AppData, Info, PropertyTarget};
+use crate::host::AppData;
+use crate::property::{Info, PropertyTarget};
 use scene::{CustomData, Data, Edit, Namespace, ValueType};
 
 impl Cx<'_> {

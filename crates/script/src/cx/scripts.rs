@@ -3,11 +3,10 @@
 use std::rc::Rc;
 
 use super::Cx;
-use crate::calls::callback::SysCall;
 use crate::error::{ApiError, ApiResult};
-use crate::lifecycle::instance::Script;
-use crate::lifecycle::order::ScriptGroup;
-use crate::runtime::FunctionRef;
+use crate::function_ref::FunctionRef;
+use crate::host::{Script, ScriptGroup};
+use crate::sys_call::SysCall;
 use scene::object::script_object::ScriptType;
 use scene::{Data, Handle};
 
@@ -78,12 +77,12 @@ impl Cx<'_> {
 
     /// A new script without an object; returns its handle.
     pub fn add_script_without_object(&mut self, script_type: ScriptType) -> i64 {
-        self.sim.add_script_without_object(script_type)
+        self.sim.scripts.add_without_object(script_type)
     }
 
     /// Attaches a script that is no object to an object, or to none.
     pub fn reattach_script(&mut self, script: &Script, owner: Option<Handle>) {
-        self.sim.reattach_script(script, owner);
+        self.sim.scripts.reattach(script, owner);
     }
 
     /// The calls in progress of a script, as its language shows them.

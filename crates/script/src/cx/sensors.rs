@@ -44,12 +44,12 @@ impl Cx<'_> {
     /// # Errors
     /// When it is not tagged, or no proximity sensor.
     pub fn reset_proximity_sensor(&mut self, sensor: Handle) -> ApiResult<()> {
-        Ok(self.sim.reset_proximity_sensor(sensor)?)
+        Ok(self.scene_mut().reset_proximity_sensor(sensor)?)
     }
 
     /// The same for all, or those that are not tagged.
     pub fn reset_proximity_sensors(&mut self, with_explicit: bool) {
-        self.sim.reset_proximity_sensors(with_explicit);
+        self.scene_mut().reset_proximity_sensors(with_explicit);
     }
 
     /// Computes a collision object that is tagged for explicit handling.

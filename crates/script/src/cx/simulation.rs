@@ -3,10 +3,11 @@
 use std::cell::Ref;
 
 use super::Cx;
+use crate::clock::Clock;
 use crate::error::ApiResult;
-use crate::step::clock::Clock;
 use dynamics::Dynamics;
 use scene::Handle;
+use scene::parameters::engine::SelectedEngine;
 
 impl Cx<'_> {
     /// State and time of the simulation.
@@ -21,7 +22,7 @@ impl Cx<'_> {
 
     /// Asks for a pause; refused when not running or when a stop is pending.
     pub fn pause_simulation(&mut self) {
-        self.sim.pause();
+        self.sim.clock.request_pause();
     }
 
     /// Asks for the end of the simulation; a paused one resumes for its last steps.
@@ -31,7 +32,7 @@ impl Cx<'_> {
 
     /// Asks for the end of the program, or withdraws that.
     pub fn request_quit(&mut self, on: bool) {
-        self.sim.request_quit(on);
+        self.sim.clock.set_quit_requested(on);
     }
 
     /// One iteration of the application's loop.
@@ -70,11 +71,15 @@ impl Cx<'_> {
     /// # Errors
     /// When there is no such engine.
     pub fn set_engine(&mut self, number: i64, version: i64) -> ApiResult<()> {
-        self.sim.set_engine(number, version)
+        let engine = SelectedEngine::from_numbers(number, version)?;
+        self.sim
+            .change_while_stopped(|settings| settings.dynamics.engine = engine);
+        Ok(())
     }
 
     /// Sets the desired sub-step of the physics, seconds. Without effect while the simulation is not stopped.
     pub fn set_physics_step(&mut self, step: f64) {
-        self.sim.set_physics_step(step);
+        self.sim
+            .change_while_stopped(|settings| settings.set_physics_step(step));
     }
 }

@@ -113,6 +113,6 @@ impl Cx<'_> {
 
     /// Forgets the results of a sensor.
     pub fn reset_vision_sensor(&mut self, sensor: Handle) {
-        self.sim.store_reading(sensor, None);
+        self.scene_mut().set_vision_reading(sensor, None);
     }
 }

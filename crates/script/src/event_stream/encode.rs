@@ -22,16 +22,16 @@ mod tag {
 }
 
 /// A map and a list without a length, and what ends them.
-pub(super) const MAP: u8 = major::MAP | INDEFINITE;
-pub(super) const LIST: u8 = major::ARRAY | INDEFINITE;
-pub(super) const END: u8 = BREAK;
+pub(crate) const MAP: u8 = major::MAP | INDEFINITE;
+pub(crate) const LIST: u8 = major::ARRAY | INDEFINITE;
+pub(crate) const END: u8 = BREAK;
 
 /// The first bytes of what has a width of its own, however small the number.
 const INT_32: u8 = major::UNSIGNED | 26;
 const INT_64: u8 = major::UNSIGNED | 27;
 const FLOAT_32: u8 = major::SIMPLE | 26;
 
-pub(super) fn text(out: &mut Vec<u8>, text: &[u8]) {
+pub(crate) fn text(out: &mut Vec<u8>, text: &[u8]) {
     push_head(out, major::TEXT, text.len() as u64);
     out.extend(text);
 }
@@ -47,7 +47,7 @@ fn float(out: &mut Vec<u8>, f: f64) {
 }
 
 /// Writes a value of type `ty`; nil as null.
-pub(super) fn value(protocol: Protocol, ty: ValueType, data: &Data, out: &mut Vec<u8>) {
+pub(crate) fn value(protocol: Protocol, ty: ValueType, data: &Data, out: &mut Vec<u8>) {
     match (data, ty) {
         // Tables of scripts are sent as the bytes in which they are stored.
         (_, ValueType::Table) => bytes(out, &cbor::encode(data)),
@@ -64,12 +64,12 @@ pub(super) fn value(protocol: Protocol, ty: ValueType, data: &Data, out: &mut Ve
 }
 
 /// Null: the property is gone.
-pub(super) fn null() -> Vec<u8> {
+pub(crate) fn null() -> Vec<u8> {
     vec![NULL]
 }
 
 /// Writes a value that protocol 4 takes to mean something else than protocol 3 does.
-pub(super) fn with_meaning(meaning: Meaning, ty: ValueType, data: &Data, out: &mut Vec<u8>) {
+pub(crate) fn with_meaning(meaning: Meaning, ty: ValueType, data: &Data, out: &mut Vec<u8>) {
     match (meaning, data) {
         (Meaning::Not, Data::Bool(b)) => out.push(if *b { FALSE } else { TRUE }),
         (Meaning::Handle, Data::Int(handle)) => {

@@ -10,7 +10,7 @@ use scene::{Data, Key, special};
 pub(crate) struct Keys(BTreeSet<String>);
 
 impl Keys {
-    pub(super) fn contains(&self, key: &str) -> bool {
+    pub(crate) fn contains(&self, key: &str) -> bool {
         self.0.is_empty() || self.0.contains(key)
     }
 }
@@ -34,7 +34,7 @@ impl EventFilters {
     }
 
     /// The selected fields of `source`: its own entry, or else the entry of its kind.
-    pub(super) fn keys_of(&self, source: Source) -> Option<&Keys> {
+    pub(crate) fn keys_of(&self, source: Source) -> Option<&Keys> {
         if source.class == Class::None {
             return None;
         }

@@ -23,7 +23,7 @@ impl Protocol {
 
 /// The form of a value in protocol 4.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Meaning {
+pub(crate) enum Meaning {
     Same,
     /// Of the opposite sense.
     Not,
@@ -41,7 +41,7 @@ type Renamed = HashMap<(&'static str, &'static str), (&'static str, Meaning)>;
 const ENGINES: [&str; 5] = ["bullet.", "ode.", "vortex.", "newton.", "mujoco."];
 
 /// Name and meaning of a property in protocol 4. `class` is its path as returned by `sim.getPropertyName`.
-pub(super) fn renamed(class: &'static str, name: &'static str) -> (&'static str, Meaning) {
+pub(crate) fn renamed(class: &'static str, name: &'static str) -> (&'static str, Meaning) {
     static TABLE: LazyLock<Renamed> = LazyLock::new(read);
     if ENGINES.iter().any(|engine| name.starts_with(engine)) {
         // Few names, built once per class of targets.

@@ -4,13 +4,12 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 use std::hash::{BuildHasherDefault, Hasher};
 
-use super::encode;
-use super::filter::EventFilters;
+use super::{EventFilters, encode};
 use scene::{Handle, Uid, special};
 use wire::cbor_head::push_int;
 
 /// A name that is nearly always known at compile time.
-pub(super) type Name = Cow<'static, str>;
+pub(crate) type Name = Cow<'static, str>;
 
 /// The kind of the subject of an event; filters name kinds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -53,7 +52,7 @@ impl Source {
         uid: special::SCENE,
     };
 
-    pub(super) fn object(handle: Handle, uid: Uid) -> Self {
+    pub(crate) fn object(handle: Handle, uid: Uid) -> Self {
         Self {
             class: Class::Object,
             handle: handle.raw(),
@@ -90,7 +89,7 @@ pub(crate) enum Content {
 type MergeId = (Name, Name, i64);
 
 impl Event {
-    pub(super) fn new(name: &'static str, source: Source, entries: Vec<Entry>) -> Self {
+    pub(crate) fn new(name: &'static str, source: Source, entries: Vec<Entry>) -> Self {
         Self {
             name: name.into(),
             source,
@@ -100,7 +99,7 @@ impl Event {
     }
 
     /// The new value of properties that change together; only the latest is sent.
-    pub(super) fn changed(source: Source, entries: Vec<Entry>) -> Self {
+    pub(crate) fn changed(source: Source, entries: Vec<Entry>) -> Self {
         let topic = entries.first().map(|entry| entry.key.clone());
         Self {
             topic,
@@ -109,7 +108,7 @@ impl Event {
     }
 
     /// A list of the scene; its value is filled in at dispatch, since a list per new object would take quadratic time.
-    pub(super) fn list(key: &'static str) -> Self {
+    pub(crate) fn list(key: &'static str) -> Self {
         Self::changed(
             Source::SCENE,
             vec![Entry {
@@ -119,7 +118,7 @@ impl Event {
         )
     }
 
-    pub(super) fn entries_mut(&mut self) -> &mut [Entry] {
+    pub(crate) fn entries_mut(&mut self) -> &mut [Entry] {
         match &mut self.data {
             Content::Entries(entries) => entries,
             Content::User(_) => &mut [],
@@ -166,14 +165,14 @@ impl Hasher for WordHasher {
 
 /// The events since the last dispatch, in order.
 #[derive(Debug, Default)]
-pub(super) struct Queue {
+pub(crate) struct Queue {
     events: BTreeMap<u64, Event>,
     latest: HashMap<MergeId, u64, BuildHasherDefault<WordHasher>>,
     pushed: u64,
 }
 
 impl Queue {
-    pub(super) fn push(&mut self, event: Event) {
+    pub(crate) fn push(&mut self, event: Event) {
         self.pushed += 1;
         if let Some(id) = event.merge_id()
             && let Some(earlier) = self.latest.insert(id, self.pushed)
@@ -183,18 +182,18 @@ impl Queue {
         self.events.insert(self.pushed, event);
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.events.is_empty()
     }
 
-    pub(super) fn take(&mut self) -> Vec<Event> {
+    pub(crate) fn take(&mut self) -> Vec<Event> {
         self.latest.clear();
         std::mem::take(&mut self.events).into_values().collect()
     }
 }
 
 /// Events as one batch, numbered from `first`; None when the filter leaves nothing.
-pub(super) fn batch(
+pub(crate) fn batch(
     events: &[Event],
     first: i64,
     filters: Option<&EventFilters>,

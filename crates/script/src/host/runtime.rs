@@ -5,11 +5,11 @@
 
 use std::rc::Rc;
 
-use super::calls::callback::SysCall;
-use super::coverage::LineCounts;
-use super::error::ApiError;
-use super::lifecycle::env::{Env, Hook};
-use super::sim::Sim;
+use super::{Env, Hook, Sim};
+use crate::coverage::LineCounts;
+use crate::error::ApiError;
+use crate::function_ref::FunctionRef;
+use crate::sys_call::SysCall;
 use scene::{Data, Key};
 
 /// A language scripts can be written in.
@@ -194,22 +194,6 @@ pub enum CallbackResult {
     NotDefined,
     /// The last value it returned; None when it returned nothing.
     Returned(Option<Data>),
-}
-
-/// A function of a script, by the number its interpreter knows it by until it is released.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct FunctionRef(i32);
-
-impl FunctionRef {
-    /// The function that the interpreter knows by `number`.
-    pub fn new(number: i32) -> Self {
-        Self(number)
-    }
-
-    /// The number by which the interpreter knows it.
-    pub fn number(self) -> i32 {
-        self.0
-    }
 }
 
 /// An error of a script.

@@ -2,11 +2,9 @@
 
 use std::rc::Rc;
 
-use super::callback::SysCall;
-use crate::lifecycle::Reply;
-use crate::lifecycle::instance::{Script, state};
-use crate::lifecycle::order::ScriptGroup;
-use crate::sim::Sim;
+use super::Reply;
+use crate::host::{Script, ScriptGroup, Sim, state};
+use crate::sys_call::SysCall;
 use scene::Data;
 
 impl Sim {
@@ -62,7 +60,10 @@ impl Sim {
 
     /// A message to all initialised scripts but the sender.
     pub(crate) fn broadcast_message(self: &Rc<Self>, sender: i64, args: &[Data]) {
-        self.note_broadcast(args.first().and_then(|message| message.field("id")));
+        self.app
+            .borrow()
+            .broadcasts
+            .note(args.first().and_then(|message| message.field("id")));
         if !self.scripts.may_respond(SysCall::Msg) {
             return;
         }

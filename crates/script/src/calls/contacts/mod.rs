@@ -1,19 +1,27 @@
 //! The callbacks that decide about contacts. They are called for every pair of shapes that may touch, hundreds of times per sub-step.
 
+mod sole;
+
 use std::rc::Rc;
 
-use crate::lifecycle::contacts::{CONTACT, SoleResponder};
-use crate::sim::Sim;
+use crate::host::Sim;
+use crate::sys_call::SysCall;
 use dynamics::ContactResponse;
 use scene::parameters::engine::Engine;
 use scene::{Data, Handle};
+use sole::SoleResponder;
+
+/// The callbacks that filter contacts: the old name first.
+pub(crate) const CONTACT: [SysCall; 2] = [SysCall::ContactCallback, SysCall::Contact];
+/// Both as bits.
+const CONTACT_BITS: u64 = SysCall::ContactCallback.bit() | SysCall::Contact.bit();
 
 /// The fields of the table that scripts get.
 const FIELDS: [&str; 3] = ["handle1", "handle2", "engine"];
 
 impl Sim {
     /// The answers about pairs of shapes, one after the other.
-    pub(super) fn ask_about_contacts(
+    pub(crate) fn ask_about_contacts(
         self: &Rc<Self>,
         pairs: &[(Handle, Handle)],
     ) -> Vec<ContactResponse> {
@@ -47,7 +55,7 @@ impl Sim {
     }
 
     /// The answer of the first script that has one.
-    pub(super) fn ask_about_contact(
+    pub(crate) fn ask_about_contact(
         self: &Rc<Self>,
         first: Handle,
         second: Handle,

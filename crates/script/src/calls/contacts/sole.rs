@@ -2,17 +2,10 @@
 
 use std::rc::Rc;
 
-use super::instance::Script;
-use super::level::Level;
-use super::script_set::MAX_DEPTH;
-use crate::calls::callback::SysCall;
-use crate::runtime::{CallbackResult, Integers, Runtime, ScriptError};
-use crate::sim::Sim;
+use super::{CONTACT, CONTACT_BITS};
+use crate::host::{CallbackResult, Integers, Level, MAX_DEPTH, Runtime, Script, ScriptError, Sim};
+use crate::sys_call::SysCall;
 use scene::Data;
-
-/// The callbacks that filter contacts: the old name first.
-pub(crate) const CONTACT: [SysCall; 2] = [SysCall::ContactCallback, SysCall::Contact];
-const CONTACT_BITS: u64 = SysCall::ContactCallback.bit() | SysCall::Contact.bit();
 
 /// The only script that is to be asked about contacts.
 pub(crate) struct SoleResponder {

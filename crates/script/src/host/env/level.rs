@@ -1,7 +1,6 @@
 //! Nested calls: each state and the simulator know how many are in progress.
 
-use super::env::Env;
-use super::script_set::ScriptSet;
+use crate::host::{Env, ScriptSet};
 
 /// One call into a state, from its beginning to its end.
 pub(crate) struct Level<'a> {

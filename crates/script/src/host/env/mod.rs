@@ -1,25 +1,28 @@
 //! Environment of one running script: its owner, yield levels, hooks, random numbers.
 
+pub(super) mod level;
+pub(super) mod yields;
+
 use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::{BTreeMap, HashSet};
 use std::rc::{Rc, Weak};
 use std::sync::Arc;
 
-use super::budget::Budget;
-use super::instance::Script;
-use super::random::Random;
-use super::yields::Yields;
+use super::{Runtime, Script, Sim};
 use crate::binding::registry::Registry;
+use crate::binding::source::Values;
 use crate::binding::states::States;
-use crate::calls::callback::SysCall;
-use crate::events::EventFilters;
+use crate::event_stream::EventFilters;
+use crate::function_ref::FunctionRef;
 use crate::log::verbosity;
-use crate::runtime::{FunctionRef, Runtime};
-use crate::sim::Sim;
-use permissions::Permissions;
+use crate::random::Random;
+use crate::sys_call::SysCall;
+use scene::Data;
+use yields::Yields;
 
 /// The host's side of one interpreter.
 pub struct Env {
+    /// The simulator, as long as it is there.
     pub(crate) sim: Weak<Sim>,
     /// The script that the environment belongs to.
     pub script: Rc<Script>,
@@ -33,10 +36,6 @@ pub struct Env {
     pub hooked: Cell<u64>,
     /// The hooks of the script, by callback.
     pub hooks: RefCell<Hooks>,
-    /// How often code of the state has looked into local variables of functions.
-    pub looks_at_locals: Cell<u64>,
-    /// How often code of the state has called functions of the host.
-    pub host_calls: Cell<u64>,
     /// Calls of this state in progress.
     pub depth: Cell<usize>,
     /// Whether code of the script may yield, and the length of its time slice.
@@ -49,14 +48,10 @@ pub struct Env {
     pub events_wanted: Rc<Cell<bool>>,
     /// The state of modules for the script; it is dropped with the interpreter.
     pub module_states: States,
-    /// Permissions of the script.
-    pub permissions: Permissions,
     /// Whether refused calls raise errors; they only return -1 otherwise.
     pub raises_errors: Cell<bool>,
     /// Reason of the last refused call.
     pub last_error: RefCell<String>,
-    /// The memory of the state.
-    pub budget: Rc<Budget>,
     warned: RefCell<HashSet<&'static str>>,
     warned_deprecated: RefCell<HashSet<usize>>,
     watched: bool,
@@ -90,8 +85,6 @@ impl Env {
             defined: Cell::new(0),
             hooked: Cell::new(0),
             hooks: RefCell::default(),
-            looks_at_locals: Cell::new(0),
-            host_calls: Cell::new(0),
             depth: Cell::new(0),
             yields: Yields {
                 delay_ms: Cell::new(2),
@@ -101,10 +94,8 @@ impl Env {
             event_filters: RefCell::default(),
             events_wanted: Rc::clone(&sim.events.listening),
             module_states: States::default(),
-            permissions: sim.options.permissions.clone(),
             raises_errors: Cell::new(true),
             last_error: RefCell::default(),
-            budget: Rc::clone(&sim.scripts.budget),
             warned: RefCell::default(),
             warned_deprecated: RefCell::default(),
             watched: sim.options.limits.is_some(),
@@ -144,7 +135,7 @@ impl Env {
             return None;
         }
         let sim = self.sim.upgrade();
-        if !sim.as_ref().is_none_or(|sim| sim.is_interrupted()) {
+        if !sim.as_ref().is_none_or(|sim| sim.options.is_interrupted()) {
             return None;
         }
         if let Some(bench) = sim.as_ref().and_then(|sim| sim.test_bench.get()) {
@@ -163,13 +154,9 @@ impl Env {
         self.runtime.get()?.upgrade()
     }
 
-    /// Turns the changes of a call into events, if there are listeners.
-    pub(crate) fn collect_events(&self) {
-        if self.events_wanted.get()
-            && let Some(sim) = self.sim.upgrade()
-        {
-            sim.collect_events();
-        }
+    /// Plain values as arguments of a call on behalf of the script.
+    pub(crate) fn values<'a>(&'a self, args: &'a [Data]) -> Values<'a> {
+        Values::new(args, self)
     }
 
     /// Whether the callback has a function or a hook to run.

@@ -2,6 +2,11 @@
 
 use std::cell::Cell;
 
+use crate::binding::args::{Args, FromScript};
+use crate::binding::source::Source;
+use crate::error::ApiResult;
+use scene::Data;
+
 /// May code of a script yield, and when is it made to?
 #[derive(Default)]
 pub struct Yields {
@@ -19,7 +24,7 @@ pub struct Yields {
 
 impl Yields {
     /// A call from outside begins: it has a time slice of its own, and no locks.
-    pub(super) fn begin_slice(&self) {
+    pub(crate) fn begin_slice(&self) {
         self.overall.set(0);
         self.used.set(0);
     }
@@ -43,4 +48,17 @@ pub enum LevelChange {
     Allow,
     /// That level.
     Set(i64),
+}
+
+impl FromScript for LevelChange {
+    const TYPE: &'static str = "any";
+
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
+        Ok(match Data::from_script(args)? {
+            Data::Int(level) => Self::Set(level),
+            Data::Float(level) => Self::Set(level as i64),
+            other if other.truthy() => Self::Allow,
+            _ => Self::Forbid,
+        })
+    }
 }

@@ -2,48 +2,11 @@
 
 use std::rc::Rc;
 
-use super::instance::{Detached, Script};
-use crate::sim::Sim;
-use scene::object::script_object::{ExecutionPriority, ScriptObject, ScriptType};
+use crate::host::{Script, Sim};
+use scene::object::script_object::ScriptType;
 use scene::{Handle, Scene};
 
 impl Sim {
-    /// Attaches a script to an object, as scenes before 4.7 have it.
-    pub(crate) fn attach_script(
-        &self,
-        owner: Handle,
-        script: &ScriptObject,
-        exec_order: i64,
-    ) -> Rc<Script> {
-        self.scripts.add_detached(
-            script.script_type,
-            Detached {
-                code: script.code.clone(),
-                language: script.language.clone(),
-                disabled: script.disabled,
-                priority: ExecutionPriority::from_order(exec_order),
-                owner: Some(owner),
-                source: script.source.clone(),
-                ..Detached::default()
-            },
-        )
-    }
-
-    /// A new script without an object; returns its handle.
-    pub(crate) fn add_script_without_object(&self, script_type: ScriptType) -> i64 {
-        let detached = Detached {
-            priority: ExecutionPriority::Normal,
-            ..Detached::default()
-        };
-        self.scripts.add_detached(script_type, detached).id
-    }
-
-    /// Attaches a script that is no object to an object, or to none.
-    pub(crate) fn reattach_script(&self, script: &Script, owner: Option<Handle>) {
-        script.detached.borrow_mut().owner = owner;
-        self.scripts.note_attached();
-    }
-
     /// The scripts of an object: those attached to it, simulation scripts first, then those among its children by priority.
     pub(crate) fn scripts_of_object(&self, object: Handle) -> Vec<Rc<Script>> {
         let children = script_children(&self.scene.borrow(), object);
@@ -84,17 +47,6 @@ impl Sim {
         let mut named = found
             .filter(|(_, full)| full == name || start.is_some_and(|start| full.starts_with(start)));
         named.next().map(|(code, full)| (full, code))
-    }
-
-    /// Attaches to a copy what is attached to its original.
-    pub(crate) fn copy_attached(&self, original: Handle, copy: Handle) {
-        for script in self.scripts.attached_to(original) {
-            let detached = Detached {
-                owner: Some(copy),
-                ..script.detached.borrow().clone()
-            };
-            self.scripts.add_detached(script.script_type, detached);
-        }
     }
 }
 

@@ -1,10 +1,7 @@
 //! Finding scripts by type and by object (spec: calls 2).
 
-use std::rc::Rc;
-
-use super::instance::Script;
 use crate::error::{ApiError, ApiResult};
-use crate::sim::Sim;
+use crate::host::Sim;
 use scene::Handle;
 use scene::object::script_object::ScriptType;
 
@@ -34,29 +31,13 @@ impl Sim {
             ScriptType::Main | ScriptType::Sandbox => {
                 self.scripts.detached(script_type).map(|script| script.id)
             }
-            ScriptType::AddOn => self.add_on(name).map(|script| script.id),
+            ScriptType::AddOn => self.scripts.add_on(name).map(|script| script.id),
             ScriptType::Simulation | ScriptType::Customization | ScriptType::Passive => {
                 let object = self.object_by_name(name).ok_or(ApiError::NoSuchScript)?;
                 self.script_attached_to(object, script_type)
             }
         };
         found.ok_or(ApiError::NoSuchScript)
-    }
-
-    fn add_on(&self, name: &str) -> Option<Rc<Script>> {
-        let mut add_ons = self
-            .scripts
-            .all_detached()
-            .into_iter()
-            .filter(|s| s.script_type == ScriptType::AddOn);
-        add_ons.find(|script| {
-            script
-                .detached
-                .borrow()
-                .name
-                .trim_end_matches("@addOnScript")
-                == name
-        })
     }
 
     /// The object at a path or with an old-style name.

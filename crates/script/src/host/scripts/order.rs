@@ -2,8 +2,7 @@
 
 use std::rc::Rc;
 
-use super::instance::Script;
-use crate::sim::Sim;
+use crate::host::{Script, Sim};
 use scene::object::script_object::{ExecutionPriority, ScriptType};
 use scene::{Field, Handle, Mark, ModelFlags, Object, Scene, Topics};
 
@@ -84,7 +83,7 @@ impl Sim {
     }
 
     /// Whether the test holds for all scripts that are called about contacts.
-    pub(super) fn all_active_reversed(&self, test: impl FnMut(&Rc<Script>) -> bool) -> bool {
+    pub(crate) fn all_active_reversed(&self, test: impl FnMut(&Rc<Script>) -> bool) -> bool {
         self.refresh_order();
         self.scripts
             .order
@@ -120,9 +119,9 @@ impl Sim {
         let mut cache = self.scripts.order.borrow_mut();
         cache.simulation = joined(&[&old_simulation, &simulation]);
         cache.customization = joined(&[&old_customization, &customization]);
-        cache.add_ons = self.detached_of(ScriptType::AddOn);
-        cache.sandbox = self.detached_of(ScriptType::Sandbox);
-        cache.main = self.detached_of(ScriptType::Main);
+        cache.add_ons = self.scripts.detached_of(ScriptType::AddOn);
+        cache.sandbox = self.scripts.detached_of(ScriptType::Sandbox);
+        cache.main = self.scripts.detached_of(ScriptType::Main);
         cache.everyone_stopped = joined(&[&cache.customization, &cache.add_ons, &cache.sandbox]);
         let [objects, others] = [&cache.customization, &cache.simulation].map(reversed);
         cache.everyone_reversed = joined(&[
@@ -163,13 +162,6 @@ impl Sim {
             .into_iter()
             .flat_map(|owner| self.scripts.attached_to(owner))
             .collect()
-    }
-
-    fn detached_of(&self, script_type: ScriptType) -> ScriptList {
-        let mut list = self.scripts.all_detached();
-        list.retain(|script| script.script_type == script_type);
-        list.sort_by_key(|script| script.detached.borrow().priority);
-        list.into()
     }
 
     /// Scripts whose `sysCall_joint` is called for a joint: those attached to it, to its parent, and so on to the root; simulation scripts of the whole chain

@@ -3,7 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use crate::runtime::Runtime;
+use crate::host::Runtime;
 use scene::Handle;
 use scene::object::script_object::{ExecutionPriority, ScriptType};
 

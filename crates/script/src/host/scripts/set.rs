@@ -4,11 +4,10 @@ use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-use super::budget::Budget;
-use super::instance::{Detached, Script};
 use super::order::OrderCache;
-use crate::calls::callback::SysCall;
-use crate::runtime::Languages;
+use crate::budget::Budget;
+use crate::host::{Detached, Languages, Script, Sim};
+use crate::sys_call::SysCall;
 use scene::object::script_object::ScriptType;
 use scene::{Field, Handle, Mark, Scene, Topics};
 
@@ -21,19 +20,22 @@ const FIRST_DETACHED: i64 = 1_010_000;
 /// Maximum nesting of calls between scripts: each level uses native stack, and an interpreter only bounds its own recursion.
 pub(crate) const MAX_DEPTH: usize = 100;
 
+/// Releases what a script has outside of the host, before its interpreter goes.
+pub(crate) type EndOfScript = fn(&Rc<Sim>, &Script);
+
 /// All scripts that have been looked up, and those that are no scene objects.
 pub struct ScriptSet {
     /// The languages they can be written in.
     pub(crate) languages: Languages,
     /// The memory all of them share.
-    pub(super) budget: Rc<Budget>,
+    pub(crate) budget: Rc<Budget>,
     by_id: RefCell<BTreeMap<i64, Rc<Script>>>,
     /// Those that are no scene objects: few, where there may be thousands of others.
     detached: RefCell<BTreeMap<i64, Rc<Script>>>,
     next_detached: Cell<i64>,
     /// There are, or were, scripts attached to objects; most scenes have none.
     has_attached: Cell<bool>,
-    pub(super) order: RefCell<OrderCache>,
+    pub(crate) order: RefCell<OrderCache>,
     /// A number that rises when scripts of the scene change, and the changes it knows of.
     edition: Cell<u64>,
     edition_mark: RefCell<Mark>,
@@ -43,6 +45,8 @@ pub struct ScriptSet {
     depth: Cell<usize>,
     /// The selection that scripts were last notified of.
     notified_selection: RefCell<Vec<Handle>>,
+    /// What is to be done when a script ends.
+    ends: RefCell<Vec<EndOfScript>>,
     /// Vision sensors whose scripts are looking at the picture now.
     pub(crate) examined_sensors: RefCell<BTreeSet<Handle>>,
 }
@@ -63,12 +67,24 @@ impl ScriptSet {
             callbacks_in_use: Cell::new(0),
             depth: Cell::new(0),
             notified_selection: RefCell::default(),
+            ends: RefCell::default(),
             examined_sensors: RefCell::default(),
         }
     }
 
+    /// From now on `end` is called when a script ends.
+    pub(crate) fn at_end(&self, end: EndOfScript) {
+        self.ends.borrow_mut().push(end);
+    }
+
+    /// The interpreter of a script is about to go.
+    pub(crate) fn announce_end(&self, sim: &Rc<Sim>, script: &Script) {
+        let ends = self.ends.borrow().clone();
+        ends.iter().for_each(|end| end(sim, script));
+    }
+
     /// The number of changes of scripts of the scene so far, from 1.
-    pub(super) fn edition(&self, scene: &Scene) -> u64 {
+    pub(crate) fn edition(&self, scene: &Scene) -> u64 {
         if scene
             .journal()
             .changed_since(&mut self.edition_mark.borrow_mut())
@@ -139,7 +155,7 @@ impl ScriptSet {
     }
 
     /// The objects that have old scripts attached to them.
-    pub(super) fn owners(&self) -> BTreeSet<Handle> {
+    pub(crate) fn owners(&self) -> BTreeSet<Handle> {
         if !self.has_attached.get() {
             return BTreeSet::new();
         }
@@ -151,7 +167,7 @@ impl ScriptSet {
     }
 
     /// Removes the script an object was, and those attached to it.
-    pub(super) fn remove_those_of(&self, object: Handle) {
+    pub(crate) fn remove_those_of(&self, object: Handle) {
         self.by_id.borrow_mut().remove(&object.raw());
         for attached in self.attached_to(object) {
             self.by_id.borrow_mut().remove(&attached.id);
@@ -160,14 +176,14 @@ impl ScriptSet {
     }
 
     /// Removes a script that is no object.
-    pub(super) fn remove_detached(&self, id: i64) {
+    pub(crate) fn remove_detached(&self, id: i64) {
         self.by_id.borrow_mut().remove(&id);
         self.detached.borrow_mut().remove(&id);
         self.forget_order();
     }
 
     /// Notes that a script without an object got one.
-    pub(super) fn note_attached(&self) {
+    pub(crate) fn note_attached(&self) {
         self.has_attached.set(true);
         self.forget_order();
     }
@@ -198,11 +214,11 @@ impl ScriptSet {
     }
 
     /// Counts a call that begins; false when calls nest too deep.
-    pub(super) fn enter(&self) -> bool {
+    pub(crate) fn enter(&self) -> bool {
         self.depth.replace(self.depth.get() + 1) < MAX_DEPTH
     }
 
-    pub(super) fn leave(&self) {
+    pub(crate) fn leave(&self) {
         self.depth.set(self.depth.get() - 1);
     }
 

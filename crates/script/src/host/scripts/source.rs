@@ -1,7 +1,6 @@
 //! Name, text and flags of a script: the scene holds those of script objects, a detached script its own.
 
-use super::instance::Script;
-use crate::sim::Sim;
+use crate::host::{Script, Sim};
 use scene::Scene;
 use scene::object::script_object::{ScriptObject, ScriptType};
 

@@ -3,18 +3,18 @@
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use super::wall_clock;
+use super::Options;
 use crate::error::{ApiError, ApiResult};
-use crate::sim::Sim;
+use crate::wall_clock;
 
 /// The first interval between two polls; each one is twice as long as the one before.
 const FIRST_POLL_INTERVAL: Duration = Duration::from_micros(50);
 const MAX_POLL_INTERVAL: Duration = Duration::from_millis(5);
 
-impl Sim {
+impl Options {
     /// Whether the program is being stopped.
     pub(crate) fn is_interrupted(&self) -> bool {
-        self.options.stop.load(Ordering::Relaxed)
+        self.stop.load(Ordering::Relaxed)
     }
 
     /// Asks again and again until there is an answer; None when there is none within `limit`.
@@ -52,24 +52,14 @@ mod tests {
     use std::sync::atomic::Ordering;
     use std::time::Duration;
 
-    use crate::{ApiError, Languages, Options, Registry, Silent, Sim};
-
-    /// Runs with a simulator of its own.
-    fn with_sim<R>(options: Options, test: impl FnOnce(&Sim) -> R) -> R {
-        test(&Sim::new(
-            options,
-            Registry::without_functions(),
-            Box::new(Silent),
-            Languages::default(),
-        ))
-    }
+    use crate::error::ApiError;
+    use crate::options::Options;
 
     #[test]
     fn a_wait_ends_with_the_program() {
         let options = Options::default();
         let stop = options.stop.clone();
-        let waiting =
-            std::thread::spawn(move || with_sim(options, |sim| sim.wait_for(None, || None::<()>)));
+        let waiting = std::thread::spawn(move || options.wait_for(None, || None::<()>));
         assert!(!waiting.is_finished());
         stop.store(true, Ordering::Relaxed);
         assert_eq!(
@@ -80,16 +70,15 @@ mod tests {
 
     #[test]
     fn a_wait_with_a_limit_ends() {
-        with_sim(Options::default(), |sim| {
-            assert_eq!(
-                sim.wait_for(Some(Duration::from_millis(2)), || None::<()>),
-                Ok(None)
-            );
-            assert_eq!(
-                sim.wait_for(Some(Duration::ZERO), || Some(1)),
-                Ok(Some(1)),
-                "the condition is checked first"
-            );
-        });
+        let options = Options::default();
+        assert_eq!(
+            options.wait_for(Some(Duration::from_millis(2)), || None::<()>),
+            Ok(None)
+        );
+        assert_eq!(
+            options.wait_for(Some(Duration::ZERO), || Some(1)),
+            Ok(Some(1)),
+            "the condition is checked first"
+        );
     }
 }
