@@ -236,13 +236,6 @@ impl Registry {
         registry
     }
 
-    /// For tests of the host: a `sim` without members.
-    #[cfg(test)]
-    pub(crate) fn without_functions() -> Arc<Self> {
-        static NOTHING: Module = Module::new("sim");
-        Arc::new(Self::new(&[&NOTHING], &[]))
-    }
-
     /// The module `sim`.
     pub fn members_of_sim(&self) -> &Namespace {
         &self.namespaces[0]
