@@ -389,6 +389,19 @@ impl Dynamics {
     pub fn contacts(&self) -> impl Iterator<Item = Contact> {
         self.contacts.iter()
     }
+
+    /// The shapes that touched each other in the last sub-step of the last call, the smaller handle first.
+    pub fn touching(&self) -> BTreeSet<[Handle; 2]> {
+        let contacts: Vec<_> = self.contacts().collect();
+        let last = contacts.last().map(|contact| contact.sub_step);
+        let of_last = contacts
+            .iter()
+            .filter(|contact| Some(contact.sub_step) == last);
+        of_last
+            .map(|contact| contact.shapes)
+            .map(|[a, b]| [a.min(b), a.max(b)])
+            .collect()
+    }
 }
 
 /// Bodies with links stay awake.

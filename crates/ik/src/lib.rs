@@ -135,12 +135,7 @@ impl SceneLinks {
         let Kind::Joint(joint) = &object.kind else {
             return Ok(env.create_dummy(name));
         };
-        let joint_type = match joint.joint_type {
-            joint::JointType::Revolute => JointType::Revolute,
-            joint::JointType::Prismatic => JointType::Prismatic,
-            joint::JointType::Spherical => JointType::Spherical,
-        };
-        let id = env.create_joint(name, joint_type);
+        let id = env.create_joint(name, joint_type(joint.joint_type));
         let copy = env.joint_mut(id)?;
         (copy.cyclic, copy.min, copy.range) = (joint.cyclic, joint.min, joint.range);
         copy.screw_lead = joint.screw_lead;
@@ -272,6 +267,15 @@ impl SceneLinks {
             }
         }
         joints
+    }
+}
+
+/// The type of joint of the chains that a type of the scene is.
+pub fn joint_type(of_scene: joint::JointType) -> JointType {
+    match of_scene {
+        joint::JointType::Revolute => JointType::Revolute,
+        joint::JointType::Prismatic => JointType::Prismatic,
+        joint::JointType::Spherical => JointType::Spherical,
     }
 }
 

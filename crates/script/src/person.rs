@@ -1,9 +1,10 @@
 //! Users who watch the simulation through the viewer's pages and answer dialogs of scripts.
 
+use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::atomic::Ordering;
 
-use super::sim::Sim;
+use crate::host::Sim;
 use scene::Data;
 use ui::Question;
 
@@ -11,15 +12,20 @@ use ui::Question;
 /// an answer.
 pub type Ask = dyn Fn(&Question, &dyn Fn() -> bool) -> Option<Data>;
 
+/// Who answers dialogs, if anybody does.
+#[derive(Default)]
+struct Person(RefCell<Option<Rc<Ask>>>);
+
 impl Sim {
     /// Sets the function that shows dialogs to users.
     pub fn set_person(&self, ask: Rc<Ask>) {
-        self.app.borrow_mut().person = Some(ask);
+        self.modules.states.get::<Person>().0.replace(Some(ask));
     }
 
     /// The answer of a user; None without one. The calling script waits meanwhile.
     pub(crate) fn ask_person(&self, question: &Question) -> Option<Data> {
-        let ask = self.app.borrow().person.clone()?;
+        let person = self.modules.states.existing::<Person>()?;
+        let ask = person.0.borrow().clone()?;
         ask(question, &|| self.options.stop.load(Ordering::Relaxed))
     }
 }

@@ -2,13 +2,11 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::PathBuf;
 use std::rc::{Rc, Weak};
 
 use super::error::{ApiError, ApiResult};
-use super::lifecycle::instance::Script;
 use super::log::verbosity;
-use super::sim::Sim;
+use crate::host::{Script, Sim};
 use plugin_host::{Host, Moment, Plugin, Plugins};
 use scene::object::script_object::ScriptType;
 use scene::{Data, Journal, Mark, Topic, Topics};
@@ -67,10 +65,10 @@ impl Sim {
         name: &str,
     ) -> Option<Rc<Plugin>> {
         let namespace = namespace(name);
-        let loaded = self.modules.states.get::<LoadedPlugins>();
+        let loaded = self.loaded_plugins();
         let plugin = match loaded.plugins.get(namespace) {
             Some(plugin) => Ok(plugin),
-            None => self.plugin_file(name).and_then(|file| {
+            None => self.options.plugin_file(name).and_then(|file| {
                 loaded.plugins.note_calls(self.options.plugin_note.clone());
                 loaded
                     .plugins
@@ -94,47 +92,18 @@ impl Sim {
         }
     }
 
-    /// Whether a plugin of CoppeliaSim is a module here, and no library of that name is to be found.
-    pub(crate) fn has_module_for_plugin(&self, name: &str) -> bool {
-        self.modules.registry.module(namespace(name)).is_some() && self.plugin_file(name).is_err()
+    /// The plugins, which learn of the end of each script from now on.
+    fn loaded_plugins(&self) -> Rc<LoadedPlugins> {
+        self.modules.states.existing().unwrap_or_else(|| {
+            self.scripts.at_end(Self::release_plugins_of);
+            self.modules.states.get()
+        })
     }
 
-    /// The library of a plugin: beside the scene, in the folders of the user, beside the program, in an installation of CoppeliaSim.
-    fn plugin_file(&self, name: &str) -> Result<PathBuf, String> {
-        let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
-        if name.is_empty() || name.starts_with('.') || !name.chars().all(is_plain) {
-            return Err("a plugin's name consists of letters, digits, `_`, `-` and `.`".into());
-        }
-        let beside = std::env::current_exe()
-            .ok()
-            .and_then(|program| Some(program.parent()?.to_owned()));
-        let options = &self.options;
-        let folders = options
-            .package_dirs
-            .iter()
-            .chain(&options.plugin_dirs)
-            .chain(&beside)
-            .chain(&options.resources);
-        let file = format!(
-            "{}{name}{}",
-            std::env::consts::DLL_PREFIX,
-            std::env::consts::DLL_SUFFIX
-        );
-        let folders: Vec<_> = folders.collect();
-        folders
-            .iter()
-            .map(|folder| folder.join(&file))
-            .find(|path| path.is_file())
-            .ok_or_else(|| {
-                let searched: Vec<_> = folders
-                    .iter()
-                    .map(|folder| folder.display().to_string())
-                    .collect();
-                format!(
-                    "there is no file {file} in {}; name its folder with --plugin-path",
-                    searched.join(", ")
-                )
-            })
+    /// Whether a plugin of CoppeliaSim is a module here, and no library of that name is to be found.
+    pub(crate) fn has_module_for_plugin(&self, name: &str) -> bool {
+        self.modules.registry.module(namespace(name)).is_some()
+            && self.options.plugin_file(name).is_err()
     }
 
     /// Calls a function of a plugin, by its place, for a script.
@@ -148,7 +117,7 @@ impl Sim {
         function: usize,
         args: Vec<Data>,
     ) -> ApiResult<Vec<Data>> {
-        let loaded = self.modules.states.get::<LoadedPlugins>();
+        let loaded = self.loaded_plugins();
         let plugin = loaded.plugins.get(plugin);
         let plugin =
             plugin.ok_or_else(|| ApiError::Other("the plugin is not loaded any more.".into()))?;
@@ -183,7 +152,7 @@ impl Sim {
         name: &str,
         is_forced: bool,
     ) -> ApiResult<()> {
-        let loaded = self.modules.states.get::<LoadedPlugins>();
+        let loaded = self.loaded_plugins();
         let error = |text: &str| ApiError::Other(text.to_owned());
         let plugin = loaded
             .plugins
@@ -201,7 +170,7 @@ impl Sim {
     }
 
     /// A script's state is about to end, and with it what it uses.
-    pub(super) fn release_plugins_of(self: &Rc<Self>, script: &Script) {
+    fn release_plugins_of(self: &Rc<Self>, script: &Script) {
         let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else {
             return;
         };

@@ -1,11 +1,14 @@
 //! Observers outside of scripts, such as the viewer and the recorder: they are shown the state after each step.
 
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 use super::log::RecentLine;
-use super::sim::Sim;
-use super::step::clock::SimulationState;
-use scene::{Data, Handle, Scene};
+use crate::clock::SimulationState;
+use crate::host::Sim;
+use dynamics::Dynamics;
+use scene::{Handle, Scene};
 
 /// The state of a simulator at one moment.
 #[derive(Clone, Copy)]
@@ -43,29 +46,31 @@ pub type Watcher = Box<dyn FnMut(&Present<'_>)>;
 
 /// The watcher of a simulator.
 #[derive(Default)]
-pub struct Watching {
-    watcher: Option<Watcher>,
+struct Watching {
+    watcher: RefCell<Option<Watcher>>,
     /// Lines of the log that were shown.
-    lines: u64,
-    broadcasts: Vec<String>,
+    lines: Cell<u64>,
 }
 
 impl Sim {
     /// Shows the state after each step from now on; None ends that.
     pub fn watch(&self, watcher: Option<Watcher>) {
         self.log.keep_recent();
-        self.app.borrow_mut().watching.watcher = watcher;
+        self.app.borrow().broadcasts.want(watcher.is_some());
+        self.watching().watcher.replace(watcher);
+    }
+
+    fn watching(&self) -> Rc<Watching> {
+        self.modules.states.get()
     }
 
     /// Calls `observe` with the present state and what has happened since the last call.
     pub fn with_present<T>(&self, observe: impl FnOnce(&Present<'_>) -> T) -> T {
-        let (lines, broadcasts) = {
-            let watching = &mut self.app.borrow_mut().watching;
-            (
-                self.log.recent_since(&mut watching.lines),
-                std::mem::take(&mut watching.broadcasts),
-            )
-        };
+        let watching = self.watching();
+        let mut shown = watching.lines.get();
+        let lines = self.log.recent_since(&mut shown);
+        watching.lines.set(shown);
+        let broadcasts = self.app.borrow().broadcasts.take();
         let scene = self.scene.borrow();
         observe(&Present {
             now: self.situation(&scene),
@@ -77,7 +82,12 @@ impl Sim {
                 .map(str::to_owned)
                 .collect(),
             broadcasts,
-            contacts: self.touching(),
+            contacts: self
+                .dynamics
+                .borrow()
+                .as_ref()
+                .map(Dynamics::touching)
+                .unwrap_or_default(),
         })
     }
 
@@ -93,44 +103,19 @@ impl Sim {
         }
     }
 
-    fn touching(&self) -> BTreeSet<[Handle; 2]> {
-        let dynamics = self.dynamics.borrow();
-        let contacts: Vec<_> = dynamics
-            .iter()
-            .flat_map(|dynamics| dynamics.contacts())
-            .collect();
-        let last = contacts.last().map(|contact| contact.sub_step);
-        let of_last = contacts
-            .iter()
-            .filter(|contact| Some(contact.sub_step) == last);
-        of_last
-            .map(|contact| contact.shapes)
-            .map(|[a, b]| [a.min(b), a.max(b)])
-            .collect()
-    }
-
     /// Shows the state after a step to the watcher.
-    pub(super) fn show_to_watcher(&self) {
+    pub(crate) fn show_to_watcher(&self) {
         // The end of a simulation restores what was before it: observers are to see its last step.
         if self.clock.is_stopped() {
             return;
         }
-        let watcher = self.app.borrow_mut().watching.watcher.take();
+        let Some(watching) = self.modules.states.existing::<Watching>() else {
+            return;
+        };
+        let watcher = watching.watcher.take();
         if let Some(mut watcher) = watcher {
             self.with_present(|present| watcher(present));
-            self.app.borrow_mut().watching.watcher = Some(watcher);
-        }
-    }
-
-    /// A script sends a message to all others, by convention with an `id`.
-    pub(super) fn note_broadcast(&self, id: Option<&Data>) {
-        let watching = &mut self.app.borrow_mut().watching;
-        if watching.watcher.is_some() {
-            let name = match id {
-                Some(Data::Text(name)) => String::from_utf8_lossy(name).into_owned(),
-                _ => "message".to_owned(),
-            };
-            watching.broadcasts.push(name);
+            watching.watcher.replace(Some(watcher));
         }
     }
 }

@@ -7,10 +7,10 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use super::Options;
 use super::coverage::LineCounts;
 use super::log::console::{Console, LogLine, OutputStream};
 use super::log::verbosity;
+use crate::options::Options;
 use scene::object::script_object::ScriptType;
 
 /// Bytes of the console a test may fill; the rest is counted only.

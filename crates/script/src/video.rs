@@ -3,11 +3,13 @@
 //! The first picture is taken after the first step, when all that scripts make for the simulation is there. A picture shows the latest state
 //! that is not after its time.
 
+use std::cell::RefCell;
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use super::log::verbosity;
-use super::sim::Sim;
-use super::step::clock::SimulationState;
+use crate::clock::SimulationState;
+use crate::host::Sim;
 use format::video::{self, VideoError, VideoFile, VideoFormat};
 use perception::vision::{Channels, Viewpoint, first_camera};
 use scene::{Handle, Scene, SceneError};
@@ -52,10 +54,10 @@ pub enum VideoView {
 
 /// The videos of a simulator.
 #[derive(Default)]
-pub struct Videos {
+struct Videos {
     // Boxes, since both are taken out for each step.
-    of_user: Option<Box<Recorder>>,
-    of_scripts: Option<Box<Recorder>>,
+    of_user: RefCell<Option<Box<Recorder>>>,
+    of_scripts: RefCell<Option<Box<Recorder>>>,
 }
 
 /// Why a video ends before its time.
@@ -208,31 +210,37 @@ fn wrong_camera(error: SceneError) -> VideoFailure {
 }
 
 impl Sim {
+    fn videos(&self) -> Rc<Videos> {
+        self.modules.states.get()
+    }
+
     /// Begins a video with the next step.
     pub fn start_video(&self, options: VideoOptions) {
-        self.app.borrow_mut().videos.of_user = Some(Recorder::new(options));
+        self.videos().of_user.replace(Some(Recorder::new(options)));
     }
 
     /// Why the video of the user has ended.
     pub fn video_failure(&self) -> Option<VideoFailure> {
-        self.app.borrow().videos.of_user.as_ref()?.failure.clone()
+        let videos = self.videos();
+        let of_user = videos.of_user.borrow();
+        of_user.as_ref()?.failure.clone()
     }
 
     /// Completes the video of the user.
     pub fn finish_video(&self) -> Result<(), VideoFailure> {
-        let recorder = self.app.borrow_mut().videos.of_user.take();
+        let recorder = self.videos().of_user.take();
         recorder.map_or(Ok(()), |recorder| recorder.finish())
     }
 
     /// Takes pictures after a step, and ends the video of scripts with the simulation.
-    pub(super) fn film(&self) {
+    pub(crate) fn film(&self) {
         let ends = self.clock.state() == SimulationState::Stopped;
-        let of_user = self.app.borrow_mut().videos.of_user.take();
+        let of_user = self.videos().of_user.take();
         if let Some(mut recorder) = of_user {
             if !ends {
                 recorder.take(self);
             }
-            self.app.borrow_mut().videos.of_user = Some(recorder);
+            self.videos().of_user.replace(Some(recorder));
         }
         self.film_for_scripts(ends);
     }
@@ -247,7 +255,7 @@ impl Sim {
             .copied()
             .unwrap_or_default()
             && !ends;
-        let recorder = self.app.borrow_mut().videos.of_scripts.take();
+        let recorder = self.videos().of_scripts.take();
         match (recorder, wanted) {
             (None, false) => {}
             (None, true) => self.continue_video(Recorder::new(VideoOptions {
@@ -274,13 +282,13 @@ impl Sim {
         }
         match recorder.failure {
             Some(_) => self.end_video(*recorder),
-            None => self.app.borrow_mut().videos.of_scripts = Some(recorder),
+            None => drop(self.videos().of_scripts.replace(Some(recorder))),
         }
     }
 
     /// Ends the video that scripts record, and completes its file.
     pub fn end_video_of_scripts(&self) {
-        let recorder = self.app.borrow_mut().videos.of_scripts.take();
+        let recorder = self.videos().of_scripts.take();
         if let Some(recorder) = recorder {
             self.end_video(*recorder);
         }

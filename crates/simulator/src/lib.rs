@@ -406,7 +406,7 @@ impl Drop for Simulator {
         self.sim.end_detached();
         self.sim.end_video_of_scripts();
         self.sim.unload_plugins();
-        self.sim.close_all();
+        self.sim.scripts.close_all();
         self.sim.save_app_storage();
     }
 }

@@ -18,7 +18,7 @@ use ::io::SiteServer;
 use simulator::Simulator;
 
 use script::log::RecentLine;
-use script::step::wall_clock;
+use script::wall_clock;
 
 /// Time between two observations: 60 a second.
 const FRAME: Duration = Duration::from_micros(16_600);

@@ -6,7 +6,7 @@ use super::endpoints::Endpoint;
 use ::io::WsEvent;
 use script::Host;
 use script::log::verbosity;
-use script::step::wall_clock;
+use script::wall_clock;
 
 pub(super) fn log_event(host: &Host, endpoint: &Endpoint, event: &WsEvent) {
     match event {

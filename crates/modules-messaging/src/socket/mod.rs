@@ -24,7 +24,7 @@ use super::{ApiFn, Args, Cx, FromScript, Module, Result, functions};
 use io::socket::{self, Datagram, Failure, Family, Role, Socket, Stream, descriptor};
 use scene::Data;
 use script::Source;
-use script::step::wall_clock;
+use script::wall_clock;
 use script::{ApiError, ByHandle, LuaNumber, LuaObject, Results};
 
 use results::{Created, Outcome};

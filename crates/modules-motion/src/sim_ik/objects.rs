@@ -1,9 +1,10 @@
 //! `simIK.*`: joints and dummies, their names, parents and targets.
 
 use api_macro::api;
-use kinematics::{JointType, KinematicsError};
+use kinematics::KinematicsError;
 
 use super::{ApiFn, Cx, Result, functions, object, optional, raw, refused, with};
+use scene::joint::JointType;
 use script::{Number, Results};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
@@ -49,12 +50,9 @@ fn create_joint(
     joint_type: Number,
     #[default(String::new())] joint_name: String,
 ) -> Result<i64> {
-    let joint_type = match joint_type.0 {
-        10 => JointType::Revolute,
-        11 => JointType::Prismatic,
-        12 => JointType::Spherical,
-        _ => return Err(refused("invalid joint type.")),
-    };
+    let joint_type =
+        JointType::from_code(joint_type.0).ok_or_else(|| refused("invalid joint type."))?;
+    let joint_type = ik::joint_type(joint_type);
     with(cx, environment_handle.0, |held| {
         Ok(held.env.create_joint(&joint_name, joint_type).raw())
     })

@@ -17,7 +17,7 @@ use super::{ApiError, Cx, Result};
 use perception::collision::CollisionTest;
 use perception::entity::Entity;
 use scene::{Scene, SceneResult};
-use script::step::wall_clock;
+use script::wall_clock;
 
 /// Checks and iterations that a second stands for.
 const STEPS_PER_SECOND: f64 = 20_000.0;

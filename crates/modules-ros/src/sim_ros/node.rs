@@ -15,7 +15,7 @@ use super::topics::{Publisher, Subscription};
 use super::{ApiError, ApiFn, Cx, Result, failed, functions};
 use crate::ros_entities::Entities;
 use script::Host;
-use script::step::wall_clock;
+use script::wall_clock;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![get_time];
 

@@ -8,7 +8,7 @@ use rtps::{Call, EntityId, Guid, Qos, Sample, SampleIdentity, Time, Written};
 
 use super::names;
 use super::node::Running;
-use script::step::wall_clock;
+use script::wall_clock;
 
 /// A writer or reader.
 pub(super) struct Endpoint {

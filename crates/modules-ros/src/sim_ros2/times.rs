@@ -5,7 +5,7 @@ use api_macro::api;
 use super::node::{node, running};
 use super::{ApiError, ApiFn, Cx, Result, functions};
 use scene::Data;
-use script::step::wall_clock;
+use script::wall_clock;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![get_time, spin_some];
 

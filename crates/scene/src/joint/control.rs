@@ -21,55 +21,6 @@ const UNREACHABLE_VELOCITY: f64 = 1000.0;
 /// Largest screw lead, m per turn.
 const MAX_SCREW_LEAD: f64 = 20.0 * PI;
 
-impl JointType {
-    /// The type with a script's number, if there is one.
-    pub fn from_code(code: i64) -> Option<Self> {
-        [Self::Revolute, Self::Prismatic, Self::Spherical]
-            .into_iter()
-            .find(|t| *t as i64 == code)
-    }
-
-    /// Alias of a new joint.
-    pub fn alias(self) -> &'static str {
-        match self {
-            Self::Revolute => "Revolute_joint",
-            Self::Prismatic => "Prismatic_joint",
-            Self::Spherical => "Spherical_joint",
-        }
-    }
-}
-
-impl JointMode {
-    /// The mode with a script's number. Joints that depended on inverse kinematics are kinematic now.
-    pub fn from_code(code: i64) -> Option<Self> {
-        match code {
-            0 | 3 => Some(Self::Kinematic),
-            2 => Some(Self::InverseKinematics),
-            4 => Some(Self::Dependent),
-            5 => Some(Self::Dynamic),
-            _ => None,
-        }
-    }
-}
-
-impl Control {
-    /// The way of control with a script's number, if there is one.
-    pub fn from_code(code: i64) -> Option<Self> {
-        use Control::*;
-        [Free, Force, Velocity, Position, Spring, Callback]
-            .into_iter()
-            .find(|c| *c as i64 == code)
-    }
-
-    /// Whether a script is called in each sub-step to decide what the joint does.
-    pub fn calls_script(self) -> bool {
-        matches!(
-            self,
-            Self::Callback | Self::PositionOrCallback | Self::SpringOrCallback
-        )
-    }
-}
-
 impl Joint {
     /// The position that results from setting `position`: wrapped if cyclic, else limited to the interval.
     pub(crate) fn limited(&self, position: f64) -> f64 {

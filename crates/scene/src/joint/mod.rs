@@ -3,6 +3,7 @@
 pub mod control;
 pub(crate) mod dependency;
 pub mod motion;
+mod numbers;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use std::f64::consts::{PI, TAU};

@@ -1,5 +1,7 @@
 //! Scripts as scene objects: text and flags. The crate `script` runs them.
 
+use crate::{Field, Handle, Object, Scene};
+
 /// `sim.scripttype_*`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ScriptType {
@@ -112,5 +114,22 @@ impl ScriptObject {
             parent_is_proxy: false,
             size: 0.01,
         }
+    }
+}
+
+impl Scene {
+    /// Whether a script is to start again after an error: once only.
+    pub fn take_restart_request(&mut self, script: Handle) -> bool {
+        let is_requested = self
+            .object(script)
+            .and_then(Object::script)
+            .is_ok_and(|script| script.restart_on_error);
+        is_requested
+            && self
+                .try_modify(script, Field::Other, |object| {
+                    object.script_mut()?.restart_on_error = false;
+                    Ok(())
+                })
+                .is_ok()
     }
 }

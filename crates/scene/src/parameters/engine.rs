@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use crate::{Data, ValueType};
+use crate::{Data, SceneError, SceneResult, ValueType};
 
 /// `owner<TAB>name<TAB>type<TAB>flags<TAB>state<TAB>default<TAB>numbers<TAB>bit`, in the order of enumeration.
 ///
@@ -77,6 +77,15 @@ pub struct SelectedEngine {
 }
 
 impl SelectedEngine {
+    /// The engine with that number, in that version.
+    ///
+    /// # Errors
+    /// When there is no such engine.
+    pub fn from_numbers(number: i64, version: i64) -> SceneResult<Self> {
+        let engine = Engine::from_number(number).ok_or(SceneError::InvalidArgument)?;
+        Ok(Self { engine, version })
+    }
+
     /// Number of the engine, version.
     pub fn numbers(self) -> [i64; 2] {
         [self.engine.number(), self.version]

@@ -3,6 +3,7 @@
 pub(crate) mod build;
 pub mod force_sensor;
 pub mod options;
+mod results;
 pub mod vision;
 pub mod volume;
 pub mod volume_faces;
@@ -192,6 +193,15 @@ pub enum LightType {
 }
 
 impl LightType {
+    /// The type of that number; the first or last one for numbers below or above all types.
+    pub fn nearest(number: i64) -> Self {
+        match number {
+            ..=1 => Self::Omnidirectional,
+            2 => Self::Spot,
+            3.. => Self::Directional,
+        }
+    }
+
     /// The number of `sim.light_*`.
     pub fn code(self) -> i64 {
         self as i64

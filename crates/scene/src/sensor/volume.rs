@@ -33,6 +33,15 @@ impl VolumeType {
             .find(|volume_type| volume_type.code() == code)
     }
 
+    /// The type of that number; the first or last one for numbers below or above all types.
+    pub fn nearest(code: i64) -> Self {
+        if code <= Self::Pyramid.code() {
+            Self::Pyramid
+        } else {
+            Self::from_code(code).unwrap_or(Self::Ray)
+        }
+    }
+
     /// The number of `sim.proximitysensor_*`.
     pub fn code(self) -> i64 {
         self as i64

@@ -39,6 +39,35 @@ pub struct Settings {
     pub calculations: Calculations,
 }
 
+impl Settings {
+    /// Sets the simulation step: the nearest one that there is.
+    pub fn set_time_step(&mut self, step: f64) {
+        if !step.is_nan() {
+            self.time_step = step.clamp(0.0001, 10.0);
+        }
+    }
+
+    /// Sets the desired sub-step of the physics, at most the simulation step.
+    pub fn set_physics_step(&mut self, step: f64) {
+        if !step.is_nan() {
+            self.dynamics.step = step.clamp(0.00001, self.time_step.max(0.00001));
+        }
+    }
+
+    /// Sets how many simulation steps there are to an image, at least one.
+    pub fn set_steps_per_rendering(&mut self, steps: i64) {
+        self.steps_per_rendering = steps.max(1);
+    }
+
+    /// Runs so many times as fast as the wall clock; as fast as possible if that is 0.
+    pub fn set_pace(&mut self, factor: f64) {
+        self.real_time = factor > 0.0;
+        if self.real_time {
+            self.real_time_factor = factor;
+        }
+    }
+}
+
 /// Which calculations are not switched off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Calculations {

@@ -7,12 +7,11 @@
 use std::ffi::c_int;
 use std::marker::PhantomData;
 
-use super::cx::Cx;
 use super::returns::IntoScript;
-use super::source::Source;
+use super::source::{Caller, Source};
 use crate::error::{ApiError, ApiResult};
+use crate::function_ref::FunctionRef;
 use crate::lua::{LuaObject, Stack, Type};
-use crate::runtime::FunctionRef;
 use scene::{Data, Frame, Handle};
 
 /// Reads the arguments of one call in order.
@@ -120,9 +119,9 @@ impl<'a, S: Source<'a>> Args<'a, S> {
         }
     }
 
-    /// The context of the call.
-    pub fn context(&self) -> ApiResult<Cx<'a>> {
-        self.source.context()
+    /// On whose behalf the function is called.
+    pub(crate) fn caller(&self) -> Caller<'a> {
+        self.source.caller()
     }
 
     /// The error for an argument of the wrong type.
@@ -434,18 +433,5 @@ impl FromScript for Rest {
             .map(|at| args.source.data(at))
             .collect::<Result<_, _>>()
             .map(Self)
-    }
-}
-
-impl FromScript for crate::LevelChange {
-    const TYPE: &'static str = "any";
-
-    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
-        Ok(match Data::from_script(args)? {
-            Data::Int(level) => Self::Set(level),
-            Data::Float(level) => Self::Set(level as i64),
-            other if other.truthy() => Self::Allow,
-            _ => Self::Forbid,
-        })
     }
 }

@@ -3,8 +3,8 @@
 use std::ffi::{CStr, c_int, c_void};
 
 use crate::error::{ApiError, ApiResult};
+use crate::function_ref::FunctionRef;
 use crate::lua::{Entries, Room, Scalar, Stack, Type};
-use crate::runtime::FunctionRef;
 use scene::{Data, Key};
 
 /// Registry key of the metatable of all buffers of a state.

@@ -5,11 +5,11 @@ use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
 use super::ApiFn;
+use super::embedded::Embedded;
 use super::hooks::Hooks;
 use super::module::{Module, pairs};
 use super::states::States;
 use crate::error::ApiError;
-use crate::lua_runtime::embedded::Embedded;
 
 /// A native function, by its place in the registry of a simulator. Lua code holds it as a number, so that no pointer can be forged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -234,13 +234,6 @@ impl Registry {
             registry.by_name.insert(module.name, place);
         }
         registry
-    }
-
-    /// For tests of the host: a `sim` without members.
-    #[cfg(test)]
-    pub(crate) fn without_functions() -> Arc<Self> {
-        static NOTHING: Module = Module::new("sim");
-        Arc::new(Self::new(&[&NOTHING], &[]))
     }
 
     /// The module `sim`.

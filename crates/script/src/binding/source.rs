@@ -3,15 +3,23 @@
 //! Everything is dispatched statically, so that a call from Lua pays nothing for plain values. What only Lua has (functions, objects,
 //! coroutines) is an error among plain values. Results go to a [`Sink`](super::sink::Sink).
 
+use std::any::Any;
 use std::ffi::c_int;
 
-use super::cx::Cx;
 use super::data::{read_data, read_function};
 use crate::error::{ApiError, ApiResult};
-use crate::lifecycle::env::Env;
+use crate::function_ref::FunctionRef;
 use crate::lua::{LuaObject, Stack, Type};
-use crate::runtime::FunctionRef;
 use scene::{Data, Key};
+
+/// On whose behalf a function is called.
+#[derive(Clone, Copy)]
+pub enum Caller<'a> {
+    /// The script of a Lua state.
+    Lua(Stack<'a>),
+    /// The script of an environment of the host.
+    Environment(&'a dyn Any),
+}
 
 /// A source of arguments, by position from 1.
 #[doc(hidden)]
@@ -40,9 +48,7 @@ pub trait Source<'a>: Copy {
     /// Where there are no functions.
     fn function(self, position: c_int) -> ApiResult<FunctionRef>;
     fn object(self, position: c_int) -> Option<LuaObject>;
-    /// # Errors
-    /// When the simulator is gone.
-    fn context(self) -> ApiResult<Cx<'a>>;
+    fn caller(self) -> Caller<'a>;
 }
 
 impl<'a> Source<'a> for Stack<'a> {
@@ -102,8 +108,8 @@ impl<'a> Source<'a> for Stack<'a> {
         Stack::object(self, position)
     }
 
-    fn context(self) -> ApiResult<Cx<'a>> {
-        Cx::of(self)
+    fn caller(self) -> Caller<'a> {
+        Caller::Lua(self)
     }
 }
 
@@ -112,11 +118,12 @@ impl<'a> Source<'a> for Stack<'a> {
 #[derive(Clone, Copy)]
 pub struct Values<'a> {
     values: &'a [Data],
-    env: &'a Env,
+    env: &'a dyn Any,
 }
 
 impl<'a> Values<'a> {
-    pub(crate) fn new(values: &'a [Data], env: &'a Env) -> Self {
+    /// `env` is what [`Caller::Environment`] has.
+    pub(crate) fn new(values: &'a [Data], env: &'a dyn Any) -> Self {
         Self { values, env }
     }
 
@@ -220,8 +227,8 @@ impl<'a> Source<'a> for Values<'a> {
         None
     }
 
-    fn context(self) -> ApiResult<Cx<'a>> {
-        Cx::without_lua(self.env)
+    fn caller(self) -> Caller<'a> {
+        Caller::Environment(self.env)
     }
 }
 

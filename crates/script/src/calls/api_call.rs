@@ -4,12 +4,8 @@ use std::rc::Rc;
 
 use crate::binding::args::Args;
 use crate::binding::registry::{Bound, Member};
-use crate::binding::source::Values;
 use crate::error::{ApiError, ApiResult};
-use crate::lifecycle::instance::Script;
-use crate::lifecycle::level::Level;
-use crate::runtime::Runtime;
-use crate::sim::Sim;
+use crate::host::{Level, Runtime, Script, Sim};
 use scene::Data;
 
 impl Sim {
@@ -88,7 +84,7 @@ impl Sim {
 }
 
 fn call_native(runtime: &Runtime, bound: &Bound, args: &[Data]) -> ApiResult<Vec<Data>> {
-    let results = (bound.function.call_data)(&mut Args::new(Values::new(args, &runtime.env)));
+    let results = (bound.function.call_data)(&mut Args::new(runtime.env.values(args)));
     if bound.function.mutates {
         runtime.env.collect_events();
     }

@@ -2,9 +2,8 @@
 
 use std::rc::Rc;
 
-use super::callback::SysCall;
-use crate::lifecycle::instance::Script;
-use crate::sim::Sim;
+use crate::host::{Script, Sim};
+use crate::sys_call::SysCall;
 use scene::journal::ChangedNames;
 use scene::object::script_object::ScriptType;
 use scene::{Data, Handle, Key, Namespace};

@@ -2,17 +2,11 @@
 
 use std::rc::{Rc, Weak};
 
-use super::callback::SysCall;
-use crate::binding::args::ScriptFunction;
-use crate::binding::cx::Cx;
 use crate::error::{ApiError, ApiResult};
-use crate::lifecycle::env::Env;
-use crate::lifecycle::instance::Script;
-use crate::lifecycle::level::Level;
-use crate::lifecycle::script_set::MAX_DEPTH;
+use crate::function_ref::FunctionRef;
+use crate::host::{CallError, Callee, Env, Level, MAX_DEPTH, Runtime, Script, Sim};
 use crate::log::verbosity;
-use crate::runtime::{CallError, Callee, FunctionRef, Runtime};
-use crate::sim::Sim;
+use crate::sys_call::SysCall;
 use scene::Data;
 
 /// A function by name, looked up at each call in a script of the caller's choice, or by value.
@@ -52,16 +46,6 @@ impl HeldFunction {
 }
 
 impl Handler {
-    /// From a parameter of the calling script.
-    pub fn new(cx: &Cx, given: ScriptFunction) -> Self {
-        match given {
-            ScriptFunction::Name(name) => Self::Name(name),
-            ScriptFunction::Value(function) => {
-                Self::Function(HeldFunction::new(cx.env(), function))
-            }
-        }
-    }
-
     /// The name, without the part after its last `@`; none for a function by value.
     fn name(&self) -> Option<&str> {
         match self {
@@ -79,12 +63,11 @@ pub struct ScriptCallback {
 }
 
 impl ScriptCallback {
-    /// From a parameter of the calling script.
-    pub fn new(cx: &Cx, given: ScriptFunction) -> Self {
-        let handler = Handler::new(cx, given);
+    /// A handler of a script with that environment.
+    pub(crate) fn of(env: &Env, handler: Handler) -> Self {
         Self {
-            sim: cx.env().sim.clone(),
-            script: Rc::downgrade(cx.script()),
+            sim: env.sim.clone(),
+            script: Rc::downgrade(&env.script),
             handler,
         }
     }

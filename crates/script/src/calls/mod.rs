@@ -1,9 +1,9 @@
 //! Calls between scripts: functions by name, code strings, initialisation (spec: calls).
 
 mod api_call;
-pub(crate) mod callback;
-pub(crate) mod data_changes;
-pub(crate) mod dispatch;
+pub(crate) mod contacts;
+mod data_changes;
+mod event_batches;
 pub(crate) mod handler;
 mod ui_events;
 pub(crate) mod vision;
@@ -11,12 +11,10 @@ pub(crate) mod vision;
 use std::rc::Rc;
 
 use super::error::{ApiError, ApiResult};
-use super::lifecycle::instance::{Script, state};
-use super::lifecycle::level::Level;
-use super::lifecycle::script_set::MAX_DEPTH;
-use super::runtime::{CallError, CallbackResult, Callee, Runtime, ScriptError};
-use super::sim::Sim;
-use callback::SysCall;
+use crate::host::{
+    CallError, CallbackResult, Callee, Level, MAX_DEPTH, Runtime, Script, ScriptError, Sim, state,
+};
+use crate::sys_call::SysCall;
 use scene::Data;
 use scene::object::script_object::ScriptType;
 
@@ -160,14 +158,6 @@ impl Sim {
             Ok(CallbackResult::Returned(value)) => value,
             Ok(CallbackResult::NotDefined) | Err(_) => None,
         }
-    }
-
-    /// Closes every interpreter. A script and its interpreter know each other: without this neither would ever go.
-    pub fn close_all(&self) {
-        self.scripts
-            .all()
-            .iter()
-            .for_each(|script| drop(script.runtime.take()));
     }
 
     /// Ends an add-on or the sandbox at application exit.

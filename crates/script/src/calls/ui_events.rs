@@ -3,8 +3,8 @@
 use std::rc::Rc;
 
 use super::handler::Handler;
+use crate::host::Sim;
 use crate::log::verbosity;
-use crate::sim::Sim;
 use scene::Data;
 use scene::object::script_object::ScriptType;
 use ui::Event;

@@ -2,9 +2,8 @@
 
 use std::rc::Rc;
 
-use super::callback::SysCall;
-use crate::lifecycle::instance::Script;
-use crate::sim::Sim;
+use crate::host::{Script, Sim};
+use crate::sys_call::SysCall;
 use scene::sensor::{Entity, VisionReading, VisionSensor};
 use scene::{Data, Field, Handle, SceneResult};
 
@@ -29,7 +28,9 @@ impl Sim {
             return Ok(reading);
         }
         let reading = self.take_picture(sensor, None)?;
-        self.store_reading(sensor, Some(reading.clone()));
+        self.scene
+            .borrow_mut()
+            .set_vision_reading(sensor, Some(reading.clone()));
         Ok(reading)
     }
 
@@ -98,18 +99,13 @@ impl Sim {
         self.evaluate_picture(sensor, first)
     }
 
-    /// Whether scripts of a sensor are looking at its picture now. They are not called again before they have finished.
-    pub(crate) fn vision_callback_runs(&self, sensor: Handle) -> bool {
-        self.scripts.examined_sensors.borrow().contains(&sensor)
-    }
-
     /// Evaluates a picture that was set by a script, unless the scripts of the sensor are doing so already. That a script found something is
     /// not kept: only pictures of the scene trigger.
     ///
     /// # Errors
     /// When `sensor` is no vision sensor.
     pub(crate) fn evaluate_set_picture(self: &Rc<Self>, sensor: Handle) -> SceneResult<()> {
-        if self.vision_callback_runs(sensor) {
+        if self.scripts.examined_sensors.borrow().contains(&sensor) {
             return Ok(());
         }
         let packet = self
@@ -122,7 +118,9 @@ impl Sim {
             triggered: false,
             ..self.evaluate_picture(sensor, packet)?
         };
-        self.store_reading(sensor, Some(reading));
+        self.scene
+            .borrow_mut()
+            .set_vision_reading(sensor, Some(reading));
         Ok(())
     }
 
@@ -154,15 +152,6 @@ impl Sim {
             self.trigger_vision(&scripts, sensor, &mut reading);
         }
         Ok(reading)
-    }
-
-    /// Stores the results of a sensor, or removes them. A sensor that its scripts have removed has none.
-    pub(crate) fn store_reading(&self, sensor: Handle, reading: Option<VisionReading>) {
-        let mut scene = self.scene.borrow_mut();
-        let _ = scene.try_modify(sensor, Field::Measured, |object| {
-            object.vision_sensor_mut()?.reading = reading;
-            Ok(())
-        });
     }
 
     fn collect_findings(

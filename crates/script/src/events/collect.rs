@@ -3,12 +3,12 @@
 use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
 
-use super::encode;
-use super::protocol::{Protocol, renamed};
-use super::queue::{Entry, Event, Source};
 use super::watch::{Watch, Watched, stored_entry, stored_key};
+use crate::event_stream::encode;
+use crate::event_stream::protocol::{Protocol, renamed};
+use crate::event_stream::queue::{Entry, Event, Source};
+use crate::host::Sim;
 use crate::property::PropertyTarget;
-use crate::sim::Sim;
 use scene::journal::Changes;
 use scene::{Change, Data, Field, Handle, Holder, Namespace, Uid, Unread, ValueType};
 
@@ -21,9 +21,13 @@ const CLOCK: [&str; 3] = ["stepCount", "simulationTime", "simulationState"];
 impl Sim {
     /// Turns the changes since the last call into events.
     pub(crate) fn collect_events(self: &Rc<Self>) {
-        if !self.events.listening.get() {
-            return;
+        if self.events.listening.get() {
+            self.collect_changes();
+            self.change_protocol();
         }
+    }
+
+    fn collect_changes(self: &Rc<Self>) {
         self.with_collector(|mut collector| collector.collect_clock());
         match self.new_changes() {
             None => self.restart_events(),
@@ -60,12 +64,13 @@ impl Sim {
     }
 
     /// Collects what no journal records: changes of the application, of scripts that are no objects, of the states of scripts.
-    pub(super) fn collect_unrecorded_changes(self: &Rc<Self>) {
+    pub(crate) fn collect_unrecorded_changes(self: &Rc<Self>) {
         self.with_collector(|mut collector| collector.collect_unrecorded());
     }
 
     fn with_collector(self: &Rc<Self>, work: impl FnOnce(Collector<'_>)) {
-        if let Some(watch) = self.events.watch.borrow_mut().as_mut() {
+        let mut watch = self.events.watch.borrow_mut();
+        if let Some(watch) = watch.as_mut().and_then(|watch| watch.downcast_mut()) {
             work(Collector { sim: self, watch });
         }
     }
@@ -92,7 +97,7 @@ impl Sim {
     }
 
     /// Fills in the lists of the scene as they are now, and names them as the protocol does.
-    pub(super) fn fill_in_lists(self: &Rc<Self>, events: &mut [Event]) {
+    pub(crate) fn fill_in_lists(self: &Rc<Self>, events: &mut [Event]) {
         let entries: Vec<&mut Entry> = events
             .iter_mut()
             .filter(|event| event.source == Source::SCENE)

@@ -3,17 +3,17 @@
 use std::rc::Rc;
 
 use super::collect::LISTS;
-use super::data_entry;
-use super::protocol::Protocol;
-use super::queue::{Class, Event, Source};
 use super::watch::{Listeners, Watched};
-use crate::sim::Sim;
+use crate::event_stream::data_entry;
+use crate::event_stream::protocol::Protocol;
+use crate::event_stream::queue::{Class, Event, Source};
+use crate::host::Sim;
 use scene::{Data, Namespace};
 
 impl Sim {
     /// Application, scripts outside of the scene, the scene, its objects parents first, the main script.
-    pub(super) fn genesis(self: &Rc<Self>) -> Vec<Event> {
-        let no_listeners = self.events.no_listeners();
+    pub(crate) fn genesis(self: &Rc<Self>) -> Vec<Event> {
+        let no_listeners = self.no_listeners();
         let (main, outside): (Vec<_>, Vec<_>) = self
             .scripts
             .all_detached()

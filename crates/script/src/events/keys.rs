@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, Mutex};
 
-use super::protocol::{Meaning, Protocol, renamed};
+use crate::event_stream::protocol::{Meaning, Protocol, renamed};
 use crate::property::{Class, Row, flags};
 use scene::Field;
 

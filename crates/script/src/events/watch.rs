@@ -3,17 +3,15 @@
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
-use super::encode;
-use super::filter::EventFilters;
 use super::keys::{Keys, keys};
-use super::protocol::Protocol;
-use super::queue::{Class, Entry, Event, Source};
-use crate::lifecycle::instance::Script;
+use crate::event_stream::protocol::Protocol;
+use crate::event_stream::queue::{Class, Entry, Event, Source};
+use crate::event_stream::{EventFilters, encode};
+use crate::host::{Script, Sim};
 use crate::property::{
     Class as PropertyClass, PropertyTarget, app_class, mesh_class, object_class, scene_class,
     script_class,
 };
-use crate::sim::Sim;
 use scene::object::script_object::ScriptType;
 use scene::parameters::engine::SelectedEngine;
 use scene::{Data, Field, Handle, Namespace, Object, ValueType};

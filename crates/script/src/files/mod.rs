@@ -1,5 +1,4 @@
-//! Files of scripts: scenes, persistent data, locks.
+//! Files of scripts: scenes and models.
 
-pub(crate) mod app_storage;
 pub(crate) mod scene_save;
 pub(crate) mod scene_switch;

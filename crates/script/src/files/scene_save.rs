@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::rc::Rc;
 
-use crate::calls::callback::SysCall;
 use crate::error::{ApiError, ApiResult};
-use crate::sim::Sim;
+use crate::host::Sim;
+use crate::sys_call::SysCall;
 use format::scene_file::{LoadedScript, SceneFile, save, write_whole};
 use format::ttt::File;
 use format::xml::{self, Variant};

@@ -2,11 +2,10 @@
 
 use std::rc::Rc;
 
-use crate::calls::callback::SysCall;
 use crate::error::{ApiError, ApiResult};
-use crate::lifecycle::instance::Script;
+use crate::host::{Script, Sim};
 use crate::log::verbosity;
-use crate::sim::Sim;
+use crate::sys_call::SysCall;
 use format::scene_file::{Loaded, LoadedScript, SceneFile};
 use plugin_host::Moment;
 use scene::object::script_object::{ScriptObject, ScriptType};
@@ -124,7 +123,7 @@ impl Sim {
                     script.disabled,
                 );
                 object.source.clone_from(&script.source);
-                self.attach_script(owner, &object, script.exec_order);
+                self.scripts.attach(owner, &object, script.exec_order);
             }
             (_, None) => {}
         }

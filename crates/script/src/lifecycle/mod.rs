@@ -1,31 +1,21 @@
 //! The life of a script: loading, initialization, callbacks, cleanup (spec: scripts 3, scripts 4, scripts 5).
 
-pub(crate) mod attached;
-pub(crate) mod budget;
-pub(crate) mod contacts;
-pub(crate) mod env;
-pub(crate) mod instance;
-pub(crate) mod level;
-pub(crate) mod lookup;
-pub(crate) mod order;
-pub(crate) mod random;
-pub(crate) mod removal;
-pub(crate) mod script_set;
-pub(crate) mod source;
-pub(crate) mod yields;
+mod broadcast;
+mod removal;
+mod selection;
 
 use std::rc::Rc;
 
-use super::calls::callback::SysCall;
-use super::error::ApiError;
-use super::runtime::{CallbackResult, Runtime, ScriptError, SourceText};
-use super::sim::Sim;
-use env::{Env, Hook};
-use instance::{Script, state};
-use level::Level;
+use crate::error::ApiError;
+use crate::host::{
+    CallbackResult, Env, Hook, Level, MAX_DEPTH, Runtime, Script, ScriptError, Sim, SourceText,
+    state,
+};
+use crate::sys_call::SysCall;
 use scene::Data;
 use scene::object::script_object::ScriptType;
-use script_set::MAX_DEPTH;
+
+pub(crate) use selection::selection_data;
 
 /// The result of a callback.
 #[derive(Debug, Default)]
@@ -64,7 +54,7 @@ impl Sim {
     }
 
     /// Whether a script is not to be called. The scene is only looked into after a change that can concern it.
-    fn is_disabled(&self, script: &Script) -> bool {
+    pub(crate) fn is_disabled(&self, script: &Script) -> bool {
         let scene = self.scene.borrow();
         if script.object.is_none() {
             return script.is_disabled(&scene);
@@ -143,7 +133,11 @@ impl Sim {
         self.run_callback(script, SysCall::Init, &[]);
         // As in the original, a script is notified of the selection once it is initialized.
         if script.is_running() {
-            self.run_callback(script, SysCall::SelChange, &[self.selection_data()]);
+            self.run_callback(
+                script,
+                SysCall::SelChange,
+                &[selection_data(&self.scene.borrow())],
+            );
         }
     }
 
@@ -302,36 +296,31 @@ impl Sim {
     /// Releases the interpreter, which is closed when its last call has returned, and what belongs to the script: signals, collections,
     /// drawing objects.
     fn close(self: &Rc<Self>, script: &Script) {
-        self.release_plugins_of(script);
+        self.scripts.announce_end(self, script);
         script.runtime.replace(None);
         self.drop_signals_of(script);
         self.scene.borrow_mut().forget_owner(script.id);
     }
 
+    fn request_pause_after_error(&self) {
+        if self
+            .scene
+            .try_borrow()
+            .is_ok_and(|scene| scene.settings().pause_at_error)
+        {
+            self.clock.request_pause();
+        }
+    }
+
     /// `restartOnError` is a one-shot.
     fn restart_if_requested(&self, script: &Script) {
         let requested = match script.object {
-            Some(handle) => self.clear_restart_flag(handle),
+            Some(handle) => self.scene.borrow_mut().take_restart_request(handle),
             None => std::mem::take(&mut script.detached.borrow_mut().restart_on_error),
         };
         if requested {
             script.set_state(state::UNLOADED);
         }
-    }
-
-    fn clear_restart_flag(&self, handle: scene::Handle) -> bool {
-        let mut scene = self.scene.borrow_mut();
-        let Ok(true) = scene
-            .object(handle)
-            .and_then(|o| o.script())
-            .map(|s| s.restart_on_error)
-        else {
-            return false;
-        };
-        let cleared = scene.try_modify(handle, scene::Field::Other, |o| {
-            o.script_mut().map(|s| s.restart_on_error = false)
-        });
-        cleared.is_ok()
     }
 }
 

@@ -1,60 +1,15 @@
 //! Adding, copying and removing objects, of which scripts are notified.
 
-use std::cell::RefCell;
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::instance::{Script, state};
-use crate::SimulationState;
-use crate::calls::callback::SysCall;
+use crate::clock::SimulationState;
 use crate::error::ApiResult;
+use crate::host::{Script, Sim, state};
 use crate::log::verbosity;
-use crate::sim::Sim;
+use crate::sys_call::SysCall;
 use scene::object::script_object::ScriptType;
-use scene::{CopyOptions, Data, Handle, Holder, Key, Kind, Object, Scene, SceneError, Uid};
-
-/// Objects that are to go later.
-#[derive(Default)]
-pub struct Removals {
-    /// At the end of the loop iteration.
-    delayed: RefCell<Vec<Handle>>,
-    /// Scripts that are no objects, at the end of the loop iteration.
-    delayed_scripts: RefCell<Vec<Rc<Script>>>,
-    /// The objects there were at the start of the simulation; the others may go at its end.
-    at_start: RefCell<Option<HashSet<Uid>>>,
-}
-
-impl Removals {
-    /// Marks objects to be removed at the end of the loop iteration.
-    pub(crate) fn delay(&self, handles: &[Handle]) {
-        self.delayed.borrow_mut().extend(handles);
-    }
-
-    /// Hands over the marked objects, each once.
-    fn take_delayed(&self) -> Vec<Handle> {
-        let mut handles = self.delayed.take();
-        handles.sort_unstable();
-        handles.dedup();
-        handles
-    }
-
-    pub(crate) fn note_start(&self, scene: &Scene) {
-        self.at_start
-            .replace(Some(scene.objects().map(Object::uid).collect()));
-    }
-
-    /// The objects that came since the start of the simulation.
-    fn take_new(&self, scene: &Scene) -> Vec<Handle> {
-        let Some(known) = self.at_start.take() else {
-            return Vec::new();
-        };
-        scene
-            .objects()
-            .filter(|object| !known.contains(&object.uid()))
-            .map(Object::handle)
-            .collect()
-    }
-}
+use scene::{CopyOptions, Data, Handle, Holder, Key, Kind, SceneError};
 
 impl Sim {
     /// Adds an object and notifies everyone.
@@ -107,7 +62,7 @@ impl Sim {
             .collect();
         copies
             .iter()
-            .for_each(|(original, copy)| self.copy_attached(*original, *copy));
+            .for_each(|(original, copy)| self.scripts.copy_attached(*original, *copy));
         self.notify_created(&created);
         Ok(copies)
     }

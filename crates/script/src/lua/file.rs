@@ -6,6 +6,7 @@ use std::marker::PhantomData;
 #[cfg(unix)]
 use std::os::fd::BorrowedFd;
 use std::ptr::NonNull;
+use std::sync::OnceLock;
 
 use mlua::ffi;
 
@@ -39,8 +40,15 @@ impl Stack<'_> {
 /// C's number for writing to a pipe that nobody reads.
 const CLOSED_PIPE: i64 = 32;
 
-/// From now on the log learns when a script writes to a pipe that nobody reads, which Lua's functions only return.
-pub(crate) fn report_closed_pipes(stack: Stack<'_>) {
+/// What learns of a write to a pipe that nobody reads.
+pub(crate) type OnClosedPipe = fn(Stack<'_>);
+
+/// The one of the process: there is one host implementation, so a static suffices.
+static ON_CLOSED_PIPE: OnceLock<OnClosedPipe> = OnceLock::new();
+
+/// From now on the host learns when a script writes to a pipe that nobody reads, which Lua's functions only return.
+pub(crate) fn report_closed_pipes(stack: Stack<'_>, on_closed_pipe: OnClosedPipe) {
+    ON_CLOSED_PIPE.get_or_init(|| on_closed_pipe);
     stack.push_global("io");
     install::<{ guarded::IO_WRITE }, _>(stack, "write", |_| Next::OriginalThen(report_closed_pipe));
     stack.raw_get_field(-1, "stdout");
@@ -59,9 +67,9 @@ fn report_closed_pipe(stack: Stack<'_>) {
     if stack.kind(-3) == Type::Nil
         && stack.kind(-1) == Type::Number
         && stack.integer(-1) == Some(CLOSED_PIPE)
-        && let Some(sim) = stack.owner().sim.upgrade()
+        && let Some(on_closed_pipe) = ON_CLOSED_PIPE.get()
     {
-        sim.log.pipe_closed();
+        on_closed_pipe(stack);
     }
 }
 

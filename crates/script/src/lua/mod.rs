@@ -20,6 +20,7 @@ mod calls;
 mod file;
 mod hooks;
 mod object;
+mod owner;
 mod permissions;
 mod pool;
 mod seal;
@@ -38,6 +39,7 @@ pub(crate) use hooks::count::{
 pub(crate) use hooks::debug_library::restrict_debug;
 pub use hooks::interrupt::{calls_begun, interrupt_running_code, place_of_interruption};
 pub use object::LuaObject;
+pub(crate) use owner::Owner;
 pub(crate) use permissions::restrict_libraries;
 pub(crate) use seal::seal_argument;
 pub(crate) use stack::tables::MAX_LIST_LENGTH;
@@ -45,7 +47,7 @@ pub use stack::{Stack, Type};
 pub(crate) use state::State;
 pub(crate) use subjects::accept_buffers;
 
-use super::lifecycle::budget::Budget;
+use crate::budget::Budget;
 
 #[cfg(test)]
 mod tests;

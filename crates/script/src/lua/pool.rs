@@ -13,7 +13,7 @@ use std::rc::Rc;
 
 use mlua::ffi;
 
-use super::Budget;
+use crate::budget::Budget;
 
 /// Sizes are rounded up to a multiple of this.
 const STEP: usize = 16;

@@ -9,7 +9,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use mlua::{Error, FromLua, Value};
 
 use super::calls::callback::panic_text;
-use super::{Budget, Stack, Type};
+use super::{Stack, Type};
+use crate::budget::Budget;
 
 /// Name of the registry value by which values are exchanged with mlua.
 const EXCHANGE: &str = "swanilda.exchange";

@@ -7,8 +7,8 @@ use std::rc::Rc;
 use mlua::{Lua, LuaOptions, StdLib, ffi};
 
 use super::pool::{Allocator, Pool};
-use super::{Budget, Stack};
-use crate::lifecycle::env::Env;
+use super::{Owner, Stack};
+use crate::budget::Budget;
 
 /// A Lua state with the standard libraries. mlua owns it: it is closed when the last [`Lua`] of it is dropped.
 pub(crate) struct State {
@@ -19,7 +19,7 @@ pub(crate) struct State {
 /// Data that a state needs until it is closed. It is application data of mlua, which drops it after closing.
 struct Foundation {
     pool: NonNull<Pool>,
-    _env: Rc<Env>,
+    _owner: Rc<Owner>,
 }
 
 impl Drop for Foundation {
@@ -30,21 +30,25 @@ impl Drop for Foundation {
 }
 
 impl State {
-    /// A new state whose memory counts against the budget of `env`. [`Stack::owner`] returns `env` for every coroutine.
-    pub(crate) fn new(env: Rc<Env>) -> Self {
+    /// A new state of that owner, whose budget its memory counts against.
+    pub(crate) fn new(owner: Owner) -> Self {
+        let owner = Rc::new(owner);
         // SAFETY: what makes this unsafe is what scripts may load: native libraries and bytecode. They may as in the original, or,
         // where `Options::permissions` do not allow native code, start-up takes both away before a script runs.
         let lua = unsafe { Lua::unsafe_new_with(StdLib::NONE, LuaOptions::default()) };
-        if env.budget.is_limited() {
+        if owner.budget.is_limited() {
             // From here on mlua expects memory to be refused, and allocates in protected calls only. The limit itself is the budget's.
             lua.set_memory_limit(usize::MAX)
                 .expect("the state has the allocator of mlua");
         }
         let main = main_coroutine(&lua);
-        env.budget.resize(0, lua.used_memory());
-        let pool = install_pool(main, Rc::clone(&env.budget));
-        set_owner(main, &env);
-        lua.set_app_data(Foundation { pool, _env: env });
+        owner.budget.resize(0, lua.used_memory());
+        let pool = install_pool(main, Rc::clone(&owner.budget));
+        set_owner(main, &owner);
+        lua.set_app_data(Foundation {
+            pool,
+            _owner: owner,
+        });
         // SAFETY: opens libraries in a protected call; the closure owns nothing.
         let opened = unsafe { lua.exec_raw::<()>((), |raw| ffi::luaL_openlibs(raw)) };
         opened.expect("the standard libraries open in an empty state");
@@ -89,22 +93,22 @@ fn install_pool(main: NonNull<ffi::lua_State>, budget: Rc<Budget>) -> NonNull<Po
     }
 }
 
-/// Lets every coroutine find `env`. Later ones copy the extra space of the main one; those that mlua has made are in the registry, and
+/// Lets every coroutine find the owner. Later ones copy the extra space of the main one; those that mlua has made are in the registry, and
 /// finalizers may run on them.
-fn set_owner(main: NonNull<ffi::lua_State>, env: &Rc<Env>) {
-    let (main, owner) = (main.as_ptr(), Rc::as_ptr(env));
+fn set_owner(main: NonNull<ffi::lua_State>, owner: &Rc<Owner>) {
+    let (main, owner) = (main.as_ptr(), Rc::as_ptr(owner));
     // SAFETY: mlua leaves the extra space alone in this version of Lua. The traversal of the registry changes nothing in it and needs
     // two slots, which an empty stack has.
     unsafe {
         ffi::lua_getextraspace(main)
-            .cast::<*const Env>()
+            .cast::<*const Owner>()
             .write(owner);
         ffi::lua_pushnil(main);
         while ffi::lua_next(main, ffi::LUA_REGISTRYINDEX) != 0 {
             let coroutine = ffi::lua_tothread(main, -1);
             if !coroutine.is_null() {
                 ffi::lua_getextraspace(coroutine)
-                    .cast::<*const Env>()
+                    .cast::<*const Owner>()
                     .write(owner);
             }
             ffi::lua_settop(main, -2);

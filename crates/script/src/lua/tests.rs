@@ -2,26 +2,24 @@
 
 use std::marker::PhantomData;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::rc::{Rc, Weak};
+use std::rc::Rc;
 
-use super::{Stack, State, push_callback};
-use crate::lifecycle::env::Env;
-use crate::{Detached, Languages, Options, Registry, Silent, Sim};
-use scene::object::script_object::ScriptType;
+use super::{Owner, Stack, State, push_callback};
+use permissions::Permissions;
 
 /// Calls `test` with a state that has the standard libraries only.
 pub(super) fn with_state<T>(test: impl FnOnce(&State) -> T) -> T {
-    let registry = Registry::without_functions();
-    let sim = Sim::new(
-        Options::default(),
-        registry,
-        Box::new(Silent),
-        Languages::default(),
-    );
-    let script = sim
-        .scripts
-        .add_detached(ScriptType::Sandbox, Detached::default());
-    test(&State::new(Rc::new(Env::new(&sim, &script))))
+    let owner = Owner::new(Rc::new(7), Rc::default(), Permissions::all(), false);
+    test(&State::new(owner))
+}
+
+#[test]
+fn the_host_is_what_the_state_was_made_with() {
+    with_state(|state| {
+        assert_eq!(*state.stack().host::<i32>(), 7);
+        let other = catch_unwind(AssertUnwindSafe(|| *state.stack().host::<u32>()));
+        assert!(other.is_err());
+    });
 }
 
 #[test]
@@ -131,7 +129,7 @@ fn nothing_that_leads_to_a_state_can_be_sent() {
         Check::<&State>::IS_SEND,
         Check::<mlua::Lua>::IS_SEND,
         Check::<mlua::Table>::IS_SEND,
-        Check::<Weak<Sim>>::IS_SEND,
+        Check::<&Owner>::IS_SEND,
     ];
     assert_eq!((Check::<&mut Vec<u8>>::IS_SEND, states), (true, [false; 6]));
 }

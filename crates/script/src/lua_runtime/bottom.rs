@@ -5,9 +5,9 @@ use std::cell::Cell;
 use std::ffi::c_int;
 
 use super::reused::{self, ReusedArgument};
-use crate::calls::callback::SysCall;
+use crate::host::Integers;
 use crate::lua::{Stack, Type};
-use crate::runtime::Integers;
+use crate::sys_call::SysCall;
 
 /// Where the message handler is.
 pub(super) const HANDLER: c_int = 1;

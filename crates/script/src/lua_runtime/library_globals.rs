@@ -5,8 +5,8 @@
 
 use std::ffi::CStr;
 
+use crate::host::Sim;
 use crate::lua::{Stack, Type};
-use crate::sim::Sim;
 
 /// The table of a state.
 const LIBRARY_GLOBALS: &CStr = c"swanilda.globals";

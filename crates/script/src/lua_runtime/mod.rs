@@ -3,7 +3,7 @@
 mod bottom;
 mod buffers;
 pub(crate) mod coverage;
-pub(crate) mod embedded;
+mod functions;
 mod implicit;
 mod library_globals;
 mod old_calls;
@@ -19,17 +19,17 @@ pub(crate) mod user_modules;
 use std::rc::Rc;
 
 use super::binding::data;
-use super::calls::callback::SysCall;
 use super::coverage::LineCounts;
-use super::lifecycle::env::{Env, Hook};
-use super::lua::{LuaError, MULTIPLE, Stack, State, Type};
-use super::runtime::{
-    CallError, CallbackResult, Callee, FunctionRef, Integers, Interpreter, Language, Runtime,
-    ScriptError, SourceText,
+use super::lua::{LuaError, MULTIPLE, Owner, Stack, State, Type};
+use crate::function_ref::FunctionRef;
+use crate::host::{
+    CallError, CallbackResult, Callee, Env, Hook, Integers, Interpreter, Language, Runtime,
+    ScriptError, Sim, SourceText,
 };
-use super::sim::Sim;
+use crate::sys_call::SysCall;
 use bottom::Bottom;
 use coverage::Coverage;
+use permissions::Permissions;
 use scene::Data;
 use user_modules::UserModule;
 
@@ -58,12 +58,32 @@ impl LuaLanguage {
 
     /// An interpreter that is a part of another one.
     pub(crate) fn interpreter(&self, env: &Rc<Env>) -> LuaInterpreter {
-        let (state, user_modules) = (State::new(Rc::clone(env)), Rc::clone(&self.user_modules));
+        let (state, user_modules) = (State::new(owner(env)), Rc::clone(&self.user_modules));
         LuaInterpreter {
             state,
             bottom: Bottom::default(),
             user_modules,
         }
+    }
+}
+
+/// The owner of the state of a script.
+fn owner(env: &Rc<Env>) -> Owner {
+    let sim = env.sim.upgrade();
+    let budget = sim.as_ref().map(|sim| Rc::clone(&sim.scripts.budget));
+    let permissions = sim.map(|sim| sim.options.permissions.clone());
+    Owner::new(
+        Rc::clone(env),
+        budget.unwrap_or_default(),
+        permissions.unwrap_or_else(Permissions::none),
+        env.is_interruptible(),
+    )
+}
+
+impl<'a> Stack<'a> {
+    /// The environment of the script that the state belongs to.
+    pub(crate) fn env(self) -> &'a Env {
+        self.host()
     }
 }
 
@@ -99,7 +119,7 @@ impl LuaInterpreter {
 
     fn sim(&self) -> Result<Rc<Sim>, ScriptError> {
         self.stack()
-            .owner()
+            .env()
             .sim
             .upgrade()
             .ok_or_else(|| ScriptError::new("the simulator is gone."))

@@ -1,9 +1,9 @@
 //! Scripts from before callbacks existed. `lua/library/old_calls.lua` runs them.
 
 use super::startup;
-use crate::calls::callback::SysCall;
+use crate::host::Sim;
 use crate::lua::{LuaError, Stack};
-use crate::sim::Sim;
+use crate::sys_call::SysCall;
 
 /// Names that identify such a text: the call it runs for, and the first of the calls. They are searched in the text as in the original, so that a
 /// comment is enough.

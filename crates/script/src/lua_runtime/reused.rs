@@ -7,8 +7,8 @@
 use std::cell::{Cell, RefCell};
 use std::ffi::{c_int, c_void};
 
+use crate::host::Integers;
 use crate::lua::Stack;
-use crate::runtime::Integers;
 
 /// The argument that was used last. What it needs lies on the stack: the function, the table, and the names of its fields.
 pub(super) struct ReusedArgument {

@@ -3,9 +3,9 @@
 use std::ffi::c_int;
 
 use super::startup::load_module;
+use crate::host::Sim;
 use crate::log::console::OutputStream;
 use crate::lua::{LuaError, Stack, push_callback};
-use crate::sim::Sim;
 
 /// Keeps a state from ending the process, and from writing between the lines of the others.
 pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
@@ -16,11 +16,7 @@ pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
 
 /// Gets the name of a stream, and what a script has written there.
 fn write(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    let sim = stack
-        .owner()
-        .sim
-        .upgrade()
-        .ok_or("the simulator is gone.")?;
+    let sim = stack.env().sim.upgrade().ok_or("the simulator is gone.")?;
     let is_error = stack.with_bytes(1, |name| name == b"stderr") == Some(true);
     let stream = if is_error {
         OutputStream::Error

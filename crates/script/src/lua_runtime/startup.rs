@@ -6,6 +6,7 @@ use std::rc::Rc;
 
 use mlua::{Function, Lua, Table};
 
+use super::functions::{deprecation_notice, error_text, push_function, push_function_of_old_name};
 use super::reference_modules::ReferenceModule;
 use super::user_modules::UserModule;
 use super::{
@@ -13,10 +14,8 @@ use super::{
     user_modules,
 };
 use crate::binding::registry::{Member, MissingId, Namespace};
-use crate::binding::{deprecation_notice, error_text, push_function, push_function_of_old_name};
-use crate::lifecycle::instance::Script;
+use crate::host::{Script, Sim};
 use crate::lua::{self, LuaError, Outcome, Stack, State, Type, push_callback, push_plain};
-use crate::sim::Sim;
 
 /// The `sim` table of a state.
 const SIM: &CStr = c"swanilda.sim";
@@ -33,7 +32,11 @@ pub(super) fn fill(
     threads::install(stack);
     lua::install_coroutine_hooks(stack, threads::on_count);
     lua::restrict_debug(stack);
-    lua::report_closed_pipes(stack);
+    lua::report_closed_pipes(stack, |stack| {
+        if let Some(sim) = stack.env().simulator() {
+            sim.log.pipe_closed();
+        }
+    });
     let is_restricted = !sim.options.permissions.is_all();
     if is_restricted {
         lua::restrict_libraries(stack);
@@ -44,9 +47,9 @@ pub(super) fn fill(
     install_globals(sim, stack);
     install_sim(stack);
     seed_random(state.lua(), sim.options.seed)?;
-    stack.push_int(stack.owner().script.id);
+    stack.push_int(stack.env().script.id);
     stack.set_global("sim_script_handle");
-    stack.push_int(name_suffix(sim, &stack.owner().script));
+    stack.push_int(name_suffix(sim, &stack.env().script));
     stack.set_global("sim_script_name_index");
     run_base(sim, stack)?;
     if is_restricted {
@@ -202,7 +205,7 @@ fn search_last(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
         return find_module(stack, &name);
     }
     let wants_original = stack
-        .owner()
+        .env()
         .sim
         .upgrade()
         .is_some_and(|sim| sim.options.original_errors);
@@ -214,11 +217,7 @@ fn search_last(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 
 /// Pushes the loader of a module, and the native functions for its file; or why there is none.
 fn find_module(stack: Stack<'_>, name: &str) -> Result<c_int, String> {
-    let sim = stack
-        .owner()
-        .sim
-        .upgrade()
-        .ok_or("the simulator is gone.")?;
+    let sim = stack.env().sim.upgrade().ok_or("the simulator is gone.")?;
     let registry = &sim.modules.registry;
     let file = name.replace('.', "/");
     let namespace = registry.module(name);
@@ -353,7 +352,7 @@ fn index_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 /// `pairs(sim)`: who iterates gets all names, used before or not.
 fn pairs_sim(stack: Stack<'_>) -> Outcome {
     stack.push_registry(SIM);
-    for name in stack.owner().registry.members_of_sim().names() {
+    for name in stack.env().registry.members_of_sim().names() {
         let is_known = stack.raw_get_field(-1, name) != Type::Nil;
         stack.pop(1);
         if !is_known {
@@ -378,17 +377,13 @@ fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     if implicit::define(stack, &name) {
         return Ok(1);
     }
-    match stack.owner().registry.members_of_sim().of_global(&name) {
+    match stack.env().registry.members_of_sim().of_global(&name) {
         None => return Ok(0),
         Some(Member::Native(id)) => push_function_of_old_name(stack, id),
         Some(Member::Constant(value)) => stack.push_int(value),
         Some(Member::Missing(id)) => push_missing(stack, id),
         Some(Member::Lua { file, function, .. }) => {
-            let sim = stack
-                .owner()
-                .sim
-                .upgrade()
-                .ok_or("the simulator is gone.")?;
+            let sim = stack.env().sim.upgrade().ok_or("the simulator is gone.")?;
             push_lua_member(stack, &sim, file, function)?;
         }
     }
@@ -397,7 +392,7 @@ fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 
 /// Pushes `sim.<name>`, or nil.
 fn push_member(stack: Stack<'_>, name: &str) -> Result<(), String> {
-    match stack.owner().registry.members_of_sim().get(name) {
+    match stack.env().registry.members_of_sim().get(name) {
         None => stack.push_nil(),
         Some(Member::Constant(value)) => stack.push_int(value),
         Some(Member::Native(id)) => push_function(stack, id),
@@ -407,11 +402,7 @@ fn push_member(stack: Stack<'_>, name: &str) -> Result<(), String> {
             function,
             replacement,
         }) => {
-            let sim = stack
-                .owner()
-                .sim
-                .upgrade()
-                .ok_or("the simulator is gone.")?;
+            let sim = stack.env().sim.upgrade().ok_or("the simulator is gone.")?;
             push_lua_member(stack, &sim, file, function)?;
             if let Some(replacement) = replacement {
                 wrap_deprecated(
@@ -432,7 +423,7 @@ fn push_missing(stack: Stack<'_>, id: MissingId) {
 
 fn raise_missing(stack: Stack<'_>, number: usize) -> Result<c_int, String> {
     let missing = stack
-        .owner()
+        .env()
         .registry
         .missing(number)
         .ok_or("there is no such function.")?;

@@ -43,7 +43,7 @@ pub(super) fn add_functions(stack: Stack<'_>) {
 fn bench(stack: Stack<'_>) -> Option<Rc<TestBench>> {
     // Where lines are counted, the functions of all texts count.
     let sim = stack
-        .owner()
+        .env()
         .sim
         .upgrade()
         .filter(|sim| !sim.options.count_lines)?;

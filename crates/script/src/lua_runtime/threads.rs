@@ -6,7 +6,7 @@
 
 use std::ffi::CStr;
 
-use crate::lifecycle::env::Env;
+use crate::host::Env;
 use crate::lua::{HOOK_INTERVAL, HookAction, Stack, Type, hasten_count_hook, set_count_hook};
 
 /// Weak table from coroutine to its own pre-emption level.
@@ -14,7 +14,7 @@ const LEVELS: &CStr = c"swanilda.levels";
 
 /// Called by the count hook every `HOOK_INTERVAL` instructions: decides whether the code continues, and whether its time slice is used up.
 pub(crate) fn on_count(stack: Stack<'_>, can_yield: bool) -> HookAction {
-    let env = stack.owner();
+    let env = stack.env();
     if let Some(error) = env.interruption(|| stack.traceback_from(0)) {
         return HookAction::Fail(error);
     }
@@ -49,7 +49,7 @@ pub(crate) fn end_time_slice(stack: Stack<'_>) {
     if stack.is_main_coroutine() || auto_level(stack) != 0 {
         return;
     }
-    let yields = &stack.owner().yields;
+    let yields = &stack.env().yields;
     yields.used.set(u64::MAX);
     yields.hastened.set(true);
     hasten_count_hook(stack);
@@ -77,7 +77,7 @@ pub(crate) fn install(stack: Stack<'_>) {
 /// Level of the running coroutine: 0 means it may be pre-empted.
 pub(crate) fn auto_level(stack: Stack<'_>) -> i64 {
     let own = own_level(stack);
-    own.unwrap_or_else(|| stack.owner().yields.auto.get())
+    own.unwrap_or_else(|| stack.env().yields.auto.get())
 }
 
 fn own_level(stack: Stack<'_>) -> Option<i64> {
@@ -95,7 +95,7 @@ fn own_level(stack: Stack<'_>) -> Option<i64> {
 /// Sets the level of the running coroutine. Outside of coroutines it is the one new coroutines begin with.
 pub(crate) fn set_auto_level(stack: Stack<'_>, level: i64) {
     if stack.is_main_coroutine() {
-        return stack.owner().yields.auto.set(level);
+        return stack.env().yields.auto.set(level);
     }
     stack.push_registry(LEVELS);
     stack.push_running_coroutine();

@@ -5,8 +5,8 @@ use std::rc::Rc;
 use mlua::{Lua, Table};
 
 use super::startup::load_module;
+use crate::host::Sim;
 use crate::lua::{LuaError, Stack, push_callback, seal_argument};
-use crate::sim::Sim;
 
 /// Makes a module for the Lua state of one script.
 type Open = dyn Fn(&Lua) -> mlua::Result<Table>;

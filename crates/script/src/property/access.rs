@@ -6,8 +6,7 @@ use geometry::Finite;
 
 use super::PropertyTarget;
 use crate::error::{ApiError, ApiResult};
-use crate::lifecycle::instance::Script;
-use crate::sim::Sim;
+use crate::host::{Script, Sim};
 use scene::{Data, Handle, SceneError, SceneResult};
 
 /// The target of the property.

@@ -14,8 +14,7 @@ mod value;
 use std::rc::Rc;
 
 use super::error::{ApiError, ApiResult};
-use super::lifecycle::instance::Script;
-use super::sim::Sim;
+use crate::host::{Script, Sim};
 use ::scene::object::script_object::ScriptType;
 use ::scene::{Data, FIRST_MESH_UID, Handle, Namespace, Uid, ValueType, special};
 use access::{Accessor, Subject};
@@ -25,11 +24,9 @@ use types::{
     scene, script, shape, view,
 };
 
-pub(crate) use stored::SignalOwners;
 pub use table::{
     Class, Row, app_class, flags, mesh_class, object_class, scene_class, script_class,
 };
-pub(crate) use types::app::AppData;
 pub use value::{
     Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2,
     Vector3,

@@ -1,53 +1,10 @@
 //! Properties created by scripts: custom data, signals, named parameters.
 
-use std::collections::BTreeMap;
-
 use super::table::flags;
 use super::{Info, PropertyTarget, Sim};
 use crate::error::{ApiError, ApiResult};
-use crate::lifecycle::instance::Script;
+use crate::host::Script;
 use scene::{CustomData, Data, Edit, Handle, Holder, Namespace, ValueType};
-
-/// The script that last wrote each signal. A signal is removed with the interpreter of that script.
-#[derive(Default)]
-pub struct SignalOwners(BTreeMap<Holder, BTreeMap<String, i64>>);
-
-impl SignalOwners {
-    fn set(&mut self, holder: Holder, name: &str, script: i64) {
-        let owners = self.0.entry(holder).or_default();
-        match owners.get_mut(name) {
-            Some(owner) => *owner = script,
-            None => drop(owners.insert(name.to_owned(), script)),
-        }
-    }
-
-    fn remove(&mut self, holder: Holder, name: &str) {
-        if let Some(owners) = self.0.get_mut(&holder) {
-            owners.remove(name);
-        }
-    }
-
-    /// Drops the owners of the signals of a removed holder.
-    pub(crate) fn forget(&mut self, holder: Holder) {
-        self.0.remove(&holder);
-    }
-
-    /// Removes the signals owned by `script`.
-    fn take(&mut self, script: i64) -> Vec<(Holder, String)> {
-        let mut owned = Vec::new();
-        for (&holder, owners) in &mut self.0 {
-            owners.retain(|name, owner| {
-                let remains = *owner != script;
-                if !remains {
-                    owned.push((holder, name.clone()));
-                }
-                remains
-            });
-        }
-        self.0.retain(|_, owners| !owners.is_empty());
-        owned
-    }
-}
 
 /// Whether a new property may have that name.
 pub(crate) fn is_valid_name(name: &str) -> bool {

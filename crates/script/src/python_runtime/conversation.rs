@@ -7,12 +7,9 @@ use super::link::Link;
 use super::message::{self, Message};
 use crate::binding::args::Args;
 use crate::binding::registry::{Bound, Member};
-use crate::binding::source::Values;
-use crate::calls::callback::SysCall;
 use crate::error::ApiError;
-use crate::lifecycle::env::Env;
-use crate::lifecycle::level::Level;
-use crate::runtime::ScriptError;
+use crate::host::{Env, Level, ScriptError};
+use crate::sys_call::SysCall;
 use scene::Data;
 use wire::marshal::Declared;
 
@@ -172,7 +169,7 @@ impl Conversation<'_> {
         if bound.replacement.is_some() {
             return None;
         }
-        let results = (bound.function.call_data)(&mut Args::new(Values::new(args, self.env)));
+        let results = (bound.function.call_data)(&mut Args::new(self.env.values(args)));
         if bound.function.mutates {
             self.env.collect_events();
         }

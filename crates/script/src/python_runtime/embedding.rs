@@ -9,7 +9,7 @@ use std::time::Duration;
 use super::conversation::Conversation;
 use super::message::Message;
 use crate::binding::registry::Member;
-use crate::lifecycle::env::Env;
+use crate::host::Env;
 
 /// The Python of the program that the simulator is a part of.
 pub trait PythonHost {

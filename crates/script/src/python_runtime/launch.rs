@@ -4,9 +4,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use super::embedding::{EmbeddedScript, PythonHost, ScriptCalls};
-use crate::lifecycle::env::Env;
-use crate::lifecycle::instance::Script;
-use crate::sim::Sim;
+use crate::host::{Env, Script, Sim};
 use io::PeerProcess;
 use permissions::Denied;
 use scene::Data;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::coverage::{CountedText, FunctionLines, LineCounts};
-use crate::sim::Sim;
+use crate::host::Sim;
 use scene::{Data, Key};
 
 /// The script's own text in reports.

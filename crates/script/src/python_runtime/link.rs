@@ -8,13 +8,12 @@ use std::time::Duration;
 
 use super::embedding::EmbeddedScript;
 use super::message::Message;
-use crate::calls::callback::SysCall;
 use crate::error::ApiError;
-use crate::lifecycle::env::Env;
+use crate::host::{Env, ScriptError};
 use crate::log::console::OutputStream;
 use crate::log::verbosity;
-use crate::runtime::ScriptError;
-use crate::step::wall_clock;
+use crate::sys_call::SysCall;
+use crate::wall_clock;
 use io::{PeerError, PeerProcess};
 use scene::Data;
 
@@ -245,7 +244,11 @@ impl Link {
 
     fn check_interruption(&self, env: &Env) -> Result<(), ScriptError> {
         let interruption = env.interruption(|| "in a script in Python".into());
-        let is_interrupted = || env.sim.upgrade().is_some_and(|sim| sim.is_interrupted());
+        let is_interrupted = || {
+            env.sim
+                .upgrade()
+                .is_some_and(|sim| sim.options.is_interrupted())
+        };
         match interruption {
             Some(text) => {
                 self.kill();

@@ -18,16 +18,14 @@ use std::path::Path;
 use std::rc::Rc;
 use std::time::Duration;
 
-use super::calls::callback::SysCall;
 use super::coverage::LineCounts;
-use super::lifecycle::env::{Env, Hook};
-use super::lifecycle::instance::Script;
 use super::lua_runtime::{LuaInterpreter, LuaLanguage};
-use super::runtime::{
-    CallError, CallbackResult, Callee, FunctionRef, Interpreter, Language, Runtime, ScriptError,
-    SourceText,
+use crate::function_ref::FunctionRef;
+use crate::host::{
+    CallError, CallbackResult, Callee, Env, Hook, Interpreter, Language, Runtime, Script,
+    ScriptError, Sim, SourceText,
 };
-use super::sim::Sim;
+use crate::sys_call::SysCall;
 use conversation::{Conversation, LIBRARY};
 pub use embedding::is_short;
 pub use embedding::{EmbeddedScript, PythonHost, ScriptCalls};

@@ -11,10 +11,10 @@ use std::time::Duration;
 use super::conversation::{ApiResults, Conversation, answer};
 use super::message::{self, Message};
 use crate::binding::data;
-use crate::calls::callback::SysCall;
+use crate::host::ScriptError;
 use crate::lua::{Stack, push_callback};
 use crate::lua_runtime::threads;
-use crate::runtime::ScriptError;
+use crate::sys_call::SysCall;
 use scene::Data;
 
 /// A thread that makes no call for this long runs concurrently with the simulation.
@@ -46,9 +46,9 @@ pub(super) fn push_natives(stack: Stack<'_>) {
 
 /// Lets the thread go on. Returns nothing when it has ended, false when it is busy, or the name of a function and its arguments.
 fn turn(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    let link = Conversation::link_of(stack.owner());
+    let link = Conversation::link_of(stack.env());
     let conversation = Conversation {
-        env: stack.owner(),
+        env: stack.env(),
         link: &link,
     };
     match conversation.turn(|| threads::auto_level(stack) == 0) {
@@ -142,7 +142,7 @@ impl Conversation<'_> {
 
 /// Answers the thread: gets whether its call succeeded, and what the library says of its results, or the error.
 fn reply(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    let link = Conversation::link_of(stack.owner());
+    let link = Conversation::link_of(stack.env());
     let values = (2..=stack.top())
         .map(|index| data::read_data(stack, index))
         .collect::<Result<Vec<_>, _>>();
@@ -160,9 +160,9 @@ fn reply(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 
 /// Calls a function of the script with the arguments after its name.
 fn ask(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    let link = Conversation::link_of(stack.owner());
+    let link = Conversation::link_of(stack.env());
     let conversation = Conversation {
-        env: stack.owner(),
+        env: stack.env(),
         link: &link,
     };
     let name = String::from_utf8_lossy(&stack.bytes(1).unwrap_or_default()).into_owned();

@@ -1,6 +1,6 @@
 //! Handling of the collision and distance objects of old scenes: what is found is stored (spec: sensors 2.1).
 
-use crate::sim::Sim;
+use crate::host::Sim;
 use perception::entity::Entity;
 use scene::{Handle, Scene, SceneError, SceneResult};
 

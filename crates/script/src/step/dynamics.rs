@@ -3,11 +3,11 @@
 
 use std::rc::Rc;
 
-use crate::calls::callback::SysCall;
+use crate::calls::contacts::CONTACT;
 use crate::error::{ApiError, ApiResult};
-use crate::lifecycle::contacts::CONTACT;
+use crate::host::Sim;
 use crate::log::verbosity;
-use crate::sim::Sim;
+use crate::sys_call::SysCall;
 use dynamics::{Dynamics, DynamicsCall, JointRequest, ScriptAccess, Trigger, Verdicts};
 use scene::joint::Joint;
 use scene::{Data, Handle, Scene};

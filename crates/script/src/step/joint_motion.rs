@@ -5,8 +5,8 @@ use std::rc::Rc;
 
 use motion::ruckig_plan::{position_step, velocity_step};
 
-use crate::calls::callback::SysCall;
-use crate::sim::Sim;
+use crate::host::Sim;
+use crate::sys_call::SysCall;
 use scene::joint::motion::JointStep;
 use scene::joint::{Joint, JointMotion};
 use scene::{Data, Handle, Key, SceneResult};

@@ -1,24 +1,19 @@
 //! The application's loop: idle iterations, simulation steps, start, pause and stop (spec: callbacks 2, spec: simulation).
 
 mod calculation_objects;
-pub(crate) mod clock;
-mod contacts;
 pub(crate) mod dynamics;
+mod hooks;
 pub(crate) mod joint_motion;
 mod proximity;
-pub(crate) mod waiting;
-pub mod wall_clock;
 
 use std::rc::Rc;
 
-use super::calls::callback::SysCall;
-use super::lifecycle::instance::{Script, state};
-use super::lifecycle::order::ScriptGroup;
 use super::log::{status, verbosity};
-use super::sim::Sim;
-use clock::SimulationState;
+use crate::clock::SimulationState;
+use crate::host::{Script, ScriptGroup, Sim, state};
+use crate::lifecycle::selection_data;
+use crate::sys_call::SysCall;
 use plugin_host::Moment;
-use scene::Data;
 use scene::object::script_object::ScriptType;
 
 impl Sim {
@@ -72,20 +67,8 @@ impl Sim {
     fn notify_selection(self: &Rc<Self>) {
         let selection = self.scene.borrow().selection().to_vec();
         if self.scripts.note_selection(&selection) {
-            self.broadcast(SysCall::SelChange, &[self.selection_data()]);
+            self.broadcast(SysCall::SelChange, &[selection_data(&self.scene.borrow())]);
         }
-    }
-
-    /// The argument of `sysCall_selChange`.
-    pub(crate) fn selection_data(&self) -> Data {
-        let sel: Vec<i64> = self
-            .scene
-            .borrow()
-            .selection()
-            .iter()
-            .map(|h| h.raw())
-            .collect();
-        Data::map([("sel", sel.into())])
     }
 
     /// One simulation step as the main script defines it.
@@ -233,28 +216,10 @@ impl Sim {
 
     /// Runs so many times as fast as the wall clock from now on; as fast as possible if that is 0.
     pub fn set_pace(&self, factor: f64) {
-        self.scene.borrow_mut().modify_settings(|settings| {
-            settings.real_time = factor > 0.0;
-            if settings.real_time {
-                settings.real_time_factor = factor;
-            }
-        });
+        self.scene
+            .borrow_mut()
+            .modify_settings(|settings| settings.set_pace(factor));
         self.restart_real_time();
-    }
-
-    /// Asks for the end of the program, or withdraws that.
-    pub(crate) fn request_quit(&self, on: bool) {
-        self.clock.set_quit_requested(on);
-    }
-
-    pub(crate) fn request_pause_after_error(&self) {
-        if self
-            .scene
-            .try_borrow()
-            .is_ok_and(|scene| scene.settings().pause_at_error)
-        {
-            self.pause();
-        }
     }
 
     /// Asks for the end of the run as a person does, who does not see that a pause has begun: a script's request would wait until the

@@ -2,12 +2,12 @@
 
 use std::rc::Rc;
 
-use crate::calls::callback::SysCall;
-use crate::sim::Sim;
+use crate::host::Sim;
+use crate::sys_call::SysCall;
 use perception::detection::{Detected, DetectionMode};
 use perception::entity::{Entity, Group, Purpose};
 use scene::sensor::Detection;
-use scene::{Data, Field, Handle, Object, Scene, SceneError, SceneResult};
+use scene::{Data, Handle, Scene, SceneError, SceneResult};
 
 impl Sim {
     /// Handles one sensor, which must be tagged for that.
@@ -38,46 +38,12 @@ impl Sim {
         if !self.scene.borrow().has_sensors() {
             return None;
         }
-        let sensors = self.proximity_sensors(with_explicit);
+        let sensors = self.scene.borrow().proximity_sensors(with_explicit);
         // A script that is called may remove a sensor whose turn has not come.
         let detections = sensors
             .into_iter()
             .filter_map(|sensor| self.sense(sensor).ok().flatten());
         detections.reduce(|a, b| if b.distance() < a.distance() { b } else { a })
-    }
-
-    /// Forgets what one sensor detected, which must be tagged for explicit handling.
-    ///
-    /// # Errors
-    /// As [`Sim::handle_proximity_sensor`].
-    pub(crate) fn reset_proximity_sensor(&self, sensor: Handle) -> SceneResult<()> {
-        let mut scene = self.scene.borrow_mut();
-        if !scene.object(sensor)?.proximity_sensor()?.explicit {
-            return Err(SceneError::NotExplicit);
-        }
-        store(&mut scene, sensor, false, None)
-    }
-
-    /// Forgets what all sensors detected, or those that are not tagged for explicit handling.
-    pub(crate) fn reset_proximity_sensors(&self, with_explicit: bool) {
-        for sensor in self.proximity_sensors(with_explicit) {
-            // The handles were just read.
-            let _ = store(&mut self.scene.borrow_mut(), sensor, false, None);
-        }
-    }
-
-    fn proximity_sensors(&self, with_explicit: bool) -> Vec<Handle> {
-        let is_handled = |object: &&Object| {
-            object
-                .proximity_sensor()
-                .is_ok_and(|s| with_explicit || !s.explicit)
-        };
-        self.scene
-            .borrow()
-            .objects()
-            .filter(is_handled)
-            .map(Object::handle)
-            .collect()
     }
 
     /// Detects, calls the scripts of the sensor, and stores the result.
@@ -91,7 +57,7 @@ impl Sim {
         // Scripts may have removed any object.
         let detection = detection.filter(|found| scene.exists(found.object));
         if scene.object(sensor).is_ok_and(|object| object.uid() == uid) {
-            store(&mut scene, sensor, true, detection)?;
+            scene.set_detection(sensor, true, detection)?;
         }
         Ok(detection)
     }
@@ -145,24 +111,6 @@ fn with_flag(group: Group, entity: Entity, scene: &Scene) -> Group {
         }
         (group, _) => group,
     }
-}
-
-/// Stores the result of a sensor; readers of properties are notified if it has changed.
-fn store(
-    scene: &mut Scene,
-    sensor: Handle,
-    handled: bool,
-    detection: Option<Detection>,
-) -> SceneResult<()> {
-    let known = scene.object(sensor)?.proximity_sensor()?;
-    if (known.handled, known.detection) == (handled, detection) {
-        return Ok(());
-    }
-    scene.try_modify(sensor, Field::Measured, |object| {
-        let data = object.proximity_sensor_mut()?;
-        (data.handled, data.detection) = (handled, detection);
-        Ok(())
-    })
 }
 
 /// The argument of `sysCall_trigger`, with the names of old versions too.

@@ -18,12 +18,10 @@ const OLD_STEP: f64 = 0.005;
 const MAX_FORCE: f64 = 1000.0;
 
 pub(super) fn joint(context: &Context<'_>, chunk: &Chunk) -> Joint {
-    let joint_type = match chunk.joint_type {
-        Some(11) => JointType::Prismatic,
-        Some(12) => JointType::Spherical,
-        _ => JointType::Revolute,
-    };
-    let mut joint = Joint::new(joint_type, mode(chunk));
+    let joint_type = chunk.joint_type.unwrap_or_default().into();
+    let joint_type = JointType::from_code(joint_type).unwrap_or(JointType::Revolute);
+    let mode = JointMode::of_file(chunk.joint_mode.unwrap_or_default());
+    let mut joint = Joint::new(joint_type, mode);
     joint.hybrid = chunk.switches.unwrap_or(0) & 0x40 != 0;
     limits(&mut joint, chunk);
     position(&mut joint, chunk);
@@ -47,16 +45,6 @@ pub(super) fn joint(context: &Context<'_>, chunk: &Chunk) -> Joint {
     );
     debug_assert!(context.header.serialization > 0);
     joint
-}
-
-fn mode(chunk: &Chunk) -> JointMode {
-    match chunk.joint_mode {
-        Some(3 | 4) => JointMode::Dependent,
-        Some(5) => JointMode::Dynamic,
-        Some(1) => JointMode::Motion,
-        Some(2) => JointMode::InverseKinematics,
-        _ => JointMode::Kinematic,
-    }
 }
 
 fn limits(joint: &mut Joint, chunk: &Chunk) {
@@ -116,24 +104,11 @@ fn control(joint: &mut Joint, chunk: &Chunk) {
     };
     joint.control = chunk
         .dyn_ctrl_mode
-        .map_or_else(|| old_control(chunk), control_of);
+        .map_or_else(|| old_control(chunk), Control::of_file);
     joint.motor_lock = chunk.switches_2.unwrap_or(0) & 0x2 != 0;
     let smooth = chunk.switches_3.is_some_and(|switches| switches & 1 != 0);
     joint.position_profile = smooth || chunk.pos_ctrl_profile.unwrap_or(0) != 0;
     joint.velocity_profile = smooth || chunk.vel_ctrl_profile.unwrap_or(0) != 0;
-}
-
-fn control_of(mode: i32) -> Control {
-    match mode {
-        1 => Control::Force,
-        4 => Control::Velocity,
-        8 => Control::Position,
-        9 => Control::PositionOrCallback,
-        12 => Control::Spring,
-        13 => Control::SpringOrCallback,
-        16 => Control::Callback,
-        _ => Control::Free,
-    }
 }
 
 /// Before 4.3: a motor, a control loop for it, which may be a spring.

@@ -64,8 +64,11 @@ pub(super) fn proximity_sensor(
     let bit = |bit: u8| switches >> bit & 1 == 1;
     let old_angle = chunk.old_angle_threshold.filter(|_| bit(2));
     let [samples, required] = chunk.randomized.unwrap_or([1, 1]);
+    let volume_type = chunk
+        .sensor_type
+        .map_or(VolumeType::Ray, |number| VolumeType::nearest(number.into()));
     let mut sensor = ProximitySensor {
-        volume: volume(volume_type(chunk.sensor_type), chunk.volume.as_ref()),
+        volume: volume(volume_type, chunk.volume.as_ref()),
         explicit: bit(7),
         size: chunk.size.unwrap_or(0.01),
         show_volume: bit(0),
@@ -106,15 +109,6 @@ fn faces(chunk: &file::Volume) -> Option<VolumeFaces> {
         edges: list(&chunk.edges),
         close_edges: list(&chunk.non_detect_edges),
     })
-}
-
-/// The type of that number; the first or last one for numbers below or above all types.
-fn volume_type(number: Option<i32>) -> VolumeType {
-    match number {
-        Some(number) if number <= VolumeType::Pyramid as i32 => VolumeType::Pyramid,
-        Some(number) => VolumeType::from_code(number.into()).unwrap_or(VolumeType::Ray),
-        None => VolumeType::Ray,
-    }
 }
 
 fn volume(volume_type: VolumeType, chunk: Option<&file::Volume>) -> Volume {
@@ -206,7 +200,7 @@ pub(super) fn camera(chunk: &file::Camera) -> Camera {
 
 pub(super) fn light(chunk: &file::Light) -> Light {
     let ([kind, exponent], size) = chunk.kind_and_size.unwrap_or(([1, 5], 0.1));
-    let mut light = Light::new(light_type(kind));
+    let mut light = Light::new(LightType::nearest(kind.into()));
     (light.spot_exponent, light.size) = (exponent.into(), size);
     light.spot_cutoff = chunk.spot_cutoff.unwrap_or(light.spot_cutoff);
     light.attenuation = chunk.attenuation.unwrap_or(light.attenuation);
@@ -216,15 +210,6 @@ pub(super) fn light(chunk: &file::Light) -> Light {
         light.colour = emitted(chunk, light.colour);
     }
     light
-}
-
-/// The type of that number; the first or last one for numbers below or above all types.
-fn light_type(number: i32) -> LightType {
-    match number {
-        ..=1 => LightType::Omnidirectional,
-        2 => LightType::Spot,
-        3.. => LightType::Directional,
-    }
 }
 
 /// Emitted light is the second group of a colour; in old files it is the mean of the diffuse light.

@@ -31,7 +31,7 @@ fn coroutine(stack: Stack<'_>) -> Stack<'_> {
 
 /// Puts a hook of ours in the place of the one of the library, or of none.
 fn watch(stack: Stack<'_>) {
-    if !stack.owner().is_interruptible() {
+    if !stack.owner().is_watched {
         return;
     }
     let coroutine = coroutine(stack);

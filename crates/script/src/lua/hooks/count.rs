@@ -32,7 +32,7 @@ pub(crate) fn install_coroutine_hooks(stack: Stack<'_>, on_count: OnCount) {
     });
     install::<{ guarded::COROUTINE_WRAP }, _>(stack, "wrap", |_| Next::OriginalThen(hook_wrapped));
     stack.pop(1);
-    if stack.owner().is_interruptible() {
+    if stack.owner().is_watched {
         stack.push_running_coroutine();
         set_hook(stack, HOOK_INTERVAL);
         stack.pop(1);
@@ -55,7 +55,7 @@ fn hook_wrapped(stack: Stack<'_>) {
 pub(crate) fn set_count_hook(stack: Stack<'_>, on: bool) {
     set_interval(
         stack,
-        if on || stack.owner().is_interruptible() {
+        if on || stack.owner().is_watched {
             HOOK_INTERVAL
         } else {
             0
@@ -68,7 +68,7 @@ pub(super) fn restore_count_hook(stack: Stack<'_>) {
     let is_main = api::lua_pushthread(stack.room()) != 0;
     set_hook(
         stack,
-        if is_main && !stack.owner().is_interruptible() {
+        if is_main && !stack.owner().is_watched {
             0
         } else {
             HOOK_INTERVAL

@@ -26,7 +26,7 @@ pub(crate) fn restrict_debug(stack: Stack<'_>) {
     install::<{ guarded::SET_METATABLE }, _>(stack, "setmetatable", set_metatable);
     install::<{ guarded::GET_UPVALUE }, _>(stack, "getupvalue", access_upvalue);
     install::<{ guarded::SET_UPVALUE }, _>(stack, "setupvalue", access_upvalue);
-    if stack.owner().is_interruptible() {
+    if stack.owner().is_watched {
         keep_watch(stack);
     }
     push_plain(stack, get_registry);

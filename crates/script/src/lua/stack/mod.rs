@@ -10,8 +10,8 @@ use std::ops::Deref;
 use mlua::{Lua, ffi};
 
 use super::api::Slot;
-use super::{Budget, api};
-use crate::lifecycle::env::Env;
+use super::{Owner, api};
+use crate::budget::Budget;
 
 /// The stack of one coroutine of a living state. Indices are Lua's: 1 is the bottom, -1 the top.
 #[repr(transparent)]
@@ -71,10 +71,10 @@ impl<'a> Stack<'a> {
         self.raw
     }
 
-    /// The host's side of the state.
-    pub(crate) fn owner(self) -> &'a Env {
+    /// Who the state belongs to.
+    pub(crate) fn owner(self) -> &'a Owner {
         // SAFETY: `State::new` wrote it, coroutines inherit it, and it outlives the state.
-        unsafe { &**ffi::lua_getextraspace(self.raw).cast::<*const Env>() }
+        unsafe { &**ffi::lua_getextraspace(self.raw).cast::<*const Owner>() }
     }
 
     /// The virtual machine, for what is not hot.
@@ -137,7 +137,7 @@ impl<'a> Stack<'a> {
         let mut length = 0;
         let start = api::lua_tolstring(self, self.slot(index), Some(&mut length));
         // SAFETY: the bytes of a string on the stack, which was not converted. They do not move, and are freed only by Lua: `read` cannot call
-        // it, since it holds nothing that leads to a state (`Stack`, `Lua`, `Env` are not `Send`).
+        // it, since it holds nothing that leads to a state (`Stack`, `Lua`, and what a state belongs to are not `Send`).
         Some(read(unsafe {
             std::slice::from_raw_parts(start.cast(), length)
         }))

@@ -5,8 +5,8 @@ use std::ffi::{CStr, c_int};
 use mlua::ffi;
 
 use super::{Stack, Type};
+use crate::function_ref::FunctionRef;
 use crate::lua::api::{self, Table};
-use crate::runtime::FunctionRef;
 
 /// Size hints beyond this are not worth their memory: tables grow by themselves.
 pub(in crate::lua) const MAX_HINT: usize = 1 << 16;

@@ -13,10 +13,8 @@ use std::sync::Arc;
 
 use super::startup::load_module;
 use crate::coverage::{CountedText, Counts, LineCounts, read_text};
-use crate::lifecycle::instance::Script;
+use crate::host::{Script, Sim, SourceText};
 use crate::lua::{LuaError, Stack, Type, push_callback};
-use crate::runtime::SourceText;
-use crate::sim::Sim;
 pub use executable::executable;
 
 /// Maximum number of texts per state: Lua code can use any number of names.
@@ -132,7 +130,7 @@ impl Coverage {
                 .as_ref()
                 .filter(|own| *own.chunk_name == *text.chunk_name)
             {
-                Some(own) => own.counted(sim, &stack.owner().script),
+                Some(own) => own.counted(sim, &stack.env().script),
                 None => CountedText::File(PathBuf::from(
                     String::from_utf8_lossy(&text.chunk_name[1..]).into_owned(),
                 )),

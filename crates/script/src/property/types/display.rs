@@ -4,7 +4,7 @@ use geometry::Finite;
 
 use super::Color;
 use super::access::{Accessor, length, object_properties, refused};
-use crate::Bytes;
+use crate::binding::args::Bytes;
 use scene::graph::Graph;
 
 pub(in crate::property) const LIGHT: &[Accessor] = object_properties! {

@@ -6,7 +6,7 @@ use super::access::{Accessor, Subject, refused, subject_properties};
 use super::{IntPair, PropertyTarget, Text};
 use crate::binding::args::Bytes;
 use crate::error::{ApiError, ApiResult};
-use crate::sim::Sim;
+use crate::host::Sim;
 use scene::appearance::texture::Texture;
 use scene::appearance::texture_mapping::{ApplyMode, TextureMapping};
 use scene::shape::Part;

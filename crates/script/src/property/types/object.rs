@@ -5,7 +5,7 @@ use geometry::pose::{pose_from_array, pose_to_array};
 use super::access::{Accessor, object_properties, pair, placed_properties, refused};
 use super::table::object_class;
 use super::{Long, PoseArray, Text, Vector3};
-use crate::Bytes;
+use crate::binding::args::Bytes;
 use scene::object::movement::MovementFrame;
 use scene::{
     ForbiddenMovements, Handle, Layers, ModelFlags, Object, ObjectFlags, PreferredAxes, Scene,

@@ -2,80 +2,24 @@
 
 use super::access::{Accessor, subject_properties};
 use super::{Color, Vector3};
-use crate::error::{ApiError, ApiResult};
-use crate::lifecycle::random::Random;
-use crate::sim::Sim;
-use scene::parameters::engine::{Engine, SelectedEngine};
-use scene::{Counters, Handle, Layers, SceneError};
+use crate::error::ApiError;
+use crate::host::Sim;
+use crate::random::Random;
+use scene::parameters::engine::SelectedEngine;
+use scene::{Counters, Handle, Layers};
 
 /// Letters and digits of the identifier of a scene.
 const SCENE_UID_LETTERS: usize = 16;
 
 impl Sim {
-    /// Sets the simulation step, seconds. Without effect while the simulation is not stopped, as in CoppeliaSim.
-    pub(crate) fn set_time_step(&self, step: f64) {
-        if self.clock.is_stopped() && !step.is_nan() {
-            self.scene
-                .borrow_mut()
-                .modify_settings(|settings| settings.time_step = step.clamp(0.0001, 10.0));
-        }
-    }
-
-    /// Sets the desired sub-step of the physics, seconds; at most the simulation step. Without effect while the simulation is not
-    /// stopped.
-    pub(crate) fn set_physics_step(&self, step: f64) {
-        if self.clock.is_stopped() && !step.is_nan() {
-            self.scene.borrow_mut().modify_settings(|settings| {
-                settings.dynamics.step = step.clamp(0.00001, settings.time_step.max(0.00001));
-            });
-        }
-    }
-
-    /// Chooses the engine whose parameters count, and its version. Without effect while the simulation is not stopped.
-    ///
-    /// # Errors
-    /// When there is no such engine.
-    pub(crate) fn set_engine(&self, number: i64, version: i64) -> ApiResult<()> {
-        let engine = Engine::from_number(number).ok_or(SceneError::InvalidArgument)?;
-        if self.clock.is_stopped() {
-            self.scene
-                .borrow_mut()
-                .modify_settings(|s| s.dynamics.engine = SelectedEngine { engine, version });
-        }
-        Ok(())
-    }
-
-    /// Sets how many simulation steps there are to an image. Without effect while the simulation is not stopped.
-    fn set_steps_per_rendering(&self, steps: i64) {
-        if self.clock.is_stopped() {
-            self.scene
-                .borrow_mut()
-                .modify_settings(|settings| settings.steps_per_rendering = steps.max(1));
-        }
-    }
-
     fn counters(&self) -> Counters {
         self.scene.borrow().journal().counters()
-    }
-
-    /// Distinguishes this scene from earlier ones.
-    pub fn scene_uid(&self) -> i64 {
-        self.app.borrow().closed_scenes + 1
     }
 
     /// Distinguishes this scene also from those of other simulators with other seeds.
     fn scene_uid_text(&self) -> String {
         Random::new(self.options.seed.wrapping_add(self.scene_uid() as u32))
             .string(SCENE_UID_LETTERS)
-    }
-
-    /// Turns real-time mode on or off. Without effect while the simulation is not stopped.
-    pub(crate) fn set_real_time(&self, on: bool) {
-        if self.clock.is_stopped() {
-            self.scene
-                .borrow_mut()
-                .modify_settings(|settings| settings.real_time = on);
-        }
     }
 }
 
@@ -91,11 +35,17 @@ macro_rules! settings {
 }
 
 pub(in crate::property) const SIMULATION: &[Accessor] = subject_properties! {
-    "realtimeSimulation": bool, |s| s.sim.scene.borrow().settings().real_time, |s, on| s.sim.set_real_time(on);
+    "realtimeSimulation": bool, |s| s.sim.scene.borrow().settings().real_time, |s, on| {
+        s.sim.change_while_stopped(|settings| settings.real_time = on);
+    };
     "stepsPerRendering": i64, |s| s.sim.scene.borrow().settings().steps_per_rendering,
-        |s, steps| s.sim.set_steps_per_rendering(steps);
+        |s, steps| {
+            s.sim.change_while_stopped(|settings| settings.set_steps_per_rendering(steps));
+        };
     "simulationTime": f64, |s| s.sim.clock.time();
-    "timeStep": f64, |s| s.sim.scene.borrow().settings().time_step, |s, step| s.sim.set_time_step(step);
+    "timeStep": f64, |s| s.sim.scene.borrow().settings().time_step, |s, step| {
+        s.sim.change_while_stopped(|settings| settings.set_time_step(step));
+    };
     "stepCount": i64, |s| s.sim.clock.steps() as i64;
     "simulationState": i64, |s| s.sim.clock.state() as i64;
 };
@@ -127,9 +77,12 @@ pub(in crate::property) const IDENTITY: &[Accessor] = subject_properties! {
 pub(in crate::property) const PHYSICS: &[Accessor] = subject_properties! {
     "dynamicsEngine": Vec<i64>, |s| s.sim.scene.borrow().settings().dynamics.engine.numbers().to_vec(), |s, engine| {
         let [kind, version, ..] = engine[..] else { return Err(ApiError::PropertyNotWritable) };
-        s.sim.set_engine(kind, version)?;
+        let engine = SelectedEngine::from_numbers(kind, version)?;
+        s.sim.change_while_stopped(|settings| settings.dynamics.engine = engine);
     };
-    "dynamicsStepSize": f64, |s| s.sim.scene.borrow().settings().dynamics.step, |s, step| s.sim.set_physics_step(step);
+    "dynamicsStepSize": f64, |s| s.sim.scene.borrow().settings().dynamics.step, |s, step| {
+        s.sim.change_while_stopped(|settings| settings.set_physics_step(step));
+    };
 };
 
 pub(in crate::property) const CONTAINER: &[Accessor] = subject_properties! {

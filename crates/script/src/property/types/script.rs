@@ -2,7 +2,7 @@
 
 use super::access::{Accessor, Subject, object_properties, subject_properties};
 use crate::error::ApiResult;
-use crate::lifecycle::instance::Detached;
+use crate::host::Detached;
 use scene::object::script_object::{ExecutionPriority, ScriptObject};
 use scene::{Field, SceneResult};
 

@@ -4,7 +4,7 @@ use geometry::Finite;
 
 use super::access::{Accessor, length, object_properties, pair, placed_properties, refused};
 use super::{Color, IntPair, Vector3};
-use crate::Bytes;
+use crate::binding::args::Bytes;
 use scene::sensor::RenderMode;
 use scene::{Handle, Kind, SceneResult};
 
