@@ -81,20 +81,13 @@ loadstring, unpack, quit, exit = load, unpack_, quitSimulator, quitSimulator
 sim_plugin_namespaces = {}
 registerScriptFuncHook('sysCall_init', beginThread, false)
 
--- A tail call: it looks for the variables of its caller.
-function f(...)
-    f = quietRequire('var.functions').f
-    return f(...)
-end
-
 local files = {}
 
 -- Calls a function of a file. It replaces what stood for it as a global, unless the script has put its own there.
 return function(module, name, standIn, ...)
     local functions = files[module]
     if not functions then
-        local isInParts = module == 'functional' or module == 'var'
-        functions = quietRequire(isInParts and module .. '.functions' or module)
+        functions = quietRequire(module)
         files[module] = functions
     end
     local f = functions[name]

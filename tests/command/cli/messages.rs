@@ -204,18 +204,16 @@ fn original_errors_list_the_places_where_a_plugin_was_searched() {
     assert!(!log.contains("PLUGINS.md"), "{log}");
 }
 
+/// Modules of the library have names that a scene's own modules have too.
 #[test]
-fn a_scene_s_own_module_goes_before_a_missing_plugin() {
-    let scene = Scene::new("print(require('simCHAI3D').mine)");
-    fs::write(
-        scene.folder.path().join("simCHAI3D.lua"),
-        "return {mine = 7}",
-    )
-    .expect("our own folder is writable");
-    assert_eq!(
-        stdout(&scene.run(&["--steps", "1", "--empty", "--quiet"])),
-        "7\n"
-    );
+fn a_scene_s_own_module_goes_before_a_missing_plugin_and_a_helper() {
+    for name in ["simCHAI3D", "utils", "matrix", "functional", "stringx"] {
+        let scene = Scene::new(&format!("print(require('{name}').mine)"));
+        let module = scene.folder.path().join(name).with_extension("lua");
+        fs::write(module, "return {mine = 7}").expect("our own folder is writable");
+        let output = scene.run(&["--steps", "1", "--empty", "--quiet"]);
+        assert_eq!(stdout(&output), "7\n", "{name}");
+    }
 }
 
 /// Standard error of a run of this code, and the path of its file.

@@ -20,7 +20,13 @@ pub struct Args<'a, S: Source<'a> = Stack<'a>> {
     of: PhantomData<&'a ()>,
     position: c_int,
     count: c_int,
+    /// Of a plugin's function: integers may be floats.
+    of_plugin: bool,
 }
+
+/// By how much floats that plugins take for integers are moved away from zero before their fraction is cut, so that one that rounding has
+/// put just below an integer counts in full.
+const PLUGIN_ROUNDING: f64 = 0.1;
 
 /// A type that scripts can pass in.
 pub trait FromScript: Sized {
@@ -70,7 +76,33 @@ impl<'a, S: Source<'a>> Args<'a, S> {
             of: PhantomData,
             position: 0,
             count: source.count(),
+            of_plugin: false,
         }
+    }
+
+    /// Arguments for the function of a plugin, which takes floats where it expects integers.
+    pub(crate) fn for_plugin(self, of_plugin: bool) -> Self {
+        Self { of_plugin, ..self }
+    }
+
+    /// A float that stands for an integer.
+    fn truncated(&self, number: f64) -> i64 {
+        if self.of_plugin {
+            (number + PLUGIN_ROUNDING.copysign(number)) as i64
+        } else {
+            number as i64
+        }
+    }
+
+    fn integer(&self) -> ApiResult<i64> {
+        let integer = self.source.integer(self.position);
+        let number = || {
+            let number = self.source.number(self.position);
+            number.filter(|_| self.of_plugin && self.kind() == Type::Number)
+        };
+        integer
+            .or_else(|| number().map(|number| self.truncated(number)))
+            .ok_or_else(|| self.not_a("integer"))
     }
 
     /// Number of the argument being decoded, from 1.
@@ -212,7 +244,7 @@ impl<'a, S: Source<'a>> Args<'a, S> {
     fn integers(&self) -> ApiResult<Vec<i64>> {
         let element = |i| match self.source.integer_at(self.position, i) {
             Some(integer) => Ok(integer),
-            None => self.element(i).map(|number| number as i64),
+            None => self.element(i).map(|number| self.truncated(number)),
         };
         (1..=self.table_len()? as i64).map(element).collect()
     }
@@ -254,10 +286,10 @@ macro_rules! scalars {
 
 scalars! {
     f64, "float", |args| args.number();
-    i64, "int", |args| args.source.integer(args.position).ok_or_else(|| args.not_a("integer"));
+    i64, "int", |args| args.integer();
     bool, "bool", |args| Ok(args.source.truthy(args.position));
     String, "string", |args| Ok(String::from_utf8_lossy(&Bytes::from_script(args)?.0).into_owned());
-    Number, "int", |args| Ok(Number(args.number()? as i64));
+    Number, "int", |args| Ok(Number(args.truncated(args.number()?)));
     Bytes, "buffer", |args| match args.source.data(args.position)? {
         Data::Text(bytes) | Data::Buffer(bytes) => Ok(Bytes(bytes)),
         Data::Int(_) | Data::Float(_) => Ok(Bytes(args.source.text(args.position).unwrap_or_default())),

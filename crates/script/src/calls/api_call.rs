@@ -84,7 +84,9 @@ impl Sim {
 }
 
 fn call_native(runtime: &Runtime, bound: &Bound, args: &[Data]) -> ApiResult<Vec<Data>> {
-    let results = (bound.function.call_data)(&mut Args::new(runtime.env.values(args)));
+    let results = (bound.function.call_data)(
+        &mut Args::new(runtime.env.values(args)).for_plugin(bound.plugin_errors),
+    );
     if bound.function.mutates {
         runtime.env.collect_events();
     }

@@ -41,7 +41,7 @@ fn call_without_notice(stack: Stack<'_>, number: usize) -> Result<c_int, String>
 }
 
 fn call_bound(stack: Stack<'_>, bound: &Bound) -> Result<c_int, String> {
-    let result = (bound.function.call)(&mut Args::new(stack))
+    let result = (bound.function.call)(&mut Args::new(stack).for_plugin(bound.plugin_errors))
         .or_else(|error| fail(stack, bound, &bound.worded(error)));
     if bound.function.mutates {
         stack.env().collect_events();

@@ -30,12 +30,12 @@ macro_rules! stand_ins {
 
 stand_ins! {
     "swanilda.display": print printf printToConsole getAsString getAsDisplayString;
-    "functional": map filter foreach reduce range zip any all sum prod partial apply iter identity negate reify;
+    "functional.functions": map filter foreach reduce range zip any all sum prod partial apply iter identity negate reify;
     "swanilda.console": help printBytes hexdump _evalExec _evalExecRet _getCompletion _getCalltip;
     "swanilda.plugins": loadPlugin unloadPlugin;
     "swanilda.modload": import rerequire;
     "swanilda.extensions": wrap;
-    "var": getvar setvar getlocals;
+    "var.functions": getvar setvar getlocals f;
 }
 
 /// Puts them into a fresh state.

@@ -105,19 +105,40 @@ fn scrambled(seed: u32) -> i64 {
     (bits ^ (bits >> 31)).cast_signed()
 }
 
-/// Modules that CoppeliaSim has not, or no longer, and files that are no modules: a script's own file of that name goes first.
+/// Modules that CoppeliaSim has not, or no longer, helpers with names that a scene's own modules may have, and files that are no modules:
+/// a script's own file of that name goes first.
 const LAST: &[&str] = &[
+    "Buffer",
     "base",
+    "base16",
     "cbor",
+    "checkargs",
+    "checkmodel",
     "class",
     "deprecate",
+    "deque",
+    "functional",
+    "gcode",
+    "grid",
+    "itertools",
     "json",
+    "lfsx",
+    "logger",
     "main",
+    "mathx",
+    "matrix",
+    "matrix-utils",
     "no_exit",
     "old_calls",
+    "priorityqueue",
     "restricted",
     "say",
     "seal",
+    "stringx",
+    "tablex",
+    "utils",
+    "uuid",
+    "var",
 ];
 
 /// Puts the scene's folders first into `package.path` and `package.cpath`, and the embedded library into `package.searchers`.

@@ -169,7 +169,9 @@ impl Conversation<'_> {
         if bound.replacement.is_some() {
             return None;
         }
-        let results = (bound.function.call_data)(&mut Args::new(self.env.values(args)));
+        let results = (bound.function.call_data)(
+            &mut Args::new(self.env.values(args)).for_plugin(bound.plugin_errors),
+        );
         if bound.function.mutates {
             self.env.collect_events();
         }
