@@ -42,6 +42,7 @@ pub use binding::args::{
 };
 pub use binding::hooks::{Hooks, Host, ModuleHook};
 pub use binding::module::Module;
+pub use binding::operand::{Operand, arranged};
 pub use binding::param::{DefaultValue, Param};
 pub use binding::returns::{IntoScript, Nil, Results};
 #[doc(hidden)]

@@ -9,7 +9,7 @@ use geometry::pose::{self, Pose};
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::{Data, Frame, Handle, Placement, SceneError, flag, special};
 use script::Source;
-use script::{Args, FromScript, ObjectRef};
+use script::{Args, FromScript, ObjectRef, Operand, arranged};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_object_position,
@@ -338,64 +338,13 @@ fn place(cx: &mut Cx, object: ObjectRef, placement: Placement, frame: Frame) -> 
     )?)
 }
 
-/// Second or third argument of a setter.
-enum Operand<const N: usize, F> {
-    Numbers([f64; N]),
-    Frame(F),
-}
-
-impl<const N: usize, F: FromScript> FromScript for Operand<N, F>
-where
-    [f64; N]: FromScript,
-{
-    const TYPE: &'static str = <[f64; N] as FromScript>::TYPE;
-
-    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
-        match <[f64; N]>::from_script(args) {
-            Ok(numbers) => Ok(Self::Numbers(numbers)),
-            Err(
-                ApiError::NotA {
-                    expected: "table", ..
-                }
-                | ApiError::ArgumentType,
-            ) => F::from_script(args).map(Self::Frame),
-            Err(error) => Err(error),
-        }
-    }
-}
-
-impl<const N: usize, F: From<i64>> From<i64> for Operand<N, F> {
-    fn from(raw: i64) -> Self {
-        Self::Frame(raw.into())
-    }
-}
-
-impl<const N: usize, F: Into<Data>> From<Operand<N, F>> for Data {
-    fn from(operand: Operand<N, F>) -> Self {
-        match operand {
-            Operand::Numbers(numbers) => numbers.into(),
-            Operand::Frame(frame) => frame.into(),
-        }
-    }
-}
-
 /// The numbers and the frame, whichever came first.
 fn arrange<const N: usize>(
     first: Operand<N, impl Into<Frame>>,
     second: Operand<N, impl Into<Frame>>,
 ) -> Result<([f64; N], Frame)> {
-    match (first, second) {
-        (Operand::Numbers(numbers), Operand::Frame(frame)) => Ok((checked(numbers)?, frame.into())),
-        (Operand::Frame(frame), Operand::Numbers(numbers)) => Ok((checked(numbers)?, frame.into())),
-        (Operand::Numbers(_), Operand::Numbers(_)) => Err(ApiError::NotA {
-            position: 3,
-            expected: "number",
-        }),
-        (Operand::Frame(_), Operand::Frame(_)) => Err(ApiError::NotA {
-            position: 3,
-            expected: "table",
-        }),
-    }
+    let (numbers, frame) = arranged(first, second)?;
+    Ok((checked(numbers)?, frame))
 }
 
 /// Refuses what is not a number; infinity passes.

@@ -1,4 +1,6 @@
 //! `simIK.*`: poses of objects, as poses, matrices, or positions with orientations.
+//!
+//! Setters also accept the argument order of releases before 4.3: the frame before the data.
 
 use api_macro::api;
 use geometry::pose::euler::rotation_to_euler;
@@ -8,8 +10,8 @@ use geometry::pose::{
 use kinematics::Pose;
 
 use super::{ApiFn, Cx, Result, finite, frame, functions, object, rotation, with};
-use scene::special;
-use script::Number;
+use scene::{Data, special};
+use script::{ApiError, Args, FromScript, Number, Operand, Source, arranged};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     get_object_pose,
@@ -92,17 +94,12 @@ fn set_object_pose(
     cx: &mut Cx,
     environment_handle: Number,
     object_handle: Number,
-    pose: [f64; 7],
-    #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
+    pose: Operand<7, Number>,
+    #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Operand<7, Number>,
 ) -> Result<()> {
+    let (pose, frame) = arranged(pose, relative_to_object_handle)?;
     let pose = pose_from_array(&finite(pose)?);
-    place(
-        cx,
-        environment_handle,
-        object_handle,
-        pose,
-        relative_to_object_handle,
-    )
+    place(cx, environment_handle, object_handle, pose, frame)
 }
 
 /// Pose of an object as a matrix.
@@ -138,17 +135,12 @@ fn set_object_matrix(
     cx: &mut Cx,
     environment_handle: Number,
     object_handle: Number,
-    matrix: [f64; 12],
-    #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
+    matrix: Operand<12, Number>,
+    #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Operand<12, Number>,
 ) -> Result<()> {
+    let (matrix, frame) = arranged(matrix, relative_to_object_handle)?;
     let pose = pose_from_matrix(&finite(matrix)?);
-    place(
-        cx,
-        environment_handle,
-        object_handle,
-        pose,
-        relative_to_object_handle,
-    )
+    place(cx, environment_handle, object_handle, pose, frame)
 }
 
 /// Position and orientation of an object.
@@ -187,18 +179,55 @@ fn set_object_transformation(
     cx: &mut Cx,
     environment_handle: Number,
     object_handle: Number,
-    position: [f64; 3],
+    position: Operand<3, Number>,
     euler_or_quaternion: Vec<f64>,
-    #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: Number,
+    #[default(special::WORLD, "simIK.handle_world")] relative_to_object_handle: FrameOrRotation,
 ) -> Result<()> {
-    let pose = Pose::from_parts(finite(position)?.into(), rotation(&euler_or_quaternion)?);
-    place(
-        cx,
-        environment_handle,
-        object_handle,
-        pose,
-        relative_to_object_handle,
-    )
+    let (position, turn, frame) = match (position, relative_to_object_handle) {
+        (Operand::Numbers(position), FrameOrRotation::Frame(frame)) => {
+            (position, euler_or_quaternion, frame)
+        }
+        (Operand::Frame(frame), FrameOrRotation::Rotation(turn)) => {
+            let position = euler_or_quaternion.first_chunk();
+            (*position.ok_or(ApiError::TableSize)?, turn, frame)
+        }
+        _ => return Err(ApiError::ArgumentType),
+    };
+    let pose = Pose::from_parts(finite(position)?.into(), rotation(&turn)?);
+    place(cx, environment_handle, object_handle, pose, frame)
+}
+
+/// The last argument of `simIK.setObjectTransformation`: the frame, or, where the frame came first, the orientation.
+enum FrameOrRotation {
+    Frame(Number),
+    Rotation(Vec<f64>),
+}
+
+impl FromScript for FrameOrRotation {
+    const TYPE: &'static str = "int";
+
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
+        if args.is_table(args.position()) {
+            Vec::from_script(args).map(Self::Rotation)
+        } else {
+            Number::from_script(args).map(Self::Frame)
+        }
+    }
+}
+
+impl From<i64> for FrameOrRotation {
+    fn from(raw: i64) -> Self {
+        Self::Frame(raw.into())
+    }
+}
+
+impl From<FrameOrRotation> for Data {
+    fn from(operand: FrameOrRotation) -> Self {
+        match operand {
+            FrameOrRotation::Frame(frame) => frame.into(),
+            FrameOrRotation::Rotation(turn) => turn.into(),
+        }
+    }
 }
 
 /// From the resting to the moving side of a joint.

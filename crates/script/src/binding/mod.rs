@@ -9,6 +9,7 @@ pub(crate) mod data;
 pub(crate) mod embedded;
 pub(crate) mod hooks;
 pub(crate) mod module;
+pub(crate) mod operand;
 pub(crate) mod param;
 pub(crate) mod registry;
 pub(crate) mod returns;
