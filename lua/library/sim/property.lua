@@ -27,10 +27,11 @@ local function typeCode(word)
 end
 
 --- Word for a type of property.
--- @api string word = sim.getPropertyTypeString(int type)
+-- @api string word = sim.getPropertyTypeString(int type, bool forApi = false)
 -- @param type sim.propertytype_*
+-- @param forApi the word in names of functions instead, as in sim.getIntProperty
 -- @return word what follows propertytype_
-function M.getPropertyTypeString(ptype) return TYPES[ptype] and TYPES[ptype][1] end
+function M.getPropertyTypeString(ptype, forApi) return TYPES[ptype] and TYPES[ptype][forApi and 2 or 1] end
 
 --- Function that reads properties of a type, or its name.
 -- @api func getter = sim.getPropertyGetter(int type, bool onlyName = false)

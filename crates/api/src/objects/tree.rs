@@ -350,13 +350,12 @@ fn add_object_to_selection(
 ) -> Result<i64> {
     let added = objects_of(cx, &what, object_handle)?;
     let added = added.into_iter().filter_map(Handle::from_raw);
-    let selection: Vec<Handle> = cx
-        .scene()
-        .selection()
-        .iter()
-        .copied()
-        .chain(added)
-        .collect();
+    // All objects are selected in their own order, whatever was selected before.
+    let before = match what {
+        Data::Int(special::ALL) => Vec::new(),
+        _ => cx.scene().selection().to_vec(),
+    };
+    let selection: Vec<Handle> = before.into_iter().chain(added).collect();
     cx.scene_mut().select(&selection);
     Ok(1)
 }

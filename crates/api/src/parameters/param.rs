@@ -9,8 +9,8 @@ use api_macro::api;
 use geometry::pose::euler;
 
 use super::param_property::{self, FLOATS, INTEGERS, LEVELS, LIGHT, SWITCHES, TEXTS};
-use crate::{ApiFn, Cx, Result, functions};
-use scene::{Calculations, SceneError};
+use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::Calculations;
 use script::{Bytes, Color, Number, PropertyTarget, PropertyValue, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -64,7 +64,18 @@ mod switch {
 /// `sim.floatparam_*`.
 mod float {
     pub const RANDOM: i64 = 0;
+    const MAX_TRIANGLE_SIZE: i64 = 6;
+    const MIN_RELATIVE_TRIANGLE_SIZE: i64 = 7;
     pub const LAST: i64 = 7;
+
+    /// The value before a script sets one.
+    pub fn initial(number: i64) -> f64 {
+        match number {
+            MAX_TRIANGLE_SIZE => 0.3,
+            MIN_RELATIVE_TRIANGLE_SIZE => 0.02,
+            _ => 0.0,
+        }
+    }
 }
 
 /// `sim.arrayparam_*`.
@@ -87,7 +98,7 @@ fn known(number: i64, last: i64) -> Result<i64> {
     if (0..=last).contains(&number) {
         Ok(number)
     } else {
-        Err(SceneError::InvalidArgument.into())
+        Err(ApiError::Other("invalid parameter.".into()))
     }
 }
 
@@ -228,7 +239,7 @@ fn get_float_param(cx: &Cx, parameter: Number) -> Result<f64> {
                 .floats
                 .get(&number)
                 .copied()
-                .unwrap_or_default()
+                .unwrap_or_else(|| float::initial(number))
         }
     })
 }

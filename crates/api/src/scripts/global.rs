@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use crate::{ApiError, ApiFn, Cx, Result, functions};
+use crate::{ApiFn, Cx, Result, functions};
 use plugin_host::Variable;
 use scene::Data;
 use script::log::verbosity;
@@ -54,8 +54,10 @@ fn register_script_func_hook(
             .for_each(|entries| release(cx, &entries));
         return Ok(0);
     }
-    let call = SysCall::from_name(&system_callback)
-        .ok_or_else(|| ApiError::Other("invalid system callback.".into()))?;
+    let Some(call) = SysCall::from_name(&system_callback) else {
+        // Any name is taken; the functions of others have no hooks.
+        return Ok(1);
+    };
     cx.note_callback(call);
     cx.env().note_hook(call);
     let entries = Rc::make_mut(list.entry(call).or_default());

@@ -120,7 +120,7 @@ fn callback(number: i64) -> Result<SysCall> {
     known.ok_or_else(|| ApiError::Other("invalid callback.".into()))
 }
 
-/// Calls a callback of all simulation scripts, then of all customization scripts. For the main script.
+/// Calls a callback of all simulation scripts, then of the customization scripts there were before. For the main script.
 ///
 /// @param callType sim.syscb_*
 /// @return count how many scripts ran it
@@ -131,8 +131,7 @@ fn handle_embedded_scripts(
     #[name("...")] arguments: Rest,
 ) -> Result<i64> {
     main_script_only(cx)?;
-    let simulation = call_group(cx, ScriptGroup::Simulation, call_type, &arguments)?;
-    Ok(simulation + call_group(cx, ScriptGroup::Customization, call_type, &arguments)?)
+    Ok(cx.call_embedded(callback(call_type)?, &arguments.0))
 }
 
 /// Calls a callback of all simulation scripts. For the main script; others get -1.

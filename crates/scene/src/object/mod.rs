@@ -189,6 +189,14 @@ impl Kind {
         }
     }
 
+    /// Scripts do not count for the box of a model.
+    fn default_object_property(&self) -> ObjectFlags {
+        match self {
+            Self::Script(_) => ObjectFlags::SELECTABLE | ObjectFlags::HIDE_FROM_MODEL_BOX,
+            _ => ObjectFlags::SELECTABLE,
+        }
+    }
+
     /// Collidable, measurable, detectable and renderable for what has a surface, nothing otherwise.
     fn default_special_property(&self) -> SpecialFlags {
         match self {
@@ -214,7 +222,7 @@ impl Object {
             children: Vec::new(),
             pose: Pose::identity(),
             place: PlaceInWorld::default(),
-            object_property: ObjectFlags::SELECTABLE,
+            object_property: kind.default_object_property(),
             special_property: kind.default_special_property(),
             model_property: ModelFlags::NOT_MODEL,
             layer: kind.default_layer(),

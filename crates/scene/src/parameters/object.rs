@@ -15,6 +15,9 @@ const ASSEMBLY_TAG: i64 = 10004;
 /// `sim.shapestringparam_colorname`.
 const COLOUR_NAME: i64 = 3032;
 
+/// The box of a script, in sizes of its symbol.
+const SCRIPT_BOX: f64 = 1.05;
+
 /// Smallest and largest coordinates.
 type Extent = (Vector3<f64>, Vector3<f64>);
 
@@ -162,7 +165,7 @@ impl Object {
             Kind::VisionSensor(sensor) => [sensor.size; 3],
             Kind::ForceSensor(sensor) => [sensor.size; 3],
             Kind::Light(light) => [light.size; 3],
-            Kind::Script(script) => [script.size; 3],
+            Kind::Script(script) => [script.size * SCRIPT_BOX; 3],
             Kind::OcTree(octree) => return octree.bounding_box(),
             Kind::PointCloud(cloud) => return cloud.bounding_box(),
             Kind::Path(_) => [0.0; 3],

@@ -65,6 +65,11 @@ impl Cx<'_> {
         self.sim.deliver_to(group, call, args)
     }
 
+    /// Calls a callback of simulation scripts, then of customization scripts; returns how many ran it.
+    pub fn call_embedded(&mut self, call: SysCall, args: &[Data]) -> i64 {
+        self.sim.deliver_to_embedded(call, args)
+    }
+
     /// Resets a script and, where 4.10 does, initialises it at once.
     pub fn init_script(&mut self, script: &Rc<Script>) {
         self.sim.init_script(script);

@@ -22,10 +22,15 @@ impl Sim {
             .count() as i64
     }
 
-    /// Simulation scripts, then customization scripts.
+    /// Simulation scripts, then customization scripts: those there are before the simulation scripts run. One that comes meanwhile is
+    /// called from the next time on.
     pub(crate) fn deliver_to_embedded(self: &Rc<Self>, call: SysCall, args: &[Data]) -> i64 {
-        self.deliver_to(ScriptGroup::Simulation, call, args)
-            + self.deliver_to(ScriptGroup::Customization, call, args)
+        let customization = self.scripts_in(ScriptGroup::Customization);
+        let count = self.deliver_to(ScriptGroup::Simulation, call, args);
+        let others = customization
+            .iter()
+            .filter(|script| self.deliver(script, call, args).ran);
+        count + others.count() as i64
     }
 
     /// Notes that a script has these callbacks; a script with `sysCall_event` receives events from now on.

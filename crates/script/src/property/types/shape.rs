@@ -72,10 +72,12 @@ pub(in crate::property) const MASS: &[Accessor] = object_properties! {
         o.shape_mut()?.mass.com = com.0;
         o.dynamics_reset = true;
     };
-    "inertia": Vec<f64>, |o| o.shape()?.mass.absolute_inertia().to_vec(), Geometry |o, tensor| {
+    // Per unit of mass, unlike sim.getShapeInertia.
+    "inertia": Vec<f64>, |o| { let mass = &o.shape()?.mass; mass.absolute_inertia().map(|moment| moment / mass.mass).to_vec() },
+    Geometry |o, tensor| {
         let mass = &mut o.shape_mut()?.mass;
         let tensor: &[f64; 9] = tensor.first_chunk().ok_or_else(refused)?;
-        mass.set_absolute_inertia(tensor, &mass.com_matrix());
+        mass.set_absolute_inertia(&tensor.map(|moment| moment * mass.mass), &mass.com_matrix());
         o.dynamics_reset = true;
     };
     "principalMomentOfInertia": Vec<f64>, |o| o.shape()?.mass.principal_axes().1.to_vec();
