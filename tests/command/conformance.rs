@@ -138,7 +138,11 @@ fn run_case(case: &Path) -> Option<String> {
     let expected = fs::read_to_string(case.with_extension("expected")).expect("discover saw it");
     let tolerance = header("tol").map_or(0.0, |tol| tol.parse().expect("a tolerance is a number"));
     match run_bounded(&mut command) {
-        Ok(output) => difference(&expected, &normalize(&output, case), tolerance),
+        Ok(output) => difference(
+            &normalize(&expected, case),
+            &normalize(&output, case),
+            tolerance,
+        ),
         Err(error) => Some(error),
     }
 }

@@ -58,8 +58,10 @@ local function check(case)
     end
     local ran = t.run(case .. '.lua', optionsOf(header))
     local folder = t.file(case):match('^(.*/)') or ''
-    local output = compare.normalized(ran.output, folder, case:find('^scene/') ~= nil)
-    local difference = compare.difference(read(t.file(case .. '.expected')), output, tonumber(header.tol or 0))
+    local isScene = case:find('^scene/') ~= nil
+    local output = compare.normalized(ran.output, folder, isScene)
+    local expected = compare.normalized(read(t.file(case .. '.expected')), folder, isScene)
+    local difference = compare.difference(expected, output, tonumber(header.tol or 0))
     if difference then error({ message = difference, failed = true }) end
 end
 

@@ -150,7 +150,15 @@ impl Dynamics {
             .collect();
         for (handle, flag) in changes {
             // The flag follows from what takes part; it does not change it.
-            let _ = scene.modify(handle, Field::Measured, |object| object.dynamic_flag = flag);
+            let _ = scene.modify(handle, Field::Measured, |object| {
+                object.dynamic_flag = flag;
+                if let Ok(shape) = object.shape_mut()
+                    && !flag.contains(DynamicFlags::DYNAMIC)
+                {
+                    // Nothing moves it any more.
+                    shape.velocity = Velocity::default();
+                }
+            });
         }
     }
 

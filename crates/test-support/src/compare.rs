@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+/// What the original adds to the notice of a deprecated function: the name of a file that is not read here.
+const SETTINGS_REMARK: &str = " (control verbosity via notifyDeprecated in usrset.txt)";
+
 /// Drops what is not a script's output: loading chatter, the sandbox's infos, tracebacks, addresses, the folder of the case; and
 /// in cases about the scene all warnings and infos.
 pub fn normalize(output: &str, case: &Path) -> String {
@@ -79,7 +82,7 @@ pub fn difference(expected: &str, actual: &str, tolerance: f64) -> Option<String
 fn lines(text: &str) -> Vec<&str> {
     text.trim_end_matches('\n')
         .split('\n')
-        .map(str::trim_end)
+        .map(|line| line.trim_end().trim_end_matches(SETTINGS_REMARK))
         .collect()
 }
 

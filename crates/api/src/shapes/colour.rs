@@ -32,12 +32,12 @@ fn get_shape_color(
     color_name: Option<String>,
     color_component: Number,
 ) -> Result<(i64, Vec<f64>)> {
-    let component = component(color_component)?;
-    let colour = cx
-        .scene()
-        .object(shape_handle)?
-        .shape()?
-        .colour(&ColourName::from_script(color_name), component);
+    let scene = cx.scene();
+    let shape = scene.object(shape_handle)?.shape()?;
+    let Some(component) = ColourComponent::from_code(color_component.0) else {
+        return Ok((0, vec![0.0; 3]));
+    };
+    let colour = shape.colour(&ColourName::from_script(color_name), component);
     Ok(colour.map_or_else(|| (0, vec![0.0; component.width()]), |colour| (1, colour)))
 }
 

@@ -82,7 +82,7 @@ pub(crate) fn error_text(error: &ApiError, stack: Stack<'_>, function: &str) -> 
     }
 }
 
-/// The line logged at the first call of a deprecated function.
+/// The line logged at the first call of a deprecated function. The original's line also names a file of settings, which is not read here.
 pub(crate) fn deprecation_notice(name: &str, replacement: &str) -> String {
     let advice = match replacement {
         "" => " and the related functionality will disappear in a future release.".to_owned(),

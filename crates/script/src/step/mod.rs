@@ -110,7 +110,9 @@ impl Sim {
         let pauses = next == SimulationState::Paused && clock.state() != next;
         clock.set_state(next);
         if pauses {
-            self.notify(SysCall::Suspend);
+            if !self.main_script_failed() {
+                self.notify(SysCall::Suspend);
+            }
             self.log_status(status::PAUSED);
         }
     }
@@ -121,6 +123,11 @@ impl Sim {
         if settings.pause_at_time && self.clock.time() >= settings.time_to_pause {
             self.clock.request_pause_at_time();
         }
+    }
+
+    fn main_script_failed(&self) -> bool {
+        let main = self.scripts.detached(ScriptType::Main);
+        main.is_some_and(|main| main.state() & state::ERROR != 0)
     }
 
     /// Suspend, suspended, resume: through the main script, or directly when it does not care.

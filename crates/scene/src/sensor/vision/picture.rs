@@ -29,10 +29,11 @@ impl Area {
         }
     }
 
-    /// The part of a picture that starts at `position`; the whole picture when the width is not positive. None when it reaches outside.
+    /// The part of a picture that starts at `position`; from its corner, with a width that is not positive, the whole picture. None when it
+    /// reaches outside.
     pub fn part(resolution: [u32; 2], position: [i64; 2], size: [i64; 2]) -> Option<Self> {
         let whole = Self::whole(resolution);
-        if size[0] <= 0 {
+        if size[0] <= 0 && position == [0, 0] {
             return Some(whole);
         }
         let within = |start: i64, length: i64, end: usize| {
