@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parent.parent
 SCENES = ROOT.parent / "shared" / "scenes"
 PAGE = ROOT / "docs" / "COMPATIBILITY.md"
 MARK = "<!-- scores -->\n"
-PASSES, PATIENCE = "100", 600
+PASSES, TIMEOUT = "100", 600
 # CoppeliaSim's engines beside the one of most scenes, Bullet.
 OTHER_ENGINES = {1: "ODE", 3: "Newton", 4: "MuJoCo"}
 CLASSES = {
@@ -40,16 +40,16 @@ def record(binary, slug, folder):
         "YARD_FILE": str(SCENES / "files" / name),
         "YARD_OUT": str(out),
         "YARD_N": PASSES,
-        "YARD_WALL": str(PATIENCE - 10),
+        "YARD_WALL": str(TIMEOUT - 10),
         "YARD_TRACK": str(SCENES / "reference" / slug / "track.txt"),
     }
     command = [binary, "serve", "--original-errors", "--no-remote-api", "--addon", SCENES / "recorder.lua"]
     log = out / "console.raw"
     with open(log, "wb") as console:
         try:
-            subprocess.run(command, env=os.environ | settings, stdout=console, stderr=console, timeout=PATIENCE)
+            subprocess.run(command, env=os.environ | settings, stdout=console, stderr=console, timeout=TIMEOUT)
         except subprocess.TimeoutExpired:
-            print(f"{slug}: stopped after {PATIENCE} s")
+            print(f"{slug}: stopped after {TIMEOUT} s")
     log.write_bytes(as_installed_elsewhere(log.read_bytes(), out))
 
 

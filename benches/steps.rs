@@ -123,7 +123,7 @@ fn child_scripts(criterion: &mut Criterion) {
 fn pile(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("pile");
     group.sampling_mode(SamplingMode::Flat).sample_size(10);
-    // While they fall and settle nothing sleeps; later they rest.
+    // While they fall and come to rest nothing sleeps.
     for steps in [40, 200] {
         group.throughput(Throughput::Elements(steps));
         group.bench_function(format!("100 cuboids, {steps} steps"), |bencher| {

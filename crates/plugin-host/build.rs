@@ -8,7 +8,7 @@ use std::{env, fs};
 #[path = "src/signature.rs"]
 mod signature;
 
-use signature::{Param, Row, Size, name};
+use signature::{Param, Size, Symbol, name};
 
 const ROWS: &str = include_str!("src/symbols.tsv");
 
@@ -93,7 +93,7 @@ fn text() -> String {
 }
 
 /// The parameters are unknown: callers may pass any, which C's conventions allow.
-fn missing(row: &Row, number: usize) -> String {
+fn missing(row: &Symbol, number: usize) -> String {
     let call = format!("call({number}, NULL, 0, 0)");
     match row.result {
         'v' => format!("{call};"),
@@ -103,7 +103,7 @@ fn missing(row: &Row, number: usize) -> String {
     }
 }
 
-fn passing(row: &Row, number: usize) -> String {
+fn passing(row: &Symbol, number: usize) -> String {
     // The last value is the result where that is a number.
     let values: Vec<String> = row
         .params

@@ -2183,7 +2183,7 @@ function sim.handleAddOnScripts(callType, ...) end
 ---@return integer count how many scripts ran it
 function sim.handleChildScripts(callType, ...) end
 
---- Computes collision objects of old scenes. The usual main script does it for those that are not tagged for explicit handling.
+--- Computes collision objects of old scenes. The default main script does it for those that are not tagged for explicit handling.
 ---@deprecated sim.checkCollision
 ---@param collisionHandle integer a collision object that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
 ---@return any result collidingObjects how many collide; of a single one 0, or 1 and the handles of both objects
@@ -2196,7 +2196,7 @@ function sim.handleCollision(collisionHandle) end
 ---@return integer count how many scripts ran it
 function sim.handleCustomizationScripts(callType, ...) end
 
---- Computes distance objects of old scenes. The usual main script does it for those that are not tagged for explicit handling.
+--- Computes distance objects of old scenes. The default main script does it for those that are not tagged for explicit handling.
 ---@deprecated sim.checkDistance
 ---@param distanceHandle integer a distance object that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
 ---@return any result smallestDistance 0, or 1 and the smallest distance, metres
@@ -2223,7 +2223,7 @@ function sim.handleExtCalls() end
 ---@return integer result 1
 function sim.handleGraph(objectHandle, simulationTime) end
 
---- Computes groups of inverse kinematics of V-REP, and moves their joints. The usual main script does it for those that are not
+--- Computes groups of inverse kinematics of V-REP, and moves their joints. The default main script does it for those that are not
 --- tagged for explicit handling.
 ---@deprecated the simIK functionality
 ---@param ikGroupHandle integer a group that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
@@ -3084,7 +3084,7 @@ function sim.ruckigVel(dofs, baseCycleTime, flags, currentPosVelAccel, maxAccelJ
 ---@param resolution number[] width and height
 ---@param options integer 0: red, green, blue; 1: with an alpha channel; 2: grey
 ---@param filename string its extension selects the format: png, jpg, bmp, tga. An extension alone (`.png`) makes the function return the content of the file
----@param quality? integer of JPEG, 1 to 100; -1 for the usual one
+---@param quality? integer of JPEG, 1 to 100; -1 for the default one
 ---@return string|table serializedImage
 function sim.saveImage(image, resolution, options, filename, quality) end
 
@@ -4303,14 +4303,14 @@ function simGetUIProperty(elementHandle) end
 ---@return integer position 0 to 1000
 function simGetUISlider(elementHandle, buttonHandle) end
 
---- Moves kinematic joints towards their targets, without asking scripts. Main scripts of V-REP call it; the usual one of today calls
+--- Moves kinematic joints towards their targets, without asking scripts. Main scripts of V-REP call it; the default one of today calls
 --- sim.handleJointMotion.
 ---@param jointHandle integer a joint that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
 ---@param deltaTime number seconds
 ---@return integer result 1
 function simHandleJoint(jointHandle, deltaTime) end
 
---- Moves positions along their paths. The usual main script does it for those that are not tagged for explicit handling.
+--- Moves positions along their paths. The default main script does it for those that are not tagged for explicit handling.
 ---@param pathHandle integer a path of V-REP that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
 ---@param deltaTime number seconds
 ---@return integer result 1

@@ -56,7 +56,7 @@ function simUI.addScene3DNode(handle, id, nodeId, parentNodeId, type) end
 ---@param suppressEvents? boolean without effect
 function simUI.addTreeItem(handle, id, item_id, text, parent_id, expanded, suppressEvents) end
 
---- Gives a window the size its widgets need: here the usual one.
+--- Gives a window the size its widgets need: here the default one.
 ---@param handle string the window
 function simUI.adjustSize(handle) end
 
@@ -255,7 +255,7 @@ function simUI.getRadiobuttonValue(handle, id) end
 ---@return integer count
 function simUI.getRowCount(handle, id) end
 
---- The size of a window, pixels. One that has no size of its own has a usual one, since nothing is drawn.
+--- The size of a window, pixels. One that has no size of its own has a default one, since nothing is drawn.
 ---@param handle string the window
 ---@return integer w
 ---@return integer h
@@ -343,7 +343,7 @@ function simUI.insertTableRow(handle, id, index) end
 ---@return boolean visibility
 function simUI.isVisible(handle) end
 
---- Shows a message and waits for a button. Without a person at a page of the viewer, the answer is the usual one: ok; no; cancel; cancel. The message goes to the log.
+--- Shows a message and waits for a button. Without a person at a page of the viewer, the answer is the default one: ok; no; cancel; cancel. The message goes to the log.
 ---@param type integer simUI.msgbox_type
 ---@param buttons integer simUI.msgbox_buttons
 ---@param title string

@@ -11,7 +11,7 @@
 --- are bytes: sim.packInt32Table{0} for most.
 ---
 --- send, recv, msg_send, msg_recv and poll may block. In a thread the simulation continues meanwhile; elsewhere it is blocked
---- too, but at most for __patience seconds (default 60): then send and recv return -1 with EAGAIN, poll 0,
+--- too, but at most for __timeout seconds (default 60): then send and recv return -1 with EAGAIN, poll 0,
 --- proxies -1, and a warning is logged. Ctrl-c ends a wait with an error. __send, __recv, __msg_send and __msg_recv obey the options SNDTIMEO and RCVTIMEO.
 --- ctx_term gives up after two seconds outside of threads, and at once while there are open sockets: -1 with EINTR; call it again.
 ---

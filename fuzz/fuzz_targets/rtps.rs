@@ -9,7 +9,7 @@ use std::net::{Ipv4Addr, SocketAddrV4};
 use std::time::Duration;
 
 use libfuzzer_sys::fuzz_target;
-use rtps::{Core, CoreSettings, Limits, Qos, Time, Written};
+use rtps::{Core, CoreSettings, Limits, Qos, Timestamp, Written};
 
 fn datagrams(mut input: &[u8]) -> impl Iterator<Item = Vec<u8>> {
     std::iter::from_fn(move || {
@@ -38,7 +38,7 @@ fuzz_target!(|input: &[u8]| {
     let reader = core.create_reader("rt/a", "T", Qos::default(), &[]);
     for (number, datagram) in datagrams(input).enumerate() {
         core.receive(&datagram, place, Duration::from_millis(number as u64));
-        core.write(writer, &Written { payload: [0; 5].into(), call: None, time: Time::default() });
+        core.write(writer, &Written { payload: [0; 5].into(), call: None, time: Timestamp::default() });
         core.tick(Duration::from_millis(number as u64 * 40));
         core.take_outgoing();
     }

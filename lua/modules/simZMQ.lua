@@ -6,7 +6,7 @@ __raiseError.name are the two forms of each function. Data may be strings or buf
 are bytes: sim.packInt32Table{0} for most.
 
 send, recv, msg_send, msg_recv and poll may block. In a thread the simulation continues meanwhile; elsewhere it is blocked
-too, but at most for __patience seconds (default 60): then send and recv return -1 with EAGAIN, poll 0,
+too, but at most for __timeout seconds (default 60): then send and recv return -1 with EAGAIN, poll 0,
 proxies -1, and a warning is logged. Ctrl-c ends a wait with an error. __send, __recv, __msg_send and __msg_recv obey the options SNDTIMEO and RCVTIMEO.
 ctx_term gives up after two seconds outside of threads, and at once while there are open sockets: -1 with EINTR; call it again.
 
@@ -19,7 +19,7 @@ msg_set_group and msg_group do nothing.
 local _, native = ...
 local sim = require 'sim'
 
-local simZMQ = {__checkError = {}, __noError = {}, __raiseError = {}, __patience = 60}
+local simZMQ = {__checkError = {}, __noError = {}, __raiseError = {}, __timeout = 60}
 for name, value in pairs(native) do if math.type(value) then simZMQ[name] = value end end
 for name, value in pairs(native.errors()) do simZMQ[name] = value end
 
@@ -138,7 +138,7 @@ local hasWarned = false
 
 -- How long to wait for what may take `timeout`: a wait that holds the simulation has an end. And whether this is less than was asked.
 local function bounded(timeout)
-    local most = math.ceil(math.min(simZMQ.__patience, 1e6) * 1000)
+    local most = math.ceil(math.min(simZMQ.__timeout, 1e6) * 1000)
     if (timeout >= 0 and timeout <= most) or canYield() then return timeout, false end
     return most, true
 end
@@ -147,7 +147,7 @@ local function warn()
     if hasWarned then return end
     hasWarned = true
     sim.addLog(sim.verbosity_scriptwarnings,
-        ('simZMQ gave up waiting after %g s: outside of threads the simulation waits too.'):format(simZMQ.__patience))
+        ('simZMQ gave up waiting after %g s: outside of threads the simulation waits too.'):format(simZMQ.__timeout))
 end
 
 -- The native function's error, blamed on who called a function of this module.

@@ -3822,7 +3822,7 @@ class _sim:
         callType: sim.syscb_*
         """
     def handleCollision(self, collisionHandle: int, /) -> Any:
-        """Computes collision objects of old scenes. The usual main script does it for those that are not tagged for explicit handling.
+        """Computes collision objects of old scenes. The default main script does it for those that are not tagged for explicit handling.
         Deprecated: use sim.checkCollision.
         collisionHandle: a collision object that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
         """
@@ -3832,7 +3832,7 @@ class _sim:
         callType: sim.syscb_*
         """
     def handleDistance(self, distanceHandle: int, /) -> Any:
-        """Computes distance objects of old scenes. The usual main script does it for those that are not tagged for explicit handling.
+        """Computes distance objects of old scenes. The default main script does it for those that are not tagged for explicit handling.
         Deprecated: use sim.checkDistance.
         distanceHandle: a distance object that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
         """
@@ -3854,7 +3854,7 @@ class _sim:
         simulationTime: of the values
         """
     def handleIkGroup(self, ikGroupHandle: int, /) -> int:
-        """Computes groups of inverse kinematics of V-REP, and moves their joints. The usual main script does it for those that are not
+        """Computes groups of inverse kinematics of V-REP, and moves their joints. The default main script does it for those that are not
         tagged for explicit handling.
         Deprecated: use the simIK functionality.
         ikGroupHandle: a group that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
@@ -4566,7 +4566,7 @@ class _sim:
         resolution: width and height
         options: 0: red, green, blue; 1: with an alpha channel; 2: grey
         filename: its extension selects the format: png, jpg, bmp, tga. An extension alone (`.png`) makes the function return the content of the file
-        quality: of JPEG, 1 to 100; -1 for the usual one
+        quality: of JPEG, 1 to 100; -1 for the default one
         """
     def saveModel(self, modelBaseHandle: int, filename: str | None = ..., /) -> Any:
         """Writes a model to a file, or returns its bytes. It is saved with its pose in the world.
@@ -8585,7 +8585,7 @@ class _simUI:
         suppressEvents: without effect
         """
     def adjustSize(self, handle: str, /) -> None:
-        """Gives a window the size its widgets need: here the usual one.
+        """Gives a window the size its widgets need: here the default one.
         handle: the window
         """
     def appendText(self, handle: str, id: int, text: str, suppressEvents: bool | None = ..., /) -> None:
@@ -8756,7 +8756,7 @@ class _simUI:
         id: the table
         """
     def getSize(self, handle: str, /) -> tuple[int, int]:
-        """The size of a window, pixels. One that has no size of its own has a usual one, since nothing is drawn.
+        """The size of a window, pixels. One that has no size of its own has a default one, since nothing is drawn.
         handle: the window
         """
     def getSliderValue(self, handle: str, id: int, /) -> int:
@@ -8834,7 +8834,7 @@ class _simUI:
         handle: the window
         """
     def msgBox(self, type: int, buttons: int, title: str, message: str, /) -> int:
-        """Shows a message and waits for a button. Without a person at a page of the viewer, the answer is the usual one: ok; no; cancel; cancel. The message goes to the log.
+        """Shows a message and waits for a button. Without a person at a page of the viewer, the answer is the default one: ok; no; cancel; cancel. The message goes to the log.
         type: simUI.msgbox_type
         buttons: simUI.msgbox_buttons
         """

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::process::ExitCode;
 
 use super::{Outcome, say};
-use docs::{self, Function};
+use docs::{self, FunctionDoc};
 
 /// Largest edit distance of a suggested name.
 const NEAR: usize = 3;
@@ -40,7 +40,7 @@ pub(super) fn api(args: &Args) -> Outcome {
 }
 
 /// Names with their summaries, by category.
-fn list(functions: &[Function]) -> String {
+fn list(functions: &[FunctionDoc]) -> String {
     let mut categories: BTreeMap<&str, String> = BTreeMap::new();
     for function in functions
         .iter()
@@ -66,7 +66,7 @@ fn list(functions: &[Function]) -> String {
 }
 
 /// Summary of a module, and its functions with their summaries.
-fn list_module(module: &str, functions: &[Function]) -> String {
+fn list_module(module: &str, functions: &[FunctionDoc]) -> String {
     let of_module = functions
         .iter()
         .filter(|function| function.category == module);
@@ -80,14 +80,14 @@ fn list_module(module: &str, functions: &[Function]) -> String {
 }
 
 /// The message for an unknown name.
-fn unknown(name: &str, functions: &[Function]) -> String {
+fn unknown(name: &str, functions: &[FunctionDoc]) -> String {
     if let Some(signature) = docs::reference_signature(name) {
         return format!(
             "{name} is not implemented in Swanilda. CoppeliaSim's reference: {signature}"
         );
     }
     let wanted = name.strip_prefix("sim.").unwrap_or(name).to_lowercase();
-    let distance = |f: &Function| {
+    let distance = |f: &FunctionDoc| {
         let member = f.member().to_lowercase();
         if wanted.len() > NEAR && member.contains(&wanted) {
             1

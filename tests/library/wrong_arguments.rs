@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use docs::{self, Function};
+use docs::{self, FunctionDoc};
 use test_support::parallel;
 use test_support::process::run_bounded;
 
@@ -30,12 +30,12 @@ fn run(code: &str) -> String {
 
 #[test]
 fn wrong_arguments_for_every_function() {
-    let functions: Vec<Function> = docs::functions()
+    let functions: Vec<FunctionDoc> = docs::functions()
         .into_iter()
         .filter(|f| !NOT_CALLED.contains(&&*f.name))
         .collect();
     assert!(functions.len() > 100, "the table of functions is read");
-    let chunks: Vec<&[Function]> = functions.chunks(functions.len().div_ceil(8)).collect();
+    let chunks: Vec<&[FunctionDoc]> = functions.chunks(functions.len().div_ceil(8)).collect();
     parallel::map(&chunks, |chunk| {
         let names: Vec<String> = chunk
             .iter()

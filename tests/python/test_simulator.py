@@ -1,5 +1,6 @@
 """Simulators in-process: scenes, calls, values, errors, scripts in Python, threads and processes."""
 
+import array
 import math
 import multiprocessing
 import os
@@ -7,6 +8,7 @@ import pathlib
 import subprocess
 import sys
 import threading
+import tracemalloc
 
 import pytest
 
@@ -60,12 +62,55 @@ def test_values_pass_both_ways(simulator, sim):
         echo.echo(nested)
 
 
-def test_arrays_are_lists(sim):
+def test_arrays_are_lists(simulator, sim):
     numpy = pytest.importorskip("numpy")
     dummy = sim.createDummy(0.1)
     sim.setObjectPosition(dummy, numpy.array([1.0, 2.0, 3.0]))
     sim.setObjectPosition(dummy, [numpy.float64(1), numpy.int32(2), numpy.float32(3)])
     assert sim.getObjectPosition(numpy.int64(dummy)) == [1, 2, 3]
+
+    echo = simulator.add_script("function echo(...) return ... end")
+
+    def check(value):
+        back, expected = echo.echo(value), value.tolist()
+        assert back == expected and repr(back) == repr(expected), value
+
+    numbers = numpy.arange(24)
+    for kind in "?bBhHiIlLqQfde":
+        for order in "=<>":
+            check(numbers.astype(numpy.dtype(kind).newbyteorder(order)))
+    check(numpy.array([-(2**63), 2**63 - 1]))
+    check(numpy.array([-1, -128], dtype=numpy.int8))
+    check(numpy.array([0.1, -math.inf, math.inf, 5e-324]))
+    for shape in [(24,), (4, 6), (2, 3, 4), (24, 1), (0,), (0, 3), (3, 0), (2, 0, 2)]:
+        cube = numpy.resize(numbers * 0.5, shape)
+        for view in [cube, cube.T, numpy.asfortranarray(cube), cube[::-1], cube[::2], cube[..., ::-1]]:
+            check(view)
+    for scalar in [numpy.float64(0.1), numpy.float32(0.1), numpy.int16(-3), numpy.uint8(200), numpy.bool_(True), numpy.array(2.5)]:
+        assert echo.echo(scalar) == scalar.item() and type(echo.echo(scalar)) is type(scalar.item())
+
+    check(array.array("d", [0.5, 1.5]))
+    check(array.array("B", [1, 255]))
+    check(numpy.array(["a", "b"]))
+    check(numpy.array([1, "b", 2.5], dtype=object))
+    assert echo.echo([numpy.array([1.5]), {"a": numpy.array([True])}]) == [[1.5], {"a": [True]}]
+    assert echo.echo(memoryview(numpy.array([1, 2], dtype=numpy.uint16))) == b"\1\0\2\0"
+    assert echo.echo(numpy.ma.array([1, 2, 3], mask=[False, True, False])) == echo.echo([1, None, 3])
+    with pytest.raises(OverflowError):
+        echo.echo(numpy.array([2**63], dtype=numpy.uint64))
+    with pytest.raises(TypeError):
+        echo.echo(numpy.array([1j]))
+
+
+def test_an_array_takes_no_object_for_each_element(simulator):
+    numpy = pytest.importorskip("numpy")
+    count = simulator.add_script("function count(list) return #list end")
+    numbers = numpy.arange(100_000, dtype=numpy.float64)
+    tracemalloc.start()
+    assert count.count(numbers) == len(numbers)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 2 * numbers.nbytes
 
 
 def test_images_are_upright(simulator, sim):

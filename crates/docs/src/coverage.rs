@@ -4,13 +4,13 @@ use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write as _;
 
 use super::approximated::difference;
-use super::row::Function;
+use super::row::FunctionDoc;
 use super::{Age, ReferenceRow, reference};
 use script::pairs;
 
 /// The table.
-pub(super) fn text(functions: &[Function]) -> String {
-    let built: HashSet<&str> = functions.iter().map(Function::member).collect();
+pub(super) fn text(functions: &[FunctionDoc]) -> String {
+    let built: HashSet<&str> = functions.iter().map(FunctionDoc::member).collect();
     let rows: Vec<ReferenceRow> = reference()
         .filter(|row| !row.name.starts_with('_'))
         .collect();

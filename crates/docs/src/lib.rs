@@ -29,7 +29,7 @@ use script::{Member, pairs};
 pub use approximated::difference;
 pub use markdown::function_text;
 pub use overview::with_overview;
-pub use row::{Function, Parameter, Returned};
+pub use row::{FunctionDoc, ParameterDoc, ResultDoc};
 pub use usage::{
     Support, Use, foreign_script, unreadable_script, use_of_member, use_of_module, uses,
 };
@@ -39,15 +39,15 @@ pub const STUBS: &str = "docs/stubs";
 
 /// Every documented function, sorted by name: native ones, those of the Lua library, and other names for them. Names that begin with
 /// an underscore are inner ones and not listed.
-pub fn functions() -> Vec<Function> {
-    let mut all: BTreeMap<String, Function> = BTreeMap::new();
+pub fn functions() -> Vec<FunctionDoc> {
+    let mut all: BTreeMap<String, FunctionDoc> = BTreeMap::new();
     for function in lua_comments::functions() {
         all.insert(function.name.clone(), function);
     }
     for (category, functions) in api::SIM.functions {
         for function in functions
             .iter()
-            .map(|function| Function::native(category, function))
+            .map(|function| FunctionDoc::native(category, function))
         {
             all.insert(function.name.clone(), function);
         }
@@ -80,7 +80,7 @@ pub fn remedy(name: &str) -> Option<&'static str> {
 }
 
 /// Every function of the modules beside `sim`, module by module.
-pub fn module_functions() -> Vec<Function> {
+pub fn module_functions() -> Vec<FunctionDoc> {
     modules::names()
         .flat_map(|module| module_stubs::of_module(&module))
         .collect()

@@ -1,6 +1,6 @@
 //! Rows from the comments of the Lua library: `--- text`, then `-- @api results = sim.name(parameters)`, `-- @param`, `-- @return`.
 
-use super::row::{Doc, Function, Parameter, Returned};
+use super::row::{Doc, FunctionDoc, ParameterDoc, ResultDoc};
 use lua_library::FILES;
 
 /// The category of each file of `lua/library/sim`.
@@ -22,7 +22,7 @@ const CATEGORIES: &[(&str, &str)] = &[
 ];
 
 /// The functions of the library's files.
-pub(super) fn functions() -> Vec<Function> {
+pub(super) fn functions() -> Vec<FunctionDoc> {
     api::SIM
         .member_files(FILES)
         .flat_map(|(module, source)| in_file(module, source))
@@ -31,7 +31,7 @@ pub(super) fn functions() -> Vec<Function> {
 
 /// The functions that the Lua part of a module describes: any comment with `@api module.name(...)`, and calls of `declare` with
 /// such a declaration. A class of the module may be named instead of the module.
-pub(super) fn in_module(module: &str, source: &str) -> Vec<Function> {
+pub(super) fn in_module(module: &str, source: &str) -> Vec<FunctionDoc> {
     let mut found = Vec::new();
     for (comment, line) in comments(source) {
         let declarations = annotated(&comment).chain(declared(line));
@@ -67,7 +67,7 @@ fn declared(line: &str) -> Option<&str> {
     Some(line.strip_prefix("declare('")?.split_once('\'')?.0)
 }
 
-fn in_file(module: &str, source: &str) -> Vec<Function> {
+fn in_file(module: &str, source: &str) -> Vec<FunctionDoc> {
     let category = CATEGORIES
         .iter()
         .find(|(name, _)| *name == module)
@@ -98,7 +98,7 @@ fn described(
     category: &str,
     declaration: &str,
     comment: &[&str],
-) -> Option<Function> {
+) -> Option<FunctionDoc> {
     let (head, parameters) = declaration.split_once('(')?;
     let (results, name) = head.split_once(" = ").unwrap_or(("", head));
     if !belongs(module, name) {
@@ -111,7 +111,7 @@ fn described(
         .collect();
     let doc = Doc::parse(&prose.join("\n"));
     let parameters = split_list(parameters.trim_end().strip_suffix(')')?);
-    Some(Function {
+    Some(FunctionDoc {
         name: name.to_owned(),
         category: category.to_owned(),
         parameters: parameters
@@ -137,9 +137,9 @@ fn belongs(module: &str, name: &str) -> bool {
             .is_some_and(|rest| rest.starts_with(['.', ':']))
 }
 
-fn parameter(text: &str, doc: &Doc) -> Parameter {
+fn parameter(text: &str, doc: &Doc) -> ParameterDoc {
     let (ty, name, default) = parts(text);
-    Parameter {
+    ParameterDoc {
         name: name.to_owned(),
         ty: ty.to_owned(),
         default: default.map(str::to_owned),
@@ -157,9 +157,9 @@ fn parts(text: &str) -> (&str, &str, Option<&str>) {
     (ty, name, default)
 }
 
-fn result(text: &str, doc: &Doc) -> Returned {
+fn result(text: &str, doc: &Doc) -> ResultDoc {
     let (ty, name) = text.rsplit_once(' ').unwrap_or((text, "result"));
-    Returned {
+    ResultDoc {
         name: name.to_owned(),
         ty: ty.to_owned(),
         text: doc.of_result(name),

@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 
 use super::approximated::difference;
 use super::modules;
-use super::row::Function;
+use super::row::FunctionDoc;
 
 /// The pages of `docs/api`.
-pub(super) fn pages(functions: &[Function]) -> Vec<(String, String)> {
-    let mut categories: BTreeMap<&str, Vec<&Function>> = BTreeMap::new();
+pub(super) fn pages(functions: &[FunctionDoc]) -> Vec<(String, String)> {
+    let mut categories: BTreeMap<&str, Vec<&FunctionDoc>> = BTreeMap::new();
     for function in functions {
         categories
             .entry(&function.category)
@@ -26,7 +26,7 @@ pub(super) fn pages(functions: &[Function]) -> Vec<(String, String)> {
     pages
 }
 
-fn index(categories: &BTreeMap<&str, Vec<&Function>>) -> String {
+fn index(categories: &BTreeMap<&str, Vec<&FunctionDoc>>) -> String {
     let count: usize = categories.values().map(Vec::len).sum();
     let mut out = format!(
         "# Functions for scripts\n\nGenerated from the sources: `UPDATE=1 cargo test --test repository generated`. {count} names in {} \
@@ -50,7 +50,7 @@ fn index(categories: &BTreeMap<&str, Vec<&Function>>) -> String {
     out
 }
 
-fn page(category: &str, functions: &[&Function]) -> String {
+fn page(category: &str, functions: &[&FunctionDoc]) -> String {
     let mut out = format!("# {category}\n\n[All categories](README.md)\n");
     for function in functions {
         let _ = write!(out, "\n## {}\n\n{}", function.name, body(function));
@@ -58,7 +58,7 @@ fn page(category: &str, functions: &[&Function]) -> String {
     out
 }
 
-pub(super) fn body(function: &Function) -> String {
+pub(super) fn body(function: &FunctionDoc) -> String {
     let mut out = String::new();
     if let Some(replacement) = &function.deprecated {
         let advice = if replacement.is_empty() {
@@ -103,7 +103,7 @@ fn item(name: &str, text: &str) -> String {
 }
 
 /// One function for a terminal.
-pub fn function_text(function: &Function) -> String {
+pub fn function_text(function: &FunctionDoc) -> String {
     format!(
         "{} ({})\n\n{}",
         function.name,

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use super::lua_comments;
 use super::modules::{self, source_of};
-use super::row::Function;
+use super::row::FunctionDoc;
 use super::stubs::declare;
 use ::modules::ALL;
 use script::pairs;
@@ -27,11 +27,11 @@ type Stubs = BTreeMap<String, Stub>;
 /// A function of a module.
 struct Member {
     is_method: bool,
-    function: Function,
+    function: FunctionDoc,
 }
 
 /// The functions of a module, in alphabetical order; inner ones, which begin with an underscore, are left out.
-pub(super) fn of_module(module: &str) -> Vec<Function> {
+pub(super) fn of_module(module: &str) -> Vec<FunctionDoc> {
     let source = source_of(module);
     let table = returned(source).unwrap_or("module");
     members(module, source, table)
@@ -140,7 +140,7 @@ fn members(module: &str, source: &str, table: &str) -> BTreeMap<String, Member> 
                 },
             )| {
                 let function =
-                    Function::untyped(format!("{module}.{name}"), module, &parameters, &text);
+                    FunctionDoc::untyped(format!("{module}.{name}"), module, &parameters, &text);
                 (
                     name,
                     Member {
@@ -172,7 +172,7 @@ fn members(module: &str, source: &str, table: &str) -> BTreeMap<String, Member> 
 
 /// The functions that rows and comments describe, by their name in the module's table, or `Class:name` in other classes. A comment in
 /// Lua replaces the description of a row.
-fn described(module: &str, source: &str, table: &str) -> BTreeMap<String, Function> {
+fn described(module: &str, source: &str, table: &str) -> BTreeMap<String, FunctionDoc> {
     let key = |name: &str| {
         let of = |owner| name.strip_prefix(owner)?.strip_prefix(['.', ':']);
         of(module).or_else(|| of(table)).unwrap_or(name).to_owned()
@@ -255,20 +255,20 @@ fn declared(source: &str, table: &str) -> Stubs {
 }
 
 /// Native functions of the module that scripts get: those listed for scripts, and others that the file hands on under their names.
-fn taken(module: &str, source: &str) -> Vec<Function> {
+fn taken(module: &str, source: &str) -> Vec<FunctionDoc> {
     let handed_on = |name: &str| source.contains(&format!("{name} = native.{name}"));
     let mut found = Vec::new();
     for of in ALL.iter().filter(|of| of.name == module) {
         found.extend(
             of.public_functions()
-                .map(|row| Function::native(module, row)),
+                .map(|row| FunctionDoc::native(module, row)),
         );
         let inner = of
             .inner
             .iter()
             .copied()
             .flatten()
-            .map(|row| Function::native(module, row));
+            .map(|row| FunctionDoc::native(module, row));
         found
             .extend(inner.filter(|function| {
                 handed_on(function.name.rsplit('.').next().unwrap_or_default())
@@ -283,7 +283,7 @@ fn taken(module: &str, source: &str) -> Vec<Function> {
                 .next()
                 .unwrap_or_default()
                 .to_owned();
-            Function {
+            FunctionDoc {
                 name: format!("{module}.{name}"),
                 ..function
             }

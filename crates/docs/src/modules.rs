@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::row::Function;
+use super::row::FunctionDoc;
 use super::{markdown, module_stubs};
 use lua_library::FILES;
 use modules::ALL;
@@ -118,7 +118,7 @@ pub(super) fn own_pages() -> Vec<(String, String)> {
     pages.collect()
 }
 
-fn own_page(module: &str, functions: &[Function]) -> String {
+fn own_page(module: &str, functions: &[FunctionDoc]) -> String {
     let summary = summary(module);
     let mut out = format!(
         "# {module}\n\n[All modules](modules.md)\n\n{summary}\n{}",
@@ -136,9 +136,9 @@ fn own_page(module: &str, functions: &[Function]) -> String {
 }
 
 /// The functions of a module, if types of some are known.
-fn described(module: &str) -> Vec<Function> {
+fn described(module: &str) -> Vec<FunctionDoc> {
     let functions = module_stubs::of_module(module);
-    if functions.iter().any(Function::is_typed) {
+    if functions.iter().any(FunctionDoc::is_typed) {
         functions
     } else {
         Vec::new()

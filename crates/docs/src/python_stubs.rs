@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use super::row::{Function, Parameter};
+use super::row::{FunctionDoc, ParameterDoc};
 use super::{functions, module_functions, module_names};
 use modules::ALL;
 use script::pairs;
@@ -34,14 +34,14 @@ pub(super) fn text() -> String {
     let of_sim = functions()
         .into_iter()
         .filter(|function| function.name.starts_with("sim."));
-    let all: Vec<Function> = of_sim.chain(module_functions()).collect();
+    let all: Vec<FunctionDoc> = of_sim.chain(module_functions()).collect();
     let modules = all
         .iter()
         .filter_map(|function| module_of(function))
         .filter(|name| required.contains(*name));
     let modules: BTreeSet<&str> = modules.collect();
     for module in modules {
-        let members: Vec<&Function> = all
+        let members: Vec<&FunctionDoc> = all
             .iter()
             .filter(|function| module_of(function) == Some(module))
             .collect();
@@ -61,7 +61,7 @@ pub(super) fn text() -> String {
 }
 
 /// The module of a function, if it is a plain member of one.
-fn module_of(function: &Function) -> Option<&str> {
+fn module_of(function: &FunctionDoc) -> Option<&str> {
     let (module, member) = function.name.rsplit_once('.')?;
     let is_name = |text: &str| text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     (is_name(member) && !member.is_empty() && !KEYWORDS.contains(&member)).then_some(module)
@@ -71,7 +71,7 @@ fn class(module: &str) -> String {
     format!("_{}", module.replace(['.', '-'], "_"))
 }
 
-fn declare_module(out: &mut String, module: &str, members: &[&Function]) {
+fn declare_module(out: &mut String, module: &str, members: &[&FunctionDoc]) {
     let _ = writeln!(out, "\nclass {}:", class(module));
     let mut enumerations = BTreeSet::new();
     for (name, _) in ALL
@@ -94,7 +94,7 @@ fn declare_module(out: &mut String, module: &str, members: &[&Function]) {
     }
 }
 
-fn declare(out: &mut String, function: &Function) {
+fn declare(out: &mut String, function: &FunctionDoc) {
     let member = function.name.rsplit('.').next().unwrap_or_default();
     let signature = format!(
         "def {member}({}) -> {}:",
@@ -115,7 +115,7 @@ fn declare(out: &mut String, function: &Function) {
 }
 
 /// The description and those of the parameters, as lines of a docstring.
-fn doc(function: &Function) -> Vec<String> {
+fn doc(function: &FunctionDoc) -> Vec<String> {
     let escaped = |line: &str| line.replace('\\', "\\\\").replace("\"\"\"", "'''");
     let mut lines: Vec<String> = function.text.lines().map(escaped).collect();
     if let Some(replacement) = function
@@ -136,7 +136,7 @@ fn doc(function: &Function) -> Vec<String> {
 }
 
 /// Arguments have no names in calls: they are by position only. What comes after an optional one is optional as well.
-fn parameters(parameters: &[Parameter]) -> String {
+fn parameters(parameters: &[ParameterDoc]) -> String {
     let mut out = String::from("self");
     let (mut is_optional, mut has_rest, mut seen) = (false, false, BTreeSet::new());
     for parameter in parameters {
@@ -182,7 +182,7 @@ fn argument(ty: &str) -> String {
 }
 
 /// The type of what a call returns.
-fn result(function: &Function) -> String {
+fn result(function: &FunctionDoc) -> String {
     if !function.is_typed() && function.results.is_empty() {
         return "Any".to_owned();
     }
@@ -225,11 +225,11 @@ fn returned(ty: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Function, Parameter, parameters, text};
+    use super::{FunctionDoc, ParameterDoc, parameters, text};
 
     #[test]
     fn arguments_after_optional_ones_are_optional() {
-        let parameter = |name: &str, default: Option<&str>| Parameter {
+        let parameter = |name: &str, default: Option<&str>| ParameterDoc {
             name: name.into(),
             ty: "int".into(),
             default: default.map(Into::into),
@@ -249,7 +249,7 @@ mod tests {
     #[test]
     fn functions_of_all_modules_are_declared() {
         let text = text();
-        let known: fn(&Function) -> bool = |function| function.name == "sim.getObjectPosition";
+        let known: fn(&FunctionDoc) -> bool = |function| function.name == "sim.getObjectPosition";
         assert!(super::functions().iter().any(known));
         assert!(text.contains(
             "def getObjectPosition(self, objectHandle: int, relativeToObjectHandle: int | None = ..., /) -> list[float]:"

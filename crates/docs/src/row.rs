@@ -6,7 +6,7 @@ use script::DefaultValue;
 
 /// One documented function.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Function {
+pub struct FunctionDoc {
     /// `sim.name`, or a bare name for globals.
     pub name: String,
     /// The heading it is listed under.
@@ -14,9 +14,9 @@ pub struct Function {
     /// Its description, in one or several lines.
     pub text: String,
     /// Its parameters in the order of the call.
-    pub parameters: Vec<Parameter>,
+    pub parameters: Vec<ParameterDoc>,
     /// Its results in their order.
-    pub results: Vec<Returned>,
+    pub results: Vec<ResultDoc>,
     /// The name this one is another word for.
     pub alias_of: Option<String>,
     /// Its replacement; empty without one.
@@ -25,7 +25,7 @@ pub struct Function {
 
 /// A parameter; `...` takes all that follow.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Parameter {
+pub struct ParameterDoc {
     /// Its name, as scripts know it.
     pub name: String,
     /// Its type, in the notation of the reference.
@@ -38,7 +38,7 @@ pub struct Parameter {
 
 /// A result.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Returned {
+pub struct ResultDoc {
     /// Its name.
     pub name: String,
     /// Its type, in the notation of the reference.
@@ -47,11 +47,11 @@ pub struct Returned {
     pub text: String,
 }
 
-impl Function {
+impl FunctionDoc {
     /// From the row `#[api]` made.
     pub(super) fn native(category: &str, function: &ApiFn) -> Self {
         let doc = Doc::parse(function.doc);
-        let parameters = function.params.iter().map(|param| Parameter {
+        let parameters = function.params.iter().map(|param| ParameterDoc {
             name: param.name.to_owned(),
             ty: param.ty.to_owned(),
             default: param.default.map(shown),
@@ -70,7 +70,7 @@ impl Function {
 
     /// A function of which only the names of its parameters are known.
     pub(super) fn untyped(name: String, category: &str, parameters: &[String], text: &str) -> Self {
-        let parameter = |name: &String| Parameter {
+        let parameter = |name: &String| ParameterDoc {
             name: name.clone(),
             ty: "any".to_owned(),
             default: None,
@@ -117,7 +117,11 @@ impl Function {
 
     /// `float[3] position = sim.getObjectPosition(int objectHandle, int relativeTo = sim.handle_world)`.
     pub fn signature(&self) -> String {
-        let parameters: Vec<String> = self.parameters.iter().map(Parameter::declaration).collect();
+        let parameters: Vec<String> = self
+            .parameters
+            .iter()
+            .map(ParameterDoc::declaration)
+            .collect();
         let results: Vec<String> = self
             .results
             .iter()
@@ -141,7 +145,7 @@ impl Function {
     }
 }
 
-impl Parameter {
+impl ParameterDoc {
     fn declaration(&self) -> String {
         match (&*self.name, &self.default) {
             ("...", _) => "...".to_owned(),
@@ -197,7 +201,7 @@ impl Doc {
     }
 
     /// Names and texts for results of these types: a line each, or one line with the names of all.
-    fn results(&self, types: &[&str]) -> Vec<Returned> {
+    fn results(&self, types: &[&str]) -> Vec<ResultDoc> {
         let types: Vec<&str> = types.iter().copied().filter(|ty| !ty.is_empty()).collect();
         let lines: Vec<&str> = match self.returns.as_slice() {
             [one] if types.len() > 1 => one.split(',').map(str::trim).collect(),
@@ -211,7 +215,7 @@ impl Doc {
             } else {
                 name.trim_end_matches(',')
             };
-            Returned {
+            ResultDoc {
                 name: name.to_owned(),
                 ty: (*ty).to_owned(),
                 text: text.trim().to_owned(),

@@ -84,7 +84,7 @@ fn read_folder(path: &Path, permissions: &Permissions) -> Result<SceneInput, Str
     })))
 }
 
-/// A robot becomes a model, with the usual options.
+/// A robot becomes a model, with the default options.
 fn read_robot(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
     let (file, messages) = RobotFile::read(path, permissions)?.model()?;
     Ok(model_input(file, messages))

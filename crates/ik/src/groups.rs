@@ -171,7 +171,7 @@ impl GroupCopy {
         let (columns, rows) = (equations.columns.len(), equations.rows.len());
         let mut values = equations.jacobian;
         if weighted {
-            let weight = |column: &kinematics::Column| {
+            let weight = |column: &kinematics::JacobianColumn| {
                 self.env
                     .joint(column.joint)
                     .map(|joint| joint.weight.max(0.0))

@@ -1,7 +1,7 @@
 //! The elements of a group, compiled: joints from base to tip with fixed transforms between them.
 
 use crate::environment::{Environment, Frame};
-use crate::equations::Column;
+use crate::equations::JacobianColumn;
 use crate::error::Result;
 use crate::group::{Constraints, ElementId, GroupId};
 use crate::joint::{JointMode, JointType};
@@ -13,7 +13,7 @@ use crate::rigid::Rigid;
 pub(crate) struct Chains {
     /// The environment's count of changes when this was compiled.
     structure: u64,
-    pub columns: Vec<Column>,
+    pub columns: Vec<JacobianColumn>,
     pub chains: Vec<Chain>,
     /// False where an element has no target or no joint, or there are no elements.
     pub valid: bool,
@@ -77,7 +77,7 @@ impl Environment {
         &self,
         group: GroupId,
         id: ElementId,
-        columns: &mut Vec<Column>,
+        columns: &mut Vec<JacobianColumn>,
     ) -> Result<Option<Chain>> {
         let element = self.element(group, id)?;
         let Some(target) = self.partner(element.tip)? else {
@@ -129,7 +129,7 @@ impl Environment {
         &self,
         joint: ObjectId,
         before: Rigid,
-        columns: &mut Vec<Column>,
+        columns: &mut Vec<JacobianColumn>,
     ) -> Result<Link> {
         let root = self.root_master(joint)?;
         let master = self.joint(root)?;
@@ -144,7 +144,7 @@ impl Environment {
                 .iter()
                 .position(|column| column.joint == root)
                 .unwrap_or_else(|| {
-                    columns.extend((0..stages).map(|stage| Column { joint: root, stage }));
+                    columns.extend((0..stages).map(|stage| JacobianColumn { joint: root, stage }));
                     columns.len() - stages
                 })
         });

@@ -14,7 +14,7 @@ use crate::rigid::Rigid;
 
 /// What a row of a Jacobian stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Row {
+pub enum JacobianRow {
     /// One constraint of an element.
     Constraint {
         /// The element.
@@ -31,7 +31,7 @@ pub enum Row {
 
 /// What a column of a Jacobian stands for: a joint, of a spherical one the rotation about axis `stage` of its frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Column {
+pub struct JacobianColumn {
     /// The joint.
     pub joint: ObjectId,
     /// Axis of the frame of a spherical joint, 0 to 2; 0 for other joints.
@@ -42,9 +42,9 @@ pub struct Column {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Equations {
     /// What the rows stand for.
-    pub rows: Vec<Row>,
+    pub rows: Vec<JacobianRow>,
     /// What the columns stand for.
-    pub columns: Vec<Column>,
+    pub columns: Vec<JacobianColumn>,
     /// Row by row; in metres and radians, per metre and radian.
     pub jacobian: Vec<f64>,
     /// Without weights.
@@ -149,7 +149,7 @@ impl Equations {
         for (bit, constraint) in SINGLE.into_iter().enumerate() {
             if chain.constraints.intersects(constraint) {
                 // ALPHA_BETA has two rows.
-                self.rows.push(Row::Constraint {
+                self.rows.push(JacobianRow::Constraint {
                     element: chain.element,
                     constraint,
                 });
@@ -279,7 +279,7 @@ impl Equations {
             );
             for (sign, penetration) in [(1.0, below), (-1.0, above)] {
                 if penetration > 0.0 {
-                    self.rows.push(Row::Limit { joint: id });
+                    self.rows.push(JacobianRow::Limit { joint: id });
                     self.errors.push(penetration);
                     let start = self.jacobian.len();
                     self.jacobian.resize(start + self.columns.len(), 0.0);

@@ -72,7 +72,7 @@ mod step;
 mod stored;
 
 pub use environment::{Environment, Frame};
-pub use equations::{Column, Equations, Row};
+pub use equations::{Equations, JacobianColumn, JacobianRow};
 pub use error::{KinematicsError, Result};
 pub use geometry::Pose;
 pub use group::{

@@ -9,7 +9,7 @@ use nalgebra::{Quaternion, UnitQuaternion};
 
 use crate::chain::Chains;
 use crate::environment::Environment;
-use crate::equations::{Angles, Column, Equations, exceeds};
+use crate::equations::{Angles, Equations, JacobianColumn, exceeds};
 use crate::error::Result;
 use crate::group::GroupId;
 use crate::joint::{Joint, JointType};
@@ -103,7 +103,7 @@ impl Environment {
         Ok(())
     }
 
-    fn draw(&mut self, columns: &[Column]) {
+    fn draw(&mut self, columns: &[JacobianColumn]) {
         for column in columns.iter().filter(|column| column.stage == 0) {
             if let Some(joint) = self.objects[column.joint.0]
                 .as_mut()

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, UnitQuaternion};
 
 use crate::chain::Chains;
 use crate::environment::Environment;
-use crate::equations::{Angles, Column, Equations};
+use crate::equations::{Angles, Equations, JacobianColumn};
 use crate::error::{KinematicsError, Result};
 use crate::group::{Flags, GroupFlags, GroupId, LimitHit};
 use crate::joint::JointType;
@@ -84,7 +84,7 @@ struct Task {
 struct Calculation {
     tasks: Vec<Task>,
     /// Of all groups.
-    columns: Vec<Column>,
+    columns: Vec<JacobianColumn>,
     iterations: u32,
     before: Vec<(ObjectId, f64, UnitQuaternion<f64>)>,
     flags: Flags,
@@ -94,7 +94,7 @@ struct Calculation {
 
 impl Calculation {
     fn begin(env: &mut Environment, groups: &[GroupId]) -> Result<Self> {
-        let mut columns: Vec<Column> = Vec::new();
+        let mut columns: Vec<JacobianColumn> = Vec::new();
         let mut tasks = Vec::new();
         groups
             .iter()

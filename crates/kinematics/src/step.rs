@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::environment::Environment;
-use crate::equations::{Column, Row};
+use crate::equations::{JacobianColumn, JacobianRow};
 use crate::error::Result;
 use crate::group::{Constraints, Group, Method};
 use crate::joint::{JointType, wrapped};
@@ -22,7 +22,7 @@ pub(crate) struct Solved {
 pub(crate) struct Step<'a> {
     pub group: &'a Group,
     pub jacobian: &'a [f64],
-    pub columns: &'a [Column],
+    pub columns: &'a [JacobianColumn],
     pub revision: &'a Revision,
 }
 
@@ -114,8 +114,8 @@ fn with_roots(mut inverse: DMatrix<f64>, roots: &Option<Vec<f64>>) -> Option<DMa
 }
 
 /// Roots of the joint weights; None where all weights are 1.
-fn roots_of_weights(env: &Environment, columns: &[Column]) -> Result<Option<Vec<f64>>> {
-    let weight = |column: &Column| env.joint(column.joint).map(|joint| joint.weight);
+fn roots_of_weights(env: &Environment, columns: &[JacobianColumn]) -> Result<Option<Vec<f64>>> {
+    let weight = |column: &JacobianColumn| env.joint(column.joint).map(|joint| joint.weight);
     let mut different = false;
     for column in columns {
         different |= weight(column)? != 1.0;
@@ -136,9 +136,9 @@ fn scaled(jacobian: &[f64], roots: &[f64]) -> Vec<f64> {
 }
 
 /// Multiplies errors by the weights of their elements.
-pub(crate) fn weigh(group: &Group, rows: &[Row], errors: &mut [f64]) {
+pub(crate) fn weigh(group: &Group, rows: &[JacobianRow], errors: &mut [f64]) {
     for (row, error) in rows.iter().zip(errors) {
-        let Row::Constraint {
+        let JacobianRow::Constraint {
             element,
             constraint,
         } = row
@@ -153,7 +153,7 @@ pub(crate) fn weigh(group: &Group, rows: &[Row], errors: &mut [f64]) {
 }
 
 /// Largest ratio of a step to what is allowed.
-pub(crate) fn too_big(env: &Environment, columns: &[Column], step: &[f64]) -> Result<f64> {
+pub(crate) fn too_big(env: &Environment, columns: &[JacobianColumn], step: &[f64]) -> Result<f64> {
     let mut largest = 0.0_f64;
     for (column, dq) in columns.iter().zip(step) {
         let joint = env.joint(column.joint)?;

@@ -101,8 +101,8 @@ fn divide(cx: &mut Cx, original: Handle, fineness: DecompositionParameters) -> R
 
 /// `resolution` counts voxels in all, `alpha` and `beta` prefer cuts along symmetries.
 fn fineness(params: &Data) -> Result<DecompositionParameters> {
-    let number = |name: &str, usual: f64| match params.field(name) {
-        None | Some(Data::Nil) => Ok(usual),
+    let number = |name: &str, default: f64| match params.field(name) {
+        None | Some(Data::Nil) => Ok(default),
         Some(value) => value
             .as_f64()
             .filter(|x| x.is_finite() && *x >= 0.0)

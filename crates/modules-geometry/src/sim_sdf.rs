@@ -112,9 +112,9 @@ fn read(cx: &Cx, file_name: &str) -> Result<RobotFile> {
 
 fn import_options(fields: &Data) -> Result<RobotImportOptions> {
     let mut options = RobotImportOptions::default();
-    for (name, usual, option, set_by) in FIELDS {
+    for (name, default, option, set_by) in FIELDS {
         let value = match fields.field(name) {
-            None | Some(Data::Nil) => usual,
+            None | Some(Data::Nil) => default,
             Some(Data::Bool(value)) => *value,
             Some(_) => return Err(ApiError::Other(format!("field '{name}' must be a bool"))),
         };

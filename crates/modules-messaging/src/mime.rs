@@ -6,6 +6,7 @@ use api_macro::api;
 
 use super::{ApiFn, Cx, Module, Result, functions};
 use scene::Data;
+use scene::numbers;
 use script::{LuaNumber, LuaString, Results};
 use wire::mime::{
     QuotedPrintable, decode_base64, decode_quoted_printable, encode_base64, finish_base64,
@@ -132,7 +133,12 @@ fn wrapped(
     let mut out = Vec::new();
     let (text, left) = match chunk {
         Some(LuaString(chunk)) => {
-            let left = wrap(&chunk, length as i64, left as i64, &mut out);
+            let left = wrap(
+                &chunk,
+                numbers::truncated(length),
+                numbers::truncated(left),
+                &mut out,
+            );
             (Data::Text(out), left as f64)
         }
         None if left < length => (Data::Text(end.to_vec()), length),
@@ -182,7 +188,7 @@ fn eol(
     };
     let marker = marker.map_or_else(|| b"\r\n".to_vec(), |marker| marker.0);
     let mut out = Vec::new();
-    let last = unify_line_ends(&chunk, last.0 as u8, &marker, &mut out);
+    let last = unify_line_ends(&chunk, numbers::level(last.0), &marker, &mut out);
     Ok(Results(vec![Data::Text(out), Data::Float(last.into())]))
 }
 
@@ -193,6 +199,6 @@ fn dot(_cx: &Cx, seen: LuaNumber, chunk: Option<LuaString>) -> Result<Results> {
         return Ok(Results(vec![Data::Nil, Data::Float(2.0)]));
     };
     let mut out = Vec::new();
-    let seen = stuff_dots(&chunk, seen.0 as usize, &mut out);
+    let seen = stuff_dots(&chunk, numbers::index(seen.0), &mut out);
     Ok(Results(vec![Data::Text(out), Data::Float(seen as f64)]))
 }

@@ -106,8 +106,8 @@ fn receive(cx: &mut Cx, timeout: f64) -> Result<Option<(i64, Option<Text>)>> {
     Ok(server
         .and_then(|server| server.receive(timeout))
         .map(|incoming| match incoming {
-            Incoming::Request(peer, message) => (peer as i64, Some(Text(message))),
-            Incoming::Gone(peer) => (peer as i64, None),
+            Incoming::Request(peer, message) => (peer.cast_signed(), Some(Text(message))),
+            Incoming::Gone(peer) => (peer.cast_signed(), None),
         }))
 }
 
@@ -118,7 +118,7 @@ fn receive(cx: &mut Cx, timeout: f64) -> Result<Option<(i64, Option<Text>)>> {
 #[api("remote.zmq.reply")]
 fn reply(cx: &mut Cx, peer: i64, message: Bytes) -> Result<()> {
     if let Some(server) = zmq_server(cx) {
-        server.reply(peer as u64, &message.0);
+        server.reply(peer.cast_unsigned(), &message.0);
     }
     Ok(())
 }

@@ -5,6 +5,7 @@
 use ros_interfaces::{Array, Number, Numbers, Record, Value};
 
 use super::{ApiError, Result};
+use scene::numbers;
 use scene::{Data, Key};
 
 /// The most pixels of a row or column.
@@ -47,7 +48,7 @@ pub(super) fn message(
         ("height", Data::Int(height)),
         ("width", Data::Int(width)),
         ("encoding", Data::text("rgb8")),
-        ("step", Data::Int(row as i64)),
+        ("step", Data::Int(numbers::count(row))),
         ("data", Data::Buffer(flipped)),
     ]))
 }
@@ -97,8 +98,8 @@ pub(super) fn arguments(record: &Record) -> std::result::Result<Vec<Data>, Strin
     }
     Ok(vec![
         Data::Buffer(rgb),
-        Data::Int(width as i64),
-        Data::Int(height as i64),
+        Data::Int(numbers::count(width)),
+        Data::Int(numbers::count(height)),
     ])
 }
 

@@ -7,6 +7,7 @@ use ros_interfaces::{
     Time, Value,
 };
 
+use scene::numbers;
 use scene::{Data, Key};
 
 /// How scripts want to see messages.
@@ -221,7 +222,7 @@ fn number_from_data(number: NumberType, data: &Data) -> Result<Number, Problem> 
         (_, Data::Float(value)) if number.is_float() => Ok(number.of_float(*value)),
         (NumberType::UInt64, Data::Float(value)) => Ok(number.of_float(*value)),
         // Fractions are cut off, and numbers below zero wrap around, as integers do.
-        (_, Data::Float(value)) => Ok(number.of_integer(*value as i64)),
+        (_, Data::Float(value)) => Ok(number.of_integer(numbers::truncated(*value))),
         _ => Err(Problem::Expected(expected)),
     }
 }
@@ -244,7 +245,7 @@ fn time_from_data(data: &Data) -> Result<Time, Problem> {
         return Ok(Time::default());
     }
     Ok(Time {
-        sec: sec as u32,
+        sec: numbers::truncated_u32(sec),
         nanosec,
     })
 }
@@ -252,7 +253,7 @@ fn time_from_data(data: &Data) -> Result<Time, Problem> {
 fn duration_from_data(data: &Data) -> Result<Duration, Problem> {
     let (sec, nanosec) = seconds_from_data(data)?;
     Ok(Duration {
-        sec: sec as i32,
+        sec: numbers::truncated_i32(sec),
         nanosec: nanosec.cast_signed(),
     })
 }
@@ -267,7 +268,7 @@ fn seconds_from_data(data: &Data) -> Result<(f64, u32), Problem> {
     let nanosec = ((seconds - seconds.floor()) * 1e9)
         .round()
         .min(999_999_999.0);
-    Ok((seconds.floor(), nanosec as u32))
+    Ok((seconds.floor(), numbers::truncated_u32(nanosec)))
 }
 
 fn array_from_data(

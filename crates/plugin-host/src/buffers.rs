@@ -18,7 +18,7 @@ impl Buffers {
         let mut words: Box<[u64]> = bytes.chunks(8).map(word).chain([0]).collect();
         let address = words.as_mut_ptr().expose_provenance();
         self.0.insert(address, words);
-        address as i64
+        (address as u64).cast_signed()
     }
 
     /// Releases it; false where the simulator has made nothing there.
@@ -36,7 +36,8 @@ mod tests {
         let mut buffers = Buffers::default();
         let (one, other) = (buffers.add(b"12345678"), buffers.add(b""));
         assert_ne!(one, other);
-        assert!(buffers.release(one as usize) && !buffers.release(one as usize));
-        assert!(!buffers.release(1) && buffers.release(other as usize));
+        let address = |number: i64| usize::try_from(number).expect("an address");
+        assert!(buffers.release(address(one)) && !buffers.release(address(one)));
+        assert!(!buffers.release(1) && buffers.release(address(other)));
     }
 }

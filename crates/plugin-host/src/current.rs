@@ -5,10 +5,11 @@ use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use super::buffers::Buffers;
-use super::signature::Row;
+use super::signature::Symbol;
 use super::stacks::Stacks;
 use super::{Host, Plugin};
 use scene::Data;
+use scene::numbers;
 
 /// What the plugins of one simulator have in common.
 #[derive(Default)]
@@ -69,7 +70,7 @@ impl Drop for End<'_> {
 }
 
 impl Frame {
-    pub fn note_failure(&self, row: &Row, reason: String) {
+    pub fn note_failure(&self, row: &Symbol, reason: String) {
         if row.is_missing() && self.shared.missing.borrow_mut().insert(row.symbol) {
             self.host.log(
                 &self.plugin.name,
@@ -89,7 +90,7 @@ impl Frame {
                 *length = items.len();
                 items
                     .iter()
-                    .flat_map(|item| (super::dispatch::integer(item) as i32).to_ne_bytes())
+                    .flat_map(|item| numbers::low_i32(super::dispatch::integer(item)).to_ne_bytes())
                     .collect()
             }
             ('D', Some(Data::Array(items))) => {

@@ -6,8 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::current::{Frame, current};
 use super::ffi::Value;
 use super::functions::{self, Function};
-use super::signature::{self, Param, Row, Size};
+use super::signature::{self, Param, Size, Symbol};
 use scene::Data;
+use scene::numbers;
 
 /// The symbols plugins may look up, one row for each.
 const SYMBOLS: &str = include_str!("symbols.tsv");
@@ -17,7 +18,7 @@ const MAX_ITEMS: usize = Data::MAX_ITEMS;
 
 /// A symbol with the function behind it.
 struct Bound {
-    row: Row,
+    row: Symbol,
     target: Target,
 }
 
@@ -29,7 +30,7 @@ enum Target {
 }
 
 static BOUND: LazyLock<Vec<Bound>> = LazyLock::new(|| {
-    let target = |row: &Row| match functions::find(row.function) {
+    let target = |row: &Symbol| match functions::find(row.function) {
         Some(function) => Target::Own(function),
         None if row.function.starts_with("sim.") => Target::Api(row.function),
         None => Target::Missing,
@@ -44,7 +45,7 @@ static BOUND: LazyLock<Vec<Bound>> = LazyLock::new(|| {
 });
 
 /// All symbols.
-pub fn symbols() -> impl Iterator<Item = &'static Row> {
+pub fn symbols() -> impl Iterator<Item = &'static Symbol> {
     BOUND.iter().map(|bound| &bound.row)
 }
 
@@ -108,7 +109,7 @@ fn answer(frame: &Frame, bound: &Bound, values: &mut [Value]) -> Result<i64, Str
     write(frame, row, values, results)
 }
 
-fn ordered(row: &Row, args: Vec<Data>) -> Vec<Data> {
+fn ordered(row: &Symbol, args: Vec<Data>) -> Vec<Data> {
     match &row.order {
         Some(order) => order
             .iter()
@@ -119,13 +120,13 @@ fn ordered(row: &Row, args: Vec<Data>) -> Vec<Data> {
 }
 
 /// The parameters that the host reads, and the counts of those that it fills.
-fn read(row: &Row, values: &[Value]) -> Result<Vec<Data>, String> {
+fn read(row: &Symbol, values: &[Value]) -> Result<Vec<Data>, String> {
     let mut args = Vec::new();
     for (param, value) in row.params.iter().zip(values) {
         if param.is_in {
             args.push(argument(*param, value)?);
         } else if param.size == Size::Counted {
-            args.push(Data::Int(count_of(*param, value)? as i64));
+            args.push(Data::Int(numbers::count(count_of(*param, value)?)));
         }
     }
     Ok(args)
@@ -151,7 +152,7 @@ fn argument(param: Param, value: &Value) -> Result<Data, String> {
         ('s', Size::One) => text(),
         ('t', _) if count == 0 => text(),
         ('s' | 't', _) => Data::Text(list::<u8>(value, count)?),
-        ('p' | 'c', _) => Data::Int(value.address.number() as i64),
+        ('p' | 'c', _) => Data::Int((value.address.number() as u64).cast_signed()),
         ('i' | 'l', Size::One) => Data::Int(value.integer),
         ('b' | 'B', Size::One) => Data::Bool(value.integer != 0),
         ('d' | 'f', Size::One) => Data::Float(value.number),
@@ -186,7 +187,7 @@ fn list<T: super::ffi::Plain>(value: &Value, count: usize) -> Result<Vec<T>, Str
 /// Writes results to the places the plugin named; what the function returns.
 fn write(
     frame: &Frame,
-    row: &Row,
+    row: &Symbol,
     values: &mut [Value],
     results: Vec<Data>,
 ) -> Result<i64, String> {
@@ -235,7 +236,7 @@ fn fill(
             .write(&[i32::try_from(*length).unwrap_or(i32::MAX)]),
         'S' | 'I' | 'D' => {
             let address = frame.keep(param.ty, results.next(), length);
-            value.address.write(&[address as usize]);
+            value.address.write(&[address]);
         }
         // Output arguments without a result keep their values.
         _ => {
@@ -256,19 +257,21 @@ fn fill_numbers(param: Param, value: &Value, result: &Data) -> Result<(), String
     };
     let items = &items[..items.len().min(count_of(param, value)?)];
     let integers = || items.iter().map(integer);
-    let numbers = || items.iter().map(|item| item.as_f64().unwrap_or_default());
+    let floats = || items.iter().map(|item| item.as_f64().unwrap_or_default());
     match param.ty {
-        'u' | 'b' => value
-            .address
-            .write(&integers().map(|item| item as u8).collect::<Vec<_>>()),
+        'u' | 'b' => value.address.write(
+            &integers()
+                .map(|item| item.to_le_bytes()[0])
+                .collect::<Vec<_>>(),
+        ),
         'i' => value
             .address
-            .write(&integers().map(|item| item as i32).collect::<Vec<_>>()),
+            .write(&integers().map(numbers::low_i32).collect::<Vec<_>>()),
         'l' => value.address.write(&integers().collect::<Vec<_>>()),
         'f' => value
             .address
-            .write(&numbers().map(|item| item as f32).collect::<Vec<_>>()),
-        _ => value.address.write(&numbers().collect::<Vec<_>>()),
+            .write(&floats().map(numbers::single).collect::<Vec<_>>()),
+        _ => value.address.write(&floats().collect::<Vec<_>>()),
     }
     Ok(())
 }
@@ -277,7 +280,7 @@ fn fill_numbers(param: Param, value: &Value, result: &Data) -> Result<(), String
 pub(super) fn integer(data: &Data) -> i64 {
     match *data {
         Data::Int(value) => value,
-        Data::Float(value) => value as i64,
+        Data::Float(value) => numbers::truncated(value),
         Data::Bool(value) => i64::from(value),
         _ => 1,
     }

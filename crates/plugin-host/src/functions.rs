@@ -4,6 +4,7 @@ use super::dispatch::Call;
 use super::stacks::{as_list, insert, item_type, place, table_info, unfolded};
 use super::{Registered, Variable, scene_functions};
 use scene::Data;
+use scene::numbers;
 
 pub(super) type Answer = Result<Vec<Data>, String>;
 pub(super) type Function = fn(&Call<'_>) -> Answer;
@@ -56,9 +57,9 @@ const FUNCTIONS: &[(&str, Function)] = &[
         insert(call.stacks().get(call.int(0)?)?).map(|()| Vec::new())
     }),
     ("stack.size", |call| {
-        Ok(vec![Data::Int(
-            call.stacks().get(call.int(0)?)?.len() as i64
-        )])
+        Ok(vec![Data::Int(numbers::count(
+            call.stacks().get(call.int(0)?)?.len(),
+        ))])
     }),
     ("stack.pop", pop),
     ("stack.move_to_top", move_to_top),
@@ -161,7 +162,7 @@ impl Call<'_> {
 fn rounded(data: &Data) -> Option<i64> {
     match *data {
         Data::Int(value) => Some(value),
-        Data::Float(value) => Some((value + 0.1_f64.copysign(value)) as i64),
+        Data::Float(value) => Some(numbers::truncated(value + 0.1_f64.copysign(value))),
         _ => None,
     }
 }
@@ -218,12 +219,8 @@ fn create_buffer(call: &Call<'_>) -> Answer {
 }
 
 fn release_buffer(call: &Call<'_>) -> Answer {
-    let released = call
-        .frame
-        .shared
-        .buffers
-        .borrow_mut()
-        .release(call.int(0)? as usize);
+    let mut buffers = call.frame.shared.buffers.borrow_mut();
+    let released = usize::try_from(call.int(0)?).is_ok_and(|address| buffers.release(address));
     if released {
         Ok(Vec::new())
     } else {
@@ -351,7 +348,7 @@ fn pop(call: &Call<'_>) -> Answer {
             .ok_or("too many items")?,
     };
     items.truncate(size);
-    Ok(vec![Data::Int(size as i64)])
+    Ok(vec![Data::Int(numbers::count(size))])
 }
 
 fn move_to_top(call: &Call<'_>) -> Answer {

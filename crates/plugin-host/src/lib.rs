@@ -25,6 +25,7 @@ use std::sync::{Mutex, PoisonError};
 
 pub use dispatch::symbols;
 use scene::Data;
+use scene::numbers;
 
 use current::{Frame, Shared, within};
 use ffi::{Callback, Caller, Library, Message};
@@ -251,7 +252,7 @@ impl Plugins {
             .ok_or("the plugin has no such function")?;
         let stack = self.shared.stacks.borrow_mut().add(args);
         let before = self.shared.raised.take();
-        let (script, object) = (script as i32, object as i32);
+        let (script, object) = (numbers::low_i32(script), numbers::low_i32(object));
         let older_error = self.run(host, plugin, &function.name, |_| {
             function.callback.call(Caller {
                 object,

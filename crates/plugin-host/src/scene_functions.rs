@@ -2,6 +2,7 @@
 
 use super::dispatch::Call;
 use super::functions::{Answer, Function};
+use scene::numbers;
 use scene::{Data, Key};
 
 /// Added to the index of a contact: its normal is wanted as well.
@@ -91,7 +92,7 @@ fn packets(call: &Call<'_>, function: &str) -> Answer {
     let packets: Vec<Vec<Data>> = results.map(items).collect();
     let counts = std::iter::once(packets.len())
         .chain(packets.iter().map(Vec::len))
-        .map(|count| count as i64);
+        .map(numbers::count);
     let counts = counts.collect::<Vec<_>>().into();
     Ok(vec![
         state,
@@ -149,7 +150,7 @@ fn names(call: &Call<'_>, function: &str) -> Answer {
         .into_iter()
         .flat_map(items)
         .collect();
-    let count = Data::Int(names.len() as i64);
+    let count = Data::Int(numbers::count(names.len()));
     let text: Vec<u8> = names
         .into_iter()
         .flat_map(|name| [bytes(name), vec![0]].concat())
@@ -181,7 +182,7 @@ fn read_serial(call: &Call<'_>) -> Answer {
         .take(1)
         .flat_map(bytes)
         .collect();
-    let count = Data::Int(bytes.len() as i64);
+    let count = Data::Int(numbers::count(bytes.len()));
     Ok(vec![
         count,
         bytes.into_iter().map(i64::from).collect::<Vec<_>>().into(),

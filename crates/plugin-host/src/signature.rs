@@ -15,7 +15,7 @@
 
 /// A symbol of the C interface.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct Symbol {
     pub symbol: &'static str,
     pub result: char,
     pub params: Vec<Param>,
@@ -48,14 +48,14 @@ pub enum Size {
 }
 
 /// All symbols of the table `text`, in its order.
-pub fn rows(text: &'static str) -> Vec<Row> {
+pub fn rows(text: &'static str) -> Vec<Symbol> {
     text.lines()
         .filter(|line| !line.is_empty() && !line.starts_with('#'))
-        .map(Row::parse)
+        .map(Symbol::parse)
         .collect()
 }
 
-impl Row {
+impl Symbol {
     fn parse(line: &'static str) -> Self {
         let mut columns = line.split('\t');
         let mut next = || columns.next().unwrap_or_default();

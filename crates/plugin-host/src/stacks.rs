@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use scene::numbers;
 use scene::{Data, Key};
 
 /// The stacks of a simulator, by handle.
@@ -63,7 +64,7 @@ fn no_stack() -> String {
 /// The place of an item; a negative index counts from the end.
 pub(super) fn place(items: &[Data], index: i64) -> Result<usize, String> {
     let place = if index < 0 {
-        index.saturating_add(items.len() as i64)
+        index.saturating_add(numbers::count(items.len()))
     } else {
         index
     };
@@ -80,7 +81,9 @@ pub(super) fn insert(items: &mut Vec<Data>) -> Result<(), String> {
     };
     let key = as_key(key).ok_or("this is no key of a table")?;
     let entries = match table {
-        Data::Array(list) if matches!(key, Key::Int(next) if next == list.len() as i64 + 1) => None,
+        Data::Array(list) if matches!(key, Key::Int(next) if next == numbers::count(list.len()) + 1) => {
+            None
+        }
         Data::Array(list) => {
             *table = Data::Map((1..).map(Key::Int).zip(std::mem::take(list)).collect());
             Some(table)
@@ -105,7 +108,9 @@ pub(super) fn insert(items: &mut Vec<Data>) -> Result<(), String> {
 fn as_key(data: &Data) -> Option<Key> {
     Some(match data {
         Data::Int(key) => Key::Int(*key),
-        Data::Float(key) if key.fract() == 0.0 && key.abs() < 9e15 => Key::Int(*key as i64),
+        Data::Float(key) if key.fract() == 0.0 && key.abs() < 9e15 => {
+            Key::Int(numbers::truncated(*key))
+        }
         Data::Float(key) if !key.is_nan() => Key::Float(*key),
         Data::Bool(key) => Key::Bool(*key),
         Data::Text(key) | Data::Buffer(key) => Key::Text(key.clone()),
@@ -149,7 +154,7 @@ pub(super) fn item_type(data: &Data) -> i64 {
 /// What plugins ask about a table: 0 its size, 1 to 5 whether all values are of a type.
 pub(super) fn table_info(data: &Data, info: i64) -> i64 {
     if let (0, Data::Text(bytes) | Data::Buffer(bytes)) = (info, data) {
-        return bytes.len() as i64;
+        return numbers::count(bytes.len());
     }
     if !matches!(data, Data::Array(_) | Data::Map(_)) {
         return NO_TABLE;
@@ -160,7 +165,7 @@ pub(super) fn table_info(data: &Data, info: i64) -> i64 {
     let all =
         |wanted: &[i64]| i64::from(items.iter().all(|item| wanted.contains(&item_type(item))));
     match info {
-        0 => items.len() as i64,
+        0 => numbers::count(items.len()),
         1 => all(&[NULL]),
         2 => all(&[DOUBLE, INTEGER]),
         3 => all(&[BOOL]),

@@ -10,6 +10,7 @@ use pyo3::types::{
 };
 use scene::{Data, Key};
 
+use crate::arrays;
 use crate::callables::Callables;
 
 /// Levels of lists and dictionaries.
@@ -82,6 +83,9 @@ fn other_to_data(value: &Bound<'_, PyAny>, callables: &Callables, depth: usize) 
     }
     // Arrays and scalars of numpy, and what is like them.
     if value.hasattr("tolist")? {
+        if let Some(list) = arrays::to_list(value)? {
+            return Ok(list);
+        }
         return to_data(&value.call_method0("tolist")?, callables, depth + 1);
     }
     if value.hasattr("__index__")? {

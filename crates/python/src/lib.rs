@@ -2,6 +2,7 @@
 //!
 //! Values are converted and calls passed on; everything else is the library's, or Python's in `python/swanilda`.
 
+mod arrays;
 mod batch;
 mod callables;
 mod console;

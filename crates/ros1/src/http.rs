@@ -5,7 +5,7 @@ use std::net::TcpStream;
 use std::time::Duration;
 
 use crate::clock::Deadline;
-use crate::network::{Network, Place, timed_out};
+use crate::network::{NodeNetwork, Place, timed_out};
 use crate::{Error, Result, limits};
 
 /// The longest head of a request or an answer.
@@ -16,7 +16,7 @@ const HEADERS: usize = 64;
 
 /// Sends a text and reads the answer, all within a time limit.
 pub(crate) fn post(
-    network: Network,
+    network: NodeNetwork,
     place: &Place,
     body: &str,
     timeout: Duration,

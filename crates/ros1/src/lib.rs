@@ -5,7 +5,7 @@
 //!
 //! Each connection has a thread. What arrives waits in bounded inboxes, where the newest stay, until the owner takes it; what is published
 //! waits in bounded queues, so that a slow subscriber costs the publisher nothing. Nothing is bound to, and no connection made to, an address
-//! outside of this machine unless [`Network::Address`] allows it.
+//! outside of this machine unless [`NodeNetwork::Address`] allows it.
 //!
 //! # Why no library
 //!
@@ -32,12 +32,12 @@ mod tests;
 mod xmlrpc;
 
 pub use error::{Error, Result};
-pub use network::Network;
+pub use network::NodeNetwork;
 pub use node::{Node, NodeSettings};
 pub use publisher::Publisher;
-pub use service::{Call, Request, ServiceServer, ServiceType};
+pub use service::{Request, ServiceCall, ServiceServer, ServiceType};
 pub use subscriber::Subscriber;
-pub use xmlrpc::Parameter;
+pub use xmlrpc::XmlRpcValue;
 
 /// The type of a topic, as both sides compare it.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,20 +1,20 @@
 //! Calls of the master.
 
-use crate::network::{Network, Place};
+use crate::network::{NodeNetwork, Place};
 use crate::xmlrpc::{call_text, read_response};
-use crate::{Error, Parameter, Result, http, limits};
+use crate::{Error, Result, XmlRpcValue, http, limits};
 
 /// A master, as a node calls it.
 pub(crate) struct Master {
     pub(crate) uri: String,
     place: Place,
-    network: Network,
+    network: NodeNetwork,
     /// The name of the node.
     pub(crate) caller: String,
 }
 
 impl Master {
-    pub(crate) fn new(uri: &str, network: Network, caller: &str) -> Result<Self> {
+    pub(crate) fn new(uri: &str, network: NodeNetwork, caller: &str) -> Result<Self> {
         Ok(Self {
             uri: uri.into(),
             place: Place::parse(uri, "http")?,
@@ -28,19 +28,22 @@ impl Master {
     }
 
     /// Calls a method in the name of the node.
-    pub(crate) fn call(&self, method: &str, arguments: &[&str]) -> Result<Parameter> {
+    pub(crate) fn call(&self, method: &str, arguments: &[&str]) -> Result<XmlRpcValue> {
         self.call_with(
             method,
-            arguments.iter().map(|text| Parameter::text(text)).collect(),
+            arguments
+                .iter()
+                .map(|text| XmlRpcValue::text(text))
+                .collect(),
         )
     }
 
     pub(crate) fn call_with(
         &self,
         method: &str,
-        mut arguments: Vec<Parameter>,
-    ) -> Result<Parameter> {
-        arguments.insert(0, Parameter::text(&self.caller));
+        mut arguments: Vec<XmlRpcValue>,
+    ) -> Result<XmlRpcValue> {
+        arguments.insert(0, XmlRpcValue::text(&self.caller));
         let answer = http::post(
             self.network,
             &self.place,
@@ -62,14 +65,14 @@ impl Master {
 ///
 /// # Errors
 /// The explanation, if the status is not 1.
-pub(crate) fn value_of(answer: Parameter) -> std::result::Result<Parameter, String> {
-    let Parameter::Array(parts) = answer else {
+pub(crate) fn value_of(answer: XmlRpcValue) -> std::result::Result<XmlRpcValue, String> {
+    let XmlRpcValue::Array(parts) = answer else {
         return Err("an answer without status".into());
     };
     let mut parts = parts.into_iter();
     let (status, explanation, value) = (parts.next(), parts.next(), parts.next());
     match (status, value) {
-        (Some(Parameter::Int(1)), Some(value)) => Ok(value),
+        (Some(XmlRpcValue::Int(1)), Some(value)) => Ok(value),
         _ => Err(explanation
             .and_then(|text| text.as_text().map(String::from))
             .unwrap_or_else(|| "no reason".into())),

@@ -7,7 +7,7 @@ use crate::{Error, Result};
 
 /// Which addresses are bound and reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Network {
+pub enum NodeNetwork {
     /// Those of this machine only.
     Loopback,
     /// All. Others reach this machine at the address; if it is unspecified, at the one that leads to the master.
@@ -48,7 +48,7 @@ impl Place {
     }
 }
 
-impl Network {
+impl NodeNetwork {
     /// A server's socket, at a port that the system chooses.
     pub(crate) fn listen(self) -> Result<TcpListener> {
         let address = match self {
@@ -161,7 +161,7 @@ mod tests {
         };
         let deadline = Deadline::after(Duration::from_millis(50));
         assert!(matches!(
-            Network::Loopback.connect(&place, deadline),
+            NodeNetwork::Loopback.connect(&place, deadline),
             Err(Error::Outside(_))
         ));
         assert!(is_of_this_machine(IpAddr::V4(Ipv4Addr::new(127, 0, 1, 1))));

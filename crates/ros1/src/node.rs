@@ -7,12 +7,12 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
 
 use crate::master::Master;
 use crate::name::Place;
-use crate::network::Network;
+use crate::network::NodeNetwork;
 use crate::publisher::{Publisher, Topic};
-use crate::service::{Call, Service, ServiceServer, ServiceType};
+use crate::service::{Service, ServiceCall, ServiceServer, ServiceType};
 use crate::subscriber::{Subscriber, Subscription};
 use crate::tcpros::{Server, field, read_head, write_head};
-use crate::{Error, MessageType, Parameter, Result, http, limits, slave};
+use crate::{Error, MessageType, Result, XmlRpcValue, http, limits, slave};
 
 /// How a node takes part.
 #[derive(Clone, Debug)]
@@ -20,7 +20,7 @@ pub struct NodeSettings {
     /// The address of the master, `http://localhost:11311`.
     pub master: String,
     /// Which addresses are bound and reached.
-    pub network: Network,
+    pub network: NodeNetwork,
     /// Where names without a slash belong; empty for none.
     pub namespace: String,
     /// The name of the node.
@@ -36,7 +36,7 @@ pub struct Node {
 
 /// What its threads share.
 pub(crate) struct Shared {
-    pub(crate) network: Network,
+    pub(crate) network: NodeNetwork,
     pub(crate) master: Master,
     host: String,
     /// Of XML-RPC and of TCPROS; set before anyone knows of the node.
@@ -170,7 +170,7 @@ impl Node {
             .as_array()
             .unwrap_or_default()
             .iter()
-            .filter_map(Parameter::as_text);
+            .filter_map(XmlRpcValue::as_text);
         subscriber
             .subscription
             .update(&publishers.map(String::from).collect::<Vec<_>>());
@@ -207,8 +207,8 @@ impl Node {
         service: &str,
         service_type: &ServiceType,
         request: Vec<u8>,
-    ) -> Result<Call> {
-        Call::start(
+    ) -> Result<ServiceCall> {
+        ServiceCall::start(
             &self.shared,
             &self.place.resolve(service)?,
             service_type,
@@ -220,7 +220,7 @@ impl Node {
     ///
     /// # Errors
     /// When the name is none, or the master cannot be asked.
-    pub fn parameter(&self, name: &str) -> Result<Option<Parameter>> {
+    pub fn parameter(&self, name: &str) -> Result<Option<XmlRpcValue>> {
         match self
             .shared
             .master
@@ -236,8 +236,8 @@ impl Node {
     ///
     /// # Errors
     /// When the name is none, or the master cannot be asked.
-    pub fn set_parameter(&self, name: &str, value: Parameter) -> Result<()> {
-        let name = Parameter::String(self.place.resolve(name)?);
+    pub fn set_parameter(&self, name: &str, value: XmlRpcValue) -> Result<()> {
+        let name = XmlRpcValue::String(self.place.resolve(name)?);
         self.shared
             .master
             .call_with("setParam", vec![name, value])
@@ -253,7 +253,7 @@ impl Node {
             .shared
             .master
             .call("hasParam", &[&self.place.resolve(name)?])?
-            == Parameter::Bool(true))
+            == XmlRpcValue::Bool(true))
     }
 
     /// Removes a parameter.

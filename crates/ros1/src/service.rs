@@ -129,12 +129,12 @@ impl Service {
 }
 
 /// A call that is under way. It ends when this is dropped.
-pub struct Call {
+pub struct ServiceCall {
     answer: Receiver<Result<Vec<u8>>>,
     stream: Arc<Mutex<Option<TcpStream>>>,
 }
 
-impl Call {
+impl ServiceCall {
     /// Asks the service at the place that the master has said.
     pub(crate) fn start(
         node: &Arc<Shared>,
@@ -171,7 +171,7 @@ impl Call {
     }
 }
 
-impl Drop for Call {
+impl Drop for ServiceCall {
     fn drop(&mut self) {
         if let Some(stream) = self
             .stream

@@ -1,6 +1,6 @@
 //! What the master and other nodes ask a node.
 
-use crate::Parameter;
+use crate::XmlRpcValue;
 use crate::node::Shared;
 use crate::xmlrpc::{fault_text, read_call, response_text};
 
@@ -14,15 +14,15 @@ pub(crate) fn answer(node: &Shared, body: &[u8]) -> String {
                 &format!("there is no method {method} with these arguments"),
             ),
             Some(Ok(value)) => response_text(&status(1, "", value)),
-            Some(Err(reason)) => response_text(&status(0, &reason, Parameter::Int(0))),
+            Some(Err(reason)) => response_text(&status(0, &reason, XmlRpcValue::Int(0))),
         },
     }
 }
 
-fn status(status: i32, explanation: &str, value: Parameter) -> Parameter {
-    Parameter::Array(vec![
-        Parameter::Int(status),
-        Parameter::text(explanation),
+fn status(status: i32, explanation: &str, value: XmlRpcValue) -> XmlRpcValue {
+    XmlRpcValue::Array(vec![
+        XmlRpcValue::Int(status),
+        XmlRpcValue::text(explanation),
         value,
     ])
 }
@@ -31,31 +31,38 @@ fn status(status: i32, explanation: &str, value: Parameter) -> Parameter {
 fn perform(
     node: &Shared,
     method: &str,
-    arguments: &[Parameter],
-) -> Option<Result<Parameter, String>> {
+    arguments: &[XmlRpcValue],
+) -> Option<Result<XmlRpcValue, String>> {
     let topics = |topics: Vec<(String, String)>| {
         let pair = |(name, kind): (String, String)| {
-            Parameter::Array(vec![Parameter::String(name), Parameter::String(kind)])
+            XmlRpcValue::Array(vec![XmlRpcValue::String(name), XmlRpcValue::String(kind)])
         };
-        Parameter::Array(topics.into_iter().map(pair).collect())
+        XmlRpcValue::Array(topics.into_iter().map(pair).collect())
     };
-    let nothing = || Parameter::Array(Vec::new());
+    let nothing = || XmlRpcValue::Array(Vec::new());
     Some(Ok(match (method, arguments) {
-        ("getPid", _) => Parameter::Int(i32::try_from(std::process::id()).unwrap_or_default()),
-        ("getMasterUri", _) => Parameter::text(&node.master.uri),
+        ("getPid", _) => XmlRpcValue::Int(i32::try_from(std::process::id()).unwrap_or_default()),
+        ("getMasterUri", _) => XmlRpcValue::text(&node.master.uri),
         ("getPublications", _) => topics(node.publications()),
         ("getSubscriptions", _) => topics(node.subscriptions()),
-        ("getBusInfo", _) => Parameter::Array(bus_info(node)),
-        ("getBusStats", _) => Parameter::Array(vec![nothing(), nothing(), nothing()]),
-        ("paramUpdate", [_, _, _]) => Parameter::Int(0),
-        ("publisherUpdate", [_, Parameter::String(topic), Parameter::Array(publishers)]) => {
+        ("getBusInfo", _) => XmlRpcValue::Array(bus_info(node)),
+        ("getBusStats", _) => XmlRpcValue::Array(vec![nothing(), nothing(), nothing()]),
+        ("paramUpdate", [_, _, _]) => XmlRpcValue::Int(0),
+        (
+            "publisherUpdate",
+            [
+                _,
+                XmlRpcValue::String(topic),
+                XmlRpcValue::Array(publishers),
+            ],
+        ) => {
             let publishers = publishers
                 .iter()
                 .filter_map(|uri| uri.as_text().map(String::from));
             node.update_publishers(topic, &publishers.collect::<Vec<_>>());
-            Parameter::Int(0)
+            XmlRpcValue::Int(0)
         }
-        ("requestTopic", [_, Parameter::String(topic), Parameter::Array(protocols)]) => {
+        ("requestTopic", [_, XmlRpcValue::String(topic), XmlRpcValue::Array(protocols)]) => {
             return Some(request_topic(node, topic, protocols));
         }
         ("shutdown", _) => {
@@ -67,8 +74,12 @@ fn perform(
     }))
 }
 
-fn request_topic(node: &Shared, topic: &str, protocols: &[Parameter]) -> Result<Parameter, String> {
-    let is_tcpros = |protocol: &Parameter| match protocol.as_array() {
+fn request_topic(
+    node: &Shared,
+    topic: &str,
+    protocols: &[XmlRpcValue],
+) -> Result<XmlRpcValue, String> {
+    let is_tcpros = |protocol: &XmlRpcValue| match protocol.as_array() {
         Some([name, ..]) => name.as_text() == Some("TCPROS"),
         _ => false,
     };
@@ -79,24 +90,24 @@ fn request_topic(node: &Shared, topic: &str, protocols: &[Parameter]) -> Result<
         return Err("only TCPROS is supported".into());
     }
     let (host, port) = node.tcpros_place();
-    Ok(Parameter::Array(vec![
-        Parameter::text("TCPROS"),
-        Parameter::text(host),
-        Parameter::Int(port.into()),
+    Ok(XmlRpcValue::Array(vec![
+        XmlRpcValue::text("TCPROS"),
+        XmlRpcValue::text(host),
+        XmlRpcValue::Int(port.into()),
     ]))
 }
 
 /// The connections: number, the other side, direction, protocol, topic, whether it is connected.
-fn bus_info(node: &Shared) -> Vec<Parameter> {
+fn bus_info(node: &Shared) -> Vec<XmlRpcValue> {
     let connections = node.connections();
     let entry = |(number, (other, direction, topic)): (usize, (String, &str, String))| {
-        Parameter::Array(vec![
-            Parameter::Int(i32::try_from(number).unwrap_or(i32::MAX)),
-            Parameter::String(other),
-            Parameter::text(direction),
-            Parameter::text("TCPROS"),
-            Parameter::String(topic),
-            Parameter::Bool(true),
+        XmlRpcValue::Array(vec![
+            XmlRpcValue::Int(i32::try_from(number).unwrap_or(i32::MAX)),
+            XmlRpcValue::String(other),
+            XmlRpcValue::text(direction),
+            XmlRpcValue::text("TCPROS"),
+            XmlRpcValue::String(topic),
+            XmlRpcValue::Bool(true),
         ])
     };
     connections.into_iter().enumerate().map(entry).collect()

@@ -9,11 +9,11 @@ use std::time::Duration;
 use crate::clock::Deadline;
 use crate::inbox::Inbox;
 use crate::master::value_of;
-use crate::network::{Network, Place};
+use crate::network::{NodeNetwork, Place};
 use crate::node::Shared;
 use crate::tcpros::{field, read_frame, read_head, write_head};
 use crate::xmlrpc::{call_text, read_response};
-use crate::{Error, MessageType, Parameter, Result, http, limits};
+use crate::{Error, MessageType, Result, XmlRpcValue, http, limits};
 
 /// Reads messages of a topic.
 pub struct Subscriber {
@@ -26,7 +26,7 @@ pub(crate) struct Subscription {
     pub(crate) topic: String,
     pub(crate) message_type: MessageType,
     caller: String,
-    network: Network,
+    network: NodeNetwork,
     inbox: Inbox<Vec<u8>>,
     links: Mutex<BTreeMap<String, Arc<Link>>>,
 }
@@ -196,10 +196,11 @@ impl Subscription {
 
     /// Asks the publisher's node where the topic is served.
     fn request(&self, uri: &str) -> Result<Place> {
-        let protocols = Parameter::Array(vec![Parameter::Array(vec![Parameter::text("TCPROS")])]);
+        let protocols =
+            XmlRpcValue::Array(vec![XmlRpcValue::Array(vec![XmlRpcValue::text("TCPROS")])]);
         let arguments = [
-            Parameter::text(&self.caller),
-            Parameter::text(&self.topic),
+            XmlRpcValue::text(&self.caller),
+            XmlRpcValue::text(&self.topic),
             protocols,
         ];
         let node = Place::parse(uri, "http")?;
@@ -213,9 +214,9 @@ impl Subscription {
         match value.as_array() {
             Some(
                 [
-                    Parameter::String(protocol),
-                    Parameter::String(host),
-                    Parameter::Int(port),
+                    XmlRpcValue::String(protocol),
+                    XmlRpcValue::String(host),
+                    XmlRpcValue::Int(port),
                 ],
             ) if protocol == "TCPROS" => Place::parse(&format!("rosrpc://{host}:{port}"), "rosrpc"),
             _ => Err(Error::protocol("no address of the topic")),

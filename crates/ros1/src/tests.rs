@@ -5,17 +5,17 @@ use std::net::{Ipv4Addr, TcpListener};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use crate::network::{Network, Place};
+use crate::network::{NodeNetwork, Place};
 use crate::tcpros::Server;
 use crate::xmlrpc::{call_text, read_call, response_text};
-use crate::{Error, MessageType, Node, NodeSettings, Parameter, ServiceType, http};
+use crate::{Error, MessageType, Node, NodeSettings, ServiceType, XmlRpcValue, http};
 
 #[derive(Default)]
 struct Graph {
     publishers: BTreeMap<String, Vec<String>>,
     subscribers: BTreeMap<String, Vec<String>>,
     services: BTreeMap<String, String>,
-    parameters: BTreeMap<String, Parameter>,
+    parameters: BTreeMap<String, XmlRpcValue>,
 }
 
 struct Master {
@@ -39,7 +39,7 @@ impl Master {
         let master = format!("http://127.0.0.1:{}", self.server.port());
         let settings = NodeSettings {
             master,
-            network: Network::Loopback,
+            network: NodeNetwork::Loopback,
             namespace: String::new(),
             name: name.into(),
         };
@@ -72,7 +72,7 @@ fn answer(graph: &Mutex<Graph>, body: &[u8]) -> String {
                 .or_default()
                 .push(api.to_string());
             update(&graph, topic);
-            Ok(Parameter::Array(Vec::new()))
+            Ok(XmlRpcValue::Array(Vec::new()))
         }
         ("registerSubscriber", [topic, _, api]) => {
             graph
@@ -81,8 +81,8 @@ fn answer(graph: &Mutex<Graph>, body: &[u8]) -> String {
                 .or_default()
                 .push(api.to_string());
             let publishers = graph.publishers.get(*topic).cloned().unwrap_or_default();
-            Ok(Parameter::Array(
-                publishers.into_iter().map(Parameter::String).collect(),
+            Ok(XmlRpcValue::Array(
+                publishers.into_iter().map(XmlRpcValue::String).collect(),
             ))
         }
         ("unregisterPublisher", [topic, api]) => {
@@ -92,38 +92,38 @@ fn answer(graph: &Mutex<Graph>, body: &[u8]) -> String {
                 .or_default()
                 .retain(|known| known != api);
             update(&graph, topic);
-            Ok(Parameter::Int(1))
+            Ok(XmlRpcValue::Int(1))
         }
         ("registerService", [name, uri, _]) => {
             graph.services.insert(name.to_string(), uri.to_string());
-            Ok(Parameter::Int(1))
+            Ok(XmlRpcValue::Int(1))
         }
-        ("unregisterService", [name, _]) => Ok(Parameter::Int(
+        ("unregisterService", [name, _]) => Ok(XmlRpcValue::Int(
             graph.services.remove(*name).is_some().into(),
         )),
         ("lookupService", [name]) => graph
             .services
             .get(*name)
             .cloned()
-            .map(Parameter::String)
+            .map(XmlRpcValue::String)
             .ok_or("no".to_string()),
         ("setParam", [name, _]) => {
             graph
                 .parameters
                 .insert(name.to_string(), arguments[2].clone());
-            Ok(Parameter::Int(0))
+            Ok(XmlRpcValue::Int(0))
         }
         ("getParam", [name]) => graph.parameters.get(*name).cloned().ok_or("no".to_string()),
-        ("getPid" | "unregisterSubscriber", _) => Ok(Parameter::Int(1)),
+        ("getPid" | "unregisterSubscriber", _) => Ok(XmlRpcValue::Int(1)),
         _ => refuse(),
     };
     let (status, explanation, value) = match result {
         Ok(value) => (1, String::new(), value),
-        Err(reason) => (-1, reason, Parameter::Int(0)),
+        Err(reason) => (-1, reason, XmlRpcValue::Int(0)),
     };
-    response_text(&Parameter::Array(vec![
-        Parameter::Int(status),
-        Parameter::String(explanation),
+    response_text(&XmlRpcValue::Array(vec![
+        XmlRpcValue::Int(status),
+        XmlRpcValue::String(explanation),
         value,
     ]))
 }
@@ -136,19 +136,19 @@ fn update(graph: &Graph, topic: &str) {
         .cloned()
         .unwrap_or_default()
         .into_iter()
-        .map(Parameter::String)
+        .map(XmlRpcValue::String)
         .collect();
     let arguments = [
-        Parameter::text("/master"),
-        Parameter::text(topic),
-        Parameter::Array(publishers),
+        XmlRpcValue::text("/master"),
+        XmlRpcValue::text(topic),
+        XmlRpcValue::Array(publishers),
     ];
     for api in graph.subscribers.get(topic).cloned().unwrap_or_default() {
         let text = call_text("publisherUpdate", &arguments);
         std::thread::spawn(move || {
             let place = Place::parse(&api, "http").expect("an address");
             drop(http::post(
-                Network::Loopback,
+                NodeNetwork::Loopback,
                 &place,
                 &text,
                 Duration::from_secs(5),
@@ -304,14 +304,14 @@ fn services_answer_fail_and_end() {
 fn parameters_and_masters_that_are_not_there() {
     let master = Master::start();
     let node = master.node("a");
-    let value = Parameter::Struct(vec![("x".into(), Parameter::Double(0.5))]);
+    let value = XmlRpcValue::Struct(vec![("x".into(), XmlRpcValue::Double(0.5))]);
     node.set_parameter("~gain", value.clone())
         .expect("a parameter");
     assert_eq!(node.parameter("/a/gain").expect("an answer"), Some(value));
     assert_eq!(node.parameter("/none").expect("an answer"), None);
     let nobody = NodeSettings {
         master: "http://127.0.0.1:1".into(),
-        network: Network::Loopback,
+        network: NodeNetwork::Loopback,
         namespace: String::new(),
         name: "a".into(),
     };

@@ -2,7 +2,7 @@
 
 use crate::bytes::push_sequence;
 use crate::guid::{EntityId, Guid, Prefix, SampleIdentity};
-use crate::message::Time;
+use crate::message::Timestamp;
 use crate::parameters::{ParameterList, pid};
 
 /// This protocol's vendor has no number.
@@ -54,7 +54,7 @@ impl Composer {
         self.0.resize(self.0.len() + padded - length, 0);
     }
 
-    pub(crate) fn timestamp(&mut self, time: Time) {
+    pub(crate) fn timestamp(&mut self, time: Timestamp) {
         self.submessage(
             0x09,
             0,

@@ -7,11 +7,11 @@ use std::time::Duration;
 
 use crate::discovery::{Endpoint, OwnParticipant};
 use crate::guid::{EntityId, Guid, Prefix};
-use crate::message::{DataFragments, Message, Submessage, Time};
+use crate::message::{DataFragments, Message, Submessage, Timestamp};
 use crate::peers::Peer;
 use crate::qos::{Durability, History, Qos};
 use crate::reader::{Reader, Sample, sample};
-use crate::writer::{Call, Change, Writer};
+use crate::writer::{Change, Correlation, Writer};
 use crate::{Datagram, Limits};
 
 /// Time between two announcements of this participant; the first ones come faster.
@@ -50,9 +50,9 @@ pub struct Written {
     /// With its head of four bytes.
     pub payload: Arc<[u8]>,
     /// For requests and replies.
-    pub call: Option<Call>,
+    pub call: Option<Correlation>,
     /// When it was written.
-    pub time: Time,
+    pub time: Timestamp,
 }
 
 /// A participant without sockets.
@@ -226,7 +226,7 @@ impl Core {
             announcer,
             &Endpoint::key_payload(guid).into(),
             None,
-            Time::default(),
+            Timestamp::default(),
             ended,
         );
     }
@@ -234,9 +234,13 @@ impl Core {
     fn announce_endpoint(&mut self, endpoint: &Endpoint) {
         let entity = endpoint.guid.entity;
         let payload = endpoint.payload().into();
-        if let Some(sequence) =
-            self.write_change(announcer_of(entity), &payload, None, Time::default(), None)
-        {
+        if let Some(sequence) = self.write_change(
+            announcer_of(entity),
+            &payload,
+            None,
+            Timestamp::default(),
+            None,
+        ) {
             self.announced.insert(entity, sequence);
         }
     }
@@ -274,8 +278,8 @@ impl Core {
         &mut self,
         writer: EntityId,
         payload: &Arc<[u8]>,
-        call: Option<Call>,
-        time: Time,
+        call: Option<Correlation>,
+        time: Timestamp,
         ended: Option<Guid>,
     ) -> Option<i64> {
         let writer = self.writers.get_mut(&writer)?;
@@ -429,7 +433,7 @@ impl Core {
                 EntityId::LIVELINESS_WRITER,
                 &payload.into(),
                 None,
-                Time::default(),
+                Timestamp::default(),
                 None,
             );
         }
@@ -553,7 +557,7 @@ pub(crate) struct Sender {
     pub(crate) prefix: Prefix,
     pub(crate) vendor: [u8; 2],
     pub(crate) from: SocketAddrV4,
-    time: Option<Time>,
+    time: Option<Timestamp>,
 }
 
 /// The reader that is addressed, or all that know the writer.

@@ -26,12 +26,12 @@ use std::net::SocketAddrV4;
 pub use self::core::{Core, CoreSettings, Written};
 pub use discovery::Endpoint;
 pub use guid::{EntityId, Guid, Prefix, SampleIdentity};
-pub use message::Time;
+pub use message::Timestamp;
 pub use network::{Network, OpenError};
 pub use participant::Participant;
 pub use qos::{Durability, History, Liveliness, Qos, Reliability};
 pub use reader::Sample;
-pub use writer::Call;
+pub use writer::Correlation;
 
 /// Bytes for an address.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use crate::parameters::{Parameters, pid};
 
 /// Time in the protocol: seconds of 1970 and fractions of 2^-32 s.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord)]
-pub struct Time {
+pub struct Timestamp {
     /// Seconds since 1970.
     pub seconds: u32,
     /// Of 2^-32 s.
@@ -87,7 +87,7 @@ pub(crate) enum Submessage<'a> {
         base: i64,
         more: Vec<i64>,
     },
-    Timestamp(Option<Time>),
+    Timestamp(Option<Timestamp>),
     Destination(Prefix),
     Source {
         vendor: [u8; 2],
@@ -241,7 +241,7 @@ fn timestamp(flags: u8, mut input: Input<'_>) -> Option<Submessage<'_>> {
     if flags & 2 != 0 {
         return Some(Submessage::Timestamp(None));
     }
-    Some(Submessage::Timestamp(Some(Time {
+    Some(Submessage::Timestamp(Some(Timestamp {
         seconds: input.u32()?,
         fraction: input.u32()?,
     })))

@@ -7,7 +7,7 @@ use crate::compose::Composer;
 use crate::discovery::Endpoint;
 use crate::fragments::Assembly;
 use crate::guid::{EntityId, Guid, Prefix};
-use crate::message::{DataFragments, InlineQos, Time};
+use crate::message::{DataFragments, InlineQos, Timestamp};
 use crate::qos::History;
 use crate::{Datagram, Limits};
 
@@ -19,7 +19,7 @@ pub struct Sample {
     /// The writer's number of it.
     pub sequence: i64,
     /// When it was written, if the writer says so.
-    pub time: Option<Time>,
+    pub time: Option<Timestamp>,
     /// With its head of four bytes.
     pub payload: Vec<u8>,
     /// What it says about its request, beside the payload.
@@ -160,7 +160,7 @@ impl Reader {
         &mut self,
         writer: Guid,
         data: &DataFragments,
-        time: Option<Time>,
+        time: Option<Timestamp>,
     ) {
         let limits = self.limits;
         let Some(proxy) = self.writers.get_mut(&writer) else {
@@ -334,7 +334,7 @@ impl Sample {
 pub(crate) fn sample(
     writer: Guid,
     sequence: i64,
-    time: Option<Time>,
+    time: Option<Timestamp>,
     payload: Vec<u8>,
     inline: &InlineQos,
 ) -> Sample {

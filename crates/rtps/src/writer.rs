@@ -9,7 +9,7 @@ use crate::Datagram;
 use crate::compose::{Beside, Composer, DataHead};
 use crate::discovery::Endpoint;
 use crate::guid::{EntityId, Guid, Prefix, SampleIdentity};
-use crate::message::Time;
+use crate::message::Timestamp;
 use crate::qos::History;
 use crate::reader::Sample;
 
@@ -24,17 +24,17 @@ pub(crate) const CYCLONE: [u8; 2] = [1, 0x10];
 #[derive(Debug, Clone)]
 pub(crate) struct Change {
     pub(crate) sequence: i64,
-    pub(crate) time: Time,
+    pub(crate) time: Timestamp,
     /// With its head of four bytes.
     pub(crate) payload: Arc<[u8]>,
     /// Of an instance that has ended.
     pub(crate) ended: Option<Guid>,
-    pub(crate) call: Option<Call>,
+    pub(crate) call: Option<Correlation>,
 }
 
 /// What makes a message a request or a reply.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Call {
+pub struct Correlation {
     /// What the message says about its request: for replies, the request's identity; for requests, the reader that waits.
     pub related: SampleIdentity,
     /// The same for peers that expect it at the start of the payload: an identity of the client, and its number of the request.

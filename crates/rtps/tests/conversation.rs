@@ -4,7 +4,7 @@ use std::net::{Ipv4Addr, SocketAddrV4};
 use std::time::Duration;
 
 use rtps::{
-    Core, CoreSettings, Durability, EntityId, History, Limits, Qos, Reliability, Time, Written,
+    Core, CoreSettings, Durability, EntityId, History, Limits, Qos, Reliability, Timestamp, Written,
 };
 use test_support::random::Random;
 
@@ -77,7 +77,7 @@ impl World {
             &Written {
                 payload,
                 call: None,
-                time: Time::default(),
+                time: Timestamp::default(),
             },
         );
     }

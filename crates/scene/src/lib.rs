@@ -44,4 +44,5 @@ pub use tree::references::{ReferenceLists, References};
 pub use values::custom_data::{CustomData, Edit, Edited, Holder, Namespace};
 pub use values::data::{Data, Key};
 pub use values::inert::InertValues;
+pub use values::numbers;
 pub use values::value_type::ValueType;

@@ -100,8 +100,11 @@ impl Head {
             return None;
         }
         match self.info {
-            25 => Some(half(self.argument as u16)),
-            26 => Some(f64::from(f32::from_bits(self.argument as u32))),
+            25 => u16::try_from(self.argument).ok().map(half),
+            26 => {
+                let bits = u32::try_from(self.argument).ok()?;
+                Some(f64::from(f32::from_bits(bits)))
+            }
             27 => Some(f64::from_bits(self.argument)),
             _ => None,
         }
@@ -134,12 +137,13 @@ fn half(bits: u16) -> f64 {
 
 /// Appends a head in as few bytes as hold `argument`.
 pub fn push_head(out: &mut Vec<u8>, major: u8, argument: u64) {
+    let bytes = argument.to_be_bytes();
     match argument {
-        0..24 => out.push(major | argument as u8),
-        24..=0xff => out.extend([major | 24, argument as u8]),
-        0x100..=0xffff => extend(out, major | 25, &(argument as u16).to_be_bytes()),
-        0x1_0000..=0xffff_ffff => extend(out, major | 26, &(argument as u32).to_be_bytes()),
-        _ => extend(out, major | 27, &argument.to_be_bytes()),
+        0..24 => out.push(major | bytes[7]),
+        24..=0xff => out.extend([major | 24, bytes[7]]),
+        0x100..=0xffff => extend(out, major | 25, &bytes[6..]),
+        0x1_0000..=0xffff_ffff => extend(out, major | 26, &bytes[4..]),
+        _ => extend(out, major | 27, &bytes),
     }
 }
 
@@ -151,9 +155,9 @@ fn extend(out: &mut Vec<u8>, first: u8, rest: &[u8]) {
 /// Appends an integer.
 pub fn push_int(out: &mut Vec<u8>, value: i64) {
     if value < 0 {
-        push_head(out, major::NEGATIVE, !value as u64)
+        push_head(out, major::NEGATIVE, (!value).cast_unsigned())
     } else {
-        push_head(out, major::UNSIGNED, value as u64)
+        push_head(out, major::UNSIGNED, value.cast_unsigned())
     }
 }
 

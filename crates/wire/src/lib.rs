@@ -1,5 +1,11 @@
 //! Values as bytes for storage and for other programs. No Lua, no sockets.
 
+#![warn(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_sign_loss
+)]
+
 pub mod cbor;
 pub mod cbor_head;
 pub mod marshal;

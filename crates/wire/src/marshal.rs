@@ -290,13 +290,15 @@ impl Encoder {
             return self.0.extend_from_slice(&small.to_le_bytes());
         }
         let mut rest = number.unsigned_abs();
-        let count = (u64::BITS - rest.leading_zeros()).div_ceil(DIGIT_BITS) as i32;
+        let count = (u64::BITS - rest.leading_zeros())
+            .div_ceil(DIGIT_BITS)
+            .cast_signed();
         self.0.push(b'l');
         self.0
             .extend_from_slice(&(if number < 0 { -count } else { count }).to_le_bytes());
         while rest != 0 {
-            self.0
-                .extend_from_slice(&((rest & 0x7fff) as u16).to_le_bytes());
+            let [low, high, ..] = (rest & 0x7fff).to_le_bytes();
+            self.0.extend([low, high]);
             rest >>= DIGIT_BITS;
         }
     }
@@ -404,7 +406,7 @@ mod tests {
             for _ in 0..=below(3) {
                 let place = below(bytes.len());
                 bytes[place] = if below(2) == 0 {
-                    below(256) as u8
+                    below(256).to_le_bytes()[0]
                 } else {
                     whole[below(whole.len())]
                 };

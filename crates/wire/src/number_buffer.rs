@@ -1,5 +1,11 @@
 //! Buffers of numbers and pixels: from one format to another (`sim.transformBuffer`).
 
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "numbers are cut or clamped to the type of the buffer, as C does"
+)]
+
 /// Format of one item of a buffer; its number is `sim.buffer_*`. Little-endian.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
@@ -87,7 +93,7 @@ impl Format {
                 .expect("items are cut to the size of their format")
         }
         match self {
-            Self::I8 => f64::from(item[0] as i8),
+            Self::I8 => f64::from(item[0].cast_signed()),
             Self::U16 => f64::from(u16::from_le_bytes(array(item))),
             Self::I16 => f64::from(i16::from_le_bytes(array(item))),
             Self::U32 => f64::from(u32::from_le_bytes(array(item))),

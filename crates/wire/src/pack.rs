@@ -34,7 +34,7 @@ const KEY_FLAG: u8 = 2;
 const END_OF_FLAGS: u8 = 255;
 
 /// Bytes that most tables do not exceed.
-const USUAL_SIZE: usize = 256;
+const INITIAL_CAPACITY: usize = 256;
 /// How deep tables may be nested.
 const MAX_DEPTH: usize = 100;
 
@@ -46,7 +46,7 @@ pub fn is_packed(bytes: &[u8]) -> bool {
 /// `table` packed. None if a string or table in it is longer than the format allows.
 pub fn encode(table: &Data) -> Option<Vec<u8>> {
     let mut out = Writer {
-        bytes: Vec::with_capacity(USUAL_SIZE),
+        bytes: Vec::with_capacity(INITIAL_CAPACITY),
         flags: Vec::new(),
     };
     out.bytes.push(VERSION);

@@ -9,7 +9,7 @@ use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher};
 use super::super::interrupt::Interrupt;
 
 /// Editors write a file in several steps; they are over after this time.
-const SETTLING: Duration = Duration::from_millis(100);
+const DEBOUNCE: Duration = Duration::from_millis(100);
 /// How often ctrl-c is looked at.
 const TICK: Duration = Duration::from_millis(100);
 
@@ -66,7 +66,7 @@ impl Watch {
                 Err(RecvTimeoutError::Disconnected) => return None,
             }
         };
-        while self.events.recv_timeout(SETTLING).is_ok() {}
+        while self.events.recv_timeout(DEBOUNCE).is_ok() {}
         Some(changed)
     }
 }

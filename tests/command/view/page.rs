@@ -18,7 +18,7 @@ use tokio_tungstenite::{WebSocketStream, client_async};
 use super::served::Served;
 
 /// Longest wait for a message.
-const PATIENCE: Duration = Duration::from_secs(60);
+const TIMEOUT: Duration = Duration::from_secs(60);
 
 pub struct Reply {
     pub status: u16,
@@ -67,7 +67,7 @@ pub fn send(port: u16, bytes: &str) -> TcpStream {
 pub fn raw(port: u16, request: &str) -> u16 {
     let mut stream = send(port, request);
     stream
-        .set_read_timeout(Some(PATIENCE))
+        .set_read_timeout(Some(TIMEOUT))
         .expect("a time limit");
     let mut head = [0; 12];
     stream.read_exact(&mut head).expect("it answers in time");
@@ -136,7 +136,7 @@ impl Page {
     /// The next message; None at the end.
     fn next(&mut self) -> Option<Message> {
         let next = async {
-            timeout(PATIENCE, self.socket.next())
+            timeout(TIMEOUT, self.socket.next())
                 .await
                 .expect("a message comes in time")
         };
@@ -195,7 +195,7 @@ impl Page {
     /// The first text for which that holds.
     pub fn wait_for(&mut self, holds: impl Fn(&Value) -> bool) -> Value {
         let begun = std::time::Instant::now();
-        while begun.elapsed() < PATIENCE {
+        while begun.elapsed() < TIMEOUT {
             let text = self.text();
             if holds(&text) {
                 return text;
@@ -212,7 +212,7 @@ impl Page {
         self.send_bytes(request.to_string().as_bytes());
         let begun = std::time::Instant::now();
         let mut reply = loop {
-            assert!(begun.elapsed() < PATIENCE, "no answer in time");
+            assert!(begun.elapsed() < TIMEOUT, "no answer in time");
             let text = self.new_text();
             if text["type"] == "reply" && text["id"] == id {
                 break text;

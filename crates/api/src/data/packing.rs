@@ -4,6 +4,7 @@ use api_macro::api;
 use base64::Engine;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::{Data, SceneError};
 use script::{Bytes, Number, Table};
 use wire::number_buffer::{Format, Mapping, transform};
@@ -193,7 +194,7 @@ fn from_base64(text: &[u8]) -> Result<Vec<u8>> {
 
 /// Parts of `size` bytes; the last one may be shorter.
 fn split(bytes: &[u8], size: f64) -> Result<Data> {
-    match size as usize {
+    match numbers::index(size) {
         0 => Err(SceneError::InvalidArgument.into()),
         size if bytes.len().div_ceil(size) > MAX_PARTS => Err(too_large()),
         size => Ok(Data::Array(

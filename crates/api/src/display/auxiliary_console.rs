@@ -7,6 +7,7 @@ use api_macro::api;
 use crate::files::semaphores;
 use crate::{ApiFn, Cx, Result, functions};
 use scene::Data;
+use scene::numbers;
 use script::log::verbosity;
 use script::{AuxiliaryConsole, Bytes, Number};
 
@@ -44,7 +45,7 @@ fn auxiliary_console_open(
     #[default(None)] _text_color: Option<[f64; 3]>,
     #[default(None)] _background_color: Option<[f64; 3]>,
 ) -> Result<i64> {
-    let pixels = |pair: Option<[f64; 2]>| pair.map(|pair| pair.map(|number| number as i64));
+    let pixels = |pair: Option<[f64; 2]>| pair.map(|pair| pair.map(numbers::truncated));
     let window = cx.change_ui(|ui| ui.open_console(&title, pixels(position), pixels(size)));
     let lines = usize::try_from(max_lines.0).unwrap_or(0);
     let console = AuxiliaryConsole {

@@ -7,6 +7,7 @@ use api_macro::api;
 use nalgebra::{Point3, Vector3};
 
 use crate::{ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::{Data, Handle, Pose, Scene, SceneError, flag, special};
 use script::{Number, Rest};
 
@@ -115,7 +116,7 @@ fn shown(scene: &Scene, camera: Handle, handles: &Data) -> Result<Vec<Handle>> {
     let one = |value: &Data| {
         let raw = value
             .as_f64()
-            .map(|number| number as i64)
+            .map(numbers::truncated)
             .and_then(Handle::from_raw);
         Ok(scene.object(raw.ok_or(SceneError::NoSuchObject)?)?.handle())
     };

@@ -6,6 +6,7 @@ use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::appearance::colour::Colour;
 use scene::drawing::DrawingStyle;
 use scene::drawing::options::{DrawingFlags, DrawingKind};
+use scene::numbers;
 use scene::{Data, Handle, SceneError, flag, special};
 use script::Number;
 
@@ -47,7 +48,7 @@ fn add_drawing_object(
     #[default(None)] emission: Option<[f64; 3]>,
 ) -> Result<i64> {
     let _ = reserved;
-    let parts = |part: [f64; 3]| part.map(|value| value as f32);
+    let parts = |part: [f64; 3]| part.map(numbers::single);
     let mut colour = Colour::new(parts(color.unwrap_or(WHITE)));
     colour.specular = specular.map_or(colour.specular, parts);
     colour.emission = emission.map_or(colour.emission, parts);

@@ -9,6 +9,7 @@ use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::graph::{
     CurveStyle, Graph, GraphCurve, GraphOptions, GraphStream, Transformation, TransformationKind,
 };
+use scene::numbers;
 use scene::{Data, Field, Handle, Kind, Object, SceneError, special};
 use script::{Number, Results};
 
@@ -44,7 +45,7 @@ fn style(name: String, unit: String, options: GraphOptions, colour: [f64; 3]) ->
         id: 0,
         name,
         unit,
-        colour: colour.map(|part| part as f32),
+        colour: colour.map(numbers::single),
         label: !options.contains(GraphOptions::NO_LABEL),
         linked: !options.contains(GraphOptions::NOT_LINKED),
     }

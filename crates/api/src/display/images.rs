@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use api_macro::api;
+use scene::numbers;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use format::picture::{Layout, Picture, PictureError};
@@ -73,7 +74,7 @@ pub(crate) fn read_file(cx: &Cx, name: &[u8]) -> Result<Vec<u8>> {
 /// @param resolution width and height
 /// @param options 0: red, green, blue; 1: with an alpha channel; 2: grey
 /// @param filename its extension selects the format: png, jpg, bmp, tga. An extension alone (`.png`) makes the function return the content of the file
-/// @param quality of JPEG, 1 to 100; -1 for the usual one
+/// @param quality of JPEG, 1 to 100; -1 for the default one
 /// @return serializedImage
 #[api("sim.saveImage")]
 fn save_image(
@@ -189,5 +190,5 @@ fn combine_rgb_images(
 }
 
 fn whole(resolution: [f64; 2]) -> [i64; 2] {
-    resolution.map(|side| side as i64)
+    resolution.map(numbers::truncated)
 }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use api_macro::api;
+use scene::numbers;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use io::SerialPort;
@@ -79,7 +80,7 @@ fn serial_send(cx: &mut Cx, port_handle: Number, data: Bytes) -> Result<i64> {
         ) {
             (0, _) => NOTHING_TO_SEND,
             (_, 0) => FAILED,
-            (_, written) => written as i64,
+            (_, written) => numbers::count(written),
         },
     )
 }
@@ -93,7 +94,7 @@ fn serial_check(cx: &mut Cx, port_handle: Number) -> Result<i64> {
     let ports = cx.module_state::<Ports>();
     let mut ports = ports.0.borrow_mut();
     let port = ports.get_mut(port_handle.0).ok_or_else(unknown)?;
-    Ok(port.available().map_or(FAILED, |count| count as i64))
+    Ok(port.available().map_or(FAILED, numbers::count))
 }
 
 /// Bytes that are there, at most `length` of them; nothing when there are none, or no such port.

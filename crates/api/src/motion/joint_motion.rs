@@ -39,7 +39,7 @@ fn handled_joints(cx: &Cx, number: i64) -> Result<Vec<Handle>> {
     })
 }
 
-/// Moves kinematic joints towards their targets, without asking scripts. Main scripts of V-REP call it; the usual one of today calls
+/// Moves kinematic joints towards their targets, without asking scripts. Main scripts of V-REP call it; the default one of today calls
 /// sim.handleJointMotion.
 ///
 /// @param jointHandle a joint that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit

@@ -4,6 +4,7 @@ use api_macro::api;
 
 use super::old_name::OldName;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::{Data, Handle, SceneError, special};
 use script::{Bytes, Table};
 
@@ -110,7 +111,7 @@ struct Lookup {
 impl Lookup {
     fn read(options: Option<&Table>) -> Self {
         let field = |name| options.and_then(|table| table.0.field(name));
-        let number = |name| field(name).and_then(Data::as_f64).map(|value| value as i64);
+        let number = |name| field(name).and_then(Data::as_f64).map(numbers::truncated);
         Self {
             index: number("index").and_then(|index| usize::try_from(index).ok()),
             proxy: number("proxy").filter(|&proxy| proxy != -1),

@@ -4,6 +4,7 @@ use api_macro::api;
 
 use crate::old::calculation_objects::handle_of;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::{
     CollectionItem, CollectionOptions, Data, Handle, ItemOptions, Members, Object, Scene,
     SceneError, is_legal_old_name, special,
@@ -48,10 +49,10 @@ fn create_collection(
     }
     let bits = match options {
         Data::Nil => 0,
-        number => number.as_f64().ok_or(ApiError::NotA {
+        number => numbers::truncated(number.as_f64().ok_or(ApiError::NotA {
             position: 1,
             expected: "integer",
-        })? as i64,
+        })?),
     };
     let owner = cx.script().id;
     Ok(cx

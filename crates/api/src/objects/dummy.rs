@@ -3,6 +3,7 @@
 use api_macro::api;
 
 use crate::{ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::object::dummy::Dummy;
 use scene::{Handle, Kind};
 
@@ -37,7 +38,7 @@ fn set_link_dummy(cx: &mut Cx, dummy_handle: Handle, link_dummy_handle: f64) -> 
     let partner = if link_dummy_handle < 0.0 {
         None
     } else {
-        Handle::from_raw(link_dummy_handle as i64)
+        Handle::from_raw(numbers::truncated(link_dummy_handle))
     };
     cx.scene_mut().link_dummies(dummy_handle, partner)?;
     Ok(1)

@@ -3,6 +3,7 @@
 use api_macro::api;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::{Data, Handle, SceneError, special};
 use script::{Handles, Number, ObjectRef, Table};
 
@@ -151,7 +152,7 @@ fn get_object_hierarchy_order(cx: &Cx, object_handle: Handle) -> Result<(i64, i6
         .iter()
         .position(|&h| h == object_handle)
         .unwrap_or_default();
-    Ok((position as i64, siblings.len() as i64))
+    Ok((numbers::count(position), numbers::count(siblings.len())))
 }
 
 /// Moves an object among its siblings.
@@ -276,7 +277,7 @@ fn remove_model(
     }
     let objects = cx.scene().subtree(object_handle);
     remove(cx, &objects, delayed_removal)?;
-    Ok(objects.len() as i64)
+    Ok(numbers::count(objects.len()))
 }
 
 /// Selected objects.
@@ -310,13 +311,13 @@ fn objects_of(cx: &Cx, what: &Data, handle: Number) -> Result<Vec<i64>> {
             return Ok(list
                 .iter()
                 .filter_map(Data::as_f64)
-                .map(|raw| raw as i64)
+                .map(numbers::truncated)
                 .collect());
         }
-        what => what.as_f64().ok_or(ApiError::NotA {
+        what => numbers::truncated(what.as_f64().ok_or(ApiError::NotA {
             position: 1,
             expected: "number",
-        })? as i64,
+        })?),
     };
     if what == special::ALL {
         return Ok(scene

@@ -7,6 +7,7 @@ use api_macro::api;
 
 use crate::objects::old_name::{name_with_suffix, suffix_of_script};
 use crate::{ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::tree::button_interfaces::{Button, ButtonInterface};
 use scene::{Scene, SceneError, special};
 use script::Number;
@@ -86,7 +87,8 @@ fn sim_set_ui_property(
     element_handle: Number,
     element_property: Number,
 ) -> Result<i64> {
-    interface_mut(&mut cx.scene_mut(), element_handle)?.attributes = element_property.0 as i32;
+    interface_mut(&mut cx.scene_mut(), element_handle)?.attributes =
+        numbers::low_i32(element_property.0);
     Ok(1)
 }
 
@@ -120,7 +122,7 @@ fn sim_set_ui_button_property(
     button_property: Number,
 ) -> Result<i64> {
     button_mut(&mut cx.scene_mut(), element_handle, button_handle)?.attributes =
-        button_property.0 as i32;
+        numbers::low_i32(button_property.0);
     Ok(1)
 }
 
@@ -232,7 +234,7 @@ fn sim_get_ui_position(cx: &Cx, element_handle: Number) -> Result<Vec<i64>> {
 #[api("simSetUIPosition")]
 fn sim_set_ui_position(cx: &mut Cx, element_handle: Number, position: [f64; 2]) -> Result<i64> {
     interface_mut(&mut cx.scene_mut(), element_handle)?.position =
-        position.map(|pixels| pixels as i32);
+        position.map(numbers::truncated_i32);
     Ok(1)
 }
 
@@ -281,7 +283,7 @@ fn sim_set_ui_button_color(
                 if value.is_nan() {
                     0.0
                 } else {
-                    value.clamp(0.0, 1.0) as f32
+                    numbers::single(value.clamp(0.0, 1.0))
                 }
             }));
         }

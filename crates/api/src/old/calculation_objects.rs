@@ -67,7 +67,7 @@ fn get_collision_handle(cx: &Cx, object_name: String) -> Result<i64> {
     )
 }
 
-/// Computes collision objects of old scenes. The usual main script does it for those that are not tagged for explicit handling.
+/// Computes collision objects of old scenes. The default main script does it for those that are not tagged for explicit handling.
 ///
 /// @param collisionHandle a collision object that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
 /// @return result, collidingObjects how many collide; of a single one 0, or 1 and the handles of both objects
@@ -128,7 +128,7 @@ fn get_distance_handle(cx: &Cx, object_name: String) -> Result<i64> {
     )
 }
 
-/// Computes distance objects of old scenes. The usual main script does it for those that are not tagged for explicit handling.
+/// Computes distance objects of old scenes. The default main script does it for those that are not tagged for explicit handling.
 ///
 /// @param distanceHandle a distance object that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
 /// @return result, smallestDistance 0, or 1 and the smallest distance, metres

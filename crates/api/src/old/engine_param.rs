@@ -3,6 +3,7 @@
 use api_macro::api;
 
 use crate::{ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::parameters::engine::is_step_size;
 use scene::{Handle, SceneError};
 use script::Number;
@@ -69,9 +70,10 @@ fn set_engine_float_param(
 /// @return int32Param the value
 #[api("sim.getEngineInt32Param")]
 fn get_engine_int32_param(cx: &Cx, param_id: Number, object_handle: Number) -> Result<i64> {
-    Ok(cx
-        .scene()
-        .engine_param(param_id.0, target(object_handle)?)? as i64)
+    Ok(numbers::truncated(
+        cx.scene()
+            .engine_param(param_id.0, target(object_handle)?)?,
+    ))
 }
 
 /// Sets an integer parameter of a physics engine.

@@ -3,6 +3,7 @@
 use api_macro::api;
 
 use crate::{ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::{CustomData, Data, Edit, Handle, Namespace};
 use script::{Bytes, Number, PropertyTarget};
 
@@ -100,6 +101,6 @@ fn sim_get_system_time_in_milliseconds(
     cx: &Cx,
     #[default(None)] before: Option<Number>,
 ) -> Result<i64> {
-    let now = (cx.clock().wall_seconds() * 1000.0) as i64;
+    let now = numbers::truncated(cx.clock().wall_seconds() * 1000.0);
     Ok(before.map_or(now, |before| now.saturating_sub(before.0)))
 }

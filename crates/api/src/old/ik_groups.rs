@@ -38,7 +38,7 @@ fn get_ik_group_handle(cx: &Cx, ik_group_name: String) -> Result<i64> {
     )
 }
 
-/// Computes groups of inverse kinematics of V-REP, and moves their joints. The usual main script does it for those that are not
+/// Computes groups of inverse kinematics of V-REP, and moves their joints. The default main script does it for those that are not
 /// tagged for explicit handling.
 ///
 /// @param ikGroupHandle a group that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
@@ -180,7 +180,7 @@ fn method_of(raw: i64) -> Result<i32> {
 }
 
 fn iterations_of(raw: i64) -> i32 {
-    raw.clamp(1, i32::MAX.into()) as i32
+    i32::try_from(raw.max(1)).unwrap_or(i32::MAX)
 }
 
 fn finite(number: f64) -> Result<f64> {

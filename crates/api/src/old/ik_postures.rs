@@ -11,6 +11,7 @@ use crate::{ApiError, ApiFn, Cx, Result, functions};
 use format::scene_file::write_whole;
 use ik::groups::{GroupCopy, IkResult, export};
 use perception::entity::Entity;
+use scene::numbers;
 use scene::{Handle, Scene, SceneError};
 use script::Number;
 
@@ -28,7 +29,7 @@ const ITERATIONS_PER_MILLISECOND: u32 = 100;
 /// A check for collisions counts as that many.
 const ITERATIONS_PER_CHECK: u32 = 100;
 /// Longest time limit of a search, ms.
-const MAX_SEARCH_MS: u64 = 600_000;
+const MAX_SEARCH_MS: u32 = 600_000;
 /// Most postures of a path.
 const MAX_POINTS: i64 = 100_000;
 
@@ -168,7 +169,9 @@ fn get_config_for_tip_pose(
             task.copy.limit(*joint, low[i], range[i])?;
         }
     }
-    let milliseconds = max_time_in_ms.0.unsigned_abs().clamp(1, MAX_SEARCH_MS) as u32;
+    let milliseconds = u32::try_from(max_time_in_ms.0.unsigned_abs())
+        .unwrap_or(MAX_SEARCH_MS)
+        .clamp(1, MAX_SEARCH_MS);
     search(cx, &mut task, milliseconds * ITERATIONS_PER_MILLISECOND)
 }
 
@@ -272,9 +275,12 @@ fn get_ik_group_matrix(
     }
     let scene = cx.scene();
     let jacobian = group(&scene, ik_group_handle)?.jacobian.clone();
-    let size = jacobian
-        .as_ref()
-        .map(|jacobian| vec![jacobian.columns as i64, jacobian.rows as i64]);
+    let size = jacobian.as_ref().map(|jacobian| {
+        vec![
+            numbers::count(jacobian.columns),
+            numbers::count(jacobian.rows),
+        ]
+    });
     Ok((jacobian.map(|jacobian| jacobian.values), size))
 }
 

@@ -5,6 +5,7 @@ use geometry::pose::euler;
 use nalgebra::Translation3;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::path_object::{
     ControlPoint, LengthMethod, LinePoint, PathAttributes, PathMeasures, PathObject, Travel,
     TravelLimits,
@@ -68,7 +69,7 @@ fn pose_on_path(path: &PathObject, relative: f64) -> Result<Pose> {
             .map(|point| point.pose)
             .ok_or_else(is_empty);
     }
-    path.control_pose((-relative - 0.5) as usize)
+    path.control_pose(numbers::index(-relative - 0.5))
         .ok_or_else(|| ApiError::Other("invalid control point.".into()))
 }
 
@@ -79,7 +80,7 @@ fn world_pose_on_path(cx: &Cx, handle: Handle, relative: f64) -> Result<Pose> {
 
 /// A new path object of V-REP without points; `sim.createPath` with a number.
 ///
-/// @param attributes sim.pathproperty_*; -1 for the usual ones
+/// @param attributes sim.pathproperty_*; -1 for the default ones
 /// @param intParams width of the line, sim.distcalcmethod_* for the length, reserved
 /// @param floatParams size of the points, metres of length per radian, factor of distances on the spot
 /// @param color ignored
@@ -95,13 +96,13 @@ fn create_path_object(
     let _ = color;
     let attributes = match attributes.0 {
         -1 => PathAttributes::DEFAULT,
-        bits => PathAttributes::from_bits_retain(bits as i32),
+        bits => PathAttributes::from_bits_retain(numbers::low_i32(bits)),
     };
     let mut measures = PathMeasures::default();
     let finite = |value: f64, other: f64| if value.is_finite() { value } else { other };
     if let Some([_, method, _]) = int_params {
-        measures.length_method =
-            LengthMethod::from_number(method as i64).ok_or(SceneError::InvalidArgument)?;
+        measures.length_method = LengthMethod::from_number(numbers::truncated(method))
+            .ok_or(SceneError::InvalidArgument)?;
     }
     if let Some([_, angle, on_spot]) = float_params {
         measures.angle_coefficient = finite(angle, measures.angle_coefficient);
@@ -109,7 +110,7 @@ fn create_path_object(
     }
     let mut path = PathObject::new(attributes, measures);
     if let Some([width, ..]) = int_params {
-        path.line_size = width as i32;
+        path.line_size = numbers::truncated_i32(width);
     }
     if let Some([size, ..]) = float_params {
         path.point_size = finite(size, path.point_size);
@@ -290,7 +291,10 @@ fn control_point(numbers: &[f64]) -> Result<ControlPoint> {
         return Err(SceneError::InvalidData.into());
     }
     let (flags, channels) = match *data {
-        [flags, a, b, c, d] => (flags as u16, [a, b, c, d]),
+        [flags, a, b, c, d] => {
+            let flags = numbers::truncated(flags).clamp(0, u16::MAX.into());
+            (u16::try_from(flags).unwrap_or_default(), [a, b, c, d])
+        }
         _ => (0, [0.0; 4]),
     };
     let pose = Pose::from_parts(
@@ -301,7 +305,7 @@ fn control_point(numbers: &[f64]) -> Result<ControlPoint> {
         pose,
         before,
         after,
-        count: count as usize,
+        count: numbers::index(count),
         velocity,
         on_spot,
         flags,
@@ -349,7 +353,7 @@ fn handled_paths(cx: &Cx, number: i64) -> Result<Vec<Handle>> {
     })
 }
 
-/// Moves positions along their paths. The usual main script does it for those that are not tagged for explicit handling.
+/// Moves positions along their paths. The default main script does it for those that are not tagged for explicit handling.
 ///
 /// @param pathHandle a path of V-REP that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
 /// @param deltaTime seconds

@@ -9,6 +9,7 @@ use crate::objects::old_name::suffix_of_script;
 use crate::scripts::script::script_of;
 use crate::scripts::simulation::main_script_only;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::object::script_object::ScriptType;
 use scene::{Data, Handle, SceneError, ValueType, special};
 use script::{Bytes, Number, PropertyTarget, Script, Text};
@@ -117,7 +118,7 @@ fn write(cx: &mut Cx, script: &Rc<Script>, attribute: Attribute, value: Data) ->
         Attribute::ExecutionCount => {
             script
                 .execution_count
-                .set(value.as_f64().unwrap_or_default() as i64);
+                .set(numbers::truncated(value.as_f64().unwrap_or_default()));
             return Ok(());
         }
         _ => {}
@@ -130,7 +131,7 @@ fn write(cx: &mut Cx, script: &Rc<Script>, attribute: Attribute, value: Data) ->
     let value = match (attribute, value) {
         (Attribute::Enabled, _) => Data::Bool(!truth),
         (Attribute::RestartOnError, _) => Data::Bool(truth),
-        (_, Data::Float(number)) => Data::Int(number as i64),
+        (_, Data::Float(number)) => Data::Int(numbers::truncated(number)),
         (_, value) => value,
     };
     cx.write_property(&target_of(script), name, (ty, value))

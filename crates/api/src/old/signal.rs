@@ -6,6 +6,7 @@ use api_macro::api;
 
 use crate::{ApiFn, Cx, Result, functions};
 use scene::Namespace;
+use scene::numbers;
 use script::{Bytes, Number, PropertyTarget, PropertyValue, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -58,7 +59,7 @@ fn clear(cx: &mut Cx, kind: &str, name: Option<&str>) -> i64 {
     let removed = names
         .iter()
         .map(|name| cx.remove_property(&PropertyTarget::Scene, &format!("signal.{kind}{name}")));
-    removed.filter(Result::is_ok).count() as i64
+    numbers::count(removed.filter(Result::is_ok).count())
 }
 
 /// Names of the signals of a kind in alphabetical order.
@@ -110,7 +111,7 @@ macro_rules! signals {
 
 signals! {
     INT32: set_int32_signal "sim.setInt32Signal", get_int32_signal "sim.getInt32Signal",
-        clear_int32_signal "sim.clearInt32Signal", Number, i64, |v| i64::from(v.0 as i32), |s| s;
+        clear_int32_signal "sim.clearInt32Signal", Number, i64, |v| i64::from(numbers::low_i32(v.0)), |s| s;
     FLOAT: set_float_signal "sim.setFloatSignal", get_float_signal "sim.getFloatSignal",
         clear_float_signal "sim.clearFloatSignal", f64, f64, |v| v, |s| s;
     DOUBLE: set_double_signal "sim.setDoubleSignal", get_double_signal "sim.getDoubleSignal",

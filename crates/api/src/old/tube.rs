@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use api_macro::api;
+use scene::numbers;
 
 use crate::{ApiFn, Cx, Result, functions};
 use script::{Bytes, Number, Text};
@@ -100,7 +101,11 @@ fn tube_status(cx: &Cx, tube_handle: Number) -> Result<(i64, i64, i64)> {
         .borrow()
         .status(tube_handle.0);
     Ok(status.map_or((FAILED, 0, 0), |s| {
-        (i64::from(s.connected), s.to_read as i64, s.written as i64)
+        (
+            i64::from(s.connected),
+            numbers::count(s.to_read),
+            numbers::count(s.written),
+        )
     }))
 }
 

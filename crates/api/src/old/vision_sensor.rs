@@ -4,6 +4,7 @@ use api_macro::api;
 
 use crate::sensors::vision::{area, packed, unpacked};
 use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::sensor::{Area, VisionSensor};
 use scene::{Data, Handle, flag};
 use script::{Bytes, Number, ObjectRef};
@@ -104,7 +105,7 @@ fn get_vision_sensor_char_image(
     #[default(0.0)] size_y: f64,
     #[default(0.0)] rgba_cut_off: f64,
 ) -> Result<(Bytes, i64, i64)> {
-    let alpha = (rgba_cut_off > 0.0).then_some(rgba_cut_off as f32);
+    let alpha = (rgba_cut_off > 0.0).then_some(numbers::single(rgba_cut_off));
     read(
         cx,
         sensor_handle,
@@ -209,7 +210,7 @@ impl Pixels {
         match self {
             Self::Numbers(numbers) => numbers
                 .iter()
-                .map(|&number| (number * LEVELS) as u8)
+                .map(|&number| numbers::level(number * LEVELS))
                 .collect(),
             Self::Bytes(bytes) => bytes.clone(),
         }
@@ -217,7 +218,10 @@ impl Pixels {
 
     fn depths(&self) -> Vec<f32> {
         match self {
-            Self::Numbers(numbers) => numbers.iter().map(|&number| number as f32).collect(),
+            Self::Numbers(numbers) => numbers
+                .iter()
+                .map(|&number| numbers::single(number))
+                .collect(),
             Self::Bytes(bytes) if bytes.len().is_multiple_of(4) => unpacked(bytes),
             Self::Bytes(_) => Vec::new(),
         }

@@ -11,6 +11,7 @@ use geometry::pose::euler;
 use super::param_property::{self, FLOATS, INTEGERS, LEVELS, LIGHT, SWITCHES, TEXTS};
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::Calculations;
+use scene::numbers;
 use script::{Bytes, Color, Number, PropertyTarget, PropertyValue, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -296,7 +297,7 @@ fn set_array_param(cx: &mut Cx, parameter: Number, parameter_values: [f64; 3]) -
             param_property::write(cx, LIGHT, array::AMBIENT_LIGHT, Color(parameter_values))?;
         }
         array::GRAVITY => {
-            let gravity = parameter_values.map(|value| value as f32);
+            let gravity = parameter_values.map(numbers::single);
             cx.scene_mut()
                 .modify_settings(|settings| settings.dynamics.gravity = gravity);
         }

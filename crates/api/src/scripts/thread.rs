@@ -1,6 +1,7 @@
 //! `sim.*`: the time slice of threads. Stepping and waiting are in `lua/library/sim/thread.lua`.
 
 use api_macro::api;
+use scene::numbers;
 
 use crate::{ApiFn, Cx, Result, functions};
 
@@ -15,10 +16,9 @@ const MAX_DELAY_MS: f64 = 10_000.0;
 /// @param delay seconds, rounded to milliseconds
 #[api("sim.setAutoYieldDelay")]
 fn set_auto_yield_delay(cx: &mut Cx, delay: f64) -> Result<()> {
-    cx.env()
-        .yields
-        .delay_ms
-        .set((delay * 1000.0).clamp(0.0, MAX_DELAY_MS) as u32);
+    cx.env().yields.delay_ms.set(numbers::truncated_u32(
+        (delay * 1000.0).clamp(0.0, MAX_DELAY_MS),
+    ));
     Ok(())
 }
 

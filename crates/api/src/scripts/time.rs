@@ -4,6 +4,7 @@ use api_macro::api;
 
 use super::script::script_of;
 use crate::{ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::special;
 use script::Number;
 
@@ -28,7 +29,7 @@ fn get_system_time(cx: &Cx) -> Result<f64> {
 /// @return systemTimeOrTimeDiff
 #[api("sim.getSystemTimeInMs")]
 fn get_system_time_in_ms(cx: &Cx, previous_time: Number) -> Result<i64> {
-    let now = (cx.clock().wall_seconds() * 1000.0) as i64;
+    let now = numbers::truncated(cx.clock().wall_seconds() * 1000.0);
     Ok(if previous_time.0 < 0 {
         now
     } else {
@@ -44,7 +45,7 @@ fn get_system_time_in_ms(cx: &Cx, previous_time: Number) -> Result<i64> {
 fn get_random(cx: &mut Cx, #[default(None)] seed: Option<Number>) -> Result<f64> {
     let mut random = cx.env().random.borrow_mut();
     if let Some(Number(seed)) = seed {
-        random.restart(seed as u32);
+        random.restart(numbers::low_u32(seed));
     }
     Ok(random.next())
 }

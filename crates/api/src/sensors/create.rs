@@ -4,6 +4,7 @@ use api_macro::api;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::appearance::colour::ColourComponent;
+use scene::numbers;
 use scene::sensor::volume::VolumeType;
 use scene::sensor::{ProximityOptions, ProximitySensor, VisionOptions, VisionSensor};
 use scene::voxels::octree::{OcTree, cell_size};
@@ -107,7 +108,7 @@ fn create_point_cloud(
     let cloud = PointCloud {
         max_cell_size: cell_size(max_voxel_size),
         max_points_in_cell,
-        point_size: point_size as i64,
+        point_size: numbers::truncated(point_size),
         uses_octree: !options.contains(StorageOptions::WITHOUT_OCTREE),
         display_fraction: 1.0,
         random_colours: options.contains(StorageOptions::RANDOM_COLOURS),

@@ -4,6 +4,7 @@ use api_macro::api;
 
 use crate::{ApiFn, Cx, Result, functions};
 use perception::entity::Entity;
+use scene::numbers;
 use scene::{Handle, Scene};
 use script::Number;
 
@@ -68,7 +69,7 @@ fn check_collision_ex(
         })
     })?;
     Ok((
-        segments.len() as i64,
+        numbers::count(segments.len()),
         segments.as_flattened().as_flattened().to_vec(),
     ))
 }

@@ -4,6 +4,7 @@ use api_macro::api;
 
 use crate::parameters::param::sensors_are_handled;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::sensor::{Area, Entity, VisionSensor};
 use scene::{Data, Handle, Kind, Object, SceneError, special};
 use script::{Bytes, IntPair, Number, Results};
@@ -214,9 +215,12 @@ fn sensors(cx: &Cx, handle: Number) -> Result<Vec<Handle>> {
 
 /// The part of a sensor's picture that a script means.
 pub(crate) fn area(sensor: &VisionSensor, position: [f64; 2], size: [f64; 2]) -> Result<Area> {
-    let whole = |side: f64| side as i64;
-    Area::part(sensor.view.resolution, position.map(whole), size.map(whole))
-        .ok_or_else(|| ApiError::Other("invalid arguments.".into()))
+    Area::part(
+        sensor.view.resolution,
+        position.map(numbers::truncated),
+        size.map(numbers::truncated),
+    )
+    .ok_or_else(|| ApiError::Other("invalid arguments.".into()))
 }
 
 /// The image of a vision sensor, from the lowest row, or a part of it.
@@ -239,7 +243,7 @@ fn get_vision_sensor_img(
 ) -> Result<(Bytes, IntPair)> {
     let scene = cx.scene();
     let sensor = scene.object(sensor_handle)?.vision_sensor()?;
-    let alpha = (options.0 & option::ALPHA != 0).then_some(rgba_cut_off as f32);
+    let alpha = (options.0 & option::ALPHA != 0).then_some(numbers::single(rgba_cut_off));
     let image = sensor.image_part(
         area(sensor, pos, size)?,
         options.0 & option::GREY != 0,

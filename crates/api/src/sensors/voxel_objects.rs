@@ -4,6 +4,7 @@ use api_macro::api;
 
 use super::voxels::{change_cloud, count};
 use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::voxels::octree::{Voxel, cell_size};
 use scene::voxels::point_cloud::CloudPoint;
 use scene::{Field, Handle, Scene};
@@ -23,8 +24,8 @@ fn colour(scene: &Scene, handle: Handle, given: Option<&[f64]>) -> Result<[u8; 3
             .object(handle)?
             .colour
             .ambient_diffuse
-            .map(|part| (255.0 * part) as u8)),
-        Some(&[red, green, blue, ..]) => Ok([red, green, blue].map(|part| part as u8)),
+            .map(|part| numbers::level((255.0 * part).into()))),
+        Some(&[red, green, blue, ..]) => Ok([red, green, blue].map(numbers::level)),
         Some(_) => Err(ApiError::TableSize),
     }
 }
@@ -51,7 +52,7 @@ fn insert_object_into_octree(
     let edge = scene.object(octree_handle)?.octree()?.voxel_size();
     let voxel = Voxel {
         colour: colour(&scene, octree_handle, color.as_deref())?,
-        tag: tag.0 as u32,
+        tag: numbers::low_u32(tag.0),
     };
     let cells = scene.cells_of(object_handle, octree_handle, edge)?;
     Ok(scene.try_modify(octree_handle, Field::Geometry, |object| {

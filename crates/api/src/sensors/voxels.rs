@@ -3,6 +3,7 @@
 use api_macro::api;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
+use scene::numbers;
 use scene::voxels::octree::Voxel;
 use scene::voxels::options::{PointOptions, StorageOptions};
 use scene::voxels::point_cloud::{CloudPoint, PointCloud};
@@ -58,14 +59,14 @@ fn colours(
             .object(handle)?
             .colour
             .ambient_diffuse
-            .map(|part| (255.0 * part) as u8);
+            .map(|part| numbers::level((255.0 * part).into()));
         return Ok(vec![own; count]);
     };
     let colours: Vec<[u8; 3]> = given
         .as_chunks()
         .0
         .iter()
-        .map(|c: &Point| c.map(|part| part as u8))
+        .map(|c: &Point| c.map(numbers::level))
         .collect();
     let each = point_options(options).contains(PointOptions::EACH);
     match colours.as_slice() {
@@ -118,7 +119,7 @@ fn insert_voxels(
 
 /// A number for all voxels, or a table with one for each.
 fn tags(given: Option<Data>, count: usize) -> Result<Vec<u32>> {
-    let number = |value: &Data| value.as_f64().map(|number| number as u32);
+    let number = |value: &Data| value.as_f64().map(numbers::truncated_u32);
     match given {
         None | Some(Data::Nil) => Ok(vec![0; count]),
         Some(Data::Array(items)) if items.len() == 1 => {
@@ -360,7 +361,7 @@ fn set_cloud_options(
         cloud.max_points_in_cell = max_pt_cnt_per_voxel.0.max(1);
         cloud.random_colours = options.contains(StorageOptions::RANDOM_COLOURS);
         cloud.uses_octree = !options.contains(StorageOptions::WITHOUT_OCTREE);
-        cloud.point_size = point_size as i64;
+        cloud.point_size = numbers::truncated(point_size);
     })?;
     Ok(())
 }

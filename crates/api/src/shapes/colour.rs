@@ -4,6 +4,7 @@ use api_macro::api;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use scene::appearance::colour::{ColourComponent, ColourName};
+use scene::numbers;
 use scene::{Data, Handle, SceneError};
 use script::Number;
 
@@ -133,6 +134,6 @@ fn marked_shape(cx: &Cx, handle: &Data) -> Result<Handle> {
         position: 1,
         expected: "number",
     })?;
-    let handle = Handle::from_raw(number as i64).ok_or(SceneError::NoSuchObject)?;
+    let handle = Handle::from_raw(numbers::truncated(number)).ok_or(SceneError::NoSuchObject)?;
     Ok(cx.scene().object(handle)?.handle())
 }

@@ -13,6 +13,7 @@ use scene::appearance::texture::Texture;
 use scene::appearance::texture_mapping::{
     ApplyMode, MappingMode, TextureMapping, TextureOptions, TextureSource,
 };
+use scene::numbers;
 use scene::shape::options::MeshOptions;
 use scene::shape::{Part, Shape};
 use scene::{Data, Handle, Kind, Pose, Scene, SceneError};
@@ -101,8 +102,10 @@ fn create_texture(
 }
 
 fn blank(resolution: [f64; 2]) -> Result<Texture> {
-    let size = resolution.map(|side| side as u32);
     let refused = || ApiError::Other("invalid arguments.".into());
+    let side = |side: f64| u32::try_from(numbers::truncated(side)).map_err(|_| refused());
+    let [width, height] = resolution;
+    let size = [side(width)?, side(height)?];
     let bytes = u64::from(size[0]) * u64::from(size[1]) * 3;
     let bytes = usize::try_from(bytes)
         .ok()
@@ -116,7 +119,7 @@ fn of_file(cx: &Cx, name: &str, resolution: Option<[f64; 2]>) -> Result<Texture>
         Picture::decode(&read_file(cx, name.as_bytes())?, Layout::Rgba).map_err(failure)?;
     let picture = match resolution {
         Some(size) => picture
-            .scaled(size.map(|side| side as i64), false, Layout::Rgba)
+            .scaled(size.map(numbers::truncated), false, Layout::Rgba)
             .map_err(failure)?,
         None => picture,
     };
@@ -129,7 +132,9 @@ fn of_file(cx: &Cx, name: &str, resolution: Option<[f64; 2]>) -> Result<Texture>
 }
 
 fn of_picture(name: &str, picture: Picture, has_alpha: bool) -> Result<Texture> {
-    let size = picture.resolution().map(|side| side as u32);
+    let size = picture
+        .resolution()
+        .map(|side| u32::try_from(side).unwrap_or(u32::MAX));
     Texture::new(name, size, has_alpha, &picture.into_bytes()).ok_or(SceneError::InvalidData.into())
 }
 
@@ -289,7 +294,7 @@ pub(crate) fn of_mesh(
         Layout::Rgb
     };
     let picture =
-        Picture::new(pixels, resolution.map(|side| side as i64), layout).map_err(failure)?;
+        Picture::new(pixels, resolution.map(numbers::truncated), layout).map_err(failure)?;
     let picture = picture.flipped(
         options.contains(MeshOptions::FLIP_TEXTURE_X),
         !options.contains(MeshOptions::TEXTURE_FROM_BOTTOM),
@@ -308,7 +313,7 @@ pub(crate) fn of_mesh(
 }
 
 fn single_precision(numbers: &[f64]) -> Result<Rc<[f32]>> {
-    let singles: Rc<[f32]> = numbers.iter().map(|n| *n as f32).collect();
+    let singles: Rc<[f32]> = numbers.iter().map(|n| numbers::single(*n)).collect();
     if singles.is_finite() {
         Ok(singles)
     } else {

@@ -73,7 +73,7 @@ impl GltfFile {
 /// The name and the object of a node; None for a frame without a name. What a mesh shares its node with is left out.
 fn content(node: &Node, shapes: &mut [Option<Shape>]) -> Option<(String, Kind)> {
     let shape = node.mesh.and_then(|mesh| shapes[mesh].take());
-    let (usual, kind) = match (shape, &node.camera, &node.light) {
+    let (default, kind) = match (shape, &node.camera, &node.light) {
         (Some(shape), ..) => ("shape", Kind::Shape(Box::new(shape))),
         (None, Some(camera), _) => ("camera", Kind::Camera(Box::new(camera_object(camera)))),
         (None, None, Some(light)) => ("light", Kind::Light(Box::new(light_object(light)))),
@@ -82,7 +82,7 @@ fn content(node: &Node, shapes: &mut [Option<Shape>]) -> Option<(String, Kind)> 
     };
     Some((
         if node.name.is_empty() {
-            usual.to_owned()
+            default.to_owned()
         } else {
             node.name.clone()
         },

@@ -67,7 +67,7 @@ impl Import<'_> {
             let inertial = self.robot.links[link]
                 .inertial
                 .clone()
-                .or_else(|| self.usual_inertial(link));
+                .or_else(|| self.default_inertial(link));
             if inertial.is_some() {
                 return inertial;
             }
@@ -76,7 +76,7 @@ impl Import<'_> {
     }
 
     /// The mass of a link that says none, and moves.
-    pub(super) fn usual_inertial(&self, index: usize) -> Option<Inertial> {
+    pub(super) fn default_inertial(&self, index: usize) -> Option<Inertial> {
         let is_written = self.robot.links[index].line > 0;
         let (mass, moment) = UNIT;
         (self.format == RobotFormat::Sdf && is_written && !self.is_fixed(index)).then(|| Inertial {

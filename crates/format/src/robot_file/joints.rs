@@ -128,12 +128,12 @@ fn set_limits(joint: &mut Joint, description: &Description) {
     }
     joint.position = first_position(description);
     joint.target_position = joint.position;
-    let usual = if description.kind == JointKind::Revolute {
+    let default = if description.kind == JointKind::Revolute {
         TORQUE
     } else {
         FORCE
     };
-    joint.set_target_force(effort.unwrap_or(usual), false);
+    joint.set_target_force(effort.unwrap_or(default), false);
     joint.max_vel = velocity.unwrap_or(VELOCITY);
 }
 

@@ -61,7 +61,10 @@ impl Import<'_> {
             false,
         );
         let mut touched = self.joined(collisions.clone());
-        let inertial = link.inertial.clone().or_else(|| self.usual_inertial(index));
+        let inertial = link
+            .inertial
+            .clone()
+            .or_else(|| self.default_inertial(index));
         if touched.is_none()
             && let Some(inertial) = &inertial
         {

@@ -80,7 +80,7 @@ impl Import<'_> {
             Geometry::Plane { normal } => return plane(*normal).map_err(|error| error.to_string()),
             Geometry::Mesh { file, scale } => {
                 let scale = if self.format == RobotFormat::Urdf {
-                    usual_scale(*scale)
+                    default_scale(*scale)
                 } else {
                     *scale
                 };
@@ -129,7 +129,7 @@ impl Import<'_> {
 }
 
 /// The factors that simURDF takes: of those that enlarge, it takes none (spec: import 1).
-fn usual_scale([x, y, z]: [f64; 3]) -> [f64; 3] {
+fn default_scale([x, y, z]: [f64; 3]) -> [f64; 3] {
     if x * y * z > 0.99999 && x > 0.0 && y > 0.0 {
         [1.0; 3]
     } else {
@@ -198,10 +198,10 @@ mod tests {
 
     #[test]
     fn factors_that_enlarge_are_not_taken() {
-        assert_eq!(usual_scale([2.0; 3]), [1.0; 3]);
-        assert_eq!(usual_scale([0.5; 3]), [0.5; 3]);
-        assert_eq!(usual_scale([1.0, -1.0, 1.0]), [1.0, -1.0, 1.0]);
-        assert_eq!(usual_scale([-2.0, -2.0, 2.0]), [-2.0, -2.0, 2.0]);
-        assert_eq!(usual_scale([2.0, 2.0, -2.0]), [2.0, 2.0, -2.0]);
+        assert_eq!(default_scale([2.0; 3]), [1.0; 3]);
+        assert_eq!(default_scale([0.5; 3]), [0.5; 3]);
+        assert_eq!(default_scale([1.0, -1.0, 1.0]), [1.0, -1.0, 1.0]);
+        assert_eq!(default_scale([-2.0, -2.0, 2.0]), [-2.0, -2.0, 2.0]);
+        assert_eq!(default_scale([2.0, 2.0, -2.0]), [2.0, 2.0, -2.0]);
     }
 }

@@ -33,7 +33,7 @@ const GONE: [&str; 4] = ["mirror", "mill", "marker", "customSceneObject"];
 /// Scripts attached to objects, and their types.
 const ATTACHED: [(&str, i64); 2] = [("childScript", 1), ("customizationScript", 6)];
 const MAIN_SCRIPT: i64 = 0;
-/// Where this bit of a main script is clear, it is the usual one.
+/// Where this bit of a main script is clear, it is the default one.
 const OWN_MAIN_SCRIPT: i64 = 0x8;
 /// Collections have handles from here on.
 const FIRST_COLLECTION: i32 = 2_000_000;
@@ -421,7 +421,7 @@ fn handles(object: &Node) -> [i64; 2] {
     })
 }
 
-/// Takes the scripts attached to objects out of the contents, and a main script that is the usual one.
+/// Takes the scripts attached to objects out of the contents, and a main script that is the default one.
 fn take_scripts(contents: &mut Node) -> Vec<Attached> {
     let Some(Node::List(scripts)) = contents.get_mut("scripts") else {
         return Vec::new();

@@ -33,14 +33,14 @@ pub struct DecompositionParameters {
 
 impl Default for DecompositionParameters {
     fn default() -> Self {
-        let usual = VHACDParameters::default();
+        let default = VHACDParameters::default();
         Self {
-            voxels: f64::from(usual.resolution).powi(3),
-            concavity: usual.concavity,
-            plane_downsampling: usual.plane_downsampling,
-            hull_downsampling: usual.convex_hull_downsampling,
-            alpha: usual.alpha,
-            beta: usual.beta,
+            voxels: f64::from(default.resolution).powi(3),
+            concavity: default.concavity,
+            plane_downsampling: default.plane_downsampling,
+            hull_downsampling: default.convex_hull_downsampling,
+            alpha: default.alpha,
+            beta: default.beta,
         }
     }
 }

@@ -65,10 +65,10 @@ impl<'a> Reader<'a, '_> {
         let accessor = node
             .first("technique_common")
             .and_then(|technique| technique.first("accessor"));
-        let integer = |name: &str, usual: usize| match accessor
+        let integer = |name: &str, default: usize| match accessor
             .and_then(|accessor| accessor.attribute(name))
         {
-            None => Ok(usual),
+            None => Ok(default),
             Some(text) => text.trim().parse().map_err(|_| {
                 self.refused(
                     array,

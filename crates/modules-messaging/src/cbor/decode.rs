@@ -5,6 +5,7 @@ use std::ffi::c_int;
 use super::low_level::position;
 use super::{MAX_DEPTH, TOO_DEEP};
 use scene::Data;
+use scene::numbers;
 use script::{ApiError, ApiResult, Args, LuaType, Stack, push_buffer};
 use wire::cbor_head::{Head, INDEFINITE, major};
 
@@ -62,7 +63,7 @@ pub(super) fn decode(args: &mut Args<'_>) -> ApiResult<c_int> {
         Err(Stop::Bad { message, at }) => {
             stack.push_nil();
             stack.push_bytes(message.as_bytes());
-            stack.push_int(at as i64 + 1);
+            stack.push_int(numbers::count(at) + 1);
             3
         }
     })
@@ -86,7 +87,7 @@ impl<'a> Reader<'a> {
             Kind::Name(name) => self.stack.push_bytes(name.as_bytes()),
             Kind::Tag(number) => self.stack.push_bytes(format!("TAG_{number}").as_bytes()),
         }
-        self.stack.push_int(self.at as i64 + 1);
+        self.stack.push_int(numbers::count(self.at) + 1);
         self.stack.push_value(value);
         3
     }
@@ -137,8 +138,8 @@ impl<'a> Reader<'a> {
         }
         self.count(1)?;
         match head.major {
-            major::UNSIGNED => self.stack.push_int(head.argument as i64),
-            major::NEGATIVE => self.stack.push_int(!(head.argument as i64)),
+            major::UNSIGNED => self.stack.push_int(head.argument.cast_signed()),
+            major::NEGATIVE => self.stack.push_int(!head.argument.cast_signed()),
             major::BYTES => self.bytes_item(head, is_key)?,
             major::TEXT => self.string(head, push_text)?,
             major::ARRAY => self.array(head, depth)?,
@@ -194,16 +195,15 @@ impl<'a> Reader<'a> {
             return Ok(None);
         }
         let rest = (self.bytes.len() - self.at) as u64;
-        if head.argument > rest / bytes {
-            self.bad("no more input")
-        } else {
-            Ok(Some(head.argument as usize))
+        match usize::try_from(head.argument) {
+            Ok(promised) if head.argument <= rest / bytes => Ok(Some(promised)),
+            _ => self.bad("no more input"),
         }
     }
 
     /// The head of the next element; None at the end of the container.
     fn next(&mut self, promised: Option<usize>, read: i64) -> Read<Option<Head>> {
-        if promised == Some(read as usize) {
+        if promised.is_some_and(|promised| numbers::count(promised) == read) {
             return Ok(None);
         }
         let head = self.head()?;
@@ -249,7 +249,7 @@ impl<'a> Reader<'a> {
     }
 
     fn tagged(&mut self, number: u64, depth: usize, is_key: bool) -> Read<Kind> {
-        let known = self.stack.raw_get_index(3, number as i64) != LuaType::Nil;
+        let known = self.stack.raw_get_index(3, number.cast_signed()) != LuaType::Nil;
         self.stack.pop(1);
         if known {
             return Err(Stop::NeedsLua);
@@ -300,7 +300,7 @@ impl<'a> Reader<'a> {
                 }
             }
             number => {
-                self.stack.push_int(number as i64);
+                self.stack.push_int(number.cast_signed());
                 "SIMPLE"
             }
         }))
@@ -341,6 +341,6 @@ fn push_numbers<const N: usize>(stack: Stack<'_>, bytes: &[u8], push: impl Fn(&[
     stack.new_table(numbers.len(), 0);
     for (i, number) in numbers.iter().enumerate() {
         push(number);
-        stack.raw_set_index(-2, i as i64 + 1);
+        stack.raw_set_index(-2, numbers::count(i) + 1);
     }
 }

@@ -3,6 +3,7 @@
 use std::ffi::c_int;
 
 use super::{MAX_DEPTH, TOO_DEEP};
+use scene::numbers;
 use script::{ApiResult, Args, LuaType, Stack, read_buffer};
 use wire::cbor_head::{FALSE, NULL, TRUE, is_text, major, push_float, push_head, push_int};
 
@@ -96,7 +97,7 @@ fn write_table(stack: Stack<'_>, table: c_int, out: &mut Vec<u8>, depth: usize) 
     }
     match stack.raw_len(table) {
         0 => write_map(stack, table, out, depth),
-        len => write_array(stack, table, len as i64, out, depth),
+        len => write_array(stack, table, numbers::count(len), out, depth),
     }
 }
 
@@ -107,7 +108,7 @@ fn write_array(
     out: &mut Vec<u8>,
     depth: usize,
 ) -> Written {
-    push_head(out, major::ARRAY, len as u64);
+    push_head(out, major::ARRAY, len.cast_unsigned());
     let mut holes = 0;
     for i in 1..=len {
         if stack.raw_get_index(table, i) == LuaType::Nil {

@@ -2,6 +2,7 @@
 
 use std::ffi::c_int;
 
+use scene::numbers;
 use script::{ApiError, ApiResult, Args, LuaType, Stack};
 use wire::cbor_head::{Head, HeadError, INDEFINITE, major, push_float, push_head};
 
@@ -28,7 +29,7 @@ pub(super) fn encode(args: &mut Args<'_>) -> ApiResult<c_int> {
 /// The number of a head: an integer, or a float that is one. Negative integers are those from 2^63 on.
 fn count(stack: Stack<'_>) -> ApiResult<u64> {
     let number = match stack.integer(2) {
-        Some(integer) => return Ok(integer as u64),
+        Some(integer) => return Ok(integer.cast_unsigned()),
         None => stack.number(2).ok_or(ApiError::NotA {
             position: 2,
             expected: "number",
@@ -56,7 +57,7 @@ fn write_float(out: &mut Vec<u8>, stack: Stack<'_>, float: f64) -> ApiResult<()>
         }
         Some(26) => {
             out.push(major::SIMPLE | 26);
-            out.extend((float as f32).to_be_bytes());
+            out.extend(numbers::single(float).to_be_bytes());
         }
         Some(27) => {
             out.push(major::SIMPLE | 27);
@@ -123,8 +124,8 @@ fn push_head_read(stack: Stack<'_>, head: Head, end: usize) -> c_int {
     match head.float() {
         Some(float) => stack.push_number(float),
         None if head.info == INDEFINITE => stack.push_number(f64::INFINITY),
-        None => stack.push_int(head.argument as i64),
+        None => stack.push_int(head.argument.cast_signed()),
     }
-    stack.push_int(end as i64 + 1);
+    stack.push_int(numbers::count(end) + 1);
     4
 }

@@ -2,6 +2,7 @@
 
 use super::service::Service;
 use permissions::Denied;
+use scene::numbers;
 use scene::{Data, SceneError};
 use script::{ApiError, Host};
 use wire::simx::{FieldReader, FieldWriter, Violation};
@@ -161,14 +162,15 @@ pub(super) fn described(function: &str, error: &ApiError) -> Failure {
 
 /// The nearest integer that the protocol has.
 fn clamped(value: i64) -> i32 {
-    value.clamp(i32::MIN.into(), i32::MAX.into()) as i32
+    let limit = if value < 0 { i32::MIN } else { i32::MAX };
+    i32::try_from(value).unwrap_or(limit)
 }
 
 /// A value as an integer: truth is 1.
 pub(super) fn integer(value: &Data) -> i64 {
     match *value {
         Data::Int(value) => value,
-        Data::Float(value) => value as i64,
+        Data::Float(value) => numbers::truncated(value),
         Data::Bool(value) => value.into(),
         _ => 0,
     }
@@ -178,7 +180,7 @@ pub(super) fn integer(value: &Data) -> i64 {
 pub(super) fn floats(value: &Data) -> Vec<f32> {
     match value {
         Data::Array(items) => items.iter().flat_map(floats).collect(),
-        value => vec![value.as_f64().unwrap_or_default() as f32],
+        value => vec![numbers::single(value.as_f64().unwrap_or_default())],
     }
 }
 

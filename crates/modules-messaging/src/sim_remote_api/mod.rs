@@ -23,6 +23,7 @@ use api_macro::api;
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 use io::EventLoop;
 use scene::Data;
+use scene::numbers;
 use scene::object::script_object::ScriptType;
 use script::log::verbosity;
 use script::{Hooks, Results, States};
@@ -96,7 +97,8 @@ fn start(
     let address = cx.options().listen_address;
     cx.permissions()
         .check_net(&address.to_string(), Some(port))?;
-    let max_packet = max_packet_size.clamp(*PACKET_SIZES.start(), *PACKET_SIZES.end()) as usize;
+    let max_packet = max_packet_size.clamp(*PACKET_SIZES.start(), *PACKET_SIZES.end());
+    let max_packet = usize::try_from(max_packet).unwrap_or_default();
     let settings = Settings {
         max_packet,
         is_monitored: debug,
@@ -188,7 +190,7 @@ fn status(cx: &Cx, port: i64) -> Result<Results> {
     Ok(Results(service.with_session(|session| {
         let traffic = session.traffic();
         let [request, reply] =
-            [traffic.commands_in_request, traffic.commands_in_reply].map(|count| count as i64);
+            [traffic.commands_in_request, traffic.commands_in_reply].map(numbers::count);
         let times = [
             traffic.last_request,
             traffic.last_reply,

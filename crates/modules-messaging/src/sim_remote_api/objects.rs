@@ -138,7 +138,7 @@ pub(super) fn open_console(call: &mut Call<'_>) -> Outcome {
     Ok(())
 }
 
-/// Three numbers; nil where they stand for the usual colour.
+/// Three numbers; nil where they stand for the default colour.
 fn colour(call: &mut Call<'_>) -> Result<Data, Failure> {
     let colour = call.numbers(3)?;
     let is_default = matches!(&colour, Data::Array(parts) if parts[0].as_f64().is_some_and(|red| red < DEFAULT_COLOUR));

@@ -2,6 +2,7 @@
 
 use super::call::{Call, Failure, Outcome, bytes, floats, integer};
 use scene::Data;
+use scene::numbers;
 
 /// Option of the functions for images: a byte per pixel.
 const GREY: i64 = 1;
@@ -24,8 +25,9 @@ fn image(call: &mut Call<'_>, is_grey: bool) -> Outcome {
     write_resolution(call, resolution);
     let pixels = bytes(image);
     if is_grey {
-        let mean =
-            |pixel: &[u8]| (pixel.iter().map(|&value| u32::from(value)).sum::<u32>() / 3) as u8;
+        let mean = |pixel: &[u8]| {
+            (pixel.iter().map(|&value| u32::from(value)).sum::<u32>() / 3).to_le_bytes()[0]
+        };
         call.out
             .bytes(&pixels.chunks_exact(3).map(mean).collect::<Vec<u8>>());
     } else {
@@ -91,7 +93,7 @@ pub(super) fn proximity(call: &mut Call<'_>) -> Outcome {
     else {
         return Err(Failure::Silent);
     };
-    call.out.byte(*state as u8);
+    call.out.byte(state.to_le_bytes()[0]);
     call.write_floats(point);
     call.write_int(integer(object));
     call.write_floats(normal);
@@ -104,7 +106,7 @@ pub(super) fn force(call: &mut Call<'_>) -> Outcome {
     let [state, force, torque, ..] = &results[..] else {
         return Err(Failure::Silent);
     };
-    call.out.byte(integer(state) as u8);
+    call.out.byte(integer(state).to_le_bytes()[0]);
     call.write_floats(force);
     call.write_floats(torque);
     Ok(())
@@ -117,12 +119,12 @@ pub(super) fn vision(call: &mut Call<'_>) -> Outcome {
     let Some((Data::Int(state @ 0..=1), packets)) = results.split_first() else {
         return Err(Failure::Silent);
     };
-    call.out.byte(*state as u8);
+    call.out.byte(state.to_le_bytes()[0]);
     let packets: Vec<Vec<f32>> = packets.iter().map(floats).collect();
     call.write_list(
         &packets
             .iter()
-            .map(|packet| packet.len() as i64)
+            .map(|packet| numbers::count(packet.len()))
             .collect::<Vec<_>>(),
     );
     packets

@@ -6,6 +6,7 @@ use std::rc::Rc;
 
 use super::commands;
 use super::service::{Lifetime, Service};
+use scene::numbers;
 use scene::{Data, SceneError};
 use script::{Host, SimulationState};
 use wire::simx::{Answer, Stamp};
@@ -145,7 +146,7 @@ fn stamp(host: &Host<'_>) -> Stamp {
 
 /// Whole milliseconds. Sums of steps may fall short of a whole number by their rounding errors.
 fn milliseconds(seconds: f64) -> i32 {
-    (seconds * 1000.0 + 1e-6) as i64 as i32
+    numbers::low_i32(numbers::truncated(seconds * 1000.0 + 1e-6))
 }
 
 /// Prints to the console of a server what happened.

@@ -1,6 +1,7 @@
 //! The native part of `simZMQ`: messages.
 
 use api_macro::api;
+use scene::numbers;
 
 use super::int;
 use super::objects::objects;
@@ -88,7 +89,7 @@ fn msg_data(cx: &Cx, msg: String) -> Result<Text> {
 /// @return result bytes
 #[api("simZMQ.msg_size")]
 fn msg_size(cx: &Cx, msg: String) -> Result<i64> {
-    objects(cx).with_message(&msg, |message| message.size() as i64)
+    objects(cx).with_message(&msg, |message| numbers::count(message.size()))
 }
 
 /// Whether more parts of the same message follow.

@@ -39,7 +39,8 @@ const INNER: &[ApiFn] = functions![errors, parameters];
 
 /// Numbers beyond C's integers become the nearest.
 fn int(number: Number) -> c_int {
-    number.0.clamp(c_int::MIN.into(), c_int::MAX.into()) as c_int
+    let limit = if number.0 < 0 { c_int::MIN } else { c_int::MAX };
+    c_int::try_from(number.0).unwrap_or(limit)
 }
 
 /// Why the last call of this script that failed did.

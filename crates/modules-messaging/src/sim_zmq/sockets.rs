@@ -10,6 +10,7 @@ use super::objects::objects;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use io::zmq::{self, Errno, Message, Socket};
 use scene::Data;
+use scene::numbers;
 use script::{Args, Bytes, FromScript, Number, Source, Table, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -204,12 +205,18 @@ fn poll(
         .collect::<Result<Vec<_>>>()?;
     let items: Vec<_> = sockets
         .into_iter()
-        .zip(events.iter().map(|&events| events as i16))
+        .zip(events.iter().map(|events| {
+            let [low, high, ..] = events.to_le_bytes();
+            i16::from_le_bytes([low, high])
+        }))
         .collect();
     Ok(match wait(cx, &items, timeout.0)? {
         Ok(ready) => {
             let count = ready.iter().filter(|&&events| events != 0).count();
-            (count as i64, ready.into_iter().map(i64::from).collect())
+            (
+                numbers::count(count),
+                ready.into_iter().map(i64::from).collect(),
+            )
         }
         Err(errno) => (objects.failed(errno), vec![0; items.len()]),
     })

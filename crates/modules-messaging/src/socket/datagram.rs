@@ -8,6 +8,7 @@ use super::{AnySocket, Shared, access, class, prefix, stop};
 use crate::{ApiFn, Args, Cx, FromScript, Result, functions};
 use io::socket::{Datagram, Failure, Family, SocketAddress, Wait, numeric};
 use scene::Data;
+use scene::numbers;
 use script::Source;
 use script::{ApiError, LuaNumber, LuaString, Results, Text};
 
@@ -94,7 +95,7 @@ fn receivefrom(cx: &Cx, object: Unconnected, size: Option<LuaNumber>) -> Result<
 type Arrived = std::result::Result<(Vec<u8>, SocketAddress), Failure>;
 
 fn received(cx: &Cx, datagram: &Shared<Datagram>, size: Option<LuaNumber>) -> Arrived {
-    let size = size.map_or(SIZE, |size| size.0).max(0.0) as usize;
+    let size = numbers::index(size.map_or(SIZE, |size| size.0));
     let datagram = datagram.borrow();
     datagram.receive(size, &Wait::begin(datagram.timeout, stop(cx)))
 }

@@ -7,6 +7,7 @@ use super::{AnySocket, Sockets, access, descriptor};
 use crate::{ApiFn, Cx, Result, functions};
 use io::socket::{Failure, Family, Socket, SocketAddress, Timeout};
 use scene::Data;
+use scene::numbers;
 use script::{ApiError, LuaNumber, LuaString, Results};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -65,7 +66,7 @@ fn getfd(_cx: &Cx, object: AnySocket) -> Result<f64> {
 #[api("socket.core.any:setfd")]
 fn setfd(cx: &Cx, object: AnySocket, number: LuaNumber) -> Result<()> {
     let sockets = cx.script_state::<Sockets>();
-    let number = number.0 as i64;
+    let number = numbers::truncated(number.0);
     let socket = match number {
         -1 => None,
         _ => Some(

@@ -23,6 +23,7 @@ use api_macro::api;
 use super::{ApiFn, Args, Cx, FromScript, Module, Result, functions};
 use io::socket::{self, Datagram, Failure, Family, Role, Socket, Stream, descriptor};
 use scene::Data;
+use scene::numbers;
 use script::Source;
 use script::wall_clock;
 use script::{ApiError, ByHandle, LuaNumber, LuaObject, Results};
@@ -310,7 +311,10 @@ fn poll(cx: &Cx, readers: Vec<f64>, writers: Vec<f64>, seconds: f64) -> Result<R
 
 fn find(known: &BTreeMap<i64, Socket>, number: f64) -> Result<Socket> {
     let unknown = || ApiError::Other(format!("descriptor {number} is no socket of this script."));
-    known.get(&(number as i64)).cloned().ok_or_else(unknown)
+    known
+        .get(&numbers::truncated(number))
+        .cloned()
+        .ok_or_else(unknown)
 }
 
 /// A failure scripts do not get as a result.

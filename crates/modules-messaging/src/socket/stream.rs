@@ -11,6 +11,7 @@ use super::{AnySocket, Shared, Sockets, access, class, prefix, role_name, stop};
 use crate::{ApiFn, Args, Cx, FromScript, Result, functions};
 use io::socket::{Pattern, Role, Stream, Wait};
 use scene::Data;
+use scene::numbers;
 use script::Source;
 use script::{ApiError, LuaNumber, LuaString};
 
@@ -96,10 +97,9 @@ fn listen(cx: &Cx, object: Master, backlog: Option<LuaNumber>) -> Result<Done> {
     if object.stream.borrow().is_unbound() {
         access::check_place(cx, family, "*", "0")?;
     }
-    let backlog = backlog
-        .map_or(BACKLOG, |backlog| backlog.0)
-        .clamp(0.0, i32::MAX.into());
-    Ok(done(object.stream.borrow_mut().listen(backlog as i32)))
+    let backlog = backlog.map_or(BACKLOG, |backlog| backlog.0).max(0.0);
+    let backlog = numbers::truncated_i32(backlog);
+    Ok(done(object.stream.borrow_mut().listen(backlog)))
 }
 
 /// Waits for a connection and returns its object.
@@ -135,7 +135,7 @@ impl From<Amount> for Data {
         match pattern {
             Pattern::Line => Self::text("*l"),
             Pattern::All => Self::text("*a"),
-            Pattern::Count(count) => Self::Int(count as i64),
+            Pattern::Count(count) => Self::Int(numbers::count(count)),
         }
     }
 }
@@ -147,7 +147,7 @@ impl FromScript for Amount {
         match args.with_bytes(Self::named).flatten() {
             Some(amount) => Ok(amount),
             None => match args.lua_number() {
-                Some(count) if count >= 0.0 => Ok(Self(Pattern::Count(count as usize))),
+                Some(count) if count >= 0.0 => Ok(Self(Pattern::Count(numbers::index(count)))),
                 _ => Err(args.refused("invalid receive pattern")),
             },
         }
@@ -215,8 +215,8 @@ fn range(length: usize, i: f64, j: f64) -> (usize, usize) {
             index
         }
     };
-    let start = from_end(i).max(1.0) as usize - 1;
-    let end = (from_end(j).max(0.0) as usize).min(length);
+    let start = numbers::index(from_end(i).max(1.0)) - 1;
+    let end = numbers::index(from_end(j)).min(length);
     (start, end.max(start))
 }
 

@@ -2,8 +2,8 @@
 
 use api_macro::api;
 use kinematics::{
-    Column, Constraints, Environment, Equations, Flags, KinematicsError, ObjectId, Outcome,
-    Revision, Row, Start,
+    Constraints, Environment, Equations, Flags, JacobianColumn, JacobianRow, KinematicsError,
+    ObjectId, Outcome, Revision, Start,
 };
 use nalgebra::DMatrix;
 
@@ -71,19 +71,19 @@ fn handle_groups(
 
 /// Equations as a callback gets them.
 fn description(equations: &Equations, group: usize, iteration: u32) -> Data {
-    let row = |row: &Row| match row {
-        Row::Constraint {
+    let row = |row: &JacobianRow| match row {
+        JacobianRow::Constraint {
             element,
             constraint,
         } => Data::map([
             ("constraint", i64::from(constraint.0).into()),
             ("ikElement", element.raw().into()),
         ]),
-        Row::Limit { joint } => {
+        JacobianRow::Limit { joint } => {
             Data::map([("constraint", 0.into()), ("joint", joint.raw().into())])
         }
     };
-    let column = |column: &Column| {
+    let column = |column: &JacobianColumn| {
         Data::map([
             ("joint", column.joint.raw().into()),
             ("stage", (column.stage as i64).into()),

@@ -8,7 +8,7 @@ use api_macro::api;
 use ros_interfaces::{
     Catalogue, Generation, InterfaceError, InterfaceKind, Layout, TypeName, Value,
 };
-use ros1::{MessageType, Network, NodeSettings, Parameter, ServiceType, Subscriber};
+use ros1::{MessageType, NodeNetwork, NodeSettings, ServiceType, Subscriber, XmlRpcValue};
 
 use super::services::{Client, Service};
 use super::topics::{Publisher, Subscription};
@@ -151,11 +151,11 @@ fn settings(cx: &Cx) -> Result<NodeSettings> {
     let network = match options.network {
         None => {
             cx.permissions().check_net("127.0.0.1", None)?;
-            Network::Loopback
+            NodeNetwork::Loopback
         }
         Some(address) => {
             cx.permissions().check_net_everywhere("ROS")?;
-            Network::Address(address)
+            NodeNetwork::Address(address)
         }
     };
     Ok(NodeSettings {
@@ -170,7 +170,7 @@ fn clock(cx: &Cx, running: &ros1::Node) -> Result<Option<Clock>> {
     let parameter = running
         .parameter("/use_sim_time")
         .map_err(|error| failed(&error))?;
-    if parameter != Some(Parameter::Bool(true)) {
+    if parameter != Some(XmlRpcValue::Bool(true)) {
         return Ok(None);
     }
     let layout = message(cx, "rosgraph_msgs/Clock")?;

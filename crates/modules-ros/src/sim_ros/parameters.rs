@@ -1,7 +1,8 @@
 //! Parameters, which the master has.
 
 use api_macro::api;
-use ros1::Parameter;
+use ros1::XmlRpcValue;
+use scene::numbers;
 
 use super::node::running;
 use super::{ApiFn, Cx, Result, failed, functions};
@@ -24,7 +25,7 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 fn read<T>(
     cx: &Cx,
     name: &str,
-    value: impl Fn(&Parameter) -> Option<T>,
+    value: impl Fn(&XmlRpcValue) -> Option<T>,
     otherwise: T,
 ) -> Result<(bool, T)> {
     let parameter = running(cx)?
@@ -35,7 +36,7 @@ fn read<T>(
     Ok(value.map_or((false, otherwise), |value| (true, value)))
 }
 
-fn write(cx: &Cx, name: &str, value: Parameter) -> Result<()> {
+fn write(cx: &Cx, name: &str, value: XmlRpcValue) -> Result<()> {
     running(cx)?
         .node
         .set_parameter(name, value)
@@ -54,8 +55,8 @@ fn get_param_string(
     name: String,
     #[default(String::new())] default_value: String,
 ) -> Result<(bool, String)> {
-    let text = |value: &Parameter| match value {
-        Parameter::String(value) => Some(value.clone()),
+    let text = |value: &XmlRpcValue| match value {
+        XmlRpcValue::String(value) => Some(value.clone()),
         _ => None,
     };
     read(cx, &name, text, default_value)
@@ -73,9 +74,9 @@ fn get_param_int(
     name: String,
     #[default(0)] default_value: i64,
 ) -> Result<(bool, i64)> {
-    let integer = |value: &Parameter| match value {
-        Parameter::Int(value) => Some(i64::from(*value)),
-        Parameter::Double(value) => Some(value.round() as i64),
+    let integer = |value: &XmlRpcValue| match value {
+        XmlRpcValue::Int(value) => Some(i64::from(*value)),
+        XmlRpcValue::Double(value) => Some(numbers::truncated(value.round())),
         _ => None,
     };
     read(cx, &name, integer, default_value)
@@ -93,9 +94,9 @@ fn get_param_double(
     name: String,
     #[default(0.0)] default_value: f64,
 ) -> Result<(bool, f64)> {
-    let number = |value: &Parameter| match value {
-        Parameter::Int(value) => Some(f64::from(*value)),
-        Parameter::Double(value) => Some(*value),
+    let number = |value: &XmlRpcValue| match value {
+        XmlRpcValue::Int(value) => Some(f64::from(*value)),
+        XmlRpcValue::Double(value) => Some(*value),
         _ => None,
     };
     read(cx, &name, number, default_value)
@@ -113,8 +114,8 @@ fn get_param_bool(
     name: String,
     #[default(false)] default_value: bool,
 ) -> Result<(bool, bool)> {
-    let truth = |value: &Parameter| match value {
-        Parameter::Bool(value) => Some(*value),
+    let truth = |value: &XmlRpcValue| match value {
+        XmlRpcValue::Bool(value) => Some(*value),
         _ => None,
     };
     read(cx, &name, truth, default_value)
@@ -126,7 +127,7 @@ fn get_param_bool(
 /// @param value its value
 #[api("simROS.setParamString")]
 fn set_param_string(cx: &mut Cx, name: String, value: String) -> Result<()> {
-    write(cx, &name, Parameter::String(value))
+    write(cx, &name, XmlRpcValue::String(value))
 }
 
 /// Sets a parameter. Those of ROS 1 have 32 bits.
@@ -135,7 +136,7 @@ fn set_param_string(cx: &mut Cx, name: String, value: String) -> Result<()> {
 /// @param value its value; upper bits are cut off
 #[api("simROS.setParamInt")]
 fn set_param_int(cx: &mut Cx, name: String, value: i64) -> Result<()> {
-    write(cx, &name, Parameter::Int(value as i32))
+    write(cx, &name, XmlRpcValue::Int(numbers::low_i32(value)))
 }
 
 /// Sets a parameter.
@@ -144,7 +145,7 @@ fn set_param_int(cx: &mut Cx, name: String, value: i64) -> Result<()> {
 /// @param value its value
 #[api("simROS.setParamDouble")]
 fn set_param_double(cx: &mut Cx, name: String, value: f64) -> Result<()> {
-    write(cx, &name, Parameter::Double(value))
+    write(cx, &name, XmlRpcValue::Double(value))
 }
 
 /// Sets a parameter.
@@ -153,7 +154,7 @@ fn set_param_double(cx: &mut Cx, name: String, value: f64) -> Result<()> {
 /// @param value its value
 #[api("simROS.setParamBool")]
 fn set_param_bool(cx: &mut Cx, name: String, value: bool) -> Result<()> {
-    write(cx, &name, Parameter::Bool(value))
+    write(cx, &name, XmlRpcValue::Bool(value))
 }
 
 /// Whether there is a parameter.

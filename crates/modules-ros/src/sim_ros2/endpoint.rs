@@ -4,7 +4,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use ros_interfaces::{Layout, Record, cdr};
-use rtps::{Call, EntityId, Guid, Qos, Sample, SampleIdentity, Time, Written};
+use rtps::{Correlation, EntityId, Guid, Qos, Sample, SampleIdentity, Timestamp, Written};
 
 use super::names;
 use super::node::Running;
@@ -57,7 +57,7 @@ impl Endpoint {
         self.write(record, None);
     }
 
-    pub(super) fn write(&self, record: &Record, call: Option<Call>) {
+    pub(super) fn write(&self, record: &Record, call: Option<Correlation>) {
         let written = Written {
             payload: cdr::encode(record).into(),
             call,
@@ -77,7 +77,7 @@ impl Endpoint {
                 guid: core.guid(replies.entity),
                 sequence,
             };
-            let call = Some(Call {
+            let call = Some(Correlation {
                 related,
                 header: (client, sequence),
             });
@@ -99,7 +99,7 @@ impl Endpoint {
 }
 
 /// Whose request a message is, and the message itself without what says so.
-pub(super) fn request_of(sample: Sample) -> Option<(Call, Vec<u8>)> {
+pub(super) fn request_of(sample: Sample) -> Option<(Correlation, Vec<u8>)> {
     if sample.has_call_header {
         let (client, sequence, payload) = without_header(&sample)?;
         let related = SampleIdentity {
@@ -107,7 +107,7 @@ pub(super) fn request_of(sample: Sample) -> Option<(Call, Vec<u8>)> {
             sequence: sample.sequence,
         };
         return Some((
-            Call {
+            Correlation {
                 related,
                 header: (client, sequence),
             },
@@ -124,7 +124,7 @@ pub(super) fn request_of(sample: Sample) -> Option<(Call, Vec<u8>)> {
         sequence: sample.sequence,
     };
     Some((
-        Call {
+        Correlation {
             related,
             header: (0, 0),
         },
@@ -157,9 +157,9 @@ fn without_header(sample: &Sample) -> Option<(u64, i64, Vec<u8>)> {
 }
 
 /// The wall clock: peers compare it with theirs.
-fn now() -> Time {
+fn now() -> Timestamp {
     let seconds = wall_clock::unix_seconds();
-    Time {
+    Timestamp {
         seconds: seconds as u32,
         fraction: (seconds.fract() * 4_294_967_296.0) as u32,
     }

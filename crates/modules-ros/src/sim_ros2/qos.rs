@@ -6,6 +6,7 @@ use rtps::{Durability, History, Liveliness, Qos, Reliability};
 
 use super::{ApiError, Result};
 use scene::Data;
+use scene::numbers;
 
 /// The default profile, with what a table states; nil for the profile itself.
 ///
@@ -62,7 +63,7 @@ fn integer(data: &Data, name: &str, default: i64) -> Result<i64> {
     match data.field(name) {
         None | Some(Data::Nil) => Ok(default),
         Some(Data::Int(value)) => Ok(*value),
-        Some(Data::Float(value)) => Ok(*value as i64),
+        Some(Data::Float(value)) => Ok(numbers::truncated(*value)),
         Some(_) => Err(unknown(name)),
     }
 }

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use api_macro::api;
 use ros_interfaces::{Layout, Record, cdr};
-use rtps::{Call, Qos};
+use rtps::{Correlation, Qos};
 
 use super::endpoint::{Endpoint, reply_to, request_of};
 use super::names;
@@ -135,7 +135,7 @@ impl Server {
     }
 
     /// The requests that have arrived. What cannot be read is left out: its client is none of this service.
-    pub(super) fn arrived(&self) -> Vec<(Call, Record)> {
+    pub(super) fn arrived(&self) -> Vec<(Correlation, Record)> {
         let samples = (0..self.requests.waiting()).map_while(|_| self.requests.take());
         let requests = samples.filter_map(|sample| {
             let (call, payload) = request_of(sample)?;
@@ -144,7 +144,7 @@ impl Server {
         requests.collect()
     }
 
-    pub(super) fn reply(&self, call: Call, response: &Record) {
+    pub(super) fn reply(&self, call: Correlation, response: &Record) {
         self.replies.write(response, Some(call));
     }
 }

@@ -5,6 +5,7 @@ use api_macro::api;
 use super::node::{node, running};
 use super::{ApiError, ApiFn, Cx, Result, functions};
 use scene::Data;
+use scene::numbers;
 use script::wall_clock;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![get_time, spin_some];
@@ -44,7 +45,7 @@ pub(super) fn to_data(seconds: f64) -> Data {
     let whole = seconds.floor();
     let nanoseconds = ((seconds - whole) * 1e9).floor().min(999_999_999.0);
     Data::map([
-        ("sec", Data::Int(whole as i64)),
-        ("nanosec", Data::Int(nanoseconds as i64)),
+        ("sec", Data::Int(numbers::truncated(whole))),
+        ("nanosec", Data::Int(numbers::truncated(nanoseconds))),
     ])
 }

@@ -232,10 +232,10 @@ fn matrix5x5_on_work_img(
 fn kernel(
     matrix: Option<Checked<Vec<f64>>>,
     count: usize,
-    usual: fn() -> Kernel,
+    default: fn() -> Kernel,
 ) -> Result<Kernel> {
     let Some(Checked(mut weights)) = matrix else {
-        return Ok(usual());
+        return Ok(default());
     };
     weights.truncate(count);
     Kernel::new(weights).ok_or_else(|| wrong_size(4))

@@ -1,6 +1,7 @@
 //! Arguments of `simUI`: handles, lists of texts, options of curves.
 
 use crate::{ApiError, Args, FromScript, Result};
+use scene::numbers;
 use scene::{Data, Key};
 use script::{Source, Table};
 use ui::CurveOptions;
@@ -80,7 +81,7 @@ fn set_option(options: &mut CurveOptions, key: &Key, value: &Data, position: i32
     let number = || {
         value
             .as_f64()
-            .map(|number| number as i64)
+            .map(numbers::truncated)
             .ok_or_else(|| refused(&format!("field '{name}': expected int")))
     };
     match name.as_str() {

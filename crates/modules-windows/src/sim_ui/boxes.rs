@@ -1,6 +1,7 @@
 //! `simUI.*`: combo boxes and tabs.
 
 use api_macro::api;
+use scene::numbers;
 
 use super::arguments::{Texts, WindowHandle};
 use crate::{ApiFn, Cx, Result, functions};
@@ -89,7 +90,7 @@ fn remove_combobox_item(
 #[api("simUI.getComboboxItemCount")]
 fn get_combobox_item_count(cx: &Cx, handle: WindowHandle, id: i64) -> Result<i64> {
     cx.read_window(&handle.0, |window| {
-        Ok(window.get::<Combobox>(id)?.items.len() as i64)
+        Ok(numbers::count(window.get::<Combobox>(id)?.items.len()))
     })
 }
 
@@ -164,7 +165,7 @@ fn get_combobox_selected_index(cx: &Cx, handle: WindowHandle, id: i64) -> Result
         Ok(window
             .get::<Combobox>(id)?
             .selected
-            .map_or(-1, |selected| selected as i64))
+            .map_or(-1, numbers::count))
     })
 }
 
@@ -201,7 +202,7 @@ fn get_current_tab(cx: &Cx, handle: WindowHandle, id: i64) -> Result<i64> {
         Ok(if tabs.pages.is_empty() {
             -1
         } else {
-            tabs.current as i64
+            numbers::count(tabs.current)
         })
     })
 }

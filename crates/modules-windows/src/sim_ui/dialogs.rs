@@ -1,5 +1,5 @@
 //! `simUI.*`: dialogs, banners, keyboard and clipboard. A dialog is answered as a test has left it, else by a person at a page of the viewer,
-//! else at once by its usual button.
+//! else at once by its default button.
 
 use api_macro::api;
 
@@ -27,7 +27,7 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 /// simUI.msgbox_result, in the order of their numbers.
 const RESULTS: [&str; 4] = ["cancel", "no", "yes", "ok"];
 const OK: i64 = 3;
-/// By simUI.msgbox_buttons: the usual answer, and those there are.
+/// By simUI.msgbox_buttons: the default answer, and those there are.
 const BUTTONS: [(i64, &[i64]); 4] = [(3, &[3]), (1, &[2, 1]), (0, &[2, 1, 0]), (0, &[3, 0])];
 
 /// The answer that was left for a dialog, if there is one.
@@ -62,7 +62,7 @@ fn note(cx: &mut Cx, kind: DialogKind, title: &str, text: &str, answer: &str) {
     );
 }
 
-/// Shows a message and waits for a button. Without a person at a page of the viewer, the answer is the usual one: ok; no; cancel; cancel. The message goes to the log.
+/// Shows a message and waits for a button. Without a person at a page of the viewer, the answer is the default one: ok; no; cancel; cancel. The message goes to the log.
 ///
 /// @param type simUI.msgbox_type
 /// @param buttons simUI.msgbox_buttons
@@ -72,11 +72,11 @@ fn note(cx: &mut Cx, kind: DialogKind, title: &str, text: &str, answer: &str) {
 #[api("simUI.msgBox")]
 fn msg_box(cx: &mut Cx, r#type: i64, buttons: i64, title: String, message: String) -> Result<i64> {
     let place = usize::try_from(buttons).ok();
-    let (usual, possible) = place
+    let (default, possible) = place
         .and_then(|place| BUTTONS.get(place))
         .copied()
         .unwrap_or(BUTTONS[0]);
-    let result = pressed_button(cx, r#type, (usual, possible), &title, &message)?;
+    let result = pressed_button(cx, r#type, (default, possible), &title, &message)?;
     note(
         cx,
         DialogKind::Message,
@@ -87,11 +87,11 @@ fn msg_box(cx: &mut Cx, r#type: i64, buttons: i64, title: String, message: Strin
     Ok(result)
 }
 
-/// The button that was left as the answer to a message, else that a person presses, else the usual one.
+/// The button that was left as the answer to a message, else that a person presses, else the default one.
 fn pressed_button(
     cx: &mut Cx,
     level: i64,
-    (usual, possible): (i64, &[i64]),
+    (default, possible): (i64, &[i64]),
     title: &str,
     text: &str,
 ) -> Result<i64> {
@@ -104,7 +104,7 @@ fn pressed_button(
         .collect();
     let details = QuestionDetails::Message {
         buttons,
-        default_button: RESULTS[usual as usize],
+        default_button: RESULTS[default as usize],
         level,
     };
     let question = Question {
@@ -115,7 +115,7 @@ fn pressed_button(
     Ok(cx
         .ask_person(&question)
         .and_then(|answer| button_of(&answer, possible).ok())
-        .unwrap_or(usual))
+        .unwrap_or(default))
 }
 
 /// The message of `sim.msgBox`: without a person the answer is ok, and nothing is logged.

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use api_macro::api;
+use scene::numbers;
 
 use super::arguments::WindowHandle;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
@@ -114,7 +115,7 @@ pub(super) fn load_files(cx: &mut Cx, handle: &str) -> Result<()> {
         ))
     })?;
     for (id, file, size) in images {
-        match picture_of(cx, &file, size.map(|side| side as i64)) {
+        match picture_of(cx, &file, size.map(numbers::count)) {
             Ok(picture) => set_picture(cx, handle, id, picture)?,
             Err(reason) => log_failure(cx, &file, &reason),
         }

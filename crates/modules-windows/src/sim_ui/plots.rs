@@ -1,6 +1,7 @@
 //! `simUI.*`: plots.
 
 use api_macro::api;
+use scene::numbers;
 
 use super::arguments::{Options, WindowHandle};
 use crate::{ApiFn, Cx, Result, functions};
@@ -70,7 +71,7 @@ fn add_curve(
         let Some(curve_type) = CurveType::from_code(r#type) else {
             return Ok(());
         };
-        let color = color.map(|part| part as i64);
+        let color = color.map(numbers::truncated);
         plot.add_curve(Curve {
             name,
             curve_type,

@@ -156,7 +156,7 @@ fn set_position(
     })
 }
 
-/// The size of a window, pixels. One that has no size of its own has a usual one, since nothing is drawn.
+/// The size of a window, pixels. One that has no size of its own has a default one, since nothing is drawn.
 ///
 /// @param handle the window
 /// @return w
@@ -187,7 +187,7 @@ fn set_size(
     })
 }
 
-/// Gives a window the size its widgets need: here the usual one.
+/// Gives a window the size its widgets need: here the default one.
 ///
 /// @param handle the window
 #[api("simUI.adjustSize")]

@@ -133,7 +133,7 @@ fn camera_shot(viewer: Option<Handle>, pose: Pose, view: View) -> Shot {
     }
 }
 
-/// A place from which all that is visible can be seen, with the usual camera.
+/// A place from which all that is visible can be seen, with the default camera.
 fn overview(scene: &Scene) -> Pose {
     let (centre, radius) = extent(scene);
     let direction = Vector3::from(USUAL_DIRECTION).normalize();

@@ -2,6 +2,11 @@
 //!
 //! Files that a file includes are a part of it, classes of defaults and the settings of `<compiler>` are applied. A body with several joints becomes links
 //! without mass between them. What is not understood is a warning with its line.
+//!
+//! `mjcf-rs` 0.36.1, of rapier's authors, was tried on the 172 files of docs/COMPATIBILITY.md: it refuses 5 (an included file is not called `<mujoco>`) and loses bodies, joints,
+//! geoms and sites of 11 without a word (files included in bodies); the other 156 have the bodies, joints, limits, actuators and equality constraints that MuJoCo compiles. It opens what a file
+//! includes by itself, so that the script's permissions do not count, tells neither lines nor what it leaves out, leaves inertia from geoms to `rapier3d-mjcf`, and 20 000 nested bodies
+//! overflow its stack; so files are read here.
 
 mod actuator;
 mod attributes;

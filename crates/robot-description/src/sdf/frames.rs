@@ -42,7 +42,7 @@ impl Frames {
         }
     }
 
-    /// Replaces the names that the file says by full ones. The results are those that mean nothing: the usual frame is taken for them.
+    /// Replaces the names that the file says by full ones. The results are those that mean nothing: the default frame is taken for them.
     pub fn resolve_names(&mut self) -> Vec<String> {
         let mut unknown = Vec::new();
         let mut changes = Vec::new();

@@ -347,7 +347,7 @@ impl Collection<'_, '_> {
             source.warn(
                 node,
                 format!(
-                    "there is no frame '{}': the usual one is taken",
+                    "there is no frame '{}': the default one is taken",
                     short(&unknown)
                 ),
             );

@@ -56,7 +56,7 @@ pub fn child_numbers<const N: usize>(
     }
 }
 
-/// A pose, and the name of the frame it is in; empty for the usual one.
+/// A pose, and the name of the frame it is in; empty for the default one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PoseText {
     pub pose: Pose,

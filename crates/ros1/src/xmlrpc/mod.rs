@@ -8,7 +8,7 @@ pub(crate) use write::{call_text, fault_text, response_text};
 
 /// A value of XML-RPC, such as that of a parameter.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Parameter {
+pub enum XmlRpcValue {
     /// `boolean`.
     Bool(bool),
     /// `int` and `i4`.
@@ -20,12 +20,12 @@ pub enum Parameter {
     /// `base64`.
     Binary(Vec<u8>),
     /// `array`.
-    Array(Vec<Parameter>),
+    Array(Vec<XmlRpcValue>),
     /// `struct`.
-    Struct(Vec<(String, Parameter)>),
+    Struct(Vec<(String, XmlRpcValue)>),
 }
 
-impl Parameter {
+impl XmlRpcValue {
     pub(crate) fn text(text: &str) -> Self {
         Self::String(text.to_string())
     }
@@ -52,17 +52,17 @@ mod tests {
     #[test]
     fn values_are_read_as_they_are_written() {
         let values = [
-            Parameter::Bool(true),
-            Parameter::Int(-5),
-            Parameter::Double(0.1),
-            Parameter::Double(1e300),
-            Parameter::text("a <b> & \"c\" é\n"),
-            Parameter::text(""),
-            Parameter::Binary(vec![0, 255, 7]),
-            Parameter::Array(vec![Parameter::Array(vec![]), Parameter::Int(1)]),
-            Parameter::Struct(vec![
-                ("a".into(), Parameter::Int(1)),
-                ("b<".into(), Parameter::text("x")),
+            XmlRpcValue::Bool(true),
+            XmlRpcValue::Int(-5),
+            XmlRpcValue::Double(0.1),
+            XmlRpcValue::Double(1e300),
+            XmlRpcValue::text("a <b> & \"c\" é\n"),
+            XmlRpcValue::text(""),
+            XmlRpcValue::Binary(vec![0, 255, 7]),
+            XmlRpcValue::Array(vec![XmlRpcValue::Array(vec![]), XmlRpcValue::Int(1)]),
+            XmlRpcValue::Struct(vec![
+                ("a".into(), XmlRpcValue::Int(1)),
+                ("b<".into(), XmlRpcValue::text("x")),
             ]),
         ];
         let (method, read) = read_call(call_text("setParam", &values).as_bytes()).expect("a call");
@@ -83,18 +83,18 @@ mod tests {
         let text = "<?xml version='1.0'?>\n<methodResponse>\n<params>\n<param>\n<value><array><data>\n<value><i4>1</i4></value>\n\
             <value>plain</value><value/><value><boolean>0</boolean></value><value><string> x </string></value><value><nil/></value>\
             </data></array></value></param></params></methodResponse>";
-        let text_value = Parameter::text;
+        let text_value = XmlRpcValue::text;
         let expected = vec![
-            Parameter::Int(1),
+            XmlRpcValue::Int(1),
             text_value("plain"),
             text_value(""),
-            Parameter::Bool(false),
+            XmlRpcValue::Bool(false),
             text_value(" x "),
             text_value(""),
         ];
         assert_eq!(
             read_response(text.as_bytes()).expect("a response"),
-            Parameter::Array(expected)
+            XmlRpcValue::Array(expected)
         );
         let fault = read_response(fault_text(3, "no < such").as_bytes()).expect_err("a fault");
         assert_eq!(fault.to_string(), "no < such");

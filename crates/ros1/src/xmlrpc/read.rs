@@ -4,14 +4,14 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use bounded_xml::{Document, DocumentType, Node};
 
-use super::Parameter;
+use super::XmlRpcValue;
 use crate::{Error, Result, limits};
 
 /// The most elements and texts that a document has.
 const NODES: u32 = 1 << 20;
 
 /// A call: the method and its arguments.
-pub(crate) fn read_call(bytes: &[u8]) -> Result<(String, Vec<Parameter>)> {
+pub(crate) fn read_call(bytes: &[u8]) -> Result<(String, Vec<XmlRpcValue>)> {
     let text = text_of(bytes)?;
     let document = parse(text)?;
     let root = document.root_element();
@@ -33,7 +33,7 @@ pub(crate) fn read_call(bytes: &[u8]) -> Result<(String, Vec<Parameter>)> {
 ///
 /// # Errors
 /// If it is none, or says that the call failed.
-pub(crate) fn read_response(bytes: &[u8]) -> Result<Parameter> {
+pub(crate) fn read_response(bytes: &[u8]) -> Result<XmlRpcValue> {
     let text = text_of(bytes)?;
     let document = parse(text)?;
     let root = document.root_element();
@@ -51,8 +51,8 @@ pub(crate) fn read_response(bytes: &[u8]) -> Result<Parameter> {
         .ok_or_else(|| Error::protocol("an answer without a value"))
 }
 
-fn fault_reason(fault: Parameter) -> String {
-    let Parameter::Struct(members) = fault else {
+fn fault_reason(fault: XmlRpcValue) -> String {
+    let XmlRpcValue::Struct(members) = fault else {
         return "a fault".into();
     };
     let reason = members.into_iter().find(|(name, _)| name == "faultString");
@@ -74,7 +74,7 @@ fn child<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
     node.children().find(|child| child.has_tag_name(tag))
 }
 
-fn values_of_params(root: Node) -> Result<Vec<Parameter>> {
+fn values_of_params(root: Node) -> Result<Vec<XmlRpcValue>> {
     let Some(params) = child(root, "params") else {
         return Ok(Vec::new());
     };
@@ -89,30 +89,33 @@ fn values_of_params(root: Node) -> Result<Vec<Parameter>> {
     values.collect()
 }
 
-fn read_value(value: Node, depth: usize) -> Result<Parameter> {
+fn read_value(value: Node, depth: usize) -> Result<XmlRpcValue> {
     if depth == limits::NESTING {
         return Err(Error::protocol("values that are nested too deeply"));
     }
     let Some(typed) = value.children().find(Node::is_element) else {
-        return Ok(Parameter::String(content(value)));
+        return Ok(XmlRpcValue::String(content(value)));
     };
     let text = content(typed);
     let number = || text.trim().to_string();
     let wrong = || Error::protocol(format!("'{text}' is no {}", typed.tag_name().name()));
     match typed.tag_name().name() {
-        "string" => Ok(Parameter::String(text)),
-        "int" | "i4" => number().parse().map(Parameter::Int).map_err(|_| wrong()),
+        "string" => Ok(XmlRpcValue::String(text)),
+        "int" | "i4" => number().parse().map(XmlRpcValue::Int).map_err(|_| wrong()),
         "boolean" => match number().as_str() {
-            "0" => Ok(Parameter::Bool(false)),
-            "1" => Ok(Parameter::Bool(true)),
+            "0" => Ok(XmlRpcValue::Bool(false)),
+            "1" => Ok(XmlRpcValue::Bool(true)),
             _ => Err(wrong()),
         },
-        "double" => number().parse().map(Parameter::Double).map_err(|_| wrong()),
+        "double" => number()
+            .parse()
+            .map(XmlRpcValue::Double)
+            .map_err(|_| wrong()),
         "base64" => {
             let digits: String = text.split_whitespace().collect();
             BASE64_STANDARD
                 .decode(digits)
-                .map(Parameter::Binary)
+                .map(XmlRpcValue::Binary)
                 .map_err(|_| wrong())
         }
         "array" => {
@@ -122,24 +125,24 @@ fn read_value(value: Node, depth: usize) -> Result<Parameter> {
             items
                 .map(|item| read_value(item, depth + 1))
                 .collect::<Result<_>>()
-                .map(Parameter::Array)
+                .map(XmlRpcValue::Array)
         }
         "struct" => {
             let members = typed.children().filter(|node| node.has_tag_name("member"));
             members
                 .map(|member| read_member(member, depth))
                 .collect::<Result<_>>()
-                .map(Parameter::Struct)
+                .map(XmlRpcValue::Struct)
         }
         // Python's None, which the master returns for nothing.
-        "nil" => Ok(Parameter::text("")),
+        "nil" => Ok(XmlRpcValue::text("")),
         // A date is a text for programs that do not know dates.
-        "dateTime.iso8601" => Ok(Parameter::String(text)),
+        "dateTime.iso8601" => Ok(XmlRpcValue::String(text)),
         other => Err(Error::protocol(format!("values of type {other}"))),
     }
 }
 
-fn read_member(member: Node, depth: usize) -> Result<(String, Parameter)> {
+fn read_member(member: Node, depth: usize) -> Result<(String, XmlRpcValue)> {
     let name = child(member, "name")
         .map(content)
         .ok_or_else(|| Error::protocol("a member without a name"))?;

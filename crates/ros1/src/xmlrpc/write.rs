@@ -5,10 +5,10 @@ use std::fmt::Write;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 
-use super::Parameter;
+use super::XmlRpcValue;
 
 /// A call of a method.
-pub(crate) fn call_text(method: &str, arguments: &[Parameter]) -> String {
+pub(crate) fn call_text(method: &str, arguments: &[XmlRpcValue]) -> String {
     let mut text =
         format!("<?xml version=\"1.0\"?>\n<methodCall><methodName>{method}</methodName><params>");
     for argument in arguments {
@@ -20,7 +20,7 @@ pub(crate) fn call_text(method: &str, arguments: &[Parameter]) -> String {
 }
 
 /// The answer to a call.
-pub(crate) fn response_text(value: &Parameter) -> String {
+pub(crate) fn response_text(value: &XmlRpcValue) -> String {
     let mut text = String::from("<?xml version=\"1.0\"?>\n<methodResponse><params><param>");
     write_value(value, &mut text);
     text + "</param></params></methodResponse>\n"
@@ -29,28 +29,28 @@ pub(crate) fn response_text(value: &Parameter) -> String {
 /// The answer to a call that is none.
 pub(crate) fn fault_text(code: i32, reason: &str) -> String {
     let members = vec![
-        ("faultCode".into(), Parameter::Int(code)),
-        ("faultString".into(), Parameter::String(reason.into())),
+        ("faultCode".into(), XmlRpcValue::Int(code)),
+        ("faultString".into(), XmlRpcValue::String(reason.into())),
     ];
     let mut text = String::from("<?xml version=\"1.0\"?>\n<methodResponse><fault>");
-    write_value(&Parameter::Struct(members), &mut text);
+    write_value(&XmlRpcValue::Struct(members), &mut text);
     text + "</fault></methodResponse>\n"
 }
 
-fn write_value(value: &Parameter, text: &mut String) {
+fn write_value(value: &XmlRpcValue, text: &mut String) {
     text.push_str("<value>");
     match value {
-        Parameter::Bool(value) => tagged("boolean", if *value { "1" } else { "0" }, text),
-        Parameter::Int(value) => tagged("int", &value.to_string(), text),
-        Parameter::Double(value) => tagged("double", &value.to_string(), text),
-        Parameter::String(value) => tagged("string", &escaped(value), text),
-        Parameter::Binary(value) => tagged("base64", &BASE64_STANDARD.encode(value), text),
-        Parameter::Array(items) => {
+        XmlRpcValue::Bool(value) => tagged("boolean", if *value { "1" } else { "0" }, text),
+        XmlRpcValue::Int(value) => tagged("int", &value.to_string(), text),
+        XmlRpcValue::Double(value) => tagged("double", &value.to_string(), text),
+        XmlRpcValue::String(value) => tagged("string", &escaped(value), text),
+        XmlRpcValue::Binary(value) => tagged("base64", &BASE64_STANDARD.encode(value), text),
+        XmlRpcValue::Array(items) => {
             text.push_str("<array><data>");
             items.iter().for_each(|item| write_value(item, text));
             text.push_str("</data></array>");
         }
-        Parameter::Struct(members) => {
+        XmlRpcValue::Struct(members) => {
             text.push_str("<struct>");
             for (name, value) in members {
                 write!(text, "<member><name>{}</name>", escaped(name))

@@ -1,7 +1,8 @@
-//! Values of scripts: data, custom data, types of properties, inert properties.
+//! Values of scripts: data, custom data, types of properties, inert properties, conversions of numbers.
 
 pub(crate) mod custom_data;
 pub mod data;
 pub mod extension_string;
 pub(crate) mod inert;
+pub mod numbers;
 pub(crate) mod value_type;

@@ -1,4 +1,4 @@
-// The stream of a simulator that runs: messages over a WebSocket, requests with answers, and patience while it is gone.
+// The stream of a simulator that runs: messages over a WebSocket, requests with answers, and waiting while it is gone.
 
 const WAITS = [500, 1000, 2000, 4000]; // milliseconds before each further attempt
 

@@ -90,7 +90,9 @@ pub fn decode_quoted_printable(mut text: &[u8]) -> (Vec<u8>, &[u8]) {
 }
 
 fn digit(letter: u8) -> Option<u8> {
-    char::from(letter).to_digit(16).map(|value| value as u8)
+    char::from(letter)
+        .to_digit(16)
+        .and_then(|value| value.try_into().ok())
 }
 
 #[cfg(test)]

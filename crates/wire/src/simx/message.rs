@@ -138,7 +138,7 @@ fn parse_piece(reader: &mut FieldReader<'_>, order: ByteOrder) -> Result<Piece, 
     let key_size = usize::from(reader.short()?);
     let offset = reader.size()?;
     // The number has the mode in its upper half.
-    let number = reader.int()? as u32;
+    let [mode_high, mode_low, id_high, id_low] = reader.int()?.to_be_bytes();
     let delay = reader.short()?;
     // The time and the reserved byte have a meaning in replies only.
     reader.take(4)?;
@@ -156,7 +156,8 @@ fn parse_piece(reader: &mut FieldReader<'_>, order: ByteOrder) -> Result<Piece, 
     if offset.checked_add(data_size).is_none_or(|end| end > full) {
         return Err(Violation::Malformed);
     }
-    let (id, mode) = (number as u16, Mode::from_number((number >> 16) as u16));
+    let id = u16::from_be_bytes([id_high, id_low]);
+    let mode = Mode::from_number(u16::from_be_bytes([mode_high, mode_low]));
     let key = reader.take(key_size)?.to_vec();
     check_key(id, &key, order)?;
     let data = reader.take(data_size)?.to_vec();
@@ -257,9 +258,9 @@ impl ReplyPiece<'_> {
         writer.size(before_data + self.data.len());
         writer.size(before_data + self.full);
         // The key came from a client with a length of 16 bits, so its length fits.
-        writer.short(key.len() as u16);
+        writer.short(u16::try_from(key.len()).unwrap_or(u16::MAX));
         writer.size(self.offset);
-        writer.int((u32::from(mode.number()) << 16 | u32::from(*id)) as i32);
+        writer.int((u32::from(mode.number()) << 16 | u32::from(*id)).cast_signed());
         writer.short(0);
         writer.int(self.time);
         writer.byte(if self.failed { FAILED } else { 0 });

@@ -93,19 +93,20 @@ impl Packets {
 
 /// A message as packets of at most `max_packet` bytes; of more, where it would be too many for clients.
 pub fn cut(message: &[u8], max_packet: usize, order: ByteOrder) -> Vec<u8> {
-    let usual = max_packet.saturating_sub(HEADER).clamp(1, MAX_CONTENT);
-    let size = if message.len().div_ceil(usual) <= MAX_PACKETS {
-        usual
+    let default = max_packet.saturating_sub(HEADER).clamp(1, MAX_CONTENT);
+    let size = if message.len().div_ceil(default) <= MAX_PACKETS {
+        default
     } else {
         MAX_CONTENT
     };
     let count = message.len().div_ceil(size);
     let mut writer = FieldWriter::new(order);
+    // Both fit: packets are short, and clients accept no more packets than that.
+    let short = |number: usize| u16::try_from(number).unwrap_or(u16::MAX);
     for (place, content) in message.chunks(size).enumerate() {
         writer.bytes(&SAME_ORDER);
-        // Both fit into 16 bits: packets are short, and clients accept no more packets than that.
-        writer.short(content.len() as u16);
-        writer.short((count - 1 - place) as u16);
+        writer.short(short(content.len()));
+        writer.short(short(count - 1 - place));
         writer.bytes(content);
     }
     writer.into_bytes()
@@ -128,7 +129,7 @@ mod tests {
 
     #[test]
     fn messages_are_the_same_in_pieces_of_any_length() {
-        let message: Vec<u8> = (0..3046).map(|i| i as u8).collect();
+        let message: Vec<u8> = (0..=255).cycle().take(3046).collect();
         let bytes = [
             cut(&message, 1300, ByteOrder::Little),
             cut(b"x", 1300, ByteOrder::Little),

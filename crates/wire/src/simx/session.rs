@@ -82,7 +82,7 @@ pub struct Received {
 }
 
 /// Commands to be executed, and their results so far.
-pub struct Batch {
+pub struct CommandBatch {
     connection: u64,
     /// Of the reply that fetches the results.
     head: ReplyHead,
@@ -114,7 +114,7 @@ impl Answer {
     }
 }
 
-impl Batch {
+impl CommandBatch {
     /// The next command that is to be executed. Discontinued streams need no execution.
     pub fn next(&mut self) -> Option<std::sync::Arc<Command>> {
         while let Some(job) = self.jobs.front() {
@@ -286,7 +286,7 @@ impl Session {
     }
 
     /// The commands to be executed now. None before the last results are fetched, and when there are none.
-    pub fn due(&mut self, stamp: Stamp) -> Option<Batch> {
+    pub fn due(&mut self, stamp: Stamp) -> Option<CommandBatch> {
         let client = &mut self.client;
         if !client.outbox.is_empty() {
             return None;
@@ -306,7 +306,7 @@ impl Session {
             return None;
         }
         client.is_executing = true;
-        Some(Batch {
+        Some(CommandBatch {
             connection,
             head,
             order,
@@ -317,7 +317,7 @@ impl Session {
     }
 
     /// Takes the results of commands. Those of a client that is gone are dropped.
-    pub fn complete(&mut self, batch: Batch) {
+    pub fn complete(&mut self, batch: CommandBatch) {
         if self.connection() != Some(batch.connection) {
             return;
         }

@@ -144,7 +144,7 @@ fn movement(common: &Common) -> Movement {
 
 /// Old files have numbers for words, and say with bits what can be no child or no parent.
 fn assembly(common: &Common, serialization: i32) -> Assembly {
-    let usual = Assembly::default();
+    let default = Assembly::default();
     let words = |words: &Counted<Text>| words.0.iter().map(Text::decode).collect::<Vec<_>>();
     let [cannot_be_child, cannot_be_parent] =
         [5, 6].map(|bit| common.old_switches.unwrap_or(0) >> bit & 1 == 1);
@@ -158,7 +158,7 @@ fn assembly(common: &Common, serialization: i32) -> Assembly {
         (None, Some([child, parent])) => {
             (old(child, cannot_be_child), old(parent, cannot_be_parent))
         }
-        (None, None) => (usual.child_words, usual.parent_words),
+        (None, None) => (default.child_words, default.parent_words),
     };
     let pose = common
         .assembly_pose

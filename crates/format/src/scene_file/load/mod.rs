@@ -104,7 +104,7 @@ impl SceneFile {
         &self.file
     }
 
-    /// The scripts, as they would run here. The usual main script is not among them.
+    /// The scripts, as they would run here. The default main script is not among them.
     pub fn scripts(&self) -> Vec<ScriptCode> {
         let context = Context {
             header: &self.file.header,

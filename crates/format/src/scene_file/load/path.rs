@@ -13,8 +13,8 @@ const EXPLICIT: u8 = 0x20;
 const SHAPING: u8 = 0xf;
 
 pub(super) fn path(chunk: &Path) -> PathObject {
-    let usual = PathControl::default();
-    let line = chunk.path.as_ref().unwrap_or(&usual);
+    let default = PathControl::default();
+    let line = chunk.path.as_ref().unwrap_or(&default);
     let attributes = line
         .attributes
         .map_or(PathAttributes::DEFAULT, PathAttributes::from_bits_retain);
@@ -35,15 +35,15 @@ pub(super) fn path(chunk: &Path) -> PathObject {
 }
 
 fn measures(line: &PathControl) -> PathMeasures {
-    let usual = PathMeasures::default();
+    let default = PathMeasures::default();
     let finite = |value: f64, other: f64| if value.is_finite() { value } else { other };
     let (angle, method) = line
         .length
-        .unwrap_or((usual.angle_coefficient, usual.length_method as i32));
+        .unwrap_or((default.angle_coefficient, default.length_method as i32));
     let profile = line
         .averages
         .filter(|numbers| numbers.iter().all(|n| n.is_finite()))
-        .map_or(usual.profile, |[radius, axis_change, acceleration]| {
+        .map_or(default.profile, |[radius, axis_change, acceleration]| {
             VelocityProfile {
                 radius,
                 axis_change,
@@ -51,11 +51,11 @@ fn measures(line: &PathControl) -> PathMeasures {
             }
         });
     PathMeasures {
-        length_method: LengthMethod::from_number(method.into()).unwrap_or(usual.length_method),
-        angle_coefficient: finite(angle, usual.angle_coefficient),
+        length_method: LengthMethod::from_number(method.into()).unwrap_or(default.length_method),
+        angle_coefficient: finite(angle, default.angle_coefficient),
         on_spot_coefficient: finite(
-            line.on_spot_coeff.unwrap_or(usual.on_spot_coefficient),
-            usual.on_spot_coefficient,
+            line.on_spot_coeff.unwrap_or(default.on_spot_coefficient),
+            default.on_spot_coefficient,
         ),
         profile,
     }

@@ -14,7 +14,7 @@ use scene::{Field, Scene, SceneResult};
 
 const THREADED: u8 = 0x1;
 const DISABLED: u8 = 0x2;
-/// Where this bit is clear, the main script is the usual one, whatever text is stored.
+/// Where this bit is clear, the main script is the default one, whatever text is stored.
 const OWN_MAIN_SCRIPT: u8 = 0x8;
 /// A thread that ends with its text, and does not begin anew.
 const ONCE: u8 = 0x10;
@@ -42,7 +42,7 @@ pub(super) fn object(chunk: &ObjectChunk, context: &Context<'_>) -> ScriptObject
     object
 }
 
-/// A script outside of the tree. None for the usual main script, and for callback scripts, which later programs do not run either.
+/// A script outside of the tree. None for the default main script, and for callback scripts, which later programs do not run either.
 pub(super) fn attached(
     chunk: &Chunk,
     context: &Context<'_>,
@@ -51,7 +51,7 @@ pub(super) fn attached(
     let script_type = type_of(chunk)?;
     let switches = chunk.switches.unwrap_or(0);
     let owner = match script_type {
-        ScriptType::Main if is_usual_main(chunk, context) => return None,
+        ScriptType::Main if is_default_main(chunk, context) => return None,
         ScriptType::Main => None,
         _ => Some(*map.get(&owner(chunk))?),
     };
@@ -77,7 +77,7 @@ pub(super) fn texts(context: &Context<'_>) -> Vec<ScriptCode> {
     let objects: ByHandle<'_> = known.collect();
     let attached = contents.scripts.iter().filter_map(|chunk| {
         let name = match type_of(chunk)? {
-            ScriptType::Main if is_usual_main(chunk, context) => return None,
+            ScriptType::Main if is_default_main(chunk, context) => return None,
             ScriptType::Main => "mainScript".to_owned(),
             ScriptType::Customization => path(&objects, owner(chunk)) + "@customizationScript",
             _ => path(&objects, owner(chunk)) + "@simulationScript",
@@ -126,7 +126,7 @@ fn path(objects: &ByHandle<'_>, handle: i32) -> String {
 }
 
 /// Whether what counts is not the text, but the main script that comes with the program.
-fn is_usual_main(chunk: &Chunk, context: &Context<'_>) -> bool {
+fn is_default_main(chunk: &Chunk, context: &Context<'_>) -> bool {
     chunk.switches.unwrap_or(0) & OWN_MAIN_SCRIPT == 0 || is_before_calls(chunk, context)
 }
 

@@ -160,11 +160,11 @@ fn environment(settings: &mut Settings, chunk: &chunks::Environment) {
         density,
         colour: chunk.fog_colour,
     };
-    let usual = Environment::default();
-    let [largest, relative] = usual.triangle_sizes;
+    let default = Environment::default();
+    let [largest, relative] = default.triangle_sizes;
     settings.environment = Environment {
         fog,
-        ambient_light: ambient_light(chunk).unwrap_or(usual.ambient_light),
+        ambient_light: ambient_light(chunk).unwrap_or(default.ambient_light),
         background: chunk.bg_up.map(|up| [up, chunk.bg_down.unwrap_or(up)]),
         display: switches & !(LOCKED | FOG),
         triangle_sizes: [

@@ -48,7 +48,7 @@ impl Context<'_> {
     }
 }
 
-/// The whole scene as a file. `scripts` are those outside of the tree; without a main script among them, the usual one is meant.
+/// The whole scene as a file. `scripts` are those outside of the tree; without a main script among them, the default one is meant.
 ///
 /// # Errors
 /// When the tree of the scene is damaged.
@@ -59,7 +59,7 @@ pub fn scene(scene: &Scene, scripts: &[LoadedScript]) -> SceneResult<File> {
     let main = scripts.iter().find(|script| script.owner.is_none());
     contents
         .scripts
-        .insert(0, main.map_or_else(script::usual_main, script::main));
+        .insert(0, main.map_or_else(script::default_main, script::main));
     Ok(file(FileKind::Scene, contents))
 }
 

@@ -12,7 +12,7 @@ const OWN_MAIN_SCRIPT: u8 = 0x8;
 const PRESENT_ENGINE: u8 = 0xc0;
 const SINCE_3_1_4: u8 = 0x1;
 const PARENT_IS_PROXY: u8 = 0x4;
-const USUAL_MAIN_SCRIPT: &[u8] = b"require('defaultMainScript')";
+const DEFAULT_MAIN_SCRIPT: &[u8] = b"require('defaultMainScript')";
 
 /// A script in the tree.
 pub(super) fn object(script: &ScriptObject, handle: Handle, colour: Option<Colour>) -> ObjectChunk {
@@ -54,8 +54,8 @@ pub(super) fn main(script: &LoadedScript) -> Chunk {
 }
 
 /// The main script every scene has unless it says otherwise.
-pub(super) fn usual_main() -> Chunk {
-    let mut chunk = chunk(ScriptType::Main, -1, USUAL_MAIN_SCRIPT, "lua");
+pub(super) fn default_main() -> Chunk {
+    let mut chunk = chunk(ScriptType::Main, -1, DEFAULT_MAIN_SCRIPT, "lua");
     chunk.switches = Some(PRESENT_ENGINE);
     chunk
 }

@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use ros_interfaces::{Record, Value};
-use rtps::{Call, Durability, History, Qos};
+use rtps::{Correlation, Durability, History, Qos};
 
 use super::goal::{self, GoalId, Status};
 use crate::ros_values::{self, Style};
@@ -53,7 +53,7 @@ struct Goal {
     status: Status,
     result: Option<Record>,
     /// Who waits for the result.
-    waiting: Vec<Call>,
+    waiting: Vec<Correlation>,
 }
 
 impl Goal {
@@ -127,7 +127,7 @@ impl ActionServer {
         }
     }
 
-    fn goal_arrived(&self, call: Call, request: &Record) {
+    fn goal_arrived(&self, call: Correlation, request: &Record) {
         let (Some(id), Some(Value::Record(goal))) = (GoalId::of(request), request.get("goal"))
         else {
             return;
@@ -177,7 +177,7 @@ impl ActionServer {
     }
 
     /// One goal is meant, or all without an identity.
-    fn cancel_arrived(&self, call: Call, request: &Record) {
+    fn cancel_arrived(&self, call: Correlation, request: &Record) {
         let Some(Value::Record(info)) = request.get("goal_info") else {
             return;
         };
@@ -218,7 +218,7 @@ impl ActionServer {
         self.publish_status();
     }
 
-    fn result_asked(&self, call: Call, request: &Record) {
+    fn result_asked(&self, call: Correlation, request: &Record) {
         let Some(id) = GoalId::of(request) else {
             return;
         };
@@ -230,7 +230,7 @@ impl ActionServer {
         }
     }
 
-    fn send_result(&self, call: Call, status: Status, result: Option<Record>) {
+    fn send_result(&self, call: Correlation, status: Status, result: Option<Record>) {
         let mut response = Record::new(&self.layouts.get_result[1]);
         // Every action's messages have both fields.
         let status = ros_interfaces::Number::Int8(status as i8);
@@ -239,7 +239,7 @@ impl ActionServer {
         self.get_result.reply(call, &response);
     }
 
-    fn reply(&self, server: &Server, call: Call, response: &Data) {
+    fn reply(&self, server: &Server, call: Correlation, response: &Data) {
         if let Ok(response) = ros_values::from_data(&server.response, response, Style::default()) {
             server.reply(call, &response);
         }
