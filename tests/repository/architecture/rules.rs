@@ -185,7 +185,10 @@ const SCRIPT: Rooms = &[
     ("ros_options", &[]),
     ("coverage", &[]),
     ("clock", &["wall_clock"]),
-    ("options", &["log", "random", "ros_options"]),
+    (
+        "options",
+        &["error", "log", "random", "ros_options", "wall_clock"],
+    ),
     ("app_storage", &["log", "wall_clock"]),
     ("event_stream", &["log"]),
     ("test_bench", &["coverage", "error", "log", "options"]),
