@@ -191,7 +191,7 @@ const SCRIPT: Rooms = &[
     ),
     ("app_storage", &["log", "wall_clock"]),
     ("event_stream", &["log"]),
-    ("test_bench", &["coverage", "error", "log", "options"]),
+    ("test_bench", &["coverage", "log", "options"]),
     ("lua", &["budget", "function_ref"]),
     ("binding", &["error", "function_ref", "lua"]),
     (
@@ -211,7 +211,6 @@ const SCRIPT: Rooms = &[
             "random",
             "sys_call",
             "test_bench",
-            "wall_clock",
         ],
     ),
     ("person", &["host"]),
