@@ -1,39 +1,47 @@
 //! The script host: lifecycle, order of calls, threads, values between scripts, the step loop; and scripts in Lua.
 //!
-//! The functions for scripts are in `crate::api`; this module binds them and does not know which exist.
+//! The functions for scripts are in `crate::api`; this crate binds them and does not know which exist. Its rooms stand on floors
+//! (docs/ARCHITECTURE.md): each uses only those below it.
 
+// The ground: what knows no simulator.
 mod app_storage;
 mod binding;
 mod budget;
-mod calls;
 mod clock;
 pub mod coverage;
-mod cx;
 mod error;
 mod event_loop;
 mod event_stream;
-mod events;
-mod files;
 mod function_ref;
-mod host;
-mod lifecycle;
 pub mod log;
 #[expect(unsafe_code, reason = "an edge to C")]
 mod lua;
-mod lua_runtime;
 mod options;
+mod random;
+mod ros_options;
+mod sys_call;
+pub mod test_bench;
+pub mod wall_clock;
+
+// What a simulator is.
+mod host;
+
+// What happens to it.
+mod calls;
+mod events;
+mod files;
+mod lifecycle;
 mod person;
 mod plugins;
 mod present;
 mod property;
-mod python_runtime;
-mod random;
-mod ros_options;
 mod step;
-mod sys_call;
-pub mod test_bench;
 mod video;
-pub mod wall_clock;
+
+// What scripts see of it, and the languages they are written in.
+mod cx;
+mod lua_runtime;
+mod python_runtime;
 
 pub use binding::ApiFn;
 pub use binding::args::{

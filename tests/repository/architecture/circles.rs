@@ -48,32 +48,43 @@ fn methods_are_called_from_above() {
         .iter()
         .find(|(name, _)| *name == layer)
         .expect("the crate consists of rooms");
-    let files: Vec<(String, String)> = sources()
-        .iter()
-        .filter(|file| !is_test(file))
-        .filter_map(|file| match module_path(file).as_slice() {
-            [of, room, ..] if of == layer => Some((room.clone(), code(&read(file)))),
-            _ => None,
-        })
-        .collect();
+    let files = files_of(layer);
     let homes = homes_of_methods(&files, of);
     assert!(homes.len() > 100, "the simulator has methods");
-    let mut wrong = BTreeSet::new();
-    for (room, text) in &files {
-        let (_, may_use) = rooms
-            .iter()
-            .find(|(of, _)| of == room)
-            .expect("another test says which rooms there are");
-        for name in called(text) {
-            if let Some(home) = homes.get(name)
-                && home != room
-                && !may_use.contains(&home.as_str())
-            {
-                wrong.insert(format!("{room} must not call `{name}` of {home}"));
-            }
-        }
-    }
+    let wrong: BTreeSet<String> = files
+        .iter()
+        .flat_map(|(room, text)| forbidden_calls(rooms, &homes, room, text))
+        .collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// The rooms of a crate with the code of their files.
+fn files_of(layer: &str) -> Vec<(String, String)> {
+    let files = sources().into_iter().filter(|file| !is_test(file));
+    files
+        .filter_map(|file| match module_path(&file).as_slice() {
+            [of, room, ..] if of == layer => Some((room.clone(), code(&read(&file)))),
+            _ => None,
+        })
+        .collect()
+}
+
+/// The methods of rooms that a room may not use, where it calls them.
+fn forbidden_calls(
+    rooms: Rooms,
+    homes: &BTreeMap<String, String>,
+    room: &str,
+    text: &str,
+) -> Vec<String> {
+    let (_, may_use) = rooms
+        .iter()
+        .find(|(of, _)| *of == room)
+        .expect("another test says which rooms there are");
+    let called = called(text).filter_map(|name| Some((name, homes.get(name)?)));
+    called
+        .filter(|(_, home)| *home != room && !may_use.contains(&home.as_str()))
+        .map(|(name, home)| format!("{room} must not call `{name}` of {home}"))
+        .collect()
 }
 
 fn code(text: &str) -> String {

@@ -185,10 +185,13 @@ const SCRIPT: Rooms = &[
     ("ros_options", &[]),
     ("coverage", &[]),
     ("clock", &["wall_clock"]),
-    ("options", &["log", "random", "ros_options"]),
+    (
+        "options",
+        &["error", "log", "random", "ros_options", "wall_clock"],
+    ),
     ("app_storage", &["log", "wall_clock"]),
     ("event_stream", &["log"]),
-    ("test_bench", &["coverage", "error", "log", "options"]),
+    ("test_bench", &["coverage", "log", "options"]),
     ("lua", &["budget", "function_ref"]),
     ("binding", &["error", "function_ref", "lua"]),
     (
@@ -208,7 +211,6 @@ const SCRIPT: Rooms = &[
             "random",
             "sys_call",
             "test_bench",
-            "wall_clock",
         ],
     ),
     ("person", &["host"]),
