@@ -71,4 +71,21 @@ mod tests {
             .to_string();
         assert_eq!(error, "this device or pipe has more than 64 MiB");
     }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn a_pipe_may_have_as_many_bytes_as_the_bound() {
+        use std::io::Write;
+        use std::os::fd::AsRawFd;
+        const BOUND: usize = 64 << 20;
+        for (size, is_read) in [(BOUND, true), (BOUND + 1, false)] {
+            let (reader, mut writer) = std::io::pipe().unwrap();
+            let path = format!("/proc/self/fd/{}", reader.as_raw_fd());
+            let writing = std::thread::spawn(move || writer.write_all(&vec![7; size]));
+            let read = read_bounded(Path::new(&path));
+            assert_eq!(read.is_ok_and(|bytes| bytes.len() == size), is_read);
+            drop(reader);
+            writing.join().unwrap().unwrap();
+        }
+    }
 }

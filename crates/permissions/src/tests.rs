@@ -195,7 +195,153 @@ fn hosts_and_ports() {
     assert!(one.check_net("127.0.0.2", None).is_err());
     assert!(one.check_net_everywhere("all").is_err());
     assert_eq!(rule("::1"), Ok(HostRule::new("::1", None)));
+    assert_eq!(rule("[::1]"), Ok(HostRule::new("::1", None)));
     for wrong in ["", ":80", "host:", "host:port", "host:99999", "a:b:1"] {
         assert!(rule(wrong).is_err(), "{wrong}");
     }
+}
+
+#[test]
+fn each_permission_opens_what_it_names_and_nothing_else() {
+    let (file, none) = (Path::new("/nowhere/file"), Permissions::none);
+    let opened = |allowed: &Permissions| {
+        [
+            allowed.check_read(file).is_ok(),
+            allowed.check_environment().is_ok(),
+            allowed.check_write(file).is_ok(),
+            allowed.check_net_everywhere("all").is_ok(),
+            allowed.can_run() && allowed.check_run("ls").is_ok(),
+            allowed.can_load_native() && allowed.check_native("a library").is_ok(),
+        ]
+    };
+    let only = |places: &[usize]| std::array::from_fn(|place| places.contains(&place));
+    assert_eq!(opened(&none()), only(&[]));
+    assert_eq!(opened(&none().allow_read_everywhere()), only(&[0, 1]));
+    assert_eq!(opened(&none().allow_read("/nowhere")), only(&[0]));
+    assert_eq!(opened(&none().allow_write_everywhere()), only(&[2]));
+    assert_eq!(opened(&none().allow_write("/nowhere")), only(&[2]));
+    assert_eq!(opened(&none().allow_net_everywhere()), only(&[3]));
+    assert_eq!(opened(&none().allow_run()), only(&[4]));
+    assert_eq!(opened(&none().allow_native()), only(&[5]));
+    assert_eq!(opened(&Permissions::all()), only(&[0, 1, 2, 3, 4, 5]));
+    assert!(!none().can_run() && !none().can_load_native());
+}
+
+#[test]
+fn only_who_reads_and_writes_everything_changes_where_paths_lead() {
+    let read = Permissions::none().allow_read_everywhere();
+    let write = Permissions::none().allow_write_everywhere();
+    assert!(read.check_redirect("a link").is_err() && write.check_redirect("a link").is_err());
+    assert_eq!(
+        read.allow_write_everywhere().check_redirect("a link"),
+        Ok(())
+    );
+}
+
+#[test]
+fn a_device_has_to_be_readable_and_writable() {
+    let device = Path::new("/nowhere/device");
+    let (read, write) = (
+        Permissions::none().allow_read("/nowhere"),
+        Permissions::none().allow_write("/nowhere"),
+    );
+    assert_eq!(
+        text(write.check_device(device)),
+        "reading '/nowhere/device' is not allowed: run with --allow-read=/nowhere/device"
+    );
+    assert_eq!(
+        text(read.check_device(device)),
+        "writing '/nowhere/device' is not allowed: run with --allow-write=/nowhere/device"
+    );
+    assert_eq!(read.allow_write("/nowhere").check_device(device), Ok(()));
+}
+
+#[test]
+fn a_renamed_file_is_read_and_written_at_both_places() {
+    let (old, new) = (Path::new("/nowhere/old"), Path::new("/elsewhere/new"));
+    let whole = |without: usize| {
+        let grants: [fn(Permissions) -> Permissions; 3] = [
+            |allowed| allowed.allow_read("/nowhere"),
+            |allowed| allowed.allow_write("/nowhere"),
+            |allowed| allowed.allow_write("/elsewhere"),
+        ];
+        let granted = grants.iter().enumerate().filter(|(at, _)| *at != without);
+        granted.fold(Permissions::none(), |allowed, (_, grant)| grant(allowed))
+    };
+    assert_eq!(whole(3).check_rename(old, new), Ok(()));
+    for (without, doing) in ["reading", "writing", "writing"].iter().enumerate() {
+        assert!(text(whole(without).check_rename(old, new)).starts_with(doing));
+    }
+}
+
+#[test]
+fn files_are_read_where_that_is_allowed() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "text").unwrap();
+    let allowed = Permissions::none().allow_read(folder.path());
+    assert_eq!(allowed.read_file(&file).unwrap(), b"text");
+    let refused = Permissions::none().read_file(&file).unwrap_err();
+    assert_eq!(refused.kind(), std::io::ErrorKind::PermissionDenied);
+}
+
+/// As many as Linux follows: 40.
+#[cfg(unix)]
+#[test]
+fn long_chains_of_links_are_followed_as_the_system_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = |number: usize| folder.path().join(number.to_string());
+    fs::write(name(0), "").unwrap();
+    for number in 1..=41 {
+        std::os::unix::fs::symlink(name(number - 1), name(number)).unwrap();
+    }
+    let allowed = Permissions::none().allow_read(folder.path());
+    assert!(fs::read(name(40)).is_ok() && fs::read(name(41)).is_err());
+    assert_eq!(allowed.check_read(&name(40)), Ok(()));
+    assert!(allowed.check_read(&name(41)).is_err());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_name_that_ends_in_dots_or_a_separator_means_what_a_link_leads_to() {
+    let above = tempfile::tempdir().unwrap();
+    let (folder, other) = (above.path().join("in"), above.path().join("out"));
+    fs::create_dir_all(&folder).unwrap();
+    fs::create_dir_all(&other).unwrap();
+    std::os::unix::fs::symlink(&other, folder.join("link")).unwrap();
+    let allowed = Permissions::none().allow_read(&folder);
+    assert_eq!(allowed.check_inspect_link(&folder.join("link")), Ok(()));
+    for name in ["link/", "link/.", "link/x"] {
+        assert!(
+            allowed.check_inspect_link(&folder.join(name)).is_err(),
+            "{name}"
+        );
+    }
+    // Dots at the end of a name belong to it.
+    std::os::unix::fs::symlink(&other, folder.join("link.")).unwrap();
+    assert_eq!(allowed.check_inspect_link(&folder.join("link.")), Ok(()));
+}
+
+#[test]
+fn names_of_c_end_at_a_nul() {
+    assert_eq!(c_path(b"/a/b\0c"), Path::new("/a/b"));
+    assert_eq!(c_path(b"/a/b"), Path::new("/a/b"));
+    assert_eq!(c_path(b""), Path::new(""));
+}
+
+#[test]
+fn everything_is_all_of_it() {
+    let grants: [fn(Permissions) -> Permissions; 5] = [
+        Permissions::allow_read_everywhere,
+        Permissions::allow_write_everywhere,
+        Permissions::allow_net_everywhere,
+        Permissions::allow_run,
+        Permissions::allow_native,
+    ];
+    let without = |missing: usize| {
+        let granted = grants.iter().enumerate().filter(|(at, _)| *at != missing);
+        granted.fold(Permissions::none(), |allowed, (_, grant)| grant(allowed))
+    };
+    assert!(without(grants.len()).is_all());
+    assert!((0..grants.len()).all(|missing| !without(missing).is_all()));
 }

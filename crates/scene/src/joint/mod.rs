@@ -4,6 +4,8 @@ pub mod control;
 pub(crate) mod dependency;
 pub mod motion;
 mod numbers;
+#[cfg(test)]
+mod tests;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use std::f64::consts::{PI, TAU};

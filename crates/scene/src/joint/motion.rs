@@ -79,3 +79,170 @@ impl Scene {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Kind;
+    use crate::joint::{JointMode, JointType};
+
+    /// A slider without limits that matter, and the scene it is in.
+    fn slider() -> (Scene, Handle) {
+        let mut scene = Scene::new();
+        let joint = Joint::new(JointType::Prismatic, JointMode::Kinematic);
+        let handle = scene.add("j", Kind::Joint(Box::new(joint))).unwrap();
+        (scene, handle)
+    }
+
+    fn joint(scene: &Scene, handle: Handle) -> &Joint {
+        scene.object(handle).unwrap().joint().unwrap()
+    }
+
+    fn step(position: f64, velocity: f64, accel: f64) -> JointStep {
+        JointStep {
+            position: Some(position),
+            velocity,
+            accel,
+            immobile: false,
+        }
+    }
+
+    #[test]
+    fn a_motion_begins_with_the_velocity_that_is_asked_for_and_goes_on_with_its_own() {
+        let (mut scene, handle) = slider();
+        scene
+            .set_joint_target_velocity(handle, 0.2, &[0.5, 0.25], Some(0.05))
+            .unwrap();
+        let found = joint(&scene, handle);
+        assert_eq!(
+            found.motion,
+            Some(JointMotion::AtVelocity {
+                initial: Some(0.05)
+            })
+        );
+        assert_eq!(
+            (found.target_velocity, found.max_accel, found.max_jerk),
+            (0.2, 0.5, 0.25)
+        );
+        scene.step_joint(handle, step(0.01, 0.1, 0.5)).unwrap();
+        let found = joint(&scene, handle);
+        assert_eq!(
+            found.motion,
+            Some(JointMotion::AtVelocity { initial: None })
+        );
+        assert_eq!(
+            (found.position, found.velocity, found.accel),
+            (0.01, 0.1, 0.5)
+        );
+    }
+
+    #[test]
+    fn a_motion_without_an_initial_velocity_keeps_that_of_the_one_before() {
+        let (mut scene, handle) = slider();
+        scene.set_joint_target_position(handle, 0.3, &[]).unwrap();
+        scene.step_joint(handle, step(0.1, 0.2, 0.3)).unwrap();
+        scene
+            .set_joint_target_velocity(handle, 0.4, &[], None)
+            .unwrap();
+        let found = joint(&scene, handle);
+        assert_eq!((found.velocity, found.accel), (0.2, 0.3));
+        assert_eq!(
+            found.motion,
+            Some(JointMotion::AtVelocity { initial: None })
+        );
+        assert!(
+            scene
+                .set_joint_target_velocity(handle, 0.4, &[], Some(f64::NAN))
+                .is_err()
+        );
+    }
+
+    /// A joint has arrived when it neither moves nor accelerates, however slowly, or when its script says so.
+    #[test]
+    fn a_motion_ends_at_rest_and_not_before() {
+        let (mut scene, handle) = slider();
+        let tiny = 1e-9;
+        for (velocity, accel, immobile, goes_on) in [
+            (tiny, 0.0, false, true),
+            (0.0, tiny, false, true),
+            (-tiny, -tiny, false, true),
+            (0.0, 0.0, false, false),
+            (0.5, 0.5, true, false),
+            (f64::NAN, f64::INFINITY, false, false),
+        ] {
+            scene.set_joint_target_position(handle, 0.3, &[]).unwrap();
+            let step = JointStep {
+                immobile,
+                ..step(0.1, velocity, accel)
+            };
+            scene.step_joint(handle, step).unwrap();
+            let motion = joint(&scene, handle).motion;
+            assert_eq!(
+                motion,
+                goes_on.then_some(JointMotion::ToPosition),
+                "{velocity} {accel} {immobile}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_step_stays_within_the_limits_and_nowhere_is_no_position() {
+        let (mut scene, handle) = slider();
+        scene.set_joint_target_position(handle, 3.0, &[]).unwrap();
+        scene.step_joint(handle, step(2.0, 1.0, 0.0)).unwrap();
+        assert_eq!(joint(&scene, handle).position, 0.5);
+        scene.step_joint(handle, step(f64::NAN, 1.0, 0.0)).unwrap();
+        assert_eq!(joint(&scene, handle).position, 0.5);
+        let nowhere = JointStep {
+            position: None,
+            ..step(0.0, 1.0, 0.0)
+        };
+        scene.step_joint(handle, nowhere).unwrap();
+        assert_eq!(joint(&scene, handle).position, 0.5);
+    }
+
+    #[test]
+    fn a_joint_that_has_arrived_shows_its_last_velocity_for_one_step() {
+        let (mut scene, handle) = slider();
+        scene.set_joint_target_position(handle, 0.1, &[]).unwrap();
+        assert_eq!(scene.joints_in_motion(), [handle]);
+        let last = JointStep {
+            immobile: true,
+            ..step(0.1, 0.2, 0.0)
+        };
+        scene.step_joint(handle, last).unwrap();
+        assert_eq!(joint(&scene, handle).velocity, 0.2);
+        assert_eq!(scene.joints_in_motion(), []);
+        assert_eq!(joint(&scene, handle).velocity, 0.0);
+    }
+
+    #[test]
+    fn the_velocity_of_a_dynamic_joint_is_the_physics_affair() {
+        let (mut scene, handle) = slider();
+        scene.set_joint_mode(handle, JointMode::Dynamic).unwrap();
+        scene
+            .modify_joint(handle, |joint| joint.velocity = 0.3)
+            .unwrap();
+        assert_eq!(scene.joints_in_motion(), []);
+        assert_eq!(joint(&scene, handle).velocity, 0.3);
+    }
+
+    #[test]
+    fn all_motions_can_be_ended_at_once() {
+        let (mut scene, handle) = slider();
+        scene.set_joint_target_position(handle, 0.3, &[]).unwrap();
+        scene.step_joint(handle, step(0.1, 0.2, 0.3)).unwrap();
+        scene.stop_joint_motions();
+        let found = joint(&scene, handle);
+        assert_eq!(
+            (found.motion, found.velocity, found.accel, found.position),
+            (None, 0.0, 0.0, 0.1)
+        );
+        // Of one that is at rest only the velocity is left.
+        scene
+            .modify_joint(handle, |joint| joint.velocity = 0.3)
+            .unwrap();
+        scene.stop_joint_motions();
+        assert_eq!(joint(&scene, handle).velocity, 0.0);
+    }
+}

@@ -3,6 +3,8 @@
 pub mod displacement;
 pub(crate) mod measure;
 pub mod placement;
+#[cfg(test)]
+mod tests;
 pub(crate) mod world;
 
 #[cfg(test)]
