@@ -1729,8 +1729,9 @@ function sim.getPropertySetter(type, onlyName) end
 
 --- Word for a type of property.
 ---@param type integer sim.propertytype_*
+---@param forApi? boolean the word in names of functions instead, as in sim.getIntProperty
 ---@return string word what follows propertytype_
-function sim.getPropertyTypeString(type) end
+function sim.getPropertyTypeString(type, forApi) end
 
 --- Convex hull of points.
 ---@deprecated simConvex.qhull
@@ -2208,7 +2209,7 @@ function sim.handleDistance(distanceHandle) end
 ---@return integer passes number of sub-steps
 function sim.handleDynamics(deltaTime, ikGroups) end
 
---- Calls a callback of all simulation scripts, then of all customization scripts. For the main script.
+--- Calls a callback of all simulation scripts, then of the customization scripts there were before. For the main script.
 ---@param callType integer sim.syscb_*
 ---@param ... any
 ---@return integer count how many scripts ran it

@@ -596,7 +596,7 @@ function simIK.setJointWeight(environmentHandle, jointHandle, weight) end
 ---@param environmentHandle integer the environment
 ---@param objectHandle integer the object
 ---@param matrix number[] 3 rows of 4
----@param relativeToObjectHandle? integer as in simIK.getObjectPose
+---@param relativeToObjectHandle? number[] as in simIK.getObjectPose
 function simIK.setObjectMatrix(environmentHandle, objectHandle, matrix, relativeToObjectHandle) end
 
 --- Attaches an object to another one.
@@ -610,7 +610,7 @@ function simIK.setObjectParent(environmentHandle, objectHandle, parentObjectHand
 ---@param environmentHandle integer the environment
 ---@param objectHandle integer the object
 ---@param pose number[] x, y, z, qx, qy, qz, qw
----@param relativeToObjectHandle? integer as in simIK.getObjectPose
+---@param relativeToObjectHandle? number[] as in simIK.getObjectPose
 function simIK.setObjectPose(environmentHandle, objectHandle, pose, relativeToObjectHandle) end
 
 --- Moves an object to a position and an orientation.

@@ -3467,9 +3467,10 @@ class _sim:
         type: sim.propertytype_*
         onlyName: return the name instead
         """
-    def getPropertyTypeString(self, type: int, /) -> str:
+    def getPropertyTypeString(self, type: int, forApi: bool | None = ..., /) -> str:
         """Word for a type of property.
         type: sim.propertytype_*
+        forApi: the word in names of functions instead, as in sim.getIntProperty
         """
     def getQHull(self, verticesIn: Sequence[float], /) -> tuple[list[float], list[int]]:
         """Convex hull of points.
@@ -3842,7 +3843,7 @@ class _sim:
         ikGroups: sim.handle_all_except_explicit: first computes the groups of inverse kinematics of old scenes that are not handled explicitly
         """
     def handleEmbeddedScripts(self, callType: int, /, *args: Any) -> int:
-        """Calls a callback of all simulation scripts, then of all customization scripts. For the main script.
+        """Calls a callback of all simulation scripts, then of the customization scripts there were before. For the main script.
         callType: sim.syscb_*
         """
     def handleExtCalls(self, /) -> Any:
@@ -7093,7 +7094,7 @@ class _simIK:
         jointHandle: the joint
         weight: 0: it stays where it is
         """
-    def setObjectMatrix(self, environmentHandle: int, objectHandle: int, matrix: Sequence[float], relativeToObjectHandle: int | None = ..., /) -> None:
+    def setObjectMatrix(self, environmentHandle: int, objectHandle: int, matrix: Sequence[float], relativeToObjectHandle: Sequence[float] | None = ..., /) -> None:
         """Moves an object to where a matrix says.
         environmentHandle: the environment
         objectHandle: the object
@@ -7107,7 +7108,7 @@ class _simIK:
         parentObjectHandle: -1 for the world
         keepInPlace: whether it stays where it is in the world, or at the same place as seen from its parent
         """
-    def setObjectPose(self, environmentHandle: int, objectHandle: int, pose: Sequence[float], relativeToObjectHandle: int | None = ..., /) -> None:
+    def setObjectPose(self, environmentHandle: int, objectHandle: int, pose: Sequence[float], relativeToObjectHandle: Sequence[float] | None = ..., /) -> None:
         """Moves an object; its children move along.
         environmentHandle: the environment
         objectHandle: the object
