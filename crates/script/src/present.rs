@@ -71,6 +71,8 @@ impl Sim {
         let lines = self.log.recent_since(&mut shown);
         watching.lines.set(shown);
         let broadcasts = self.app.borrow().broadcasts.take();
+        let contacts = self.dynamics.borrow().as_ref().map(Dynamics::touching);
+        let contacts = contacts.unwrap_or_default();
         let scene = self.scene.borrow();
         observe(&Present {
             now: self.situation(&scene),
@@ -82,12 +84,7 @@ impl Sim {
                 .map(str::to_owned)
                 .collect(),
             broadcasts,
-            contacts: self
-                .dynamics
-                .borrow()
-                .as_ref()
-                .map(Dynamics::touching)
-                .unwrap_or_default(),
+            contacts,
         })
     }
 

@@ -133,11 +133,8 @@ impl Sim {
         self.run_callback(script, SysCall::Init, &[]);
         // As in the original, a script is notified of the selection once it is initialized.
         if script.is_running() {
-            self.run_callback(
-                script,
-                SysCall::SelChange,
-                &[selection_data(&self.scene.borrow())],
-            );
+            let selection = selection_data(&self.scene.borrow());
+            self.run_callback(script, SysCall::SelChange, &[selection]);
         }
     }
 

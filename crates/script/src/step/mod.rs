@@ -67,7 +67,8 @@ impl Sim {
     fn notify_selection(self: &Rc<Self>) {
         let selection = self.scene.borrow().selection().to_vec();
         if self.scripts.note_selection(&selection) {
-            self.broadcast(SysCall::SelChange, &[selection_data(&self.scene.borrow())]);
+            let selection = selection_data(&self.scene.borrow());
+            self.broadcast(SysCall::SelChange, &[selection]);
         }
     }
 
