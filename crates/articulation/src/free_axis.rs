@@ -127,7 +127,11 @@ impl FreeAxis {
 
 /// The limit a joint runs into at that velocity.
 fn reached_limit(joint: &JointState, velocity: f64, step: f64) -> Option<ActiveLimit> {
-    let sign = -velocity.signum();
+    let sign = match joint.limits? {
+        // One at rest has no direction: it may be beyond the lower limit.
+        [low, _] if velocity == 0.0 => (low - joint.position).signum(),
+        _ => -velocity.signum(),
+    };
     let limit = limit_at(joint, sign, step)?;
     ((velocity - limit.velocity) * sign < -VELOCITY_TOLERANCE).then_some(limit)
 }

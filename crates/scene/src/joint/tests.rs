@@ -170,6 +170,8 @@ fn a_new_interval_limits_the_position_and_ends_what_has_no_meaning_without_limit
         .modify_joint(handle, |joint| joint.set_screw_lead(0.3))
         .unwrap();
     assert_eq!(read(&scene, handle).screw_lead, 0.3);
+    scene.set_joint_interval(handle, false, [0.0, 2.0]).unwrap();
+    assert_eq!(read(&scene, handle).screw_lead, 0.3);
     scene.set_joint_interval(handle, true, [0.5, 1.0]).unwrap();
     assert_eq!(read(&scene, handle).screw_lead, 0.0);
     assert!(

@@ -236,6 +236,9 @@ fn quaternions_are_made_of_length_one_and_left_alone_where_they_are() {
 fn velocities_are_measured_from_one_step_to_the_next() {
     let (mut scene, slider, tip) = scene();
     scene.measure_velocities(None);
+    // From here on only what moves is looked at.
+    scene.measure_velocities(Some(0.1));
+    scene.measure_velocities(Some(0.1));
     let measured = |scene: &Scene, handle| scene.object(handle).unwrap().measured.clone();
     assert_eq!(measured(&scene, tip).linear, [0.0; 3]);
     scene.set_joint_position(slider, 0.3).unwrap();

@@ -28,6 +28,9 @@ fn dependent_joints_follow_with_offset_and_coefficient() {
     scene.set_joint_position(master, 0.4).unwrap();
     let position = |handle| read(&scene, handle).position;
     assert!((position(second) - 0.9).abs() < 1e-12 && (position(third) + 3.0).abs() < 1e-12);
+    // Its own interval does not count.
+    scene.set_joint_interval(third, false, [-0.5, 1.0]).unwrap();
+    assert!((read(&scene, third).position + 3.0).abs() < 1e-12);
     // In another mode it does not follow, and forgets its master.
     scene.set_joint_mode(second, JointMode::Kinematic).unwrap();
     assert_eq!(
