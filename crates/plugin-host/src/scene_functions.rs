@@ -89,7 +89,11 @@ fn detection(call: &Call<'_>, function: &str) -> Answer {
 fn packets(call: &Call<'_>, function: &str) -> Answer {
     let mut results = call.frame.host.call(function, &call.args)?.into_iter();
     let state = results.next().unwrap_or(Data::Int(-1));
-    let packets: Vec<Vec<Data>> = results.map(items).collect();
+    let mut packets: Vec<Vec<Data>> = results.map(items).collect();
+    // Scripts get empty packets besides those there are.
+    while packets.last().is_some_and(Vec::is_empty) {
+        packets.pop();
+    }
     let counts = std::iter::once(packets.len())
         .chain(packets.iter().map(Vec::len))
         .map(numbers::count);

@@ -170,10 +170,10 @@ fn a_missing_plugin_is_named_in_one_line() {
             stderr(&output)
         );
     }
-    let library = Scene::new("print(select(2, pcall(require, 'gcode')))")
+    let library = Scene::new("print(select(2, pcall(require, 'parserx')))")
         .run(&["--steps", "1", "--empty", "--quiet"]);
     assert!(
-        stdout(&library).starts_with("gcode is a Lua module of CoppeliaSim"),
+        stdout(&library).starts_with("parserx is a Lua module of CoppeliaSim"),
         "{}",
         stdout(&library)
     );

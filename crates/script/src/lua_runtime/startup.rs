@@ -105,35 +105,38 @@ fn scrambled(seed: u32) -> i64 {
     (bits ^ (bits >> 31)).cast_signed()
 }
 
-/// Modules that CoppeliaSim has not, or no longer, helpers with names that a scene's own modules may have, and files that are no modules:
-/// a script's own file of that name goes first.
+/// Modules that CoppeliaSim has not, or no longer, and files that are no modules: a script's own file of that name goes first.
 const LAST: &[&str] = &[
-    "Buffer",
     "base",
-    "base16",
     "cbor",
-    "checkargs",
-    "checkmodel",
     "class",
     "deprecate",
+    "json",
+    "main",
+    "no_exit",
+    "old_calls",
+    "restricted",
+    "say",
+    "seal",
+];
+
+/// Helpers with names that a scene's own modules may have: a file in the scene's folders goes first, one of an installation does not.
+const HELPERS: &[&str] = &[
+    "Buffer",
+    "base16",
+    "checkargs",
+    "checkmodel",
     "deque",
     "functional",
     "gcode",
     "grid",
     "itertools",
-    "json",
     "lfsx",
     "logger",
-    "main",
     "mathx",
     "matrix",
     "matrix-utils",
-    "no_exit",
-    "old_calls",
     "priorityqueue",
-    "restricted",
-    "say",
-    "seal",
     "stringx",
     "tablex",
     "utils",
@@ -208,7 +211,7 @@ fn install_searchers(stack: Stack<'_>) {
 /// Finds the modules that come with the simulator and go before a script's own files.
 fn search_embedded(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let name = String::from_utf8_lossy(&stack.text(1).unwrap_or_default()).into_owned();
-    if LAST.contains(&&*name) {
+    if LAST.contains(&&*name) || HELPERS.contains(&&*name) && is_the_scene_s(stack, &name) {
         return Ok(0);
     }
     if name == "sim" || name == "sim-1" {
@@ -216,6 +219,18 @@ fn search_embedded(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
         return Ok(1);
     }
     find_module(stack, &name)
+}
+
+/// Whether the folders that scripts bring along have a module of that name.
+fn is_the_scene_s(stack: Stack<'_>, name: &str) -> bool {
+    let Some(sim) = stack.env().sim.upgrade() else {
+        return false;
+    };
+    let has = |folder: &Path| {
+        folder.join(name).with_extension("lua").exists()
+            || folder.join(name).join("init.lua").exists()
+    };
+    sim.options.package_dirs.iter().any(|folder| has(folder))
 }
 
 /// Finds the others. The error for a module of CoppeliaSim that was not found says that it is missing, without the searched places,
