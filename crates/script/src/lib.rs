@@ -100,5 +100,5 @@ pub use lua_runtime::reference_modules::ReferenceModule;
 pub use lua_runtime::user_modules::UserModule;
 pub use person::Ask;
 pub use present::{Present, Situation, Watcher};
-pub use property::{PropertyTarget, table as property_table};
+pub use property::{OLD_SIGNALS, PropertyTarget, table as property_table};
 pub use python_runtime::{PythonLanguage, is_short, python_interpreter, python_parts};

@@ -7,7 +7,7 @@ use api_macro::api;
 use crate::{ApiFn, Cx, Result, functions};
 use scene::Namespace;
 use scene::numbers;
-use script::{Bytes, Number, PropertyTarget, PropertyValue, Text};
+use script::{Bytes, Number, OLD_SIGNALS, PropertyTarget, PropertyValue, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     set_int32_signal,
@@ -26,15 +26,14 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 ];
 
 /// The storage of each type of signal, by its number in `sim.getSignalName`.
-const KINDS: [&str; 4] = ["ILEGACY.", "FLEGACY.", "SLEGACY.", "DLEGACY."];
-const INT32: &str = KINDS[0];
-const FLOAT: &str = KINDS[1];
-const STRING: &str = KINDS[2];
-const DOUBLE: &str = KINDS[3];
+const INT32: &str = OLD_SIGNALS[0];
+const FLOAT: &str = OLD_SIGNALS[1];
+const STRING: &str = OLD_SIGNALS[2];
+const DOUBLE: &str = OLD_SIGNALS[3];
 
 fn set<T: PropertyValue>(cx: &mut Cx, kind: &str, name: &str, value: T) -> i64 {
     let name = format!("signal.{kind}{name}");
-    // As in CoppeliaSim, a name with illegal characters stores nothing and is no error.
+    // As in CoppeliaSim, a name with spaces stores nothing and is no error.
     let _ = cx.write_property(&PropertyTarget::Scene, &name, (T::TYPE, value.into_data()));
     1
 }
@@ -80,7 +79,7 @@ macro_rules! signals {
         $taken:ty, $given:ty, |$v:ident| $store:expr, |$s:pat_param| $load:expr;)*) => { $(
         /// Sets a signal.
         ///
-        /// @param signalName letters, digits, `_` and `.`
+        /// @param signalName a text without spaces
         /// @param signalValue the new value
         /// @return result 1
         #[api($set_name)]
@@ -129,7 +128,7 @@ signals! {
 fn get_signal_name(cx: &Cx, signal_index: Number, signal_type: Number) -> Result<Option<String>> {
     let kind = usize::try_from(signal_type.0)
         .ok()
-        .and_then(|at| KINDS.get(at));
+        .and_then(|at| OLD_SIGNALS.get(at));
     let (Some(kind), Ok(index)) = (kind, usize::try_from(signal_index.0)) else {
         return Ok(None);
     };

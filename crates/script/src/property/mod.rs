@@ -24,6 +24,7 @@ use types::{
     scene, script, shape, view,
 };
 
+pub use stored::OLD_SIGNALS;
 pub use table::{
     Class, Row, app_class, flags, mesh_class, object_class, scene_class, script_class,
 };

@@ -6,12 +6,22 @@ use crate::error::{ApiError, ApiResult};
 use crate::host::Script;
 use scene::{CustomData, Data, Edit, Handle, Holder, Namespace, ValueType};
 
+/// What the names of signals begin with that the older functions set: integers, floats, texts, doubles.
+pub const OLD_SIGNALS: [&str; 4] = ["ILEGACY.", "FLEGACY.", "SLEGACY.", "DLEGACY."];
+
 /// Whether a new property may have that name.
 pub(crate) fn is_valid_name(name: &str) -> bool {
     !name.is_empty()
         && name
             .bytes()
             .all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.'))
+}
+
+/// Whether a new signal may have that name. Those of the older functions are texts without spaces, such as `/blueArm_executedMovId`.
+fn is_valid_signal(name: &str) -> bool {
+    let old_name = OLD_SIGNALS.iter().find_map(|kind| name.strip_prefix(kind));
+    is_valid_name(name)
+        || old_name.is_some_and(|old| !old.contains(|c: char| c.is_whitespace() || c.is_control()))
 }
 
 impl PropertyTarget {
@@ -137,7 +147,11 @@ impl Sim {
         (ty, value): (ValueType, Data),
         writer: &Script,
     ) -> ApiResult<()> {
-        if !is_valid_name(name) {
+        let is_valid = match namespace {
+            Namespace::Signal => is_valid_signal(name),
+            Namespace::CustomData => is_valid_name(name),
+        };
+        if !is_valid {
             return Err(ApiError::PropertyName);
         }
         let holder = target.holder().ok_or(ApiError::UnknownProperty)?;
