@@ -168,3 +168,19 @@ fn motions_are_checked_as_closely_as_the_original_does() {
     let square = of(Component::Real(bounds(2, 1.0)));
     assert_eq!(square.parts(&[-0.5, 0.0], &[0.5, 0.0], 0.01), 36);
 }
+
+#[test]
+fn rotations_lie_on_the_short_way_whatever_the_sign_of_their_quaternions() {
+    let rotation = of(Component::Rotation);
+    let about_z = |angle: f64| [0.0, 0.0, (0.5 * angle).sin(), (0.5 * angle).cos()];
+    let (from, to) = (about_z(0.0), about_z(FRAC_PI_4));
+    let same_as_to = to.map(|part| -part);
+    for end in [to, same_as_to] {
+        let between = rotation.interpolate(&from, &end, 0.25);
+        let expected = about_z(0.25 * FRAC_PI_4);
+        assert!(
+            between.iter().zip(expected).all(|(a, b)| near(*a, b)),
+            "{between:?}"
+        );
+    }
+}
