@@ -186,6 +186,16 @@ mod tests {
     }
 
     #[test]
+    fn a_motion_at_a_velocity_ends_at_rest_too() {
+        let (mut scene, handle) = slider();
+        scene
+            .set_joint_target_velocity(handle, 0.0, &[], Some(0.1))
+            .unwrap();
+        scene.step_joint(handle, step(0.01, 0.0, 0.0)).unwrap();
+        assert_eq!(joint(&scene, handle).motion, None);
+    }
+
+    #[test]
     fn a_step_stays_within_the_limits_and_nowhere_is_no_position() {
         let (mut scene, handle) = slider();
         scene.set_joint_target_position(handle, 3.0, &[]).unwrap();

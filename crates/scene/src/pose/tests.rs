@@ -79,6 +79,18 @@ fn poses_are_read_in_any_frame() {
     is_at(read(Frame::Object(tip), false), [0.0; 3]);
 }
 
+/// Also for an object that hangs on something else.
+#[test]
+fn a_joint_stands_for_its_moving_side() {
+    let (mut scene, slider, _) = scene();
+    let other = dummy(&mut scene);
+    let place = scene.world_pose(slider).unwrap();
+    scene.set_world_pose(other, place).unwrap();
+    let seen = |base| scene.pose_in(other, Frame::Object(slider), base).unwrap();
+    is_at(seen(false), [0.0, 0.0, -0.25]);
+    is_at(seen(true), [0.0; 3]);
+}
+
 #[test]
 fn poses_are_set_in_any_frame() {
     let (mut scene, slider, tip) = scene();
