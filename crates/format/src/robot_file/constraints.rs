@@ -161,3 +161,73 @@ impl Import<'_> {
         self.scene.link_dummies(tip, Some(target))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use permissions::Permissions;
+
+    use super::*;
+    use crate::robot_file::{RobotFile, RobotImportOptions};
+    use scene::Scene;
+
+    /// A chain of links, each of which hangs on a joint about x.
+    const CHAIN: &str = "<worldbody><body name='a'><geom size='0.1'/>
+        <body name='b'><joint name='one' axis='1 0 0'/><geom size='0.1'/>
+        <body name='c'><joint name='two' axis='1 0 0'/><geom size='0.1'/>
+        <body name='d'><joint name='three' axis='1 0 0'/><geom size='0.1'/></body></body></body></body></worldbody>";
+
+    fn imported(equalities: &str) -> Scene {
+        let text = format!("<mujoco>{CHAIN}<equality>{equalities}</equality></mujoco>");
+        let (format, path) = (RobotFormat::Mjcf, Path::new("/nowhere/robot.xml"));
+        let permissions = Permissions::none();
+        let file = RobotFile::parse(text.as_bytes(), format, path, None, &permissions)
+            .expect("it is a robot");
+        let mut scene = Scene::new();
+        file.add_to(&mut scene, RobotImportOptions::KEEP_POSITION)
+            .expect("there are handles enough");
+        scene
+    }
+
+    fn joint(scene: &Scene, name: &str) -> Handle {
+        let named = |object: &&scene::Object| object.alias() == name;
+        scene
+            .objects()
+            .find(named)
+            .expect("it was imported")
+            .handle()
+    }
+
+    #[test]
+    fn a_chain_of_bound_joints_adds_up_factors_and_offsets() {
+        let mut scene = imported(
+            "<joint joint1='two' joint2='one' polycoef='0.1 2 0 0 0'/>
+             <joint joint1='three' joint2='two' polycoef='-0.05 -1 0 0 0'/>",
+        );
+        let [one, two, three] = ["one", "two", "three"].map(|name| joint(&scene, name));
+        scene
+            .modify_joint(one, |joint| joint.set_mode(JointMode::Kinematic))
+            .expect("it is a joint");
+        scene.set_joint_position(one, 0.3).expect("it is a joint");
+        let position = |handle| {
+            scene
+                .object(handle)
+                .and_then(|o| Ok(o.joint()?.position))
+                .expect("it is a joint")
+        };
+        assert!((position(two) - 0.7).abs() < 1e-12, "{}", position(two));
+        assert!(
+            (position(three) + 0.75).abs() < 1e-12,
+            "{}",
+            position(three)
+        );
+    }
+
+    #[test]
+    fn curves_are_not_imported() {
+        let scene = imported("<joint joint1='two' joint2='one' polycoef='0.1 2 1 0 0'/>");
+        let two = scene.object(joint(&scene, "two")).expect("it is there");
+        assert_eq!(two.joint().expect("it is a joint").dependency, None);
+    }
+}

@@ -47,12 +47,7 @@ impl Sim {
         let Some(motion) = joint.motion else {
             return Ok(());
         };
-        let step = match motion {
-            JointMotion::ToPosition => step_to_position(joint, dt),
-            JointMotion::AtVelocity { initial } => {
-                step_at_velocity(joint, initial.unwrap_or(joint.velocity), dt)
-            }
-        };
+        let step = profile_step(joint, motion, dt);
         scene.step_joint(handle, step)
     }
 
@@ -101,6 +96,16 @@ fn step_of(planned: Option<(f64, f64, f64)>) -> JointStep {
         immobile: false,
     };
     planned.map_or(AT_REST, moved)
+}
+
+/// The step of a joint that no script moves.
+fn profile_step(joint: &Joint, motion: JointMotion, dt: f64) -> JointStep {
+    match motion {
+        JointMotion::ToPosition => step_to_position(joint, dt),
+        JointMotion::AtVelocity { initial } => {
+            step_at_velocity(joint, initial.unwrap_or(joint.velocity), dt)
+        }
+    }
 }
 
 fn step_to_position(joint: &Joint, dt: f64) -> JointStep {
@@ -183,5 +188,97 @@ fn read_step(answer: &Data) -> JointStep {
         velocity: number(["vel", "velocity"]).unwrap_or(0.0),
         accel: number(["accel", "acceleration"]).unwrap_or(0.0),
         immobile: answer.field("immobile").is_some_and(Data::truthy),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use scene::joint::{JointMode, JointType};
+
+    use super::*;
+
+    const DT: f64 = 0.05;
+
+    /// A joint at rest whose target is `error` away.
+    fn joint(joint_type: JointType, error: f64) -> Joint {
+        Joint {
+            target_position: error,
+            ..Joint::new(joint_type, JointMode::Kinematic)
+        }
+    }
+
+    #[test]
+    fn a_joint_has_arrived_within_a_hundredth_of_a_degree_or_a_tenth_of_a_millimetre() {
+        let degree = 1_f64.to_radians();
+        for (joint_type, error, has_arrived) in [
+            (JointType::Revolute, 0.0099 * degree, true),
+            (JointType::Revolute, -0.0099 * degree, true),
+            (JointType::Revolute, 0.0101 * degree, false),
+            (JointType::Revolute, 0.5 * degree, false),
+            (JointType::Prismatic, 0.99e-4, true),
+            (JointType::Prismatic, -1.01e-4, false),
+            (JointType::Prismatic, 5e-3, false),
+        ] {
+            let step = profile_step(&joint(joint_type, error), JointMotion::ToPosition, DT);
+            assert_eq!(step == AT_REST, has_arrived, "{joint_type:?} {error}");
+            assert!(has_arrived || step.position.is_some_and(|to| to * error > 0.0));
+        }
+    }
+
+    #[test]
+    fn a_joint_that_moves_through_its_target_has_not_arrived() {
+        let moving = Joint {
+            velocity: 0.1,
+            ..joint(JointType::Prismatic, 0.0)
+        };
+        assert!(profile_step(&moving, JointMotion::ToPosition, DT) != AT_REST);
+        let accelerated = Joint {
+            accel: 0.1,
+            ..joint(JointType::Prismatic, 0.0)
+        };
+        assert!(profile_step(&accelerated, JointMotion::ToPosition, DT) != AT_REST);
+    }
+
+    /// With a constant jerk j from rest: v = v0 + j t^2 / 2, and x = v0 t + j t^3 / 6.
+    #[test]
+    fn a_motion_at_a_velocity_begins_with_the_initial_velocity_if_there_is_one() {
+        let slider = Joint {
+            velocity: 0.2,
+            target_velocity: 10.0,
+            max_accel: 100.0,
+            max_jerk: 6.0,
+            ..joint(JointType::Prismatic, 0.0)
+        };
+        for (initial, begin) in [(None, 0.2), (Some(0.5), 0.5), (Some(0.0), 0.0)] {
+            let step = profile_step(&slider, JointMotion::AtVelocity { initial }, DT);
+            let expected = (begin * DT + DT.powi(3), begin + 3.0 * DT * DT, 6.0 * DT);
+            let position = step.position.unwrap_or(f64::NAN);
+            assert!((position - expected.0).abs() < 1e-12, "{step:?}");
+            assert!((step.velocity - expected.1).abs() < 1e-12, "{step:?}");
+            assert!((step.accel - expected.2).abs() < 1e-9, "{step:?}");
+        }
+    }
+
+    #[test]
+    fn a_velocity_that_is_reached_is_kept_and_zero_is_the_end() {
+        let at = |velocity: f64| Joint {
+            position: 0.1,
+            velocity,
+            target_velocity: velocity,
+            ..joint(JointType::Prismatic, 0.0)
+        };
+        let motion = JointMotion::AtVelocity { initial: None };
+        let step = profile_step(&at(0.2), motion, DT);
+        assert_eq!((step.position, step.velocity), (Some(0.1 + 0.2 * DT), 0.2));
+        assert_eq!(profile_step(&at(0.0), motion, DT), AT_REST);
+    }
+
+    #[test]
+    fn without_possible_limits_a_joint_comes_to_rest() {
+        let stuck = Joint {
+            max_accel: 0.0,
+            ..joint(JointType::Prismatic, 0.3)
+        };
+        assert_eq!(profile_step(&stuck, JointMotion::ToPosition, DT), AT_REST);
     }
 }
