@@ -120,7 +120,11 @@ pub(super) fn vision(call: &mut Call<'_>) -> Outcome {
         return Err(Failure::Silent);
     };
     call.out.byte(state.to_le_bytes()[0]);
-    let packets: Vec<Vec<f32>> = packets.iter().map(floats).collect();
+    let mut packets: Vec<Vec<f32>> = packets.iter().map(floats).collect();
+    // Scripts get empty packets besides those there are.
+    while packets.last().is_some_and(Vec::is_empty) {
+        packets.pop();
+    }
     call.write_list(
         &packets
             .iter()
