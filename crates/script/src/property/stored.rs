@@ -17,11 +17,14 @@ pub(crate) fn is_valid_name(name: &str) -> bool {
             .all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.'))
 }
 
-/// Whether a new signal may have that name. Those of the older functions are texts without spaces, such as `/blueArm_executedMovId`.
-fn is_valid_signal(name: &str) -> bool {
-    let old_name = OLD_SIGNALS.iter().find_map(|kind| name.strip_prefix(kind));
-    is_valid_name(name)
-        || old_name.is_some_and(|old| !old.contains(|c: char| c.is_whitespace() || c.is_control()))
+/// Whether custom data or a signal may have that name. Signals of the older functions are texts without spaces, such as
+/// `/blueArm_executedMovId`.
+fn may_be_named(namespace: Namespace, name: &str) -> bool {
+    let is_old_signal = || {
+        let old_name = OLD_SIGNALS.iter().find_map(|kind| name.strip_prefix(kind));
+        old_name.is_some_and(|old| !old.contains(|c: char| c.is_whitespace() || c.is_control()))
+    };
+    is_valid_name(name) || namespace == Namespace::Signal && is_old_signal()
 }
 
 impl PropertyTarget {
@@ -128,7 +131,7 @@ impl Sim {
         ty: ValueType,
     ) -> ApiResult<Data> {
         // Tags of raw custom data may have other characters; they are no properties then.
-        if !is_valid_name(name) {
+        if !may_be_named(namespace, name) {
             return Err(ApiError::UnknownProperty);
         }
         let holder = target.holder().ok_or(ApiError::UnknownProperty)?;
@@ -147,11 +150,7 @@ impl Sim {
         (ty, value): (ValueType, Data),
         writer: &Script,
     ) -> ApiResult<()> {
-        let is_valid = match namespace {
-            Namespace::Signal => is_valid_signal(name),
-            Namespace::CustomData => is_valid_name(name),
-        };
-        if !is_valid {
+        if !may_be_named(namespace, name) {
             return Err(ApiError::PropertyName);
         }
         let holder = target.holder().ok_or(ApiError::UnknownProperty)?;
