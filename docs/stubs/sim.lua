@@ -3235,7 +3235,7 @@ function sim.setColorProperty(target, propertyName, propertyState, options) end
 
 --- Sets a signal.
 ---@deprecated sim.setFloatProperty(sim.handle_scene, 'signal.signalName')
----@param signalName string letters, digits, `_` and `.`
+---@param signalName string a text without spaces
 ---@param signalValue number the new value
 ---@return integer result 1
 function sim.setDoubleSignal(signalName, signalValue) end
@@ -3322,7 +3322,7 @@ function sim.setFloatParameter(parameter, parameterValue) end
 function sim.setFloatProperty(target, propertyName, propertyState, options) end
 
 --- Sets a signal.
----@param signalName string letters, digits, `_` and `.`
+---@param signalName string a text without spaces
 ---@param signalValue number the new value
 ---@return integer result 1
 function sim.setFloatSignal(signalName, signalValue) end
@@ -3382,7 +3382,7 @@ function sim.setInt32Param(parameter, parameterValue) end
 function sim.setInt32Parameter(parameter, parameterValue) end
 
 --- Sets a signal.
----@param signalName string letters, digits, `_` and `.`
+---@param signalName string a text without spaces
 ---@param signalValue integer the new value
 ---@return integer result 1
 function sim.setInt32Signal(signalName, signalValue) end
@@ -3410,7 +3410,7 @@ function sim.setIntProperty(target, propertyName, propertyState, options) end
 
 --- Sets a signal.
 ---@deprecated sim.setIntProperty(sim.handle_scene, 'signal.signalName')
----@param signalName string letters, digits, `_` and `.`
+---@param signalName string a text without spaces
 ---@param signalValue integer the new value
 ---@return integer result 1
 function sim.setIntegerSignal(signalName, signalValue) end
@@ -3870,7 +3870,7 @@ function sim.setStringParameter(parameter, parameterValue) end
 function sim.setStringProperty(target, propertyName, propertyState, options) end
 
 --- Sets a signal.
----@param signalName string letters, digits, `_` and `.`
+---@param signalName string a text without spaces
 ---@param signalValue string|table the new value
 ---@return integer result 1
 function sim.setStringSignal(signalName, signalValue) end

@@ -4697,7 +4697,7 @@ class _sim:
     def setDoubleSignal(self, signalName: str, signalValue: float, /) -> int:
         """Sets a signal.
         Deprecated: use sim.setFloatProperty(sim.handle_scene, 'signal.signalName').
-        signalName: letters, digits, `_` and `.`
+        signalName: a text without spaces
         signalValue: the new value
         """
     def setEngineBoolParam(self, paramId: int, objectHandle: int, boolParam: bool, /) -> int:
@@ -4775,7 +4775,7 @@ class _sim:
         """
     def setFloatSignal(self, signalName: str, signalValue: float, /) -> int:
         """Sets a signal.
-        signalName: letters, digits, `_` and `.`
+        signalName: a text without spaces
         signalValue: the new value
         """
     def setGraphStreamTransformation(self, graphHandle: int, streamId: int, trType: int, mult: float | None = ..., off: float | None = ..., movAvgPeriod: int | None = ..., /) -> None:
@@ -4830,7 +4830,7 @@ class _sim:
         """
     def setInt32Signal(self, signalName: str, signalValue: int, /) -> int:
         """Sets a signal.
-        signalName: letters, digits, `_` and `.`
+        signalName: a text without spaces
         signalValue: the new value
         """
     def setIntArray2Property(self, target: int, propertyName: str, propertyState: Sequence[int], options: Mapping[Any, Any] | None = ..., /) -> None:
@@ -4857,7 +4857,7 @@ class _sim:
     def setIntegerSignal(self, signalName: str, signalValue: int, /) -> int:
         """Sets a signal.
         Deprecated: use sim.setIntProperty(sim.handle_scene, 'signal.signalName').
-        signalName: letters, digits, `_` and `.`
+        signalName: a text without spaces
         signalValue: the new value
         """
     def setJointDependency(self, jointHandle: int, masterJointHandle: int, offset: float, multCoeff: float, /) -> int:
@@ -5280,7 +5280,7 @@ class _sim:
         """
     def setStringSignal(self, signalName: str, signalValue: bytes | str, /) -> int:
         """Sets a signal.
-        signalName: letters, digits, `_` and `.`
+        signalName: a text without spaces
         signalValue: the new value
         """
     def setTableProperty(self, target: int, name: str, value: Mapping[Any, Any], options: Mapping[Any, Any] | None = ..., /) -> None:

@@ -1,4 +1,4 @@
-//! The weights of an element are factors of its errors (spec: kinematics, step 4 of an iteration).
+//! The weights of an element are factors of its errors (spec: kinematics 3).
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
