@@ -350,7 +350,7 @@ mod tests {
     fn reading_and_writing_round_trip() {
         let text = "local a <const>, b = 1.5, 'x'\n".to_owned()
             + &"\n".repeat(500)
-            + &"b = b .. 'y' for i = 1, 3 do b = b .. i end\n".repeat(200)
+            + &"b = b .. 'y' for i = 1, 3 do b = b .. i end\n".repeat(30)
             + "return function(...) local t <close> = nil return b, a, nil, true, ... end\n";
         let bytes = super::super::Bytecode::compile(text.as_bytes(), "=text")
             .expect("it compiles")
