@@ -88,7 +88,7 @@ fn a_fast_contact_rebounds_by_its_restitution_and_a_slow_one_does_not() {
 #[test]
 fn a_body_before_a_floor_goes_no_farther_than_there() {
     nearly(after_contact(-1.0, 0.002, 0.0), -0.4);
-    // It does not get there in this step, and does not rebound yet.
+    // It does not get there in this step, and does not bounce back yet.
     nearly(after_contact(-0.3, 0.002, 0.0), -0.3);
     nearly(after_contact(-0.3, 0.002, 1.0), -0.3);
 }

@@ -1,13 +1,13 @@
 //! Arrays of numbers from Python: their memory is copied once, by the buffer protocol.
 //!
-//! The limited API of Python 3.10 has no `PyObject_GetBuffer`; its memoryviews tell the same.
+//! The limited API of Python 3.10 has no `PyObject_GetBuffer`; its memoryviews have the same facts.
 
 use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyMemoryView};
 use scene::Data;
 
-/// The elements of an array as its method `tolist` has them: a list, of lists if it has several dimensions. None if its memory does not tell them.
+/// The elements of an array as its method `tolist` has them: a list, of lists if it has several dimensions. None if its memory does not describe them.
 ///
 /// # Errors
 /// An unsigned number that no integer of scripts can hold.
