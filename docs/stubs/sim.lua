@@ -165,6 +165,19 @@ function sim.addParticleObject(objectType, size, density, params, lifeTime, maxI
 ---@return integer result 1
 function sim.addParticleObjectItem(particleObjectHandle, itemData) end
 
+--- Shows points, as a drawing object: V-REP's point clouds were no objects of the scene.
+---@param pageMask integer without effect
+---@param layerMask integer without effect
+---@param objectHandle integer the object the points belong to, or -1
+---@param options integer without effect
+---@param pointSize number pixels
+---@param coordinates number[] x, y, z of each, metres, in the world
+---@param defaultColors? integer[] red, green, blue, 0 to 255; other values have no effect
+---@param pointColors? integer[] without effect
+---@param pointNormals? number[] without effect
+---@return integer pointCloudHandle a drawing object: sim.removeDrawingObject removes it
+function sim.addPointCloud(pageMask, layerMask, objectHandle, options, pointSize, coordinates, defaultColors, pointColors, pointNormals) end
+
 --- Adds a reference to those an object has.
 ---@param objectHandle integer the object that refers
 ---@param referencedHandle integer the object referred to
@@ -206,6 +219,10 @@ function sim.alignShapeBB(shapeHandle, pose) end
 ---@return number pitch about the new y
 ---@return number roll about the new x
 function sim.alphaBetaGammaToYawPitchRoll(alpha, beta, gamma) end
+
+--- Marks a point to which undo goes back. There is no undo: pages of the viewer see each change by themselves.
+---@return integer result 1
+function sim.announceSceneContentChange() end
 
 --- Attaches a script that is no object to an object.
 ---@deprecated sim.createScript / sim.setObjectParent
@@ -996,6 +1013,12 @@ function sim.getConfigDistance(a, b, metric, types) end
 ---@return number[] jointPositions nothing if none was found
 function sim.getConfigForTipPose(ikGroupHandle, jointHandles, distanceThreshold, maxTimeInMs, metric, collisionPairs, jointOptions, lowLimits, ranges) end
 
+--- The configuration of an object and of those below it.
+---@deprecated
+---@param objectHandle integer its root
+---@return string|table configuration for sim.setConfigurationTree
+function sim.getConfigurationTree(objectHandle) end
+
 --- A contact of the last dynamics call. Four empty tables when there is none with that index.
 ---@param dynamicPass integer index of the sub-step, from 0, or sim.handle_all
 ---@param objectHandle integer a shape, or sim.handle_all; the shape then comes first in the result
@@ -1369,6 +1392,10 @@ function sim.getNamedInt32Param(name) end
 ---@return string stringParam nothing if there is none
 function sim.getNamedStringParam(paramName) end
 
+--- What the mouse does.
+---@return integer navigationMode as sim.setNavigationMode set it, first sim.navigation_camerashift
+function sim.getNavigationMode() end
+
 --- Handle of the object at a path.
 ---@param path string /a/b from the top, ./a below this script's object, .. for the parent, : for the model
 ---@param options? table index: take another match; proxy: object to start from; noError: -1 instead of an error
@@ -1412,6 +1439,12 @@ function sim.getObjectChildPose(objectHandle) end
 ---@param colorComponent integer sim.colorcomponent_*
 ---@return number[] rgbData red, green, blue; nothing when the object has no such colour
 function sim.getObjectColor(objectHandle, index, colorComponent) end
+
+--- The configuration of one object.
+---@deprecated
+---@param objectHandle integer the object
+---@return string|table configuration for sim.setObjectConfiguration
+function sim.getObjectConfiguration(objectHandle) end
 
 --- Parameter of an object that is a list of numbers.
 ---
@@ -1606,6 +1639,10 @@ function sim.getOctreeVoxels(octreeHandle) end
 ---@param relativeDistance number as in sim.getPositionOnPath
 ---@return number[] eulerAngles alpha, beta, gamma, radians
 function sim.getOrientationOnPath(pathHandle, relativeDistance) end
+
+--- The page of views that is shown.
+---@return integer pageIndex as sim.setPage set it, first 0
+function sim.getPage() end
 
 --- Configuration at a distance along a path.
 ---@param path number[] flat table of points
@@ -2786,6 +2823,11 @@ function sim.readVisionSensor(sensorHandle) end
 ---@return string dataName as sent
 function sim.receiveData(dataHeader, dataName, ...) end
 
+--- Draws the dialogs again. There are none.
+---@param refreshDegree integer how many of them
+---@return integer result 0
+function sim.refreshDialogs(refreshDegree) end
+
 --- Accepted for scripts that describe themselves to the original's editor.
 ---@param moduleName string ignored
 ---@param ... any ignored
@@ -3233,6 +3275,11 @@ function sim.setCollectionName(collectionHandle, collectionName) end
 ---@param options? table noError: no error when that fails
 function sim.setColorProperty(target, propertyName, propertyState, options) end
 
+--- Restores the configuration of a tree: poses of the objects relative to their parents, positions of the joints.
+---@deprecated
+---@param configuration string|table from sim.getConfigurationTree
+function sim.setConfigurationTree(configuration) end
+
 --- Sets a signal.
 ---@deprecated sim.setFloatProperty(sim.handle_scene, 'signal.signalName')
 ---@param signalName string a text without spaces
@@ -3529,6 +3576,10 @@ function sim.setNamedInt32Param(name, value) end
 ---@return integer result 1
 function sim.setNamedStringParam(paramName, stringParam) end
 
+--- Chooses what the mouse does. In the viewer everybody chooses their own: the mode is only kept.
+---@param navigationMode integer sim.navigation_*
+function sim.setNavigationMode(navigationMode) end
+
 --- Renames an object. Everything but letters, digits and underscores becomes an underscore.
 ---@param objectHandle integer the object
 ---@param objectAlias string|table need not be unique
@@ -3546,6 +3597,11 @@ function sim.setObjectChildPose(objectHandle, pose) end
 ---@param rgbData number[] red, green, blue
 ---@return boolean result false when the object has no such colour
 function sim.setObjectColor(objectHandle, index, colorComponent, rgbData) end
+
+--- Restores the configuration of one object.
+---@deprecated
+---@param configuration string|table from sim.getObjectConfiguration
+function sim.setObjectConfiguration(configuration) end
 
 --- Sets a parameter of an object that is a list of numbers. No object has one that can be set, so this does nothing.
 ---@param objectHandle integer the object
@@ -3672,6 +3728,10 @@ function sim.setObjectStringParam(objectHandle, parameterID, parameter) end
 ---@param parameterID integer sim.dummystringparam_*, sim.shapestringparam_*
 ---@param parameter string|table the text
 function sim.setObjectStringParameter(objectHandle, parameterID, parameter) end
+
+--- Chooses the page of views that is shown. There are none here: the number is only kept.
+---@param pageIndex integer of the page
+function sim.setPage(pageIndex) end
 
 --- Moves the position on a path of V-REP, and the dummies that move with it.
 ---@param pathHandle integer the path

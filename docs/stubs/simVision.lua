@@ -81,18 +81,18 @@ function module.colorSegmentationOnWorkImg(visionSensorHandle, maxColorColorDist
 ---@param returnColorData? boolean returns the colours of the points in the first buffer, if something is there
 ---@return boolean trigger false
 ---@return string|table packedDataPacket columns, rows, then of each point, row by row: x, y, z, distance
----@return string|table colorData red, green and blue of each point as bytes, and three more
+---@return string|table colorData red, green and blue of each point as bytes
 function module.coordinatesFromWorkImg(visionSensorHandle, xyPointCount, evenlySpacedInAngularSpace, returnColorData) end
 
 --- Creates a laser scanner of four vision sensors, whose scripts return the packets of simVision.velodyneDataFromWorkImg. Points
 --- are not displayed.
 ---@param visionSensorHandles integer[] front, left, back, right; they are handled explicitly
 ---@param frequency number turns per second
----@param options? integer 4: results are angles and distance; other options are of the display
+---@param options? integer 2: the point cloud holds the points of the last call only, 4: results are angles and distance; others are of the display
 ---@param pointSize? integer without effect
 ---@param coloring_closeFarDist? number[] without effect
 ---@param displayScalingFactor? number without effect
----@param pointCloud? integer -1: others are not supported
+---@param pointCloud? integer a point cloud that takes the points, or -1
 ---@return integer velodyneHandle
 function module.createVelodyneHDL64E(visionSensorHandles, frequency, options, pointSize, coloring_closeFarDist, displayScalingFactor, pointCloud) end
 
@@ -100,11 +100,11 @@ function module.createVelodyneHDL64E(visionSensorHandles, frequency, options, po
 --- are not displayed.
 ---@param visionSensorHandles integer[] front, left, back, right; they are handled explicitly
 ---@param frequency number turns per second
----@param options? integer 4: results are angles and distance; other options are of the display
+---@param options? integer 2: the point cloud holds the points of the last call only, 4: results are angles and distance; others are of the display
 ---@param pointSize? integer without effect
 ---@param coloring_closeFarDist? number[] without effect
 ---@param displayScalingFactor? number without effect
----@param pointCloud? integer -1: others are not supported
+---@param pointCloud? integer a point cloud that takes the points, or -1
 ---@return integer velodyneHandle
 function module.createVelodyneVPL16(visionSensorHandles, frequency, options, pointSize, coloring_closeFarDist, displayScalingFactor, pointCloud) end
 
@@ -293,7 +293,7 @@ function module.uniformImgToWorkImg(visionSensorHandle, color) end
 ---@param returnColorData? boolean returns the colours of the points in the first buffer, if something is there
 ---@return boolean trigger false
 ---@return string|table packedDataPacket columns, rows, then of each point, column by column: x, y, z, distance
----@return string|table colorData red, green and blue of each point as bytes, and three more
+---@return string|table colorData red, green and blue of each point as bytes
 function module.velodyneDataFromWorkImg(visionSensorHandle, xyPointCount, vAngle, returnColorData) end
 
 --- Mirrors the rows of the work image.

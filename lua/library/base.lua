@@ -1,8 +1,8 @@
 --[[
 Bootstrap of a fresh Lua state; runs once, before any user code.
 
-Does: the wrapped standard functions that are no native ones (require, pcall, assert), arithmetic with texts, and the loading of what a script
-may use but usually does not.
+Does: the wrapped standard functions that are no native ones (require, pcall, assert), and the loading of what a script may use but usually does
+not.
 Returns the function that does it. What stands for those functions until then is native: see stand_ins.rs and implicit.rs.
 Does not: hold any of those functions (swanilda/display.lua, functional/functions.lua, ...), nor the sim table.
 
@@ -55,7 +55,11 @@ end
 
 function require(name)
     if math.type(name) == 'integer' and package.loaded.sim then return quietRequire('swanilda.modload').fromScript(name) end
-    local module = quietRequire(name == 'sim.Object' and 'swanilda.object' or name)
+    local module
+    if type(name) == 'string' and package.loaded[name] == nil and coroutine.isyieldable() and getYieldAllowed() then
+        module = quietRequire('swanilda.modload').inThread(name)
+    end
+    module = module or quietRequire(name == 'sim.Object' and 'swanilda.object' or name)
     if proxies and not proxies.loading and removeProxies(name) then
         if proxies.implicit then quietRequire('swanilda.implicit').forbid(name) end
         proxies = nil
@@ -67,13 +71,6 @@ end
 -- For other files of the library.
 rawset(_ENV, '_quietRequire', quietRequire)
 rawset(_ENV, '_randomseed', math.randomseed)
-
----------------------------------------------------------------- texts as numbers
-
-local texts = getmetatable('')
-for event in ('add sub mul div mod pow unm idiv band bor bxor shl shr bnot'):gmatch('%a+') do
-    texts['__' .. event] = function(a, b) return quietRequire('swanilda.arithmetic')[event](a, b) end
-end
 
 ---------------------------------------------------------------- things loaded at first use
 

@@ -2188,6 +2188,18 @@ class _sim:
         particleObjectHandle: from sim.addParticleObject
         itemData: position and target position; nil removes all
         """
+    def addPointCloud(self, pageMask: int, layerMask: int, objectHandle: int, options: int, pointSize: float, coordinates: Sequence[float], defaultColors: Sequence[int] | None = ..., pointColors: Sequence[int] | None = ..., pointNormals: Sequence[float] | None = ..., /) -> int:
+        """Shows points, as a drawing object: V-REP's point clouds were no objects of the scene.
+        pageMask: without effect
+        layerMask: without effect
+        objectHandle: the object the points belong to, or -1
+        options: without effect
+        pointSize: pixels
+        coordinates: x, y, z of each, metres, in the world
+        defaultColors: red, green, blue, 0 to 255; other values have no effect
+        pointColors: without effect
+        pointNormals: without effect
+        """
     def addReferencedHandle(self, objectHandle: int, referencedHandle: int, tag: str | None = ..., options: Mapping[Any, Any] | None = ..., /) -> None:
         """Adds a reference to those an object has.
         objectHandle: the object that refers
@@ -2221,6 +2233,9 @@ class _sim:
         alpha: about x, first
         beta: about the new y
         gamma: about the new z
+        """
+    def announceSceneContentChange(self, /) -> int:
+        """Marks a point to which undo goes back. There is no undo: pages of the viewer see each change by themselves.
         """
     def associateScriptWithObject(self, scriptHandle: int, objectHandle: int, /) -> int:
         """Attaches a script that is no object to an object.
@@ -2878,6 +2893,10 @@ class _sim:
         lowLimits: of the joints, for the search
         ranges: of the joints; 0 for their own limits
         """
+    def getConfigurationTree(self, objectHandle: int, /) -> bytes:
+        """The configuration of an object and of those below it.
+        objectHandle: its root
+        """
     def getContactInfo(self, dynamicPass: int, objectHandle: int, index: int, /) -> Any:
         """A contact of the last dynamics call. Four empty tables when there is none with that index.
         dynamicPass: index of the sub-step, from 0, or sim.handle_all
@@ -3178,6 +3197,9 @@ class _sim:
         """A named parameter: from the command line, or set by a script.
         paramName: its name
         """
+    def getNavigationMode(self, /) -> int:
+        """What the mouse does.
+        """
     def getObject(self, path: str, options: Mapping[Any, Any] | None = ..., /) -> int:
         """Handle of the object at a path.
         path: /a/b from the top, ./a below this script's object, .. for the parent, : for the model
@@ -3213,6 +3235,10 @@ class _sim:
         objectHandle: the object
         index: which mesh of a shape, from 0
         colorComponent: sim.colorcomponent_*
+        """
+    def getObjectConfiguration(self, objectHandle: int, /) -> bytes:
+        """The configuration of one object.
+        objectHandle: the object
         """
     def getObjectFloatArrayParam(self, objectHandle: int, parameterID: int, /) -> list[float]:
         """Parameter of an object that is a list of numbers.
@@ -3369,6 +3395,9 @@ class _sim:
         """Orientation of a point of a path of V-REP in the world.
         pathHandle: the path
         relativeDistance: as in sim.getPositionOnPath
+        """
+    def getPage(self, /) -> int:
+        """The page of views that is shown.
         """
     def getPathInterpolatedConfig(self, path: Sequence[float], lengths: Sequence[float], t: float, method: Mapping[Any, Any] | None = ..., types: Sequence[int] | None = ..., /) -> list[float]:
         """Configuration at a distance along a path.
@@ -4313,6 +4342,10 @@ class _sim:
         dataHeader: as sent
         dataName: as sent
         """
+    def refreshDialogs(self, refreshDegree: int, /) -> int:
+        """Draws the dialogs again. There are none.
+        refreshDegree: how many of them
+        """
     def registerCodeEditorInfos(self, moduleName: str, /, *args: Any) -> None:
         """Accepted for scripts that describe themselves to the original's editor.
         moduleName: ignored
@@ -4694,6 +4727,10 @@ class _sim:
         propertyState: the new value
         options: noError: no error when that fails
         """
+    def setConfigurationTree(self, configuration: bytes | str, /) -> None:
+        """Restores the configuration of a tree: poses of the objects relative to their parents, positions of the joints.
+        configuration: from sim.getConfigurationTree
+        """
     def setDoubleSignal(self, signalName: str, signalValue: float, /) -> int:
         """Sets a signal.
         Deprecated: use sim.setFloatProperty(sim.handle_scene, 'signal.signalName').
@@ -4964,6 +5001,10 @@ class _sim:
         paramName: its name
         stringParam: the new value
         """
+    def setNavigationMode(self, navigationMode: int, /) -> None:
+        """Chooses what the mouse does. In the viewer everybody chooses their own: the mode is only kept.
+        navigationMode: sim.navigation_*
+        """
     def setObjectAlias(self, objectHandle: int, objectAlias: bytes | str, /) -> None:
         """Renames an object. Everything but letters, digits and underscores becomes an underscore.
         objectHandle: the object
@@ -4980,6 +5021,10 @@ class _sim:
         index: which mesh of a shape, from 0
         colorComponent: sim.colorcomponent_*
         rgbData: red, green, blue
+        """
+    def setObjectConfiguration(self, configuration: bytes | str, /) -> None:
+        """Restores the configuration of one object.
+        configuration: from sim.getObjectConfiguration
         """
     def setObjectFloatArrayParam(self, objectHandle: int, parameterID: int, params: Sequence[float], /) -> None:
         """Sets a parameter of an object that is a list of numbers. No object has one that can be set, so this does nothing.
@@ -5096,6 +5141,10 @@ class _sim:
         objectHandle: the object
         parameterID: sim.dummystringparam_*, sim.shapestringparam_*
         parameter: the text
+        """
+    def setPage(self, pageIndex: int, /) -> None:
+        """Chooses the page of views that is shown. There are none here: the number is only kept.
+        pageIndex: of the page
         """
     def setPathPosition(self, pathHandle: int, position: float, /) -> int:
         """Moves the position on a path of V-REP, and the dummies that move with it.
@@ -9401,22 +9450,22 @@ class _simVision:
         are not displayed.
         visionSensorHandles: front, left, back, right; they are handled explicitly
         frequency: turns per second
-        options: 4: results are angles and distance; other options are of the display
+        options: 2: the point cloud holds the points of the last call only, 4: results are angles and distance; others are of the display
         pointSize: without effect
         coloring_closeFarDist: without effect
         displayScalingFactor: without effect
-        pointCloud: -1: others are not supported
+        pointCloud: a point cloud that takes the points, or -1
         """
     def createVelodyneVPL16(self, visionSensorHandles: Sequence[int], frequency: float, options: int | None = ..., pointSize: int | None = ..., coloring_closeFarDist: Sequence[float] | None = ..., displayScalingFactor: float | None = ..., pointCloud: int | None = ..., /) -> int:
         """Creates a laser scanner of four vision sensors, whose scripts return the packets of simVision.velodyneDataFromWorkImg. Points
         are not displayed.
         visionSensorHandles: front, left, back, right; they are handled explicitly
         frequency: turns per second
-        options: 4: results are angles and distance; other options are of the display
+        options: 2: the point cloud holds the points of the last call only, 4: results are angles and distance; others are of the display
         pointSize: without effect
         coloring_closeFarDist: without effect
         displayScalingFactor: without effect
-        pointCloud: -1: others are not supported
+        pointCloud: a point cloud that takes the points, or -1
         """
     def destroyVelodyneHDL64E(self, velodyneHandle: int, /) -> int:
         """Removes a laser scanner.

@@ -106,6 +106,7 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Graphs", display::graph::FUNCTIONS),
     ("Drawing objects", display::drawing::FUNCTIONS),
     ("Display", display::views::FUNCTIONS),
+    ("Display", display::window::FUNCTIONS),
     ("Banners and views of cameras", display::banners::FUNCTIONS),
 ];
 

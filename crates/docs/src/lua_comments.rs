@@ -5,6 +5,7 @@ use lua_library::FILES;
 
 /// The category of each file of `lua/library/sim`.
 const CATEGORIES: &[(&str, &str)] = &[
+    ("sim/configuration", "Old names"),
     ("sim/data", "Custom data"),
     ("sim/deprecated", "Old names"),
     ("sim/motion", "Motion"),

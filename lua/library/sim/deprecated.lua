@@ -160,6 +160,30 @@ function M.getSettingInt32(key) return math.tointeger(tonumber(setting(key))) en
 -- @return value nil if there is none
 function M.getSettingString(key) return setting(key) end
 
+---------------------------------------------------------------- drawing
+
+--- Shows points, as a drawing object: V-REP's point clouds were no objects of the scene.
+-- @api int pointCloudHandle = sim.addPointCloud(int pageMask, int layerMask, int objectHandle, int options, float pointSize, float[] coordinates, int[] defaultColors = {}, int[] pointColors = {}, float[] pointNormals = {})
+-- @param pageMask without effect
+-- @param layerMask without effect
+-- @param objectHandle the object the points belong to, or -1
+-- @param options without effect
+-- @param pointSize pixels
+-- @param coordinates x, y, z of each, metres, in the world
+-- @param defaultColors red, green, blue, 0 to 255; other values have no effect
+-- @param pointColors without effect
+-- @param pointNormals without effect
+-- @return pointCloudHandle a drawing object: sim.removeDrawingObject removes it
+function M.addPointCloud(pageMask, layerMask, objectHandle, options, pointSize, coordinates, defaultColors)
+    local c = defaultColors or {}
+    local colour = c[3] and {c[1] / 255, c[2] / 255, c[3] / 255} or nil
+    local drawing = sim.addDrawingObject(sim.drawing_points, pointSize, 0, objectHandle, #coordinates // 3, colour)
+    for i = 1, #coordinates - 2, 3 do
+        sim.addDrawingObjectItem(drawing, {coordinates[i], coordinates[i + 1], coordinates[i + 2]})
+    end
+    return drawing
+end
+
 ---------------------------------------------------------------- parameters of objects, with a result before the value
 
 --- A floating-point parameter of an object.

@@ -26,6 +26,8 @@ local BITWISE = {
 
 local M = {}
 
+local CALLER <const> = 3 -- the line with the operator; between is the native function that loads this file
+
 local function numberOf(value) return (type(value) == 'string' or type(value) == 'number') and tonumber(value) or nil end
 
 -- The other operand's own, if it is no text.
@@ -41,7 +43,7 @@ for event, compute in pairs(ARITHMETIC) do
         if x and y then return compute(x + 0.0, y + 0.0) end
         local own = ownOperation(event, a, b)
         if own then return own(a, b) end
-        error(("attempt to %s a '%s' with a '%s'"):format(event, type(a), type(b)), 2)
+        error(("attempt to %s a '%s' with a '%s'"):format(event, type(a), type(b)), CALLER)
     end
 end
 
@@ -50,9 +52,9 @@ for event, compute in pairs(BITWISE) do
         local x, y = numberOf(a), numberOf(b)
         local own = not (x and y) and ownOperation(event, a, b)
         if own then return own(a, b) end
-        if not (x and y) then error(('attempt to perform bitwise operation on a %s value'):format(type(x and b or a)), 2) end
+        if not (x and y) then error(('attempt to perform bitwise operation on a %s value'):format(type(x and b or a)), CALLER) end
         x, y = math.tointeger(x), math.tointeger(y)
-        if not (x and y) then error('number has no integer representation', 2) end
+        if not (x and y) then error('number has no integer representation', CALLER) end
         return compute(x, y)
     end
 end

@@ -1,10 +1,33 @@
 --[[
-Less common ways to load code: import, rerequire, and require with the handle of a script object.
+Less common ways to load code: import, rerequire, require in a thread, and require with the handle of a script object.
 
 Does not search for files: that stays with package.searchers.
 ]]
 
 local M = {}
+
+local function loaderOf(name)
+    for _, search in ipairs(package.searchers) do
+        local loader, place = search(name)
+        if type(loader) == 'function' then return loader, place end
+    end
+end
+
+local function message(text) return text end
+
+--- Loads a module that may call sim.step while it is loaded; it is not pre-empted. nil if no module has this name.
+function M.inThread(name)
+    local loader, place = loaderOf(name)
+    if not loader then return nil end
+    setAutoYield(false)
+    local ok, module = xpcall(loader, message, name, place)
+    setAutoYield(true)
+    if not ok then error(module, 0) end
+    local loaded = package.loaded
+    if module ~= nil then loaded[name] = module end
+    if loaded[name] == nil then loaded[name] = true end
+    return loaded[name]
+end
 
 --- Runs the text of a script object as a chunk and returns its results; nothing is cached.
 function M.fromScript(handle)

@@ -7,3 +7,4 @@ pub(crate) mod graph;
 pub(crate) mod images;
 pub(crate) mod text_editor;
 pub(crate) mod views;
+pub(crate) mod window;

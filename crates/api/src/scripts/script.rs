@@ -16,6 +16,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     init_script,
     get_script,
     call_script_function,
+    call_script_function_by_type,
     execute_script_string,
     broadcast_msg,
 ];
@@ -151,11 +152,47 @@ fn call_script_function(
     };
     let function = String::from_utf8_lossy(&name);
     let script = script_of(cx, raw)?;
-    let mut results = cx.call_function(&script, &function, &arguments.0)?;
+    call(cx, &script, &function, &arguments.0)
+}
+
+/// Calls a function of another script, as scenes from before 4.8 do: by its handle, or by its type and its object, `f@/robot`.
+///
+/// @param functionName name of a global function, and the object behind an `@`
+/// @param scriptHandleOrType the script, or sim.scripttype_*
+/// @return ... what the function returned
+#[api("sim._callScriptFunction")]
+fn call_script_function_by_type(
+    cx: &mut Cx,
+    function_name: String,
+    script_handle_or_type: i64,
+    #[name("...")] arguments: Rest,
+) -> Result<Results> {
+    let (script, function) = callee(cx, script_handle_or_type, &function_name)?;
+    call(cx, &script, function, &arguments.0)
+}
+
+fn call(cx: &mut Cx, script: &Rc<Script>, function: &str, arguments: &[Data]) -> Result<Results> {
+    let mut results = cx.call_function(script, function, arguments)?;
     if results.is_empty() {
         results.push(Data::Nil);
     }
     Ok(Results(results))
+}
+
+/// The script and the name of the function of a call: `f@/robot`, or `f` alone for the main script.
+fn callee<'a>(cx: &Cx, raw: i64, name: &'a str) -> Result<(Rc<Script>, &'a str)> {
+    let by_handle = script_of(cx, raw);
+    let Some(script_type) = ScriptType::from_number(raw) else {
+        return Ok((by_handle?, name));
+    };
+    let (function, owner) = match name.split_once('@') {
+        Some((_, "lua" | "python")) => return Ok((by_handle?, name)),
+        Some(parts) => parts,
+        None if by_handle.is_ok() => return Ok((by_handle?, name)),
+        None => (name, ""),
+    };
+    let id = cx.script_by_name(script_type, owner)?;
+    Ok((script_of(cx, id)?, function))
 }
 
 /// One of the two leading arguments of a call: a name or a handle.

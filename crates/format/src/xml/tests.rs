@@ -10,6 +10,7 @@ use crate::scene_file::{Loaded, SceneFile, save};
 use crate::ttt::{File, FileResult};
 use permissions::Permissions;
 use scene::Scene;
+use scene::object::dummy::LinkType;
 
 fn read_all(bytes: &[u8], folder: Option<&Path>) -> FileResult<File> {
     read(bytes, folder, &Permissions::all())
@@ -212,6 +213,22 @@ fn changed_bytes_do_no_harm() {
 }
 
 #[track_caller]
+#[test]
+fn both_words_of_dynamic_links_are_understood() {
+    for word in ["dynLoopClosure", "dynamics_loopClosure"] {
+        let text = format!(
+            "<CoppeliaSim><filetype>simpleScene</filetype><dummy><linkType>{word}</linkType></dummy></CoppeliaSim>"
+        );
+        let mut scene = Scene::new();
+        SceneFile::new(read_all(text.as_bytes(), None).unwrap())
+            .unwrap()
+            .add_to(&mut scene, true)
+            .unwrap();
+        let dummy = scene.objects().find_map(|object| object.dummy().ok());
+        assert_eq!(dummy.unwrap().link_type, LinkType::LoopClosure, "{word}");
+    }
+}
+
 fn assert_wrong(inner: &str, expected: &str) {
     let text = format!("<CoppeliaSim>\n<filetype>simpleScene</filetype>\n{inner}\n</CoppeliaSim>");
     let error = load_damaged(text.as_bytes()).unwrap_err();

@@ -173,7 +173,7 @@ fn changed_pixels_on_work_img(
 /// @param returnColorData returns the colours of the points in the first buffer, if something is there
 /// @return trigger false
 /// @return packedDataPacket columns, rows, then of each point, row by row: x, y, z, distance
-/// @return colorData red, green and blue of each point as bytes, and three more
+/// @return colorData red, green and blue of each point as bytes
 #[api("simVision.coordinatesFromWorkImg")]
 fn coordinates_from_work_img(
     cx: &Cx,
@@ -204,7 +204,7 @@ fn coordinates_from_work_img(
 /// @param returnColorData returns the colours of the points in the first buffer, if something is there
 /// @return trigger false
 /// @return packedDataPacket columns, rows, then of each point, column by column: x, y, z, distance
-/// @return colorData red, green and blue of each point as bytes, and three more
+/// @return colorData red, green and blue of each point as bytes
 #[api("simVision.velodyneDataFromWorkImg")]
 fn velodyne_data_from_work_img(
     cx: &Cx,

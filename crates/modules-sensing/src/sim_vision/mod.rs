@@ -10,6 +10,7 @@ mod distort;
 mod filters;
 mod images;
 mod velodyne;
+mod velodyne_cloud;
 
 use super::Module;
 

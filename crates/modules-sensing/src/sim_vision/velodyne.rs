@@ -12,9 +12,10 @@ use super::checked::Checked;
 use super::composed::{Part, parts, refused};
 use super::detection::packet;
 use super::images::invalid_handle;
-use crate::{ApiError, ApiFn, Cx, Result, functions};
+use super::velodyne_cloud::TargetCloud;
+use crate::{ApiFn, Cx, Result, functions};
 use scene::sensor::VisionReading;
-use scene::{Data, Handle, Pose};
+use scene::{Data, Handle, Pose, SceneError};
 use script::{Number, Results};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
@@ -30,7 +31,8 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 const AS_BUFFER: i64 = 0x40_0000;
 const IN_WORLD: i64 = 0x80_0000;
 const FLAGS: i64 = AS_BUFFER | IN_WORLD;
-/// The option for results as angles and distance.
+/// Options: the point cloud holds the points of the last call only; results are angles and distance.
+const CURRENT_ONLY: i64 = 2;
 const POLAR: i64 = 4;
 /// The part of the range within which points count.
 const RANGE: f64 = 0.99;
@@ -57,6 +59,7 @@ struct Scanner {
     /// Turns per second.
     frequency: f64,
     is_polar: bool,
+    cloud: Option<TargetCloud>,
     /// Where it has turned to, rad; 0 is ahead, and it turns to the left.
     angle: f64,
 }
@@ -83,11 +86,13 @@ impl Sweep {
 
 /// Points measured by a scanner.
 #[derive(Default)]
-struct Points {
+pub(super) struct Points {
     /// x, y and z of each, or angles and distance.
     coordinates: Vec<f64>,
+    /// Each in the frame of the front sensor, metres.
+    pub(super) places: Vec<[f64; 3]>,
     /// Red, green and blue of each, when all sensors deliver them.
-    colours: Vec<u8>,
+    pub(super) colours: Vec<u8>,
     is_coloured: bool,
 }
 
@@ -99,11 +104,7 @@ fn create(
     options: i64,
     point_cloud: i64,
 ) -> Result<i64> {
-    if point_cloud != -1 {
-        return Err(ApiError::NotImplemented(
-            "point clouds of simVision.createVelodyne".into(),
-        ));
-    }
+    let cloud = target_cloud(cx, point_cloud, options)?;
     let sensors: [Part; 4] = parts(cx, sensors, 1)?;
     if !sensors.iter().all(|sensor| sensor.is_explicit) {
         return Err(refused("Vision sensors should be explicitely handled."));
@@ -115,6 +116,7 @@ fn create(
         sensors,
         frequency,
         is_polar: options & POLAR != 0,
+        cloud,
         angle: -PI,
     };
     cx.script_state::<Scanners>()
@@ -122,6 +124,20 @@ fn create(
         .borrow_mut()
         .insert((model, number), scanner);
     Ok(number)
+}
+
+/// The point cloud with a handle, none for -1.
+fn target_cloud(cx: &Cx, raw: i64, options: i64) -> Result<Option<TargetCloud>> {
+    if raw == -1 {
+        return Ok(None);
+    }
+    let handle = Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?;
+    cx.scene().object(handle)?.point_cloud()?;
+    let is_current_only = options & CURRENT_ONLY != 0;
+    Ok(Some(TargetCloud {
+        handle,
+        is_current_only,
+    }))
 }
 
 fn destroy(cx: &Cx, model: Model, handle: i64) -> Result<i64> {
@@ -157,6 +173,10 @@ fn handle(cx: &mut Cx, model: Model, flagged: i64, dt: f64) -> Result<Results> {
     let Some(points) = scan(cx, &scanner, sweep, flagged & IN_WORLD != 0)? else {
         return Ok(Results(Vec::new()));
     };
+    if let Some(cloud) = scanner.cloud {
+        let front = cx.scene().world_pose(scanner.sensors[0])?;
+        cloud.fill(cx, &front, &points)?;
+    }
     let coordinates = match flagged & AS_BUFFER {
         0 => points.coordinates.into(),
         _ => Data::Buffer(packet(points.coordinates).0),
@@ -225,6 +245,7 @@ impl Points {
             if !is_seen {
                 continue;
             }
+            self.places.push(place.into());
             self.coordinates.extend(match frames.is_polar {
                 true => [angle, FRAC_PI_2 - (place.y / distance).asin(), distance],
                 false => (frames.to_result * place).into(),
@@ -245,11 +266,11 @@ macro_rules! scanner {
         ///
         /// @param visionSensorHandles front, left, back, right; they are handled explicitly
         /// @param frequency turns per second
-        /// @param options 4: results are angles and distance; other options are of the display
+        /// @param options 2: the point cloud holds the points of the last call only, 4: results are angles and distance; others are of the display
         /// @param pointSize without effect
         /// @param coloring_closeFarDist without effect
         /// @param displayScalingFactor without effect
-        /// @param pointCloud -1: others are not supported
+        /// @param pointCloud a point cloud that takes the points, or -1
         /// @return velodyneHandle
         #[api($create)]
         #[expect(clippy::too_many_arguments, reason = "the reference has them")]

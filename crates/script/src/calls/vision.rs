@@ -227,13 +227,16 @@ fn pack(packet: &[f32]) -> Data {
     )
 }
 
-/// The numbers in a string or buffer of 32-bit floats; None for other values.
+/// The numbers in a string or buffer of 32-bit floats; None for other values. Zeros fill the last number up: colours come as bytes, and those
+/// of the last point must not get lost.
 fn unpack(packet: &Data) -> Option<Vec<f32>> {
     let (Data::Text(bytes) | Data::Buffer(bytes)) = packet else {
         return None;
     };
-    let numbers = bytes
-        .chunks_exact(4)
-        .map(|bytes| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
+    let numbers = bytes.chunks(4).map(|chunk| {
+        let mut bytes = [0; 4];
+        bytes[..chunk.len()].copy_from_slice(chunk);
+        f32::from_le_bytes(bytes)
+    });
     Some(numbers.collect())
 }

@@ -140,11 +140,9 @@ impl<'a> Cx<'a> {
             .ok_or(ApiError::NeedsLua)
     }
 
-    /// Ends the time slice of the calling thread, as work does that takes longer in the original.
-    pub fn end_time_slice(&self) {
-        if let Some(stack) = self.stack {
-            threads::end_time_slice(stack);
-        }
+    /// Begins the time slice of the calling thread anew: what was done for it until now does not count.
+    pub fn begin_time_slice(&self) {
+        self.env().yields.used.set(0);
     }
 
     /// The scene, to read. The borrow must end before scripts are called or the scene is changed.

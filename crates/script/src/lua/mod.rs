@@ -33,11 +33,10 @@ pub(crate) use bytecode::{Bytecode, PassedFunction, Prototype};
 pub(crate) use calls::callback::{Callback, Outcome, push_callback, push_plain};
 pub(crate) use calls::{LuaError, MULTIPLE};
 pub(crate) use file::report_closed_pipes;
-pub(crate) use hooks::count::{
-    HOOK_INTERVAL, HookAction, hasten_count_hook, install_coroutine_hooks, set_count_hook,
-};
+pub(crate) use hooks::count::{HOOK_INTERVAL, HookAction, install_coroutine_hooks, set_count_hook};
 pub(crate) use hooks::debug_library::restrict_debug;
 pub use hooks::interrupt::{calls_begun, interrupt_running_code, place_of_interruption};
+pub(crate) use hooks::resume::report_dropped_errors;
 pub use object::LuaObject;
 pub(crate) use owner::Owner;
 pub(crate) use permissions::restrict_libraries;

@@ -38,9 +38,31 @@ stand_ins! {
     "var.functions": getvar setvar getlocals f;
 }
 
+macro_rules! text_operators {
+    ($($event:literal)*) => {
+        /// Defines the arithmetic of texts in the metatable on top.
+        fn define_text_operators(stack: Stack<'_>) {
+            $(
+                push_plain(stack, |stack| go_on(stack, "swanilda.arithmetic", $event));
+                stack.raw_set_field(-2, concat!("__", $event));
+            )*
+        }
+    };
+}
+
+text_operators! {
+    "add" "sub" "mul" "div" "mod" "pow" "unm" "idiv" "band" "bor" "bxor" "shl" "shr" "bnot"
+}
+
 /// Puts them into a fresh state.
 pub(super) fn install(stack: Stack<'_>) {
     define(stack);
+    stack.push_bytes(b"");
+    if stack.push_metatable(-1) {
+        define_text_operators(stack);
+        stack.pop(1);
+    }
+    stack.pop(1);
     extend(stack, "string", |stack| go_on(stack, EXTENSIONS, "string"));
     extend(stack, "table", |stack| go_on(stack, EXTENSIONS, "table"));
     extend(stack, "math", |stack| go_on(stack, EXTENSIONS, "math"));

@@ -15,6 +15,7 @@ use super::{
 };
 use crate::binding::registry::{Member, MissingId, Namespace};
 use crate::host::{Script, Sim};
+use crate::log::verbosity;
 use crate::lua::{self, LuaError, Outcome, Stack, State, Type, push_callback, push_plain};
 
 /// The `sim` table of a state.
@@ -31,6 +32,12 @@ pub(super) fn fill(
     let stack = state.stack();
     threads::install(stack);
     lua::install_coroutine_hooks(stack, threads::on_count);
+    lua::report_dropped_errors(stack, |stack, error| {
+        let warning = format!(
+            "an error ended a coroutine, and the script does not look at what coroutine.resume returns: {error}"
+        );
+        stack.env().log(verbosity::SCRIPT_WARNINGS, &warning);
+    });
     lua::restrict_debug(stack);
     lua::report_closed_pipes(stack, |stack| {
         if let Some(sim) = stack.env().simulator() {

@@ -3,6 +3,7 @@
 //! All of it works on the text, not on Lua: comments and strings are rewritten alike, as in the original. Line numbers stay, save
 //! where functions are put in front.
 
+mod keywords;
 pub mod old_names;
 mod poses;
 mod texts;
@@ -32,6 +33,10 @@ pub(crate) enum Thread {
     Again,
 }
 
+/// Scripts are called by handle only since.
+const CALLS_BY_HANDLE: u16 = 40800;
+/// Scripts are in Lua 5.3 since, then 5.4.
+const LUA_5_3: u16 = 40200;
 /// The scripts of threads have been coroutines since.
 const COROUTINES: u16 = 40200;
 
@@ -77,6 +82,12 @@ pub(crate) fn lua(code: Vec<u8>, origin: &Origin) -> Vec<u8> {
 
 fn migrate(text: &str, origin: &Origin) -> String {
     let mut text = old_names::replace(text, |word| old_names::since(word, origin.version));
+    if origin.is_before(CALLS_BY_HANDLE) {
+        text = texts::calls_by_type(&text);
+    }
+    if origin.is_before(LUA_5_3) {
+        text = keywords::goto_as_name(&text);
+    }
     if origin.is_before(30300) {
         text = text.replace('\t', "    ");
     }

@@ -62,6 +62,27 @@ pub(super) fn end_of_simulation(text: &str) -> String {
     })
 }
 
+/// Calls of functions in other scripts could name these by type and object, as in `'f@/robot'`. They become calls of a function that still
+/// can, where the text has one of the two.
+pub(super) fn calls_by_type(text: &str) -> String {
+    const CALL: &str = "sim.callScriptFunction";
+    if !text.contains('@') && !text.contains("scripttype_") {
+        return text.to_owned();
+    }
+    let mut parts = text.split(CALL);
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let is_whole = !part.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_');
+        out.push_str(if is_whole {
+            "sim._callScriptFunction"
+        } else {
+            CALL
+        });
+        out.push_str(part);
+    }
+    out
+}
+
 /// Before 3.1.3 the whole text ran once per step.
 pub(super) fn called_each_step(text: &str, in_sensing: bool) -> String {
     let call = if in_sensing {
@@ -74,7 +95,9 @@ pub(super) fn called_each_step(text: &str, in_sensing: bool) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{called_each_step, colours, dialog_attributes, end_of_simulation, own_object};
+    use super::{
+        called_each_step, calls_by_type, colours, dialog_attributes, end_of_simulation, own_object,
+    };
 
     #[test]
     fn dialogs() {
@@ -120,6 +143,22 @@ mod tests {
             end_of_simulation("(sim.getSimulationState()~=sim_simulation_advancing_abouttostop)"),
             "(true)"
         );
+    }
+
+    #[test]
+    fn calls_that_name_a_type_go_to_the_old_function() {
+        let new = "sim._callScriptFunction('f@/a', sim.scripttype_childscript)";
+        assert_eq!(
+            calls_by_type("sim.callScriptFunction('f@/a', sim.scripttype_childscript)"),
+            new
+        );
+        assert_eq!(calls_by_type(new), new);
+        for text in [
+            "sim.callScriptFunction('f', h)",
+            "sim.callScriptFunctionEx(h) -- @",
+        ] {
+            assert_eq!(calls_by_type(text), text);
+        }
     }
 
     #[test]

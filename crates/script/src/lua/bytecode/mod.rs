@@ -6,6 +6,7 @@
 mod argument;
 mod chunk;
 mod probes;
+mod statement;
 mod stubs;
 
 use std::collections::BTreeSet;
@@ -132,6 +133,18 @@ impl Stack<'_> {
         code.is_some_and(|code| {
             code.main_function()
                 .is_some_and(|function| function.forgets_its_argument())
+        })
+    }
+
+    /// Whether the function that called the running one, by a field of this name, drops its results.
+    pub(in crate::lua) fn caller_drops_results_of(self, field: &str) -> bool {
+        let Some(line) = self.push_caller() else {
+            return false;
+        };
+        let code = self.dump();
+        code.is_some_and(|code| {
+            code.main_function()
+                .is_some_and(|function| function.drops_results_of(field, line))
         })
     }
 

@@ -50,7 +50,8 @@ pub(in crate::lua) mod guarded {
     pub const BYTE: usize = 36;
     pub const UNPACK: usize = 37;
     pub const TO_NUMBER: usize = 38;
-    pub const COUNT: usize = 39;
+    pub const COROUTINE_RESUME: usize = 39;
+    pub const COUNT: usize = 40;
 }
 
 /// The action after a guard.

@@ -4,3 +4,4 @@ pub(super) mod beside;
 pub(super) mod count;
 pub(super) mod debug_library;
 pub(super) mod interrupt;
+pub(super) mod resume;

@@ -43,6 +43,21 @@ impl<'a> Stack<'a> {
     }
 }
 
+impl Stack<'_> {
+    /// Pushes the Lua function that called the running one, and returns the line it is at; None, and nothing is pushed, where there is none.
+    pub(in crate::lua) fn push_caller(self) -> Option<u32> {
+        let line = u32::try_from(self.frame(1, Facts::LINE_AND_SOURCE)?.line()).ok()?;
+        let _room = self.room();
+        let mut record = MaybeUninit::<ffi::lua_Debug>::zeroed();
+        // SAFETY: a record of zeros is valid. The frame is there, and its function is pushed, for which there is room.
+        unsafe {
+            ffi::lua_getstack(self.raw(), 1, record.as_mut_ptr());
+            ffi::lua_getinfo(self.raw(), c"f".as_ptr(), record.as_mut_ptr());
+        }
+        Some(line)
+    }
+}
+
 impl Frame<'_> {
     /// The line being executed; -1 for a function written in C.
     pub(in crate::lua) fn line(&self) -> c_int {
