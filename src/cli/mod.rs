@@ -35,7 +35,7 @@ use clap_complete::Shell;
 
 use session::{
     graphs, interrupt, launch, live, output, permissions, progress, recording, resources, setup,
-    video,
+    video, watchdog,
 };
 
 /// Exit code for a wrong command line or a file that cannot be read or written; clap uses the same.

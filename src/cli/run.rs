@@ -107,11 +107,12 @@ pub(super) fn run(args: &Args) -> Outcome {
         mut sim,
         output,
         interrupt,
+        watchdog,
         ..
     } = launch;
     let recorder = args.record.start(&sim)?;
     args.video.start(&mut sim, &args.scene);
-    let viewer = args.view.start(&sim, &args.remote, &output)?;
+    let viewer = args.view.start(&sim, &args.remote, &output, &watchdog)?;
     let mut session = Session {
         interrupt: &interrupt,
         progress,

@@ -44,9 +44,10 @@ pub(super) fn serve(args: &Args) -> Outcome {
         mut sim,
         output,
         interrupt,
+        watchdog,
         ..
     } = launch;
-    let viewer = args.view.start(&sim, &args.remote, &output)?;
+    let viewer = args.view.start(&sim, &args.remote, &output, &watchdog)?;
     Live::new(viewer).run(&mut sim, &interrupt);
     Ok(ExitCode::SUCCESS)
 }

@@ -14,6 +14,7 @@ use super::progress::Progress;
 use super::remote::Remote;
 use super::run::Kind;
 use super::setup::Setup;
+use super::watchdog::Watchdog;
 use simulator::{RunLimits, Simulator};
 use view::{RecordedViewer, Viewer};
 
@@ -82,9 +83,10 @@ impl ViewArgs {
         sim: &Simulator,
         remote: &Remote,
         output: &Output,
+        watchdog: &Watchdog,
     ) -> Result<Option<Viewer>, String> {
         self.view
-            .map(|mode| start(sim, mode, self.port, remote, output))
+            .map(|mode| start(sim, mode, self.port, remote, output, watchdog))
             .transpose()
     }
 }
@@ -96,10 +98,12 @@ fn start(
     port: u16,
     remote: &Remote,
     output: &Output,
+    watchdog: &Watchdog,
 ) -> Result<Viewer, String> {
     let failed = |error: std::io::Error| format!("the viewer cannot start at port {port}: {error}");
     let listener = TcpListener::bind((remote.address(), port)).map_err(failed)?;
     let viewer = Viewer::start(sim, listener, mode == Mode::ReadOnly).map_err(failed)?;
+    watchdog.show_on(viewer.busy_sign());
     output.viewing(&viewer.url());
     Ok(viewer)
 }
@@ -119,6 +123,7 @@ pub(super) fn view(args: &Args) -> Outcome {
         args.port,
         &args.remote,
         &launch.output,
+        &launch.watchdog,
     )?;
     launch.fill(args.kind.into());
     launch.serve(&args.remote, args.remote.asks_for_zmq())?;

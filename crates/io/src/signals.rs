@@ -28,6 +28,7 @@ mod unix {
     use std::ptr;
     use std::sync::OnceLock;
     use std::sync::atomic::{AtomicI32, AtomicUsize, Ordering};
+    use std::time::Duration;
 
     use libc::c_int;
     use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -106,6 +107,34 @@ mod unix {
         pub fn wake(self) {
             // SAFETY: the thread lives as long as the process.
             unsafe { libc::pthread_kill(self.0, WAKE) };
+        }
+    }
+
+    impl InterruptibleThread {
+        /// How long the thread has used a processor; None where the system does not say.
+        #[cfg(target_os = "linux")]
+        pub fn processor_time(self) -> Option<Duration> {
+            let mut clock = 0;
+            let mut time = MaybeUninit::<libc::timespec>::zeroed();
+            // SAFETY: the thread lives as long as the process, and both records are there to be filled.
+            let time = unsafe {
+                if libc::pthread_getcpuclockid(self.0, &raw mut clock) != 0
+                    || libc::clock_gettime(clock, time.as_mut_ptr()) != 0
+                {
+                    return None;
+                }
+                time.assume_init()
+            };
+            Some(Duration::new(
+                time.tv_sec.try_into().ok()?,
+                time.tv_nsec.try_into().ok()?,
+            ))
+        }
+
+        /// How long the thread has used a processor: the system does not say.
+        #[cfg(not(target_os = "linux"))]
+        pub fn processor_time(self) -> Option<Duration> {
+            None
         }
     }
 
@@ -229,10 +258,17 @@ mod elsewhere {
     pub struct InterruptibleThread;
 
     impl InterruptibleThread {
-        pub(crate) fn current(_: fn()) -> Self {
+        /// The running thread.
+        pub fn current(_: fn()) -> Self {
             Self
         }
 
-        pub(crate) fn wake(self) {}
+        /// Does nothing.
+        pub fn wake(self) {}
+
+        /// Unknown.
+        pub fn processor_time(self) -> Option<std::time::Duration> {
+            None
+        }
     }
 }

@@ -93,11 +93,12 @@ pub use host::{
 pub use host::{Detached, Env, Hook, ScriptGroup, changed_level};
 pub use log::auxiliary_consoles::AuxiliaryConsole;
 pub use lua::{
-    LuaObject, Stack, Type as LuaType, calls_begun, interrupt_running_code, place_of_interruption,
+    LuaObject, Stack, Type as LuaType, calls_begun, interrupt_running_code, is_call, only_ask,
+    place_is_exact, place_of_interruption,
 };
-pub use lua_runtime::LuaLanguage;
 pub use lua_runtime::reference_modules::ReferenceModule;
 pub use lua_runtime::user_modules::UserModule;
+pub use lua_runtime::{LuaLanguage, running_callback};
 pub use person::Ask;
 pub use present::{Present, Situation, Watcher};
 pub use property::{OLD_SIGNALS, PropertyTarget, table as property_table};

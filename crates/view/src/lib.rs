@@ -8,6 +8,7 @@
 //! Requests of pages are checked on the server's thread ([`request`]) and carried out by the simulation's between two iterations ([`Viewer`]).
 
 pub(crate) mod blobs;
+mod busy;
 mod hash;
 mod images;
 pub mod mcap;
@@ -20,6 +21,7 @@ pub(crate) mod request;
 mod server;
 mod viewer;
 
+pub use busy::BusySign;
 pub use server::page_file;
 pub use viewer::RecordedViewer;
 pub use viewer::Viewer;

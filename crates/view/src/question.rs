@@ -26,7 +26,9 @@ pub(super) fn ask(
     let number = shared.number_question();
     shared.mirror().show_question(&question.json(number));
     waker.wake();
+    shared.set_asking(true);
     let answer = wait(shared, waker, number, is_ending);
+    shared.set_asking(false);
     shared.mirror().show_question(&Value::Null);
     waker.wake();
     answer

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use super::busy::BusySign;
 use super::images::Images;
 use super::mirror::Demanded;
 use super::observe::{Observer, Source, WindowObserver};
@@ -92,8 +93,17 @@ impl Viewer {
         url(self.server.address(), &self.token)
     }
 
+    /// For a thread that watches the simulation's.
+    pub fn busy_sign(&self) -> BusySign {
+        BusySign {
+            shared: Arc::clone(&self.shared),
+            waker: self.server.waker(),
+        }
+    }
+
     /// Answers requests, waiting up to `timeout` for the first, and shows what changed if it is time for that.
     pub fn attend(&mut self, sim: &mut Simulator, timeout: Duration) {
+        self.shared.attend();
         let mut timeout = timeout;
         let mut answered = false;
         while let Some(pending) = self.shared.next_request(timeout) {

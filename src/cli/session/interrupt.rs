@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::time::{Duration, Instant};
 
+use super::watchdog::Watchdog;
 use io::signals::{self, InterruptibleThread};
 use script::{calls_begun, interrupt_running_code, place_of_interruption};
 
@@ -41,6 +42,11 @@ impl Interrupt {
             Some(InterruptibleThread::current(interrupt_running_code)),
             None,
         )
+    }
+
+    /// Watches the scripts that are interrupted.
+    pub(in crate::cli) fn watchdog(&self) -> Watchdog {
+        self.scripts.map(Watchdog::start).unwrap_or_default()
     }
 
     fn listen(scripts: Option<InterruptibleThread>, code: Option<u8>) -> Self {

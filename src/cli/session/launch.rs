@@ -6,6 +6,7 @@ use super::interrupt::Interrupt;
 use super::output::Output;
 use super::progress::Progress;
 use super::setup::{Setup, Sources};
+use super::watchdog::Watchdog;
 use crate::cli::remote::Remote;
 use simulator::{Options, ScriptKind, Simulator};
 
@@ -17,6 +18,7 @@ pub(in crate::cli) struct Launch<'a> {
     pub sim: Simulator,
     pub output: Output,
     pub interrupt: Interrupt,
+    pub watchdog: Watchdog,
 }
 
 impl<'a> Launch<'a> {
@@ -34,6 +36,7 @@ impl<'a> Launch<'a> {
     ) -> Result<Self, String> {
         let sources = setup.sources(scene)?;
         let interrupt = Interrupt::of_scripts_here();
+        let watchdog = interrupt.watchdog();
         let output = setup.output(progress, &interrupt);
         let options = Options {
             plugin_note,
@@ -51,6 +54,7 @@ impl<'a> Launch<'a> {
             sim,
             output,
             interrupt,
+            watchdog,
         })
     }
 

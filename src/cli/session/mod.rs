@@ -12,6 +12,7 @@ pub(super) mod resources;
 pub(super) mod ros;
 pub(super) mod setup;
 pub(super) mod video;
+pub(super) mod watchdog;
 
 use std::time::{Duration, Instant};
 

@@ -92,6 +92,23 @@ fn functions_that_cannot_be_interrupted_end_with_the_process() {
 }
 
 #[test]
+fn a_long_call_is_reported_and_goes_on() {
+    let scene = Scene::new(
+        "sim = require 'sim'
+        local function busy() local begun = os.clock() while os.clock() - begun < 4.5 do end end
+        function sysCall_actuation() busy() coroutine.wrap(print)('came back') end",
+    );
+    let output = scene.run(&["--steps", "1", "--as", "simulation"]);
+    let log = stderr(&output);
+    assert!(
+        log.contains("sysCall_actuation has been running for 3 s, at /Script:2, called from /Script:3; ctrl-c ends it"),
+        "{log}"
+    );
+    assert_eq!(output.status.code(), Some(0), "{log}");
+    assert!(stdout(&output).contains("came back"));
+}
+
+#[test]
 fn a_blocked_open_is_interrupted() {
     let scene = Scene::new("");
     let made = Command::new("mkfifo")

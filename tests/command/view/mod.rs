@@ -226,6 +226,57 @@ fn a_stop_right_after_an_error_ends_the_simulation() {
     page.wait_for(|update| update["scene"]["state"] == "stopped");
 }
 
+/// A script that never comes back from its third step, or from being loaded.
+const ENDLESS: &str = "
+sim = require 'sim'
+local function work()
+    while true do end
+end
+function sysCall_actuation()
+    if sim.getSimulationTime() > 0.1 then work() end
+end
+";
+
+#[test]
+fn a_script_that_does_not_end_is_named_and_stop_ends_it() {
+    let served = Served::start(ENDLESS, &[]);
+    let mut page = Page::open(&served);
+    let busy = page.wait_for(|message| message["type"] == "busy" && message["text"] != json!(null));
+    let sentence = busy["text"].as_str().expect("a sentence");
+    for part in [
+        "sysCall_actuation",
+        "at /Script:4, called from /Script:7",
+        "Stop ends it",
+    ] {
+        assert!(sentence.contains(part), "{sentence} has no {part}");
+    }
+    // A page that connects meanwhile knows it too.
+    let mut late = Page::open(&served);
+    let told = late.wait_for(|message| message["type"] == "busy");
+    assert_eq!(told["text"], busy["text"]);
+    assert_eq!(page.ask(json!({"do": "stop"})), Ok(json!(true)));
+    page.wait_for(|message| message["type"] == "busy" && message["text"] == json!(null));
+    late.wait_for(|update| update["scene"]["state"] == "stopped");
+    assert_eq!(
+        late.ask(json!({"do": "run", "code": "1 + 1"})),
+        Ok(json!("2"))
+    );
+}
+
+#[test]
+fn a_page_is_told_of_a_script_that_does_not_come_back_from_loading() {
+    let served = Served::start("while true do end", &[]);
+    let mut page = Page::open(&served);
+    let busy = page.wait_for(|message| message["type"] == "busy");
+    let sentence = busy["text"].as_str().expect("a sentence");
+    assert!(sentence.contains("at /Script:1."), "{sentence}");
+    assert_eq!(page.ask(json!({"do": "stop"})), Ok(json!(true)));
+    assert_eq!(
+        page.ask(json!({"do": "run", "code": "1 + 1"})),
+        Ok(json!("2"))
+    );
+}
+
 #[test]
 fn what_scripts_select_is_seen_and_errors_name_their_script() {
     let served = Served::start(SCRIPT, &["--paused"]);

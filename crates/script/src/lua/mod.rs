@@ -35,8 +35,12 @@ pub(crate) use calls::{LuaError, MULTIPLE};
 pub(crate) use file::report_closed_pipes;
 pub(crate) use hooks::count::{HOOK_INTERVAL, HookAction, install_coroutine_hooks, set_count_hook};
 pub(crate) use hooks::debug_library::restrict_debug;
-pub use hooks::interrupt::{calls_begun, interrupt_running_code, place_of_interruption};
+pub use hooks::interrupt::{
+    interrupt_running_code, only_ask, place_is_exact, place_of_interruption,
+};
 pub(crate) use hooks::resume::report_dropped_errors;
+pub(crate) use hooks::running::{RunningCallback, running_callback_number};
+pub use hooks::running::{calls_begun, is_call};
 pub use object::LuaObject;
 pub(crate) use owner::Owner;
 pub(crate) use permissions::restrict_libraries;

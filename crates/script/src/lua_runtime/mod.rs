@@ -20,7 +20,9 @@ use std::rc::Rc;
 
 use super::binding::data;
 use super::coverage::LineCounts;
-use super::lua::{LuaError, MULTIPLE, Owner, Stack, State, Type};
+use super::lua::{
+    LuaError, MULTIPLE, Owner, RunningCallback, Stack, State, Type, running_callback_number,
+};
 use crate::function_ref::FunctionRef;
 use crate::host::{
     CallError, CallbackResult, Callee, Env, Hook, Integers, Interpreter, Language, Runtime,
@@ -32,6 +34,15 @@ use coverage::Coverage;
 use permissions::Permissions;
 use scene::Data;
 use user_modules::UserModule;
+
+/// The callback that runs now, innermost; None for other calls. For other threads too.
+pub fn running_callback() -> Option<SysCall> {
+    let number = running_callback_number()?;
+    SysCall::ALL
+        .iter()
+        .copied()
+        .find(|call| *call as usize == number)
+}
 
 /// Calls a function of a module, both by name, with all that follows.
 const CALL: &[u8] = b"local module, member = ... return require(module)[member](select(3, ...))";
@@ -167,6 +178,7 @@ impl Interpreter for LuaInterpreter {
     fn call_callback(&self, call: SysCall, args: &[Data]) -> Result<CallbackResult, ScriptError> {
         // This is the hot path: what lies below the function stays there until the end, and from call to call where it can.
         let stack = self.stack();
+        let _running = RunningCallback::begin(call as usize);
         if let Some(kind) = self.bottom.push_function(stack, call) {
             let _guard = StackGuard(stack, &self.bottom);
             return run_callback(stack, bottom::HANDLER, kind, || push_args(stack, args));
@@ -187,6 +199,7 @@ impl Interpreter for LuaInterpreter {
         let Some(kind) = self.bottom.push_function(stack, call) else {
             return self.call_callback(call, &[table.to_data()]);
         };
+        let _running = RunningCallback::begin(call as usize);
         let _guard = StackGuard(stack, &self.bottom);
         run_callback(stack, bottom::HANDLER, kind, || {
             self.bottom.push_integers(stack, table);

@@ -25,6 +25,7 @@ export class LiveSource {
 
   _opened() {
     this.failures = 0;
+    this.store.setBusy(null);
     this.store.setConnection('open');
     for (const [action, members] of this.standing) this._send(action, members).catch(() => {});
   }
@@ -34,6 +35,7 @@ export class LiveSource {
     const message = JSON.parse(data);
     if (message.type === 'reply') this._reply(message);
     else if (message.type === 'end') this.store.setConnection('ended', message.reason ?? '');
+    else if (message.type === 'busy') this.store.setBusy(message.text);
     else this.store.receive(message);
   }
 

@@ -21,6 +21,7 @@ export class Store {
     /** @type {Map<string, Set<Function>>} */
     this.listeners = new Map();
     this.connection = { state: 'connecting', reason: '' };
+    this.busy = null; // a sentence about a script that does not end
     this.scene = {};
     this.log = [];
     this.loggedLines = 0; // ever, also those that were dropped
@@ -67,6 +68,12 @@ export class Store {
       const detail = { objects: changed, poses: moved, drawings: changedDrawings }[topic];
       this.listeners.get(topic)?.forEach((listener) => listener(detail));
     }
+  }
+
+  /** @param {string | null} sentence */
+  setBusy(sentence) {
+    this.busy = sentence;
+    this.dirty.add('connection');
   }
 
   setConnection(state, reason = '') {

@@ -6,7 +6,7 @@ mod site;
 mod visitor;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -34,6 +34,11 @@ pub(crate) struct Shared {
     is_read_only: bool,
     /// How many dialogs were shown.
     questions: AtomicU64,
+    /// A dialog waits for its answer.
+    asks: AtomicBool,
+    /// A page has asked for a stop that is not carried out yet.
+    stop_requested: AtomicBool,
+    busy: Mutex<Busy>,
     /// Why the simulator ends, once it does.
     end: Mutex<Option<String>>,
 }
@@ -50,6 +55,13 @@ pub(crate) struct PageDemand {
     pub sensors: BTreeSet<i64>,
     pub inspected: Option<i64>,
     pub contacts: bool,
+}
+
+/// What the simulation's thread is busy with; numbered, so that pages are told once.
+#[derive(Default)]
+struct Busy {
+    sentence: Option<String>,
+    changes: u64,
 }
 
 /// A request on its way to the simulation.
@@ -135,10 +147,47 @@ impl Shared {
         let mut requests = lock(&self.requests);
         let has_room = requests.len() < MAX_REQUESTS;
         if has_room {
+            if matches!(pending.action, Action::Stop) {
+                self.stop_requested.store(true, Ordering::Relaxed);
+            }
             requests.push_back(pending);
             self.arrived.notify_one();
         }
         has_room
+    }
+
+    /// The simulation's thread attends to requests again.
+    pub(crate) fn attend(&self) {
+        self.stop_requested.store(false, Ordering::Relaxed);
+    }
+
+    pub(crate) fn stop_is_requested(&self) -> bool {
+        self.stop_requested.load(Ordering::Relaxed)
+    }
+
+    pub(crate) fn set_asking(&self, asks: bool) {
+        self.asks.store(asks, Ordering::Relaxed);
+    }
+
+    pub(crate) fn is_asking(&self) -> bool {
+        self.asks.load(Ordering::Relaxed)
+    }
+
+    /// Sets what the simulation's thread is busy with; false when that is not new.
+    pub(crate) fn set_busy(&self, sentence: Option<String>) -> bool {
+        let mut busy = lock(&self.busy);
+        let is_new = busy.sentence != sentence;
+        if is_new {
+            busy.sentence = sentence;
+            busy.changes += 1;
+        }
+        is_new
+    }
+
+    /// What the thread is busy with, with the number of the change, if that is another than `seen`.
+    fn busy_since(&self, seen: u64) -> Option<(u64, Option<String>)> {
+        let busy = lock(&self.busy);
+        (busy.changes != seen).then(|| (busy.changes, busy.sentence.clone()))
     }
 
     /// The simulator ends: pages are told why.

@@ -21,6 +21,8 @@ pub(super) struct Page {
     /// The last contacts, while they are shown.
     contacts: Option<Revision>,
     replies: Arc<Mutex<VecDeque<String>>>,
+    /// The last change of what the simulation is busy with.
+    busy: u64,
 }
 
 impl Page {
@@ -34,6 +36,7 @@ impl Page {
             inspected: None,
             contacts: None,
             replies: Arc::default(),
+            busy: 0,
         }
     }
 
@@ -143,6 +146,12 @@ impl Visitor for Page {
         }
         messages.extend(self.on_demand());
         messages.extend(lock(&self.replies).drain(..).map(SiteMessage::Text));
+        if let Some((change, sentence)) = self.shared.busy_since(self.busy) {
+            self.busy = change;
+            messages.push(SiteMessage::Text(
+                json!({ "type": "busy", "text": sentence }).to_string(),
+            ));
+        }
         if let Some(reason) = self.shared.end_reason() {
             messages.push(SiteMessage::Text(
                 json!({ "type": "end", "reason": reason }).to_string(),

@@ -9,7 +9,7 @@ use std::ffi::c_int;
 use mlua::{Error, ffi};
 
 use super::api;
-use super::hooks::interrupt::Running;
+use super::hooks::running::Running;
 use super::seal::seal_top;
 use super::stack::Stack;
 use super::stack::frame::{Facts, Frame};

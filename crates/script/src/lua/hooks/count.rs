@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use mlua::ffi;
 
-use super::interrupt::{is_requested, place_of_interruption};
+use super::interrupt::{answer_signal, place_of_interruption};
 use crate::lua::Stack;
 use crate::lua::api::{self, Hook};
 use crate::lua::calls::callback::panic_message;
@@ -138,10 +138,7 @@ pub(super) fn next_step(stack: Stack<'_>) -> Step {
     let budget = stack.budget();
     let before = budget.enter(true);
     let step = step(stack, || {
-        if is_requested(stack) {
-            return HookAction::Interrupt;
-        }
-        on_count(stack, api::lua_isyieldable(stack) != 0)
+        answer_signal(stack).unwrap_or_else(|| on_count(stack, api::lua_isyieldable(stack) != 0))
     });
     budget.leave(before);
     step

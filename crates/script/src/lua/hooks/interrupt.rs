@@ -7,12 +7,12 @@
 
 use std::cell::Cell;
 use std::ffi::c_int;
-use std::ptr::null_mut;
-use std::sync::atomic::{AtomicU8, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicUsize, Ordering};
 
 use mlua::ffi;
 
-use super::count::restore_count_hook;
+use super::count::{HookAction, restore_count_hook};
+use super::running::innermost;
 use crate::lua::Stack;
 use crate::lua::api::{self, Hook, Slot};
 use crate::lua::stack::frame::Facts;
@@ -27,48 +27,32 @@ const MAX_LINES: usize = 6;
 const MAX_PLACE_LENGTH: usize = 512;
 
 thread_local! {
-    /// Where the innermost call into Lua on this thread was made; null while there is none.
-    static RUNNING: Cell<*mut ffi::lua_State> = const { Cell::new(null_mut()) };
     /// The code that runs is to stop.
     static REQUESTED: Cell<bool> = const { Cell::new(false) };
     /// The place was read while Lua had not stored its line: the hook reads it again.
     static IS_ROUGH: Cell<bool> = const { Cell::new(false) };
 }
 
-static CALLS: AtomicU64 = AtomicU64::new(0);
+/// The hook has read the place.
+static IS_EXACT: AtomicBool = AtomicBool::new(false);
+/// The next signal only asks where the code is.
+static ONLY_ASKS: AtomicBool = AtomicBool::new(false);
 static PLACE: [AtomicU8; MAX_PLACE_LENGTH] = [const { AtomicU8::new(0) }; MAX_PLACE_LENGTH];
 static PLACE_LENGTH: AtomicUsize = AtomicUsize::new(0);
 
-/// A call into Lua from outside. Nested ones end in reverse order.
-pub(in crate::lua) struct Running {
-    outer: *mut ffi::lua_State,
+/// The next signal does not stop the code: it only notes where it is, for [`place_of_interruption`].
+pub fn only_ask() {
+    PLACE_LENGTH.store(0, Ordering::Relaxed);
+    IS_EXACT.store(false, Ordering::Relaxed);
+    ONLY_ASKS.store(true, Ordering::Release);
 }
 
-impl Running {
-    pub(in crate::lua) fn begin(stack: Stack<'_>) -> Self {
-        let outer = RUNNING.replace(stack.raw());
-        if outer.is_null() {
-            REQUESTED.set(false);
-            CALLS.fetch_add(1, Ordering::Relaxed);
-        }
-        Self { outer }
-    }
+/// No code is to stop any more.
+pub(super) fn forget_request() {
+    REQUESTED.set(false);
 }
 
-impl Drop for Running {
-    fn drop(&mut self) {
-        RUNNING.set(self.outer);
-        // The interrupted function has ended; its caller may clean up.
-        REQUESTED.set(false);
-    }
-}
-
-/// How many calls into Lua have begun, those inside of others not counted. While the number stays, the same call runs.
-pub fn calls_begun() -> u64 {
-    CALLS.load(Ordering::Relaxed)
-}
-
-/// Where code was when it was last interrupted: the function written in C that it waits for, chunks and lines.
+/// Where code was when a signal last came: the function written in C that it waits for, chunks and lines.
 pub fn place_of_interruption() -> Option<String> {
     let length = PLACE_LENGTH.load(Ordering::Acquire);
     let bytes: Vec<u8> = PLACE[..length]
@@ -78,19 +62,28 @@ pub fn place_of_interruption() -> Option<String> {
     (length > 0).then(|| String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// Stops the Lua code of this thread. For signal handlers: it neither allocates nor waits.
+/// Whether the place is that of the instruction which runs: not so in the middle of a function written in C, and before the hook came.
+pub fn place_is_exact() -> bool {
+    IS_EXACT.load(Ordering::Acquire)
+}
+
+/// Stops the Lua code of this thread, or notes where it is after [`only_ask`]. For signal handlers: it neither allocates nor waits.
 pub fn interrupt_running_code() {
-    let running = RUNNING.get();
+    let running = innermost();
     if running.is_null() {
         return;
     }
+    let only_asks = ONLY_ASKS.swap(false, Ordering::Acquire);
     // SAFETY: the state is being called on this very thread, which stands still meanwhile. Setting a hook is what Lua allows a signal
     // handler to do; the other functions only read.
     let mut coroutine = unsafe { Stack::from_raw(running) };
-    REQUESTED.set(true);
+    REQUESTED.set(!only_asks);
     IS_ROUGH.set(true);
     for _ in 0..MAX_COROUTINES {
-        api::lua_sethook(coroutine, Some(Hook::COUNT), ffi::LUA_MASKCOUNT, 1);
+        // A hook that is there comes soon enough, and must not come at another time than without the question.
+        if !only_asks || api::lua_gethookcount(coroutine) == 0 {
+            api::lua_sethook(coroutine, Some(Hook::COUNT), ffi::LUA_MASKCOUNT, 1);
+        }
         note_place(coroutine);
         match resumed_by(coroutine) {
             Some(resumed) => coroutine = resumed,
@@ -99,16 +92,19 @@ pub fn interrupt_running_code() {
     }
 }
 
-/// Whether the running code is to stop; the hook calls. An interruption that is over leaves nothing behind.
-pub(super) fn is_requested(stack: Stack<'_>) -> bool {
-    let is_requested = REQUESTED.get();
-    if !is_requested && api::lua_gethookcount(stack) == 1 {
-        restore_count_hook(stack);
-    }
-    if is_requested && IS_ROUGH.take() {
+/// What the hook does for a signal; None where it came by itself. An interruption that is over, and a question, leave nothing behind.
+pub(super) fn answer_signal(stack: Stack<'_>) -> Option<HookAction> {
+    if IS_ROUGH.take() {
         note_place(stack);
+        IS_EXACT.store(true, Ordering::Release);
     }
-    is_requested
+    if REQUESTED.get() {
+        return Some(HookAction::Interrupt);
+    }
+    (api::lua_gethookcount(stack) == 1).then(|| {
+        restore_count_hook(stack);
+        HookAction::Continue
+    })
 }
 
 /// The coroutine that the function written in C on top of the calls has resumed: its first argument, or what it was made for.

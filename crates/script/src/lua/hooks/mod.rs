@@ -5,3 +5,4 @@ pub(super) mod count;
 pub(super) mod debug_library;
 pub(super) mod interrupt;
 pub(super) mod resume;
+pub(super) mod running;

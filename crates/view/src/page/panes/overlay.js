@@ -20,7 +20,7 @@ export class Overlay {
 
   /** One sentence about what to do, or nothing. */
   _notice() {
-    const { connection, scene, objects } = this.store;
+    const { connection, scene, objects, busy } = this.store;
     const sentences = {
       connecting: 'Connecting to the simulator…',
       closed: 'The simulator has gone. Reconnecting…',
@@ -28,10 +28,11 @@ export class Overlay {
     };
     const empty = !objects.size ? 'The scene is empty.' : null;
     const stopped = scene.state === 'stopped' && this.page.canWrite && !scene.steps ? 'The simulation is stopped. Press Space to start.' : null;
-    const text = this.page.failure ?? sentences[connection.state] ?? this.said ?? empty ?? stopped ?? '';
+    const urgent = this.page.failure ?? sentences[connection.state] ?? busy;
+    const text = urgent ?? this.said ?? empty ?? stopped ?? '';
     setText(this.notice, text);
     this.notice.hidden = !text;
-    this.notice.classList.toggle('urgent', !!(this.page.failure ?? sentences[connection.state]));
+    this.notice.classList.toggle('urgent', !!urgent);
   }
 
   /** Shows a sentence for a while. */
