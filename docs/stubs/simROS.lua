@@ -23,7 +23,7 @@ function module.advertiseService(serviceName, serviceType, serviceCallback) end
 --- Calls a service and waits for its answer. Callbacks run in the meantime.
 ---@param serviceClientHandle string the client
 ---@param request table a table with the fields of the request
----@return any result a table with the fields of the response
+---@return any result a table with the fields of the response; nil without a master
 function module.call(serviceClientHandle, request) end
 
 --- Removes a parameter, if there is one.

@@ -222,20 +222,26 @@ def without_master():
     closed_port = free.getsockname()[1]
     free.close()
     with tempfile.NamedTemporaryFile("w", suffix=".lua") as scene:
-        scene.write("simROS = require 'simROS' print(pcall(simROS.advertise, '/a', 'std_msgs/String'))")
+        scene.write("""simROS = require 'simROS'
+            local made, topic = pcall(simROS.advertise, '/a', 'std_msgs/String') print(made, topic)
+            if made then simROS.publish(topic, {data = 'x'}) print(simROS.getParamInt('n', 4), 'goes on') end""")
         scene.flush()
 
-        def said(uri):
-            command = [sys.argv[1], "run", "--empty", "--steps", "1", "--quiet", scene.name]
+        def said(uri, *options):
+            command = [sys.argv[1], "run", "--empty", "--steps", "1", "--quiet", *options, scene.name]
             environment = dict(os.environ, ROS_MASTER_URI=uri)
-            return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=3 * LIMIT).stdout
+            result = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=3 * LIMIT)
+            return result.stdout + result.stderr
 
         for port in (silent.getsockname()[1], closed_port):
             begun = time.monotonic()
-            text = said(f"http://127.0.0.1:{port}")
+            text = said(f"http://127.0.0.1:{port}", "--ros-needs-master")
             if f"ROS: no ROS master at http://127.0.0.1:{port}: " not in text or time.monotonic() - begun > 8:
                 sys.exit(f"without a master: {text}")
-        text = said("http://192.0.2.1:11311")
+        text = said(f"http://127.0.0.1:{closed_port}")
+        if "goes on" not in text or text.count("no ROS master at") != 1:
+            sys.exit(f"alone: {text}")
+        text = said("http://192.0.2.1:11311", "--ros-needs-master")
         if "192.0.2.1 is outside of this machine (--ros-network allows that)" not in text:
             sys.exit(f"a master elsewhere: {text}")
     silent.close()

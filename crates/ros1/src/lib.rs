@@ -22,6 +22,7 @@ mod master;
 mod name;
 mod network;
 mod node;
+mod offline;
 mod publisher;
 mod service;
 mod slave;

@@ -1,6 +1,7 @@
 //! Calls of the master.
 
 use crate::network::{NodeNetwork, Place};
+use crate::offline::Offline;
 use crate::xmlrpc::{call_text, read_response};
 use crate::{Error, Result, XmlRpcValue, http, limits};
 
@@ -11,6 +12,8 @@ pub(crate) struct Master {
     network: NodeNetwork,
     /// The name of the node.
     pub(crate) caller: String,
+    /// What answers in its place.
+    offline: Option<Offline>,
 }
 
 impl Master {
@@ -20,7 +23,21 @@ impl Master {
             place: Place::parse(uri, "http")?,
             network,
             caller: caller.into(),
+            offline: None,
         })
+    }
+
+    /// One that is never asked.
+    pub(crate) fn absent(self) -> Self {
+        Self {
+            network: NodeNetwork::Loopback,
+            offline: Some(Offline::default()),
+            ..self
+        }
+    }
+
+    pub(crate) fn is_absent(&self) -> bool {
+        self.offline.is_some()
     }
 
     pub(crate) fn place(&self) -> &Place {
@@ -43,6 +60,15 @@ impl Master {
         method: &str,
         mut arguments: Vec<XmlRpcValue>,
     ) -> Result<XmlRpcValue> {
+        let refused = |reason| Error::Refused {
+            method: method.into(),
+            reason,
+        };
+        if let Some(offline) = &self.offline {
+            return offline
+                .answer(&self.caller, method, arguments)
+                .map_err(refused);
+        }
         arguments.insert(0, XmlRpcValue::text(&self.caller));
         let answer = http::post(
             self.network,
@@ -54,10 +80,7 @@ impl Master {
             uri: self.uri.clone(),
             problem: error.to_string(),
         })?;
-        value_of(read_response(&answer)?).map_err(|reason| Error::Refused {
-            method: method.into(),
-            reason,
-        })
+        value_of(read_response(&answer)?).map_err(refused)
     }
 }
 

@@ -67,7 +67,23 @@ impl Node {
             .map_err(|error| no_master(&master, &error))?;
         // Before anything is bound: without a master there is no node.
         master.call("getPid", &[])?;
-        let network = settings.network;
+        Self::start(place, master, settings.network, host)
+    }
+
+    /// Starts a node that looks for no master and meets no other node: what it publishes reaches nobody, its parameters are its own, and there are
+    /// no services.
+    ///
+    /// # Errors
+    /// When a name or an address is none, or no socket can be had.
+    pub fn without_master(settings: &NodeSettings) -> Result<Self> {
+        let place = Place::new(&settings.namespace, &settings.name)?;
+        let network = NodeNetwork::Loopback;
+        let master = Master::new(&settings.master, network, &place.node)?.absent();
+        let host = network.own_host(master.place())?;
+        Self::start(place, master, network, host)
+    }
+
+    fn start(place: Place, master: Master, network: NodeNetwork, host: String) -> Result<Self> {
         let (ports, has_no_master) = (OnceLock::new(), AtomicBool::new(false));
         let shared = Arc::new(Shared {
             network,
@@ -94,6 +110,12 @@ impl Node {
             place,
             _servers: servers,
         })
+    }
+
+    /// Whether it works without a master.
+    #[must_use]
+    pub fn has_no_master(&self) -> bool {
+        self.shared.master.is_absent()
     }
 
     /// Its name, with the namespace.

@@ -56,6 +56,44 @@ impl Master {
     }
 }
 
+#[test]
+fn a_node_without_a_master_works_alone() {
+    let settings = NodeSettings {
+        master: "http://127.0.0.1:1".into(),
+        network: NodeNetwork::Loopback,
+        namespace: "/robots".into(),
+        name: "arm".into(),
+    };
+    assert!(matches!(Node::new(&settings), Err(Error::Master { .. })));
+    let node = Node::without_master(&settings).expect("a node");
+    assert!(node.has_no_master());
+    let message_type = MessageType {
+        name: "std_msgs/String".into(),
+        md5: "992ce8a1687cec8c8bd883ec73ca41d1".into(),
+        definition: "string data\n".into(),
+    };
+    let publisher = node.publish("/said", &message_type, 1, false).unwrap();
+    let subscriber = node.subscribe("/said", &message_type, 1).unwrap();
+    publisher.publish(vec![0; 4]);
+    assert!(subscriber.take().is_none());
+    // Parameters are the node's own.
+    let value = XmlRpcValue::Int(3);
+    assert_eq!(node.parameter("~speed").unwrap(), None);
+    node.set_parameter("speed", value.clone()).unwrap();
+    assert_eq!(node.parameter("/robots/speed").unwrap(), Some(value));
+    assert_eq!(
+        node.search_parameter("speed").unwrap().as_deref(),
+        Some("/robots/speed")
+    );
+    assert_eq!(node.search_parameter("force").unwrap(), None);
+    node.delete_parameter("speed").unwrap();
+    assert!(!node.has_parameter("speed").unwrap());
+    assert!(matches!(
+        node.delete_parameter("speed"),
+        Err(Error::Refused { .. })
+    ));
+}
+
 fn answer(graph: &Mutex<Graph>, body: &[u8]) -> String {
     let (method, arguments) = read_call(body).expect("a call");
     let texts: Vec<&str> = arguments

@@ -14,6 +14,8 @@ pub struct RosOptions {
     pub packages: Vec<PathBuf>,
     /// The address of ROS 1's master; empty for that of this machine, `http://localhost:11311`.
     pub master: String,
+    /// Without a master of ROS 1, functions raise an error instead of doing nothing.
+    pub needs_master: bool,
     /// The domain of ROS 2, as ROS_DOMAIN_ID states it: a number from 0 to 232; empty for 0.
     pub domain: String,
     /// Where the names of the node of ROS 2 belong; empty for none.

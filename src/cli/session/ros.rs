@@ -14,6 +14,9 @@ pub(in crate::cli) struct RosArgs {
     /// Folder with interfaces of ROS (.msg, .srv, .action), a package or a prefix of packages; may be repeated
     #[arg(long, value_name = "DIR")]
     ros_interfaces: Vec<PathBuf>,
+    /// Without a master of ROS 1, functions of simROS raise an error; otherwise they do nothing, with one warning
+    #[arg(long)]
+    ros_needs_master: bool,
     /// Publish the time of the simulation, the poses of all objects and the joints by ROS 2 (/clock, /tf, /joint_states)
     #[arg(long)]
     ros2_bridge: bool,
@@ -69,6 +72,7 @@ impl RosArgs {
                 .cloned()
                 .collect(),
             master: self.ros_master_uri.clone(),
+            needs_master: self.ros_needs_master,
             domain: self.ros_domain_id.clone(),
             namespace: self.ros_namespace.clone(),
         }

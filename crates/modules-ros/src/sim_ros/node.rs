@@ -15,6 +15,7 @@ use super::topics::{Publisher, Subscription};
 use super::{ApiError, ApiFn, Cx, Result, failed, functions};
 use crate::ros_entities::Entities;
 use script::Host;
+use script::log::verbosity;
 use script::wall_clock;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![get_time];
@@ -121,17 +122,27 @@ pub(super) fn node(cx: &Cx) -> Rc<Node> {
     cx.module_state()
 }
 
-/// The node in its network, which the first call makes.
+/// The node in its network, which the first call makes. Without a master it is alone, which is logged once, unless the options say otherwise.
 ///
 /// # Errors
-/// When that is not allowed, or there is no master.
+/// When that is not allowed, or there is no master and the options ask for one.
 pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
     let node = node(cx);
     if let Some(running) = node.running.borrow().as_ref() {
         return Ok(running.clone());
     }
     let settings = settings(cx)?;
-    let running = ros1::Node::new(&settings).map_err(|error| failed(&error))?;
+    let running = match ros1::Node::new(&settings) {
+        Err(error @ ros1::Error::Master { .. }) if !cx.options().ros.needs_master => {
+            let warning = format!(
+                "ROS: {error}. Functions of simROS do nothing in this run; --ros-needs-master makes that an error"
+            );
+            cx.env().log(verbosity::SCRIPT_WARNINGS, &warning);
+            ros1::Node::without_master(&settings)
+        }
+        made => made,
+    };
+    let running = running.map_err(|error| failed(&error))?;
     let clock = clock(cx, &running)?;
     let running = Rc::new(Running {
         node: running,

@@ -111,7 +111,7 @@ fn service_client(cx: &mut Cx, service_name: String, service_type: String) -> Re
 ///
 /// @param serviceClientHandle the client
 /// @param request a table with the fields of the request
-/// @return result a table with the fields of the response
+/// @return result a table with the fields of the response; nil without a master
 #[api("simROS.call")]
 fn call(cx: &mut Cx, service_client_handle: String, request: Table) -> Result<Data> {
     let client = get(cx, &service_client_handle, client)?;
@@ -119,7 +119,11 @@ fn call(cx: &mut Cx, service_client_handle: String, request: Table) -> Result<Da
     let request = ros_values::from_data(request_layout, &request.0, client.style.get())
         .map_err(ApiError::Other)?;
     let bytes = ros_interfaces::ros1::encode(&request);
-    let call = running(cx)?
+    let running = running(cx)?;
+    if running.node.has_no_master() {
+        return Ok(Data::Nil);
+    }
+    let call = running
         .node
         .call(&client.name, &client.service_type, bytes)
         .map_err(|error| failed(&error))?;
