@@ -61,5 +61,5 @@ pub use mesh::TriangleMesh;
 pub use placed::{Geometry, Placed};
 pub use points::PointSet;
 pub use ray::{Filter, Hit, cast_ray};
-pub use volume::{Volume, closest_in_volume};
+pub use volume::{Piece, Volume, closest_in_volume};
 pub use voxels::VoxelGrid;

@@ -10,11 +10,33 @@ use crate::primitive::{Vector, clip, closest_on_segment};
 use crate::ray::{Filter, Hit};
 use crate::tree::STACK;
 
+/// This near to a hole (m), a point is outside of it.
+const TOUCHING: f64 = 1e-12;
+
 /// A union of convex pieces in the sensor's frame.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Volume {
-    /// Each piece is where `n.p + d <= 0` for all of its planes `[nx, ny, nz, d]`. A piece without planes is everything.
-    pub pieces: Vec<Vec<[f64; 4]>>,
+    /// They may overlap.
+    pub pieces: Vec<Piece>,
+}
+
+/// A convex part of a volume, without its holes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Piece {
+    /// The piece is where `n.p + d <= 0` for all of its planes `[nx, ny, nz, d]`. A piece without planes is everything.
+    pub planes: Vec<[f64; 4]>,
+    /// Convex holes: points inside of all planes of one are not in the piece.
+    pub holes: Vec<Vec<[f64; 4]>>,
+}
+
+/// A piece without holes.
+impl FromIterator<[f64; 4]> for Piece {
+    fn from_iter<I: IntoIterator<Item = [f64; 4]>>(planes: I) -> Self {
+        Self {
+            planes: planes.into_iter().collect(),
+            holes: Vec::new(),
+        }
+    }
 }
 
 /// The point of a geometry inside the volume that is nearest to the sensor's origin, where it is nearer than `below` (m, may be infinite).
@@ -75,11 +97,12 @@ impl Plane {
         self.normal.dot(p) + self.offset
     }
 
-    /// The height of the lowest point of a box.
+    /// The heights of the lowest and of the highest point of a box.
     #[inline]
-    fn lowest(&self, bounds: &Bounds) -> f64 {
+    fn span(&self, bounds: &Bounds) -> [f64; 2] {
         let middle = self.height(&Vector::from(bounds.centre()));
-        middle - self.normal.abs().dot(&Vector::from(bounds.half_size()))
+        let half = self.normal.abs().dot(&Vector::from(bounds.half_size()));
+        [middle - half, middle + half]
     }
 }
 
@@ -90,6 +113,7 @@ struct Search<'a> {
     /// Cosine of the angle limit.
     least: f64,
     piece: Vec<Plane>,
+    holes: Vec<Vec<Plane>>,
     /// Square of the distance that a point must be nearer than.
     limit: f64,
     found: Option<(Vector, Vector)>,
@@ -106,6 +130,7 @@ impl<'a> Search<'a> {
             filter,
             least,
             piece: Vec::new(),
+            holes: Vec::new(),
             limit,
             found: None,
             polygons,
@@ -113,17 +138,33 @@ impl<'a> Search<'a> {
     }
 
     /// Brings the planes of a piece to the frame of the geometry; `None` if one is not finite.
-    fn enter(&mut self, piece: &[[f64; 4]], place: &Transform) -> Option<()> {
-        self.piece.clear();
-        for plane @ [x, y, z, d] in piece {
-            let normal = place.rotation * Vector::new(*x, *y, *z);
-            self.piece.push(Plane {
-                normal,
-                offset: d - normal.dot(&place.translation),
-            });
-            plane.iter().all(|x| x.is_finite()).then_some(())?;
-        }
-        Some(())
+    fn enter(&mut self, piece: &Piece, place: &Transform) -> Option<()> {
+        placed(&piece.planes, place, &mut self.piece)?;
+        self.holes.resize_with(piece.holes.len(), Vec::new);
+        let holes = piece.holes.iter().zip(&mut self.holes);
+        holes
+            .map(|(hole, planes)| placed(hole, place, planes))
+            .collect()
+    }
+
+    fn is_inside(&self, point: &Vector) -> bool {
+        self.piece.iter().all(|plane| plane.height(point) <= 0.0)
+    }
+
+    /// Whether a point is in one of the holes from number `first` on.
+    fn is_in_hole(&self, first: usize, point: &Vector) -> bool {
+        self.holes[first..]
+            .iter()
+            .any(|hole| hole.iter().all(|plane| plane.height(point) < -TOUCHING))
+    }
+
+    /// Whether all of a box is outside of the piece, or in one hole.
+    fn misses(&self, bounds: &Bounds) -> bool {
+        self.piece.iter().any(|plane| plane.span(bounds)[0] > 0.0)
+            || self
+                .holes
+                .iter()
+                .any(|hole| hole.iter().all(|plane| plane.span(bounds)[1] < -TOUCHING))
     }
 
     fn is_done(&self) -> bool {
@@ -135,7 +176,7 @@ impl<'a> Search<'a> {
     fn bound(&self, things: &impl Items, node: u32) -> f64 {
         let bounds = &things.tree().nodes[node as usize].bounds;
         let upright = bounds.distance_squared_to_point(&self.origin.into());
-        if upright >= self.limit || self.piece.iter().any(|plane| plane.lowest(bounds) > 0.0) {
+        if upright >= self.limit || self.misses(bounds) {
             return f64::INFINITY;
         }
         upright.max(
@@ -182,7 +223,7 @@ impl<'a> Search<'a> {
         if (nearest - self.origin).norm_squared() >= self.limit {
             return;
         }
-        if self.piece.iter().all(|plane| plane.height(&nearest) <= 0.0) {
+        if self.is_inside(&nearest) && !self.is_in_hole(0, &nearest) {
             return self.offer(nearest, &normal);
         }
         let [mut polygon, mut cut] = std::mem::take(&mut self.polygons);
@@ -192,10 +233,41 @@ impl<'a> Search<'a> {
             clip(&polygon, |p| plane.height(p), &mut cut);
             std::mem::swap(&mut polygon, &mut cut);
         }
-        if !polygon.is_empty() {
-            self.offer(closest_on_polygon(&self.origin, &polygon, &normal), &normal);
-        }
+        self.polygon(&polygon, &normal, 0);
         self.polygons = [polygon, cut];
+    }
+
+    /// Looks at a polygon inside of the piece, which may reach into the holes from number `hole` on.
+    fn polygon(&mut self, corners: &[Vector], normal: &Vector, hole: usize) {
+        if corners.is_empty() {
+            return;
+        }
+        let nearest = closest_on_polygon(&self.origin, corners, normal);
+        if (nearest - self.origin).norm_squared() >= self.limit {
+            return;
+        }
+        if !self.is_in_hole(hole, &nearest) {
+            return self.offer(nearest, normal);
+        }
+        self.around_hole(corners, normal, hole);
+    }
+
+    /// Looks at the parts of a polygon that are outside of a hole: one behind each of its planes.
+    fn around_hole(&mut self, corners: &[Vector], normal: &Vector, hole: usize) {
+        let (mut inner, mut cut) = (corners.to_vec(), Vec::new());
+        for i in 0..self.holes[hole].len() {
+            let plane = self.holes[hole][i];
+            if inner.iter().all(|corner| plane.height(corner) <= 0.0) {
+                continue;
+            }
+            clip(&inner, |p| -plane.height(p), &mut cut);
+            self.polygon(&cut, normal, hole + 1);
+            clip(&inner, |p| plane.height(p), &mut cut);
+            std::mem::swap(&mut inner, &mut cut);
+            if inner.is_empty() {
+                return;
+            }
+        }
     }
 
     /// Looks at the six faces of a cell.
@@ -218,7 +290,7 @@ impl<'a> Search<'a> {
     fn points(&mut self, points: &PointSet) {
         self.descend(points, |search, i| {
             let point = points.points[i];
-            if search.piece.iter().all(|plane| plane.height(&point) <= 0.0) {
+            if search.is_inside(&point) && !search.is_in_hole(0, &point) {
                 let normal = point - search.origin;
                 search.offer(point, &normal);
             }
@@ -238,6 +310,20 @@ impl<'a> Search<'a> {
             (self.limit, self.found) = (squared, Some((point, normal)));
         }
     }
+}
+
+/// Brings planes to the frame of the geometry; `None` if one is not finite.
+fn placed(planes: &[[f64; 4]], place: &Transform, all: &mut Vec<Plane>) -> Option<()> {
+    all.clear();
+    for plane @ [x, y, z, d] in planes {
+        let normal = place.rotation * Vector::new(*x, *y, *z);
+        all.push(Plane {
+            normal,
+            offset: d - normal.dot(&place.translation),
+        });
+        plane.iter().all(|x| x.is_finite()).then_some(())?;
+    }
+    Some(())
 }
 
 /// The point of a flat convex polygon that is closest to `p`.

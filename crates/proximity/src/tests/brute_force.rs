@@ -11,7 +11,7 @@ use crate::primitive::{
     triangles_touch,
 };
 use crate::{
-    Filter, Geometry, Placed, PointSet, TriangleMesh, Volume, VoxelGrid, cast_ray,
+    Filter, Geometry, Piece, Placed, PointSet, TriangleMesh, Volume, VoxelGrid, cast_ray,
     closest_in_volume, distance, intersection_segments, intersects,
 };
 
@@ -345,18 +345,21 @@ fn no_ray_passes_through_a_closed_surface() {
 }
 
 fn random_volume(random: &mut Random, size: f64) -> Volume {
-    let piece = |random: &mut Random| {
-        let planes = 1 + random.below(6);
-        (0..planes)
-            .map(|_| {
-                [
-                    random.number(),
-                    random.number(),
-                    random.number(),
-                    0.5 * size * random.number(),
-                ]
-            })
-            .collect()
+    let planes = |random: &mut Random| {
+        let count = 1 + random.below(6);
+        let plane = |_| {
+            [
+                random.number(),
+                random.number(),
+                random.number(),
+                0.5 * size * random.number(),
+            ]
+        };
+        (0..count).map(plane).collect::<Vec<_>>()
+    };
+    let piece = |random: &mut Random| Piece {
+        planes: planes(random),
+        holes: (0..random.below(3)).map(|_| planes(random)).collect(),
     };
     Volume {
         pieces: (0..1 + random.below(3)).map(|_| piece(random)).collect(),
@@ -410,8 +413,12 @@ fn volumes_see_the_nearest_of_many_points_on_triangles() {
 }
 
 fn is_inside(volume: &Volume, p: &Vector, tolerance: f64) -> bool {
-    let inside = |[x, y, z, d]: &[f64; 4]| x * p.x + y * p.y + z * p.z + d <= tolerance;
-    volume.pieces.iter().any(|piece| piece.iter().all(inside))
+    let height = |[x, y, z, d]: &[f64; 4]| x * p.x + y * p.y + z * p.z + d;
+    let is_in_hole = |hole: &Vec<[f64; 4]>| hole.iter().all(|plane| height(plane) < -tolerance);
+    volume.pieces.iter().any(|piece| {
+        piece.planes.iter().all(|plane| height(plane) <= tolerance)
+            && !piece.holes.iter().any(is_in_hole)
+    })
 }
 
 #[test]
@@ -502,7 +509,7 @@ fn what_is_not_finite_finds_nothing() {
             );
             assert!(!intersects(a, b) && intersection_segments(a, b).is_empty());
             let everything = Volume {
-                pieces: vec![Vec::new()],
+                pieces: vec![Piece::default()],
             };
             assert_eq!(
                 cast_ray(a, &Pose::identity(), [0.0, 0.0, 1.0], [0.0, 1e9], &filter),
@@ -533,7 +540,7 @@ fn what_is_not_finite_finds_nothing() {
                 None
             );
             let crooked = Volume {
-                pieces: vec![vec![[f64::NAN, 0.0, 0.0, 0.0]]],
+                pieces: vec![[[f64::NAN, 0.0, 0.0, 0.0]].into_iter().collect()],
             };
             assert_eq!(
                 closest_in_volume(b, &Pose::identity(), &crooked, f64::INFINITY, &filter),

@@ -41,7 +41,12 @@ fn shaft(half: f64, near: f64, far: f64) -> Volume {
         [0., -1., 0., -half],
     ];
     Volume {
-        pieces: vec![[&sides[..], &[[0., 0., -1., near], [0., 0., 1., -far]]].concat()],
+        pieces: vec![
+            sides
+                .into_iter()
+                .chain([[0., 0., -1., near], [0., 0., 1., -far]])
+                .collect(),
+        ],
     }
 }
 
