@@ -56,6 +56,23 @@ class Namespace:
         return '<module %s of the simulator>' % self._path
 
 
+# Modules that scripts use without asking for them, as those in Lua may (lua_runtime/implicit.rs).
+IMPLICIT = (
+    'simIK simUI simGeom simMujoco simAssimp simBubble simCHAI3D simMTB simOMPL simOpenMesh simQHull simRRS1 simSDF simSubprocess simSurfRec '
+    'simURDF simVision simWS simZMQ simIM simEigen simIGL simICP simROS simROS2'
+).split()
+
+
+class ImplicitNamespace(Namespace):
+    """A module that is loaded when it is first used."""
+
+    def __getattr__(self, name):
+        if '_is_loaded' not in self.__dict__ and not name.startswith('__'):
+            self.__dict__['_is_loaded'] = True
+            call('__require__', [self._path])
+        return super().__getattr__(name)
+
+
 class ScriptFunctions:
     """The functions of another script, as methods."""
 

@@ -93,7 +93,8 @@ def begin_scope(filename):
     )
     api.script_globals = scope
     api.namespaces['sim'] = api.Namespace('sim')
-    surroundings.names.update(require=api.require, sim=api.namespaces['sim'])
+    implicit = {name: api.ImplicitNamespace(name) for name in api.IMPLICIT}
+    surroundings.names.update(implicit, require=api.require, sim=api.namespaces['sim'])
 
 
 def as_module():
