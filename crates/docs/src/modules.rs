@@ -46,6 +46,7 @@ const INNER: &[&str] = &[
     "remote/zmq_arguments",
     "remote/zmq_clients",
     "remote/zmq_functions",
+    "remote/zmq_steps",
     "restricted",
     "seal",
     "shared_process",

@@ -16,6 +16,7 @@ local sim = require('sim')
 local load = load -- for chunks of clients, whatever one of them puts in its place
 local answers = require('remote.zmq_answers')
 local clients = require('remote.zmq_clients')
+local steps = require('remote.zmq_steps')
 local namespaces = require('remote.namespaces')
 local requests = require('remote.zmq_arguments')
 local given = requests.given
@@ -30,18 +31,14 @@ local POLL_TIMEOUT <const> = 0.05 -- the same while a client holds it up
 local MAX_QUEUED <const> = 1000 -- callbacks nobody waits for, by client
 local MAX_HELD <const> = 1000 -- requests put off
 local MAX_PER_WINDOW <const> = 10000 -- requests served in one window
-local ADVANCING <const> = sim.simulation_advancing
 
 local current -- the client whose request is running
-local currentStep = 0
 local asking -- the client whose blocking callback everything waits for
 local held = {} -- requests of others meanwhile
 local restarting = false
 local windows = {idle = 0.05, running = 0.002} -- seconds requests are served at a time; running: for each client that does not step
 local served, servedCount = {}, 0 -- clients in the present window that do not step
 local verbose = math.tointeger(tonumber(sim.getNamedStringParam('zmqRemoteApi.verbose'))) or 0
-
-local function isRunning() return sim.getSimulationState() & ADVANCING ~= 0 end
 
 local function mustLeave() return restarting or native.closed() end
 
@@ -57,10 +54,9 @@ local ASK <const> = {} -- yielded by a task that asks its client
 local deliverQueue -- below
 
 local function awaitStep(client, task)
-    task.waits, task.step, task.since = 'step', currentStep, sim.getSystemTime()
+    steps.await(client, task, sim.getSystemTime())
     if client.queue[1] then deliverQueue(client) end
-    if not isRunning() then return answer(task, answers.WAIT) end
-    if client.level > 0 then client.desiredStep = currentStep + 1 end
+    if not steps.isRunning() then answer(task, answers.WAIT) end
 end
 
 -- Goes on with a task until it ends, asks its client or waits for a step.
@@ -78,15 +74,13 @@ local function run(client, task, ...)
     answer(task, bytes)
 end
 
-local function isDue(task) return task.step ~= currentStep or not isRunning() end
-
 local function resumeClient(client, now)
     if client.queue[1] and clients.listening(client) then deliverQueue(client) end
     local i = 1
     while client.tasks[i] do
         local task = client.tasks[i]
         if task.waits == 'step' and task.peer then
-            if isDue(task) then
+            if steps.isDue(task, now) then
                 run(client, task)
             elseif now - task.since > ANSWER_TIMEOUT then
                 answer(task, answers.WAIT)
@@ -173,8 +167,11 @@ local LOCKS <const> = {
     ['sim.releaseLock'] = function() current.locks = math.max(0, current.locks - 1) end,
 }
 
+local STEPS <const> = {['sim.step'] = true, ['sim.yield'] = true, ['sim.switchThread'] = true}
+
 local function perform(client, request)
     local func = request.func
+    client.asksForStep = STEPS[func or '']
     if func and func ~= '' then
         local args, n = requests.arguments(client, request, callbackOf)
         local code = LOCKS[func] or lookup(func)
@@ -198,10 +195,9 @@ local function executed(client, peer, request)
     if task.waits == 'callback' then
         local args, n = given(request)
         run(client, task, unpack(args, 1, n))
-    elseif isDue(task) then
-        run(client, task)
     else
         task.since = sim.getSystemTime()
+        if steps.isDue(task, task.since) then run(client, task) end
     end
 end
 
@@ -287,10 +283,9 @@ namespaces.install(native.members)
 
 require('remote.zmq_functions')({
     current = function() return current end,
-    currentStep = function() return currentStep end,
     perform = function(call) return perform(current, call) end,
     restart = function() restarting = true end,
-    setWindow = function(seconds) windows[isRunning() and 'running' or 'idle'] = seconds end,
+    setWindow = function(seconds) windows[steps.isRunning() and 'running' or 'idle'] = seconds end,
 })
 
 ---------------------------------------------------------------- the add-on
@@ -329,7 +324,7 @@ local function serveWindow(kind, quiet)
     while count < MAX_PER_WINDOW and not mustLeave() and not native.others() and sim.getSimulationState() == state do
         local window = windows[kind] * (kind == 'running' and servedCount or 1)
         local left = begun + window - sim.getSystemTime()
-        if kind == 'running' and clients.allAwaitStep(served) then left = 0 end
+        if kind == 'running' and steps.allAwaitStep(served) then left = 0 end
         if left < 0 and servedCount > 0 or not serveOne(math.max(0, math.min(left, quiet))) then return end
         count = count + 1
     end
@@ -339,7 +334,11 @@ local function serveIdle()
     clients.forgetExpired(sim.getSystemTime())
     resumeDue()
     serveWindow('idle', IDLE_TIMEOUT)
-    while clients.anyLock() and not mustLeave() do serveOne(POLL_TIMEOUT) end
+    while steps.anyLock() and not mustLeave() do
+        serveOne(POLL_TIMEOUT)
+        clients.forgetExpired(sim.getSystemTime())
+        resumeDue()
+    end
     if restarting then return {cmd = 'restart'} end
 end
 
@@ -348,22 +347,19 @@ sysCall_nonSimulation, sysCall_suspended = serveIdle, serveIdle
 function sysCall_actuation()
     resumeDue()
     serveWindow('running', POLL_TIMEOUT)
-    while clients.anyHoldsUp(currentStep) and not mustLeave() do
+    while steps.anyHoldsUp() and not mustLeave() do
         serveOne(POLL_TIMEOUT)
         clients.forgetExpired(sim.getSystemTime())
         resumeDue()
     end
-    currentStep = currentStep + 1
+    steps.pass()
     if restarting then return {cmd = 'restart'} end
 end
 
 -- Between two steps in real-time mode.
 function sysCall_realTimeIdle() serveWindow('running', IDLE_TIMEOUT) end
 
-function sysCall_afterSimulation()
-    currentStep = 0
-    resumeDue()
-end
+function sysCall_afterSimulation() resumeDue() end
 
 -- Nobody is left without an answer.
 function sysCall_cleanup()
