@@ -1,7 +1,6 @@
 //! `swanilda serve`: an idle simulator that programs outside drive.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use super::Outcome;
 use super::launch::Launch;
@@ -47,6 +46,5 @@ pub(super) fn serve(args: &Args) -> Outcome {
         ..
     } = launch;
     let viewer = args.view.start(&sim, &args.remote, &output)?;
-    Live::new(viewer).run(&mut sim, &interrupt);
-    Ok(ExitCode::SUCCESS)
+    Ok(Live::new(viewer).run(&mut sim, &interrupt))
 }

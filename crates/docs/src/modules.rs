@@ -47,6 +47,7 @@ const INNER: &[&str] = &[
     "remote/zmq_clients",
     "remote/zmq_functions",
     "remote/zmq_steps",
+    "remote/zmq_waits",
     "restricted",
     "seal",
     "shared_process",

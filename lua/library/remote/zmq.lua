@@ -17,6 +17,7 @@ local load = load -- for chunks of clients, whatever one of them puts in its pla
 local answers = require('remote.zmq_answers')
 local clients = require('remote.zmq_clients')
 local steps = require('remote.zmq_steps')
+local waits = require('remote.zmq_waits')
 local namespaces = require('remote.namespaces')
 local requests = require('remote.zmq_arguments')
 local given = requests.given
@@ -63,14 +64,14 @@ end
 local function run(client, task, ...)
     local before = current
     current, task.waits = client, nil
-    local ok, what, bytes = resume(task.coroutine, ...)
+    local ok, what, bytes, callback = resume(task.coroutine, ...)
     current = before
     if status(task.coroutine) == 'dead' then
         clients.endTask(client, task)
         return answer(task, ok and what or answers.failure(what))
     end
     if what ~= ASK then return awaitStep(client, task) end
-    task.waits = 'callback'
+    task.waits, task.callback, task.since, task.isNoted = 'callback', callback, sim.getSystemTime(), nil
     answer(task, bytes)
 end
 
@@ -120,8 +121,8 @@ local function canAnswer(client, ask)
 end
 
 -- A callback where nothing can yield: everything waits for this client, until it speaks next if it is not listening.
-local function askBlocking(client, bytes)
-    local outer, ask = asking, {bytes = bytes, postponed = {}}
+local function askBlocking(client, callback, bytes)
+    local outer, ask = asking, {callback = callback, since = sim.getSystemTime(), bytes = bytes, postponed = {}}
     client.asks[#client.asks + 1] = ask
     asking = client
     sendAsk(client)
@@ -137,8 +138,8 @@ local function callbackOf(client, name)
     local function callback(...)
         local bytes = answers.call(name, pack(...))
         local _, isMain = coroutine.running()
-        if isMain or not getYieldAllowed() then return askBlocking(client, bytes) end
-        return yield(ASK, bytes)
+        if isMain or not getYieldAllowed() then return askBlocking(client, name, bytes) end
+        return yield(ASK, bytes, name)
     end
     answers.names[callback] = name .. '@func'
     return callback
@@ -148,7 +149,8 @@ function deliverQueue(client)
     if client.delivering then return end
     client.delivering = true
     while client.queue[1] and clients.isKnown(client) and not mustLeave() do
-        askBlocking(client, table.remove(client.queue, 1))
+        local first = table.remove(client.queue, 1)
+        askBlocking(client, first.callback, first.bytes)
     end
     client.delivering = false
 end
@@ -163,7 +165,10 @@ end
 
 -- As direct requests these count for the client; within Lua code they mean what they mean everywhere.
 local LOCKS <const> = {
-    ['sim.acquireLock'] = function() current.locks = current.locks + 1 end,
+    ['sim.acquireLock'] = function()
+        if current.locks == 0 then current.lockedSince, current.isLockNoted = sim.getSystemTime(), nil end
+        current.locks = current.locks + 1
+    end,
     ['sim.releaseLock'] = function() current.locks = math.max(0, current.locks - 1) end,
 }
 
@@ -275,6 +280,7 @@ function serveAsked()
     local now = sim.getSystemTime()
     while held[1] and now - held[1].since > ANSWER_TIMEOUT do native.reply(table.remove(held, 1).peer, answers.REPEAT) end
     clients.forgetExpired(now)
+    waits.note(now)
 end
 
 ---------------------------------------------------------------- functions for clients
@@ -309,10 +315,10 @@ end
 function sysCall_ext(name, ...)
     local f = namespaces.find(name)
     if f then return callLocally(f, ...) end
-    local bytes = answers.call(name, pack(...))
+    local call = {callback = name, bytes = answers.call(name, pack(...))}
     for _, client in ipairs(clients.all) do
         if #client.queue >= MAX_QUEUED then table.remove(client.queue, 1) end
-        client.queue[#client.queue + 1] = bytes
+        client.queue[#client.queue + 1] = call
     end
 end
 
@@ -330,15 +336,22 @@ local function serveWindow(kind, quiet)
     end
 end
 
+-- Serves requests as long as clients hold something up.
+local function serveWhile(isHeldUp)
+    while isHeldUp() and not mustLeave() do
+        serveOne(POLL_TIMEOUT)
+        local now = sim.getSystemTime()
+        clients.forgetExpired(now)
+        resumeDue()
+        waits.note(now)
+    end
+end
+
 local function serveIdle()
     clients.forgetExpired(sim.getSystemTime())
     resumeDue()
     serveWindow('idle', IDLE_TIMEOUT)
-    while steps.anyLock() and not mustLeave() do
-        serveOne(POLL_TIMEOUT)
-        clients.forgetExpired(sim.getSystemTime())
-        resumeDue()
-    end
+    serveWhile(steps.anyLock)
     if restarting then return {cmd = 'restart'} end
 end
 
@@ -347,11 +360,7 @@ sysCall_nonSimulation, sysCall_suspended = serveIdle, serveIdle
 function sysCall_actuation()
     resumeDue()
     serveWindow('running', POLL_TIMEOUT)
-    while steps.anyHoldsUp() and not mustLeave() do
-        serveOne(POLL_TIMEOUT)
-        clients.forgetExpired(sim.getSystemTime())
-        resumeDue()
-    end
+    serveWhile(steps.anyHoldsUp)
     steps.pass()
     if restarting then return {cmd = 'restart'} end
 end

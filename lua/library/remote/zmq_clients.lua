@@ -8,7 +8,7 @@ A client is known by its uuid and has one or more connections. Each of its reque
     coroutine    its coroutine
     waits        'step' | 'callback' | nil while it runs or has not begun
     step, asked  what step it waits for the end of, and since when (zmq_steps)
-    callback     the name of the function of the client it waits for
+    callback     the name of the function of the client it waits for, since when, and whether that was said (zmq_waits)
 ]]
 
 local M = {}
@@ -50,12 +50,13 @@ local function newClient(request, peer)
     if #clients >= MAX_CLIENTS then error('too many clients', 0) end
     local client = {
         uuid = request.uuid,
+        lang = type(request.lang) == 'string' and request.lang:match('^%w[%w+#]*$') or nil,
         peers = {},
         tasks = {}, -- the innermost last
         asks = {}, -- blocking callbacks, the innermost last
         queue = {}, -- callbacks nobody waits for
         level = 0, -- of stepping
-        locks = 0,
+        locks = 0, -- lockedSince: the first of them; isLockNoted: that was said (zmq_waits)
         life = math.tointeger(request.timeout) or LIFE,
     }
     clients[#clients + 1] = client
