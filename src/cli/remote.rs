@@ -4,6 +4,7 @@ use std::io::{Error, ErrorKind};
 use std::net::{IpAddr, Ipv4Addr, TcpListener};
 use std::path::PathBuf;
 
+use super::complain;
 use super::interrupt::Interrupt;
 use super::output::Output;
 use super::permissions::{HEADING, PermissionArgs};
@@ -172,7 +173,10 @@ impl Remote {
         }
         for port in *first_port..first_port + TRIED_PORTS {
             match TcpListener::bind((address, port)) {
-                Ok(listener) => return Ok(listener),
+                Ok(listener) => {
+                    warn_of_next_port(api, port);
+                    return Ok(listener);
+                }
                 Err(error) if error.kind() == ErrorKind::AddrInUse => {}
                 Err(error) => return Err(cannot_listen(address, port, &error)),
             }
@@ -181,6 +185,18 @@ impl Remote {
             "ports {first_port} to {} are all in use at {address}",
             first_port + TRIED_PORTS - 1
         ))
+    }
+}
+
+/// Programs that give no port look at the first one, and find another program there.
+fn warn_of_next_port(api: &Api, port: u16) {
+    let Api {
+        name, first_port, ..
+    } = api;
+    if port != *first_port {
+        complain(&format!(
+            "port {first_port} is in use: clients of the {name} API that give no port reach another program. This one listens at port {port}"
+        ));
     }
 }
 

@@ -1,7 +1,6 @@
 //! `swanilda serve`: an idle simulator that programs outside drive.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use super::Outcome;
 use super::launch::Launch;
@@ -48,6 +47,5 @@ pub(super) fn serve(args: &Args) -> Outcome {
         ..
     } = launch;
     let viewer = args.view.start(&sim, &args.remote, &output, &watchdog)?;
-    Live::new(viewer).run(&mut sim, &interrupt);
-    Ok(ExitCode::SUCCESS)
+    Ok(Live::new(viewer).run(&mut sim, &interrupt))
 }

@@ -2,7 +2,7 @@
 
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use super::Outcome;
@@ -135,8 +135,7 @@ pub(super) fn view(args: &Args) -> Outcome {
     if !args.paused {
         sim.start();
     }
-    Live::new(Some(viewer)).run(&mut sim, &interrupt);
-    Ok(ExitCode::SUCCESS)
+    Ok(Live::new(Some(viewer)).run(&mut sim, &interrupt))
 }
 
 fn is_recording(path: &Path) -> bool {
@@ -160,7 +159,7 @@ fn view_recording(args: &Args, path: &Path) -> Outcome {
     while !interrupt.is_requested() {
         std::thread::sleep(POLL_INTERVAL);
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(interrupt.outcome())
 }
 
 impl Args {

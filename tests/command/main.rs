@@ -8,6 +8,7 @@ mod conformance;
 mod physics;
 mod plugins;
 mod python;
+mod remote_steps;
 mod scene_cli;
 mod scene_data;
 mod sockets;

@@ -177,7 +177,7 @@ def main():
         control("if S then pcall(simWS.stop, S) end")
         eventually(control.sim.sockets, before)
         same("still there", control("return 1 + 1"), "2")
-        same("the end", control.sim.end(), 0)
+        same("the end", control.sim.end(), 143)
 
 
 main()

@@ -196,7 +196,7 @@ def main():
     with Control() as control:
         for case in (echoes, errors, handlers, pages, clients, other_scripts, batches, sub_protocols):
             case(control)
-        same("the end", control.sim.end(), 0)
+        same("the end", control.sim.end(), 143)
 
 
 main()

@@ -53,6 +53,17 @@ fn a_restart_while_clients_wait() {
 }
 
 #[test]
+fn whom_everything_waits_for() {
+    let Some(python) = python() else { return };
+    run(
+        python,
+        "zmq_waits.py",
+        &Server::start(),
+        &[env!("CARGO_BIN_EXE_swanilda")],
+    );
+}
+
+#[test]
 fn the_official_asyncio_client() {
     check("zmq_asyncio.py", &[]);
 }
@@ -64,11 +75,11 @@ fn the_end_while_a_client_holds_up_the_simulation() {
     let mut server = Server::start();
     let id = server.child.id().to_string();
     run(python, "zmq_end.py", &server, &[&id]);
-    assert!(
+    assert_eq!(
         wait_within(&mut server.child, LIMIT)
             .expect("it ends")
-            .success(),
-        "SIGTERM is a clean end"
+            .code(),
+        Some(143)
     );
 }
 

@@ -37,6 +37,18 @@ def lock_step(peers, steps):
         near("a step at a time", seen, first[0] + 0.05 * index)
 
 
+def step_before_the_start(peer, other):
+    """A step that waits when another client starts the simulation is the first of that run."""
+    same("told to wait", peer.ask(func="sim.step"), {"func": WAIT, "args": {}})
+    start(other)
+    reply = peer.executed()
+    while reply.get("func") == WAIT:
+        reply = peer.executed()
+    same("the step", reply, {"ret": {}})
+    near("its time", peer.time(), 0.05)
+    other.call("sim.stopSimulation", True)
+
+
 def waiting(peer):
     """Functions that wait block their client only."""
     before = peer.time()
@@ -85,6 +97,8 @@ def not_stepping(peer):
 
 def main():
     a, b = Peer("a"), Peer("b")
+    a.call("sim.setStepping", True)
+    step_before_the_start(a, b)
     for peer in (a, b):
         peer.call("sim.setStepping", True)
     start(a)

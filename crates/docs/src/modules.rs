@@ -46,6 +46,8 @@ const INNER: &[&str] = &[
     "remote/zmq_arguments",
     "remote/zmq_clients",
     "remote/zmq_functions",
+    "remote/zmq_steps",
+    "remote/zmq_waits",
     "restricted",
     "seal",
     "shared_process",

@@ -16,6 +16,8 @@ local sim = require('sim')
 local load = load -- for chunks of clients, whatever one of them puts in its place
 local answers = require('remote.zmq_answers')
 local clients = require('remote.zmq_clients')
+local steps = require('remote.zmq_steps')
+local waits = require('remote.zmq_waits')
 local namespaces = require('remote.namespaces')
 local requests = require('remote.zmq_arguments')
 local given = requests.given
@@ -30,18 +32,14 @@ local POLL_TIMEOUT <const> = 0.05 -- the same while a client holds it up
 local MAX_QUEUED <const> = 1000 -- callbacks nobody waits for, by client
 local MAX_HELD <const> = 1000 -- requests put off
 local MAX_PER_WINDOW <const> = 10000 -- requests served in one window
-local ADVANCING <const> = sim.simulation_advancing
 
 local current -- the client whose request is running
-local currentStep = 0
 local asking -- the client whose blocking callback everything waits for
 local held = {} -- requests of others meanwhile
 local restarting = false
 local windows = {idle = 0.05, running = 0.002} -- seconds requests are served at a time; running: for each client that does not step
 local served, servedCount = {}, 0 -- clients in the present window that do not step
 local verbose = math.tointeger(tonumber(sim.getNamedStringParam('zmqRemoteApi.verbose'))) or 0
-
-local function isRunning() return sim.getSimulationState() & ADVANCING ~= 0 end
 
 local function mustLeave() return restarting or native.closed() end
 
@@ -57,28 +55,25 @@ local ASK <const> = {} -- yielded by a task that asks its client
 local deliverQueue -- below
 
 local function awaitStep(client, task)
-    task.waits, task.step, task.since = 'step', currentStep, sim.getSystemTime()
+    steps.await(client, task, sim.getSystemTime())
     if client.queue[1] then deliverQueue(client) end
-    if not isRunning() then return answer(task, answers.WAIT) end
-    if client.level > 0 then client.desiredStep = currentStep + 1 end
+    if not steps.isRunning() then answer(task, answers.WAIT) end
 end
 
 -- Goes on with a task until it ends, asks its client or waits for a step.
 local function run(client, task, ...)
     local before = current
     current, task.waits = client, nil
-    local ok, what, bytes = resume(task.coroutine, ...)
+    local ok, what, bytes, callback = resume(task.coroutine, ...)
     current = before
     if status(task.coroutine) == 'dead' then
         clients.endTask(client, task)
         return answer(task, ok and what or answers.failure(what))
     end
     if what ~= ASK then return awaitStep(client, task) end
-    task.waits = 'callback'
+    task.waits, task.callback, task.since, task.isNoted = 'callback', callback, sim.getSystemTime(), nil
     answer(task, bytes)
 end
-
-local function isDue(task) return task.step ~= currentStep or not isRunning() end
 
 local function resumeClient(client, now)
     if client.queue[1] and clients.listening(client) then deliverQueue(client) end
@@ -86,7 +81,7 @@ local function resumeClient(client, now)
     while client.tasks[i] do
         local task = client.tasks[i]
         if task.waits == 'step' and task.peer then
-            if isDue(task) then
+            if steps.isDue(task, now) then
                 run(client, task)
             elseif now - task.since > ANSWER_TIMEOUT then
                 answer(task, answers.WAIT)
@@ -126,8 +121,8 @@ local function canAnswer(client, ask)
 end
 
 -- A callback where nothing can yield: everything waits for this client, until it speaks next if it is not listening.
-local function askBlocking(client, bytes)
-    local outer, ask = asking, {bytes = bytes, postponed = {}}
+local function askBlocking(client, callback, bytes)
+    local outer, ask = asking, {callback = callback, since = sim.getSystemTime(), bytes = bytes, postponed = {}}
     client.asks[#client.asks + 1] = ask
     asking = client
     sendAsk(client)
@@ -143,8 +138,8 @@ local function callbackOf(client, name)
     local function callback(...)
         local bytes = answers.call(name, pack(...))
         local _, isMain = coroutine.running()
-        if isMain or not getYieldAllowed() then return askBlocking(client, bytes) end
-        return yield(ASK, bytes)
+        if isMain or not getYieldAllowed() then return askBlocking(client, name, bytes) end
+        return yield(ASK, bytes, name)
     end
     answers.names[callback] = name .. '@func'
     return callback
@@ -154,7 +149,8 @@ function deliverQueue(client)
     if client.delivering then return end
     client.delivering = true
     while client.queue[1] and clients.isKnown(client) and not mustLeave() do
-        askBlocking(client, table.remove(client.queue, 1))
+        local first = table.remove(client.queue, 1)
+        askBlocking(client, first.callback, first.bytes)
     end
     client.delivering = false
 end
@@ -169,12 +165,18 @@ end
 
 -- As direct requests these count for the client; within Lua code they mean what they mean everywhere.
 local LOCKS <const> = {
-    ['sim.acquireLock'] = function() current.locks = current.locks + 1 end,
+    ['sim.acquireLock'] = function()
+        if current.locks == 0 then current.lockedSince, current.isLockNoted = sim.getSystemTime(), nil end
+        current.locks = current.locks + 1
+    end,
     ['sim.releaseLock'] = function() current.locks = math.max(0, current.locks - 1) end,
 }
 
+local STEPS <const> = {['sim.step'] = true, ['sim.yield'] = true, ['sim.switchThread'] = true}
+
 local function perform(client, request)
     local func = request.func
+    client.asksForStep = STEPS[func or '']
     if func and func ~= '' then
         local args, n = requests.arguments(client, request, callbackOf)
         local code = LOCKS[func] or lookup(func)
@@ -198,10 +200,9 @@ local function executed(client, peer, request)
     if task.waits == 'callback' then
         local args, n = given(request)
         run(client, task, unpack(args, 1, n))
-    elseif isDue(task) then
-        run(client, task)
     else
         task.since = sim.getSystemTime()
+        if steps.isDue(task, task.since) then run(client, task) end
     end
 end
 
@@ -279,6 +280,7 @@ function serveAsked()
     local now = sim.getSystemTime()
     while held[1] and now - held[1].since > ANSWER_TIMEOUT do native.reply(table.remove(held, 1).peer, answers.REPEAT) end
     clients.forgetExpired(now)
+    waits.note(now)
 end
 
 ---------------------------------------------------------------- functions for clients
@@ -287,10 +289,9 @@ namespaces.install(native.members)
 
 require('remote.zmq_functions')({
     current = function() return current end,
-    currentStep = function() return currentStep end,
     perform = function(call) return perform(current, call) end,
     restart = function() restarting = true end,
-    setWindow = function(seconds) windows[isRunning() and 'running' or 'idle'] = seconds end,
+    setWindow = function(seconds) windows[steps.isRunning() and 'running' or 'idle'] = seconds end,
 })
 
 ---------------------------------------------------------------- the add-on
@@ -314,10 +315,10 @@ end
 function sysCall_ext(name, ...)
     local f = namespaces.find(name)
     if f then return callLocally(f, ...) end
-    local bytes = answers.call(name, pack(...))
+    local call = {callback = name, bytes = answers.call(name, pack(...))}
     for _, client in ipairs(clients.all) do
         if #client.queue >= MAX_QUEUED then table.remove(client.queue, 1) end
-        client.queue[#client.queue + 1] = bytes
+        client.queue[#client.queue + 1] = call
     end
 end
 
@@ -329,9 +330,20 @@ local function serveWindow(kind, quiet)
     while count < MAX_PER_WINDOW and not mustLeave() and not native.others() and sim.getSimulationState() == state do
         local window = windows[kind] * (kind == 'running' and servedCount or 1)
         local left = begun + window - sim.getSystemTime()
-        if kind == 'running' and clients.allAwaitStep(served) then left = 0 end
+        if kind == 'running' and steps.allAwaitStep(served) then left = 0 end
         if left < 0 and servedCount > 0 or not serveOne(math.max(0, math.min(left, quiet))) then return end
         count = count + 1
+    end
+end
+
+-- Serves requests as long as clients hold something up.
+local function serveWhile(isHeldUp)
+    while isHeldUp() and not mustLeave() do
+        serveOne(POLL_TIMEOUT)
+        local now = sim.getSystemTime()
+        clients.forgetExpired(now)
+        resumeDue()
+        waits.note(now)
     end
 end
 
@@ -339,7 +351,7 @@ local function serveIdle()
     clients.forgetExpired(sim.getSystemTime())
     resumeDue()
     serveWindow('idle', IDLE_TIMEOUT)
-    while clients.anyLock() and not mustLeave() do serveOne(POLL_TIMEOUT) end
+    serveWhile(steps.anyLock)
     if restarting then return {cmd = 'restart'} end
 end
 
@@ -348,22 +360,15 @@ sysCall_nonSimulation, sysCall_suspended = serveIdle, serveIdle
 function sysCall_actuation()
     resumeDue()
     serveWindow('running', POLL_TIMEOUT)
-    while clients.anyHoldsUp(currentStep) and not mustLeave() do
-        serveOne(POLL_TIMEOUT)
-        clients.forgetExpired(sim.getSystemTime())
-        resumeDue()
-    end
-    currentStep = currentStep + 1
+    serveWhile(steps.anyHoldsUp)
+    steps.pass()
     if restarting then return {cmd = 'restart'} end
 end
 
 -- Between two steps in real-time mode.
 function sysCall_realTimeIdle() serveWindow('running', IDLE_TIMEOUT) end
 
-function sysCall_afterSimulation()
-    currentStep = 0
-    resumeDue()
-end
+function sysCall_afterSimulation() resumeDue() end
 
 -- Nobody is left without an answer.
 function sysCall_cleanup()

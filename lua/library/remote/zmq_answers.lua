@@ -83,10 +83,12 @@ function M.failure(message)
     return encode({err = text})
 end
 
---- A call of a function of the client.
+--- A call of a function of the client. Clients receive a list, which ends with the last argument that is not nil.
 function M.call(name, args)
-    local parts = {'\xa2\x64func', cbor.TYPE.TEXT(name), '\x64args', args.n == 0 and '\xa0' or head(0x80, args.n)}
-    for i = 1, args.n do parts[i + 4] = encodeAny(args[i]) end
+    local n = args.n
+    while n > 0 and args[n] == nil do n = n - 1 end
+    local parts = {'\xa2\x64func', cbor.TYPE.TEXT(name), '\x64args', n == 0 and '\xa0' or head(0x80, n)}
+    for i = 1, n do parts[i + 4] = encodeAny(args[i]) end
     return concat(parts)
 end
 

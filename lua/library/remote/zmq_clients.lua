@@ -1,5 +1,5 @@
 --[[
-The clients of the ZeroMQ remote API: identity, pending requests, and whether they block the simulation.
+The clients of the ZeroMQ remote API: identity and pending requests. Whether they block the simulation: zmq_steps.
 
 A client is known by its uuid and has one or more connections. Each of its requests is a task as long as it has no answer:
 
@@ -7,6 +7,8 @@ A client is known by its uuid and has one or more connections. Each of its reque
     owner        the connection of the request
     coroutine    its coroutine
     waits        'step' | 'callback' | nil while it runs or has not begun
+    step, asked  what step it waits for the end of, and since when (zmq_steps)
+    callback     the name of the function of the client it waits for, since when, and whether that was said (zmq_waits)
 ]]
 
 local M = {}
@@ -48,13 +50,13 @@ local function newClient(request, peer)
     if #clients >= MAX_CLIENTS then error('too many clients', 0) end
     local client = {
         uuid = request.uuid,
+        lang = type(request.lang) == 'string' and request.lang:match('^%w[%w+#]*$') or nil,
         peers = {},
         tasks = {}, -- the innermost last
         asks = {}, -- blocking callbacks, the innermost last
         queue = {}, -- callbacks nobody waits for
         level = 0, -- of stepping
-        desiredStep = 0,
-        locks = 0,
+        locks = 0, -- lockedSince: the first of them; isLockNoted: that was said (zmq_waits)
         life = math.tointeger(request.timeout) or LIFE,
     }
     clients[#clients + 1] = client
@@ -126,41 +128,9 @@ function M.expecting(client, peer)
     end
 end
 
----------------------------------------------------------------- clients that block the simulation
-
-function M.holdsUp(client, currentStep)
-    if client.locks > 0 then return true end
-    if client.level > 0 then return client.desiredStep <= currentStep end
-    local task = client.tasks[#client.tasks]
-    return task ~= nil and task.waits ~= 'step'
-end
-
-function M.anyHoldsUp(currentStep)
-    for i = 1, #clients do
-        if M.holdsUp(clients[i], currentStep) then return true end
-    end
-    return false
-end
-
---- Whether all of a set can do nothing before the next step.
-function M.allAwaitStep(set)
-    for client in pairs(set) do
-        local task = client.tasks[#client.tasks]
-        if not task or task.waits ~= 'step' or not task.peer then return false end
-    end
-    return true
-end
-
-function M.anyLock()
-    for i = 1, #clients do
-        if clients[i].locks > 0 then return true end
-    end
-    return false
-end
-
 --- Removes everything by which clients could block the end of the simulation.
-function M.release(currentStep)
-    for _, client in ipairs(clients) do client.level, client.locks, client.desiredStep = 0, 0, currentStep + 10 end
+function M.release()
+    for _, client in ipairs(clients) do client.level, client.locks = 0, 0 end
 end
 
 return M

@@ -41,12 +41,11 @@ local function installStepping(server)
         if not client then return setStepping(enable) end
         local level = client.level
         client.level = enable and level + 1 or math.max(0, level - 1)
-        if level == 0 then client.desiredStep = server.currentStep() end
         return level
     end
 
     function sim.stopSimulation(...)
-        clients.release(server.currentStep())
+        clients.release()
         return stopSimulation(...)
     end
 

@@ -3,6 +3,7 @@
 //! The first one asks for a clean end, the second one ends at once. A script that does not end by itself is interrupted after a short time, and
 //! one that cannot be interrupted ends with the process, which prints where it was.
 
+use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::time::{Duration, Instant};
@@ -135,5 +136,13 @@ impl Interrupt {
     pub(in crate::cli) fn exit_code(&self) -> u8 {
         let signal = self.signal.load(Ordering::Relaxed);
         u8::try_from(128 + signal).unwrap_or(u8::MAX)
+    }
+
+    /// How a program ends that goes on until somebody ends it: well, unless it was by a signal.
+    pub(in crate::cli) fn outcome(&self) -> ExitCode {
+        if self.is_requested() {
+            return ExitCode::from(self.exit_code());
+        }
+        ExitCode::SUCCESS
     }
 }

@@ -1,5 +1,6 @@
 //! The loop of a simulator that is controlled by remote clients, pages of the viewer, or its own scripts.
 
+use std::process::ExitCode;
 use std::time::Duration;
 
 use super::interrupt::Interrupt;
@@ -23,13 +24,14 @@ impl Live {
         Self { viewer }
     }
 
-    /// Iterates until ctrl-c, SIGTERM or `quitSimulator()`, then ends the simulation and closes the scene.
-    pub(in crate::cli) fn run(mut self, sim: &mut Simulator, interrupt: &Interrupt) {
+    /// Iterates until ctrl-c, SIGTERM or `quitSimulator()`, then ends the simulation and closes the scene. The exit code says which.
+    pub(in crate::cli) fn run(mut self, sim: &mut Simulator, interrupt: &Interrupt) -> ExitCode {
         while !interrupt.is_requested() && !sim.quit_requested() {
             self.iterate(sim);
         }
         sim.stop();
         sim.clear_scene();
+        interrupt.outcome()
     }
 
     /// One loop iteration, then a rest until there is something to do.

@@ -192,6 +192,23 @@ fn tests_that_cannot_be_interrupted_do_not_hold_up_the_end() {
     );
 }
 
+#[test]
+fn a_server_says_how_it_was_ended() {
+    for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
+        let mut command = swanilda();
+        command
+            .args(["serve", "--remote-api=0"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null());
+        let mut child = command.spawn().expect("the command starts");
+        let mut out = BufReader::new(child.stdout.take().expect("piped"));
+        out.read_line(&mut String::new())
+            .expect("it says where it listens");
+        send(&child, signal);
+        assert_eq!(end_of(child).status.code(), Some(code), "{signal}");
+    }
+}
+
 /// Starts a scene and waits until it has printed its first line.
 fn start(scene: &Scene, args: &[&str]) -> (Child, BufReader<ChildStdout>) {
     let mut command = swanilda();

@@ -315,6 +315,21 @@ fn a_port_in_use_is_refused() {
     }
 }
 
+/// At an address of this machine that no other test uses, so that the default port is free but for this one.
+#[test]
+#[cfg(target_os = "linux")]
+fn the_next_port_is_said_to_be_another_one() {
+    let address = "127.52.7.23";
+    let taken = std::net::TcpListener::bind((address, 23_000)).expect("it is free there");
+    let args = ["--remote-api", "--bind", address, "--time", "0", "--empty"];
+    let said = stderr(&Scene::new("").run(&args));
+    let is_warning = |line: &&str| line.contains("port 23000 is in use") && line.contains("23001");
+    assert_eq!(said.lines().filter(is_warning).count(), 1, "{said}");
+    drop(taken);
+    let said = stderr(&Scene::new("").run(&args));
+    assert!(!said.contains("is in use"), "{said}");
+}
+
 #[test]
 fn real_time_takes_its_time() {
     let begun = Instant::now();

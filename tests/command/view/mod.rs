@@ -388,7 +388,7 @@ fn pages_are_told_of_the_end() {
     served.interrupt();
     page.wait_for(|message| message["type"] == "end");
     assert!(page.ends());
-    assert!(served.wait(), "ctrl-c is a good end");
+    assert_eq!(served.wait(), Some(130));
 }
 
 #[test]

@@ -98,11 +98,9 @@ impl Served {
         assert!(kill.expect("there is kill").success());
     }
 
-    /// Waits for the end; whether it was a good one.
-    pub fn wait(&mut self) -> bool {
-        wait_within(&mut self.child, LIMIT)
-            .expect("it ends")
-            .success()
+    /// Waits for the end; its exit code.
+    pub fn wait(&mut self) -> Option<i32> {
+        wait_within(&mut self.child, LIMIT).expect("it ends").code()
     }
 }
 
