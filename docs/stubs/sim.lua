@@ -2506,8 +2506,8 @@ function sim.loadImage(options, filename) end
 
 --- Adds a model to the scene, where it was saved.
 ---
---- `models/robots/mobile/dr12.ttm`
----@param filenameOrBuffer any a `.ttm` or `.simmodel.xml` file or its bytes, or a folder that `swanilda unpack` made; with `--resources DIR` also a file below DIR, such as
+--- file below DIR, such as `models/robots/mobile/dr12.ttm`
+---@param filenameOrBuffer any a `.ttm` or `.simmodel.xml` file or its bytes, a folder that `swanilda unpack` made, or a robot in URDF, SDF or MJCF; with `--resources DIR` also a
 ---@param onlyThumbnails? boolean of no use: nothing is shown
 ---@return integer objectHandle the base of the model
 function sim.loadModel(filenameOrBuffer, onlyThumbnails) end

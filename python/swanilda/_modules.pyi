@@ -4085,8 +4085,8 @@ class _sim:
     def loadModel(self, filenameOrBuffer: Any | None = ..., onlyThumbnails: bool | None = ..., /) -> int:
         """Adds a model to the scene, where it was saved.
 
-        `models/robots/mobile/dr12.ttm`
-        filenameOrBuffer: a `.ttm` or `.simmodel.xml` file or its bytes, or a folder that `swanilda unpack` made; with `--resources DIR` also a file below DIR, such as
+        file below DIR, such as `models/robots/mobile/dr12.ttm`
+        filenameOrBuffer: a `.ttm` or `.simmodel.xml` file or its bytes, a folder that `swanilda unpack` made, or a robot in URDF, SDF or MJCF; with `--resources DIR` also a
         onlyThumbnails: of no use: nothing is shown
         """
     def loadPlugin(self, name: str, /) -> int:

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use super::setup::bases;
 use super::{Outcome, files, unpack};
 use format::gltf_file::GltfFile;
 use format::robot_file::{RobotExportOptions, RobotFile, export};
@@ -14,19 +15,25 @@ use scene::{Handle, Scene};
 /// Convert a scene, a model or a robot to another format
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// A .ttt, .ttm, .urdf, .sdf, .glb or .gltf file, MJCF, XML, or a folder made by unpack
+    /// A .ttt, .ttm, .urdf, .sdf, .glb or .gltf file, MJCF, XML, a folder made by unpack, or a .lua or .py file that builds a scene when it is loaded
     from: PathBuf,
     /// Output: .ttt, .ttm, .urdf, .glb, .gltf, .simscene.xml or .simmodel.xml (append @simpleXml for the simple XML variant); a name without ending becomes a folder
     to: PathBuf,
+    /// Hold the base of a robot in URDF, SDF or MJCF in place
+    #[arg(long)]
+    fix_base: bool,
+    /// Replace files of a folder that were changed since it was unpacked
+    #[arg(long)]
+    force: bool,
 }
 
 pub(super) fn convert(args: &Args) -> Outcome {
-    let file = files::file(&args.from)?;
+    let file = files::file_with(&args.from, bases(args.fix_base))?;
     match args.to.extension() {
         Some(_) if RobotFile::has_name_of_urdf(&args.to) => write_robot(file, &args.to)?,
         Some(_) if GltfFile::has_name_of(&args.to) => write_gltf(file, &args.to)?,
         Some(_) => unpack::write(file, &args.to)?,
-        None => scene_folder::unpack(&file, &args.to)?,
+        None => scene_folder::unpack(&file, &args.to, unpack::edits(args.force))?,
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -1,47 +1,43 @@
-//! Scenes and models of the command line: files, robots in URDF, glTF files, and folders made by `unpack`.
+//! Scenes and models of the command line: files, robots in URDF, glTF files, folders made by `unpack`, and scripts that build a scene.
 
 use std::path::Path;
 
-use super::complain;
-use format::gltf_file::GltfFile;
-use format::robot_file::RobotFile;
-use format::scene_file::{self, SceneFile};
-use format::scene_folder;
-use format::script_file;
+use super::{built, complain};
+use format::scene_file::SceneFile;
+use format::scene_input::{Bases, InputFile, SceneInput};
 use format::ttt::File;
 use permissions::Permissions;
 
 /// # Errors
-/// When it cannot be read; in words, with the path.
+/// When it cannot be read or built; in words, with the path.
 pub(super) fn file(path: &Path) -> Result<File, String> {
-    let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
-    if scene_folder::is_scene(path) {
-        return scene_folder::pack(path, &Permissions::all()).map_err(unreadable);
-    }
-    let model = if RobotFile::is_one(path, &Permissions::all()) {
-        Some(RobotFile::read(path, &Permissions::all()).and_then(RobotFile::model))
-    } else {
-        let is_gltf = GltfFile::has_name_of(path);
-        is_gltf.then(|| GltfFile::open(path, &Permissions::all()).and_then(|file| file.model(path)))
-    };
-    if let Some(model) = model {
-        let (file, messages) = model.map_err(unreadable)?;
-        messages
-            .iter()
-            .for_each(|message| complain(&format!("{}: {message}", path.display())));
-        return Ok(file);
-    }
-    script_file::check_no_xacro(path).map_err(|reason| unreadable(reason.to_string()))?;
-    scene_file::read_path(path).map_err(unreadable)
+    file_with(path, Bases::AsDescribed)
+}
+
+/// The same, with the bases of a robot's description held if they are to be.
+///
+/// # Errors
+/// As [`file`], and when bases are to be held of what is no description of a robot.
+pub(super) fn file_with(path: &Path, bases: Bases) -> Result<File, String> {
+    Ok(input(path, bases)?.into_file())
 }
 
 /// # Errors
-/// When it cannot be read, or its geometry is damaged.
+/// When it cannot be read or built, or its geometry is damaged.
 pub(super) fn scene(path: &Path) -> Result<SceneFile, String> {
-    let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
-    let scene = SceneFile::new(file(path)?).map_err(|error| unreadable(error.to_string()))?;
-    if !scene_folder::is_scene(path) {
-        return Ok(scene);
+    input(path, Bases::AsDescribed)?
+        .scene()
+        .map_err(|error| format!("cannot read {}: {error}", path.display()))
+}
+
+fn input(path: &Path, bases: Bases) -> Result<InputFile, String> {
+    match SceneInput::read_with(path, bases, &Permissions::all())? {
+        SceneInput::File(file) => {
+            file.messages()
+                .iter()
+                .for_each(|message| complain(&format!("{}: {message}", path.display())));
+            Ok(*file)
+        }
+        SceneInput::Script(code) => built::scene_of(path, &code).map(InputFile::made),
     }
-    Ok(scene.with_sources(scene_folder::sources(path, &Permissions::all()).map_err(unreadable)?))
 }

@@ -9,6 +9,7 @@
 mod api;
 mod batch;
 mod batch_ray;
+mod built;
 mod convert;
 mod diff;
 mod doctor;
@@ -34,8 +35,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 use session::{
-    graphs, interrupt, launch, live, output, permissions, progress, recording, resources, setup,
-    video, watchdog,
+    fallen, graphs, interrupt, launch, live, output, permissions, progress, recording, resources,
+    setup, video, watchdog,
 };
 
 /// Exit code for a wrong command line or a file that cannot be read or written; clap uses the same.

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
+use super::fallen::Fallen;
 use super::graphs::GraphArgs;
 use super::interrupt::Interrupt;
 use super::launch::Launch;
@@ -18,6 +19,8 @@ use super::setup::{Setup, seconds};
 use super::video::VideoArgs;
 use super::view::ViewArgs;
 use super::{Outcome, USAGE, complain, isolated};
+use format::robot_file::RobotFile;
+use permissions::Permissions;
 use simulator::{RunLimits, RunTotals, ScriptKind, SimulationState, Simulator};
 use view::Viewer;
 
@@ -101,6 +104,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         plugin_note,
     )?;
     let begun = Instant::now();
+    let is_robot = RobotFile::is_one(&args.scene, &Permissions::all());
     launch.fill(args.kind.into());
     launch.serve(&args.remote, args.remote.asks_for_zmq())?;
     let Launch {
@@ -118,6 +122,11 @@ pub(super) fn run(args: &Args) -> Outcome {
         progress,
         output: &output,
         reminder: args.reminder(),
+        fallen: if is_robot {
+            Fallen::watch(&sim)
+        } else {
+            Fallen::default()
+        },
     };
     let totals = args.simulate(&mut sim, viewer, &mut session);
     session.progress.finish();

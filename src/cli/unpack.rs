@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use super::{Outcome, files};
 use format::scene_file::{SceneFile, save, write_whole};
-use format::scene_folder;
+use format::scene_folder::{self, Edits};
 use format::ttt::File;
 use format::xml::{self, Variant};
 use scene::Scene;
@@ -18,6 +18,9 @@ pub(super) struct UnpackArgs {
     file: PathBuf,
     /// New or empty folder, or one that was unpacked before
     folder: PathBuf,
+    /// Replace files of the folder that were changed since it was unpacked
+    #[arg(long)]
+    force: bool,
 }
 
 /// Create a scene or model file from a folder made by unpack
@@ -30,13 +33,26 @@ pub(super) struct PackArgs {
 }
 
 pub(super) fn unpack(args: &UnpackArgs) -> Outcome {
-    scene_folder::unpack(&files::file(&args.file)?, &args.folder)?;
+    scene_folder::unpack(&files::file(&args.file)?, &args.folder, edits(args.force))?;
     Ok(ExitCode::SUCCESS)
 }
 
 pub(super) fn pack(args: &PackArgs) -> Outcome {
     write(files::file(&args.folder)?, &args.file)?;
+    if scene_folder::is_scene(&args.folder) {
+        // What is packed is not lost when the folder is unpacked again. Without the note, in a folder that cannot be written, unpacking asks for --force.
+        let _ = scene_folder::note(&args.folder);
+    }
     Ok(ExitCode::SUCCESS)
+}
+
+/// What `--force` means.
+pub(super) fn edits(are_discarded: bool) -> Edits {
+    if are_discarded {
+        Edits::Discard
+    } else {
+        Edits::Keep
+    }
 }
 
 /// Writes a scene or model; the ending of the name says in which format.

@@ -104,6 +104,35 @@ fn an_unpacked_scene_packs_to_the_same() {
 }
 
 #[test]
+fn edits_of_an_unpacked_scene_are_not_lost() {
+    let folder = folder();
+    let scene = unpacked(folder.path(), str::to_owned);
+    let unpack = |args: &[&Path]| command("unpack", args).status.code();
+    let text = scene.join("scene.json");
+    let edited = fs::read_to_string(&text).expect("it was unpacked") + "\n";
+    fs::write(&text, &edited).expect("our own folder is writable");
+    let refused = command("unpack", &[&robot("ttt"), &scene]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("--force"), "{}", stderr(&refused));
+    let kept = fs::read_to_string(&text).expect("it is still there");
+    assert_eq!(kept, edited);
+    // What is packed is not lost.
+    let packed = folder.path().join("packed.ttt");
+    assert_eq!(command("pack", &[&scene, &packed]).status.code(), Some(0));
+    assert_eq!(unpack(&[&robot("ttt"), &scene]), Some(0));
+    // A folder without a note, such as a fresh clone, may be written again where nothing changes.
+    fs::remove_file(scene.join(".unpacked")).expect("it was noted");
+    assert_eq!(unpack(&[&robot("ttt"), &scene]), Some(0));
+    fs::write(&text, &edited).expect("our own folder is writable");
+    fs::remove_file(scene.join(".unpacked")).expect("it was noted");
+    assert_eq!(unpack(&[&robot("ttt"), &scene]), Some(2));
+    let force = Path::new("--force");
+    assert_eq!(unpack(&[&robot("ttt"), &scene, force]), Some(0));
+    let replaced = fs::read_to_string(&text).expect("it was unpacked");
+    assert_ne!(replaced, edited);
+}
+
+#[test]
 fn diff_tells_what_changed() {
     let folder = folder();
     let scene = unpacked(folder.path(), |text| text.replace("math.sin", "math.cos"));

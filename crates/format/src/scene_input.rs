@@ -26,9 +26,35 @@ pub struct InputFile {
     /// Where the texts of its scripts are, of an unpacked scene.
     sources: ScriptSources,
     messages: Vec<String>,
+    is_robot: bool,
+}
+
+/// What becomes of the base of a robot that is described by URDF, SDF or MJCF.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Bases {
+    /// It is free, unless the description fixes it.
+    #[default]
+    AsDescribed,
+    /// It is held in place.
+    Fixed,
 }
 
 impl InputFile {
+    /// A scene or model that was made, not read.
+    pub fn made(file: File) -> Self {
+        Self {
+            file,
+            sources: ScriptSources::default(),
+            messages: Vec::new(),
+            is_robot: false,
+        }
+    }
+
+    /// The file itself.
+    pub fn into_file(self) -> File {
+        self.file
+    }
+
     /// What was guessed or left out while it was read, a line each.
     pub fn messages(&self) -> &[String] {
         &self.messages
@@ -49,15 +75,35 @@ impl SceneInput {
     /// # Errors
     /// When it may not or cannot be read; in words, with the path.
     pub fn read(path: &Path, permissions: &Permissions) -> Result<Self, String> {
+        Self::read_with(path, Bases::AsDescribed, permissions)
+    }
+
+    /// The same, with the bases of a robot's description held if they are to be.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read), and when bases are to be held of what is no description of a robot.
+    pub fn read_with(path: &Path, bases: Bases, permissions: &Permissions) -> Result<Self, String> {
         permissions
             .check_read(path)
             .map_err(|denied| denied.to_string())?;
         let input = if path.is_dir() {
             read_folder(path, permissions)
         } else {
-            read_file(path, permissions)
+            read_file(path, bases, permissions)
         };
-        input.map_err(|reason| format!("cannot read {}: {reason}", path.display()))
+        let input = input.map_err(|reason| format!("cannot read {}: {reason}", path.display()))?;
+        if bases == Bases::Fixed && !input.is_robot() {
+            return Err(format!(
+                "{}: only the bases of robots in URDF, SDF and MJCF can be fixed (--fix-base)",
+                path.display()
+            ));
+        }
+        Ok(input)
+    }
+
+    /// Whether it was the description of a robot: URDF, SDF or MJCF.
+    pub fn is_robot(&self) -> bool {
+        matches!(self, Self::File(file) if file.is_robot)
     }
 
     /// All it says, in one file.
@@ -81,30 +127,37 @@ fn read_folder(path: &Path, permissions: &Permissions) -> Result<SceneInput, Str
         file,
         sources,
         messages: Vec::new(),
+        is_robot: false,
     })))
 }
 
 /// A robot becomes a model, with the default options.
-fn read_robot(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
-    let (file, messages) = RobotFile::read(path, permissions)?.model()?;
-    Ok(model_input(file, messages))
+fn read_robot(path: &Path, bases: Bases, permissions: &Permissions) -> Result<SceneInput, String> {
+    let robot = RobotFile::read(path, permissions)?;
+    let (file, messages) = match bases {
+        Bases::AsDescribed => robot,
+        Bases::Fixed => robot.with_fixed_bases(),
+    }
+    .model()?;
+    Ok(model_input(file, messages, true))
 }
 
-fn model_input(file: File, messages: Vec<String>) -> SceneInput {
+fn model_input(file: File, messages: Vec<String>, is_robot: bool) -> SceneInput {
     SceneInput::File(Box::new(InputFile {
         file,
         sources: ScriptSources::default(),
         messages,
+        is_robot,
     }))
 }
 
-fn read_file(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
+fn read_file(path: &Path, bases: Bases, permissions: &Permissions) -> Result<SceneInput, String> {
     if RobotFile::is_one(path, permissions) {
-        return read_robot(path, permissions);
+        return read_robot(path, bases, permissions);
     }
     if GltfFile::has_name_of(path) {
         let (file, messages) = GltfFile::open(path, permissions)?.model(path)?;
-        return Ok(model_input(file, messages));
+        return Ok(model_input(file, messages, false));
     }
     let bytes = read_bounded(path).map_err(|error| error.to_string())?;
     if !scene_file::is_scene(&bytes) || script_file::check_no_xacro(path).is_err() {
@@ -113,9 +166,5 @@ fn read_file(path: &Path, permissions: &Permissions) -> Result<SceneInput, Strin
     }
     let file = scene_file::read_file(&bytes, path.parent(), permissions)
         .map_err(|error| error.to_string())?;
-    Ok(SceneInput::File(Box::new(InputFile {
-        file,
-        sources: ScriptSources::default(),
-        messages: Vec::new(),
-    })))
+    Ok(SceneInput::File(Box::new(InputFile::made(file))))
 }

@@ -39,14 +39,7 @@ impl Robot {
     ///
     /// If there are not as many positions as the joints have.
     pub fn link_poses(&self, positions: &[f64]) -> Result<Vec<Pose>, PositionError> {
-        let expected = self.position_count();
-        if positions.len() != expected {
-            return Err(PositionError {
-                robot: self.name.clone(),
-                expected,
-                found: positions.len(),
-            });
-        }
+        self.check_count(positions)?;
         let starts = self.position_starts();
         let parents = self.parent_joints();
         let mut poses: Vec<Pose> = self.links.iter().map(|link| link.pose).collect();
@@ -58,6 +51,35 @@ impl Robot {
             }
         }
         Ok(poses)
+    }
+
+    /// For each joint with one number its position, where those that mimic others follow them; 0 for all other joints. `positions` are those of
+    /// [`link_poses`](Self::link_poses).
+    ///
+    /// # Errors
+    ///
+    /// If there are not as many positions as the joints have.
+    pub fn joint_positions(&self, positions: &[f64]) -> Result<Vec<f64>, PositionError> {
+        self.check_count(positions)?;
+        let starts = self.position_starts();
+        let position = |(index, joint): (usize, &Joint)| match (joint.kind.numbers(), joint.mimic) {
+            (1, None) => positions[starts[index]],
+            (1, Some(_)) => self.mimicked(index, positions, &starts),
+            _ => 0.0,
+        };
+        Ok(self.joints.iter().enumerate().map(position).collect())
+    }
+
+    fn check_count(&self, positions: &[f64]) -> Result<(), PositionError> {
+        let expected = self.position_count();
+        if positions.len() == expected {
+            return Ok(());
+        }
+        Err(PositionError {
+            robot: self.name.clone(),
+            expected,
+            found: positions.len(),
+        })
     }
 
     fn position_starts(&self) -> Vec<usize> {

@@ -1,5 +1,6 @@
 //! The loop of `swanilda run` during a simulation: shows progress, waits for real time, and listens for ctrl-c.
 
+pub(super) mod fallen;
 pub(super) mod graphs;
 pub(super) mod interrupt;
 pub(super) mod launch;
@@ -16,6 +17,7 @@ pub(super) mod watchdog;
 
 use std::time::{Duration, Instant};
 
+use fallen::Fallen;
 use interrupt::Interrupt;
 use output::Output;
 use progress::Progress;
@@ -34,6 +36,7 @@ pub(super) struct Session<'a> {
     pub progress: Progress,
     pub output: &'a Output,
     pub reminder: Reminder,
+    pub fallen: Fallen,
 }
 
 /// Says once how to end a run that has no end of its own.
@@ -72,6 +75,9 @@ impl RunObserver for Session<'_> {
     fn iterated(&mut self, sim: &Simulator, stepped: bool) {
         if !stepped {
             rest(sim);
+        }
+        if stepped && let Some(text) = self.fallen.look(sim) {
+            self.output.note(&text, sim.time());
         }
         self.progress.show(sim);
         self.reminder.remind(self.output, sim.time());

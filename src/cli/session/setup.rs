@@ -10,7 +10,7 @@ use super::resources::ResourceArgs;
 use super::ros::RosArgs;
 use crate::cli::complain;
 use format::scene_file::{self, SceneFile};
-use format::scene_input::SceneInput;
+use format::scene_input::{Bases, SceneInput};
 use format::script_file;
 use format::ttt::FileError;
 use permissions::{Permissions, read_bounded};
@@ -23,6 +23,9 @@ pub(in crate::cli) struct Setup {
     /// Start with an empty scene instead of the default scene
     #[arg(long)]
     pub empty: bool,
+    /// Hold the base of a robot in URDF, SDF or MJCF in place
+    #[arg(long)]
+    fix_base: bool,
     /// Length of a simulation step
     #[arg(long, value_name = "SECONDS", value_parser = step_length, allow_negative_numbers = true)]
     dt: Option<f64>,
@@ -108,10 +111,13 @@ impl Setup {
             .iter()
             .map(|path| read(path).map(|source| self.up_to_date(source)));
         let add_ons = add_ons.collect::<Result<_, _>>()?;
-        let scene = scene.map(read_scene).transpose()?.map(|scene| match scene {
-            Scene::Script(source) => Scene::Script(self.up_to_date(source)),
-            file @ Scene::File(_) => file,
-        });
+        let scene = scene
+            .map(|path| read_scene(path, bases(self.fix_base)))
+            .transpose()?
+            .map(|scene| match scene {
+                Scene::Script(source) => Scene::Script(self.up_to_date(source)),
+                file @ Scene::File(_) => file,
+            });
         Ok(Sources { scene, add_ons })
     }
 
@@ -252,9 +258,18 @@ fn name_of(path: &Path) -> String {
     )
 }
 
-fn read_scene(path: &Path) -> Result<Scene, String> {
+/// What `--fix-base` means.
+pub(in crate::cli) fn bases(are_fixed: bool) -> Bases {
+    if are_fixed {
+        Bases::Fixed
+    } else {
+        Bases::AsDescribed
+    }
+}
+
+fn read_scene(path: &Path, bases: Bases) -> Result<Scene, String> {
     let unreadable = |error: FileError| format!("cannot read {}: {error}", path.display());
-    match SceneInput::read(path, &Permissions::all())? {
+    match SceneInput::read_with(path, bases, &Permissions::all())? {
         SceneInput::Script(code) => Ok(Scene::Script(Source {
             name: name_of(path),
             code,

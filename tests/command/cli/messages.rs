@@ -30,7 +30,27 @@ fn files_of_other_kinds_are_not_run_as_lua() {
         (
             "robot.urdf",
             b"<?xml version='1.0'?><robot name='a'/>",
-            "the robot has no links",
+            "nothing in it to simulate: line 1, <robot>: has no link",
+        ),
+        (
+            "empty_link.urdf",
+            b"<robot name='a'>\n<link name='x'/></robot>",
+            "line 2, <link>: 'x' has nothing to see, to touch or to weigh",
+        ),
+        (
+            "lost_mesh.urdf",
+            b"<robot name='a'><link name='x'>\n<visual><geometry><mesh filename='package://foo/a.stl'/></geometry></visual></link></robot>",
+            "line 2, <visual>: link 'x': file 'package://foo/a.stl' not found",
+        ),
+        (
+            "element.xml",
+            b"<mujoco><worldbody><body>\n<gom type='sphere' size='1'/></body></worldbody></mujoco>",
+            "line 2, <gom>",
+        ),
+        (
+            "kind.xml",
+            b"<mujoco><worldbody><body>\n<geom type='sphre' size='1'/></body></worldbody></mujoco>",
+            "line 2, <geom>: a geom of type 'sphre' is not read",
         ),
         (
             "robot.urdf.xacro",
@@ -40,7 +60,7 @@ fn files_of_other_kinds_are_not_run_as_lua() {
         (
             "robot.sdf",
             b"<?xml version='1.0'?><sdf/>",
-            "the robot has no links",
+            "line 1, <sdf>: has no model",
         ),
         (
             "other.world",
@@ -52,7 +72,11 @@ fn files_of_other_kinds_are_not_run_as_lua() {
             b"<mujoco><worldbody></mujoco>",
             "no valid XML: line 1",
         ),
-        ("robot.mjcf", b"<mujoco/>", "the robot has no links"),
+        (
+            "robot.mjcf",
+            b"<mujoco/>",
+            "line 1, <mujoco>: has no body and no geom",
+        ),
     ] {
         let said = said_about("run", name, content);
         assert!(
@@ -273,4 +297,89 @@ fn scripts_catch_the_original_text() {
         "{}",
         stdout(&output)
     );
+}
+
+/// What the log says when `call` fails.
+fn hint_for(call: &str) -> String {
+    let code = format!(
+        "local s2 = require('sim')\nsim = s2\nsimIK = require 'simIK'\nown = {{}}\nfunction sysCall_init()\n  d = sim.createDummy(0.1)\n  {call}\nend"
+    );
+    stderr(&Scene::new(&code).run(&["--no-start", "--quiet"]))
+}
+
+#[test]
+fn errors_name_the_argument_that_is_nil_and_the_name_that_was_meant() {
+    for (call, hint) in [
+        (
+            "sim.setObjectPosition(nil, {0, 0, 0})",
+            "sim.setObjectPosition: argument 1 (objectHandle) is nil",
+        ),
+        (
+            "sim.setObjectPosition(d)",
+            "sim.setObjectPosition: argument 2 (position) is missing",
+        ),
+        (
+            "sim.getObjectHandel('/a')",
+            "sim has no 'getObjectHandel'; did you mean 'getObjectHandle'?",
+        ),
+        (
+            "s2.getObjetc('/a')",
+            "sim has no 'getObjetc'; did you mean 'getObject'?",
+        ),
+        (
+            "simIK.creatGroup(3)",
+            "simIK has no 'creatGroup'; did you mean 'createGroup'?",
+        ),
+        (
+            "simGetObjectHandel('a')",
+            "sim has no 'getObjectHandel'; did you mean 'getObjectHandle'?",
+        ),
+        (
+            "sim.loadModel('models/robots/x.ttm')",
+            "no file 'models/robots/x.ttm'; models of a CoppeliaSim that you have are found with --resources DIR",
+        ),
+    ] {
+        let said = hint_for(call);
+        assert!(said.contains(hint), "{call}: {said}");
+    }
+    for call in [
+        "own.getObjetc()",
+        "pcall(sim.loadModel, 'x.ttm') sim.getObject(17, {})",
+    ] {
+        let said = hint_for(call);
+        assert!(said.contains("scene.lua:7: "), "{call}: {said}");
+        let hints = ["did you mean", "no file", " is nil"];
+        assert!(
+            hints.iter().all(|hint| !said.contains(hint)),
+            "{call}: {said}"
+        );
+    }
+}
+
+/// Builds a scene, and would take it away again when it ends.
+const BUILDER: &str = "sim = require 'sim'
+function sysCall_init()
+    box = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {1, 1, 1})
+    sim.setObjectAlias(box, 'Box')
+    print('built')
+end
+function sysCall_cleanup() sim.removeObjects{box} end";
+
+#[test]
+fn scenes_of_scripts_are_built_and_saved_without_them() {
+    let scene = Scene::new(BUILDER);
+    let command = |args: &[&str]| output_of(swanilda().args(args).current_dir(scene.folder.path()));
+    let converted = command(&["convert", "scene.lua", "scene.ttt"]);
+    assert!(converted.status.success(), "{}", stderr(&converted));
+    assert!(stderr(&converted).contains("built"));
+    for file in ["scene.ttt", "scene.lua"] {
+        let seen = command(&["inspect", file]);
+        let text = stdout(&seen);
+        assert!(text.contains("  Box (Shape"), "{file}: {text}");
+        assert!(!text.contains("(Script"), "{file}: {text}");
+    }
+    fs::write(scene.path(), "error('no')").expect("our own folder is writable");
+    let failed = command(&["convert", "scene.lua", "other.ttt"]);
+    assert_eq!(failed.status.code(), Some(2));
+    assert!(stderr(&failed).contains("its script did not come to its end"));
 }

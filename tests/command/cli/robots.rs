@@ -92,3 +92,81 @@ fn a_robot_in_mjcf_is_run_and_converted() {
         "{text}"
     );
 }
+
+/// A box that carries a long arm, which it cannot hold upright.
+const POLE: &str = r#"<robot name="pole">
+  <link name="base"><inertial><mass value="0.1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><geometry><box size="0.05 0.05 0.05"/></geometry></collision></link>
+  <link name="arm"><inertial><origin xyz="0.2 0 0.5"/><mass value="2"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="j" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="100" velocity="1"/></joint>
+</robot>"#;
+
+#[test]
+fn a_free_base_that_falls_over_is_told_and_can_be_fixed() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let folder = folder.path();
+    fs::write(folder.join("pole.urdf"), POLE).expect("our own folder is writable");
+    let said = said_by(folder, &["run", "pole.urdf", "--time", "2"]);
+    assert!(
+        said.contains("/base_respondable has fallen over") && said.contains("--fix-base"),
+        "{said}"
+    );
+    let said = said_by(folder, &["run", "pole.urdf", "--time", "2", "--fix-base"]);
+    assert!(!said.contains("fallen"), "{said}");
+    fs::write(folder.join("look.lua"), LOOKS_AT_BASE).expect("our own folder is writable");
+    for (option, is_static) in [(None, "0"), (Some("--fix-base"), "1")] {
+        let convert = ["convert", "pole.urdf", "pole.ttm"];
+        let args: Vec<&str> = convert.into_iter().chain(option).collect();
+        said_by(folder, &args);
+        let said = said_by(folder, &["run", "look.lua", "--no-start", "-q"]);
+        assert!(said.contains(&format!("pole.ttm, {is_static}")), "{said}");
+    }
+}
+
+/// Loads models in two formats, and prints whether their bases are static.
+const LOOKS_AT_BASE: &str = "sim = require 'sim'
+function sysCall_init()
+    for _, name in ipairs {'pole.ttm', 'pole.urdf'} do
+        print(name, sim.getObjectInt32Param(sim.loadModel(name), sim.shapeintparam_static))
+    end
+end";
+
+#[test]
+fn scripts_load_robots_as_models() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let folder = folder.path();
+    let write = |name: &str, text: &str| {
+        fs::write(folder.join(name), text).expect("our own folder is writable");
+    };
+    write("pole.urdf", POLE);
+    write("crane.xml", CRANE);
+    write(
+        "ball.sdf",
+        "<sdf><model name='ball'><link name='l'><visual name='v'><geometry><sphere><radius>1</radius></sphere></geometry></visual></link></model></sdf>",
+    );
+    write(
+        "load.lua",
+        "sim = require 'sim'
+for _, name in ipairs {'pole.urdf', 'ball.sdf', 'crane.xml'} do print(sim.getObjectAlias(sim.loadModel(name), 1)) end",
+    );
+    let args = ["run", "load.lua", "--as", "sandbox", "--no-start"];
+    let said = said_by(folder, &args);
+    for name in ["/base_respondable", "/l_respondable", "/crane"] {
+        assert!(said.contains(name), "{name}: {said}");
+    }
+    assert!(said.contains("crane.xml: line 20, <odd>"), "{said}");
+}
+
+#[test]
+fn only_robots_have_bases_to_fix() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    fs::write(folder.path().join("scene.lua"), "").expect("our own folder is writable");
+    let args = ["run", "scene.lua", "--fix-base"];
+    let output = output_of(swanilda().args(args).current_dir(folder.path()));
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        said.contains("only the bases of robots in URDF, SDF and MJCF"),
+        "{said}"
+    );
+}

@@ -98,7 +98,7 @@ import(robot('type="revolute">' .. ends .. '<limit lower="1" upper="2"/>'), 32)
 get()
 show('nearest', sim.getJointPosition(joint), sim.getObjectPosition(arm))
 
--- I11: factors that enlarge are not taken
+-- I11: a mesh is as large as its scale says, also where CoppeliaSim drops factors that enlarge
 local mesh = os.tmpname() .. '.obj'
 local out <close> = io.open(mesh, 'w')
 out:write('v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n')

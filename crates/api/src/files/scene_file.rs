@@ -7,10 +7,12 @@ use std::path::{Component, Path, PathBuf};
 use api_macro::api;
 
 use crate::{ApiError, ApiFn, Cx, Result, functions};
+use format::robot_file::RobotFile;
 use format::scene_file::{SceneFile, read_file};
 use format::scene_input::SceneInput;
 use permissions::read_bounded;
 use scene::{Data, Handle, SceneError, special};
+use script::log::verbosity;
 use script::{SceneSource, readable_bytes};
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
@@ -49,8 +51,8 @@ fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
 
 /// Adds a model to the scene, where it was saved.
 ///
-/// @param filenameOrBuffer a `.ttm` or `.simmodel.xml` file or its bytes, or a folder that `swanilda unpack` made; with `--resources DIR` also a file below DIR, such as
-/// `models/robots/mobile/dr12.ttm`
+/// @param filenameOrBuffer a `.ttm` or `.simmodel.xml` file or its bytes, a folder that `swanilda unpack` made, or a robot in URDF, SDF or MJCF; with `--resources DIR` also a
+/// file below DIR, such as `models/robots/mobile/dr12.ttm`
 /// @param onlyThumbnails of no use: nothing is shown
 /// @return objectHandle the base of the model
 #[api("sim.loadModel")]
@@ -127,7 +129,10 @@ impl FileOrBytes {
 fn read(cx: &Cx, name: &str) -> Result<Vec<u8>> {
     cx.permissions().check_read(Path::new(name))?;
     read_bounded(Path::new(name)).map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => ApiError::Other("file does not exist.".into()),
+        std::io::ErrorKind::NotFound => {
+            cx.note_missing_file(name);
+            ApiError::Other("file does not exist.".into())
+        }
         _ => ApiError::Other(format!("'{name}' could not be read: {error}.")),
     })
 }
@@ -156,14 +161,15 @@ fn installed_file(resources: &Path, name: &str) -> Option<PathBuf> {
 
 fn named_scene(cx: &Cx, name: &str) -> Result<SceneSource> {
     if is_folder(cx, name)? {
-        return Ok(SceneSource::File(Box::new(unpacked(cx, name)?)));
+        return Ok(SceneSource::File(Box::new(input(cx, name)?)));
     }
     scene_source(cx, name, read(cx, name)?, folder_of(name))
 }
 
 fn named_model(cx: &Cx, name: &str) -> Result<SceneFile> {
-    if is_folder(cx, name)? {
-        unpacked(cx, name)
+    let is_robot = RobotFile::is_one(Path::new(name), cx.permissions());
+    if is_folder(cx, name)? || is_robot && Path::new(name).exists() {
+        input(cx, name)
     } else {
         scene_file(cx, name, &read(cx, name)?, folder_of(name))
     }
@@ -174,12 +180,17 @@ fn is_folder(cx: &Cx, name: &str) -> Result<bool> {
     Ok(Path::new(name).is_dir())
 }
 
-/// A folder made by `swanilda unpack`.
-fn unpacked(cx: &Cx, name: &str) -> Result<SceneFile> {
+/// A folder made by `swanilda unpack`, or a robot, of which the log says what was guessed.
+fn input(cx: &Cx, name: &str) -> Result<SceneFile> {
     match SceneInput::read(Path::new(name), cx.permissions()).map_err(ApiError::Other)? {
-        SceneInput::File(file) => file
-            .scene()
-            .map_err(|error| ApiError::Other(format!("{name}: {error}"))),
+        SceneInput::File(file) => {
+            for message in file.messages() {
+                let text = format!("{name}: {message}");
+                cx.env().log(verbosity::SCRIPT_WARNINGS, &text);
+            }
+            file.scene()
+                .map_err(|error| ApiError::Other(format!("{name}: {error}")))
+        }
         SceneInput::Script(_) => Err(ApiError::Other(format!("{name} is no scene."))),
     }
 }

@@ -22,19 +22,21 @@ impl Import<'_> {
         self.add(name, Kind::Dummy(Dummy::new(joints::DUMMY)), pose, parent)
     }
 
-    /// Joints that others lead, and loops. URDF's `mimic` is not looked at, as simURDF does not.
+    /// Joints that others lead, and loops.
     pub(super) fn add_constraints(&mut self) -> SceneResult<()> {
-        if self.format != RobotFormat::Urdf {
-            for (index, joint) in self.robot.joints.iter().enumerate() {
-                if let Some(Mimic {
-                    joint: master,
-                    multiplier,
-                    offset,
-                }) = joint.mimic
-                {
-                    self.lead(index, master, offset, multiplier)?;
-                }
+        for (index, joint) in self.robot.joints.iter().enumerate() {
+            if let Some(Mimic {
+                joint: master,
+                multiplier,
+                offset,
+            }) = joint.mimic
+                && self.can_follow(joint, master)
+            {
+                self.lead(index, master, offset, multiplier)?;
             }
+        }
+        // A loop in URDF is a mistake, of which the reader has said more.
+        if self.format != RobotFormat::Urdf {
             self.close_loops()?;
         }
         for equality in &self.model.equalities {
@@ -116,16 +118,29 @@ impl Import<'_> {
         self.lead(joint, master, own + constant - factor * other, factor)
     }
 
+    /// Only what turns or slides follows, and is followed.
+    fn can_follow(&mut self, joint: &JointDescription, master: usize) -> bool {
+        let master = &self.robot.joints[master];
+        let can = joint.kind.numbers() == 1 && master.kind.numbers() == 1;
+        if !can {
+            self.message(format!(
+                "line {}, <joint>: '{}' cannot mimic '{}': both have to turn or slide",
+                joint.line, joint.name, master.name
+            ));
+        }
+        can
+    }
+
     fn lead(&mut self, joint: usize, master: usize, offset: f64, factor: f64) -> SceneResult<()> {
         let (Some(joint), Some(master)) = (self.joints[joint], self.joints[master]) else {
             return Ok(());
         };
-        if [joint, master].iter().any(|handle| {
+        let is_joint = |handle: &Handle| {
             self.scene
                 .object(*handle)
-                .and_then(|o| o.joint().map(|_| ()))
-                .is_err()
-        }) {
+                .is_ok_and(|object| object.joint().is_ok())
+        };
+        if ![joint, master].iter().all(is_joint) {
             return Ok(());
         }
         self.scene

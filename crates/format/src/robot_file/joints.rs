@@ -56,10 +56,10 @@ impl Import<'_> {
         let description = &self.robot.joints[index];
         let mut joint = Joint::new(joint_type, JointMode::Dynamic);
         if joint_type != JointType::Spherical {
-            set_limits(&mut joint, description);
+            set_limits(&mut joint, description, self.first[index]);
             match &self.model.actuators {
                 _ if self.options.contains(RobotImportOptions::FREE_JOINTS) => {
-                    joint.set_control(Control::Free)
+                    set_passive(&mut joint, &description.dynamics);
                 }
                 None => joint.set_control(Control::Position),
                 Some(actuators) => {
@@ -81,6 +81,40 @@ impl Import<'_> {
             })?;
         }
         Ok(handle)
+    }
+}
+
+impl Import<'_> {
+    /// Says once which joints lose their damping or friction: a motor here takes no notice of them.
+    pub(super) fn report_dynamics(&mut self) {
+        let losing: Vec<&Description> = (self.robot.joints.iter().enumerate())
+            .filter(|(index, joint)| self.loses_dynamics(*index, joint))
+            .map(|(_, joint)| joint)
+            .collect();
+        let Some(first) = losing.first() else {
+            return;
+        };
+        let others = match losing.len() {
+            1 => String::new(),
+            count => format!(" and {} others", count - 1),
+        };
+        self.messages.push(format!(
+            "line {}, <joint>: damping or friction of joint '{}'{others} does not count: motors take no notice of it, and of a joint without motor damping counts before friction",
+            first.line, first.name
+        ));
+    }
+
+    fn loses_dynamics(&self, index: usize, joint: &Description) -> bool {
+        let Dynamics {
+            damping, friction, ..
+        } = joint.dynamics;
+        let is_passive = match &self.model.actuators {
+            _ if self.options.contains(RobotImportOptions::FREE_JOINTS) => true,
+            Some(actuators) => actuators.iter().all(|actuator| actuator.joint != index),
+            None => false,
+        };
+        let moves = joint.kind.numbers() == 1 && joint.mimic.is_none();
+        moves && (friction > 0.0 && (damping > 0.0 || !is_passive) || damping > 0.0 && !is_passive)
     }
 }
 
@@ -115,7 +149,7 @@ fn first_position(joint: &Description) -> f64 {
     }
 }
 
-fn set_limits(joint: &mut Joint, description: &Description) {
+fn set_limits(joint: &mut Joint, description: &Description, first: f64) {
     let Limits {
         lower,
         upper,
@@ -126,7 +160,7 @@ fn set_limits(joint: &mut Joint, description: &Description) {
     if let (Some(lower), Some(upper), true) = (lower, upper, is_limited) {
         joint.set_interval(false, lower, upper - lower);
     }
-    joint.position = first_position(description);
+    joint.position = first;
     joint.target_position = joint.position;
     let default = if description.kind == JointKind::Revolute {
         TORQUE
@@ -142,12 +176,6 @@ fn set_actuator(joint: &mut Joint, description: &Description, actuator: Option<&
     if let Some(actuator) = actuator {
         joint.set_target_force(actuator.effort.unwrap_or(ANY_EFFORT), false);
     }
-    let Dynamics {
-        damping,
-        stiffness,
-        rest,
-        ..
-    } = description.dynamics;
     match actuator.map(|actuator| actuator.drive) {
         Some(Drive::Position { .. }) => joint.set_control(Control::Position),
         Some(Drive::Velocity { .. }) => joint.set_control(Control::Velocity),
@@ -155,17 +183,26 @@ fn set_actuator(joint: &mut Joint, description: &Description, actuator: Option<&
             joint.set_target_force(0.0, true);
             joint.set_control(Control::Force);
         }
-        None if damping > 0.0 || stiffness > 0.0 => {
-            joint.spring = [stiffness, damping];
-            joint.target_position = if stiffness > 0.0 {
-                rest
-            } else {
-                joint.position
-            };
-            joint.target_velocity = SPRING_SPEED;
-            joint.set_control(Control::Spring);
+        None => set_passive(joint, &description.dynamics),
+    }
+}
+
+/// A joint that nothing drives is a spring and damper; else a brake that slips; else free.
+fn set_passive(joint: &mut Joint, dynamics: &Dynamics) {
+    if dynamics.damping > 0.0 || dynamics.stiffness > 0.0 {
+        joint.spring = [dynamics.stiffness, dynamics.damping];
+        if dynamics.stiffness > 0.0 {
+            joint.target_position = dynamics.rest;
         }
-        None => joint.set_control(Control::Free),
+        joint.target_velocity = SPRING_SPEED;
+        joint.set_control(Control::Spring);
+    } else if dynamics.friction > 0.0 {
+        // A motor that keeps to speed 0 with so much force.
+        joint.set_target_force(dynamics.friction, false);
+        joint.target_velocity = 0.0;
+        joint.set_control(Control::Velocity);
+    } else {
+        joint.set_control(Control::Free);
     }
 }
 

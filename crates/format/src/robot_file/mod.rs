@@ -3,6 +3,7 @@
 //! `read` reads the file: URDF, SDF or MJCF. `shapes` makes shapes of geometries, `links` and `joints` put them into the scene, `mesh_files` reads what the
 //! description names. Whatever cannot be done is a message; the rest of the robot is there.
 
+mod bases;
 mod between;
 mod constraints;
 mod export;
@@ -108,6 +109,13 @@ pub struct Imported {
 }
 
 impl RobotFile {
+    /// The same with the bases of its robots held in place, as if they were bolted to the floor. What has no joints is no robot, and stays free.
+    #[must_use]
+    pub fn with_fixed_bases(mut self) -> Self {
+        self.models.iter_mut().for_each(Description::fix_bases);
+        self
+    }
+
     /// The robot as a model, and what was guessed or could not be done.
     ///
     /// # Errors
@@ -131,7 +139,7 @@ impl RobotFile {
         }
         let base = match imported.roots.as_slice() {
             [base] => *base,
-            [] => return Err("the robot has no links".into()),
+            [] => return Err(nothing_because(&imported.messages)),
             several => {
                 gathered(&mut scene, several, &imported.name).map_err(|error| error.to_string())?
             }
@@ -168,11 +176,27 @@ impl RobotFile {
             import.add_sensors()?;
             import.add_sites()?;
             import.add_constraints()?;
+            import.report_dynamics();
+            import.report_emptiness();
             let (roots, objects) = import.finish()?;
             all.roots.extend(roots);
             all.objects.extend(objects);
         }
         Ok(all)
+    }
+}
+
+/// Why a file became no objects: the first things that were said about it.
+fn nothing_because(messages: &[String]) -> String {
+    const SHOWN: usize = 3;
+    let shown = messages[..messages.len().min(SHOWN)].join("; ");
+    match messages.len() {
+        0 => "there is no robot in it".into(),
+        count if count <= SHOWN => format!("there is nothing in it to simulate: {shown}"),
+        count => format!(
+            "there is nothing in it to simulate: {shown}; and {} other messages",
+            count - SHOWN
+        ),
     }
 }
 
@@ -201,6 +225,8 @@ struct Import<'a> {
     options: RobotImportOptions,
     /// The frames of the links, with all joints where they are at first, or as near to it as their limits allow.
     placed: Vec<Pose>,
+    /// Those positions, of joints that have one number.
+    first: Vec<f64>,
     nodes: Vec<Node>,
     /// What the joints became.
     joints: Vec<Option<Handle>>,
@@ -227,9 +253,8 @@ impl<'a> Import<'a> {
         messages: &'a mut Vec<String>,
     ) -> Self {
         let robot = &model.robot;
-        let placed = robot
-            .link_poses(&joints::first_positions(robot))
-            .unwrap_or_default();
+        let first = joints::first_positions(robot);
+        let placed = robot.link_poses(&first).unwrap_or_default();
         Self {
             scene,
             format,
@@ -238,6 +263,7 @@ impl<'a> Import<'a> {
             meshes,
             options,
             placed: placed.into_iter().map(|pose| model.pose * pose).collect(),
+            first: robot.joint_positions(&first).unwrap_or_default(),
             nodes: vec![Node::default(); robot.links.len()],
             joints: vec![None; robot.joints.len()],
             objects: Vec::new(),
@@ -262,6 +288,24 @@ impl<'a> Import<'a> {
         self.scene.set_parent(handle, parent, true)?;
         self.objects.push(handle);
         Ok(handle)
+    }
+
+    /// A file of which nothing was made says why: its links have nothing to see, to touch or to weigh.
+    fn report_emptiness(&mut self) {
+        if !self.objects.is_empty() {
+            return;
+        }
+        for link in &self.robot.links {
+            let is_empty = link.visuals.is_empty() && link.collisions.is_empty();
+            if is_empty && link.inertial.is_none() && link.line > 0 {
+                self.messages.push(format!(
+                    "line {}, <{}>: '{}' has nothing to see, to touch or to weigh",
+                    link.line,
+                    self.format.link_element(),
+                    link.name
+                ));
+            }
+        }
     }
 
     fn finish(mut self) -> SceneResult<(Vec<Handle>, Vec<Handle>)> {

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use robot_description::mjcf::{self, Files, Triangles};
 use robot_description::sdf::{self, Included};
-use robot_description::{JointKind, Parsed, ReadError, Search, urdf};
+use robot_description::{Parsed, ReadError, Search, urdf};
 
+use super::bases::held_links;
 use super::mesh_files::{MeshFiles, variable};
 use super::{Description, RobotFile, RobotFormat};
 use permissions::Permissions;
@@ -22,6 +23,23 @@ impl RobotFormat {
             Some("mjcf") => Some(Self::Mjcf),
             Some("xml") if mjcf::is_mjcf(start) => Some(Self::Mjcf),
             _ => None,
+        }
+    }
+
+    /// The element that is a link in it.
+    pub(super) fn link_element(self) -> &'static str {
+        match self {
+            Self::Urdf | Self::Sdf => "link",
+            Self::Mjcf => "body",
+        }
+    }
+
+    /// The element that is a geometry in it, seen or touched.
+    pub(super) fn geometry_element(self, is_seen: bool) -> &'static str {
+        match (self, is_seen) {
+            (Self::Mjcf, _) => "geom",
+            (_, true) => "visual",
+            (_, false) => "collision",
         }
     }
 }
@@ -213,15 +231,7 @@ fn of_sdf(model: sdf::Model) -> Description {
         is_static,
     } = model;
     let is_world = |link: usize| robot.links[link].line == 0 && robot.links[link].name == "world";
-    let parents = robot.parent_joints();
-    let mut is_fixed = vec![false; robot.links.len()];
-    for link in robot.links_from_the_roots() {
-        let parent = parents[link].map(|joint| &robot.joints[joint]);
-        let is_held =
-            parent.is_some_and(|joint| joint.kind == JointKind::Fixed && is_fixed[joint.parent]);
-        is_fixed[link] = is_static || is_world(link) || is_held;
-    }
-    let fixed = (0..is_fixed.len()).filter(|link| is_fixed[*link]).collect();
+    let fixed = held_links(&robot, |link| is_static || is_world(link));
     Description {
         robot,
         pose,

@@ -5,7 +5,7 @@ use geometry::{DecompositionParameters, Mesh};
 use robot_description::{Geometry, Link, Material};
 
 use super::links::Part;
-use super::{Import, RobotFormat, RobotImportOptions};
+use super::{Import, RobotImportOptions};
 use scene::shape::Shape;
 use scene::{Pose, SceneError, SceneResult};
 
@@ -50,7 +50,13 @@ impl Import<'_> {
                     }
                     shapes.push((pose * offset, shape));
                 }
-                Err(reason) => self.message(format!("line {line}: link '{}': {reason}", link.name)),
+                Err(reason) => {
+                    let element = self.format.geometry_element(with_textures);
+                    self.message(format!(
+                        "line {line}, <{element}>: link '{}': {reason}",
+                        link.name
+                    ));
+                }
             }
         }
         shapes
@@ -79,12 +85,7 @@ impl Import<'_> {
             }
             Geometry::Plane { normal } => return plane(*normal).map_err(|error| error.to_string()),
             Geometry::Mesh { file, scale } => {
-                let scale = if self.format == RobotFormat::Urdf {
-                    default_scale(*scale)
-                } else {
-                    *scale
-                };
-                let shape = self.meshes.shape(file, scale, self.scene, with_textures)?;
+                let shape = self.meshes.shape(file, *scale, self.scene, with_textures)?;
                 self.messages.append(&mut self.meshes.take_warnings());
                 return formed(shape, form)
                     .map(|shape| (Pose::identity(), shape))
@@ -125,15 +126,6 @@ impl Import<'_> {
                 Some((*first_pose, first.clone()))
             }
         }
-    }
-}
-
-/// The factors that simURDF takes: of those that enlarge, it takes none (spec: import 1).
-fn default_scale([x, y, z]: [f64; 3]) -> [f64; 3] {
-    if x * y * z > 0.99999 && x > 0.0 && y > 0.0 {
-        [1.0; 3]
-    } else {
-        [x, y, z]
     }
 }
 
@@ -189,19 +181,5 @@ fn paint(shape: &mut Shape, material: &Material) {
         colour.ambient_diffuse =
             [red, green, blue].map(|component| component.clamp(0.0, 1.0) as f32);
         colour.specular = SPECULAR;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn factors_that_enlarge_are_not_taken() {
-        assert_eq!(default_scale([2.0; 3]), [1.0; 3]);
-        assert_eq!(default_scale([0.5; 3]), [0.5; 3]);
-        assert_eq!(default_scale([1.0, -1.0, 1.0]), [1.0, -1.0, 1.0]);
-        assert_eq!(default_scale([-2.0, -2.0, 2.0]), [-2.0, -2.0, 2.0]);
-        assert_eq!(default_scale([2.0, 2.0, -2.0]), [2.0, 2.0, -2.0]);
     }
 }

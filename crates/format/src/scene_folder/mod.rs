@@ -3,6 +3,7 @@
 //!
 //! JSON rather than TOML: trees of meshes within objects nest deeper than TOML's tables read well, and every language has a reader.
 
+mod edits;
 mod names;
 mod obj;
 
@@ -14,6 +15,7 @@ use crate::ttt::chunks::{MeshData, MeshNode};
 use crate::ttt::mesh_arrays::MeshArrays;
 use crate::ttt::node::{Node, NodeResult, at};
 use crate::ttt::tree::{Class, MeshTree};
+pub use edits::{Edits, note};
 use names::Names;
 use permissions::Permissions;
 
@@ -33,8 +35,8 @@ pub fn is_scene(folder: &Path) -> bool {
 /// Writes a file as a folder, in place of an earlier one.
 ///
 /// # Errors
-/// When the folder holds something else, cannot be written, or the meshes of the file are damaged.
-pub fn unpack(file: &File, folder: &Path) -> NodeResult<()> {
+/// When the folder holds something else, or edits that are to be kept, cannot be written, or the meshes of the file are damaged.
+pub fn unpack(file: &File, folder: &Path, edits: Edits) -> NodeResult<()> {
     let is_new = std::fs::read_dir(folder).map_or(true, |mut entries| entries.next().is_none());
     if !is_new && !is_scene(folder) {
         return Err(format!(
@@ -42,6 +44,29 @@ pub fn unpack(file: &File, folder: &Path) -> NodeResult<()> {
             folder.display()
         ));
     }
+    if !is_new && edits == Edits::Keep && would_lose_edits(file, folder)? {
+        return Err(format!(
+            "{0}: files in it were changed since it was unpacked, and would be lost. `swanilda pack {0} FILE` saves them first, --force replaces them",
+            folder.display()
+        ));
+    }
+    write(file, folder)?;
+    note(folder).map_err(|error| format!("{}: {error}", folder.display()))
+}
+
+/// Whether the folder has files that neither its last unpacking made nor this one would.
+fn would_lose_edits(file: &File, folder: &Path) -> NodeResult<bool> {
+    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
+    if edits::are_as_noted(folder).map_err(failed)? == Some(true) {
+        return Ok(false);
+    }
+    let fresh = tempfile::tempdir().map_err(failed)?;
+    write(file, fresh.path())?;
+    let [new, old] = [fresh.path(), folder].map(edits::checksum);
+    Ok(new.map_err(failed)? != old.map_err(failed)?)
+}
+
+fn write(file: &File, folder: &Path) -> NodeResult<()> {
     for part in PARTS
         .map(|part| folder.join(part))
         .iter()
@@ -332,7 +357,7 @@ mod tests {
             let what = path.display().to_string();
             let file = File::read(&std::fs::read(&path).unwrap()).unwrap();
             let folder = tempfile::tempdir().unwrap();
-            unpack(&file, folder.path()).unwrap_or_else(|e| panic!("{what}: {e}"));
+            unpack(&file, folder.path(), Edits::Keep).unwrap_or_else(|e| panic!("{what}: {e}"));
             let packed =
                 pack(folder.path(), &Permissions::all()).unwrap_or_else(|e| panic!("{what}: {e}"));
             let (mut a, mut b) = (file, packed.clone());
@@ -347,7 +372,7 @@ mod tests {
                 "{what}: another tree"
             );
             let again = tempfile::tempdir().unwrap();
-            unpack(&packed, again.path()).unwrap();
+            unpack(&packed, again.path(), Edits::Keep).unwrap();
             let tree = |folder: &Path| std::fs::read(folder.join(TREE)).unwrap();
             assert_eq!(tree(folder.path()), tree(again.path()), "{what}");
         }
@@ -359,7 +384,7 @@ mod tests {
         std::fs::write(folder.path().join("mine.txt"), "x").unwrap();
         let file = File::read(&std::fs::read(&own_files()[0]).unwrap()).unwrap();
         assert!(
-            unpack(&file, folder.path())
+            unpack(&file, folder.path(), Edits::Keep)
                 .unwrap_err()
                 .contains("not empty")
         );

@@ -19,7 +19,7 @@ mod inertia;
 mod mesh_solid;
 mod orientation;
 
-use crate::model::{Pose, Robot};
+use crate::model::{Link, Pose, Robot};
 use crate::report::{Parsed, ReadError};
 use body::Builder;
 use document::Document;
@@ -182,6 +182,13 @@ pub fn read(bytes: &[u8], files: &mut dyn Files) -> Result<Parsed<Model>, ReadEr
     }
     builder.finish_masses(&root);
     let (mut model, mut report) = builder.into_parts();
+    // The world itself is a link.
+    let world = |link: &Link| link.visuals.is_empty() && link.collisions.is_empty();
+    if let [] | [_] = model.robot.links.as_slice()
+        && model.robot.links.iter().all(world)
+    {
+        report.warn(&root, "has no body and no geom");
+    }
     model.robot.name = root.attribute("model").unwrap_or("mujoco").to_owned();
     model.gravity = document.gravity;
     model.actuators = actuator::read(&root, &document, &model.robot, &mut report);

@@ -61,6 +61,9 @@ pub fn read(bytes: &[u8], include: Include) -> Result<Parsed<World>, ReadError> 
     }
     let mut reader = Reader::new(include);
     let world = read_world(&mut reader, &mut source, root);
+    if world.models.is_empty() {
+        source.warn(root, "has no model");
+    }
     let mut parsed = source.finish(world);
     let inner: Vec<Warning> = reader.into_warnings();
     parsed.warnings.extend(inner);

@@ -20,6 +20,11 @@ impl Cx<'_> {
         self.sim.log.note_missing_path(path);
     }
 
+    /// Remembers the name of a scene or model of which there is no file, for the hint beside the error.
+    pub fn note_missing_file(&self, name: &str) {
+        self.sim.log.note_missing_file(name);
+    }
+
     /// Number of uncaught script errors.
     pub fn errors(&self) -> u64 {
         self.sim.log.errors()

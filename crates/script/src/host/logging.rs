@@ -2,9 +2,7 @@
 
 use super::{Script, Sim};
 use crate::log::console::LogLine;
-use crate::log::suggestion::nearest;
 use crate::log::verbosity;
-use scene::SceneError;
 
 impl Sim {
     pub(crate) fn log_from(&self, script: &Script, level: i64, text: &str) {
@@ -28,7 +26,7 @@ impl Sim {
             .log
             .files
             .borrow()
-            .locate(text, &self.hint(text), is_library);
+            .locate(text, &self.hint(script, text), is_library);
         let (level, time) = (verbosity::SCRIPT_ERRORS, self.clock.time());
         let line = LogLine {
             origin: &origin,
@@ -39,33 +37,6 @@ impl Sim {
             status: false,
         };
         self.log_line(&line, Some(script.id));
-    }
-
-    /// Suggestion where an error is about an object that does not exist; else empty.
-    fn hint(&self, error: &str) -> String {
-        let Some(path) = self
-            .log
-            .take_missing_path()
-            .filter(|_| error.contains(&SceneError::NoSuchPath.to_string()))
-        else {
-            return String::new();
-        };
-        let (scene, is_relative) = (self.scene.borrow(), !path.starts_with('/'));
-        let paths = scene
-            .objects()
-            .filter_map(|object| scene.short_path(object.handle()).ok());
-        // Relative paths have the name at their end in common with that of the object.
-        let compared = |path: &str| match path.strip_prefix('/') {
-            Some(rest) if !is_relative => rest.to_owned(),
-            _ => path.rsplit('/').next().unwrap_or_default().to_owned(),
-        };
-        match nearest(
-            &compared(&path),
-            paths.map(|known| (compared(&known), known)),
-        ) {
-            Some(near) => format!("no object '{path}'; did you mean '{near}'?"),
-            None => format!("no object '{path}'"),
-        }
     }
 
     /// Logs in the name of the simulator itself: the one it has in the logs that existing tools read.

@@ -6,6 +6,7 @@
 mod app;
 mod broadcasts;
 mod env;
+mod hints;
 mod line_counts;
 mod logging;
 mod removals;

@@ -3,6 +3,7 @@
 pub(crate) mod auxiliary_consoles;
 pub(crate) mod console;
 mod located;
+pub(crate) mod missed;
 mod recent;
 pub mod status;
 pub(crate) mod suggestion;
@@ -13,6 +14,7 @@ use std::collections::HashSet;
 
 use console::{Console, LogLine, OutputStream};
 use located::ScriptFiles;
+use missed::Missed;
 use recent::Recent;
 pub use recent::RecentLine;
 
@@ -26,7 +28,7 @@ pub struct Log {
     errors: Cell<u64>,
     pub(super) files: RefCell<ScriptFiles>,
     /// The path that the last look-up of an object did not find.
-    missing_path: RefCell<Option<String>>,
+    missed: RefCell<Option<Missed>>,
     recent: RefCell<Recent>,
 }
 
@@ -38,7 +40,7 @@ impl Log {
             logged_once: RefCell::default(),
             errors: Cell::new(0),
             files: RefCell::default(),
-            missing_path: RefCell::default(),
+            missed: RefCell::default(),
             recent: RefCell::default(),
         }
     }
@@ -63,12 +65,24 @@ impl Log {
 
     /// Remembers a path that leads to no object, for the error that may come of it.
     pub(super) fn note_missing_path(&self, path: &str) {
-        self.missing_path.replace(Some(path.to_owned()));
+        self.missed.replace(Some(Missed::Object(path.to_owned())));
     }
 
-    /// The path that the last look-up did not find; it is forgotten.
-    pub(super) fn take_missing_path(&self) -> Option<String> {
-        self.missing_path.take()
+    /// Remembers the name of a scene or model of which there is no file.
+    pub(super) fn note_missing_file(&self, name: &str) {
+        self.missed.replace(Some(Missed::File(name.to_owned())));
+    }
+
+    /// Remembers which argument of a call is nil or missing.
+    pub(super) fn note_empty_argument(&self, function: &str, wrong: String) {
+        let function = function.to_owned();
+        self.missed
+            .replace(Some(Missed::Argument { function, wrong }));
+    }
+
+    /// What the last look-up did not find; it is forgotten.
+    pub(super) fn take_missed(&self) -> Option<Missed> {
+        self.missed.take()
     }
 
     /// Whether this is the first such line; it is remembered.

@@ -5,7 +5,7 @@ use std::ffi::c_int;
 use crate::binding::args::Args;
 use crate::binding::registry::{Bound, FunctionId};
 use crate::error::ApiError;
-use crate::lua::{Stack, push_callback};
+use crate::lua::{Stack, Type, push_callback};
 
 /// Pushes a native function.
 pub(crate) fn push_function(stack: Stack<'_>, id: FunctionId) {
@@ -60,6 +60,9 @@ fn fail(stack: Stack<'_>, bound: &Bound, error: &ApiError) -> Result<c_int, Stri
         env.last_error.replace(error.to_string());
     }
     if env.raises_errors.get() || !is_refusal {
+        if let (Some(sim), Some(wrong)) = (env.sim.upgrade(), empty_argument(stack, bound, error)) {
+            sim.log.note_empty_argument(&bound.name, wrong);
+        }
         return Err(error_text(error, stack, &bound.name));
     }
     let returns_a_number = matches!(bound.function.returns.first(), Some(&("int" | "float")));
@@ -67,6 +70,30 @@ fn fail(stack: Stack<'_>, bound: &Bound, error: &ApiError) -> Result<c_int, Stri
         stack.push_int(-1);
     }
     Ok(returns_a_number.into())
+}
+
+/// Which argument of a refused call is nil or missing; None where none is that has to be there.
+fn empty_argument(stack: Stack<'_>, bound: &Bound, error: &ApiError) -> Option<String> {
+    let of_arguments = matches!(
+        error,
+        ApiError::ArgumentType | ApiError::MoreArguments | ApiError::NotA { .. }
+    );
+    if !of_arguments {
+        return None;
+    }
+    let named = bound
+        .function
+        .params
+        .iter()
+        .take_while(|param| param.name != "...");
+    for (position, param) in (1..).zip(named) {
+        let is_missing = position > stack.top();
+        if param.default.is_none() && (is_missing || stack.kind(position) == Type::Nil) {
+            let what = if is_missing { "missing" } else { "nil" };
+            return Some(format!("argument {position} ({}) is {what}", param.name));
+        }
+    }
+    None
 }
 
 /// The string a Lua script catches: the line of its call, the function and the reason.
