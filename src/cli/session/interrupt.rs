@@ -45,9 +45,11 @@ impl Interrupt {
         )
     }
 
-    /// Watches the scripts that are interrupted.
-    pub(in crate::cli) fn watchdog(&self) -> Watchdog {
-        self.scripts.map(Watchdog::start).unwrap_or_default()
+    /// Watches the scripts that are interrupted. `is_told`: standard error is told of calls that take long.
+    pub(in crate::cli) fn watchdog(&self, is_told: bool) -> Watchdog {
+        self.scripts
+            .map(|scripts| Watchdog::start(scripts, is_told))
+            .unwrap_or_default()
     }
 
     fn listen(scripts: Option<InterruptibleThread>, code: Option<u8>) -> Self {

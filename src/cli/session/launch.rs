@@ -36,7 +36,7 @@ impl<'a> Launch<'a> {
     ) -> Result<Self, String> {
         let sources = setup.sources(scene)?;
         let interrupt = Interrupt::of_scripts_here();
-        let watchdog = interrupt.watchdog();
+        let watchdog = interrupt.watchdog(setup.has_own_messages());
         let output = setup.output(progress, &interrupt);
         let options = Options {
             plugin_note,

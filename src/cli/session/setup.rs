@@ -142,6 +142,11 @@ impl Setup {
             .map(|(_, value)| value.as_str())
     }
 
+    /// Whether the log has messages that CoppeliaSim does not have.
+    pub(in crate::cli) fn has_own_messages(&self) -> bool {
+        !self.original_errors
+    }
+
     pub(in crate::cli) fn output(&self, progress: &Progress, interrupt: &Interrupt) -> Output {
         let format = match (self.json, self.original_errors) {
             (true, _) => Format::Json,

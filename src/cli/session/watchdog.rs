@@ -23,12 +23,19 @@ const PLACE_TIMEOUT: Duration = Duration::from_millis(100);
 
 /// Where reports go, besides standard error.
 #[derive(Clone, Default)]
-pub(in crate::cli) struct Watchdog(Arc<Mutex<Option<BusySign>>>);
+pub(in crate::cli) struct Watchdog {
+    sign: Arc<Mutex<Option<BusySign>>>,
+    /// Whether standard error is told.
+    is_told: bool,
+}
 
 impl Watchdog {
     /// Watches the scripts of a thread as long as the process lives. Without a thread of its own, nothing is reported.
-    pub(in crate::cli) fn start(scripts: InterruptibleThread) -> Self {
-        let watchdog = Self::default();
+    pub(in crate::cli) fn start(scripts: InterruptibleThread, is_told: bool) -> Self {
+        let watchdog = Self {
+            is_told,
+            ..Self::default()
+        };
         let watching = watchdog.clone();
         let _ = std::thread::Builder::new().spawn(move || watching.watch(scripts));
         watchdog
@@ -36,7 +43,7 @@ impl Watchdog {
 
     /// Reports to the pages of a viewer as well.
     pub(in crate::cli) fn show_on(&self, sign: BusySign) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(sign);
+        *self.sign.lock().unwrap_or_else(PoisonError::into_inner) = Some(sign);
     }
 
     fn watch(&self, scripts: InterruptibleThread) -> ! {
@@ -44,7 +51,7 @@ impl Watchdog {
         loop {
             std::thread::sleep(POLL_INTERVAL);
             let sign = self
-                .0
+                .sign
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner)
                 .clone();
@@ -52,7 +59,7 @@ impl Watchdog {
             if calls_begun() != call.number || waits_for_person {
                 call = Call::now();
             }
-            call.check(scripts, sign.as_ref());
+            call.check(scripts, sign.as_ref(), self.is_told);
         }
     }
 }
@@ -76,9 +83,9 @@ impl Call {
     }
 
     /// Reports it when it is time, and ends it when a page wants that.
-    fn check(&mut self, scripts: InterruptibleThread, sign: Option<&BusySign>) {
+    fn check(&mut self, scripts: InterruptibleThread, sign: Option<&BusySign>, is_told: bool) {
         if is_call(self.number) && self.seen.elapsed() >= self.report_due {
-            self.report(scripts);
+            self.report(scripts, is_told);
         }
         let Some(sign) = sign else {
             return;
@@ -93,7 +100,7 @@ impl Call {
         }
     }
 
-    fn report(&mut self, scripts: InterruptibleThread) {
+    fn report(&mut self, scripts: InterruptibleThread, is_told: bool) {
         let seconds = self.report_due.as_secs();
         self.report_due *= NEXT_REPORT;
         let callback = running_callback().map_or("A script", |call| call.name());
@@ -104,7 +111,9 @@ impl Call {
         }
         let place = place(scripts).map_or(String::new(), |place| format!(", at {place}"));
         let sentence = format!("{callback} has been running for {seconds} s{place}");
-        complain(&format!("{sentence}; ctrl-c ends it"));
+        if is_told {
+            complain(&format!("{sentence}; ctrl-c ends it"));
+        }
         self.sentence = Some(sentence);
     }
 }

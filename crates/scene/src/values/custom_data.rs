@@ -3,6 +3,8 @@
 //! A value is stored under a tag: the mark of its type followed by its name. Buffers have no mark, so that raw custom data of a name
 //! and its buffer property are the same.
 
+use std::collections::{BTreeMap, HashMap};
+
 use crate::{Data, Handle, Scene, SceneResult, ValueType};
 
 /// A modification of named values. Names have no mark of a type, tags have one.
@@ -36,10 +38,20 @@ impl Edited<'_> {
     }
 }
 
-/// Values of one owner, in the order they were created.
-#[derive(Debug, Clone, Default, PartialEq)]
+/// Values of one owner, in the order they were created. Looking for a name takes no longer for many values.
+#[derive(Debug, Clone, Default)]
 pub struct CustomData {
-    entries: Vec<Entry>,
+    /// By number, which rises with each new value.
+    entries: BTreeMap<u64, Entry>,
+    /// The numbers of the values of each name, which are of different types.
+    by_name: HashMap<String, Vec<u64>>,
+    next: u64,
+}
+
+impl PartialEq for CustomData {
+    fn eq(&self, other: &Self) -> bool {
+        self.entries.values().eq(other.entries.values())
+    }
 }
 
 /// One value. The tag it is stored under is the mark of its type and its name.
@@ -50,38 +62,30 @@ struct Entry {
     value: Data,
 }
 
-impl Entry {
-    fn is(&self, ty: ValueType, name: &str) -> bool {
-        self.ty == ty && self.name == name
-    }
-}
-
 impl CustomData {
     /// The value with that tag.
     pub fn get(&self, tag: &str) -> Option<&Data> {
         let (ty, name) = ValueType::split_tag(tag);
-        self.entries
-            .iter()
-            .find(|entry| entry.is(ty, name))
+        self.named(name)
+            .find(|entry| entry.ty == ty)
             .map(|entry| &entry.value)
     }
 
     /// The value `name` of whatever type.
     pub fn typed(&self, name: &str) -> Option<(ValueType, &Data)> {
-        self.entries
-            .iter()
-            .find(|entry| entry.name == name)
+        self.named(name)
+            .next()
             .map(|entry| (entry.ty, &entry.value))
     }
 
     /// The tags in the order of their creation.
     pub fn tags(&self) -> impl Iterator<Item = String> {
-        self.entries.iter().map(|entry| entry.ty.tag(&entry.name))
+        self.entries.values().map(|entry| entry.ty.tag(&entry.name))
     }
 
     /// The names in the order of their creation.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.entries.iter().map(|entry| entry.name.as_str())
+        self.entries.values().map(|entry| entry.name.as_str())
     }
 
     /// Does `edit`. Writing what is there already is no change.
@@ -91,40 +95,67 @@ impl CustomData {
                 let (ty, name) = ValueType::split_tag(tag);
                 match value {
                     Some(value) => written(self.set(ty, name, value), name),
-                    None => removed(self.retain(|entry| !entry.is(ty, name)), name),
+                    None => removed(self.remove(name, |of| of == ty), name),
                 }
             }
             Edit::Name(name, Some((ty, value))) => {
-                let retyped = self.retain(|entry| entry.name != name || entry.ty == ty);
+                let retyped = self.remove(name, |of| of != ty);
                 written(self.set(ty, name, value) || retyped, name)
             }
-            Edit::Name(name, None) => removed(self.retain(|entry| entry.name != name), name),
+            Edit::Name(name, None) => removed(self.remove(name, |_| true), name),
             Edit::Clear => self.clear(),
         }
     }
 
+    /// The values of a name, the oldest first.
+    fn named(&self, name: &str) -> impl Iterator<Item = &Entry> {
+        let numbers = self.by_name.get(name).into_iter().flatten();
+        numbers.filter_map(|number| self.entries.get(number))
+    }
+
     fn set(&mut self, ty: ValueType, name: &str, value: Data) -> bool {
-        match self.entries.iter_mut().find(|entry| entry.is(ty, name)) {
-            Some(old) if old.value == value => return false,
-            Some(old) => old.value = value,
-            None => self.entries.push(Entry {
-                ty,
-                name: name.to_owned(),
-                value,
-            }),
+        let numbers = self.by_name.get(name).into_iter().flatten();
+        let old = numbers
+            .copied()
+            .find(|number| self.entries[number].ty == ty);
+        if let Some(entry) = old.and_then(|number| self.entries.get_mut(&number)) {
+            let is_new = entry.value != value;
+            entry.value = value;
+            return is_new;
         }
+        let (number, name) = (self.next, name.to_owned());
+        self.next += 1;
+        self.by_name.entry(name.clone()).or_default().push(number);
+        self.entries.insert(number, Entry { ty, name, value });
         true
     }
 
-    /// Returns whether anything was removed.
-    fn retain(&mut self, keep: impl FnMut(&Entry) -> bool) -> bool {
-        let before = self.entries.len();
-        self.entries.retain(keep);
-        self.entries.len() != before
+    /// Removes the values of a name that have such a type; returns whether there were any.
+    fn remove(&mut self, name: &str, is_meant: impl Fn(ValueType) -> bool) -> bool {
+        let Some(numbers) = self.by_name.get_mut(name) else {
+            return false;
+        };
+        let before = numbers.len();
+        numbers.retain(|number| {
+            let is_meant = self
+                .entries
+                .get(number)
+                .is_none_or(|entry| is_meant(entry.ty));
+            if is_meant {
+                self.entries.remove(number);
+            }
+            !is_meant
+        });
+        let removed = numbers.len() != before;
+        if numbers.is_empty() {
+            self.by_name.remove(name);
+        }
+        removed
     }
 
     fn clear(&mut self) -> Edited<'static> {
-        let names: Vec<String> = self.entries.drain(..).map(|entry| entry.name).collect();
+        let entries = std::mem::take(self).entries;
+        let names: Vec<String> = entries.into_values().map(|entry| entry.name).collect();
         if names.is_empty() {
             Edited::Nothing
         } else {
@@ -229,6 +260,29 @@ mod tests {
         );
         assert!(data.tags().eq(["x"]));
         assert_eq!(data.typed("x"), Some((ValueType::Buffer, &buffer)));
+    }
+
+    #[test]
+    fn values_keep_the_order_of_their_creation() {
+        let mut data = CustomData::default();
+        for tag in ["&int&.x", "y", "&dbl&.x", "z"] {
+            data.edit(Edit::Tag(tag, Some(Data::Int(1))));
+        }
+        data.edit(Edit::Tag("y", Some(Data::Int(2))));
+        assert!(data.tags().eq(["&int&.x", "y", "&dbl&.x", "z"]));
+        assert_eq!(data.typed("x"), Some((ValueType::Int, &Data::Int(1))));
+        data.edit(Edit::Name("x", Some((ValueType::Float, Data::Int(3)))));
+        assert!(data.tags().eq(["y", "&dbl&.x", "z"]));
+        assert_eq!(data.edit(Edit::Name("x", None)), Edited::Removed("x"));
+        assert_eq!(data.get("&dbl&.x"), None);
+        // One that was removed comes last when it is made again, and equal values are equal however they came about.
+        data.edit(Edit::Tag("y", None));
+        data.edit(Edit::Tag("y", Some(Data::Int(2))));
+        let mut other = CustomData::default();
+        other.edit(Edit::Tag("z", Some(Data::Int(1))));
+        assert_ne!(data, other);
+        other.edit(Edit::Tag("y", Some(Data::Int(2))));
+        assert_eq!(data, other);
     }
 
     #[test]
