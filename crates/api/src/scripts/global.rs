@@ -218,12 +218,12 @@ fn print_line(cx: &Cx, text: script::Bytes) -> Result<()> {
 /// Notification that a script has loaded a module.
 ///
 /// @param name the module
-/// @param implicit loaded implicitly, which does not count in a thread's time slice
+/// @param implicit loaded implicitly, which uses up a thread's time slice
 #[api("_usedModule")]
 fn used_module(cx: &Cx, name: String, #[default(false)] implicit: bool) -> Result<()> {
     let _ = name;
     if implicit {
-        cx.begin_time_slice();
+        cx.end_time_slice();
     }
     Ok(())
 }

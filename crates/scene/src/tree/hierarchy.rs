@@ -231,14 +231,17 @@ impl Scene {
             self.set_parent(orphan, heir, true)?;
         }
         self.forget_references(&removed);
+        let parents: BTreeSet<Option<Handle>> = handles
+            .iter()
+            .filter_map(|&handle| self.object(handle).ok().map(crate::Object::parent))
+            .collect();
+        for parent in parents {
+            self.siblings_mut(parent)?
+                .retain(|sibling| !removed.contains(sibling));
+        }
         for &handle in handles {
-            let parent = self.object(handle)?.parent();
-            take_out(self.siblings_mut(parent)?, handle);
-            // The remaining children are removed too; they must not be looked up through this parent.
-            for child in std::mem::take(&mut self.object_mut(handle)?.children) {
-                self.object_mut(child)?.parent = None;
-                self.roots.push(child);
-            }
+            // Its children are removed too, or elsewhere by now; they must not be looked up through it.
+            self.object_mut(handle)?.parent = None;
             self.erase(handle);
         }
         Ok(())

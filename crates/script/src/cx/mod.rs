@@ -140,9 +140,11 @@ impl<'a> Cx<'a> {
             .ok_or(ApiError::NeedsLua)
     }
 
-    /// Begins the time slice of the calling thread anew: what was done for it until now does not count.
-    pub fn begin_time_slice(&self) {
-        self.env().yields.used.set(0);
+    /// Ends the time slice of the calling thread, as work does that takes longer in the original.
+    pub fn end_time_slice(&self) {
+        if let Some(stack) = self.stack {
+            threads::end_time_slice(stack);
+        }
     }
 
     /// The scene, to read. The borrow must end before scripts are called or the scene is changed.

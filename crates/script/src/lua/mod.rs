@@ -33,7 +33,9 @@ pub(crate) use bytecode::{Bytecode, PassedFunction, Prototype};
 pub(crate) use calls::callback::{Callback, Outcome, push_callback, push_plain};
 pub(crate) use calls::{LuaError, MULTIPLE};
 pub(crate) use file::report_closed_pipes;
-pub(crate) use hooks::count::{HOOK_INTERVAL, HookAction, install_coroutine_hooks, set_count_hook};
+pub(crate) use hooks::count::{
+    HOOK_INTERVAL, HookAction, hasten_count_hook, install_coroutine_hooks, set_count_hook,
+};
 pub(crate) use hooks::debug_library::restrict_debug;
 pub use hooks::interrupt::{
     interrupt_running_code, only_ask, place_is_exact, place_of_interruption,

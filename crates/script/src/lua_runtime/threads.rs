@@ -7,7 +7,7 @@
 use std::ffi::CStr;
 
 use crate::host::Env;
-use crate::lua::{HOOK_INTERVAL, HookAction, Stack, Type, set_count_hook};
+use crate::lua::{HOOK_INTERVAL, HookAction, Stack, Type, hasten_count_hook, set_count_hook};
 
 /// Weak table from coroutine to its own pre-emption level.
 const LEVELS: &CStr = c"swanilda.levels";
@@ -27,6 +27,9 @@ pub(crate) fn on_count(stack: Stack<'_>, can_yield: bool) -> HookAction {
 
 fn slice_is_used_up(stack: Stack<'_>, env: &Env) -> bool {
     let yields = &env.yields;
+    if yields.hastened.take() {
+        set_count_hook(stack, true);
+    }
     if env.is_interruptible() && auto_level(stack) != 0 {
         return false;
     }
@@ -38,6 +41,18 @@ fn slice_is_used_up(stack: Stack<'_>, env: &Env) -> bool {
     }
     yields.used.set(0);
     true
+}
+
+/// Ends the slice of the running thread in a few instructions, unless it forbids that before: what it has done takes longer than a slice
+/// in the original.
+pub(crate) fn end_time_slice(stack: Stack<'_>) {
+    if stack.is_main_coroutine() || auto_level(stack) != 0 {
+        return;
+    }
+    let yields = &stack.env().yields;
+    yields.used.set(u64::MAX);
+    yields.hastened.set(true);
+    hasten_count_hook(stack);
 }
 
 /// Instructions in a slice.

@@ -18,6 +18,8 @@ pub struct Yields {
     pub delay_ms: Cell<u32>,
     /// Instructions run by coroutines since the slice began.
     pub used: Cell<u64>,
+    /// The count hook comes early, to end a slice.
+    pub hastened: Cell<bool>,
 }
 
 impl Yields {

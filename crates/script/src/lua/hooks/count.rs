@@ -13,6 +13,8 @@ use crate::lua::calls::guard::{Next, guarded, install};
 
 /// Virtual machine instructions between two checks of the budget.
 pub(crate) const HOOK_INTERVAL: c_int = 1000;
+/// Instructions until an exhausted slice ends.
+const SOON: c_int = 100;
 
 /// Decides after every `HOOK_INTERVAL` instructions of code that has the hook. The argument is whether it may yield.
 pub(crate) type OnCount = fn(Stack<'_>, bool) -> HookAction;
@@ -73,6 +75,11 @@ pub(super) fn restore_count_hook(stack: Stack<'_>) {
         },
     );
     stack.pop(1);
+}
+
+/// Makes the count hook of the running coroutine come in a few instructions, until it is set again.
+pub(crate) fn hasten_count_hook(stack: Stack<'_>) {
+    set_interval(stack, SOON);
 }
 
 fn set_interval(stack: Stack<'_>, interval: c_int) {
