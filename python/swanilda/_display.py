@@ -1,17 +1,23 @@
 """Simulators in notebooks: a picture with a table, and the viewer."""
 
+from __future__ import annotations
+
 import base64
 import html
 import struct
 import zlib
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ._simulator import Simulator
 
 ROWS = 30  # of the table of objects
 
 
-def png(width, height, rows):
+def png(width: int, height: int, rows: bytes) -> bytes:
     """A picture of three bytes for each point as a PNG file."""
 
-    def chunk(kind, data):
+    def chunk(kind: bytes, data: bytes) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     size = 3 * width
@@ -20,7 +26,7 @@ def png(width, height, rows):
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b"")
 
 
-def simulator_html(simulator):
+def simulator_html(simulator: Simulator) -> str:
     """A picture of the scene, and its objects with their positions."""
     sim = simulator.require("sim")
     picture = base64.b64encode(png(*simulator._picture(None, [320, 240]))).decode()
@@ -40,11 +46,11 @@ def simulator_html(simulator):
 class View:
     """The viewer's page. In a notebook it is shown in place; elsewhere `url` opens it."""
 
-    def __init__(self, url, height):
+    def __init__(self, url: str, height: int) -> None:
         self.url, self._height = url, height
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         return f'<iframe src="{html.escape(self.url)}" width="100%" height="{int(self._height)}"></iframe>'
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return self.url

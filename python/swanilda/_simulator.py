@@ -1,41 +1,50 @@
 """The simulator: what is easier in Python than in the extension."""
 
+from __future__ import annotations
+
 import inspect
 import os
 import time
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex, SupportsInt
 
 from . import _display, _swanilda
+
+if TYPE_CHECKING:
+    import numpy
+    from numpy.typing import NDArray
+    from typing_extensions import Self
 
 
 class Script:
     """A script of a simulator. Its global functions are attributes: `script.position(2)`."""
 
-    def __init__(self, simulator, handle):
+    def __init__(self, simulator: Simulator, handle: int) -> None:
         self._simulator = simulator
         self.handle = handle
 
-    def require(self, name):
+    def require(self, name: str) -> Any:
         """A module, in the name of this script: relative paths such as '..' start at it."""
         return self._simulator.require(name, self.handle)
 
-    def call(self, function, *args):
+    def call(self, function: str, *args: Any) -> Any:
         """Calls a global function of the script."""
         return self._simulator._call_script(self.handle, function, *args)
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Callable[..., Any]:
         if name.startswith("__"):
             raise AttributeError(name)
 
-        def function(*args):
+        def function(*args: Any) -> Any:
             return self.call(name, *args)
 
         function.__name__ = name
         return function
 
-    def __index__(self):
+    def __index__(self) -> int:
         return self.handle
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<script {self.handle} of a simulator>"
 
 
@@ -47,19 +56,19 @@ class Simulator(_swanilda.Simulator):
     time_step: seconds. quiet: shows neither prints nor the log. unsafe_functions=False: scripts reach no files, programs or networks.
     """
 
-    def __enter__(self):
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *exception):
+    def __exit__(self, *exception: object) -> None:
         self.close()
 
-    def script(self, path):
+    def script(self, path: str | SupportsIndex) -> Script:
         """The script with that path or handle."""
         sim = self.require("sim")
-        handle = sim.getObject(path) if isinstance(path, str) else int(path)
+        handle = sim.getObject(path) if isinstance(path, str) else path.__index__()
         return Script(self, handle)
 
-    def add_script(self, code, kind="customization", name=""):
+    def add_script(self, code: object, kind: str = "customization", name: str = "") -> Script:
         """Adds a script.
 
         code: Lua as text; or in Python a module, an object or a class, whose functions `sysCall_init`, `sysCall_actuation`, ... are
@@ -71,28 +80,29 @@ class Simulator(_swanilda.Simulator):
             return Script(self, self._add_lua_script(kind, name, code.encode()))
         return Script(self, self._add_python_script(kind, name or _name_of(code), self._factory(code)))
 
-    def _factory(self, code):
+    def _factory(self, code: Any) -> Callable[[int], Any]:
         if not inspect.isclass(code):
             return lambda handle: code
+        create: Callable[..., Any] = code
         if _takes_an_argument(code):
-            return lambda handle: code(Script(self, handle))
-        return lambda handle: code()
+            return lambda handle: create(Script(self, handle))
+        return lambda handle: create()
 
-    def image(self, sensor=None, resolution=None):
+    def image(self, sensor: SupportsInt | None = None, resolution: Sequence[int] | None = None) -> NDArray[numpy.uint8]:
         """What a vision sensor or camera sees, or a picture of the scene, as an array (height, width, 3) of bytes, upright."""
         import numpy
 
         width, height, rows = self._picture(_handle(sensor), resolution)
         return numpy.frombuffer(rows, numpy.uint8).reshape(height, width, 3)
 
-    def sensor_image(self, sensor):
+    def sensor_image(self, sensor: SupportsInt) -> NDArray[numpy.uint8]:
         """The image that a vision sensor took when it was last handled, as an array (height, width, 3) of bytes, upright."""
         import numpy
 
         rows, (width, height) = self.require("sim").getVisionSensorImg(int(sensor))
         return numpy.frombuffer(rows, numpy.uint8).reshape(height, width, 3)[::-1]
 
-    def sensor_depth(self, sensor):
+    def sensor_depth(self, sensor: SupportsInt) -> NDArray[numpy.float32]:
         """The depths that a vision sensor saw when it was last handled, in metres, as an array (height, width) of floats, upright."""
         import numpy
 
@@ -100,44 +110,44 @@ class Simulator(_swanilda.Simulator):
         depths, (width, height) = sim.getVisionSensorDepth(int(sensor), 1)
         return numpy.frombuffer(depths, numpy.float32).reshape(height, width)[::-1]
 
-    def objects(self):
+    def objects(self) -> list[tuple[int, str, int]]:
         """The objects of the scene: a list of (handle, path, type)."""
         sim = self.require("sim")
         handles = sim.getObjectsInTree(sim.handle_scene)
         return [(handle, sim.getObjectAlias(handle, 2), sim.getObjectType(handle)) for handle in handles]
 
-    def view(self, port=0, height=480):
+    def view(self, port: int = 0, height: int = 480) -> _display.View:
         """The viewer's page: a notebook shows it, `.url` is its address. It follows the steps; `serve` looks after it between them."""
         return _display.View(self._view(port), height)
 
-    def serve(self, seconds=None):
+    def serve(self, seconds: float | None = None) -> None:
         """Runs the loop for people who look at the viewer's page, for some seconds or until ctrl-c."""
         end = None if seconds is None else time.monotonic() + seconds
         while end is None or time.monotonic() < end:
             self._serve(0.02)
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str | None:
         return _display.simulator_html(self) if self.is_open else None
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         if not self.is_open:
             return "<closed simulator>"
         return f"<simulator: {self.state}, {self.time:.3f} s>"
 
-    def __reduce__(self):
+    def __reduce__(self) -> NoReturn:
         raise TypeError("a simulator stays in its process: make one in each")
 
 
-def _handle(thing):
+def _handle(thing: SupportsInt | None) -> int | None:
     return None if thing is None else int(thing)
 
 
-def _name_of(code):
+def _name_of(code: object) -> str:
     name = getattr(code, "__name__", None) or type(code).__name__
     return "".join(c if c.isalnum() or c == "_" else "_" for c in os.path.basename(name))
 
 
-def _takes_an_argument(cls):
+def _takes_an_argument(cls: type) -> bool:
     try:
         return bool(inspect.signature(cls).parameters)
     except ValueError:

@@ -1,6 +1,6 @@
 """The extension module."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from os import PathLike
 from typing import Any
 
@@ -42,7 +42,7 @@ class Simulator(Requires):
     def _serve(self, timeout: float) -> None: ...
     def _view(self, port: int) -> str: ...
     def _picture(
-        self, camera: int | None = None, resolution: tuple[int, int] | list[int] | None = None
+        self, camera: int | None = None, resolution: Sequence[int] | None = None
     ) -> tuple[int, int, bytes]: ...
     def _call_script(self, script: int, function: str, *args: Any) -> Any: ...
     def _add_python_script(self, kind: str, name: str, create: Callable[[int], Any]) -> int: ...

@@ -7,8 +7,12 @@
 Needs ray (`pip install swanilda[ray]`), and the package and the scene on each machine.
 """
 
+from __future__ import annotations
+
 import os
 import pathlib
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
 
 import ray
 
@@ -21,24 +25,24 @@ AHEAD = 2
 
 
 @ray.remote(max_retries=0)
-def _simulate(description, number):
+def _simulate(description: dict[str, Any], number: int) -> str:
     return _swanilda.Batch(**description).simulate(number)
 
 
 def sweep(
-    scene,
-    params=None,
-    seeds=(0,),
-    cluster=None,
+    scene: str | os.PathLike[str],
+    params: Mapping[str, Iterable[Any]] | None = None,
+    seeds: Iterable[int] = (0,),
+    cluster: str | None = None,
     *,
-    out="results",
-    fixed=None,
-    time=None,
-    timeout=3600.0,
-    retries=3,
-    force=False,
-    on_row=None,
-):
+    out: str | os.PathLike[str] = "results",
+    fixed: Mapping[str, Any] | None = None,
+    time: float | None = None,
+    timeout: float = 3600.0,
+    retries: int = 3,
+    force: bool = False,
+    on_row: Callable[[str], Any] | None = None,
+) -> os.PathLike[str]:
     """Runs a scene with all combinations of parameters and seeds; returns the path of the table.
 
     params: names with the values each takes. cluster: address of a Ray cluster; without one, that of this process or a local one.
@@ -48,7 +52,7 @@ def sweep(
     """
     if not ray.is_initialized():
         ray.init(address=cluster, log_to_driver=False, include_dashboard=False)
-    description = {
+    description: dict[str, Any] = {
         "scene": os.fspath(scene),
         "seeds": [int(seed) for seed in seeds],
         "sweeps": [(name, [_text(value) for value in values]) for name, values in (params or {}).items()],
@@ -60,7 +64,8 @@ def sweep(
     waiting = batch.open(os.fspath(out), force)[::-1]
     # Workers have another working directory.
     remote = {**description, "scene": str(pathlib.Path(scene).resolve())}
-    under_way, losses = {}, {}
+    under_way: dict[Any, int] = {}
+    losses: dict[int, int] = {}
     while waiting or under_way:
         while waiting and len(under_way) < AHEAD * max(1, int(ray.cluster_resources().get("CPU", 1))):
             number = waiting.pop()
@@ -75,7 +80,7 @@ def sweep(
     return batch.finish()
 
 
-def _line(batch, done, number, losses, retries):
+def _line(batch: _swanilda.Batch, done: Any, number: int, losses: dict[int, int], retries: int) -> str | None:
     """The row of a run; None when it was lost and is to be made again."""
     try:
         return ray.get(done)
@@ -88,19 +93,19 @@ def _line(batch, done, number, losses, retries):
         return batch.lost(number, f"lost {losses[number]} times: {type(error).__name__}")
 
 
-def dataset(out="results"):
+def dataset(out: str | os.PathLike[str] = "results") -> Any:
     """The rows of a sweep as a Ray Dataset."""
     import ray.data
 
     return ray.data.read_json(os.path.join(os.fspath(out), "runs.jsonl"))
 
 
-def _text(value):
+def _text(value: Any) -> str:
     """A parameter in the words of the command line."""
     return value if isinstance(value, str) else repr(value) if isinstance(value, float) else str(value)
 
 
-def _main():
+def _main() -> None:
     """The runs of `swanilda batch --ray`: its arguments as JSON. The exit code is 3 when some failed."""
     import json
     import sys

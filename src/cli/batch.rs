@@ -79,7 +79,7 @@ pub(super) fn batch(args: &Args) -> Outcome {
     let interrupt = Interrupt::install(INTERRUPTED);
     let code = run(args, &interrupt)?;
     // At once: a run that could not be ended may still keep a thread.
-    std::process::exit(i32::from(code))
+    std::process::exit(i32::from(super::code_of_loss().unwrap_or(code)))
 }
 
 fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {

@@ -24,6 +24,7 @@ mod render;
 mod run;
 mod serve;
 mod session;
+mod standard_output;
 mod test;
 mod unpack;
 mod view;
@@ -38,6 +39,7 @@ use session::{
     fallen, graphs, interrupt, launch, live, output, permissions, progress, recording, resources,
     setup, video, watchdog,
 };
+use standard_output::say;
 
 /// Exit code for a wrong command line or a file that cannot be read or written; clap uses the same.
 const USAGE: u8 = 2;
@@ -83,15 +85,22 @@ pub fn main() -> ExitCode {
         .stack_size(simulator::Simulator::STACK_SIZE);
     let outcome = thread.spawn(|| parse().map_or_else(|code| code, |cli| cli.command.execute()));
     match outcome.map(std::thread::JoinHandle::join) {
-        Ok(Ok(code)) => code,
+        Ok(Ok(code)) => code_of_loss().map_or(code, ExitCode::from),
         _ => ExitCode::from(INTERNAL),
     }
+}
+
+/// The exit code for output that could not be written, which is said; nothing when all is well.
+fn code_of_loss() -> Option<u8> {
+    let reason = standard_output::lost()?;
+    complain(reason);
+    Some(USAGE)
 }
 
 /// The parsed command line; errors and help have been printed.
 fn parse() -> Result<Cli, ExitCode> {
     Cli::try_parse().map_err(|error| {
-        let _ = error.print();
+        standard_output::note(&error.print());
         let for_tests = std::env::args()
             .nth(1)
             .is_some_and(|command| command == "test");
@@ -143,9 +152,4 @@ impl Command {
 /// Writes to standard error, in the name of the program. A closed pipe is not an error.
 fn complain(reason: &str) {
     let _ = writeln!(std::io::stderr(), "swanilda: {reason}");
-}
-
-/// Writes to standard output. A closed pipe is not an error.
-fn say(text: &[u8]) {
-    let _ = std::io::stdout().write_all(text);
 }

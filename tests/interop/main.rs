@@ -19,6 +19,7 @@ mod rust_client;
 mod server;
 mod simzmq;
 mod sockets;
+mod typed;
 mod view;
 mod web;
 mod zmq;

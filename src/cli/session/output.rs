@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 use std::fs::File;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::net::SocketAddr;
 use std::rc::Rc;
 use std::time::Duration;
@@ -10,6 +10,7 @@ use std::time::Duration;
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
 
+use super::super::standard_output::note;
 use super::interrupt::Interrupt;
 use io::signals::{reserve_standard_output, standard_output_is_closed};
 use script::log::{status, verbosity};
@@ -215,7 +216,7 @@ impl Output {
         self.write_line(value.to_string().as_bytes());
     }
 
-    /// Writes a line to standard output. When nobody reads it any more, the program ends.
+    /// Writes a line to standard output. When nobody reads it any more, or it has no room, the program ends.
     fn write_line(&self, line: &[u8]) {
         let line = [line, b"\n"].concat();
         let written = match self.reserved {
@@ -225,7 +226,7 @@ impl Output {
                 .write_all(&line)
                 .and_then(|()| std::io::stdout().flush()),
         };
-        if written.is_err_and(|error| error.kind() == std::io::ErrorKind::BrokenPipe) {
+        if note(&written) || written.is_err_and(|error| error.kind() == ErrorKind::BrokenPipe) {
             self.interrupt.request_quietly();
         }
     }

@@ -125,7 +125,7 @@ pub(super) fn test(args: &Args) -> ExitCode {
     };
     match ran {
         // At once: a test that could not be ended may still keep a thread.
-        Ok(code) => std::process::exit(i32::from(code)),
+        Ok(code) => std::process::exit(i32::from(super::code_of_loss().unwrap_or(code))),
         Err(reason) => refuse(&reason),
     }
 }

@@ -5,6 +5,7 @@ use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::super::standard_output;
 use super::paint::ColorChoice;
 use super::terminal::{Terminal, TerminalOptions};
 use format::scene_file::{is_special, link_target, write_whole};
@@ -84,12 +85,11 @@ impl ReportArgs {
 
     /// Prints a message that belongs to no report, without disturbing one.
     pub(super) fn print(&self, text: &str) {
-        // That the reader has closed the pipe is no error.
-        let _ = match (self.tap || self.json, std::io::stdout().is_terminal()) {
-            (true, true) => Ok(()),
-            (true, false) => std::io::stderr().lock().write_all(text.as_bytes()),
-            (false, _) => std::io::stdout().lock().write_all(text.as_bytes()),
-        };
+        match (self.tap || self.json, std::io::stdout().is_terminal()) {
+            (true, true) => {}
+            (true, false) => drop(std::io::stderr().lock().write_all(text.as_bytes())),
+            (false, _) => standard_output::say(text.as_bytes()),
+        }
     }
 
     /// Writes the reports that need to know everything.
@@ -161,10 +161,8 @@ impl Reporter for Reports {
     }
 }
 
-/// Flushes at once, for readers of the pipe. A closed pipe is not an error.
 fn say(text: &str) {
-    let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    standard_output::say(text.as_bytes());
 }
 
 fn check(file: &Path) -> Result<(), String> {

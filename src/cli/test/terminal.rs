@@ -10,6 +10,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::super::standard_output;
 use super::failure;
 use super::paint::{BOLD, ColorChoice, DIM, GREEN, Paint, RED, YELLOW, harmless};
 use testing::report::files;
@@ -66,11 +67,11 @@ impl Terminal {
     /// Writes text between the frames of the progress bar. A reader that closes the pipe has seen enough, which is no error.
     fn say(&self, text: &str) {
         self.bar.suspend(|| {
-            let _ = if self.options.on_stderr {
-                std::io::stderr().lock().write_all(text.as_bytes())
+            if self.options.on_stderr {
+                let _ = std::io::stderr().lock().write_all(text.as_bytes());
             } else {
-                std::io::stdout().lock().write_all(text.as_bytes())
-            };
+                standard_output::say(text.as_bytes());
+            }
         });
     }
 

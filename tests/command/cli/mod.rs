@@ -5,6 +5,8 @@
 )]
 
 mod commands;
+#[cfg(target_os = "linux")]
+mod full_disk;
 mod graphs;
 #[cfg(unix)]
 mod interrupts;
