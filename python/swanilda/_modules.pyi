@@ -2529,10 +2529,8 @@ class _sim:
         """
     def createIkGroup(self, options: int, intParams: Sequence[int] | None = ..., floatParams: Sequence[float] | None = ..., /) -> int:
         """Creates a group of inverse kinematics of V-REP. It moves joints whose mode is sim.jointmode_ik. The scene keeps it, and files do without its options.
-
-        the angular precision is missed
         Deprecated: use the simIK functionality.
-        options: bit 0: disabled; bit 1: steps of joints are not limited; bits 2 and 3: joints return to where they were when the linear or
+        options: bit 0: disabled; bit 1: steps of joints are not limited; bits 2 and 3: joints return to where they were when the linear or the angular precision is missed
         intParams: sim.ik_*_method, and at most how many iterations
         floatParams: the damping of damped least squares
         """
@@ -2545,10 +2543,8 @@ class _sim:
         """
     def createMeshShape(self, options: int, shadingAngle: float, vertices: Sequence[float], indices: Sequence[int], normals: Sequence[float] | None = ..., textureCoordinates: Sequence[float] | None = ..., texture: bytes | str | None = ..., textureResolution: Sequence[float] | None = ..., /) -> int:
         """A new shape from a mesh in world coordinates; its frame is the world's.
-
-        8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
         Deprecated: use sim.createShape.
-        options: 1: back faces culled, 2: edges visible, 128: keep duplicate vertices; for the texture 4: pixels are not interpolated,
+        options: 1: back faces culled, 2: edges visible, 128: keep duplicate vertices; for the texture 4: pixels are not interpolated, 8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
         shadingAngle: edges sharper than this show, rad
         vertices: three coordinates each, metres
         indices: three vertices per triangle, from 0
@@ -2613,9 +2609,7 @@ class _sim:
         """
     def createShape(self, options: int, shadingAngle: float, vertices: Sequence[float], indices: Sequence[int], normals: Sequence[float] | None = ..., textureCoordinates: Sequence[float] | None = ..., texture: bytes | str | None = ..., textureResolution: Sequence[float] | None = ..., /) -> int:
         """A new shape from a mesh in world coordinates; its frame is the world's.
-
-        8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
-        options: 1: back faces culled, 2: edges visible, 128: keep duplicate vertices; for the texture 4: pixels are not interpolated,
+        options: 1: back faces culled, 2: edges visible, 128: keep duplicate vertices; for the texture 4: pixels are not interpolated, 8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
         shadingAngle: edges sharper than this show, rad
         vertices: three coordinates each, metres
         indices: three vertices per triangle, from 0
@@ -2998,10 +2992,6 @@ class _sim:
         """
     def getGraphCurve(self, graphHandle: int, graphType: int, curveIndex: int, /) -> Any:
         """A curve with its points. Streams that are not shown, and slots with gaps, are left out.
-
-        zData after yData. The type is 0: a line, 1: points that are not linked, plus 2: recording does not change it, 4: its label is not shown, 8: in
-        three dimensions, in the frame of the graph. minMax: the smallest and the
-        largest x, then of y and z
         graphHandle: the graph
         graphType: 0: streams over time, 1: curves of two dimensions, 2: of three
         curveIndex: which one of them, from 0
@@ -3010,6 +3000,18 @@ class _sim:
         """Display settings of a graph.
         graphHandle: the graph
         """
+    def getHandleArrayProperty(self, target: int, propertyName: str, options: Mapping[Any, Any] | None = ..., /) -> list[int]:
+        """Value of a property.
+        target: object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+        propertyName: its name
+        options: noError: nothing instead of an error
+        """
+    def getHandleProperty(self, target: int, propertyName: str, options: Mapping[Any, Any] | None = ..., /) -> int:
+        """Value of a property.
+        target: object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+        propertyName: its name
+        options: noError: nothing instead of an error
+        """
     def getIkGroupHandle(self, ikGroupName: str, /) -> int:
         """A group of inverse kinematics of an old scene.
         Deprecated: use the simIK functionality.
@@ -3017,8 +3019,6 @@ class _sim:
         """
     def getIkGroupMatrix(self, ikGroupHandle: int, options: int, /) -> tuple[list[float], list[int]]:
         """The Jacobian of a group of inverse kinematics of V-REP, of the last sim.computeJacobian or sim.handleIkGroup.
-
-        it was not computed
         Deprecated: use the simIK functionality.
         ikGroupHandle: the group
         options: 0
@@ -3216,10 +3216,8 @@ class _sim:
         """
     def getObjectFloatArrayParam(self, objectHandle: int, parameterID: int, /) -> list[float]:
         """Parameter of an object that is a list of numbers.
-
-        the near clipping plane, then those of the far one
         objectHandle: the object
-        parameterID: sim.visionfarrayparam_viewfrustum or sim.camerafarrayparam_viewfrustum: half the width, half the height and the distance of
+        parameterID: sim.visionfarrayparam_viewfrustum or sim.camerafarrayparam_viewfrustum: half the width, half the height and the distance of the near clipping plane, then those of the far one
         """
     def getObjectFloatParam(self, objectHandle: int, parameterID: int, /) -> float:
         """Float parameter of an object.
@@ -3887,9 +3885,7 @@ class _sim:
         """
     def handleSensingStart(self, calculationObjects: int | None = ..., /) -> int:
         """Begins the sensing part of a step: measures the velocities of objects. For the main script.
-
-        script does
-        calculationObjects: sim.handle_all_except_explicit: collision and distance objects of old scenes are handled too, as the usual main
+        calculationObjects: sim.handle_all_except_explicit: collision and distance objects of old scenes are handled too, as the usual main script does
         """
     def handleSimulationScripts(self, callType: int, /, *args: Any) -> int:
         """Calls a callback of all simulation scripts. For the main script; others get -1.
@@ -3915,11 +3911,9 @@ class _sim:
         """
     def importShape(self, fileformat: int, pathAndFilename: str, options: int, identicalVerticeTolerance: float, scalingFactor: float, /) -> int:
         """A new shape from a mesh file: OBJ, STL, PLY, COLLADA, glTF, 3DS or DXF; its frame is the world's. Several meshes are one compound.
-
-        axis of the file is ignored
         fileformat: not used: the name's extension says it
         pathAndFilename: the file
-        options: 1: identical vertices stay, 8: without colours, 16: with textures, 32: bounding box along the axes of the world, 128: the up
+        options: 1: identical vertices stay, 8: without colours, 16: with textures, 32: bounding box along the axes of the world, 128: the up axis of the file is ignored
         identicalVerticeTolerance: not used: vertices of the same coordinates become one
         scalingFactor: of all coordinates, beside the unit of the file; 0 for 1
         """
@@ -4055,10 +4049,8 @@ class _sim:
         """
     def loadModel(self, filenameOrBuffer: Any | None = ..., onlyThumbnails: bool | None = ..., /) -> int:
         """Adds a model to the scene, where it was saved.
-
-        file below DIR, such as `models/robots/mobile/dr12.ttm`
-        filenameOrBuffer: a `.ttm` or `.simmodel.xml` file or its bytes, a folder that `swanilda unpack` made, or a robot in URDF, SDF or MJCF; with `--resources DIR` also a
-        onlyThumbnails: of no use: nothing is shown
+        filenameOrBuffer: a `.ttm` or `.simmodel.xml` file or its bytes, a folder that `swanilda unpack` made, or a robot in URDF, SDF or MJCF; with `--resources DIR` also a file below DIR, such as `models/robots/mobile/dr12.ttm`
+        onlyThumbnails: true raises an error: thumbnails are not implemented
         """
     def loadPlugin(self, name: str, /) -> int:
         """Loads a plugin of this simulator.
@@ -4066,9 +4058,7 @@ class _sim:
         """
     def loadScene(self, filenameOrBuffer: Any | None = ..., /) -> int:
         """Replaces the scene. For add-ons and the sandbox, while the simulation is stopped.
-
-        customization script of the default scene; empty for the default scene alone
-        filenameOrBuffer: a `.ttt` or `.simscene.xml` file or its bytes; a folder that `swanilda unpack` made; a `.lua` file, whose text becomes a
+        filenameOrBuffer: a `.ttt` or `.simscene.xml` file or its bytes; a folder that `swanilda unpack` made; a `.lua` file, whose text becomes a customization script of the default scene; empty for the default scene alone
         """
     def matrixToPose(self, matrix: Sequence[float], /) -> list[float]:
         """Pose of a matrix.
@@ -4800,6 +4790,20 @@ class _sim:
         dataStreamName: name of the stream
         data: number
         """
+    def setHandleArrayProperty(self, target: int, propertyName: str, propertyState: Sequence[int], options: Mapping[Any, Any] | None = ..., /) -> None:
+        """Sets a property; names below `customData.` and `signal.` are created.
+        target: object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+        propertyName: its name
+        propertyState: the new value
+        options: noError: no error when that fails
+        """
+    def setHandleProperty(self, target: int, propertyName: str, propertyState: int, options: Mapping[Any, Any] | None = ..., /) -> None:
+        """Sets a property; names below `customData.` and `signal.` are created.
+        target: object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+        propertyName: its name
+        propertyState: the new value
+        options: noError: no error when that fails
+        """
     def setIkElementProperties(self, ikGroupHandle: int, tipDummyHandle: int, constraints: int, precision: Sequence[float] | None = ..., weight: Sequence[float] | None = ..., /) -> int:
         """Sets what a tip of a group of inverse kinematics of V-REP has to reach.
         Deprecated: use the simIK functionality.
@@ -5420,13 +5424,11 @@ class _sim:
         """
     def transformBuffer(self, inBuffer: bytes | str, inFormat: int, multiplier: float, offset: float, outFormat: int, /) -> Any:
         """Converts a buffer of numbers or pixels to another format; each number becomes number * multiplier + offset.
-
-        sim.buffer_split: a list of buffers
         inBuffer: numbers or pixels
         inFormat: sim.buffer_*, their format; sim.buffer_base64: text to be decoded
         multiplier: not of alpha
         offset: not of alpha; with sim.buffer_split: bytes per part
-        outFormat: sim.buffer_*, with sim.buffer_clamp added: numbers are cut to the range of the format; sim.buffer_base64: text;
+        outFormat: sim.buffer_*, with sim.buffer_clamp added: numbers are cut to the range of the format; sim.buffer_base64: text; sim.buffer_split: a list of buffers
         """
     def transformImage(self, image: bytes | str, resolution: Sequence[float], options: int, /) -> bytes:
         """A mirrored image. Sensors have the bottom row first, files the top one: flip along y in between.
@@ -5600,14 +5602,12 @@ class _simAssimp:
         """
     def exportShapes(self, shapeHandles: Sequence[int], filename: str, formatId: str, scaling: float | None = ..., upVector: int | None = ..., options: int | None = ..., /) -> None:
         """Writes shapes to a file.
-
-        shape instead of the world's
         shapeHandles: the shapes; other objects are left out
         filename: the file
         formatId: see simAssimp.getExportFormat
         scaling: of all coordinates; 0 for 1
         upVector: simAssimp.upVector.z or .y: the axis of the file that points up
-        options: 1: without textures, 2: without colours, 4: without normals, 8: only visible shapes, 256: not used, 512: in the frame of the first
+        options: 1: without textures, 2: without colours, 4: without normals, 8: only visible shapes, 256: not used, 512: in the frame of the first shape instead of the world's
         """
     def getExportFormat(self, index: int, /) -> tuple[str, str, str]:
         """A format that is written.
@@ -5619,22 +5619,18 @@ class _simAssimp:
         """
     def importMeshes(self, filenames: str, scaling: float | None = ..., upVector: int | None = ..., options: int | None = ..., /) -> tuple[Any, Any]:
         """The meshes of files.
-
-        ignored
         filenames: the files, with `;` between them
         scaling: of all coordinates, beside the unit of the file; 0 for 1
         upVector: simAssimp.upVector.auto: what the file says, .z, .y
-        options: 8: meshes that look the same stay apart, 16: identical vertices stay, 32: one mesh for each file, 128: the up axis of the file is
+        options: 8: meshes that look the same stay apart, 16: identical vertices stay, 32: one mesh for each file, 128: the up axis of the file is ignored
         """
     def importShapes(self, filenames: str, maxTextureSize: int | None = ..., scaling: float | None = ..., upVector: int | None = ..., options: int | None = ..., /) -> list[int]:
         """New shapes from mesh files; the frames of all are the world's.
-
-        32: one shape for each file, 64: bounding boxes along the axes of the world, 128: the up axis of the file is ignored, 256: no warnings
         filenames: the files, with `;` between them
         maxTextureSize: pixels on a side; larger textures are made smaller
         scaling: of all coordinates, beside the unit of the file; 0 for 1
         upVector: simAssimp.upVector.auto: what the file says, .z, .y
-        options: 1: without textures, 2: without colours, 4: opaque, 8: meshes that look the same stay apart, 16: identical vertices stay,
+        options: 1: without textures, 2: without colours, 4: opaque, 8: meshes that look the same stay apart, 16: identical vertices stay, 32: one shape for each file, 64: bounding boxes along the axes of the world, 128: the up axis of the file is ignored, 256: no warnings
         """
 
 class _simCBOR:
@@ -7927,10 +7923,8 @@ class _simOpenMesh:
         """A copy of a shape with fewer triangles: edges are collapsed, those first that change the surface least.
 
         Closed meshes stay closed and borders where they are; textures are lost.
-
-        moved, metres: edges beyond that stay)
         inputShape: the shape, which stays as it is
-        params: percentage (0.5: how many of the triangles remain, 0 to 1), triangles or vertices (how many remain), error (how far the surface may be
+        params: percentage (0.5: how many of the triangles remain, 0 to 1), triangles or vertices (how many remain), error (how far the surface may be moved, metres: edges beyond that stay)
         """
     def getDecimatedShape(self, shapeHandle: int, prop: float, /) -> int:
         """A copy of a shape with fewer triangles.
@@ -8468,8 +8462,6 @@ class _simRemoteApi:
         """
     def status(self, port: int, /) -> Any:
         """What a server does.
-
-        reply
         port: of the server
         """
     def stop(self, port: int, /) -> int:
