@@ -607,10 +607,8 @@ function sim.createHeightfieldShape(options, shadingAngle, xPointCount, yPointCo
 function sim.createIkElement(ikGroupHandle, options, intParams, floatParams) end
 
 --- Creates a group of inverse kinematics of V-REP. It moves joints whose mode is sim.jointmode_ik. The scene keeps it, and files do without its options.
----
---- the angular precision is missed
 ---@deprecated the simIK functionality
----@param options integer bit 0: disabled; bit 1: steps of joints are not limited; bits 2 and 3: joints return to where they were when the linear or
+---@param options integer bit 0: disabled; bit 1: steps of joints are not limited; bits 2 and 3: joints return to where they were when the linear or the angular precision is missed
 ---@param intParams? integer[] sim.ik_*_method, and at most how many iterations
 ---@param floatParams? number[] the damping of damped least squares
 ---@return integer ikGroupHandle its handle
@@ -625,10 +623,8 @@ function sim.createIkGroup(options, intParams, floatParams) end
 function sim.createJoint(jointType, jointMode, options, sizes) end
 
 --- A new shape from a mesh in world coordinates; its frame is the world's.
----
---- 8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
 ---@deprecated sim.createShape
----@param options integer 1: back faces culled, 2: edges visible, 128: keep duplicate vertices; for the texture 4: pixels are not interpolated,
+---@param options integer 1: back faces culled, 2: edges visible, 128: keep duplicate vertices; for the texture 4: pixels are not interpolated, 8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
 ---@param shadingAngle number edges sharper than this show, rad
 ---@param vertices number[] three coordinates each, metres
 ---@param indices integer[] three vertices per triangle, from 0
@@ -701,9 +697,7 @@ function sim.createPureShape(primitiveType, options, sizes, mass, precision) end
 function sim.createScript(scriptType, scriptText, options, lang) end
 
 --- A new shape from a mesh in world coordinates; its frame is the world's.
----
---- 8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
----@param options integer 1: back faces culled, 2: edges visible, 128: keep duplicate vertices; for the texture 4: pixels are not interpolated,
+---@param options integer 1: back faces culled, 2: edges visible, 128: keep duplicate vertices; for the texture 4: pixels are not interpolated, 8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
 ---@param shadingAngle number edges sharper than this show, rad
 ---@param vertices number[] three coordinates each, metres
 ---@param indices integer[] three vertices per triangle, from 0
@@ -1163,14 +1157,10 @@ function sim.getFloatSignal(signalName) end
 function sim.getGenesisEvents() end
 
 --- A curve with its points. Streams that are not shown, and slots with gaps, are left out.
----
---- zData after yData. The type is 0: a line, 1: points that are not linked, plus 2: recording does not change it, 4: its label is not shown, 8: in
---- three dimensions, in the frame of the graph. minMax: the smallest and the
---- largest x, then of y and z
 ---@param graphHandle integer the graph
 ---@param graphType integer 0: streams over time, 1: curves of two dimensions, 2: of three
 ---@param curveIndex integer which one of them, from 0
----@return any label curveType, curveColor, xData, yData, minMax, curveId, curveWidth nothing past the last one; a curve of three dimensions has
+---@return any label curveType, curveColor, xData, yData, minMax, curveId, curveWidth nothing past the last one; a curve of three dimensions has zData after yData. The type is 0: a line, 1: points that are not linked, plus 2: recording does not change it, 4: its label is not shown, 8: in three dimensions, in the frame of the graph. minMax: the smallest and the largest x, then of y and z
 function sim.getGraphCurve(graphHandle, graphType, curveIndex) end
 
 --- Display settings of a graph.
@@ -1180,6 +1170,20 @@ function sim.getGraphCurve(graphHandle, graphType, curveIndex) end
 ---@return number[] fgColor of lines and texts
 function sim.getGraphInfo(graphHandle) end
 
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return integer[] propertyState
+function sim.getHandleArrayProperty(target, propertyName, options) end
+
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return integer propertyState
+function sim.getHandleProperty(target, propertyName, options) end
+
 --- A group of inverse kinematics of an old scene.
 ---@deprecated the simIK functionality
 ---@param ikGroupName string its name; with `@silentError`: -1 if there is none
@@ -1187,12 +1191,10 @@ function sim.getGraphInfo(graphHandle) end
 function sim.getIkGroupHandle(ikGroupName) end
 
 --- The Jacobian of a group of inverse kinematics of V-REP, of the last sim.computeJacobian or sim.handleIkGroup.
----
---- it was not computed
 ---@deprecated the simIK functionality
 ---@param ikGroupHandle integer the group
 ---@param options integer 0
----@return number[] jacobian row by row, x, y, z, alpha, beta, gamma as far as they are constrained; a column for each joint, from the base to the tip. Nothing if
+---@return number[] jacobian row by row, x, y, z, alpha, beta, gamma as far as they are constrained; a column for each joint, from the base to the tip. Nothing if it was not computed
 ---@return integer[] jacobianSize numbers of columns and rows
 function sim.getIkGroupMatrix(ikGroupHandle, options) end
 
@@ -1447,10 +1449,8 @@ function sim.getObjectColor(objectHandle, index, colorComponent) end
 function sim.getObjectConfiguration(objectHandle) end
 
 --- Parameter of an object that is a list of numbers.
----
---- the near clipping plane, then those of the far one
 ---@param objectHandle integer the object
----@param parameterID integer sim.visionfarrayparam_viewfrustum or sim.camerafarrayparam_viewfrustum: half the width, half the height and the distance of
+---@param parameterID integer sim.visionfarrayparam_viewfrustum or sim.camerafarrayparam_viewfrustum: half the width, half the height and the distance of the near clipping plane, then those of the far one
 ---@return number[] params nothing when the object has no such parameter
 function sim.getObjectFloatArrayParam(objectHandle, parameterID) end
 
@@ -2303,9 +2303,7 @@ function sim.handleProximitySensor(sensorHandle) end
 function sim.handleSandboxScript(callType, ...) end
 
 --- Begins the sensing part of a step: measures the velocities of objects. For the main script.
----
---- script does
----@param calculationObjects? integer sim.handle_all_except_explicit: collision and distance objects of old scenes are handled too, as the usual main
+---@param calculationObjects? integer sim.handle_all_except_explicit: collision and distance objects of old scenes are handled too, as the usual main script does
 ---@return integer result -1
 function sim.handleSensingStart(calculationObjects) end
 
@@ -2339,11 +2337,9 @@ function sim.handleVisionSensor(sensorHandle) end
 function sim.importMesh(fileformat, pathAndFilename, options, identicalVerticeTolerance, scalingFactor) end
 
 --- A new shape from a mesh file: OBJ, STL, PLY, COLLADA, glTF, 3DS or DXF; its frame is the world's. Several meshes are one compound.
----
---- axis of the file is ignored
 ---@param fileformat integer not used: the name's extension says it
 ---@param pathAndFilename string the file
----@param options integer 1: identical vertices stay, 8: without colours, 16: with textures, 32: bounding box along the axes of the world, 128: the up
+---@param options integer 1: identical vertices stay, 8: without colours, 16: with textures, 32: bounding box along the axes of the world, 128: the up axis of the file is ignored
 ---@param identicalVerticeTolerance number not used: vertices of the same coordinates become one
 ---@param scalingFactor number of all coordinates, beside the unit of the file; 0 for 1
 ---@return integer shapeHandle the shape, static and not respondable
@@ -2505,10 +2501,8 @@ function sim.launchThreadedChildScripts() end
 function sim.loadImage(options, filename) end
 
 --- Adds a model to the scene, where it was saved.
----
---- file below DIR, such as `models/robots/mobile/dr12.ttm`
----@param filenameOrBuffer any a `.ttm` or `.simmodel.xml` file or its bytes, a folder that `swanilda unpack` made, or a robot in URDF, SDF or MJCF; with `--resources DIR` also a
----@param onlyThumbnails? boolean of no use: nothing is shown
+---@param filenameOrBuffer any a `.ttm` or `.simmodel.xml` file or its bytes, a folder that `swanilda unpack` made, or a robot in URDF, SDF or MJCF; with `--resources DIR` also a file below DIR, such as `models/robots/mobile/dr12.ttm`
+---@param onlyThumbnails? boolean true raises an error: thumbnails are not implemented
 ---@return integer objectHandle the base of the model
 function sim.loadModel(filenameOrBuffer, onlyThumbnails) end
 
@@ -2518,9 +2512,7 @@ function sim.loadModel(filenameOrBuffer, onlyThumbnails) end
 function sim.loadPlugin(name) end
 
 --- Replaces the scene. For add-ons and the sandbox, while the simulation is stopped.
----
---- customization script of the default scene; empty for the default scene alone
----@param filenameOrBuffer any a `.ttt` or `.simscene.xml` file or its bytes; a folder that `swanilda unpack` made; a `.lua` file, whose text becomes a
+---@param filenameOrBuffer any a `.ttt` or `.simscene.xml` file or its bytes; a folder that `swanilda unpack` made; a `.lua` file, whose text becomes a customization script of the default scene; empty for the default scene alone
 ---@return integer result 1
 function sim.loadScene(filenameOrBuffer) end
 
@@ -3396,6 +3388,20 @@ function sim.setGraphStreamValue(graphHandle, streamId, value) end
 ---@param data number number
 function sim.setGraphUserData(graphHandle, dataStreamName, data) end
 
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState integer[] the new value
+---@param options? table noError: no error when that fails
+function sim.setHandleArrayProperty(target, propertyName, propertyState, options) end
+
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState integer the new value
+---@param options? table noError: no error when that fails
+function sim.setHandleProperty(target, propertyName, propertyState, options) end
+
 --- Sets what a tip of a group of inverse kinematics of V-REP has to reach.
 ---@deprecated the simIK functionality
 ---@param ikGroupHandle integer the group
@@ -4089,13 +4095,11 @@ function sim.textEditorShow(handle, showState) end
 function sim.throttle(period, f, ...) end
 
 --- Converts a buffer of numbers or pixels to another format; each number becomes number * multiplier + offset.
----
---- sim.buffer_split: a list of buffers
 ---@param inBuffer string|table numbers or pixels
 ---@param inFormat integer sim.buffer_*, their format; sim.buffer_base64: text to be decoded
 ---@param multiplier number not of alpha
 ---@param offset number not of alpha; with sim.buffer_split: bytes per part
----@param outFormat integer sim.buffer_*, with sim.buffer_clamp added: numbers are cut to the range of the format; sim.buffer_base64: text;
+---@param outFormat integer sim.buffer_*, with sim.buffer_clamp added: numbers are cut to the range of the format; sim.buffer_base64: text; sim.buffer_split: a list of buffers
 ---@return any outBuffer
 function sim.transformBuffer(inBuffer, inFormat, multiplier, offset, outFormat) end
 

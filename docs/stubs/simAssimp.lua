@@ -16,14 +16,12 @@ local module = {}
 function module.exportMeshes(allVertices, allIndices, filename, formatId, scaling, upVector, options) end
 
 --- Writes shapes to a file.
----
---- shape instead of the world's
 ---@param shapeHandles integer[] the shapes; other objects are left out
 ---@param filename string the file
 ---@param formatId string see simAssimp.getExportFormat
 ---@param scaling? number of all coordinates; 0 for 1
 ---@param upVector? integer simAssimp.upVector.z or .y: the axis of the file that points up
----@param options? integer 1: without textures, 2: without colours, 4: without normals, 8: only visible shapes, 256: not used, 512: in the frame of the first
+---@param options? integer 1: without textures, 2: without colours, 4: without normals, 8: only visible shapes, 256: not used, 512: in the frame of the first shape instead of the world's
 function module.exportShapes(shapeHandles, filename, formatId, scaling, upVector, options) end
 
 --- A format that is written.
@@ -40,24 +38,20 @@ function module.getExportFormat(index) end
 function module.getImportFormat(index) end
 
 --- The meshes of files.
----
---- ignored
 ---@param filenames string the files, with `;` between them
 ---@param scaling? number of all coordinates, beside the unit of the file; 0 for 1
 ---@param upVector? integer simAssimp.upVector.auto: what the file says, .z, .y
----@param options? integer 8: meshes that look the same stay apart, 16: identical vertices stay, 32: one mesh for each file, 128: the up axis of the file is
+---@param options? integer 8: meshes that look the same stay apart, 16: identical vertices stay, 32: one mesh for each file, 128: the up axis of the file is ignored
 ---@return any allVertices for each mesh a table of three coordinates each, metres
 ---@return any allIndices for each mesh a table of three vertices per triangle, from 0
 function module.importMeshes(filenames, scaling, upVector, options) end
 
 --- New shapes from mesh files; the frames of all are the world's.
----
---- 32: one shape for each file, 64: bounding boxes along the axes of the world, 128: the up axis of the file is ignored, 256: no warnings
 ---@param filenames string the files, with `;` between them
 ---@param maxTextureSize? integer pixels on a side; larger textures are made smaller
 ---@param scaling? number of all coordinates, beside the unit of the file; 0 for 1
 ---@param upVector? integer simAssimp.upVector.auto: what the file says, .z, .y
----@param options? integer 1: without textures, 2: without colours, 4: opaque, 8: meshes that look the same stay apart, 16: identical vertices stay,
+---@param options? integer 1: without textures, 2: without colours, 4: opaque, 8: meshes that look the same stay apart, 16: identical vertices stay, 32: one shape for each file, 64: bounding boxes along the axes of the world, 128: the up axis of the file is ignored, 256: no warnings
 ---@return integer[] shapeHandles static and not respondable
 function module.importShapes(filenames, maxTextureSize, scaling, upVector, options) end
 

@@ -8,10 +8,8 @@ local module = {}
 --- A copy of a shape with fewer triangles: edges are collapsed, those first that change the surface least.
 ---
 --- Closed meshes stay closed and borders where they are; textures are lost.
----
---- moved, metres: edges beyond that stay)
 ---@param inputShape integer the shape, which stays as it is
----@param params? table percentage (0.5: how many of the triangles remain, 0 to 1), triangles or vertices (how many remain), error (how far the surface may be
+---@param params? table percentage (0.5: how many of the triangles remain, 0 to 1), triangles or vertices (how many remain), error (how far the surface may be moved, metres: edges beyond that stay)
 ---@return integer decimatedShape
 function module.decimate(inputShape, params) end
 

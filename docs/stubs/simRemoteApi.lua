@@ -20,8 +20,6 @@ function module.reset(port) end
 function module.start(port, maxPacketSize, debug, preEnableTrigger) end
 
 --- What a server does.
----
---- reply
 ---@param port integer of the server
 ---@return any status -1 without a server, else 1, or 3 while a client is connected
 function module.status(port) end

@@ -14,10 +14,8 @@ function module.dump(fileName) end
 ---
 --- Models of `model://` and meshes are looked for in the paths of ROS, in the folders above the file, and beside it. Files are read where permissions
 --- allow it. Models of a world stay where it has them; a single model is centred on the origin and stands on the floor.
----
---- createVisualIfNone, centerModel, prepareModel (as a model), noSelfCollision, positionCtrl; ignoreMissingValues and showConvexDecompositionDlg have no effect
 ---@param fileName string name of the file
----@param options? table fields that are true unless they are said: hideCollisionLinks, hideJoints, convexDecompose (collision meshes that are not convex),
+---@param options? table fields that are true unless they are said: hideCollisionLinks, hideJoints, convexDecompose (collision meshes that are not convex), createVisualIfNone, centerModel, prepareModel (as a model), noSelfCollision, positionCtrl; ignoreMissingValues and showConvexDecompositionDlg have no effect
 function module.import(fileName, options) end
 
 return module

@@ -18,11 +18,8 @@ function module.export(modelHandle, fileName, options) end
 ---
 --- Meshes of `package://` are looked for in `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, and in the folders above the file. Files are read where
 --- permissions allow it.
----
---- visuals get some, 32: the position is kept, 64: no model, 128: every second link collides with the robot's other ones, 256: joints are free, 512: collision meshes
---- become their hulls, 1024: frames of shapes are those of their joints
 ---@param urdf string name of a file, or its text, if it begins with `<?xml`
----@param options? integer 1: collision shapes are visible, 2: joints are visible, 4: collision meshes that are not convex are decomposed, 8: links without
+---@param options? integer 1: collision shapes are visible, 2: joints are visible, 4: collision meshes that are not convex are decomposed, 8: links without visuals get some, 32: the position is kept, 64: no model, 128: every second link collides with the robot's other ones, 256: joints are free, 512: collision meshes become their hulls, 1024: frames of shapes are those of their joints
 ---@param packageStrReplace? string stands for `package://`
 ---@return string robotName
 ---@return integer[] modelHandles objects without a parent

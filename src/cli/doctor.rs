@@ -198,7 +198,7 @@ impl Report {
 /// What a script uses, which is from `file`.
 pub(super) fn uses_of(file: &Path, language: &str, code: &[u8]) -> Vec<Use> {
     match language {
-        "lua" => docs::uses(code),
+        "lua" => docs::uses_beside(code, file.parent().unwrap_or(Path::new("."))),
         "python" => {
             python_uses::uses(code, file).unwrap_or_else(|reason| docs::unreadable_script(&reason))
         }
@@ -206,26 +206,31 @@ pub(super) fn uses_of(file: &Path, language: &str, code: &[u8]) -> Vec<Use> {
     }
 }
 
+/// What is known of a name beside its support, and its lines.
+type Lines<'a> = (Option<&'a str>, Vec<String>);
+
 impl Patient {
     fn text(&self, with_deprecated: bool) -> String {
-        let mut lines: BTreeMap<(Support, &str), Vec<String>> = BTreeMap::new();
+        let mut lines: BTreeMap<(Support, &str), Lines<'_>> = BTreeMap::new();
         let is_listed = |found: &&Use| {
             found.support != Support::Works || with_deprecated && found.instead().is_some()
         };
         for found in self.uses.iter().filter(is_listed) {
             lines
                 .entry((found.support, found.name.as_str()))
-                .or_default()
+                .or_insert_with(|| (found.hint.as_deref(), Vec::new()))
+                .1
                 .push(found.line.to_string());
         }
         if lines.is_empty() {
             return String::new();
         }
-        let rows = lines.iter().map(|((support, name), lines)| {
+        let rows = lines.iter().map(|((support, name), (hint, lines))| {
             let how = match support {
                 Support::Approximated(how) => format!(" ({how})"),
                 Support::Missing | Support::Works => docs::remedy(name)
                     .map(|remedy| format!(" (use {remedy})"))
+                    .or_else(|| hint.map(|hint| format!(" ({hint})")))
                     .unwrap_or_default(),
             };
             let kind = if *support == Support::Works {
@@ -249,6 +254,9 @@ fn json_of(found: &Use) -> serde_json::Value {
         serde_json::json!({"name": found.name, "line": found.line, "support": word(found.support)});
     if let Some(written) = &found.written {
         object["written"] = written.as_str().into();
+    }
+    if let Some(hint) = &found.hint {
+        object["hint"] = hint.as_str().into();
     }
     if let Some(instead) = found.instead() {
         object["instead"] = instead.into();

@@ -137,7 +137,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         .and(args.graphs.write(&sim))
         .and(recorded);
     let (errors, code) = end(sim, &written, &interrupt);
-    output.summary(totals, begun.elapsed(), errors, code);
+    output.summary(totals, args.time, begun.elapsed(), errors, code);
     Ok(ExitCode::from(code))
 }
 

@@ -43,7 +43,7 @@ mod tests {
     fn what_works_in_full_has_no_difference() {
         assert_eq!(
             difference("sim.adjustView"),
-            Some("accepted without effect: nothing is drawn")
+            Some("accepted without effect: there are no windows")
         );
         assert_eq!(difference("sim.getObject"), None);
     }

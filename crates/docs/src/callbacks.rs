@@ -7,6 +7,11 @@ use std::fmt::Write as _;
 /// Arguments are `name type; name type`, or `name: field type, field type` for a table.
 const TABLE: &str = include_str!("callbacks.tsv");
 
+/// The names of all callbacks.
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
+    TABLE.lines().filter_map(|line| line.split('\t').next())
+}
+
 struct Callback {
     name: &'static str,
     scripts: &'static str,

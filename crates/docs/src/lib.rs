@@ -19,6 +19,7 @@ mod properties;
 mod python_stubs;
 mod row;
 mod stubs;
+mod suspicions;
 mod usage;
 
 use std::collections::BTreeMap;
@@ -32,6 +33,7 @@ pub use overview::with_overview;
 pub use row::{FunctionDoc, ParameterDoc, ResultDoc};
 pub use usage::{
     Support, Use, foreign_script, unreadable_script, use_of_member, use_of_module, uses,
+    uses_beside,
 };
 
 /// Where the editor stubs are kept in the repository.

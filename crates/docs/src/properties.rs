@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use script::property_table::{described, flags};
+use script::property_table::{described, flags, later_names};
 
 /// Parts in the order of the page, with what they belong to.
 const PARTS: [(&str, &str); 27] = [
@@ -66,6 +66,20 @@ pub(super) fn text() -> String {
                 line.state
             );
         }
+    }
+    out + &later()
+}
+
+/// Names of the version after 4.10 that are known here too.
+fn later() -> String {
+    let mut out = String::from(
+        "\n## Names of CoppeliaSim 4.11\n\nThe version after 4.10 has other names for some properties. Where the value is the same, both names are read and written; \
+         lists and events use the older one. Parameters of physics engines have `dynamics.` in front there (`dynamics.ode.bounce`). Handles are integers: \
+         `sim.getHandleProperty` and `sim.getHandleArrayProperty` read the same values as `sim.getIntProperty` and `sim.getIntArrayProperty`. \
+         Groups, matrices, lists of texts and properties without a counterpart in 4.10 are unknown.\n\n| of | name in 4.10 | name in 4.11 |\n|---|---|---|\n",
+    );
+    for (class, name, later) in later_names() {
+        let _ = writeln!(out, "| {class} | `{name}` | `{later}` |");
     }
     out
 }

@@ -162,24 +162,33 @@ pub(super) struct Doc {
     returns: Vec<String>,
 }
 
+/// The name that a description begins with, and the rest.
+fn named(line: &str) -> (String, String) {
+    let (name, about) = line.split_once(' ').unwrap_or((line, ""));
+    (name.to_owned(), about.trim().to_owned())
+}
+
 impl Doc {
     /// `@param name text` and `@return name text` lines stand apart from the text; lines after them continue them.
     pub(super) fn parse(doc: &str) -> Self {
-        let (mut text, mut parameters, mut returns) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut text, mut described): (Vec<&str>, Vec<String>) = (Vec::new(), Vec::new());
+        let mut continues = false;
         for line in doc.lines().map(str::trim) {
-            if let Some(rest) = line.strip_prefix("@param ") {
-                let (name, about) = rest.split_once(' ').unwrap_or((rest, ""));
-                parameters.push((name.to_owned(), about.trim().to_owned()));
-            } else if let Some(rest) = line.strip_prefix("@return ") {
-                returns.push(rest.trim().to_owned());
-            } else {
-                text.push(line);
+            let begins = line.starts_with("@param ") || line.starts_with("@return ");
+            continues = begins || continues && !line.is_empty();
+            match described.last_mut() {
+                _ if begins => described.push(line.to_owned()),
+                Some(last) if continues => *last += &format!(" {line}"),
+                _ => text.push(line),
             }
         }
+        let all = described.iter();
+        let parameters = all.clone().filter_map(|line| line.strip_prefix("@param "));
+        let returns = all.filter_map(|line| line.strip_prefix("@return "));
         Self {
             text: text.join("\n").trim().to_owned(),
-            parameters,
-            returns,
+            parameters: parameters.map(named).collect(),
+            returns: returns.map(|line| line.trim().to_owned()).collect(),
         }
     }
 

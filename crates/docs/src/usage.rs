@@ -4,10 +4,12 @@
 //! before there were modules (`simGetObjectHandle`). It reads code and runs nothing: what a script builds names from stays unseen.
 
 use std::collections::{HashMap, HashSet};
+use std::path::Path;
 use std::sync::LazyLock;
 
 use super::approximated::difference;
 use super::lua_tokens::{Kind, Token, tokens};
+use super::suspicions::{instead_of_module, is_later, meant, unknown_callback, unknown_module};
 use super::{module_stubs, modules};
 use format::scene_file::old_names;
 use script::{Member, ReferenceModule, member_by_rule};
@@ -39,9 +41,29 @@ pub struct Use {
     pub line: usize,
     /// How far it is supported.
     pub support: Support,
+    /// What else is known of what is missing, such as the name that was probably meant.
+    pub hint: Option<String>,
 }
 
 impl Use {
+    fn of_member(
+        module: &str,
+        member: &str,
+        written: Option<String>,
+        line: usize,
+        support: Support,
+    ) -> Self {
+        let name = format!("{module}.{member}");
+        let hint = || is_later(&name).or_else(|| meant(module, member));
+        let hint = (support == Support::Missing).then(hint).flatten();
+        Self {
+            hint,
+            written,
+            support,
+            ..Self::missing(name, line)
+        }
+    }
+
     /// What to call instead, where the name is deprecated or missing and the other one is here.
     pub fn instead(&self) -> Option<&'static str> {
         super::remedy(&self.name)
@@ -50,10 +72,18 @@ impl Use {
 
 /// Everything of the simulator that `code` uses, in its order, scripts in its strings included (`sim.createScript`).
 pub fn uses(code: &[u8]) -> Vec<Use> {
-    uses_within(code, 0)
+    uses_within(code, None, 0)
 }
 
-fn uses_within(code: &[u8], depth: usize) -> Vec<Use> {
+/// The same of a script whose own modules are in `folder`: modules that are nowhere are missing too.
+pub fn uses_beside(code: &[u8], folder: &Path) -> Vec<Use> {
+    // Where a script changes its path, its modules may be anywhere.
+    let text = String::from_utf8_lossy(code);
+    let has_own_path = text.contains("package.path") || text.contains("package.cpath");
+    uses_within(code, Some(folder).filter(|_| !has_own_path), 0)
+}
+
+fn uses_within(code: &[u8], folder: Option<&Path>, depth: usize) -> Vec<Use> {
     let tokens = tokens(code);
     let scope = Scope::of(&tokens);
     let mut found = Vec::new();
@@ -62,11 +92,14 @@ fn uses_within(code: &[u8], depth: usize) -> Vec<Use> {
             Kind::Name(name) if !is_definition(&tokens, at) => {
                 found.extend(scope.member(name, is_call(&tokens, at), token.line));
             }
+            Kind::Name(_) => found.extend(unknown_callback(&tokens, at)),
             Kind::Text(text) if required_at(&tokens, at) => {
-                found.extend(required(&String::from_utf8_lossy(text), token.line));
+                let name = String::from_utf8_lossy(text);
+                found.extend(required(&name, token.line));
+                found.extend(unknown_module(&name, folder, token.line));
             }
             Kind::Text(text) if depth < MAX_SCRIPT_DEPTH && is_code(&tokens, at) => {
-                found.extend(uses_of_text(text, token.line, depth));
+                found.extend(uses_of_text(text, token.line, folder, depth));
             }
             _ => {}
         }
@@ -75,14 +108,14 @@ fn uses_within(code: &[u8], depth: usize) -> Vec<Use> {
 }
 
 /// Uses of a script in a string that begins in a line.
-fn uses_of_text(text: &[u8], line: usize, depth: usize) -> Vec<Use> {
+fn uses_of_text(text: &[u8], line: usize, folder: Option<&Path>, depth: usize) -> Vec<Use> {
     let is_quoted = !text.contains(&b'\n');
     let code = if is_quoted {
         unescaped(text)
     } else {
         text.to_vec()
     };
-    let mut found = uses_within(&code, depth + 1);
+    let mut found = uses_within(&code, folder, depth + 1);
     for one in &mut found {
         one.line = if is_quoted { line } else { line + one.line - 1 };
     }
@@ -149,12 +182,7 @@ pub fn unreadable_script(reason: &str) -> Vec<Use> {
 }
 
 fn missing_script(name: String) -> Vec<Use> {
-    vec![Use {
-        name,
-        written: None,
-        line: 1,
-        support: Support::Missing,
-    }]
+    vec![Use::missing(name, 1)]
 }
 
 /// Functions that only scripts in Python have.
@@ -164,15 +192,10 @@ const OF_PYTHON: [&str; 2] = ["testCB", "protectedCalls"];
 pub fn use_of_member(module: &str, member: &str, line: usize, is_call: bool) -> Option<Use> {
     let support = match module {
         "sim" if OF_PYTHON.contains(&member) => Support::Works,
-        "sim" => of_sim(member)?,
+        "sim" => of_sim(member, is_call)?,
         _ => of_module(module, member, is_call)?,
     };
-    Some(Use {
-        name: format!("{module}.{member}"),
-        written: None,
-        line,
-        support,
-    })
+    Some(Use::of_member(module, member, None, line, support))
 }
 
 /// The use of a module in a script in Python; None if it works, or is not CoppeliaSim's.
@@ -233,18 +256,14 @@ impl Scope {
             return None;
         }
         let module = self.modules.get(owner).map_or(owner, String::as_str);
+        let module = without_generation(module);
         let support = if module == "sim" {
-            of_sim(member)?
+            of_sim(member, is_call)?
         } else {
             of_module(module, member, is_call)?
         };
         let written = is_old.then(|| written.to_owned());
-        Some(Use {
-            name: format!("{module}.{member}"),
-            written,
-            line,
-            support,
-        })
+        Some(Use::of_member(module, member, written, line, support))
     }
 }
 
@@ -334,10 +353,9 @@ fn required(module: &str, line: usize) -> Option<Use> {
         Support::Approximated(difference(module)?)
     };
     Some(Use {
-        name: module.to_owned(),
-        written: None,
-        line,
+        hint: is_missing.then(|| instead_of_module(module)).flatten(),
         support,
+        ..Use::missing(module.to_owned(), line)
     })
 }
 
@@ -372,17 +390,25 @@ fn global(written: &str, is_call: bool, line: usize) -> Option<Use> {
         None => return None,
     };
     Some(Use {
-        name: written.to_owned(),
-        written: None,
-        line,
+        hint: member_by_rule(written).and_then(|member| meant("sim", &member)),
         support,
+        ..Use::missing(written.to_owned(), line)
     })
 }
 
-/// None for constants, which are no functions.
-fn of_sim(member: &str) -> Option<Support> {
+/// `sim` for `sim-1` and `sim-2`, which have its functions.
+fn without_generation(module: &str) -> &str {
+    match module {
+        "sim-1" | "sim-2" => "sim",
+        other => other,
+    }
+}
+
+/// None for constants, which are no functions, and for what looks like one that later versions dropped and is nil in CoppeliaSim too.
+fn of_sim(member: &str, is_call: bool) -> Option<Support> {
     match ::modules::registry().members_of_sim().get(member) {
         Some(Member::Constant(_)) => None,
+        None if !is_call && member.contains('_') => meant("sim", member).map(|_| Support::Missing),
         Some(Member::Missing(_)) | None => Some(Support::Missing),
         Some(_) => Some(of_function(&format!("sim.{member}"))),
     }
@@ -398,12 +424,21 @@ fn of_module(module: &str, member: &str, is_call: bool) -> Option<Support> {
         return None;
     }
     match CATALOGUE.modules.get(module) {
-        Some(functions) if functions.contains(member) => {
+        Some(functions) if functions.contains(member) || is_bound(module, member) => {
             Some(of_function(&format!("{module}.{member}")))
         }
         Some(_) if !is_call => None,
         _ => Some(Support::Missing),
     }
+}
+
+/// Whether a module has a function under that name, also one that no page lists, such as an older name.
+fn is_bound(module: &str, member: &str) -> bool {
+    let registry = ::modules::registry();
+    let found = registry
+        .module(module)
+        .and_then(|namespace| namespace.get(member));
+    matches!(found, Some(Member::Native(_) | Member::Lua { .. }))
 }
 
 /// Functions that exist here, and those of CoppeliaSim.
@@ -421,116 +456,4 @@ static CATALOGUE: LazyLock<Catalogue> = LazyLock::new(|| Catalogue {
 });
 
 #[cfg(test)]
-mod tests {
-    use super::{Support, uses};
-
-    fn names(code: &str) -> Vec<String> {
-        uses(code.as_bytes())
-            .into_iter()
-            .map(|found| found.name)
-            .collect()
-    }
-
-    fn supports(code: &str) -> Vec<Support> {
-        uses(code.as_bytes())
-            .into_iter()
-            .map(|found| found.support)
-            .collect()
-    }
-
-    #[test]
-    fn names_lines_and_support() {
-        let found = uses(
-            b"sim = require 'sim'\nlocal h = sim.getObject('/a') -- sim.f()\nsim.frobnicate()",
-        );
-        assert_eq!(
-            (found[0].name.as_str(), found[0].line, found[0].support),
-            ("sim.getObject", 2, Support::Works)
-        );
-        assert_eq!(
-            (found[1].name.as_str(), found[1].line, found[1].support),
-            ("sim.frobnicate", 3, Support::Missing)
-        );
-        assert_eq!(found.len(), 2);
-    }
-
-    #[test]
-    fn constants_and_functions_of_the_file_do_not_count() {
-        assert!(
-            names("x = sim.handle_self; sim.mine = 1; function sim.f() end sim.f(sim.mine) print(simulate)").is_empty()
-        );
-        assert_eq!(names("if sim.getObject == nil then end"), ["sim.getObject"]);
-    }
-
-    #[test]
-    fn names_a_require_gives() {
-        assert_eq!(
-            names("local s = require('sim')\ns.getObject('/a')"),
-            ["sim.getObject"]
-        );
-        assert_eq!(names("local cmd=require'mine'\ncmd.f()"), [""; 0]);
-        assert_eq!(
-            supports("z = require 'simZMQ' z.ctx_new() z.PUB() z.PUB"),
-            [Support::Works, Support::Missing]
-        );
-    }
-
-    #[test]
-    fn scripts_in_strings() {
-        let found = uses(b"sim.createScript(sim.scripttype_customization, [[\nlocal sim = require 'sim'\nsim.frobnicate()\n]], 0, 'lua')");
-        let named: Vec<_> = found
-            .iter()
-            .map(|one| (one.name.as_str(), one.line))
-            .collect();
-        assert_eq!(named, [("sim.createScript", 1), ("sim.frobnicate", 3)]);
-        assert_eq!(
-            names(r#"load("x = 1 sim.frobnicate(\"a\")")"#),
-            ["sim.frobnicate"]
-        );
-        assert_eq!(names("print('sim.frobnicate()')"), [""; 0]);
-    }
-
-    #[test]
-    fn variables_with_the_names_of_modules() {
-        assert_eq!(
-            names(
-                "local zmq = require 'simZMQ' local socket = zmq.socket(c, 1) socket.frobnicate(1)"
-            ),
-            ["simZMQ.socket"]
-        );
-        assert_eq!(names("local a, socket = f() socket.frobnicate()"), [""; 0]);
-        assert_eq!(names("function f(socket) socket.frobnicate() end"), [""; 0]);
-        assert_eq!(
-            names("local socket = require('socket').tcp() socket.frobnicate()"),
-            [""; 0]
-        );
-        assert_eq!(
-            supports("socket = require 'socket' socket.connect('a', 1) socket.frobnicate()"),
-            [Support::Works, Support::Missing]
-        );
-    }
-
-    #[test]
-    fn globals_of_v_rep() {
-        assert_eq!(
-            supports("simAddObjectCustomData(1, 2, 'x') simHandlePath(1, 2)"),
-            [Support::Works; 2]
-        );
-        assert_eq!(supports("simFrobnicate(1)"), [Support::Missing]);
-        assert_eq!(
-            names("simTime = 1 simTime() print(simulate, sim_handle_all, simple())"),
-            [""; 0]
-        );
-    }
-
-    #[test]
-    fn old_names() {
-        let found = &uses(b"simGetObjectHandle('a', sim_handle_all)")[..];
-        assert_eq!(found.len(), 1);
-        assert_eq!(
-            (found[0].name.as_str(), found[0].written.as_deref()),
-            ("sim.getObjectHandle", Some("simGetObjectHandle"))
-        );
-        assert_eq!(names("simExtCustomUI_create('')"), ["simUI.create"]);
-    }
-}
+mod tests;

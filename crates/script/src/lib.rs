@@ -92,6 +92,7 @@ pub use host::{
 };
 pub use host::{Detached, Env, Hook, ScriptGroup, changed_level};
 pub use log::auxiliary_consoles::AuxiliaryConsole;
+pub use log::suggestion::nearest;
 pub use lua::{
     LuaObject, Stack, Type as LuaType, calls_begun, interrupt_running_code, is_call, only_ask,
     place_is_exact, place_of_interruption,

@@ -161,6 +161,7 @@ impl Output {
     pub(in crate::cli) fn summary(
         &self,
         totals: RunTotals,
+        limit: Option<f64>,
         wall: Duration,
         errors: u64,
         exit_code: u8,
@@ -179,7 +180,7 @@ impl Output {
                     0 => String::new(),
                     1 => ", 1 script error".to_owned(),
                     _ => format!(", {errors} script errors"),
-                }
+                } + beyond(time, limit)
             )),
             Format::Json => self.write_json(&json!({
                 "type": "summary", "steps": steps, "time": time, "wallTime": wall, "ratio": ratio, "errors": errors,
@@ -234,6 +235,15 @@ impl Output {
 
 /// Instead of the line about the end, after an error.
 const STOPPED_AFTER_ERROR: &str = "Simulation stopped because of the error.";
+
+/// Why a run is longer than it was asked to be.
+fn beyond(time: f64, limit: Option<f64>) -> &'static str {
+    if limit.is_some_and(|limit| time > limit + 1e-9) {
+        "\n(The stop was asked for at that time; as in CoppeliaSim, three more steps run until the simulation has stopped.)"
+    } else {
+        ""
+    }
+}
 
 impl Console for Output {
     fn print(&mut self, line: &[u8], _: f64) {

@@ -148,3 +148,18 @@ fn endless_files_are_refused() {
     assert_eq!(printed.matches("more than 64 MiB").count(), 3, "{printed}");
     assert!(printed.contains("100000 at most"), "{printed}");
 }
+
+#[test]
+fn the_first_lines_of_the_page_about_tests_run() {
+    let page = include_str!("../../../docs/TESTING.md");
+    let code = page
+        .split("```lua\n")
+        .nth(1)
+        .and_then(|rest| rest.split("```").next())
+        .expect("the page begins with code");
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let file = folder.path().join("falling_test.lua");
+    fs::write(&file, code).expect("our own folder is writable");
+    let output = output_of(swanilda().arg("test").arg(&file));
+    assert!(stdout(&output).contains("1 passed"), "{}", stdout(&output));
+}

@@ -104,6 +104,9 @@ fn time_and_step_length() {
         "{}",
         stdout(&output)
     );
+    // Why that is more than was asked for.
+    let said = stderr(&output);
+    assert!(said.contains("three more steps run"), "{said}");
 }
 
 #[test]

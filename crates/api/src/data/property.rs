@@ -27,6 +27,10 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     set_table_property,
     get_int_array_property,
     set_int_array_property,
+    get_handle_property,
+    set_handle_property,
+    get_handle_array_property,
+    set_handle_array_property,
     get_int_array2_property,
     set_int_array2_property,
     get_float_array_property,
@@ -142,6 +146,8 @@ typed_properties! {
     Bytes: get_buffer_property "sim.getBufferProperty", set_buffer_property "sim.setBufferProperty";
     Table: get_table_property "sim.getTableProperty", set_table_property "sim._setTableProperty";
     Vec<i64>: get_int_array_property "sim.getIntArrayProperty", set_int_array_property "sim.setIntArrayProperty";
+    i64: get_handle_property "sim.getHandleProperty", set_handle_property "sim.setHandleProperty";
+    Vec<i64>: get_handle_array_property "sim.getHandleArrayProperty", set_handle_array_property "sim.setHandleArrayProperty";
     IntPair: get_int_array2_property "sim.getIntArray2Property", set_int_array2_property "sim.setIntArray2Property";
     Vec<f64>: get_float_array_property "sim.getFloatArrayProperty", set_float_array_property "sim.setFloatArrayProperty";
     Vector2: get_vector2_property "sim.getVector2Property", set_vector2_property "sim.setVector2Property";

@@ -1,4 +1,4 @@
-//! `sim.*`: graphs: streams, curves. Nothing is drawn.
+//! `sim.*`: graphs: streams, curves. The viewer and `--graph` draw them.
 
 use std::f64::consts::PI;
 

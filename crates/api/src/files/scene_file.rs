@@ -53,7 +53,7 @@ fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
 ///
 /// @param filenameOrBuffer a `.ttm` or `.simmodel.xml` file or its bytes, a folder that `swanilda unpack` made, or a robot in URDF, SDF or MJCF; with `--resources DIR` also a
 /// file below DIR, such as `models/robots/mobile/dr12.ttm`
-/// @param onlyThumbnails of no use: nothing is shown
+/// @param onlyThumbnails true raises an error: thumbnails are not implemented
 /// @return objectHandle the base of the model
 #[api("sim.loadModel")]
 fn load_model(

@@ -1,4 +1,4 @@
-//! `sim.*`: textures of shapes. Stored for scripts and files; nothing is drawn.
+//! `sim.*`: textures of shapes. Vision sensors and the viewer draw them.
 
 use std::rc::Rc;
 

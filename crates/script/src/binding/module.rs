@@ -65,6 +65,15 @@ impl Module {
             .filter_map(|line| line.split('\t').next())
     }
 
+    /// Names of the reference that belong to the version after the one whose interface is here.
+    pub(crate) fn later_names(&self) -> impl Iterator<Item = &'static str> {
+        let columns = self.reference.lines().map(|line| line.split('\t'));
+        columns.filter_map(|mut columns| {
+            let name = columns.next()?;
+            (columns.nth(1) == Some("later")).then_some(name)
+        })
+    }
+
     /// The Lua files whose functions are members, out of all embedded ones.
     pub fn member_files<'a>(
         &self,

@@ -1,7 +1,7 @@
 //! Everything scripts of a simulator can reach, by name: made from a list of modules.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::{Arc, OnceLock};
 
 use super::ApiFn;
@@ -37,6 +37,8 @@ impl MissingId {
 pub(crate) struct Missing {
     module: &'static str,
     name: &'static str,
+    /// It belongs to the version after the one whose interface is here.
+    is_later: bool,
 }
 
 impl Bound {
@@ -65,7 +67,12 @@ impl Bound {
 
 impl Missing {
     pub(crate) fn error(&self) -> ApiError {
-        ApiError::NotImplemented(format!("{}.{}", self.module, self.name))
+        let name = format!("{}.{}", self.module, self.name);
+        ApiError::NotImplemented(if self.is_later {
+            format!("{name}, which belongs to CoppeliaSim 4.11, the version after 4.10")
+        } else {
+            name
+        })
     }
 }
 
@@ -124,6 +131,12 @@ impl Namespace {
     /// Whether there is a member with that name.
     pub fn contains(&self, name: &str) -> bool {
         self.members.contains_key(name)
+    }
+
+    /// Whether a name belongs to the version after the one whose interface is here, and is not built.
+    pub fn is_later(&self, name: &str) -> bool {
+        let is_missing = matches!(self.get(name), Some(Member::Missing(_)));
+        is_missing && self.module.later_names().any(|later| later == name)
     }
 
     /// All names, in alphabetical order.
@@ -348,10 +361,12 @@ impl Registry {
     /// Names of the reference; implemented functions replace them.
     fn add_missing(&mut self, namespace: &mut Namespace) {
         let module = namespace.module;
+        let later: HashSet<&str> = module.later_names().collect();
         for name in module.reference_names() {
             self.missing.push(Missing {
                 module: module.name,
                 name,
+                is_later: later.contains(name),
             });
             namespace
                 .members

@@ -57,6 +57,15 @@ pub(crate) fn renamed(class: &'static str, name: &'static str) -> (&'static str,
         .unwrap_or((name, Meaning::Same))
 }
 
+/// Class, name, and name in the version after 4.10, of each property that has its value under another name there.
+pub fn later_names() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
+    RENAMED.lines().filter_map(|line| {
+        let mut fields = line.split('\t');
+        let row = (fields.next()?, fields.next()?, fields.next()?);
+        (fields.next() != Some("not") && row.1 != row.2).then_some(row)
+    })
+}
+
 fn read() -> Renamed {
     let row = |line: &'static str| {
         let fields: Vec<&'static str> = line.split('\t').collect();

@@ -84,6 +84,9 @@ impl Sim {
     }
 
     fn nearest_member(&self, module: &str, name: &str) -> Option<String> {
+        if module == "sim-2" {
+            return Some("sim-2 belongs to CoppeliaSim 4.11, the version after 4.10: here it has the functions of sim, and no objects".into());
+        }
         let namespace = self.modules.registry.module(module)?;
         let names = namespace.names().into_iter();
         let near = nearest(name, names.map(|name| (name.to_owned(), name.to_owned())))?;

@@ -6,10 +6,7 @@ use strsim::levenshtein;
 const MAX_EDITS: usize = 3;
 
 /// Of pairs of a name and what stands for it, that whose name is nearest to `wanted`; None where all names are far from it.
-pub(crate) fn nearest(
-    wanted: &str,
-    names: impl Iterator<Item = (String, String)>,
-) -> Option<String> {
+pub fn nearest(wanted: &str, names: impl Iterator<Item = (String, String)>) -> Option<String> {
     let most = MAX_EDITS.min(wanted.chars().count() / 2);
     let near = names
         .map(|(name, shown)| (levenshtein(wanted, &name), name, shown))

@@ -31,6 +31,11 @@ impl ReferenceModule {
         })
     }
 
+    /// Whether it is the second generation of a plugin, which works with objects instead of handles.
+    pub fn is_later(self) -> bool {
+        self.kind == "plugin" && self.name.ends_with("-2")
+    }
+
     /// The error for a script that requires a module that is missing here.
     pub(crate) fn missing(self) -> String {
         let what = if self.kind == "plugin" {
@@ -38,6 +43,13 @@ impl ReferenceModule {
         } else {
             "Lua module"
         };
+        if self.is_later() {
+            return format!(
+                "{} belongs to CoppeliaSim 4.11, the version after 4.10, whose interface is here; use {}",
+                self.name,
+                self.instead.replace('`', "")
+            );
+        }
         format!(
             "{} is a {what} of CoppeliaSim that Swanilda does not have yet (docs/PLUGINS.md)",
             self.name

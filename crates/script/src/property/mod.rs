@@ -316,7 +316,11 @@ fn row_of(class: &'static Class, name: &str, ty: ValueType) -> ApiResult<&'stati
 
 /// Splits a name; it may be prefixed by the class of the target.
 fn parse_name<'a>(class: &Class, target: &PropertyTarget, name: &'a str) -> Name<'a> {
-    let name = class.without_words(name);
+    // Names of the version after 4.10 may begin as a class does: `joint.position`.
+    let name = match class.find(name) {
+        Some(_) => name,
+        None => class.without_words(name),
+    };
     let stored = !matches!(target, PropertyTarget::Script(_) | PropertyTarget::Mesh(_));
     if let (true, Some(rest)) = (stored, name.strip_prefix("customData.")) {
         return Name::Stored(Namespace::CustomData, rest);

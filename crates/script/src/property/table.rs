@@ -10,6 +10,8 @@ use super::{
     app, colour, display, dummy, engine, force_sensor, joint, mesh, model_hash, object,
     proximity_sensor, scene, script, shape, view,
 };
+pub use crate::event_stream::protocol::later_names;
+use crate::event_stream::protocol::{Meaning, renamed};
 use ::scene::parameters::engine::{EngineOwner, EngineParam, engine_params};
 use ::scene::{Data, Kind, ValueType};
 
@@ -79,7 +81,7 @@ pub struct Class {
 }
 
 impl Class {
-    /// The row with that name, without class in front.
+    /// The row with that name, or with that name in the version after 4.10; without class in front.
     pub(crate) fn find(&self, name: &str) -> Option<&Row> {
         self.by_name.get(name).map(|&at| &self.rows[at])
     }
@@ -246,11 +248,16 @@ fn build(&(word, path, outer, before, after): &ClassSpec, parts: &Parts) -> Clas
     let (mut rows, own) = (rows_of(before), rows_of(after));
     let common = rows.len();
     rows.extend(own);
-    let by_name = rows
+    let mut by_name: ByName = rows
         .iter()
         .enumerate()
         .map(|(at, row)| (row.name, at))
         .collect();
+    for (at, row) in rows.iter().enumerate() {
+        if let Some(name) = later_name(row.class, row.name) {
+            by_name.entry(name).or_insert(at);
+        }
+    }
     Class {
         word,
         outer,
@@ -258,6 +265,12 @@ fn build(&(word, path, outer, before, after): &ClassSpec, parts: &Parts) -> Clas
         common,
         by_name,
     }
+}
+
+/// Under which other name scripts of the version after 4.10 know a property whose value is the same there.
+fn later_name(class: &'static str, name: &'static str) -> Option<&'static str> {
+    let (later, meaning) = renamed(class, name);
+    (later != name && meaning != Meaning::Not).then_some(later)
 }
 
 type Parts = HashMap<&'static str, Vec<Row>>;
@@ -439,7 +452,7 @@ fn accessors() -> Accessors {
 
 #[cfg(test)]
 mod tests {
-    use super::{ValueSource, accessors, app_class, classes, flags, lines, parts};
+    use super::{ValueSource, accessors, app_class, classes, flags, later_names, lines, parts};
 
     #[test]
     fn every_accessor_has_its_row() {
@@ -478,6 +491,26 @@ mod tests {
                 row.name
             );
         }
+    }
+
+    #[test]
+    fn later_names_mean_the_same_rows() {
+        let mut found = 0;
+        for (word, name, later) in later_names() {
+            let with_both = classes().iter().filter(|class| {
+                let (before, after) = class.rows();
+                let mut rows = before.iter().chain(after);
+                rows.any(|row| row.name == name && row.class.ends_with(word))
+            });
+            for class in with_both {
+                assert_eq!(class.find(later).map(|row| row.name), Some(name), "{later}");
+                found += 1;
+            }
+        }
+        assert!(found > 90, "{found}");
+        let joint = classes().iter().find(|class| class.word == "joint");
+        let bounce = joint.and_then(|class| class.find("dynamics.ode.bounce"));
+        assert_eq!(bounce.map(|row| row.name), Some("ode.bounce"));
     }
 
     #[test]
