@@ -16,7 +16,7 @@ local AXIS_LENGTH <const> = 0.05
 -- From below the base to the tip.
 local function chain(simIK, env, tip, base)
     local objects, object = {}, tip
-    while object ~= -1 and object ~= base do
+    while object and object ~= -1 and object ~= base do -- nil: an error that scripts do not want to hear of
         table.insert(objects, 1, object)
         object = simIK.getObjectParent(env, object)
     end
@@ -75,7 +75,7 @@ function overlays.ofGroup(simIK, env, group)
     end
     shown[group] = {}
     local index, object = 0, simIK.getObjects(env, 0)
-    while object ~= -1 do
+    while object and object ~= -1 do
         local isTip = simIK.getObjectType(env, object) == simIK.objecttype_dummy
             and pcall(simIK.getElementFlags, env, group, object | simIK.handleflag_tipdummy)
         if isTip then table.insert(shown[group], overlays.create(simIK, env, object, -1)) end

@@ -28,16 +28,22 @@ fn is_local(origin: &str) -> bool {
     let Some((_, authority)) = origin.split_once("://") else {
         return false;
     };
-    let host = match authority.strip_prefix('[') {
-        Some(rest) => rest.split(']').next(),
-        None => authority.split(':').next(),
-    };
-    host.is_some_and(|host| {
+    host_of(authority).is_some_and(|host| {
         host == "localhost"
             || host
                 .parse::<IpAddr>()
                 .is_ok_and(|address| address.is_loopback())
     })
+}
+
+/// The host of `host`, `host:port` or `[address]:port`; nothing when more than a port comes after it.
+pub(super) fn host_of(authority: &str) -> Option<&str> {
+    let (host, rest) = match authority.strip_prefix('[') {
+        Some(rest) => rest.split_once(']')?,
+        None => authority.split_at(authority.find(':').unwrap_or(authority.len())),
+    };
+    let is_port = |port: &str| port.bytes().all(|byte| byte.is_ascii_digit());
+    (rest.is_empty() || rest.strip_prefix(':').is_some_and(is_port)).then_some(host)
 }
 
 #[cfg(test)]
@@ -69,6 +75,10 @@ mod tests {
             "http://example.org",
             "http://localhost.example.org",
             "http://127.0.0.1.example.org",
+            "http://127.0.0.1:1.evil.com",
+            "http://localhost:80@evil.com",
+            "http://[::1].evil.com",
+            "http://[::1",
         ];
         for origin in others {
             assert!(!own.admit(Some(origin)), "{origin}");

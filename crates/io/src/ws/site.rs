@@ -25,6 +25,7 @@ use tokio_tungstenite::tungstenite::protocol::{Role, WebSocketConfig};
 use tokio_tungstenite::tungstenite::{Message, Utf8Bytes};
 
 use super::http::Head;
+use super::pages::host_of;
 use super::server::{MAX_CONNECTIONS, RETRY_DELAY, read_head, upgrade};
 use super::{HANDSHAKE_TIMEOUT, READ_BUFFER, connection};
 
@@ -252,12 +253,10 @@ fn check(head: &Head, local: Option<IpAddr>) -> Result<(), StatusCode> {
 
 /// Whether a `Host` is this machine by a local name or by an address: its own, or the one connected to.
 fn is_this_machine(host: &str, local: Option<IpAddr>) -> bool {
-    let name = match host.strip_prefix('[') {
-        Some(rest) => rest.split(']').next().unwrap_or_default(),
-        None => host.split(':').next().unwrap_or_default(),
-    };
     let is_own = |address: IpAddr| address.is_loopback() || Some(address) == local;
-    name.eq_ignore_ascii_case("localhost") || name.parse().is_ok_and(is_own)
+    host_of(host).is_some_and(|name| {
+        name.eq_ignore_ascii_case("localhost") || name.parse().is_ok_and(is_own)
+    })
 }
 
 async fn refuse(stream: &mut TcpStream, status: StatusCode, method: &str) {
@@ -407,6 +406,8 @@ mod tests {
             "evil.example",
             "127.0.0.1.evil.example",
             "localhost.evil.example:80",
+            "127.0.0.1:1.evil.example",
+            "[::1].evil.example",
             "10.0.0.8",
             "",
             "[",
