@@ -46,11 +46,20 @@ pub fn run_for_code(command: &mut Command, limit: Duration) -> Result<(i32, Stri
             last_lines(&mut output)
         ));
     };
-    let text = read(&mut output);
+    let text = without_notices(&read(&mut output));
     status
         .code()
         .map(|code| (code, text.clone()))
         .ok_or_else(|| format!("ended by a signal: {status}\n{text}"))
+}
+
+/// The text without notices of calls that take long: whether there are any depends on how busy the machine is.
+fn without_notices(text: &str) -> String {
+    let is_notice =
+        |line: &&str| line.starts_with("swanilda: ") && line.contains(" has been running for ");
+    text.split_inclusive('\n')
+        .filter(|line| !is_notice(line))
+        .collect()
 }
 
 /// Runs a command; what it wrote to standard output and to standard error.
