@@ -10,6 +10,7 @@ use rapier3d_f64::parry::transformation::vhacd::{VHACD, VHACDParameters};
 use rapier3d_f64::prelude::SharedShape;
 
 use super::convert::{to_pose, to_vector};
+use super::made_forms::{Making, form_of};
 use super::plan::PartForm;
 use scene::shape::Primitive;
 
@@ -53,22 +54,28 @@ fn analytic(primitive: &Primitive) -> Option<(EnginePose, SharedShape)> {
 }
 
 fn mesh_form(part: &PartForm, dynamic: bool) -> Option<SharedShape> {
-    let points: Vec<Vector> = part
-        .mesh
-        .vertices
-        .iter()
-        .map(|&vertex| to_vector(vertex))
-        .collect();
-    if points.len() < 3 || !has_size(&part.mesh) {
+    if part.mesh.vertices.len() < 3 || !has_size(&part.mesh) {
         return None;
     }
-    if part.convex {
-        return SharedShape::convex_hull(&points).or_else(|| surface(points, &part.mesh));
-    }
-    if dynamic && part.primitive.is_none() && has_volume(&part.mesh) {
-        return pieces(&points, &part.mesh).or_else(|| surface(points, &part.mesh));
-    }
-    surface(points, &part.mesh)
+    let making = if part.convex {
+        Making::Hull
+    } else if dynamic && part.primitive.is_none() && has_volume(&part.mesh) {
+        Making::Pieces
+    } else {
+        Making::Surface
+    };
+    form_of(&part.mesh, making, || make(&part.mesh, making))
+}
+
+fn make(mesh: &Mesh, making: Making) -> Option<SharedShape> {
+    let vertices = mesh.vertices.iter();
+    let points: Vec<Vector> = vertices.map(|&vertex| to_vector(vertex)).collect();
+    let solid = match making {
+        Making::Hull => SharedShape::convex_hull(&points),
+        Making::Pieces => pieces(&points, mesh),
+        Making::Surface => None,
+    };
+    solid.or_else(|| surface(points, mesh))
 }
 
 /// The convex pieces of a mesh, if it has an inside.

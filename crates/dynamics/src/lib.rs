@@ -25,6 +25,7 @@ mod frozen;
 mod linked;
 mod links;
 mod load;
+mod made_forms;
 mod mechanisms;
 mod motors;
 mod plan;
