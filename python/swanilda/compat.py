@@ -134,9 +134,11 @@ class _Module:
 
 
 def _returning(callback: Callable[..., Any]) -> Callable[..., Any]:
-    """In callbacks of remote clients, a list is several results and anything else is one."""
+    """In callbacks of remote clients, a list is several results and anything else is one; there is no None after the last argument."""
 
     def call(*args: Any) -> Any:
+        while args and args[-1] is None:
+            args = args[:-1]
         result = callback(*args)
         if isinstance(result, list):
             return tuple(result)

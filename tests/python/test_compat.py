@@ -75,7 +75,7 @@ def test_callbacks(client):
     sim.setStepping(True)
     seen = []
 
-    def callback(position, velocity, acceleration, data):
+    def callback(position, velocity, acceleration):  # without the data that nobody gave, as from CoppeliaSim
         seen.append(position[0])
 
     sim.startSimulation()
