@@ -240,11 +240,11 @@ fn functions_are_called_from_rust() {
     assert_eq!(refused.to_string(), "argument 1 is not a number.");
     let missing = fixture
         .sim
-        .call_api("sim.announceSceneContentChange", &[])
+        .call_api("sim.getThreadId", &[])
         .expect_err("it is not built");
     assert_eq!(
         missing.to_string(),
-        "not implemented in Swanilda: sim.announceSceneContentChange"
+        "not implemented in Swanilda: sim.getThreadId"
     );
     let needs_lua = fixture
         .sim
