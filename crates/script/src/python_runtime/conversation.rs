@@ -127,6 +127,7 @@ impl Conversation<'_> {
             };
             match message {
                 Message::Call(name, args) => self.link.send(&self.answer_of(&name, &args))?,
+                Message::BadCall(reason) => self.link.send(&message::error(&reason))?,
                 answer => return outcome(answer),
             }
         }
@@ -213,9 +214,11 @@ fn outcome(message: Message) -> Result<Option<Vec<Data>>, ScriptError> {
         Message::Results(results) => Ok(Some(results)),
         Message::Error(text) => Err(ScriptError::new(text)),
         // The rest is output, which was shown.
-        Message::NoFunction | Message::Call(..) | Message::Print(_) | Message::Write(..) => {
-            Ok(None)
-        }
+        Message::NoFunction
+        | Message::Call(..)
+        | Message::BadCall(_)
+        | Message::Print(_)
+        | Message::Write(..) => Ok(None),
     }
 }
 

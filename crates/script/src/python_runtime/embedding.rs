@@ -7,7 +7,7 @@ use std::rc::{Rc, Weak};
 use std::time::Duration;
 
 use super::conversation::Conversation;
-use super::message::Message;
+use super::message::{self, Message};
 use crate::binding::registry::Member;
 use crate::host::Env;
 
@@ -77,10 +77,13 @@ impl ScriptCalls {
         self.count.set(self.count.get() + 1);
         link.look_after(&env, self.count.get())
             .map_err(|error| error.text)?;
-        let message = Message::decode(message).map_err(|error| error.to_string())?;
-        let Message::Call(name, args) = message else {
-            let shown = link.show(&env, message, &mut 0);
-            return shown.map(|_| Vec::new()).map_err(|error| error.text);
+        let (name, args) = match Message::read(message).map_err(|error| error.to_string())? {
+            Message::Call(name, args) => (name, args),
+            Message::BadCall(reason) => return Ok(message::error(&reason)),
+            output => {
+                let shown = link.show(&env, output, &mut 0);
+                return shown.map(|_| Vec::new()).map_err(|error| error.text);
+            }
         };
         Ok(Conversation {
             env: &env,

@@ -176,7 +176,7 @@ impl Link {
 
     /// A message of the script. One that cannot be read ends it.
     pub(super) fn read(&self, bytes: &[u8]) -> Result<Message, ScriptError> {
-        Message::decode(bytes).map_err(|error| {
+        Message::read(bytes).map_err(|error| {
             self.kill();
             ScriptError::new(format!(
                 "the Python process of this script sent what cannot be read: {error}"

@@ -8,6 +8,8 @@ use wire::marshal::{Declared, Encoder, MarshalError, decode};
 pub(crate) enum Message {
     /// A call of a function of the simulator.
     Call(String, Vec<Data>),
+    /// A call with arguments that a script of the simulator cannot have, and why not.
+    BadCall(String),
     /// The results of a call of the simulator's.
     Results(Vec<Data>),
     /// Its error, as people read it.
@@ -55,6 +57,28 @@ impl Message {
             Ok(message)
         } else {
             Err(BadMessage::Form)
+        }
+    }
+}
+
+/// How bytes begin that are a call, and those that are results: a tuple of so many, then a text with the letter.
+const CALL: &[u8] = b"(\x03\0\0\0u\x01\0\0\0c";
+const RESULTS: &[u8] = b"(\x02\0\0\0u\x01\0\0\0r";
+
+impl Message {
+    /// A message that may hold values which the simulator has no counterpart for: then it is an error of the call, not of the connection.
+    ///
+    /// # Errors
+    /// When the bytes are no message.
+    pub(super) fn read(bytes: &[u8]) -> Result<Self, BadMessage> {
+        match Self::decode(bytes) {
+            Err(BadMessage::Value(error)) if bytes.starts_with(CALL) => Ok(Self::BadCall(format!(
+                "an argument cannot be passed: {error}"
+            ))),
+            Err(BadMessage::Value(error)) if bytes.starts_with(RESULTS) => {
+                Ok(Self::Error(format!("a result cannot be passed: {error}")))
+            }
+            other => other,
         }
     }
 }
@@ -116,6 +140,26 @@ mod tests {
             Message::decode(&results(&[], Declared::default())),
             Ok(Message::Results(Vec::new()))
         );
+    }
+
+    #[test]
+    fn values_without_a_counterpart_are_errors_of_the_call() {
+        // ('c', 'f', [{(): 1}]) and ('r', [{(): 1}]).
+        let list = b"[\x01\0\0\0{(\0\0\0\0i\x01\0\0\x000";
+        let bytes = [CALL, b"u\x01\0\0\0f", list].concat();
+        let key = "this cannot be the key of a table";
+        assert_eq!(
+            Message::read(&bytes),
+            Ok(Message::BadCall(format!(
+                "an argument cannot be passed: {key}"
+            )))
+        );
+        let bytes = [RESULTS, list].concat();
+        assert_eq!(
+            Message::read(&bytes),
+            Ok(Message::Error(format!("a result cannot be passed: {key}")))
+        );
+        assert!(Message::read(&bytes[..8]).is_err());
     }
 
     #[test]

@@ -110,6 +110,10 @@ impl Conversation<'_> {
                     }
                     None => return Ok(Turn::Call(name, args)),
                 },
+                Message::BadCall(reason) => {
+                    self.link.send(&message::error(&reason))?;
+                    self.link.busy.set(true);
+                }
                 Message::Error(text) => return Err(ScriptError::new(text)),
                 Message::Results(_) | Message::NoFunction => return Ok(Turn::Ended),
                 // Output was shown.

@@ -13,6 +13,7 @@ read, write = os.read, os.write
 ident = threading.get_ident
 
 VERSION = 2  # of marshal: without references
+LONGEST = 256 << 20  # bytes of a message that the simulator reads
 PART = 1 << 16
 SCALARS = frozenset((int, float, str, bytes, bool, type(None)))
 LOOKED_THROUGH = 16  # entries of a container that may be functions
@@ -55,6 +56,8 @@ def close_in_fork():
 
 def send(message):
     data = dumps(message, VERSION)
+    if len(data) > LONGEST:
+        raise ValueError('%d bytes are too many for one message' % len(data))
     data = len(data).to_bytes(4, 'little') + data
     try:
         sent = write(fd, data)
