@@ -134,8 +134,8 @@ def test_errors_have_the_words_of_scripts(simulator, sim):
         sim.getObjectPosition(987654)
     with pytest.raises(swanilda.Error, match=r"^in sim.getObject: object does not exist, or alias/path is ill formatted\.$"):
         sim.getObject("/nothing")
-    with pytest.raises(swanilda.Error, match="not implemented in Swanilda: sim.announceSceneContentChange"):
-        sim.announceSceneContentChange()
+    with pytest.raises(swanilda.Error, match="not implemented in Swanilda: sim.getThreadId"):
+        sim.getThreadId()
     with pytest.raises(AttributeError, match="module 'sim' has no member 'nothing'"):
         sim.nothing
     with pytest.raises(swanilda.Error):

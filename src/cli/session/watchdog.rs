@@ -109,7 +109,10 @@ impl Call {
             self.sentence = Some(format!("{callback} has been waiting for {seconds} s"));
             return;
         }
-        let place = place(scripts).map_or(String::new(), |place| format!(", at {place}"));
+        let place = place(scripts).map_or_else(
+            || ", in a function that is not written in Lua".to_owned(),
+            |place| format!(", at {place}"),
+        );
         let sentence = format!("{callback} has been running for {seconds} s{place}");
         if is_told {
             complain(&format!("{sentence}; ctrl-c ends it"));
@@ -138,5 +141,6 @@ fn place(scripts: InterruptibleThread) -> Option<String> {
         std::thread::sleep(Duration::from_millis(1));
     }
     // Lua names texts of scripts so: `[string "/robot/script"]`.
-    place_of_interruption().map(|place| place.replace("[string \"", "").replace("\"]", ""))
+    let place = place_of_interruption().filter(|_| place_is_exact());
+    place.map(|place| place.replace("[string \"", "").replace("\"]", ""))
 }

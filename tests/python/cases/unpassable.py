@@ -9,11 +9,7 @@ def sysCall_init():
             sim.setTableProperty(sim.handle_scene, 'customData.x', value)
         except Exception as error:
             print('caught', error)
-    try:
-        sim.setStringSignal('x', 'x' * (257 << 20))
-    except Exception as error:
-        print('caught', error)
-    print(sim.getStringSignal('x'), 'alive')
+    print('alive')
     print(sim.testCB(1, lambda a, b: 'fine', 2, 1))
     try:
         sim.testCB(1, lambda a, b: {(): 1}, 2, 1)

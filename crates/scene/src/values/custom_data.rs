@@ -39,13 +39,20 @@ impl Edited<'_> {
 }
 
 /// Values of one owner, in the order they were created. Looking for a name takes no longer for many values.
-#[derive(Debug, Clone, Default)]
+#[derive(Clone, Default)]
 pub struct CustomData {
     /// By number, which rises with each new value.
     entries: BTreeMap<u64, Entry>,
     /// The numbers of the values of each name, which are of different types.
     by_name: HashMap<String, Vec<u64>>,
     next: u64,
+}
+
+impl std::fmt::Debug for CustomData {
+    /// The values, in their order.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_list().entries(self.entries.values()).finish()
+    }
 }
 
 impl PartialEq for CustomData {

@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, AtomicU8, AtomicUsize, Ordering};
 use mlua::ffi;
 
 use super::count::{HookAction, restore_count_hook};
-use super::running::innermost;
+use super::running::{current_coroutine, innermost};
 use crate::lua::Stack;
 use crate::lua::api::{self, Hook, Slot};
 use crate::lua::stack::frame::Facts;
@@ -62,7 +62,7 @@ pub fn place_of_interruption() -> Option<String> {
     (length > 0).then(|| String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// Whether the place is that of the instruction which runs: not so in the middle of a function written in C, and before the hook came.
+/// Whether the hook has read the place: not in the middle of a function written in C.
 pub fn place_is_exact() -> bool {
     IS_EXACT.load(Ordering::Acquire)
 }
@@ -73,22 +73,31 @@ pub fn interrupt_running_code() {
     if running.is_null() {
         return;
     }
-    let only_asks = ONLY_ASKS.swap(false, Ordering::Acquire);
+    IS_ROUGH.set(true);
+    if ONLY_ASKS.swap(false, Ordering::Acquire) {
+        return ask_coroutine();
+    }
     // SAFETY: the state is being called on this very thread, which stands still meanwhile. Setting a hook is what Lua allows a signal
     // handler to do; the other functions only read.
     let mut coroutine = unsafe { Stack::from_raw(running) };
-    REQUESTED.set(!only_asks);
-    IS_ROUGH.set(true);
+    REQUESTED.set(true);
     for _ in 0..MAX_COROUTINES {
-        // A hook that is there comes soon enough, and must not come at another time than without the question.
-        if !only_asks || api::lua_gethookcount(coroutine) == 0 {
-            api::lua_sethook(coroutine, Some(Hook::COUNT), ffi::LUA_MASKCOUNT, 1);
-        }
+        api::lua_sethook(coroutine, Some(Hook::COUNT), ffi::LUA_MASKCOUNT, 1);
         note_place(coroutine);
         match resumed_by(coroutine) {
             Some(resumed) => coroutine = resumed,
             None => return,
         }
+    }
+}
+
+/// Lets the hook note the place. Nothing is read here: the stack may be on its way to another place.
+fn ask_coroutine() {
+    // SAFETY: as in `interrupt_running_code`, which has seen that a call runs: then there is a coroutine that does.
+    let coroutine = unsafe { Stack::from_raw(current_coroutine()) };
+    // A hook that is there comes soon enough, and must not come at another time than without the question.
+    if api::lua_gethookcount(coroutine) == 0 {
+        api::lua_sethook(coroutine, Some(Hook::COUNT), ffi::LUA_MASKCOUNT, 1);
     }
 }
 

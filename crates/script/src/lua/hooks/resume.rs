@@ -1,5 +1,7 @@
-//! Errors of coroutines that nobody looks at: `coroutine.resume(co)` as a statement drops them.
+//! A guard of `coroutine.resume`: it notes which coroutine runs, and reports errors that nobody looks at, since `coroutine.resume(co)` as a
+//! statement drops them.
 
+use super::running::enter_coroutine;
 use crate::lua::calls::guard::{Next, guarded, install};
 use crate::lua::{Stack, Type};
 
@@ -13,14 +15,22 @@ static ON_DROPPED: std::sync::OnceLock<OnDropped> = std::sync::OnceLock::new();
 pub(crate) fn report_dropped_errors(stack: Stack<'_>, on_dropped: OnDropped) {
     ON_DROPPED.get_or_init(|| on_dropped);
     stack.push_global("coroutine");
-    install::<{ guarded::COROUTINE_RESUME }, _>(stack, "resume", |_| {
-        Next::OriginalThen(look_at_results)
+    install::<{ guarded::COROUTINE_RESUME }, _>(stack, "resume", |stack| {
+        match stack.coroutine(stack.slot(1)) {
+            Some(coroutine) => {
+                enter_coroutine(coroutine);
+                Next::OriginalThen(look_at_results)
+            }
+            // An argument of another type is Lua's error.
+            None => Next::Original,
+        }
     });
     stack.pop(1);
 }
 
 /// Below the top are whether it went well, and the coroutine; nothing else is left of the arguments of a call that failed.
 fn look_at_results(stack: Stack<'_>) {
+    enter_coroutine(stack);
     let failed = stack.top() >= 2 && stack.kind(-2) == Type::Boolean && !stack.truthy(-2);
     if !failed || !stack.caller_drops_results_of("resume") {
         return;

@@ -12,6 +12,8 @@ use crate::lua::Stack;
 thread_local! {
     /// Where the innermost call into Lua on this thread was made; null while there is none.
     static RUNNING: Cell<*mut ffi::lua_State> = const { Cell::new(null_mut()) };
+    /// The coroutine that runs there, as far as `coroutine.resume` tells; null while there is none.
+    static CURRENT: Cell<*mut ffi::lua_State> = const { Cell::new(null_mut()) };
 }
 
 /// Rises when a call from outside begins, and when it ends: it is odd while one runs. Calls inside of others are not counted.
@@ -22,6 +24,18 @@ static CALLBACK: AtomicUsize = AtomicUsize::new(0);
 /// The state of the innermost call on this thread; null while there is none. For signal handlers too.
 pub(super) fn innermost() -> *mut ffi::lua_State {
     RUNNING.get()
+}
+
+/// The coroutine that runs on this thread, or one that has resumed it; null while there is none. For signal handlers too.
+pub(super) fn current_coroutine() -> *mut ffi::lua_State {
+    CURRENT.get()
+}
+
+/// The coroutine that runs from now on, inside of the innermost call.
+pub(super) fn enter_coroutine(coroutine: Stack<'_>) {
+    if !CURRENT.get().is_null() {
+        CURRENT.set(coroutine.raw());
+    }
 }
 
 /// Numbers the calls into Lua of the process that have begun or ended, those inside of others not counted. While the number stays, the same call
@@ -43,22 +57,28 @@ pub(crate) fn running_callback_number() -> Option<usize> {
 /// A call into Lua from outside. Nested ones end in reverse order.
 pub(in crate::lua) struct Running {
     outer: *mut ffi::lua_State,
+    outer_coroutine: *mut ffi::lua_State,
 }
 
 impl Running {
     pub(in crate::lua) fn begin(stack: Stack<'_>) -> Self {
         let outer = RUNNING.replace(stack.raw());
+        let outer_coroutine = CURRENT.replace(stack.raw());
         if outer.is_null() {
             forget_request();
             pass_boundary();
         }
-        Self { outer }
+        Self {
+            outer,
+            outer_coroutine,
+        }
     }
 }
 
 impl Drop for Running {
     fn drop(&mut self) {
         RUNNING.set(self.outer);
+        CURRENT.set(self.outer_coroutine);
         if self.outer.is_null() {
             pass_boundary();
         }
