@@ -4,8 +4,8 @@
 
 sim = require 'sim'
 
-local JOINTS <const>, LENGTH <const> = 7, 0.16 -- metres between joints
-local AMPLITUDE <const>, PERIOD <const> = math.rad(35), 4 -- seconds
+local JOINTS, LENGTH = 7, 0.16 -- metres between joints
+local AMPLITUDE, PERIOD = math.rad(35), 4 -- seconds
 
 -- Joints 1, 3, 5 and 7 turn about the arm, the others bend it.
 local function orientation(i)

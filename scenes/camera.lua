@@ -4,7 +4,7 @@
 
 sim = require 'sim'
 
-local PICTURES <const>, RADIUS <const>, HEIGHT <const> = 4, 1.6, 0.9
+local PICTURES, RADIUS, HEIGHT = 4, 1.6, 0.9
 
 local function coloured(shape, position, colour)
     sim.setObjectPosition(shape, position)

@@ -4,10 +4,10 @@
 
 sim = require 'sim'
 
-local ROLLERS <const>, PITCH <const>, RADIUS <const> = 14, 0.09, 0.04 -- metres
-local HEIGHT <const> = 0.5
+local ROLLERS, PITCH, RADIUS = 14, 0.09, 0.04 -- metres
+local HEIGHT = 0.5
 
-local DRIVE <const> = [[
+local DRIVE = [[
 sim = require 'sim'
 
 -- Each roller turns by its own script; all scripts have the same text.
@@ -19,10 +19,10 @@ function sysCall_actuation()
 end
 ]]
 
-local FEEDER <const> = [[
+local FEEDER = [[
 sim = require 'sim'
 
-local PARCELS <const>, PERIOD <const> = 5, 1.5
+local PARCELS, PERIOD = 5, 1.5
 local dropped = 0
 
 local function drop()
@@ -44,7 +44,7 @@ function sysCall_actuation()
 end
 ]]
 
-local GATE <const> = [[
+local GATE = [[
 sim = require 'sim'
 
 local waiting, passed = {}, 0

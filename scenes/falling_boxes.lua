@@ -4,8 +4,8 @@
 
 sim = require 'sim'
 
-local SIDE <const> = 0.1 -- metres
-local COUNT <const> = 8
+local SIDE = 0.1 -- metres
+local COUNT = 8
 
 local function box(i)
     local h = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {SIDE, SIDE, SIDE})

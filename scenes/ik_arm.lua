@@ -6,14 +6,14 @@
 sim = require 'sim'
 simIK = require 'simIK'
 
-local PERIOD <const> = 8 -- seconds
-local CENTRE <const>, SIZE <const> = {0.55, 0, 0.5}, {0.1, 0.35, 0.15} -- metres
+local PERIOD = 8 -- seconds
+local CENTRE, SIZE = {0.55, 0, 0.5}, {0.1, 0.35, 0.15} -- metres
 -- Of each joint: its place in the frame of the one before, and how its axis is turned there.
-local JOINTS <const> = {
+local JOINTS = {
     {{0, 0, 0.1}, {0, 0, 0}}, {{0, 0, 0.15}, {-math.pi / 2, 0, 0}}, {{0.4, 0, 0}, {0, 0, 0}},
     {{0.4, 0, 0}, {0, 0, 0}}, {{0, 0, 0}, {math.pi / 2, 0, 0}}, {{0, 0, 0}, {0, math.pi / 2, 0}},
 }
-local START <const> = {0, -1.2, 1.6, -0.4, 0, 0}
+local START = {0, -1.2, 1.6, -0.4, 0, 0}
 
 local function coloured(shape, parent, position, colour, orientation)
     sim.setObjectParent(shape, parent, true)

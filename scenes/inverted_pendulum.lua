@@ -9,9 +9,9 @@
 
 sim = require 'sim'
 
-local HALF_LENGTH <const> = 0.5 -- of the pole, metres
-local START_ANGLE <const> = math.rad(6)
-local PUSH_TIME <const>, PUSH <const> = 4, {1.5, 0, 0} -- seconds, newtons for one step
+local HALF_LENGTH = 0.5 -- of the pole, metres
+local START_ANGLE = math.rad(6)
+local PUSH_TIME, PUSH = 4, {1.5, 0, 0} -- seconds, newtons for one step
 
 local function link(alias, size, position, mass, parent)
     local h = sim.createPrimitiveShape(sim.primitiveshape_cuboid, size)
@@ -51,7 +51,7 @@ local function build()
 end
 
 -- The controller is a child script of the cart's joint, as it would be in a model.
-local CONTROLLER <const> = [[
+local CONTROLLER = [[
 sim = require 'sim'
 
 function sysCall_init()

@@ -5,10 +5,10 @@
 
 sim = require 'sim'
 
-local BEAMS <const> = 180
-local RANGE <const> = 5 -- metres
-local ROOM <const> = {4, 3} -- metres along x and y
-local COLUMNS <const>, ROWS <const> = 61, 25 -- of the drawing
+local BEAMS = 180
+local RANGE = 5 -- metres
+local ROOM = {4, 3} -- metres along x and y
+local COLUMNS, ROWS = 61, 25 -- of the drawing
 
 local sensor
 local scan = {} -- a point per beam that met something, in the world

@@ -5,8 +5,8 @@
 
 sim = require 'sim'
 
-local WHEEL_RADIUS <const>, TRACK <const> = 0.04, 0.16 -- metres
-local LINE_WIDTH <const> = 0.03
+local WHEEL_RADIUS, TRACK = 0.04, 0.16 -- metres
+local LINE_WIDTH = 0.03
 
 -- Distance of the line from the middle of the floor, for each direction.
 local function radius(angle) return 0.8 + 0.1 * math.cos(3 * angle) end
@@ -87,10 +87,10 @@ local function eye(alias, y, body)
     sim.setObjectParent(sensor, body, true)
 end
 
-local CONTROLLER <const> = [[
+local CONTROLLER = [[
 sim = require 'sim'
 
-local RADIUS <const>, TRACK <const>, SPEED <const> = 0.04, 0.16, 0.25
+local RADIUS, TRACK, SPEED = 0.04, 0.16, 0.25
 
 local function drive(forward, turn)
     sim.setJointTargetVelocity(left, (forward - turn * TRACK / 2) / RADIUS)

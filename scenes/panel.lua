@@ -8,7 +8,7 @@ A window for an oscillator: a button starts and stops it, a slider sets its freq
 sim = require 'sim'
 simUI = require 'simUI'
 
-local WINDOW <const> = [[
+local WINDOW = [[
 <ui title="Oscillator" closeable="false" resizable="true" placement="relative" position="50,50">
     <group layout="form" flat="true">
         <label text="Frequency:"/>

@@ -7,18 +7,18 @@ sim = require 'sim'
 simIK = require 'simIK'
 simOMPL = require 'simOMPL'
 
-local BOXES <const>, BOX <const> = 3, 0.05 -- boxes, and the length of an edge, metres
-local BELT_SPEED <const>, JOINT_SPEED <const> = 0.15, 1.5 -- metres and radians per second
-local TOP <const>, GAP <const>, CLEARANCE <const> = 0.2, 0.002, 0.12 -- height of belt and table; boxes stand this far above them; how far above boxes the arm comes and goes
-local PICK <const> = {0.5, -0.35}
-local PLACES <const> = {{0.42, 0.34}, {0.56, 0.34}, {0.49, 0.46}}
+local BOXES, BOX = 3, 0.05 -- boxes, and the length of an edge, metres
+local BELT_SPEED, JOINT_SPEED = 0.15, 1.5 -- metres and radians per second
+local TOP, GAP, CLEARANCE = 0.2, 0.002, 0.12 -- height of belt and table; boxes stand this far above them; how far above boxes the arm comes and goes
+local PICK = {0.5, -0.35}
+local PLACES = {{0.42, 0.34}, {0.56, 0.34}, {0.49, 0.46}}
 -- Of each joint: its place in the frame of the one before, and how its axis is turned there.
-local JOINTS <const> = {
+local JOINTS = {
     {{0, 0, 0.1}, {0, 0, 0}}, {{0, 0, 0.15}, {-math.pi / 2, 0, 0}}, {{0.4, 0, 0}, {0, 0, 0}},
     {{0.4, 0, 0}, {0, 0, 0}}, {{0, 0, 0}, {math.pi / 2, 0, 0}}, {{0, 0, 0}, {0, math.pi / 2, 0}},
 }
-local START <const> = {-0.9, -1.2, 1.6, 1.2, -math.pi / 2, 0}
-local GREY <const>, DARK <const>, BLUE <const>, WOOD <const> = {0.8, 0.8, 0.83}, {0.25, 0.25, 0.28}, {0.15, 0.35, 0.7}, {0.7, 0.55, 0.35}
+local START = {-0.9, -1.2, 1.6, 1.2, -math.pi / 2, 0}
+local GREY, DARK, BLUE, WOOD = {0.8, 0.8, 0.83}, {0.25, 0.25, 0.28}, {0.15, 0.35, 0.7}, {0.7, 0.55, 0.35}
 
 local joints, placed, moving, worst = {}, 0, nil, 0
 

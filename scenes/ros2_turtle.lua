@@ -11,7 +11,7 @@
 sim = require 'sim'
 simROS2 = require 'simROS2'
 
-local ROOM <const>, RANGE <const>, RAYS <const>, LONGEST <const> = 4, 5, 36, 10
+local ROOM, RANGE, RAYS, LONGEST = 4, 5, 36, 10
 
 -- Walls and two pillars.
 local function room()

@@ -4,7 +4,7 @@
 
 sim = require 'sim'
 
-local WHEEL_RADIUS <const>, TRACK <const> = 0.05, 0.24 -- metres
+local WHEEL_RADIUS, TRACK = 0.05, 0.24 -- metres
 
 local function dynamic(shape, alias, mass, parent)
     sim.setObjectAlias(shape, alias)
@@ -44,12 +44,12 @@ local function caster(body)
     sim.setObjectParent(ball, mount, true)
 end
 
-local ROUTE <const> = [[
+local ROUTE = [[
 sim = require 'sim'
 
-local RADIUS <const>, TRACK <const> = 0.05, 0.24
-local SPEED <const> = 0.4 -- metres per second
-local STOPS <const> = {{1, 0}, {1, 1}, {0, 1}, {0, 0}}
+local RADIUS, TRACK = 0.05, 0.24
+local SPEED = 0.4 -- metres per second
+local STOPS = {{1, 0}, {1, 1}, {0, 1}, {0, 0}}
 
 local function drive(forward, turn)
     sim.setJointTargetVelocity(left, (forward - turn * TRACK / 2) / RADIUS)

@@ -10,7 +10,7 @@ Then open the address it prints in one browser or in many.
 sim = require 'sim'
 simWS = require 'simWS'
 
-local PAGE <const> = [[
+local PAGE = [[
 <!DOCTYPE html>
 <html lang="en">
 <meta charset="utf-8">

@@ -17,7 +17,7 @@
 sim = require 'sim'
 simZMQ = require 'simZMQ'
 
-local REQUESTS <const> = 10
+local REQUESTS = 10
 
 -- In a thread: who waits for the answer does not hold up the simulation.
 function sysCall_thread()

@@ -6,10 +6,10 @@
 
 sim = require 'sim'
 
-local NAMES <const> = {'Franz', 'Coppelius', 'Burgomaster'}
+local NAMES = {'Franz', 'Coppelius', 'Burgomaster'}
 
 -- A listener answers greetings that are meant for everyone or for it. It knows its name from the object it sits on.
-local LISTENER <const> = [[
+local LISTENER = [[
 sim = require 'sim'
 
 function sysCall_msg(message, sender)

@@ -7,11 +7,11 @@
 
 sim = require 'sim'
 
-local WORKERS <const> = 3
-local JOBS <const> = 7
+local WORKERS = 3
+local JOBS = 7
 
 -- A worker tells how far the numbers it is given are apart. It works one step on each job.
-local WORKER <const> = [[
+local WORKER = [[
 sim = require 'sim'
 
 local me = sim.getObject('..')

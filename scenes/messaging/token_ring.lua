@@ -7,10 +7,10 @@
 
 sim = require 'sim'
 
-local STATIONS <const> = 5
-local ROUNDS <const> = 3
+local STATIONS = 5
+local ROUNDS = 3
 
-local STATION <const> = [[
+local STATION = [[
 sim = require 'sim'
 
 function sysCall_thread()
