@@ -70,7 +70,7 @@ impl Node {
         Self::start(place, master, settings.network, host)
     }
 
-    /// Starts a node that looks for no master and meets no other node: what it publishes reaches nobody, its parameters are its own, and there are
+    /// Starts a node that asks for no master and meets no other node: what it publishes reaches nobody, its parameters are its own, and there are
     /// no services.
     ///
     /// # Errors

@@ -16,7 +16,7 @@ local AXIS_LENGTH <const> = 0.05
 -- From below the base to the tip.
 local function chain(simIK, env, tip, base)
     local objects, object = {}, tip
-    while object and object ~= -1 and object ~= base do -- nil: an error that scripts do not want to hear of
+    while object and object ~= -1 and object ~= base do -- nil: an error that is switched off
         table.insert(objects, 1, object)
         object = simIK.getObjectParent(env, object)
     end

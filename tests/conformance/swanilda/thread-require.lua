@@ -4,7 +4,7 @@
 -- spec: threads 4
 -- note: modules that a thread loads may wait for steps, as those of V-REP's threads do; pcall around it still forbids that
 sim = require 'sim'
-package.preload['patient'] = function(name, place)
+package.preload['waiting'] = function(name, place)
     print('loading', name, place)
     for k = 1, 3 do
         local before = sim.getSimulationTime()
@@ -28,8 +28,8 @@ package.preload['busy'] = function()
 end
 
 function sysCall_thread()
-    local module = require 'patient'
-    print(module.answer, require 'patient' == module, getAutoYield())
+    local module = require 'waiting'
+    print(module.answer, require 'waiting' == module, getAutoYield())
     print(require 'silent', package.loaded.silent)
     local before = sim.getSimulationTime()
     print(pcall(require, 'broken'))

@@ -1,4 +1,4 @@
-//! A guard of `coroutine.resume`: it notes which coroutine runs, and reports errors that nobody looks at, since `coroutine.resume(co)` as a
+//! A guard of `coroutine.resume`: it notes which coroutine runs, and reports errors that are dropped, since `coroutine.resume(co)` as a
 //! statement drops them.
 
 use super::running::enter_coroutine;

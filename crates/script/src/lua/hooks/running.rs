@@ -12,7 +12,7 @@ use crate::lua::Stack;
 thread_local! {
     /// Where the innermost call into Lua on this thread was made; null while there is none.
     static RUNNING: Cell<*mut ffi::lua_State> = const { Cell::new(null_mut()) };
-    /// The coroutine that runs there, as far as `coroutine.resume` tells; null while there is none.
+    /// The coroutine that runs there, as far as `coroutine.resume` notes it; null while there is none.
     static CURRENT: Cell<*mut ffi::lua_State> = const { Cell::new(null_mut()) };
 }
 
