@@ -10,7 +10,10 @@ use super::output::Output;
 use super::permissions::{HEADING, PermissionArgs};
 use super::setup::Setup;
 use permissions::Permissions;
-use simulator::{Options, Simulator};
+use simulator::{Limits, Options, Simulator};
+
+/// Memory that Lua code may use where scripts may not do everything, MiB: a stranger's script does not exhaust the machine's either.
+const FENCED_MEMORY: u32 = 4096;
 
 /// Number of ports to try.
 const TRIED_PORTS: u16 = 100;
@@ -112,7 +115,11 @@ impl Remote {
         } else {
             self.permissions.permissions()
         };
+        let is_fenced = is_open || self.permissions.is_restricted();
         Options {
+            limits: options
+                .limits
+                .or_else(|| is_fenced.then(|| Limits::of_mebibytes(FENCED_MEMORY))),
             permissions: readable_folders(&options)
                 .fold(permissions, |set, folder| set.of_scene(folder)),
             listen_address: self.bind,
@@ -212,4 +219,43 @@ fn cannot_listen(address: IpAddr, port: u16, error: &Error) -> String {
         );
     }
     format!("cannot listen at {address}:{port}: {error}")
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        remote: Remote,
+    }
+
+    fn guarded(words: &[&str], limits: Option<Limits>) -> Option<Limits> {
+        let line = Line::parse_from([&["swanilda"], words].concat());
+        let options = Options {
+            limits,
+            ..Options::default()
+        };
+        line.remote.guard(options).limits
+    }
+
+    #[test]
+    fn memory_is_limited_where_scripts_may_not_do_everything() {
+        let fenced = Some(Limits { memory: 4 << 30 });
+        assert_eq!(guarded(&[], None), None);
+        assert_eq!(guarded(&["--no-unsafe"], None), fenced);
+        assert_eq!(guarded(&["--allow-run"], None), fenced);
+        assert_eq!(guarded(&["--bind", "0.0.0.0"], None), fenced);
+        assert_eq!(guarded(&["--bind", "0.0.0.0", "--unsafe"], None), None);
+    }
+
+    #[test]
+    fn a_limit_of_the_command_line_goes_first() {
+        let asked = Some(Limits::of_mebibytes(64));
+        assert_eq!(guarded(&["--no-unsafe"], asked), asked);
+        assert_eq!(guarded(&[], asked), asked);
+    }
 }

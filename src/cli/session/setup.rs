@@ -15,7 +15,7 @@ use format::script_file;
 use format::ttt::FileError;
 use permissions::{Permissions, read_bounded};
 use script::log::verbosity;
-use simulator::{Error, Options, ScriptKind, ScriptRef, Simulator};
+use simulator::{Error, Limits, Options, ScriptKind, ScriptRef, Simulator};
 
 /// Simulator options
 #[derive(clap::Args)]
@@ -41,6 +41,9 @@ pub(in crate::cli) struct Setup {
     /// Threads that compute mechanisms and draw pictures; results do not depend on it [default: 1; all processors for pictures]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
+    /// Memory limit for the Lua code, MiB [default: none; 4096 where an option restricts what scripts may do]
+    #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u32).range(1..))]
+    memory: Option<u32>,
     /// Named parameter for scripts (sim.getNamedStringParam); may be repeated
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = named_param)]
     define: Vec<(String, String)>,
@@ -165,6 +168,7 @@ impl Setup {
             plugin_dirs: self.plugin_path.clone(),
             stop: interrupt.flag(),
             original_errors: self.original_errors,
+            limits: self.memory.map(Limits::of_mebibytes),
             ros: self
                 .ros
                 .options(scene.map(Simulator::folder_of_scene).as_deref()),

@@ -163,3 +163,11 @@ fn the_first_lines_of_the_page_about_tests_run() {
     let output = output_of(swanilda().arg("test").arg(&file));
     assert!(stdout(&output).contains("1 passed"), "{}", stdout(&output));
 }
+
+#[test]
+fn memory_of_lua_code_has_a_limit_on_request() {
+    let scene = Scene::new("print(pcall(function() return #('x'):rep(1 << 27) end))");
+    let run = |limit| stdout(&scene.run(&["--empty", "--steps", "1", "--memory", limit]));
+    assert!(run("64").contains("false, not enough memory"));
+    assert!(run("1024").contains("true, 134217728"));
+}

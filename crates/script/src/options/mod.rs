@@ -91,6 +91,15 @@ pub struct Limits {
     pub memory: usize,
 }
 
+impl Limits {
+    /// So many MiB for all scripts together.
+    pub fn of_mebibytes(count: u32) -> Self {
+        Self {
+            memory: (count as usize) << 20,
+        }
+    }
+}
+
 impl Options {
     /// A folder of the installation of CoppeliaSim, or the installation itself for an empty name; None without an installation.
     pub(crate) fn installed(&self, folder: &str) -> Option<String> {
