@@ -1352,6 +1352,13 @@ function sim.getMatchingPersistentDataTags(pattern) end
 ---@return number[] matrix its inverse
 function sim.getMatrixInverse(matrix) end
 
+--- Value of a property that CoppeliaSim 4.11 has as a matrix: vertices, normals, points, inertiaMatrix, depth.
+---@param target integer mesh, shape, vision sensor, point cloud or octree
+---@param name string of the property
+---@param options? table noError: nil if the target has no such property
+---@return simEigen.Matrix matrix one row for each vertex, normal, point or row of pixels
+function sim.getMatrixProperty(target, name, options) end
+
 --- Size of the box around a model.
 ---@param handle integer base of the model
 ---@return number[] size along the axes of the base
@@ -3549,6 +3556,12 @@ function sim.setLinkDummy(dummyHandle, linkDummyHandle) end
 ---@param propertyState integer the new value
 ---@param options? table noError: no error when that fails
 function sim.setLongProperty(target, propertyName, propertyState, options) end
+
+--- Sets a property that CoppeliaSim 4.11 has as a matrix: inertiaMatrix.
+---@param target integer shape
+---@param name string of the property
+---@param matrix simEigen.Matrix of 3 by 3
+function sim.setMatrixProperty(target, name, matrix) end
 
 --- Makes an object a model base with these flags, or with sim.modelproperty_not_model no model base.
 ---@param objectHandle integer the object

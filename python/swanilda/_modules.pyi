@@ -3168,6 +3168,12 @@ class _sim:
         """Inverse of a matrix.
         matrix: upper 3 by 4 block, row by row
         """
+    def getMatrixProperty(self, target: int, name: str, options: Mapping[Any, Any] | None = ..., /) -> Any:
+        """Value of a property that CoppeliaSim 4.11 has as a matrix: vertices, normals, points, inertiaMatrix, depth.
+        target: mesh, shape, vision sensor, point cloud or octree
+        name: of the property
+        options: noError: nil if the target has no such property
+        """
     def getModelBB(self, handle: int, /) -> list[float]:
         """Size of the box around a model.
         handle: base of the model
@@ -4979,6 +4985,12 @@ class _sim:
         propertyName: its name
         propertyState: the new value
         options: noError: no error when that fails
+        """
+    def setMatrixProperty(self, target: int, name: str, matrix: Any, /) -> None:
+        """Sets a property that CoppeliaSim 4.11 has as a matrix: inertiaMatrix.
+        target: shape
+        name: of the property
+        matrix: of 3 by 3
         """
     def setModelProperty(self, objectHandle: int, property: int, /) -> int:
         """Makes an object a model base with these flags, or with sim.modelproperty_not_model no model base.

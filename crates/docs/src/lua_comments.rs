@@ -8,6 +8,7 @@ const CATEGORIES: &[(&str, &str)] = &[
     ("sim/configuration", "Old names"),
     ("sim/data", "Custom data"),
     ("sim/deprecated", "Old names"),
+    ("sim/matrix", "Properties"),
     ("sim/motion", "Motion"),
     ("sim/oldfunctions", "Old names"),
     ("sim/path", "Paths"),

@@ -76,7 +76,7 @@ fn later() -> String {
         "\n## Names of CoppeliaSim 4.11\n\nThe version after 4.10 has other names for some properties. Where the value is the same, both names are read and written; \
          lists and events use the older one. Parameters of physics engines have `dynamics.` in front there (`dynamics.ode.bounce`). Handles are integers: \
          `sim.getHandleProperty` and `sim.getHandleArrayProperty` read the same values as `sim.getIntProperty` and `sim.getIntArrayProperty`. \
-         Groups, matrices, lists of texts and properties without a counterpart in 4.10 are unknown.\n\n| of | name in 4.10 | name in 4.11 |\n|---|---|---|\n",
+         `sim.getMatrixProperty` reads `vertices`, `normals`, `points`, `depth` and `inertiaMatrix`. Groups, lists of texts and properties without a counterpart in 4.10 are unknown.\n\n| of | name in 4.10 | name in 4.11 |\n|---|---|---|\n",
     );
     for (class, name, later) in later_names() {
         let _ = writeln!(out, "| {class} | `{name}` | `{later}` |");
