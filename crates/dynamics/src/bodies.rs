@@ -11,7 +11,7 @@ use rapier3d_f64::prelude::{
 };
 
 use super::colliders;
-use super::convert::{from_pose, to_matrix, to_pose, to_vector};
+use super::convert::{from_pose, to_pose, to_rotation, to_vector};
 use super::plan::{BodyBuild, BodyPlan, FrictionRule, Surface, is_far};
 use super::world::{ALL_HOOKS, World};
 use scene::shape::Velocity;
@@ -304,20 +304,27 @@ fn rigid_body(plan: &BodyPlan, pose: &Pose) -> RigidBody {
     } else {
         RigidBodyType::Fixed
     };
-    let mass = &plan.build.mass;
-    let inertia = to_matrix(&(mass.inertia * mass.mass));
     RigidBodyBuilder::new(kind)
         .pose(to_pose(pose))
-        .additional_mass_properties(MassProperties::with_inertia_matrix(
-            to_vector(mass.com),
-            mass.mass,
-            inertia,
-        ))
+        .additional_mass_properties(mass_properties(&plan.build.mass))
         .linear_damping(plan.surface.linear_damping)
         .angular_damping(plan.surface.angular_damping)
         .can_sleep(false)
         .allow_fast_rotation(true)
         .build()
+}
+
+/// Centre of mass, mass and inertia. rapier's own decomposition of an inertia takes moments for equal where their differences have a product
+/// below 1e-10 kg2 m4, and any two equal moments for those of the first two axes: light bodies and plates across x would turn with swapped moments.
+fn mass_properties(mass: &geometry::MassProperties) -> MassProperties {
+    let (axes, moments) = mass.principal_axes();
+    let moments = moments.map(|moment| moment * mass.mass);
+    MassProperties::with_principal_inertia_frame(
+        to_vector(mass.com),
+        mass.mass,
+        to_vector(moments),
+        to_rotation(&axes),
+    )
 }
 
 impl Bodies {

@@ -1,7 +1,7 @@
 //! The edge between the scene's maths (nalgebra) and rapier's (glam).
 
-use nalgebra::{Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
-use rapier3d_f64::math::{Matrix, Pose as EnginePose, Rotation, Vector};
+use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
+use rapier3d_f64::math::{Pose as EnginePose, Rotation, Vector};
 
 use scene::Pose;
 
@@ -30,8 +30,4 @@ pub(super) fn from_pose(pose: &EnginePose) -> Pose {
         Translation3::from(Vector3::new(t.x, t.y, t.z)),
         UnitQuaternion::new_normalize(Quaternion::new(r.w, r.x, r.y, r.z)),
     )
-}
-
-pub(super) fn to_matrix(m: &Matrix3<f64>) -> Matrix {
-    Matrix::from_cols_slice(m.as_slice())
 }
