@@ -13,7 +13,7 @@ use rapier3d_f64::prelude::{
 
 use super::bodies::Tag;
 use super::convert::from_vector;
-use super::exact_contacts::ExactContacts;
+use super::mechanisms::exact_contacts::ExactContacts;
 use super::world::{World, parts_of_impulse};
 use scene::Handle;
 

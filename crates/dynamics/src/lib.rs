@@ -7,9 +7,8 @@
 //! reads the changes at the next call.
 //!
 //! - `plan`: the bodies and constraints that the scene needs; compared with those that exist, so that only changes reach the engine.
-//! - `bodies`, `colliders`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`.
-//! - `linked`: a mechanism with its bodies; `reach`: how fast these may be without rapier; `workers`: threads that solve mechanisms.
-//! - `contacts`: collision filters; `exact_contacts`: what mechanisms touch; `flat_faces`: contacts without friction; `motors`: the control law.
+//! - `bodies`, `colliders`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`, with their contacts.
+//! - `contacts`: collision filters; `flat_faces`: contacts without friction; `motors`: the control law.
 //! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
 //!
 //! Free bodies at rest fall asleep, which no reading shows. No state outlives the run: the same scene produces the same bytes.
@@ -19,21 +18,17 @@ mod colliders;
 mod contact_log;
 mod contacts;
 mod convert;
-mod exact_contacts;
 mod flat_faces;
 mod frozen;
-mod linked;
 mod links;
 mod load;
 mod made_forms;
 mod mechanisms;
 mod motors;
 mod plan;
-mod reach;
 mod report;
 #[cfg(test)]
 mod tests;
-mod workers;
 mod world;
 
 use std::collections::BTreeSet;
@@ -49,10 +44,10 @@ pub use contacts::{ContactCallback, ContactResponse, Verdicts};
 use frozen::Frozen;
 use links::Links;
 use mechanisms::Mechanisms;
+use mechanisms::workers::Workers;
 use motors::Motion;
 use plan::Plan;
 pub use report::Trigger;
-use workers::Workers;
 use world::World;
 
 use scene::joint::{Joint, JointMode};

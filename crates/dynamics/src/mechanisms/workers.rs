@@ -10,7 +10,7 @@ const SPIN_ITERATIONS: usize = 4000;
 type Job = Box<dyn FnOnce() + Send>;
 
 /// Threads, which are started when they are needed first.
-pub(super) struct Workers {
+pub(crate) struct Workers {
     /// With the one that calls.
     count: usize,
     others: Vec<Sender<Job>>,
@@ -23,7 +23,7 @@ impl Default for Workers {
 }
 
 impl Workers {
-    pub(super) fn new(count: NonZero<usize>) -> Self {
+    pub(crate) fn new(count: NonZero<usize>) -> Self {
         Self {
             count: count.get(),
             others: Vec::new(),

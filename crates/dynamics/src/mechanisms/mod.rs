@@ -6,23 +6,28 @@
 //! solves contacts and joints; the mechanisms then start from the contact impulses of the sub-step before, so that rapier only answers what
 //! changes.
 
+pub(super) mod exact_contacts;
+mod linked;
+mod reach;
+pub(super) mod workers;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use articulation::{BodyProperties, JointProperties, Mechanism};
 use geometry::partition;
 use rapier3d_f64::prelude::{Collider, RigidBody};
 
-use super::bodies::{Bodies, Tag};
-use super::contacts;
-use super::contacts::Verdicts;
-use super::exact_contacts::ExactContacts;
-use super::linked::{Linked, LinkedShape, divide, properties, share};
-use super::links::Links;
-use super::plan::LinkPlan;
-use super::workers::Workers;
-use super::world::World;
+use crate::bodies::{Bodies, Tag};
+use crate::contacts;
+use crate::contacts::Verdicts;
+use crate::links::Links;
+use crate::plan::LinkPlan;
+use crate::world::World;
+use exact_contacts::ExactContacts;
+use linked::{Linked, LinkedShape, divide, properties, share};
 use scene::Handle;
 use scene::joint::JointSolver;
+use workers::Workers;
 
 /// Number of joints from which on mechanisms are solved on several threads: with fewer, waking the threads takes as long as the work.
 const MIN_JOINTS_FOR_THREADS: usize = 150;

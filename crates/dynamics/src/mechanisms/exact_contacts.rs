@@ -14,10 +14,10 @@ use rapier3d_f64::parry::query::{
 };
 use rapier3d_f64::prelude::{CoefficientCombineRule, Collider, ColliderHandle, RigidBody};
 
-use super::bodies::Tag;
-use super::contacts::{self, ColliderPair, ContactResponse, Verdicts, pair_of, tags};
-use super::convert::{from_vector, to_vector};
-use super::world::{PREDICTION_DISTANCE, World};
+use crate::bodies::Tag;
+use crate::contacts::{self, ColliderPair, ContactResponse, Verdicts, pair_of, tags};
+use crate::convert::{from_vector, to_vector};
+use crate::world::{PREDICTION_DISTANCE, World};
 use scene::Handle;
 
 /// Largest number of contact points of one surface that are solved.
@@ -33,7 +33,7 @@ type Manifold = ContactManifold<(), [f64; 3]>;
 
 /// The contacts that mechanisms solve.
 #[derive(Default)]
-pub(super) struct ExactContacts {
+pub(crate) struct ExactContacts {
     pairs: BTreeMap<ColliderPair, Pair>,
     points: Vec<Point>,
 }
@@ -54,7 +54,7 @@ struct Surface {
 }
 
 /// A point of a pair in the present sub-step.
-pub(super) struct Point {
+pub(crate) struct Point {
     pair: ColliderPair,
     /// Indices of the manifold and of the point there.
     index: (usize, usize),
@@ -68,7 +68,7 @@ pub(super) struct Point {
 }
 
 impl Point {
-    pub(super) fn place(&self) -> Vector {
+    pub(crate) fn place(&self) -> Vector {
         to_vector(self.contact.point)
     }
 }
@@ -194,13 +194,13 @@ impl ExactContacts {
     }
 
     /// The pairs that mechanisms solve, rising; pairs that are no longer near are forgotten.
-    pub(super) fn pairs(&mut self) -> Vec<ColliderPair> {
+    pub(crate) fn pairs(&mut self) -> Vec<ColliderPair> {
         self.pairs.retain(|_, pair| pair.touches);
         self.pairs.keys().copied().collect()
     }
 
     /// The points of the present sub-step.
-    pub(super) fn points(&self) -> &[Point] {
+    pub(crate) fn points(&self) -> &[Point] {
         &self.points
     }
 }

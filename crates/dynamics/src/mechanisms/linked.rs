@@ -10,12 +10,12 @@ use geometry::Finite;
 use nalgebra::Vector6;
 use rapier3d_f64::prelude::{ColliderHandle, RigidBody, RigidBodyHandle};
 
-use super::bodies::{Bodies, Body};
-use super::convert::{from_pose, from_vector, to_pose, to_vector};
 use super::exact_contacts::Touching;
-use super::links::{Link, Links};
 use super::reach::Reach;
-use super::world::World;
+use crate::bodies::{Bodies, Body};
+use crate::convert::{from_pose, from_vector, to_pose, to_vector};
+use crate::links::{Link, Links};
+use crate::world::World;
 use scene::Handle;
 
 /// Iterations of rapier's solver over linked bodies in each part of a sub-step, beside the usual ones: what a contact changes has to find
