@@ -80,6 +80,12 @@ struct Side {
     jacobian: Matrix6x3<f64>,
 }
 
+/// How a touching body answers impulses along the axes of a contact.
+struct Change {
+    place: usize,
+    velocity: Matrix6x3<f64>,
+}
+
 /// The contacts of a step.
 #[derive(Default)]
 pub(crate) struct Contacts {
@@ -88,8 +94,10 @@ pub(crate) struct Contacts {
     bodies: Vec<usize>,
     /// Velocities of the touching bodies.
     velocities: Vec<Vector6<f64>>,
-    /// Their changes by an impulse along the axes of a contact, contact by contact.
-    changes: Vec<Matrix6x3<f64>>,
+    /// The changes of those that an impulse along the axes of a contact reaches, contact by contact.
+    changes: Vec<Change>,
+    /// Where the changes of a contact end.
+    ends: Vec<usize>,
     /// Response of every contact to itself.
     own: Vec<Matrix3<f64>>,
     /// Impulses before a sweep, and the directions in which they change.
@@ -373,25 +381,31 @@ impl Contacts {
             rows,
             bodies: touching,
             changes,
+            ends,
             own,
             ..
         } = self;
         let count = touching.len();
         changes.clear();
+        ends.clear();
         own.clear();
         for row in rows.iter() {
+            let mut response = Matrix3::zeros();
             for place in 0..count {
                 let change = |side: &Side| bodies[place * count + side.place] * side.jacobian;
-                changes.push(row.sides.iter().flatten().map(change).sum());
+                let velocity: Matrix6x3<f64> = row.sides.iter().flatten().map(change).sum();
+                if velocity == Matrix6x3::zeros() {
+                    continue;
+                }
+                let here = row.sides.iter().flatten();
+                response += here
+                    .filter(|side| side.place == place)
+                    .map(|side| side.jacobian.tr_mul(&velocity))
+                    .sum::<Matrix3<f64>>();
+                changes.push(Change { place, velocity });
             }
-            let of_row = &changes[changes.len() - count..];
-            own.push(
-                row.sides
-                    .iter()
-                    .flatten()
-                    .map(|side| side.jacobian.tr_mul(&of_row[side.place]))
-                    .sum(),
-            );
+            ends.push(changes.len());
+            own.push(response);
         }
     }
 
@@ -439,10 +453,9 @@ impl Contacts {
     /// Changes the impulse of a contact along one of its axes.
     fn apply(&mut self, index: usize, axis: usize, change: f64) {
         self.rows[index].impulse[axis] += change;
-        let count = self.velocities.len();
-        let changes = &self.changes[index * count..(index + 1) * count];
-        for (velocity, of_body) in self.velocities.iter_mut().zip(changes) {
-            *velocity += of_body.column(axis) * change;
+        let first = index.checked_sub(1).map_or(0, |before| self.ends[before]);
+        for of_body in &self.changes[first..self.ends[index]] {
+            self.velocities[of_body.place] += of_body.velocity.column(axis) * change;
         }
     }
 

@@ -119,6 +119,8 @@ pub(crate) struct Joint {
     locked: [bool; 6],
     pub axis: Option<FreeAxis>,
     pub impulse: Segment,
+    /// What the correction of positions added to it: half of the centripetal impulse, since it turns velocities half of the way.
+    pub correction: Segment,
     /// The axis of the joint in the frame of the second body.
     tip_axis: Vector3<f64>,
 }
@@ -144,6 +146,7 @@ impl Joint {
             locked: properties.kind.locked_rows(),
             axis: FreeAxis::of(properties.kind),
             impulse: Segment::zeros(),
+            correction: Segment::zeros(),
             tip_axis: properties.tip.rotation * Vector3::z(),
         }
     }
@@ -198,16 +201,28 @@ impl Joint {
 
     /// Takes the impulse on the second body at the point of the joint as that of the rows.
     pub(crate) fn set_impulse(&mut self, impulse: &Vector6<f64>) {
+        self.impulse = self.with_active(self.rows_of(impulse) - self.saturated_rows());
+    }
+
+    /// Takes the impulse on the second body at the point of the joint as that of the correction.
+    pub(crate) fn set_correction(&mut self, impulse: &Vector6<f64>) {
+        self.correction = self.with_active(self.rows_of(impulse));
+    }
+
+    fn rows_of(&self, impulse: &Vector6<f64>) -> Segment {
         let (linear, angular) = halves(impulse);
         let mut rows = spatial(self.axes * linear, self.axes * angular);
         rows[5] += self.properties.pitch * rows[2];
-        self.impulse = self.with_active(rows - self.saturated_rows());
+        rows
     }
 
     /// Velocity of the second body relative to the first at the point of the joint.
-    fn relative_velocity(&self, bodies: &[LinkedBody]) -> (Vector3<f64>, Vector3<f64>) {
+    fn relative_velocity(
+        &self,
+        of_body: impl Fn(usize) -> Vector6<f64>,
+    ) -> (Vector3<f64>, Vector3<f64>) {
         let [first, second] = [0, 1].map(|side| {
-            let (linear, angular) = halves(&bodies[self.body(side)].velocity);
+            let (linear, angular) = halves(&of_body(self.body(side)));
             (linear + self.levers[side].cross(&angular), angular)
         });
         (second.0 - first.0, second.1 - first.1)
@@ -215,7 +230,16 @@ impl Joint {
 
     /// Velocities along the rows.
     fn velocity(&self, bodies: &[LinkedBody]) -> Segment {
-        let (linear, angular) = self.relative_velocity(bodies);
+        self.rows_of_velocity(|body| bodies[body].velocity)
+    }
+
+    /// Along the active rows, what the correction moved the second body against the first.
+    pub(crate) fn corrected(&self, bodies: &[LinkedBody]) -> Segment {
+        self.with_active(self.rows_of_velocity(|body| bodies[body].correction))
+    }
+
+    fn rows_of_velocity(&self, of_body: impl Fn(usize) -> Vector6<f64>) -> Segment {
+        let (linear, angular) = self.relative_velocity(of_body);
         let mut rows = spatial(self.axes * linear, self.axes * angular);
         rows[2] -= self.properties.pitch * rows[5];
         rows
@@ -223,7 +247,7 @@ impl Joint {
 
     /// Velocity along the free axis of a joint with one degree of freedom.
     fn axis_velocity(&self, row: usize, bodies: &[LinkedBody]) -> f64 {
-        let (linear, angular) = self.relative_velocity(bodies);
+        let (linear, angular) = self.relative_velocity(|body| bodies[body].velocity);
         let along = if row < 3 { linear } else { angular };
         self.axes.row(row % 3).tr_dot(&along)
     }
@@ -344,6 +368,18 @@ impl Joint {
         }
     }
 
+    /// The part of the correction that a motor bears which holds its velocity.
+    fn motor_correction(&self) -> f64 {
+        match self.axis {
+            Some(FreeAxis {
+                motor: MotorState::Tracking,
+                row,
+                ..
+            }) => self.correction[row],
+            _ => 0.0,
+        }
+    }
+
     /// All impulses of the rows.
     pub(crate) fn total_impulse(&self) -> Segment {
         self.impulse + self.saturated_rows()
@@ -351,8 +387,8 @@ impl Joint {
 
     pub(crate) fn load(&self, step: f64) -> JointLoad {
         JointLoad {
-            rows: self.total_impulse() / step,
-            motor: self.motor_impulse() / step,
+            rows: (self.total_impulse() + self.correction) / step,
+            motor: (self.motor_impulse() + self.motor_correction()) / step,
         }
     }
 

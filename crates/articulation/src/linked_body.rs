@@ -239,7 +239,7 @@ impl LinkedBody {
     }
 
     /// The momentum at a velocity.
-    fn momentum(&self, velocity: &Vector6<f64>) -> Vector6<f64> {
+    pub(crate) fn momentum(&self, velocity: &Vector6<f64>) -> Vector6<f64> {
         let (linear, angular) = halves(velocity);
         spatial(
             linear / self.properties.inverse_mass,

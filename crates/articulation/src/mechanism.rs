@@ -101,6 +101,7 @@ impl Mechanism {
         }
         for (joint, state) in self.joints.iter_mut().zip(joints) {
             joint.state = *state;
+            joint.correction = Segment::zeros();
             joint.place(&self.bodies);
             joint
                 .axis
@@ -161,7 +162,8 @@ impl Mechanism {
         self.bodies.iter().map(|body| &body.velocity)
     }
 
-    /// Forces and torques of the joints and their motors.
+    /// Forces and torques of the joints and their motors: before [`correct_positions`](Self::correct_positions) those that a body needs which goes straight on,
+    /// after it those by which it was kept on its path.
     pub fn joint_loads(&self) -> impl Iterator<Item = JointLoad> {
         self.joints.iter().map(|joint| joint.load(self.step))
     }

@@ -50,6 +50,9 @@ impl Mechanism {
             MAX_TURN_PER_STEP / self.step
         };
         let corrects_velocity = is_closed || !self.has_loops();
+        if corrects_velocity {
+            self.find_corrections();
+        }
         let step = self.step;
         let of_body = |(body, motion): (&LinkedBody, _)| {
             body.corrected_motion(motion, step, corrects_velocity, fastest)
@@ -98,6 +101,21 @@ impl Mechanism {
             self.restore(&placements);
         }
         largest <= LARGE_ERROR
+    }
+
+    /// Finds the impulses of the joints by which the velocities are corrected.
+    fn find_corrections(&mut self) {
+        let Self {
+            system,
+            joints,
+            bodies,
+            step,
+            ..
+        } = self;
+        system.find_corrections(joints, bodies);
+        for joint in joints {
+            joint.correction /= *step;
+        }
     }
 
     fn placements(&self) -> Vec<Placement> {

@@ -170,6 +170,17 @@ impl System for Rows {
         }
     }
 
+    fn find_corrections(&mut self, joints: &mut [Joint], bodies: &[LinkedBody]) {
+        let mut impulses = std::mem::take(&mut self.impulses);
+        impulses.clear();
+        impulses.extend(joints.iter().map(|joint| joint.corrected(bodies)));
+        self.matrix.solve(&self.pattern, &mut impulses);
+        for (joint, impulse) in joints.iter_mut().zip(&impulses) {
+            joint.correction = *impulse;
+        }
+        self.impulses = impulses;
+    }
+
     fn responses(&mut self, joints: &[Joint], touching: &[usize]) -> Vec<Matrix6<f64>> {
         self.carried.resize_with(touching.len(), Vec::new);
         for (&body, blocks) in touching.iter().zip(&mut self.carried) {

@@ -27,6 +27,9 @@ pub(crate) trait System: Send {
     /// Moves the bodies as impulses of the joints against the errors would, which are used up. Masses and axes are those of the factor.
     fn displace(&mut self, joints: &[Joint], bodies: &mut [LinkedBody], errors: &mut [Segment]);
 
+    /// Finds what the joints exerted for the displacements of the bodies, times the step.
+    fn find_corrections(&mut self, joints: &mut [Joint], bodies: &[LinkedBody]);
+
     /// The velocity of each touching body by unit impulses on each of them, all joints holding; row by row.
     fn responses(&mut self, joints: &[Joint], touching: &[usize]) -> Vec<Matrix6<f64>>;
 }

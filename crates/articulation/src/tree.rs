@@ -244,6 +244,20 @@ impl System for Tree {
         }
     }
 
+    fn find_corrections(&mut self, joints: &mut [Joint], bodies: &[LinkedBody]) {
+        self.links
+            .iter_mut()
+            .for_each(|link| link.impulse = Vector6::zeros());
+        let visit = |link: &mut Link| {
+            let Some(parent) = &link.parent else { return };
+            let body = &bodies[link.body];
+            link.impulse += body.momentum(&body.correction);
+            joints[parent.joint]
+                .set_correction(&(shifted_impulse(&link.impulse, &parent.lever) * parent.sign));
+        };
+        self.toward_root(visit, Link::carry_impulse);
+    }
+
     fn responses(&mut self, _: &[Joint], touching: &[usize]) -> Vec<Matrix6<f64>> {
         let shares: Vec<Vec<Share>> = touching.iter().map(|&body| self.shares(body)).collect();
         let of = |first: &[Share], second: &[Share]| {

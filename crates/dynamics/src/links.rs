@@ -291,6 +291,11 @@ impl Link {
         }
     }
 
+    /// Stores the exact solution as it was after the step.
+    pub(super) fn correct_solution(&mut self, load: &JointLoad) {
+        self.solution = Some(*load);
+    }
+
     /// Moving side of the link seen from its base, as the engine has it.
     pub(super) fn deviation(&self, world: &World) -> Option<Pose> {
         let base = self.end(0, world)? * self.plan.base;

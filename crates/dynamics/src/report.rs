@@ -44,13 +44,13 @@ impl Dynamics {
             return;
         }
         if is_integrated {
-            self.mechanisms.apply_positions(&mut world);
+            self.mechanisms.apply_positions(&mut self.links, &mut world);
         } else {
             self.links
                 .values_mut()
                 .for_each(|link| link.note_turn(&world, step));
             self.mechanisms
-                .correct_positions(&self.links, &mut world, &mut self.workers);
+                .correct_positions(&mut self.links, &mut world, &mut self.workers);
         }
         let reports = seen || self.follows_scene;
         for (handle, link) in self.links.iter_mut() {

@@ -350,6 +350,15 @@ impl Linked {
         }
     }
 
+    /// Tells the links what they bear, with what kept bodies on their paths.
+    pub(super) fn correct_loads(&self, links: &mut Links) {
+        if self.is_solved {
+            for (&place, load) in self.links.iter().zip(self.mechanism.joint_loads()) {
+                links.at_mut(place).correct_solution(&load);
+            }
+        }
+    }
+
     /// Moves the bodies to the corrected positions.
     pub(super) fn apply_positions(&self, world: &mut World) {
         for (body, corrected) in self

@@ -231,7 +231,7 @@ impl Mechanisms {
     /// Corrects the positions of the bodies after a sub-step, so that the links hold.
     pub(super) fn correct_positions(
         &mut self,
-        links: &Links,
+        links: &mut Links,
         world: &mut World,
         workers: &mut Workers,
     ) {
@@ -239,14 +239,15 @@ impl Mechanisms {
             .iter_mut()
             .for_each(|linked| linked.read_motions(links, world));
         self.for_each(workers, Linked::correct_positions);
-        self.apply_positions(world);
+        self.apply_positions(links, world);
     }
 
     /// Moves the bodies to the corrected positions.
-    pub(super) fn apply_positions(&self, world: &mut World) {
-        self.all
-            .iter()
-            .for_each(|linked| linked.apply_positions(world));
+    pub(super) fn apply_positions(&self, links: &mut Links, world: &mut World) {
+        for linked in &self.all {
+            linked.apply_positions(world);
+            linked.correct_loads(links);
+        }
     }
 }
 
