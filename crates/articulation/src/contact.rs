@@ -137,12 +137,16 @@ impl Row {
             friction: contact.friction,
             compliance: 0.0,
         };
-        row.target = row.target(contact, bodies, step);
-        row.compliance = COMPLIANCE * row.free_response(bodies);
+        let rebounds = row.set_target(contact, bodies, step);
+        // What rebounds keeps its energy.
+        if !rebounds {
+            row.compliance = COMPLIANCE * row.free_response(bodies);
+        }
         row
     }
 
-    fn target(&self, contact: &Contact, bodies: &[LinkedBody], step: f64) -> Vector3<f64> {
+    /// Sets the velocities to be reached; whether the bodies rebound.
+    fn set_target(&mut self, contact: &Contact, bodies: &[LinkedBody], step: f64) -> bool {
         let mut target = self.axes * Vector3::from(contact.velocity);
         let approach = self.velocity(|body| bodies[body].present_velocity())[0] - target[0];
         let share = if contact.distance < 0.0 {
@@ -158,7 +162,8 @@ impl Row {
         } else {
             closing
         };
-        target
+        self.target = target;
+        rebounds
     }
 
     /// Normal velocity per normal impulse if there were no joints.

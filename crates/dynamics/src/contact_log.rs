@@ -14,6 +14,7 @@ use rapier3d_f64::prelude::{
 use super::bodies::Tag;
 use super::convert::from_vector;
 use super::mechanisms::exact_contacts::ExactContacts;
+use super::mechanisms::points::Point;
 use super::world::{World, parts_of_impulse};
 use scene::Handle;
 
@@ -63,6 +64,8 @@ struct SubStepContacts {
 #[derive(Default)]
 struct Resting {
     contacts: Rc<Batch>,
+    /// Those of them that were not rapier's.
+    exact: Vec<Point>,
     /// The bodies that were awake when this was found out; None when it has to be found out.
     awake: Option<Vec<RigidBodyHandle>>,
     /// By index of the collider. Looking a collider up costs more than all else that is kept of a contact.
@@ -72,6 +75,7 @@ struct Resting {
 /// Properties of a collider.
 #[derive(Clone, Copy)]
 struct Known {
+    handle: ColliderHandle,
     shape: Handle,
     awake: bool,
 }
@@ -116,14 +120,16 @@ impl ContactLog {
 
     /// Adds the contacts of the sub-step of `step` seconds the engine has just made.
     pub(super) fn add_sub_step(&mut self, world: &World, ground: &ExactContacts, step: f64) {
-        self.resting.follow(world, step);
+        self.resting.follow(world, ground, step);
         let first = self.awake.touches.len();
         self.awake.step = step;
         if self.resting.is_anybody_awake() {
             self.awake
                 .add_pairs(world, |pair| self.resting.shapes(pair, true));
         }
-        self.awake.add_ground(ground);
+        let awake = ground.points().iter();
+        self.awake
+            .add_points(awake.filter(|point| self.resting.is_awake(point.colliders) == Some(true)));
         let touches = first..self.awake.touches.len();
         self.sub_steps.push(SubStepContacts {
             touches,
@@ -148,7 +154,7 @@ impl ContactLog {
 
 impl Resting {
     /// Updates the set of sleeping bodies if it has changed.
-    fn follow(&mut self, world: &World, step: f64) {
+    fn follow(&mut self, world: &World, ground: &ExactContacts, step: f64) {
         if self
             .awake
             .as_ref()
@@ -163,6 +169,11 @@ impl Resting {
             ..Batch::default()
         };
         contacts.add_pairs(world, |pair| self.shapes(pair, false));
+        let mut exact = std::mem::take(&mut self.exact);
+        exact.extend_from_slice(ground.points());
+        exact.retain(|point| self.is_awake(point.colliders) == Some(false));
+        contacts.add_points(exact.iter());
+        self.exact = exact;
         self.contacts = Rc::new(contacts);
     }
 
@@ -174,6 +185,7 @@ impl Resting {
                 .resize(self.colliders.len().max(index + 1), None);
             let shape = Tag::unpack(collider.user_data).shape;
             self.colliders[index] = Some(Known {
+                handle,
                 shape,
                 awake: false,
             });
@@ -189,6 +201,15 @@ impl Resting {
 
     fn is_anybody_awake(&self) -> bool {
         self.awake.as_ref().is_some_and(|awake| !awake.is_empty())
+    }
+
+    /// Whether one of two colliders is awake; None when one is gone.
+    fn is_awake(&self, [first, second]: [ColliderHandle; 2]) -> Option<bool> {
+        let known = |handle| {
+            let known = self.colliders.get(index_of(handle)).copied().flatten();
+            known.filter(|known| known.handle == handle)
+        };
+        Some(known(first)?.awake || known(second)?.awake)
     }
 
     /// The shapes of a pair, if whether one of them is awake is as asked.
@@ -220,8 +241,8 @@ impl Batch {
     }
 
     /// Adds the contacts that mechanisms solve.
-    fn add_ground(&mut self, ground: &ExactContacts) {
-        for point in ground.points() {
+    fn add_points<'a>(&mut self, points: impl Iterator<Item = &'a Point>) {
+        for point in points {
             let impulse = point.impulse.dot(point.normal);
             if impulse == 0.0 || !point.impulse.is_finite() {
                 continue;

@@ -20,9 +20,10 @@ use scene::Handle;
 const MIN_FAST_SPEED: f64 = 1.0;
 
 /// The answer of scripts for a pair of shapes that may touch.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum ContactResponse {
     /// The shapes' own materials decide.
+    #[default]
     Default,
     /// The shapes do not touch.
     NoCollision,
@@ -44,7 +45,7 @@ pub(super) type ColliderPair = (u32, u32);
 /// The key of a pair of colliders.
 pub(super) fn pair_of(colliders: [ColliderHandle; 2]) -> ColliderPair {
     let [first, second] = colliders.map(|collider| collider.into_raw_parts().0);
-    (first, second)
+    (first.min(second), first.max(second))
 }
 
 /// What scripts have decided about pairs of shapes for a sub-step.

@@ -25,6 +25,7 @@ mod load;
 mod made_forms;
 mod mechanisms;
 mod motors;
+mod near;
 mod plan;
 mod report;
 #[cfg(test)]
@@ -321,7 +322,7 @@ impl Dynamics {
             [0.0; 3]
         };
         let is_integrated = self.solve_mechanisms(&mut world, gravity, call.step, &verdicts);
-        let apart = self.mechanisms.contacts().pairs();
+        let apart = self.mechanisms.contacts().pairs(&mut world, &verdicts);
         contacts::set_hooks(&mut world, &verdicts, &apart);
         if !is_integrated {
             world.divide_touching(|collider| self.mechanisms.solves(collider));
@@ -348,9 +349,6 @@ impl Dynamics {
         step: f64,
         verdicts: &Verdicts,
     ) -> bool {
-        if self.mechanisms.is_empty() {
-            return false;
-        }
         let (links, bodies, workers) = (&mut self.links, &self.bodies, &mut self.workers);
         self.mechanisms
             .solve(links, bodies, world, gravity, step, verdicts, workers);

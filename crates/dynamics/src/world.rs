@@ -41,7 +41,7 @@ pub(super) struct World {
     pub colliders: ColliderSet,
     pub joints: ImpulseJointSet,
     pub narrow_phase: NarrowPhase,
-    broad_phase: BroadPhaseBvh,
+    pub broad_phase: BroadPhaseBvh,
     islands: IslandManager,
     multibodies: MultibodyJointSet,
     soft_bodies: SoftBodySet,
@@ -68,7 +68,7 @@ pub(super) struct Known {
 #[derive(Clone, Copy)]
 pub(super) struct KnownCollider {
     handle: ColliderHandle,
-    body: Option<RigidBodyHandle>,
+    pub body: Option<RigidBodyHandle>,
     /// Whether the body is dynamic.
     pub moves: bool,
     /// Its user data.
@@ -263,6 +263,16 @@ impl World {
             // Even to the same place: rapier uses contacts again, with their friction, while nothing is moved.
             collider.set_position_wrt_parent(pose);
         }
+    }
+
+    /// Gravity of the last step, m/s2.
+    pub(super) fn gravity(&self) -> Vector {
+        self.gravity.unwrap_or(Vector::ZERO)
+    }
+
+    /// Whether rapier holds joints of a body.
+    pub(super) fn has_joints(&self, body: RigidBodyHandle) -> bool {
+        self.joints.attached_joints(body).next().is_some()
     }
 
     /// Whether the last step found bodies without a finite next state. rapier leaves them where they were.

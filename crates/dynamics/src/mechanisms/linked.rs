@@ -10,8 +10,8 @@ use geometry::Finite;
 use nalgebra::Vector6;
 use rapier3d_f64::prelude::{ColliderHandle, RigidBody, RigidBodyHandle};
 
-use super::exact_contacts::Touching;
 use super::reach::Reach;
+use super::search::Touching;
 use crate::bodies::{Bodies, Body};
 use crate::convert::{from_pose, from_vector, to_pose, to_vector};
 use crate::links::{Link, Links};
@@ -23,6 +23,9 @@ use scene::Handle;
 const CONTACT_ITERATIONS: usize = 10;
 /// The same where bodies touch nothing, and the sub-step is not divided.
 const FREE_ITERATIONS: usize = 50;
+
+/// Bodies none of whose points moves faster rest, m/s.
+const SLEEP_SPEED: f64 = 1e-5;
 
 /// A mechanism.
 pub(super) struct Linked {
@@ -136,6 +139,22 @@ impl Linked {
             links,
             colliders,
             bases,
+            shared: false,
+            input: Input::default(),
+            is_solved: false,
+            corrected: Vec::new(),
+        }
+    }
+
+    /// No mechanism, only guests.
+    pub(super) fn without_links() -> Self {
+        Self {
+            mechanism: Mechanism::new(Vec::new(), Vec::new()),
+            bodies: Vec::new(),
+            guests: Vec::new(),
+            links: Vec::new(),
+            colliders: Vec::new(),
+            bases: BTreeMap::new(),
             shared: false,
             input: Input::default(),
             is_solved: false,
@@ -305,8 +324,21 @@ impl Linked {
         }
     }
 
-    /// Applies the forces to the bodies.
-    pub(super) fn apply_forces(&self, world: &mut World) {
+    /// Whether the guests are to move in the sub-step; those that do not may fall asleep.
+    pub(super) fn moves(&self, world: &World) -> bool {
+        let velocities = self.mechanism.velocities().skip(self.bodies.len());
+        self.guests.iter().zip(velocities).any(|(guest, velocity)| {
+            let extent = world
+                .bodies
+                .get(guest.rigid)
+                .map_or(0.0, |rigid| rigid.mass_properties().max_extent());
+            let [linear, angular] = [0, 3].map(|first| velocity.fixed_rows::<3>(first).norm());
+            linear + angular * extent > SLEEP_SPEED
+        })
+    }
+
+    /// Applies the forces to the bodies; `wakes`: to sleepers too.
+    pub(super) fn apply_forces(&self, world: &mut World, wakes: bool) {
         for (body, load) in self
             .bodies
             .iter()
@@ -314,18 +346,23 @@ impl Linked {
             .zip(self.mechanism.body_loads())
         {
             if let (Some(load), Some(rigid)) = (load, world.bodies.get_mut(body.rigid)) {
-                rigid.add_force(to_vector(linear(&load)), true);
-                rigid.add_torque(to_vector(angular(&load)), true);
+                rigid.add_force(to_vector(linear(&load)), wakes);
+                rigid.add_torque(to_vector(angular(&load)), wakes);
             }
         }
     }
 
-    /// Reads how the bodies moved, and removes the forces.
-    pub(super) fn read_motions(&mut self, links: &Links, world: &mut World) {
+    /// Removes the forces from the bodies.
+    pub(super) fn remove_forces(&self, world: &mut World) {
         self.bodies
             .iter()
             .chain(&self.guests)
             .for_each(|body| body.remove_forces_of_links(world));
+    }
+
+    /// Reads how the bodies moved, and removes the forces.
+    pub(super) fn read_motions(&mut self, links: &Links, world: &mut World) {
+        self.remove_forces(world);
         let Input {
             motions, turned, ..
         } = &mut self.input;

@@ -7,8 +7,12 @@
 //! changes.
 
 pub(super) mod exact_contacts;
+mod ghosts;
 mod linked;
+mod loose;
+pub(super) mod points;
 mod reach;
+mod search;
 pub(super) mod workers;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,15 +26,20 @@ use crate::contacts;
 use crate::contacts::Verdicts;
 use crate::links::Links;
 use crate::plan::LinkPlan;
-use crate::world::World;
+use crate::world::{PREDICTION_DISTANCE, World};
 use exact_contacts::ExactContacts;
 use linked::{Linked, LinkedShape, divide, properties, share};
+use loose::{Loose, Start};
 use scene::Handle;
 use scene::joint::JointSolver;
+use search::Conditions;
 use workers::Workers;
 
 /// Number of joints from which on mechanisms are solved on several threads: with fewer, waking the threads takes as long as the work.
 const MIN_JOINTS_FOR_THREADS: usize = 150;
+
+/// Largest number of free bodies that are solved together with a mechanism.
+const MAX_GUESTS: usize = 12;
 
 /// The mechanisms of a scene.
 #[derive(Default)]
@@ -44,6 +53,7 @@ pub(super) struct Mechanisms {
     /// Free bodies of which mechanisms solve the contacts in the present sub-step.
     guests: BTreeSet<Handle>,
     contacts: ExactContacts,
+    loose: Loose,
 }
 
 /// A mechanism in the making.
@@ -111,6 +121,8 @@ impl Mechanisms {
         }
     }
 
+    /// Whether rapier holds all links.
+    #[cfg(test)]
     pub(super) fn is_empty(&self) -> bool {
         self.all.is_empty()
     }
@@ -130,9 +142,15 @@ impl Mechanisms {
         self.contacts.clear();
         for (number, linked) in self.all.iter_mut().enumerate() {
             let touching = linked.touching(number);
-            let guests = self
-                .contacts
-                .find(world, &self.places, verdicts, step, touching);
+            let conditions = Conditions {
+                places: &self.places,
+                verdicts,
+                step,
+                max_guests: MAX_GUESTS,
+                slack: PREDICTION_DISTANCE,
+                is_refused: &|_, _| false,
+            };
+            let guests = self.contacts.find(world, conditions, touching);
             linked.shared = guests.is_none();
             linked.receive(guests.unwrap_or_default(), bodies);
             linked.read(links, world, gravity, step, self.contacts.of(number));
@@ -153,6 +171,17 @@ impl Mechanisms {
         }
         let alone = self.all.iter().filter(|linked| !linked.shared);
         self.guests = alone.flat_map(Linked::guests).collect();
+        let start = Start {
+            links,
+            bodies,
+            world,
+            gravity,
+            step,
+            verdicts,
+            places: &self.places,
+        };
+        let (contacts, guests) = (&mut self.contacts, &mut self.guests);
+        self.loose.solve(start, contacts, guests, self.all.len());
     }
 
     /// Applies the forces to the bodies, which the engine then moves.
@@ -160,7 +189,10 @@ impl Mechanisms {
         self.all
             .iter()
             .filter(|linked| linked.is_solved)
-            .for_each(|linked| linked.apply_forces(world));
+            .for_each(|linked| linked.apply_forces(world, true));
+        for group in self.loose.groups() {
+            group.apply_forces(world, group.moves(world));
+        }
     }
 
     /// Whether all that moves are bodies of mechanisms that were solved with all that acts on them: the engine has nothing to add.
@@ -238,6 +270,9 @@ impl Mechanisms {
         self.all
             .iter_mut()
             .for_each(|linked| linked.read_motions(links, world));
+        self.loose
+            .groups()
+            .for_each(|group| group.remove_forces(world));
         self.for_each(workers, Linked::correct_positions);
         self.apply_positions(links, world);
     }

@@ -1,0 +1,107 @@
+//! Contacts that are none: where surfaces meet that lie in one plane, and where bodies pass each other closely.
+//!
+//! What is found before bodies touch is a half-space each, which reaches farther than the body it stands for. A box that slides over two tiles would stop at
+//! the side face of the second one, since that is what separates them until it lies on both; a peg would stop above the rim of a hole into which it falls.
+
+use rapier3d_f64::math::{Pose as EnginePose, Vector};
+use rapier3d_f64::parry::query::{ShapeCastOptions, cast_shapes};
+use rapier3d_f64::parry::shape::Shape;
+use rapier3d_f64::prelude::{Collider, ColliderSet};
+
+use super::points::Point;
+
+/// Cosine of the largest angle between directions that count as one: less than a degree, as facets of meshes are found.
+const MIN_NORMAL_COSINE: f64 = 0.9999;
+/// Distance from which surfaces do not touch yet, metres.
+pub(super) const CLEARANCE: f64 = 1e-4;
+/// A body lies on what is nearer than this, metres.
+const SUPPORT_DISTANCE: f64 = 5e-4;
+/// Height up to which what stands out of the plane on which a body lies is no step, metres.
+const MAX_STEP: f64 = 2e-4;
+
+/// Removes the points of bodies with what does not reach above a plane on which they lie.
+pub(super) fn remove_seams(points: &mut Vec<Point>, colliders: &ColliderSet) {
+    let Some(first) = points.first() else { return };
+    let is_aligned = |point: &Point| point.normal.dot(first.normal).abs() > MIN_NORMAL_COSINE;
+    if points.iter().all(is_aligned) {
+        return;
+    }
+    let ghosts: Vec<bool> = points
+        .iter()
+        .map(|point| {
+            (0..2).any(|side| {
+                supports(points, point, side).any(|(support, up)| {
+                    let partner = (point.colliders[1 - side], point.parts[1 - side]);
+                    let collider = colliders.get(partner.0);
+                    let top = collider.and_then(|collider| top(collider, partner.1, up));
+                    top.is_some_and(|top| top < support.place().dot(up) + MAX_STEP)
+                })
+            })
+        })
+        .collect();
+    let mut ghosts = ghosts.into_iter();
+    points.retain(|_| !ghosts.next().unwrap_or(false));
+}
+
+/// What the body at one side of a point lies on otherwise, and in which direction that pushes.
+fn supports<'a>(
+    points: &'a [Point],
+    point: &'a Point,
+    side: usize,
+) -> impl Iterator<Item = (&'a Point, Vector)> {
+    let body = point.contact.bodies[side];
+    let own = upward(point, side);
+    points
+        .iter()
+        .filter(move |support| body.is_some() && support.contact.distance < SUPPORT_DISTANCE)
+        .filter_map(move |support| {
+            let side = support.contact.bodies.iter().position(|&at| at == body)?;
+            Some((support, upward(support, side)))
+        })
+        .filter(move |(_, up)| up.dot(own) < MIN_NORMAL_COSINE)
+}
+
+/// The normal of a point, to the body at that side.
+fn upward(point: &Point, side: usize) -> Vector {
+    if side == 0 {
+        point.normal
+    } else {
+        -point.normal
+    }
+}
+
+/// How far a part of a collider reaches in a direction (world axes); None for shapes that are not convex.
+fn top(collider: &Collider, part: u32, direction: Vector) -> Option<f64> {
+    let of = |pose: &EnginePose, shape: &dyn Shape| {
+        let point = shape
+            .as_support_map()?
+            .local_support_point(pose.rotation.inverse() * direction);
+        Some((*pose * point).dot(direction))
+    };
+    let Some(parts) = collider.shape().as_composite_shape() else {
+        return of(collider.position(), collider.shape());
+    };
+    let mut found = None;
+    parts.map_part_at(part, &mut |pose: Option<&EnginePose>,
+                                  shape: &dyn Shape,
+                                  _| {
+        let pose = pose.map_or(*collider.position(), |pose| *collider.position() * *pose);
+        found = of(&pose, shape);
+    });
+    found
+}
+
+/// Whether the first of two colliders touches the second one on its way (m), seen from there; true where that cannot be found out.
+pub(super) fn meet([first, second]: [&Collider; 2], way: Vector) -> bool {
+    let options = ShapeCastOptions::with_max_time_of_impact(1.0);
+    let hit = cast_shapes(
+        first.position(),
+        way,
+        first.shape(),
+        second.position(),
+        Vector::ZERO,
+        second.shape(),
+        options,
+    );
+    hit.map_or(true, |hit| hit.is_some())
+}

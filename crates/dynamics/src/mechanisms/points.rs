@@ -1,0 +1,198 @@
+//! Where two colliders are near each other, as the solver of mechanisms sees it.
+
+use articulation::Contact;
+use rapier3d_f64::math::{Pose as EnginePose, Vector};
+use rapier3d_f64::parry::query::details::ContactManifoldsWorkspace;
+use rapier3d_f64::parry::query::{
+    ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher, TrackedContact,
+};
+use rapier3d_f64::prelude::{Collider, ColliderHandle};
+
+use crate::contacts::{ColliderPair, ContactResponse, pair_of};
+use crate::convert::{from_vector, to_vector};
+use scene::Handle;
+
+/// Largest number of contact points of one surface that are solved.
+const MAX_GROUP_POINTS: usize = 4;
+/// Cosine of the largest angle between the normals of points of one surface.
+const MIN_NORMAL_COSINE: f64 = 0.99;
+
+type Manifold = ContactManifold<(), [f64; 3]>;
+
+/// Two colliders that are near each other.
+#[derive(Default)]
+pub(super) struct Pair {
+    pub mechanism: usize,
+    manifolds: Vec<Manifold>,
+    workspace: Option<ContactManifoldsWorkspace>,
+    /// What scripts said about it.
+    pub response: ContactResponse,
+    /// Whether rapier leaves it out.
+    pub is_solved: bool,
+    pub touches: bool,
+    /// In the sub-step before.
+    pub touched: bool,
+}
+
+/// A point of a pair in the present sub-step.
+#[derive(Clone)]
+pub(crate) struct Point {
+    pub colliders: [ColliderHandle; 2],
+    /// The parts of the colliders that touch, by their index in a mesh or a group.
+    pub parts: [u32; 2],
+    /// Indices of the manifold and of the point there.
+    pub(super) index: (usize, usize),
+    pub(super) mechanism: usize,
+    pub shapes: [Handle; 2],
+    pub(super) contact: Contact,
+    /// On the first shape.
+    pub impulse: Vector,
+    /// Points to the first shape.
+    pub normal: Vector,
+}
+
+impl Point {
+    fn new(
+        colliders: [ColliderHandle; 2],
+        index: (usize, usize),
+        manifold: &Manifold,
+        found: &TrackedContact<[f64; 3]>,
+        (place, normal): (Vector, Vector),
+    ) -> Self {
+        let contact = Contact {
+            bodies: [None; 2],
+            base: None,
+            point: from_vector(place),
+            normal: from_vector(normal),
+            distance: found.dist,
+            friction: 0.0,
+            restitution: 0.0,
+            velocity: [0.0; 3],
+            impulse: found.data,
+        };
+        Self {
+            colliders,
+            parts: [manifold.subshape1, manifold.subshape2],
+            index,
+            mechanism: 0,
+            shapes: [Handle(0); 2],
+            contact,
+            impulse: Vector::ZERO,
+            normal,
+        }
+    }
+
+    pub(crate) fn place(&self) -> Vector {
+        to_vector(self.contact.point)
+    }
+
+    pub(super) fn pair(&self) -> ColliderPair {
+        pair_of(self.colliders)
+    }
+}
+
+impl Pair {
+    /// Finds the points for where the shapes are, up to `reach` metres apart; whether there are any.
+    pub(super) fn update(&mut self, first: &Collider, second: &Collider, reach: f64) -> bool {
+        let apart = first.position().inv_mul(second.position());
+        // parry would keep points that moved by less than a millimetre: behind a wheel that begins to roll they drive it on.
+        self.manifolds
+            .iter_mut()
+            .for_each(Manifold::mark_shapes_deformed);
+        let dispatcher: &dyn PersistentQueryDispatcher<(), [f64; 3]> = &DefaultQueryDispatcher;
+        let shapes = (first.shape(), second.shape());
+        let found = dispatcher.contact_manifolds(
+            &apart,
+            shapes.0,
+            shapes.1,
+            reach,
+            &mut self.manifolds,
+            &mut self.workspace,
+        );
+        let mut points = self.manifolds.iter().flat_map(|manifold| &manifold.points);
+        found.is_ok() && points.any(|found| found.dist < reach)
+    }
+
+    pub(super) fn points(
+        &self,
+        colliders: [ColliderHandle; 2],
+        first: &Collider,
+        second: &Collider,
+        reach: f64,
+    ) -> Vec<Point> {
+        let mut points = Vec::new();
+        for (number, manifold) in self.manifolds.iter().enumerate() {
+            let placed = |pose: &EnginePose, part: Option<&EnginePose>| {
+                part.map_or(*pose, |part| *pose * *part)
+            };
+            let a = placed(first.position(), manifold.subshape_pos1());
+            let b = placed(second.position(), manifold.subshape_pos2());
+            // parry's normal points from the first to the second.
+            let normal = -(a.rotation * manifold.local_n1);
+            let near = manifold.points.iter().enumerate();
+            for (index, found) in near.filter(|(_, found)| found.dist < reach) {
+                let place = (a * found.local_p1 + b * found.local_p2) * 0.5;
+                let index = (number, index);
+                points.push(Point::new(
+                    colliders,
+                    index,
+                    manifold,
+                    found,
+                    (place, normal),
+                ));
+            }
+        }
+        reduced(points)
+    }
+
+    /// Keeps the impulse of a point for the next sub-step.
+    pub(super) fn store(&mut self, (manifold, index): (usize, usize), impulse: [f64; 3]) {
+        self.manifolds[manifold].points[index].data = impulse;
+    }
+}
+
+/// At most four points of each surface: the deepest, and those that span the largest area with it.
+fn reduced(points: Vec<Point>) -> Vec<Point> {
+    if points.len() <= MAX_GROUP_POINTS {
+        return points;
+    }
+    let mut groups: Vec<Vec<Point>> = Vec::new();
+    for point in points {
+        let group = groups
+            .iter_mut()
+            .find(|group| group[0].normal.dot(point.normal) > MIN_NORMAL_COSINE);
+        match group {
+            Some(group) => group.push(point),
+            None => groups.push(vec![point]),
+        }
+    }
+    groups.into_iter().flat_map(corners).collect()
+}
+
+fn corners(group: Vec<Point>) -> Vec<Point> {
+    if group.len() <= MAX_GROUP_POINTS {
+        return group;
+    }
+    let at = |index: usize| group[index].place();
+    let best = |score: &dyn Fn(usize) -> f64| {
+        (0..group.len()).fold(0, |best, index| {
+            if score(index) > score(best) {
+                index
+            } else {
+                best
+            }
+        })
+    };
+    let deepest = best(&|index| -group[index].contact.distance);
+    let farthest = best(&|index| (at(index) - at(deepest)).length());
+    let across = (at(farthest) - at(deepest)).cross(group[0].normal);
+    let left = best(&|index| (at(index) - at(deepest)).dot(across));
+    let right = best(&|index| (at(deepest) - at(index)).dot(across));
+    let chosen = [deepest, farthest, left, right];
+    group
+        .into_iter()
+        .enumerate()
+        .filter(|(index, _)| chosen.contains(index))
+        .map(|(_, point)| point)
+        .collect()
+}
