@@ -20,6 +20,8 @@ use scene::Handle;
 pub(crate) struct ExactContacts {
     pairs: BTreeMap<ColliderPair, Pair>,
     points: Vec<Point>,
+    /// Mechanisms that are near each other or touch the same free body.
+    meetings: Vec<[usize; 2]>,
 }
 
 impl ExactContacts {
@@ -30,6 +32,19 @@ impl ExactContacts {
             pair.is_solved = false;
             pair.touched = std::mem::take(&mut pair.touches);
         }
+    }
+
+    /// Forgets what was found in this sub-step.
+    pub(super) fn restart(&mut self) {
+        self.points.clear();
+        for pair in self.pairs.values_mut() {
+            (pair.is_solved, pair.touches) = (false, false);
+        }
+    }
+
+    /// The mechanisms that were found near each other, or near a guest of each other, since this was last asked.
+    pub(super) fn meetings(&mut self) -> Vec<[usize; 2]> {
+        std::mem::take(&mut self.meetings)
     }
 
     /// Whether two colliders were near each other in the sub-step before, and solved here.
@@ -46,7 +61,10 @@ impl ExactContacts {
     ) -> Option<Vec<Handle>> {
         let mechanism = touching.mechanism;
         let mut search = Search::new(world, conditions, touching);
-        if search.run(&mut self.pairs).is_none() {
+        let found = search.run(&mut self.pairs);
+        self.meetings
+            .extend(search.meeting.map(|other| [mechanism, other]));
+        if found.is_none() {
             self.pairs.retain(|_, pair| pair.mechanism != mechanism);
             return None;
         }
@@ -88,15 +106,22 @@ impl ExactContacts {
     pub(crate) fn pairs(&mut self, world: &mut World, verdicts: &Verdicts) -> Vec<ColliderPair> {
         if self.pairs.values().any(|pair| !pair.is_solved) {
             let disturbed = world.disturbed();
-            let left = self.pairs.extract_if(.., |&key, pair| {
+            let stays = |key: ColliderPair, pair: &Pair| {
                 let is_as_before = || {
                     world
                         .verdict(key, verdicts)
                         .is_some_and(|now| now == pair.response)
                 };
-                !pair.is_solved && !(world.sleeps(key, &disturbed) && is_as_before())
+                pair.is_solved || world.sleeps(key, &disturbed) && is_as_before()
+            };
+            let mut left = Vec::new();
+            self.pairs.retain(|&key, pair| {
+                let stays = stays(key, pair);
+                if !stays {
+                    left.push(key);
+                }
+                stays
             });
-            let left: Vec<ColliderPair> = left.map(|(key, _)| key).collect();
             left.into_iter().for_each(|key| world.wake_pair(key));
         }
         self.pairs.keys().copied().collect()

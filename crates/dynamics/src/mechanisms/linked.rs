@@ -170,6 +170,12 @@ impl Linked {
         &self.bodies
     }
 
+    /// A shape that moves.
+    pub(super) fn moving_shape(&self) -> Option<Handle> {
+        let moving = self.bodies.iter().find(|body| body.is_dynamic);
+        moving.map(|body| body.shape)
+    }
+
     /// What the search for contacts has to know of the mechanism.
     pub(super) fn touching(&self, mechanism: usize) -> Touching<'_> {
         Touching {

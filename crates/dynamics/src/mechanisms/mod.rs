@@ -38,6 +38,8 @@ use workers::Workers;
 /// Number of joints from which on mechanisms are solved on several threads: with fewer, waking the threads takes as long as the work.
 const MIN_JOINTS_FOR_THREADS: usize = 150;
 
+/// Largest number of bodies of mechanisms that are solved as one since they touch each other.
+const MAX_JOINED_BODIES: usize = 64;
 /// Largest number of free bodies that are solved together with a mechanism.
 const MAX_GUESTS: usize = 12;
 
@@ -54,6 +56,10 @@ pub(super) struct Mechanisms {
     guests: BTreeSet<Handle>,
     contacts: ExactContacts,
     loose: Loose,
+    /// Joints and force sensors, base to tip.
+    order: Vec<Handle>,
+    /// Shapes of mechanisms that are solved as one, since they touch each other or the same free body.
+    joined: BTreeSet<[Handle; 2]>,
 }
 
 /// A mechanism in the making.
@@ -78,10 +84,17 @@ impl Mechanisms {
         bodies: &Bodies,
         world: &mut World,
     ) {
+        let has_link = |handle: &&Handle| links.contains(**handle);
+        self.order = order.iter().filter(has_link).copied().collect();
+        self.joined.clear();
+        self.build(links, bodies, world);
+    }
+
+    fn build(&mut self, links: &mut Links, bodies: &Bodies, world: &mut World) {
         self.all
             .iter()
             .for_each(|linked| linked.enable_engine_gyration(true, world));
-        let builders = builders(links, order, bodies);
+        let builders = builders(links, &self.order, &self.joined, bodies);
         let (of_rapier, exact): (Vec<Builder>, Vec<Builder>) =
             builders.into_iter().partition(Builder::is_for_rapier);
         self.of_rapier = of_rapier
@@ -140,19 +153,13 @@ impl Mechanisms {
         workers: &mut Workers,
     ) {
         self.contacts.clear();
+        self.find_contacts(bodies, world, step, verdicts);
+        while self.join() {
+            self.build(links, bodies, world);
+            self.contacts.restart();
+            self.find_contacts(bodies, world, step, verdicts);
+        }
         for (number, linked) in self.all.iter_mut().enumerate() {
-            let touching = linked.touching(number);
-            let conditions = Conditions {
-                places: &self.places,
-                verdicts,
-                step,
-                max_guests: MAX_GUESTS,
-                slack: PREDICTION_DISTANCE,
-                is_refused: &|_, _| false,
-            };
-            let guests = self.contacts.find(world, conditions, touching);
-            linked.shared = guests.is_none();
-            linked.receive(guests.unwrap_or_default(), bodies);
             linked.read(links, world, gravity, step, self.contacts.of(number));
         }
         self.add_contact_impulses(world);
@@ -182,6 +189,48 @@ impl Mechanisms {
         };
         let (contacts, guests) = (&mut self.contacts, &mut self.guests);
         self.loose.solve(start, contacts, guests, self.all.len());
+    }
+
+    /// Finds what each mechanism touches; those that touch too much are left to rapier.
+    fn find_contacts(&mut self, bodies: &Bodies, world: &World, step: f64, verdicts: &Verdicts) {
+        for (number, linked) in self.all.iter_mut().enumerate() {
+            let touching = linked.touching(number);
+            let conditions = Conditions {
+                places: &self.places,
+                verdicts,
+                step,
+                max_guests: MAX_GUESTS,
+                slack: PREDICTION_DISTANCE,
+                is_refused: &|_, _| false,
+            };
+            let guests = self.contacts.find(world, conditions, touching);
+            linked.shared = guests.is_none();
+            linked.receive(guests.unwrap_or_default(), bodies);
+        }
+    }
+
+    /// Notes which mechanisms touch each other or the same free body, unless they are large together; whether that is new.
+    fn join(&mut self) -> bool {
+        let known = self.joined.len();
+        let mut meetings = self.contacts.meetings();
+        let mut hosts: BTreeMap<Handle, usize> = BTreeMap::new();
+        for (number, linked) in self.all.iter().enumerate() {
+            meetings.extend(
+                linked
+                    .guests()
+                    .map(|guest| [*hosts.entry(guest).or_insert(number), number]),
+            );
+        }
+        for numbers in meetings.into_iter().filter(|[a, b]| a != b) {
+            let both = numbers.map(|number| self.all.get(number));
+            if let [Some(first), Some(second)] = both
+                && first.bodies().len() + second.bodies().len() <= MAX_JOINED_BODIES
+                && let (Some(a), Some(b)) = (first.moving_shape(), second.moving_shape())
+            {
+                self.joined.insert([a.min(b), a.max(b)]);
+            }
+        }
+        self.joined.len() > known
     }
 
     /// Applies the forces to the bodies, which the engine then moves.
@@ -286,8 +335,13 @@ impl Mechanisms {
     }
 }
 
-/// A builder for each set of links that hang together by bodies that move. Links at the tips come first, which are eliminated first.
-fn builders(links: &Links, order: &[Handle], bodies: &Bodies) -> Vec<Builder> {
+/// A builder for each set of links that hang together by bodies that move, or whose bodies are joined. Links at the tips come first, which are eliminated first.
+fn builders(
+    links: &Links,
+    order: &[Handle],
+    joined: &BTreeSet<[Handle; 2]>,
+    bodies: &Bodies,
+) -> Vec<Builder> {
     let plan = |&handle: &Handle| {
         links
             .place(handle)
@@ -302,7 +356,9 @@ fn builders(links: &Links, order: &[Handle], bodies: &Bodies) -> Vec<Builder> {
     };
     let ends =
         |(_, plan): &(usize, &LinkPlan)| [plan.first, plan.second].into_iter().filter_map(moving);
-    let numbers = partition(plans.iter().map(ends));
+    let of_plans = plans.iter().map(|plan| ends(plan).collect::<Vec<_>>());
+    let of_joined = joined.iter().map(|ends| ends.to_vec());
+    let numbers = partition(of_plans.chain(of_joined));
     let mut builders = Vec::new();
     builders.resize_with(
         numbers.iter().max().map_or(0, |last| last + 1),

@@ -61,6 +61,8 @@ pub(super) struct Search<'a> {
     queue: Vec<ColliderHandle>,
     seen: BTreeSet<ColliderPair>,
     pub points: Vec<Point>,
+    /// A mechanism that is near this one or one of its guests.
+    pub meeting: Option<usize>,
 }
 
 /// What is at one side of a pair.
@@ -93,6 +95,7 @@ impl<'a> Search<'a> {
             guests: Vec::new(),
             seen: BTreeSet::new(),
             points: Vec::new(),
+            meeting: None,
         }
     }
 
@@ -193,7 +196,11 @@ impl<'a> Search<'a> {
             mechanism, linked, ..
         } = self.touching;
         if let Some(&(other, body)) = self.conditions.places.get(&tag.shape) {
-            return (other == mechanism).then_some(Side::Body(body));
+            if other != mechanism {
+                self.meeting = Some(other);
+                return None;
+            }
+            return Some(Side::Body(body));
         }
         let handle = collider.parent()?;
         let rigid = self.world.bodies.get(handle)?;
