@@ -8,6 +8,7 @@ mod client;
 mod connection;
 mod http;
 mod pages;
+mod places;
 mod server;
 mod site;
 
