@@ -296,7 +296,13 @@ def sysCall_init():
 ";
     let files = folder(&[("scene.py", scene)]);
     let interpreter = format!("python={python}");
-    let with = |seed| run(files.path(), "scene.py", &["-D", &interpreter, "--seed", seed]);
+    let with = |seed| {
+        run(
+            files.path(),
+            "scene.py",
+            &["-D", &interpreter, "--seed", seed],
+        )
+    };
     let numbers = with("5");
     assert!(numbers.starts_with("0."), "{numbers}");
     assert_eq!(with("5"), numbers);

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 
 use test_support::process::{LIMIT, processes_with, run_bounded, wait_until, wait_within};
 
-fn has_python() -> bool {
+pub(super) fn has_python() -> bool {
     let found = Command::new("python3")
         .arg("--version")
         .output()
