@@ -31,9 +31,14 @@ pub(super) const RETRY_DELAY: Duration = Duration::from_millis(100);
 const READ_TIMEOUT: Duration = Duration::from_secs(60);
 
 /// Serves everyone who connects.
-pub(super) async fn accept_all(listener: TcpListener, pages: Pages, reports: Reports) {
+pub(super) async fn accept_all(
+    listener: TcpListener,
+    pages: Pages,
+    reports: Reports,
+    connections: usize,
+) {
     let pages = Arc::new(pages);
-    let places = Places::new(MAX_CONNECTIONS);
+    let places = Places::new(connections);
     let mut tasks = JoinSet::new();
     loop {
         while tasks.try_join_next().is_some() {}
@@ -59,7 +64,10 @@ async fn serve(mut stream: TcpStream, place: &mut Place, pages: &Pages, reports:
     let _ = stream.set_nodelay(true);
     let mut received = Vec::new();
     let head = timeout(HANDSHAKE_TIMEOUT, read_head(&mut stream, &mut received));
-    let refused = match place.hear(head).await.unwrap_or(Ok(Err(None))) {
+    let Some(head) = place.hear(head).await else {
+        return; // Nobody has heard of it.
+    };
+    let refused = match head {
         Ok(Ok(head)) if head.is_upgrade() && !pages.admit(head.header(ORIGIN)) => {
             let origin = head.header(ORIGIN).unwrap_or_default().to_owned();
             reports.report(WsEvent::Refused(connection, origin)).await;
