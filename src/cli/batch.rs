@@ -93,6 +93,9 @@ fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
     let runs = batch.runs();
     let mut store =
         Store::open(&args.out, &batch, args.force).map_err(|error| error.to_string())?;
+    if let Some(notice) = &store.notice {
+        super::complain(notice);
+    }
     let missing = store.missing(&runs);
     let bar = bar(&runs, &missing);
     let mut lost = None;

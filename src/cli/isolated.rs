@@ -9,18 +9,33 @@ use io::signals;
 /// The variable with the file in which the child notes the plugin that is running.
 const NOTE: &str = "SWANILDA_PLUGIN_NOTE";
 
+/// The variable with the number of the parent.
+const PARENT: &str = "SWANILDA_ISOLATING_PROCESS";
+
 /// In a child: the file to note plugins in. From now on the child ends with its parent.
 pub(super) fn note() -> Option<PathBuf> {
     let note = std::env::var_os(NOTE).map(PathBuf::from)?;
     #[cfg(target_os = "linux")]
-    if let Err(error) =
-        rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::TERM))
-    {
+    end_with_parent();
+    Some(note)
+}
+
+/// Its main thread has started this process, so the signal comes with the end of the process.
+#[cfg(target_os = "linux")]
+fn end_with_parent() {
+    use rustix::process::{Signal, getppid, set_parent_process_death_signal};
+
+    if let Err(error) = set_parent_process_death_signal(Some(Signal::TERM)) {
         complain(&format!(
             "this process may outlive the one that has started it: {error}"
         ));
     }
-    Some(note)
+    let parent = getppid().map_or(0, |pid| pid.as_raw_nonzero().get());
+    let started_by = std::env::var(PARENT).ok().and_then(|id| id.parse().ok());
+    if started_by.is_some_and(|id: i32| id != parent) {
+        // It had ended before it could be followed.
+        std::process::exit(i32::from(INTERNAL));
+    }
 }
 
 /// Runs this command line in a child; its exit code, or what ended it.
@@ -48,6 +63,7 @@ fn run_child() -> std::io::Result<(ExitStatus, String)> {
     let mut child = Command::new(program)
         .args(std::env::args_os().skip(1))
         .env(NOTE, note.path())
+        .env(PARENT, std::process::id().to_string())
         .spawn()?;
     pass_on_requests(&child);
     let status = child.wait()?;

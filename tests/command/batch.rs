@@ -117,6 +117,73 @@ fn an_interrupted_batch_goes_on() {
 }
 
 #[test]
+fn a_batch_that_a_full_disk_or_a_kill_has_cut_off_begins_anew() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let args = ["--seeds", "1..2", "--sweep", "kp=1"];
+    assert_eq!(batch(dir.path(), &args).0, 0);
+    let whole = table(dir.path(), "results");
+    let results = dir.path().join("results");
+    let manifest = std::fs::read_to_string(results.join("batch.json")).expect("a file");
+    for left in ["", &manifest[..manifest.len() / 2]] {
+        std::fs::write(results.join("batch.json"), left).expect("a file");
+        std::fs::write(results.join(".swanilda-left.part"), left).expect("a file");
+        // The rows may be those of another batch.
+        let rows = std::fs::read_to_string(results.join("runs.jsonl")).expect("a file");
+        let other = rows.replacen("\"steps\":", "\"steps\":1000", 1);
+        std::fs::write(results.join("runs.jsonl"), other).expect("a file");
+        let (code, output) = batch(dir.path(), &args);
+        assert!(
+            code == 0 && output.contains("batch.json is empty or cut off"),
+            "{output}"
+        );
+        assert_eq!(table(dir.path(), "results"), whole);
+        let there = std::fs::read_to_string(results.join("batch.json")).expect("a file");
+        assert_eq!(there, manifest);
+        assert!(!results.join(".swanilda-left.part").exists());
+    }
+}
+
+const PYTHON_SCENE: &str = "#python
+def sysCall_init():
+    global sim, batch
+    sim = require('sim')
+
+def sysCall_sensing():
+    import random
+    order = '-'.join({'alpha', 'beta', 'gamma', 'delta', 'epsilon'})
+    sim.setNamedStringParam('result.order', order)
+    sim.setNamedStringParam('result.number', str(random.random()))
+    sim.stopSimulation()
+";
+
+#[test]
+fn scripts_in_python_have_the_same_row_in_each_batch() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let scene = dir.path().join("scene.py");
+    std::fs::write(&scene, PYTHON_SCENE).expect("a file");
+    for out in ["one", "two"] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+        command
+            .args(["batch", "scene.py", "--seeds", "0..3", "--out", out])
+            .current_dir(dir.path());
+        let (code, output) = run_for_code(&mut command, Duration::from_secs(120)).expect("it ends");
+        if output.contains("could not be called") {
+            return test_support::skipped_outside_of_ci("there is no python3");
+        }
+        assert_eq!(code, 0, "{output}");
+    }
+    let rows = table(dir.path(), "one");
+    assert_eq!(rows, table(dir.path(), "two"));
+    let distinct = |column: usize| {
+        let values = rows[1..].iter().map(|row| row.split(',').nth(column));
+        values.collect::<std::collections::BTreeSet<_>>().len()
+    };
+    assert_eq!(rows[0], "run,seed,error,steps,time,number,order");
+    assert_eq!(distinct(5), 4, "each seed has its own numbers: {rows:?}");
+    assert!(distinct(6) > 1, "and its own order of sets: {rows:?}");
+}
+
+#[test]
 fn wrong_usage_is_an_error() {
     let dir = tempfile::tempdir().expect("a folder");
     for wrong in [

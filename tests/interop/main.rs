@@ -8,6 +8,7 @@
     reason = "tests start programs and look at the environment"
 )]
 
+mod foreign;
 mod gltf;
 mod motion;
 mod package;

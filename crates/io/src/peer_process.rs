@@ -70,11 +70,16 @@ struct Output {
 }
 
 impl PeerProcess {
-    /// Starts `program` with `args`.
+    /// Starts `program` with `args`, and with these variables beside those of the simulator.
     ///
     /// # Errors
     /// When there is no such program, or no room for one more.
-    pub fn start(program: &str, args: &[&str], working_dir: Option<&Path>) -> io::Result<Self> {
+    pub fn start(
+        program: &str,
+        args: &[&str],
+        working_dir: Option<&Path>,
+        variables: &[(&str, &str)],
+    ) -> io::Result<Self> {
         let (socket, theirs) = UnixStream::pair()?;
         let (lifeline, their_lifeline) = UnixStream::pair()?;
         socket.set_write_timeout(Some(WRITE_LIMIT))?;
@@ -82,6 +87,7 @@ impl PeerProcess {
         let mut command = Command::new(program);
         command
             .args(args)
+            .envs(variables.iter().copied())
             .stdin(OwnedFd::from(theirs))
             .stdout(OwnedFd::from(their_lifeline))
             .stderr(Stdio::piped());

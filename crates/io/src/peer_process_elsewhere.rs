@@ -20,7 +20,12 @@ pub struct PeerProcess(Infallible);
 impl PeerProcess {
     /// # Errors
     /// Always.
-    pub(crate) fn start(_: &str, _: &[&str], _: Option<&Path>) -> io::Result<Self> {
+    pub(crate) fn start(
+        _: &str,
+        _: &[&str],
+        _: Option<&Path>,
+        _: &[(&str, &str)],
+    ) -> io::Result<Self> {
         Err(io::Error::new(
             io::ErrorKind::Unsupported,
             "scripts have no processes of their own on this system so far",

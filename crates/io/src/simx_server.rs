@@ -4,8 +4,9 @@
 //! simulator is busy. Only when commands have come, the answer waits a moment for their results, so that a blocking call takes one round
 //! trip instead of two with a rest between them.
 
+use std::collections::VecDeque;
 use std::io::{self, ErrorKind};
-use std::net::{IpAddr, TcpListener};
+use std::net::{IpAddr, SocketAddr, TcpListener};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -23,6 +24,9 @@ const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// How long an answer waits for the results of the commands it answers.
 const RESULT_TIMEOUT: Duration = Duration::from_millis(20);
+
+/// Connections that may have said nothing yet; at the limit the oldest gives way.
+const MAX_SILENT: usize = 64;
 
 /// Pause after a connection that could not be accepted.
 const RETRY_DELAY: Duration = Duration::from_millis(50);
@@ -154,25 +158,67 @@ impl Shared {
     }
 }
 
+/// A connection that has said nothing yet.
+struct Silent {
+    stream: TcpStream,
+    from: SocketAddr,
+    since: Instant,
+}
+
+/// The next connection that says something: those that do not hold nobody up.
+async fn next_client(
+    listener: &tokio::net::TcpListener,
+    silent: &mut VecDeque<Silent>,
+) -> (TcpStream, SocketAddr) {
+    loop {
+        tokio::select! {
+            biased;
+            index = first_to_speak(silent) => if let Some(client) = silent.remove(index) {
+                return (client.stream, client.from);
+            },
+            accepted = listener.accept() => match accepted {
+                Ok((stream, from)) => {
+                    silent.push_back(Silent { stream, from, since: Instant::now() });
+                    silent.drain(..silent.len().saturating_sub(MAX_SILENT));
+                }
+                // Out of file descriptors, for instance.
+                Err(_) => tokio::time::sleep(RETRY_DELAY).await,
+            },
+            () = tokio::time::sleep(SILENCE_TIMEOUT) => {}
+        }
+        silent.retain(|client| client.since.elapsed() < SILENCE_TIMEOUT);
+    }
+}
+
+/// Waits until there is something to read from one of the connections, which may be its end.
+async fn first_to_speak(silent: &VecDeque<Silent>) -> usize {
+    if silent.is_empty() {
+        return std::future::pending().await;
+    }
+    let words = silent.iter().map(|client| {
+        Box::pin(async {
+            // At the end of the connection there is nothing to read, and on failure neither: serving it ends at once.
+            let _ = client.stream.peek(&mut [0]).await;
+        })
+    });
+    futures::future::select_all(words).await.1
+}
+
 /// Serves one connection after the other.
 async fn serve_all(listener: TcpListener, shared: &Shared) {
     // This does not fail: the thread has a runtime, and the listener is valid.
     let Ok(listener) = tokio::net::TcpListener::from_std(listener) else {
         return;
     };
+    let mut silent = VecDeque::new();
     loop {
-        match listener.accept().await {
-            Ok((stream, from)) => {
-                shared.session().connect(text_of(from.ip()));
-                // The client is gone, whether the connection was closed or failed.
-                let _ = serve(stream, shared).await;
-                shared.session().disconnect();
-                // A simulation that waits for this client must continue.
-                shared.waker.wake();
-            }
-            // Out of file descriptors, for instance.
-            Err(_) => tokio::time::sleep(RETRY_DELAY).await,
-        }
+        let (stream, from) = next_client(&listener, &mut silent).await;
+        shared.session().connect(text_of(from.ip()));
+        // The client is gone, whether the connection was closed or failed.
+        let _ = serve(stream, shared).await;
+        shared.session().disconnect();
+        // A simulation that waits for this client must continue.
+        shared.waker.wake();
     }
 }
 
@@ -215,7 +261,6 @@ fn text_of(address: IpAddr) -> String {
 mod tests {
     use super::*;
     use std::io::{Read, Write};
-    use std::net::SocketAddr;
 
     fn server() -> (SimxServer, SocketAddr) {
         let event_loop = EventLoop::new().expect("an event loop");
@@ -266,6 +311,19 @@ mod tests {
         let mut reply = [0; 24];
         second.read_exact(&mut reply).expect("a reply comes");
         assert_eq!(server.session().connection(), Some(2));
+    }
+
+    #[test]
+    fn connections_that_say_nothing_hold_nobody_up() {
+        let (_server, address) = server();
+        let open = || std::net::TcpStream::connect(address).expect("it listens");
+        let silent: Vec<_> = (0..2 * MAX_SILENT).map(|_| open()).collect();
+        let mut client = open();
+        client
+            .set_read_timeout(Some(SILENCE_TIMEOUT / 2))
+            .expect("it is no zero");
+        exchange(&mut client, &empty(0)).expect("a reply comes before the others are given up");
+        drop((client, silent));
     }
 
     #[test]

@@ -66,9 +66,13 @@ impl Batch {
 
     /// Opens or creates the folder of results; returns the numbers of the runs that are not done.
     #[pyo3(signature = (folder, force=false))]
-    fn open(&self, folder: PathBuf, force: bool) -> PyResult<Vec<usize>> {
+    fn open(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<Vec<usize>> {
         let store = Store::open(&folder, &self.batch, force)
             .map_err(|error| Error::new_err(error.to_string()))?;
+        if let Some(notice) = &store.notice {
+            let warnings = py.import("warnings")?;
+            warnings.call_method1("warn", (notice,))?;
+        }
         let missing = store
             .missing(&self.runs)
             .iter()

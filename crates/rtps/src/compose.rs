@@ -113,12 +113,11 @@ impl Composer {
         base: i64,
         missing: &[i64],
         count: u32,
+        is_final: bool,
     ) {
         let mut body = entities(ends);
         push_set(&mut body, base, missing);
         body.extend_from_slice(&count.to_le_bytes());
-        // The final flag: an answer is required only if something is missing, and at the beginning.
-        let is_final = missing.is_empty() && base > 1;
         self.submessage(0x06, u8::from(is_final) << 1, &[&body]);
     }
 

@@ -245,7 +245,8 @@ impl Reader {
         ready.into_iter().for_each(|sample| self.enqueue(sample));
     }
 
-    /// Says what is here and what is missing up to `last`.
+    /// Says what is here and what is missing up to `last`. An answer is required only if something is missing, and at the beginning, when
+    /// nobody has said what there is: if each side answered the other, that would never end.
     fn acknowledge(&mut self, writer: Guid, last: Option<i64>, out: &mut Vec<Datagram>) {
         let own = self.endpoint.guid;
         let Some(proxy) = self.writers.get_mut(&writer) else {
@@ -262,7 +263,8 @@ impl Reader {
         proxy.acknacks = proxy.acknacks.wrapping_add(1);
         let ends = (own.entity, writer.entity);
         let mut message = Composer::to(own.prefix, writer.prefix);
-        message.acknack(ends, base, &missing, proxy.acknacks);
+        let is_final = missing.is_empty() && last.is_some();
+        message.acknack(ends, base, &missing, proxy.acknacks, is_final);
         for sequence in partial.into_iter().take(8) {
             if let Some(assembly) = proxy.assemblies.get(&sequence) {
                 message.nack_fragments(ends, sequence, &assembly.missing(), proxy.acknacks);

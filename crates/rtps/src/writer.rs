@@ -127,7 +127,7 @@ impl Writer {
             return;
         }
         if is_reliable {
-            self.heartbeat(reader.guid, out);
+            self.heartbeat(reader.guid, false, out);
         } else if is_late {
             let sequences: Vec<i64> = self.history.iter().map(|change| change.sequence).collect();
             sequences
@@ -213,7 +213,8 @@ impl Writer {
         let first = proxy.first;
         proxy.acknowledged = proxy.acknowledged.max((base - 1).min(last));
         if !is_final && missing.is_empty() {
-            self.heartbeat(reader, out);
+            // A reader that has everything need not say so again.
+            self.heartbeat(reader, base > last, out);
         }
         if base < first && base >= 1 {
             self.say_gap(reader, base, first, &[], out);
@@ -257,7 +258,7 @@ impl Writer {
             self.next_heartbeat = now + HEARTBEAT_PERIOD;
             behind
                 .into_iter()
-                .for_each(|reader| self.heartbeat(reader, out));
+                .for_each(|reader| self.heartbeat(reader, false, out));
         }
         Some(self.next_heartbeat)
     }
@@ -270,7 +271,7 @@ impl Writer {
         self.history.get(index)
     }
 
-    fn heartbeat(&mut self, reader: Guid, out: &mut Vec<Datagram>) {
+    fn heartbeat(&mut self, reader: Guid, is_final: bool, out: &mut Vec<Datagram>) {
         self.heartbeats = self.heartbeats.wrapping_add(1);
         let Some(proxy) = self.readers.get(&reader) else {
             return;
@@ -285,7 +286,7 @@ impl Writer {
             first,
             self.last,
             self.heartbeats,
-            false,
+            is_final,
         );
         out.push(Datagram {
             to: proxy.address,

@@ -16,6 +16,7 @@ struct World {
     random: Random,
     /// Of a hundred datagrams, how many are lost.
     lost: usize,
+    sent: usize,
 }
 
 fn address(index: usize) -> SocketAddrV4 {
@@ -47,6 +48,7 @@ impl World {
             now: Duration::ZERO,
             random: Random::new(1),
             lost,
+            sent: 0,
         }
     }
 
@@ -63,6 +65,7 @@ impl World {
 
     fn deliver(&mut self, sender: usize) {
         for datagram in self.cores[sender].take_outgoing() {
+            self.sent += 1;
             let receiver = (0..self.cores.len()).find(|index| address(*index) == datagram.to);
             if let Some(receiver) = receiver.filter(|_| self.random.below(100) >= self.lost) {
                 self.cores[receiver].receive(&datagram.bytes, address(sender), self.now);
@@ -126,6 +129,25 @@ fn reliable_messages_arrive_in_order_whatever_is_lost() {
         taken.len(),
         expected.len()
     );
+}
+
+#[test]
+fn participants_with_nothing_to_say_are_quiet() {
+    let mut world = World::new(2, 0);
+    let writer = world.cores[0].create_writer("rt/a", TYPE, all(), &[]);
+    world.cores[1].create_reader("rt/a", TYPE, all(), &[]);
+    // A writer of the other side that nobody reads: two of its own topics stay empty here, one there.
+    world.cores[1].create_writer("rt/b", TYPE, all(), &[]);
+    world.run(3000);
+    assert_eq!(world.cores[0].matched(writer), 1);
+    world.sent = 0;
+    world.run(6000);
+    // Each announces itself every two seconds, at three places.
+    assert!(world.sent <= 2 * 4 * 3, "{} datagrams", world.sent);
+    world.sent = 0;
+    world.write(0, writer, b"abcd");
+    world.run(10);
+    assert!((1..10).contains(&world.sent), "{} datagrams", world.sent);
 }
 
 #[test]

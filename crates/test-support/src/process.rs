@@ -108,6 +108,25 @@ pub fn wait_within(child: &mut Child, limit: Duration) -> Option<ExitStatus> {
     }
 }
 
+/// The number of processes with that word in their environment.
+///
+/// # Panics
+/// Where there is no `/proc`.
+pub fn processes_with(word: &str) -> usize {
+    let processes = std::fs::read_dir("/proc")
+        .expect("there are processes")
+        .flatten();
+    let environments =
+        processes.filter_map(|process| std::fs::read(process.path().join("environ")).ok());
+    environments
+        .filter(|environment| {
+            environment
+                .windows(word.len())
+                .any(|part| part == word.as_bytes())
+        })
+        .count()
+}
+
 /// Waits until that is so.
 ///
 /// # Panics

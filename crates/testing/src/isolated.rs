@@ -17,9 +17,10 @@ use script::test_bench::ConsoleLine;
 /// How often the process is looked at.
 const TICK: Duration = Duration::from_millis(5);
 
-/// Runs a test by `command`, which prints its outcome; kills the process when `stop` is set.
+/// Runs a test by `command`, which prints its outcome; kills the process when `stop` is set. Its standard input ends with this process, so
+/// that it can do the same.
 pub(super) fn run(mut command: Command, test: &Arc<TestCase>, stop: &AtomicBool) -> Outcome {
-    let started = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn();
+    let started = command.stdin(lifeline()).stdout(Stdio::piped()).spawn();
     let ended = started.and_then(|child| wait(child, stop));
     let failed = |message: String| Outcome::new(Arc::clone(test), Status::Error, message);
     match ended {
@@ -31,6 +32,15 @@ pub(super) fn run(mut command: Command, test: &Arc<TestCase>, stop: &AtomicBool)
                 "the test has ended its process, which ran nothing else (--isolate): {status}"
             ))
         }),
+    }
+}
+
+/// A pipe that closes with this process, where a process can put something else in the place of its standard input.
+fn lifeline() -> Stdio {
+    if cfg!(unix) {
+        Stdio::piped()
+    } else {
+        Stdio::null()
     }
 }
 

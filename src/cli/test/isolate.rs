@@ -55,8 +55,36 @@ pub(super) fn restrict(config: &mut Config) -> bool {
     true
 }
 
+/// In a child: ends this process when its standard input ends, which its parent holds open as long as it lives, however it is ended. Whoever
+/// reads standard input finds nothing there.
+#[cfg(unix)]
+fn end_with_parent() -> std::io::Result<()> {
+    use rustix::process::{Signal, getpid, kill_process};
+    use std::io::Read;
+
+    let lifeline = rustix::io::fcntl_dupfd_cloexec(std::io::stdin(), 3)?;
+    rustix::stdio::dup2_stdin(std::fs::File::open("/dev/null")?)?;
+    let wait = move || {
+        // Nobody writes to it.
+        let _ = std::fs::File::from(lifeline).read_to_end(&mut Vec::new());
+        // At once, whatever the test is in the middle of.
+        let _ = kill_process(getpid(), Signal::KILL);
+    };
+    std::thread::Builder::new().spawn(wait).map(drop)
+}
+
+#[cfg(not(unix))]
+fn end_with_parent() -> std::io::Result<()> {
+    Ok(())
+}
+
 /// In a child: runs the test, and ends the process at once, since a test that could not be ended may still keep a thread.
 pub(super) fn run(config: &Config) -> ! {
+    if let Err(error) = end_with_parent() {
+        super::super::complain(&format!(
+            "this process may outlive the one that has started it: {error}"
+        ));
+    }
     let code = match testing::run_child(config) {
         Ok(line) => {
             super::super::say(line.as_bytes());

@@ -282,6 +282,34 @@ def sysCall_sensing():
 }
 
 #[test]
+fn random_numbers_of_numpy_follow_the_seed() {
+    let Some(python) = python_with_numpy() else {
+        return test_support::skipped_outside_of_ci(
+            "there is no Python with numpy, and none can be made",
+        );
+    };
+    let scene = "import numpy as np
+early = np.random.rand()
+def sysCall_init():
+    print(early, np.random.rand())
+    require('sim').quitSimulator()
+";
+    let files = folder(&[("scene.py", scene)]);
+    let interpreter = format!("python={python}");
+    let with = |seed| {
+        run(
+            files.path(),
+            "scene.py",
+            &["-D", &interpreter, "--seed", seed],
+        )
+    };
+    let numbers = with("5");
+    assert!(numbers.starts_with("0."), "{numbers}");
+    assert_eq!(with("5"), numbers);
+    assert_ne!(with("6"), numbers);
+}
+
+#[test]
 fn scenes_keep_their_scripts_in_python() {
     if !has_python() {
         return;

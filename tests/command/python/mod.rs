@@ -1,4 +1,5 @@
 //! Scripts in Python.
 
+mod built;
 mod interpreters;
 mod scripts;

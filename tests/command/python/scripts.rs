@@ -7,9 +7,9 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use test_support::process::{LIMIT, run_bounded, wait_until, wait_within};
+use test_support::process::{LIMIT, processes_with, run_bounded, wait_until, wait_within};
 
-fn has_python() -> bool {
+pub(super) fn has_python() -> bool {
     let found = Command::new("python3")
         .arg("--version")
         .output()
@@ -206,25 +206,11 @@ fn what_may_not_start_programs_may_not_run_python() {
     );
 }
 
-/// The number of processes with that word in their environment.
-fn processes_with(word: &str) -> usize {
-    let processes = fs::read_dir("/proc")
-        .expect("there are processes")
-        .flatten();
-    let environments =
-        processes.filter_map(|process| fs::read(process.path().join("environ")).ok());
-    environments
-        .filter(|environment| {
-            environment
-                .windows(word.len())
-                .any(|part| part == word.as_bytes())
-        })
-        .count()
-}
-
 #[cfg(target_os = "linux")]
 #[test]
 fn nothing_outlives_the_simulator() {
+    use std::os::unix::process::CommandExt;
+
     if !has_python() {
         return;
     }
@@ -241,11 +227,12 @@ def sysCall_nonSimulation():
     let folder = tempfile::tempdir().expect("there is a folder for temporary files");
     let file = folder.path().join("scene.py");
     fs::write(&file, text).expect("it can be written");
-    for signal in ["KILL", "TERM"] {
+    for (signal, whom) in [("KILL", ""), ("TERM", ""), ("KILL", "-")] {
         let mut command = swanilda(&file, &["--no-start", "--loops", "1000000"]);
         let (name, value) = word.split_once('=').expect("it has a value");
         let mut child = command
             .env(name, value)
+            .process_group(0)
             .stdout(Stdio::piped())
             .spawn()
             .expect("it starts");
@@ -254,13 +241,14 @@ def sysCall_nonSimulation():
         // Simulator, guardian, script, and what the script started; the last one may still be starting.
         wait_until("four processes", || processes_with(&word) >= 4);
         Command::new("kill")
-            .args(["-s", signal, &child.id().to_string()])
+            .args(["-s", signal, "--", &format!("{whom}{}", child.id())])
             .status()
             .expect("there is a kill");
         wait_within(&mut child, LIMIT).expect("it ends");
-        wait_until(&format!("no process is left after SIG{signal}"), || {
-            processes_with(&word) == 0
-        });
+        wait_until(
+            &format!("no process is left after SIG{signal} {whom}"),
+            || processes_with(&word) == 0,
+        );
     }
 }
 

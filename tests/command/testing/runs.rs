@@ -4,7 +4,9 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-use test_support::process::{run_for_code, run_within};
+use test_support::process::{
+    LIMIT, processes_with, run_for_code, run_within, wait_until, wait_within,
+};
 
 /// Writes test files into a folder and runs them there; the exit code, and what was written to standard output and error.
 fn run(files: &[(&str, &str)], args: &[&str]) -> (i32, String) {
@@ -159,6 +161,27 @@ fn isolated_tests_crash_alone() {
         "{output}"
     );
     assert!(output.contains("crash_test.lua:6"), "{output}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn isolated_tests_end_with_the_process_that_has_started_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let suite = "it('loops', function() assert.is_nil(io.read()) io.open('begun', 'w'):close() while true do end end)";
+    std::fs::write(folder.path().join("endless_test.lua"), suite).expect("a file");
+    let word = std::process::id().to_string();
+    let mut tests = Command::new(env!("CARGO_BIN_EXE_swanilda"))
+        .args(["test", "--isolate", "--timeout", "1000"])
+        .env("SWANILDA_ISOLATED_ORPHANS", &word)
+        .current_dir(folder.path())
+        .spawn()
+        .expect("it starts");
+    let word = format!("SWANILDA_ISOLATED_ORPHANS={word}");
+    wait_until("the test runs", || folder.path().join("begun").exists());
+    assert_eq!(processes_with(&word), 2);
+    tests.kill().expect("it runs");
+    wait_within(&mut tests, LIMIT).expect("it ends");
+    wait_until("no process is left", || processes_with(&word) == 0);
 }
 
 #[test]

@@ -3,17 +3,16 @@
 use std::fs::{DirEntry, File};
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
-use fs4::FileExt;
+use fs4::{FileExt, TryLockError};
 use tempfile::{NamedTempFile, TempPath};
 
 /// The names of temporary files begin and end so.
 const PREFIX: &str = ".swanilda-";
 const SUFFIX: &str = ".part";
 
-/// A younger temporary file may not be locked by its writer yet.
-const TIME_TO_LOCK: Duration = Duration::from_secs(60);
+/// How often a file is made anew that another program took for abandoned before it was locked.
+const ATTEMPTS: usize = 100;
 
 /// Writes a file atomically: readers see the old or the new one. Pipes and devices are written directly. Temporary files in the folder
 /// whose writer was killed are removed.
@@ -93,11 +92,22 @@ pub fn part_of(path: &Path) -> std::io::Result<NamedTempFile> {
         .parent()
         .filter(|folder| *folder != Path::new(""))
         .unwrap_or(Path::new("."));
-    remove_abandoned(folder, TIME_TO_LOCK);
-    let file = new_file().tempfile_in(folder)?;
-    // Where files cannot be locked, this one may be taken for abandoned if writing lasts longer than a minute.
-    let _ = FileExt::try_lock(file.as_file());
-    Ok(file)
+    remove_abandoned(folder);
+    for _ in 1..ATTEMPTS {
+        let file = new_file().tempfile_in(folder)?;
+        if is_locked_in_time(&file) {
+            return Ok(file);
+        }
+    }
+    new_file().tempfile_in(folder)
+}
+
+/// Locks a new file; false when another program has taken it for abandoned before. Where files cannot be locked, none is taken for that.
+fn is_locked_in_time(file: &NamedTempFile) -> bool {
+    !matches!(
+        FileExt::try_lock(file.as_file()),
+        Err(TryLockError::WouldBlock)
+    ) && file.path().exists()
 }
 
 /// Whether this is a pipe or a device.
@@ -110,28 +120,28 @@ pub fn link_target(path: &Path) -> PathBuf {
     std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }
 
-/// Removes temporary files older than `age` that nobody has locked. What cannot be looked at stays.
-fn remove_abandoned(folder: &Path, age: Duration) {
+/// Removes temporary files that nobody has locked: their writers were killed. What cannot be looked at stays.
+fn remove_abandoned(folder: &Path) {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    for entry in entries.filter(|entry| is_abandoned(entry, age).unwrap_or(false)) {
-        let _ = std::fs::remove_file(entry.path());
+    for entry in entries {
+        // The lock is held until the file is gone, so that a writer who has just made it notices.
+        if let Ok(Some(_lock)) = lock_abandoned(&entry) {
+            let _ = std::fs::remove_file(entry.path());
+        }
     }
 }
 
-fn is_abandoned(entry: &DirEntry, age: Duration) -> std::io::Result<bool> {
+/// A temporary file of a writer that is gone, locked.
+fn lock_abandoned(entry: &DirEntry) -> std::io::Result<Option<File>> {
     let name = entry.file_name();
     let is_ours = name
         .to_str()
         .is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
     if !is_ours || !entry.file_type()?.is_file() {
-        return Ok(false);
+        return Ok(None);
     }
-    let is_old = entry
-        .metadata()?
-        .modified()?
-        .elapsed()
-        .is_ok_and(|elapsed| elapsed >= age);
-    Ok(is_old && FileExt::try_lock(&File::open(entry.path())?).is_ok())
+    let file = File::open(entry.path())?;
+    Ok(FileExt::try_lock(&file).is_ok().then_some(file))
 }
 
 /// A temporary file whose rights are those of any new file.
@@ -175,15 +185,31 @@ mod tests {
         }
         let in_use = file(".swanilda-2.part");
         FileExt::try_lock(&in_use).unwrap();
-        remove_abandoned(folder.path(), TIME_TO_LOCK);
-        assert_eq!(names().len(), 4);
-        remove_abandoned(folder.path(), Duration::ZERO);
+        write_whole(&folder.path().join(".swanilda-mine"), b"").unwrap();
         assert_eq!(
             names(),
             [".swanilda-2.part", ".swanilda-mine", "other.part"]
         );
         drop(in_use);
-        remove_abandoned(folder.path(), Duration::ZERO);
+        remove_abandoned(folder.path());
         assert_eq!(names(), [".swanilda-mine", "other.part"]);
+    }
+
+    #[test]
+    fn writers_beside_each_other_do_not_lose_their_files() {
+        let folder = tempfile::tempdir().unwrap();
+        std::thread::scope(|scope| {
+            for writer in 0..4 {
+                let path = folder.path().join(format!("{writer}.txt"));
+                scope.spawn(move || {
+                    for round in 0..200 {
+                        let text = format!("{writer} {round}");
+                        write_whole(&path, text.as_bytes()).unwrap();
+                        assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+                    }
+                });
+            }
+        });
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 4);
     }
 }

@@ -8,6 +8,7 @@ mod client;
 mod connection;
 mod http;
 mod pages;
+mod places;
 mod server;
 mod site;
 
@@ -150,12 +151,28 @@ impl WsEndpoint {
         pages: WsPages,
         numbers: IdCounter,
     ) -> std::io::Result<Self> {
+        Self::listen_limited(
+            event_loop,
+            listener,
+            pages,
+            numbers,
+            server::MAX_CONNECTIONS,
+        )
+    }
+
+    fn listen_limited(
+        event_loop: Rc<EventLoop>,
+        listener: TcpListener,
+        pages: WsPages,
+        numbers: IdCounter,
+        connections: usize,
+    ) -> std::io::Result<Self> {
         listener.set_nonblocking(true)?;
         let port = listener.local_addr()?.port();
         let listener =
             event_loop.block_on(async { tokio::net::TcpListener::from_std(listener) })?;
         let mut server = Self::new(event_loop, numbers, |reports| {
-            server::accept_all(listener, pages, reports)
+            server::accept_all(listener, pages, reports, connections)
         });
         server.port = Some(port);
         Ok(server)
@@ -248,4 +265,35 @@ fn config() -> WebSocketConfig {
         .read_buffer_size(READ_BUFFER)
         .max_message_size(Some(MAX_MESSAGE))
         .max_frame_size(Some(MAX_MESSAGE))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+
+    use super::*;
+
+    #[test]
+    fn connections_that_say_nothing_give_way() {
+        let event_loop = Rc::new(EventLoop::new().expect("an event loop"));
+        let listener = TcpListener::bind("127.0.0.1:0").expect("a port is free");
+        let address = listener.local_addr().expect("it is bound");
+        let (pages, numbers) = (WsPages::All, IdCounter::default());
+        let server = WsEndpoint::listen_limited(event_loop.clone(), listener, pages, numbers, 4)
+            .expect("the listener is good");
+        let open = || std::net::TcpStream::connect(address).expect("it listens");
+        let silent: Vec<_> = (0..20).map(|_| open()).collect();
+        let mut client = open();
+        client
+            .write_all(b"GET /here HTTP/1.1\r\n\r\n")
+            .expect("it reads");
+        // Less than the time after which silent connections are given up anyway.
+        event_loop.wait(HANDSHAKE_TIMEOUT / 2);
+        let said = server.next();
+        assert!(
+            matches!(&said, Some(WsEvent::Http { resource, .. }) if resource == "/here"),
+            "nothing was heard, or something else"
+        );
+        drop((client, silent));
+    }
 }

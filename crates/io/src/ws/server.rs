@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::{Semaphore, oneshot};
+use tokio::sync::oneshot;
 use tokio::task::JoinSet;
 use tokio::time::{sleep, timeout};
 use tokio_tungstenite::WebSocketStream;
@@ -19,9 +19,11 @@ use tokio_tungstenite::tungstenite::protocol::Role;
 use super::chunks::Chunks;
 use super::http::{Head, Reply, Requester, response};
 use super::pages::Pages;
+use super::places::{Place, Places};
 use super::{Connection, HANDSHAKE_TIMEOUT, READ_BUFFER, Reports, WsEvent, config, connection};
 
-/// Connections of one server; more wait until one ends.
+/// Connections of one server. At the limit, the one that has been silent for longest gives way to a new one. If all have made their requests,
+/// that waits until one ends.
 pub(super) const MAX_CONNECTIONS: usize = 1000;
 /// Pause when the system has no more sockets.
 pub(super) const RETRY_DELAY: Duration = Duration::from_millis(100);
@@ -29,30 +31,43 @@ pub(super) const RETRY_DELAY: Duration = Duration::from_millis(100);
 const READ_TIMEOUT: Duration = Duration::from_secs(60);
 
 /// Serves everyone who connects.
-pub(super) async fn accept_all(listener: TcpListener, pages: Pages, reports: Reports) {
+pub(super) async fn accept_all(
+    listener: TcpListener,
+    pages: Pages,
+    reports: Reports,
+    connections: usize,
+) {
     let pages = Arc::new(pages);
-    let places = Arc::new(Semaphore::new(MAX_CONNECTIONS));
+    let places = Places::new(connections);
     let mut tasks = JoinSet::new();
-    while let Ok(place) = places.clone().acquire_owned().await {
+    loop {
         while tasks.try_join_next().is_some() {}
         let Ok((stream, _)) = listener.accept().await else {
+            // Out of file descriptors, for instance.
+            places.end_silent();
             sleep(RETRY_DELAY).await;
             continue;
         };
+        let Some(mut place) = places.take().await else {
+            return;
+        };
         let (reports, pages) = (reports.clone(), pages.clone());
         tasks.spawn(async move {
-            serve(stream, &pages, &reports).await;
-            drop(place);
+            serve(stream, &mut place, &pages, &reports).await;
         });
     }
 }
 
-async fn serve(mut stream: TcpStream, pages: &Pages, reports: &Reports) {
+async fn serve(mut stream: TcpStream, place: &mut Place, pages: &Pages, reports: &Reports) {
     let connection = reports.numbers.next();
     // Small messages are sent at once; if this cannot be set, they are sent later.
     let _ = stream.set_nodelay(true);
     let mut received = Vec::new();
-    let refused = match timeout(HANDSHAKE_TIMEOUT, read_head(&mut stream, &mut received)).await {
+    let head = timeout(HANDSHAKE_TIMEOUT, read_head(&mut stream, &mut received));
+    let Some(head) = place.hear(head).await else {
+        return; // Nobody has heard of it.
+    };
+    let refused = match head {
         Ok(Ok(head)) if head.is_upgrade() && !pages.admit(head.header(ORIGIN)) => {
             let origin = head.header(ORIGIN).unwrap_or_default().to_owned();
             reports.report(WsEvent::Refused(connection, origin)).await;

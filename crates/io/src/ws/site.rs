@@ -13,7 +13,7 @@ use futures::stream::{SplitSink, SplitStream};
 use futures::{SinkExt, StreamExt};
 use tokio::io::AsyncWriteExt;
 use tokio::net::TcpStream;
-use tokio::sync::{Semaphore, watch};
+use tokio::sync::watch;
 use tokio::task::JoinSet;
 use tokio::time::{sleep, timeout};
 use tokio_tungstenite::WebSocketStream;
@@ -26,6 +26,7 @@ use tokio_tungstenite::tungstenite::{Message, Utf8Bytes};
 
 use super::http::Head;
 use super::pages::host_of;
+use super::places::{Place, Places};
 use super::server::{MAX_CONNECTIONS, RETRY_DELAY, read_head, upgrade};
 use super::{HANDSHAKE_TIMEOUT, READ_BUFFER, connection};
 
@@ -106,6 +107,14 @@ impl SiteServer {
         listener: TcpListener,
         site: impl FnOnce(SiteWaker) -> S,
     ) -> io::Result<Self> {
+        Self::start_limited(listener, site, MAX_CONNECTIONS)
+    }
+
+    fn start_limited<S: Site>(
+        listener: TcpListener,
+        site: impl FnOnce(SiteWaker) -> S,
+        connections: usize,
+    ) -> io::Result<Self> {
         listener.set_nonblocking(true)?;
         let address = listener.local_addr()?;
         let runtime = tokio::runtime::Builder::new_current_thread()
@@ -120,7 +129,7 @@ impl SiteServer {
                 tokio::net::TcpListener::from_std(listener)
             };
             if let Ok(listener) = listener {
-                runtime.block_on(accept_all(listener, site, signals));
+                runtime.block_on(accept_all(listener, site, signals, connections));
             }
         };
         let thread = std::thread::Builder::new()
@@ -159,13 +168,14 @@ async fn accept_all<S: Site>(
     listener: tokio::net::TcpListener,
     site: Arc<S>,
     mut signals: watch::Receiver<Signal>,
+    connections: usize,
 ) {
-    let places = Arc::new(Semaphore::new(MAX_CONNECTIONS));
+    let places = Places::new(connections);
     let mut tasks = JoinSet::new();
     loop {
         let accepted = async {
-            let place = places.clone().acquire_owned().await.ok()?;
-            Some((listener.accept().await, place))
+            let (stream, _) = listener.accept().await.ok()?;
+            Some((stream, places.take().await?))
         };
         let accepted = tokio::select! {
             accepted = accepted => accepted,
@@ -173,14 +183,17 @@ async fn accept_all<S: Site>(
         };
         while tasks.try_join_next().is_some() {}
         match accepted {
-            Some((Ok((stream, _)), place)) => {
+            Some((stream, mut place)) => {
                 let (site, signals) = (Arc::clone(&site), signals.clone());
                 tasks.spawn(async move {
-                    serve(stream, &*site, signals).await;
-                    drop(place);
+                    serve(stream, &mut place, &*site, signals).await;
                 });
             }
-            _ => sleep(RETRY_DELAY).await,
+            None => {
+                // Out of file descriptors, for instance.
+                places.end_silent();
+                sleep(RETRY_DELAY).await;
+            }
         }
     }
     let _ = timeout(CLOSE_TIMEOUT, async {
@@ -190,17 +203,22 @@ async fn accept_all<S: Site>(
 }
 
 /// The requests of one connection, one after the other.
-async fn serve<S: Site>(mut stream: TcpStream, site: &S, mut signals: watch::Receiver<Signal>) {
+async fn serve<S: Site>(
+    mut stream: TcpStream,
+    place: &mut Place,
+    site: &S,
+    mut signals: watch::Receiver<Signal>,
+) {
     let local = stream.local_addr().map(|address| address.ip()).ok();
     let _ = stream.set_nodelay(true);
     let mut received = Vec::new();
     loop {
         let head = tokio::select! {
-            head = timeout(PAGE_TIMEOUT, read_head(&mut stream, &mut received)) => head,
+            head = place.hear(timeout(PAGE_TIMEOUT, read_head(&mut stream, &mut received))) => head,
             _ = signals.wait_for(|signal| signal.ends) => return,
         };
-        let Ok(Ok(head)) = head else {
-            if let Ok(Err(Some(status))) = head {
+        let Some(Ok(Ok(head))) = head else {
+            if let Some(Ok(Err(Some(status)))) = head {
                 refuse(&mut stream, status, "").await;
             }
             return;
@@ -371,6 +389,52 @@ async fn send_all(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::io::{Read, Write};
+
+    /// A site that answers everything.
+    struct Anything;
+
+    impl Site for Anything {
+        fn get(&self, _: &str, _: Option<&str>) -> SiteReply {
+            SiteReply {
+                status: 200,
+                headers: Vec::new(),
+                body: Arc::new(b"here".to_vec()),
+            }
+        }
+
+        fn open(&self, _: &str) -> Option<Box<dyn Visitor>> {
+            None
+        }
+    }
+
+    #[test]
+    fn connections_that_say_nothing_give_way() {
+        let listener = TcpListener::bind("127.0.0.1:0").expect("a port is free");
+        let server = SiteServer::start_limited(listener, |_| Anything, 4).expect("it starts");
+        let open = || std::net::TcpStream::connect(server.address()).expect("it listens");
+        let ask = |stream: &mut std::net::TcpStream, connection: &str| {
+            let request =
+                format!("GET / HTTP/1.1\r\nHost: localhost\r\nConnection: {connection}\r\n\r\n");
+            stream
+                .set_read_timeout(Some(PAGE_TIMEOUT / 2))
+                .expect("it is no zero");
+            stream.write_all(request.as_bytes()).expect("it reads");
+        };
+        // Half of them have been answered once, and ask for nothing more.
+        let mut silent: Vec<_> = (0..20).map(|_| open()).collect();
+        for _ in 0..20 {
+            let mut stream = open();
+            ask(&mut stream, "keep-alive");
+            stream.read_exact(&mut [0; 15]).expect("an answer");
+            silent.push(stream);
+        }
+        let mut client = open();
+        ask(&mut client, "close");
+        let mut answer = String::new();
+        client.read_to_string(&mut answer).expect("an answer");
+        assert!(answer.ends_with("here"), "{answer}");
+    }
 
     fn head(text: &str) -> Head {
         Head::parse(text.as_bytes())

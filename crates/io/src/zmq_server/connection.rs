@@ -29,6 +29,8 @@ pub(super) struct State {
     pub(super) has_more: bool,
     /// Its request has no answer yet.
     is_asking: bool,
+    /// It has made a request at some time.
+    has_asked: bool,
     /// The time of the last request or reply.
     last_active: Instant,
 }
@@ -49,6 +51,7 @@ impl Connection {
             is_queued: false,
             has_more: false,
             is_asking: false,
+            has_asked: false,
             last_active: Instant::now(),
         };
         Self {
@@ -69,6 +72,7 @@ impl Connection {
             is_queued: true,
             has_more: false,
             is_asking: true,
+            has_asked: true,
             last_active: Instant::now(),
         };
     }
@@ -83,10 +87,11 @@ impl Connection {
         }
     }
 
-    /// None while it waits for an answer.
-    pub(super) fn silent_since(&self) -> Option<Instant> {
+    /// Whether it has ever asked for something, and since when it has been silent; None while it waits for an answer.
+    pub(super) fn silence(&self) -> Option<(bool, Instant)> {
         let state = self.state();
-        (!state.is_asking && !self.outgoing().is_abandoned).then_some(state.last_active)
+        let is_silent = !state.is_asking && !self.outgoing().is_abandoned;
+        is_silent.then_some((state.has_asked, state.last_active))
     }
 
     /// Ends the task of the connection.

@@ -14,7 +14,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use tokio::net::TcpStream;
 use tokio::task::JoinSet;
 use tokio::time::Instant;
 
@@ -39,7 +38,7 @@ pub(crate) type Peer = u64;
 
 #[derive(Clone, Copy)]
 struct Limits {
-    /// Maximum number of connections; further ones replace an idle one, or are rejected.
+    /// Maximum number of connections; a further one replaces the oldest that has made no request yet, or an idle one, or is rejected.
     connections: usize,
     /// A connection without a request for this long is idle.
     silence: Duration,
@@ -63,7 +62,7 @@ pub struct ZmqServer {
     _accepting: Task,
 }
 
-/// Connections whose handshake is complete.
+/// All connections that last.
 #[derive(Default)]
 struct Connections(Mutex<HashMap<Peer, Arc<Connection>>>);
 
@@ -142,15 +141,18 @@ impl Connections {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Ends the connection that has been silent for longest; false when none has been for that long.
+    /// Ends the oldest connection that has made no request yet, or else the one that has been silent for longest; false when none has been for
+    /// that long.
     fn end_silent(&self, silence: Duration) -> bool {
         let now = Instant::now();
         let connections = self.lock();
         let silent = connections
             .values()
-            .filter_map(|connection| Some((connection.silent_since()?, connection)));
-        match silent.min_by_key(|(since, _)| *since) {
-            Some((since, connection)) if now.duration_since(since) >= silence => {
+            .filter_map(|connection| Some((connection.silence()?, connection)));
+        match silent.min_by_key(|(order, _)| *order) {
+            Some(((has_asked, since), connection))
+                if !has_asked || now.duration_since(since) >= silence =>
+            {
                 connection.abandon();
                 true
             }
@@ -173,11 +175,20 @@ async fn accept_all(
             accepted = listener.accept() => match accepted {
                 Ok((stream, _)) if tasks.len() < limits.connections || connections.end_silent(limits.silence) => {
                     last += 1;
-                    tasks.spawn(serve(stream, last, connections.clone(), deliver.clone()));
+                    // If this cannot be set, replies are slower.
+                    let _ = stream.set_nodelay(true);
+                    let (reading, writing) = stream.into_split();
+                    let connection = Arc::new(Connection::new(writing));
+                    connections.lock().insert(last, connection.clone());
+                    let receiver = Receiver::new(reading);
+                    tasks.spawn(serve(receiver, connection, last, connections.clone(), deliver.clone()));
                 }
                 Ok(_) => {}
                 // Out of file descriptors, for instance.
-                Err(_) => tokio::time::sleep(RETRY_DELAY).await,
+                Err(_) => {
+                    connections.end_silent(limits.silence);
+                    tokio::time::sleep(RETRY_DELAY).await;
+                }
             },
             Some(_) = tasks.join_next() => {}
         }
@@ -186,22 +197,18 @@ async fn accept_all(
 
 /// Serves one connection to its end.
 async fn serve(
-    stream: TcpStream,
+    mut receiver: Receiver,
+    connection: Arc<Connection>,
     peer: Peer,
     connections: Arc<Connections>,
     deliver: Deliver<Incoming>,
 ) {
-    // If this cannot be set, replies are slower.
-    let _ = stream.set_nodelay(true);
-    let (reading, writing) = stream.into_split();
-    let connection = Arc::new(Connection::new(writing));
-    let mut receiver = Receiver::new(reading);
     let introduced =
         tokio::time::timeout(HANDSHAKE_TIMEOUT, receiver.shake_hands(&connection)).await;
     if !matches!(introduced, Ok(Ok(()))) {
+        connections.lock().remove(&peer);
         return;
     }
-    connections.lock().insert(peer, connection.clone());
     while let Ok(request) = receiver.next_request(&connection).await {
         connection.outgoing().envelope = request.envelope;
         connection.enter_queue();
@@ -329,6 +336,32 @@ mod tests {
             .map_while(|_| next(&server).filter(|incoming| *incoming != Incoming::Gone(1)))
             .count();
         assert!(requests < 10, "{requests}");
+    }
+
+    #[test]
+    fn connections_that_say_nothing_make_room_at_once() {
+        let (server, address) = limited(Limits {
+            connections: 8,
+            silence: Duration::from_secs(3600),
+        });
+        let mut friend = connect(address);
+        friend.write_all(HI).expect("the server reads");
+        assert_eq!(peer_of(next(&server)), 1);
+        server.reply(1, b"ho");
+        let open = || std::net::TcpStream::connect(address).expect("the server listens");
+        let silent: Vec<_> = (0..20).map(|_| open()).collect();
+        let greeted: Vec<_> = (0..20).map(|_| connect(address)).collect();
+        let mut client = connect(address);
+        client.write_all(HI).expect("the server reads");
+        let arrived = std::iter::from_fn(|| next(&server));
+        let request = arrived
+            .take(60)
+            .find(|incoming| matches!(incoming, Incoming::Request(..)));
+        assert_eq!(request, Some(Incoming::Request(42, b"hi".to_vec())));
+        friend.write_all(HI).expect("it is still connected");
+        drop((silent, greeted));
+        let mut arrived = std::iter::from_fn(|| next(&server)).take(60);
+        assert!(arrived.any(|incoming| incoming == Incoming::Request(1, b"hi".to_vec())));
     }
 
     #[test]

@@ -11,6 +11,7 @@ use fs4::{FileExt, TryLockError};
 
 use super::{Blocks, Contents};
 use crate::wall_clock;
+use format::scene_file::part_of;
 use permissions::{Denied, Permissions};
 use scene::{CustomData, Data, Edit, Key};
 use wire::cbor;
@@ -130,10 +131,11 @@ fn wait_for_lock(lock: &File, longest: Duration) -> std::io::Result<()> {
 
 /// The new file is complete and on disk before it replaces the old one.
 fn replace(folder: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut file = tempfile::NamedTempFile::new_in(folder)?;
+    let path = folder.join(NAME);
+    let mut file = part_of(&path)?;
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
-    file.persist(folder.join(NAME))?;
+    file.persist(path)?;
     // The folder itself, so that the new name outlives a loss of power; not every system can.
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
     Ok(())

@@ -13,7 +13,7 @@ use wire::marshal::Encoder;
 /// The first code of a process.
 const GUARDIAN: &str = include_str!("child/guardian.py");
 /// The modules of a process, in the order of their dependencies.
-const MODULES: [(&str, &str); 5] = [
+const MODULES: [(&str, &str); 6] = [
     ("swanilda_link", include_str!("child/swanilda_link.py")),
     ("swanilda_api", include_str!("child/swanilda_api.py")),
     ("swanilda_trace", include_str!("child/swanilda_trace.py")),
@@ -21,6 +21,7 @@ const MODULES: [(&str, &str); 5] = [
         "swanilda_coverage",
         include_str!("child/swanilda_coverage.py"),
     ),
+    ("swanilda_seed", include_str!("child/swanilda_seed.py")),
     ("swanilda_script", include_str!("child/swanilda_script.py")),
 ];
 /// What takes the place of the guardian in the program's Python.
@@ -28,6 +29,9 @@ const EMBEDDED: (&str, &str) = (
     "swanilda_embedded",
     include_str!("child/swanilda_embedded.py"),
 );
+
+/// The variable from which Python takes the start of its hashes, which is otherwise different in every process.
+const HASH_SEED: &str = "PYTHONHASHSEED";
 
 /// Where virtual environments have their Python.
 const VIRTUAL_ENVIRONMENTS: [&str; 2] = [".venv/bin/python", "venv/bin/python"];
@@ -135,7 +139,9 @@ pub(super) fn start(sim: &Sim, interpreter: &str) -> Result<PeerProcess, LaunchE
         program: interpreter.to_owned(),
         reason,
     };
-    let mut process = PeerProcess::start(program, &args, None).map_err(failed)?;
+    let seed = sim.options.seed.to_string();
+    let mut process =
+        PeerProcess::start(program, &args, None, &[(HASH_SEED, &seed)]).map_err(failed)?;
     // One that has ended already is noticed when it is to load the script.
     let _ = process.send(&modules(&[]));
     Ok(process)

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value, json};
 
 use super::{Batch, Row, Run};
+use format::scene_file::write_whole;
 use format::scene_input::SceneInput;
 use permissions::Permissions;
 
@@ -35,10 +36,13 @@ pub struct Store {
     folder: PathBuf,
     rows: BTreeMap<usize, Row>,
     log: File,
+    /// What the user should know of the files that were there.
+    pub notice: Option<String>,
 }
 
 impl Store {
-    /// Opens or creates the folder of a batch. With `anew`, existing rows are discarded.
+    /// Opens or creates the folder of a batch. With `anew`, existing rows are discarded, and those of which no file says to which batch they
+    /// belong: a disk that was full, or a kill, may have left it empty.
     ///
     /// # Errors
     /// When it cannot be written, or holds another batch.
@@ -47,25 +51,30 @@ impl Store {
         let description = describe(batch).map_err(StoreError::Scene)?;
         fs::create_dir_all(folder).map_err(about)?;
         let (manifest, log) = (folder.join("batch.json"), folder.join("runs.jsonl"));
-        let known = fs::read_to_string(&manifest).ok();
-        if known.is_some() && known.as_deref() != Some(&description) && !anew {
+        let found = fs::read_to_string(&manifest).ok();
+        let known = found.as_ref().filter(|text| is_whole(text));
+        if known.is_some_and(|text| *text != description) && !anew {
             return Err(StoreError::Other(folder.to_owned()));
         }
-        fs::write(&manifest, description).map_err(about)?;
-        let text = if anew {
+        let notice = (found.is_some() && known.is_none() && !anew).then(|| damaged(&manifest));
+        let text = if anew || known.is_none() {
             String::new()
         } else {
             fs::read_to_string(&log).unwrap_or_default()
         };
+        if known.is_none_or(|text| *text != description) {
+            write_whole(&manifest, description.as_bytes()).map_err(about)?;
+        }
         let rows = rows(&text, &batch.runs());
         // A line cut off by an interruption is left out.
         let lines: String = rows.values().map(|row| line(row) + "\n").collect();
-        replace(&log, &lines).map_err(about)?;
+        write_whole(&log, lines.as_bytes()).map_err(about)?;
         let log = OpenOptions::new().append(true).open(&log).map_err(about)?;
         Ok(Self {
             folder: folder.to_owned(),
             rows,
             log,
+            notice,
         })
     }
 
@@ -120,13 +129,10 @@ impl Store {
     pub fn finish(&self) -> Result<PathBuf, StoreError> {
         let about = |error| StoreError::Io(self.folder.clone(), error);
         let lines: String = self.rows.values().map(|row| line(row) + "\n").collect();
-        replace(&self.folder.join("runs.jsonl"), &lines).map_err(about)?;
+        write_whole(&self.folder.join("runs.jsonl"), lines.as_bytes()).map_err(about)?;
         let table = self.folder.join("results.csv");
-        replace(
-            &table,
-            &self.csv().map_err(|error| about(io::Error::other(error)))?,
-        )
-        .map_err(about)?;
+        let csv = self.csv().map_err(|error| about(io::Error::other(error)))?;
+        write_whole(&table, csv.as_bytes()).map_err(about)?;
         Ok(table)
     }
 
@@ -267,12 +273,16 @@ fn rows(text: &str, runs: &[Run]) -> BTreeMap<usize, Row> {
         .collect()
 }
 
-/// Writes a file, all of it or nothing.
-fn replace(path: &Path, text: &str) -> io::Result<()> {
-    let mut file = tempfile::NamedTempFile::new_in(path.parent().unwrap_or(Path::new(".")))?;
-    file.write_all(text.as_bytes())?;
-    file.persist(path)?;
-    Ok(())
+/// Whether a text is all of a `batch.json`, of whatever batch.
+fn is_whole(text: &str) -> bool {
+    serde_json::from_str::<Value>(text).is_ok_and(|value| value.is_object())
+}
+
+fn damaged(manifest: &Path) -> String {
+    format!(
+        "{} is empty or cut off, as a full disk or a kill leaves it: the batch begins anew",
+        manifest.display()
+    )
 }
 
 #[cfg(test)]

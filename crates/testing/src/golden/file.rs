@@ -3,9 +3,10 @@
 //! A first line names the format, a second one the columns; then comes a line for each sample, all separated by tabs.
 
 use std::fmt::Write as _;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::Path;
 
+use format::scene_file::write_whole;
 use permissions::read_bounded;
 use script::test_bench::Trace;
 
@@ -65,14 +66,7 @@ fn parse(text: &str) -> Result<Trace, String> {
 /// # Errors
 /// When the folder cannot be written.
 pub(super) fn write(path: &Path, trace: &Trace) -> io::Result<()> {
-    let folder = path
-        .parent()
-        .filter(|folder| *folder != Path::new(""))
-        .unwrap_or(Path::new("."));
-    let mut file = tempfile::NamedTempFile::new_in(folder)?;
-    file.write_all(print(trace).as_bytes())?;
-    file.persist(path)?;
-    Ok(())
+    write_whole(path, print(trace).as_bytes())
 }
 
 fn print(trace: &Trace) -> String {

@@ -1,7 +1,8 @@
 """First code of a script's process: starts the process that runs the script, and ends everything with the simulator.
 
 Standard input is the connection to the simulator. Standard output is a socket that closes when the simulator ends, however it ends.
-This process only watches: it kills the script and all that the script has started, and reports how the script ended.
+This process only watches: it kills the script and all that the script has started, and reports how the script ended. It is in a process
+group of its own, so that what ends the simulator's group leaves somebody who ends the script's.
 """
 import marshal
 import os
@@ -38,6 +39,7 @@ def watch(child, lifeline, wake):
 def split():
     """Returns the connection in the process of the script; the guardian never returns."""
     connection, lifeline = os.dup(0), os.dup(1)
+    os.setpgid(0, 0)
     null = os.open(os.devnull, os.O_RDWR)
     os.dup2(null, 0)
     os.dup2(2, 1)

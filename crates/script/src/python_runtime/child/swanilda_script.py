@@ -8,6 +8,7 @@ import sys
 import swanilda_api as api
 import swanilda_coverage as coverage
 import swanilda_link as link
+import swanilda_seed as seed
 import swanilda_trace as trace
 
 scope = {}  # the script's globals
@@ -200,6 +201,7 @@ def set_handlers():
 
 def run(connection):
     link.open_link(connection)
+    seed.begin(int(os.environ['PYTHONHASHSEED']))
     sys.stdout, sys.stderr = Output(1), Output(2)
     sys.argv = ['']
     sys.excepthook = lambda kind, error, tb: None if issubclass(kind, link.Ended) else sys.__excepthook__(kind, error, tb)
