@@ -60,40 +60,42 @@ const MAX_ITERATIONS: usize = 200;
 const TOLERANCE: f64 = 1e-7;
 
 /// A contact as three rows: along the normal and two tangents.
-struct Row {
-    sides: [Option<Side>; 2],
+pub(crate) struct Row {
+    pub sides: [Option<Side>; 2],
     axes: Matrix3<f64>,
-    impulse: Vector3<f64>,
+    pub impulse: Vector3<f64>,
     /// The least normal velocity, and the tangential velocities of the obstacle.
-    target: Vector3<f64>,
-    friction: f64,
+    pub target: Vector3<f64>,
+    pub friction: f64,
     /// Normal velocity per impulse.
-    compliance: f64,
+    pub compliance: f64,
+    /// The same for what rebounds too, as far as a direct solution needs it.
+    pub least_compliance: f64,
 }
 
 /// A body at a contact.
-struct Side {
+pub(crate) struct Side {
     body: usize,
     /// Place of the body among the touching ones.
-    place: usize,
+    pub place: usize,
     /// From impulses along the axes to that on the body; its transpose is from the velocity of the body to its part of the relative velocity.
-    jacobian: Matrix6x3<f64>,
+    pub jacobian: Matrix6x3<f64>,
 }
 
 /// How a touching body answers impulses along the axes of a contact.
-struct Change {
-    place: usize,
-    velocity: Matrix6x3<f64>,
+pub(crate) struct Change {
+    pub place: usize,
+    pub velocity: Matrix6x3<f64>,
 }
 
 /// The contacts of a step.
 #[derive(Default)]
 pub(crate) struct Contacts {
-    rows: Vec<Row>,
+    pub rows: Vec<Row>,
     /// The touching bodies: their places.
-    bodies: Vec<usize>,
+    pub bodies: Vec<usize>,
     /// Velocities of the touching bodies.
-    velocities: Vec<Vector6<f64>>,
+    pub velocities: Vec<Vector6<f64>>,
     /// The changes of those that an impulse along the axes of a contact reaches, contact by contact.
     changes: Vec<Change>,
     /// Where the changes of a contact end.
@@ -103,6 +105,8 @@ pub(crate) struct Contacts {
     /// Impulses before a sweep, and the directions in which they change.
     before: Vec<Vector3<f64>>,
     directions: Vec<Vector3<f64>>,
+    /// Whether contacts that hold yield to friction, too, as they are without joints.
+    holding_yields: bool,
 }
 
 impl Row {
@@ -136,11 +140,13 @@ impl Row {
             target: Vector3::zeros(),
             friction: contact.friction,
             compliance: 0.0,
+            least_compliance: 0.0,
         };
         let rebounds = row.set_target(contact, bodies, step);
+        row.least_compliance = COMPLIANCE * row.free_response(bodies);
         // What rebounds keeps its energy.
         if !rebounds {
-            row.compliance = COMPLIANCE * row.free_response(bodies);
+            row.compliance = row.least_compliance;
         }
         row
     }
@@ -184,10 +190,10 @@ impl Row {
             .sum()
     }
 
-    /// Tangential impulses within what friction transmits.
-    fn within_cone(&self, first: f64, second: f64) -> (f64, f64) {
+    /// Tangential impulses within what friction transmits beside a normal one.
+    pub(crate) fn within_cone(&self, normal: f64, first: f64, second: f64) -> (f64, f64) {
         let (largest, length) = (
-            self.friction * self.impulse[0],
+            self.friction * normal,
             (first * first + second * second).sqrt(),
         );
         let scale = if length > largest {
@@ -197,6 +203,11 @@ impl Row {
         };
         (first * scale, second * scale)
     }
+}
+
+fn of_contact<'a>(changes: &'a [Change], ends: &[usize], index: usize) -> &'a [Change] {
+    let first = index.checked_sub(1).map_or(0, |before| ends[before]);
+    &changes[first..ends[index]]
 }
 
 /// Place of a body among those that touch something, the last one if it is new.
@@ -292,7 +303,10 @@ impl Mechanism {
     /// Finds the impulses of the contacts, the joints having been solved for those assumed so far; true when they changed.
     pub(crate) fn find_contact_impulses(&mut self) -> bool {
         let Self {
-            bodies, contacts, ..
+            bodies,
+            contacts,
+            joints,
+            ..
         } = self;
         contacts.velocities.clear();
         contacts
@@ -302,7 +316,11 @@ impl Mechanism {
         contacts
             .directions
             .resize(contacts.rows.len(), Vector3::zeros());
-        let (mut changed, mut square) = (false, f64::INFINITY);
+        contacts.holding_yields = joints.is_empty();
+        let (mut changed, mut square) = (contacts.holding_yields, f64::INFINITY);
+        if contacts.holding_yields {
+            contacts.solve_by_states(bodies);
+        }
         for sweep in 1..=MAX_ITERATIONS {
             contacts.before.clear();
             contacts
@@ -449,7 +467,7 @@ impl Contacts {
     }
 
     /// What the velocity of a contact lacks, along one of its axes.
-    fn slip(&self, index: usize, axis: usize) -> f64 {
+    pub(crate) fn slip(&self, index: usize, axis: usize) -> f64 {
         let row = &self.rows[index];
         let velocity = |side: &Side| side.jacobian.column(axis).dot(&self.velocities[side.place]);
         row.sides.iter().flatten().map(velocity).sum::<f64>() - row.target[axis]
@@ -458,10 +476,20 @@ impl Contacts {
     /// Changes the impulse of a contact along one of its axes.
     fn apply(&mut self, index: usize, axis: usize, change: f64) {
         self.rows[index].impulse[axis] += change;
-        let first = index.checked_sub(1).map_or(0, |before| self.ends[before]);
-        for of_body in &self.changes[first..self.ends[index]] {
-            self.velocities[of_body.place] += of_body.velocity.column(axis) * change;
+        let Self {
+            changes,
+            ends,
+            velocities,
+            ..
+        } = self;
+        for of_body in of_contact(changes, ends, index) {
+            velocities[of_body.place] += of_body.velocity.column(axis) * change;
         }
+    }
+
+    /// How the touching bodies answer the impulses of a contact.
+    pub(crate) fn changes_of(&self, index: usize) -> &[Change] {
+        of_contact(&self.changes, &self.ends, index)
     }
 
     /// Lets a contact push; returns the change of its impulse.
@@ -486,8 +514,14 @@ impl Contacts {
         if row.impulse == Vector3::zeros() {
             return 0.0;
         }
-        let free = [1, 2].map(|axis| row.impulse[axis] - self.slip(index, axis) / response);
-        let (first, second) = row.within_cone(free[0], free[1]);
+        let yields = if self.holding_yields {
+            row.compliance
+        } else {
+            0.0
+        };
+        let missing = |axis: usize| self.slip(index, axis) + yields * row.impulse[axis];
+        let free = [1, 2].map(|axis| row.impulse[axis] - missing(axis) / response);
+        let (first, second) = row.within_cone(row.impulse[0], free[0], free[1]);
         let change = [first - row.impulse[1], second - row.impulse[2]];
         if change == [0.0; 2] || !change.iter().all(|x| x.is_finite()) {
             return 0.0;

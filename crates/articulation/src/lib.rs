@@ -79,6 +79,7 @@
 
 mod block_cholesky;
 mod contact;
+mod contact_states;
 mod fast_rotor;
 mod free_axis;
 mod geometric_stiffness;

@@ -1,7 +1,7 @@
 //! A body on joints: where it is, how it responds to impulses, what velocity it gets.
 
 use geometry::Pose;
-use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 
 use crate::fast_rotor::FastRotor;
 use crate::geometric_stiffness::GeometricStiffness;
@@ -181,6 +181,15 @@ impl LinkedBody {
             linear: self.properties.inverse_mass,
             angular: if is_added { with_added() } else { inverse() },
         }
+    }
+
+    /// Mass and inertia about the centre of mass, world axes.
+    pub(crate) fn mass_matrix(&self) -> Matrix6<f64> {
+        let mut matrix = Matrix6::from_diagonal_element(1.0 / self.properties.inverse_mass);
+        matrix
+            .fixed_view_mut::<3, 3>(3, 3)
+            .copy_from(&self.world_inertia());
+        matrix
     }
 
     /// Inertia of a body that forces move, world axes.
