@@ -12,6 +12,7 @@
 
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3, Vector6};
 
+use crate::jacobian::InverseMass;
 use crate::joint::Joint;
 use crate::linked_body::LinkedBody;
 use crate::mechanism::Mechanism;
@@ -289,6 +290,29 @@ impl Mechanism {
         !self.contacts.rows.is_empty()
     }
 
+    /// Finds the impulses of the contacts of bodies that hang on nothing.
+    pub(crate) fn solve_without_joints(&mut self) -> bool {
+        self.apply_contact_impulses();
+        let masses: Vec<InverseMass> = self.bodies.iter().map(LinkedBody::inverse_mass).collect();
+        for (body, mass) in self.bodies.iter_mut().zip(&masses) {
+            body.joint_impulse = Vector6::zeros();
+            body.velocity = body.free_velocity() + mass.times(&body.known_impulse());
+        }
+        self.contacts.find_changes(&masses);
+        if self.has_contacts() && self.find_contact_impulses() {
+            self.apply_contact_impulses();
+            let Contacts {
+                bodies, velocities, ..
+            } = &self.contacts;
+            for (&body, velocity) in bodies.iter().zip(velocities) {
+                self.bodies[body].velocity = *velocity;
+            }
+        }
+        self.bodies
+            .iter()
+            .all(|body| body.velocity.iter().all(|x| x.is_finite()))
+    }
+
     /// Finds how contacts respond to each other while the joints hold, from the factor of the system.
     pub(crate) fn find_contact_response(&mut self) {
         let Self {
@@ -398,6 +422,30 @@ impl Contact {
 }
 
 impl Contacts {
+    /// The response of bodies without joints. `masses`: of all bodies.
+    fn find_changes(&mut self, masses: &[InverseMass]) {
+        self.changes.clear();
+        self.ends.clear();
+        self.own.clear();
+        for row in &self.rows {
+            let mut response = Matrix3::zeros();
+            for side in row.sides.iter().flatten() {
+                let mass = &masses[side.body];
+                let mut velocity = side.jacobian * mass.linear;
+                velocity
+                    .fixed_rows_mut::<3>(3)
+                    .copy_from(&(mass.angular * side.jacobian.fixed_rows::<3>(3)));
+                response += side.jacobian.tr_mul(&velocity);
+                self.changes.push(Change {
+                    place: side.place,
+                    velocity,
+                });
+            }
+            self.ends.push(self.changes.len());
+            self.own.push(response);
+        }
+    }
+
     /// `bodies`: the response of touching bodies to each other.
     fn update_changes(&mut self, bodies: &[Matrix6<f64>]) {
         let Self {

@@ -30,7 +30,7 @@ impl State {
             return Self::Open;
         }
         let most = row.friction * normal;
-        if normal <= 0.0 || first.hypot(second) < most * HOLDING {
+        if normal <= 0.0 || (first * first + second * second).sqrt() < most * HOLDING {
             Self::Holds
         } else {
             Self::Slides

@@ -121,6 +121,9 @@ impl Mechanism {
 
     /// Finds the impulses that satisfy all joints, motors and limits at once; false when there are none in finite numbers.
     pub fn solve(&mut self) -> bool {
+        if self.joints.is_empty() {
+            return self.solve_without_joints();
+        }
         let last = MAX_ITERATIONS + MAX_CAUTIOUS_ITERATIONS - 1;
         for iteration in 0..=last {
             if !self.system.factorize(&self.joints, &self.bodies) {

@@ -16,6 +16,8 @@ use scene::Handle;
 
 /// Largest number of free bodies that are solved together.
 const MAX_BODIES: usize = 16;
+/// With more free bodies than the second number that touch something, rapier solves all of them, and does so until there are fewer than the first one.
+const CROWD: (usize, usize) = (48, 96);
 /// Distance up to which surfaces count as near though their bodies hardly move, metres.
 const SLACK: f64 = 1e-3;
 
@@ -25,6 +27,8 @@ pub(super) struct Loose {
     /// The first `count` are in use.
     groups: Vec<Linked>,
     count: usize,
+    /// Whether there are too many to be solved one by one.
+    is_crowded: bool,
 }
 
 /// What a sub-step starts from.
@@ -50,6 +54,11 @@ impl Loose {
     ) {
         self.count = 0;
         let world = start.world;
+        let candidates = candidates(start);
+        self.is_crowded = candidates.len() > if self.is_crowded { CROWD.0 } else { CROWD.1 };
+        if self.is_crowded {
+            return;
+        }
         let sizes = Sizes::new(world, contacts);
         let (robots, bases) = (taken.clone(), BTreeMap::new());
         let is_refused = |body: RigidBodyHandle, shape: Handle| {
@@ -63,19 +72,8 @@ impl Loose {
             slack: SLACK,
             is_refused: &is_refused,
         };
-        for (handle, rigid) in world
-            .awake()
-            .filter_map(|handle| Some((handle, world.bodies.get(handle)?)))
-        {
-            let is_possible = |shape: Handle| {
-                !start.places.contains_key(&shape)
-                    && !taken.contains(&shape)
-                    && !is_refused(handle, shape)
-            };
-            if !shape_of(rigid, world).is_some_and(is_possible)
-                || world.has_joints(handle)
-                || !world.is_near_anything(rigid, start.step)
-            {
+        for (handle, rigid, shape) in candidates {
+            if taken.contains(&shape) || is_refused(handle, shape) {
                 continue;
             }
             let number = first + self.count;
@@ -125,6 +123,18 @@ impl Loose {
     pub(super) fn groups(&self) -> impl Iterator<Item = &Linked> {
         self.groups[..self.count].iter()
     }
+}
+
+/// The bodies that may touch something, and belong to no mechanism.
+fn candidates(start: Start<'_>) -> Vec<(RigidBodyHandle, &RigidBody, Handle)> {
+    let world = start.world;
+    let candidate = |handle| {
+        let rigid = world.bodies.get(handle)?;
+        let shape = shape_of(rigid, world)?;
+        let is_free = !start.places.contains_key(&shape) && !world.has_joints(handle);
+        (is_free && world.is_near_anything(rigid, start.step)).then_some((handle, rigid, shape))
+    };
+    world.awake().filter_map(candidate).collect()
 }
 
 /// The shape of a dynamic body that collides.
