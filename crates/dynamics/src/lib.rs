@@ -19,6 +19,7 @@ mod contact_log;
 mod contacts;
 mod convert;
 mod flat_faces;
+mod free_rotation;
 mod frozen;
 mod links;
 mod load;

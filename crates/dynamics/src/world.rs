@@ -12,6 +12,8 @@ use rapier3d_f64::prelude::{
     PhysicsPipeline, RigidBody, RigidBodyHandle, RigidBodySet, SoftBodySet, SpringCoefficients,
 };
 
+use super::free_rotation;
+
 /// Number of solver steps into which a sub-step is divided for bodies in contact.
 pub(super) const CONTACT_SUBSTEPS: usize = 4;
 /// Iterations of the constraint solver in each solver step.
@@ -151,13 +153,18 @@ impl World {
         {
             self.wake_all();
         }
+        let tumbling = self.select_tumbling();
         self.run_pipeline(step, gravity, hooks);
+        for &handle in &tumbling {
+            if let Some(rigid) = self.bodies.get_mut(handle) {
+                free_rotation::complete(rigid, step);
+            }
+        }
         // Only those are changed: rapier processes every body that may have changed.
         let awake = self.islands.active_bodies();
-        let fast = awake.filter(|&handle| {
-            self.bodies
-                .get(handle)
-                .is_some_and(|rigid| turns_fast(rigid, step))
+        let fast = awake.filter(|handle| {
+            let rigid = self.bodies.get(*handle);
+            rigid.is_some_and(|rigid| turns_fast(rigid, step)) && !tumbling.contains(handle)
         });
         for handle in fast.collect::<Vec<_>>() {
             if let Some(rigid) = self.bodies.get_mut(handle) {

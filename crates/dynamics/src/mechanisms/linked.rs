@@ -14,6 +14,7 @@ use super::reach::Reach;
 use super::search::Touching;
 use crate::bodies::{Bodies, Body};
 use crate::convert::{from_pose, from_vector, to_pose, to_vector};
+use crate::free_rotation::LINKED;
 use crate::links::{Link, Links};
 use crate::world::World;
 use scene::Handle;
@@ -206,6 +207,7 @@ impl Linked {
         for body in self.bodies.iter().filter(|body| body.is_dynamic) {
             if let Some(rigid) = world.bodies.get_mut(body.rigid) {
                 rigid.enable_gyroscopic_forces(on);
+                rigid.user_data = if on { 0 } else { LINKED };
             }
         }
     }
