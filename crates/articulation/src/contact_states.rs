@@ -72,7 +72,7 @@ impl Contacts {
     }
 
     /// The velocities of the touching bodies without the impulses of the contacts.
-    fn velocities_without(&self) -> Vec<Vector6<f64>> {
+    pub(crate) fn velocities_without(&self) -> Vec<Vector6<f64>> {
         let mut velocities = self.velocities.clone();
         self.add_impulses(&mut velocities, -1.0);
         velocities
@@ -150,10 +150,7 @@ impl Row {
         if state != State::Holds {
             return Vector3::zeros();
         }
-        let here = self.sides.iter().flatten();
-        let velocity: Vector3<f64> = here
-            .map(|side| side.jacobian.tr_mul(&velocities[side.place]))
-            .sum();
+        let velocity = self.velocity_past(velocities);
         let free = (self.target - velocity) / self.least_compliance;
         let normal = free[0].max(0.0);
         let (first, second) = self.within_cone(normal, free[1], free[2]);
