@@ -221,6 +221,7 @@ impl Body {
                 .restitution_combine_rule(CoefficientCombineRule::Multiply)
                 .active_hooks(ALL_HOOKS)
                 .user_data(tag.pack());
+            world.has_new_colliders = true;
             self.colliders.push(world.colliders.insert_with_parent(
                 collider,
                 self.rigid,

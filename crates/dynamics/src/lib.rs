@@ -322,6 +322,7 @@ impl Dynamics {
         } else {
             [0.0; 3]
         };
+        self.detect_new(&mut world, gravity);
         let is_integrated = self.solve_mechanisms(&mut world, gravity, call.step, &verdicts);
         let apart = self.mechanisms.contacts().pairs(&mut world, &verdicts);
         contacts::set_hooks(&mut world, &verdicts, &apart);
@@ -340,6 +341,16 @@ impl Dynamics {
             apart,
             is_integrated,
         })
+    }
+
+    /// Finds what new bodies touch, so that their first contacts are solved as all others are. Bodies of mechanisms begin to touch in the second sub-step.
+    fn detect_new(&self, world: &mut World, gravity: [f64; 3]) {
+        let is_new = std::mem::take(&mut world.has_new_colliders);
+        let mut moving = self.bodies.iter().filter(|(_, body)| body.build.dynamic);
+        if is_new && moving.any(|(shape, _)| !self.mechanisms.contains(shape)) {
+            let rules = contacts::Rules::new(None, Verdicts::default(), &[]);
+            world.detect_collisions(convert::to_vector(gravity), &rules);
+        }
     }
 
     /// Solves the mechanisms, and moves their bodies if nothing else moves; whether it did.

@@ -52,6 +52,8 @@ pub(super) struct World {
     parameters: IntegrationParameters,
     /// Of the step before.
     gravity: Option<Vector>,
+    /// Whether colliders came that no step has seen.
+    pub has_new_colliders: bool,
     /// The colliders of the present plan.
     pub known: Known,
 }
@@ -138,6 +140,7 @@ impl Default for World {
             pipeline: PhysicsPipeline::new(),
             parameters: parameters(),
             gravity: None,
+            has_new_colliders: false,
             known: Known::default(),
         }
     }

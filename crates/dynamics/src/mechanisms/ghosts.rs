@@ -34,7 +34,7 @@ pub(super) fn remove_seams(points: &mut Vec<Point>, colliders: &ColliderSet) {
                     let partner = (point.colliders[1 - side], point.parts[1 - side]);
                     let collider = colliders.get(partner.0);
                     let top = collider.and_then(|collider| top(collider, partner.1, up));
-                    top.is_some_and(|top| top < support.place().dot(up) + MAX_STEP)
+                    top.is_some_and(|top| top < plane(support, up) + MAX_STEP)
                 })
             })
         })
@@ -59,6 +59,11 @@ fn supports<'a>(
             Some((support, upward(support, side)))
         })
         .filter(move |(_, up)| up.dot(own) < MIN_NORMAL_COSINE)
+}
+
+/// How high the surface reaches on which a body lies, which may have sunk in.
+fn plane(support: &Point, up: Vector) -> f64 {
+    support.place().dot(up) - support.contact.distance / 2.0
 }
 
 /// The normal of a point, to the body at that side.

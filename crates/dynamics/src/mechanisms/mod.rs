@@ -134,6 +134,11 @@ impl Mechanisms {
         }
     }
 
+    /// Whether a shape that moves belongs to a mechanism.
+    pub(super) fn contains(&self, shape: Handle) -> bool {
+        self.places.contains_key(&shape)
+    }
+
     /// Whether rapier holds all links.
     #[cfg(test)]
     pub(super) fn is_empty(&self) -> bool {

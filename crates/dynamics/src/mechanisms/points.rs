@@ -17,6 +17,9 @@ const MAX_GROUP_POINTS: usize = 4;
 /// Cosine of the largest angle between the normals of points of one surface.
 const MIN_NORMAL_COSINE: f64 = 0.99;
 
+/// How far shapes are moved apart for which no normal is found, metres.
+const NUDGE: f64 = 1e-8;
+
 type Manifold = ContactManifold<(), [f64; 3]>;
 
 /// Two colliders that are near each other.
@@ -99,18 +102,42 @@ impl Pair {
         self.manifolds
             .iter_mut()
             .for_each(Manifold::mark_shapes_deformed);
+        let mut found = self.search(&apart, first, second, reach);
+        if self.has_no_direction() {
+            let mut nudged = apart;
+            nudged.translation += apart.translation.normalize_or_zero() * NUDGE;
+            found = self.search(&nudged, first, second, reach);
+        }
+        let mut points = self.manifolds.iter().flat_map(|manifold| &manifold.points);
+        found && points.any(|found| found.dist < reach)
+    }
+
+    fn search(
+        &mut self,
+        apart: &EnginePose,
+        first: &Collider,
+        second: &Collider,
+        reach: f64,
+    ) -> bool {
         let dispatcher: &dyn PersistentQueryDispatcher<(), [f64; 3]> = &DefaultQueryDispatcher;
         let shapes = (first.shape(), second.shape());
         let found = dispatcher.contact_manifolds(
-            &apart,
+            apart,
             shapes.0,
             shapes.1,
             reach,
             &mut self.manifolds,
             &mut self.workspace,
         );
-        let mut points = self.manifolds.iter().flat_map(|manifold| &manifold.points);
-        found.is_ok() && points.any(|found| found.dist < reach)
+        found.is_ok()
+    }
+
+    /// Whether parry found no normal: so it is with faces that touch to the last digit.
+    fn has_no_direction(&self) -> bool {
+        let is_lost = |manifold: &Manifold| {
+            !manifold.points.is_empty() && manifold.local_n1.length_squared() < 0.5
+        };
+        self.manifolds.iter().any(is_lost)
     }
 
     pub(super) fn points(
@@ -195,4 +222,37 @@ fn corners(group: Vec<Point>) -> Vec<Point> {
         .filter(|(index, _)| chosen.contains(index))
         .map(|(_, point)| point)
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use rapier3d_f64::math::Rotation;
+    use rapier3d_f64::prelude::ColliderBuilder;
+
+    use super::*;
+
+    fn coin(height: f64) -> Collider {
+        let mut pose =
+            EnginePose::from_rotation(Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2));
+        pose.translation = Vector::new(0.0, 0.3, height);
+        ColliderBuilder::cylinder(0.001, 0.01)
+            .position(pose)
+            .build()
+    }
+
+    #[test]
+    fn coins_that_touch_to_the_last_digit_have_a_normal() {
+        for level in 0..40 {
+            let height = 0.001 + 0.002 * f64::from(level);
+            let (lower, upper) = (coin(height), coin(height + 0.002));
+            let mut pair = Pair::default();
+            assert!(pair.update(&lower, &upper, 0.01), "{level}");
+            let points = pair.points([ColliderHandle::invalid(); 2], &lower, &upper, 0.01);
+            assert_eq!(points.len(), 4, "{level}");
+            assert!(
+                points.iter().all(|point| point.normal.z < -0.999),
+                "{level}"
+            );
+        }
+    }
 }
