@@ -19,11 +19,11 @@ bench.run(function()
         sim.step()
         for _, ball in ipairs(balls) do
             local z, v = sim.getObjectPosition(ball.body)[3] - RADIUS, sim.getVelocity(ball.body)[3]
-            -- Between two samples the top is missed: energy tells it.
-            if sim.getSimulationTime() > 0.5 then ball.top = math.max(ball.top, z + v * v / (2 * bench.g)) end
+            -- Between two samples the top is missed: the energy that the integration keeps, in sub-steps of 5 ms, tells it.
+            if sim.getSimulationTime() > 0.5 then ball.top = math.max(ball.top, z + v * v / (2 * bench.g) - v * 0.0025) end
         end
     end
     for _, ball in ipairs(balls) do
-        bench.check(('rebound height at restitution %.2f, m'):format(ball.bounce), ball.top, ball.bounce ^ 2, 0.02)
+        bench.check(('rebound height at restitution %.2f, m'):format(ball.bounce), ball.top, ball.bounce ^ 2, 0.002)
     end
 end)

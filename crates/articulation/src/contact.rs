@@ -110,7 +110,13 @@ pub(crate) struct Contacts {
 }
 
 impl Row {
-    fn new(contact: &Contact, places: &mut Vec<usize>, bodies: &[LinkedBody], step: f64) -> Self {
+    fn new(
+        contact: &Contact,
+        places: &mut Vec<usize>,
+        bodies: &[LinkedBody],
+        step: f64,
+        is_free: bool,
+    ) -> Self {
         let normal = Vector3::from(contact.normal);
         let (first, second) = tangents(&normal);
         let axes = Matrix3::from_rows(&[normal.transpose(), first.transpose(), second.transpose()]);
@@ -144,7 +150,7 @@ impl Row {
             compliance: 0.0,
             least_compliance: 0.0,
         };
-        let rebounds = row.set_target(contact, bodies, step);
+        let rebounds = row.set_target(contact, bodies, step, is_free);
         row.least_compliance = COMPLIANCE * row.free_response(bodies);
         // What rebounds keeps its energy.
         if !rebounds {
@@ -154,7 +160,13 @@ impl Row {
     }
 
     /// Sets the velocities to be reached; whether the bodies rebound.
-    fn set_target(&mut self, contact: &Contact, bodies: &[LinkedBody], step: f64) -> bool {
+    fn set_target(
+        &mut self,
+        contact: &Contact,
+        bodies: &[LinkedBody],
+        step: f64,
+        is_free: bool,
+    ) -> bool {
         let mut target = self.obstacle;
         let approach = self.velocity(|body| bodies[body].present_velocity())[0] - target[0];
         let share = if contact.distance < 0.0 {
@@ -167,10 +179,32 @@ impl Row {
             contact.restitution > 0.0 && approach < -RESTITUTION_THRESHOLD && approach < closing;
         if rebounds {
             self.rebound = -approach * contact.restitution;
+            if is_free {
+                self.rebound = self.rebound_of_free(contact, approach, bodies, step);
+            }
         }
+        let rebounds = self.rebound > 0.0;
         target[0] += if rebounds { self.rebound } else { closing };
         self.target = target;
         rebounds
+    }
+
+    /// How fast bodies rebound that only gravity moves: so that they rise to the square of the restitution of the height from which they fell, though they turn
+    /// back before the surface or beyond it. Follows from the energy that the integration keeps, `(v - g h / 2)^2 / 2 + g z`.
+    fn rebound_of_free(
+        &self,
+        contact: &Contact,
+        approach: f64,
+        bodies: &[LinkedBody],
+        step: f64,
+    ) -> f64 {
+        let falling = self.velocity(|body| bodies[body].free_velocity())[0] - self.obstacle[0];
+        let gravity = (approach - falling) / step;
+        let square = contact.restitution.powi(2);
+        let half = gravity * step / 2.0;
+        let before = (half - approach).powi(2) * square;
+        let risen = 2.0 * gravity * contact.distance * (1.0 - square);
+        (before - risen).max(0.0).sqrt() - half
     }
 
     /// Normal velocity per normal impulse if there were no joints.
@@ -235,6 +269,7 @@ impl Mechanism {
             .iter()
             .map(|contact| self.can_separate(contact, contacts))
             .collect();
+        let is_free = self.joints.is_empty();
         let Self {
             bodies,
             contacts: system,
@@ -257,7 +292,7 @@ impl Mechanism {
                     ..*contact
                 }
             };
-            rows.push(Row::new(&contact, places, bodies, *step));
+            rows.push(Row::new(&contact, places, bodies, *step, is_free));
         }
     }
 
