@@ -8,6 +8,7 @@
 //!
 //! - `plan`: the bodies and constraints that the scene needs; compared with those that exist, so that only changes reach the engine.
 //! - `bodies`, `colliders`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`, with their contacts.
+//! - `near`: what a body may touch in a sub-step; `free_rotation`: bodies that tumble.
 //! - `contacts`: collision filters; `flat_faces`: contacts without friction; `motors`: the control law.
 //! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
 //!
