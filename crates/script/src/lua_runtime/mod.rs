@@ -6,6 +6,7 @@ pub(crate) mod coverage;
 mod functions;
 mod implicit;
 mod library_globals;
+mod members;
 mod old_calls;
 pub(crate) mod reference_modules;
 mod reused;
