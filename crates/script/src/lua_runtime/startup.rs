@@ -199,7 +199,7 @@ fn install_paths(sim: &Sim, stack: Stack<'_>) {
 /// The table `package` is on top. Its first searcher, that of `package.preload`, stays the first.
 fn install_searchers(stack: Stack<'_>) {
     stack.raw_get_field(-1, "searchers");
-    let last = stack.raw_len(-1) as i64;
+    let last = numbers::count(stack.raw_len(-1));
     for i in (2..=last).rev() {
         stack.raw_get_index(-1, i);
         stack.raw_set_index(-2, i + 1);
