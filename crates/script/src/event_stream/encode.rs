@@ -108,6 +108,7 @@ fn plain_array(items: &[Data], out: &mut Vec<u8>) {
 
 #[expect(
     clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
     reason = "only integers of 32 bits come here"
 )]
 fn narrow_int(out: &mut Vec<u8>, i: i64) {

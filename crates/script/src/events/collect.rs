@@ -39,7 +39,7 @@ impl Sim {
                 self.with_collector(|mut collector| {
                     changes
                         .into_iter()
-                        .for_each(|change| collector.collect(change))
+                        .for_each(|change| collector.collect(change));
                 });
             }
         }
