@@ -102,15 +102,15 @@ fn overhead(criterion: &mut Criterion) {
     for count in [100, 1000] {
         let (mut raw, mut sim) = (raw_rapier(count), simulator(count, SLIDING));
         group.bench_function(format!("raw rapier, {count} boxes"), |bencher| {
-            bencher.iter(|| iterate(&mut raw))
+            bencher.iter(|| iterate(&mut raw));
         });
         group.bench_function(format!("simulator, {count} boxes"), |bencher| {
-            bencher.iter(|| sim.iterate())
+            bencher.iter(|| sim.iterate());
         });
     }
     let mut sim = simulator(1000, 0.0);
     group.bench_function("simulator, 1000 sleeping boxes", |bencher| {
-        bencher.iter(|| sim.iterate())
+        bencher.iter(|| sim.iterate());
     });
     group.finish();
 }

@@ -11,19 +11,19 @@ use libfuzzer_sys::fuzz_target;
 #[path = "../../crates/io/src/zmtp.rs"]
 mod zmtp;
 
-use zmtp::{Decoder, Said, Violation};
+use zmtp::{Decoder, PeerMessage, Violation};
 
 const GREETING_SIZE: usize = 64;
 const READY: &[u8] = b"\x04\x19\x05READY\x0bSocket-Type\0\0\0\x03REQ";
 
 /// All that is read from `bytes`, which come in pieces of `size`.
-fn read(bytes: &[u8], size: usize) -> (Vec<Said>, Result<(), Violation>) {
+fn read(bytes: &[u8], size: usize) -> (Vec<PeerMessage>, Result<(), Violation>) {
     let (mut decoder, mut read) = (Decoder::new(), Vec::new());
     for piece in bytes.chunks(size) {
         decoder.feed(piece);
         loop {
             match decoder.next() {
-                Ok(Some(said)) => read.push(said),
+                Ok(Some(message)) => read.push(message),
                 Ok(None) => break,
                 Err(violation) => return (read, Err(violation)),
             }
@@ -38,7 +38,7 @@ fn check_again(request: &zmtp::Request) {
     let (again, outcome) = read(&[&handshake()[..], &sent].concat(), usize::MAX);
     assert_eq!(outcome, Ok(()));
     let again = again.into_iter().next();
-    assert!(matches!(again, Some(Said::Request(again)) if again == *request));
+    assert!(matches!(again, Some(PeerMessage::Request(again)) if again == *request));
 }
 
 fn handshake() -> Vec<u8> {
@@ -50,8 +50,8 @@ fuzz_target!(|input: &[u8]| {
     let bytes = if control & 0x80 == 0 { rest.to_vec() } else { [&handshake()[..], rest].concat() };
     let whole = read(&bytes, usize::MAX);
     assert_eq!(whole, read(&bytes, usize::from(control & 0x7f) + 1));
-    for said in &whole.0 {
-        if let Said::Request(request) = said {
+    for message in &whole.0 {
+        if let PeerMessage::Request(request) = message {
             check_again(request);
         }
     }

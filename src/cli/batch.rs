@@ -111,7 +111,7 @@ fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
                     super::complain(&format!(
                         "run {} (seed {}): {error}",
                         row.run.number, row.run.seed
-                    ))
+                    ));
                 });
             }
             bar.inc(1);

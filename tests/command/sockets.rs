@@ -73,7 +73,7 @@ fn the_probe_prints_what_luasocket_printed() {
             Some(_) => assert!(line.starts_with(&expected), "{line}"),
             // Serial ports have functions of their own: sim.serialOpen.
             None if expected.starts_with("serial => ") => {
-                assert!(line.starts_with("serial => false"), "{line}")
+                assert!(line.starts_with("serial => false"), "{line}");
             }
             None => assert_eq!(line, expected),
         }

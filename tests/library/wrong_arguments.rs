@@ -58,7 +58,7 @@ fn wrong_arguments_for_every_function() {
 }
 
 /// Calls each function with values of every kind at every place, with a few sound values around them.
-const CALL_WRONGLY: &str = r#"
+const CALL_WRONGLY: &str = r"
 sim = require 'sim'
 local write = print
 print = function() end
@@ -92,4 +92,4 @@ for _, entry in ipairs{FUNCTIONS} do
     end
 end
 write('all called')
-"#;
+";

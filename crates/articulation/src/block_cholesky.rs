@@ -214,14 +214,14 @@ impl Matrix {
             for &(target, left, right) in &pattern.updates[column] {
                 match target {
                     Place::Diagonal(row) => {
-                        subtract_lower_square(&mut self.diagonal[row], &self.below[left], &factor)
+                        subtract_lower_square(&mut self.diagonal[row], &self.below[left], &factor);
                     }
                     Place::Below(place) => {
                         let mut scaled = self.below[left];
                         (0..6).for_each(|column| {
                             scaled.data.0[column]
                                 .iter_mut()
-                                .for_each(|x| *x *= factor.data.0[column][column])
+                                .for_each(|x| *x *= factor.data.0[column][column]);
                         });
                         let product = scaled * self.below[right].transpose();
                         self.below[place] -= product;

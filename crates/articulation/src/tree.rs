@@ -207,7 +207,7 @@ impl System for Tree {
             link.place(joints, bodies);
         }
         let carry = |link: &Link, parent: &mut Link, arm: &Vector3<f64>| {
-            parent.inertia.add_shifted(&link.inertia, arm)
+            parent.inertia.add_shifted(&link.inertia, arm);
         };
         self.toward_root(Link::eliminate_axes, carry);
         let can_respond = |axis: &Axis| axis.response >= 0.0 && axis.response.is_finite();

@@ -7,16 +7,13 @@ mod approximated;
 mod callbacks;
 mod coverage;
 mod literal;
-mod lua_comments;
-mod lua_tokens;
+mod lua;
 mod markdown;
-mod module_stubs;
 mod modules;
 mod overview;
 mod plugin_header;
 mod plugins;
 mod properties;
-mod python_stubs;
 mod row;
 mod stubs;
 mod suspicions;
@@ -43,7 +40,7 @@ pub const STUBS: &str = "docs/stubs";
 /// an underscore are inner ones and not listed.
 pub fn functions() -> Vec<FunctionDoc> {
     let mut all: BTreeMap<String, FunctionDoc> = BTreeMap::new();
-    for function in lua_comments::functions() {
+    for function in lua::comments::functions() {
         all.insert(function.name.clone(), function);
     }
     for (category, functions) in api::SIM.functions {
@@ -84,7 +81,7 @@ pub fn remedy(name: &str) -> Option<&'static str> {
 /// Every function of the modules beside `sim`, module by module.
 pub fn module_functions() -> Vec<FunctionDoc> {
     modules::names()
-        .flat_map(|module| module_stubs::of_module(&module))
+        .flat_map(|module| stubs::modules::of_module(&module))
         .collect()
 }
 
@@ -114,7 +111,7 @@ pub fn files() -> Vec<(String, String)> {
             .into_iter()
             .map(|(path, text)| (format!("{STUBS}/{path}"), text)),
     );
-    files.push((python_stubs::PATH.to_owned(), python_stubs::text()));
+    files.push((stubs::python::PATH.to_owned(), stubs::python::text()));
     files.push(("docs/COVERAGE.md".to_owned(), coverage::text(&functions)));
     files.push(("docs/PROPERTIES.md".to_owned(), properties::text()));
     files.push(("docs/CALLBACKS.md".to_owned(), callbacks::text()));
@@ -132,7 +129,7 @@ pub fn stubs() -> Vec<(String, String)> {
     let callbacks = ("callbacks.lua".to_owned(), callbacks::stub());
     [sim, callbacks]
         .into_iter()
-        .chain(module_stubs::files())
+        .chain(stubs::modules::files())
         .collect()
 }
 

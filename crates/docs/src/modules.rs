@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
+use super::markdown;
 use super::row::FunctionDoc;
-use super::{markdown, module_stubs};
+use super::stubs::modules as module_stubs;
 use lua_library::FILES;
 use modules::ALL;
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use super::lua_tokens::{Kind, Token};
+use super::lua::tokens::{Kind, Token};
 use super::usage::{Support, Use};
 use super::{callbacks, modules};
 use script::{ReferenceModule, SysCall, nearest};

@@ -157,10 +157,7 @@ impl Body {
     /// Builds the body where its shape is, with the initial velocity the shape carries, which is used up by that.
     fn insert(shape: Handle, plan: BodyPlan, world: &mut World, scene: &mut Scene) -> Self {
         let pose = scene.world_pose(shape).unwrap_or_else(|_| Pose::identity());
-        let local = scene
-            .object(shape)
-            .map(|object| object.pose())
-            .unwrap_or(pose);
+        let local = scene.object(shape).map_or(pose, |object| object.pose());
         let mut rigid = rigid_body(&plan, &pose);
         let velocity = take_initial_velocity(scene, shape).unwrap_or_default();
         let drift = if plan.build.dynamic {

@@ -391,7 +391,7 @@ pub(super) fn clear_resets(links: &Links, scene: &mut Scene) {
         {
             // The handle was just read.
             let _ = scene.modify(handle, Field::Dynamics, |object| {
-                object.dynamics_reset = false
+                object.dynamics_reset = false;
             });
         }
     }

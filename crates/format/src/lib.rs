@@ -1,5 +1,14 @@
 //! Files of other programs.
 
+#![cfg_attr(
+    not(test),
+    warn(
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        clippy::cast_sign_loss
+    )
+)]
+
 pub mod gltf_file;
 pub mod graph_file;
 pub mod mesh_file;

@@ -277,7 +277,7 @@ impl Picture {
 
 /// Bytes of a picture of floats; fractions of a byte are cut, as the original does.
 fn truncated(picture: &Rgba32FImage) -> DynamicImage {
-    let byte = |value: f32| (value * 255.0 + 1e-3) as u8;
+    let byte = |value: f32| numbers::level((value * 255.0 + 1e-3).into());
     let bytes = RgbaImage::from_fn(picture.width(), picture.height(), |x, y| {
         image::Rgba(picture.get_pixel(x, y).0.map(byte))
     });

@@ -126,7 +126,8 @@ where
 }
 
 fn rgb(colour: [f32; 3]) -> RGBColor {
-    let [red, green, blue] = colour.map(|part| (part.clamp(0.0, 1.0) * 255.0).round() as u8);
+    let [red, green, blue] =
+        colour.map(|part| numbers::level((part.clamp(0.0, 1.0) * 255.0).round().into()));
     RGBColor(red, green, blue)
 }
 
@@ -195,6 +196,6 @@ pub fn load_font() {
             "sans-serif",
             FontStyle::Normal,
             dejavu::sans::regular(),
-        ))
+        ));
     });
 }

@@ -195,7 +195,7 @@ impl SceneLinks {
         }
         for task in groups
             .iter()
-            .flat_map(|group| self.groups.get(&group.raw()))
+            .filter_map(|group| self.groups.get(&group.raw()))
             .flatten()
         {
             let frame = task.base.map_or(scene::Frame::World, scene::Frame::Object);
@@ -252,7 +252,7 @@ impl SceneLinks {
         let mut joints = Vec::new();
         for task in groups
             .iter()
-            .flat_map(|group| self.groups.get(&group.raw()))
+            .filter_map(|group| self.groups.get(&group.raw()))
             .flatten()
         {
             let mut next = Some(task.tip);

@@ -8,6 +8,15 @@
 //! for contours and homographies of a few dozen lines. For markers, `aruco-rs` lacks the dictionary of the original ArUco and brings a second
 //! version of `nalgebra`, and `kornia-apriltag` adds 300 packages. Letters are drawn with `ab_glyph`, which charts need as well.
 
+#![cfg_attr(
+    not(test),
+    warn(
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        clippy::cast_sign_loss
+    )
+)]
+
 pub mod draw;
 pub mod markers;
 pub mod matrix;

@@ -103,7 +103,7 @@ impl SerialPort {
                 Err(error)
                     if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::Interrupted) =>
                 {
-                    idle += 1
+                    idle += 1;
                 }
                 Err(_) => break,
             }

@@ -134,7 +134,7 @@ fn single_calls(c: &mut Criterion) {
         let goals = goals(&mut arm);
         let mut i = 0;
         c.bench_function(&format!("{name}/forward kinematics and Jacobian"), |b| {
-            b.iter(|| arm.env.equations(arm.group).is_ok())
+            b.iter(|| arm.env.equations(arm.group).is_ok());
         });
         c.bench_function(&format!("{name}/any posture"), |b| {
             b.iter(|| {

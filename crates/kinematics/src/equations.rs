@@ -178,7 +178,7 @@ impl Equations {
                 }
                 JointType::Prismatic => frame.shift(joint.position),
                 JointType::Spherical => {
-                    frame.rotation *= joint.rotation.to_rotation_matrix().into_inner()
+                    frame.rotation *= joint.rotation.to_rotation_matrix().into_inner();
                 }
             }
         }
@@ -232,8 +232,8 @@ impl Equations {
                         z,
                     ),
                 };
-                let linear = along(&frames.axes, linear);
-                let angular = along(&angular_axes, angular);
+                let linear = along(frames.axes.as_ref(), linear);
+                let angular = along(angular_axes.as_ref(), angular);
                 let numbers = [
                     linear.x, linear.y, linear.z, angular.x, angular.y, angular.z,
                 ];
@@ -317,7 +317,7 @@ fn slope(env: &Environment, joint: ObjectId) -> Result<f64> {
     Ok(slope)
 }
 
-fn along(axes: &Option<Matrix3<f64>>, vector: Vector3<f64>) -> Vector3<f64> {
+fn along(axes: Option<&Matrix3<f64>>, vector: Vector3<f64>) -> Vector3<f64> {
     axes.map_or(vector, |axes| axes.tr_mul(&vector))
 }
 
@@ -334,7 +334,10 @@ struct Difference {
 
 impl Difference {
     fn new(tip: &Rigid, frames: &Frames, constraints: Constraints) -> Self {
-        let position = along(&frames.axes, frames.target.translation - tip.translation);
+        let position = along(
+            frames.axes.as_ref(),
+            frames.target.translation - tip.translation,
+        );
         let rotation = tip.rotation.tr_mul(&frames.target.rotation);
         let bits = [Constraints::X, Constraints::Y, Constraints::Z];
         let constrained: f64 = (0..3)
@@ -377,7 +380,7 @@ impl Difference {
             }
         };
         let angular = if full {
-            along(&frames.axes, tip.rotation * angular)
+            along(frames.axes.as_ref(), tip.rotation * angular)
         } else {
             angular
         };

@@ -51,7 +51,7 @@ impl Step<'_> {
         let inverse = self.own_inverse(errors.len());
         let inverse = inverse.or_else(|| {
             if with_used {
-                with_roots(problem.inverse()?, &roots)
+                with_roots(problem.inverse()?, roots.as_deref())
             } else {
                 None
             }
@@ -60,7 +60,7 @@ impl Step<'_> {
         match (&self.revision.step, &inverse) {
             (Some(own), _) => step.clone_from(own),
             (None, Some(inverse)) => {
-                step.extend((inverse * DVector::from_column_slice(errors)).iter())
+                step.extend((inverse * DVector::from_column_slice(errors)).iter());
             }
             (None, None) if !problem.solve(errors, &mut step, scratch) => return Ok(None),
             (None, None) => step
@@ -106,8 +106,8 @@ impl Step<'_> {
     }
 }
 
-fn with_roots(mut inverse: DMatrix<f64>, roots: &Option<Vec<f64>>) -> Option<DMatrix<f64>> {
-    for (i, root) in roots.iter().flatten().enumerate() {
+fn with_roots(mut inverse: DMatrix<f64>, roots: Option<&[f64]>) -> Option<DMatrix<f64>> {
+    for (i, root) in roots.into_iter().flatten().enumerate() {
         inverse.row_mut(i).scale_mut(*root);
     }
     Some(inverse)

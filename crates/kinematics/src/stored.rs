@@ -326,8 +326,8 @@ impl Reader<'_> {
         };
         Some(Joint {
             mode,
-            cyclic,
             rotation,
+            cyclic,
             dependency,
             ..numbers
         })

@@ -21,10 +21,10 @@ fn planar(method: Method, damping: f64, iterations: u32) -> Arm {
     let mut arm = Arm::planar();
     arm.aim(Pose::translation(0.01, -0.02, 0.0) * arm.tip_pose());
     arm.set_element(|element| {
-        element.constraints = Constraints(Constraints::X.0 | Constraints::Y.0)
+        element.constraints = Constraints(Constraints::X.0 | Constraints::Y.0);
     });
     arm.set_group(|group| {
-        (group.method, group.damping, group.iterations) = (method, damping, iterations)
+        (group.method, group.damping, group.iterations) = (method, damping, iterations);
     });
     arm
 }
@@ -256,7 +256,7 @@ fn constraints_are_along_the_axes_of_their_base() {
         .unwrap();
     arm.aim(Pose::translation(-0.1, 0.05, 0.0) * arm.tip_pose());
     arm.set_element(|element| {
-        (element.constraints, element.constraint_base) = (Constraints::X, Some(base))
+        (element.constraints, element.constraint_base) = (Constraints::X, Some(base));
     });
     arm.set_group(|group| group.iterations = 20);
     assert!(arm.handle().is_success());

@@ -34,10 +34,10 @@ pub(crate) fn push_polygon(
     }
     let points: Vec<[f64; 3]> = polygon
         .iter()
-        .map(|corner| positions[corner.position as usize])
+        .map(|corner| positions[numbers::place(corner.position)])
         .collect();
     triangulate(&points, |triangle| {
-        triangles.push(triangle.map(|corner| polygon[corner]))
+        triangles.push(triangle.map(|corner| polygon[corner]));
     });
 }
 
@@ -59,7 +59,7 @@ pub(crate) fn part(
         name,
         vertices: used
             .iter()
-            .map(|&index| lists.positions[index as usize])
+            .map(|&index| lists.positions[numbers::place(index)])
             .collect(),
         triangles: corners
             .iter()
@@ -86,7 +86,7 @@ fn attribute<const N: usize>(
 ) -> Vec<[[f64; N]; 3]> {
     let value = |corner: Corner| match index(&corner) {
         NONE => [0.0; N],
-        index => list[index as usize],
+        index => list[numbers::place(index)],
     };
     corners.iter().map(|triangle| triangle.map(value)).collect()
 }
@@ -101,8 +101,10 @@ enum NewIndex {
 impl NewIndex {
     fn of(&self, index: u32) -> u32 {
         match self {
-            NewIndex::Table(table) => table[index as usize],
-            NewIndex::Search(used) => used.partition_point(|&other| other < index) as u32,
+            NewIndex::Table(table) => table[numbers::place(index)],
+            NewIndex::Search(used) => {
+                numbers::count_u32(used.partition_point(|&other| other < index))
+            }
         }
     }
 }
@@ -117,13 +119,13 @@ fn used_positions(positions: usize, corners: &[[Corner; 3]]) -> (Vec<u32>, NewIn
         return (used.clone(), NewIndex::Search(used));
     }
     let mut table = vec![NONE; positions];
-    indices.for_each(|index| table[index as usize] = 0);
-    let used: Vec<u32> = (0..positions as u32)
-        .filter(|&index| table[index as usize] == 0)
+    indices.for_each(|index| table[numbers::place(index)] = 0);
+    let used: Vec<u32> = (0..numbers::count_u32(positions))
+        .filter(|&index| table[numbers::place(index)] == 0)
         .collect();
     used.iter()
         .zip(0..)
-        .for_each(|(&index, new)| table[index as usize] = new);
+        .for_each(|(&index, new)| table[numbers::place(index)] = new);
     (used, NewIndex::Table(table))
 }
 

@@ -174,7 +174,7 @@ impl Reader {
                 *self
                     .others
                     .entry(name(&other[..other.len().min(40)]))
-                    .or_default() += 1
+                    .or_default() += 1;
             }
         }
         Ok(())
@@ -235,9 +235,9 @@ impl Reader {
 
 impl Layer {
     fn polygon(&mut self, points: &[[f64; 3]]) {
-        let first = self.positions.len() as u32;
+        let first = numbers::count_u32(self.positions.len());
         self.positions.extend_from_slice(points);
-        let corners: Vec<Corner> = (0..points.len() as u32)
+        let corners: Vec<Corner> = (0..numbers::count_u32(points.len()))
             .map(|corner| Corner {
                 position: first + corner,
                 normal: NONE,
@@ -264,8 +264,9 @@ impl Polyline {
     fn vertex(&mut self, entity: &[Group]) -> Result<()> {
         let flags = integer(entity, 70);
         if self.flags & 64 != 0 && flags & 128 != 0 && flags & 64 == 0 {
-            let indices =
-                [71, 72, 73, 74].map(|code| integer(entity, code).unsigned_abs() as usize);
+            let indices = [71, 72, 73, 74].map(|code| {
+                usize::try_from(integer(entity, code).unsigned_abs()).unwrap_or(usize::MAX)
+            });
             self.faces
                 .push(indices.into_iter().filter(|index| *index > 0).collect());
         } else {

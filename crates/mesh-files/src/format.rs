@@ -158,7 +158,7 @@ pub(crate) fn check_parts<'a>(
         let is_wrong = |triangle: &[u32; 3]| {
             triangle
                 .iter()
-                .any(|&index| index as usize >= part.vertices.len())
+                .any(|&index| numbers::place(index) >= part.vertices.len())
         };
         if let Some(triangle) = part.triangles.iter().position(is_wrong) {
             return Err(WriteError::NoSuchVertex {

@@ -37,6 +37,15 @@
 //! # Ok::<(), mesh_files::ReadError>(())
 //! ```
 
+#![cfg_attr(
+    not(test),
+    warn(
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        clippy::cast_sign_loss
+    )
+)]
+
 mod bytes;
 mod collada;
 mod corners;

@@ -95,7 +95,7 @@ impl Part {
     }
 
     fn append(&mut self, other: &Part) {
-        let first = self.vertices.len() as u32;
+        let first = numbers::count_u32(self.vertices.len());
         let has_normals = !(self.normals.is_empty() && other.normals.is_empty());
         let has_uv = !(self.uv.is_empty() && other.uv.is_empty());
         pad(&mut self.normals, self.triangles.len(), has_normals);

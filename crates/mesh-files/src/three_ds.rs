@@ -101,7 +101,7 @@ fn texture(path: &str, file: &mut MeshFile, resolve: Resolve) -> Option<usize> {
 fn chunk<'a>(bytes: &mut Bytes<'a>) -> Result<(u16, Bytes<'a>)> {
     let place = bytes.place();
     let kind = bytes.u16("chunk")?;
-    let length = bytes.u32("chunk")? as usize;
+    let length = numbers::place(bytes.u32("chunk")?);
     let Some(length) = length.checked_sub(6) else {
         return Err(ReadError::new(
             place,
@@ -179,7 +179,7 @@ fn colour(content: Bytes) -> Result<Option<[f64; 3]>> {
         match kind {
             0x0010 | 0x0013 => colour = Some(content.vector("colour")?.map(|x| x.clamp(0.0, 1.0))),
             0x0011 | 0x0012 => {
-                colour = Some(content.array::<3>("colour")?.map(|x| f64::from(x) / 255.0))
+                colour = Some(content.array::<3>("colour")?.map(|x| f64::from(x) / 255.0));
             }
             _ => {}
         }
@@ -270,9 +270,12 @@ impl Mesh {
         for (name, faces) in &self.materials {
             let mut own = Vec::new();
             for &face in faces {
-                if let Some(is_left) = is_left.get_mut(face as usize).filter(|is_left| **is_left) {
+                if let Some(is_left) = is_left
+                    .get_mut(usize::from(face))
+                    .filter(|is_left| **is_left)
+                {
                     *is_left = false;
-                    own.push(self.corners(self.faces[face as usize])?);
+                    own.push(self.corners(self.faces[usize::from(face)])?);
                 }
             }
             let material = known.get(name).cloned().unwrap_or_else(|| Material {
@@ -316,7 +319,7 @@ impl Mesh {
     fn corners(&self, face: [u16; 3]) -> Result<[Corner; 3]> {
         if let Some(index) = face
             .iter()
-            .find(|index| **index as usize >= self.positions.len())
+            .find(|index| usize::from(**index) >= self.positions.len())
         {
             let problem = format!("vertex {index} of {}", self.positions.len());
             return Err(ReadError::new(
@@ -326,7 +329,7 @@ impl Mesh {
             ));
         }
         let uv = |index: u16| {
-            if (index as usize) < self.uv.len() {
+            if usize::from(index) < self.uv.len() {
                 index.into()
             } else {
                 NONE

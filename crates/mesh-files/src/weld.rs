@@ -5,7 +5,7 @@ pub(crate) fn weld(vertices: &mut Vec<[f64; 3]>, triangles: &mut [[u32; 3]]) {
     let mut table = Table::default();
     let new_index: Vec<u32> = vertices.iter().map(|vertex| table.index(*vertex)).collect();
     for index in triangles.as_flattened_mut() {
-        *index = new_index[*index as usize];
+        *index = new_index[numbers::place(*index)];
     }
     *vertices = table.seen;
 }
@@ -37,7 +37,7 @@ impl<const N: usize> Table<N> {
         if self.slots[slot] != FREE {
             return self.slots[slot];
         }
-        let index = self.seen.len() as u32;
+        let index = numbers::count_u32(self.seen.len());
         self.slots[slot] = index;
         self.seen.push(vertex);
         if 2 * self.seen.len() > self.slots.len() {
@@ -47,10 +47,14 @@ impl<const N: usize> Table<N> {
     }
 
     /// The slot of a vertex, or the free one where it belongs.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a hash of which only the lowest bits count"
+    )]
     fn find(&self, vertex: [f64; N]) -> usize {
         let last = self.slots.len() - 1;
         let mut slot = hash(vertex) as usize & last;
-        while self.slots[slot] != FREE && self.seen[self.slots[slot] as usize] != vertex {
+        while self.slots[slot] != FREE && self.seen[numbers::place(self.slots[slot])] != vertex {
             slot = (slot + 1) & last;
         }
         slot
@@ -60,7 +64,7 @@ impl<const N: usize> Table<N> {
         self.slots = vec![FREE; 4 * self.slots.len()];
         for index in 0..self.seen.len() {
             let slot = self.find(self.seen[index]);
-            self.slots[slot] = index as u32;
+            self.slots[slot] = numbers::count_u32(index);
         }
     }
 }

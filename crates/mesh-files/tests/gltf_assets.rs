@@ -219,7 +219,7 @@ fn scales_become_part_of_the_meshes() {
         assert!(
             a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12),
             "{a:?} is not {b:?}"
-        )
+        );
     };
     close(&asset.nodes[0].translation, &[5.0, 6.0, 7.0]);
     close(

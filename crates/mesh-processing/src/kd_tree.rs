@@ -45,13 +45,13 @@ impl PartialOrd for Neighbour {
 impl KdTree {
     /// Points must be finite.
     pub fn new(points: &[[f64; 3]]) -> Self {
-        let mut order: Vec<u32> = (0..points.len() as u32).collect();
+        let mut order: Vec<u32> = (0..numbers::count_u32(points.len())).collect();
         let mut axes = vec![0; points.len()];
         divide(points, &mut order, &mut axes);
         Self {
             points: order
                 .iter()
-                .map(|number| points[*number as usize])
+                .map(|number| points[numbers::place(*number)])
                 .collect(),
             numbers: order,
             axes,
@@ -136,7 +136,7 @@ impl KdTree {
                 .fold(f64::INFINITY, |_, limit| limit);
         }
         let middle = part.start + part.len() / 2;
-        let axis = self.axes[middle] as usize;
+        let axis = usize::from(self.axes[middle]);
         let offset = to[axis] - self.points[middle][axis];
         let (near, far) = if offset < 0.0 {
             (part.start..middle, middle + 1..part.end)
@@ -154,12 +154,15 @@ impl KdTree {
 }
 
 /// Puts the median of the widest axis into the middle, with smaller ones before and larger ones behind it.
+#[expect(clippy::cast_possible_truncation, reason = "an axis is 0, 1 or 2")]
 fn divide(points: &[[f64; 3]], order: &mut [u32], axes: &mut [u8]) {
     if order.len() <= MAX_LEAF_SIZE {
         return;
     }
     let extent = |axis: usize| {
-        let bounds = order.iter().map(|number| points[*number as usize][axis]);
+        let bounds = order
+            .iter()
+            .map(|number| points[numbers::place(*number)][axis]);
         bounds.clone().fold(f64::MIN, f64::max) - bounds.fold(f64::MAX, f64::min)
     };
     let widths = [0, 1, 2].map(extent);
@@ -171,7 +174,7 @@ fn divide(points: &[[f64; 3]], order: &mut [u32], axes: &mut [u8]) {
         }
     });
     let middle = order.len() / 2;
-    let along = |number: &u32| points[*number as usize][axis];
+    let along = |number: &u32| points[numbers::place(*number)][axis];
     order.select_nth_unstable_by(middle, |a, b| along(a).total_cmp(&along(b)).then(a.cmp(b)));
     axes[middle] = axis as u8;
     let (left, right) = order.split_at_mut(middle);

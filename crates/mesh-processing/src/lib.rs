@@ -18,6 +18,15 @@
 //! assert_eq!((vertices.len(), triangles.len()), (4, 2));
 //! ```
 
+#![cfg_attr(
+    not(test),
+    warn(
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        clippy::cast_sign_loss
+    )
+)]
+
 mod decimate;
 mod kd_tree;
 mod registration;

@@ -98,7 +98,7 @@ fn search(
             .iter()
             .map(|(point, on_model, _)| (pose * point - on_model).norm_squared())
             .sum();
-        let error = (squares / pairs.len() as f64).sqrt();
+        let error = (squares / numbers::real(pairs.len())).sqrt();
         let is_done = error >= found.error * (1.0 - 1e-6);
         found = Registration { pose, error };
         if is_done || error == 0.0 {
@@ -110,7 +110,7 @@ fn search(
 
 /// The pose that moves the first points of pairs onto the second ones with the least squares (W. Kabsch 1976).
 fn alignment(pairs: &[(Point3<f64>, Point3<f64>, f64)]) -> Isometry3<f64> {
-    let count = pairs.len() as f64;
+    let count = numbers::real(pairs.len());
     let from = pairs
         .iter()
         .map(|(point, ..)| point.coords)
@@ -169,7 +169,7 @@ fn principal_axes(points: &[Point3<f64>]) -> (Vector3<f64>, Matrix3<f64>) {
         .iter()
         .map(|point| point.coords)
         .sum::<Vector3<f64>>()
-        / points.len() as f64;
+        / numbers::real(points.len());
     let covariance: Matrix3<f64> = points
         .iter()
         .map(|point| (point.coords - centre) * (point.coords - centre).transpose())

@@ -85,7 +85,7 @@ fn moved_onto_planes(points: &[[f64; 3]], neighbors: usize) -> Vec<[f64; 3]> {
         let near = tree.k_nearest(*point, neighbors + 1);
         let near: Vec<Vector3<f64>> = near
             .iter()
-            .map(|found| Vector3::from(points[found.number as usize]))
+            .map(|found| Vector3::from(points[numbers::place(found.number)]))
             .collect();
         let (centre, normal) = principal_plane(&near);
         let point = Vector3::from(*point);
@@ -97,7 +97,7 @@ fn moved_onto_planes(points: &[[f64; 3]], neighbors: usize) -> Vec<[f64; 3]> {
 /// The numbers of points of which no other is in the same cube.
 fn thinned(points: &[[f64; 3]], cell: f64) -> Vec<usize> {
     let mut seen = HashSet::new();
-    let cube = |point: &[f64; 3]| point.map(|x| (x / cell).floor() as i64);
+    let cube = |point: &[f64; 3]| point.map(|x| numbers::truncated((x / cell).floor()));
     (0..points.len())
         .filter(|number| seen.insert(cube(&points[*number])))
         .collect()
@@ -109,19 +109,19 @@ fn used(points: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Triangles {
     triangles
         .as_flattened()
         .iter()
-        .for_each(|vertex| numbers[*vertex as usize] = Some(0));
+        .for_each(|vertex| numbers[numbers::place(*vertex)] = Some(0));
     let mut vertices = Vec::new();
     for (number, point) in numbers
         .iter_mut()
         .zip(&points)
         .filter(|(number, _)| number.is_some())
     {
-        *number = Some(vertices.len() as u32);
+        *number = Some(numbers::count_u32(vertices.len()));
         vertices.push(*point);
     }
     let renumbered = triangles
         .iter()
-        .map(|triangle| triangle.map(|vertex| numbers[vertex as usize].unwrap_or(0)));
+        .map(|triangle| triangle.map(|vertex| numbers[numbers::place(vertex)].unwrap_or(0)));
     (vertices, renumbered.collect())
 }
 

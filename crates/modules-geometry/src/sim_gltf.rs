@@ -128,7 +128,7 @@ fn export_objects(cx: &mut Cx, object_handles: Handles) -> Result<()> {
 /// Adds all objects of the scene to the file in memory, with their tree; scripts are left out.
 #[api("simGLTF.exportAllObjects")]
 fn export_all_objects(cx: &mut Cx) -> Result<()> {
-    let all: Vec<Handle> = cx.scene().objects().map(|object| object.handle()).collect();
+    let all: Vec<Handle> = cx.scene().objects().map(scene::Object::handle).collect();
     add(cx, &all)
 }
 
@@ -295,9 +295,9 @@ fn record_animation(cx: &mut Cx, enable: bool) -> Result<()> {
     let state = cx.module_state::<State>();
     let mut recording = state.recording.borrow_mut();
     if enable {
-        recording.start()
+        recording.start();
     } else {
-        recording.stop()
+        recording.stop();
     }
     Ok(())
 }

@@ -185,7 +185,7 @@ mod tests {
         let flags = ModelFlags::NOT_COLLIDABLE | ModelFlags::NOT_DETECTABLE;
         scene
             .modify(base, Field::ModelProperty, |object| {
-                object.set_model_property(flags)
+                object.set_model_property(flags);
             })
             .unwrap();
         assert!(!includes(&scene, Purpose::Collision) && !includes(&scene, Purpose::Detection));

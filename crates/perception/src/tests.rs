@@ -97,7 +97,7 @@ fn populate(scene: &mut Scene, dice: &mut Dice) -> Vec<Handle> {
                 colour: [0; 3],
                 tag: 0,
             },
-        )
+        );
     });
     handles.push(scene.add("octree", Kind::OcTree(Box::new(tree))).unwrap());
     handles.push(scene.add("dummy", Kind::Dummy(Dummy::new(0.01))).unwrap());
@@ -269,7 +269,7 @@ fn nothing_is_stored_before_the_first_query_and_nothing_breaks_without_geometry(
         normals: vec![[0.0; 3]; 3],
     };
     let flatten = |object: &mut scene::Object| {
-        object.shape_mut().unwrap().parts[0].mesh = std::rc::Rc::new(mesh)
+        object.shape_mut().unwrap().parts[0].mesh = std::rc::Rc::new(mesh);
     };
     scene.modify(flat, Field::Geometry, flatten).unwrap();
     let empty = scene

@@ -281,7 +281,7 @@ impl Plugins {
                 values,
             };
             self.run(Rc::clone(&host), &plugin, "simMsg", |plugin| {
-                plugin.library.receive(message)
+                plugin.library.receive(message);
             });
         }
     }
@@ -292,7 +292,7 @@ impl Plugins {
             .borrow_mut()
             .retain(|loaded| !Rc::ptr_eq(loaded, plugin));
         self.run(host, plugin, "simCleanup", |plugin| {
-            plugin.library.clean_up()
+            plugin.library.clean_up();
         });
     }
 

@@ -178,7 +178,7 @@ fn symbol<F: Copy>(library: &libloading::Library, name: &CStr) -> Option<F> {
         assert!(
             size_of::<F>() == size_of::<usize>(),
             "a function is an address"
-        )
+        );
     };
     // SAFETY: the types are those of the interface, and the library stays open.
     unsafe { library.get::<F>(name.to_bytes_with_nul()) }

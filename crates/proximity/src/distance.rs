@@ -178,7 +178,7 @@ where
             }
             Some(Side::B(children)) => {
                 children.into_iter().for_each(|child| {
-                    self.put([a, child], self.pairs.distance_squared([a, child]))
+                    self.put([a, child], self.pairs.distance_squared([a, child]));
                 });
             }
             None => self.compare_leaves(nodes),

@@ -62,10 +62,10 @@ pub fn closest_in_volume(
         search.enter(piece, &place)?;
         match on.geometry {
             Geometry::Mesh(mesh) => {
-                search.descend(mesh, |search, i| search.face(&mesh.triangles[i]))
+                search.descend(mesh, |search, i| search.face(&mesh.triangles[i]));
             }
             Geometry::Voxels(grid) => {
-                search.descend(grid, |search, i| search.cell(&grid.cells[i], grid.half))
+                search.descend(grid, |search, i| search.cell(&grid.cells[i], grid.half));
             }
             Geometry::Points(points) => search.points(points),
             Geometry::Point => search.points(&ORIGIN),

@@ -102,7 +102,7 @@ impl Batch {
             };
             let mut line = None;
             batch::run(&config, &self.batch, &[run], &mut |row, _| {
-                line = Some(row.line())
+                line = Some(row.line());
             })
             .map_err(Error::new_err)?;
             line.ok_or_else(|| Error::new_err("the run has no result."))

@@ -114,7 +114,7 @@ impl PythonScript {
         object
             .getattr(name)
             .ok()
-            .filter(|function| function.is_callable())
+            .filter(pyo3::types::PyAnyMethods::is_callable)
     }
 
     fn advance(&self, py: Python<'_>, generator: Py<PyAny>) -> PyResult<Thread> {

@@ -195,16 +195,16 @@ impl Simulator {
 
     /// Starts the simulation, or resumes it.
     fn start(&self, py: Python<'_>) -> PyResult<()> {
-        self.run(py, |simulator| simulator.start())
+        self.run(py, swanilda::Simulator::start)
     }
 
     fn pause(&self, py: Python<'_>) -> PyResult<()> {
-        self.run(py, |simulator| simulator.pause())
+        self.run(py, swanilda::Simulator::pause)
     }
 
     /// Ends the simulation, with all its clean-up.
     fn stop(&self, py: Python<'_>) -> PyResult<()> {
-        self.run(py, |simulator| simulator.stop())
+        self.run(py, swanilda::Simulator::stop)
     }
 
     /// Ends the simulator; its scripts clean up.

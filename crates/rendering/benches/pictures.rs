@@ -136,7 +136,7 @@ fn pictures(c: &mut Criterion) {
                 let camera = camera(width, height);
                 c.bench_function(&format!("{name} triangles, {size}, {what}"), |b| {
                     b.iter(|| {
-                        renderer.render_into(black_box(&world), &camera, channels, &mut picture)
+                        renderer.render_into(black_box(&world), &camera, channels, &mut picture);
                     });
                 });
             }

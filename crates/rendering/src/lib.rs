@@ -60,6 +60,15 @@
 //! assert!((picture.depth[above_the_middle] - 1.9 / 9.9).abs() < 1e-6);
 //! ```
 
+#![cfg_attr(
+    not(test),
+    warn(
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        clippy::cast_sign_loss
+    )
+)]
+
 mod camera;
 mod coverage;
 mod material;

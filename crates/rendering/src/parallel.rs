@@ -27,6 +27,6 @@ pub fn for_each<T: Send>(threads: usize, items: &mut [T], work: impl Fn(usize, &
 fn next<T>(queue: &Mutex<impl Iterator<Item = T>>) -> Option<T> {
     queue
         .lock()
-        .unwrap_or_else(|poisoned| poisoned.into_inner())
+        .unwrap_or_else(std::sync::PoisonError::into_inner)
         .next()
 }

@@ -59,7 +59,7 @@ impl Picture {
 
     /// Makes room for a picture.
     pub(crate) fn resize(&mut self, resolution: [u32; 2], channels: Channels) {
-        let pixels = resolution[0] as usize * resolution[1] as usize;
+        let pixels = numbers::place(resolution[0]) * numbers::place(resolution[1]);
         let size = |wanted: bool| if wanted { pixels } else { 0 };
         self.resolution = resolution;
         self.colour.resize(3 * size(channels.colour), 0);
@@ -69,13 +69,13 @@ impl Picture {
 
     /// Shows nothing but the background.
     pub(crate) fn fill(&mut self, background: &Background) {
-        let [width, height] = self.resolution.map(|side| side as usize);
+        let [width, height] = self.resolution.map(numbers::place);
         self.depth.fill(1.0);
         self.ids.fill(Self::NOTHING);
         for (y, row) in self.colour.chunks_mut(3 * width).enumerate() {
             let colour = background
                 .row(y, height)
-                .map(|part| (part * 255.0 + 0.5) as u8);
+                .map(|part| numbers::level((part * 255.0 + 0.5).into()));
             row.chunks_exact_mut(3)
                 .for_each(|pixel| pixel.copy_from_slice(&colour));
         }

@@ -59,7 +59,7 @@ impl Renderer {
         let owners = owners(world, &view, channels);
         self.list_pieces(&owners, &view);
         parallel::for_each(self.threads, self.chunks.all_mut(), |_, chunk| {
-            chunk.project(&owners, &view)
+            chunk.project(&owners, &view);
         });
         let shading = Shading {
             view: &view,
@@ -88,7 +88,7 @@ impl Renderer {
 
 /// Draws and shades all rows.
 fn fill(shading: &Shading, threads: usize, strips: &mut Vec<Strip>, picture: &mut Picture) {
-    let [width, height] = picture.resolution.map(|side| side as usize);
+    let [width, height] = picture.resolution.map(numbers::place);
     let rows = height
         .div_ceil(if threads == 1 { 1 } else { 4 * threads })
         .min(STRIP_ROWS);

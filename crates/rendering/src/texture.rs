@@ -74,7 +74,7 @@ impl Image {
     /// not as many as the size says.
     pub fn new(size: [u32; 2], has_alpha: bool, bytes: &[u8]) -> Option<Self> {
         let width = if has_alpha { 4 } else { 3 };
-        let count = (size[0] as usize).checked_mul(size[1] as usize)?;
+        let count = numbers::place(size[0]).checked_mul(numbers::place(size[1]))?;
         if count == 0 || count.checked_mul(width)? != bytes.len() {
             return None;
         }
@@ -93,12 +93,17 @@ impl Image {
     }
 
     fn pixel(&self, [column, row]: [u32; 2]) -> [f32; 4] {
-        let pixel = self.pixels[row as usize * self.size[0] as usize + column as usize];
+        let pixel = self.pixels
+            [numbers::place(row) * numbers::place(self.size[0]) + numbers::place(column)];
         pixel.map(|part| f32::from(part) / 255.0)
     }
 }
 
 /// The two pixels around a coordinate along one axis, and how far it is from the first to the second.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "texture coordinates are clamped afterwards; this runs for every pixel"
+)]
 fn neighbours(coordinate: f32, size: u32, repeat: bool) -> ([u32; 2], f32) {
     let within = if repeat {
         coordinate - coordinate.floor()
@@ -107,11 +112,22 @@ fn neighbours(coordinate: f32, size: u32, repeat: bool) -> ([u32; 2], f32) {
     };
     let at = within * size as f32 - 0.5;
     let first = at.floor();
-    let pixel = |at: i64| if repeat { at.rem_euclid(i64::from(size)) } else { at.clamp(0, i64::from(size) - 1) } as u32;
+    let pixel = |at: i64| {
+        numbers::low_u32(if repeat {
+            at.rem_euclid(i64::from(size))
+        } else {
+            at.clamp(0, i64::from(size) - 1)
+        })
+    };
     ([pixel(first as i64), pixel(first as i64 + 1)], at - first)
 }
 
 /// The pixel at a coordinate along one axis.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the place is limited to the image; this runs for every pixel"
+)]
 fn nearest(coordinate: f32, size: u32, repeat: bool) -> u32 {
     let within = if repeat {
         coordinate - coordinate.floor()

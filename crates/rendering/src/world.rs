@@ -150,7 +150,8 @@ impl Background {
 
     /// The colour of a row of a picture with that many rows.
     pub(crate) fn row(&self, row: usize, rows: usize) -> [f32; 3] {
-        let height = (row as f32 + 0.5) / rows as f32;
+        let height =
+            (numbers::single(numbers::real(row)) + 0.5) / numbers::single(numbers::real(rows));
         [0, 1, 2].map(|i| self.bottom[i] + (self.top[i] - self.bottom[i]) * height)
     }
 }
@@ -169,7 +170,7 @@ impl Fog {
         let remains = if remains.is_nan() {
             1.0
         } else {
-            remains.clamp(0.0, 1.0) as f32
+            numbers::single(remains.clamp(0.0, 1.0))
         };
         [0, 1, 2].map(|i| self.colour[i] + (colour[i] - self.colour[i]) * remains)
     }

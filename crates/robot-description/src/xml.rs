@@ -150,12 +150,13 @@ impl Source {
 
     /// An attribute; one that is not there is reported and empty.
     pub fn required(&mut self, node: Node, attribute: &str) -> String {
-        node.attribute(attribute)
-            .map(|text| text.trim().to_owned())
-            .unwrap_or_else(|| {
+        node.attribute(attribute).map_or_else(
+            || {
                 self.warn(node, format!("has no {attribute}"));
                 String::new()
-            })
+            },
+            |text| text.trim().to_owned(),
+        )
     }
 
     /// A number of an attribute, if it is there and one.

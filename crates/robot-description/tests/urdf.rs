@@ -350,7 +350,7 @@ fn what_stands_around_the_document_and_bytes_that_are_no_text_do_not_matter() {
 fn files_cut_anywhere_and_absurd_numbers_do_no_harm() {
     for end in 0..ARM.len() {
         if let Ok(parsed) = urdf::read(&ARM.as_bytes()[..end]) {
-            panic!("{} bytes are no document, but were read: {parsed:?}", end);
+            panic!("{end} bytes are no document, but were read: {parsed:?}");
         }
     }
     for number in [

@@ -151,6 +151,7 @@ macro_rules! numbers {
             }
 
             /// As a 64-bit floating-point number.
+            #[allow(clippy::cast_lossless, reason = "one rule for all types of numbers")]
             #[must_use]
             pub fn as_f64(self) -> f64 {
                 match self {
@@ -160,6 +161,7 @@ macro_rules! numbers {
             }
 
             /// As a 64-bit integer; the upper half of `uint64` becomes negative, floating-point numbers are cut off.
+            #[allow(clippy::cast_lossless, reason = "one rule for all types of numbers")]
             #[must_use]
             pub fn as_i64(self) -> i64 {
                 match self {

@@ -96,10 +96,10 @@ impl Node {
         let (api, messages) = (Arc::downgrade(&shared), Arc::downgrade(&shared));
         let servers = [
             Server::start(network.listen()?, "ROS API", move |stream| {
-                serve_api(&api, stream)
+                serve_api(&api, stream);
             })?,
             Server::start(network.listen()?, "ROS messages", move |stream| {
-                serve_messages(&messages, stream)
+                serve_messages(&messages, stream);
             })?,
         ];
         shared

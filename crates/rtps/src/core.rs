@@ -1,23 +1,23 @@
 //! The protocol as a value: it takes datagrams and times and returns datagrams. The socket is somebody else's.
 
+mod announce;
+mod receive;
+
 use std::collections::BTreeMap;
 use std::net::{Ipv4Addr, SocketAddrV4};
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::discovery::{Endpoint, OwnParticipant};
+use crate::discovery::Endpoint;
 use crate::guid::{EntityId, Guid, Prefix};
-use crate::message::{DataFragments, Message, Submessage, Timestamp};
+use crate::message::Timestamp;
 use crate::peers::Peer;
 use crate::qos::{Durability, History, Qos};
-use crate::reader::{Reader, Sample, sample};
+use crate::reader::{Reader, Sample};
 use crate::writer::{Change, Correlation, Writer};
 use crate::{Datagram, Limits};
+pub(crate) use receive::Sender;
 
-/// Time between two announcements of this participant; the first ones come faster.
-const ANNOUNCE_PERIOD: Duration = Duration::from_secs(2);
-const FIRST_ANNOUNCEMENTS: u32 = 5;
-const FIRST_ANNOUNCE_PERIOD: Duration = Duration::from_millis(200);
 /// How long peers believe in this participant without an announcement.
 pub(crate) const LEASE: Duration = Duration::from_secs(20);
 /// Where participants announce themselves (DDSI-RTPS 2.3, 9.6.1.4).
@@ -352,226 +352,6 @@ impl Core {
                 .keys()
                 .any(|prefix| writer.has_reader_of(*prefix) && reader.has_writer_of(*prefix))
     }
-
-    /// Does what is due. Returns the time of the next call.
-    pub fn tick(&mut self, now: Duration) -> Duration {
-        self.now = now;
-        self.forget_silent_peers();
-        if now >= self.next_announcement {
-            self.announce();
-        }
-        let liveliness = self.assert_liveliness();
-        let mut next = self.next_announcement.min(liveliness);
-        for writer in self.writers.values_mut() {
-            if let Some(due) = writer.remind(now, &mut self.outgoing) {
-                next = next.min(due);
-            }
-        }
-        next
-    }
-
-    fn announce(&mut self) {
-        self.announcements += 1;
-        let is_first = self.announcements < FIRST_ANNOUNCEMENTS;
-        self.next_announcement = self.now
-            + if is_first {
-                FIRST_ANNOUNCE_PERIOD
-            } else {
-                ANNOUNCE_PERIOD
-            };
-        let bytes = self.announcement(None);
-        let places = [vec![self.multicast()], self.settings.announce_to.clone()].concat();
-        self.outgoing.extend(places.into_iter().map(|to| Datagram {
-            to,
-            bytes: bytes.clone(),
-        }));
-    }
-
-    pub(crate) fn multicast(&self) -> SocketAddrV4 {
-        SocketAddrV4::new(
-            MULTICAST,
-            u16::try_from(multicast_port(self.settings.domain)).unwrap_or(u16::MAX),
-        )
-    }
-
-    pub(crate) fn description(&self) -> Vec<u8> {
-        let own = OwnParticipant {
-            prefix: self.settings.prefix,
-            domain: self.settings.domain,
-            unicast: self.settings.unicast,
-            multicast: self.multicast(),
-            name: &self.settings.name,
-            user_data: &self.settings.user_data,
-            lease: LEASE,
-        };
-        own.payload()
-    }
-
-    /// Writers that are alive by themselves say so as often as their leases demand. Returns when next.
-    fn assert_liveliness(&mut self) -> Duration {
-        let leases = self
-            .writers
-            .values()
-            .filter_map(|writer| writer.endpoint.qos.liveliness_lease);
-        let Some(lease) = leases.min() else {
-            return Duration::MAX;
-        };
-        if self.now >= self.next_liveliness {
-            self.next_liveliness = self.now + lease.div_f64(3.0).max(Duration::from_millis(10));
-            // Kind 1: automatic; then a sequence of no bytes, behind the head of little-endian CDR.
-            let payload = [
-                &[0, 1, 0, 0][..],
-                &self.settings.prefix,
-                &[0, 0, 0, 1],
-                &[0; 4],
-            ]
-            .concat();
-            if let Some(writer) = self.writers.get_mut(&EntityId::LIVELINESS_WRITER) {
-                writer.forget(writer.last);
-            }
-            self.write_change(
-                EntityId::LIVELINESS_WRITER,
-                &payload.into(),
-                None,
-                Timestamp::default(),
-                None,
-            );
-        }
-        self.next_liveliness
-    }
-
-    /// Takes a datagram. What is no message of the protocol, or not for this participant, has no effect.
-    pub fn receive(&mut self, datagram: &[u8], from: SocketAddrV4, now: Duration) {
-        self.now = now;
-        let Some(message) = Message::parse(datagram) else {
-            return;
-        };
-        let mut sender = Sender {
-            prefix: message.prefix,
-            vendor: message.vendor,
-            from,
-            time: None,
-        };
-        let mut is_for_us = true;
-        for submessage in message {
-            match submessage {
-                Submessage::Destination(prefix) => {
-                    is_for_us = prefix == self.settings.prefix || prefix == [0; 12]
-                }
-                Submessage::Source { vendor, prefix } => {
-                    (sender.vendor, sender.prefix) = (vendor, prefix)
-                }
-                Submessage::Timestamp(time) => sender.time = time,
-                _ if !is_for_us || sender.prefix == self.settings.prefix => {}
-                other => self.submessage(other, sender),
-            }
-        }
-        self.read_discovery();
-    }
-
-    fn submessage(&mut self, submessage: Submessage, sender: Sender) {
-        let guid = |entity| Guid {
-            prefix: sender.prefix,
-            entity,
-        };
-        let out = &mut self.outgoing;
-        match submessage {
-            Submessage::Data(data) if data.writer == EntityId::PARTICIPANTS_WRITER => {
-                self.participant_data(&data, sender)
-            }
-            Submessage::Data(data) => {
-                let sample = sample(
-                    guid(data.writer),
-                    data.sequence,
-                    sender.time,
-                    data.payload.to_vec(),
-                    &data.inline,
-                );
-                let sample = if data.is_key { sample.of_key() } else { sample };
-                for reader in readers_of(&mut self.readers, data.reader, guid(data.writer)) {
-                    reader.receive(guid(data.writer), sample.clone());
-                }
-            }
-            Submessage::DataFragments(data) => self.fragments(&data, sender),
-            Submessage::Heartbeat {
-                reader,
-                writer,
-                first,
-                last,
-                is_final,
-            } => {
-                for reader in readers_of(&mut self.readers, reader, guid(writer)) {
-                    reader.heartbeat(guid(writer), first, last, is_final, out);
-                }
-            }
-            Submessage::Gap {
-                reader,
-                writer,
-                first,
-                base,
-                more,
-            } => {
-                for reader in readers_of(&mut self.readers, reader, guid(writer)) {
-                    reader.gap(guid(writer), first, base, &more);
-                }
-            }
-            Submessage::AckNack {
-                reader,
-                writer,
-                base,
-                missing,
-                is_final,
-            } => {
-                if let Some(writer) = self.writers.get_mut(&writer) {
-                    writer.acknowledged(guid(reader), base, &missing, is_final, out);
-                }
-            }
-            Submessage::NackFragments {
-                reader,
-                writer,
-                sequence,
-                missing,
-            } => {
-                if let Some(writer) = self.writers.get_mut(&writer) {
-                    writer.resend_fragments(guid(reader), sequence, &missing, out);
-                }
-            }
-            Submessage::Destination(_) | Submessage::Source { .. } | Submessage::Timestamp(_) => {}
-        }
-    }
-
-    fn fragments(&mut self, data: &DataFragments, sender: Sender) {
-        let writer = Guid {
-            prefix: sender.prefix,
-            entity: data.writer,
-        };
-        for reader in readers_of(&mut self.readers, data.reader, writer) {
-            reader.receive_fragments(writer, data, sender.time);
-        }
-    }
-}
-
-/// Where a message came from.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Sender {
-    pub(crate) prefix: Prefix,
-    pub(crate) vendor: [u8; 2],
-    pub(crate) from: SocketAddrV4,
-    time: Option<Timestamp>,
-}
-
-/// The reader that is addressed, or all that know the writer.
-fn readers_of(
-    readers: &mut BTreeMap<EntityId, Reader>,
-    addressed: EntityId,
-    writer: Guid,
-) -> impl Iterator<Item = &mut Reader> {
-    readers
-        .iter_mut()
-        .filter(move |(entity, reader)| {
-            (addressed == EntityId::UNKNOWN || **entity == addressed) && reader.has_writer(writer)
-        })
-        .map(|(_, reader)| reader)
 }
 
 /// Whether a reader gets what a writer writes.

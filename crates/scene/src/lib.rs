@@ -22,6 +22,7 @@ pub mod values;
 pub mod voxels;
 
 pub use geometry::Pose;
+pub use numbers;
 
 pub use error::{SceneError, SceneResult};
 pub use journal::{Change, Counters, Cursor, Field, Journal, Mark, Topic, Topics, Unread};
@@ -44,5 +45,4 @@ pub use tree::references::{ReferenceLists, References};
 pub use values::custom_data::{CustomData, Edit, Edited, Holder, Namespace};
 pub use values::data::{Data, Key};
 pub use values::inert::InertValues;
-pub use values::numbers;
 pub use values::value_type::ValueType;

@@ -3,6 +3,15 @@
 //! The functions for scripts are in `crate::api`; this crate binds them and does not know which exist. Its rooms stand on floors
 //! (docs/ARCHITECTURE.md): each uses only those below it.
 
+#![cfg_attr(
+    not(test),
+    warn(
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        clippy::cast_sign_loss
+    )
+)]
+
 // The ground: what knows no simulator.
 mod app_storage;
 mod binding;

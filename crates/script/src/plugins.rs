@@ -139,7 +139,7 @@ impl Sim {
         script
             .owner()
             .or_else(|| script.object.and_then(parent))
-            .map_or(-1, |object| object.raw())
+            .map_or(-1, scene::Handle::raw)
     }
 
     /// A script uses a plugin no longer. It is unloaded with its last user, or at once if that is forced.
@@ -179,7 +179,12 @@ impl Sim {
         }
         self.notify_plugins(
             Moment::ScriptStateAboutToBeDestroyed,
-            [script.id as i32, script.id as i32, 0, 0],
+            [
+                numbers::low_i32(script.id),
+                numbers::low_i32(script.id),
+                0,
+                0,
+            ],
         );
         let names: Vec<String> = loaded.users.borrow().keys().cloned().collect();
         names.iter().for_each(|name| loaded.forget(name, script.id));

@@ -47,7 +47,7 @@ impl Random {
         const LETTERS: &[u8; 62] =
             b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
         (0..length)
-            .map(|_| char::from(LETTERS[(self.next() * 62.0) as usize]))
+            .map(|_| char::from(LETTERS[numbers::index(self.next() * 62.0)]))
             .collect()
     }
 

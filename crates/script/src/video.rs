@@ -117,7 +117,7 @@ impl Recorder {
         };
         self.elapsed += dt;
         // A millionth of a picture: times are sums of steps.
-        let due = (self.elapsed * film.format.rate - 1e-6).ceil() as u64;
+        let due = numbers::truncated_u64((self.elapsed * film.format.rate - 1e-6).ceil());
         if due > self.shown {
             let picture = film.picture(sim)?;
             film.file.add(&picture, due - self.shown)?;

@@ -11,7 +11,7 @@ pub fn now() -> std::time::Instant {
 
 /// Unix time, milliseconds.
 pub(crate) fn unix_milliseconds() -> i64 {
-    unix_time().as_millis() as i64
+    i64::try_from(unix_time().as_millis()).unwrap_or(i64::MAX)
 }
 
 /// Unix time, seconds.

@@ -193,7 +193,7 @@ impl Simulator {
         let dynamics = self.sim.dynamics.borrow();
         let all: Vec<Contact> = dynamics
             .iter()
-            .flat_map(|dynamics| dynamics.contacts())
+            .flat_map(dynamics::Dynamics::contacts)
             .collect();
         let last = all.last().map(|contact| contact.sub_step);
         all.into_iter()

@@ -107,9 +107,9 @@ impl Plan {
             let mut chosen = Vec::new();
             for test in cases(config, &collection) {
                 if is_chosen(config, &test, number) {
-                    chosen.push(Arc::new(test))
+                    chosen.push(Arc::new(test));
                 } else {
-                    plan.deselected += 1
+                    plan.deselected += 1;
                 }
                 number += 1;
             }

@@ -41,7 +41,7 @@ impl TestRecording {
         match kept {
             Ok(page) => outcome.recording = Some(page),
             Err(error) => {
-                outcome.message += &format!("\n(its recording cannot be written: {error})")
+                outcome.message += &format!("\n(its recording cannot be written: {error})");
             }
         }
     }

@@ -204,10 +204,10 @@ impl Window {
     fn enter(&mut self, id: i64, value: &InputValue) -> Option<InputResult> {
         match (self.kind(id).ok()?, value) {
             (WidgetKind::Slider(_), InputValue::Number(value)) => {
-                self.set_slider(id, *value as i64, true).ok()?
+                self.set_slider(id, *value as i64, true).ok()?;
             }
             (WidgetKind::Spinbox(_), InputValue::Number(value)) => {
-                self.set_spinbox(id, *value, true).ok()?
+                self.set_spinbox(id, *value, true).ok()?;
             }
             (WidgetKind::Edit(_), value) => self.set_edit(id, text_of(value), true).ok()?,
             (WidgetKind::TextBrowser(TextBrowser { read_only, .. }), InputValue::Text(text)) => {
@@ -230,7 +230,7 @@ impl Window {
                 }
             }
             (WidgetKind::Radiobutton(Radiobutton { .. }), value) if switch(value)? != 0 => {
-                self.click(id)?
+                self.click(id)?;
             }
             (WidgetKind::Combobox(Combobox { items, .. }), value) => {
                 return Some(self.choose(id, items.clone(), value));

@@ -86,7 +86,7 @@ impl Open {
             Event::Text(piece) => text.push_str(piece),
             Event::CData(piece) => text.push_str(piece),
             Event::GeneralRef(reference) => {
-                text.push_str(&unescaped(&format!("&{};", &**reference)))
+                text.push_str(&unescaped(&format!("&{};", &**reference)));
             }
             _ => {}
         }

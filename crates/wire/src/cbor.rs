@@ -130,7 +130,7 @@ impl Input<'_> {
             match self.pull()? {
                 Header::Break => return Ok(bytes),
                 Header::Text(Some(len)) | Header::Bytes(Some(len)) => {
-                    bytes.extend(self.piece(len)?)
+                    bytes.extend(self.piece(len)?);
                 }
                 _ => return Err(Unreadable::Malformed),
             }

@@ -155,9 +155,9 @@ fn extend(out: &mut Vec<u8>, first: u8, rest: &[u8]) {
 /// Appends an integer.
 pub fn push_int(out: &mut Vec<u8>, value: i64) {
     if value < 0 {
-        push_head(out, major::NEGATIVE, (!value).cast_unsigned())
+        push_head(out, major::NEGATIVE, (!value).cast_unsigned());
     } else {
-        push_head(out, major::UNSIGNED, value.cast_unsigned())
+        push_head(out, major::UNSIGNED, value.cast_unsigned());
     }
 }
 

@@ -229,7 +229,7 @@ impl Encoder {
                 Data::Array(items) if declared.results => self.items(items),
                 Data::Map(entries) if declared.results && entries.is_empty() => self.head(b'[', 0),
                 Data::Text(text) if place == 0 && declared.first == "buffer" => {
-                    self.bytes(b's', text)
+                    self.bytes(b's', text);
                 }
                 Data::Text(text)
                     if place == 0

@@ -127,7 +127,7 @@ impl Output {
     pub(in crate::cli) fn listening(&self, api: &str, address: SocketAddr) {
         match self.format {
             Format::Text | Format::OriginalText => {
-                self.write_line(format!("{api} remote API at {address}").as_bytes())
+                self.write_line(format!("{api} remote API at {address}").as_bytes());
             }
             Format::Json => self.write_json(&json!({
                 "type": "listening", "api": api, "address": address.ip(), "port": address.port(),
@@ -139,7 +139,7 @@ impl Output {
     pub(in crate::cli) fn streaming(&self, address: SocketAddr) {
         match self.format {
             Format::Text | Format::OriginalText => {
-                self.write_line(format!("Visualization stream at {address}").as_bytes())
+                self.write_line(format!("Visualization stream at {address}").as_bytes());
             }
             Format::Json => {
                 self.write_json(&json!({ "type": "streaming", "address": address.ip(), "port": address.port() }));
@@ -151,7 +151,7 @@ impl Output {
     pub(in crate::cli) fn viewing(&self, url: &str) {
         match self.format {
             Format::Text | Format::OriginalText => {
-                self.write_line(format!("Viewer at {url}").as_bytes())
+                self.write_line(format!("Viewer at {url}").as_bytes());
             }
             Format::Json => self.write_json(&json!({ "type": "viewing", "url": url })),
         }
@@ -250,7 +250,7 @@ impl Console for Output {
         match self.format {
             Format::Text | Format::OriginalText => self.bar.suspend(|| self.write_line(line)),
             Format::Json => {
-                self.write_json(&json!({"type": "print", "text": String::from_utf8_lossy(line)}))
+                self.write_json(&json!({"type": "print", "text": String::from_utf8_lossy(line)}));
             }
         }
     }

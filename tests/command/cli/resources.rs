@@ -43,7 +43,7 @@ fn installation() -> TempDir {
         fs::create_dir_all(root.join(place)).expect("our own folder is writable");
     }
     let write = |file: &str, text: &str| {
-        fs::write(root.join(file), text).expect("our own folder is writable")
+        fs::write(root.join(file), text).expect("our own folder is writable");
     };
     write("lua/mylib.lua", "return 'from lua'");
     write("lua/deprecated/oldlib.lua", "return 'from deprecated'");

@@ -60,7 +60,7 @@ impl Served {
         std::thread::spawn(move || {
             lines
                 .map_while(Result::ok)
-                .for_each(|line| drop(sender.send(line)))
+                .for_each(|line| drop(sender.send(line)));
         });
         let (port, token) = url
             .trim_end_matches('/')

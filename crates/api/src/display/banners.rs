@@ -106,7 +106,7 @@ fn shown(scene: &Scene, camera: Handle, handles: &Data) -> Result<Vec<Handle>> {
     let all = || {
         scene
             .objects()
-            .map(|object| object.handle())
+            .map(scene::Object::handle)
             .filter(|handle| *handle != camera)
             .collect()
     };

@@ -97,7 +97,7 @@ fn set_graph_stream_value(
     value: f64,
 ) -> Result<()> {
     change(cx, graph_handle, |graph| {
-        graph.stream_mut(stream_id.0)?.next = Some(value).filter(|value| value.is_finite());
+        graph.stream_mut(stream_id.0)?.next = Some(value).filter(geometry::Finite::is_finite);
         Ok(())
     })
 }
@@ -348,7 +348,7 @@ fn set_graph_user_data(
             .iter()
             .find(|stream| stream.style.name == data_stream_name);
         let id = named.map_or(-1, |stream| stream.style.id);
-        graph.stream_mut(id)?.next = Some(data).filter(|data| data.is_finite());
+        graph.stream_mut(id)?.next = Some(data).filter(geometry::Finite::is_finite);
         Ok(())
     })
 }

@@ -102,7 +102,7 @@ fn reset_dynamic_object(cx: &mut Cx, object_handle: i64) -> Result<i64> {
     };
     for handle in objects {
         scene.modify(handle, Field::Dynamics, |object| {
-            object.dynamics_reset = true
+            object.dynamics_reset = true;
         })?;
     }
     Ok(1)

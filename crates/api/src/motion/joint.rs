@@ -291,6 +291,6 @@ fn set_joint_target_force(
         return Err(SceneError::InvalidData.into());
     }
     Ok(cx.scene_mut().control_joint(object_handle, |joint| {
-        joint.set_target_force(force_or_torque, signed_value)
+        joint.set_target_force(force_or_torque, signed_value);
     })?)
 }

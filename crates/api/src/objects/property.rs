@@ -46,7 +46,7 @@ fn get_object_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
 fn set_object_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<i64> {
     cx.scene_mut()
         .modify(object_handle, Field::ObjectProperty, |object| {
-            object.object_property = ObjectFlags::from_bits_retain(property.0)
+            object.object_property = ObjectFlags::from_bits_retain(property.0);
         })?;
     Ok(1)
 }
@@ -269,7 +269,7 @@ fn set_object_size_values(
 ) -> Result<i64> {
     cx.scene_mut()
         .modify(object_handle, Field::Other, |object| {
-            object.size_values = size_values
+            object.size_values = size_values;
         })?;
     Ok(1)
 }

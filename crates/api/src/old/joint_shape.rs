@@ -67,7 +67,7 @@ fn set_joint_max_force(cx: &mut Cx, joint_handle: Handle, force_or_torque: f64) 
         return Err(SceneError::InvalidData.into());
     }
     Ok(cx.scene_mut().control_joint(joint_handle, |joint| {
-        joint.set_target_force(force_or_torque, false)
+        joint.set_target_force(force_or_torque, false);
     })?)
 }
 

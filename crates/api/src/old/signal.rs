@@ -58,7 +58,7 @@ fn clear(cx: &mut Cx, kind: &str, name: Option<&str>) -> i64 {
     let removed = names
         .iter()
         .map(|name| cx.remove_property(&PropertyTarget::Scene, &format!("signal.{kind}{name}")));
-    numbers::count(removed.filter(Result::is_ok).count())
+    numbers::count(removed.flatten().count())
 }
 
 /// Names of the signals of a kind in alphabetical order.

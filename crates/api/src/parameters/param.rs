@@ -207,7 +207,7 @@ fn set_bool_param(cx: &mut Cx, parameter: Number, bool_state: bool) -> Result<i6
         switch::DISTANCE => switch_calculation(cx, |on| on.distance = bool_state),
         switch::PROXIMITY_SENSORS => switch_calculation(cx, |on| on.proximity_sensors = bool_state),
         switch::INVERSE_KINEMATICS => {
-            switch_calculation(cx, |on| on.inverse_kinematics = bool_state)
+            switch_calculation(cx, |on| on.inverse_kinematics = bool_state);
         }
         other => {
             let number = known(other, switch::LAST)?;

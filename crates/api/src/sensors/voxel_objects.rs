@@ -114,7 +114,7 @@ fn insert_object_into_cloud(
         .into_iter()
         .map(|position| CloudPoint { position, colour });
     change_cloud(&mut scene, point_cloud_handle, |cloud| {
-        cloud.insert(points, duplicate_tolerance.unwrap_or(0.0))
+        cloud.insert(points, duplicate_tolerance.unwrap_or(0.0));
     })
 }
 

@@ -263,7 +263,7 @@ impl Linked {
         if self.is_solved {
             self.mechanism.begin(bodies, joints, *gravity, *step);
             pushes.iter().for_each(|&(body, impulse, point)| {
-                self.mechanism.add_impulse(body, impulse, point)
+                self.mechanism.add_impulse(body, impulse, point);
             });
             self.mechanism.set_contacts(contacts);
             self.is_solved = self.mechanism.solve();

@@ -207,7 +207,7 @@ fn a_chain_of_which_a_joint_asks_for_it_is_left_to_rapier() {
 fn a_screw_keeps_its_chain_exact() {
     let mut bench = Bench::new();
     bench.arm(0.01, 0.1, |joint| {
-        (joint.solver, joint.screw_lead) = (JointSolver::Impulse, 0.01)
+        (joint.solver, joint.screw_lead) = (JointSolver::Impulse, 0.01);
     });
     bench.run(1);
     assert!(!bench.dynamics.mechanisms.is_empty());

@@ -160,13 +160,13 @@ fn a_place_given_by_a_script_wakes() {
 fn a_velocity_given_by_a_script_wakes() {
     let mut sleeper = Sleeper::new();
     sleeper.change(sleeper.body, |shape| {
-        shape.dynamics.initial_velocity.linear = [0.0, 0.0, 2.0]
+        shape.dynamics.initial_velocity.linear = [0.0, 0.0, 2.0];
     });
     sleeper
         .bench
         .scene
         .modify(sleeper.body, Field::Dynamics, |object| {
-            object.dynamics_reset = true
+            object.dynamics_reset = true;
         })
         .expect("exists");
     sleeper.bench.run(1);
@@ -209,7 +209,7 @@ fn a_support_that_is_removed_wakes() {
 fn a_support_that_lets_pass_wakes() {
     let mut sleeper = Sleeper::new();
     sleeper.change(sleeper.floor, |shape| {
-        shape.dynamics.respondable_mask = RespondableMask::NONE
+        shape.dynamics.respondable_mask = RespondableMask::NONE;
     });
     sleeper.bench.run(2);
     assert!(sleeper.at()[2] < 0.02);
@@ -255,7 +255,7 @@ fn a_neighbour_that_hits_wakes() {
         .bench
         .shape([0.1; 3], [-0.5, 0.0, 0.06], 5.0, true, true);
     sleeper.change(ram, |shape| {
-        shape.dynamics.initial_velocity.linear = [4.0, 0.0, 0.0]
+        shape.dynamics.initial_velocity.linear = [4.0, 0.0, 0.0];
     });
     sleeper.bench.run(10);
     assert!(sleeper.at()[0] > 0.05);

@@ -59,7 +59,7 @@ impl GltfFile {
         let mut node = node(scene, handle, parent, parent_node)?;
         match &object.kind {
             Kind::Shape(shape) if scene.is_visible(handle)? => {
-                node.mesh = self.mesh(scene, shape, textures)?
+                node.mesh = self.mesh(scene, shape, textures)?;
             }
             Kind::Camera(camera) => node.camera = Some(super::viewers::camera(&camera.view)),
             Kind::VisionSensor(sensor) => node.camera = Some(super::viewers::camera(&sensor.view)),

@@ -71,7 +71,7 @@ impl GltfFile {
     /// When a texture is not in the scene.
     pub fn of_scene(scene: &Scene) -> SceneResult<Self> {
         let mut file = Self::default();
-        let all: Vec<Handle> = scene.objects().map(|object| object.handle()).collect();
+        let all: Vec<Handle> = scene.objects().map(scene::Object::handle).collect();
         file.add_objects(scene, &all, "png")?;
         Ok(file)
     }
@@ -113,7 +113,7 @@ fn base(scene: &mut Scene, handles: &[Handle], name: &str) -> SceneResult<Handle
         scene.set_parent(root, Some(base), true)?;
     }
     scene.modify(base, Field::ObjectProperty, |object| {
-        object.set_model_property(ModelFlags::empty())
+        object.set_model_property(ModelFlags::empty());
     })?;
     Ok(base)
 }

@@ -29,8 +29,8 @@ pub(super) fn camera(view: &View) -> gltf::Camera {
 
 pub(super) fn camera_object(camera: &gltf::Camera) -> Camera {
     let aspect = camera.aspect_ratio.clamp(1.0 / PIXELS, PIXELS);
-    let resolution =
-        [PIXELS * aspect.min(1.0), PIXELS / aspect.max(1.0)].map(|pixels| pixels.round() as i64);
+    let resolution = [PIXELS * aspect.min(1.0), PIXELS / aspect.max(1.0)]
+        .map(|pixels| numbers::truncated(pixels.round()));
     let mut object = Camera::default();
     object.view.set_resolution(resolution);
     // Ours are those of the larger side.
@@ -40,7 +40,7 @@ pub(super) fn camera_object(camera: &gltf::Camera) -> Camera {
             object.view.angle = 2.0 * half.atan();
         }
         Extent::Height(height) => {
-            (object.view.perspective, object.view.ortho_size) = (false, height * aspect.max(1.0))
+            (object.view.perspective, object.view.ortho_size) = (false, height * aspect.max(1.0));
         }
     }
     let [near, far] = camera.clipping;
@@ -73,6 +73,6 @@ pub(super) fn light_object(light: &gltf::Light) -> Light {
     if let LightKind::Spot(angle) = light.kind {
         object.spot_cutoff = angle.clamp(1e-3, FRAC_PI_2);
     }
-    object.colour.ambient_diffuse = light.color.map(|x| x as f32);
+    object.colour.ambient_diffuse = light.color.map(numbers::single);
     object
 }

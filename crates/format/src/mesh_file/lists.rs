@@ -82,7 +82,8 @@ fn part(vertices: &[Data], indices: &[Data]) -> Option<Part> {
 /// Whole numbers only; scripts compute indices as floats too.
 fn index(data: &Data) -> Option<u32> {
     let number = data.as_f64()?;
-    (number.fract() == 0.0 && (0.0..f64::from(u32::MAX)).contains(&number)).then_some(number as u32)
+    (number.fract() == 0.0 && (0.0..f64::from(u32::MAX)).contains(&number))
+        .then_some(numbers::truncated_u32(number))
 }
 
 #[cfg(test)]

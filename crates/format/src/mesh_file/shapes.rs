@@ -66,7 +66,7 @@ fn picture(texture: &mesh_files::Texture, longest: u32) -> Result<Texture, Strin
             .map_err(|error| error.to_string())?,
         false => picture,
     };
-    let size = picture.resolution().map(|side| side as u32);
+    let size = picture.resolution().map(numbers::low_u32);
     let stem = texture
         .name
         .rsplit_once('.')
@@ -84,7 +84,7 @@ fn shape(part: &Part, imported: ImportedAppearance, texture: Option<i64>) -> Sce
         .as_flattened()
         .as_flattened()
         .iter()
-        .map(|x| *x as f32)
+        .map(|x| numbers::single(*x))
         .collect();
     let is_sound = coordinates.iter().all(|x| x.is_finite()) && !coordinates.is_empty();
     if let Some(texture) = texture.filter(|_| is_sound) {
@@ -116,7 +116,7 @@ fn mesh(part: &Part, shading_angle: f64) -> SceneResult<Mesh> {
 
 fn appearance(material: &Material, imported: ImportedAppearance) -> Appearance {
     let mut appearance = Shape::mesh_appearance();
-    let single = |colour: [f64; 3]| colour.map(|x| x as f32);
+    let single = |colour: [f64; 3]| colour.map(numbers::single);
     if imported.colours {
         let colour = &mut appearance.colour;
         *colour = Colour {
@@ -127,7 +127,7 @@ fn appearance(material: &Material, imported: ImportedAppearance) -> Appearance {
         };
     }
     if imported.transparency {
-        appearance.colour.opacity = (1.0 - material.transparency) as f32;
+        appearance.colour.opacity = numbers::single(1.0 - material.transparency);
     }
     appearance
 }

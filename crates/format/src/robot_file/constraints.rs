@@ -167,7 +167,7 @@ impl Import<'_> {
             let joint = Kind::Joint(Box::new(Joint::new(joint_type, JointMode::Dynamic)));
             parent = self.add(name, joint, first, Some(one))?;
             self.scene.modify(parent, Field::Layer, |object| {
-                object.layer = Layers::JOINTS.hidden()
+                object.layer = Layers::JOINTS.hidden();
             })?;
         }
         let tip = self.add_dummy(&format!("{name}_tip"), first, Some(parent))?;

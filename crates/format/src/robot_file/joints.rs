@@ -77,7 +77,7 @@ impl Import<'_> {
         )?;
         if !self.options.contains(RobotImportOptions::SHOW_JOINTS) {
             self.scene.modify(handle, Field::Layer, |object| {
-                object.layer = Layers::JOINTS.hidden()
+                object.layer = Layers::JOINTS.hidden();
             })?;
         }
         Ok(handle)

@@ -154,7 +154,7 @@ impl Import<'_> {
         )?;
         if !self.options.contains(RobotImportOptions::SHOW_COLLISIONS) {
             self.scene.modify(body, Field::Layer, |object| {
-                object.layer = Layers::SHAPES.hidden()
+                object.layer = Layers::SHAPES.hidden();
             })?;
         }
         Ok(body)

@@ -70,7 +70,7 @@ impl MeshFiles {
             stretched
                 .warnings
                 .iter()
-                .map(|warning| failed(warning.to_string())),
+                .map(|warning| failed(warning.clone())),
         );
         joined(shapes).map_err(failed)
     }

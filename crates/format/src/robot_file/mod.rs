@@ -128,7 +128,7 @@ impl RobotFile {
         };
         let gravity = self
             .gravity
-            .filter(|gravity| gravity.map(|part| part as f32) != scene.settings().dynamics.gravity);
+            .filter(|gravity| gravity.map(numbers::single) != scene.settings().dynamics.gravity);
         let mut imported = self
             .add_to(&mut scene, options)
             .map_err(|error| error.to_string())?;
@@ -207,7 +207,7 @@ fn gathered(scene: &mut Scene, roots: &[Handle], name: &str) -> SceneResult<Hand
         Kind::Dummy(Dummy::new(joints::DUMMY)),
     )?;
     scene.modify(base, Field::ObjectProperty, |object| {
-        object.set_model_property(ModelFlags::empty())
+        object.set_model_property(ModelFlags::empty());
     })?;
     for root in roots {
         scene.set_parent(*root, Some(base), true)?;

@@ -336,7 +336,7 @@ impl Files for Beside<'_> {
     fn triangles(&mut self, file: &str) -> Result<Triangles, String> {
         let mut mesh = Triangles::default();
         for part in &self.meshes.named(file)?.parts {
-            let first = mesh.vertices.len() as u32;
+            let first = numbers::count_u32(mesh.vertices.len());
             mesh.vertices.extend(part.vertices.iter().copied());
             mesh.corners.extend(
                 part.triangles

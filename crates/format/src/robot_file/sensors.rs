@@ -44,7 +44,7 @@ impl Import<'_> {
         let parent = self.nodes[sensor.link].carrier;
         let handle = self.add(&sensor.name, kind, pose, parent)?;
         self.scene.modify(handle, Field::ObjectProperty, |object| {
-            object.object_property |= ObjectFlags::HIDE_FROM_MODEL_BOX
+            object.object_property |= ObjectFlags::HIDE_FROM_MODEL_BOX;
         })
     }
 }

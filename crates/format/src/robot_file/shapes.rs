@@ -179,7 +179,7 @@ fn paint(shape: &mut Shape, material: &Material) {
     for part in &mut shape.parts {
         let colour = &mut part.appearance.colour;
         colour.ambient_diffuse =
-            [red, green, blue].map(|component| component.clamp(0.0, 1.0) as f32);
+            [red, green, blue].map(|component| numbers::single(component.clamp(0.0, 1.0)));
         colour.specular = SPECULAR;
     }
 }

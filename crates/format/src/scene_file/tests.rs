@@ -344,6 +344,7 @@ fn groups_in_groups_come_apart_level_by_level_after_loading() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "one scene with everything")]
 fn what_v_rep_had_is_kept() {
     use scene::object::dummy::Dummy;
     use scene::path_object::{

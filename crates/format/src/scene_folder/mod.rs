@@ -82,7 +82,7 @@ fn write(file: &File, folder: &Path) -> NodeResult<()> {
     let mut file = file.clone();
     let scripts = names::of_scripts(&file);
     for (number, text) in take_meshes(&mut file)?.into_iter().enumerate() {
-        outside.write(&mesh_name(number as i32), text.as_bytes())?;
+        outside.write(&mesh_name(numbers::count_i32(number)), text.as_bytes())?;
     }
     let mut tree = file.to_node();
     if let Some(Node::List(objects)) = tree
@@ -332,7 +332,9 @@ fn take_meshes(file: &mut File) -> NodeResult<Vec<String>> {
             Some(number) => *number,
             None => {
                 texts.push(obj::write(&pool, places)?);
-                *known.entry(places).or_insert(texts.len() as i32 - 1)
+                *known
+                    .entry(places)
+                    .or_insert(numbers::count_i32(texts.len()) - 1)
             }
         };
         data.vertices_at = Some(number);

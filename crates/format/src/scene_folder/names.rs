@@ -90,7 +90,7 @@ fn alias(object: &Object) -> String {
         .alias
         .as_ref()
         .or(common.name.as_ref())
-        .map(|name| name.decode())
+        .map(crate::ttt::Text::decode)
         .unwrap_or_default();
     let mut name = clean_alias(name.split('#').next().unwrap_or_default().as_bytes());
     name.truncate(MAX_NAME_LENGTH);

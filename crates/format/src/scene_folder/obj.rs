@@ -145,7 +145,10 @@ impl Parsed {
         let normal = normal
             .map(|word| index(word, self.normals.len()))
             .transpose()?;
-        Ok((vertex as i32, normal.map(|at| self.normals[at])))
+        Ok((
+            numbers::count_i32(vertex),
+            normal.map(|at| self.normals[at]),
+        ))
     }
 }
 
@@ -153,7 +156,7 @@ impl Parsed {
 fn index(word: &str, len: usize) -> NodeResult<usize> {
     let number: i64 = word.parse().map_err(|_| format!("`{word}` is no number"))?;
     let at = if number < 0 {
-        len as i64 + number
+        numbers::count(len) + number
     } else {
         number - 1
     };

@@ -95,7 +95,7 @@ impl Outline {
         let saved = save::scene(&scene, &loaded.scripts).map_err(|error| error.to_string())?;
         let paths: BTreeMap<i64, String> = scene
             .objects()
-            .map(|object| object.handle())
+            .map(scene::Object::handle)
             .map(|h| (h.raw(), path(&scene, h)))
             .collect();
         let mut objects: Vec<OutlineItem> = saved
@@ -174,7 +174,7 @@ fn item(
         .common
         .persistent_id
         .as_ref()
-        .map(|id| id.decode())
+        .map(crate::ttt::Text::decode)
         .unwrap_or_default();
     OutlineItem {
         path: paths.get(&raw).cloned().unwrap_or_default(),
@@ -231,9 +231,9 @@ impl Walk<'_> {
                 format!("{name}.{key}")
             };
             if HANDLES.contains(&key.as_str()) {
-                self.handle(&name, node)
+                self.handle(&name, node);
             } else {
-                self.visit(&name, node)
+                self.visit(&name, node);
             }
         }
     }

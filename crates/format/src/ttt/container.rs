@@ -88,7 +88,7 @@ pub fn unpack(file: &[u8]) -> FileResult<(Header, Vec<u8>)> {
     let header = Header {
         serialization,
         version: u16::from_le_bytes([file[21], file[22]]),
-        revision: file[27] as i8,
+        revision: file[27].cast_signed(),
         kind: file[28],
     };
     let body = match file[12] {
@@ -106,9 +106,9 @@ pub fn pack(header: &Header, body: &[u8]) -> Vec<u8> {
     file[4..8].copy_from_slice(&header.serialization.to_le_bytes());
     file[8..12].copy_from_slice(&(CURRENT - 1).to_le_bytes());
     file[12] = 1;
-    file[13..17].copy_from_slice(&(body.len() as i32).to_le_bytes());
+    file[13..17].copy_from_slice(&numbers::count_i32(body.len()).to_le_bytes());
     file[21..23].copy_from_slice(&header.version.to_le_bytes());
-    file[27] = header.revision as u8;
+    file[27] = header.revision.cast_unsigned();
     file[28] = header.kind;
     file.extend(huffman::deflate(body));
     file

@@ -92,6 +92,10 @@ struct Entry {
 }
 
 impl Tree {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a tree has at most as many nodes as 16 bits count"
+    )]
     fn read(bits: &mut Bits<'_>) -> FileResult<Self> {
         let mut nodes = Vec::new();
         // Where the number of the next node is to be written: the branches that are still open.
@@ -158,6 +162,10 @@ impl Tree {
         }
     }
 
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a handful of bits are looked at"
+    )]
     fn entry(&self, peeked: usize) -> Entry {
         let mut entry = Entry::default();
         let mut node = 0;
@@ -269,6 +277,10 @@ struct BitWriter {
 }
 
 impl BitWriter {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the byte is the lowest eight bits"
+    )]
     fn push(&mut self, code: u32, length: u8) {
         self.pending = self.pending << length | u64::from(code);
         self.count += length;

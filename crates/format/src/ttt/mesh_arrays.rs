@@ -61,7 +61,7 @@ impl MeshArrays {
 fn place<K: Hash + Eq, T>(known: &mut HashMap<K, i32>, key: K, list: &mut Vec<T>, array: T) -> i32 {
     *known.entry(key).or_insert_with(|| {
         list.push(array);
-        list.len() as i32 - 1
+        numbers::count_i32(list.len()) - 1
     })
 }
 

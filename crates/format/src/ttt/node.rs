@@ -98,7 +98,7 @@ impl Node {
     /// A number, or the word for one that is none.
     pub fn real(&self) -> NodeResult<f64> {
         match self {
-            Self::Int(int) => Ok(*int as f64),
+            Self::Int(int) => Ok(numbers::real_of(*int)),
             Self::Real(real) => Ok(*real),
             Self::Single(single) => Ok((*single).into()),
             Self::Text(word) if matches!(word.as_str(), "NaN" | "inf" | "-inf") => {

@@ -15,7 +15,7 @@ impl Writer {
         let start = self.bytes.len();
         self.int(0);
         payload(self);
-        let size = (self.bytes.len() - start - 4) as i32;
+        let size = numbers::count_i32(self.bytes.len() - start - 4);
         self.bytes[start..start + 4].copy_from_slice(&size.to_le_bytes());
     }
 

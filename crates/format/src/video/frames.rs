@@ -16,7 +16,8 @@ pub(super) struct Frame {
 impl Frame {
     /// How long it is shown, in units of which `per_second` make a second: the ends are rounded, so that no error adds up.
     pub(super) fn duration(&self, rate: f64, per_second: f64) -> u64 {
-        let time = |periods: u64| (periods as f64 * per_second / rate).round() as u64;
+        let time =
+            |periods: u64| numbers::truncated_u64((periods as f64 * per_second / rate).round());
         time(self.end) - time(self.begin)
     }
 }
@@ -36,7 +37,7 @@ impl Frames {
     pub(super) fn new(width: u32, rate: f64, longest: f64) -> Self {
         Self {
             width,
-            longest: ((longest * rate) as u64).max(1),
+            longest: numbers::truncated_u64(longest * rate).max(1),
             last: Vec::new(),
             frame: None,
         }
@@ -72,7 +73,7 @@ impl Frames {
     /// The smallest rectangle around what differs from the last picture, of two pixels at least.
     fn changed(&self, picture: &[u8]) -> ([u32; 2], [u32; 2]) {
         let row = 3 * self.width as usize;
-        let height = (picture.len() / row) as u32;
+        let height = numbers::count_u32(picture.len() / row);
         if self.last.is_empty() {
             return ([0, 0], [self.width, height]);
         }
@@ -95,8 +96,14 @@ impl Frames {
                 .rev()
                 .find(|at| new[*at] != old[*at])
                 .unwrap_or(first);
-            low = [low[0].min(first as u32 / 3), low[1].min(y as u32)];
-            high = [high[0].max(last as u32 / 3), y as u32];
+            low = [
+                low[0].min(numbers::count_u32(first) / 3),
+                low[1].min(numbers::count_u32(y)),
+            ];
+            high = [
+                high[0].max(numbers::count_u32(last) / 3),
+                numbers::count_u32(y),
+            ];
         }
         let place = low.map(|low| if low == u32::MAX { 0 } else { low & !1 });
         (place, [high[0] + 1 - place[0], high[1] + 1 - place[1]])

@@ -38,6 +38,10 @@ impl Gif {
         })
     }
 
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the sides of the film were checked when it was begun, and a frame lies within"
+    )]
     fn write(&mut self, frame: &Frame) -> Result<(), VideoError> {
         let [width, height] = frame.size.map(|side| side as u16);
         let mut picture = gif::Frame::from_rgb_speed(width, height, &frame.pixels, SPEED);

@@ -39,7 +39,7 @@ pub(super) struct Mp4 {
 impl Mp4 {
     pub(super) fn create(path: &Path, format: VideoFormat) -> Result<Self, VideoError> {
         let config = EncoderConfig::new()
-            .max_frame_rate(FrameRate::from_hz(format.rate as f32))
+            .max_frame_rate(FrameRate::from_hz(numbers::single(format.rate)))
             .rate_control_mode(RateControlMode::Off)
             .skip_frames(false)
             .intra_frame_period(IntraFramePeriod::from_num_frames(INTRA_PERIOD))
@@ -57,7 +57,7 @@ impl Mp4 {
 
     /// Place of a period in time.
     fn time(&self, periods: u64) -> u64 {
-        (periods as f64 * f64::from(TIME_SCALE) / self.format.rate).round() as u64
+        numbers::truncated_u64((periods as f64 * f64::from(TIME_SCALE) / self.format.rate).round())
     }
 }
 
@@ -136,7 +136,8 @@ impl Units {
             Some(SEQUENCE_PARAMETERS) => self.sequence_parameters = unit.to_vec(),
             Some(PICTURE_PARAMETERS) => self.picture_parameters = unit.to_vec(),
             Some(_) => {
-                self.picture.extend((unit.len() as u32).to_be_bytes());
+                self.picture
+                    .extend(numbers::count_u32(unit.len()).to_be_bytes());
                 self.picture.extend(unit);
             }
             None => {}

@@ -73,7 +73,7 @@ impl Reading<'_> {
     pub(super) fn add(&mut self, arrays: Arrays) -> Result<i32, String> {
         arrays.check()?;
         let pool = &mut self.pool;
-        let place = pool.vertices.len() as i32;
+        let place = numbers::count_i32(pool.vertices.len());
         pool.vertices.push(Rest(arrays.vertices));
         pool.indices.push(Indices(arrays.indices));
         pool.normals.push(Normals(arrays.normals));

@@ -40,6 +40,10 @@ pub(super) struct Element<'a> {
 impl Document {
     /// # Errors
     /// When the text is no XML: what is wrong, and where.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "positions in a text that is in memory"
+    )]
     pub(super) fn parse(bytes: &[u8]) -> FileResult<Self> {
         let text = decode(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
         let mut building = Building {

@@ -85,13 +85,13 @@ impl Reading<'_> {
                 .vertices
                 .as_flattened()
                 .iter()
-                .map(|c| *c as f32)
+                .map(|c| numbers::single(*c))
                 .collect(),
             indices: mesh
                 .triangles
                 .as_flattened()
                 .iter()
-                .map(|i| *i as i32)
+                .map(|i| (*i).cast_signed())
                 .collect(),
             ..Arrays::default()
         };
@@ -177,7 +177,7 @@ fn set_primitive(data: &mut Node, code: i64, size: [f64; 3]) {
 
 fn terrain(element: Element<'_>, data: &mut Node) -> Words<Mesh> {
     let counts: [f64; 2] = numbers(&text(element, "size")?)?;
-    let [columns, rows] = counts.map(|count| count as usize);
+    let [columns, rows] = counts.map(numbers::index);
     let heights: Vec<f64> = list(element, "data")?;
     if columns < 2 || rows < 2 || columns.checked_mul(rows) != Some(heights.len()) {
         return Err(
@@ -198,8 +198,8 @@ fn terrain(element: Element<'_>, data: &mut Node) -> Words<Mesh> {
         std::array::from_fn(|axis| high[axis] - low[axis]),
     );
     let field = Node::table([
-        ("columns", Node::Int(columns as i64)),
-        ("rows", Node::Int(rows as i64)),
+        ("columns", Node::Int(numbers::count(columns))),
+        ("rows", Node::Int(numbers::count(rows))),
         (
             "heights",
             Node::List(heights.into_iter().map(Node::Real).collect()),
@@ -219,7 +219,7 @@ fn mesh(element: Element<'_>) -> Words<Mesh> {
         ));
     }
     let vertices: Vec<f64> = list(element, "vertices")?;
-    let count = (vertices.len() / 3) as i64;
+    let count = numbers::count(vertices.len() / 3);
     let indices: Vec<i64> = list(element, "indices")?;
     let indices: Vec<i64> = indices
         .into_iter()

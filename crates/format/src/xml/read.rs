@@ -132,7 +132,7 @@ impl Reading<'_> {
             match child.name() {
                 "mesh" => items.push(self.section("Mesh", child)?),
                 "compound" => {
-                    items.push(Node::table([("group", self.section("MeshNode", child)?)]))
+                    items.push(Node::table([("group", self.section("MeshNode", child)?)]));
                 }
                 _ => {}
             }

@@ -90,7 +90,7 @@ pub(super) fn read(document: &Document, side_files: SideFiles<'_>) -> FileResult
         put(
             &mut contents,
             &[Step::Name("views")],
-            view_of(camera as i64),
+            view_of(numbers::count(camera)),
         );
     }
     let tree = Node::table([("header", header), ("contents", contents)]);
@@ -244,11 +244,11 @@ fn simple_objects(
             Some(common) => reading.section("Object", common)?,
             None => Node::table([]),
         };
-        let parent = parent.map_or(-1, |parent| parent as i64);
+        let parent = parent.map_or(-1, numbers::count);
         put(
             &mut common,
             &[Step::Name("handles")],
-            Node::List(vec![Node::Int(handle as i64), Node::Int(parent)]),
+            Node::List(vec![Node::Int(numbers::count(handle)), Node::Int(parent)]),
         );
         if common.get("alias").is_none() && common.get("name").is_none() {
             put(
@@ -261,7 +261,7 @@ fn simple_objects(
         for (name, code) in ATTACHED {
             for script in element.named(name) {
                 let mut script = reading.section("Script", script)?;
-                let ids = [0, handle as i64, code].map(Node::Int);
+                let ids = [0, numbers::count(handle), code].map(Node::Int);
                 put(&mut script, &[Step::Name("ids")], Node::List(ids.to_vec()));
                 scripts.push(script);
             }
@@ -304,7 +304,7 @@ fn references(root: Element<'_>, placed: &[Placed<'_>]) -> BTreeMap<String, i32>
             .as_ref()
             .and_then(|alias| alias.split('*').next().map(str::to_owned));
         for name in [alias, text("name"), short].into_iter().flatten() {
-            references.entry(name).or_insert(handle as i32);
+            references.entry(name).or_insert(numbers::count_i32(handle));
         }
     }
     for (collection, handle) in root.named("collection").zip(FIRST_COLLECTION..) {

@@ -114,7 +114,7 @@ static WORDS: LazyLock<BTreeMap<&'static str, Vec<(&'static str, i64)>>> = LazyL
             name,
             columns
                 .filter_map(|word| word.split_once('='))
-                .map(|(word, n)| (word, number(n) as i64))
+                .map(|(word, n)| (word, numbers::count(number(n))))
                 .collect(),
         )
     });
@@ -201,7 +201,7 @@ fn kind(text: &'static str) -> Kind {
         "rgb" => Kind::Numbers(Unit::Colour, Count::Exactly(3)),
         "bit" => Kind::Bits(1 << number(argument), false),
         "nobit" => Kind::Bits(1 << number(argument), true),
-        "bits" => Kind::Bits(number(argument) as i64, false),
+        "bits" => Kind::Bits(numbers::count(number(argument)), false),
         "word" => Kind::Word(argument),
         "text" => Kind::Text,
         "alias" => Kind::Alias,

@@ -42,29 +42,33 @@ impl Matrix {
     /// The pixels nearest to a circle, one for each row where it is steep and one for each column where it is flat.
     fn draw_thin_circle(&mut self, [x, y]: PixelPosition, radius: f64, pen: &Pen, is_filled: bool) {
         let across = |along: f64| (radius * radius - along * along).sqrt().round();
-        let [width, height] = self.size().map(|size| size as f64);
+        let [width, height] = self.size().map(numbers::real);
         let visible =
             |centre: f64, size: f64| ((-centre).max(-radius), (size - 1.0 - centre).min(radius));
         let (low, high) = visible(y, height);
         for along in whole_numbers(low, high) {
             let half = across(along);
-            let row = (y + along) as i64;
+            let row = numbers::truncated(y + along);
             if is_filled {
                 self.paint_span(row, x - half, x + half, pen);
             }
             if half >= along.abs() {
                 [-half, half]
                     .iter()
-                    .for_each(|side| self.paint([(x + side) as i64, row], pen, 1.0));
+                    .for_each(|side| self.paint([numbers::truncated(x + side), row], pen, 1.0));
             }
         }
         let (low, high) = visible(x, width);
         for along in whole_numbers(low, high) {
             let half = across(along);
             if half >= along.abs() {
-                [-half, half]
-                    .iter()
-                    .for_each(|side| self.paint([(x + along) as i64, (y + side) as i64], pen, 1.0));
+                [-half, half].iter().for_each(|side| {
+                    self.paint(
+                        [numbers::truncated(x + along), numbers::truncated(y + side)],
+                        pen,
+                        1.0,
+                    );
+                });
             }
         }
     }
@@ -96,11 +100,11 @@ impl Matrix {
 /// Whole numbers between two, which are whole themselves.
 fn whole_numbers(low: f64, high: f64) -> impl Iterator<Item = f64> {
     let count = if low <= high {
-        (high - low) as usize + 1
+        numbers::index(high - low) + 1
     } else {
         0
     };
-    (0..count).map(move |n| low + n as f64)
+    (0..count).map(move |n| low + numbers::real(n))
 }
 
 /// Places on an ellipse, a degree from each other.
@@ -123,9 +127,11 @@ fn arc_places(
     );
     let (sin, cos) = angle.rem_euclid(360.0).to_radians().sin_cos();
     let steps = span.ceil().max(1.0);
-    (0..=steps as usize)
+    (0..=numbers::index(steps))
         .map(|n| {
-            let (y, x) = (first + span * n as f64 / steps).to_radians().sin_cos();
+            let (y, x) = (first + span * numbers::real(n) / steps)
+                .to_radians()
+                .sin_cos();
             let (x, y) = (x * radii[0], y * radii[1]);
             [centre[0] + x * cos - y * sin, centre[1] + x * sin + y * cos]
         })

@@ -79,7 +79,7 @@ impl Matrix {
         else {
             return;
         };
-        let [from, to] = [from, to].map(|place| place.map(|x| x.round() as i64));
+        let [from, to] = [from, to].map(|place| place.map(|x| numbers::truncated(x.round())));
         let step = [0, 1].map(|i| (to[i] - from[i]).signum());
         let [dx, dy] = [(to[0] - from[0]).abs(), (to[1] - from[1]).abs()];
         let mut at = from;
@@ -112,7 +112,7 @@ pub fn clip_line(
     from: PixelPosition,
     to: PixelPosition,
 ) -> Option<[PixelPosition; 2]> {
-    let last = [width as f64 - 1.0, height as f64 - 1.0];
+    let last = [numbers::real(width) - 1.0, numbers::real(height) - 1.0];
     let direction = [to[0] - from[0], to[1] - from[1]];
     let (mut begin, mut end) = (0f64, 1f64);
     for i in 0..2 {

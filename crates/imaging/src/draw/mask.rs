@@ -16,13 +16,13 @@ impl Mask {
     pub(super) fn new(image: &Matrix, low: PixelPosition, high: PixelPosition) -> Option<Self> {
         let size = image.size();
         let first = [0, 1].map(|i| (low[i].floor() - 1.0).max(0.0));
-        let last = [0, 1].map(|i| (high[i].ceil() + 1.0).min(size[i] as f64 - 1.0));
+        let last = [0, 1].map(|i| (high[i].ceil() + 1.0).min(numbers::real(size[i]) - 1.0));
         if !(first[0] <= last[0] && first[1] <= last[1]) {
             return None;
         }
-        let [width, height] = [0, 1].map(|i| (last[i] - first[i]) as usize + 1);
+        let [width, height] = [0, 1].map(|i| numbers::index(last[i] - first[i]) + 1);
         Some(Self {
-            corner: first.map(|at| at as i64),
+            corner: first.map(numbers::truncated),
             width,
             height,
             coverage: vec![0.0; width * height],
@@ -59,11 +59,11 @@ impl Mask {
         let reach = radius + 1.0;
         let direction = [to[0] - from[0], to[1] - from[1]];
         let squared = direction[0] * direction[0] + direction[1] * direction[1];
-        let first = (from[1].min(to[1]) - reach - self.corner[1] as f64).max(0.0);
-        let last =
-            (from[1].max(to[1]) + reach - self.corner[1] as f64).min(self.height as f64 - 1.0);
-        for row in first as usize..=last.max(-1.0) as usize {
-            let y = (row as i64 + self.corner[1]) as f64;
+        let first = (from[1].min(to[1]) - reach - numbers::real_of(self.corner[1])).max(0.0);
+        let last = (from[1].max(to[1]) + reach - numbers::real_of(self.corner[1]))
+            .min(numbers::real(self.height) - 1.0);
+        for row in numbers::index(first)..=numbers::index(last.max(-1.0)) {
+            let y = numbers::real_of(numbers::count(row) + self.corner[1]);
             let [left, right] = columns_near(from, direction, y, reach);
             self.add_row(row, left, right, |x| {
                 let [dx, dy] = [x - from[0], y - from[1]];
@@ -88,7 +88,7 @@ impl Mask {
         line_type: LineType,
     ) {
         for row in 0..self.height {
-            let y = (row as i64 + self.corner[1]) as f64;
+            let y = numbers::real_of(numbers::count(row) + self.corner[1]);
             self.add_row(row, f64::NEG_INFINITY, f64::INFINITY, |x| {
                 let outside = (x - centre[0]).hypot(y - centre[1]) - ring;
                 coverage(
@@ -102,17 +102,22 @@ impl Mask {
     /// Covers a pixel of the image.
     pub(super) fn add_pixel(&mut self, [x, y]: [i64; 2], coverage: f64) {
         let [column, row] = [x - self.corner[0], y - self.corner[1]];
-        if column >= 0 && row >= 0 && column < self.width as i64 && row < self.height as i64 {
-            let covered = &mut self.coverage[row as usize * self.width + column as usize];
-            *covered = covered.max(coverage as f32);
+        if column >= 0
+            && row >= 0
+            && column < numbers::count(self.width)
+            && row < numbers::count(self.height)
+        {
+            let covered =
+                &mut self.coverage[numbers::place_of(row) * self.width + numbers::place_of(column)];
+            *covered = covered.max(numbers::single(coverage));
         }
     }
 
     fn add_row(&mut self, row: usize, left: f64, right: f64, coverage: impl Fn(f64) -> f64) {
-        let first = (left - self.corner[0] as f64).floor().max(0.0);
-        let last = (right - self.corner[0] as f64)
+        let first = (left - numbers::real_of(self.corner[0])).floor().max(0.0);
+        let last = (right - numbers::real_of(self.corner[0]))
             .ceil()
-            .min(self.width as f64 - 1.0);
+            .min(numbers::real(self.width) - 1.0);
         if first.is_nan() || last.is_nan() || first > last {
             return;
         }
@@ -120,10 +125,12 @@ impl Mask {
         for (column, covered) in pixels
             .iter_mut()
             .enumerate()
-            .take(last as usize + 1)
-            .skip(first as usize)
+            .take(numbers::index(last) + 1)
+            .skip(numbers::index(first))
         {
-            *covered = covered.max(coverage((column as i64 + self.corner[0]) as f64) as f32);
+            *covered = covered.max(numbers::single(coverage(numbers::real_of(
+                numbers::count(column) + self.corner[0],
+            ))));
         }
     }
 
@@ -136,8 +143,8 @@ impl Mask {
             .filter(|(_, coverage)| **coverage > 0.0)
         {
             let place = [
-                self.corner[0] + (at % self.width) as i64,
-                self.corner[1] + (at / self.width) as i64,
+                self.corner[0] + numbers::count(at % self.width),
+                self.corner[1] + numbers::count(at / self.width),
             ];
             image.paint(place, pen, f64::from(*coverage));
         }

@@ -56,7 +56,7 @@ impl Stroke {
     pub fn from_thickness(thickness: i64) -> MatrixResult<Self> {
         match thickness {
             ..0 => Ok(Self::Fill),
-            0..=Self::MAX_THICKNESS => Ok(Self::Outline(thickness.max(1) as u32)),
+            0..=Self::MAX_THICKNESS => Ok(Self::Outline(numbers::low_u32(thickness.max(1)))),
             _ => Err(MatrixError::Range("the thickness")),
         }
     }
@@ -66,11 +66,11 @@ impl Matrix {
     /// Mixes the colour of a pen into a pixel, if it is inside.
     fn paint(&mut self, [x, y]: [i64; 2], pen: &Pen, coverage: f64) {
         let [width, height] = self.size();
-        if x < 0 || y < 0 || x >= width as i64 || y >= height as i64 {
+        if x < 0 || y < 0 || x >= numbers::count(width) || y >= numbers::count(height) {
             return;
         }
         let channels = self.format().channels;
-        let first = (y as usize * width + x as usize) * channels;
+        let first = (numbers::place_of(y) * width + numbers::place_of(x)) * channels;
         for (channel, new) in pen.colour.iter().enumerate().take(channels) {
             let old = if coverage < 1.0 {
                 self.value(first + channel).unwrap_or_default()
@@ -83,11 +83,11 @@ impl Matrix {
 
     /// Paints the pixels of a row between two columns, both included.
     fn paint_span(&mut self, row: i64, from: f64, to: f64, pen: &Pen) {
-        let last = self.size()[0] as f64 - 1.0;
-        if row < 0 || row >= self.size()[1] as i64 || from > last || to < 0.0 {
+        let last = numbers::real(self.size()[0]) - 1.0;
+        if row < 0 || row >= numbers::count(self.size()[1]) || from > last || to < 0.0 {
             return;
         }
-        for column in from.max(0.0) as i64..=to.min(last) as i64 {
+        for column in numbers::truncated(from.max(0.0))..=numbers::truncated(to.min(last)) {
             self.paint([column, row], pen, 1.0);
         }
     }

@@ -14,7 +14,7 @@ impl Matrix {
         }
         for (row, crossings) in self.crossings(polygons, 1).into_iter().enumerate() {
             for pair in crossings.chunks_exact(2) {
-                self.paint_span(row as i64, pair[0].ceil(), pair[1].floor(), pen);
+                self.paint_span(numbers::count(row), pair[0].ceil(), pair[1].floor(), pen);
             }
         }
         polygons
@@ -29,19 +29,25 @@ impl Matrix {
         for (row, fine) in fine_rows.chunks_exact(FINE).enumerate() {
             covered.fill(0.0);
             for pair in fine.iter().flat_map(|crossings| crossings.chunks_exact(2)) {
-                let [from, to] = [pair[0] + 0.5, pair[1] + 0.5].map(|x| x.clamp(0.0, width as f64));
+                let [from, to] =
+                    [pair[0] + 0.5, pair[1] + 0.5].map(|x| x.clamp(0.0, numbers::real(width)));
                 for (column, part) in covered
                     .iter_mut()
                     .enumerate()
-                    .take(to.ceil() as usize)
-                    .skip(from as usize)
+                    .take(numbers::index(to.ceil()))
+                    .skip(numbers::index(from))
                 {
-                    *part += (to.min((column + 1) as f64) - from.max(column as f64)).max(0.0)
-                        / FINE as f64;
+                    *part += (to.min(numbers::real(column + 1)) - from.max(numbers::real(column)))
+                        .max(0.0)
+                        / numbers::real(FINE);
                 }
             }
             for (column, part) in covered.iter().enumerate().filter(|(_, part)| **part > 0.0) {
-                self.paint([column as i64, row as i64], pen, part.min(1.0));
+                self.paint(
+                    [numbers::count(column), numbers::count(row)],
+                    pen,
+                    part.min(1.0),
+                );
             }
         }
     }
@@ -51,9 +57,11 @@ impl Matrix {
         let height = self.size()[1];
         let mut rows = vec![Vec::new(); height * fine];
         // The place of a fine row, and the first one from a place on.
-        let place = |row: usize| (row as f64 + 0.5) / fine as f64 - 0.5;
-        let row_from =
-            |y: f64| (((y + 0.5) * fine as f64 - 0.5).ceil().max(0.0) as usize).min(height * fine);
+        let place = |row: usize| (numbers::real(row) + 0.5) / numbers::real(fine) - 0.5;
+        let row_from = |y: f64| {
+            numbers::index(((y + 0.5) * numbers::real(fine) - 0.5).ceil().max(0.0))
+                .min(height * fine)
+        };
         for polygon in polygons {
             for (at, from) in polygon.iter().enumerate() {
                 let to = polygon[(at + 1) % polygon.len()];

@@ -65,9 +65,13 @@ pub fn text_size(text: &str, face: FontFace, scale: f64, thickness: u32) -> Matr
     let (_, width) = glyphs(&font, text, pixel_scale(face, scale)?, f64::INFINITY);
     let [capitals, below] = face.heights();
     Ok(TextSize {
-        width: (width + f64::from(thickness)).round() as i64,
-        height: (capitals * scale + f64::from(thickness + 1) / 2.0).round_ties_even() as i64,
-        baseline: (below * scale + f64::from(thickness) / 2.0).round_ties_even() as i64,
+        width: numbers::truncated((width + f64::from(thickness)).round()),
+        height: numbers::truncated(
+            (capitals * scale + f64::from(thickness + 1) / 2.0).round_ties_even(),
+        ),
+        baseline: numbers::truncated(
+            (below * scale + f64::from(thickness) / 2.0).round_ties_even(),
+        ),
     })
 }
 
@@ -101,7 +105,7 @@ impl Matrix {
             &font,
             text.text,
             scale,
-            self.size()[0] as f64 - at[0] + height,
+            numbers::real(self.size()[0]) - at[0] + height,
         );
         let margin = f64::from(text.thickness) + height;
         let ends = [at, [at[0] + width, at[1]]];
@@ -122,8 +126,8 @@ impl Matrix {
                 let x = if text.is_italic { x - y * SLANT } else { x };
                 mask.add_pixel(
                     [
-                        (at[0] + x).round() as i64,
-                        (at[1] + y * direction).round() as i64,
+                        numbers::truncated((at[0] + x).round()),
+                        numbers::truncated((at[1] + y * direction).round()),
                     ],
                     part.into(),
                 );
@@ -143,7 +147,7 @@ fn pixel_scale(face: FontFace, scale: f64) -> MatrixResult<PxScale> {
     let height = face.heights()[0] * scale / CAPITALS;
     let is_possible = (0.0..=MAX_LINE_HEIGHT).contains(&height);
     if is_possible {
-        Ok(PxScale::from(height as f32))
+        Ok(PxScale::from(numbers::single(height)))
     } else {
         Err(MatrixError::Range("the font scale"))
     }
@@ -177,7 +181,10 @@ fn thicken(mask: &mut Mask, thickness: u32, line_type: LineType) -> MatrixResult
         let distances = inverse.distance_transform(DistanceType::Euclidean, MaskSize::Precise)?;
         let radius = f64::from(thickness - 1) / 2.0;
         for (at, part) in mask.coverage_mut().iter_mut().enumerate() {
-            *part = coverage(radius - distances.value(at).unwrap_or_default(), line_type) as f32;
+            *part = numbers::single(coverage(
+                radius - distances.value(at).unwrap_or_default(),
+                line_type,
+            ));
         }
     } else if line_type != LineType::Antialiased {
         mask.coverage_mut()

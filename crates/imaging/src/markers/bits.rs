@@ -87,27 +87,28 @@ pub(super) fn read(grey: &Matrix, quad: &Quad, side: usize) -> Option<Vec<bool>>
 fn mean(grey: &Matrix, map: &Homography, column: usize, row: usize, cells: usize) -> f64 {
     let [width, height] = grey.size();
     let place = |cell: usize, sample: usize| {
-        let part = MARGIN + (1.0 - 2.0 * MARGIN) * (sample as f64 + 0.5) / SAMPLES as f64;
-        (cell as f64 + part) / cells as f64
+        let part =
+            MARGIN + (1.0 - 2.0 * MARGIN) * (numbers::real(sample) + 0.5) / numbers::real(SAMPLES);
+        (numbers::real(cell) + part) / numbers::real(cells)
     };
     let sample = |n: usize| {
         let [x, y] = map.apply([place(column, n % SAMPLES), place(row, n / SAMPLES)]);
-        let index = |at: f64, size: usize| (at.round().max(0.0) as usize).min(size - 1);
+        let index = |at: f64, size: usize| numbers::index(at.round().max(0.0)).min(size - 1);
         grey.value(index(y, height) * width + index(x, width))
             .unwrap_or_default()
     };
-    (0..SAMPLES * SAMPLES).map(sample).sum::<f64>() / (SAMPLES * SAMPLES) as f64
+    (0..SAMPLES * SAMPLES).map(sample).sum::<f64>() / numbers::real(SAMPLES * SAMPLES)
 }
 
 /// The threshold that separates values best (Otsu, 1979). None when they are nearly the same.
 fn threshold(values: &[f64]) -> Option<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
-    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / numbers::real(part.len());
     let spread = |at: usize| {
         let (dark, bright) = sorted.split_at(at);
         let difference = mean(bright) - mean(dark);
-        dark.len() as f64 * bright.len() as f64 * difference * difference
+        numbers::real(dark.len()) * numbers::real(bright.len()) * difference * difference
     };
     let best = (1..sorted.len()).max_by(|a, b| spread(*a).total_cmp(&spread(*b)))?;
     let (dark, bright) = sorted.split_at(best);

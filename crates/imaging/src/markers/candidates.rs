@@ -20,12 +20,12 @@ const CORNER_MARGIN: f64 = 0.15;
 /// Quadrilaterals around dark regions, without those that occur twice.
 pub(super) fn candidates(grey: &Matrix) -> Vec<Quad> {
     let [width, height] = grey.size();
-    let limits = PERIMETER_LIMITS.map(|part| part * width.max(height) as f64);
+    let limits = PERIMETER_LIMITS.map(|part| part * numbers::real(width.max(height)));
     let mut found: Vec<Quad> = Vec::new();
     for window in WINDOWS {
         let dark = dark_pixels(grey, window);
-        for outline in outlines(&dark, width, limits[1] as usize) {
-            if (outline.len() as f64) < limits[0].max(16.0) {
+        for outline in outlines(&dark, width, numbers::index(limits[1])) {
+            if numbers::real(outline.len()) < limits[0].max(16.0) {
                 continue;
             }
             if let Some(quad) = quadrilateral(&outline) {
@@ -59,7 +59,7 @@ fn perimeter(quad: &Quad) -> f64 {
 
 /// The convex quadrilateral of an outline, its corners where the lines along its sides meet. None when it has another shape.
 fn quadrilateral(outline: &[Pixel]) -> Option<Quad> {
-    let length = outline.len() as f64;
+    let length = numbers::real(outline.len());
     let corners: [usize; 4] = corners(outline, MAX_DEVIATION * length).try_into().ok()?;
     let rough = corners.map(|at| place(outline[at]));
     let is_wide =
@@ -77,7 +77,7 @@ fn quadrilateral(outline: &[Pixel]) -> Option<Quad> {
 }
 
 fn place(pixel: Pixel) -> [f64; 2] {
-    pixel.map(|at| at as f64)
+    pixel.map(numbers::real_of)
 }
 
 /// Outlines are clockwise, so every corner turns to the right.
@@ -130,7 +130,7 @@ fn refined(outline: &[Pixel], corners: [usize; 4]) -> Option<Quad> {
     let line = |i: usize| {
         let (from, to) = (corners[i], corners[(i + 1) % 4]);
         let length = (to + count - from) % count;
-        let bent = (length as f64 * CORNER_MARGIN) as usize + 1;
+        let bent = numbers::index(numbers::real(length) * CORNER_MARGIN) + 1;
         let places: Vec<[f64; 2]> = (bent..length.saturating_sub(bent))
             .map(|n| place(outline[(from + n) % count]))
             .collect();
@@ -149,7 +149,7 @@ fn fitted_line(places: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
     if places.len() < 3 {
         return None;
     }
-    let count = places.len() as f64;
+    let count = numbers::real(places.len());
     let middle = [0, 1].map(|i| places.iter().map(|place| place[i]).sum::<f64>() / count);
     let moment = |i: usize, j: usize| {
         places

@@ -27,7 +27,7 @@ pub(super) fn dark_pixels(grey: &Matrix, window: usize) -> Vec<bool> {
         let ((left, right), (top, bottom)) = (ends(at % width, width), ends(at / width, height));
         let inside = sums[bottom * stride + right] + sums[top * stride + left];
         let sum = inside - sums[top * stride + right] - sums[bottom * stride + left];
-        let mean = sum as f64 / ((right - left) * (bottom - top)) as f64;
+        let mean = sum as f64 / numbers::real((right - left) * (bottom - top));
         f64::from(bytes[at]) <= mean - THRESHOLD_OFFSET
     };
     (0..width * height).map(is_dark).collect()
@@ -55,7 +55,7 @@ pub(super) fn outlines(dark: &[bool], width: usize, longest: usize) -> Vec<Vec<P
             continue;
         }
         mark_region(dark, width, first, &mut seen);
-        let start = [(first % width) as i64, (first / width) as i64];
+        let start = [numbers::count(first % width), numbers::count(first / width)];
         outlines.extend(outline(dark, width, start, longest));
     }
     outlines
@@ -65,7 +65,7 @@ fn mark_region(dark: &[bool], width: usize, first: usize, seen: &mut [bool]) {
     let mut pending = vec![first];
     seen[first] = true;
     while let Some(at) = pending.pop() {
-        let place = [(at % width) as i64, (at / width) as i64];
+        let place = [numbers::count(at % width), numbers::count(at / width)];
         for step in AROUND {
             if let Some(next) =
                 index(dark, width, place, step).filter(|next| dark[*next] && !seen[*next])
@@ -80,9 +80,9 @@ fn mark_region(dark: &[bool], width: usize, first: usize, seen: &mut [bool]) {
 /// The index of a neighbour, None outside of the image.
 fn index(dark: &[bool], width: usize, [x, y]: Pixel, [dx, dy]: Pixel) -> Option<usize> {
     let (x, y) = (x + dx, y + dy);
-    let height = (dark.len() / width) as i64;
-    let is_inside = (0..width as i64).contains(&x) && (0..height).contains(&y);
-    is_inside.then(|| y as usize * width + x as usize)
+    let height = numbers::count(dark.len() / width);
+    let is_inside = (0..numbers::count(width)).contains(&x) && (0..height).contains(&y);
+    is_inside.then(|| numbers::place_of(y) * width + numbers::place_of(x))
 }
 
 /// Moore's neighbour tracing from the first pixel of a region, until its first step would be made again.

@@ -95,6 +95,10 @@ impl Matrix {
     }
 
     /// An operation on the bits of two images; of floats, on the bits that represent them.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "an operation on the bits of bytes gives the bits of a byte"
+    )]
     pub fn bitwise(&self, other: &Self, operation: Bitwise) -> MatrixResult<Self> {
         self.require_same(other)?;
         let values = match (&self.values, &other.values) {
@@ -257,7 +261,9 @@ impl Matrix {
             Values::Bytes(_) => {
                 Values::Bytes(self.zip_to(other, |a, b| u8::from_f64(operation(a, b)))?)
             }
-            Values::Floats(_) => Values::Floats(self.zip_to(other, |a, b| operation(a, b) as f32)?),
+            Values::Floats(_) => {
+                Values::Floats(self.zip_to(other, |a, b| numbers::single(operation(a, b)))?)
+            }
         }))
     }
 

@@ -91,10 +91,10 @@ impl Matrix {
         let step = self.channels;
         match (&mut self.values, source.map(|image| &image.values)) {
             (Values::Bytes(values), Some(Values::Bytes(source))) => {
-                put(values, channel, step, Some(source))
+                put(values, channel, step, Some(source));
             }
             (Values::Floats(values), Some(Values::Floats(source))) => {
-                put(values, channel, step, Some(source))
+                put(values, channel, step, Some(source));
             }
             (Values::Bytes(values), _) => put(values, channel, step, None),
             (Values::Floats(values), _) => put(values, channel, step, None),

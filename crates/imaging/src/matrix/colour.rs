@@ -134,6 +134,10 @@ fn hue_scale(depth: Depth) -> [f64; 3] {
     }
 }
 
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the parts add up to one, so that the mean of bytes is a byte"
+)]
 fn grey_byte(pixel: &[u8]) -> u8 {
     const HALF: u32 = 1 << 14;
     let sum: u32 = pixel
@@ -145,11 +149,13 @@ fn grey_byte(pixel: &[u8]) -> u8 {
 }
 
 fn grey_float(pixel: &[f32]) -> f32 {
-    pixel
-        .iter()
-        .zip(GREY)
-        .map(|(value, weight)| f64::from(*value) * weight)
-        .sum::<f64>() as f32
+    numbers::single(
+        pixel
+            .iter()
+            .zip(GREY)
+            .map(|(value, weight)| f64::from(*value) * weight)
+            .sum::<f64>(),
+    )
 }
 
 /// Hue in degrees, of the largest, its distance to the smallest, and the channels.
@@ -211,7 +217,7 @@ fn rgb_from_hls([hue, lightness, saturation]: [f64; 3]) -> [f64; 3] {
 fn from_chroma(hue: f64, chroma: f64, base: f64) -> [f64; 3] {
     let sixths = (hue / 60.0).rem_euclid(6.0);
     let second = chroma * (1.0 - (sixths % 2.0 - 1.0).abs());
-    let parts = match sixths as u32 {
+    let parts = match numbers::truncated_u32(sixths) {
         0 => [chroma, second, 0.0],
         1 => [second, chroma, 0.0],
         2 => [0.0, chroma, second],

@@ -51,22 +51,20 @@ impl Matrix {
             _ => self.summed_distances(black, &steps(distance, mask)),
         };
         Ok(self.with(Values::Floats(
-            distances
-                .into_iter()
-                .map(|distance| distance as f32)
-                .collect(),
+            distances.into_iter().map(numbers::single).collect(),
         )))
     }
 
     /// Distances as sums of steps, by a pass forward and one backward.
     fn summed_distances(&self, mut distances: Vec<f64>, steps: &Steps) -> Vec<f64> {
-        let (width, height) = (self.width as i64, self.height as i64);
+        let (width, height) = (numbers::count(self.width), numbers::count(self.height));
         let mut relax = |at: usize, sign: i64| {
-            let (x, y) = (at as i64 % width, at as i64 / width);
+            let (x, y) = (numbers::count(at) % width, numbers::count(at) / width);
             for &(dx, dy, length) in steps {
                 let (x, y) = (x + sign * dx, y + sign * dy);
                 if (0..width).contains(&x) && (0..height).contains(&y) {
-                    distances[at] = distances[at].min(distances[(y * width + x) as usize] + length);
+                    distances[at] =
+                        distances[at].min(distances[numbers::place_of(y * width + x)] + length);
                 }
             }
         };
@@ -102,10 +100,10 @@ fn envelope(f: &[f64]) -> Vec<f64> {
     // The parabolas of the envelope, and from where on each is the lowest.
     let mut lowest: Vec<(usize, f64)> = Vec::new();
     for (q, value) in f.iter().enumerate() {
-        let height = |at: usize| f[at] + (at * at) as f64;
+        let height = |at: usize| f[at] + numbers::real(at * at);
         let mut from = f64::NEG_INFINITY;
         while let Some(&(last, start)) = lowest.last() {
-            from = (value + (q * q) as f64 - height(last)) / (2 * (q - last)) as f64;
+            from = (value + numbers::real(q * q) - height(last)) / numbers::real(2 * (q - last));
             if from > start {
                 break;
             }
@@ -117,11 +115,14 @@ fn envelope(f: &[f64]) -> Vec<f64> {
     let mut at = 0;
     (0..f.len())
         .map(|p| {
-            while lowest.get(at + 1).is_some_and(|&(_, from)| from < p as f64) {
+            while lowest
+                .get(at + 1)
+                .is_some_and(|&(_, from)| from < numbers::real(p))
+            {
                 at += 1;
             }
             let q = lowest[at].0;
-            f[q] + ((p.abs_diff(q)) * (p.abs_diff(q))) as f64
+            f[q] + numbers::real((p.abs_diff(q)) * (p.abs_diff(q)))
         })
         .collect()
 }

@@ -102,7 +102,7 @@ impl Value for u8 {
     }
 
     fn from_f64(number: f64) -> Self {
-        round_to_even(number.clamp(0.0, 255.0)) as u8
+        numbers::level(round_to_even(number.clamp(0.0, 255.0)))
     }
 }
 
@@ -112,7 +112,7 @@ impl Value for f32 {
     }
 
     fn from_f64(number: f64) -> Self {
-        number as f32
+        numbers::single(number)
     }
 }
 
@@ -241,7 +241,7 @@ impl Matrix {
             Values::Floats(floats) => floats
                 .get_mut(at)
                 .into_iter()
-                .for_each(|float| *float = value as f32),
+                .for_each(|float| *float = numbers::single(value)),
         }
     }
 

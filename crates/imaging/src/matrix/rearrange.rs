@@ -95,17 +95,17 @@ impl Matrix {
             return Err(MatrixError::Mismatch);
         }
         let [from, to] = [source.region(from, size)?, self.region(to, size)?];
-        let [columns, rows] = size.map(|side| side as usize);
+        let [columns, rows] = size.map(numbers::place_of);
         let length = columns * self.channels;
         for row in 0..rows {
             let first = ((from[1] + row) * source.width + from[0]) * self.channels;
             let target = ((to[1] + row) * self.width + to[0]) * self.channels;
             match (&mut self.values, &source.values) {
                 (Values::Bytes(a), Values::Bytes(b)) => {
-                    a[target..target + length].copy_from_slice(&b[first..first + length])
+                    a[target..target + length].copy_from_slice(&b[first..first + length]);
                 }
                 (Values::Floats(a), Values::Floats(b)) => {
-                    a[target..target + length].copy_from_slice(&b[first..first + length])
+                    a[target..target + length].copy_from_slice(&b[first..first + length]);
                 }
                 _ => return Err(MatrixError::Mismatch),
             }
@@ -115,7 +115,7 @@ impl Matrix {
 
     /// The corner of a region inside of the image.
     fn region(&self, corner: [i64; 2], size: [i64; 2]) -> MatrixResult<[usize; 2]> {
-        let limits = [self.width as i64, self.height as i64];
+        let limits = [numbers::count(self.width), numbers::count(self.height)];
         let is_inside = (0..2).all(|i| {
             corner[i] >= 0
                 && size[i] >= 0
@@ -124,7 +124,7 @@ impl Matrix {
                     .is_some_and(|end| end <= limits[i])
         });
         if is_inside {
-            Ok(corner.map(|at| at as usize))
+            Ok(corner.map(numbers::place_of))
         } else {
             Err(MatrixError::Region)
         }
@@ -169,7 +169,7 @@ impl Matrix {
         let of = |at: usize| (0..count).map(move |n| values[first(at) + n * step].to_f64());
         let reduced = |at: usize| match reduction {
             Reduction::Sum => of(at).sum(),
-            Reduction::Average => of(at).sum::<f64>() / count as f64,
+            Reduction::Average => of(at).sum::<f64>() / numbers::real(count),
             Reduction::Largest => of(at).fold(f64::NEG_INFINITY, f64::max),
             Reduction::Smallest => of(at).fold(f64::INFINITY, f64::min),
         };

@@ -86,20 +86,26 @@ impl Matrix {
 }
 
 fn sources(old: usize, new: usize, interpolation: Interpolation) -> Vec<Sources> {
-    let scale = old as f64 / new as f64;
+    let scale = numbers::real(old) / numbers::real(new);
     (0..new)
         .map(|at| match interpolation {
-            Interpolation::Area => covered(at as f64 * scale, (at + 1) as f64 * scale, old),
-            _ => around((at as f64 + 0.5) * scale - 0.5, old, interpolation),
+            Interpolation::Area => covered(
+                numbers::real(at) * scale,
+                numbers::real(at + 1) * scale,
+                old,
+            ),
+            _ => around((numbers::real(at) + 0.5) * scale - 0.5, old, interpolation),
         })
         .collect()
 }
 
 /// The pixels between two places, by how much of each.
 fn covered(from: f64, to: f64, count: usize) -> Sources {
-    let first = (from as usize).min(count - 1);
-    let last = ((to.ceil() as usize).max(first + 1) - 1).min(count - 1);
-    let part = |at: usize| (to.min((at + 1) as f64) - from.max(at as f64)).max(0.0) / (to - from);
+    let first = numbers::index(from).min(count - 1);
+    let last = (numbers::index(to.ceil()).max(first + 1) - 1).min(count - 1);
+    let part = |at: usize| {
+        (to.min(numbers::real(at + 1)) - from.max(numbers::real(at))).max(0.0) / (to - from)
+    };
     Sources {
         first,
         weights: (first..=last).map(part).collect(),
@@ -114,9 +120,11 @@ fn around(place: f64, count: usize, interpolation: Interpolation) -> Sources {
         _ => 1,
     };
     let below = place.floor();
-    let weight = |n: i64| kernel(place - below - n as f64, interpolation);
+    let weight = |n: i64| kernel(place - below - numbers::real_of(n), interpolation);
     let all: f64 = (1 - reach..=reach).map(weight).sum();
-    let inside = |n: i64| (below as i64 + n).clamp(0, count as i64 - 1) as usize;
+    let inside = |n: i64| {
+        numbers::place_of((numbers::truncated(below) + n).clamp(0, numbers::count(count) - 1))
+    };
     let first = inside(1 - reach);
     let mut weights = vec![0.0; inside(reach) - first + 1];
     (1 - reach..=reach).for_each(|n| weights[inside(n) - first] += weight(n) / all);

@@ -32,8 +32,8 @@ impl RgbImage {
                 outlines[*region as usize].add(at % self.width, at / self.width);
             }
         }
-        let all = self.pixels.len() as f64;
-        let is_small = |outline: &Outline| (outline.count as f64 / all) < smallest;
+        let all = numbers::real(self.pixels.len());
+        let is_small = |outline: &Outline| (numbers::real(outline.count) / all) < smallest;
         let removed: Vec<bool> = outlines.iter().map(is_small).collect();
         for (pixel, region) in self.pixels.iter_mut().zip(&regions.of_pixel) {
             match *region {
@@ -178,7 +178,7 @@ impl Outline {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for &[row, first, last] in &self.rows {
             for column in [first, last] {
-                let (x, y) = (column as f64, row as f64);
+                let (x, y) = (numbers::real(column), numbers::real(row));
                 let turned = [x * cos - y * sin, x * sin + y * cos];
                 low = [0, 1].map(|i| low[i].min(turned[i]));
                 high = [0, 1].map(|i| high[i].max(turned[i]));

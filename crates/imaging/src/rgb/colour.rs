@@ -53,7 +53,7 @@ pub fn rgb_from_hsl([hue, saturation, lightness]: [f64; 3]) -> Rgb {
     let sixths = hue.rem_euclid(1.0) * 6.0;
     let second = chroma * (1.0 - (sixths % 2.0 - 1.0).abs());
     let base = lightness - chroma / 2.0;
-    let parts = match sixths as u32 {
+    let parts = match numbers::truncated_u32(sixths) {
         0 => [chroma, second, 0.0],
         1 => [second, chroma, 0.0],
         2 => [0.0, chroma, second],

@@ -5,15 +5,15 @@ use super::{BLACK, RgbImage};
 impl RgbImage {
     /// Blackens pixels farther from the centre than `radius` times half of the smaller side; returns what was removed, on black.
     pub fn cut_circle(&mut self, radius: f64) -> Self {
-        let limit = radius * 0.5 * self.width.min(self.height) as f64;
+        let limit = radius * 0.5 * numbers::real(self.width.min(self.height));
         self.cut(|x, y| x.hypot(y) > limit)
     }
 
     /// Blackens pixels outside of a rectangle that has `sizes` of the image's sides; returns what was removed, on black.
     pub fn cut_rectangle(&mut self, sizes: [f64; 2]) -> Self {
         let limits = [
-            0.5 * sizes[0] * self.width as f64,
-            0.5 * sizes[1] * self.height as f64,
+            0.5 * sizes[0] * numbers::real(self.width),
+            0.5 * sizes[1] * numbers::real(self.height),
         ];
         self.cut(|x, y| x.abs() > limits[0] || y.abs() > limits[1])
     }
@@ -21,12 +21,15 @@ impl RgbImage {
     /// Cuts by the position of pixel centres relative to that of the image.
     fn cut(&mut self, is_outside: impl Fn(f64, f64) -> bool) -> Self {
         let mut removed = Self::uniform(self.size(), BLACK);
-        let middle = [self.width as f64 / 2.0, self.height as f64 / 2.0];
+        let middle = [
+            numbers::real(self.width) / 2.0,
+            numbers::real(self.height) / 2.0,
+        ];
         let width = self.width;
         for (at, (pixel, removed)) in self.pixels.iter_mut().zip(&mut removed.pixels).enumerate() {
             let (x, y) = (
-                (at % width) as f64 + 0.5 - middle[0],
-                (at / width) as f64 + 0.5 - middle[1],
+                numbers::real(at % width) + 0.5 - middle[0],
+                numbers::real(at / width) + 0.5 - middle[1],
             );
             if is_outside(x, y) {
                 *removed = std::mem::replace(pixel, BLACK);

@@ -35,9 +35,12 @@ impl Kernel {
 
     fn gaussian(side: usize) -> Self {
         const VARIANCE: f64 = 4.0;
-        let middle = (side / 2) as f64;
+        let middle = numbers::real(side / 2);
         let weight = |at: usize| {
-            let (x, y) = ((at % side) as f64 - middle, (at / side) as f64 - middle);
+            let (x, y) = (
+                numbers::real(at % side) - middle,
+                numbers::real(at / side) - middle,
+            );
             (-(x * x + y * y) / (2.0 * VARIANCE)).exp()
         };
         let weights: Vec<f64> = (0..side * side).map(weight).collect();
@@ -87,7 +90,7 @@ impl Kernel {
             (0..3).for_each(|i| sum[i] += pixel[i] * weight);
             present += 1.0;
         }
-        sum.map(|value| value / (present / self.weights.len() as f64))
+        sum.map(|value| value / (present / numbers::real(self.weights.len())))
     }
 }
 

@@ -77,7 +77,7 @@ impl RgbImage {
     pub fn to_values(&self) -> Vec<f32> {
         self.pixels
             .iter()
-            .map(|&pixel| mean(pixel) as f32)
+            .map(|&pixel| numbers::single(mean(pixel)))
             .collect()
     }
 
@@ -119,7 +119,7 @@ impl RgbImage {
 
 /// The byte of a value: just above the half of a step is enough for the next.
 pub fn byte(value: f64) -> u8 {
-    (value * 255.1) as u8
+    numbers::level(value * 255.1)
 }
 
 /// The intensity of a colour.

@@ -70,10 +70,10 @@ impl RgbImage {
                 .iter()
                 .enumerate()
                 .filter(is_white)
-                .map(move |(at, _)| [(at % width) as f64, (at / width) as f64])
+                .map(move |(at, _)| [numbers::real(at % width), numbers::real(at / width)])
         };
         let [count, x, y] = white().fold([0.0; 3], |[n, sx, sy], [x, y]| [n + 1.0, sx + x, sy + y]);
-        let size = [self.width as f64, self.height as f64];
+        let size = [numbers::real(self.width), numbers::real(self.height)];
         if count == 0.0 {
             return Moments {
                 proportion: 0.0,
@@ -100,7 +100,7 @@ impl RgbImage {
     /// Draws the axis of what is white, from the centre to both sides.
     pub fn draw_axis(&mut self, moments: &Moments, colour: Rgb) {
         let (sin, cos) = moments.orientation.sin_cos();
-        let size = [self.width as f64, self.height as f64];
+        let size = [numbers::real(self.width), numbers::real(self.height)];
         let reach = 0.25 * size[0].min(size[1]);
         let middle = [moments.centre[0] * size[0], moments.centre[1] * size[1]];
         let end = |side: f64| {
@@ -115,17 +115,17 @@ impl RgbImage {
     /// Draws a line between pixels, as far as it is inside.
     pub fn draw_line(&mut self, from: [f64; 2], to: [f64; 2], colour: Rgb) {
         let span = (to[0] - from[0]).abs().max((to[1] - from[1]).abs());
-        let is_near = span <= (self.width + self.height) as f64 * 2.0;
+        let is_near = span <= numbers::real(self.width + self.height) * 2.0;
         if !is_near {
             return;
         }
         let steps = span.round().max(1.0);
-        for step in 0..=steps as usize {
-            let part = step as f64 / steps;
+        for step in 0..=numbers::index(steps) {
+            let part = numbers::real(step) / steps;
             let [x, y] = [0, 1].map(|i| (from[i] + (to[i] - from[i]) * part).round());
             if x >= 0.0
                 && y >= 0.0
-                && let Some(at) = self.index(x as usize, y as usize)
+                && let Some(at) = self.index(numbers::index(x), numbers::index(y))
             {
                 self.pixels[at] = colour;
             }

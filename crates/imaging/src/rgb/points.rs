@@ -147,8 +147,11 @@ impl Optics {
 
 /// The sides of an image by the larger one.
 fn sides([width, height]: [usize; 2]) -> [f64; 2] {
-    let larger = width.max(height) as f64;
-    [width as f64 / larger, height as f64 / larger]
+    let larger = numbers::real(width.max(height));
+    [
+        numbers::real(width) / larger,
+        numbers::real(height) / larger,
+    ]
 }
 
 /// From -1/2 to 1/2 in equal steps; a single one is in the middle.
@@ -156,15 +159,15 @@ fn part(at: usize, count: usize) -> f64 {
     if count < 2 {
         0.0
     } else {
-        at as f64 / (count - 1) as f64 - 0.5
+        numbers::real(at) / numbers::real(count - 1) - 0.5
     }
 }
 
 /// The pixel at parts of the image from its middle, +x to the left.
 fn pixel_at(image: &RgbImage, [x, y]: [f64; 2]) -> usize {
-    let [width, height] = [image.width as f64, image.height as f64];
-    let column = ((0.5 - x) * (width - 0.5)) as usize;
-    let row = ((0.5 + y) * (height - 0.5)) as usize;
+    let [width, height] = [numbers::real(image.width), numbers::real(image.height)];
+    let column = numbers::index((0.5 - x) * (width - 0.5));
+    let row = numbers::index((0.5 + y) * (height - 0.5));
     row.min(image.height - 1) * image.width + column.min(image.width - 1)
 }
 

@@ -24,7 +24,8 @@ pub struct Source {
 pub fn sources(size: [usize; 2], angles: [f64; 2], resolution: usize) -> Vec<Source> {
     let angles = [0, 1].map(|i| angles[i].max(MIN_ANGLE).min(MAX_ANGLES[i]));
     let angle = |at: usize, i: usize| {
-        -angles[i] / 2.0 + at as f64 * angles[i] / size[i].saturating_sub(1).max(1) as f64
+        -angles[i] / 2.0
+            + numbers::real(at) * angles[i] / numbers::real(size[i].saturating_sub(1).max(1))
     };
     let places = (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| (column, row)));
     places
@@ -54,7 +55,8 @@ fn source(azimuth: f64, elevation: f64, resolution: usize) -> Source {
         (5, -x, z)
     };
     let index = |part: f64| {
-        (((part + 1.0) / 2.0 * resolution as f64 - 0.5) as usize).min(resolution.saturating_sub(1))
+        numbers::index((part + 1.0) / 2.0 * numbers::real(resolution) - 0.5)
+            .min(resolution.saturating_sub(1))
     };
     Source {
         face,
@@ -66,7 +68,7 @@ fn source(azimuth: f64, elevation: f64, resolution: usize) -> Source {
 /// A depth along the axis as length of the ray, both normalised between the planes.
 pub fn ray_depth(depth: f32, stretch: f64, [near, far]: [f64; 2]) -> f32 {
     let metres = (near + f64::from(depth) * (far - near)) * stretch;
-    ((metres - near) / (far - near)).min(1.0) as f32
+    numbers::single(((metres - near) / (far - near)).min(1.0))
 }
 
 #[cfg(test)]

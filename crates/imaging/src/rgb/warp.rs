@@ -20,9 +20,9 @@ impl RgbImage {
     pub fn shift(&mut self, parts: [f64; 2], wrap: bool) {
         let [x, y] = [offset(parts[0], self.width), offset(parts[1], self.height)];
         let source = |at: usize, offset: i64, size: usize| {
-            let from = at as i64 - offset;
+            let from = numbers::count(at) - offset;
             let from = if wrap {
-                from.rem_euclid(size as i64)
+                from.rem_euclid(numbers::count(size))
             } else {
                 from
             };
@@ -49,12 +49,15 @@ impl RgbImage {
     /// Takes each pixel from a place that depends on its own; places are relative to the centre. Coordinates lose their fraction, so
     /// that those between -1 and 0 are inside.
     fn sample(&mut self, source: impl Fn(f64, f64) -> [f64; 2]) {
-        let middle = [self.width as f64 / 2.0, self.height as f64 / 2.0];
-        let coordinate = |value: f64| (value > -1.0).then_some(value as usize);
+        let middle = [
+            numbers::real(self.width) / 2.0,
+            numbers::real(self.height) / 2.0,
+        ];
+        let coordinate = |value: f64| (value > -1.0).then_some(numbers::index(value));
         *self = self.map_places(|column, row| {
             let [x, y] = source(
-                column as f64 + 0.5 - middle[0],
-                row as f64 + 0.5 - middle[1],
+                numbers::real(column) + 0.5 - middle[0],
+                numbers::real(row) + 0.5 - middle[1],
             );
             let from = coordinate(middle[0] + x).zip(coordinate(middle[1] + y));
             from.and_then(|(column, row)| self.get(column, row))
@@ -65,8 +68,8 @@ impl RgbImage {
 
 /// Whole pixels, at most the size; halves are rounded away from 0.
 fn offset(part: f64, size: usize) -> i64 {
-    let size = size as f64;
-    (part * size).round().clamp(-size, size) as i64
+    let size = numbers::real(size);
+    numbers::truncated((part * size).round().clamp(-size, size))
 }
 
 #[cfg(test)]

@@ -130,12 +130,12 @@ async fn read_all(
             Ok(Message::Text(text)) => {
                 reports
                     .report(WsEvent::Message(connection, text.as_bytes().to_vec()))
-                    .await
+                    .await;
             }
             Ok(Message::Binary(bytes)) => {
                 reports
                     .report(WsEvent::Message(connection, bytes.into()))
-                    .await
+                    .await;
             }
             Ok(Message::Close(_)) => {
                 // The reply to a close is sent while the end of the stream is awaited.

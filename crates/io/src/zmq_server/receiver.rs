@@ -84,7 +84,7 @@ impl Receiver {
             match self.decoder.next().map_err(io::Error::other)? {
                 Some(PeerMessage::Request(request)) => return Ok(request),
                 Some(PeerMessage::Ping(context)) => {
-                    connection.send(&mut connection.outgoing(), &zmtp::pong(&context))?
+                    connection.send(&mut connection.outgoing(), &zmtp::pong(&context))?;
                 }
                 None => self.read_or_send(connection).await?,
             }

@@ -206,7 +206,7 @@ impl<'a> Reader<'a, '_> {
             let of = |offset: Option<usize>, length: usize| {
                 offset
                     .map(|offset| row[offset])
-                    .filter(|index| (*index as usize) < length)
+                    .filter(|index| numbers::place(*index) < length)
                     .unwrap_or(NONE)
             };
             let position = of(inputs.position, inputs.positions.len());

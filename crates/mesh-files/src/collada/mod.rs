@@ -97,12 +97,12 @@ impl<'a> Elements<'a> for Node<'a, 'a> {
 fn refused(error: Error) -> ReadError {
     let place = error
         .line()
-        .map_or(Location::File, |line| Location::Line(line as usize));
+        .map_or(Location::File, |line| Location::Line(numbers::place(line)));
     ReadError::new(place, "XML", error.to_string())
 }
 
 fn at(document: &Document, node: Node, problem: impl Into<String>) -> ReadError {
-    let line = document.text_pos_at(node.range().start).row as usize;
+    let line = numbers::place(document.text_pos_at(node.range().start).row);
     ReadError::new(Location::Line(line), node.tag_name().name(), problem)
 }
 

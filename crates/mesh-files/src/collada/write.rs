@@ -199,9 +199,9 @@ fn geometry(text: &mut String, number: usize, part: &Part) -> std::fmt::Result {
     let has_corners = !(part.normals.is_empty() && part.uv.is_empty());
     for (corner, index) in part.triangles.as_flattened().iter().enumerate() {
         if has_corners {
-            write!(text, "{index} {corner} ")?
+            write!(text, "{index} {corner} ")?;
         } else {
-            write!(text, "{index} ")?
+            write!(text, "{index} ")?;
         }
     }
     writeln!(text, "</p></triangles></mesh></geometry>")

@@ -39,7 +39,7 @@ impl Component {
     /// The number at the start of a slice of at least as many bytes. A normalized integer is a share of its largest value.
     fn read(self, bytes: &[u8], normalized: bool) -> f64 {
         let (value, largest) = match self {
-            Self::I8 => (f64::from(bytes[0] as i8), 127.0),
+            Self::I8 => (f64::from(bytes[0].cast_signed()), 127.0),
             Self::U8 => (f64::from(bytes[0]), 255.0),
             Self::I16 => (f64::from(i16::from_le_bytes([bytes[0], bytes[1]])), 32767.0),
             Self::U16 => (f64::from(u16::from_le_bytes([bytes[0], bytes[1]])), 65535.0),
@@ -177,7 +177,7 @@ impl Reader<'_, '_> {
         for number in 0..count {
             let [row] = indices.row::<1>(number);
             let value = values
-                .get_mut(row as usize)
+                .get_mut(numbers::index(row))
                 .ok_or_else(|| refused(element, format!("sparse row {row} is not there")))?;
             *value = changes.row(number);
         }
@@ -189,6 +189,6 @@ impl Reader<'_, '_> {
         list(self.root, "accessors")
             .get(index)
             .and_then(|accessor| accessor.get("count")?.as_u64())
-            .unwrap_or(0) as usize
+            .map_or(0, |count| usize::try_from(count).unwrap_or(usize::MAX))
     }
 }

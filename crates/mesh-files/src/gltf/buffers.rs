@@ -28,7 +28,7 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
             format!("{version} instead of 2"),
         ));
     }
-    let length = reader.u32("length")? as usize;
+    let length = numbers::place(reader.u32("length")?);
     if length > bytes.len() {
         return Err(ReadError::new(
             Location::Byte(8),
@@ -38,7 +38,7 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
     }
     let (mut json, mut binary) = (None, None);
     while reader.len() >= 8 {
-        let (length, kind) = (reader.u32("chunk")? as usize, reader.u32("chunk")?);
+        let (length, kind) = (numbers::place(reader.u32("chunk")?), reader.u32("chunk")?);
         let content = reader.take(length, "chunk")?;
         match kind {
             JSON if json.is_none() => json = Some(content),

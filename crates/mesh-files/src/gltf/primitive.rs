@@ -115,18 +115,18 @@ impl Reader<'_, '_> {
             }
         };
         let Some(index) = integer(primitive, "indices", element)? else {
-            return Ok((0..vertices as u32).map(corner).collect());
+            return Ok((0..numbers::count_u32(vertices)).map(corner).collect());
         };
         let indices = self.accessor::<1>(index)?;
         let wrong = indices
             .as_flattened()
             .iter()
-            .find(|index| !(**index >= 0.0 && **index < vertices as f64));
+            .find(|index| !(**index >= 0.0 && **index < numbers::real(vertices)));
         match wrong {
             Some(index) => Err(refused(element, format!("vertex {index} of {vertices}"))),
             None => Ok(indices
                 .iter()
-                .map(|[index]| corner(*index as u32))
+                .map(|[index]| corner(numbers::truncated_u32(*index)))
                 .collect()),
         }
     }
@@ -137,7 +137,7 @@ fn triangles(mode: usize, corners: &[Corner]) -> Vec<[Corner; 3]> {
     match mode {
         STRIP => push_strip(corners, &mut triangles),
         FAN => {
-            triangles.extend((2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]]))
+            triangles.extend((2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]]));
         }
         _ => triangles.extend(corners.as_chunks::<3>().0),
     }

@@ -79,12 +79,8 @@ impl Library {
             b"Ks" => material.specular = colour(rest),
             b"Ke" => material.emission = colour(rest),
             b"d" => {
-                material.transparency = 1.0
-                    - words(rest)
-                        .filter_map(number)
-                        .next()
-                        .unwrap_or(1.0)
-                        .clamp(0.0, 1.0)
+                material.transparency =
+                    1.0 - words(rest).find_map(number).unwrap_or(1.0).clamp(0.0, 1.0);
             }
             b"Tr" => material.transparency = share(),
             _ if texture.is_some() => material.texture = texture,

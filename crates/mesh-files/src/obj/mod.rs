@@ -166,14 +166,14 @@ impl Reader {
 fn relative(word: &[u8], length: usize) -> Option<u32> {
     let index: i64 = std::str::from_utf8(word).ok()?.parse().ok()?;
     let index = if index < 0 {
-        index.checked_add(length as i64)?
+        index.checked_add(numbers::count(length))?
     } else {
         index - 1
     };
     usize::try_from(index)
         .ok()
         .filter(|index| *index < length)
-        .map(|index| index as u32)
+        .map(numbers::count_u32)
 }
 
 fn vector(rest: &[u8], place: Location) -> Result<[f64; 3]> {

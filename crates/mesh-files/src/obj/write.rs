@@ -73,13 +73,13 @@ fn write_part(
     for (number, triangle) in part.triangles.iter().enumerate() {
         text.push('f');
         for (corner, index) in triangle.iter().enumerate() {
-            let (position, own) = (*index as usize + first[0], 3 * number + corner);
+            let (position, own) = (numbers::place(*index) + first[0], 3 * number + corner);
             match (part.uv.is_empty(), part.normals.is_empty()) {
                 (true, true) => write!(text, " {position}")?,
                 (false, true) => write!(text, " {position}/{}", own + first[1])?,
                 (true, false) => write!(text, " {position}//{}", own + first[2])?,
                 (false, false) => {
-                    write!(text, " {position}/{}/{}", own + first[1], own + first[2])?
+                    write!(text, " {position}/{}/{}", own + first[1], own + first[2])?;
                 }
             }
         }

@@ -107,7 +107,7 @@ impl Header {
                 (_, [b"comment", keyword, path])
                     if keyword.eq_ignore_ascii_case(b"TextureFile") =>
                 {
-                    header.texture = Some(name(path))
+                    header.texture = Some(name(path));
                 }
                 (_, [b"comment" | b"obj_info", ..] | []) => {}
                 (_, [b"element", name, count]) => header.element(name, count)?,

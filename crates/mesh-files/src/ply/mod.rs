@@ -143,7 +143,7 @@ impl Reader {
     fn corner(&self, index: i64, values: &Values) -> Result<Corner> {
         let Some(position) = u32::try_from(index)
             .ok()
-            .filter(|index| (*index as usize) < self.positions.len())
+            .filter(|index| numbers::place(*index) < self.positions.len())
         else {
             let problem = format!("vertex {index} of {}", self.positions.len());
             return Err(ReadError::new(values.place(), "face", problem));
@@ -168,7 +168,7 @@ impl Reader {
                     values.list(&property.kind, "face", &mut list)?;
                     polygon.extend(
                         list.iter()
-                            .map(|index| self.corner(*index as i64, values))
+                            .map(|index| self.corner(numbers::truncated(*index), values))
                             .collect::<Result<Vec<_>>>()?,
                     );
                 } else if Some(number) == texture {
@@ -188,7 +188,7 @@ impl Reader {
         let (pairs, rest) = uv.as_chunks::<2>();
         if pairs.len() == polygon.len() && rest.is_empty() {
             for (corner, pair) in polygon.iter_mut().zip(pairs) {
-                corner.uv = self.corner_uv.len() as u32;
+                corner.uv = numbers::count_u32(self.corner_uv.len());
                 self.corner_uv.push(pair.map(finite));
             }
         }
@@ -208,7 +208,7 @@ impl Reader {
                 for strip in list.split(|index| *index < 0.0) {
                     let strip = strip
                         .iter()
-                        .map(|index| self.corner(*index as i64, values))
+                        .map(|index| self.corner(numbers::truncated(*index), values))
                         .collect::<Result<Vec<_>>>()?;
                     push_strip(&strip, &mut self.triangles);
                 }

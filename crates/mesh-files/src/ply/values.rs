@@ -99,9 +99,9 @@ impl<'a> Values<'a> {
             ));
         }
         if let Self::Binary(bytes, _) = self {
-            bytes.check_room(length as usize, item.bytes(), element)?;
+            bytes.check_room(numbers::index(length), item.bytes(), element)?;
         }
-        for _ in 0..length as usize {
+        for _ in 0..numbers::index(length) {
             list.push(self.scalar(*item, element)?);
         }
         Ok(())
@@ -118,7 +118,7 @@ impl<'a> Values<'a> {
 /// The first bytes of the array, little endian.
 fn decode(scalar: Scalar, [a, b, c, d, e, f, g, h]: [u8; 8]) -> f64 {
     match scalar {
-        Scalar::I8 => f64::from(a as i8),
+        Scalar::I8 => f64::from(a.cast_signed()),
         Scalar::U8 => f64::from(a),
         Scalar::I16 => f64::from(i16::from_le_bytes([a, b])),
         Scalar::U16 => f64::from(u16::from_le_bytes([a, b])),

@@ -46,7 +46,7 @@ fn triangles(file: &MeshFile) -> impl Iterator<Item = [u32; 3]> {
     let mut first = 0;
     file.parts.iter().flat_map(move |part| {
         let start = first;
-        first += part.vertices.len() as u32;
+        first += numbers::count_u32(part.vertices.len());
         part.triangles
             .iter()
             .map(move |triangle| triangle.map(|index| index + start))

@@ -44,7 +44,7 @@ fn is_text(bytes: &[u8]) -> bool {
 fn binary(bytes: &[u8], mut limits: Limits) -> Result<MeshFile> {
     let mut reader = Bytes::new(bytes, 0);
     let header = reader.take(HEADER, "header")?;
-    let count = reader.u32("number of triangles")? as usize;
+    let count = numbers::place(reader.u32("number of triangles")?);
     reader.check_room(count, TRIANGLE, "triangles")?;
     limits.take(count.saturating_mul(3), count)?;
     let mut part = Part {
@@ -71,8 +71,9 @@ fn binary(bytes: &[u8], mut limits: Limits) -> Result<MeshFile> {
         part.vertices
             .extend(corners.map(|corner| corner.map(f64::from)));
     }
-    part.triangles
-        .extend((0..count as u32).map(|number| [3 * number, 3 * number + 1, 3 * number + 2]));
+    part.triangles.extend(
+        (0..numbers::count_u32(count)).map(|number| [3 * number, 3 * number + 1, 3 * number + 2]),
+    );
     Ok(MeshFile {
         parts: vec![part],
         ..MeshFile::default()

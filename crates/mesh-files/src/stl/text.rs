@@ -56,7 +56,7 @@ fn solid(words: &mut Words, part: &mut Part) -> Result<()> {
 
 /// Up to `endfacet`; more than three corners are a fan.
 fn facet(words: &mut Words, part: &mut Part) -> Result<()> {
-    let first = part.vertices.len() as u32;
+    let first = numbers::count_u32(part.vertices.len());
     loop {
         let Some(word) = words.next() else {
             return Err(ReadError::new(
@@ -79,7 +79,7 @@ fn facet(words: &mut Words, part: &mut Part) -> Result<()> {
             _ => {}
         }
     }
-    let corners = part.vertices.len() as u32 - first;
+    let corners = numbers::count_u32(part.vertices.len()) - first;
     if corners < 3 {
         return Err(ReadError::new(
             words.place(),

@@ -34,7 +34,7 @@ pub(crate) fn write_binary(file: &MeshFile) -> Result<Vec<u8>, WriteError> {
             .iter()
             .chain(corners.as_flattened())
         {
-            bytes.extend((*x as f32).to_le_bytes());
+            bytes.extend(numbers::single(*x).to_le_bytes());
         }
         bytes.extend([0, 0]);
     }
@@ -42,8 +42,9 @@ pub(crate) fn write_binary(file: &MeshFile) -> Result<Vec<u8>, WriteError> {
 }
 
 fn triangles(file: &MeshFile) -> impl Iterator<Item = [[f64; 3]; 3]> {
-    let corners =
-        |part: &Part, triangle: &[u32; 3]| triangle.map(|index| part.vertices[index as usize]);
+    let corners = |part: &Part, triangle: &[u32; 3]| {
+        triangle.map(|index| part.vertices[numbers::place(index)])
+    };
     file.parts.iter().flat_map(move |part| {
         part.triangles
             .iter()

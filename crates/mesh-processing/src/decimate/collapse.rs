@@ -35,9 +35,9 @@ impl Surface {
             .enumerate()
             .filter(|(number, _)| is_alive[*number])
         {
-            triangle
-                .iter()
-                .for_each(|vertex| around[*vertex as usize].push(number as u32));
+            triangle.iter().for_each(|vertex| {
+                around[numbers::place(*vertex)].push(numbers::count_u32(number));
+            });
         }
         let versions: Vec<Option<u32>> = around
             .iter()
@@ -69,7 +69,7 @@ impl Surface {
     }
 
     pub(super) fn version(&self, vertex: u32) -> Option<u32> {
-        self.versions[vertex as usize]
+        self.versions[numbers::place(vertex)]
     }
 
     /// All edges, each with the smaller number first.
@@ -94,7 +94,7 @@ impl Surface {
         {
             for k in 0..3 {
                 let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
-                users.push(([a.min(b), a.max(b)], number as u32));
+                users.push(([a.min(b), a.max(b)], numbers::count_u32(number)));
             }
         }
         users.sort_unstable();
@@ -109,34 +109,38 @@ impl Surface {
             let Some(normal) = area.try_normalize(0.0).filter(|_| self.is_alive[number]) else {
                 continue;
             };
-            let plane = Quadric::plane(&normal, &self.points[triangle[0] as usize], area.norm());
+            let plane = Quadric::plane(
+                &normal,
+                &self.points[numbers::place(triangle[0])],
+                area.norm(),
+            );
             triangle
                 .iter()
-                .for_each(|vertex| self.quadrics[*vertex as usize].add(&plane));
+                .for_each(|vertex| self.quadrics[numbers::place(*vertex)].add(&plane));
         }
         for same in self.edge_users().chunk_by(|a, b| a.0 == b.0) {
             let &[(edge, triangle)] = same else { continue };
-            let [a, b] = edge.map(|vertex| self.points[vertex as usize]);
-            let area = self.area_vector(&self.triangles[triangle as usize]);
+            let [a, b] = edge.map(|vertex| self.points[numbers::place(vertex)]);
+            let area = self.area_vector(&self.triangles[numbers::place(triangle)]);
             let Some(normal) = (b - a).cross(&area).try_normalize(0.0) else {
                 continue;
             };
             let plane = Quadric::plane(&normal, &a, BORDER_WEIGHT * (b - a).norm_squared());
             edge.iter()
-                .for_each(|vertex| self.quadrics[*vertex as usize].add(&plane));
+                .for_each(|vertex| self.quadrics[numbers::place(*vertex)].add(&plane));
         }
     }
 
     fn area_vector(&self, triangle: &[u32; 3]) -> Vector3<f64> {
-        let [a, b, c] = triangle.map(|vertex| self.points[vertex as usize]);
+        let [a, b, c] = triangle.map(|vertex| self.points[numbers::place(vertex)]);
         (b - a).cross(&(c - a))
     }
 
     fn triangles_of(&self, vertex: u32) -> impl Iterator<Item = &[u32; 3]> {
-        let alive = self.around[vertex as usize]
+        let alive = self.around[numbers::place(vertex)]
             .iter()
-            .filter(|number| self.is_alive[**number as usize]);
-        alive.map(|number| &self.triangles[*number as usize])
+            .filter(|number| self.is_alive[numbers::place(**number)]);
+        alive.map(|number| &self.triangles[numbers::place(*number)])
     }
 
     /// The vertices that share an edge with a vertex, some of them twice.
@@ -156,9 +160,12 @@ impl Surface {
 
     /// Where the vertex of a collapsed edge belongs, and what that costs.
     pub(super) fn best_place(&self, [a, b]: [u32; 2]) -> (Vector3<f64>, f64) {
-        let mut quadric = self.quadrics[a as usize];
-        quadric.add(&self.quadrics[b as usize]);
-        let (from, to) = (self.points[a as usize], self.points[b as usize]);
+        let mut quadric = self.quadrics[numbers::place(a)];
+        quadric.add(&self.quadrics[numbers::place(b)]);
+        let (from, to) = (
+            self.points[numbers::place(a)],
+            self.points[numbers::place(b)],
+        );
         let middle = (from + to) / 2.0;
         // The planes of flat surroundings meet anywhere.
         let is_near = |place: &Vector3<f64>| (place - middle).norm() <= 2.0 * (to - from).norm();
@@ -216,7 +223,7 @@ impl Surface {
                     if corner == vertex {
                         *place
                     } else {
-                        self.points[corner as usize]
+                        self.points[numbers::place(corner)]
                     }
                 });
                 let after = (b - a).cross(&(c - a));
@@ -227,30 +234,31 @@ impl Surface {
 
     /// Makes one vertex of two: the first.
     pub(super) fn collapse(&mut self, [kept, gone]: [u32; 2], place: Vector3<f64>) {
-        let moved = std::mem::take(&mut self.around[gone as usize]);
+        let moved = std::mem::take(&mut self.around[numbers::place(gone)]);
         for number in moved {
-            let triangle = &mut self.triangles[number as usize];
-            if !self.is_alive[number as usize] {
+            let triangle = &mut self.triangles[numbers::place(number)];
+            if !self.is_alive[numbers::place(number)] {
                 continue;
             }
             if triangle.contains(&kept) {
-                self.is_alive[number as usize] = false;
+                self.is_alive[numbers::place(number)] = false;
                 self.alive_triangles -= 1;
             } else {
                 triangle
                     .iter_mut()
                     .filter(|vertex| **vertex == gone)
                     .for_each(|vertex| *vertex = kept);
-                self.around[kept as usize].push(number);
+                self.around[numbers::place(kept)].push(number);
             }
         }
         let is_alive = &self.is_alive;
-        self.around[kept as usize].retain(|number| is_alive[*number as usize]);
-        let quadric = self.quadrics[gone as usize];
-        self.quadrics[kept as usize].add(&quadric);
-        self.points[kept as usize] = place;
-        self.versions[gone as usize] = None;
-        self.versions[kept as usize] = self.versions[kept as usize].map(|version| version + 1);
+        self.around[numbers::place(kept)].retain(|number| is_alive[numbers::place(*number)]);
+        let quadric = self.quadrics[numbers::place(gone)];
+        self.quadrics[numbers::place(kept)].add(&quadric);
+        self.points[numbers::place(kept)] = place;
+        self.versions[numbers::place(gone)] = None;
+        self.versions[numbers::place(kept)] =
+            self.versions[numbers::place(kept)].map(|version| version + 1);
         self.alive_vertices -= 1;
     }
 
@@ -267,19 +275,19 @@ impl Surface {
         triangles
             .as_flattened()
             .iter()
-            .for_each(|vertex| numbers[*vertex as usize] = Some(0));
+            .for_each(|vertex| numbers[numbers::place(*vertex)] = Some(0));
         let mut vertices = Vec::new();
         for (number, point) in numbers
             .iter_mut()
             .zip(&self.points)
             .filter(|(number, _)| number.is_some())
         {
-            *number = Some(vertices.len() as u32);
+            *number = Some(numbers::count_u32(vertices.len()));
             vertices.push((*point).into());
         }
         let renumbered = triangles
             .iter()
-            .map(|triangle| triangle.map(|vertex| numbers[vertex as usize].unwrap_or(0)));
+            .map(|triangle| triangle.map(|vertex| numbers[numbers::place(vertex)].unwrap_or(0)));
         (vertices, renumbered.collect())
     }
 }

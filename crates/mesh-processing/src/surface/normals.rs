@@ -13,7 +13,7 @@ const WAYS: usize = 16;
 
 /// The centre of points, and the direction in which they are thinnest.
 pub(super) fn principal_plane(points: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
-    let centre = points.iter().sum::<Vector3<f64>>() / points.len().max(1) as f64;
+    let centre = points.iter().sum::<Vector3<f64>>() / numbers::real(points.len().max(1));
     let covariance: Matrix3<f64> = points
         .iter()
         .map(|point| (point - centre) * (point - centre).transpose())
@@ -70,7 +70,7 @@ pub(super) fn oriented_normals(points: &[[f64; 3]], neighbors: usize) -> Vec<Vec
     };
     let plane = |of: usize| {
         let near: Vec<_> = near(of, neighbors)
-            .map(|number| Vector3::from(points[number as usize]))
+            .map(|number| Vector3::from(points[numbers::place(number)]))
             .collect();
         principal_plane(&near).1
     };
@@ -84,8 +84,8 @@ pub(super) fn oriented_normals(points: &[[f64; 3]], neighbors: usize) -> Vec<Vec
                 normals[start] = -normals[start];
             }
             spread(
-                start as u32,
-                |of| near(of as usize, neighbors.min(WAYS)),
+                numbers::count_u32(start),
+                |of| near(numbers::place(of), neighbors.min(WAYS)),
                 &mut normals,
                 &mut is_known,
             );
@@ -107,14 +107,17 @@ fn spread<I: Iterator<Item = u32>>(
         to: start,
     }]);
     while let Some(Step { from, to, .. }) = heap.pop() {
-        if std::mem::replace(&mut is_known[to as usize], true) {
+        if std::mem::replace(&mut is_known[numbers::place(to)], true) {
             continue;
         }
-        if normals[from as usize].dot(&normals[to as usize]) < 0.0 {
-            normals[to as usize] = -normals[to as usize];
+        if normals[numbers::place(from)].dot(&normals[numbers::place(to)]) < 0.0 {
+            normals[numbers::place(to)] = -normals[numbers::place(to)];
         }
-        for next in near(to).filter(|next| !is_known[*next as usize]) {
-            let difference = 1.0 - normals[to as usize].dot(&normals[next as usize]).abs();
+        for next in near(to).filter(|next| !is_known[numbers::place(*next)]) {
+            let difference = 1.0
+                - normals[numbers::place(to)]
+                    .dot(&normals[numbers::place(next)])
+                    .abs();
             heap.push(Step {
                 difference,
                 from: to,

@@ -42,8 +42,8 @@ impl<'a> Pivoting<'a> {
 
     /// Rolls the ball from each point that nothing has reached, as far as it goes.
     pub(super) fn triangles(mut self) -> Vec<[u32; 3]> {
-        for start in 0..self.points.len() as u32 {
-            if self.open[start as usize].is_none() {
+        for start in 0..numbers::count_u32(self.points.len()) {
+            if self.open[numbers::place(start)].is_none() {
                 self.seed(start);
                 self.roll();
             }
@@ -52,7 +52,7 @@ impl<'a> Pivoting<'a> {
     }
 
     fn at(&self, vertex: u32) -> Point3<f64> {
-        point(&self.points[vertex as usize])
+        point(&self.points[numbers::place(vertex)])
     }
 
     fn near(&self, to: Point3<f64>, distance: f64) -> Vec<u32> {
@@ -65,7 +65,7 @@ impl<'a> Pivoting<'a> {
 
     /// Adds the first triangle at a point on which the ball rests.
     fn seed(&mut self, a: u32) {
-        let is_free = |vertex: &u32| *vertex != a && self.open[*vertex as usize].is_none();
+        let is_free = |vertex: &u32| *vertex != a && self.open[numbers::place(*vertex)].is_none();
         let near: Vec<u32> = self
             .near(self.at(a), 2.0 * self.radius)
             .into_iter()
@@ -96,7 +96,7 @@ impl<'a> Pivoting<'a> {
         }
         let outer = triangle
             .iter()
-            .all(|vertex| self.normals[*vertex as usize].dot(&normal) > 0.0);
+            .all(|vertex| self.normals[numbers::place(*vertex)].dot(&normal) > 0.0);
         let to_centre = (normal.cross(&u) * v.norm_squared() + v.cross(&normal) * u.norm_squared())
             / (2.0 * square);
         let height = self.radius * self.radius - to_centre.norm_squared();
@@ -116,7 +116,7 @@ impl<'a> Pivoting<'a> {
             self.edges.insert((from, to), centre);
             let is_closed = self.edges.contains_key(&(to, from));
             for vertex in [from, to] {
-                let open = self.open[vertex as usize].get_or_insert(0);
+                let open = self.open[numbers::place(vertex)].get_or_insert(0);
                 *open += if is_closed { -1 } else { 1 };
             }
             if !is_closed {
@@ -159,7 +159,7 @@ impl<'a> Pivoting<'a> {
             .filter(|next| *next != from && *next != to);
         let rests_on = others.filter_map(|next| {
             let is_free = |edge: (u32, u32)| !self.edges.contains_key(&edge);
-            let may_be_used = self.open[next as usize].is_none_or(|open| open > 0)
+            let may_be_used = self.open[numbers::place(next)].is_none_or(|open| open > 0)
                 && is_free((from, next))
                 && is_free((next, to));
             let centre = self.ball([to, from, next]).filter(|_| may_be_used)?;

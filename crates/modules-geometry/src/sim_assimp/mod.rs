@@ -81,9 +81,9 @@ fn import_shapes(
         let own = to_shapes(&mut file, imported, &mut cx.scene_mut())?;
         warn(cx, name, &file, options.0);
         if has(option::ONE_PER_FILE) {
-            shapes.push(Shape::compound(own)?)
+            shapes.push(Shape::compound(own)?);
         } else {
-            shapes.extend(own)
+            shapes.extend(own);
         }
     }
     shapes

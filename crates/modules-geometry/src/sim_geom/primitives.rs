@@ -130,7 +130,7 @@ fn nearest(pairs: impl Iterator<Item = Pair>) -> Pair {
 
 fn triangle(p: Point, v: Point, w: Point) -> Result<Triangle> {
     let corners = [p, sum(p, v), sum(p, w)];
-    let finite = corners.iter().all(|corner| corner.is_finite());
+    let finite = corners.iter().all(geometry::Finite::is_finite);
     if finite {
         Ok(corners.map(Vector3::from))
     } else {

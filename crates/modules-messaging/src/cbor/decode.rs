@@ -320,17 +320,17 @@ fn push_typed(stack: Stack<'_>, tag: u64, bytes: &[u8]) {
     match tag {
         64 => push_numbers(stack, bytes, |[b]: &[u8; 1]| stack.push_int(i64::from(*b))),
         69 => push_numbers(stack, bytes, |b| {
-            stack.push_int(i64::from(u16::from_le_bytes(*b)))
+            stack.push_int(i64::from(u16::from_le_bytes(*b)));
         }),
         70 => push_numbers(stack, bytes, |b| {
-            stack.push_int(i64::from(u32::from_le_bytes(*b)))
+            stack.push_int(i64::from(u32::from_le_bytes(*b)));
         }),
         78 => push_numbers(stack, bytes, |b| {
-            stack.push_int(i64::from(i32::from_le_bytes(*b)))
+            stack.push_int(i64::from(i32::from_le_bytes(*b)));
         }),
         79 => push_numbers(stack, bytes, |b| stack.push_int(i64::from_le_bytes(*b))),
         85 => push_numbers(stack, bytes, |b| {
-            stack.push_number(f64::from(f32::from_le_bytes(*b)))
+            stack.push_number(f64::from(f32::from_le_bytes(*b)));
         }),
         _ => push_numbers(stack, bytes, |b| stack.push_number(f64::from_le_bytes(*b))),
     }

@@ -231,7 +231,7 @@ impl Out {
             (Self::Floats, value) => call.write_floats(value),
             (Self::Text, value) => call.out.text(bytes(value)),
             (Self::Ints, Data::Array(items)) => {
-                call.write_list(&items.iter().map(integer).collect::<Vec<_>>())
+                call.write_list(&items.iter().map(integer).collect::<Vec<_>>());
             }
             (Self::Ints, _) => call.write_list(&[]),
         }

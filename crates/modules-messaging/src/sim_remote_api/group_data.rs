@@ -50,7 +50,7 @@ fn members(call: &Call<'_>, group: i64) -> Result<Vec<i64>, Failure> {
         return Ok(scene
             .collection_objects(group)?
             .into_iter()
-            .map(|handle| handle.raw())
+            .map(scene::Handle::raw)
             .collect());
     }
     let is_member = |object: &&scene::Object| group == ALL_OBJECTS || object.is_of_type(group);

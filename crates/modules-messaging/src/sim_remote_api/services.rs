@@ -151,7 +151,7 @@ fn milliseconds(seconds: f64) -> i32 {
 
 /// Prints to the console of a server what happened.
 fn show_monitor(host: &Host<'_>, service: &Service) {
-    let lines = service.with_session(|session| session.take_lines());
+    let lines = service.with_session(wire::simx::Session::take_lines);
     if lines.is_empty() {
         return;
     }

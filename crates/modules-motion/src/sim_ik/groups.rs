@@ -162,7 +162,7 @@ fn set_group_flags(
     flags: Number,
 ) -> Result<()> {
     change(cx, environment_handle, ik_group_handle, |group| {
-        group.flags = GroupFlags(flags.0 as u32)
+        group.flags = GroupFlags(flags.0 as u32);
     })
 }
 

@@ -127,7 +127,7 @@ fn set_joint_mode(
         _ => return Err(refused("invalid joint mode.")),
     };
     change(cx, environment_handle, joint_handle, |joint| {
-        joint.mode = mode
+        joint.mode = mode;
     })
 }
 
@@ -269,7 +269,7 @@ fn set_joint_weight(
 ) -> Result<()> {
     let weight = finite(weight)?;
     change(cx, environment_handle, joint_handle, |joint| {
-        joint.weight = weight
+        joint.weight = weight;
     })
 }
 
@@ -301,7 +301,7 @@ fn set_joint_max_step_size(
 ) -> Result<()> {
     let step_size = finite(step_size)?;
     change(cx, environment_handle, joint_handle, |joint| {
-        joint.max_step = step_size
+        joint.max_step = step_size;
     })
 }
 
@@ -335,7 +335,7 @@ fn set_joint_limit_margin(
 ) -> Result<()> {
     let margin = finite(margin)?;
     change(cx, environment_handle, joint_handle, |joint| {
-        joint.limit_margin = margin
+        joint.limit_margin = margin;
     })
 }
 

@@ -61,7 +61,7 @@ pub(super) fn simplify(cx: &mut Cx, task: &Rc<RefCell<Task>>, max_time: f64) -> 
     let session = Session::new(cx, task, &setup, limit);
     setup.with_progress(|progress| {
         session.run(&mut progress.random, |problem| {
-            path::simplify(problem, &mut found.states)
+            path::simplify(problem, &mut found.states);
         })
     })??;
     drop(session);

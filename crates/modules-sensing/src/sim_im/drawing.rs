@@ -99,7 +99,7 @@ fn line(
         divisor(shift)?,
     );
     draw(cx, &handle, |image| {
-        image.draw_line(place(p1, divisor), place(p2, divisor), &pen, thickness)
+        image.draw_line(place(p1, divisor), place(p2, divisor), &pen, thickness);
     })
 }
 
@@ -133,7 +133,7 @@ fn arrowed_line(
     );
     let (from, to) = (place(p1, divisor), place(p2, divisor));
     draw(cx, &handle, |image| {
-        image.draw_arrow(from, to, &pen, thickness, tip_length)
+        image.draw_arrow(from, to, &pen, thickness, tip_length);
     })
 }
 
@@ -202,7 +202,7 @@ fn polylines(
     draw(cx, &handle, |image| {
         lines
             .iter()
-            .for_each(|line| image.draw_lines(line, is_closed, &pen, thickness))
+            .for_each(|line| image.draw_lines(line, is_closed, &pen, thickness));
     })
 }
 
@@ -233,7 +233,7 @@ fn rectangle(
         divisor(shift)?,
     );
     draw(cx, &handle, |image| {
-        image.draw_rectangle(place(p1, divisor), place(p2, divisor), &pen, stroke)
+        image.draw_rectangle(place(p1, divisor), place(p2, divisor), &pen, stroke);
     })
 }
 
@@ -306,7 +306,7 @@ fn ellipse(
         return Err(MatrixError::Range("the radius").into());
     }
     draw(cx, &handle, |image| {
-        image.draw_ellipse(centre, radii, angle, [start_angle, end_angle], &pen, stroke)
+        image.draw_ellipse(centre, radii, angle, [start_angle, end_angle], &pen, stroke);
     })
 }
 

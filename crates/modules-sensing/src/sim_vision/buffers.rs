@@ -120,7 +120,7 @@ fn uniform_img_to_work_img(
 #[api("simVision.workImgToBuffer1")]
 fn work_img_to_buffer1(cx: &Cx, vision_sensor_handle: SensorArgument) -> Result<bool> {
     with_images(cx, vision_sensor_handle, |set| {
-        set.buffer_1 = Some(set.work.clone())
+        set.buffer_1 = Some(set.work.clone());
     })?;
     Ok(false)
 }
@@ -132,7 +132,7 @@ fn work_img_to_buffer1(cx: &Cx, vision_sensor_handle: SensorArgument) -> Result<
 #[api("simVision.workImgToBuffer2")]
 fn work_img_to_buffer2(cx: &Cx, vision_sensor_handle: SensorArgument) -> Result<bool> {
     with_images(cx, vision_sensor_handle, |set| {
-        set.buffer_2 = Some(set.work.clone())
+        set.buffer_2 = Some(set.work.clone());
     })?;
     Ok(false)
 }

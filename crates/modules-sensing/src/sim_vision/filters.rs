@@ -92,7 +92,7 @@ fn color_segmentation_on_work_img(
     max_color_color_distance: Checked<f64>,
 ) -> Result<bool> {
     change(cx, vision_sensor_handle, |image| {
-        image.segment_colours(max_color_color_distance.0)
+        image.segment_colours(max_color_color_distance.0);
     })
 }
 
@@ -112,7 +112,7 @@ fn intensity_scale_on_work_img(
     grey_scale: Checked<bool>,
 ) -> Result<bool> {
     change(cx, vision_sensor_handle, |image| {
-        image.scale_intensity(start.0, end.0, grey_scale.0)
+        image.scale_intensity(start.0, end.0, grey_scale.0);
     })
 }
 
@@ -177,7 +177,7 @@ fn edge_detection_on_work_img(
     threshold: Checked<f64>,
 ) -> Result<bool> {
     change(cx, vision_sensor_handle, |image| {
-        image.detect_edges(threshold.0)
+        image.detect_edges(threshold.0);
     })
 }
 
@@ -273,7 +273,7 @@ fn shift_work_img(
     wrap_around: Checked<bool>,
 ) -> Result<bool> {
     change(cx, vision_sensor_handle, |image| {
-        image.shift(shift.0, wrap_around.0)
+        image.shift(shift.0, wrap_around.0);
     })
 }
 
@@ -339,6 +339,6 @@ fn rotate_work_img(
     rotation_angle: Checked<f64>,
 ) -> Result<bool> {
     change(cx, vision_sensor_handle, |image| {
-        image.rotate(rotation_angle.0)
+        image.rotate(rotation_angle.0);
     })
 }

@@ -185,7 +185,7 @@ fn set_combobox_selected_index(
 ) -> Result<()> {
     cx.change_window(&handle.0, |window| {
         window.change_combobox(id, !suppress_events, |combobox| {
-            combobox.selected = selection(combobox, index)
+            combobox.selected = selection(combobox, index);
         })
     })
 }

@@ -213,7 +213,7 @@ fn set_plot_ranges(
     ymax: f64,
 ) -> Result<()> {
     change(cx, &handle, id, |plot| {
-        plot.ranges = [[xmin, xmax], [ymin, ymax]]
+        plot.ranges = [[xmin, xmax], [ymin, ymax]];
     })
 }
 
@@ -405,7 +405,7 @@ fn set_mouse_options(
     zoom_y: bool,
 ) -> Result<()> {
     change(cx, &handle, id, |plot| {
-        plot.mouse = [pan_x, pan_y, zoom_x, zoom_y]
+        plot.mouse = [pan_x, pan_y, zoom_x, zoom_y];
     })
 }
 

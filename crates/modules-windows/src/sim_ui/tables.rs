@@ -81,7 +81,7 @@ fn set_row_count(
 ) -> Result<()> {
     let _ = suppress_events;
     change(cx, &handle, id, |table| {
-        table.resize(count, table.column_count)
+        table.resize(count, table.column_count);
     })
 }
 
@@ -261,7 +261,7 @@ fn set_row_height(
 ) -> Result<()> {
     let _ = row;
     change(cx, &handle, id, |table| {
-        table.row_height = Some([min_size, max_size])
+        table.row_height = Some([min_size, max_size]);
     })
 }
 

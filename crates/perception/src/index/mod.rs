@@ -198,7 +198,7 @@ impl Index {
                             Some((handle, body)) => visit(handle, body, limit),
                             None => limit,
                         }
-                    })
+                    });
             }
         }
     }
@@ -248,7 +248,7 @@ impl Index {
             Group::All { except } => {
                 let mut found = Vec::new();
                 self.tree.overlapping(bounds, |key| {
-                    found.extend(self.member(key, except, scene, purpose))
+                    found.extend(self.member(key, except, scene, purpose));
                 });
                 found.sort_by_key(|(_, body)| body.uid);
                 found

@@ -133,7 +133,7 @@ impl Vision {
             }
         }
         drawings.iter().for_each(|drawing| {
-            stage.add(&drawing.model, drawing.id, drawing.pose, shot.colour_mode)
+            stage.add(&drawing.model, drawing.id, drawing.pose, shot.colour_mode);
         });
         let lights = lighting::lights(scene, shot);
         let (points, lines) = (&stage.points[..], &stage.lines[..]);

@@ -231,7 +231,7 @@ fn handles_are_listed_once_each() {
     let mut studio = Studio::new();
     let cubes = [studio.cube(2.0), studio.cube(2.4)];
     let mode = |object: &mut scene::Object| {
-        object.vision_sensor_mut().unwrap().render_mode = RenderMode::HANDLES
+        object.vision_sensor_mut().unwrap().render_mode = RenderMode::HANDLES;
     };
     studio
         .scene
@@ -305,7 +305,7 @@ fn objects_are_seen_by_their_viewers_only() {
     studio
         .scene
         .modify(cube, Field::Other, |object| {
-            object.viewers = Viewers::One(other)
+            object.viewers = Viewers::One(other);
         })
         .unwrap();
     let copies = studio

@@ -132,7 +132,7 @@ impl Component {
     pub fn sample(&self, random: &mut dyn Random, out: &mut Vec<f64>) {
         match self {
             Self::Real(bounds) => {
-                out.extend(bounds.pairs().map(|(low, high)| random.between(low, high)))
+                out.extend(bounds.pairs().map(|(low, high)| random.between(low, high)));
             }
             Self::Angle => out.push(random.between(-PI, PI)),
             Self::Rotation => out.extend(rotation(random)),

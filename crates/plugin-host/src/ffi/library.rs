@@ -166,7 +166,7 @@ fn symbol<F: Copy>(library: &libloading::Library, name: &std::ffi::CStr) -> Opti
         assert!(
             size_of::<F>() == size_of::<usize>(),
             "a function is an address"
-        )
+        );
     };
     // SAFETY: the types are those of the interface, and the libraries stay open.
     unsafe { library.get::<F>(name.to_bytes_with_nul()) }

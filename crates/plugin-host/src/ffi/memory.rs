@@ -62,7 +62,7 @@ impl Address {
                 self.0.cast::<u8>(),
                 values.as_mut_ptr().cast(),
                 size_of_val(&*values),
-            )
+            );
         };
         Some(values)
     }
@@ -78,7 +78,7 @@ impl Address {
                 values.as_ptr().cast::<u8>(),
                 self.0.cast(),
                 size_of_val(values),
-            )
+            );
         };
     }
 

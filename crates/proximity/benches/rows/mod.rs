@@ -187,7 +187,7 @@ fn build(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("200k");
     group.sample_size(10);
     group.bench_function("build", |bench| {
-        bench.iter(|| TriangleMesh::new(&vertices, &indices))
+        bench.iter(|| TriangleMesh::new(&vertices, &indices));
     });
     group.finish();
 }

@@ -43,7 +43,7 @@ pub fn rows(criterion: &mut Criterion, name: &str, triangles: usize) {
             .iter(|| query::distance(&Isometry::IDENTITY, &ball, &converted(&poses.next()), &ball));
     });
     group.bench_function("parry, build", |bench| {
-        bench.iter(|| mesh(triangles, super::BUMPS))
+        bench.iter(|| mesh(triangles, super::BUMPS));
     });
     group.finish();
 }

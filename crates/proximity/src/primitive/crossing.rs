@@ -136,9 +136,9 @@ fn piece(triangle: &Triangle, heights: &[f64; 3]) -> [Vector; 2] {
     let mut found = [None; 2];
     let mut add = |point| {
         if found[0].is_none() {
-            found[0] = Some(point)
+            found[0] = Some(point);
         } else {
-            found[1] = Some(point)
+            found[1] = Some(point);
         }
     };
     for (i, j) in [(0, 1), (1, 2), (2, 0)] {

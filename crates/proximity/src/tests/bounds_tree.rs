@@ -43,7 +43,7 @@ fn finds_what_a_list_finds() {
         let wanted = random_box(&mut random).grown(2.0);
         let mut found = Vec::new();
         tree.overlapping(&wanted, |key| found.push(key));
-        found.sort();
+        found.sort_unstable();
         let expected: Vec<u32> = list
             .iter()
             .filter(|(_, b)| b.overlaps(&wanted))

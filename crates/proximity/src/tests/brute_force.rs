@@ -1,15 +1,11 @@
-//! Queries through trees against loops over everything, and against other formulas, with random, degenerate, huge and tiny input.
+//! Queries through trees against loops over everything, with random, huge and tiny input.
 
 use geometry::Pose;
-use nalgebra::Vector3;
 
 use super::random::Random;
 use crate::items::{Compare, Items};
 use crate::placed::Transform;
-use crate::primitive::{
-    SolidBox, Triangle, Vector, closest_on_segments, closest_on_triangle, closest_on_triangles,
-    triangles_touch,
-};
+use crate::primitive::{Triangle, Vector, closest_on_triangle};
 use crate::{
     Filter, Geometry, Piece, Placed, PointSet, TriangleMesh, Volume, VoxelGrid, cast_ray,
     closest_in_volume, distance, intersection_segments, intersects,
@@ -17,14 +13,14 @@ use crate::{
 
 const SIZES: [f64; 4] = [1e-6, 1.0, 1e3, 1e9];
 
-struct Things {
+pub struct Things {
     mesh: TriangleMesh,
     grid: VoxelGrid,
     points: PointSet,
 }
 
 impl Things {
-    fn new(random: &mut Random, size: f64) -> Self {
+    pub fn new(random: &mut Random, size: f64) -> Self {
         let cells: Vec<[f64; 3]> = (0..20).map(|_| random.point(size)).collect();
         let points: Vec<[f64; 3]> = (0..30).map(|_| random.point(size)).collect();
         let number = 5 + random.below(40);
@@ -35,7 +31,7 @@ impl Things {
         }
     }
 
-    fn geometries(&self) -> [Geometry<'_>; 4] {
+    pub fn geometries(&self) -> [Geometry<'_>; 4] {
         [
             Geometry::Mesh(&self.mesh),
             Geometry::Voxels(&self.grid),
@@ -67,7 +63,7 @@ where
 }
 
 #[track_caller]
-fn near(a: f64, b: f64, tolerance: f64) {
+pub fn near(a: f64, b: f64, tolerance: f64) {
     assert!((a - b).abs() <= tolerance, "{a} is not {b}");
 }
 
@@ -148,110 +144,6 @@ fn thresholds_are_strict_and_do_not_change_the_answer() {
             near(limited.distance, free, 1e-12);
         }
     }
-}
-
-/// The closest points of triangles by a search over points of one of them: convex, so a golden section in two directions finds it.
-fn searched(a: &Triangle, b: &Triangle) -> f64 {
-    let on_a = |u: f64, v: f64| a[0] + (a[1] - a[0]) * (u * (1.0 - v)) + (a[2] - a[0]) * (u * v);
-    let gap = |u: f64, v: f64| (closest_on_triangle(&on_a(u, v), b) - on_a(u, v)).norm();
-    let along = |u: f64| minimum(|v| gap(u, v));
-    minimum(along)
-}
-
-fn minimum(f: impl Fn(f64) -> f64) -> f64 {
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..70 {
-        let (a, b) = (low + (high - low) * 0.382, low + (high - low) * 0.618);
-        if f(a) <= f(b) { high = b } else { low = a }
-    }
-    f(0.5 * (low + high)).min(f(0.0)).min(f(1.0))
-}
-
-#[test]
-fn triangles_are_as_far_apart_as_a_search_finds() {
-    let mut random = Random::new(13);
-    for round in 0..400 {
-        let mut triangle = || [(); 3].map(|()| Vector3::from(random.point(1.0)));
-        let (a, mut b) = (triangle(), triangle());
-        if round % 4 == 0 {
-            b[2] = b[1];
-        }
-        if round % 5 == 0 {
-            b.iter_mut().for_each(|p| p.z += 1.5);
-        }
-        let (p, q, squared) = closest_on_triangles(&a, &b);
-        let expected = searched(&a, &b);
-        assert!(
-            squared.sqrt() <= expected + 1e-9,
-            "round {round}: {} is not {expected}",
-            squared.sqrt()
-        );
-        near((closest_on_triangle(&p, &a) - p).norm(), 0.0, 1e-9);
-        near((closest_on_triangle(&q, &b) - q).norm(), 0.0, 1e-9);
-        assert_eq!(triangles_touch(&a, &b), squared == 0.0, "round {round}");
-    }
-}
-
-#[test]
-fn boxes_are_as_far_from_triangles_and_boxes_as_their_faces() {
-    let mut random = Random::new(14);
-    for _ in 0..300 {
-        let solid = SolidBox {
-            centre: random.point(1.0).into(),
-            half: Vector::from(random.point(0.4)).abs(),
-        };
-        let triangle = [(); 3].map(|()| Vector3::from(random.point(2.0)));
-        let surface = cuboid(&solid);
-        let placed = |mesh| Placed {
-            geometry: Geometry::Mesh(mesh),
-            pose: Pose::identity(),
-        };
-        let flat = TriangleMesh::new(&triangle.map(|p| p.into()), &[[0, 1, 2]]).expect("an area");
-        let expected = distance(placed(&surface), placed(&flat), f64::INFINITY)
-            .expect("no limit")
-            .distance;
-        let is_inside = solid.closest_to_point(&triangle[0]) == triangle[0];
-        near(
-            solid.closest_to_triangle(&triangle).2.sqrt(),
-            if is_inside { 0.0 } else { expected },
-            1e-9,
-        );
-        let other = SolidBox {
-            centre: random.point(1.0).into(),
-            half: Vector::from(random.point(0.4)).abs(),
-        };
-        let pose = random.pose(1.0);
-        let moved = cuboid(&other);
-        let placed_other = Placed {
-            geometry: Geometry::Mesh(&moved),
-            pose,
-        };
-        let expected = distance(placed(&surface), placed_other, f64::INFINITY)
-            .expect("no limit")
-            .distance;
-        let place = Transform::of(&pose);
-        let contains = solid.closest_to_point(&place.point(&other.centre))
-            == place.point(&other.centre)
-            || other.closest_to_point(&place.inverse().point(&solid.centre))
-                == place.inverse().point(&solid.centre);
-        near(
-            solid.closest_to_box(&other, &pose).2.sqrt(),
-            if contains { 0.0 } else { expected },
-            1e-9,
-        );
-    }
-}
-
-fn cuboid(solid: &SolidBox) -> TriangleMesh {
-    let size = (solid.half * 2.0).into();
-    let mesh = geometry::primitive::tessellate(geometry::PrimitiveKind::Cuboid, size, false)
-        .expect("finite extents");
-    let vertices: Vec<[f64; 3]> = mesh
-        .vertices
-        .iter()
-        .map(|v| (Vector::from(*v) + solid.centre).into())
-        .collect();
-    TriangleMesh::new(&vertices, &mesh.triangles).expect("faces")
 }
 
 #[test]
@@ -450,142 +342,4 @@ fn contours_are_on_both_meshes() {
             }
         }
     }
-}
-
-#[test]
-fn nearly_parallel_segments_are_compared_well() {
-    let mut random = Random::new(19);
-    for _ in 0..2000 {
-        let (a, b) = (
-            Vector::from(random.point(1.0)),
-            Vector::from(random.point(1.0)),
-        );
-        let small = 10.0_f64.powi(-(random.below(14) as i32));
-        let (c, d) = (
-            a + Vector::from(random.point(small)),
-            b + Vector::from(random.point(small)),
-        );
-        let found = closest_on_segments([&a, &b], [&c, &d]).2.sqrt();
-        let expected = minimum(|t| {
-            let p = a + (b - a) * t;
-            (crate::primitive::closest_on_segment(&p, &c, &d) - p).norm()
-        });
-        near(found, expected, 1e-9);
-    }
-}
-
-#[test]
-fn what_is_not_finite_finds_nothing() {
-    let mut random = Random::new(20);
-    let (things, others) = (Things::new(&mut random, 1.0), Things::new(&mut random, 1.0));
-    let filter = Filter {
-        max_angle: Some(f64::NAN),
-        ..Filter::default()
-    };
-    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
-        let wrong = Pose::translation(bad, 0.0, 0.0);
-        for (geometry, other) in things
-            .geometries()
-            .into_iter()
-            .zip(others.geometries().into_iter().rev())
-        {
-            let (a, b) = (
-                Placed {
-                    geometry,
-                    pose: wrong,
-                },
-                Placed {
-                    geometry: other,
-                    pose: Pose::identity(),
-                },
-            );
-            assert_eq!(
-                (distance(a, b, f64::INFINITY), distance(b, a, f64::INFINITY)),
-                (None, None)
-            );
-            assert_eq!(
-                (distance(b, b, f64::NAN), distance(b, b, -1.0)),
-                (None, None)
-            );
-            assert!(!intersects(a, b) && intersection_segments(a, b).is_empty());
-            let everything = Volume {
-                pieces: vec![Piece::default()],
-            };
-            assert_eq!(
-                cast_ray(a, &Pose::identity(), [0.0, 0.0, 1.0], [0.0, 1e9], &filter),
-                None
-            );
-            assert_eq!(
-                cast_ray(b, &wrong, [0.0, 0.0, 1.0], [0.0, 1e9], &filter),
-                None
-            );
-            assert_eq!(
-                closest_in_volume(a, &Pose::identity(), &everything, f64::INFINITY, &filter),
-                None
-            );
-            for way in [[0.0; 3], [f64::NAN; 3], [f64::INFINITY, 0.0, 0.0]] {
-                assert_eq!(
-                    cast_ray(b, &Pose::identity(), way, [0.0, 1e9], &Filter::default()),
-                    None
-                );
-            }
-            assert_eq!(
-                cast_ray(
-                    b,
-                    &Pose::identity(),
-                    [1.0; 3],
-                    [f64::NAN; 2],
-                    &Filter::default()
-                ),
-                None
-            );
-            let crooked = Volume {
-                pieces: vec![[[f64::NAN, 0.0, 0.0, 0.0]].into_iter().collect()],
-            };
-            assert_eq!(
-                closest_in_volume(b, &Pose::identity(), &crooked, f64::INFINITY, &filter),
-                None
-            );
-        }
-    }
-}
-
-#[test]
-fn geometries_leave_out_what_is_degenerate() {
-    assert!(TriangleMesh::new(&[], &[]).is_none());
-    assert!(TriangleMesh::new(&[[0.0; 3]; 3], &[[0, 1, 2]]).is_none());
-    assert!(TriangleMesh::new(&[[0., 0., 0.], [1., 0., 0.], [2., 0., 0.]], &[[0, 1, 2]]).is_none());
-    assert!(
-        TriangleMesh::new(&[[f64::NAN; 3], [1., 0., 0.], [0., 1., 0.]], &[[0, 1, 2]]).is_none()
-    );
-    assert!(TriangleMesh::new(&[[0.0; 3]], &[[0, 1, 2]]).is_none());
-    let mixed = [
-        [0., 0., 0.],
-        [1., 0., 0.],
-        [0., 1., 0.],
-        [f64::INFINITY, 0., 0.],
-    ];
-    assert_eq!(
-        TriangleMesh::new(&mixed, &[[0, 1, 2], [0, 1, 3], [0, 0, 1]]).map(|mesh| mesh.len()),
-        Some(1)
-    );
-    assert!(VoxelGrid::new(0.0, [[0.0; 3]].into_iter()).is_none());
-    assert!(VoxelGrid::new(f64::NAN, [[0.0; 3]].into_iter()).is_none());
-    assert!(VoxelGrid::new(0.1, [[f64::NAN; 3]].into_iter()).is_none());
-    assert!(PointSet::new(&[[f64::NAN; 3]]).is_none());
-    let same = vec![[0.5; 3]; 3000];
-    let points = PointSet::new(&same).expect("points");
-    let placed = Placed {
-        geometry: Geometry::Points(&points),
-        pose: Pose::identity(),
-    };
-    let origin = Placed {
-        geometry: Geometry::Point,
-        pose: Pose::identity(),
-    };
-    near(
-        distance(placed, origin, 1.0).expect("near").distance,
-        0.75_f64.sqrt(),
-        1e-12,
-    );
 }

@@ -1,8 +1,10 @@
 //! Queries against closed forms and against plain loops.
 
+mod bad_input;
 mod bounds_tree;
 mod brute_force;
 mod closed_forms;
+mod primitives;
 mod random;
 mod voxels;
 

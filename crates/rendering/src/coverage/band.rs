@@ -46,7 +46,7 @@ impl Fragment {
 impl Band {
     /// Empties it for rows of a picture; nothing is drawn that is not closer than `far`.
     pub fn clear(&mut self, resolution: [u32; 2], rows: Range<usize>, far: f32) {
-        self.width = resolution[0] as usize;
+        self.width = numbers::place(resolution[0]);
         self.stride = self.width + 8;
         self.centre = resolution.map(|side| f64::from(side) / 2.0);
         let pixels = self.stride * rows.len();
@@ -99,7 +99,10 @@ impl Band {
             let mask = (closeness.simd_gt(limit) & block.mask).to_bitmask();
             for lane in (0..8).filter(|lane| mask >> lane & 1 == 1 && block.x + lane < self.width) {
                 let order = closeness.to_array()[lane].to_bits() | u32::from(is_overlay) << 31;
-                let (row, column) = ((block.y - self.rows.start) as u32, (block.x + lane) as u32);
+                let (row, column) = (
+                    numbers::count_u32(block.y - self.rows.start),
+                    numbers::count_u32(block.x + lane),
+                );
                 fragments.push(Fragment {
                     row,
                     column,
@@ -116,7 +119,7 @@ impl Band {
 
     fn ray(&self, block: Block) -> [f64; 2] {
         // From 32 bits, which is one instruction.
-        let [x, y] = [block.x as u32, block.y as u32].map(f64::from);
+        let [x, y] = [numbers::count_u32(block.x), numbers::count_u32(block.y)].map(f64::from);
         [x + 0.5 - self.centre[0], y + 0.5 - self.centre[1]]
     }
 }

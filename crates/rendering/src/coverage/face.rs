@@ -93,8 +93,8 @@ static NARROW: [f32x8; 16] = {
 impl Face {
     /// How close it is at a ray and at the seven pixels to the right.
     pub fn closeness_of_eight(&self, ray: [f64; 2]) -> f32x8 {
-        let start = f32x8::splat(self.closeness.at(ray) as f32);
-        let closeness = start + f32x8::splat(self.closeness.a as f32) * LANES;
+        let start = f32x8::splat(numbers::single(self.closeness.at(ray)));
+        let closeness = start + f32x8::splat(numbers::single(self.closeness.a)) * LANES;
         closeness
             .fast_max(f32x8::splat(self.range[0]))
             .fast_min(f32x8::splat(self.range[1]))
@@ -123,8 +123,8 @@ impl Face {
     ) {
         let [a, b, c] = self.corners;
         let pixel = [
-            first as i32 * UNIT + UNIT / 2,
-            rows.start as i32 * UNIT + UNIT / 2,
+            numbers::count_i32(first) * UNIT + UNIT / 2,
+            numbers::count_i32(rows.start) * UNIT + UNIT / 2,
         ];
         let edges = [
             SmallEdge::new(a, b, pixel),
@@ -156,14 +156,14 @@ impl Face {
     fn cover_large(&self, columns: [usize; 2], rows: Range<usize>, mut emit: impl FnMut(Block)) {
         let edges = self.edges();
         for y in rows {
-            let (mut first, mut last) = (columns[0] as i64, columns[1] as i64);
+            let (mut first, mut last) = (numbers::count(columns[0]), numbers::count(columns[1]));
             edges
                 .iter()
-                .for_each(|edge| edge.clip_row(y as i64, &mut first, &mut last));
+                .for_each(|edge| edge.clip_row(numbers::count(y), &mut first, &mut last));
             for x in (first..=last).step_by(8) {
                 let mask = LANES.simd_le(f32x8::splat((last - x) as f32));
                 emit(Block {
-                    x: x as usize,
+                    x: numbers::place_of(x),
                     y,
                     mask,
                 });
@@ -254,7 +254,8 @@ fn cover_narrow(
     for y in rows {
         let mut bits = 0;
         for lane in 0..=(last - first) {
-            let at = |start: i32, edge: usize| start + edges[edge].column * lane as i32;
+            let at =
+                |start: i32, edge: usize| start + edges[edge].column * numbers::count_i32(lane);
             bits |= usize::from(at(a, 0) | at(b, 1) | at(c, 2) >= 0) << lane;
         }
         if bits != 0 {

@@ -39,9 +39,9 @@ impl Mesh {
                     [corners[2], corners[0]],
                 ] {
                     match places.get(&key(&ends)) {
-                        Some(&at) => edges_meet(&mut edges[at as usize], normal),
+                        Some(&at) => edges_meet(&mut edges[numbers::place(at)], normal),
                         None => {
-                            places.insert(key(&ends), edges.len() as u32);
+                            places.insert(key(&ends), numbers::count_u32(edges.len()));
                             edges.push(MeshEdge {
                                 ends,
                                 normals: [Some(normal), None],

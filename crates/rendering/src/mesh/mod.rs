@@ -113,13 +113,17 @@ impl Mesh {
         &self.clusters[triangle / CLUSTER_TRIANGLES]
     }
 
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a cluster has fewer than 2^16 corners"
+    )]
     fn add_cluster(&mut self, source: &Source, triangles: &[usize]) {
         let (first_vertex, first_triangle) = (self.vertices.len(), self.triangles.len());
         let mut local = HashMap::new();
         for &at in triangles {
             let corners = source.triangles[at].map(|vertex| {
                 *local.entry(vertex).or_insert_with(|| {
-                    self.vertices.push(source.vertices[vertex as usize]);
+                    self.vertices.push(source.vertices[numbers::place(vertex)]);
                     (self.vertices.len() - 1 - first_vertex) as u16
                 })
             });
@@ -169,7 +173,7 @@ struct Source<'a> {
 
 impl Source<'_> {
     fn corners(&self, at: usize) -> Option<[[f64; 3]; 3]> {
-        let vertex = |index: u32| self.vertices.get(index as usize).copied();
+        let vertex = |index: u32| self.vertices.get(numbers::place(index)).copied();
         let [a, b, c] = self.triangles[at].map(vertex);
         Some([a?, b?, c?])
     }
@@ -187,10 +191,8 @@ impl Source<'_> {
 
     fn triangle(&self, at: usize, corners: [u16; 3]) -> Triangle {
         let face = self.cross(at).unwrap_or_default().normalize();
-        let normals = [0, 1, 2].map(|corner| {
-            self.normal(3 * at + corner, face)
-                .map(|number| number as f32)
-        });
+        let normals =
+            [0, 1, 2].map(|corner| self.normal(3 * at + corner, face).map(numbers::single));
         let uv = |corner: usize| {
             let has_uv = self.uv.len() == 3 * self.triangles.len();
             has_uv
@@ -226,7 +228,7 @@ impl Source<'_> {
         order.sort_by_cached_key(|at| {
             let [a, b, c] = self.corners(*at).unwrap_or_default().map(Vector3::from);
             let centre = (a + b + c) / 3.0 - Vector3::from(ball.centre);
-            let cell = |offset: f64| ((offset / ball.radius + 1.0) * 512.0) as u32;
+            let cell = |offset: f64| numbers::truncated_u32((offset / ball.radius + 1.0) * 512.0);
             spread_bits(cell(centre.x))
                 | spread_bits(cell(centre.y)) << 1
                 | spread_bits(cell(centre.z)) << 2

@@ -86,7 +86,7 @@ impl Tree {
     pub fn new(bounds: &[Bounds]) -> Self {
         let mut tree = Self {
             nodes: Vec::new(),
-            items: (0..bounds.len() as u32).collect(),
+            items: (0..numbers::count_u32(bounds.len())).collect(),
         };
         let mut items = std::mem::take(&mut tree.items);
         if !items.is_empty() {
@@ -99,26 +99,27 @@ impl Tree {
     fn add(&mut self, bounds: &[Bounds], items: &mut [u32], first: usize) {
         let whole = items
             .iter()
-            .map(|item| bounds[*item as usize])
+            .map(|item| bounds[numbers::place(*item)])
             .reduce(|a, b| a.merged(&b));
         let whole = whole.expect("a node has items");
         let at = self.nodes.len();
         self.nodes.push(Node {
             bounds: whole,
-            next: first as u32,
-            count: items.len() as u32,
+            next: numbers::count_u32(first),
+            count: numbers::count_u32(items.len()),
         });
         if items.len() <= MAX_LEAF_SIZE {
             return;
         }
         let axis = (whole.high - whole.low).imax();
-        let centre =
-            |item: &u32| bounds[*item as usize].low[axis] + bounds[*item as usize].high[axis];
+        let centre = |item: &u32| {
+            bounds[numbers::place(*item)].low[axis] + bounds[numbers::place(*item)].high[axis]
+        };
         let middle = items.len() / 2;
         items.select_nth_unstable_by(middle, |a, b| centre(a).total_cmp(&centre(b)));
         let (low, high) = items.split_at_mut(middle);
         self.add(bounds, low, first);
-        (self.nodes[at].next, self.nodes[at].count) = (self.nodes.len() as u32, 0);
+        (self.nodes[at].next, self.nodes[at].count) = (numbers::count_u32(self.nodes.len()), 0);
         self.add(bounds, high, first + middle);
     }
 
@@ -130,16 +131,16 @@ impl Tree {
         while count > 0 {
             count -= 1;
             let at = pending[count];
-            let node = &self.nodes[at as usize];
+            let node = &self.nodes[numbers::place(at)];
             if !node.bounds.is_hit(ray, &inverse) {
                 continue;
             }
             if node.count == 0 {
                 (pending[count], pending[count + 1]) = (node.next, at + 1);
                 count += 2;
-            } else if self.items[node.next as usize..][..node.count as usize]
+            } else if self.items[numbers::place(node.next)..][..numbers::place(node.count)]
                 .iter()
-                .any(|item| hit(*item as usize))
+                .any(|item| hit(numbers::place(*item)))
             {
                 return true;
             }

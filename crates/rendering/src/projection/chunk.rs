@@ -122,10 +122,10 @@ impl Chunk {
 
 /// A number for a face of a chunk. A chunk has at most six faces for each of its elements, which is less than 2^16.
 pub fn face_number(chunk: usize, face: usize) -> u32 {
-    (chunk as u32) << 16 | face as u32
+    numbers::count_u32(chunk) << 16 | numbers::count_u32(face)
 }
 
 /// The face with a number.
 pub fn face(chunks: &[Chunk], number: u32) -> &Face {
-    &chunks[(number >> 16) as usize].setup.faces[(number & 0xffff) as usize]
+    &chunks[numbers::place(number >> 16)].setup.faces[numbers::place(number & 0xffff)]
 }

@@ -52,8 +52,18 @@ pub fn owners<'a>(world: &World<'a>, view: &View, channels: Channels) -> Vec<Own
         .iter()
         .filter(|instance| instance.pose.is_finite())
     {
-        owners.push(surface(instance, view, channels, owners.len() as u32));
-        owners.extend(edges(instance, view, channels, owners.len() as u32));
+        owners.push(surface(
+            instance,
+            view,
+            channels,
+            numbers::count_u32(owners.len()),
+        ));
+        owners.extend(edges(
+            instance,
+            view,
+            channels,
+            numbers::count_u32(owners.len()),
+        ));
     }
     for points in world.points.iter().filter(|points| points.pose.is_finite()) {
         let placed = placed(points, &points.pose, view, owners.len());
@@ -70,7 +80,7 @@ fn placed<'a, T>(content: &'a T, pose: &Pose, view: &View, at: usize) -> Placed<
     Placed {
         content,
         transform: view.transform(pose),
-        owner: at as u32,
+        owner: numbers::count_u32(at),
     }
 }
 
@@ -112,7 +122,7 @@ fn edges<'a>(
 ) -> Option<Owner<'a>> {
     let edges = instance.material.edges.filter(|_| channels.colour)?;
     let content = Content::Edges(
-        placed(instance.mesh, &instance.pose, view, at as usize),
+        placed(instance.mesh, &instance.pose, view, numbers::place(at)),
         edges,
     );
     Some(Owner {
@@ -193,16 +203,16 @@ impl<'a> Content<'a> {
         let faces = &mut setup.faces;
         match self {
             Self::Surface(surface, _) => {
-                setup.add_cluster(view, surface, &surface.mesh.clusters[piece])
+                setup.add_cluster(view, surface, &surface.mesh.clusters[piece]);
             }
             Self::Edges(mesh, edges) => {
-                add_edges(faces, view, mesh, edges, range(mesh.content.edges().len()))
+                add_edges(faces, view, mesh, edges, range(mesh.content.edges().len()));
             }
             Self::Points(points) => {
-                add_points(faces, view, points, range(points.content.positions.len()))
+                add_points(faces, view, points, range(points.content.positions.len()));
             }
             Self::Lines(lines) => {
-                add_lines(faces, view, lines, range(lines.content.segments.len()))
+                add_lines(faces, view, lines, range(lines.content.segments.len()));
             }
         }
     }

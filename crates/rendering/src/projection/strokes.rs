@@ -40,7 +40,7 @@ struct Stroke {
 
 /// A colour as the detail of a face.
 pub fn packed(colour: [f32; 3]) -> u32 {
-    let [r, g, b] = colour.map(|part| (part * 255.0 + 0.5) as u8);
+    let [r, g, b] = colour.map(|part| numbers::level((part * 255.0 + 0.5).into()));
     u32::from_be_bytes([0, r, g, b])
 }
 
@@ -127,7 +127,7 @@ pub fn add_edges(
     range: Range<usize>,
 ) {
     let detail = packed(edges.colour);
-    let limit = libm::cos(edges.angle) as f32;
+    let limit = numbers::single(libm::cos(edges.angle));
     let is_drawn = |edge: &&MeshEdge| edge.cosine <= limit && (edges.borders || !edge.is_border());
     for edge in placed.content.edges()[range].iter().filter(is_drawn) {
         let ends = edge.ends.each_ref().map(|end| placed.transform.apply(end));
@@ -150,7 +150,7 @@ pub fn add_wire_frame(faces: &mut Vec<Face>, view: &View, surface: &Surface, tri
     let [a, b, c] = corners.map(|corner| view.homogeneous(corner));
     // As of the surface, so that a frame in the plane of another surface is seen or hidden as a whole.
     let plane = Some(view.closeness_on_plane(&corners)).filter(Plane::is_finite);
-    let (detail, back) = (triangle as u32, a.cross(&b).dot(&c) < 0.0);
+    let (detail, back) = (numbers::count_u32(triangle), a.cross(&b).dot(&c) < 0.0);
     let stroke = Stroke {
         owner: surface.owner,
         detail,
@@ -263,7 +263,7 @@ fn add_quad(
     (closeness, [from, to]): (Plane, [f64; 2]),
     stroke: &Stroke,
 ) {
-    let range = [from.min(to) as f32, from.max(to) as f32];
+    let range = [numbers::single(from.min(to)), numbers::single(from.max(to))];
     for triangle in [[a, b, c], [a, c, d]] {
         let Some(outline) = Outline::new(view, false, triangle) else {
             continue;
@@ -284,7 +284,7 @@ fn add_quad(
 
 /// Half of a width in pixels, in units of 1 / `UNIT` pixel; at least one pixel and at most 1024.
 fn half_width(pixels: f32) -> i32 {
-    (pixels.clamp(1.0, 1024.0) * UNIT as f32 / 2.0) as i32
+    numbers::truncated_i32((pixels.clamp(1.0, 1024.0) * UNIT as f32 / 2.0).into())
 }
 
 impl Default for Stroke {

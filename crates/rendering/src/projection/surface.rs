@@ -74,7 +74,7 @@ impl Setup {
                 view,
                 surface,
                 points: three(|i| self.points[corners[i]]),
-                detail: at as u32,
+                detail: numbers::count_u32(at),
             };
             if places.contains(&OFF_PICTURE) {
                 let origin = origin();
@@ -219,8 +219,8 @@ impl Origin<'_> {
     #[inline(always)]
     fn closeness(&self) -> (Plane, [f32; 2]) {
         let [a, b, c] = three(|i| self.points[i].z.max(self.view.near));
-        let range =
-            [a.max(b).max(c), a.min(b).min(c)].map(|depth| self.view.closeness(depth) as f32);
+        let range = [a.max(b).max(c), a.min(b).min(c)]
+            .map(|depth| numbers::single(self.view.closeness(depth)));
         let plane = self.view.closeness_on_plane(&self.points);
         let edge_on = Plane {
             a: 0.0,

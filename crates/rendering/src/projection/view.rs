@@ -125,7 +125,7 @@ impl View {
             .fast_max(f64x4::ZERO)
             .fast_min(f64x4::ONE)
             .to_array()
-            .map(|depth| depth as f32)
+            .map(numbers::single)
     }
 
     /// Whether a ball in view coordinates may be visible; `radius` is in metres.
@@ -169,18 +169,25 @@ impl View {
         // Shifted so that it is positive, where conversion rounds downwards.
         const SHIFT: f64 = 2.0 * GUARD_BAND;
         [0, 1].map(|axis| {
-            ((offset[axis] + self.centre[axis] + SHIFT) * f64::from(UNIT) + 0.5) as i32
-                - SHIFT as i32 * UNIT
+            numbers::truncated_i32(
+                (offset[axis] + self.centre[axis] + SHIFT) * f64::from(UNIT) + 0.5,
+            ) - numbers::truncated_i32(SHIFT) * UNIT
         })
     }
 
     /// The pixels whose centres are within a rectangle: first and last column and row.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "columns and rows of a picture, limited to it; checks would slow down every triangle"
+    )]
     #[inline(always)]
     pub fn pixels(&self, low: [i32; 2], high: [i32; 2]) -> Option<[[u16; 2]; 2]> {
         // Shifting divides by `UNIT` and rounds downwards.
         let range = |axis: usize| {
             let first = ((low[axis] + UNIT / 2 - 1) >> UNIT_BITS).max(0);
-            let last = ((high[axis] - UNIT / 2) >> UNIT_BITS).min(self.resolution[axis] as i32 - 1);
+            let last =
+                ((high[axis] - UNIT / 2) >> UNIT_BITS).min(self.resolution[axis].cast_signed() - 1);
             (first <= last).then_some([first as u16, last as u16])
         };
         Some([range(0)?, range(1)?])
@@ -201,7 +208,7 @@ impl View {
     /// How far in columns and rows the centre of a pixel is from the centre of the picture.
     pub fn ray(&self, column: usize, row: usize) -> [f64; 2] {
         // From 32 bits, which is one instruction.
-        let [x, y] = [column as u32, row as u32].map(f64::from);
+        let [x, y] = [numbers::count_u32(column), numbers::count_u32(row)].map(f64::from);
         [x + 0.5 - self.centre[0], y + 0.5 - self.centre[1]]
     }
 

@@ -42,8 +42,11 @@ impl Linear {
     /// The function `ray . coefficients` from the ray of a pixel on.
     fn new(coefficients: Vector3<f64>, ray: &Vector3<f64>) -> Self {
         Self {
-            start: coefficients.dot(ray) as f32,
-            step: [coefficients.x as f32, coefficients.y as f32],
+            start: numbers::single(coefficients.dot(ray)),
+            step: [
+                numbers::single(coefficients.x),
+                numbers::single(coefficients.y),
+            ],
         }
     }
 
@@ -56,7 +59,7 @@ impl Linear {
 
 impl Attributes {
     pub fn new(view: &View, surface: &Surface, face: &Face, is_textured: bool) -> Self {
-        let triangle = &surface.mesh.triangles[face.detail as usize];
+        let triangle = &surface.mesh.triangles[numbers::place(face.detail)];
         let pixel = [face.bounds[0][0], face.bounds[1][0]];
         let ray = view.ray(pixel[0].into(), pixel[1].into());
         let ray = Vector3::new(ray[0], ray[1], 1.0);
@@ -67,7 +70,7 @@ impl Attributes {
             |normal: Vector3<f64>| view.in_metres(surface.transform.rotation * normal) * side;
         let normal = if triangle.is_flat {
             let normal = to_camera(a);
-            three(|axis| Linear::constant(normal[axis] as f32))
+            three(|axis| Linear::constant(numbers::single(normal[axis])))
         } else {
             // The columns are what the normal changes by from column to column and from row to row, and its value at the centre.
             let parts =
@@ -127,7 +130,7 @@ fn weights(view: &View, surface: &Surface, face: &Face) -> [Vector3<f64>; 3] {
         };
         return [Vector3::new(0.0, 0.0, closeness / 3.0); 3];
     }
-    let corners = surface.corners(face.detail as usize);
+    let corners = surface.corners(numbers::place(face.detail));
     let [a, b, c] = three(|i| view.homogeneous(corners[i]));
     let (ab, bc, ca) = (a.cross(&b), b.cross(&c), c.cross(&a));
     let over_volume = 1.0 / ab.dot(&c);

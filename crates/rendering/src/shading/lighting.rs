@@ -112,7 +112,7 @@ impl PlacedLight {
     fn new(light: &Light, view: &View) -> Self {
         let transform = view.transform(&light.pose);
         let cutoff_cosine = match light.kind {
-            LightKind::Spot { cutoff, .. } => libm::cos(cutoff) as f32,
+            LightKind::Spot { cutoff, .. } => numbers::single(libm::cos(cutoff)),
             _ => -1.0,
         };
         let to_light = -view.in_metres(transform.rotation.column(2).into());

@@ -70,7 +70,7 @@ impl Row {
         self.y = y;
         let background = shading
             .background
-            .row(y, shading.view.resolution[1] as usize);
+            .row(y, numbers::place(shading.view.resolution[1]));
         let mut unlit = Unlit {
             pixels: 0..0,
             surface: None,
@@ -112,11 +112,11 @@ impl Row {
     fn find_depths(&mut self, view: &View, face: &Face, run: Range<usize>) {
         for x in run.step_by(8) {
             let closeness = face.closeness_of_eight(view.ray(x, self.y));
-            let far = f32x8::splat(view.far as f32);
+            let far = f32x8::splat(numbers::single(view.far));
             let depth = if view.perspective {
                 f32x8::ONE / closeness
             } else {
-                far - closeness * (view.far - view.near) as f32
+                far - closeness * numbers::single(view.far - view.near)
             };
             store(&mut self.depth, x, depth);
         }
@@ -133,7 +133,7 @@ impl Row {
         let Content::Surface(surface, material) = &owner.content else {
             return Some(unpacked(face.detail));
         };
-        let entry = &mut self.remembered[number as usize % MAX_CACHED_FACES];
+        let entry = &mut self.remembered[numbers::place(number) % MAX_CACHED_FACES];
         if entry.face != Some(number) {
             let attributes =
                 Attributes::new(shading.view, surface, face, material.texture.is_some());
@@ -156,7 +156,7 @@ impl Row {
     }
 
     fn interpolate(&mut self, number: u32, is_textured: bool, run: Range<usize>) {
-        let attributes = &self.remembered[number as usize % MAX_CACHED_FACES].attributes;
+        let attributes = &self.remembered[numbers::place(number) % MAX_CACHED_FACES].attributes;
         for x in run.clone().step_by(8) {
             let normals = attributes.normals(x, self.y);
             self.normal
@@ -212,12 +212,12 @@ impl Row {
     fn points(&self, view: &View, x: usize) -> Vectors {
         let ray = view.ray(x, self.y);
         let ray = [
-            (ray[0] * view.over_scale) as f32,
-            (ray[1] * view.over_scale) as f32,
+            numbers::single(ray[0] * view.over_scale),
+            numbers::single(ray[1] * view.over_scale),
         ];
         let depth = load(&self.depth, x);
         let spread = if view.perspective { depth } else { f32x8::ONE };
-        let column = f32x8::splat(ray[0]) + LANES * view.over_scale as f32;
+        let column = f32x8::splat(ray[0]) + LANES * numbers::single(view.over_scale);
         [column * spread, f32x8::splat(ray[1]) * spread, depth]
     }
 
@@ -255,6 +255,11 @@ impl Row {
     }
 
     /// Writes red, green and blue in 8 bits: 0 to 1 becomes 0 to 255, rounded.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the colours were limited to 0 to 255; this runs for every pixel"
+    )]
     pub fn write_bytes(&self, pixels: &mut [u8]) {
         for (at, block) in pixels.chunks_mut(3 * 8).enumerate() {
             let parts = three(|i| {

@@ -58,8 +58,7 @@ impl<'a> Shadows<'a> {
 
     /// 1 for those of the first `count` of eight points that a light reaches, 0 for the others.
     pub fn reach(&self, source: Source, points: Vectors, normals: Vectors, count: usize) -> f32x8 {
-        let [points, normals] =
-            [points, normals].map(|vectors| vectors.map(|part| part.to_array()));
+        let [points, normals] = [points, normals].map(|vectors| vectors.map(wide::f32x8::to_array));
         let mut reached = [0.0; 8];
         for (lane, reached) in reached.iter_mut().enumerate().take(count) {
             let at = |parts: &[[f32; 8]; 3]| {
@@ -105,7 +104,7 @@ impl<'a> Caster<'a> {
         let ball = &self.mesh.ball;
         let centre =
             self.translation + self.rotation.transpose() * Vector3::from(ball.centre).cast::<f32>();
-        let radius = Vector3::repeat(ball.radius as f32 * (1.0 + 1e-5));
+        let radius = Vector3::repeat(numbers::single(ball.radius) * (1.0 + 1e-5));
         Bounds {
             low: centre - radius,
             high: centre + radius,

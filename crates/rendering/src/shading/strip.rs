@@ -36,7 +36,7 @@ impl Strip {
         self.band.clear(
             shading.view.resolution,
             rows.clone(),
-            shading.view.far_closeness() as f32,
+            numbers::single(shading.view.far_closeness()),
         );
         self.draw(shading);
         self.shade(shading, pixels);
@@ -68,14 +68,14 @@ impl Strip {
     }
 
     fn shade(&mut self, shading: &Shading, pixels: &mut Pixels) {
-        let width = shading.view.resolution[0] as usize;
+        let width = numbers::place(shading.view.resolution[0]);
         self.row.begin(width);
         self.layer_row.begin(width);
         let mut first = 0;
         for at in 0..self.band.rows.len() {
             let count = self.fragments[first..]
                 .iter()
-                .take_while(|fragment| fragment.row as usize == at)
+                .take_while(|fragment| numbers::place(fragment.row) == at)
                 .count();
             let fragments = first..first + count;
             first += count;
@@ -111,7 +111,7 @@ impl Strip {
                 .face(fragment.face())
                 .is_some_and(|(_, owner)| !owner.is_decoration)
             {
-                self.closest[fragment.column as usize] = fragment.face();
+                self.closest[numbers::place(fragment.column)] = fragment.face();
             }
         }
     }
@@ -124,7 +124,7 @@ impl Strip {
             self.layer.clear();
             self.layer.resize(self.band.row(at).len(), NO_FACE);
             for (_, fragment) in layer {
-                self.layer[fragment.column as usize] = fragment.face();
+                self.layer[numbers::place(fragment.column)] = fragment.face();
             }
             self.layer_row
                 .shade(shading, self.band.rows.start + at, &self.layer);

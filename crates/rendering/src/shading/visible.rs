@@ -33,7 +33,7 @@ impl<'a> Shading<'a> {
     /// The face with a number, and its owner.
     pub fn face(&self, number: u32) -> Option<(&'a Face, &'a Owner<'a>)> {
         let face = (number != NO_FACE).then(|| face(self.chunks, number))?;
-        Some((face, &self.owners[face.owner as usize]))
+        Some((face, &self.owners[numbers::place(face.owner)]))
     }
 
     /// The ids of a row.

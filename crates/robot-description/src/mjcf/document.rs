@@ -106,10 +106,10 @@ impl Settings {
                 "angle" => self.is_radian = text == "radian",
                 "eulerseq" => self.set_sequence(element, text, report),
                 "assetdir" => {
-                    (self.mesh_folder, self.texture_folder) = (text.clone(), text.clone())
+                    (self.mesh_folder, self.texture_folder) = (text.clone(), text.clone());
                 }
-                "meshdir" => self.mesh_folder = text.clone(),
-                "texturedir" => self.texture_folder = text.clone(),
+                "meshdir" => self.mesh_folder.clone_from(text),
+                "texturedir" => self.texture_folder.clone_from(text),
                 "strippath" => self.strips_path = is_true,
                 "autolimits" => self.limits_by_range = is_true,
                 "inertiafromgeom" => self.inertia_from_geoms = from_geoms(text),
@@ -123,10 +123,10 @@ impl Settings {
                 "balanceinertia" => self.balances_inertia = is_true,
                 "settotalmass" => self.total_mass = number(report).filter(|mass| *mass > 0.0),
                 "coordinate" if text == "global" => {
-                    report.leave_out(element, "global coordinates are not read")
+                    report.leave_out(element, "global coordinates are not read");
                 }
                 "fitaabb" if is_true => {
-                    report.leave_out(element, "primitives are not fitted to meshes")
+                    report.leave_out(element, "primitives are not fitted to meshes");
                 }
                 _ => {}
             }
@@ -136,7 +136,7 @@ impl Settings {
     fn set_sequence(&mut self, element: &Element, text: &str, report: &mut Report) {
         match text.as_bytes() {
             [a, b, c] if [a, b, c].iter().all(|letter| b"xyzXYZ".contains(letter)) => {
-                self.sequence = [*a, *b, *c]
+                self.sequence = [*a, *b, *c];
             }
             _ => report.warn(
                 element,

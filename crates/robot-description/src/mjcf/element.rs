@@ -158,7 +158,7 @@ impl Reader<'_> {
         let root = document.root_element();
         match &file {
             None => into.push(self.element(root, &source, None, depth)?),
-            Some(_) => self.add_children(root, &source, &file, depth, into)?,
+            Some(_) => self.add_children(root, &source, file.as_ref(), depth, into)?,
         }
         Ok(())
     }
@@ -207,7 +207,7 @@ impl Reader<'_> {
             return Ok(element);
         }
         let mut children = Vec::new();
-        self.add_children(node, source, &file, depth + 1, &mut children)?;
+        self.add_children(node, source, file.as_ref(), depth + 1, &mut children)?;
         element.children = children;
         Ok(element)
     }
@@ -216,7 +216,7 @@ impl Reader<'_> {
         &mut self,
         node: Node,
         source: &Source,
-        file: &Option<Rc<str>>,
+        file: Option<&Rc<str>>,
         depth: usize,
         into: &mut Vec<Element>,
     ) -> Result<(), ReadError> {
@@ -225,11 +225,11 @@ impl Reader<'_> {
             if depth > MAX_DEPTH {
                 break;
             }
-            let element = self.element(child, source, file.clone(), depth)?;
+            let element = self.element(child, source, file.cloned(), depth)?;
             if is_include {
-                self.include(&element, depth, into)?
+                self.include(&element, depth, into)?;
             } else {
-                into.push(element)
+                into.push(element);
             }
         }
         Ok(())

@@ -2,6 +2,7 @@
 //!
 //! Models inside of models become one robot, with names of the form `inner::link`. Poses may refer to each other ([`frames`]); what is read is resolved.
 
+mod assembly;
 mod frames;
 mod include;
 mod joint;

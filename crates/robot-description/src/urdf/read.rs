@@ -179,7 +179,7 @@ fn add_joints(
                     joint,
                     multiplier: *multiplier,
                     offset: *offset,
-                })
+                });
             }
             _ => source.warn(
                 nodes[index],

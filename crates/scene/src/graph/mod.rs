@@ -372,7 +372,7 @@ impl Graph {
         curves: Vec<GraphCurve>,
     ) {
         let slots = times.len();
-        for stream in streams.iter_mut() {
+        for stream in &mut streams {
             if stream.fixed.is_some() || stream.samples.len() != slots {
                 stream.samples.clear();
             }

@@ -91,7 +91,7 @@ impl Joint {
         match mode {
             JointMode::Dependent => self.control = Control::Free,
             JointMode::Kinematic | JointMode::Motion | JointMode::InverseKinematics => {
-                self.dependency = None
+                self.dependency = None;
             }
             JointMode::Dynamic => {
                 self.dependency = None;

@@ -190,7 +190,7 @@ impl Light {
             light::SPOT_EXPONENT => self.spot_exponent = value as i64,
             light::SPOT_CUTOFF => self.spot_cutoff = value,
             light::CONST_ATTENUATION..=light::QUAD_ATTENUATION => {
-                self.attenuation[(id - light::CONST_ATTENUATION) as usize] = value
+                self.attenuation[(id - light::CONST_ATTENUATION) as usize] = value;
             }
             _ => return false,
         }
@@ -242,13 +242,13 @@ impl Object {
         match &mut self.kind {
             Kind::VisionSensor(sensor) => return sensor.set_int_param(id, value),
             Kind::ProximitySensor(sensor) if id == prox::ENTITY_TO_DETECT => {
-                sensor.entity = Entity::from_raw(value)
+                sensor.entity = Entity::from_raw(value);
             }
             Kind::Camera(camera) if id == camera::PERSPECTIVE_OPERATION => {
-                camera.view.perspective = value != 0
+                camera.view.perspective = value != 0;
             }
             Kind::Light(light) if id == light::POV_CASTS_SHADOWS => {
-                light.casts_shadows = value != 0
+                light.casts_shadows = value != 0;
             }
             _ => return false,
         }

@@ -236,7 +236,7 @@ impl Joint {
     pub(crate) fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
         match engine_of_gains(param) {
             Some(engine) => {
-                self.gains[engine] = [0, 1, 2].map(|at| element(&value, at).unwrap_or_default())
+                self.gains[engine] = [0, 1, 2].map(|at| element(&value, at).unwrap_or_default());
             }
             None => {
                 self.engine_values.set(param.name, value);

@@ -39,13 +39,13 @@ impl Scene {
     pub fn set_int_param(&mut self, handle: Handle, id: i64, value: i64) -> SceneResult<bool> {
         match id {
             10 => self.modify(handle, Field::Layer, |object| {
-                object.layer = Layers::from_number(value)
+                object.layer = Layers::from_number(value);
             })?,
             27 => self.modify(handle, Field::Inert, |object| {
-                object.self_collision_indicator = value
+                object.self_collision_indicator = value;
             })?,
             38 => self.modify(handle, Field::Inert, |object| {
-                object.hierarchy_colour = value
+                object.hierarchy_colour = value;
             })?,
             _ => return self.set_kind_int_param(handle, id, value),
         }
@@ -115,7 +115,7 @@ impl Scene {
             flags.intersects(SpecialFlags::DETECTABLE),
         );
         self.modify(handle, Field::SpecialProperty, |object| {
-            object.special_property = flags
+            object.special_property = flags;
         })
     }
 

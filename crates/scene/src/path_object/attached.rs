@@ -80,7 +80,7 @@ impl Scene {
         self.modify_path(path, |path| {
             initial
                 .into_iter()
-                .for_each(|motion| path.restore_motion(motion))
+                .for_each(|motion| path.restore_motion(motion));
         })?;
         self.move_attached(path)
     }

@@ -82,7 +82,7 @@ impl Drop for Displacement<'_> {
             match original {
                 Original::Pose(pose) => object.pose = pose,
                 Original::JointPosition(position) => {
-                    drop(object.joint_mut().map(|joint| joint.position = position))
+                    drop(object.joint_mut().map(|joint| joint.position = position));
                 }
             }
         }

@@ -213,7 +213,7 @@ impl Scene {
     pub(crate) fn reset_dynamics_below(&mut self, handle: Handle) -> SceneResult<()> {
         for object in self.subtree(handle) {
             self.modify(object, Field::Dynamics, |object| {
-                object.dynamics_reset = true
+                object.dynamics_reset = true;
             })?;
         }
         Ok(())

@@ -165,13 +165,13 @@ fn what_the_physics_moves_is_reset_with_all_below_but_joints_take_it_along() {
         for handle in [slider, tip] {
             scene
                 .modify(handle, crate::Field::Dynamics, |object| {
-                    object.dynamics_reset = false
+                    object.dynamics_reset = false;
                 })
                 .unwrap();
         }
         scene
             .modify(moved, crate::Field::Dynamics, |object| {
-                object.dynamic_flag = flag
+                object.dynamic_flag = flag;
             })
             .unwrap();
         scene.place(moved, there, Frame::World, false).unwrap();

@@ -209,8 +209,8 @@ impl Scene {
             handle,
             Shape {
                 parts,
-                mass,
                 bounding_box,
+                mass,
                 ..shape.clone()
             },
         )?;
@@ -359,8 +359,8 @@ fn grouped(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
     let bounding_box = box_of(&parts).ok_or(SceneError::OperationFailed)?;
     Ok(Shape {
         parts,
-        mass,
         bounding_box,
+        mass,
         ..master.clone()
     })
 }

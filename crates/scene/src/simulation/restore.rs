@@ -80,7 +80,7 @@ impl Scene {
         if hidden {
             // The handle was just read.
             let _ = self.modify(handle, Field::Layer, |object| {
-                object.layer = Layers::empty()
+                object.layer = Layers::empty();
             });
         }
     }
@@ -125,7 +125,7 @@ impl Scene {
                 Some(initial) => restored.push((handle, initial)),
                 // The handle was just read.
                 None => {
-                    drop(self.modify(handle, Field::Other, |object| forget_run(&mut object.kind)))
+                    drop(self.modify(handle, Field::Other, |object| forget_run(&mut object.kind)));
                 }
             }
         }
@@ -167,7 +167,7 @@ impl Scene {
         }
         if self.object(handle)?.model_property != initial.model_property {
             self.modify(handle, Field::ModelProperty, |object| {
-                object.model_property = initial.model_property
+                object.model_property = initial.model_property;
             })?;
         }
         let object = self.object(handle)?;
@@ -179,7 +179,7 @@ impl Scene {
             self.modify(handle, Field::Layer, |object| object.layer = initial.layer)?;
         }
         self.modify(handle, Field::Other, |object| {
-            initial.restore_kind(&mut object.kind)
+            initial.restore_kind(&mut object.kind);
         })
     }
 }
@@ -222,7 +222,7 @@ impl InitialState {
         match (&mut *kind, &self.kind) {
             (Kind::Joint(joint), InitialKind::Joint(initial)) => restore_joint(joint, initial),
             (Kind::Shape(shape), InitialKind::Shape(initial)) => {
-                shape.dynamics.initial_velocity = *initial
+                shape.dynamics.initial_velocity = *initial;
             }
             (Kind::Path(path), InitialKind::Path(motion)) => path.restore_motion(*motion),
             _ => {}

@@ -102,7 +102,7 @@ impl Scene {
         });
         for &copy in copies.values() {
             self.modify(copy, crate::Field::Other, |object| {
-                redirect(object, &copies)
+                redirect(object, &copies);
             })?;
         }
         self.number_names(&names)?;
@@ -148,7 +148,7 @@ fn start_anew(object: &mut Object, options: CopyOptions) {
     object.dynamics_reset = false;
     match &mut object.kind {
         Kind::Joint(joint) => {
-            (joint.motion, joint.error, joint.force, joint.raw_force) = (None, None, None, None)
+            (joint.motion, joint.error, joint.force, joint.raw_force) = (None, None, None, None);
         }
         Kind::Shape(shape) => {
             shape.velocity = Velocity::default();
@@ -158,7 +158,7 @@ fn start_anew(object: &mut Object, options: CopyOptions) {
             }
         }
         Kind::ForceSensor(sensor) => {
-            (sensor.raw, sensor.filtered, sensor.error) = (None, None, None)
+            (sensor.raw, sensor.filtered, sensor.error) = (None, None, None);
         }
         Kind::ProximitySensor(sensor) => sensor.reset(),
         _ => {}

@@ -43,7 +43,7 @@ impl Scene {
         let alias = clean_alias(alias);
         let old_name = self.claim_old_name(handle, &alias)?;
         self.modify(handle, Field::Alias, |object| {
-            (object.alias, object.old_name) = (alias, old_name)
+            (object.alias, object.old_name) = (alias, old_name);
         })
     }
 

@@ -1,8 +1,7 @@
-//! Values of scripts: data, custom data, types of properties, inert properties, conversions of numbers.
+//! Values of scripts: data, custom data, types of properties, inert properties.
 
 pub(crate) mod custom_data;
 pub mod data;
 pub mod extension_string;
 pub(crate) mod inert;
-pub mod numbers;
 pub(crate) mod value_type;

@@ -62,10 +62,9 @@ impl ValueType {
 
     /// Type and name of a tag.
     pub fn split_tag(tag: &str) -> (Self, &str) {
-        let marked = Self::ALL.iter().filter(|ty| !ty.mark().is_empty());
+        let mut marked = Self::ALL.iter().filter(|ty| !ty.mark().is_empty());
         marked
-            .filter_map(|&ty| Some((ty, tag.strip_prefix(ty.mark())?)))
-            .next()
+            .find_map(|&ty| Some((ty, tag.strip_prefix(ty.mark())?)))
             .unwrap_or((Self::Buffer, tag))
     }
 

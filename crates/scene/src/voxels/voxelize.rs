@@ -292,7 +292,7 @@ mod tests {
                     colour: [0; 3],
                     tag: 0,
                 },
-            )
+            );
         });
         scene.add("o", Kind::OcTree(Box::new(tree))).unwrap()
     }

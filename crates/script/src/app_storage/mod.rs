@@ -121,7 +121,7 @@ impl AppStorage {
         match &edited {
             Edited::Nothing => {}
             Edited::Written(name) | Edited::Removed(name) => {
-                self.mark(Dirty::CustomData((*name).to_owned()))
+                self.mark(Dirty::CustomData((*name).to_owned()));
             }
             Edited::Cleared(names) => names
                 .iter()

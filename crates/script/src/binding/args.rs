@@ -88,9 +88,9 @@ impl<'a, S: Source<'a>> Args<'a, S> {
     /// A float that stands for an integer.
     fn truncated(&self, number: f64) -> i64 {
         if self.of_plugin {
-            (number + PLUGIN_ROUNDING.copysign(number)) as i64
+            numbers::truncated(number + PLUGIN_ROUNDING.copysign(number))
         } else {
-            number as i64
+            numbers::truncated(number)
         }
     }
 
@@ -128,6 +128,10 @@ impl<'a, S: Source<'a>> Args<'a, S> {
     }
 
     /// Fails unless there are `count` arguments.
+    #[expect(
+        clippy::cast_sign_loss,
+        reason = "a stack never has fewer than no values; every call of a function comes here"
+    )]
     pub fn require(&self, count: usize) -> ApiResult<()> {
         if (self.count as usize) < count {
             Err(ApiError::MoreArguments)
@@ -230,7 +234,7 @@ impl<'a, S: Source<'a>> Args<'a, S> {
         while numbers.len() < count {
             let read = numbers.len();
             numbers.resize(count.min(read + PIECE), 0.0);
-            self.read_numbers(read as i64 + 1, &mut numbers[read..])?;
+            self.read_numbers(numbers::count(read) + 1, &mut numbers[read..])?;
         }
         Ok(numbers)
     }
@@ -246,7 +250,9 @@ impl<'a, S: Source<'a>> Args<'a, S> {
             Some(integer) => Ok(integer),
             None => self.element(i).map(|number| self.truncated(number)),
         };
-        (1..=self.table_len()? as i64).map(element).collect()
+        (1..=numbers::count(self.table_len()?))
+            .map(element)
+            .collect()
     }
 
     fn element(&self, i: i64) -> ApiResult<f64> {
@@ -296,9 +302,9 @@ scalars! {
         _ => Err(args.not_a("string/buffer")),
     };
     Data, "any", |args| args.source.data(args.position);
-    Frame, "int", |args| Ok(Frame::from_raw(args.number()? as i64)?);
-    Handle, "int", |args| Handle::from_raw(args.number()? as i64).ok_or(scene::SceneError::NoSuchObject.into());
-    ObjectRef, "int", |args| ObjectRef::from_raw(args.number()? as i64);
+    Frame, "int", |args| Ok(Frame::from_raw(numbers::truncated(args.number()?))?);
+    Handle, "int", |args| Handle::from_raw(numbers::truncated(args.number()?)).ok_or(scene::SceneError::NoSuchObject.into());
+    ObjectRef, "int", |args| ObjectRef::from_raw(numbers::truncated(args.number()?));
     Handles, "int[]", |args| args.integers().map(Handles);
     Vec<f64>, "float[]", |args| args.numbers();
     Vec<i64>, "int[]", |args| args.integers();

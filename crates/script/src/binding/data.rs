@@ -108,7 +108,9 @@ fn read_entries(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) 
     let mut items = Vec::with_capacity(len.min(MAX_HINT));
     let mut cursor = stack.entries(table);
     while cursor.advance() {
-        if items.len() == len || stack.integer(cursor.key()) != Some(items.len() as i64 + 1) {
+        if items.len() == len
+            || stack.integer(cursor.key()) != Some(numbers::count(items.len()) + 1)
+        {
             let entries = (1..)
                 .zip(items)
                 .map(|(i, item)| (Key::Int(i), item))
@@ -139,7 +141,7 @@ fn read_remaining(
     let mut array = true;
     loop {
         let key = read_key(stack, cursor.key());
-        array = array && matches!(key, Key::Int(i) if i >= 1 && i as usize <= len);
+        array = array && matches!(key, Key::Int(i) if i >= 1 && numbers::place_of(i) <= len);
         entries.push((key, read(stack, cursor.value(), above)?));
         if !cursor.advance() {
             break;

@@ -68,7 +68,7 @@ impl Sink for Stack<'_> {
         self.new_table(items.len(), 0);
         for (i, item) in items.iter().enumerate() {
             push(self, item);
-            self.raw_set_index(-2, i as i64 + 1);
+            self.raw_set_index(-2, numbers::count(i) + 1);
         }
         Ok(())
     }

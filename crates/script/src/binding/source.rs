@@ -234,7 +234,7 @@ impl<'a> Source<'a> for Values<'a> {
 
 fn number_of(data: &Data) -> Option<f64> {
     match data {
-        Data::Int(number) => Some(*number as f64),
+        Data::Int(number) => Some(numbers::real_of(*number)),
         Data::Float(number) => Some(*number),
         Data::Text(text) => numeral(text).and_then(|number| number_of(&number)),
         _ => None,
@@ -298,7 +298,10 @@ fn float_text(number: f64) -> String {
         let sign = if exponent < 0 { '-' } else { '+' };
         return format!("{}e{sign}{:02}", trimmed(mantissa), exponent.abs());
     }
-    let plain = trimmed(&format!("{number:.*}", (DIGITS - 1 - exponent) as usize));
+    let plain = trimmed(&format!(
+        "{number:.*}",
+        usize::try_from(DIGITS - 1 - exponent).unwrap_or_default()
+    ));
     if plain.contains('.') {
         plain
     } else {

@@ -71,7 +71,7 @@ impl Sim {
             self.deliver_pending_events();
         }
         let events = self.genesis();
-        let count = events.len() as i64;
+        let count = numbers::count(events.len());
         // The numbers a snapshot at the start would have had.
         let next = self.events.next_seq.get().max(count);
         self.events.next_seq.set(next);

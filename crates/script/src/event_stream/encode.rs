@@ -43,7 +43,7 @@ fn bytes(out: &mut Vec<u8>, bytes: &[u8]) {
 
 fn float(out: &mut Vec<u8>, f: f64) {
     out.push(FLOAT_32);
-    out.extend((f as f32).to_be_bytes());
+    out.extend(numbers::single(f).to_be_bytes());
 }
 
 /// Writes a value of type `ty`; nil as null.
@@ -106,6 +106,11 @@ fn plain_array(items: &[Data], out: &mut Vec<u8>) {
     out.push(END);
 }
 
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "only integers of 32 bits come here"
+)]
 fn narrow_int(out: &mut Vec<u8>, i: i64) {
     out.push(INT_32 | sign(i));
     out.extend((magnitude(i) as u32).to_be_bytes());
@@ -163,7 +168,7 @@ fn colour(items: &[Data], out: &mut Vec<u8>) {
     let channels = items
         .iter()
         .filter_map(Data::as_f64)
-        .map(|part| (part * 255.1) as u8);
+        .map(|part| numbers::level(part * 255.1));
     let rgba: Vec<u8> = channels.chain([255]).collect();
     bytes(out, &rgba);
 }
@@ -173,7 +178,7 @@ fn column(items: &[Data], out: &mut Vec<u8>) {
     push_head(out, major::TAG, tag::MATRIX);
     push_head(out, major::ARRAY, 2);
     push_head(out, major::ARRAY, 2);
-    push_int(out, items.len() as i64);
+    push_int(out, numbers::count(items.len()));
     push_int(out, 1);
     push_head(out, major::ARRAY, items.len() as u64);
     items

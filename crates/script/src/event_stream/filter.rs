@@ -52,7 +52,7 @@ impl EventFilters {
 fn handle(key: &Key) -> Option<i64> {
     match *key {
         Key::Int(handle) => Some(handle),
-        Key::Float(handle) if handle.fract() == 0.0 => Some(handle as i64),
+        Key::Float(handle) if handle.fract() == 0.0 => Some(numbers::truncated(handle)),
         _ => None,
     }
 }

@@ -65,7 +65,8 @@ impl EventStream {
 
     /// The first of `count` numbers for events.
     pub(crate) fn take_numbers(&self, count: usize) -> i64 {
-        self.next_seq.replace(self.next_seq.get() + count as i64)
+        self.next_seq
+            .replace(self.next_seq.get() + numbers::count(count))
     }
 
     /// Switches to another protocol: with listeners at the next collection, since they get what was before in the old one.

@@ -32,14 +32,14 @@ impl Sim {
         match self.new_changes() {
             None => self.restart_events(),
             Some(NewChanges::One(change)) => {
-                self.with_collector(|mut collector| collector.collect(change))
+                self.with_collector(|mut collector| collector.collect(change));
             }
             Some(NewChanges::Several(changes)) if changes.is_empty() => {}
             Some(NewChanges::Several(changes)) => {
                 self.with_collector(|mut collector| {
                     changes
                         .into_iter()
-                        .for_each(|change| collector.collect(change))
+                        .for_each(|change| collector.collect(change));
                 });
             }
         }
@@ -330,10 +330,7 @@ impl Collector<'_> {
         let orders = self.sim.scene.borrow().child_orders(parent);
         for (child, order) in orders {
             if let Some(watched) = self.watch.objects.get_mut(&child)
-                && !watched.was_sent(
-                    "childOrder",
-                    &Data::Int(order.map_or(-1, |order| order as i64)),
-                )
+                && !watched.was_sent("childOrder", &Data::Int(order.map_or(-1, numbers::count)))
             {
                 watched.push_difference(self.sim, "childOrder");
             }

@@ -257,7 +257,7 @@ impl Watched {
         match self.protocol {
             Protocol::V3 => encode::value(Protocol::V3, property.row.ty, value, &mut bytes),
             Protocol::V4 => {
-                encode::with_meaning(property.renamed.1, property.row.ty, value, &mut bytes)
+                encode::with_meaning(property.renamed.1, property.row.ty, value, &mut bytes);
             }
         }
         Entry {

@@ -16,10 +16,12 @@ impl Sim {
         args: &[Data],
     ) -> i64 {
         let scripts = self.scripts_in(group);
-        scripts
-            .iter()
-            .filter(|script| self.deliver(script, call, args).ran)
-            .count() as i64
+        numbers::count(
+            scripts
+                .iter()
+                .filter(|script| self.deliver(script, call, args).ran)
+                .count(),
+        )
     }
 
     /// Simulation scripts, then customization scripts: those there are before the simulation scripts run. One that comes meanwhile is
@@ -30,7 +32,7 @@ impl Sim {
         let others = customization
             .iter()
             .filter(|script| self.deliver(script, call, args).ran);
-        count + others.count() as i64
+        count + numbers::count(others.count())
     }
 
     /// Notes that a script has these callbacks; a script with `sysCall_event` receives events from now on.

@@ -233,7 +233,7 @@ impl Sim {
             Some(Data::Text(cmd)) if cmd == b"restart" => self.reset(script),
             Some(Data::Text(cmd)) if cmd == b"cleanup" => self.end(script),
             _ if script.script_type == ScriptType::AddOn && value == Some(&Data::Int(1)) => {
-                self.end(script)
+                self.end(script);
             }
             _ => {}
         }
@@ -351,7 +351,7 @@ impl Outcome {
         match runtime.interpreter.call_callback(call, args) {
             Ok(CallbackResult::NotDefined) => {}
             Ok(CallbackResult::Returned(value)) => {
-                (self.ran, self.function_ran, self.value) = (true, true, value)
+                (self.ran, self.function_ran, self.value) = (true, true, value);
             }
             Err(error) => {
                 self.ran = true;

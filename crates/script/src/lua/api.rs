@@ -253,6 +253,7 @@ impl<'a> Stack<'a> {
 
     /// The items of the table at `index`, converted, when its keys are 1, 2, 3 and so on, and all its values are numbers. Nothing runs
     /// meanwhile that could change it.
+    #[expect(clippy::cast_possible_truncation, reason = "a table is in memory")]
     pub(crate) fn list_of_numbers<T>(
         self,
         index: c_int,
@@ -267,7 +268,7 @@ impl<'a> Stack<'a> {
         let key = lua_gettop(self);
         let mut items = Vec::with_capacity(len.min(MAX_HINT));
         while lua_next(Known(self), table) != 0 {
-            let is_next = self.integer(key) == Some(items.len() as i64 + 1);
+            let is_next = self.integer(key) == Some(numbers::count(items.len()) + 1);
             let Some(item) = self.number_in(Slot(key + 1)).filter(|_| is_next) else {
                 lua_settop(self, Occupied(key - 1));
                 return None;

@@ -118,7 +118,7 @@ impl Pool {
                     block
                         .start
                         .as_ptr()
-                        .copy_to_nonoverlapping(new.cast(), block.size.min(size))
+                        .copy_to_nonoverlapping(new.cast(), block.size.min(size));
                 };
                 self.free_block(block);
                 new

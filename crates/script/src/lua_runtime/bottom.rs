@@ -62,8 +62,10 @@ impl Bottom {
 
     fn slot_of_name(&self, stack: Stack<'_>, call: SysCall) -> c_int {
         let names = self.names.get();
-        let slot =
-            GLOBALS + self.argument.slots() + 1 + (names & (call.bit() - 1)).count_ones() as c_int;
+        let slot = GLOBALS
+            + self.argument.slots()
+            + 1
+            + (names & (call.bit() - 1)).count_ones().cast_signed();
         if names & call.bit() == 0 {
             stack.push_bytes(call.name().as_bytes());
             stack.insert(slot);

@@ -75,7 +75,7 @@ fn length(stack: Stack<'_>) -> Outcome {
             stack.place_of_call()
         ));
     }
-    stack.push_int(stack.raw_len(1) as i64);
+    stack.push_int(numbers::count(stack.raw_len(1)));
     Outcome::Results(1)
 }
 

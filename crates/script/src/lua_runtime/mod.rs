@@ -6,6 +6,7 @@ pub(crate) mod coverage;
 mod functions;
 mod implicit;
 mod library_globals;
+mod members;
 mod old_calls;
 pub(crate) mod reference_modules;
 mod reused;
@@ -334,7 +335,7 @@ fn push_args(stack: Stack<'_>, args: &[Data]) -> Result<i32, LuaError> {
         });
     }
     args.iter().for_each(|arg| data::push_data(stack, arg));
-    Ok(args.len() as i32)
+    Ok(numbers::count_i32(args.len()))
 }
 
 fn push_hook(stack: Stack<'_>, hook: &Hook) {

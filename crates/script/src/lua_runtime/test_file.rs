@@ -60,7 +60,7 @@ fn keep(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     if stack.kind(2) == Type::Table {
         let number = |i: usize| {
             stack
-                .integer_at(2, i as i64)
+                .integer_at(2, numbers::count(i))
                 .and_then(|line| usize::try_from(line).ok())
                 .unwrap_or(0)
         };

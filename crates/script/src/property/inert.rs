@@ -38,7 +38,7 @@ impl Sim {
             PropertyTarget::Object(handle) => {
                 self.scene
                     .borrow_mut()
-                    .set_inert_value(Some(*handle), name, value)?
+                    .set_inert_value(Some(*handle), name, value)?;
             }
             PropertyTarget::Mesh(_) | PropertyTarget::Script(_) => {
                 return Err(ApiError::PropertyNotWritable);

@@ -1,27 +1,21 @@
 //! The table of static properties: `static.tsv` lists them and their effect; the files in `types` read and write those that have
 //! one.
 
+mod accessors;
+mod lines;
+
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 use std::sync::LazyLock;
 
 use super::access::Accessor;
-use super::{
-    app, colour, display, dummy, engine, force_sensor, joint, mesh, model_hash, object,
-    proximity_sensor, scene, script, shape, view,
-};
 pub use crate::event_stream::protocol::later_names;
 use crate::event_stream::protocol::{Meaning, renamed};
-use ::scene::parameters::engine::{EngineOwner, EngineParam, engine_params};
+use ::scene::parameters::engine::{EngineParam, engine_params};
 use ::scene::{Data, Kind, ValueType};
-
-/// `part<TAB>name<TAB>type<TAB>flags<TAB>state<TAB>default`, in the order of enumeration within a part.
-///
-/// The state is `works`, `inert` (stored and read back, no effect) or `constant` (always the default); what works has an accessor, and
-/// what needs more than storage may have one. An empty default is false, 0, no text, an empty list, the origin or no rotation; numbers
-/// in lists are separated by spaces. A list that has a default keeps its length. In place of a default, what works may have the name of the
-/// property it is an older word for.
-const STATIC: &str = include_str!("static.tsv");
+use accessors::accessors;
+use lines::{ENGINE_PARTS, lines};
+pub use lines::{Line, described};
 
 /// Bits of the flags of a property.
 pub mod flags {
@@ -319,66 +313,6 @@ fn parts() -> Parts {
     parts
 }
 
-/// A line of `static.tsv`.
-pub struct Line {
-    /// The part of a class it belongs to, such as `object` or `joint`.
-    pub part: &'static str,
-    /// Its name, without the class.
-    pub name: &'static str,
-    /// The type of its value.
-    pub ty: ValueType,
-    /// Bits of [`flags`].
-    pub flags: i64,
-    /// `works`, `inert` or `constant`.
-    pub state: &'static str,
-    default: &'static str,
-}
-
-fn lines() -> impl Iterator<Item = Line> {
-    STATIC.lines().map(|line| {
-        let fields: Vec<&'static str> = line.split('\t').collect();
-        let [part, name, ty, flags, state, default] = fields[..] else {
-            panic!("a line of static.tsv has six fields: {line}")
-        };
-        let ty = ValueType::from_word(ty).expect("static.tsv holds known types");
-        let flags = flags.parse().expect("static.tsv holds flags as integers");
-        Line {
-            part,
-            name,
-            ty,
-            flags,
-            state,
-            default,
-        }
-    })
-}
-
-/// Every static property for the reference, those of physics engines after the others.
-pub fn described() -> Vec<Line> {
-    let engine_line = |part: &'static str, param: &'static EngineParam| Line {
-        part,
-        name: param.name,
-        ty: param.ty,
-        flags: param.flags,
-        state: if param.works { "works" } else { "inert" },
-        default: "",
-    };
-    let engines = ENGINE_PARTS.into_iter().flat_map(|(part, owner)| {
-        engine_params(owner)
-            .filter(|param| param.is_property)
-            .map(move |param| engine_line(part, param))
-    });
-    lines().chain(engines).collect()
-}
-
-/// The parts that end with parameters of physics engines.
-const ENGINE_PARTS: [(&str, EngineOwner); 4] = [
-    ("dynamics", EngineOwner::Scene),
-    ("material", EngineOwner::Material),
-    ("joint", EngineOwner::Joint),
-    ("dummy", EngineOwner::Dummy),
-];
-
 fn engine_row(param: &'static EngineParam) -> Row {
     Row {
         name: param.name,
@@ -387,67 +321,6 @@ fn engine_row(param: &'static EngineParam) -> Row {
         source: ValueSource::Engine(param),
         class: "",
     }
-}
-
-type Accessors = HashMap<(&'static str, &'static str), &'static Accessor>;
-
-/// The accessors of the files, by part.
-const FILES: &[(&str, &[Accessor])] = &[
-    ("app", app::APP),
-    ("app", app::VERBOSITY_WORDS),
-    ("app", app::PATHS),
-    ("app", app::RANDOM),
-    ("dynamics", engine::SCENE),
-    ("material", engine::MATERIAL),
-    ("joint", engine::JOINT),
-    ("dummy", engine::DUMMY),
-    ("simulation", scene::SIMULATION),
-    ("simulation", scene::SIMULATION_SETTINGS),
-    ("environment", scene::ENVIRONMENT),
-    ("container", scene::CONTAINER),
-    ("environment", scene::IDENTITY),
-    ("dynamics", scene::DYNAMICS),
-    ("dynamics", scene::PHYSICS),
-    ("object", object::OWN),
-    ("object", object::PLACED),
-    ("object", object::FLAGS),
-    ("object", object::FLAG_SETS),
-    ("object", object::MOVEMENT),
-    ("object", object::MOVEMENT_FLAGS),
-    ("object", model_hash::MODEL_HASH),
-    ("script", script::SCRIPT),
-    ("scriptObject", script::SCRIPT_OBJECT),
-    ("dummy", dummy::DUMMY),
-    ("dummy", dummy::LINK),
-    ("colour", colour::COLOUR),
-    ("rayColour", colour::RAY_COLOUR),
-    ("lightColour", colour::LIGHT_COLOUR),
-    ("mesh", mesh::MESH),
-    ("mesh", mesh::TEXTURE),
-    ("proximitySensor", proximity_sensor::PROXIMITY_SENSOR),
-    ("volume", proximity_sensor::VOLUME),
-    ("viewable", view::VIEWABLE),
-    ("visionSensor", view::VISION_SENSOR),
-    ("camera", view::CAMERA),
-    ("camera", view::TRACKED),
-    ("forceSensor", force_sensor::FORCE_SENSOR),
-    ("light", display::LIGHT),
-    ("graph", display::GRAPH),
-    ("ocTree", display::OCTREE),
-    ("pointCloud", display::POINT_CLOUD),
-    ("shape", shape::SHAPE),
-    ("shape", shape::APPLY),
-    ("mass", shape::MASS),
-    ("joint", joint::JOINT),
-    ("joint", joint::CONTROL),
-    ("joint", joint::STATE),
-];
-
-fn accessors() -> Accessors {
-    FILES
-        .iter()
-        .flat_map(|&(part, rows)| rows.iter().map(move |row| ((part, row.name), row)))
-        .collect()
 }
 
 #[cfg(test)]

@@ -132,7 +132,7 @@ impl Color {
 
     /// To the 32 bits colours are kept in.
     pub fn to_f32(self) -> [f32; 3] {
-        self.0.map(|part| part as f32)
+        self.0.map(numbers::single)
     }
 }
 
@@ -277,7 +277,7 @@ impl FromScript for IntPair {
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
         check_table(args)?;
-        <[f64; 2]>::from_script(args).map(|pair| Self(pair.map(|n| n as i64)))
+        <[f64; 2]>::from_script(args).map(|pair| Self(pair.map(numbers::truncated)))
     }
 }
 

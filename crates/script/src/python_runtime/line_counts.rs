@@ -95,6 +95,6 @@ fn numbers(value: &Data) -> Vec<u32> {
     list(value)
         .filter_map(line)
         .filter(|line| (0..=MAX_LINE).contains(line))
-        .map(|line| line as u32)
+        .map(numbers::low_u32)
         .collect()
 }

@@ -63,7 +63,7 @@ fn turn(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
             }
             stack.push_bytes(name.as_bytes());
             args.iter().for_each(|arg| data::push_data(stack, arg));
-            Ok(1 + args.len() as c_int)
+            Ok(1 + numbers::count_i32(args.len()))
         }
         Err(error) => {
             // Lua would add its own traceback.
@@ -184,5 +184,5 @@ fn ask(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     results
         .iter()
         .for_each(|result| data::push_data(stack, result));
-    Ok(results.len() as c_int)
+    Ok(numbers::count_i32(results.len()))
 }

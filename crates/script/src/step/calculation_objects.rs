@@ -30,10 +30,12 @@ impl Sim {
             .borrow()
             .collision_objects()
             .handles(with_explicit);
-        handles
-            .into_iter()
-            .filter(|&handle| self.compute_collision(handle).is_some())
-            .count() as i64
+        numbers::count(
+            handles
+                .into_iter()
+                .filter(|&handle| self.compute_collision(handle).is_some())
+                .count(),
+        )
     }
 
     /// Handles one distance object, which must be tagged for that; returns the distance (m) if it is below the threshold.

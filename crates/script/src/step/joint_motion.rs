@@ -60,7 +60,7 @@ impl Sim {
             return None;
         };
         let mut add = |key: &str, value: f64| {
-            entries.push((Key::Text(key.as_bytes().to_vec()), value.into()))
+            entries.push((Key::Text(key.as_bytes().to_vec()), value.into()));
         };
         match motion {
             JointMotion::ToPosition => {

@@ -93,7 +93,7 @@ impl Sim {
 
     /// One callback of the main script, with a message to plugins before and after.
     fn run_phase(self: &Rc<Self>, main: &Rc<Script>, call: SysCall, moment: Moment) {
-        let milliseconds = (self.clock.time() * 1000.0).round() as i32;
+        let milliseconds = numbers::truncated_i32((self.clock.time() * 1000.0).round());
         self.notify_plugins(moment, [0, milliseconds, 0, 0]);
         self.deliver(main, call, &[]);
         self.notify_plugins(moment, [1, milliseconds, 0, 0]);

@@ -329,7 +329,7 @@ mod tests {
         let page = report(&sample::summary(), Path::new(""));
         assert_eq!(page.matches("<script>").count(), 1, "its own");
         assert!(page.matches("&lt;script&gt;alert(&#39;x&#39;)").count() >= 4);
-        assert!(!page.contains("\u{1b}") && !page.contains('\0'));
+        assert!(!page.contains('\u{1b}') && !page.contains('\0'));
     }
 
     #[test]

@@ -88,7 +88,7 @@ fn window(handle: i64, interface: &ButtonInterface) -> Value {
         .iter()
         .map(|button| widget(button, geometry(interface, button, scale)));
     json!({
-        "id": window_id(handle), "source": "buttonInterface", "owner": interface.object.map_or(-1, |object| object.raw()),
+        "id": window_id(handle), "source": "buttonInterface", "owner": interface.object.map_or(-1, scene::Handle::raw),
         "title": interface.name, "visible": true, "enabled": true, "modal": false, "resizable": false, "closeable": false,
         "activate": false, "placement": "center", "position": interface.position, "size": [-1, -1], "style": "",
         "folded": interface.attributes & ui_property::ROLLED_UP != 0,

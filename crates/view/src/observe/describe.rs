@@ -19,7 +19,7 @@ pub(super) fn object(
         "handle": object.handle().raw(),
         "uid": object.uid(),
         "alias": object.alias(),
-        "parent": object.parent().map_or(-1, |parent| parent.raw()),
+        "parent": object.parent().map_or(-1, scene::Handle::raw),
         "childOrder": place,
         "objectType": object_class(&object.kind).word,
         "visible": scene.is_visible(object.handle()).unwrap_or(false) && !holds_only_lights(scene, object),

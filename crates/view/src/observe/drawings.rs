@@ -50,7 +50,7 @@ fn describe(id: i64, drawing: &DrawingObject) -> String {
         "id": id,
         "itemType": name(style.kind),
         "size": style.size,
-        "parent": style.parent.map_or(-1, |parent| parent.raw()),
+        "parent": style.parent.map_or(-1, scene::Handle::raw),
         "overlay": style.flags.contains(DrawingFlags::OVERLAY),
         "transparency": style.flags.transparency(),
         "color": if emits { base.emission } else { base.ambient_diffuse },

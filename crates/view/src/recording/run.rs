@@ -40,7 +40,7 @@ impl<W: Write + 'static> RunRecorder<W> {
         }));
         let watching = Rc::clone(&state);
         sim.watch(Some(Box::new(move |present| {
-            watching.borrow_mut().add(present)
+            watching.borrow_mut().add(present);
         })));
         Ok(Self(state))
     }

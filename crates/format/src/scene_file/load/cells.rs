@@ -39,7 +39,7 @@ pub(in crate::scene_file) fn octree(chunk: &file::OcTree) -> Result<OcTree> {
                     cell.centre,
                     Voxel {
                         colour,
-                        tag: bytes.int()? as u32,
+                        tag: bytes.int()?.cast_unsigned(),
                     },
                 );
             }

@@ -125,7 +125,7 @@ fn identity(new: &mut Object, common: &Common) {
         new.persistent_uid = id.decode();
     }
     if let Some(dna) = common.dna.as_ref().filter(|dna| !dna.0.is_empty()) {
-        new.dna = dna.0.clone();
+        new.dna.clone_from(&dna.0);
     }
 }
 

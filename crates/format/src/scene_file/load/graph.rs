@@ -133,7 +133,7 @@ fn samples(bytes: &[u8], slots: usize) -> Vec<GraphSample> {
 fn curve(chunk: &file::Curve) -> GraphCurve {
     let flags = chunk.flags.unwrap_or(RELATIVE | LABEL | LINKED);
     let [id, dimensions, width] = chunk.id_dim_width.unwrap_or([0, 2, 1]);
-    let dimensions = dimensions.clamp(2, 3) as usize;
+    let dimensions = if dimensions > 2 { 3 } else { 2 };
     let point = |point: &[f64]| std::array::from_fn(|axis| point.get(axis).copied().unwrap_or(0.0));
     let fixed = chunk
         .static_values
@@ -216,7 +216,7 @@ fn old_curve(chunk: &file::OldCurve, dimensions: usize) -> GraphCurve {
     let name = chunk.name.clone().map(|name| (name, Text::default()));
     GraphCurve {
         style: style(name.as_ref(), chunk.id, colour, flags),
-        width: chunk.width.unwrap_or(1.0) as i64,
+        width: numbers::truncated(chunk.width.unwrap_or(1.0)),
         dimensions,
         streams: chunk.streams.unwrap_or([-1; 3]).map(i64::from),
         defaults: [0.0; 3],

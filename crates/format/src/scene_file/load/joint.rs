@@ -135,7 +135,7 @@ fn gains(joint: &mut Joint, chunk: &Chunk) {
     match chunk.spring {
         Some(spring) => joint.spring = spring,
         None if chunk.switches.unwrap_or(0) & 0xb0 == 0xb0 => {
-            spring_of_gains(joint, pid.unwrap_or([0.1, 0.0, 0.0]))
+            spring_of_gains(joint, pid.unwrap_or([0.1, 0.0, 0.0]));
         }
         None => {}
     }
@@ -160,7 +160,7 @@ pub(super) fn force_sensor(chunk: &ForceSensorChunk) -> ForceSensor {
         .map(|(thresholds, violations)| (thresholds.map(f64::from), violations));
     if let Some(([force, torque], violations)) = chunk.thresholds.or(old) {
         (sensor.force_threshold, sensor.torque_threshold) = (force, torque);
-        sensor.consecutive_violations = violations.max(1) as u32;
+        sensor.consecutive_violations = violations.max(1).cast_unsigned();
     }
     let switches = chunk.switches.unwrap_or(0);
     (

@@ -85,7 +85,7 @@ impl<'a> Meshes<'a> {
             .as_chunks()
             .0
             .iter()
-            .map(|t: &[i32; 3]| t.map(|i| i as u32))
+            .map(|t: &[i32; 3]| t.map(|i| i.cast_unsigned()))
             .collect();
         if points.is_empty() || triangles.is_empty() {
             return Err("a mesh is empty".into());
@@ -109,7 +109,7 @@ impl<'a> Meshes<'a> {
                     .0
                     .iter()
                     .map(|n: &[f32; 3]| n.map(f64::from))
-                    .collect()
+                    .collect();
             }
             None => mesh.compute_normals(data.shading.map_or(0.0, |(angle, _)| angle)),
         }

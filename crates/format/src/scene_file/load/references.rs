@@ -46,7 +46,7 @@ pub(super) fn connect(
         connect_one(scene, object, *handle, map)?;
         watch(scene, object, *handle, entity)?;
         scene.modify(*handle, Field::Other, |new| {
-            new.viewers = viewers(&object.common, map, &collections)
+            new.viewers = viewers(&object.common, map, &collections);
         })?;
         for (tag, list) in lists(&object.common, map) {
             scene.set_references(*handle, References::Following, &tag, &list)?;
@@ -178,7 +178,9 @@ fn connect_one(
                 .iter_mut()
                 .filter_map(|stream| stream.source.as_mut());
             sources.for_each(|source| {
-                source.object = source.object.and_then(|o| map.get(&(o.0 as i32)).copied())
+                source.object = source
+                    .object
+                    .and_then(|o| map.get(&o.0.cast_signed()).copied());
             });
             Ok(())
         })?,

@@ -112,7 +112,7 @@ fn dynamics(settings: &mut DynamicsSettings, chunk: &Dynamics) {
         version: chunk.engine_version.unwrap_or(0).into(),
     };
     if gravity.iter().all(|g| g.is_finite()) {
-        settings.gravity = gravity.map(|g| g as f32);
+        settings.gravity = gravity.map(numbers::single);
     }
     settings.enabled = chunk.switches.unwrap_or(1) & 0x1 != 0;
     settings.show_contact_points = chunk.switches.unwrap_or(0) & 0x2 != 0;
@@ -127,7 +127,7 @@ fn dynamics(settings: &mut DynamicsSettings, chunk: &Dynamics) {
         load_all(settings, blocks);
     }
     let own_step = blocks
-        .get(engine.max(0) as usize)
+        .get(usize::try_from(engine).unwrap_or_default())
         .and_then(|block| block.as_ref()?.reals.first().copied());
     let step = chunk
         .step_size

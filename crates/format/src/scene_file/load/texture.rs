@@ -85,7 +85,7 @@ pub(super) fn connect(
     let known = |source: TextureSource| match source {
         TextureSource::Texture(id) => textures.get(&id).copied().map(TextureSource::Texture),
         TextureSource::Sensor(sensor) => map
-            .get(&(sensor.0 as i32))
+            .get(&sensor.0.cast_signed())
             .copied()
             .map(TextureSource::Sensor),
     };

@@ -18,7 +18,7 @@ fn block(context: &Context<'_>, handle: i64, interface: &ButtonInterface) -> But
         rollup: Some(interface.rollup),
         name: Some(interface.name.as_str().into()),
         attributes: Some(interface.attributes),
-        handle: Some(handle as i32),
+        handle: Some(numbers::low_i32(handle)),
         cells: Some(interface.cells),
         position: Some(interface.position),
         button_size: Some(interface.cell_size),

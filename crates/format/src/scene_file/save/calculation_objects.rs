@@ -56,8 +56,8 @@ fn entities_and_handle<R>(
         object
             .entities
             .map(|entity| match context.scene.collections().get(entity) {
-                Ok(_) => entity as i32,
+                Ok(_) => numbers::low_i32(entity),
                 Err(_) => context.file_handle(Handle::from_raw(entity)),
             });
-    (first >= 0).then_some([first, second, handle as i32])
+    (first >= 0).then_some([first, second, numbers::low_i32(handle)])
 }

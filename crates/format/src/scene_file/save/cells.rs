@@ -30,7 +30,7 @@ pub(super) fn octree(tree: &OcTree, colour: Option<file::Colour>) -> file::OcTre
         Rest(out.bytes)
     });
     file::OcTree {
-        sizes: Some((tree.voxel_size(), tree.point_size as i32)),
+        sizes: Some((tree.voxel_size(), numbers::truncated_i32(tree.point_size))),
         flags: Some(bits(&[
             (tree.random_colours, 2),
             (tree.shows_points, 3),
@@ -48,14 +48,14 @@ pub(super) fn point_cloud(cloud: &PointCloud, colour: Option<file::Colour>) -> f
         .iter()
         .map(|point| (point.position, *point))
         .collect();
-    let limit = cloud.max_points_in_cell.max(1) as usize;
+    let limit = numbers::place_of(cloud.max_points_in_cell.max(1));
     let blob = (cloud.uses_octree && !points.is_empty()).then(|| {
         let mut out = Blob {
             bytes: vec![VERSION],
             smallest: cloud.max_cell_size,
         };
         let root = out.root(cloud.points.iter().map(|point| point.position));
-        out.int(cloud.max_points_in_cell as i32);
+        out.int(numbers::low_i32(cloud.max_points_in_cell));
         out.children(root, points, &mut |out, cell, points, is_leaf| {
             let divided = !is_leaf && points.len() > limit;
             out.points(cell, if divided { &[] } else { points });
@@ -73,9 +73,12 @@ pub(super) fn point_cloud(cloud: &PointCloud, colour: Option<file::Colour>) -> f
         )
     };
     file::PointCloud {
-        sizes: Some((cloud.max_cell_size, cloud.point_size as i32)),
+        sizes: Some((cloud.max_cell_size, numbers::low_i32(cloud.point_size))),
         display_ratio: Some(cloud.display_fraction),
-        cells: Some((cloud.max_points_in_cell as i32, cloud.max_cell_size)),
+        cells: Some((
+            numbers::low_i32(cloud.max_points_in_cell),
+            cloud.max_cell_size,
+        )),
         flags: Some(bits(&[
             (cloud.random_colours, 2),
             (true, 3),
@@ -157,7 +160,7 @@ impl Blob {
 
     /// Coordinates from the centre of the cell, then colours.
     fn points(&mut self, cell: &Cell, points: &[(Point, CloudPoint)]) {
-        self.int(3 * points.len() as i32);
+        self.int(3 * numbers::count_i32(points.len()));
         for (position, _) in points {
             (0..3).for_each(|axis| self.real(position[axis] - cell.centre[axis]));
         }

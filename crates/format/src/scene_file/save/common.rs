@@ -20,16 +20,16 @@ pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Comm
         signature: Some([57, 58, 59]),
         pose: Some(object.pose().into()),
         handles: Some([
-            object.handle().0 as i32,
+            object.handle().0.cast_signed(),
             context.file_handle(object.parent()),
         ]),
         alias: Some(object.alias().into()),
         name: Some(object.old_name().into()),
         alt_name: Some(alternative_name(object.old_name()).as_str().into()),
         authorized_viewable: Some(viewers(context, object)),
-        hierarchy_colour: Some(object.hierarchy_colour as i32),
-        self_collision_indicator: Some(object.self_collision_indicator as i32),
-        object_property: Some(object.object_property.bits() as i32 | WRITTEN_SINCE_2_5),
+        hierarchy_colour: Some(numbers::low_i32(object.hierarchy_colour)),
+        self_collision_indicator: Some(numbers::low_i32(object.self_collision_indicator)),
+        object_property: Some(numbers::low_i32(object.object_property.bits()) | WRITTEN_SINCE_2_5),
         switches_2: Some(model | old_switches(movement.forbidden)),
         switches: Some(model | switches(movement.forbidden) | u8::from(object.assembly.moves) << 7),
         assembly_pose: Some(object.assembly.pose.into()),
@@ -38,18 +38,18 @@ pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Comm
             words(&object.assembly.parent_words),
         )),
         extension_string: Some(object.extension_string.as_str().into()),
-        locks: Some((movement.forbidden.bits() >> 4 & 3) as u8),
-        special_property: Some(object.special_property.bits() as i32),
-        model_property: Some(object.model_property.bits() as i32),
+        locks: u8::try_from(movement.forbidden.bits() >> 4 & 3).ok(),
+        special_property: Some(numbers::low_i32(object.special_property.bits())),
+        model_property: Some(numbers::low_i32(object.model_property.bits())),
         layer: Some(object.layer.bits()),
         script_exec_priority: Some(object.priority as i32),
         child_order: Some(order),
         translation: Some((
-            movement.preferred_axes.bits() as i32,
-            movement.relativity[0].0 as i32,
+            numbers::low_i32(movement.preferred_axes.bits()),
+            numbers::low_i32(movement.relativity[0].0),
             movement.step[0],
         )),
-        rotation: Some((movement.relativity[1].0 as i32, movement.step[1])),
+        rotation: Some((numbers::low_i32(movement.relativity[1].0), movement.step[1])),
         size_factor: Some(object.size_factor),
         size_values: Some(object.size_values),
         custom_data: custom_data::chunk(&object.custom_data),
@@ -70,7 +70,7 @@ fn viewers(context: &Context<'_>, object: &Object) -> i32 {
         Viewers::All => -1,
         Viewers::None => -2,
         Viewers::One(viewer) => context.file_handle(Some(viewer)),
-        Viewers::Collection(collection) => collection as i32,
+        Viewers::Collection(collection) => numbers::low_i32(collection),
     }
 }
 
@@ -79,7 +79,7 @@ fn namesake_order(context: &Context<'_>, object: &Object) -> SceneResult<i32> {
     Ok(context
         .scene
         .child_order(object.handle())?
-        .map_or(-1, |order| order as i32))
+        .map_or(-1, numbers::count_i32))
 }
 
 /// Bits of what a hand may not do, moving and turning apart.
@@ -159,7 +159,7 @@ fn references(context: &Context<'_>, object: &Object, common: &mut Common) {
 /// A saved object, or a collection.
 fn reference(context: &Context<'_>, raw: i64) -> i32 {
     match context.scene.collections().get(raw) {
-        Ok(_) => raw as i32,
+        Ok(_) => numbers::low_i32(raw),
         Err(_) => context.file_handle(Handle::from_raw(raw)),
     }
 }
@@ -176,7 +176,11 @@ fn originals(context: &Context<'_>, object: &Object, common: &mut Common) {
                 .as_str(),
         )
     };
-    let pair = |raw: &i64| known(*raw).map_or((-1, Text::default()), |id| (*raw as i32, id.into()));
+    let pair = |raw: &i64| {
+        known(*raw).map_or((-1, Text::default()), |id| {
+            (numbers::low_i32(*raw), id.into())
+        })
+    };
     for (tag, list) in &object.original_references {
         let pairs = list.iter().map(pair);
         if tag.is_empty() {

@@ -38,8 +38,10 @@ fn bytes(ty: ValueType, value: &Data) -> Option<Vec<u8>> {
 fn element(ty: ValueType, item: &Data) -> Option<Vec<u8>> {
     let number = item.as_f64()?;
     Some(match ty {
-        ValueType::IntArray | ValueType::IntArray2 => (number as i32).to_le_bytes().to_vec(),
-        ValueType::Color => (number as f32).to_le_bytes().to_vec(),
+        ValueType::IntArray | ValueType::IntArray2 => {
+            numbers::truncated_i32(number).to_le_bytes().to_vec()
+        }
+        ValueType::Color => numbers::single(number).to_le_bytes().to_vec(),
         _ => number.to_le_bytes().to_vec(),
     })
 }

@@ -33,7 +33,10 @@ pub(super) fn graph(
         size: Some(graph.size),
         colour,
         bgfg: Some([r, g, b, x, y, z]),
-        buffer: Some([graph.buffer_size as i32, graph.times().len() as i32]),
+        buffer: Some([
+            numbers::low_i32(graph.buffer_size),
+            numbers::count_i32(graph.times().len()),
+        ]),
         times: Some(Rest(graph.times().collect())),
         streams: of_time(false)
             .map(|of| stream(of, graph.times().len()))
@@ -76,13 +79,13 @@ fn stream(stream: &GraphStream, slots: usize) -> file::DataStream {
     let (style, transformation) = (&stream.style, &stream.transformation);
     file::DataStream {
         name_and_unit: Some((style.name.as_str().into(), style.unit.as_str().into())),
-        id: Some(style.id as i32),
+        id: Some(numbers::low_i32(style.id)),
         script: Some(NO_SCRIPT),
         colour: Some(style.colour),
         transformation: Some((
-            transformation.kind.code() as i32,
+            numbers::low_i32(transformation.kind.code()),
             [transformation.multiplier, transformation.offset],
-            transformation.period as i32,
+            numbers::low_i32(transformation.period),
             transformation.cyclic_range,
         )),
         flags: Some(flags(
@@ -132,11 +135,15 @@ fn curve(curve: &GraphCurve) -> file::Curve {
     };
     file::Curve {
         name_and_unit: Some((style.name.as_str().into(), style.unit.as_str().into())),
-        id_dim_width: Some([style.id as i32, curve.dimensions as i32, curve.width as i32]),
+        id_dim_width: Some([
+            numbers::low_i32(style.id),
+            numbers::count_i32(curve.dimensions),
+            numbers::low_i32(curve.width),
+        ]),
         script: Some(NO_SCRIPT),
         colour: Some(style.colour),
         offsets: Some(curve.defaults),
-        streams: Some(curve.streams.map(|id| id as i32)),
+        streams: Some(curve.streams.map(numbers::low_i32)),
         flags: Some(flags(
             curve.relative,
             style,
@@ -172,7 +179,7 @@ fn old_stream(
     let (raw, transformed): (Half, Half) = (|s| s.raw, |s| s.transformed);
     file::OldDataStream {
         name: Some(style.name.as_str().into()),
-        id: Some(style.id as i32),
+        id: Some(numbers::low_i32(style.id)),
         source: Some([
             source.data_type,
             context.file_handle(source.object),
@@ -180,8 +187,8 @@ fn old_stream(
         ]),
         colour: Some(style.colour),
         zoom_and_offset: Some([transformation.multiplier, transformation.offset]),
-        ma_count: Some(transformation.period as i32),
-        transf: Some(transformation.kind.code() as i32),
+        ma_count: Some(numbers::low_i32(transformation.period)),
+        transf: Some(numbers::low_i32(transformation.kind.code())),
         flags: Some(flags(stream.visible, style, None)),
         data: Some(Rest(values(raw))),
         tdata: Some(Rest(values(transformed))),
@@ -196,10 +203,10 @@ fn old_curve(curve: &GraphCurve) -> file::OldCurve {
     colour.specular = [0.0; 3];
     file::OldCurve {
         name: Some(curve.style.name.as_str().into()),
-        id: Some(curve.style.id as i32),
+        id: Some(numbers::low_i32(curve.style.id)),
         colour: Some(super::colour::colour(&colour)),
-        streams: Some(curve.streams.map(|id| id as i32)),
-        width: Some(curve.width as f64),
+        streams: Some(curve.streams.map(numbers::low_i32)),
+        width: Some(numbers::real_of(curve.width)),
         flags: Some(flags(true, &curve.style, (!curve.relative).then_some(4))),
         ..file::OldCurve::default()
     }

@@ -24,7 +24,7 @@ pub(super) fn groups(context: &Context<'_>) -> Vec<GroupChunk> {
 
 fn group(context: &Context<'_>, handle: i64, group: &IkGroup) -> GroupChunk {
     GroupChunk {
-        handle: Some(handle as i32),
+        handle: Some(numbers::low_i32(handle)),
         name: Some(group.name.as_str().into()),
         max_iter: Some(group.max_iterations),
         damping: Some(group.damping),

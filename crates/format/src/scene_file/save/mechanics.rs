@@ -83,9 +83,9 @@ pub(super) fn force_sensor(sensor: &ForceSensor, colour: Option<Colour>) -> Forc
         switches: Some(switches),
         thresholds: Some((
             [sensor.force_threshold, sensor.torque_threshold],
-            sensor.consecutive_violations as i32,
+            sensor.consecutive_violations.cast_signed(),
         )),
-        filter: Some([sensor.sample_size as i32, sensor.filter as i32]),
+        filter: Some([numbers::count_i32(sensor.sample_size), sensor.filter as i32]),
         colour,
         ..ForceSensorChunk::default()
     }

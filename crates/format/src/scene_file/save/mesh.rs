@@ -59,7 +59,7 @@ impl Pool {
         let singles = |list: &[[f64; 3]]| {
             list.as_flattened()
                 .iter()
-                .map(|c| *c as f32)
+                .map(|c| numbers::single(*c))
                 .collect::<Vec<f32>>()
         };
         let arrays = Arrays {
@@ -68,7 +68,7 @@ impl Pool {
                 .triangles
                 .as_flattened()
                 .iter()
-                .map(|i| *i as i32)
+                .map(|i| (*i).cast_signed())
                 .collect(),
             normals: Some(singles(&mesh.normals)),
             edges: Some(edges::drawn(mesh, edge_angle)),

@@ -44,7 +44,7 @@ impl Context<'_> {
     fn file_handle(&self, handle: Option<Handle>) -> i32 {
         handle
             .filter(|handle| self.saved.contains(handle))
-            .map_or(-1, |handle| handle.0 as i32)
+            .map_or(-1, |handle| handle.0.cast_signed())
     }
 }
 
@@ -158,7 +158,7 @@ fn object(
     if base == Some(handle) {
         // A model stands in the world, whatever it was part of.
         common.pose = Some(context.scene.world_pose(handle)?.into());
-        (common.handles, common.child_order) = (Some([handle.0 as i32, -1]), Some(-1));
+        (common.handles, common.child_order) = (Some([handle.0.cast_signed(), -1]), Some(-1));
     }
     Ok(FileObject {
         offset: 0,
@@ -216,7 +216,7 @@ fn model_size(scene: &Scene, order: &[Handle], base: Handle) -> SceneResult<[f64
             });
             let point: [f64; 3] = (frame * nalgebra::Point3::from(half)).into();
             (0..3).for_each(|axis| {
-                (low[axis], high[axis]) = (low[axis].min(point[axis]), high[axis].max(point[axis]))
+                (low[axis], high[axis]) = (low[axis].min(point[axis]), high[axis].max(point[axis]));
             });
         }
     }

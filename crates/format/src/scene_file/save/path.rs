@@ -47,7 +47,7 @@ fn point(point: &ControlPoint) -> PathPoint {
         point: Some((
             point.pose.into(),
             rounding,
-            point.count as i32,
+            numbers::count_i32(point.count),
             point.velocity,
         )),
         on_spot: Some(point.on_spot),

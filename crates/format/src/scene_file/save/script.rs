@@ -18,7 +18,7 @@ const DEFAULT_MAIN_SCRIPT: &[u8] = b"require('defaultMainScript')";
 pub(super) fn object(script: &ScriptObject, handle: Handle, colour: Option<Colour>) -> ObjectChunk {
     let mut chunk = chunk(
         script.script_type,
-        handle.0 as i32,
+        handle.0.cast_signed(),
         &script.code,
         &script.language,
     );
@@ -41,10 +41,10 @@ pub(super) fn object(script: &ScriptObject, handle: Handle, colour: Option<Colou
 
 /// A script attached to an object.
 pub(super) fn attached(script: &LoadedScript) -> Chunk {
-    let owner = script.owner.map_or(-1, |owner| owner.0 as i32);
+    let owner = script.owner.map_or(-1, |owner| owner.0.cast_signed());
     let mut chunk = chunk(script.script_type, owner, &script.code, &script.language);
     chunk.switches = Some(switches(script.disabled));
-    chunk.exec_order = Some(script.exec_order as i32);
+    chunk.exec_order = Some(numbers::low_i32(script.exec_order));
     chunk
 }
 

@@ -27,7 +27,7 @@ pub(super) fn bits(switches: &[(bool, u8)]) -> u8 {
 /// An object, a collection, or everything.
 fn entity(context: &Context<'_>, entity: Entity) -> i32 {
     match context.scene.collections().get(entity.raw()) {
-        Ok(_) => entity.raw() as i32,
+        Ok(_) => numbers::low_i32(entity.raw()),
         Err(_) => context.file_handle(entity.object()),
     }
 }
@@ -51,7 +51,10 @@ pub(super) fn proximity_sensor(
         angle_threshold: Some(sensor.angle_threshold),
         switches: Some(bits(&switches)),
         switches_2: Some(bits(&[(sensor.randomized, 1)])),
-        randomized: Some([sensor.samples as i32, sensor.required_samples as i32]),
+        randomized: Some([
+            numbers::low_i32(sensor.samples),
+            numbers::low_i32(sensor.required_samples),
+        ]),
         colour,
         colour3: Some(colour::colour(&sensor.ray_colour)),
         detectable: Some(entity(context, sensor.entity)),
@@ -64,11 +67,11 @@ fn volume(volume: &Volume, faces: VolumeFaces) -> file::Volume {
     let [x, x_far] = volume.x_size;
     let [y, y_far] = volume.y_size;
     let [radius, radius_far] = volume.radius;
-    let [sides, sides_far] = volume.faces.map(|n| n as i32);
-    let [subdivisions, subdivisions_far] = volume.subdivisions.map(|n| n as i32);
+    let [sides, sides_far] = volume.faces.map(numbers::low_i32);
+    let [subdivisions, subdivisions_far] = volume.subdivisions.map(numbers::low_i32);
     file::Volume {
         // Sensors and their volumes have different numbers: a ray is 34 and 4.
-        volume_type: Some(volume.volume_type.index() as i32),
+        volume_type: Some(numbers::low_i32(volume.volume_type.index())),
         sizes: Some([
             volume.offset,
             volume.range,
@@ -121,11 +124,11 @@ pub(super) fn vision_sensor(
             view.clipping[0],
             view.clipping[1],
         ]),
-        resolution: Some(view.resolution.map(|pixels| pixels as i32)),
+        resolution: Some(view.resolution.map(|pixels| pixels.cast_signed())),
         renderable: Some(entity(context, sensor.entity)),
         default_buffer: Some(sensor.background),
         size: Some(sensor.size),
-        render_mode: Some(sensor.render_mode.0 as i32),
+        render_mode: Some(numbers::low_i32(sensor.render_mode.0)),
         render_attributes: Some(RENDER_EVERYTHING),
         switches_3: Some(bits(&third)),
         switches_2: Some(bits(&second)),
@@ -154,7 +157,10 @@ pub(super) fn camera(context: &Context<'_>, camera: &Camera, colour: Colour) -> 
 pub(super) fn light(light: &Light, colour: Colour) -> file::Light {
     file::Light {
         kind_and_size: Some((
-            [light.light_type as i32, light.spot_exponent as i32],
+            [
+                light.light_type as i32,
+                numbers::low_i32(light.spot_exponent),
+            ],
             light.size,
         )),
         spot_cutoff: Some(light.spot_cutoff),

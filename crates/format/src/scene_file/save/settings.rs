@@ -52,10 +52,12 @@ fn simulation(settings: &Settings) -> Simulation {
         (!settings.remove_new_objects_at_end, 0x80),
     ];
     Simulation {
-        old_dt: Some(settings.time_step as f32),
-        dt_us: Some((settings.time_step * MICROSECONDS).round() as u64),
+        old_dt: Some(numbers::single(settings.time_step)),
+        dt_us: Some(numbers::truncated_u64(
+            (settings.time_step * MICROSECONDS).round(),
+        )),
         dt: Some(settings.time_step),
-        passes_per_frame: Some(settings.steps_per_rendering as i32),
+        passes_per_frame: Some(numbers::low_i32(settings.steps_per_rendering)),
         old_preset: Some(CUSTOM),
         switches: Some(
             switches
@@ -63,10 +65,12 @@ fn simulation(settings: &Settings) -> Simulation {
                 .filter(|(on, _)| *on)
                 .fold(0, |bits, (_, bit)| bits | bit),
         ),
-        old_rt_coef: Some(settings.real_time_factor as f32),
+        old_rt_coef: Some(numbers::single(settings.real_time_factor)),
         rt_coef: Some(settings.real_time_factor),
-        old_pause: Some(settings.time_to_pause as f32),
-        pause_us: Some((settings.time_to_pause * MICROSECONDS).round() as u64),
+        old_pause: Some(numbers::single(settings.time_to_pause)),
+        pause_us: Some(numbers::truncated_u64(
+            (settings.time_to_pause * MICROSECONDS).round(),
+        )),
         pause_time: Some(settings.time_to_pause),
         ..Simulation::default()
     }
@@ -81,7 +85,7 @@ fn dynamics(settings: &Settings) -> Dynamics {
         }
     }
     let [bullet, ode, vortex, newton, mujoco] = blocks;
-    let [engine, version] = dynamics.engine.numbers().map(|number| number as i32);
+    let [engine, version] = dynamics.engine.numbers().map(numbers::low_i32);
     Dynamics {
         engine: Some((engine, dynamics.gravity.map(f64::from), CUSTOM)),
         engine_version: Some(version),
@@ -125,7 +129,7 @@ fn views(scene: &Scene) -> Option<Views> {
         .objects()
         .find(|object| matches!(object.kind, Kind::Camera(_)))?;
     let view = View {
-        linked_object: Some(camera.handle().0 as i32),
+        linked_object: Some(camera.handle().0.cast_signed()),
         place: Some([-0.5, -0.5, 1.0, 1.0]),
         render_mode: Some(0),
         va2: Some(0x15),
@@ -212,7 +216,7 @@ fn collection(context: &Context<'_>, handle: i64) -> Option<Collection> {
     };
     Some(Collection {
         name: Some(name.as_str().into()),
-        handle: Some(handle as i32),
+        handle: Some(numbers::low_i32(handle)),
         flags: Some(collection.overrides.into()),
         elements: collection
             .items
@@ -234,7 +238,10 @@ fn element(context: &Context<'_>, item: &CollectionItem, at: usize) -> Collectio
         (Members::All, _) => 5,
     };
     CollectionElement {
-        handles: Some([context.file_handle(item.members.base()), at as i32]),
+        handles: Some([
+            context.file_handle(item.members.base()),
+            numbers::count_i32(at),
+        ]),
         kind: Some(kind),
         flags: Some((!item.subtract).into()),
     }

@@ -220,7 +220,7 @@ fn mesh(context: &mut Context<'_>, part: &Part, place: Place) -> FileMesh {
     let (code, size) = part
         .primitive
         .as_ref()
-        .map_or((0, [0.0; 3]), |p| (p.kind.code() as i32, p.size));
+        .map_or((0, [0.0; 3]), |p| (numbers::low_i32(p.kind.code()), p.size));
     let mut data = MeshData {
         primitive: Some((code, size)),
         inside_scaling: Some(0.0),

@@ -20,7 +20,11 @@ pub(super) fn all(scene: &Scene, used: impl Fn(i64) -> bool) -> Vec<Chunk> {
 fn image(id: i64, texture: &Texture) -> Chunk {
     let [width, height] = texture.size();
     Chunk {
-        id_and_size: Some([id as i32, width as i32, height as i32]),
+        id_and_size: Some([
+            numbers::low_i32(id),
+            width.cast_signed(),
+            height.cast_signed(),
+        ]),
         name: Some(texture.name.as_str().into()),
         flags: Some(texture.has_alpha().into()),
         pixels: Some(Rest(texture.pixels().to_vec())),
@@ -29,7 +33,7 @@ fn image(id: i64, texture: &Texture) -> Chunk {
 
 pub(super) fn mapping(context: &Context<'_>, texture: &TextureMapping) -> MappingChunk {
     let id = match texture.source {
-        TextureSource::Texture(id) => id as i32,
+        TextureSource::Texture(id) => numbers::low_i32(id),
         TextureSource::Sensor(sensor) => context.file_handle(Some(sensor)),
     };
     let [u, v] = texture.repeat;
@@ -41,6 +45,6 @@ pub(super) fn mapping(context: &Context<'_>, texture: &TextureMapping) -> Mappin
         source: Some(([id, texture.mode.0], texture.scale)),
         projection: Some(texture.frame.into()),
         uv: Some(Rest(texture.coordinates.to_vec())),
-        apply_mode: Some(texture.apply_mode.0 as i32),
+        apply_mode: Some(numbers::low_i32(texture.apply_mode.0)),
     }
 }

@@ -21,7 +21,7 @@ impl<T: Value> Value for Counted<T> {
     }
 
     fn write(&self, out: &mut Writer) {
-        out.int(self.0.len() as i32);
+        out.int(numbers::count_i32(self.0.len()));
         self.0.iter().for_each(|one| one.write(out));
     }
 

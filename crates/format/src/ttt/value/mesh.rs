@@ -33,13 +33,13 @@ impl Value for Heights {
     }
 
     fn write(&self, out: &mut Writer) {
-        out.int(self.columns as i32);
-        out.int(self.rows as i32);
+        out.int(numbers::count_i32(self.columns));
+        out.int(numbers::count_i32(self.rows));
         self.heights.iter().for_each(|height| height.write(out));
     }
 
     fn to_node(&self) -> Node {
-        let count = |n: usize| Node::Int(n as i64);
+        let count = |n: usize| Node::Int(numbers::count(n));
         Node::table([
             ("columns", count(self.columns)),
             ("rows", count(self.rows)),

@@ -54,9 +54,15 @@ macro_rules! plain {
             fn put(self, out: &mut Vec<u8>) {
                 out.extend(self.to_le_bytes());
             }
+            #[allow(
+                clippy::cast_lossless,
+                clippy::cast_possible_wrap,
+                reason = "one rule for all types; 64 bits without a sign keep their bits"
+            )]
             fn node(self) -> Node {
                 Node::$kind(self as _)
             }
+            #[allow(clippy::cast_possible_truncation, reason = "single precision is what the file keeps")]
             fn of_node(node: &Node) -> NodeResult<Self> {
                 plain_of!($kind, node.$get()?)
             }

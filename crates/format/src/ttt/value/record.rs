@@ -26,8 +26,8 @@ impl Value for EngineBlock {
     }
 
     fn write(&self, out: &mut Writer) {
-        out.int(self.reals.len() as i32);
-        out.int(self.ints.len() as i32);
+        out.int(numbers::count_i32(self.reals.len()));
+        out.int(numbers::count_i32(self.ints.len()));
         self.reals.iter().for_each(|real| real.write(out));
         self.ints.iter().for_each(|int| out.int(*int));
     }

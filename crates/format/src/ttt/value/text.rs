@@ -38,7 +38,7 @@ impl Value for Text {
     }
 
     fn write(&self, out: &mut Writer) {
-        out.int(self.0.len() as i32);
+        out.int(numbers::count_i32(self.0.len()));
         out.bytes.extend(&self.0);
     }
 
@@ -86,12 +86,17 @@ impl Value for ScriptText {
 }
 
 /// Moves every byte but the first and the last by a number that depends on its place and on these two.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the sum is taken modulo 256"
+)]
 fn shift_text(text: &mut [u8], shift: fn(u8, u8) -> u8) {
     let [first, middle @ .., last] = text else {
         return;
     };
-    let start = i64::from(*first as i8 / 2);
-    let end = i64::from(*last as i8) * 3;
+    let start = i64::from((*first).cast_signed() / 2);
+    let end = i64::from((*last).cast_signed()) * 3;
     for (i, byte) in (1i64..).zip(middle) {
         let terms = [
             (1, i + start + end),

@@ -84,7 +84,7 @@ impl Buffer {
         let bytes: Vec<u8> = rows
             .as_flattened()
             .iter()
-            .flat_map(|x| (*x as f32).to_le_bytes())
+            .flat_map(|x| numbers::single(*x).to_le_bytes())
             .collect();
         let view = self.view(&bytes, target);
         let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][N - 1];
@@ -92,7 +92,7 @@ impl Buffer {
         if has_bounds {
             let bound = |pick: fn(f32, f32) -> f32| -> Vec<f32> {
                 (0..N)
-                    .filter_map(|k| rows.iter().map(|row| row[k] as f32).reduce(pick))
+                    .filter_map(|k| rows.iter().map(|row| numbers::single(row[k])).reduce(pick))
                     .collect()
             };
             accessor["min"] = json!(bound(f32::min));
@@ -177,7 +177,7 @@ fn vertices(part: &Part) -> Vertices {
             .as_flattened()
             .get(number)
             .map_or([0.0; 2], |[u, v]| [*u, 1.0 - v]);
-        let ([x, y, z], [a, b, c]) = (part.vertices[*index as usize], normal);
+        let ([x, y, z], [a, b, c]) = (part.vertices[numbers::place(*index)], normal);
         table.index([x, y, z, a, b, c, u, v])
     };
     let indices = part

@@ -71,7 +71,7 @@ impl Bodies {
                 );
             }
             DrawingKind::DiscPoints => {
-                self.push(&flat(&regular(DISC_CORNERS)), &fan(DISC_CORNERS), colour)
+                self.push(&flat(&regular(DISC_CORNERS)), &fan(DISC_CORNERS), colour);
             }
             DrawingKind::SpherePoints => self.push(&solid(&BALL), &BALL.triangles, colour),
             _ => self.push(&solid(&CUBE), &CUBE.triangles, colour),

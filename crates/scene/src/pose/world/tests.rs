@@ -153,7 +153,7 @@ impl Play {
             5 => scene.restore_initial_state(),
             _ => scene
                 .modify(handle, Field::Measured, |object| {
-                    object.dynamic_flag = DynamicFlags::RESPONDABLE
+                    object.dynamic_flag = DynamicFlags::RESPONDABLE;
                 })
                 .unwrap(),
         }

@@ -56,7 +56,7 @@ impl FromScript for LevelChange {
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
         Ok(match Data::from_script(args)? {
             Data::Int(level) => Self::Set(level),
-            Data::Float(level) => Self::Set(level as i64),
+            Data::Float(level) => Self::Set(numbers::truncated(level)),
             other if other.truthy() => Self::Allow,
             _ => Self::Forbid,
         })

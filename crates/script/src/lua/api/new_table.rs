@@ -27,7 +27,7 @@ impl<'a> Room<'a> {
         if lua_checkstack(stack, 4) == 0 {
             return Err(self);
         }
-        let hint = |count: usize| count.min(MAX_HINT) as c_int;
+        let hint = |count: usize| numbers::count_i32(count.min(MAX_HINT));
         lua_createtable(self, hint(items), hint(fields));
         Ok(NewTable {
             stack,

@@ -37,6 +37,10 @@ mod op {
 impl Prototype<'_> {
     /// Whether nothing refers to the argument of a call with one argument once the call has returned. Functions that look into the
     /// registers of others (`debug.getlocal`) are not considered.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a register of Lua has eight bits"
+    )]
     pub(crate) fn forgets_its_argument(&self) -> bool {
         if self.is_vararg {
             return false;

@@ -67,6 +67,10 @@ impl<'a> Chunk<'a> {
         })
     }
 
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "Lua has at most 255 upvalues"
+    )]
     pub(super) fn write(&self) -> Vec<u8> {
         let mut out = self.header.to_vec();
         out.push(self.main.upvalues.len() as u8);
@@ -174,16 +178,16 @@ impl Prototype<'_> {
     }
 
     fn write_lines(&self, out: &mut Vec<u8>) {
-        let (mut previous, mut since) = (self.line as i64, 0);
+        let (mut previous, mut since) = (numbers::count(self.line), 0);
         let (mut differences, mut absolute) = (Vec::new(), Vec::new());
         for (place, &line) in self.lines.iter().enumerate() {
             let difference = i8::try_from(i64::from(line) - previous)
                 .ok()
                 .filter(|&difference| difference != ABSOLUTE);
             match difference.filter(|_| since < MAX_DIFFERENCES) {
-                Some(difference) => differences.push(difference as u8),
+                Some(difference) => differences.push(difference.cast_unsigned()),
                 None => {
-                    differences.push(ABSOLUTE as u8);
+                    differences.push(ABSOLUTE.cast_unsigned());
                     absolute.push((place, line));
                     since = 0;
                 }
@@ -216,6 +220,7 @@ fn text_of(encoded: &[u8]) -> Option<&[u8]> {
 }
 
 /// A number in bytes of seven bits, most significant first; the last byte has the high bit set.
+#[expect(clippy::cast_possible_truncation, reason = "seven bits are taken")]
 pub(super) fn write_size(out: &mut Vec<u8>, size: usize) {
     let groups = (usize::BITS - size.leading_zeros()).div_ceil(7).max(1);
     for group in (0..groups).rev() {
@@ -329,11 +334,11 @@ impl<'a> Reader<'a> {
         let differences = self.take(count)?;
         let absolute = self.list(|reader| Some((reader.size()?, reader.size()?)))?;
         let mut absolute = absolute.into_iter();
-        let mut line = defined as i64;
+        let mut line = numbers::count(defined);
         let mut lines = Vec::with_capacity(count);
         for &difference in differences {
-            line = match difference as i8 {
-                ABSOLUTE => absolute.next()?.1 as i64,
+            line = match difference.cast_signed() {
+                ABSOLUTE => numbers::count(absolute.next()?.1),
                 difference => line + i64::from(difference),
             };
             lines.push(u32::try_from(line).ok()?);

@@ -77,7 +77,7 @@ fn bx(instruction: u32) -> i64 {
 
 /// The instruction that may run next, other than the one after it.
 fn target(place: usize, instruction: u32) -> Option<usize> {
-    let next = place as i64 + 1;
+    let next = numbers::count(place) + 1;
     let target = match code(instruction) {
         op::JMP => next + i64::from(instruction >> 7) - ZERO_25,
         op::FORLOOP | op::TFORLOOP => next - bx(instruction),
@@ -93,11 +93,11 @@ fn target(place: usize, instruction: u32) -> Option<usize> {
 
 /// The instruction with another jump target; instructions without one are unchanged.
 fn aimed(instruction: u32, place: usize, target: usize) -> Option<u32> {
-    let (next, target) = (place as i64 + 1, target as i64);
+    let (next, target) = (numbers::count(place) + 1, numbers::count(target));
     let in_17 = |distance: i64| {
         let distance = (0..=MAX_17)
             .contains(&distance)
-            .then_some(distance as u32)?;
+            .then_some(numbers::low_u32(distance))?;
         Some(instruction & 0x7fff | distance << 15)
     };
     match code(instruction) {
@@ -105,7 +105,7 @@ fn aimed(instruction: u32, place: usize, target: usize) -> Option<u32> {
             let distance = target - next + ZERO_25;
             (0..=MAX_25)
                 .contains(&distance)
-                .then_some(instruction & 0x7f | (distance as u32) << 7)
+                .then_some(instruction & 0x7f | numbers::low_u32(distance) << 7)
         }
         op::FORLOOP | op::TFORLOOP => in_17(next - target),
         op::FORPREP => in_17(target - next - 1),
@@ -244,7 +244,11 @@ fn probe(function: &mut Prototype<'_>, scratch: u8, upvalue: u8, line: u32) -> O
             function.constant_true(),
         );
         return Some(vec![
-            op::SETTABUP | upvalue << 7 | 1 << 15 | (key as u32) << 16 | (truth as u32) << 24,
+            op::SETTABUP
+                | upvalue << 7
+                | 1 << 15
+                | numbers::count_u32(key) << 16
+                | numbers::count_u32(truth) << 24,
         ]);
     }
     function.registers = scratch.checked_add(2)?;

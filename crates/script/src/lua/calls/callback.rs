@@ -17,9 +17,9 @@ impl<F: Fn(Stack<'_>, usize) -> Result<c_int, String> + Copy + 'static> Callback
 
 /// Pushes `callback` as a Lua function. Each call gets `number` and looks it up. With 0 the function takes no memory of the state.
 pub(crate) fn push_callback<F: Callback>(stack: Stack<'_>, callback: F, number: usize) {
-    let number = (number != 0).then_some(number as i64);
+    let number = (number != 0).then_some(numbers::count(number));
     push_function(stack, number, move |stack| {
-        match callback(stack, stack.number_of_function() as usize) {
+        match callback(stack, numbers::place_of(stack.number_of_function())) {
             Ok(results) => {
                 debug_assert!(
                     (0..=stack.top()).contains(&results),

@@ -56,7 +56,7 @@ pub(in crate::lua) fn push_function<F: Function>(
         assert!(
             size_of::<F>() == 0,
             "Lua stores the type of a function, and no values"
-        )
+        );
     };
     let _room = stack.room();
     if let Some(number) = number {

@@ -66,10 +66,10 @@ fn unwatch(stack: Stack<'_>) {
     let of_library = OF_LIBRARY.get().copied();
     match api::lua_gethook(coroutine) {
         Some(own) if own == Hook::BESIDE_COUNTING => {
-            api::lua_sethook(coroutine, of_library, mask, interval)
+            api::lua_sethook(coroutine, of_library, mask, interval);
         }
         Some(own) if own == Hook::BESIDE => {
-            api::lua_sethook(coroutine, of_library, mask & !ffi::LUA_MASKCOUNT, 0)
+            api::lua_sethook(coroutine, of_library, mask & !ffi::LUA_MASKCOUNT, 0);
         }
         _ => {}
     }

@@ -133,5 +133,5 @@ impl Local {
 fn argument(stack: Stack<'_>, index: c_int) -> Option<c_int> {
     let mut is_integer = 0;
     let integer = api::lua_tointegerx(stack, stack.slot(index), Some(&mut is_integer));
-    (is_integer != 0).then_some(integer as c_int)
+    (is_integer != 0).then_some(numbers::low_i32(integer))
 }

@@ -172,6 +172,7 @@ impl Place {
         }
     }
 
+    #[expect(clippy::cast_sign_loss, reason = "a digit")]
     fn push_number(&mut self, number: c_int) {
         let mut divisor = 1;
         while number / divisor >= 10 {

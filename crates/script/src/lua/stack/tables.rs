@@ -22,13 +22,14 @@ impl Stack<'_> {
     }
 
     /// Raw length of the table at `index`.
+    #[expect(clippy::cast_possible_truncation, reason = "a table is in memory")]
     pub fn raw_len(self, index: c_int) -> usize {
         api::lua_rawlen(self, self.slot(index)) as usize
     }
 
     /// Pushes a new table with room for `array` items of a list and `fields` other entries.
     pub fn new_table(self, array: usize, fields: usize) {
-        let hint = |n: usize| n.min(MAX_HINT) as c_int;
+        let hint = |n: usize| numbers::count_i32(n.min(MAX_HINT));
         api::lua_createtable(self.room(), hint(array), hint(fields));
     }
 

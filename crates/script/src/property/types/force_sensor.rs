@@ -15,9 +15,9 @@ pub(in crate::property) const FORCE_SENSOR: &[Accessor] = object_properties! {
     "torqueThresholdEnabled": bool, |o| o.force_sensor()?.torque_threshold_enabled,
         Sensor |o, on| o.force_sensor_mut()?.torque_threshold_enabled = on;
     "filterType": i64, |o| o.force_sensor()?.filter as i64, Sensor |o, filter| set_filter(o, filter)?;
-    "filterSampleSize": i64, |o| o.force_sensor()?.sample_size as i64, Sensor |o, count| {
+    "filterSampleSize": i64, |o| numbers::count(o.force_sensor()?.sample_size), Sensor |o, count| {
         let sensor = o.force_sensor_mut()?;
-        sensor.sample_size = count.clamp(1, ForceSensor::MAX_SAMPLES as i64) as usize;
+        sensor.sample_size = numbers::place_of(count.clamp(1, numbers::count(ForceSensor::MAX_SAMPLES)));
         sensor.samples.clear();
     };
     "consecutiveViolationsToTrigger": i64, |o| o.force_sensor()?.consecutive_violations.into(),

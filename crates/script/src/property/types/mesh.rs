@@ -98,7 +98,7 @@ pub(in crate::property) const MESH: &[Accessor] = subject_properties! {
     "normals": Vec<f64>, |s| s.geometry(Mesh::flat_normals)?;
     "shadingAngle": f64, |s| s.with_mesh(|_, part| part.appearance.shading_angle)?, |s, angle| {
         let angle = angle.finite().ok_or_else(refused)?;
-        s.change_mesh(|part| part.appearance.shading_angle = angle)?
+        s.change_mesh(|part| part.appearance.shading_angle = angle)?;
     };
     "showEdges": bool, |s| s.with_mesh(|_, part| part.appearance.edges)?,
         |s, on| s.change_mesh(|part| part.appearance.edges = on)?;
@@ -109,6 +109,6 @@ pub(in crate::property) const MESH: &[Accessor] = subject_properties! {
     "colorName": Text, |s| s.with_mesh(|_, part| Text(part.appearance.colour_name.clone().into_bytes()))?,
         |s, name| {
             let name = String::from_utf8_lossy(&name.0).into_owned();
-            s.change_mesh(|part| part.appearance.colour_name = name)?
+            s.change_mesh(|part| part.appearance.colour_name = name)?;
         };
 };

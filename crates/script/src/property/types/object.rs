@@ -35,7 +35,7 @@ pub(in crate::property) const PLACED: &[Accessor] = placed_properties! {
         |scene, h, alias| if clean_alias(&alias.0).as_bytes() == alias.0 { scene.set_alias(h, &alias.0)? };
     "pose": PoseArray, |scene, h| PoseArray(pose_to_array(&scene.object(h)?.pose())),
         |scene, h, pose| scene.set_local_pose(h, pose_from_array(&pose.0))?;
-    "childOrder": i64, |scene, h| scene.child_order(h)?.map_or(-1, |order| order as i64);
+    "childOrder": i64, |scene, h| scene.child_order(h)?.map_or(-1, numbers::count);
     "parentUid": Long, |scene, h| {
         let parent = scene.object(h)?.parent();
         Long(parent.map_or(Ok(-1), |parent| scene.object(parent).map(Object::uid))?)

@@ -18,8 +18,12 @@ impl Sim {
 
     /// Distinguishes this scene also from those of other simulators with other seeds.
     fn scene_uid_text(&self) -> String {
-        Random::new(self.options.seed.wrapping_add(self.scene_uid() as u32))
-            .string(SCENE_UID_LETTERS)
+        Random::new(
+            self.options
+                .seed
+                .wrapping_add(numbers::low_u32(self.scene_uid())),
+        )
+        .string(SCENE_UID_LETTERS)
     }
 }
 
@@ -46,7 +50,7 @@ pub(in crate::property) const SIMULATION: &[Accessor] = subject_properties! {
     "timeStep": f64, |s| s.sim.scene.borrow().settings().time_step, |s, step| {
         s.sim.change_while_stopped(|settings| settings.set_time_step(step));
     };
-    "stepCount": i64, |s| s.sim.clock.steps() as i64;
+    "stepCount": i64, |s| s.sim.clock.steps().cast_signed();
     "simulationState": i64, |s| s.sim.clock.state() as i64;
 };
 
@@ -102,7 +106,7 @@ pub(in crate::property) const DYNAMICS: &[Accessor] = settings! {
     "dynamicsEnabled": bool, |s| s.dynamics.enabled, |s, on| s.dynamics.enabled = on;
     "showContactPoints": bool, |s| s.dynamics.show_contact_points, |s, on| s.dynamics.show_contact_points = on;
     "gravity": Vector3, |s| Vector3(Color::from_f32(s.dynamics.gravity).0),
-        |s, gravity| s.dynamics.gravity = gravity.0.map(|g| g as f32);
+        |s, gravity| s.dynamics.gravity = gravity.0.map(numbers::single);
 };
 
 fn raw(handles: &[Handle]) -> Vec<i64> {

@@ -91,7 +91,7 @@ pub(in crate::property) const SCRIPT: &[Accessor] = subject_properties! {
     "execPriority": i64, |s| s.priority()?.number(),
         |s, priority| s.set_priority(ExecutionPriority::from_number(priority))?;
     "scriptType": i64, |s| s.script()?.script_type as i64;
-    "executionDepth": i64, |s| s.script()?.depth() as i64;
+    "executionDepth": i64, |s| numbers::count(s.script()?.depth());
     "scriptState": i64, |s| s.script()?.state();
     "language": String, |s| s.read_script(|o| o.language.clone(), |d| d.language().to_owned())?;
     "code": super::Text, |s| super::Text(s.read_script(|o| o.code.clone(), |d| d.code.clone())?),

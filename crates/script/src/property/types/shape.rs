@@ -58,7 +58,7 @@ pub(in crate::property) const APPLY: &[Accessor] = applied! {
     "applyColor.specular": Color, Appearance |part, rgb| part.appearance.colour.specular = rgb.to_f32();
     "applyColor.emission": Color, Appearance |part, rgb| part.appearance.colour.emission = rgb.to_f32();
     "applyColor.transparency": f64, Appearance |part, transparency| {
-        part.appearance.colour.opacity = 1.0 - transparency as f32
+        part.appearance.colour.opacity = 1.0 - numbers::single(transparency);
     };
     "flipFaces": bool, Geometry |part, on| if on { part.flip_faces() };
 };

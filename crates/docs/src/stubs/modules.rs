@@ -6,10 +6,10 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fmt::Write as _;
 
-use super::lua_comments;
-use super::modules::{self, source_of};
-use super::row::FunctionDoc;
-use super::stubs::declare;
+use super::declare;
+use crate::lua::comments;
+use crate::modules::{self, source_of};
+use crate::row::FunctionDoc;
 use ::modules::ALL;
 use script::pairs;
 
@@ -31,7 +31,7 @@ struct Member {
 }
 
 /// The functions of a module, in alphabetical order; inner ones, which begin with an underscore, are left out.
-pub(super) fn of_module(module: &str) -> Vec<FunctionDoc> {
+pub(crate) fn of_module(module: &str) -> Vec<FunctionDoc> {
     let source = source_of(module);
     let table = returned(source).unwrap_or("module");
     members(module, source, table)
@@ -42,14 +42,14 @@ pub(super) fn of_module(module: &str) -> Vec<FunctionDoc> {
 }
 
 /// Path below the folder of stubs, and text, of every module. Those of the remote APIs are add-ons, not for scripts.
-pub(super) fn files() -> impl Iterator<Item = (String, String)> {
+pub(crate) fn files() -> impl Iterator<Item = (String, String)> {
     modules::public()
         .filter(|(path, _)| !path.starts_with("remote/"))
         .map(|(path, source)| (format!("{path}.lua"), text(&path, source)))
 }
 
 /// The names of the functions of a module.
-pub(super) fn names(module: &str) -> HashSet<String> {
+pub(crate) fn names(module: &str) -> HashSet<String> {
     let source = source_of;
     let other = source(module)
         .lines()
@@ -157,7 +157,7 @@ fn members(module: &str, source: &str, table: &str) -> BTreeMap<String, Member> 
         if let Some(member) = members.get(&name)
             && function.text.is_empty()
         {
-            function.text = member.function.text.clone();
+            function.text.clone_from(&member.function.text);
         }
         members.insert(
             name,
@@ -177,8 +177,8 @@ fn described(module: &str, source: &str, table: &str) -> BTreeMap<String, Functi
         let of = |owner| name.strip_prefix(owner)?.strip_prefix(['.', ':']);
         of(module).or_else(|| of(table)).unwrap_or(name).to_owned()
     };
-    let mut commented = lua_comments::in_module(module, source);
-    modules::parts(module).for_each(|part| commented.extend(lua_comments::in_module(module, part)));
+    let mut commented = comments::in_module(module, source);
+    modules::parts(module).for_each(|part| commented.extend(comments::in_module(module, part)));
     taken(module, source)
         .into_iter()
         .chain(commented)

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 
 use script::pairs;
 
-const HEAD: &str = include_str!("plugin_header_head.h");
-const END: &str = include_str!("plugin_header_end.h");
+const HEAD: &str = include_str!("head.h");
+const END: &str = include_str!("end.h");
 
 /// `include/swanilda_plugin.h`.
 pub(super) fn text() -> String {

@@ -4,13 +4,13 @@
 
 /// A token and the line it begins in, from 1.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Token<'a> {
+pub(crate) struct Token<'a> {
     pub kind: Kind<'a>,
     pub line: usize,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Kind<'a> {
+pub(crate) enum Kind<'a> {
     /// A name, a keyword, or a chain of names such as `sim.getObject`.
     Name(String),
     /// Content between the quotes or brackets, escapes unchanged.
@@ -20,7 +20,7 @@ pub(super) enum Kind<'a> {
 }
 
 /// The tokens of `source`.
-pub(super) fn tokens(source: &[u8]) -> Vec<Token<'_>> {
+pub(crate) fn tokens(source: &[u8]) -> Vec<Token<'_>> {
     let mut reader = Reader {
         rest: source,
         line: 1,
@@ -220,7 +220,7 @@ mod tests {
             ["f", "g", "h"]
         );
         assert_eq!(names("--[==[ ]] sim.a ]==] x"), ["x"]);
-        assert_eq!(names(r#"p('sim.a \' b') q"#), ["p", r"'sim.a \' b'", "q"]);
+        assert_eq!(names(r"p('sim.a \' b') q"), ["p", r"'sim.a \' b'", "q"]);
         assert_eq!(
             names("p[[a]] q[=[ ]] ]=] t[1]"),
             ["p", "'a'", "q", "' ]] '", "t"]

@@ -8,9 +8,10 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use super::approximated::difference;
-use super::lua_tokens::{Kind, Token, tokens};
+use super::lua::tokens::{Kind, Token, tokens};
+use super::modules;
+use super::stubs::modules as module_stubs;
 use super::suspicions::{instead_of_module, is_later, meant, unknown_callback, unknown_module};
-use super::{module_stubs, modules};
 use format::scene_file::old_names;
 use script::{Member, ReferenceModule, member_by_rule};
 
@@ -57,9 +58,9 @@ impl Use {
         let hint = || is_later(&name).or_else(|| meant(module, member));
         let hint = (support == Support::Missing).then(hint).flatten();
         Self {
-            hint,
             written,
             support,
+            hint,
             ..Self::missing(name, line)
         }
     }

@@ -1,6 +1,6 @@
 //! Rows from the comments of the Lua library: `--- text`, then `-- @api results = sim.name(parameters)`, `-- @param`, `-- @return`.
 
-use super::row::{Doc, FunctionDoc, ParameterDoc, ResultDoc};
+use crate::row::{Doc, FunctionDoc, ParameterDoc, ResultDoc};
 use lua_library::FILES;
 
 /// The category of each file of `lua/library/sim`.
@@ -24,7 +24,7 @@ const CATEGORIES: &[(&str, &str)] = &[
 ];
 
 /// The functions of the library's files.
-pub(super) fn functions() -> Vec<FunctionDoc> {
+pub(crate) fn functions() -> Vec<FunctionDoc> {
     api::SIM
         .member_files(FILES)
         .flat_map(|(module, source)| in_file(module, source))
@@ -33,7 +33,7 @@ pub(super) fn functions() -> Vec<FunctionDoc> {
 
 /// The functions that the Lua part of a module describes: any comment with `@api module.name(...)`, and calls of `declare` with
 /// such a declaration. A class of the module may be named instead of the module.
-pub(super) fn in_module(module: &str, source: &str) -> Vec<FunctionDoc> {
+pub(crate) fn in_module(module: &str, source: &str) -> Vec<FunctionDoc> {
     let mut found = Vec::new();
     for (comment, line) in comments(source) {
         let declarations = annotated(&comment).chain(declared(line));

@@ -3,6 +3,7 @@
 #![warn(
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,
+    clippy::cast_precision_loss,
     clippy::cast_sign_loss
 )]
 
@@ -11,6 +12,7 @@
     clippy::cast_possible_truncation,
     reason = "that is what the function is for; the cast saturates"
 )]
+#[inline]
 pub const fn truncated(number: f64) -> i64 {
     number as i64
 }
@@ -20,6 +22,7 @@ pub const fn truncated(number: f64) -> i64 {
     clippy::cast_possible_truncation,
     reason = "that is what the function is for; the cast saturates"
 )]
+#[inline]
 pub const fn truncated_i32(number: f64) -> i32 {
     number as i32
 }
@@ -30,6 +33,7 @@ pub const fn truncated_i32(number: f64) -> i32 {
     clippy::cast_sign_loss,
     reason = "that is what the function is for; the cast saturates"
 )]
+#[inline]
 pub const fn truncated_u32(number: f64) -> u32 {
     number as u32
 }
@@ -40,6 +44,7 @@ pub const fn truncated_u32(number: f64) -> u32 {
     clippy::cast_sign_loss,
     reason = "that is what the function is for; the cast saturates"
 )]
+#[inline]
 pub const fn index(number: f64) -> usize {
     number as usize
 }
@@ -49,6 +54,7 @@ pub const fn index(number: f64) -> usize {
     clippy::cast_possible_truncation,
     reason = "that is what the function is for"
 )]
+#[inline]
 pub const fn single(number: f64) -> f32 {
     number as f32
 }
@@ -59,6 +65,7 @@ pub const fn single(number: f64) -> f32 {
     clippy::cast_sign_loss,
     reason = "that is what the function is for; the cast saturates"
 )]
+#[inline]
 pub const fn level(number: f64) -> u8 {
     number as u8
 }
@@ -68,6 +75,7 @@ pub const fn level(number: f64) -> u8 {
     clippy::cast_possible_wrap,
     reason = "nothing in memory has more than i64::MAX bytes"
 )]
+#[inline]
 pub const fn count(items: usize) -> i64 {
     items as i64
 }
@@ -77,6 +85,7 @@ pub const fn count(items: usize) -> i64 {
     clippy::cast_possible_truncation,
     reason = "that is what the function is for"
 )]
+#[inline]
 pub const fn low_i32(integer: i64) -> i32 {
     integer as i32
 }
@@ -87,8 +96,84 @@ pub const fn low_i32(integer: i64) -> i32 {
     clippy::cast_sign_loss,
     reason = "that is what the function is for"
 )]
+#[inline]
 pub const fn low_u32(integer: i64) -> u32 {
     integer as u32
+}
+
+/// The whole part as an integer of 64 bits without a sign: 0 below zero and for NaN, the largest one if the number is too large.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "that is what the function is for; the cast saturates"
+)]
+#[inline]
+pub const fn truncated_u64(number: f64) -> u64 {
+    number as u64
+}
+
+/// A count of what is in memory, or an index of it, in 32 bits: for what never has more items than an integer of files can hold.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "that is what the function is for"
+)]
+#[inline]
+pub const fn count_i32(items: usize) -> i32 {
+    items as i32
+}
+
+/// A count of what is in memory, or an index of it, in 32 bits without a sign: for lists, such as those of meshes, whose indices have 32 bits.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "that is what the function is for"
+)]
+#[inline]
+pub const fn count_u32(items: usize) -> u32 {
+    items as u32
+}
+
+/// A count of what is in memory, or an index of it, in 64 bits.
+#[inline]
+pub const fn count_u64(items: usize) -> u64 {
+    items as u64
+}
+
+/// An index of 32 bits, as meshes have, as a place in memory, which has at least as many bits wherever this is built for.
+#[inline]
+pub const fn place(index: u32) -> usize {
+    index as usize
+}
+
+/// An integer that is known not to be negative, as a place in memory.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the caller has checked the integer"
+)]
+#[inline]
+pub const fn place_of(integer: i64) -> usize {
+    integer as usize
+}
+
+/// A count of what is in memory, or an index of it, as a number with a fraction: exact up to 2^53.
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "that is what the function is for"
+)]
+#[inline]
+pub const fn real(items: usize) -> f64 {
+    items as f64
+}
+
+/// An integer as a number with a fraction: exact up to 2^53, the nearest one beyond.
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "that is what the function is for"
+)]
+#[inline]
+pub const fn real_of(integer: i64) -> f64 {
+    integer as f64
 }
 
 #[cfg(test)]
@@ -119,5 +204,18 @@ mod tests {
             [u32::MAX, 1 << 31, 5]
         );
         assert_eq!(count(3), 3);
+        assert_eq!([-2.9, 2.9, 1e300].map(truncated_u64), [0, 2, u64::MAX]);
+        assert_eq!(
+            (
+                count_i32(3),
+                count_u32(3),
+                count_u64(3),
+                place(3),
+                place_of(3)
+            ),
+            (3, 3, 3, 3, 3)
+        );
+        assert_eq!((real(3), real_of(-3)), (3.0, -3.0));
+        assert_eq!([count_i32(1 << 31), low_i32(1 << 31)], [i32::MIN, i32::MIN]);
     }
 }
