@@ -92,11 +92,17 @@ impl FreeAxis {
         is_cautious: bool,
     ) -> bool {
         if let Some(limit) = self.limit {
-            let pulls = impulse * limit.sign < 0.0 && !is_cautious;
-            if pulls {
+            let pulls = impulse * limit.sign < 0.0;
+            let leaves = (pulls || self.overdrives(limit.velocity)) && !is_cautious;
+            if leaves {
                 self.limit = None;
             }
-            return pulls;
+            return leaves;
+        }
+        // Before limits: one far away would stop what the motor drives too fast.
+        if self.overdrives(velocity) && !is_cautious {
+            self.motor = MotorState::Tracking;
+            return true;
         }
         if let Some(limit) = reached_limit(joint, velocity, step) {
             self.limit = Some(limit);
@@ -107,16 +113,21 @@ impl FreeAxis {
         }
         let motor = match self.motor {
             MotorState::Tracking if impulse.abs() > self.max_impulse => self.saturated(impulse),
-            MotorState::Saturated(all)
-                if !is_cautious && (velocity - self.target) * all.signum() > VELOCITY_TOLERANCE =>
-            {
-                MotorState::Tracking
-            }
             same => same,
         };
         let changed = motor != self.motor;
         self.motor = motor;
         changed
+    }
+
+    /// Whether a saturated motor drives the joint beyond its velocity.
+    fn overdrives(&self, velocity: f64) -> bool {
+        match self.motor {
+            MotorState::Saturated(all) => {
+                (velocity - self.target) * all.signum() > VELOCITY_TOLERANCE
+            }
+            _ => false,
+        }
     }
 
     /// The motor at its largest impulse, in the direction of `sign`.

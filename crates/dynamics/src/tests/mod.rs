@@ -5,6 +5,7 @@ mod chains;
 mod contacts;
 mod joints;
 mod loops;
+mod random_trees;
 mod sleep;
 
 use bench::{Bench, STEP, along_y, near};
