@@ -6,8 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
     ActiveHooks, CoefficientCombineRule, Collider, ColliderHandle, ColliderSet, ContactManifold,
-    ContactModificationContext, ContactPair, PairFilterContext, PhysicsHooks, RigidBody,
-    SolverFlags,
+    ContactModificationContext, PairFilterContext, PhysicsHooks, RigidBody, SolverFlags,
 };
 
 use super::bodies::Tag;
@@ -194,11 +193,11 @@ impl PhysicsHooks for Rules<'_> {
     }
 }
 
-/// The pairs of shapes that may touch, each once, without those whose masks do not allow it.
-pub(super) fn pairs_near(world: &World) -> Vec<(Handle, Handle)> {
+/// The pairs of shapes that may touch in a sub-step of `step` seconds, each once, without those whose masks do not allow it.
+pub(super) fn pairs_near(world: &World, step: f64) -> Vec<(Handle, Handle)> {
     let known = &world.known;
-    let near = |pair: &ContactPair| {
-        let [first, second] = known.pair(pair)?;
+    let near = |colliders: [ColliderHandle; 2]| {
+        let [first, second] = known.both(colliders)?;
         let [a, b] = [Tag::unpack(first.tag), Tag::unpack(second.tag)];
         let may_touch = (first.moves || second.moves) && a.shape != b.shape && masks_overlap(a, b);
         may_touch.then_some((a.shape, b.shape))
@@ -206,13 +205,25 @@ pub(super) fn pairs_near(world: &World) -> Vec<(Handle, Handle)> {
     let mut pairs: Vec<_> = world
         .narrow_phase
         .contact_pairs()
-        .filter_map(near)
+        .filter_map(|pair| near([pair.collider1, pair.collider2]))
         .collect();
-    if known.is_composite {
+    let ahead = pairs_ahead(world, step);
+    if known.is_composite || !ahead.is_empty() {
+        pairs.extend(ahead.into_iter().filter_map(near));
         let mut seen = BTreeSet::new();
         pairs.retain(|&pair| seen.insert(pair));
     }
     pairs
+}
+
+/// The pairs of fast bodies with what is in their way.
+fn pairs_ahead(world: &World, step: f64) -> Vec<[ColliderHandle; 2]> {
+    let awake = world.awake().filter_map(|body| world.bodies.get(body));
+    let moving = awake.filter(|rigid| rigid.is_dynamic());
+    moving
+        .flat_map(|rigid| rigid.colliders())
+        .flat_map(|&collider| world.ahead(collider, step))
+        .collect()
 }
 
 /// The tags of two colliders.

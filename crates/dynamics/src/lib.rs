@@ -248,6 +248,7 @@ impl Dynamics {
         let (Some(world), Some(call)) = (self.world.as_mut(), self.call) else {
             return Vec::new();
         };
+        detect_new(&self.bodies, &self.mechanisms, world, gravity_of(scene));
         self.bodies.sweep(
             f64::from(sub_step) / f64::from(call.sub_steps),
             call.step,
@@ -296,7 +297,8 @@ impl Dynamics {
     pub fn pairs_near(&self) -> Vec<(Handle, Handle)> {
         self.world
             .as_deref()
-            .map(contacts::pairs_near)
+            .zip(self.call)
+            .map(|(world, call)| contacts::pairs_near(world, call.step))
             .unwrap_or_default()
     }
 
@@ -317,13 +319,7 @@ impl Dynamics {
         for link in self.links.values_mut() {
             link.before_step(&world);
         }
-        let gravity = scene.settings().dynamics.gravity.map(f64::from);
-        let gravity = if gravity.iter().all(|x| x.is_finite()) {
-            gravity
-        } else {
-            [0.0; 3]
-        };
-        self.detect_new(&mut world, gravity);
+        let gravity = gravity_of(scene);
         let is_integrated = self.solve_mechanisms(&mut world, gravity, call.step, &verdicts);
         let apart = self.mechanisms.contacts().pairs(&mut world, &verdicts);
         contacts::set_hooks(&mut world, &verdicts, &apart);
@@ -342,16 +338,6 @@ impl Dynamics {
             apart,
             is_integrated,
         })
-    }
-
-    /// Finds what new bodies touch, so that their first contacts are solved as all others are. Bodies of mechanisms begin to touch in the second sub-step.
-    fn detect_new(&self, world: &mut World, gravity: [f64; 3]) {
-        let is_new = std::mem::take(&mut world.has_new_colliders);
-        let mut moving = self.bodies.iter().filter(|(_, body)| body.build.dynamic);
-        if is_new && moving.any(|(shape, _)| !self.mechanisms.contains(shape)) {
-            let rules = contacts::Rules::new(None, Verdicts::default(), &[]);
-            world.detect_collisions(convert::to_vector(gravity), &rules);
-        }
     }
 
     /// Solves the mechanisms, and moves their bodies if nothing else moves; whether it did.
@@ -408,6 +394,26 @@ impl Dynamics {
             .map(|contact| contact.shapes)
             .map(|[a, b]| [a.min(b), a.max(b)])
             .collect()
+    }
+}
+
+/// Finds what new bodies touch, so that their first contacts are solved as all others are. Bodies of mechanisms begin to touch in the second sub-step.
+fn detect_new(bodies: &Bodies, mechanisms: &Mechanisms, world: &mut World, gravity: [f64; 3]) {
+    let is_new = std::mem::take(&mut world.has_new_colliders);
+    let mut moving = bodies.iter().filter(|(_, body)| body.build.dynamic);
+    if is_new && moving.any(|(shape, _)| !mechanisms.contains(shape)) {
+        let rules = contacts::Rules::new(None, Verdicts::default(), &[]);
+        world.detect_collisions(convert::to_vector(gravity), &rules);
+    }
+}
+
+/// Gravity of the scene, m/s2; none where it is no number.
+fn gravity_of(scene: &Scene) -> [f64; 3] {
+    let gravity = scene.settings().dynamics.gravity.map(f64::from);
+    if gravity.iter().all(|x| x.is_finite()) {
+        gravity
+    } else {
+        [0.0; 3]
     }
 }
 

@@ -106,6 +106,10 @@ impl Known {
 
     /// Colliders that are still there.
     pub(super) fn pair(&self, pair: &ContactPair) -> Option<[&KnownCollider; 2]> {
+        self.both([pair.collider1, pair.collider2])
+    }
+
+    pub(super) fn both(&self, colliders: [ColliderHandle; 2]) -> Option<[&KnownCollider; 2]> {
         let of = |handle: ColliderHandle| {
             let known = self
                 .colliders
@@ -113,7 +117,7 @@ impl Known {
                 .as_ref();
             known.filter(|known| known.handle == handle)
         };
-        Some([of(pair.collider1)?, of(pair.collider2)?])
+        Some([of(colliders[0])?, of(colliders[1])?])
     }
 }
 
