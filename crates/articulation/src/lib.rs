@@ -70,7 +70,7 @@
 //!     target: None,
 //! };
 //! let motor = Some(Motor { velocity: 0.0, max_force: 100.0 });
-//! let held = JointState { position: 0.0, velocity: 0.0, motor, limits: None };
+//! let held = JointState { position: 0.0, velocity: 0.0, motor, limits: None, passive: Passive::default() };
 //! mechanism.begin(&[at_rest(0.0), at_rest(0.25)], &[held], [0.0, 0.0, -9.81], 0.005);
 //! assert!(mechanism.solve());
 //! let load = mechanism.joint_loads().next().expect("one joint");
@@ -87,6 +87,7 @@ mod jacobian;
 mod joint;
 mod linked_body;
 mod mechanism;
+mod passive;
 mod position_correction;
 mod rows;
 mod spatial_inertia;
@@ -100,6 +101,7 @@ pub use contact::Contact;
 pub use joint::{JointKind, JointLoad, JointProperties, JointState, Motor};
 pub use linked_body::{BodyMotion, BodyProperties, BodyState};
 pub use mechanism::Mechanism;
+pub use passive::Passive;
 
 /// Linear and angular part as one.
 pub fn spatial(linear: Vector3<f64>, angular: Vector3<f64>) -> Vector6<f64> {

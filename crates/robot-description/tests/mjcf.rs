@@ -241,7 +241,7 @@ fn actuators_and_constraints_name_what_they_act_on() {
         (
             1,
             Drive::Position {
-                stiffness: 50.0,
+                stiffness: 200.0,
                 damping: 0.0,
             },
             Some(40.0),

@@ -308,6 +308,7 @@ impl<'a> Builder<'a> {
             friction: number("frictionloss").unwrap_or(0.0),
             stiffness: number("stiffness").unwrap_or(0.0),
             rest: unit(number("springref").unwrap_or(0.0)),
+            armature: number("armature").unwrap_or(0.0),
         };
         let is_limited = |name: &str, range: &str| {
             attributes
