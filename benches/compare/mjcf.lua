@@ -1,4 +1,4 @@
--- Lets a robot in MJCF move and prints where its joints and its centre of mass are. FILE, GRAVITY, SECONDS, STEP, CONTACTS, TARGETS come before.
+-- Lets a robot in MJCF move and prints where its joints and its centre of mass are. FILE, GRAVITY, SECONDS, STEP, CONTACTS, TARGETS, FIRST come before.
 sim = require 'sim'
 
 local joints, bodies, done = {}, {}, false
@@ -23,6 +23,7 @@ function sysCall_init()
         local name = sim.getObjectAlias(joint)
         if sim.getJointType(joint) ~= sim.joint_spherical_subtype then
             joints[#joints + 1] = {name, joint}
+            if FIRST[name] then sim.setJointPosition(joint, FIRST[name]) end
             if TARGETS[name] then drive(joint, TARGETS[name]) end
         end
     end

@@ -36,8 +36,9 @@ def lua(value):
 
 
 def swanilda(file, gravity, seconds, contacts, targets):
+    """A row for every second step: time, centre of mass and mass; positions by joint."""
     binary = os.environ.get("SWANILDA", str(HERE / "../../target/release/swanilda"))
-    head = {"FILE": str(file), "GRAVITY": list(gravity), "SECONDS": seconds, "STEP": STEP, "CONTACTS": contacts, "TARGETS": targets}
+    head = {"FILE": str(file), "GRAVITY": list(gravity), "SECONDS": seconds, "STEP": STEP, "CONTACTS": contacts, "TARGETS": targets, "FIRST": first_positions(file)}
     code = "".join(f"{name} = {lua(value)}\n" for name, value in head.items()) + (HERE / "mjcf.lua").read_text()
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "scene.lua")
@@ -109,14 +110,15 @@ class Theirs:
         return {n: self.data.qpos[self.model.jnt_qposadr[j]] for n, j in single_joints(self.model)}, self.data.subtree_com[0].copy()
 
 
-def first_positions(file, gravity):
-    """Where the joints are before anything has moved: one step without gravity and controls is too late, so limits say it."""
+def first_positions(file):
+    """Where the joints begin: as the file has them, or a quarter of their range off their limits."""
     model = mujoco.MjModel.from_xml_path(str(file))
     first = {}
     for name, joint in single_joints(model):
-        at = model.qpos0[model.jnt_qposadr[joint]]
+        at = float(model.qpos0[model.jnt_qposadr[joint]])
         if model.jnt_limited[joint]:
-            at = np.clip(at, *model.jnt_range[joint])
+            low, high = model.jnt_range[joint]
+            at = float(np.clip(at, low + (high - low) / 4, high - (high - low) / 4))
         first[name] = at
     return first
 
@@ -125,7 +127,7 @@ def free(file, ctrl=None, targets=None, seconds=1.0):
     """Largest differences of turning joints, of sliding ones and of the centre of mass, each with its largest way, and the time until a limit."""
     gravity = mujoco.MjModel.from_xml_path(str(file)).opt.gravity.tolist()
     rows = swanilda(file, gravity, seconds, False, targets or {})
-    theirs = Theirs(file, first_positions(file, gravity), False, ctrl)
+    theirs = Theirs(file, first_positions(file), False, ctrl)
     model = theirs.model
     start, start_com = theirs.at(0.0)
     worst, ways, until = np.zeros(3), np.zeros(3), 0.0
@@ -161,7 +163,7 @@ def moving_com(theirs):
 def rest(file, seconds=4.0):
     gravity = mujoco.MjModel.from_xml_path(str(file)).opt.gravity.tolist()
     rows = swanilda(file, gravity, seconds, True, {})
-    theirs = Theirs(file, first_positions(file, gravity), True)
+    theirs = Theirs(file, first_positions(file), True)
     theirs.at(rows[-1][0][0])
     return moving_com(theirs)[2], rows[-1][0][3]
 

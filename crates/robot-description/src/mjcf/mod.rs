@@ -187,6 +187,7 @@ pub fn read(bytes: &[u8], files: &mut dyn Files) -> Result<Parsed<Model>, ReadEr
         builder.add_world(world);
     }
     builder.finish_masses(&root);
+    builder.leave_out_untouched();
     let (mut model, mut report) = builder.into_parts();
     // The world itself is a link.
     let world = |link: &Link| link.visuals.is_empty() && link.collisions.is_empty();
