@@ -8,7 +8,7 @@
 //! | in | out |
 //! |---|---|
 //! | once: mass, centre of mass, inertia of bodies ([`BodyProperties`]); kind, bodies and frames of joints ([`JointProperties`]) | a [`Mechanism`] |
-//! | before a step: poses, velocities, external forces ([`BodyState`]); motors, limits, positions ([`JointState`]); gravity; contacts ([`Contact`]), or their expected impulses | forces on bodies ([`Mechanism::body_loads`]), forces in joints ([`Mechanism::joint_loads`]) |
+//! | before a step: poses, velocities, external forces ([`BodyState`]); motors, limits, positions, springs, dampers, rotors, dry friction ([`JointState`], [`Passive`]); gravity; contacts ([`Contact`]), or their expected impulses | forces on bodies ([`Mechanism::body_loads`]), forces in joints ([`Mechanism::joint_loads`]) |
 //! | without an engine: the motion over the step | poses and velocities ([`Mechanism::integrate`]) |
 //! | after the step: poses and velocities ([`BodyMotion`]) | corrected poses and velocities ([`Mechanism::correct_positions`]) |
 //!

@@ -102,6 +102,7 @@ impl Import<'_> {
             .filter(|(index, joint)| self.loses_dynamics(*index, joint))
             .map(|(_, joint)| joint)
             .collect();
+        self.report_further_actuators();
         let Some(first) = losing.first() else {
             return;
         };
@@ -113,6 +114,21 @@ impl Import<'_> {
             "line {}, <joint>: damping or friction of joint '{}'{others} does not count: motors take no notice of it, and of a joint without motor damping counts before friction",
             first.line, first.name
         ));
+    }
+
+    /// A joint has one motor: what else acts on it is said.
+    fn report_further_actuators(&mut self) {
+        let actuators = self.model.actuators.as_deref().unwrap_or_default();
+        let is_further = |(number, actuator): &(usize, &Actuator)| {
+            let before = &actuators[..*number];
+            before.iter().any(|other| other.joint == actuator.joint)
+        };
+        for (_, actuator) in actuators.iter().enumerate().filter(is_further) {
+            self.messages.push(format!(
+                "line {}: actuator '{}' does not count, since its joint has another one",
+                actuator.line, actuator.name
+            ));
+        }
     }
 
     fn loses_dynamics(&self, index: usize, joint: &Description) -> bool {

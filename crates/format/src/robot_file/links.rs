@@ -4,7 +4,7 @@ use geometry::MassProperties;
 use robot_description::{Geometry, Inertial, Link};
 
 use super::{Import, Node, RobotFormat, RobotImportOptions};
-use scene::shape::{RespondableMask, Shape};
+use scene::shape::{Material, RespondableMask, Shape};
 use scene::{
     COLLISION_TREE, Data, Edit, Field, Handle, Kind, Layers, Namespace, Pose, SceneResult,
     ValueType,
@@ -97,6 +97,9 @@ impl Import<'_> {
         let body = match touched {
             Some((pose, mut shape)) => {
                 shape.dynamics.respondable = !collisions.is_empty();
+                if let Some(friction) = link.friction {
+                    shape.material = Material::of_friction(friction);
+                }
                 shape.dynamics.respondable_mask = RespondableMask(MASK | self.local_mask(depth));
                 self.set_inertia(index, inertial.as_ref(), pose, &mut shape);
                 Some(self.add_body(&link.name, frame * pose, shape, joint)?)

@@ -13,6 +13,8 @@ use crate::xml::short;
 
 /// kg/m³ of what says nothing else.
 const DENSITY: f64 = 1000.0;
+/// Coulomb's friction of what says nothing else.
+const FRICTION: f64 = 1.0;
 /// Geoms of groups above are not shown.
 const LAST_VISIBLE_GROUP: f64 = 2.0;
 
@@ -67,6 +69,7 @@ impl Builder<'_> {
         let bits = ["contype", "conaffinity"].map(|name| number(name, 1.0) as i64);
         let touches = bits != [0, 0];
         let density = number("density", DENSITY);
+        let friction = number("friction", FRICTION);
         let mass = attributes.number(&mut self.report, "mass");
         let material = self.document.material(attributes, &mut self.report);
         let link = &mut self.model.robot.links[place.link];
@@ -77,6 +80,7 @@ impl Builder<'_> {
                 part,
                 bits,
             });
+            link.friction = Some(link.friction.unwrap_or(0.0).max(friction));
             link.collisions.push(Collision {
                 name: name.clone(),
                 pose,
