@@ -10,7 +10,8 @@ use crate::block_cholesky::Segment;
 use crate::contact::Contact;
 use crate::free_axis::{FreeAxis, MotorState};
 use crate::jacobian::{Jacobian, halves, times_cross_matrix};
-use crate::linked_body::LinkedBody;
+use crate::linked_body::{BodyState, LinkedBody};
+use crate::passive::Passive;
 use crate::spatial;
 
 /// The degrees of freedom a joint leaves; its axis is the z of its base.
@@ -52,6 +53,8 @@ pub struct JointState {
     pub motor: Option<Motor>,
     /// Lowest and highest position.
     pub limits: Option<[f64; 2]>,
+    /// What acts along the free axis beside motor and limits.
+    pub passive: Passive,
 }
 
 /// A motor: it reaches `velocity` (rad/s or m/s) with at most `max_force` (N m or N).
@@ -139,6 +142,7 @@ impl Joint {
                 velocity: 0.0,
                 motor: None,
                 limits: None,
+                passive: Passive::default(),
             },
             axes: Matrix3::zeros(),
             point: Vector3::zeros(),
@@ -201,7 +205,11 @@ impl Joint {
 
     /// Takes the impulse on the second body at the point of the joint as that of the rows.
     pub(crate) fn set_impulse(&mut self, impulse: &Vector6<f64>) {
-        self.impulse = self.with_active(self.rows_of(impulse) - self.saturated_rows());
+        let rows = self.rows_of(impulse) - self.known_rows();
+        self.impulse = self.with_active(rows);
+        if let Some((row, _)) = self.soft_row() {
+            self.impulse[row] = rows[row];
+        }
     }
 
     /// Takes the impulse on the second body at the point of the joint as that of the correction.
@@ -247,7 +255,11 @@ impl Joint {
 
     /// Velocity along the free axis of a joint with one degree of freedom.
     fn axis_velocity(&self, row: usize, bodies: &[LinkedBody]) -> f64 {
-        let (linear, angular) = self.relative_velocity(|body| bodies[body].velocity);
+        self.axis_velocity_of(row, |body| bodies[body].velocity)
+    }
+
+    fn axis_velocity_of(&self, row: usize, of_body: impl Fn(usize) -> Vector6<f64>) -> f64 {
+        let (linear, angular) = self.relative_velocity(of_body);
         let along = if row < 3 { linear } else { angular };
         self.axes.row(row % 3).tr_dot(&along)
     }
@@ -294,9 +306,10 @@ impl Joint {
         rows
     }
 
-    /// Which rows are constrained.
+    /// Which rows have impulses: those that are constrained, and that of an axis with something passive.
     pub(crate) fn active_rows(&self) -> [bool; 6] {
-        std::array::from_fn(|row| self.is_active(row))
+        let soft = self.soft_row().map(|(row, _)| row);
+        std::array::from_fn(|row| self.is_active(row) || soft == Some(row))
     }
 
     /// With zeros in the rows that are not active.
@@ -324,33 +337,51 @@ impl Joint {
         self.axis.as_ref().map_or(0.0, FreeAxis::target_velocity)
     }
 
-    /// The change of velocity that the active rows require.
+    /// The change of velocity that the active rows require; along a soft axis that to rest, which its compliance allows a part of.
     pub(crate) fn missing_velocity(&self, bodies: &[LinkedBody]) -> Segment {
         let mut missing = -self.velocity(bodies);
+        let soft = self.soft_row().map(|(row, _)| (row, missing[row]));
         if let Some(axis) = &self.axis {
             missing[axis.row] += axis.target_velocity();
         }
-        self.with_active(missing)
+        let mut missing = self.with_active(missing);
+        if let Some((row, velocity)) = soft {
+            missing[row] = velocity;
+        }
+        missing
     }
 
-    /// The impulse of a saturated motor along the free axis; 0 for others.
-    pub(crate) fn saturated_impulse(&self) -> f64 {
-        match self.axis {
-            Some(FreeAxis {
-                motor: MotorState::Saturated(all),
-                ..
-            }) => all,
-            _ => 0.0,
-        }
+    /// The row of the free axis, and the inertia of what is passive along it, where no motor and no limit imposes a velocity.
+    pub(crate) fn soft_row(&self) -> Option<(usize, f64)> {
+        let axis = self.axis.as_ref()?;
+        let inertia = axis.soft_inertia();
+        (inertia > 0.0).then_some((axis.row, inertia))
+    }
+
+    /// The impulses along the free axis that are known: of a saturated motor, and what is passive.
+    pub(crate) fn known_impulse(&self) -> f64 {
+        self.axis.as_ref().map_or(0.0, FreeAxis::known_impulse)
     }
 
     /// The same by rows.
-    pub(crate) fn saturated_rows(&self) -> Segment {
+    pub(crate) fn known_rows(&self) -> Segment {
         let mut rows = Segment::zeros();
         if let Some(axis) = &self.axis {
-            rows[axis.row] = self.saturated_impulse();
+            rows[axis.row] = axis.known_impulse();
         }
         rows
+    }
+
+    /// Begins with the active set of the step before.
+    pub(crate) fn warm_start(&mut self, bodies: &[BodyState], step: f64) {
+        let Some(mut axis) = self.axis else { return };
+        let velocity = if self.state.passive == Passive::default() {
+            self.state.velocity
+        } else {
+            self.axis_velocity_of(axis.row, |body| bodies[body].motion.velocity)
+        };
+        axis.warm_start(&self.state, velocity, step);
+        self.axis = Some(axis);
     }
 
     fn motor_impulse(&self) -> f64 {
@@ -382,7 +413,7 @@ impl Joint {
 
     /// All impulses of the rows.
     pub(crate) fn total_impulse(&self) -> Segment {
-        self.impulse + self.saturated_rows()
+        self.impulse + self.known_rows()
     }
 
     pub(crate) fn load(&self, step: f64) -> JointLoad {

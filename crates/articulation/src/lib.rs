@@ -8,7 +8,7 @@
 //! | in | out |
 //! |---|---|
 //! | once: mass, centre of mass, inertia of bodies ([`BodyProperties`]); kind, bodies and frames of joints ([`JointProperties`]) | a [`Mechanism`] |
-//! | before a step: poses, velocities, external forces ([`BodyState`]); motors, limits, positions ([`JointState`]); gravity; contacts ([`Contact`]), or their expected impulses | forces on bodies ([`Mechanism::body_loads`]), forces in joints ([`Mechanism::joint_loads`]) |
+//! | before a step: poses, velocities, external forces ([`BodyState`]); motors, limits, positions, springs, dampers, rotors, dry friction ([`JointState`], [`Passive`]); gravity; contacts ([`Contact`]), or their expected impulses | forces on bodies ([`Mechanism::body_loads`]), forces in joints ([`Mechanism::joint_loads`]) |
 //! | without an engine: the motion over the step | poses and velocities ([`Mechanism::integrate`]) |
 //! | after the step: poses and velocities ([`BodyMotion`]) | corrected poses and velocities ([`Mechanism::correct_positions`]) |
 //!
@@ -70,7 +70,7 @@
 //!     target: None,
 //! };
 //! let motor = Some(Motor { velocity: 0.0, max_force: 100.0 });
-//! let held = JointState { position: 0.0, velocity: 0.0, motor, limits: None };
+//! let held = JointState { position: 0.0, velocity: 0.0, motor, limits: None, passive: Passive::default() };
 //! mechanism.begin(&[at_rest(0.0), at_rest(0.25)], &[held], [0.0, 0.0, -9.81], 0.005);
 //! assert!(mechanism.solve());
 //! let load = mechanism.joint_loads().next().expect("one joint");
@@ -90,6 +90,7 @@ mod jacobian;
 mod joint;
 mod linked_body;
 mod mechanism;
+mod passive;
 mod position_correction;
 mod rows;
 mod spatial_inertia;
@@ -103,6 +104,7 @@ pub use contact::Contact;
 pub use joint::{JointKind, JointLoad, JointProperties, JointState, Motor};
 pub use linked_body::{BodyMotion, BodyProperties, BodyState};
 pub use mechanism::Mechanism;
+pub use passive::Passive;
 
 /// Linear and angular part as one.
 pub fn spatial(linear: Vector3<f64>, angular: Vector3<f64>) -> Vector6<f64> {

@@ -103,10 +103,7 @@ impl Mechanism {
             joint.state = *state;
             joint.correction = Segment::zeros();
             joint.place(&self.bodies);
-            joint
-                .axis
-                .iter_mut()
-                .for_each(|axis| axis.warm_start(state, step));
+            joint.warm_start(bodies, step);
         }
         self.stabilize();
     }
@@ -186,7 +183,7 @@ mod tests {
     use test_support::random::Random;
 
     use super::*;
-    use crate::{BodyMotion, JointKind, Motor};
+    use crate::{BodyMotion, JointKind, Motor, Passive};
 
     const STEP: f64 = 0.005;
     const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
@@ -235,6 +232,7 @@ mod tests {
             velocity: 0.0,
             motor,
             limits: None,
+            passive: Passive::default(),
         };
         mechanism.begin(&bodies, &vec![joint; rods], GRAVITY, STEP);
         assert!(mechanism.solve());
@@ -301,6 +299,7 @@ mod tests {
                         velocity: 0.0,
                         motor: Some(motor),
                         limits,
+                        passive: Passive::default(),
                     }
                 })
                 .collect();
@@ -338,6 +337,7 @@ mod tests {
             velocity: 0.0,
             motor: None,
             limits: None,
+            passive: Passive::default(),
         };
         mechanism.begin(&bodies, &[joint; 3], GRAVITY, STEP);
         assert!(mechanism.solve());
@@ -360,6 +360,7 @@ mod tests {
             velocity: 0.0,
             motor: None,
             limits: None,
+            passive: Passive::default(),
         };
         mechanism.begin(&bodies, &[joint; 3], GRAVITY, STEP);
         let contact = crate::Contact {

@@ -89,7 +89,10 @@ impl Rows {
                 }
             }
         }
-        for diagonal in &mut self.matrix.diagonal {
+        for (diagonal, joint) in self.matrix.diagonal.iter_mut().zip(joints) {
+            if let Some((row, inertia)) = joint.soft_row() {
+                diagonal[(row, row)] += 1.0 / inertia;
+            }
             for row in 0..6 {
                 let response = diagonal[(row, row)];
                 diagonal[(row, row)] = if response > 0.0 {
@@ -138,11 +141,8 @@ impl System for Rows {
             body.joint_impulse = Vector6::zeros();
             body.velocity = body.free_velocity() + mass.times(&body.known_impulse());
         }
-        for joint in joints
-            .iter()
-            .filter(|joint| joint.saturated_impulse() != 0.0)
-        {
-            self.apply_impulse(joint, bodies, &joint.saturated_rows());
+        for joint in joints.iter().filter(|joint| joint.known_impulse() != 0.0) {
+            self.apply_impulse(joint, bodies, &joint.known_rows());
         }
         let mut impulses = std::mem::take(&mut self.impulses);
         impulses.clear();

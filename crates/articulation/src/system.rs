@@ -51,7 +51,7 @@ mod tests {
     use super::*;
     use crate::{
         BodyMotion, BodyProperties, BodyState, JointKind, JointProperties, JointState, Mechanism,
-        Motor,
+        Motor, Passive,
     };
 
     const BODIES: usize = 9;
@@ -144,6 +144,25 @@ mod tests {
                 velocity: 0.0,
                 motor,
                 limits,
+                passive: self.passive(),
+            }
+        }
+    }
+
+    impl Random {
+        /// Of half of the joints: a spring, a damper, a rotor, friction.
+        fn passive(&mut self) -> Passive {
+            if self.next() > 0.0 {
+                return Passive::default();
+            }
+            let mut positive = || self.next().abs();
+            Passive {
+                armature: positive(),
+                stiffness: 100.0 * positive(),
+                rest: positive(),
+                damping: 10.0 * positive(),
+                friction: if positive() > 0.5 { 3.0 } else { 0.0 },
+                effort: positive(),
             }
         }
     }

@@ -39,8 +39,10 @@ pub(crate) struct Link {
     /// Velocity of the body relative to its parent that the joint imposes, and its momentum.
     offset: Vector6<f64>,
     offset_momentum: Vector6<f64>,
-    /// Impulse of a saturated motor along the axis.
+    /// Known impulse along the axis: of a saturated motor, and what is passive.
     effort: f64,
+    /// Inertia of what is passive along the axis.
+    passive_inertia: f64,
     /// Impulse on the body and on what is beyond.
     impulse: Vector6<f64>,
     /// Velocity or displacement.
@@ -295,6 +297,7 @@ impl Link {
             offset: none,
             offset_momentum: none,
             effort: 0.0,
+            passive_inertia: 0.0,
             impulse: none,
             velocity: none,
         }
@@ -313,6 +316,7 @@ impl Link {
             axis.motion = shifted_velocity(&motion, &parent.lever) * parent.sign;
         }
         self.is_imposed = joint.imposes_velocity();
+        self.passive_inertia = joint.soft_row().map_or(0.0, |(_, inertia)| inertia);
     }
 
     /// Eliminates the free axes from the inertia.
@@ -321,7 +325,7 @@ impl Link {
             axis.momentum = self.inertia.times(&axis.motion);
             axis.response = 0.0;
             if !self.is_imposed {
-                axis.response = 1.0 / axis.motion.dot(&axis.momentum);
+                axis.response = 1.0 / (axis.motion.dot(&axis.momentum) + self.passive_inertia);
                 self.inertia.subtract_square(&axis.momentum, axis.response);
             }
         }
@@ -340,7 +344,7 @@ impl Link {
                 self.axes[0].momentum * velocity,
             );
         } else {
-            self.effort = joint.saturated_impulse();
+            self.effort = joint.known_impulse();
         }
         if parent.place.is_none() {
             self.offset += shifted_velocity(&bodies[parent.body].free_velocity(), &parent.arm);

@@ -9,11 +9,12 @@
 //! - `plan`: the bodies and constraints that the scene needs; compared with those that exist, so that only changes reach the engine.
 //! - `bodies`, `colliders`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`, with their contacts.
 //! - `near`: what a body may touch in a sub-step; `free_rotation`: bodies that tumble.
-//! - `contacts`: collision filters; `flat_faces`: contacts without friction; `motors`: the control law.
+//! - `contacts`: collision filters; `flat_faces`: contacts without friction; `motors`: the control law; `actuators`: that of MuJoCo.
 //! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
 //!
 //! Free bodies at rest fall asleep, which no reading shows. No state outlives the run: the same scene produces the same bytes.
 
+mod actuators;
 mod bodies;
 mod colliders;
 mod contact_log;
@@ -267,8 +268,7 @@ impl Dynamics {
             if joint.control.calls_script() {
                 requests.push(request(handle, joint, link));
             }
-            let drive = link.motor.drive(joint, engine, link.motion, call.step);
-            link.set_drive(drive, world);
+            link.set_orders(joint, engine, call.step, world);
         }
         self.follows_scene = false;
         for (handle, joint) in dependent {
@@ -279,6 +279,7 @@ impl Dynamics {
             let Some(link) = self.links.get_mut(handle) else {
                 continue;
             };
+            link.passive = actuators::beside(link.actuation);
             let drive = master
                 .and_then(|master| motors::coupled_drive(joint, link.motion, master, call.step));
             link.set_drive(drive, world);

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use articulation::JointLoad;
+use articulation::{JointLoad, Passive};
 use geometry::Finite;
 use geometry::pose::euler::wrap_angle;
 use nalgebra::{Vector3, Vector6};
@@ -15,13 +15,15 @@ use rapier3d_f64::prelude::{
     SpringCoefficients,
 };
 
+use super::actuators::{Orders, actuated};
 use super::bodies::Bodies;
 use super::convert::{from_pose, from_vector, to_pose};
 use super::load::{Load, Rows};
 use super::motors::{Drive, Motion, Motor};
 use super::plan::{LinkKind, LinkPlan};
 use super::world::World;
-use scene::joint::Joint;
+use scene::joint::{Actuation, Joint};
+use scene::parameters::engine::Engine;
 use scene::{Field, Handle, Pose, Scene};
 
 /// Damping that makes a velocity motor rigid within its force.
@@ -92,6 +94,11 @@ pub(super) struct Link {
     /// No sub-step has run yet since the link was made.
     pub fresh: bool,
     pub drive: Option<Drive>,
+    /// How the joint is moved beside what its control says, where that counts.
+    pub actuation: Option<Actuation>,
+    /// What acts along the axis beside the motor in this sub-step, and the part of it that is its actuator's, N m or N.
+    pub passive: Passive,
+    pub actuator_force: f64,
     /// Lowest and highest position, if the joint has stops.
     pub stops: Option<[f64; 2]>,
     /// The exact solution: what the link exerts in this sub-step.
@@ -172,6 +179,9 @@ pub(super) fn apply_plan(
             Some(link) => link,
             None => Link::insert(plan, ends, world),
         };
+        let engine = scene.settings().dynamics.engine.engine;
+        let actuation = scene.object(handle).map(|object| object.actuation(engine));
+        link.actuation = actuation.unwrap_or_default();
         if let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) {
             link.set_limits(joint, world);
             if link.fresh {
@@ -205,6 +215,9 @@ impl Link {
             turned: 0.0,
             fresh: true,
             drive: None,
+            actuation: None,
+            passive: Passive::default(),
+            actuator_force: 0.0,
             stops: None,
             solution: None,
             shared: true,
@@ -248,6 +261,27 @@ impl Link {
         if self.shared {
             self.set_engine_motor(world);
         }
+    }
+
+    /// Sets what the joint is to do in the next sub-step by its control, or as MuJoCo's actuators do.
+    pub(super) fn set_orders(
+        &mut self,
+        joint: &Joint,
+        engine: Engine,
+        step: f64,
+        world: &mut World,
+    ) {
+        let orders = self
+            .actuation
+            .map(|actuation| actuated(joint, &actuation, self.motion));
+        let Orders { passive, force } = orders.unwrap_or_default();
+        self.passive = passive;
+        self.actuator_force = force.unwrap_or(0.0);
+        let drive = match force {
+            Some(_) => None,
+            None => self.motor.drive(joint, engine, self.motion, step),
+        };
+        self.set_drive(drive, world);
     }
 
     /// Sets rapier's motor, which matters only where rapier solves the link as well.
@@ -350,8 +384,11 @@ impl Link {
         // Values that overflowed are not read at all.
         // rapier remembers the impulses of the last part.
         let part = step / self.parts as f64;
-        self.efforts
-            .push((impulse / part - solution.motor).finite().unwrap_or(0.0));
+        self.efforts.push(
+            (impulse / part - solution.motor - self.actuator_force)
+                .finite()
+                .unwrap_or(0.0),
+        );
         if let Some(residual) = self.rows.take() {
             let impulses = if self.shared {
                 joint.impulses

@@ -206,7 +206,7 @@ fn surface(scene: &Scene, handle: Handle, shape: &Shape) -> Surface {
     let (friction, restitution) = shape.material.contact_values(selected);
     let suspended = shape.dynamics.respondable_suspend_count > 0;
     Surface {
-        root: scene.root_of(handle),
+        root: scene.collision_root_of(handle),
         mask: if suspended {
             0
         } else {

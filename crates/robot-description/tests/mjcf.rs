@@ -241,7 +241,7 @@ fn actuators_and_constraints_name_what_they_act_on() {
         (
             1,
             Drive::Position {
-                stiffness: 50.0,
+                stiffness: 200.0,
                 damping: 0.0,
             },
             Some(40.0),
@@ -426,4 +426,61 @@ fn other_files_are_refused() {
             && !mjcf::is_mjcf(b"<mujocoinclude/>")
             && !mjcf::is_mjcf(b"<!-- <mujoco>")
     );
+}
+
+#[test]
+fn an_actuator_acts_through_its_gear_within_its_ranges() {
+    let text = r#"<mujoco><worldbody><body><joint name="a" damping="2" armature="3" frictionloss="4" stiffness="5" springref="90"/><geom size="1"/>
+        <body><joint name="b"/><geom size="1"/></body></body></worldbody><actuator>
+        <motor joint="a" gear="-20" ctrlrange="-1 2" forcerange="-1.5 1.5"/>
+        <general joint="b" gear="2" gainprm="30" biastype="affine" biasprm="1 -10 -3" ctrlrange="-1 1" forcerange="-4 5"/>
+        <velocity joint="b" kv="7" gear="3" ctrlrange="-6 3"/></actuator></mujoco>"#;
+    let model = read(text).value;
+    let dynamics = model.robot.joints[0].dynamics;
+    let numbers = [
+        dynamics.damping,
+        dynamics.armature,
+        dynamics.friction,
+        dynamics.stiffness,
+    ];
+    assert_eq!(numbers, [2.0, 3.0, 4.0, 5.0]);
+    assert!((dynamics.rest - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+    let [motor, general, velocity] = model.actuators.as_slice() else {
+        panic!("three actuators")
+    };
+    assert_eq!((motor.drive, motor.bias), (Drive::Force, 0.0));
+    assert_eq!((motor.range, motor.control), (Some([-30.0, 20.0]), None));
+    let spring = Drive::Position {
+        stiffness: 40.0,
+        damping: 12.0,
+    };
+    assert_eq!((general.drive, general.bias), (spring, 2.0));
+    assert_eq!(general.range, Some([-8.0, 10.0]));
+    // A unit of what it is told is 60 N m, as much as 1.5 rad.
+    assert_eq!(general.control, Some([-1.5, 1.5]));
+    assert_eq!(velocity.drive, Drive::Velocity { damping: 63.0 });
+    assert_eq!(velocity.control, Some([-2.0, 1.0]));
+}
+
+#[test]
+fn what_no_body_that_moves_may_touch_is_not_touched() {
+    let text = |cart: &str| {
+        format!(
+            r#"<mujoco><worldbody><geom name="rail" size="1" contype="0"/><geom name="floor" size="2" conaffinity="6" contype="0" friction="0.3"/>
+            <body><joint/><geom size="1" {cart} friction="0.8"/></body></worldbody></mujoco>"#
+        )
+    };
+    let touched = |cart: &str| {
+        let robot = read(&text(cart)).value.robot;
+        let names = |link: usize| {
+            let collisions = robot.links[link].collisions.iter();
+            collisions.map(|part| part.name.clone()).collect::<Vec<_>>()
+        };
+        (names(0), names(1).len(), robot.links[1].friction)
+    };
+    assert_eq!(touched(r#"contype="0""#), (vec![], 1, Some(0.8)));
+    let floor = vec!["floor".to_owned()];
+    assert_eq!(touched(r#"contype="2""#), (floor, 1, Some(0.8)));
+    let rail = vec!["rail".to_owned()];
+    assert_eq!(touched(""), (rail, 1, Some(0.8)));
 }

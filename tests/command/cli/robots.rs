@@ -23,8 +23,8 @@ const CRANE: &str = r#"<mujoco model="crane">
     <body name="load" pos="2 0 .1"><freejoint/><geom type="ellipsoid" size=".1 .1 .1" mass="3"/></body>
   </worldbody>
   <actuator>
-    <position joint="swing" kp="10" forcerange="-50 50"/>
-    <position joint="lift" kp="10" forcerange="-100 100"/>
+    <position joint="swing" kp="1e5" kv="1e3" forcerange="-50 50"/>
+    <position joint="lift" kp="1e5" kv="1e3" forcerange="-100 100"/>
   </actuator>
   <equality><odd/></equality>
 </mujoco>"#;
@@ -81,7 +81,7 @@ fn a_robot_in_mjcf_is_run_and_converted() {
         "/boom_respondable, 4.000, 0",
         "/load_respondable, 3.000, 0",
         "swing 0.200, 100",
-        "hook 1.00 0.00 2.00",
+        "hook 0.98 0.20 2.00",
     ];
     let found = expected.iter().all(|line| said.contains(line));
     assert!(found, "{said}");
@@ -91,6 +91,52 @@ fn a_robot_in_mjcf_is_run_and_converted() {
         text.contains("<joint name=\"lift\" type=\"revolute\">"),
         "{text}"
     );
+}
+
+/// A slider without limits on a spring, with a rotor and a motor that pushes with nothing; a cart that falls on the ground of its file, on which it hangs.
+const SLIDERS: &str = r#"<mujoco model="sliders">
+  <worldbody>
+    <geom type="plane" size="5 5 .1"/>
+    <body name="mass" pos="0 0 2"><joint name="slide" type="slide" axis="1 0 0" ref=".8" stiffness="50" armature="2"/><geom type="box" size=".1 .1 .1" mass="3"/></body>
+    <body name="cart" pos="0 2 1">
+      <joint name="along" type="slide" axis="1 0 0"/><joint name="down" type="slide" axis="0 0 1"/><geom type="box" size=".1 .1 .1" mass="3"/>
+    </body>
+  </worldbody>
+  <actuator><motor joint="slide" gear="3" ctrlrange="-1 1"/></actuator>
+</mujoco>"#;
+
+const LOOKS_AT_SLIDERS: &str = "sim = require 'sim'
+function sysCall_init()
+    sim.loadModel(sim.getNamedStringParam('model'))
+    slide = sim.getObject('/slide')
+end
+function sysCall_sensing()
+    at = {sim.getJointPosition(slide), sim.getJointPosition(sim.getObject('/down')), sim.getJointForce(slide) or 0}
+    if sim.getSimulationTime() > 0.89 then sim.setJointTargetForce(slide, -7) end
+end
+function sysCall_afterSimulation()
+    print(string.format('slide %.2f down %.2f force %.2f', table.unpack(at)))
+end";
+
+#[test]
+fn springs_and_rotors_of_mjcf_outlast_a_model_file() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let folder = folder.path();
+    fs::write(folder.join("sliders.xml"), SLIDERS).expect("our own folder is writable");
+    fs::write(folder.join("look.lua"), LOOKS_AT_SLIDERS).expect("our own folder is writable");
+    said_by(folder, &["convert", "sliders.xml", "sliders.ttm"]);
+    for model in ["model=sliders.xml", "model=sliders.ttm"] {
+        let run = [
+            "run", "look.lua", "--empty", "--time", "1", "-q", "-D", model,
+        ];
+        let said = said_by(folder, &run);
+        // A swing of sqrt(50 / (3 + 2)) rad/s is at 0.8 cos(3.64) = -0.70 after the 1.15 s of this run; the motor pushes with as much as it can in the last
+        // fifth of a second, which adds 3 / 50 (1 - cos(0.63)) = 0.01.
+        assert!(
+            said.contains("slide -0.71 down -0.90 force 3.00"),
+            "{model}: {said}"
+        );
+    }
 }
 
 /// A box that carries a long arm, which it cannot hold upright.

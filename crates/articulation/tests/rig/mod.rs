@@ -51,6 +51,7 @@ pub fn free_joint() -> JointState {
         velocity: 0.0,
         motor: None,
         limits: None,
+        passive: Passive::default(),
     }
 }
 

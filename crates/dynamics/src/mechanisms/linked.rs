@@ -507,6 +507,7 @@ fn joint_state(link: &Link) -> JointState {
         velocity: link.motion.velocity,
         motor,
         limits: link.stops,
+        passive: link.passive,
     }
 }
 

@@ -9,8 +9,9 @@ use scene::{Pose, SceneResult};
 
 /// Diameter of what carries a joint and has no geometry, metres.
 const CARRIER: f64 = 0.05;
-/// Mass and inertia of a body between two joints, as a fraction of those of the next body.
+/// Mass and inertia of a body between two joints, as a fraction of those of the next body; in MJCF, where there is none, so little that it does not count.
 const MASS_RATIO: f64 = 0.01;
+const MASS_RATIO_MJCF: f64 = 1e-3;
 /// Smallest mass (kg) and moment of inertia (kg m²) of a body between two joints.
 const MIN_MASS_AND_INERTIA: (f64, f64) = (1e-4, 1e-7);
 /// What a link of SDF has that says nothing of mass: kg, kg m².
@@ -43,7 +44,11 @@ impl Import<'_> {
         let mut shape = super::shapes::ball(CARRIER)?;
         shape.dynamics.is_static = self.is_fixed(index);
         if !shape.dynamics.is_static {
-            shape.mass = light(self.next_inertial(index));
+            let ratio = match self.format {
+                RobotFormat::Mjcf => MASS_RATIO_MJCF,
+                RobotFormat::Urdf | RobotFormat::Sdf => MASS_RATIO,
+            };
+            shape.mass = light(self.next_inertial(index), ratio);
             let name = &self.robot.links[index].name;
             self.message(format!(
                 "link '{name}' is between two joints: it gets a mass of {:.3e} kg",
@@ -87,10 +92,10 @@ impl Import<'_> {
     }
 }
 
-fn light(next: Option<Inertial>) -> MassProperties {
+fn light(next: Option<Inertial>, ratio: f64) -> MassProperties {
     let (mass, moment) = next.map_or((0.0, 0.0), |next| {
         let [xx, _, _, yy, _, zz] = next.inertia;
-        (next.mass * MASS_RATIO, (xx + yy + zz) / 3.0 * MASS_RATIO)
+        (next.mass * ratio, (xx + yy + zz) / 3.0 * ratio)
     });
     let (mass, moment) = (
         mass.max(MIN_MASS_AND_INERTIA.0),

@@ -5,10 +5,12 @@ use robot_description::mjcf::{Actuator, Drive};
 use robot_description::{Dynamics, Joint as Description, JointKind, Limits, Robot};
 
 use super::{Import, RobotImportOptions};
-use scene::joint::{Control, Joint, JointMode, JointType};
+use scene::joint::{
+    self as motor, ACTUATOR, ActuatorKind, Control, Joint, JointMode, JointType, Passive,
+};
 use scene::object::dummy::Dummy;
 use scene::sensor::force_sensor::{ForceFilter, ForceSensor};
-use scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
+use scene::{Data, Edit, Field, Handle, Kind, Layers, Namespace, Pose, SceneResult, ValueType};
 
 /// Torque of a motor with limits, N m; force of one that slides, or that turns without end, N or N m; speed of both (spec: import 1).
 const TORQUE: f64 = 2.0;
@@ -16,6 +18,8 @@ const FORCE: f64 = 200.0;
 const VELOCITY: f64 = 20.0;
 /// The largest force or torque of a motor whose file says none, N or N m.
 const ANY_EFFORT: f64 = 1e6;
+/// How far a joint slides whose file says no limits, metres.
+const ANY_WAY: f64 = 500.0;
 /// The speed up to which a spring pushes, rad/s or m/s.
 const SPRING_SPEED: f64 = 1000.0;
 /// Diameter of a dummy, metres.
@@ -55,6 +59,7 @@ impl Import<'_> {
     ) -> SceneResult<Handle> {
         let description = &self.robot.joints[index];
         let mut joint = Joint::new(joint_type, JointMode::Dynamic);
+        let mut actuation = None;
         if joint_type != JointType::Spherical {
             set_limits(&mut joint, description, self.first[index]);
             match &self.model.actuators {
@@ -64,7 +69,7 @@ impl Import<'_> {
                 None => joint.set_control(Control::Position),
                 Some(actuators) => {
                     let actuator = actuators.iter().find(|actuator| actuator.joint == index);
-                    set_actuator(&mut joint, description, actuator);
+                    actuation = Some(set_actuator(&mut joint, description, actuator));
                 }
             }
         }
@@ -75,6 +80,12 @@ impl Import<'_> {
             pose,
             parent,
         )?;
+        if let Some(actuator) = actuation {
+            let text = Data::text(&actuator.to_string());
+            let edit = Edit::Name(ACTUATOR, Some((ValueType::String, text)));
+            self.scene
+                .edit_named_values(Some(handle), Namespace::CustomData, edit)?;
+        }
         if !self.options.contains(RobotImportOptions::SHOW_JOINTS) {
             self.scene.modify(handle, Field::Layer, |object| {
                 object.layer = Layers::JOINTS.hidden();
@@ -91,6 +102,7 @@ impl Import<'_> {
             .filter(|(index, joint)| self.loses_dynamics(*index, joint))
             .map(|(_, joint)| joint)
             .collect();
+        self.report_further_actuators();
         let Some(first) = losing.first() else {
             return;
         };
@@ -104,12 +116,28 @@ impl Import<'_> {
         ));
     }
 
+    /// A joint has one motor: what else acts on it is said.
+    fn report_further_actuators(&mut self) {
+        let actuators = self.model.actuators.as_deref().unwrap_or_default();
+        let is_further = |(number, actuator): &(usize, &Actuator)| {
+            let before = &actuators[..*number];
+            before.iter().any(|other| other.joint == actuator.joint)
+        };
+        for (_, actuator) in actuators.iter().enumerate().filter(is_further) {
+            self.messages.push(format!(
+                "line {}: actuator '{}' does not count, since its joint has another one",
+                actuator.line, actuator.name
+            ));
+        }
+    }
+
     fn loses_dynamics(&self, index: usize, joint: &Description) -> bool {
         let Dynamics {
             damping, friction, ..
         } = joint.dynamics;
         let is_passive = match &self.model.actuators {
             _ if self.options.contains(RobotImportOptions::FREE_JOINTS) => true,
+            Some(_) if joint.kind.numbers() == 1 => return false,
             Some(actuators) => actuators.iter().all(|actuator| actuator.joint != index),
             None => false,
         };
@@ -159,6 +187,8 @@ fn set_limits(joint: &mut Joint, description: &Description, first: f64) {
     let is_limited = description.kind != JointKind::Continuous;
     if let (Some(lower), Some(upper), true) = (lower, upper, is_limited) {
         joint.set_interval(false, lower, upper - lower);
+    } else if joint.joint_type == JointType::Prismatic {
+        joint.set_interval(false, -ANY_WAY, 2.0 * ANY_WAY);
     }
     joint.position = first;
     joint.target_position = joint.position;
@@ -171,19 +201,50 @@ fn set_limits(joint: &mut Joint, description: &Description, first: f64) {
     joint.max_vel = velocity.unwrap_or(VELOCITY);
 }
 
-/// A joint whose motor a file describes; one without a motor is a spring and damper, or free.
-fn set_actuator(joint: &mut Joint, description: &Description, actuator: Option<&Actuator>) {
-    if let Some(actuator) = actuator {
-        joint.set_target_force(actuator.effort.unwrap_or(ANY_EFFORT), false);
-    }
-    match actuator.map(|actuator| actuator.drive) {
-        Some(Drive::Position { .. }) => joint.set_control(Control::Position),
-        Some(Drive::Velocity { .. }) => joint.set_control(Control::Velocity),
-        Some(Drive::Force) => {
+/// A joint of MJCF: what acts beside its motor are MuJoCo's parameters of it, what its motor does is the result. It is told 0, or what is next to it, at first.
+fn set_actuator(
+    joint: &mut Joint,
+    description: &Description,
+    actuator: Option<&Actuator>,
+) -> motor::Actuator {
+    joint.set_passive(&passive(&description.dynamics));
+    let Some(actuator) = actuator else {
+        joint.set_control(Control::Free);
+        return motor::Actuator::new(ActuatorKind::None);
+    };
+    let told = actuator
+        .control
+        .map_or(0.0, |[low, high]| 0.0_f64.max(low).min(high));
+    joint.set_target_force(actuator.effort.unwrap_or(ANY_EFFORT), false);
+    let mut made = motor::Actuator::new(ActuatorKind::Force);
+    (made.bias, made.range) = (actuator.bias, actuator.range.unwrap_or(made.range));
+    match actuator.drive {
+        Drive::Position { stiffness, damping } => {
+            (made.kind, made.stiffness, made.damping) =
+                (ActuatorKind::Position, stiffness, damping);
+            joint.set_control(Control::Position);
+            joint.target_position = told;
+        }
+        Drive::Velocity { damping } => {
+            (made.kind, made.damping) = (ActuatorKind::Velocity, damping);
+            joint.set_control(Control::Velocity);
+            joint.target_velocity = told;
+        }
+        Drive::Force => {
             joint.set_target_force(0.0, true);
             joint.set_control(Control::Force);
         }
-        None => set_passive(joint, &description.dynamics),
+    }
+    made
+}
+
+fn passive(dynamics: &Dynamics) -> Passive {
+    Passive {
+        armature: dynamics.armature,
+        stiffness: dynamics.stiffness,
+        rest: dynamics.rest,
+        damping: dynamics.damping,
+        friction: dynamics.friction,
     }
 }
 

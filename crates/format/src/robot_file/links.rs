@@ -4,8 +4,11 @@ use geometry::MassProperties;
 use robot_description::{Geometry, Inertial, Link};
 
 use super::{Import, Node, RobotFormat, RobotImportOptions};
-use scene::shape::{RespondableMask, Shape};
-use scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
+use scene::shape::{Material, RespondableMask, Shape};
+use scene::{
+    COLLISION_TREE, Data, Edit, Field, Handle, Kind, Layers, Namespace, Pose, SceneResult,
+    ValueType,
+};
 
 /// Diameter of the body of a link that has mass and nothing to touch, metres.
 const CARRIER: f64 = 0.05;
@@ -35,12 +38,27 @@ impl Import<'_> {
                 None => (None, 0),
             };
             let shape = self.add_link(link, joint, depth)?;
+            if let Some(shape) = shape
+                && self.begins_collision_tree(link, parent.map(|(joint, _)| joint))
+            {
+                let yes = Some((ValueType::Bool, Data::Bool(true)));
+                let edit = Edit::Name(COLLISION_TREE, yes);
+                self.scene
+                    .edit_named_values(Some(shape), Namespace::CustomData, edit)?;
+            }
             self.nodes[link] = Node {
                 carrier: shape.or(joint),
                 depth,
             };
         }
         Ok(())
+    }
+
+    /// Whether a link of MJCF is a tree of its own where collisions are concerned: what is fixed to the world, and what hangs on the world itself or on
+    /// nothing. What hangs on another fixed body, a base, does not touch that.
+    fn begins_collision_tree(&self, link: usize, joint: Option<usize>) -> bool {
+        let hangs_on_world = joint.is_none_or(|joint| self.robot.joints[joint].parent == 0);
+        self.format == RobotFormat::Mjcf && (self.is_fixed(link) || hangs_on_world)
     }
 
     /// Adds the shapes of a link below its joint. The result is the one that carries what hangs on the link.
@@ -79,6 +97,9 @@ impl Import<'_> {
         let body = match touched {
             Some((pose, mut shape)) => {
                 shape.dynamics.respondable = !collisions.is_empty();
+                if let Some(friction) = link.friction {
+                    shape.material = Material::of_friction(friction);
+                }
                 shape.dynamics.respondable_mask = RespondableMask(MASK | self.local_mask(depth));
                 self.set_inertia(index, inertial.as_ref(), pose, &mut shape);
                 Some(self.add_body(&link.name, frame * pose, shape, joint)?)

@@ -37,73 +37,129 @@ fn actuator(
         .get(name)
         .ok_or_else(|| format!("there is no joint '{}'", short(name)))?;
     let kind = attributes.element.name.as_str();
-    let (drive, gain) = drive(kind, attributes, report)?;
-    let gear = attributes.numbers(report, "gear", [1.0]).map(f64::abs)[0];
-    let limits_by_range = document.settings.limits_by_range;
-    let mut largest = |flag: &str, range: &str| {
+    let law = Law::read(kind, attributes, report)?;
+    let gear = attributes.numbers(report, "gear", [1.0])[0];
+    let by_range = document.settings.limits_by_range;
+    let mut range = |flag: &str, name: &str| {
         let is_limited = attributes
             .is_true(flag)
-            .unwrap_or(limits_by_range && attributes.get(range).is_some());
-        let numbers = attributes.numbers(report, range, [0.0; 2]);
-        is_limited.then(|| numbers[0].abs().max(numbers[1].abs()) * gear)
+            .unwrap_or(by_range && attributes.get(name).is_some());
+        let numbers = attributes.numbers(report, name, [0.0; 2]);
+        is_limited.then_some(numbers)
     };
-    let force = largest("forcelimited", "forcerange");
+    let forces = range("forcelimited", "forcerange").map(|force| scaled(force, gear));
+    let told = range("ctrllimited", "ctrlrange");
+    let drive = law.drive(gear);
     // What a motor is told is a force.
-    let control = if drive == Drive::Force {
-        largest("ctrllimited", "ctrlrange").map(|control| control * gain)
-    } else {
-        None
-    };
-    let effort = [force, control, robot.joints[joint].limits.effort]
-        .into_iter()
-        .flatten()
-        .reduce(f64::min);
-    let name = attributes.get("name").unwrap_or(name).to_owned();
+    let control = told.map(|told| scaled(told, law.of_joint(drive, gear)));
+    let of_control = control.filter(|_| drive == Drive::Force);
+    let effort = [
+        forces.map(largest),
+        of_control.map(largest),
+        robot.joints[joint].limits.effort,
+    ];
+    let of_joint = robot.joints[joint].limits.effort.map(|most| [-most, most]);
+    let of_control = of_control.map(|control| control.map(|force| force + law.bias[0] * gear));
+    let ranges = [forces, of_control, of_joint].into_iter().flatten();
     Ok(Actuator {
-        name,
+        name: attributes.get("name").unwrap_or(name).to_owned(),
         joint,
         drive,
-        effort,
+        effort: effort.into_iter().flatten().reduce(f64::min),
+        bias: law.bias[0] * gear,
+        range: ranges.reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])]),
+        control: control.filter(|_| drive != Drive::Force),
         line: attributes.element.line,
     })
 }
 
-/// What an actuator does, and the force per unit of what it is told.
-fn drive(kind: &str, attributes: &Attributes, report: &mut Report) -> Result<(Drive, f64), String> {
-    let mut number =
-        |name: &str, otherwise: f64| attributes.number(report, name).unwrap_or(otherwise);
-    match kind {
-        "motor" => Ok((Drive::Force, 1.0)),
-        "position" => {
-            let (stiffness, damping) = (number("kp", 1.0), number("kv", 0.0));
-            Ok((Drive::Position { stiffness, damping }, 1.0))
+/// The force of an actuator: `gain` times what it is told, and `bias`: a constant, per length and per speed.
+struct Law {
+    gain: f64,
+    bias: [f64; 3],
+}
+
+impl Law {
+    fn read(kind: &str, attributes: &Attributes, report: &mut Report) -> Result<Self, String> {
+        let mut number =
+            |name: &str, otherwise: f64| attributes.number(report, name).unwrap_or(otherwise);
+        match kind {
+            "motor" => Ok(Self {
+                gain: 1.0,
+                bias: [0.0; 3],
+            }),
+            "position" => {
+                let (stiffness, damping) = (number("kp", 1.0), number("kv", 0.0));
+                if attributes.get("dampratio").is_some() {
+                    report.leave_out(
+                        attributes.element,
+                        "dampratio is not read: kv says how it is damped",
+                    );
+                }
+                Ok(Self {
+                    gain: stiffness,
+                    bias: [0.0, -stiffness, -damping],
+                })
+            }
+            "velocity" => {
+                let damping = number("kv", 1.0);
+                Ok(Self {
+                    gain: damping,
+                    bias: [0.0, 0.0, -damping],
+                })
+            }
+            "general" => Ok(Self::general(attributes, report)),
+            other => Err(format!(
+                "an actuator of type '{}' is not read",
+                short(other)
+            )),
         }
-        "velocity" => Ok((
-            Drive::Velocity {
-                damping: number("kv", 1.0),
-            },
-            1.0,
-        )),
-        "general" => Ok(general(attributes, report)),
-        other => Err(format!(
-            "an actuator of type '{}' is not read",
-            short(other)
-        )),
+    }
+
+    fn general(attributes: &Attributes, report: &mut Report) -> Self {
+        if !matches!(attributes.get("dyntype"), None | Some("none")) {
+            report.leave_out(
+                attributes.element,
+                "dyntype is not read: it acts at once on what it is told",
+            );
+        }
+        let is_affine = attributes.get("biastype") == Some("affine");
+        let bias = attributes.numbers(report, "biasprm", [0.0; 3]);
+        Self {
+            gain: attributes.numbers(report, "gainprm", [1.0])[0],
+            bias: if is_affine { bias } else { [0.0; 3] },
+        }
+    }
+
+    /// What it does to the joint, whose positions the gear makes lengths, and whose forces it is multiplied with.
+    fn drive(&self, gear: f64) -> Drive {
+        let [_, stiffness, damping] = self.bias.map(|number| -number * gear * gear);
+        if stiffness != 0.0 {
+            Drive::Position { stiffness, damping }
+        } else if damping != 0.0 {
+            Drive::Velocity { damping }
+        } else {
+            Drive::Force
+        }
+    }
+
+    /// Force, position or speed of the joint per unit of what it is told.
+    fn of_joint(&self, drive: Drive, gear: f64) -> f64 {
+        let force = self.gain * gear;
+        match drive {
+            Drive::Position { stiffness, .. } => force / stiffness,
+            Drive::Velocity { damping } => force / damping,
+            Drive::Force => force,
+        }
     }
 }
 
-/// A general actuator: its bias says what it is.
-fn general(attributes: &Attributes, report: &mut Report) -> (Drive, f64) {
-    let gain = attributes.numbers(report, "gainprm", [1.0])[0];
-    let [_, position, velocity] = attributes.numbers(report, "biasprm", [0.0; 3]);
-    let is_affine = attributes.get("biastype") == Some("affine");
-    let drive = match (is_affine, position != 0.0, velocity != 0.0) {
-        (true, true, _) => Drive::Position {
-            stiffness: -position,
-            damping: -velocity,
-        },
-        (true, false, true) => Drive::Velocity { damping: -velocity },
-        _ => Drive::Force,
-    };
-    (drive, gain.abs())
+/// A range in other units; the sign of the factor may turn it round.
+fn scaled(range: [f64; 2], factor: f64) -> [f64; 2] {
+    let [a, b] = range.map(|end| end * factor);
+    [a.min(b), a.max(b)]
+}
+
+fn largest([low, high]: [f64; 2]) -> f64 {
+    low.abs().max(high.abs())
 }

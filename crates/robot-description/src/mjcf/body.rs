@@ -5,6 +5,7 @@ use nalgebra::{Translation3, Vector3};
 use super::attributes::{Attributes, MAIN};
 use super::document::Document;
 use super::element::{Element, Report};
+use super::geom::TouchingGeom;
 use super::inertia::Weighed;
 use super::{Files, Model, Site};
 use crate::model::{Dynamics, Inertial, Joint, JointKind, Limits, Link, Pose};
@@ -16,6 +17,7 @@ pub struct Builder<'a> {
     pub files: &'a mut dyn Files,
     pub report: Report,
     pub model: Model,
+    pub touching: Vec<TouchingGeom>,
 }
 
 /// Where elements of a body are: on a link, in a frame of it, with a class of defaults.
@@ -54,6 +56,7 @@ impl<'a> Builder<'a> {
             files,
             report,
             model,
+            touching: Vec::new(),
         }
     }
 
@@ -308,6 +311,7 @@ impl<'a> Builder<'a> {
             friction: number("frictionloss").unwrap_or(0.0),
             stiffness: number("stiffness").unwrap_or(0.0),
             rest: unit(number("springref").unwrap_or(0.0)),
+            armature: number("armature").unwrap_or(0.0),
         };
         let is_limited = |name: &str, range: &str| {
             attributes

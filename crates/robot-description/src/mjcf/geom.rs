@@ -1,5 +1,7 @@
 //! Geoms: what they look like, what touches them, what they weigh.
 
+use std::collections::BTreeSet;
+
 use nalgebra::Vector3;
 
 use super::attributes::Attributes;
@@ -11,10 +13,47 @@ use crate::xml::short;
 
 /// kg/m³ of what says nothing else.
 const DENSITY: f64 = 1000.0;
+/// Coulomb's friction of what says nothing else.
+const FRICTION: f64 = 1.0;
 /// Geoms of groups above are not shown.
 const LAST_VISIBLE_GROUP: f64 = 2.0;
 
+/// A geom that may touch others.
+pub struct TouchingGeom {
+    link: usize,
+    /// Its place in the collisions of its link.
+    part: usize,
+    /// `contype` and `conaffinity`: two geoms touch where one's first has a bit of the other's second.
+    bits: [i64; 2],
+}
+
+impl TouchingGeom {
+    fn may_touch(&self, bits: &[i64; 2]) -> bool {
+        self.bits[0] & bits[1] != 0 || bits[0] & self.bits[1] != 0
+    }
+}
+
 impl Builder<'_> {
+    /// Leaves away what touches nothing that moves: rails that a cart is drawn on. What moves may touch what is not in the file.
+    pub(super) fn leave_out_untouched(&mut self) {
+        let is_fixed = |geom: &TouchingGeom| self.model.fixed.binary_search(&geom.link).is_ok();
+        let (fixed, moving): (Vec<_>, Vec<_>) = std::mem::take(&mut self.touching)
+            .into_iter()
+            .partition(is_fixed);
+        let moving: BTreeSet<[i64; 2]> = moving.iter().map(|geom| geom.bits).collect();
+        if moving.is_empty() {
+            return;
+        }
+        // From the last on, so that places stay what they are.
+        for geom in fixed.iter().rev() {
+            if !moving.iter().any(|bits| geom.may_touch(bits)) {
+                self.model.robot.links[geom.link]
+                    .collisions
+                    .remove(geom.part);
+            }
+        }
+    }
+
     /// Adds a geom to its link. The result is what it adds to the mass of the body.
     pub(super) fn add_geom(&mut self, attributes: &Attributes, place: &Place) -> Option<Weighed> {
         let (pose, geometry) = self.geometry(attributes)?;
@@ -27,12 +66,21 @@ impl Builder<'_> {
                 .unwrap_or(otherwise)
         };
         let group = number("group", 0.0);
-        let touches = number("contype", 1.0) != 0.0 || number("conaffinity", 1.0) != 0.0;
+        let bits = ["contype", "conaffinity"].map(|name| number(name, 1.0) as i64);
+        let touches = bits != [0, 0];
         let density = number("density", DENSITY);
+        let friction = number("friction", FRICTION);
         let mass = attributes.number(&mut self.report, "mass");
         let material = self.document.material(attributes, &mut self.report);
         let link = &mut self.model.robot.links[place.link];
         if touches {
+            let part = link.collisions.len();
+            self.touching.push(TouchingGeom {
+                link: place.link,
+                part,
+                bits,
+            });
+            link.friction = Some(link.friction.unwrap_or(0.0).max(friction));
             link.collisions.push(Collision {
                 name: name.clone(),
                 pose,

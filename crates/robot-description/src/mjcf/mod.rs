@@ -53,6 +53,12 @@ pub struct Actuator {
     pub drive: Drive,
     /// The greatest force or torque on the joint, N or N m, if it has one.
     pub effort: Option<f64>,
+    /// Force or torque on the joint that is always there, N or N m.
+    pub bias: f64,
+    /// Lowest and highest force or torque on the joint, if it has them, N or N m.
+    pub range: Option<[f64; 2]>,
+    /// Lowest and highest position or speed of the joint that it can be told, if it has them.
+    pub control: Option<[f64; 2]>,
     /// Its line in the file, from 1.
     pub line: u32,
 }
@@ -60,7 +66,7 @@ pub struct Actuator {
 /// What an actuator does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drive {
-    /// Moves the joint to a position: force per error, and per speed.
+    /// Moves the joint to a position: force on the joint per error, and per speed.
     Position {
         /// N/m or N m/rad.
         stiffness: f64,
@@ -181,6 +187,7 @@ pub fn read(bytes: &[u8], files: &mut dyn Files) -> Result<Parsed<Model>, ReadEr
         builder.add_world(world);
     }
     builder.finish_masses(&root);
+    builder.leave_out_untouched();
     let (mut model, mut report) = builder.into_parts();
     // The world itself is a link.
     let world = |link: &Link| link.visuals.is_empty() && link.collisions.is_empty();

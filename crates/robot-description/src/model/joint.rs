@@ -88,6 +88,8 @@ pub struct Dynamics {
     pub stiffness: f64,
     /// Position where the spring exerts no force, radians or metres.
     pub rest: f64,
+    /// Inertia of the motor's rotor, reflected to the axis: kg m² or kg.
+    pub armature: f64,
 }
 
 /// A joint whose position is `multiplier` times that of another one, plus `offset`.

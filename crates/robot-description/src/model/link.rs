@@ -13,6 +13,8 @@ pub struct Link {
     pub visuals: Vec<Visual>,
     /// What others touch.
     pub collisions: Vec<Collision>,
+    /// Coulomb's friction of what is touched, if the file says it.
+    pub friction: Option<f64>,
     /// The frame in the robot's frame, if the link is no joint's child.
     pub pose: Pose,
     /// Where it stands in its file; 0 if in none.

@@ -121,6 +121,7 @@ fn read_axis(source: &mut Source, node: Node, version: f64) -> AxisText {
             friction: value("friction"),
             stiffness: value("spring_stiffness"),
             rest: value("spring_reference"),
+            armature: 0.0,
         };
     }
     let mimic = source.child(node, "mimic").map(|mimic| {

@@ -1,5 +1,6 @@
 //! Joints as data: type, mode, limits, position, control parameters.
 
+mod actuation;
 pub mod control;
 pub(crate) mod dependency;
 pub mod motion;
@@ -9,6 +10,8 @@ mod tests;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use std::f64::consts::{PI, TAU};
+
+pub use actuation::{ACTUATOR, Actuation, Actuator, ActuatorKind, Passive};
 
 use super::parameters::engine::Engine;
 use super::{Handle, InertValues, Pose};

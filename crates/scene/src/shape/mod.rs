@@ -189,6 +189,19 @@ impl Material {
         }
     }
 
+    /// A material whose friction with another one of its kind is that coefficient. MuJoCo takes the larger one of two, the other engines multiply them:
+    /// with them it is the root, so that two different ones have the geometric mean.
+    pub fn of_friction(coefficient: f64) -> Self {
+        let coefficient = coefficient.max(0.0);
+        let root = coefficient.sqrt();
+        let mut material = Self::of_frictions([root; 5]);
+        let values = &mut material.engine_values;
+        values.set("vortex.linearPrimaryAxisFrictionValue", root.into());
+        let sliding_spinning_rolling = [coefficient, 0.005, 0.0001];
+        values.set("mujoco.friction", sliding_spinning_rolling.into());
+        material
+    }
+
     /// The preset with that number (`sim.dynmat_*`), if there is one (spec: dynamics 5).
     pub fn preset(id: i64) -> Option<Self> {
         Some(Self::of_frictions(

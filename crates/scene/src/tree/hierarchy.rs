@@ -5,6 +5,9 @@ use std::collections::{BTreeSet, HashMap, VecDeque};
 use crate::pose::placement::normalized;
 use crate::{Change, Field, Handle, ModelFlags, Scene, SceneError, SceneResult};
 
+/// Name of the custom data of a shape below which what is touched is a tree of its own: the ground in a file with a robot that hangs on it.
+pub const COLLISION_TREE: &str = "collisionTree";
+
 impl Scene {
     /// Root objects in scene order.
     pub fn roots(&self) -> &[Handle] {
@@ -76,6 +79,20 @@ impl Scene {
     pub fn ancestors(&self, handle: Handle) -> impl Iterator<Item = Handle> {
         let parent = move |h: Handle| self.object(h).ok().and_then(crate::Object::parent);
         std::iter::successors(parent(handle), move |&h| parent(h))
+    }
+
+    /// The shape whose tree a shape belongs to where collisions are concerned: the nearest one, itself included, with the custom data [`COLLISION_TREE`], else its
+    /// root.
+    pub fn collision_root_of(&self, handle: Handle) -> Handle {
+        let mut at = handle;
+        while let Ok(object) = self.object(at) {
+            match object.parent() {
+                _ if object.custom_data.typed(COLLISION_TREE).is_some() => return at,
+                Some(parent) => at = parent,
+                None => return at,
+            }
+        }
+        at
     }
 
     /// The root of the tree `handle` belongs to.

@@ -1,0 +1,203 @@
+"""Robots of MJCF files in Swanilda and in MuJoCo: let go without contacts, driven, and let fall to the ground.
+
+    python3 -m venv target/venv && target/venv/bin/pip install mujoco 'gymnasium[mujoco]'
+    cargo build --release && target/venv/bin/python benches/compare/mjcf.py [FILE...]
+
+prints a table; without files, of those of gymnasium. SWANILDA names another binary. MuJoCo makes steps of a millisecond, Swanilda its own of 5 ms.
+
+- *free*: nothing drives the joints, no contacts. Largest difference of any joint's position (rad, m) until MuJoCo's robot reaches a limit, and in parts
+  of the largest way of a joint of that kind.
+- *driven*: the same with a step of every actuator at the begin.
+  Half a step by which semi-implicit Euler is ahead is taken off.
+- *rest*: with contacts and the ground of the file, height of the centre of mass after some seconds in MuJoCo and here, metres.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+HERE = Path(__file__).parent
+STEP, FINE = 0.005, 0.001
+# Semi-implicit Euler is ahead by half a step (docs/PHYSICS.md), here and there.
+AHEAD = (STEP - FINE) / 2
+# The part of half of the range of controls that is told to actuators; without a range, of a newton metre per unit of gear.
+SHARE = float(os.environ.get("SHARE", 0.1))
+
+
+def lua(value):
+    if isinstance(value, dict):
+        return "{" + ",".join(f"[{json.dumps(k)}]={lua(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        return "{" + ",".join(map(lua, value)) + "}"
+    return json.dumps(value)
+
+
+def swanilda(file, gravity, seconds, contacts, targets):
+    """A row for every second step: time, centre of mass and mass; positions by joint."""
+    binary = os.environ.get("SWANILDA", str(HERE / "../../target/release/swanilda"))
+    head = {"FILE": str(file), "GRAVITY": list(gravity), "SECONDS": seconds, "STEP": STEP, "CONTACTS": contacts, "TARGETS": targets, "FIRST": first_positions(file)}
+    code = "".join(f"{name} = {lua(value)}\n" for name, value in head.items()) + (HERE / "mjcf.lua").read_text()
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "scene.lua")
+        Path(path).write_text(code)
+        command = [binary, "run", path, "--empty", "--time", str(seconds + 1)]
+        result = subprocess.run(command, capture_output=True, text=True, timeout=900)
+    rows = []
+    for words in map(str.split, result.stdout.splitlines()):
+        if "ROW" in words:
+            words = words[words.index("ROW") + 1:]
+            rows.append((np.array(words[:5], float), {k: float(v) for k, v in (word.rsplit("=", 1) for word in words[5:])}))
+    if not rows:
+        raise RuntimeError(result.stdout[-2000:] + result.stderr[-2000:])
+    return rows
+
+
+def single_joints(model):
+    """Names and addresses of the joints with one number."""
+    kinds = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
+    return [(model.joint(j).name, j) for j in range(model.njnt) if int(model.jnt_type[j]) in kinds]
+
+
+def controls(model):
+    """A step for each actuator, and what it is to a joint here: a force, or a position."""
+    ctrl, targets = np.zeros(model.nu), {}
+    for i in range(model.nu):
+        if int(model.actuator_trntype[i]) != int(mujoco.mjtTrn.mjTRN_JOINT):
+            continue
+        joint, gear = model.actuator_trnid[i, 0], model.actuator_gear[i, 0]
+        low, high = model.actuator_ctrlrange[i] if model.actuator_ctrllimited[i] else (-1, 1)
+        ctrl[i] = (low + high) / 2 * (low > 0 or high < 0) + SHARE * (high - low) / 2 * (-1) ** i
+        gain, bias = model.actuator_gainprm[i, 0], model.actuator_biasprm[i]
+        if bias[1] != 0:
+            value = gain * ctrl[i] / -bias[1] / gear
+        elif bias[2] != 0:
+            value = gain * ctrl[i] / -bias[2] / gear
+        else:
+            value = gear * gain * ctrl[i]
+        targets[model.joint(joint).name] = float(value)
+    return ctrl, targets
+
+
+def reached_limit(model, data):
+    return any(int(data.efc_type[i]) == int(mujoco.mjtConstraint.mjCNSTR_LIMIT_JOINT) for i in range(data.nefc))
+
+
+class Theirs:
+    """MuJoCo, from where the joints are at first here."""
+
+    def __init__(self, file, first, contacts, ctrl=None):
+        self.model = mujoco.MjModel.from_xml_path(str(file))
+        self.data = mujoco.MjData(self.model)
+        self.model.opt.timestep = FINE
+        if not contacts:
+            self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+        for name, joint in single_joints(self.model):
+            if name in first:
+                self.data.qpos[self.model.jnt_qposadr[joint]] = first[name]
+        if ctrl is not None:
+            self.data.ctrl[:] = ctrl
+        mujoco.mj_forward(self.model, self.data)
+        self.limited = False
+
+    def at(self, time):
+        while self.data.time < time - FINE / 2:
+            mujoco.mj_step(self.model, self.data)
+            self.limited |= reached_limit(self.model, self.data)
+        mujoco.mj_forward(self.model, self.data)
+        return {n: self.data.qpos[self.model.jnt_qposadr[j]] for n, j in single_joints(self.model)}, self.data.subtree_com[0].copy()
+
+
+def first_positions(file):
+    """Where the joints begin: as the file has them, or a quarter of their range off their limits."""
+    model = mujoco.MjModel.from_xml_path(str(file))
+    first = {}
+    for name, joint in single_joints(model):
+        at = float(model.qpos0[model.jnt_qposadr[joint]])
+        if model.jnt_limited[joint]:
+            low, high = model.jnt_range[joint]
+            at = float(np.clip(at, low + (high - low) / 4, high - (high - low) / 4))
+        first[name] = at
+    return first
+
+
+def free(file, ctrl=None, targets=None, seconds=1.0):
+    """Largest differences of turning joints, of sliding ones and of the centre of mass, each with its largest way, and the time until a limit."""
+    gravity = mujoco.MjModel.from_xml_path(str(file)).opt.gravity.tolist()
+    rows = swanilda(file, gravity, seconds, False, targets or {})
+    theirs = Theirs(file, first_positions(file), False, ctrl)
+    model = theirs.model
+    start, start_com = theirs.at(0.0)
+    worst, ways, until = np.zeros(3), np.zeros(3), 0.0
+    for row, positions in rows:
+        if row[0] > seconds + 1e-6:
+            break
+        there, com = theirs.at(row[0] + AHEAD)
+        if theirs.limited and until > 0:
+            break
+        until = row[0]
+        for name, joint in single_joints(model):
+            if name in positions:
+                kind = int(int(model.jnt_type[joint]) == int(mujoco.mjtJoint.mjJNT_SLIDE))
+                worst[kind] = max(worst[kind], abs(positions[name] - there[name]))
+                ways[kind] = max(ways[kind], abs(there[name] - start[name]))
+        # The centre of mass of what moves.
+        com = moving_com(theirs)
+        worst[2] = max(worst[2], np.linalg.norm(com - row[1:4]))
+        ways[2] = max(ways[2], np.linalg.norm(com - theirs.first_com))
+    return worst, ways, until
+
+
+def moving_com(theirs):
+    model, data = theirs.model, theirs.data
+    moves = [b for b in range(1, model.nbody) if model.body_weldid[b] != 0]
+    mass = model.body_mass[moves]
+    com = mass @ data.xipos[moves] / mass.sum()
+    if not hasattr(theirs, "first_com"):
+        theirs.first_com = com
+    return com
+
+
+def rest(file, seconds=4.0):
+    gravity = mujoco.MjModel.from_xml_path(str(file)).opt.gravity.tolist()
+    rows = swanilda(file, gravity, seconds, True, {})
+    theirs = Theirs(file, first_positions(file), True)
+    theirs.at(rows[-1][0][0])
+    return moving_com(theirs)[2], rows[-1][0][3]
+
+
+def part(worst, way, least):
+    return f"{worst:.4f} ({100 * worst / max(way, 1e-9):.1f} %)" if way > least else f"{worst:.4f}"
+
+
+def main():
+    files = [Path(name) for name in sys.argv[1:]]
+    if not files:
+        import gymnasium
+
+        folder = Path(gymnasium.__file__).parent / "envs/mujoco/assets"
+        names = "ant half_cheetah hopper humanoid humanoidstandup inverted_pendulum inverted_double_pendulum pusher_v5 reacher swimmer walker2d_v5"
+        files = [folder / f"{name}.xml" for name in names.split()]
+    print("| file | | until, s | turning, rad | sliding, m | centre of mass, m |\n|---|---|---|---|---|---|")
+    for file in files:
+        try:
+            model = mujoco.MjModel.from_xml_path(str(file))
+            runs = [("free", *free(file))]
+            if model.nu:
+                runs.append(("driven", *free(file, *controls(model), seconds=0.5)))
+            for what, worst, ways, until in runs:
+                cells = " | ".join(part(w, way, 1e-3) for w, way in zip(worst, ways))
+                print(f"| {file.stem} | {what} | {until:.2f} | {cells} |", flush=True)
+            there, here = rest(file)
+            print(f"| {file.stem} | rest | 4.00 | height of the centre of mass | {there:.4f} there | {here:.4f} here |", flush=True)
+        except Exception as error:  # what one file does not do, others may
+            print(f"| {file.stem} | {str(error)[-300:]!r} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
