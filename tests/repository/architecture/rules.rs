@@ -81,6 +81,7 @@ const DYNAMICS: Rooms = &[
     ("convert", &[]),
     ("frozen", &[]),
     ("motors", &[]),
+    ("actuators", &["motors"]),
     ("workers", &[]),
     ("world", &[]),
     ("plan", &["frozen"]),
@@ -100,7 +101,15 @@ const DYNAMICS: Rooms = &[
     ("load", &["convert", "plan", "world"]),
     (
         "links",
-        &["bodies", "convert", "load", "motors", "plan", "world"],
+        &[
+            "actuators",
+            "bodies",
+            "convert",
+            "load",
+            "motors",
+            "plan",
+            "world",
+        ],
     ),
     ("reach", &[]),
     (
