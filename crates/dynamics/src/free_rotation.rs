@@ -6,9 +6,7 @@
 //! integrators*, 1990).
 
 use rapier3d_f64::math::{Rotation, Vector};
-use rapier3d_f64::prelude::{ColliderHandle, RigidBody, RigidBodyHandle};
-
-use super::world::World;
+use rapier3d_f64::prelude::RigidBody;
 
 /// User data of bodies whose gyroscopic torque a mechanism applies.
 pub(super) const LINKED: u128 = 1;
@@ -19,44 +17,8 @@ const MAX_PARTS: f64 = 100.0;
 /// Moments of inertia count as equal up to this relative difference.
 const EQUAL: f64 = 1e-9;
 
-impl World {
-    /// The bodies that touch nothing and tumble. rapier applies the gyroscopic torque to all others but those of mechanisms.
-    pub(super) fn select_tumbling(&mut self) -> Vec<RigidBodyHandle> {
-        let (mut tumbling, mut changes) = (Vec::new(), Vec::new());
-        for handle in self.awake() {
-            let Some(rigid) = self.bodies.get(handle) else {
-                continue;
-            };
-            if !rigid.is_dynamic() || rigid.user_data == LINKED {
-                continue;
-            }
-            let tumbles = tumbles(rigid) && self.is_alone(rigid);
-            if tumbles {
-                tumbling.push(handle);
-            }
-            if rigid.gyroscopic_forces_enabled() == tumbles {
-                changes.push((handle, !tumbles));
-            }
-        }
-        for (handle, is_on) in changes {
-            if let Some(rigid) = self.bodies.get_mut(handle) {
-                rigid.enable_gyroscopic_forces(is_on);
-            }
-        }
-        tumbling
-    }
-
-    fn is_alone(&self, rigid: &RigidBody) -> bool {
-        let has_pair = |&collider: &ColliderHandle| {
-            let mut pairs = self.narrow_phase.contact_pairs_with(collider);
-            pairs.next().is_some()
-        };
-        !rigid.colliders().iter().any(has_pair)
-    }
-}
-
 /// Whether a body turns, and not about an axis of symmetry whatever the direction.
-fn tumbles(rigid: &RigidBody) -> bool {
+pub(super) fn tumbles(rigid: &RigidBody) -> bool {
     let inverse = rigid.mass_properties().local_mprops.inv_principal_inertia;
     let differs = |a: f64, b: f64| (a - b).abs() > EQUAL * a.max(b);
     let spin = rigid.angvel();

@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::parry::bounding_volume::BoundingVolume;
-use rapier3d_f64::prelude::{Collider, ColliderHandle, QueryFilter, RigidBody};
+use rapier3d_f64::prelude::{Collider, ColliderHandle, QueryFilter, RigidBody, RigidBodyHandle};
 
 use super::bodies::Tag;
 use super::contacts::{ColliderPair, ContactResponse, Verdicts};
+use super::free_rotation;
 use super::world::{PREDICTION_DISTANCE, World};
 
 /// Way in a sub-step up to which rapier knows beforehand what a body may touch, metres.
@@ -136,6 +137,42 @@ impl World {
             .flat_map(|pair| [pair.collider1, pair.collider2])
             .map(|collider| collider.into_raw_parts().0)
             .collect()
+    }
+}
+
+impl World {
+    /// The bodies that touch nothing and tumble. rapier applies the gyroscopic torque to all others but those of mechanisms.
+    pub(super) fn select_tumbling(&mut self) -> Vec<RigidBodyHandle> {
+        let (mut tumbling, mut changes) = (Vec::new(), Vec::new());
+        for handle in self.awake() {
+            let Some(rigid) = self.bodies.get(handle) else {
+                continue;
+            };
+            if !rigid.is_dynamic() || rigid.user_data == free_rotation::LINKED {
+                continue;
+            }
+            let tumbles = free_rotation::tumbles(rigid) && self.is_alone(rigid);
+            if tumbles {
+                tumbling.push(handle);
+            }
+            if rigid.gyroscopic_forces_enabled() == tumbles {
+                changes.push((handle, !tumbles));
+            }
+        }
+        for (handle, is_on) in changes {
+            if let Some(rigid) = self.bodies.get_mut(handle) {
+                rigid.enable_gyroscopic_forces(is_on);
+            }
+        }
+        tumbling
+    }
+
+    fn is_alone(&self, rigid: &RigidBody) -> bool {
+        let has_pair = |&collider: &ColliderHandle| {
+            let mut pairs = self.narrow_phase.contact_pairs_with(collider);
+            pairs.next().is_some()
+        };
+        !rigid.colliders().iter().any(has_pair)
     }
 }
 
