@@ -4,7 +4,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use robot_description::mjcf::{Actuator, Drive};
 use robot_description::{Dynamics, Joint as Description, JointKind, Limits, Robot};
 
-use super::{Import, RobotImportOptions};
+use super::{Import, RobotFormat, RobotImportOptions};
 use scene::joint::{
     self as motor, ACTUATOR, ActuatorKind, Control, Joint, JointMode, JointType, Passive,
 };
@@ -18,7 +18,7 @@ const FORCE: f64 = 200.0;
 const VELOCITY: f64 = 20.0;
 /// The largest force or torque of a motor whose file says none, N or N m.
 const ANY_EFFORT: f64 = 1e6;
-/// How far a joint slides whose file says no limits, metres.
+/// How far a joint of MJCF slides whose file says no limits, metres; those of others keep CoppeliaSim's.
 const ANY_WAY: f64 = 500.0;
 /// The speed up to which a spring pushes, rad/s or m/s.
 const SPRING_SPEED: f64 = 1000.0;
@@ -61,7 +61,7 @@ impl Import<'_> {
         let mut joint = Joint::new(joint_type, JointMode::Dynamic);
         let mut actuation = None;
         if joint_type != JointType::Spherical {
-            set_limits(&mut joint, description, self.first[index]);
+            set_limits(&mut joint, description, self.first[index], self.format);
             match &self.model.actuators {
                 _ if self.options.contains(RobotImportOptions::FREE_JOINTS) => {
                     set_passive(&mut joint, &description.dynamics);
@@ -177,7 +177,7 @@ fn first_position(joint: &Description) -> f64 {
     }
 }
 
-fn set_limits(joint: &mut Joint, description: &Description, first: f64) {
+fn set_limits(joint: &mut Joint, description: &Description, first: f64, format: RobotFormat) {
     let Limits {
         lower,
         upper,
@@ -187,7 +187,7 @@ fn set_limits(joint: &mut Joint, description: &Description, first: f64) {
     let is_limited = description.kind != JointKind::Continuous;
     if let (Some(lower), Some(upper), true) = (lower, upper, is_limited) {
         joint.set_interval(false, lower, upper - lower);
-    } else if joint.joint_type == JointType::Prismatic {
+    } else if joint.joint_type == JointType::Prismatic && format == RobotFormat::Mjcf {
         joint.set_interval(false, -ANY_WAY, 2.0 * ANY_WAY);
     }
     joint.position = first;
