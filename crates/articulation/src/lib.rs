@@ -79,9 +79,6 @@
 
 mod block_cholesky;
 mod contact;
-mod contact_rebounds;
-mod contact_states;
-mod contact_sweeps;
 mod fast_rotor;
 mod free_axis;
 mod geometric_stiffness;

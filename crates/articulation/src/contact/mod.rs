@@ -10,6 +10,10 @@
 //! Neighbours at a joint that overlap where the joint lets neither of them escape do not push each other: neither where its motion does not
 //! separate them, nor where what separates them at one point brings them together at another one, as around a ball joint between two faces.
 
+mod restitution;
+mod states;
+mod sweeps;
+
 use nalgebra::{Matrix3, Matrix6x3, Vector3, Vector6};
 
 use crate::jacobian::InverseMass;
