@@ -20,7 +20,7 @@ use scene::{Field, Handle, Pose, Scene};
 /// A static body counts as moved when it moved more than this between two calls, metres and radians.
 const STATIC_TOLERANCE: (f64, f64) = (1e-5, 0.05 * std::f64::consts::PI / 180.0);
 /// A body sleeps, with all that it touches, after no point of it has moved faster than this (m/s) for so many seconds.
-const SLEEP_THRESHOLD: (f64, f64) = (1e-5, 0.5);
+pub(super) const SLEEP_THRESHOLD: (f64, f64) = (1e-5, 0.5);
 /// The threshold of speed for bodies that never sleep.
 const NEVER_SLEEPS: f64 = -1.0;
 

@@ -344,7 +344,7 @@ fn parts(rigid: &RigidBody) -> usize {
     1 + rigid.additional_solver_iterations()
 }
 
-fn index_of(body: RigidBodyHandle) -> usize {
+pub(super) fn index_of(body: RigidBodyHandle) -> usize {
     body.into_raw_parts().0 as usize
 }
 

@@ -67,9 +67,9 @@ pub(crate) struct Row {
     pub impulse: Vector3<f64>,
     /// The least normal velocity, and the tangential velocities of the obstacle.
     pub target: Vector3<f64>,
-    /// The velocities of the obstacle, and how fast the bodies rebound from it.
+    /// The velocities of the obstacle, and the velocity by which the bodies leave it after an impact with restitution; 0 without one.
     pub obstacle: Vector3<f64>,
-    pub rebound: f64,
+    pub restitution_velocity: f64,
     pub friction: f64,
     /// Normal velocity per impulse.
     pub compliance: f64,
@@ -149,7 +149,7 @@ impl Row {
             impulse,
             target: Vector3::zeros(),
             obstacle: axes * Vector3::from(contact.velocity),
-            rebound: 0.0,
+            restitution_velocity: 0.0,
             friction: contact.friction,
             compliance: 0.0,
             least_compliance: 0.0,
@@ -182,20 +182,25 @@ impl Row {
         let rebounds =
             contact.restitution > 0.0 && approach < -RESTITUTION_THRESHOLD && approach < closing;
         if rebounds {
-            self.rebound = -approach * contact.restitution;
+            self.restitution_velocity = -approach * contact.restitution;
             if is_free {
-                self.rebound = self.rebound_of_free(contact, approach, bodies, step);
+                self.restitution_velocity =
+                    self.free_restitution_velocity(contact, approach, bodies, step);
             }
         }
-        let rebounds = self.rebound > 0.0;
-        target[0] += if rebounds { self.rebound } else { closing };
+        let rebounds = self.restitution_velocity > 0.0;
+        target[0] += if rebounds {
+            self.restitution_velocity
+        } else {
+            closing
+        };
         self.target = target;
         rebounds
     }
 
     /// How fast bodies rebound that only gravity moves: so that they rise to the square of the restitution of the height from which they fell, though they turn
     /// back before the surface or beyond it. Follows from the energy that the integration keeps, `(v - g h / 2)^2 / 2 + g z`.
-    fn rebound_of_free(
+    fn free_restitution_velocity(
         &self,
         contact: &Contact,
         approach: f64,
@@ -208,7 +213,7 @@ impl Row {
         let half = gravity * step / 2.0;
         let before = (half - approach).powi(2) * square;
         let risen = 2.0 * gravity * contact.distance * (1.0 - square);
-        (before - risen).max(0.0).sqrt() - half
+        ((before - risen).max(0.0).sqrt() - half).max(0.0)
     }
 
     /// Normal velocity per normal impulse if there were no joints.
@@ -376,7 +381,7 @@ impl Mechanism {
         }
         contacts.solve_by_states(bodies);
         contacts.sweep_to_rest();
-        contacts.limit_rebounds();
+        contacts.limit_restitution();
         true
     }
 

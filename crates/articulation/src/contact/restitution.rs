@@ -15,8 +15,8 @@ const TOLERANCE: f64 = 1e-6;
 
 impl Contacts {
     /// Makes rebounds smaller if they gain energy.
-    pub(crate) fn limit_rebounds(&mut self) {
-        if self.rows.iter().all(|row| row.rebound == 0.0) {
+    pub(crate) fn limit_restitution(&mut self) {
+        if self.rows.iter().all(|row| row.restitution_velocity == 0.0) {
             return;
         }
         let free = self.velocities_without();
@@ -26,19 +26,23 @@ impl Contacts {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..BISECTIONS {
             let share = (low + high) / 2.0;
-            self.rebound_by(share);
+            self.scale_restitution(share);
             if self.gains_no_energy(&free) {
                 low = share;
             } else {
                 high = share;
             }
         }
-        self.rebound_by(low);
+        self.scale_restitution(low);
     }
 
-    fn rebound_by(&mut self, share: f64) {
-        for row in self.rows.iter_mut().filter(|row| row.rebound != 0.0) {
-            row.target[0] = row.obstacle[0] + row.rebound * share;
+    fn scale_restitution(&mut self, share: f64) {
+        for row in self
+            .rows
+            .iter_mut()
+            .filter(|row| row.restitution_velocity != 0.0)
+        {
+            row.target[0] = row.obstacle[0] + row.restitution_velocity * share;
         }
         self.sweep_to_rest();
     }

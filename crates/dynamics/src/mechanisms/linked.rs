@@ -3,19 +3,19 @@
 
 use std::collections::BTreeMap;
 
-use articulation::{
-    BodyMotion, BodyProperties, BodyState, Contact, JointState, Mechanism, spatial,
-};
+use articulation::{BodyMotion, BodyState, Contact, JointState, Mechanism};
 use geometry::Finite;
-use nalgebra::Vector6;
-use rapier3d_f64::prelude::{ColliderHandle, RigidBody, RigidBodyHandle};
+use rapier3d_f64::prelude::{ColliderHandle, RigidBody};
 
+use super::linked_shape::{
+    LinkedShape, angular, body_state, joint_state, linear, motion, properties,
+};
 use super::reach::Reach;
 use super::search::Touching;
-use crate::bodies::{Bodies, Body};
-use crate::convert::{from_pose, from_vector, to_pose, to_vector};
+use crate::bodies::{Bodies, Body, SLEEP_THRESHOLD};
+use crate::convert::{to_pose, to_vector};
 use crate::free_rotation::LINKED;
-use crate::links::{Link, Links};
+use crate::links::Links;
 use crate::world::World;
 use scene::Handle;
 
@@ -24,9 +24,6 @@ use scene::Handle;
 const CONTACT_ITERATIONS: usize = 10;
 /// The same where bodies touch nothing, and the sub-step is not divided.
 const FREE_ITERATIONS: usize = 50;
-
-/// Bodies none of whose points moves faster rest, m/s.
-const SLEEP_SPEED: f64 = 1e-5;
 
 /// A mechanism.
 pub(super) struct Linked {
@@ -60,18 +57,6 @@ struct Input {
     /// After the step.
     motions: Vec<BodyMotion>,
     turned: Vec<f64>,
-}
-
-/// A body of a mechanism.
-pub(super) struct LinkedShape {
-    pub shape: Handle,
-    rigid: RigidBodyHandle,
-    pub is_dynamic: bool,
-    /// Forces and torques of scripts: they outlast a sub-step, those of links do not.
-    external: Vector6<f64>,
-    /// Whether the engine slows the body down.
-    is_damped: bool,
-    reach: Reach,
 }
 
 /// Lets rapier hold the links as well, or not: where the mechanism solves its contacts there is nothing to add.
@@ -341,7 +326,7 @@ impl Linked {
                 .get(guest.rigid)
                 .map_or(0.0, |rigid| rigid.mass_properties().max_extent());
             let [linear, angular] = [0, 3].map(|first| velocity.fixed_rows::<3>(first).norm());
-            linear + angular * extent > SLEEP_SPEED
+            linear + angular * extent > SLEEP_THRESHOLD.0
         })
     }
 
@@ -422,99 +407,4 @@ impl Linked {
             }
         }
     }
-}
-
-/// The properties of a body for its mechanism.
-pub(super) fn properties(body: &Body) -> BodyProperties {
-    let mass = &body.build.mass;
-    if body.build.dynamic {
-        BodyProperties::dynamic(mass.mass, mass.inertia * mass.mass, mass.com.into())
-    } else {
-        BodyProperties::immovable(mass.com.into())
-    }
-}
-
-impl LinkedShape {
-    pub(super) fn new(shape: Handle, body: &Body) -> Self {
-        Self {
-            shape,
-            rigid: body.rigid,
-            is_dynamic: body.build.dynamic,
-            external: Vector6::zeros(),
-            is_damped: body.is_damped(),
-            reach: Reach::default(),
-        }
-    }
-
-    fn remove_forces_of_links(&self, world: &mut World) {
-        if let Some(rigid) = world
-            .bodies
-            .get_mut(self.rigid)
-            .filter(|rigid| rigid.is_dynamic())
-        {
-            rigid.reset_forces(false);
-            rigid.reset_torques(false);
-            rigid.add_force(to_vector(linear(&self.external)), false);
-            rigid.add_torque(to_vector(angular(&self.external)), false);
-        }
-    }
-}
-
-fn body_state(rigid: &RigidBody, is_dynamic: bool, step: f64) -> BodyState {
-    let motion = motion(rigid);
-    if !is_dynamic {
-        let target = rigid
-            .is_kinematic()
-            .then(|| from_pose(rigid.next_position()));
-        return BodyState {
-            motion,
-            force: Vector6::zeros(),
-            gyroscopic_velocity: angular(&motion.velocity).into(),
-            target,
-        };
-    }
-    let force = spatial(
-        from_vector(rigid.user_force()).into(),
-        from_vector(rigid.user_torque()).into(),
-    );
-    let gyroscopic_velocity = from_vector(rigid.angvel_with_gyroscopic_forces(step)).into();
-    BodyState {
-        motion,
-        force,
-        gyroscopic_velocity,
-        target: None,
-    }
-}
-
-fn motion(rigid: &RigidBody) -> BodyMotion {
-    let velocity = spatial(
-        from_vector(rigid.linvel()).into(),
-        from_vector(rigid.angvel()).into(),
-    );
-    BodyMotion {
-        pose: from_pose(rigid.position()),
-        velocity,
-    }
-}
-
-fn joint_state(link: &Link) -> JointState {
-    let motor = link.drive.map(|drive| articulation::Motor {
-        velocity: drive.velocity,
-        max_force: drive.force,
-    });
-    JointState {
-        position: link.motion.position,
-        velocity: link.motion.velocity,
-        motor,
-        limits: link.stops,
-        passive: link.passive,
-    }
-}
-
-fn linear(v: &Vector6<f64>) -> [f64; 3] {
-    [v[0], v[1], v[2]]
-}
-
-fn angular(v: &Vector6<f64>) -> [f64; 3] {
-    [v[3], v[4], v[5]]
 }

@@ -11,7 +11,7 @@ use super::search::{Conditions, Touching};
 use crate::bodies::{Bodies, Tag};
 use crate::contacts::{Verdicts, pair_of};
 use crate::links::Links;
-use crate::world::World;
+use crate::world::{World, index_of};
 use scene::Handle;
 
 /// Largest number of free bodies that are solved together.
@@ -206,8 +206,4 @@ impl Sizes {
             .copied()
             .unwrap_or(1)
     }
-}
-
-fn index_of(body: RigidBodyHandle) -> usize {
-    body.into_raw_parts().0 as usize
 }

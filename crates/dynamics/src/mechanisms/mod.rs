@@ -9,6 +9,7 @@
 pub(super) mod exact_contacts;
 mod ghosts;
 mod linked;
+mod linked_shape;
 mod loose;
 pub(super) mod points;
 mod reach;
@@ -28,7 +29,8 @@ use crate::links::Links;
 use crate::plan::LinkPlan;
 use crate::world::{PREDICTION_DISTANCE, World};
 use exact_contacts::ExactContacts;
-use linked::{Linked, LinkedShape, divide, properties, share};
+use linked::{Linked, divide, share};
+use linked_shape::{LinkedShape, properties};
 use loose::{Loose, Start};
 use scene::Handle;
 use scene::joint::JointSolver;

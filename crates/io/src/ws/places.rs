@@ -56,7 +56,7 @@ impl Places {
 
 impl Place {
     /// Waits for what the peer says; none when it has to give way before.
-    pub(super) async fn hear<T>(&mut self, said: impl Future<Output = T>) -> Option<T> {
+    pub(super) async fn receive<T>(&mut self, said: impl Future<Output = T>) -> Option<T> {
         let begin = || Silence::begin(&self.silent);
         let mut silence = self.beginning.take().unwrap_or_else(begin);
         tokio::select! {
@@ -116,11 +116,11 @@ mod tests {
     async fn the_one_that_is_silent_for_longest_gives_way() {
         let places = Places::new(2);
         let (mut first, mut second) = (places.take().await.unwrap(), places.take().await.unwrap());
-        assert_eq!(first.hear(ready(7)).await, Some(7));
-        let talks = tokio::spawn(async move { second.hear(pending::<()>()).await });
+        assert_eq!(first.receive(ready(7)).await, Some(7));
+        let talks = tokio::spawn(async move { second.receive(pending::<()>()).await });
         let later = tokio::spawn(async move {
             tokio::task::yield_now().await;
-            first.hear(pending::<()>()).await
+            first.receive(pending::<()>()).await
         });
         tokio::task::yield_now().await;
         tokio::task::yield_now().await;
@@ -133,7 +133,7 @@ mod tests {
     async fn connections_that_have_spoken_keep_their_places() {
         let places = Places::new(1);
         let mut place = places.take().await.unwrap();
-        assert_eq!(place.hear(ready(())).await, Some(()));
+        assert_eq!(place.receive(ready(())).await, Some(()));
         let waits = timeout(Duration::from_millis(20), places.take()).await;
         assert!(waits.is_err(), "there is none to give way");
         drop(place);

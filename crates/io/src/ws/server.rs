@@ -64,7 +64,7 @@ async fn serve(mut stream: TcpStream, place: &mut Place, pages: &Pages, reports:
     let _ = stream.set_nodelay(true);
     let mut received = Vec::new();
     let head = timeout(HANDSHAKE_TIMEOUT, read_head(&mut stream, &mut received));
-    let Some(head) = place.hear(head).await else {
+    let Some(head) = place.receive(head).await else {
         return; // Nobody has heard of it.
     };
     let refused = match head {

@@ -214,7 +214,7 @@ async fn serve<S: Site>(
     let mut received = Vec::new();
     loop {
         let head = tokio::select! {
-            head = place.hear(timeout(PAGE_TIMEOUT, read_head(&mut stream, &mut received))) => head,
+            head = place.receive(timeout(PAGE_TIMEOUT, read_head(&mut stream, &mut received))) => head,
             _ = signals.wait_for(|signal| signal.ends) => return,
         };
         let Some(Ok(Ok(head))) = head else {

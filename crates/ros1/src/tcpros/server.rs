@@ -58,7 +58,7 @@ impl Shared {
     }
 
     /// Waits until a connection says something; false when it ends before, or has to give way.
-    fn hears(&self, number: u64, stream: &TcpStream) -> bool {
+    fn has_received(&self, number: u64, stream: &TcpStream) -> bool {
         let _ = stream.set_read_timeout(Some(limits::SILENCE_TIMEOUT));
         let heard = stream.peek(&mut [0]).is_ok_and(|count| count > 0);
         let _ = stream.set_read_timeout(None);
@@ -143,7 +143,7 @@ fn accept(
         .name(name.to_string())
         .spawn(move || {
             let _ = stream.set_nodelay(true);
-            if theirs.hears(number, &stream) {
+            if theirs.has_received(number, &stream) {
                 serve(stream);
             }
             theirs.connections().open.remove(&number);
