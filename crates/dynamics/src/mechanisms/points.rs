@@ -6,7 +6,7 @@ use rapier3d_f64::parry::query::details::ContactManifoldsWorkspace;
 use rapier3d_f64::parry::query::{
     ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher, TrackedContact,
 };
-use rapier3d_f64::prelude::{Collider, ColliderHandle};
+use rapier3d_f64::prelude::{Collider, ColliderHandle, Shape};
 
 use crate::contacts::{ColliderPair, ContactResponse, pair_of};
 use crate::convert::{from_vector, to_vector};
@@ -19,6 +19,8 @@ const MIN_NORMAL_COSINE: f64 = 0.99;
 
 /// How far shapes are moved apart for which no normal is found, metres.
 const NUDGE: f64 = 1e-8;
+/// Distance up to which a normal that is found may be any direction, metres.
+const TOUCHING: f64 = 1e-6;
 
 type Manifold = ContactManifold<(), [f64; 3]>;
 
@@ -103,7 +105,7 @@ impl Pair {
             .iter_mut()
             .for_each(Manifold::mark_shapes_deformed);
         let mut found = self.search(&apart, first, second, reach);
-        if self.has_no_direction() {
+        if self.has_no_direction(&apart, first, second) {
             let mut nudged = apart;
             nudged.translation += apart.translation.normalize_or_zero() * NUDGE;
             found = self.search(&nudged, first, second, reach);
@@ -132,10 +134,17 @@ impl Pair {
         found.is_ok()
     }
 
-    /// Whether parry found no normal: so it is with faces that touch to the last digit.
-    fn has_no_direction(&self) -> bool {
+    /// Whether parry found no normal, or one along which the shapes overlap though they only touch: so it is with faces that touch to the last digit.
+    fn has_no_direction(&self, apart: &EnginePose, first: &Collider, second: &Collider) -> bool {
         let is_lost = |manifold: &Manifold| {
-            !manifold.points.is_empty() && manifold.local_n1.length_squared() < 0.5
+            let distances = manifold.points.iter().map(|found| found.dist);
+            let Some(nearest) = distances.min_by(f64::total_cmp) else {
+                return false;
+            };
+            let along_normal = || separation(manifold, apart, first.shape(), second.shape());
+            manifold.local_n1.length_squared() < 0.5
+                || nearest.abs() < TOUCHING
+                    && along_normal().is_some_and(|found| found < nearest - TOUCHING)
         };
         self.manifolds.iter().any(is_lost)
     }
@@ -175,6 +184,31 @@ impl Pair {
     /// Keeps the impulse of a point for the next sub-step.
     pub(super) fn store(&mut self, (manifold, index): (usize, usize), impulse: [f64; 3]) {
         self.manifolds[manifold].points[index].data = impulse;
+    }
+}
+
+/// How far apart the convex parts of a manifold are along its normal; negative where they overlap.
+fn separation(
+    manifold: &Manifold,
+    apart: &EnginePose,
+    first: &dyn Shape,
+    second: &dyn Shape,
+) -> Option<f64> {
+    let placed = |part: Option<&EnginePose>| part.copied().unwrap_or(EnginePose::IDENTITY);
+    let far =
+        placed(manifold.subshape_pos1()).inv_mul(&(*apart * placed(manifold.subshape_pos2())));
+    let parts = [(first, manifold.subshape1), (second, manifold.subshape2)];
+    let [first, second] = parts.map(|(shape, part)| part_of(shape, part)?.as_support_map());
+    let normal = manifold.local_n1;
+    let nearest = far * second?.local_support_point(far.rotation.inverse() * -normal);
+    Some((nearest - first?.local_support_point(normal)).dot(normal))
+}
+
+/// A part of a group of shapes, or the shape itself; None for surfaces.
+fn part_of(shape: &dyn Shape, part: u32) -> Option<&dyn Shape> {
+    match shape.as_compound() {
+        Some(group) => group.shapes().get(part as usize).map(|(_, shape)| &**shape),
+        None => Some(shape),
     }
 }
 
@@ -253,6 +287,58 @@ mod tests {
                 points.iter().all(|point| point.normal.z < -0.999),
                 "{level}"
             );
+        }
+    }
+
+    /// The corners of a box as a hull.
+    fn hull(half: [f64; 3], at: Vector) -> Collider {
+        let corner = |i: usize| {
+            let sign = |axis: usize| {
+                if i >> axis & 1 == 1 {
+                    half[axis]
+                } else {
+                    -half[axis]
+                }
+            };
+            Vector::new(sign(0), sign(1), sign(2))
+        };
+        let corners: Vec<Vector> = (0..8).map(corner).collect();
+        let builder = ColliderBuilder::convex_hull(&corners).expect("a box has a hull");
+        builder.translation(at).build()
+    }
+
+    #[test]
+    fn a_pad_that_touches_a_hull_to_the_last_digit_pushes_along_its_face() {
+        for (yaw, across) in [
+            (0.0, 0.0),
+            (std::f64::consts::PI, 0.0),
+            (0.0, 1e-3),
+            (std::f64::consts::PI, 0.0115),
+        ] {
+            for width in [0.001, 0.025, 0.03] {
+                let mut pose = EnginePose::from_rotation(Rotation::from_rotation_z(yaw));
+                pose.translation = Vector::new(-width - 0.005, across, 0.0);
+                let pad = ColliderBuilder::cuboid(0.005, 0.01, 0.01)
+                    .position(pose)
+                    .build();
+                let held = hull([width, 0.025, 0.025], Vector::ZERO);
+                let mut pair = Pair::default();
+                assert!(pair.update(&pad, &held, 0.01));
+                let points = pair.points([ColliderHandle::invalid(); 2], &pad, &held, 0.01);
+                assert_eq!(points.len(), 4, "{yaw} {across} {width}");
+                for point in points {
+                    assert!(
+                        point.normal.x < -0.999,
+                        "{yaw} {across} {width}: {:?}",
+                        point.normal
+                    );
+                    assert!(
+                        point.contact.distance.abs() < 1e-7,
+                        "{}",
+                        point.contact.distance
+                    );
+                }
+            }
         }
     }
 }
