@@ -11,6 +11,7 @@ mod ghosts;
 mod linked;
 mod linked_shape;
 mod loose;
+mod normals;
 pub(super) mod points;
 mod reach;
 mod search;

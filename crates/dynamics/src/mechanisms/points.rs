@@ -6,8 +6,9 @@ use rapier3d_f64::parry::query::details::ContactManifoldsWorkspace;
 use rapier3d_f64::parry::query::{
     ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher, TrackedContact,
 };
-use rapier3d_f64::prelude::{Collider, ColliderHandle, Shape};
+use rapier3d_f64::prelude::{Collider, ColliderHandle};
 
+use super::normals::{move_back, way_out};
 use crate::contacts::{ColliderPair, ContactResponse, pair_of};
 use crate::convert::{from_vector, to_vector};
 use scene::Handle;
@@ -17,12 +18,7 @@ const MAX_GROUP_POINTS: usize = 4;
 /// Cosine of the largest angle between the normals of points of one surface.
 const MIN_NORMAL_COSINE: f64 = 0.99;
 
-/// How far shapes are moved apart for which no normal is found, metres.
-const NUDGE: f64 = 1e-8;
-/// Distance up to which a normal that is found may be any direction, metres.
-const TOUCHING: f64 = 1e-6;
-
-type Manifold = ContactManifold<(), [f64; 3]>;
+pub(super) type Manifold = ContactManifold<(), [f64; 3]>;
 
 /// Two colliders that are near each other.
 #[derive(Default)]
@@ -100,15 +96,20 @@ impl Pair {
     /// Finds the points for where the shapes are, up to `reach` metres apart; whether there are any.
     pub(super) fn update(&mut self, first: &Collider, second: &Collider, reach: f64) -> bool {
         let apart = first.position().inv_mul(second.position());
-        // parry would keep points that moved by less than a millimetre: behind a wheel that begins to roll they drive it on.
-        self.manifolds
-            .iter_mut()
-            .for_each(Manifold::mark_shapes_deformed);
         let mut found = self.search(&apart, first, second, reach);
-        if self.has_no_direction(&apart, first, second) {
-            let mut nudged = apart;
-            nudged.translation += apart.translation.normalize_or_zero() * NUDGE;
-            found = self.search(&nudged, first, second, reach);
+        let shapes = [first.shape(), second.shape()];
+        let mut mistakes = self.manifolds.iter();
+        if let Some(way) = mistakes.find_map(|manifold| way_out(manifold, &apart, shapes)) {
+            let mut moved = apart;
+            moved.translation += way;
+            // Nor is it to begin with what it found.
+            self.manifolds
+                .iter_mut()
+                .for_each(|manifold| manifold.local_n1 = Vector::ZERO);
+            found = self.search(&moved, first, second, reach);
+            self.manifolds
+                .iter_mut()
+                .for_each(|manifold| move_back(manifold, way));
         }
         let mut points = self.manifolds.iter().flat_map(|manifold| &manifold.points);
         found && points.any(|found| found.dist < reach)
@@ -121,6 +122,10 @@ impl Pair {
         second: &Collider,
         reach: f64,
     ) -> bool {
+        // parry would keep points that moved by less than a millimetre: behind a wheel that begins to roll they drive it on.
+        self.manifolds
+            .iter_mut()
+            .for_each(Manifold::mark_shapes_deformed);
         let dispatcher: &dyn PersistentQueryDispatcher<(), [f64; 3]> = &DefaultQueryDispatcher;
         let shapes = (first.shape(), second.shape());
         let found = dispatcher.contact_manifolds(
@@ -132,21 +137,6 @@ impl Pair {
             &mut self.workspace,
         );
         found.is_ok()
-    }
-
-    /// Whether parry found no normal, or one along which the shapes overlap though they only touch: so it is with faces that touch to the last digit.
-    fn has_no_direction(&self, apart: &EnginePose, first: &Collider, second: &Collider) -> bool {
-        let is_lost = |manifold: &Manifold| {
-            let distances = manifold.points.iter().map(|found| found.dist);
-            let Some(nearest) = distances.min_by(f64::total_cmp) else {
-                return false;
-            };
-            let along_normal = || separation(manifold, apart, first.shape(), second.shape());
-            manifold.local_n1.length_squared() < 0.5
-                || nearest.abs() < TOUCHING
-                    && along_normal().is_some_and(|found| found < nearest - TOUCHING)
-        };
-        self.manifolds.iter().any(is_lost)
     }
 
     pub(super) fn points(
@@ -184,31 +174,6 @@ impl Pair {
     /// Keeps the impulse of a point for the next sub-step.
     pub(super) fn store(&mut self, (manifold, index): (usize, usize), impulse: [f64; 3]) {
         self.manifolds[manifold].points[index].data = impulse;
-    }
-}
-
-/// How far apart the convex parts of a manifold are along its normal; negative where they overlap.
-fn separation(
-    manifold: &Manifold,
-    apart: &EnginePose,
-    first: &dyn Shape,
-    second: &dyn Shape,
-) -> Option<f64> {
-    let placed = |part: Option<&EnginePose>| part.copied().unwrap_or(EnginePose::IDENTITY);
-    let far =
-        placed(manifold.subshape_pos1()).inv_mul(&(*apart * placed(manifold.subshape_pos2())));
-    let parts = [(first, manifold.subshape1), (second, manifold.subshape2)];
-    let [first, second] = parts.map(|(shape, part)| part_of(shape, part)?.as_support_map());
-    let normal = manifold.local_n1;
-    let nearest = far * second?.local_support_point(far.rotation.inverse() * -normal);
-    Some((nearest - first?.local_support_point(normal)).dot(normal))
-}
-
-/// A part of a group of shapes, or the shape itself; None for surfaces.
-fn part_of(shape: &dyn Shape, part: u32) -> Option<&dyn Shape> {
-    match shape.as_compound() {
-        Some(group) => group.shapes().get(part as usize).map(|(_, shape)| &**shape),
-        None => Some(shape),
     }
 }
 
@@ -291,7 +256,7 @@ mod tests {
     }
 
     /// The corners of a box as a hull.
-    fn hull(half: [f64; 3], at: Vector) -> Collider {
+    fn hull(half: [f64; 3]) -> Collider {
         let corner = |i: usize| {
             let sign = |axis: usize| {
                 if i >> axis & 1 == 1 {
@@ -304,41 +269,59 @@ mod tests {
         };
         let corners: Vec<Vector> = (0..8).map(corner).collect();
         let builder = ColliderBuilder::convex_hull(&corners).expect("a box has a hull");
-        builder.translation(at).build()
+        builder.build()
+    }
+
+    /// Points of a pad beside a hull of half the `width`, with a normal from the hull to the pad.
+    fn pad_at_hull(width: f64, [yaw, across]: [f64; 2], gap: f64, is_first: bool) -> Vec<Point> {
+        let mut pose = EnginePose::from_rotation(Rotation::from_rotation_z(yaw));
+        pose.translation = Vector::new(-width - 0.005 - gap, across, 0.0);
+        let pad = ColliderBuilder::cuboid(0.005, 0.01, 0.01).position(pose);
+        let (pad, held) = (pad.build(), hull([width, 0.025, 0.025]));
+        let (first, second) = if is_first {
+            (&pad, &held)
+        } else {
+            (&held, &pad)
+        };
+        let mut pair = Pair::default();
+        assert!(pair.update(first, second, 0.01));
+        let mut points = pair.points([ColliderHandle::invalid(); 2], first, second, 0.01);
+        if !is_first {
+            points.iter_mut().for_each(|point| point.normal *= -1.0);
+        }
+        points
     }
 
     #[test]
-    fn a_pad_that_touches_a_hull_to_the_last_digit_pushes_along_its_face() {
-        for (yaw, across) in [
-            (0.0, 0.0),
-            (std::f64::consts::PI, 0.0),
-            (0.0, 1e-3),
-            (std::f64::consts::PI, 0.0115),
-        ] {
+    fn a_pad_that_just_touches_a_hull_pushes_along_its_face() {
+        let places = [
+            [0.0, 0.0],
+            [std::f64::consts::PI, 0.0],
+            [0.0, 1e-3],
+            [std::f64::consts::PI, 0.0115],
+        ];
+        let gaps = (0..12).map(|power| 1e-17 * 10.0_f64.powi(power));
+        let gaps: Vec<f64> = gaps.flat_map(|gap| [gap, -gap]).chain([0.0]).collect();
+        let mut wrong = Vec::new();
+        for place in places {
             for width in [0.001, 0.025, 0.03] {
-                let mut pose = EnginePose::from_rotation(Rotation::from_rotation_z(yaw));
-                pose.translation = Vector::new(-width - 0.005, across, 0.0);
-                let pad = ColliderBuilder::cuboid(0.005, 0.01, 0.01)
-                    .position(pose)
-                    .build();
-                let held = hull([width, 0.025, 0.025], Vector::ZERO);
-                let mut pair = Pair::default();
-                assert!(pair.update(&pad, &held, 0.01));
-                let points = pair.points([ColliderHandle::invalid(); 2], &pad, &held, 0.01);
-                assert_eq!(points.len(), 4, "{yaw} {across} {width}");
-                for point in points {
-                    assert!(
-                        point.normal.x < -0.999,
-                        "{yaw} {across} {width}: {:?}",
-                        point.normal
-                    );
-                    assert!(
-                        point.contact.distance.abs() < 1e-7,
-                        "{}",
-                        point.contact.distance
-                    );
+                for &gap in &gaps {
+                    for is_first in [true, false] {
+                        let points = pad_at_hull(width, place, gap, is_first);
+                        let is_right = |point: &Point| {
+                            point.normal.x < -0.999 && (point.contact.distance - gap).abs() < 1e-7
+                        };
+                        if points.len() != 4 || !points.iter().all(is_right) {
+                            let found = points.first().map(|p| (p.normal, p.contact.distance));
+                            wrong.push(format!(
+                                "{width} {place:?} {gap:e} {is_first} {} {found:?}",
+                                points.len()
+                            ));
+                        }
+                    }
                 }
             }
         }
+        assert!(wrong.is_empty(), "{wrong:#?}");
     }
 }
