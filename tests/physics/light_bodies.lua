@@ -1,4 +1,4 @@
--- A torque turns a body as its moment of inertia says: from 1 mg to 1 t, whatever the shape and the axis.
+-- A torque turns a body as its moment of inertia says: from 1 mg to 1 t, whatever the shape and the axis, also of shapes that collide, and of groups.
 local bench = require 'lib.bench'
 
 bench.gravity(0)
@@ -21,8 +21,33 @@ for index, name in ipairs(NAMES) do
     for m, mass in ipairs(MASSES) do
         for axis = 1, 3 do
             local at = {2 * index, 2 * m, 2 * axis}
-            local body = bench.body{kind = sim['primitiveshape_' .. kind], size = size, at = at, mass = mass}
+            local body = bench.body{kind = sim['primitiveshape_' .. kind], size = size, at = at, mass = mass, solid = true}
             bodies[#bodies + 1] = {name = name, mass = mass, axis = axis, body = body, moment = mass * moments[axis]}
+        end
+    end
+end
+
+-- Groups of parts, with the moments of a pen.
+local function group(count, at, mass)
+    local parts = {}
+    for i = 1, count do parts[i] = bench.body{size = {0.01, 0.02, 0.02}, at = {0.02 * i, 0.01 * i * i, 0.01 * i}} end
+    local body = sim.groupShapes(parts)
+    sim.relocateShapeFrame(body, {0, 0, 0, 0, 0, 0, 1})
+    sim.setObjectPosition(body, at)
+    sim.setShapeMass(body, mass)
+    local moments = SHAPES.pen[3]
+    sim.setShapeInertia(body, {mass * moments[1], 0, 0, 0, mass * moments[2], 0, 0, 0, mass * moments[3]}, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0})
+    sim.setBoolProperty(body, 'dynamic', true)
+    sim.setBoolProperty(body, 'respondable', true)
+    return body
+end
+for count = 2, 4 do
+    local name = ('group of %d'):format(count)
+    NAMES[#NAMES + 1] = name
+    for m, mass in ipairs(MASSES) do
+        for axis = 1, 3 do
+            local body = group(count, {2 * (#NAMES + 10), 2 * m, 2 * axis}, mass)
+            bodies[#bodies + 1] = {name = name, mass = mass, axis = axis, body = body, moment = mass * SHAPES.pen[3][axis]}
         end
     end
 end

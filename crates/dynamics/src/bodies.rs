@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 
 use geometry::Finite;
 use geometry::pose::interpolate;
-use rapier3d_f64::math::Vector;
+use rapier3d_f64::math::{Pose as EnginePose, Vector};
 use rapier3d_f64::prelude::{
     CoefficientCombineRule, ColliderBuilder, ColliderHandle, MassProperties, RigidBody,
     RigidBodyBuilder, RigidBodyHandle, RigidBodyType,
 };
 
+use super::body_mass::{carrier, mass_properties, massless};
 use super::colliders;
-use super::convert::{from_pose, to_pose, to_rotation, to_vector};
+use super::convert::{from_pose, to_pose, to_vector};
 use super::plan::{BodyBuild, BodyPlan, FrictionRule, Surface, is_far};
 use super::world::{ALL_HOOKS, World};
 use scene::shape::Velocity;
@@ -208,10 +209,12 @@ impl Body {
             .parts
             .iter()
             .flat_map(|part| colliders::forms(part, self.build.dynamic));
-        for (pose, form) in forms.collect::<Vec<_>>() {
-            let collider = ColliderBuilder::new(form)
-                .position(pose)
-                .density(0.0)
+        let forms = forms.collect::<Vec<_>>();
+        let carrier = carrier(forms.iter().map(|(pose, _)| pose));
+        for (index, (pose, form)) in forms.into_iter().enumerate() {
+            let builder = ColliderBuilder::new(form).position(pose);
+            let collider = self
+                .with_mass(builder, &pose, carrier == Some(index), world)
                 .friction(self.surface.friction)
                 .restitution(self.surface.restitution)
                 .friction_combine_rule(combine_rule(self.surface.friction_rule))
@@ -225,6 +228,21 @@ impl Body {
                 &mut world.bodies,
             ));
         }
+    }
+
+    /// Lets a collider carry the mass of the body, instead of the body.
+    fn with_mass(
+        &self,
+        builder: ColliderBuilder,
+        pose: &EnginePose,
+        carries: bool,
+        world: &mut World,
+    ) -> ColliderBuilder {
+        let Some(rigid) = world.bodies.get_mut(self.rigid).filter(|_| carries) else {
+            return builder.mass_properties(massless(pose));
+        };
+        rigid.set_additional_mass_properties(MassProperties::default(), false);
+        builder.mass_properties(mass_properties(&self.build.mass).transform_by(&pose.inverse()))
     }
 
     fn with_surface(mut self, shape: Handle, surface: Surface, world: &mut World) -> Self {
@@ -310,19 +328,6 @@ fn rigid_body(plan: &BodyPlan, pose: &Pose) -> RigidBody {
         .can_sleep(false)
         .allow_fast_rotation(true)
         .build()
-}
-
-/// Centre of mass, mass and inertia. rapier's own decomposition of an inertia takes moments for equal where their differences have a product
-/// below 1e-10 kg2 m4, and any two equal moments for those of the first two axes: light bodies and plates across x would turn with swapped moments.
-fn mass_properties(mass: &geometry::MassProperties) -> MassProperties {
-    let (axes, moments) = mass.principal_axes();
-    let moments = moments.map(|moment| moment * mass.mass);
-    MassProperties::with_principal_inertia_frame(
-        to_vector(mass.com),
-        mass.mass,
-        to_vector(moments),
-        to_rotation(&axes),
-    )
 }
 
 impl Bodies {

@@ -16,6 +16,7 @@
 
 mod actuators;
 mod bodies;
+mod body_mass;
 mod colliders;
 mod contact_log;
 mod contacts;

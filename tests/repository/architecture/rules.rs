@@ -87,7 +87,11 @@ const DYNAMICS: Rooms = &[
     ("plan", &["frozen"]),
     ("made_forms", &[]),
     ("colliders", &["convert", "made_forms", "plan"]),
-    ("bodies", &["colliders", "convert", "plan", "world"]),
+    ("body_mass", &["convert"]),
+    (
+        "bodies",
+        &["body_mass", "colliders", "convert", "plan", "world"],
+    ),
     ("flat_faces", &[]),
     ("contacts", &["bodies", "convert", "flat_faces", "world"]),
     ("near", &["bodies", "contacts", "free_rotation", "world"]),
