@@ -123,17 +123,19 @@ FORMS = forms()
 HANDS = ("parallel", "three-finger")
 
 
-def places(hand, is_round):
+def places(hand, is_round, all_drive=False):
     """Direction of each finger and its offset across: the first one drives."""
     if hand == "parallel":
         return [(0, 0), (math.pi, 0)]
     if is_round:
-        return [(0, 0), (2 * math.pi / 3, 0), (-2 * math.pi / 3, 0)]
+        # All together they are in balance at 120 degrees; two that keep their places stand closer, so that friction does not jam between them.
+        angle = math.radians(120 if all_drive else 150)
+        return [(0, 0), (angle, 0), (-angle, 0)]
     return [(0, 0), (math.pi, 0.0115), (math.pi, -0.0115)]
 
 
 def sum_of_normals(fingers):
-    """Of what the others press together, by the force of the driving one: 1, or 2 where they stand in a V."""
+    """Of what the others press together, by the force of the driving one: 1, or more where they stand in a V."""
     return 1 / abs(math.cos(fingers[1][0]))
 
 
@@ -153,7 +155,7 @@ def grip_force(fingers, mass):
 def fingers_of(hand, form, force, all_drive):
     _, _, width, _, is_round = FORMS[form]
     made = []
-    for number, (angle, across) in enumerate(places(hand, is_round)):
+    for number, (angle, across) in enumerate(places(hand, is_round, all_drive)):
         away = np.array([math.cos(angle), math.sin(angle), 0])
         side = np.array([-away[1], away[0], 0])
         drives = number == 0 or all_drive
@@ -222,14 +224,15 @@ def case(hand, form, mesh, mass, moving, factor=None):
     """A grasp that is lifted, turned, shaken and held; with a `factor`, one that only holds, with that many times the critical force. Round things are then
     pressed by all fingers alike: in a V of fingers that keep their places friction may jam a thing, so that the pressure is not determined."""
     parts, moments, _, height, is_round = FORMS[form]
-    fingers = places(hand, is_round)
+    all_drive = factor is not None and is_round
+    fingers = places(hand, is_round, all_drive)
     force = factor * critical_force(fingers, mass) if factor else grip_force(fingers, mass)
     path, gravity, start = path_and_gravity(moving, factor is not None)
     accelerations = acceleration(path) if moving else np.zeros((len(path), 3))
     return {
         "hand": hand, "form": form, "mesh": mesh, "moving": moving, "factor": factor, "force": force,
         "object": {"parts": [as_mesh(part) for part in parts] if mesh else parts, "mass": mass, "inertia": (moments * mass).tolist()},
-        "fingers": fingers_of(hand, form, force, factor is not None and is_round), "table": -height if moving and not factor else None,
+        "fingers": fingers_of(hand, form, force, all_drive), "table": -height if moving and not factor else None,
         "squeeze": rise(np.arange(1, len(path) + 1) * STEP / SQUEEZE).tolist(), "path": path.tolist(), "gravity": gravity.tolist(), "start": start, "accelerations": accelerations.tolist(),
         "hold": 2.0 if factor else HOLD, "step": STEP, "friction": FRICTION, "pad": list(PAD), "pad_mass": PAD_MASS,
     }

@@ -4,10 +4,12 @@
     cargo build --release && target/venv/bin/python benches/compare/grasps.py
 
 writes the table into docs/PHYSICS.md. SWANILDA names another binary. Options: `--only hand=parallel,form=box,mass=0.1` (any of hand, form, mesh, mass, moving,
-factor; prints what each engine does and leaves the table alone), `--engines Swanilda,PyBullet`. JOBS grasps at a time, 1 without it.
+factor; prints what each engine does and leaves the table alone), `--engines Swanilda,elliptic`, `--keep FILE` (results are added to the file, and what is
+there is not run again). JOBS grasps at a time, 1 without it.
 """
 
 import argparse
+import json
 import os
 import platform
 import sys
@@ -26,11 +28,12 @@ LOST = 0.01
 # What is held with the critical force in excess does not move farther.
 HELD = 0.001
 FACTORS = (0.96, 1.04)
+ASKED = ("hand", "form", "mesh", "mass", "moving", "factor")
 
 
 def grasps():
     every = product(HANDS, FORMS, (False, True), MASSES, (False, True), (None, *FACTORS))
-    return [dict(zip(("hand", "form", "mesh", "mass", "moving", "factor"), values)) for values in every]
+    return [dict(zip(ASKED, values)) for values in every]
 
 
 def result(asked):
@@ -67,19 +70,19 @@ def cells(results):
     weak, strong = ([r for r in results if r["factor"] == factor] for factor in FACTORS)
     most = lambda key, digits: f"{max(r[key] for r in kept):.{digits}g}" if kept else ""
     creep = f"{1e3 * max(r['creep'] for r in kept):.1g}" if kept else ""
-    took = np.median([r["took"] for r in moved]) * 1e6
-    return [count(r["way"] < LOST for r in moved), creep, most("peak", 2), count(r["way"] > LOST for r in weak), count(r["way"] < HELD for r in strong), f"{took:.0f}"]
+    took = f"{np.median([r['took'] for r in moved]) * 1e6:.0f}" if moved else ""
+    return [count(r["way"] < LOST for r in moved), creep, most("peak", 2), count(r["way"] > LOST for r in weak), count(r["way"] < HELD for r in strong), took]
 
 
 def table(results, engines):
     head = ["", "| hand, base | engine | kept | creep, mm/min | peak, m/s2 | slips at 0.96 | holds at 1.04 | us per sub-step |", "|---|---|---|---|---|---|---|---|"]
-    def lines(name, key):
-        for group in dict.fromkeys(map(key, results)):
+    def lines(group_of):
+        for group in dict.fromkeys(map(group_of, results)):
             for engine in engines:
-                own = [r for r in results if key(r) == group and r["engine"] == engine]
+                own = [r for r in results if group_of(r) == group and r["engine"] == engine]
                 yield f"| {group} | {engine} | " + " | ".join(cells(own)) + " |"
-    out = head + list(lines("hand, base", title))
-    out += [""] + [head[1].replace("hand, base", "object"), head[2]] + list(lines("object", lambda r: r["form"] + (", mesh" if r["mesh"] else "")))
+    out = head + list(lines(title))
+    out += [""] + [head[1].replace("hand, base", "object"), head[2]] + list(lines(lambda r: r["form"] + (", mesh" if r["mesh"] else "")))
     versions = ", ".join(f"{package} {version(package)}" for package in ("mujoco", "pybullet"))
     return "\n".join(out + ["", f"{versions}, Python {platform.python_version()}, {os.cpu_count()} processors, sub-steps of {STEP * 1e3:g} ms.", ""])
 
@@ -96,18 +99,39 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--only", default="")
     parser.add_argument("--engines", default=",".join(ENGINES).replace("MuJoCo, elliptic", "elliptic"))
+    parser.add_argument("--keep")
     options = parser.parse_args()
     engines = [{"elliptic": "MuJoCo, elliptic"}.get(name, name) for name in options.engines.split(",")]
     asked = [(engine, what) for what in filter(selected(options.only), grasps()) for engine in engines]
-    results = []
+    known = kept(options.keep)
+    missing = [one for one in asked if key(*one) not in known]
     with ProcessPoolExecutor(int(os.environ.get("JOBS", 1))) as pool:
-        for done in pool.map(result, asked):
-            results.append(done)
-            if options.only or sys.stderr.isatty():
-                shown = {key: f"{value:.3g}" if isinstance(value, float) else value for key, value in done.items()}
-                print(*(f"{key}={value}" for key, value in shown.items()), file=sys.stderr, flush=True)
-    text = table(results, engines)
+        for one, done in zip(missing, pool.map(result, missing)):
+            known[key(*one)] = done
+            tell(done, options.keep)
+    text = table([known[key(*one)] for one in asked], engines)
     print(text) if options.only else write(text)
+
+
+def key(engine, what):
+    return (engine, *what.values())
+
+
+def kept(path):
+    """Results of runs before, by grasp and engine."""
+    if not path or not os.path.exists(path):
+        return {}
+    with open(path) as file:
+        known = [json.loads(line) for line in file]
+    return {key(one["engine"], {name: one[name] for name in ASKED}): one for one in known}
+
+
+def tell(done, path):
+    shown = {name: f"{value:.3g}" if isinstance(value, float) else value for name, value in done.items()}
+    print(*(f"{name}={value}" for name, value in shown.items()), file=sys.stderr, flush=True)
+    if path:
+        with open(path, "a") as file:
+            file.write(json.dumps(done) + "\n")
 
 
 if __name__ == "__main__":
