@@ -60,11 +60,14 @@ pub(super) struct Tag {
     pub shape: Handle,
     pub root: Handle,
     pub mask: u16,
+    /// Of the local mask, as many as [`scene::FURTHER_BITS`].
+    pub further_bits: u64,
 }
 
 impl Tag {
     pub(super) fn pack(self) -> u128 {
-        u128::from(self.shape.0) | u128::from(self.root.0) << 32 | u128::from(self.mask) << 64
+        let masks = u128::from(self.mask) << 64 | u128::from(self.further_bits) << 80;
+        u128::from(self.shape.0) | u128::from(self.root.0) << 32 | masks
     }
 
     pub(super) fn unpack(data: u128) -> Self {
@@ -72,6 +75,7 @@ impl Tag {
             shape: Handle(data as u32),
             root: Handle((data >> 32) as u32),
             mask: (data >> 64) as u16,
+            further_bits: (data >> 80) as u64,
         }
     }
 }
@@ -203,6 +207,7 @@ impl Body {
             shape,
             root: self.surface.root,
             mask: self.surface.mask,
+            further_bits: self.surface.further_bits,
         };
         let forms = self
             .build
@@ -237,6 +242,7 @@ impl Body {
             shape,
             root: surface.root,
             mask: surface.mask,
+            further_bits: surface.further_bits,
         };
         for &handle in &self.colliders {
             if let Some(collider) = world.colliders.get_mut(handle) {

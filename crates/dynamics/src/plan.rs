@@ -73,6 +73,8 @@ pub(super) struct Surface {
     pub root: Handle,
     /// Low byte: local mask, high byte: global mask.
     pub mask: u16,
+    /// Further bits of the local mask.
+    pub further_bits: u64,
     pub friction: f64,
     pub friction_rule: FrictionRule,
     pub restitution: f64,
@@ -215,6 +217,11 @@ fn surface(scene: &Scene, handle: Handle, shape: &Shape) -> Surface {
             0
         } else {
             shape.dynamics.respondable_mask.bits()
+        },
+        further_bits: if suspended {
+            0
+        } else {
+            scene.collision_bits_of(handle)
         },
         friction,
         friction_rule: if selected.engine == Engine::Mujoco {

@@ -208,10 +208,7 @@ fn links_of_mjcf_touch_as_the_file_says() {
             .unwrap_or_else(|| panic!("{said}"))
     });
     // The springs leave it at its target where nothing is in the way.
-    assert!(
-        curls[0] < 2.1 && (curls[1] - 2.4).abs() < 0.01,
-        "{curls:?}"
-    );
+    assert!(curls[0] < 2.1 && (curls[1] - 2.4).abs() < 0.01, "{curls:?}");
 }
 
 /// A ball that sinks: of the box with its moments of inertia every edge is sqrt(12 / 5) of its radius.
@@ -236,7 +233,7 @@ function sysCall_afterSimulation() print(string.format('down at %.4f', down)) en
             "run", "look.lua", "--empty", "--time", "2", "-q", "-D", model,
         ];
         let said = said_by(folder, &run);
-        let expected = format!("down at {speed:.4f}");
+        let expected = format!("down at {speed:.4}");
         assert!(
             said.contains(&expected),
             "{model}: {said} instead of {expected}"

@@ -6,8 +6,8 @@ use robot_description::{Geometry, Inertial, Link};
 use super::{Import, Node, RobotFormat, RobotImportOptions};
 use scene::shape::{FLUID, Fluid, Material, RespondableMask, Shape};
 use scene::{
-    COLLISION_TREE, Data, Edit, Field, Handle, Kind, Layers, Namespace, Pose, SceneResult,
-    ValueType,
+    COLLISION_BITS, COLLISION_TREE, Data, Edit, Field, Handle, Kind, Layers, Namespace, Pose,
+    SceneResult, ValueType,
 };
 
 /// Diameter of the body of a link that has mass and nothing to touch, metres.
@@ -44,6 +44,13 @@ impl Import<'_> {
             {
                 let yes = (ValueType::Bool, Data::Bool(true));
                 self.set_custom_data(shape, COLLISION_TREE, yes)?;
+            }
+            let further = self.masks.get(&link).map_or(0, |masks| masks.further);
+            if let Some(shape) = shape
+                && further != 0
+            {
+                let bits = (ValueType::Int, Data::Int(further));
+                self.set_custom_data(shape, COLLISION_BITS, bits)?;
             }
             if let Some(shape) = shape
                 && self.is_slowed_down(link)
@@ -125,7 +132,7 @@ impl Import<'_> {
                 }
                 let by_depth = RespondableMask(MASK | self.local_mask(depth));
                 shape.dynamics.respondable_mask =
-                    self.masks.get(&index).copied().unwrap_or(by_depth);
+                    self.masks.get(&index).map_or(by_depth, |masks| masks.mask);
                 self.set_inertia(index, inertial.as_ref(), pose, &mut shape);
                 Some(self.add_body(&link.name, frame * pose, shape, joint)?)
             }

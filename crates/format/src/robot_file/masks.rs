@@ -1,18 +1,27 @@
 //! Respondable masks that let those links touch that may touch in a file.
 //!
-//! Shapes of one tree touch where their masks have a bit of the low byte in common, shapes of different trees where they have one of the high byte.
-//! A bit is so a set of links that all touch each other, and there are eight of each kind: sets are chosen one after the other, each with as many pairs that
+//! Shapes of one tree touch where their masks have a bit of the low byte in common, or their further bits, shapes of different trees where they have one of the high
+//! byte. A bit is so a set of links that all touch each other: sets are chosen one after the other, each with as many pairs that
 //! no set had before as a greedy search finds. Links that must not touch never have a bit in common.
 
 use std::collections::BTreeMap;
 
 use super::Import;
+use scene::FURTHER_BITS;
 use scene::shape::RespondableMask;
 
 /// Bits of a byte of a mask.
-const BITS: usize = 8;
+const BITS: u32 = 8;
 /// Links that a search begins at.
 const MOST_BEGINNINGS: usize = 64;
+
+/// With what a link touches others.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Masks {
+    pub mask: RespondableMask,
+    /// Further bits within its tree.
+    pub further: i64,
+}
 
 /// What two links do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,19 +65,19 @@ impl Relations {
         row.filter(|relation| **relation == Relation::Open).count()
     }
 
-    /// The sets, as a byte for each link.
-    fn bytes(&mut self) -> Vec<u8> {
-        let mut bytes = vec![0; self.count];
-        for bit in 0..BITS {
+    /// At most so many sets, as bits of each link.
+    fn bits(&mut self, most: u32) -> Vec<u64> {
+        let mut bits = vec![0; self.count];
+        for bit in 0..most {
             let Some(set) = self.largest_set() else { break };
             for &link in &set {
-                bytes[link] |= 1 << bit;
+                bits[link] |= 1 << bit;
                 for &other in &set {
                     self.of_pairs[link * self.count + other] = Relation::Free;
                 }
             }
         }
-        bytes
+        bits
     }
 
     /// The set with the most open pairs that is found; None where no pair is open.
@@ -119,7 +128,7 @@ impl Relations {
 
 impl Import<'_> {
     /// The masks of the links that are touched, by link; none where the file does not say which of them touch.
-    pub(super) fn masks_of_touching(&mut self) -> BTreeMap<usize, RespondableMask> {
+    pub(super) fn masks_of_touching(&mut self) -> BTreeMap<usize, Masks> {
         let robot = self.robot;
         let links: Vec<usize> = (0..robot.links.len())
             .filter(|link| !robot.links[*link].collisions.is_empty())
@@ -127,7 +136,7 @@ impl Import<'_> {
         let Some([mut within, mut between]) = self.relations(&links) else {
             return BTreeMap::new();
         };
-        let (low, high) = (within.bytes(), high_bytes(&mut between));
+        let (low, high) = (within.bits(BITS + FURTHER_BITS), high_bytes(&mut between));
         let lost: Vec<[usize; 2]> = within.open_pairs().chain(between.open_pairs()).collect();
         if let Some(pair) = lost.first() {
             let [a, b] = pair.map(|at| &robot.links[links[at]].name);
@@ -136,13 +145,12 @@ impl Import<'_> {
                 "links '{a}' and '{b}', and {others} other pairs, do not touch each other: masks have no more bits"
             ));
         }
-        let mask =
-            |(low, high): (&u8, &u8)| RespondableMask(i64::from(u16::from_le_bytes([*low, *high])));
-        links
-            .iter()
-            .copied()
-            .zip(low.iter().zip(&high).map(mask))
-            .collect()
+        let mask = |(low, high): (&u64, &u8)| Masks {
+            mask: RespondableMask(i64::from(u16::from_le_bytes([*low as u8, *high]))),
+            further: (low >> BITS).cast_signed(),
+        };
+        let masks = low.iter().zip(&high).map(mask);
+        links.iter().copied().zip(masks).collect()
     }
 
     /// The relations of links within trees, and of those of different trees; None where the file does not say which of them touch.
@@ -190,7 +198,8 @@ fn high_bytes(between: &mut Relations) -> Vec<u8> {
         between.of_pairs.fill(Relation::Free);
         return vec![u8::MAX; between.count];
     }
-    let mut bytes = between.bytes();
+    let bits = between.bits(BITS).into_iter();
+    let mut bytes: Vec<u8> = bits.map(|bits| bits as u8).collect();
     for link in 0..between.count {
         if bytes[link] == 0 {
             let is_free = |bit: &u8| {
@@ -224,7 +233,7 @@ mod tests {
     #[test]
     fn links_that_touch_share_a_bit_and_neighbours_do_not() {
         for count in 1..=12 {
-            let bytes = chain(count).bytes();
+            let bytes = chain(count).bits(8);
             for a in 0..count {
                 for b in a + 1..count {
                     let touch = bytes[a] & bytes[b] != 0;
@@ -237,7 +246,7 @@ mod tests {
     #[test]
     fn where_bits_are_missing_pairs_are_lost_and_none_are_added() {
         let mut relations = chain(100);
-        let bytes = relations.bytes();
+        let bytes = relations.bits(8);
         let lost: Vec<[usize; 2]> = relations.open_pairs().collect();
         assert!(
             !lost.is_empty() && lost.len() < 100 * 99 / 4,
@@ -250,6 +259,15 @@ mod tests {
                 assert_eq!(touch, b - a > 1 && !lost.contains(&[a, b]), "{a} and {b}");
             }
         }
+    }
+
+    #[test]
+    fn further_bits_let_long_chains_touch() {
+        let mut relations = chain(40);
+        let bits = relations.bits(BITS + FURTHER_BITS);
+        assert_eq!(relations.open_pairs().count(), 0);
+        let touch = |a: usize, b: usize| bits[a] & bits[b] != 0;
+        assert!((0..39).all(|a| !touch(a, a + 1)) && touch(0, 2) && touch(1, 39));
     }
 
     #[test]

@@ -25,10 +25,11 @@ use robot_description::mjcf::{Actuator, Equality, Site};
 use super::scene_file::save;
 use super::ttt::File;
 pub use export::{RobotExportOptions, export};
+use masks::Masks;
 use mesh_files::MeshFiles;
 use place::lift_to_ground;
 use scene::object::dummy::Dummy;
-use scene::shape::{Fluid, RespondableMask};
+use scene::shape::Fluid;
 use scene::{Field, Handle, Kind, ModelFlags, ObjectFlags, Pose, Scene, SceneResult, clean_alias};
 
 bitflags! {
@@ -237,7 +238,7 @@ struct Import<'a> {
     first: Vec<f64>,
     nodes: Vec<Node>,
     /// Masks of links, where the file says which of them touch.
-    masks: BTreeMap<usize, RespondableMask>,
+    masks: BTreeMap<usize, Masks>,
     /// What the joints became.
     joints: Vec<Option<Handle>>,
     objects: Vec<Handle>,
