@@ -146,7 +146,7 @@ impl Import<'_> {
             ));
         }
         let mask = |(low, high): (&u64, &u8)| Masks {
-            mask: RespondableMask(i64::from(u16::from_le_bytes([*low as u8, *high]))),
+            mask: RespondableMask(i64::from(u16::from_le_bytes([low.to_le_bytes()[0], *high]))),
             further: (low >> BITS).cast_signed(),
         };
         let masks = low.iter().zip(&high).map(mask);
@@ -199,7 +199,7 @@ fn high_bytes(between: &mut Relations) -> Vec<u8> {
         return vec![u8::MAX; between.count];
     }
     let bits = between.bits(BITS).into_iter();
-    let mut bytes: Vec<u8> = bits.map(|bits| bits as u8).collect();
+    let mut bytes: Vec<u8> = bits.map(|bits| bits.to_le_bytes()[0]).collect();
     for link in 0..between.count {
         if bytes[link] == 0 {
             let is_free = |bit: &u8| {
