@@ -1,7 +1,17 @@
--- Lets a robot in MJCF move and prints where its joints and its centre of mass are. FILE, GRAVITY, SECONDS, STEP, CONTACTS, TARGETS, FIRST come before.
+-- Lets a robot in MJCF move and prints where its joints, its free bodies and its centre of mass are. FILE, GRAVITY, SECONDS, STEP, CONTACTS, TARGETS, FIRST, FREE come before.
 sim = require 'sim'
 
-local joints, bodies, done = {}, {}, false
+local joints, bodies, free = {}, {}, {}
+
+local function poses()
+    local parts = {}
+    for _, body in ipairs(free) do
+        local numbers = sim.getObjectPose(body[2])
+        for i = 1, 7 do numbers[i] = string.format('%.12g', numbers[i]) end
+        parts[#parts + 1] = body[1] .. '=' .. table.concat(numbers, ',')
+    end
+    return table.concat(parts, ' ')
+end
 
 local function drive(joint, value)
     local control = sim.getObjectInt32Param(joint, sim.jointintparam_dynctrlmode)
@@ -18,6 +28,8 @@ function sysCall_init()
     sim.setArrayParam(sim.arrayparam_gravity, GRAVITY)
     sim.setFloatParam(sim.floatparam_simulation_time_step, 2 * STEP)
     sim.setFloatParam(sim.floatparam_physicstimestep, STEP)
+    -- Of two frictions the larger one counts.
+    sim.setInt32Param(sim.intparam_dynamic_engine, sim.physics_mujoco)
     local root = sim.loadModel(FILE)
     for _, joint in ipairs(sim.getObjectsInTree(sim.handle_scene, sim.sceneobject_joint)) do
         local name = sim.getObjectAlias(joint)
@@ -32,8 +44,11 @@ function sysCall_init()
             local _, frame = sim.getShapeInertia(shape)
             bodies[#bodies + 1] = {shape, sim.getShapeMass(shape), {frame[4], frame[8], frame[12]}}
         end
+        local name = string.match(sim.getObjectAlias(shape), '^(.*)_respondable$')
+        if name and FREE[name] then free[#free + 1] = {name, shape} end
         if not CONTACTS then sim.setObjectInt32Param(shape, sim.shapeintparam_respondable, 0) end
     end
+    print('START ' .. poses())
 end
 
 function sysCall_sensing()
@@ -46,5 +61,6 @@ function sysCall_sensing()
     for _, joint in ipairs(joints) do parts[#parts + 1] = string.format('%s=%.12g', joint[1], sim.getJointPosition(joint[2])) end
     local time = sim.getSimulationTime() + sim.getSimulationTimeStep()
     print(string.format('ROW %.9g %.12g %.12g %.12g %.9g %s', time, sum[1] / mass, sum[2] / mass, sum[3] / mass, mass, table.concat(parts, ' ')))
+    if time > SECONDS then print('END ' .. poses()) end
     if time > SECONDS then sim.stopSimulation() end
 end

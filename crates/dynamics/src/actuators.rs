@@ -5,7 +5,7 @@
 use articulation::Passive;
 
 use super::motors::Motion;
-use scene::joint::{Actuation, Actuator, ActuatorKind, Control, Joint};
+use scene::joint::{Actuation, Actuator, ActuatorKind, Joint};
 
 /// What acts along the axis of a joint in a sub-step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -30,30 +30,31 @@ pub(super) fn beside(actuation: Option<Actuation>) -> Passive {
     }
 }
 
-/// What a joint is to do. An actuator acts while the joint's control is what it is told by; a script that chooses another one has CoppeliaSim's motor.
+/// What a joint is to do. Actuators act while the joint has the control of the first of them; a script that chooses another one has CoppeliaSim's motor.
 pub(super) fn actuated(joint: &Joint, actuation: &Actuation, now: Motion) -> Orders {
     let passive = beside(Some(*actuation));
-    let told = actuation
-        .actuator
-        .and_then(|actuator| Some((actuator, Spring::of(&actuator, joint)?)));
-    match told {
-        Some((actuator, spring)) => {
-            let free = spring.force(now);
-            let force = actuator.limited(free);
-            let passive = if force == free {
-                spring.beside(passive)
-            } else {
-                pushed(passive, force)
-            };
-            Orders {
-                passive,
-                force: Some(force),
-            }
-        }
-        None => Orders {
+    let first = actuation.actuators.iter().next();
+    if first.is_none_or(|first| first.kind.control() != joint.control) {
+        return Orders {
             passive,
             force: None,
-        },
+        };
+    }
+    let (mut passive, mut sum) = (passive, 0.0);
+    for actuator in actuation.actuators.iter() {
+        let spring = Spring::of(actuator, joint);
+        let free = spring.force(now);
+        let force = actuator.limited(free);
+        sum += force;
+        passive = if force == free {
+            spring.beside(passive)
+        } else {
+            pushed(passive, force)
+        };
+    }
+    Orders {
+        passive,
+        force: Some(sum),
     }
 }
 
@@ -66,27 +67,25 @@ struct Spring {
 }
 
 impl Spring {
-    fn of(actuator: &Actuator, joint: &Joint) -> Option<Self> {
+    fn of(actuator: &Actuator, joint: &Joint) -> Self {
         let Actuator {
             stiffness,
             damping,
             bias,
             ..
         } = *actuator;
-        let (push, rest) = match (actuator.kind, joint.control) {
-            (ActuatorKind::Force, Control::Force) => (bias + joint.target_force, 0.0),
-            (ActuatorKind::Position, Control::Position) => (bias, joint.target_position),
-            (ActuatorKind::Velocity, Control::Velocity) => {
-                (bias + damping * joint.target_velocity, 0.0)
-            }
-            _ => return None,
+        let (push, rest) = match actuator.kind {
+            ActuatorKind::None => (0.0, 0.0),
+            ActuatorKind::Force => (bias + joint.target_force, 0.0),
+            ActuatorKind::Position => (bias, joint.target_position),
+            ActuatorKind::Velocity => (bias + damping * joint.target_velocity, 0.0),
         };
-        Some(Self {
+        Self {
             push,
             stiffness,
             rest,
             damping,
-        })
+        }
     }
 
     fn force(&self, now: Motion) -> f64 {
@@ -122,7 +121,7 @@ fn pushed(passive: Passive, force: f64) -> Passive {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scene::joint::{JointMode, JointType};
+    use scene::joint::{Actuators, Control, JointMode, JointType};
 
     const NOW: Motion = Motion {
         position: 0.5,
@@ -130,6 +129,12 @@ mod tests {
     };
 
     fn orders(control: Control, actuator: Actuator) -> Orders {
+        orders_of(control, &[actuator])
+    }
+
+    fn orders_of(control: Control, several: &[Actuator]) -> Orders {
+        let mut actuators = Actuators::default();
+        several.iter().for_each(|actuator| actuators.add(*actuator));
         let joint = Joint {
             control,
             target_position: 1.0,
@@ -143,10 +148,7 @@ mod tests {
             damping: 0.5,
             ..Default::default()
         };
-        let actuation = Actuation {
-            passive,
-            actuator: Some(actuator),
-        };
+        let actuation = Actuation { passive, actuators };
         actuated(&joint, &actuation, NOW)
     }
 
@@ -197,6 +199,31 @@ mod tests {
             ..Actuator::new(ActuatorKind::Velocity)
         };
         assert_eq!(orders(Control::Velocity, velocity).force, Some(2.0));
+    }
+
+    #[test]
+    fn several_actuators_act_together_each_within_its_range() {
+        let weak = Actuator {
+            range: [-1.5, 1.5],
+            ..Actuator::new(ActuatorKind::Force)
+        };
+        let speed = Actuator {
+            damping: 2.0,
+            ..Actuator::new(ActuatorKind::Velocity)
+        };
+        let several = [actuator(ActuatorKind::Position), weak, speed];
+        let found = orders_of(Control::Position, &several);
+        // The spring, the end of the range, the damper.
+        assert_eq!(found.force, Some(12.0 + 1.5 + 2.0));
+        let Passive {
+            stiffness,
+            damping,
+            effort,
+            ..
+        } = found.passive;
+        assert_eq!((stiffness, damping, effort), (40.0, 4.5, 1.0 + 1.5 + 6.0));
+        // In the control of another than the first there is CoppeliaSim's motor.
+        assert_eq!(orders_of(Control::Velocity, &several).force, None);
     }
 
     #[test]

@@ -13,6 +13,7 @@ use rapier3d_f64::prelude::{
 use super::body_mass::{carrier, mass_properties, massless};
 use super::colliders;
 use super::convert::{from_pose, to_pose, to_vector};
+use super::fluid::drag;
 use super::plan::{BodyBuild, BodyPlan, FrictionRule, Surface, is_far};
 use super::world::{ALL_HOOKS, World};
 use scene::shape::Velocity;
@@ -60,11 +61,14 @@ pub(super) struct Tag {
     pub shape: Handle,
     pub root: Handle,
     pub mask: u16,
+    /// Of the local mask, as many as [`scene::FURTHER_BITS`].
+    pub further_bits: u64,
 }
 
 impl Tag {
     pub(super) fn pack(self) -> u128 {
-        u128::from(self.shape.0) | u128::from(self.root.0) << 32 | u128::from(self.mask) << 64
+        let masks = u128::from(self.mask) << 64 | u128::from(self.further_bits) << 80;
+        u128::from(self.shape.0) | u128::from(self.root.0) << 32 | masks
     }
 
     pub(super) fn unpack(data: u128) -> Self {
@@ -72,6 +76,7 @@ impl Tag {
             shape: Handle(data as u32),
             root: Handle((data >> 32) as u32),
             mask: (data >> 64) as u16,
+            further_bits: (data >> 80) as u64,
         }
     }
 }
@@ -203,6 +208,7 @@ impl Body {
             shape,
             root: self.surface.root,
             mask: self.surface.mask,
+            further_bits: self.surface.further_bits,
         };
         let forms = self
             .build
@@ -254,6 +260,7 @@ impl Body {
             shape,
             root: surface.root,
             mask: surface.mask,
+            further_bits: surface.further_bits,
         };
         for &handle in &self.colliders {
             if let Some(collider) = world.colliders.get_mut(handle) {
@@ -424,15 +431,29 @@ impl Bodies {
         }
     }
 
-    /// Applies the forces of scripts, in place of those of the last sub-step. rapier processes every body that was changed, so bodies
-    /// without forces are left alone.
-    pub(super) fn apply_forces(&self, world: &mut World, scene: &Scene) {
+    /// Whether forces change from sub-step to sub-step.
+    pub(super) fn are_in_fluid(&self) -> bool {
+        self.iter().any(|(_, body)| body.surface.fluid.is_some())
+    }
+
+    /// Applies the forces of scripts and of fluids, in place of those of the last sub-step of `step` seconds. rapier processes every body that was changed, so
+    /// bodies without forces are left alone.
+    pub(super) fn apply_forces(&self, world: &mut World, scene: &Scene, step: f64) {
         for (shape, body) in self.iter().filter(|(_, body)| body.build.dynamic) {
             let Ok(shape) = scene.object(shape).and_then(|object| object.shape()) else {
                 continue;
             };
-            let is_forced = shape.force != [0.0; 3] || shape.torque != [0.0; 3];
-            if !is_forced && world.bodies.get(body.rigid).is_none_or(is_free) {
+            let Some(rigid) = world.bodies.get(body.rigid) else {
+                continue;
+            };
+            let drag = body.surface.fluid.map(|fluid| drag(fluid, rigid, step));
+            let mut forces = drag.unwrap_or([Vector::ZERO; 2]);
+            let told = [shape.force, shape.torque].map(to_vector);
+            if told.iter().all(|force| force.is_finite()) {
+                forces = [forces[0] + told[0], forces[1] + told[1]];
+            }
+            let is_forced = forces != [Vector::ZERO; 2];
+            if !is_forced && is_free(rigid) {
                 continue;
             }
             let Some(rigid) = world.bodies.get_mut(body.rigid) else {
@@ -440,15 +461,9 @@ impl Bodies {
             };
             rigid.reset_forces(false);
             rigid.reset_torques(false);
-            if shape
-                .force
-                .iter()
-                .chain(&shape.torque)
-                .all(|x| x.is_finite())
-            {
-                rigid.add_force(to_vector(shape.force), true);
-                rigid.add_torque(to_vector(shape.torque), true);
-            }
+            let wakes = told != [Vector::ZERO; 2];
+            rigid.add_force(forces[0], wakes);
+            rigid.add_torque(forces[1], wakes);
         }
     }
 }

@@ -8,7 +8,7 @@
 //!
 //! - `plan`: the bodies and constraints that the scene needs; compared with those that exist, so that only changes reach the engine.
 //! - `bodies`, `colliders`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`, with their contacts.
-//! - `near`: what a body may touch in a sub-step; `free_rotation`: bodies that tumble.
+//! - `near`: what a body may touch in a sub-step; `free_rotation`: bodies that tumble; `fluid`: what slows bodies down.
 //! - `contacts`: collision filters; `flat_faces`: contacts without friction; `motors`: the control law; `actuators`: that of MuJoCo.
 //! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
 //!
@@ -22,6 +22,7 @@ mod contact_log;
 mod contacts;
 mod convert;
 mod flat_faces;
+mod fluid;
 mod free_rotation;
 mod frozen;
 mod links;
@@ -315,8 +316,8 @@ impl Dynamics {
         let mut world = self.world.take()?;
         let call = self.call?;
         // Nobody else can have changed the forces since the first sub-step.
-        if sub_step == 1 || script_access.possible {
-            self.bodies.apply_forces(&mut world, scene);
+        if sub_step == 1 || script_access.possible || self.bodies.are_in_fluid() {
+            self.bodies.apply_forces(&mut world, scene, call.step);
         }
         for link in self.links.values_mut() {
             link.before_step(&world);

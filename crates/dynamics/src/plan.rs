@@ -13,7 +13,7 @@ use super::frozen::Frozen;
 use scene::joint::{Joint, JointMode, JointSolver, JointType};
 use scene::object::dummy::LinkType;
 use scene::parameters::engine::Engine;
-use scene::shape::{Primitive, Shape};
+use scene::shape::{Fluid, Primitive, Shape};
 use scene::{Handle, Kind, ModelFlags, Object, Pose, Scene, Uid};
 
 /// `sim.physics_mujoco`.
@@ -73,11 +73,14 @@ pub(super) struct Surface {
     pub root: Handle,
     /// Low byte: local mask, high byte: global mask.
     pub mask: u16,
+    /// Further bits of the local mask.
+    pub further_bits: u64,
     pub friction: f64,
     pub friction_rule: FrictionRule,
     pub restitution: f64,
     pub linear_damping: f64,
     pub angular_damping: f64,
+    pub fluid: Option<Fluid>,
 }
 
 /// How the selected engine combines the frictions of two shapes.
@@ -185,7 +188,10 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
     };
     Some(BodyPlan {
         build,
-        surface: surface(scene, handle, shape),
+        surface: Surface {
+            fluid: object.fluid(),
+            ..surface(scene, handle, shape)
+        },
         asleep: dynamics.start_asleep,
     })
 }
@@ -212,6 +218,11 @@ fn surface(scene: &Scene, handle: Handle, shape: &Shape) -> Surface {
         } else {
             shape.dynamics.respondable_mask.bits()
         },
+        further_bits: if suspended {
+            0
+        } else {
+            scene.collision_bits_of(handle)
+        },
         friction,
         friction_rule: if selected.engine == Engine::Mujoco {
             FrictionRule::Largest
@@ -221,6 +232,7 @@ fn surface(scene: &Scene, handle: Handle, shape: &Shape) -> Surface {
         restitution,
         linear_damping: shape.material.linear_damping,
         angular_damping: shape.material.angular_damping,
+        fluid: None,
     }
 }
 

@@ -39,7 +39,7 @@ pub use tree::collection::{
     Collection, CollectionItem, CollectionOptions, Collections, ItemOptions, Members,
 };
 pub use tree::copy::CopyOptions;
-pub use tree::hierarchy::COLLISION_TREE;
+pub use tree::hierarchy::{COLLISION_BITS, COLLISION_TREE, FURTHER_BITS};
 pub use tree::old_names::{alternative_name, is_legal as is_legal_old_name, suffix as name_suffix};
 pub use tree::path::clean_alias;
 pub use tree::references::{ReferenceLists, References};

@@ -147,6 +147,100 @@ const POLE: &str = r#"<robot name="pole">
   <joint name="j" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="100" velocity="1"/></joint>
 </robot>"#;
 
+/// A chain that a motor rolls up: its last link meets the first one, its neighbour does not. A foot without mass is fixed to the last link.
+const ROLLS_UP: &str = r#"<mujoco model="rolls">
+  <option><flag gravity="disable"/></option>
+  <worldbody>
+    <body name="first" pos="0 0 1">
+      <joint name="hold" axis="0 1 0"/><geom type="capsule" fromto="0 0 0 1 0 0" size=".06" mass="50"/>
+      <body name="second" pos="1 0 0">
+        <joint name="bend" axis="0 1 0" damping="2"/><geom type="capsule" fromto="0 0 0 .3 0 0" size=".06" mass="1"/>
+        <body name="third" pos=".3 0 0">
+          <joint name="curl" axis="0 1 0" damping="2"/><geom type="capsule" fromto="0 0 0 1 0 0" size=".06" mass="1"/>
+          <body name="foot" pos="1 0 0"><geom size=".02" mass="0"/></body>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+  <contact><!-- more --></contact>
+  <actuator><position joint="bend" kp="100" kv="10"/><position joint="curl" kp="100" kv="10"/><velocity joint="curl" kv="20"/></actuator>
+</mujoco>"#;
+
+const LOOKS_AT_CHAIN: &str = "sim = require 'sim'
+function sysCall_init()
+    sim.setArrayParam(sim.arrayparam_gravity, {0, 0, 0})
+    sim.loadModel(sim.getNamedStringParam('model'))
+    bend, curl = sim.getObject('/bend'), sim.getObject('/curl')
+    sim.setJointTargetPosition(bend, 1.6)
+    sim.setJointTargetPosition(curl, 2.4)
+    local foot = sim.getObject('/foot_respondable')
+    print(string.format('foot of %.0f g', 1000 * sim.getShapeMass(foot)))
+end
+function sysCall_sensing() at = sim.getJointPosition(curl) end
+function sysCall_afterSimulation()
+    print(string.format('curl %.2f', at))
+end";
+
+/// The last link lies on the first one, unless the file says that they do not touch.
+#[test]
+fn links_of_mjcf_touch_as_the_file_says() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let folder = folder.path();
+    fs::write(folder.join("look.lua"), LOOKS_AT_CHAIN).expect("our own folder is writable");
+    let exclude = r#"<exclude body1="first" body2="third"/><exclude body1="foot" body2="first"/>"#;
+    let free = ROLLS_UP.replace("<!-- more -->", exclude);
+    let model = ["touches.xml", "passes.xml"];
+    fs::write(folder.join(model[0]), ROLLS_UP).expect("our own folder is writable");
+    fs::write(folder.join(model[1]), free).expect("our own folder is writable");
+    let curls = model.map(|model| {
+        let model = format!("model={model}");
+        let run = [
+            "run", "look.lua", "--empty", "--time", "3", "-q", "-D", &model,
+        ];
+        let said = said_by(folder, &run);
+        assert!(said.contains("foot of 1 g"), "{said}");
+        let angle = said
+            .split("curl ")
+            .nth(1)
+            .and_then(|rest| rest.lines().next());
+        angle
+            .and_then(|angle| angle.parse::<f64>().ok())
+            .unwrap_or_else(|| panic!("{said}"))
+    });
+    // The springs leave it at its target where nothing is in the way.
+    assert!(curls[0] < 2.1 && (curls[1] - 2.4).abs() < 0.01, "{curls:?}");
+}
+
+/// A ball that sinks: of the box with its moments of inertia every edge is sqrt(12 / 5) of its radius.
+#[test]
+fn bodies_of_mjcf_sink_in_their_fluid() {
+    const BALL: &str = r#"<mujoco><option viscosity="10"/><worldbody><body name="ball"><freejoint/><geom size=".1" mass="1"/></body></worldbody></mujoco>"#;
+    const LOOK: &str = "sim = require 'sim'
+function sysCall_init()
+    sim.loadModel(sim.getNamedStringParam('model'))
+    ball = sim.getObject('/ball_respondable')
+end
+function sysCall_sensing() down = -sim.getObjectVelocity(ball)[3] end
+function sysCall_afterSimulation() print(string.format('down at %.4f', down)) end";
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let folder = folder.path();
+    fs::write(folder.join("ball.xml"), BALL).expect("our own folder is writable");
+    fs::write(folder.join("look.lua"), LOOK).expect("our own folder is writable");
+    said_by(folder, &["convert", "ball.xml", "ball.ttm"]);
+    let speed = 9.81 / (3.0 * std::f64::consts::PI * 10.0 * 0.1 * (12.0_f64 / 5.0).sqrt());
+    for model in ["model=ball.xml", "model=ball.ttm"] {
+        let run = [
+            "run", "look.lua", "--empty", "--time", "2", "-q", "-D", model,
+        ];
+        let said = said_by(folder, &run);
+        let expected = format!("down at {speed:.4}");
+        assert!(
+            said.contains(&expected),
+            "{model}: {said} instead of {expected}"
+        );
+    }
+}
+
 #[test]
 fn a_free_base_that_falls_over_is_told_and_can_be_fixed() {
     let folder = tempfile::tempdir().expect("a temporary folder can be made");

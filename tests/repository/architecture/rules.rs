@@ -83,6 +83,7 @@ const DYNAMICS: Rooms = &[
     ("motors", &[]),
     ("actuators", &["motors"]),
     ("free_rotation", &[]),
+    ("fluid", &[]),
     ("world", &["free_rotation"]),
     ("plan", &["frozen"]),
     ("made_forms", &[]),
@@ -90,7 +91,14 @@ const DYNAMICS: Rooms = &[
     ("body_mass", &["convert"]),
     (
         "bodies",
-        &["body_mass", "colliders", "convert", "plan", "world"],
+        &[
+            "body_mass",
+            "colliders",
+            "convert",
+            "fluid",
+            "plan",
+            "world",
+        ],
     ),
     ("flat_faces", &[]),
     ("contacts", &["bodies", "convert", "flat_faces", "world"]),

@@ -80,6 +80,7 @@ fn answers_of_scripts_about_pairs_are_found_again() {
         shape: Handle(shape),
         root: Handle(shape),
         mask: u16::MAX,
+        further_bits: 0,
     };
     let response = |a, b| verdicts.response(tag(a), tag(b));
     assert_eq!(response(2, 9), ContactResponse::NoCollision);
@@ -89,6 +90,29 @@ fn answers_of_scripts_about_pairs_are_found_again() {
         "the other way round was not asked about"
     );
     assert_eq!(response(3, 1), ContactResponse::Default);
+}
+
+#[test]
+fn further_bits_count_within_a_tree_alone() {
+    let tag = |shape, root, further_bits| {
+        let tag = Tag {
+            shape: Handle(shape),
+            root: Handle(root),
+            mask: 0xff00 | shape as u16,
+            further_bits,
+        };
+        Tag::unpack(tag.pack())
+    };
+    let touch = |a, b| Verdicts::default().response(a, b) == ContactResponse::Default;
+    let last = 1 << 47;
+    assert!(touch(tag(1, 9, last), tag(2, 9, last)));
+    assert!(!touch(tag(1, 9, last), tag(2, 9, 1)));
+    assert!(touch(tag(1, 9, 0), tag(3, 9, 0)));
+    let other_tree = Tag {
+        mask: 0,
+        ..tag(2, 8, last)
+    };
+    assert!(!touch(tag(1, 9, last), other_tree));
 }
 
 /// A trunk of `mass` on a foot of 0.1 kg, tied by a force sensor.

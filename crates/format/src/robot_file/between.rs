@@ -44,11 +44,7 @@ impl Import<'_> {
         let mut shape = super::shapes::ball(CARRIER)?;
         shape.dynamics.is_static = self.is_fixed(index);
         if !shape.dynamics.is_static {
-            let ratio = match self.format {
-                RobotFormat::Mjcf => MASS_RATIO_MJCF,
-                RobotFormat::Urdf | RobotFormat::Sdf => MASS_RATIO,
-            };
-            shape.mass = light(self.next_inertial(index), ratio);
+            shape.mass = self.small_mass(self.next_inertial(index));
             let name = &self.robot.links[index].name;
             self.message(format!(
                 "link '{name}' is between two joints: it gets a mass of {:.3e} kg",
@@ -56,6 +52,30 @@ impl Import<'_> {
             ));
         }
         Ok(Some((Pose::identity(), shape)))
+    }
+
+    /// The mass of a body that only holds others together, beside one that has some.
+    pub(super) fn small_mass(&self, next: Option<Inertial>) -> MassProperties {
+        let ratio = match self.format {
+            RobotFormat::Mjcf => MASS_RATIO_MJCF,
+            RobotFormat::Urdf | RobotFormat::Sdf => MASS_RATIO,
+        };
+        light(next, ratio)
+    }
+
+    /// The mass and inertia of the nearest link above that has some, where only fixed joints lead there.
+    pub(super) fn inertial_above(&self, index: usize) -> Option<Inertial> {
+        let mut link = index;
+        for _ in 0..=self.robot.joints.len() {
+            let mut joints = self.robot.joints.iter();
+            let joint =
+                joints.find(|joint| joint.child == link && joint.kind == JointKind::Fixed)?;
+            link = joint.parent;
+            if let Some(inertial) = &self.robot.links[link].inertial {
+                return Some(inertial.clone());
+            }
+        }
+        None
     }
 
     /// The mass and inertia of the next link below that has some.

@@ -68,8 +68,8 @@ impl Import<'_> {
                 }
                 None => joint.set_control(Control::Position),
                 Some(actuators) => {
-                    let actuator = actuators.iter().find(|actuator| actuator.joint == index);
-                    actuation = Some(set_actuator(&mut joint, description, actuator));
+                    let of_joint = actuators.iter().filter(|actuator| actuator.joint == index);
+                    actuation = Some(set_actuators(&mut joint, description, of_joint));
                 }
             }
         }
@@ -80,8 +80,8 @@ impl Import<'_> {
             pose,
             parent,
         )?;
-        if let Some(actuator) = actuation {
-            let text = Data::text(&actuator.to_string());
+        if let Some(actuators) = actuation {
+            let text = Data::text(&actuators.to_string());
             let edit = Edit::Name(ACTUATOR, Some((ValueType::String, text)));
             self.scene
                 .edit_named_values(Some(handle), Namespace::CustomData, edit)?;
@@ -116,16 +116,18 @@ impl Import<'_> {
         ));
     }
 
-    /// A joint has one motor: what else acts on it is said.
+    /// Of actuators of a kind that act on one joint, the later ones are said: a script tells them the same.
     fn report_further_actuators(&mut self) {
         let actuators = self.model.actuators.as_deref().unwrap_or_default();
         let is_further = |(number, actuator): &(usize, &Actuator)| {
-            let before = &actuators[..*number];
-            before.iter().any(|other| other.joint == actuator.joint)
+            let is_same = |other: &Actuator| {
+                other.joint == actuator.joint && kind_of(other) == kind_of(actuator)
+            };
+            actuators[..*number].iter().any(is_same)
         };
         for (_, actuator) in actuators.iter().enumerate().filter(is_further) {
             self.messages.push(format!(
-                "line {}: actuator '{}' does not count, since its joint has another one",
+                "line {}: actuator '{}' and another one of its kind and joint are one, which is told the same",
                 actuator.line, actuator.name
             ));
         }
@@ -201,39 +203,57 @@ fn set_limits(joint: &mut Joint, description: &Description, first: f64, format: 
     joint.max_vel = velocity.unwrap_or(VELOCITY);
 }
 
-/// A joint of MJCF: what acts beside its motor are MuJoCo's parameters of it, what its motor does is the result. It is told 0, or what is next to it, at first.
-fn set_actuator(
+/// A joint of MJCF: what acts beside its motors are MuJoCo's parameters of it, what its motors do is the result. It has the control of the first. They are told 0,
+/// or what is next to it, at first.
+fn set_actuators<'a>(
     joint: &mut Joint,
     description: &Description,
-    actuator: Option<&Actuator>,
-) -> motor::Actuator {
+    of_joint: impl Iterator<Item = &'a Actuator>,
+) -> motor::Actuators {
     joint.set_passive(&passive(&description.dynamics));
-    let Some(actuator) = actuator else {
-        joint.set_control(Control::Free);
-        return motor::Actuator::new(ActuatorKind::None);
-    };
+    let mut made = motor::Actuators::default();
+    let mut control = Control::Free;
+    for actuator in of_joint {
+        if made.iter().next().is_none() {
+            control = kind_of(actuator).control();
+            joint.set_target_force(actuator.effort.unwrap_or(ANY_EFFORT), false);
+        }
+        tell_first(joint, actuator);
+        made.add(motor_of(actuator));
+    }
+    joint.set_control(control);
+    made
+}
+
+fn kind_of(actuator: &Actuator) -> ActuatorKind {
+    match actuator.drive {
+        Drive::Position { .. } => ActuatorKind::Position,
+        Drive::Velocity { .. } => ActuatorKind::Velocity,
+        Drive::Force => ActuatorKind::Force,
+    }
+}
+
+/// Tells a motor 0, or what is next to it.
+fn tell_first(joint: &mut Joint, actuator: &Actuator) {
     let told = actuator
         .control
         .map_or(0.0, |[low, high]| 0.0_f64.max(low).min(high));
-    joint.set_target_force(actuator.effort.unwrap_or(ANY_EFFORT), false);
-    let mut made = motor::Actuator::new(ActuatorKind::Force);
+    match actuator.drive {
+        Drive::Position { .. } => joint.target_position = told,
+        Drive::Velocity { .. } => joint.target_velocity = told,
+        Drive::Force => joint.set_target_force(0.0, true),
+    }
+}
+
+fn motor_of(actuator: &Actuator) -> motor::Actuator {
+    let mut made = motor::Actuator::new(kind_of(actuator));
     (made.bias, made.range) = (actuator.bias, actuator.range.unwrap_or(made.range));
     match actuator.drive {
         Drive::Position { stiffness, damping } => {
-            (made.kind, made.stiffness, made.damping) =
-                (ActuatorKind::Position, stiffness, damping);
-            joint.set_control(Control::Position);
-            joint.target_position = told;
+            (made.stiffness, made.damping) = (stiffness, damping);
         }
-        Drive::Velocity { damping } => {
-            (made.kind, made.damping) = (ActuatorKind::Velocity, damping);
-            joint.set_control(Control::Velocity);
-            joint.target_velocity = told;
-        }
-        Drive::Force => {
-            joint.set_target_force(0.0, true);
-            joint.set_control(Control::Force);
-        }
+        Drive::Velocity { damping } => made.damping = damping,
+        Drive::Force => {}
     }
     made
 }

@@ -4,10 +4,10 @@ use geometry::MassProperties;
 use robot_description::{Geometry, Inertial, Link};
 
 use super::{Import, Node, RobotFormat, RobotImportOptions};
-use scene::shape::{Material, RespondableMask, Shape};
+use scene::shape::{FLUID, Fluid, Material, RespondableMask, Shape};
 use scene::{
-    COLLISION_TREE, Data, Edit, Field, Handle, Kind, Layers, Namespace, Pose, SceneResult,
-    ValueType,
+    COLLISION_BITS, COLLISION_TREE, Data, Edit, Field, Handle, Kind, Layers, Namespace, Pose,
+    SceneResult, ValueType,
 };
 
 /// Diameter of the body of a link that has mass and nothing to touch, metres.
@@ -23,6 +23,7 @@ const MASK: i64 = 0xff00;
 impl Import<'_> {
     /// Adds all links, with the joints that they hang on, from the roots outwards.
     pub(super) fn add_links(&mut self) -> SceneResult<()> {
+        self.masks = self.masks_of_touching();
         let parents = self.robot.parent_joints();
         for link in self.robot.links_from_the_roots() {
             let parent =
@@ -41,10 +42,21 @@ impl Import<'_> {
             if let Some(shape) = shape
                 && self.begins_collision_tree(link, parent.map(|(joint, _)| joint))
             {
-                let yes = Some((ValueType::Bool, Data::Bool(true)));
-                let edit = Edit::Name(COLLISION_TREE, yes);
-                self.scene
-                    .edit_named_values(Some(shape), Namespace::CustomData, edit)?;
+                let yes = (ValueType::Bool, Data::Bool(true));
+                self.set_custom_data(shape, COLLISION_TREE, yes)?;
+            }
+            let further = self.masks.get(&link).map_or(0, |masks| masks.further);
+            if let Some(shape) = shape
+                && further != 0
+            {
+                let bits = (ValueType::Int, Data::Int(further));
+                self.set_custom_data(shape, COLLISION_BITS, bits)?;
+            }
+            if let Some(shape) = shape
+                && self.is_slowed_down(link)
+            {
+                let text = Data::text(&self.model.fluid.to_string());
+                self.set_custom_data(shape, FLUID, (ValueType::String, text))?;
             }
             self.nodes[link] = Node {
                 carrier: shape.or(joint),
@@ -54,9 +66,27 @@ impl Import<'_> {
         Ok(())
     }
 
+    fn set_custom_data(
+        &mut self,
+        object: Handle,
+        name: &'static str,
+        value: (ValueType, Data),
+    ) -> SceneResult<()> {
+        let edit = Edit::Name(name, Some(value));
+        self.scene
+            .edit_named_values(Some(object), Namespace::CustomData, edit)?;
+        Ok(())
+    }
+
+    /// Whether there is a fluid, and a link has mass and moves in it.
+    fn is_slowed_down(&self, link: usize) -> bool {
+        let has_mass = self.robot.links[link].inertial.is_some();
+        self.model.fluid != Fluid::default() && has_mass && !self.is_fixed(link)
+    }
+
     /// Whether a link of MJCF is a tree of its own where collisions are concerned: what is fixed to the world, and what hangs on the world itself or on
     /// nothing. What hangs on another fixed body, a base, does not touch that.
-    fn begins_collision_tree(&self, link: usize, joint: Option<usize>) -> bool {
+    pub(super) fn begins_collision_tree(&self, link: usize, joint: Option<usize>) -> bool {
         let hangs_on_world = joint.is_none_or(|joint| self.robot.joints[joint].parent == 0);
         self.format == RobotFormat::Mjcf && (self.is_fixed(link) || hangs_on_world)
     }
@@ -100,7 +130,9 @@ impl Import<'_> {
                 if let Some(friction) = link.friction {
                     shape.material = Material::of_friction(friction);
                 }
-                shape.dynamics.respondable_mask = RespondableMask(MASK | self.local_mask(depth));
+                let by_depth = RespondableMask(MASK | self.local_mask(depth));
+                shape.dynamics.respondable_mask =
+                    self.masks.get(&index).map_or(by_depth, |masks| masks.mask);
                 self.set_inertia(index, inertial.as_ref(), pose, &mut shape);
                 Some(self.add_body(&link.name, frame * pose, shape, joint)?)
             }
@@ -215,11 +247,19 @@ impl Import<'_> {
             None if shape.dynamics.is_static => {
                 self.message(format!("link '{}' has no inertia: it is static", link.name));
             }
-            None => self.message(format!(
-                "link '{}' has no mass: that of its shape is taken",
-                link.name
-            )),
+            None => self.set_small_mass(index, shape),
         }
+    }
+
+    /// A link of MJCF without mass that moves is fixed to one that has some: it gets so little that it does not count.
+    fn set_small_mass(&mut self, index: usize, shape: &mut Shape) {
+        let Some(next) = self.inertial_above(index) else {
+            return self.message(format!(
+                "link '{}' has no mass: that of its shape is taken",
+                self.robot.links[index].name
+            ));
+        };
+        shape.mass = self.small_mass(Some(next));
     }
 
     /// Mass and inertia as the file says, where they are possible.

@@ -9,11 +9,14 @@ mod constraints;
 mod export;
 mod joints;
 mod links;
+mod masks;
 mod mesh_files;
 mod place;
 mod read;
 mod sensors;
 mod shapes;
+
+use std::collections::BTreeMap;
 
 use bitflags::bitflags;
 use robot_description::Robot;
@@ -22,9 +25,11 @@ use robot_description::mjcf::{Actuator, Equality, Site};
 use super::scene_file::save;
 use super::ttt::File;
 pub use export::{RobotExportOptions, export};
+use masks::Masks;
 use mesh_files::MeshFiles;
 use place::lift_to_ground;
 use scene::object::dummy::Dummy;
+use scene::shape::Fluid;
 use scene::{Field, Handle, Kind, ModelFlags, ObjectFlags, Pose, Scene, SceneResult, clean_alias};
 
 bitflags! {
@@ -93,6 +98,10 @@ struct Description {
     actuators: Option<Vec<Actuator>>,
     sites: Vec<Site>,
     equalities: Vec<Equality>,
+    /// The pairs of links that may touch, in increasing order, if the file says it.
+    touching: Option<Vec<[usize; 2]>>,
+    /// The fluid that the bodies are in.
+    fluid: Fluid,
 }
 
 /// What an import added.
@@ -228,6 +237,8 @@ struct Import<'a> {
     /// Those positions, of joints that have one number.
     first: Vec<f64>,
     nodes: Vec<Node>,
+    /// Masks of links, where the file says which of them touch.
+    masks: BTreeMap<usize, Masks>,
     /// What the joints became.
     joints: Vec<Option<Handle>>,
     objects: Vec<Handle>,
@@ -265,6 +276,7 @@ impl<'a> Import<'a> {
             placed: placed.into_iter().map(|pose| model.pose * pose).collect(),
             first: robot.joint_positions(&first).unwrap_or_default(),
             nodes: vec![Node::default(); robot.links.len()],
+            masks: BTreeMap::new(),
             joints: vec![None; robot.joints.len()],
             objects: Vec::new(),
             messages,

@@ -10,6 +10,7 @@ use super::bases::held_links;
 use super::mesh_files::{MeshFiles, variable};
 use super::{Description, RobotFile, RobotFormat};
 use permissions::Permissions;
+use scene::shape::Fluid;
 
 impl RobotFormat {
     /// The format that a file's name says, or its beginning.
@@ -294,10 +295,14 @@ fn of_mjcf(model: mjcf::Model) -> Description {
         actuators,
         sites,
         equalities,
+        touching,
+        fluid: [density, viscosity],
         ..
     } = model;
     Description {
         robot,
+        fluid: Fluid { density, viscosity },
+        touching,
         fixed,
         actuators: Some(actuators),
         sites,

@@ -5,7 +5,7 @@ use geometry::{DecompositionParameters, Mesh};
 use robot_description::{Geometry, Link, Material};
 
 use super::links::Part;
-use super::{Import, RobotImportOptions};
+use super::{Import, RobotFormat, RobotImportOptions};
 use scene::shape::Shape;
 use scene::{Pose, SceneError, SceneResult};
 
@@ -19,8 +19,9 @@ pub(super) enum Form {
 
 /// How much a surface reflects, as simURDF sets it.
 const SPECULAR: [f32; 3] = [0.2; 3];
-/// Edge and thickness of what stands for an endless plane, metres.
+/// Edge and thickness of what stands for an endless plane, metres; the edge of one that is touched in MJCF, where robots run far.
 const PLANE: (f64, f64) = (20.0, 0.1);
+const WIDE_PLANE: f64 = 1000.0;
 
 /// A ball, a pure shape.
 pub(super) fn ball(diameter: f64) -> SceneResult<Shape> {
@@ -83,7 +84,11 @@ impl Import<'_> {
             Geometry::Ellipsoid { radii } => {
                 (PrimitiveKind::Spheroid, radii.map(|radius| 2.0 * radius))
             }
-            Geometry::Plane { normal } => return plane(*normal).map_err(|error| error.to_string()),
+            Geometry::Plane { normal } => {
+                let is_wide = self.format == RobotFormat::Mjcf && !with_textures;
+                let edge = if is_wide { WIDE_PLANE } else { PLANE.0 };
+                return plane(*normal, edge).map_err(|error| error.to_string());
+            }
             Geometry::Mesh { file, scale } => {
                 let shape = self.meshes.shape(file, *scale, self.scene, with_textures)?;
                 self.messages.append(&mut self.meshes.take_warnings());
@@ -130,8 +135,8 @@ impl Import<'_> {
 }
 
 /// A flat box whose upper side is the plane.
-fn plane(normal: [f64; 3]) -> SceneResult<(Pose, Shape)> {
-    let (edge, thickness) = PLANE;
+fn plane(normal: [f64; 3], edge: f64) -> SceneResult<(Pose, Shape)> {
+    let thickness = PLANE.1;
     let up = nalgebra::Vector3::z();
     let rotation =
         nalgebra::UnitQuaternion::rotation_between(&up, &normal.into()).unwrap_or_default();

@@ -4,7 +4,7 @@ use super::attributes::{Attributes, MAIN};
 use super::document::Document;
 use super::element::{Element, Report};
 use super::{Actuator, Drive};
-use crate::model::{Names, Robot};
+use crate::model::{Limits, Names, Robot};
 use crate::xml::short;
 
 pub fn read(
@@ -48,7 +48,8 @@ fn actuator(
         is_limited.then_some(numbers)
     };
     let forces = range("forcelimited", "forcerange").map(|force| scaled(force, gear));
-    let told = range("ctrllimited", "ctrlrange");
+    let told = range("ctrllimited", "ctrlrange")
+        .or_else(|| inherited_range(attributes, &robot.joints[joint].limits, report));
     let drive = law.drive(gear);
     // What a motor is told is a force.
     let control = told.map(|told| scaled(told, law.of_joint(drive, gear)));
@@ -71,6 +72,18 @@ fn actuator(
         control: control.filter(|_| drive != Drive::Force),
         line: attributes.element.line,
     })
+}
+
+/// The range of control that a position actuator has from the range of its joint: `inheritrange` times as large about the same middle.
+fn inherited_range(
+    attributes: &Attributes,
+    limits: &Limits,
+    report: &mut Report,
+) -> Option<[f64; 2]> {
+    let factor = attributes.number(report, "inheritrange")?;
+    let (lower, upper) = limits.lower.zip(limits.upper)?;
+    let (middle, half) = ((lower + upper) / 2.0, (upper - lower) / 2.0 * factor);
+    (factor > 0.0).then_some([middle - half, middle + half])
 }
 
 /// The force of an actuator: `gain` times what it is told, and `bias`: a constant, per length and per speed.

@@ -1,12 +1,14 @@
 //! Bodies become links, their joints the joints above them.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Translation3, Vector3};
 
 use super::attributes::{Attributes, MAIN};
 use super::document::Document;
 use super::element::{Element, Report};
-use super::geom::TouchingGeom;
 use super::inertia::Weighed;
+use super::touching::{BodyPlace, Pairs, TouchingGeom};
 use super::{Files, Model, Site};
 use crate::model::{Dynamics, Inertial, Joint, JointKind, Limits, Link, Pose};
 use crate::xml::short;
@@ -17,7 +19,10 @@ pub struct Builder<'a> {
     pub files: &'a mut dyn Files,
     pub report: Report,
     pub model: Model,
+    pub pairs: Pairs<'a>,
     pub touching: Vec<TouchingGeom>,
+    /// Of the links that are bodies.
+    pub places: BTreeMap<usize, BodyPlace>,
 }
 
 /// Where elements of a body are: on a link, in a frame of it, with a class of defaults.
@@ -42,7 +47,12 @@ struct BodyJoint {
 }
 
 impl<'a> Builder<'a> {
-    pub fn new(document: &'a Document, files: &'a mut dyn Files, report: Report) -> Self {
+    pub fn new(
+        document: &'a Document,
+        root: &'a Element,
+        files: &'a mut dyn Files,
+        mut report: Report,
+    ) -> Self {
         let mut model = Model {
             fixed: vec![0],
             ..Model::default()
@@ -54,9 +64,11 @@ impl<'a> Builder<'a> {
         Self {
             document,
             files,
+            pairs: Pairs::new(root, &mut report),
             report,
             model,
             touching: Vec::new(),
+            places: BTreeMap::new(),
         }
     }
 
@@ -158,11 +170,13 @@ impl<'a> Builder<'a> {
         if is_free {
             link.pose = pose;
         }
+        let moves = is_free || !joints.is_empty();
         let index = if is_free {
             self.add_link(link)
         } else {
             self.add_moved(element, link, outer.link, pose, joints)
         };
+        self.note_place(index, outer.link, moves);
         let place = Place {
             link: index,
             ..inner
@@ -171,6 +185,15 @@ impl<'a> Builder<'a> {
         self.add_contents(element, &place, &mut contents);
         let inertial = self.inertial(element, contents.inertial, &contents.geoms);
         self.model.robot.links[index].inertial = inertial.filter(|inertial| inertial.mass > 0.0);
+    }
+
+    fn note_place(&mut self, link: usize, parent: usize, moves: bool) {
+        let above = self.places.get(&parent).copied().unwrap_or_default();
+        let place = BodyPlace {
+            rigid: link,
+            parent: above.rigid,
+        };
+        self.places.insert(link, if moves { place } else { above });
     }
 
     fn add_link(&mut self, link: Link) -> usize {

@@ -16,6 +16,7 @@ const READ: &[&str] = &[
     "asset",
     "worldbody",
     "actuator",
+    "contact",
     "equality",
     "option",
 ];
@@ -29,6 +30,8 @@ pub struct Document {
     pub meshes: BTreeMap<String, MeshAsset>,
     materials: BTreeMap<String, Material>,
     pub gravity: Option<[f64; 3]>,
+    /// Density (kg/m³) and viscosity (Pa s) of the fluid that all bodies are in.
+    pub fluid: [f64; 2],
 }
 
 /// The settings of `<compiler>`.
@@ -184,6 +187,7 @@ impl Document {
             meshes: BTreeMap::new(),
             materials: BTreeMap::new(),
             gravity: None,
+            fluid: [0.0; 2],
         };
         document.add_assets(root, report);
         for option in root.named("option") {
@@ -192,6 +196,18 @@ impl Document {
             document.gravity = gravity
                 .then(|| attributes.numbers(report, "gravity", [0.0, 0.0, -9.81]))
                 .or(document.gravity);
+            let flags = option.named("flag");
+            for flag in flags.filter_map(|flag| flag.attribute("gravity")) {
+                let is_off = flag == "disable";
+                document.gravity = is_off.then_some([0.0; 3]).or(document.gravity);
+            }
+            for (number, name) in ["density", "viscosity"].into_iter().enumerate() {
+                let said = attributes.number(report, name);
+                document.fluid[number] = said.unwrap_or(document.fluid[number]);
+            }
+            if attributes.get("wind").is_some() {
+                report.leave_out(option, "wind is not read");
+            }
         }
         document
     }

@@ -1,13 +1,12 @@
 //! Geoms: what they look like, what touches them, what they weigh.
 
-use std::collections::BTreeSet;
-
 use nalgebra::Vector3;
 
 use super::attributes::Attributes;
 use super::body::{Builder, Place};
 use super::inertia::{Mass, Weighed};
 use super::orientation::along;
+use super::touching::{Bits, TouchingGeom, as_touched};
 use crate::model::{Collision, Geometry, Pose, Visual};
 use crate::xml::short;
 
@@ -18,42 +17,7 @@ const FRICTION: f64 = 1.0;
 /// Geoms of groups above are not shown.
 const LAST_VISIBLE_GROUP: f64 = 2.0;
 
-/// A geom that may touch others.
-pub struct TouchingGeom {
-    link: usize,
-    /// Its place in the collisions of its link.
-    part: usize,
-    /// `contype` and `conaffinity`: two geoms touch where one's first has a bit of the other's second.
-    bits: [i64; 2],
-}
-
-impl TouchingGeom {
-    fn may_touch(&self, bits: &[i64; 2]) -> bool {
-        self.bits[0] & bits[1] != 0 || bits[0] & self.bits[1] != 0
-    }
-}
-
 impl Builder<'_> {
-    /// Leaves away what touches nothing that moves: rails that a cart is drawn on. What moves may touch what is not in the file.
-    pub(super) fn leave_out_untouched(&mut self) {
-        let is_fixed = |geom: &TouchingGeom| self.model.fixed.binary_search(&geom.link).is_ok();
-        let (fixed, moving): (Vec<_>, Vec<_>) = std::mem::take(&mut self.touching)
-            .into_iter()
-            .partition(is_fixed);
-        let moving: BTreeSet<[i64; 2]> = moving.iter().map(|geom| geom.bits).collect();
-        if moving.is_empty() {
-            return;
-        }
-        // From the last on, so that places stay what they are.
-        for geom in fixed.iter().rev() {
-            if !moving.iter().any(|bits| geom.may_touch(bits)) {
-                self.model.robot.links[geom.link]
-                    .collisions
-                    .remove(geom.part);
-            }
-        }
-    }
-
     /// Adds a geom to its link. The result is what it adds to the mass of the body.
     pub(super) fn add_geom(&mut self, attributes: &Attributes, place: &Place) -> Option<Weighed> {
         let (pose, geometry) = self.geometry(attributes)?;
@@ -67,24 +31,31 @@ impl Builder<'_> {
         };
         let group = number("group", 0.0);
         let bits = ["contype", "conaffinity"].map(|name| number(name, 1.0) as i64);
-        let touches = bits != [0, 0];
+        let bits = Bits(bits);
+        let touches = bits != Bits::NONE || self.pairs.has_geom(&name);
         let density = number("density", DENSITY);
         let friction = number("friction", FRICTION);
         let mass = attributes.number(&mut self.report, "mass");
+        if attributes.get("fluidshape") == Some("ellipsoid") {
+            let text = "fluidshape is not read: the fluid slows the box of the body's inertia down";
+            self.report.leave_out(attributes.element, text);
+        }
         let material = self.document.material(attributes, &mut self.report);
+        let (touched_pose, touched) = as_touched(attributes, &mut self.report, pose, &geometry);
         let link = &mut self.model.robot.links[place.link];
         if touches {
             let part = link.collisions.len();
             self.touching.push(TouchingGeom {
                 link: place.link,
                 part,
+                name: name.clone(),
                 bits,
             });
             link.friction = Some(link.friction.unwrap_or(0.0).max(friction));
             link.collisions.push(Collision {
                 name: name.clone(),
-                pose,
-                geometry: geometry.clone(),
+                pose: touched_pose,
+                geometry: touched,
                 line,
             });
         }

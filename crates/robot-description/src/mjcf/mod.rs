@@ -18,6 +18,7 @@ mod geom;
 mod inertia;
 mod mesh_solid;
 mod orientation;
+mod touching;
 
 use crate::model::{Link, Pose, Robot};
 use crate::report::{Parsed, ReadError};
@@ -32,6 +33,8 @@ pub struct Model {
     pub robot: Robot,
     /// m/s², if the file says it.
     pub gravity: Option<[f64; 3]>,
+    /// Density (kg/m³) and viscosity (Pa s) of the fluid that all bodies are in.
+    pub fluid: [f64; 2],
     /// The links that never move, in increasing order: the world, and what is fixed to it.
     pub fixed: Vec<usize>,
     /// The motors.
@@ -40,6 +43,8 @@ pub struct Model {
     pub sites: Vec<Site>,
     /// What holds joints or links together beside the tree.
     pub equalities: Vec<Equality>,
+    /// The pairs of links that may touch, each in increasing order. None where they are too many to say.
+    pub touching: Option<Vec<[usize; 2]>>,
 }
 
 /// A motor of a joint.
@@ -182,12 +187,13 @@ pub fn read(bytes: &[u8], files: &mut dyn Files) -> Result<Parsed<Model>, ReadEr
     let mut report = Report::default();
     let root = element::read(bytes, files, &mut report)?;
     let document = Document::new(&root, &mut report);
-    let mut builder = Builder::new(&document, files, report);
+    let mut builder = Builder::new(&document, &root, files, report);
     for world in root.named("worldbody") {
         builder.add_world(world);
     }
     builder.finish_masses(&root);
     builder.leave_out_untouched();
+    builder.find_touching_pairs();
     let (mut model, mut report) = builder.into_parts();
     // The world itself is a link.
     let world = |link: &Link| link.visuals.is_empty() && link.collisions.is_empty();
@@ -197,7 +203,7 @@ pub fn read(bytes: &[u8], files: &mut dyn Files) -> Result<Parsed<Model>, ReadEr
         report.warn(&root, "has no body and no geom");
     }
     model.robot.name = root.attribute("model").unwrap_or("mujoco").to_owned();
-    model.gravity = document.gravity;
+    (model.gravity, model.fluid) = (document.gravity, document.fluid);
     model.actuators = actuator::read(&root, &document, &model.robot, &mut report);
     model.equalities = equality::read(&root, &model, &mut report);
     Ok(report.finish(model))

@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use super::Joint;
+use super::{Control, Joint};
 use crate::parameters::engine::Engine;
 use crate::parameters::engine_values::element;
 use crate::{Data, Object};
@@ -65,13 +65,19 @@ pub enum ActuatorKind {
     Velocity,
 }
 
+/// The motors of a joint: at most one of each kind that a script can tell something, the one whose control the joint has first.
+///
+/// As text: their texts with a `;` between them.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Actuators([Option<Actuator>; 3]);
+
 /// How a joint is moved where MuJoCo's parameters count.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Actuation {
     /// Beside the motor.
     pub passive: Passive,
-    /// What its motor does, if not what CoppeliaSim's motors do.
-    pub actuator: Option<Actuator>,
+    /// What its motors do, if not what CoppeliaSim's motor does; none otherwise.
+    pub actuators: Actuators,
 }
 
 impl ActuatorKind {
@@ -81,6 +87,52 @@ impl ActuatorKind {
         (Self::Position, "position"),
         (Self::Velocity, "velocity"),
     ];
+
+    /// The control of the joint in which it is told something.
+    pub fn control(self) -> Control {
+        match self {
+            Self::None => Control::Free,
+            Self::Force => Control::Force,
+            Self::Position => Control::Position,
+            Self::Velocity => Control::Velocity,
+        }
+    }
+}
+
+impl Actuators {
+    /// Adds a motor. One of a kind that there is already becomes one with it: their springs, dampers, forces and ranges are added.
+    pub fn add(&mut self, actuator: Actuator) {
+        let same =
+            |other: &&mut Option<Actuator>| other.is_none_or(|other| other.kind == actuator.kind);
+        let place = self.0.iter_mut().find(same);
+        if let Some(place) = place.filter(|_| actuator.kind != ActuatorKind::None) {
+            *place = Some(place.map_or(actuator, |other| other.together(&actuator)));
+        }
+    }
+
+    /// The motors, the one whose control the joint has first.
+    pub fn iter(&self) -> impl Iterator<Item = &Actuator> {
+        self.0.iter().flatten()
+    }
+
+    /// What a text says; None if nothing in it names a kind.
+    pub fn parse(text: &str) -> Option<Self> {
+        let mut found = text.split(';').filter_map(Actuator::parse).peekable();
+        found.peek()?;
+        let mut actuators = Self::default();
+        found.for_each(|actuator| actuators.add(actuator));
+        Some(actuators)
+    }
+}
+
+impl fmt::Display for Actuators {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let texts: Vec<String> = self.iter().map(Actuator::to_string).collect();
+        match texts.as_slice() {
+            [] => Actuator::new(ActuatorKind::None).fmt(f),
+            texts => f.write_str(&texts.join("; ")),
+        }
+    }
 }
 
 impl Actuator {
@@ -123,6 +175,17 @@ impl Actuator {
             "highest" => &mut self.range[1],
             _ => return None,
         })
+    }
+
+    /// Two motors that are told the same.
+    fn together(&self, other: &Self) -> Self {
+        Self {
+            kind: self.kind,
+            stiffness: self.stiffness + other.stiffness,
+            damping: self.damping + other.damping,
+            bias: self.bias + other.bias,
+            range: [0, 1].map(|end| self.range[end] + other.range[end]),
+        }
     }
 
     /// A force within the range.
@@ -187,18 +250,18 @@ impl Object {
     /// How this joint is moved with that engine beside what its control says; None for other objects and where nothing of that counts.
     pub fn actuation(&self, engine: Engine) -> Option<Actuation> {
         let joint = self.joint().ok()?;
-        let actuator = self
+        let actuators = self
             .custom_data
             .typed(ACTUATOR)
             .and_then(|(_, value)| match value {
                 Data::Text(text) | Data::Buffer(text) => {
-                    Actuator::parse(&String::from_utf8_lossy(text))
+                    Actuators::parse(&String::from_utf8_lossy(text))
                 }
                 _ => None,
             });
-        (actuator.is_some() || engine == Engine::Mujoco).then(|| Actuation {
+        (actuators.is_some() || engine == Engine::Mujoco).then(|| Actuation {
             passive: joint.passive(),
-            actuator: actuator.filter(|actuator| actuator.kind != ActuatorKind::None),
+            actuators: actuators.unwrap_or_default(),
         })
     }
 }
@@ -221,6 +284,33 @@ mod tests {
         assert_eq!(actuator.limited(7.0), 3.0);
         let none = Actuator::parse("none");
         assert_eq!(none, Some(Actuator::new(ActuatorKind::None)));
+    }
+
+    #[test]
+    fn motors_of_several_kinds_are_a_text() {
+        let text = "position stiffness=100; velocity damping=5; force highest=3";
+        let actuators = Actuators::parse(text).expect("three kinds");
+        assert_eq!(actuators.to_string(), text);
+        assert_eq!(actuators.iter().count(), 3);
+        let none = Actuators::parse("none").expect("a kind");
+        assert_eq!(
+            (none.iter().count(), none.to_string().as_str()),
+            (0, "none")
+        );
+        assert_eq!(Actuators::parse("spin; "), None);
+    }
+
+    #[test]
+    fn motors_of_a_kind_are_one() {
+        let text =
+            "force lowest=-1 highest=2 bias=1; force lowest=-3 highest=4; position stiffness=2";
+        let actuators = Actuators::parse(text).expect("two kinds");
+        assert_eq!(
+            actuators.to_string(),
+            "force bias=1 lowest=-4 highest=6; position stiffness=2"
+        );
+        let endless = Actuators::parse("force highest=2; force lowest=-3").expect("a kind");
+        assert_eq!(endless.to_string(), "force");
     }
 
     #[test]

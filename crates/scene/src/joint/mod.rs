@@ -11,7 +11,7 @@ mod tests;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use std::f64::consts::{PI, TAU};
 
-pub use actuation::{ACTUATOR, Actuation, Actuator, ActuatorKind, Passive};
+pub use actuation::{ACTUATOR, Actuation, Actuator, ActuatorKind, Actuators, Passive};
 
 use super::parameters::engine::Engine;
 use super::{Handle, InertValues, Pose};

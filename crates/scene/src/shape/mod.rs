@@ -2,6 +2,7 @@
 
 pub mod build;
 pub mod decimate;
+mod fluid;
 pub(crate) mod group;
 pub(crate) mod hull_points;
 pub(crate) mod mesh_owners;
@@ -10,6 +11,7 @@ pub mod reshape;
 
 use std::rc::Rc;
 
+pub use fluid::{FLUID, Fluid};
 use geometry::{BoundingBox, MassProperties, Mesh, PrimitiveKind};
 
 use super::appearance::colour::Colour;

@@ -3,10 +3,14 @@
 use std::collections::{BTreeSet, HashMap, VecDeque};
 
 use crate::pose::placement::normalized;
-use crate::{Change, Field, Handle, ModelFlags, Scene, SceneError, SceneResult};
+use crate::{Change, Data, Field, Handle, ModelFlags, Scene, SceneError, SceneResult};
 
 /// Name of the custom data of a shape below which what is touched is a tree of its own: the ground in a file with a robot that hangs on it.
 pub const COLLISION_TREE: &str = "collisionTree";
+/// Name of the custom data of a shape that are further bits of its respondable mask: shapes of one tree touch that have one of them in common.
+pub const COLLISION_BITS: &str = "collisionBits";
+/// How many bits [`COLLISION_BITS`] has.
+pub const FURTHER_BITS: u32 = 48;
 
 impl Scene {
     /// Root objects in scene order.
@@ -93,6 +97,16 @@ impl Scene {
             }
         }
         at
+    }
+
+    /// The further bits of the respondable mask of a shape, within its tree; 0 for one without.
+    pub fn collision_bits_of(&self, handle: Handle) -> u64 {
+        let object = self.object(handle).ok();
+        let value = object.and_then(|object| object.custom_data.typed(COLLISION_BITS));
+        match value {
+            Some((_, Data::Int(bits))) => bits.cast_unsigned() & ((1 << FURTHER_BITS) - 1),
+            _ => 0,
+        }
     }
 
     /// The root of the tree `handle` belongs to.
