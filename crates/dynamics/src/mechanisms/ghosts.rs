@@ -16,6 +16,8 @@ const MIN_NORMAL_COSINE: f64 = 0.9999;
 pub(super) const CLEARANCE: f64 = 1e-4;
 /// A body lies on what is nearer than this, metres.
 const SUPPORT_DISTANCE: f64 = 5e-4;
+/// How far a part that lies on a plane may reach below it, metres.
+const MAX_SINKING: f64 = 1e-3;
 /// Height up to which what stands out of the plane on which a body lies is no step, metres.
 const MAX_STEP: f64 = 2e-4;
 
@@ -28,19 +30,24 @@ pub(super) fn remove_seams(points: &mut Vec<Point>, colliders: &ColliderSet) {
     }
     let ghosts: Vec<bool> = points
         .iter()
-        .map(|point| {
-            (0..2).any(|side| {
-                supports(points, point, side).any(|(support, up)| {
-                    let partner = (point.colliders[1 - side], point.parts[1 - side]);
-                    let collider = colliders.get(partner.0);
-                    let top = collider.and_then(|collider| top(collider, partner.1, up));
-                    top.is_some_and(|top| top < plane(support, up) + MAX_STEP)
-                })
-            })
-        })
+        .map(|point| (0..2).any(|side| is_below(points, point, side, colliders)))
         .collect();
     let mut ghosts = ghosts.into_iter();
     points.retain(|_| !ghosts.next().unwrap_or(false));
+}
+
+/// Whether what is at the other side of a point lies below a plane on which the body at this side lies with the part that would touch it: other parts of the body
+/// may reach below that plane.
+fn is_below(points: &[Point], point: &Point, side: usize, colliders: &ColliderSet) -> bool {
+    let reach = |side: usize, direction: Vector| {
+        let collider = colliders.get(point.colliders[side])?;
+        top(collider, point.parts[side], direction)
+    };
+    supports(points, point, side).any(|(support, up)| {
+        let plane = plane(support, up);
+        reach(1 - side, up).is_some_and(|top| top < plane + MAX_STEP)
+            && reach(side, -up).is_some_and(|depth| -depth > plane - MAX_SINKING)
+    })
 }
 
 /// What the body at one side of a point lies on otherwise, and in which direction that pushes.
