@@ -86,6 +86,8 @@ pub(crate) struct LinkedBody {
     pub com: Vector3<f64>,
     /// Inertia about the centre of mass, what was added to it included; world axes.
     pub inertia: Matrix3<f64>,
+    /// The response to impulses, with that inertia.
+    inverse_mass: InverseMass,
     /// Velocity before all impulses, gravity included, and with them.
     free_velocity: Vector6<f64>,
     present_velocity: Vector6<f64>,
@@ -121,6 +123,10 @@ impl LinkedBody {
             pose: Pose::identity(),
             com: Vector3::zeros(),
             inertia: properties.inertia,
+            inverse_mass: InverseMass {
+                linear: properties.inverse_mass,
+                angular: properties.inverse_inertia,
+            },
             free_velocity: Vector6::zeros(),
             present_velocity: Vector6::zeros(),
             velocity: Vector6::zeros(),
@@ -160,10 +166,16 @@ impl LinkedBody {
 
     /// Computes the inertia for the present orientation, with what is added.
     pub(crate) fn update_inertia(&mut self) {
-        self.inertia = self.along_world(&self.properties.inertia);
+        let turn = self.pose.rotation.to_rotation_matrix();
+        let along_world =
+            |tensor: &Matrix3<f64>| turn.matrix() * tensor * turn.matrix().transpose();
+        self.inertia = along_world(&self.properties.inertia);
+        let mut inverse = along_world(&self.properties.inverse_inertia);
         if let Some(added) = self.geometric_stiffness.added_inertia() {
             self.inertia += added;
+            inverse = self.inertia.try_inverse().unwrap_or(inverse);
         }
+        self.inverse_mass.angular = inverse;
     }
 
     /// A tensor of the body along the axes of the world.
@@ -174,21 +186,13 @@ impl LinkedBody {
 
     /// The response to impulses about the centre of mass, world axes.
     pub(crate) fn inverse_mass(&self) -> InverseMass {
-        let inverse = || self.along_world(&self.properties.inverse_inertia);
-        let with_added = || self.inertia.try_inverse().unwrap_or_else(inverse);
-        let is_added = self.geometric_stiffness.added_inertia().is_some();
-        InverseMass {
-            linear: self.properties.inverse_mass,
-            angular: if is_added { with_added() } else { inverse() },
-        }
+        self.inverse_mass
     }
 
     /// Mass and inertia about the centre of mass, world axes.
     pub(crate) fn mass_matrix(&self) -> Matrix6<f64> {
         let mut matrix = Matrix6::from_diagonal_element(1.0 / self.properties.inverse_mass);
-        matrix
-            .fixed_view_mut::<3, 3>(3, 3)
-            .copy_from(&self.world_inertia());
+        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&self.inertia);
         matrix
     }
 

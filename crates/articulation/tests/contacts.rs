@@ -167,3 +167,34 @@ fn a_moving_obstacle_drags_by_friction() {
         nearly(linear.x, 0.0);
     }
 }
+
+/// A press of a motor's force onto an obstacle that is overlapped by `depth`: the velocity at which it goes on, m/s.
+fn pressed(force: f64, depth: f64) -> f64 {
+    let slider = joint(JointKind::Prismatic, [0, 1], Vector3::z(), 0.0);
+    let mut mechanism = Mechanism::new(vec![base(), body(Vector3::zeros())], vec![slider]);
+    let motor = Some(Motor {
+        velocity: -0.1,
+        max_force: force,
+    });
+    let state = JointState {
+        motor,
+        ..free_joint()
+    };
+    mechanism.begin(&[resting(); 2], &[state], [0.0; 3], STEP);
+    let touching = Contact {
+        distance: -depth,
+        ..contact([Some(1), None], [0.0; 3], UP)
+    };
+    mechanism.set_contacts(&[touching]);
+    assert!(mechanism.solve());
+    mechanism.velocities().nth(1).unwrap()[2]
+}
+
+/// Two kilonewtons are borne without a trace; what is beyond pushes in, by a micrometre for each newton at most.
+#[test]
+fn a_contact_gives_way_to_a_force_that_nothing_could_bear() {
+    assert!(pressed(1900.0, 0.0).abs() < 1e-4);
+    assert!(pressed(1900.0, 1e-4) > 1e-3);
+    assert!(pressed(7000.0, 0.0) < -0.01);
+    assert!(pressed(3000.0, 2e-3) > 1e-3);
+}

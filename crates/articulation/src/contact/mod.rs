@@ -59,6 +59,23 @@ const RESTITUTION_THRESHOLD: f64 = 0.05;
 /// Compliance of a contact as a part of the response of its bodies without joints: shares the load between points where it is not determined,
 /// and bounds it where joints do not let bodies escape that overlap.
 const COMPLIANCE: f64 = 5e-6;
+/// A contact of a mechanism gives way to larger forces, N, as even hard bodies do: else what turns a motor of any strength would be wedged in for ever.
+const MAX_RIGID_FORCE: f64 = 2000.0;
+/// Stiffness beyond it, N/m.
+const YIELD_STIFFNESS: f64 = 1e6;
+/// The compliance beyond it is at most this part of the response of the bodies without joints, so that heavy ones do not sink in.
+const MAX_YIELD_PART: f64 = 0.02;
+
+/// A contact holds while its friction is below this fraction of what it transmits.
+const HOLDING: f64 = 1.0 - 1e-9;
+
+/// What a contact does.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum State {
+    Open,
+    Holds,
+    Slides,
+}
 
 /// A contact as three rows: along the normal and two tangents.
 pub(crate) struct Row {
@@ -73,6 +90,9 @@ pub(crate) struct Row {
     pub friction: f64,
     /// Normal velocity per impulse.
     pub compliance: f64,
+    /// The same beyond the impulse to which the contact gives way.
+    yield_compliance: f64,
+    rigid_impulse: f64,
     /// The same for what rebounds too, as far as a direct solution needs it.
     pub least_compliance: f64,
 }
@@ -111,6 +131,21 @@ pub(crate) struct Contacts {
     pub directions: Vec<Vector3<f64>>,
     /// Whether contacts that hold yield to friction, too, as they are without joints.
     pub holding_yields: bool,
+}
+
+impl State {
+    fn of(row: &Row, approach: f64) -> Self {
+        let [normal, first, second] = row.impulse.into();
+        if normal <= 0.0 && approach > 0.0 {
+            return Self::Open;
+        }
+        let most = row.friction * normal;
+        if normal <= 0.0 || (first * first + second * second).sqrt() < most * HOLDING {
+            Self::Holds
+        } else {
+            Self::Slides
+        }
+    }
 }
 
 impl Row {
@@ -152,13 +187,19 @@ impl Row {
             restitution_velocity: 0.0,
             friction: contact.friction,
             compliance: 0.0,
+            yield_compliance: 0.0,
+            rigid_impulse: MAX_RIGID_FORCE * step,
             least_compliance: 0.0,
         };
         let rebounds = row.set_target(contact, bodies, step, is_free);
-        row.least_compliance = COMPLIANCE * row.free_response(bodies);
+        let response = row.free_response(bodies);
+        row.least_compliance = COMPLIANCE * response;
         // What rebounds keeps its energy.
         if !rebounds {
             row.compliance = row.least_compliance;
+        }
+        if !is_free {
+            row.yield_compliance = yield_compliance(step, response);
         }
         row
     }
@@ -234,6 +275,13 @@ impl Row {
             .sum()
     }
 
+    /// The normal impulse that leads to no velocity beyond what the contact gives way by. `rigid`: the impulse if it did not, `response`: the velocity by an impulse.
+    fn yielded(&self, rigid: f64, response: f64) -> f64 {
+        let beyond = (rigid - self.rigid_impulse).max(0.0);
+        rigid
+            - beyond * self.yield_compliance / (response + self.compliance + self.yield_compliance)
+    }
+
     /// Tangential impulses within what friction transmits beside a normal one.
     pub(crate) fn within_cone(&self, normal: f64, first: f64, second: f64) -> (f64, f64) {
         let (largest, length) = (
@@ -247,6 +295,12 @@ impl Row {
         };
         (first * scale, second * scale)
     }
+}
+
+/// Normal velocity per impulse by which a contact gives way, so that a force pushes bodies into each other by what it has beyond `MAX_RIGID_FORCE` over `YIELD_STIFFNESS`.
+fn yield_compliance(step: f64, response: f64) -> f64 {
+    let elastic = PENETRATION_CORRECTION / (YIELD_STIFFNESS * step * step);
+    elastic.min(MAX_YIELD_PART * response)
 }
 
 /// Place of a body among those that touch something, the last one if it is new.
@@ -379,8 +433,9 @@ impl Mechanism {
         if !contacts.holding_yields {
             return contacts.sweep_to_rest();
         }
-        contacts.solve_by_states(bodies);
-        contacts.sweep_to_rest();
+        if !contacts.solve_by_states(bodies) {
+            contacts.sweep_to_rest();
+        }
         contacts.limit_restitution();
         true
     }

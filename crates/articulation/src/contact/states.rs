@@ -5,42 +5,17 @@
 //! assumed as it was, and corrected by what the solution says: a semi-smooth Newton method (compare A. Castro, F. Permenter and X. Han, *An unconstrained convex
 //! formulation of compliant contact*, 2022). Where something slides the sweeps do it all.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Vector3, Vector6};
+use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, Vector3, Vector6};
 
-use crate::contact::{Contacts, Row};
+use crate::contact::{Contacts, Row, State};
 use crate::linked_body::LinkedBody;
 
 /// Largest number of corrections of the states.
 const MAX_ITERATIONS: usize = 12;
-/// A contact holds while its friction is below this fraction of what it transmits.
-const HOLDING: f64 = 1.0 - 1e-9;
-
-/// What a contact does.
-#[derive(Clone, Copy, PartialEq)]
-enum State {
-    Open,
-    Holds,
-    Slides,
-}
-
-impl State {
-    fn of(row: &Row, approach: f64) -> Self {
-        let [normal, first, second] = row.impulse.into();
-        if normal <= 0.0 && approach > 0.0 {
-            return Self::Open;
-        }
-        let most = row.friction * normal;
-        if normal <= 0.0 || (first * first + second * second).sqrt() < most * HOLDING {
-            Self::Holds
-        } else {
-            Self::Slides
-        }
-    }
-}
 
 impl Contacts {
-    /// Finds impulses and velocities by the states of the contacts; leaves them as they are where something slides, or states change for ever.
-    pub(crate) fn solve_by_states(&mut self, bodies: &[LinkedBody]) {
+    /// Finds impulses and velocities by the states of the contacts; false, and all as it was, where something slides, or states change for ever.
+    pub(crate) fn solve_by_states(&mut self, bodies: &[LinkedBody]) -> bool {
         let before: Vec<Vector3<f64>> = self.rows.iter().map(|row| row.impulse).collect();
         let free = self.velocities_without();
         let mut states = self.states();
@@ -55,7 +30,7 @@ impl Contacts {
             self.set_velocities(&free);
             let now = self.states();
             if now == states {
-                return;
+                return true;
             }
             states = now;
         }
@@ -64,6 +39,7 @@ impl Contacts {
             .zip(before)
             .for_each(|(row, impulse)| row.impulse = impulse);
         self.set_velocities(&free);
+        false
     }
 
     fn states(&self) -> Vec<State> {
@@ -99,6 +75,10 @@ impl Contacts {
         free: &[Vector6<f64>],
         bodies: &[LinkedBody],
     ) -> Option<Vec<Vector6<f64>>> {
+        if let [velocity] = free {
+            let mass = bodies[self.bodies[0]].mass_matrix();
+            return self.velocity_by(states, velocity, mass).map(|it| vec![it]);
+        }
         let count = free.len();
         let mut matrix = DMatrix::zeros(6 * count, 6 * count);
         let mut momentum = DVector::zeros(6 * count);
@@ -117,6 +97,25 @@ impl Contacts {
         let solution = Cholesky::new(matrix)?.solve(&momentum);
         let velocity = |place| solution.fixed_rows::<6>(6 * place).into_owned();
         Some((0..count).map(velocity).collect())
+    }
+
+    /// The same for a single body: `mass`, kg and kg m2, world axes.
+    fn velocity_by(
+        &self,
+        states: &[State],
+        free: &Vector6<f64>,
+        mass: Matrix6<f64>,
+    ) -> Option<Vector6<f64>> {
+        let (mut matrix, mut momentum) = (mass, mass * free);
+        let holding = self.rows.iter().zip(states);
+        for (row, _) in holding.filter(|(_, state)| **state == State::Holds) {
+            for side in row.sides.iter().flatten() {
+                let pulled = side.jacobian * (1.0 / row.least_compliance);
+                matrix += pulled * side.jacobian.transpose();
+                momentum += pulled * row.target;
+            }
+        }
+        Some(Cholesky::new(matrix)?.solve(&momentum))
     }
 
     /// Takes the impulses that belong to the velocities.

@@ -5,8 +5,8 @@ use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 use crate::contact::{Change, Contacts, Side};
 use crate::jacobian::InverseMass;
 
-/// Largest number of iterations of the contact solver, each a sweep over all contacts.
-const MAX_ITERATIONS: usize = 200;
+/// Largest number of sweeps over all contacts.
+const MAX_SWEEPS: usize = 200;
 /// The solver has converged when no impulse changes by more than this fraction of the largest one.
 const TOLERANCE: f64 = 1e-7;
 
@@ -16,13 +16,13 @@ impl Contacts {
         self.directions.clear();
         self.directions.resize(self.rows.len(), Vector3::zeros());
         let (mut changed, mut square) = (false, f64::INFINITY);
-        for sweep in 1..=MAX_ITERATIONS {
+        for sweep in 1..=MAX_SWEEPS {
             self.before.clear();
             self.before.extend(self.rows.iter().map(|row| row.impulse));
             let (change, largest) = self.sweep();
             changed |= change > 0.0;
             // What is found in the end lies within the friction cones, where only sweeps keep it.
-            if change <= TOLERANCE * largest || sweep == MAX_ITERATIONS {
+            if change <= TOLERANCE * largest || sweep == MAX_SWEEPS {
                 break;
             }
             square = self.extrapolate(square);
@@ -150,9 +150,11 @@ impl Contacts {
 
     /// Lets a contact push; returns the change of its impulse.
     fn push(&mut self, index: usize) -> f64 {
-        let (before, compliance) = (self.rows[index].impulse[0], self.rows[index].compliance);
-        let missing = self.slip(index, 0) + compliance * before;
-        let change = (before - missing / (self.own[index][(0, 0)] + compliance)).max(0.0) - before;
+        let (row, response) = (&self.rows[index], self.own[index][(0, 0)]);
+        let before = row.impulse[0];
+        let missing = self.slip(index, 0) + row.compliance * before;
+        let rigid = before - missing / (response + row.compliance);
+        let change = row.yielded(rigid, response).max(0.0) - before;
         if change == 0.0 || !change.is_finite() {
             return 0.0;
         }

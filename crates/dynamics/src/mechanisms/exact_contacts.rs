@@ -5,6 +5,7 @@
 //! A mechanism that touches another one, or too much, is left to rapier, with its joints as impulse joints.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use articulation::Contact;
 
@@ -73,24 +74,31 @@ impl ExactContacts {
     }
 
     /// The contacts of a mechanism.
-    pub(super) fn of(&self, mechanism: usize) -> Vec<Contact> {
-        self.points
+    pub(super) fn of(&self, mechanism: usize) -> impl Iterator<Item = Contact> {
+        self.points[self.range(mechanism)]
             .iter()
-            .filter(|point| point.mechanism == mechanism)
             .map(|point| point.contact)
-            .collect()
+    }
+
+    /// Where the points of a mechanism are: they are found in the order of mechanisms.
+    fn range(&self, mechanism: usize) -> Range<usize> {
+        let first = self
+            .points
+            .partition_point(|point| point.mechanism < mechanism);
+        let count = self.points[first..].partition_point(|point| point.mechanism == mechanism);
+        first..first + count
     }
 
     /// Stores what the contacts of a mechanism exert.
     pub(super) fn store(&mut self, mechanism: usize, impulses: impl Iterator<Item = [f64; 3]>) {
-        let points = self
-            .points
-            .iter_mut()
-            .filter(|point| point.mechanism == mechanism);
-        for (point, impulse) in points.zip(impulses) {
+        let range = self.range(mechanism);
+        let points = &mut self.points[range];
+        for (point, impulse) in points.iter_mut().zip(impulses) {
             point.impulse = to_vector(impulse);
-            if let Some(pair) = self.pairs.get_mut(&point.pair()) {
-                pair.store(point.index, impulse);
+        }
+        for of_pair in points.chunk_by(|a, b| a.colliders == b.colliders) {
+            if let Some(pair) = self.pairs.get_mut(&of_pair[0].pair()) {
+                of_pair.iter().for_each(|point| pair.store(point));
             }
         }
     }

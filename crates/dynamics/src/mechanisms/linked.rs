@@ -178,6 +178,11 @@ impl Linked {
             .into_iter()
             .filter_map(|shape| Some((shape, bodies.get(shape)?)))
             .collect();
+        let is_as_before =
+            |(guest, (shape, body)): (&LinkedShape, &(Handle, &Body))| guest.is(*shape, body);
+        if guests.len() == self.guests.len() && self.guests.iter().zip(&guests).all(is_as_before) {
+            return;
+        }
         self.mechanism
             .set_guests(guests.iter().map(|(_, body)| properties(body)));
         self.guests = guests
@@ -205,16 +210,19 @@ impl Linked {
         world: &World,
         gravity: [f64; 3],
         step: f64,
-        contacts: Vec<Contact>,
+        contacts: impl Iterator<Item = Contact>,
     ) {
         let Input {
             bodies,
             joints,
+            contacts: known,
             pushes,
             ..
         } = &mut self.input;
         bodies.clear();
         joints.clear();
+        known.clear();
+        known.extend(contacts);
         pushes.clear();
         for body in self.bodies.iter_mut().chain(&mut self.guests) {
             let Some(rigid) = world.bodies.get(body.rigid) else {
@@ -225,7 +233,7 @@ impl Linked {
             bodies.push(state);
         }
         joints.extend(self.links.iter().map(|&place| joint_state(links.at(place))));
-        (self.input.contacts, self.input.gravity, self.input.step) = (contacts, gravity, step);
+        (self.input.gravity, self.input.step) = (gravity, step);
     }
 
     /// Adds the impulse of a contact that rapier solves.

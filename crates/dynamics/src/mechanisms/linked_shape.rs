@@ -1,6 +1,7 @@
 //! A body of a mechanism or a guest, and the states of bodies and joints as the articulation solver takes them.
 
 use articulation::{BodyMotion, BodyProperties, BodyState, JointState, spatial};
+use geometry::MassProperties;
 use nalgebra::Vector6;
 use rapier3d_f64::prelude::{RigidBody, RigidBodyHandle};
 
@@ -16,6 +17,7 @@ pub(super) struct LinkedShape {
     pub shape: Handle,
     pub rigid: RigidBodyHandle,
     pub is_dynamic: bool,
+    mass: MassProperties,
     /// Forces and torques of scripts: they outlast a sub-step, those of links do not.
     pub external: Vector6<f64>,
     /// Whether the engine slows the body down.
@@ -39,10 +41,20 @@ impl LinkedShape {
             shape,
             rigid: body.rigid,
             is_dynamic: body.build.dynamic,
+            mass: body.build.mass,
             external: Vector6::zeros(),
             is_damped: body.is_damped(),
             reach: Reach::default(),
         }
+    }
+
+    /// Whether this is a body as it is now.
+    pub(super) fn is(&self, shape: Handle, body: &Body) -> bool {
+        self.shape == shape
+            && self.rigid == body.rigid
+            && self.is_dynamic == body.build.dynamic
+            && self.is_damped == body.is_damped()
+            && self.mass == body.build.mass
     }
 
     pub(super) fn remove_forces_of_links(&self, world: &mut World) {

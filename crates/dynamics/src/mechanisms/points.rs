@@ -172,8 +172,9 @@ impl Pair {
     }
 
     /// Keeps the impulse of a point for the next sub-step.
-    pub(super) fn store(&mut self, (manifold, index): (usize, usize), impulse: [f64; 3]) {
-        self.manifolds[manifold].points[index].data = impulse;
+    pub(super) fn store(&mut self, point: &Point) {
+        let (manifold, index) = point.index;
+        self.manifolds[manifold].points[index].data = from_vector(point.impulse);
     }
 }
 
