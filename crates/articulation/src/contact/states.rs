@@ -77,7 +77,7 @@ impl Contacts {
     ) -> Option<Vec<Vector6<f64>>> {
         if let [velocity] = free {
             let mass = bodies[self.bodies[0]].mass_matrix();
-            return self.velocity_by(states, velocity, mass).map(|it| vec![it]);
+            return self.velocity_by(states, velocity, &mass).map(|it| vec![it]);
         }
         let count = free.len();
         let mut matrix = DMatrix::zeros(6 * count, 6 * count);
@@ -104,9 +104,9 @@ impl Contacts {
         &self,
         states: &[State],
         free: &Vector6<f64>,
-        mass: Matrix6<f64>,
+        mass: &Matrix6<f64>,
     ) -> Option<Vector6<f64>> {
-        let (mut matrix, mut momentum) = (mass, mass * free);
+        let (mut matrix, mut momentum) = (*mass, mass * free);
         let holding = self.rows.iter().zip(states);
         for (row, _) in holding.filter(|(_, state)| **state == State::Holds) {
             for side in row.sides.iter().flatten() {
