@@ -7,7 +7,7 @@
 //! reads the changes at the next call.
 //!
 //! - `plan`: the bodies and constraints that the scene needs; compared with those that exist, so that only changes reach the engine.
-//! - `bodies`, `colliders`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`, with their contacts.
+//! - `bodies`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`, with their contacts.
 //! - `near`: what a body may touch in a sub-step; `free_rotation`: bodies that tumble; `fluid`: what slows bodies down.
 //! - `contacts`: collision filters; `flat_faces`: contacts without friction; `motors`: the control law; `actuators`: that of MuJoCo.
 //! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
@@ -16,8 +16,6 @@
 
 mod actuators;
 mod bodies;
-mod body_mass;
-mod colliders;
 mod contact_log;
 mod contacts;
 mod convert;
@@ -27,7 +25,6 @@ mod free_rotation;
 mod frozen;
 mod links;
 mod load;
-mod made_forms;
 mod mechanisms;
 mod motors;
 mod near;
@@ -316,7 +313,7 @@ impl Dynamics {
         let mut world = self.world.take()?;
         let call = self.call?;
         // Nobody else can have changed the forces since the first sub-step.
-        if sub_step == 1 || script_access.possible || self.bodies.are_in_fluid() {
+        if sub_step == 1 || script_access.possible || self.bodies.are_in_fluid {
             self.bodies.apply_forces(&mut world, scene, call.step);
         }
         for link in self.links.values_mut() {

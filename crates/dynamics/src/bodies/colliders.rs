@@ -9,9 +9,9 @@ use rapier3d_f64::math::{Pose as EnginePose, Rotation, Vector};
 use rapier3d_f64::parry::transformation::vhacd::{VHACD, VHACDParameters};
 use rapier3d_f64::prelude::SharedShape;
 
-use super::convert::{to_pose, to_vector};
 use super::made_forms::{Making, form_of};
-use super::plan::PartForm;
+use crate::convert::{to_pose, to_vector};
+use crate::plan::PartForm;
 use scene::shape::Primitive;
 
 /// Smallest thickness of a collider, metres.

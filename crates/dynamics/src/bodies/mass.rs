@@ -3,7 +3,7 @@
 use rapier3d_f64::math::{Pose as EnginePose, Rotation};
 use rapier3d_f64::prelude::MassProperties;
 
-use super::convert::{to_rotation, to_vector};
+use crate::convert::{to_rotation, to_vector};
 
 /// Centre of mass, mass and inertia. rapier's own decomposition of an inertia takes moments for equal where their differences have a product
 /// below 1e-10 kg2 m4, and any two equal moments for those of the first two axes: light bodies and plates across x would turn with swapped moments.

@@ -1,26 +1,29 @@
 //! Rigid bodies: building them from plans, moving the static ones along with the scene, noticing what scripts moved.
 
+mod colliders;
+mod forces;
+mod made_forms;
+mod mass;
+mod sweeps;
+mod tag;
+
 use std::collections::BTreeMap;
 
-use geometry::Finite;
-use geometry::pose::interpolate;
-use rapier3d_f64::math::{Pose as EnginePose, Vector};
+use rapier3d_f64::math::Pose as EnginePose;
 use rapier3d_f64::prelude::{
     CoefficientCombineRule, ColliderBuilder, ColliderHandle, MassProperties, RigidBody,
     RigidBodyBuilder, RigidBodyHandle, RigidBodyType,
 };
 
-use super::body_mass::{carrier, mass_properties, massless};
-use super::colliders;
 use super::convert::{from_pose, to_pose, to_vector};
-use super::fluid::drag;
 use super::plan::{BodyBuild, BodyPlan, FrictionRule, Surface, is_far};
 use super::world::{ALL_HOOKS, World};
+use mass::{carrier, mass_properties, massless};
 use scene::shape::Velocity;
 use scene::{Field, Handle, Pose, Scene};
+use sweeps::has_moved;
+pub(super) use tag::Tag;
 
-/// A static body counts as moved when it moved more than this between two calls, metres and radians.
-const STATIC_TOLERANCE: (f64, f64) = (1e-5, 0.05 * std::f64::consts::PI / 180.0);
 /// A body sleeps, with all that it touches, after no point of it has moved faster than this (m/s) for so many seconds.
 pub(super) const SLEEP_THRESHOLD: (f64, f64) = (1e-5, 0.5);
 /// The threshold of speed for bodies that never sleep.
@@ -35,6 +38,8 @@ pub(super) struct Bodies {
     places: BTreeMap<Handle, usize>,
     /// Those that move though they are static.
     sweeping: Vec<usize>,
+    /// Whether one is in a fluid: forces change from sub-step to sub-step.
+    pub are_in_fluid: bool,
 }
 
 /// A shape's body in the engine.
@@ -53,32 +58,6 @@ pub(super) struct Body {
     standing: Option<Pose>,
     /// Whether it slept at the last report to the scene.
     pub slept: bool,
-}
-
-/// Identifies a collider in callbacks: shape, root of its tree, mask.
-#[derive(Clone, Copy)]
-pub(super) struct Tag {
-    pub shape: Handle,
-    pub root: Handle,
-    pub mask: u16,
-    /// Of the local mask, as many as [`scene::FURTHER_BITS`].
-    pub further_bits: u64,
-}
-
-impl Tag {
-    pub(super) fn pack(self) -> u128 {
-        let masks = u128::from(self.mask) << 64 | u128::from(self.further_bits) << 80;
-        u128::from(self.shape.0) | u128::from(self.root.0) << 32 | masks
-    }
-
-    pub(super) fn unpack(data: u128) -> Self {
-        Self {
-            shape: Handle(data as u32),
-            root: Handle((data >> 32) as u32),
-            mask: (data >> 64) as u16,
-            further_bits: (data >> 80) as u64,
-        }
-    }
 }
 
 impl Bodies {
@@ -121,6 +100,7 @@ impl Bodies {
             .enumerate()
             .map(|(place, (shape, _))| (*shape, place))
             .collect();
+        self.are_in_fluid = plan.iter().any(|(_, plan)| plan.surface.fluid.is_some());
         for (shape, plan) in plan {
             let is_unchanged =
                 |body: &Body| body.build == plan.build && !wants_rebuild(scene, shape, body, world);
@@ -204,12 +184,7 @@ impl Body {
         if !self.build.respondable {
             return;
         }
-        let tag = Tag {
-            shape,
-            root: self.surface.root,
-            mask: self.surface.mask,
-            further_bits: self.surface.further_bits,
-        };
+        let tag = Tag::new(shape, &self.surface);
         let forms = self
             .build
             .parts
@@ -256,12 +231,8 @@ impl Body {
             return self;
         }
         self.surface = surface;
-        let tag = Tag {
-            shape,
-            root: surface.root,
-            mask: surface.mask,
-            further_bits: surface.further_bits,
-        };
+        let surface = &self.surface;
+        let tag = Tag::new(shape, &self.surface);
         for &handle in &self.colliders {
             if let Some(collider) = world.colliders.get_mut(handle) {
                 collider.set_friction(surface.friction);
@@ -293,16 +264,6 @@ impl Body {
     /// Whether the engine slows the body down.
     pub(super) fn is_damped(&self) -> bool {
         self.surface.linear_damping != 0.0 || self.surface.angular_damping != 0.0
-    }
-
-    fn drifts(&self) -> bool {
-        self.drift != Velocity::default()
-            && self
-                .drift
-                .linear
-                .iter()
-                .chain(&self.drift.angular)
-                .all(|x| x.is_finite())
     }
 
     /// Whether the engine still has the body.
@@ -377,132 +338,4 @@ fn take_initial_velocity(scene: &mut Scene, shape: Handle) -> scene::SceneResult
         })?;
     }
     Ok(velocity)
-}
-
-impl Bodies {
-    /// Whether a static body moves during this call.
-    pub(super) fn are_sweeping(&self) -> bool {
-        !self.sweeping.is_empty()
-    }
-
-    /// Plans the way of the static bodies over the call: from where the engine has them to where the scene has them.
-    pub(super) fn plan_sweeps(&mut self, world: &mut World, scene: &Scene) {
-        self.sweeping.clear();
-        for (place, (shape, body)) in self
-            .all
-            .iter_mut()
-            .enumerate()
-            .filter(|(_, (_, body))| !body.build.dynamic)
-        {
-            body.stop_drift(world);
-            let (Some(held), Ok(to)) = (body.pose(world), scene.world_pose(*shape)) else {
-                continue;
-            };
-            let from = body.standing.unwrap_or(held);
-            let moves = has_moved(&from, &to) || body.drifts();
-            body.sweep = (moves && to.is_finite()).then_some((from, to));
-            body.standing = body.sweep.filter(|_| body.drifts()).map(|_| from);
-            if body.sweep.is_some() {
-                self.sweeping.push(place);
-                body.let_move(world);
-            }
-        }
-    }
-
-    /// Moves the static bodies to `fraction` of their way, in a sub-step of so many seconds. Those whose surface moves begin where they
-    /// stand and go as far as their surface does: contacts only know velocities of bodies.
-    pub(super) fn sweep(&mut self, fraction: f64, step: f64, world: &mut World) {
-        for &place in &self.sweeping {
-            let Some((_, body)) = self.all.get_mut(place) else {
-                continue;
-            };
-            let (Some((from, to)), Some(rigid)) = (&body.sweep, world.bodies.get_mut(body.rigid))
-            else {
-                continue;
-            };
-            let next = interpolate(from, to, fraction);
-            let Some(standing) = &mut body.standing else {
-                rigid.set_next_kinematic_position(to_pose(&next));
-                continue;
-            };
-            rigid.set_position(to_pose(standing), false);
-            rigid.set_next_kinematic_position(to_pose(&drifted(&next, &body.drift, step)));
-            *standing = next;
-        }
-    }
-
-    /// Whether forces change from sub-step to sub-step.
-    pub(super) fn are_in_fluid(&self) -> bool {
-        self.iter().any(|(_, body)| body.surface.fluid.is_some())
-    }
-
-    /// Applies the forces of scripts and of fluids, in place of those of the last sub-step of `step` seconds. rapier processes every body that was changed, so
-    /// bodies without forces are left alone.
-    pub(super) fn apply_forces(&self, world: &mut World, scene: &Scene, step: f64) {
-        for (shape, body) in self.iter().filter(|(_, body)| body.build.dynamic) {
-            let Ok(shape) = scene.object(shape).and_then(|object| object.shape()) else {
-                continue;
-            };
-            let Some(rigid) = world.bodies.get(body.rigid) else {
-                continue;
-            };
-            let drag = body.surface.fluid.map(|fluid| drag(fluid, rigid, step));
-            let mut forces = drag.unwrap_or([Vector::ZERO; 2]);
-            let told = [shape.force, shape.torque].map(to_vector);
-            if told.iter().all(|force| force.is_finite()) {
-                forces = [forces[0] + told[0], forces[1] + told[1]];
-            }
-            let is_forced = forces != [Vector::ZERO; 2];
-            if !is_forced && is_free(rigid) {
-                continue;
-            }
-            let Some(rigid) = world.bodies.get_mut(body.rigid) else {
-                continue;
-            };
-            rigid.reset_forces(false);
-            rigid.reset_torques(false);
-            let wakes = told != [Vector::ZERO; 2];
-            rigid.add_force(forces[0], wakes);
-            rigid.add_torque(forces[1], wakes);
-        }
-    }
-}
-
-impl Body {
-    /// Puts a body back to where it stands whose surface does not move any more.
-    fn stop_drift(&mut self, world: &mut World) {
-        if !self.drifts()
-            && let Some(standing) = self.standing.take()
-            && let Some(rigid) = world.bodies.get_mut(self.rigid)
-        {
-            rigid.set_position(to_pose(&standing), true);
-        }
-    }
-
-    /// A static body that begins to move pushes others, and leaves others without support.
-    fn let_move(&self, world: &mut World) {
-        if let Some(rigid) = world.bodies.get_mut(self.rigid)
-            && rigid.is_fixed()
-        {
-            // rapier wakes what touches the body.
-            rigid.set_body_type(RigidBodyType::KinematicPositionBased, true);
-        }
-    }
-}
-
-/// Where a body would go with a velocity, seconds later.
-fn drifted(pose: &Pose, velocity: &Velocity, seconds: f64) -> Pose {
-    let [linear, angular] = [velocity.linear, velocity.angular].map(nalgebra::Vector3::from);
-    let shift = nalgebra::Translation3::from(linear * seconds);
-    let turn = nalgebra::UnitQuaternion::from_scaled_axis(angular * seconds);
-    Pose::from_parts(shift * pose.translation, turn * pose.rotation)
-}
-
-fn is_free(rigid: &RigidBody) -> bool {
-    rigid.user_force() == Vector::ZERO && rigid.user_torque() == Vector::ZERO
-}
-
-fn has_moved(from: &Pose, to: &Pose) -> bool {
-    let shift = (to.translation.vector - from.translation.vector).norm();
-    shift > STATIC_TOLERANCE.0 || from.rotation.angle_to(&to.rotation) > STATIC_TOLERANCE.1
 }
