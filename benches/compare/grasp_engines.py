@@ -40,7 +40,7 @@ def swanilda(case):
 
 
 class Held:
-    """What the engines of Python have in common: `tell` sets what sub-step k of the path asks for, `advance` makes some sub-steps."""
+    """What the engines of Python have in common: `command` sets what sub-step k of the path asks for, `advance` makes some sub-steps."""
 
     def __init__(self, case):
         self.case, self.path, self.rows, self.peak, self.before = case, np.array(case["path"]), [], 0.0, np.zeros(3)
@@ -64,7 +64,7 @@ class Held:
     def run(self):
         count = len(self.path)
         for k in range(count):
-            self.tell(k)
+            self.command(k)
             self.advance(1)
             self.measure(k)
             if (k + 1) % SUBSTEPS == 0:
@@ -135,7 +135,7 @@ class InMujoco(Held):
         self.data = mujoco.MjData(self.model)
         self.object, self.palm = self.model.body("object").id, self.model.body("b4").id if case["moving"] else 0
 
-    def tell(self, k):
+    def command(self, k):
         self.model.opt.gravity[:] = self.case["gravity"][k]
         self.data.ctrl[:] = self.force(k)
         if self.case["moving"]:
@@ -226,7 +226,7 @@ class InBullet(Held):
             p.changeDynamics(hand, link, localInertiaDiagonal=[6e-4] * 3)
         return hand
 
-    def tell(self, k):
+    def command(self, k):
         p.setGravity(*self.case["gravity"][k])
         for link, it in enumerate(self.case["fingers"], self.carriers):
             if it["drives"]:

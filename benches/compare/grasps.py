@@ -108,7 +108,7 @@ def main():
     with ProcessPoolExecutor(int(os.environ.get("JOBS", 1))) as pool:
         for one, done in zip(missing, pool.map(result, missing)):
             known[key(*one)] = done
-            tell(done, options.keep)
+            report(done, options.keep)
     text = table([known[key(*one)] for one in asked], engines)
     print(text) if options.only else write(text)
 
@@ -126,7 +126,7 @@ def kept(path):
     return {key(one["engine"], {name: one[name] for name in ASKED}): one for one in known}
 
 
-def tell(done, path):
+def report(done, path):
     shown = {name: f"{value:.3g}" if isinstance(value, float) else value for name, value in done.items()}
     print(*(f"{name}={value}" for name, value in shown.items()), file=sys.stderr, flush=True)
     if path:

@@ -31,10 +31,10 @@ pub(super) fn way_out(
     if !is_doubtful {
         return None;
     }
-    let (gap, axis) = parts.farthest()?;
-    let way = axis * (NUDGE - gap.min(0.0));
+    let (distance, axis) = parts.farthest()?;
+    let way = axis * (NUDGE - distance.min(0.0));
     let turned = |pose: &EnginePose| pose.rotation * way;
-    (found < gap - TOUCHING).then(|| manifold.subshape_pos1().map_or(way, turned))
+    (found < distance - TOUCHING).then(|| manifold.subshape_pos1().map_or(way, turned))
 }
 
 /// Takes back from the distances of a manifold that the second shape was moved.

@@ -274,9 +274,14 @@ mod tests {
     }
 
     /// Points of a pad beside a hull of half the `width`, with a normal from the hull to the pad.
-    fn pad_at_hull(width: f64, [yaw, across]: [f64; 2], gap: f64, is_first: bool) -> Vec<Point> {
+    fn pad_at_hull(
+        width: f64,
+        [yaw, across]: [f64; 2],
+        distance: f64,
+        is_first: bool,
+    ) -> Vec<Point> {
         let mut pose = EnginePose::from_rotation(Rotation::from_rotation_z(yaw));
-        pose.translation = Vector::new(-width - 0.005 - gap, across, 0.0);
+        pose.translation = Vector::new(-width - 0.005 - distance, across, 0.0);
         let pad = ColliderBuilder::cuboid(0.005, 0.01, 0.01).position(pose);
         let (pad, held) = (pad.build(), hull([width, 0.025, 0.025]));
         let (first, second) = if is_first {
@@ -301,21 +306,25 @@ mod tests {
             [0.0, 1e-3],
             [std::f64::consts::PI, 0.0115],
         ];
-        let gaps = (0..12).map(|power| 1e-17 * 10.0_f64.powi(power));
-        let gaps: Vec<f64> = gaps.flat_map(|gap| [gap, -gap]).chain([0.0]).collect();
+        let distances = (0..12).map(|power| 1e-17 * 10.0_f64.powi(power));
+        let distances: Vec<f64> = distances
+            .flat_map(|distance| [distance, -distance])
+            .chain([0.0])
+            .collect();
         let mut wrong = Vec::new();
         for place in places {
             for width in [0.001, 0.025, 0.03] {
-                for &gap in &gaps {
+                for &distance in &distances {
                     for is_first in [true, false] {
-                        let points = pad_at_hull(width, place, gap, is_first);
+                        let points = pad_at_hull(width, place, distance, is_first);
                         let is_right = |point: &Point| {
-                            point.normal.x < -0.999 && (point.contact.distance - gap).abs() < 1e-7
+                            point.normal.x < -0.999
+                                && (point.contact.distance - distance).abs() < 1e-7
                         };
                         if points.len() != 4 || !points.iter().all(is_right) {
                             let found = points.first().map(|p| (p.normal, p.contact.distance));
                             wrong.push(format!(
-                                "{width} {place:?} {gap:e} {is_first} {} {found:?}",
+                                "{width} {place:?} {distance:e} {is_first} {} {found:?}",
                                 points.len()
                             ));
                         }
