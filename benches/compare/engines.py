@@ -1,29 +1,19 @@
 """One scene in one engine: `run(scene, watched)` gives (rows, seconds taken); a row is the time and 13 numbers per watched body:
 position, quaternion (x, y, z, w), velocity, angular velocity. Without watched bodies only the time counts."""
 
-import json
 import os
-import subprocess
-import tempfile
 import time
 
 import mujoco
 import numpy as np
 import pybullet as p
 
+from lua_scene import run_lua
+
 STEP, SUBSTEPS = 0.005, 10
 HERE = os.path.dirname(os.path.abspath(__file__))
 # Position servos: newton metres per radian, and per radian per second.
 STIFFNESS, DAMPING, FORCE = 500.0, 50.0, 200.0
-
-
-def lua(value):
-    """A value as Lua source."""
-    if isinstance(value, dict):
-        return "{" + ",".join(f"[{json.dumps(k)}]={lua(v)}" for k, v in value.items()) + "}"
-    if isinstance(value, (list, tuple)):
-        return "{" + ",".join(lua(v) for v in value) + "}"
-    return "nil" if value is None else json.dumps(value)
 
 
 def samples(scene, advance, row, watched):
@@ -36,23 +26,15 @@ def samples(scene, advance, row, watched):
 
 
 def swanilda(scene, watched):
-    binary = os.environ.get("SWANILDA", os.path.join(HERE, "../../target/release/swanilda"))
-    with open(os.path.join(HERE, "swanilda.lua")) as file:
-        code = f"SCENE = {lua(scene)}\nWATCHED = {lua(watched)}\n" + file.read()
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "scene.lua")
-        with open(path, "w") as file:
-            file.write(code)
-        command = [binary, "run", path, "--empty", "--time", str(scene["seconds"] + 1)]
-        result = subprocess.run(command, capture_output=True, text=True, timeout=600, check=True)
+    lines = run_lua("swanilda.lua", {"SCENE": scene, "WATCHED": watched}, scene["seconds"] + 1)
     rows, took = [], None
-    for words in map(str.split, result.stdout.splitlines()):
+    for words in lines:
         if "ROW" in words:
             rows.append([float(x) for x in words[words.index("ROW") + 1:]])
         elif "TOOK" in words:
             took = float(words[-1])
     if took is None:
-        raise RuntimeError(result.stdout + result.stderr)
+        raise RuntimeError("the scene did not end")
     return np.array(rows), took
 
 

@@ -3,7 +3,6 @@
 
 import math
 import os
-import subprocess
 import tempfile
 import time
 
@@ -11,7 +10,8 @@ import mujoco
 import numpy as np
 import pybullet as p
 
-from engines import HERE, SUBSTEPS, lua
+from engines import SUBSTEPS
+from lua_scene import run_lua
 
 CLOSING_SPEED, BASE_FORCE = 0.05, 1e4
 # Of MuJoCo's servos, per metre or radian; its driving finger is slowed by a damper, since a velocity servo with a bound swings at such a step.
@@ -19,23 +19,14 @@ BASE_STIFFNESS, BASE_DAMPING, ROTOR, DRIVER_DAMPING = 1e6, 2e4, 100, 5
 
 
 def swanilda(case):
-    binary = os.environ.get("SWANILDA", os.path.join(HERE, "../../target/release/swanilda"))
-    with open(os.path.join(HERE, "grasps.lua")) as file:
-        code = f"CASE = {lua(case)}\n" + file.read()
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "scene.lua")
-        with open(path, "w") as file:
-            file.write(code)
-        command = [binary, "run", path, "--empty", "--time", "1000"]
-        result = subprocess.run(command, capture_output=True, text=True, timeout=900, check=True)
     rows, told = [], {}
-    for words in map(str.split, result.stdout.splitlines()):
+    for words in run_lua("grasps.lua", {"CASE": case}, 1000):
         if "ROW" in words:
             rows.append([float(x) for x in words[words.index("ROW") + 1:]])
         elif "TOOK" in words or "PEAK" in words:
             told[words[-2]] = float(words[-1])
     if len(told) < 2:
-        raise RuntimeError(result.stdout[-2000:] + result.stderr[-2000:])
+        raise RuntimeError("the scene did not end")
     return np.array(rows), told["PEAK"], told["TOOK"]
 
 

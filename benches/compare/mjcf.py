@@ -14,15 +14,14 @@ prints a table; without files, of those of gymnasium and, where they are install
   friction (`HARD`); here; and after as many seconds more of hard MuJoCo, which goes on from where the robot rests here.
 """
 
-import json
 import os
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import mujoco
 import numpy as np
+
+from lua_scene import run_lua
 
 HERE = Path(__file__).parent
 STEP, FINE = float(os.environ.get("STEP", 0.005)), 0.001
@@ -40,27 +39,12 @@ OTHERS = """mujoco/mjx/test_data/humanoid/humanoid dm_control/suite/humanoid dm_
     mujoco/mjx/test_data/shadow_hand/scene_right dm_control/third_party/kinova/jaco_arm"""
 
 
-def lua(value):
-    if isinstance(value, dict):
-        return "{" + ",".join(f"[{json.dumps(k)}]={lua(v)}" for k, v in value.items()) + "}"
-    if isinstance(value, (list, tuple)):
-        return "{" + ",".join(map(lua, value)) + "}"
-    return json.dumps(value)
-
-
 def swanilda(file, gravity, seconds, contacts, targets):
     """A row for every second step: time, centre of mass and mass; positions by joint. And the poses of free bodies at first and at last."""
-    binary = os.environ.get("SWANILDA", str(HERE / "../../target/release/swanilda"))
     head = {"FILE": str(file), "GRAVITY": list(gravity), "SECONDS": seconds, "STEP": STEP, "CONTACTS": contacts, "TARGETS": targets, "FIRST": first_positions(file)}
     head["FREE"] = {name: True for name, _ in free_bodies(mujoco.MjModel.from_xml_path(str(file)))}
-    code = "".join(f"{name} = {lua(value)}\n" for name, value in head.items()) + (HERE / "mjcf.lua").read_text()
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "scene.lua")
-        Path(path).write_text(code)
-        command = [binary, "run", path, "--empty", "--time", str(seconds + 1)]
-        result = subprocess.run(command, capture_output=True, text=True, timeout=900)
     rows, poses = [], {}
-    for words in map(str.split, result.stdout.splitlines()):
+    for words in run_lua("mjcf.lua", head, seconds + 1):
         for what in {"START", "END"} & set(words):
             named = (word.split("=") for word in words[words.index(what) + 1:])
             poses[what] = {name: np.array(numbers.split(","), float) for name, numbers in named}
@@ -68,7 +52,7 @@ def swanilda(file, gravity, seconds, contacts, targets):
             words = words[words.index("ROW") + 1:]
             rows.append((np.array(words[:5], float), {k: float(v) for k, v in (word.rsplit("=", 1) for word in words[5:])}))
     if not rows:
-        raise RuntimeError(result.stdout[-2000:] + result.stderr[-2000:])
+        raise RuntimeError(f"{file} did not move")
     return rows, poses
 
 
