@@ -203,7 +203,7 @@ fn set_limits(joint: &mut Joint, description: &Description, first: f64, format: 
     joint.max_vel = velocity.unwrap_or(VELOCITY);
 }
 
-/// A joint of MJCF: what acts beside its motors are MuJoCo's parameters of it, what its motors do is the result. It has the control of the first. They are told 0,
+/// A joint of MJCF: what acts beside its motors are MuJoCo's parameters of it, what its motors do is the result. It has the control of the first. Their targets are 0,
 /// or what is next to it, at first.
 fn set_actuators<'a>(
     joint: &mut Joint,
@@ -218,7 +218,7 @@ fn set_actuators<'a>(
             control = kind_of(actuator).control();
             joint.set_target_force(actuator.effort.unwrap_or(ANY_EFFORT), false);
         }
-        tell_first(joint, actuator);
+        set_initial_target(joint, actuator);
         made.add(motor_of(actuator));
     }
     joint.set_control(control);
@@ -233,14 +233,14 @@ fn kind_of(actuator: &Actuator) -> ActuatorKind {
     }
 }
 
-/// Tells a motor 0, or what is next to it.
-fn tell_first(joint: &mut Joint, actuator: &Actuator) {
-    let told = actuator
+/// The target of a motor is 0 at first, or what is next to it in its range.
+fn set_initial_target(joint: &mut Joint, actuator: &Actuator) {
+    let target = actuator
         .control
         .map_or(0.0, |[low, high]| 0.0_f64.max(low).min(high));
     match actuator.drive {
-        Drive::Position { .. } => joint.target_position = told,
-        Drive::Velocity { .. } => joint.target_velocity = told,
+        Drive::Position { .. } => joint.target_position = target,
+        Drive::Velocity { .. } => joint.target_velocity = target,
         Drive::Force => joint.set_target_force(0.0, true),
     }
 }

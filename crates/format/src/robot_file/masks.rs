@@ -13,7 +13,7 @@ use scene::shape::RespondableMask;
 /// Bits of a byte of a mask.
 const BITS: u32 = 8;
 /// Links that a search begins at.
-const MOST_BEGINNINGS: usize = 64;
+const MAX_BEGINNINGS: usize = 64;
 
 /// With what a link touches others.
 #[derive(Debug, Clone, Copy)]
@@ -66,9 +66,9 @@ impl Relations {
     }
 
     /// At most so many sets, as bits of each link.
-    fn bits(&mut self, most: u32) -> Vec<u64> {
+    fn bits(&mut self, max_sets: u32) -> Vec<u64> {
         let mut bits = vec![0; self.count];
-        for bit in 0..most {
+        for bit in 0..max_sets {
             let Some(set) = self.largest_set() else { break };
             for &link in &set {
                 bits[link] |= 1 << bit;
@@ -86,7 +86,7 @@ impl Relations {
             .filter(|link| self.open_of(*link) > 0)
             .collect();
         beginnings.sort_by_key(|link| (std::cmp::Reverse(self.open_of(*link)), *link));
-        let sets = beginnings.iter().take(MOST_BEGINNINGS);
+        let sets = beginnings.iter().take(MAX_BEGINNINGS);
         let sets: Vec<(usize, Vec<usize>)> = sets.map(|link| self.set_from(*link)).collect();
         let most = sets.iter().map(|(pairs, _)| *pairs).max()?;
         sets.into_iter()
