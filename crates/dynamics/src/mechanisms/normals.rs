@@ -25,10 +25,12 @@ pub(super) fn way_out(
     if manifold.local_n1.length_squared() < 0.5 {
         return Some(apart.translation.normalize_or_zero() * NUDGE);
     }
+    if nearest >= -DEEP && nearest.abs() >= TOUCHING {
+        return None;
+    }
     let parts = Parts::of(manifold, apart, shapes)?;
     let found = parts.separation(manifold.local_n1);
-    let is_doubtful = nearest < -DEEP || nearest.abs() < TOUCHING && found < nearest - TOUCHING;
-    if !is_doubtful {
+    if nearest >= -DEEP && found >= nearest - TOUCHING {
         return None;
     }
     let (distance, axis) = parts.farthest()?;
