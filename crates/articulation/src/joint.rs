@@ -358,6 +358,13 @@ impl Joint {
         (inertia > 0.0).then_some((axis.row, inertia))
     }
 
+    /// The square of the velocity along a soft axis times its inertia.
+    pub(crate) fn soft_square(&self, of_body: impl Fn(usize) -> Vector6<f64>) -> f64 {
+        self.soft_row().map_or(0.0, |(row, inertia)| {
+            inertia * self.axis_velocity_of(row, of_body).powi(2)
+        })
+    }
+
     /// The impulses along the free axis that are known: of a saturated motor, and what is passive.
     pub(crate) fn known_impulse(&self) -> f64 {
         self.axis.as_ref().map_or(0.0, FreeAxis::known_impulse)

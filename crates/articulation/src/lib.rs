@@ -30,9 +30,10 @@
 //! 3. A motor beyond its largest force becomes a known force (saturated), a limit that would pull becomes inactive, one that is reached
 //!    active; the system is then solved again, at most eight times: an active-set method without guarantee of the optimum, which in
 //!    practice ends after one or two solutions since it begins with the set of the step before.
-//! 4. Contacts push, with friction forces within the friction cone. Their impulses are found by nonsmooth conjugate gradients (M. Silcowitz, S. Niebe and K.
-//!    Erleben, 2010) of projected Gauss-Seidel sweeps over the response of the contacts with all joints holding, which follows from the same factor; then
-//!    the joints are solved again. Free bodies that touch the mechanism take part as guests.
+//! 4. Contacts push, with friction forces within the friction cone. Contacts are barely compliant, so that velocities minimise a convex function for given limits
+//!    of friction: Newton's method with exact line search finds them, with the resistance of contacts as inertia of the bodies of the tree (A. Castro, F. Permenter
+//!    and X. Han, 2022), and the limits follow the normal impulses. Where that does not converge, nonsmooth conjugate gradients (M. Silcowitz, S. Niebe and K.
+//!    Erleben, 2010) of projected Gauss-Seidel sweeps find the impulses. Free bodies that touch the mechanism take part as guests.
 //! 5. Light bodies under heavy tension get additional inertia, so that explicit integration stays stable (S. Andrews, M. Teichmann and
 //!    P. Kry, *Geometric stiffness for real-time constrained multibody dynamics*, 2017).
 //! 6. After the step, gaps of the joints are closed by moving the bodies along the rows with the same factor, and velocities are changed

@@ -96,6 +96,8 @@ pub(crate) struct LinkedBody {
     pub joint_impulse: Vector6<f64>,
     /// Impulses of the contacts that are solved with the mechanism.
     pub contact_impulse: Vector6<f64>,
+    /// How contacts resist motion that are solved with the joints.
+    pub contact_inertia: Option<SpatialInertia>,
     /// Impulses of external forces, contacts and the gyroscopic torque.
     pub external_impulse: Vector6<f64>,
     pub geometric_stiffness: GeometricStiffness,
@@ -132,6 +134,7 @@ impl LinkedBody {
             velocity: Vector6::zeros(),
             joint_impulse: Vector6::zeros(),
             contact_impulse: Vector6::zeros(),
+            contact_inertia: None,
             external_impulse: Vector6::zeros(),
             geometric_stiffness: GeometricStiffness::default(),
             is_guest: false,
@@ -196,12 +199,15 @@ impl LinkedBody {
         matrix
     }
 
-    /// Inertia of a body that forces move, world axes.
+    /// Inertia of a body that forces move, with the resistance of its contacts, world axes.
     pub(crate) fn spatial_inertia(&self) -> SpatialInertia {
-        if self.is_dynamic() {
-            SpatialInertia::of_body(1.0 / self.properties.inverse_mass, self.inertia)
-        } else {
-            SpatialInertia::zero()
+        if !self.is_dynamic() {
+            return SpatialInertia::zero();
+        }
+        let own = SpatialInertia::of_body(1.0 / self.properties.inverse_mass, self.inertia);
+        match &self.contact_inertia {
+            Some(contacts) => own.plus(contacts),
+            None => own,
         }
     }
 
@@ -244,6 +250,11 @@ impl LinkedBody {
     /// The momentum with all impulses but those of joints.
     pub(crate) fn free_momentum(&self) -> Vector6<f64> {
         self.momentum(&self.free_velocity) + self.known_impulse()
+    }
+
+    /// The momentum without the impulses of joints and contacts.
+    pub(crate) fn external_momentum(&self) -> Vector6<f64> {
+        self.momentum(&self.free_velocity) + self.external_impulse
     }
 
     /// The impulse of joints that leads to the velocity.

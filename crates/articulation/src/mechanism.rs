@@ -95,6 +95,7 @@ impl Mechanism {
     ) {
         self.step = step;
         self.set_contacts(&[]);
+        self.remove_contact_inertia();
         for (body, state) in self.bodies.iter_mut().zip(bodies) {
             body.set_pose(state.motion.pose);
             body.predict(state, gravity.into(), step);
@@ -123,15 +124,8 @@ impl Mechanism {
         }
         let last = MAX_ITERATIONS + MAX_CAUTIOUS_ITERATIONS - 1;
         for iteration in 0..=last {
-            if !self.system.factorize(&self.joints, &self.bodies) {
+            if !self.solve_active_set() {
                 return false;
-            }
-            self.find_impulses();
-            if self.has_contacts() {
-                self.find_contact_response();
-                if self.find_contact_impulses() {
-                    self.find_impulses();
-                }
             }
             let mut changed = iteration + 1 < MAX_ITERATIONS && self.stabilize_again();
             if iteration == last {
@@ -148,6 +142,24 @@ impl Mechanism {
         self.joints
             .iter()
             .all(|joint| joint.impulse.iter().all(|impulse| impulse.is_finite()))
+    }
+
+    /// Solves for the motors and limits that are active; false when there is no solution.
+    fn solve_active_set(&mut self) -> bool {
+        if self.has_contacts() && self.solve_by_newton() {
+            return true;
+        }
+        if !self.system.factorize(&self.joints, &self.bodies) {
+            return false;
+        }
+        self.find_impulses();
+        if self.has_contacts() {
+            self.find_contact_response();
+            if self.find_contact_impulses() {
+                self.find_impulses();
+            }
+        }
+        true
     }
 
     /// Force and torque about the centre of mass (N, N m, world axes) that an engine is to apply to each body during the step, beside

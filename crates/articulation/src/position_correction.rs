@@ -70,6 +70,9 @@ impl Mechanism {
             (largest * RELATIVE_TOLERANCE).clamp(MIN_TOLERANCE, MAX_TOLERANCE)
         };
         let (mut rate, mut is_current) = (f64::INFINITY, false);
+        if largest >= closed {
+            self.leave_contacts_out();
+        }
         let begin = (largest > LARGE_ERROR && has_loops).then(|| (largest, self.placements()));
         for _ in 0..MAX_ITERATIONS {
             if largest < closed || !largest.is_finite() || !self.system.is_factor() {
@@ -101,6 +104,15 @@ impl Mechanism {
             self.restore(&placements);
         }
         largest <= LARGE_ERROR
+    }
+
+    /// Positions are corrected along the joints alone.
+    fn leave_contacts_out(&mut self) {
+        if self.remove_contact_inertia()
+            && let Some(tree) = self.system.as_tree()
+        {
+            tree.refactorize(&self.bodies);
+        }
     }
 
     /// Finds the impulses of the joints by which the velocities are corrected.

@@ -12,6 +12,7 @@ use crate::jacobian::{InverseMass, Jacobian};
 use crate::joint::Joint;
 use crate::linked_body::LinkedBody;
 use crate::system::System;
+use crate::tree::Tree;
 
 /// Compliance of the rows as a fraction of their own response: makes systems with redundant rows, such as flat loops, solvable.
 const COMPLIANCE: f64 = 1e-9;
@@ -134,6 +135,10 @@ impl System for Rows {
 
     fn is_factor(&self) -> bool {
         self.matrix.is_factor()
+    }
+
+    fn as_tree(&mut self) -> Option<&mut Tree> {
+        None
     }
 
     fn find_impulses(&mut self, joints: &mut [Joint], bodies: &mut [LinkedBody]) {

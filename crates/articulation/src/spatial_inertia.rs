@@ -31,6 +31,15 @@ impl SpatialInertia {
         }
     }
 
+    /// The sum with another one about the same point.
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        Self {
+            linear: self.linear + other.linear,
+            coupling: self.coupling + other.coupling,
+            angular: self.angular + other.angular,
+        }
+    }
+
     /// The momentum at a velocity.
     #[inline]
     pub(crate) fn times(&self, velocity: &Vector6<f64>) -> Vector6<f64> {

@@ -24,6 +24,9 @@ pub(crate) trait System: Send {
     /// Finds the impulses of the joints and the velocities that they lead to.
     fn find_impulses(&mut self, joints: &mut [Joint], bodies: &mut [LinkedBody]);
 
+    /// The system if it is that of a tree, which takes contacts in as inertia of the bodies.
+    fn as_tree(&mut self) -> Option<&mut Tree>;
+
     /// Moves the bodies as impulses of the joints against the errors would, which are used up. Masses and axes are those of the factor.
     fn displace(&mut self, joints: &[Joint], bodies: &mut [LinkedBody], errors: &mut [Segment]);
 

@@ -122,6 +122,23 @@ impl Tree {
         }
     }
 
+    /// Prepares for solutions with other inertias of the bodies, the joints as they were.
+    pub(crate) fn refactorize(&mut self, bodies: &[LinkedBody]) -> bool {
+        for link in &mut self.links {
+            link.inertia = bodies[link.body].spatial_inertia();
+        }
+        let carry = |link: &Link, parent: &mut Link, arm: &Vector3<f64>| {
+            parent.inertia.add_shifted(&link.inertia, arm);
+        };
+        self.toward_root(Link::eliminate_axes, carry);
+        let can_respond = |axis: &Axis| axis.response >= 0.0 && axis.response.is_finite();
+        self.is_factor = self
+            .links
+            .iter()
+            .all(|link| link.axes.iter().all(can_respond));
+        self.is_factor
+    }
+
     /// Both passes: impulses on the bodies become velocities.
     fn find_velocities(&mut self) {
         self.toward_root(Link::eliminate_impulse, Link::carry_impulse);
@@ -137,8 +154,20 @@ impl Tree {
         }
     }
 
+    /// The velocities to which impulses lead, those of the joints included.
+    pub(crate) fn find_body_velocities(&mut self, joints: &[Joint], bodies: &mut [LinkedBody]) {
+        for link in &mut self.links {
+            link.impulse = bodies[link.body].free_momentum();
+            link.impose_velocity(joints, bodies);
+        }
+        self.find_velocities();
+        for link in &self.links {
+            bodies[link.body].velocity = link.velocity;
+        }
+    }
+
     /// The impulses of the joints that lead to the velocities of the bodies.
-    fn find_joint_impulses(&mut self, joints: &mut [Joint], bodies: &mut [LinkedBody]) {
+    pub(crate) fn find_joint_impulses(&mut self, joints: &mut [Joint], bodies: &mut [LinkedBody]) {
         self.links
             .iter_mut()
             .for_each(|link| link.impulse = Vector6::zeros());
@@ -208,16 +237,11 @@ impl System for Tree {
         for link in &mut self.links {
             link.place(joints, bodies);
         }
-        let carry = |link: &Link, parent: &mut Link, arm: &Vector3<f64>| {
-            parent.inertia.add_shifted(&link.inertia, arm);
-        };
-        self.toward_root(Link::eliminate_axes, carry);
-        let can_respond = |axis: &Axis| axis.response >= 0.0 && axis.response.is_finite();
-        self.is_factor = self
-            .links
-            .iter()
-            .all(|link| link.axes.iter().all(can_respond));
-        self.is_factor
+        self.refactorize(bodies)
+    }
+
+    fn as_tree(&mut self) -> Option<&mut Tree> {
+        Some(self)
     }
 
     fn is_factor(&self) -> bool {
@@ -225,14 +249,7 @@ impl System for Tree {
     }
 
     fn find_impulses(&mut self, joints: &mut [Joint], bodies: &mut [LinkedBody]) {
-        for link in &mut self.links {
-            link.impulse = bodies[link.body].free_momentum();
-            link.impose_velocity(joints, bodies);
-        }
-        self.find_velocities();
-        for link in &self.links {
-            bodies[link.body].velocity = link.velocity;
-        }
+        self.find_body_velocities(joints, bodies);
         self.find_joint_impulses(joints, bodies);
     }
 
@@ -305,7 +322,6 @@ impl Link {
 
     /// Finds the axes for where the bodies are.
     fn place(&mut self, joints: &[Joint], bodies: &[LinkedBody]) {
-        self.inertia = bodies[self.body].spatial_inertia();
         let Some(parent) = &mut self.parent else {
             (0..6).for_each(|row| self.axes[row].motion = Vector6::ith(row, 1.0));
             return;

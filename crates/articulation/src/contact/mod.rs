@@ -1,23 +1,26 @@
 //! Contacts of the bodies of a mechanism with obstacles, with guests (free bodies that touch it) and with each other: the impulses that
 //! keep them apart, with friction.
 //!
-//! A foot answers an impulse with all that stands on it. The response of the touching bodies with all joints holding is found from the
-//! factor of the system of the joints ([`System::responses`](crate::system::System::responses)); for a tree only the path between a touching
-//! body and the root is visited. Impulses are then found by projected Gauss-Seidel sweeps over the contacts, which change the velocities of the
-//! touching bodies by this response, until they do not change any more: normal impulses push, tangential ones lie in the friction cone (M. Jean,
-//! *The non-smooth contact dynamics method*, 1999).
+//! A foot answers an impulse with all that stands on it: contacts and joints are solved at once, by Newton's method ([`newton`]). Where that finds
+//! nothing in its number of iterations, projected Gauss-Seidel sweeps over the contacts find their impulses with all joints holding: normal impulses push,
+//! tangential ones lie in the friction cone (M. Jean, *The non-smooth contact dynamics method*, 1999). The response of the touching bodies follows from the
+//! factor of the system of the joints ([`System::responses`](crate::system::System::responses)); for a tree only the path between a touching body and the
+//! root is visited.
 //!
 //! Neighbours at a joint that overlap where the joint lets neither of them escape do not push each other: neither where its motion does not
 //! separate them, nor where what separates them at one point brings them together at another one, as around a ball joint between two faces.
 
+mod line_search;
+mod linear_system;
+mod linearization;
 mod neighbours;
+mod newton;
 mod restitution;
 mod row;
-mod states;
 mod sweeps;
 
 use nalgebra::{Matrix3, Matrix6x3, Vector3, Vector6};
-pub(crate) use row::{Row, Side, State};
+pub(crate) use row::{Row, Side};
 
 use crate::jacobian::InverseMass;
 use crate::linked_body::LinkedBody;
@@ -69,8 +72,8 @@ pub(crate) struct Contacts {
     /// Impulses before a sweep, and the directions in which they change.
     pub before: Vec<Vector3<f64>>,
     pub directions: Vec<Vector3<f64>>,
-    /// Whether contacts that hold yield to friction, too, as they are without joints.
-    pub holding_yields: bool,
+    /// Whether contacts cannot be solved with the joints in this step.
+    pub are_swept: bool,
 }
 
 impl Mechanism {
@@ -90,10 +93,12 @@ impl Mechanism {
         let Contacts {
             rows,
             bodies: places,
+            are_swept,
             ..
         } = system;
         places.clear();
         rows.clear();
+        *are_swept = false;
         for (contact, possible) in contacts.iter().zip(possible) {
             let contact = if possible {
                 *contact
@@ -133,25 +138,61 @@ impl Mechanism {
 
     /// Finds the impulses of the contacts of bodies that hang on nothing.
     pub(crate) fn solve_without_joints(&mut self) -> bool {
-        self.apply_contact_impulses();
-        let masses: Vec<InverseMass> = self.bodies.iter().map(LinkedBody::inverse_mass).collect();
-        for (body, mass) in self.bodies.iter_mut().zip(&masses) {
-            body.joint_impulse = Vector6::zeros();
-            body.velocity = body.free_velocity() + mass.times(&body.known_impulse());
+        if !self.has_contacts() || !self.solve_by_newton() {
+            self.solve_free_by_sweeps();
         }
-        self.contacts.find_changes(&masses);
-        if self.has_contacts() && self.find_contact_impulses() {
-            self.apply_contact_impulses();
-            let Contacts {
-                bodies, velocities, ..
-            } = &self.contacts;
-            for (&body, velocity) in bodies.iter().zip(velocities) {
-                self.bodies[body].velocity = *velocity;
-            }
-        }
+        self.limit_restitution();
         self.bodies
             .iter()
             .all(|body| body.velocity.iter().all(|x| x.is_finite()))
+    }
+
+    fn solve_free_by_sweeps(&mut self) {
+        self.apply_contact_impulses();
+        for body in &mut self.bodies {
+            body.joint_impulse = Vector6::zeros();
+            body.velocity = body.free_velocity() + body.inverse_mass().times(&body.known_impulse());
+        }
+        if self.has_contacts() {
+            self.prepare_sweeps();
+            self.contacts.sweep_to_rest();
+            self.take_swept();
+        }
+    }
+
+    /// Finds the responses to the contacts of bodies without joints, and takes their velocities.
+    fn prepare_sweeps(&mut self) {
+        let masses: Vec<InverseMass> = self.bodies.iter().map(LinkedBody::inverse_mass).collect();
+        self.contacts.find_changes(&masses);
+        self.take_velocities();
+    }
+
+    /// Takes what sweeps found.
+    fn take_swept(&mut self) {
+        self.apply_contact_impulses();
+        let Contacts {
+            bodies, velocities, ..
+        } = &self.contacts;
+        for (&body, velocity) in bodies.iter().zip(velocities) {
+            self.bodies[body].velocity = *velocity;
+        }
+    }
+
+    fn take_velocities(&mut self) {
+        let Contacts {
+            bodies, velocities, ..
+        } = &mut self.contacts;
+        velocities.clear();
+        velocities.extend(bodies.iter().map(|&body| self.bodies[body].velocity));
+    }
+
+    /// Makes rebounds of free bodies smaller if they gain energy.
+    fn limit_restitution(&mut self) {
+        if self.contacts.rows.iter().any(Row::rebounds) {
+            self.prepare_sweeps();
+            self.contacts.limit_restitution();
+            self.take_swept();
+        }
     }
 
     /// Finds how contacts respond to each other while the joints hold, from the factor of the system.
@@ -167,24 +208,7 @@ impl Mechanism {
 
     /// Finds the impulses of the contacts, the joints having been solved for those assumed so far; true when they changed.
     pub(crate) fn find_contact_impulses(&mut self) -> bool {
-        let Self {
-            bodies,
-            contacts,
-            joints,
-            ..
-        } = self;
-        contacts.velocities.clear();
-        contacts
-            .velocities
-            .extend(contacts.bodies.iter().map(|&body| bodies[body].velocity));
-        contacts.holding_yields = joints.is_empty();
-        if !contacts.holding_yields {
-            return contacts.sweep_to_rest();
-        }
-        if !contacts.solve_by_states(bodies) {
-            contacts.sweep_to_rest();
-        }
-        contacts.limit_restitution();
-        true
+        self.take_velocities();
+        self.contacts.sweep_to_rest()
     }
 }

@@ -15,10 +15,7 @@ const TOLERANCE: f64 = 1e-6;
 
 impl Contacts {
     /// Makes rebounds smaller if they gain energy.
-    pub(crate) fn limit_restitution(&mut self) {
-        if self.rows.iter().all(|row| row.restitution_velocity == 0.0) {
-            return;
-        }
+    pub(super) fn limit_restitution(&mut self) {
         let free = self.velocities_without();
         if self.gains_no_energy(&free) {
             return;
@@ -36,12 +33,19 @@ impl Contacts {
         self.scale_restitution(low);
     }
 
+    /// The velocities of the touching bodies without the impulses of the contacts.
+    fn velocities_without(&self) -> Vec<Vector6<f64>> {
+        let mut velocities = self.velocities.clone();
+        for (index, row) in self.rows.iter().enumerate() {
+            for change in self.changes_of(index) {
+                velocities[change.place] -= change.velocity * row.impulse;
+            }
+        }
+        velocities
+    }
+
     fn scale_restitution(&mut self, share: f64) {
-        for row in self
-            .rows
-            .iter_mut()
-            .filter(|row| row.restitution_velocity != 0.0)
-        {
+        for row in self.rows.iter_mut().filter(|row| row.rebounds()) {
             row.target[0] = row.obstacle[0] + row.restitution_velocity * share;
         }
         self.sweep_to_rest();

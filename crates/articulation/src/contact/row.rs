@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Matrix6x3, Vector3, Vector6};
 
 use crate::contact::Contact;
+use crate::contact::linearization::Linearization;
 use crate::linked_body::LinkedBody;
 
 /// Fraction of a penetration that is corrected in one step.
@@ -21,15 +22,7 @@ const YIELD_STIFFNESS: f64 = 1e6;
 /// The compliance beyond it is at most this part of the response of the bodies without joints, so that heavy ones do not sink in.
 const MAX_YIELD_PART: f64 = 0.02;
 /// A contact holds while its friction is below this fraction of what it transmits.
-const HOLDING: f64 = 1.0 - 1e-9;
-
-/// What a contact does.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) enum State {
-    Open,
-    Holds,
-    Slides,
-}
+pub(super) const HOLDING: f64 = 1.0 - 1e-9;
 
 /// A contact as three rows: along the normal and two tangents.
 pub(crate) struct Row {
@@ -45,10 +38,17 @@ pub(crate) struct Row {
     /// Normal velocity per impulse.
     pub compliance: f64,
     /// The same beyond the impulse to which the contact gives way.
-    yield_compliance: f64,
-    rigid_impulse: f64,
+    pub yield_compliance: f64,
+    pub rigid_impulse: f64,
     /// The same for what rebounds too, as far as a direct solution needs it.
     pub least_compliance: f64,
+    /// The impulse of the step before, and what the contact does near the last velocity.
+    pub warm: Vector3<f64>,
+    /// What is added to the least normal velocity so that a rebound does not lose what the compliance takes.
+    pub lead: f64,
+    /// The largest impulse of friction, for the normal impulse that was found last.
+    pub friction_limit: f64,
+    pub linear: Linearization,
 }
 
 /// A body at a contact.
@@ -58,21 +58,6 @@ pub(crate) struct Side {
     pub place: usize,
     /// From impulses along the axes to that on the body; its transpose is from the velocity of the body to its part of the relative velocity.
     pub jacobian: Matrix6x3<f64>,
-}
-
-impl State {
-    pub(super) fn of(row: &Row, approach: f64) -> Self {
-        let [normal, first, second] = row.impulse.into();
-        if normal <= 0.0 && approach > 0.0 {
-            return Self::Open;
-        }
-        let most = row.friction * normal;
-        if normal <= 0.0 || (first * first + second * second).sqrt() < most * HOLDING {
-            Self::Holds
-        } else {
-            Self::Slides
-        }
-    }
 }
 
 impl Row {
@@ -117,6 +102,10 @@ impl Row {
             yield_compliance: 0.0,
             rigid_impulse: MAX_RIGID_FORCE * step,
             least_compliance: 0.0,
+            warm: impulse,
+            lead: 0.0,
+            friction_limit: contact.friction * impulse[0].max(0.0),
+            linear: Linearization::open(),
         };
         let rebounds = row.set_target(contact, bodies, step, is_free);
         let response = row.free_response(bodies);
@@ -128,6 +117,7 @@ impl Row {
         if !is_free {
             row.yield_compliance = yield_compliance(step, response);
         }
+        row.linear = row.expected(row.velocity(|body| bodies[body].present_velocity())[0]);
         row
     }
 
@@ -194,7 +184,7 @@ impl Row {
     }
 
     /// Velocity of the first body relative to the second along the axes.
-    fn velocity(&self, of_body: impl Fn(usize) -> Vector6<f64>) -> Vector3<f64> {
+    pub(super) fn velocity(&self, of_body: impl Fn(usize) -> Vector6<f64>) -> Vector3<f64> {
         self.sides
             .iter()
             .flatten()
@@ -207,6 +197,11 @@ impl Row {
         let beyond = (rigid - self.rigid_impulse).max(0.0);
         rigid
             - beyond * self.yield_compliance / (response + self.compliance + self.yield_compliance)
+    }
+
+    /// Whether the bodies leave each other by restitution.
+    pub(super) fn rebounds(&self) -> bool {
+        self.restitution_velocity != 0.0
     }
 
     /// Tangential impulses within what friction transmits beside a normal one.

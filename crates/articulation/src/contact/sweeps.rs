@@ -172,12 +172,7 @@ impl Contacts {
         if row.impulse == Vector3::zeros() {
             return 0.0;
         }
-        let yields = if self.holding_yields {
-            row.compliance
-        } else {
-            0.0
-        };
-        let missing = |axis: usize| self.slip(index, axis) + yields * row.impulse[axis];
+        let missing = |axis: usize| self.slip(index, axis);
         let free = [1, 2].map(|axis| row.impulse[axis] - missing(axis) / response);
         let (first, second) = row.within_cone(row.impulse[0], free[0], free[1]);
         let change = [first - row.impulse[1], second - row.impulse[2]];

@@ -1,0 +1,300 @@
+//! The impulses of all contacts at once, and those of the joints with them.
+//!
+//! Sweeps over the contacts of a wheel that stands on a line, or of a box on four corners, need hundreds of passes, since the points share the load in many ways.
+//! With the compliance of the contacts, and the limits of friction given, the velocities are the minimum of a convex function, which is found by Newton's method with
+//! exact line search (A. Castro, F. Permenter and X. Han, *An unconstrained convex formulation of compliant contact*, 2022). The limits of friction follow the normal
+//! impulses until they agree (J. Haslinger, *Approximation of the Signorini problem with friction, obeying the Coulomb law*, 1983). All begins with what the contacts
+//! did in the step before.
+
+use nalgebra::Vector6;
+
+use crate::contact::Row;
+use crate::mechanism::Mechanism;
+
+/// Largest number of iterations.
+const MAX_ITERATIONS: usize = 60;
+/// The solver has converged when no impulse differs from the linear one by more than this fraction of the largest one.
+const TOLERANCE: f64 = 1e-7;
+
+impl Mechanism {
+    /// Finds the impulses of joints and contacts; false, and contacts as they were, where they must be found by sweeps.
+    pub(crate) fn solve_by_newton(&mut self) -> bool {
+        if self.contacts.are_swept {
+            return false;
+        }
+        if self.find_minimum() {
+            self.apply_contact_impulses();
+            self.find_joint_impulses();
+            return true;
+        }
+        self.contacts.are_swept = true;
+        for row in &mut self.contacts.rows {
+            row.impulse = row.warm;
+        }
+        self.remove_contact_inertia();
+        self.apply_contact_impulses();
+        false
+    }
+
+    fn find_minimum(&mut self) -> bool {
+        let mut before: Vec<Vector6<f64>> = Vec::new();
+        for _ in 0..MAX_ITERATIONS {
+            if !self.solve_linear() {
+                return false;
+            }
+            let is_whole = before.is_empty() || self.shorten_step(&before);
+            let mut is_found = self.linearize() && is_whole;
+            if is_found {
+                self.update_limits();
+                is_found = self.linearize();
+            }
+            if is_found {
+                return true;
+            }
+            before.clear();
+            before.extend(self.bodies.iter().map(|body| body.velocity));
+        }
+        false
+    }
+
+    /// Takes the impulses that belong to the velocities, and what contacts do near them; whether the linear ones were the same.
+    fn linearize(&mut self) -> bool {
+        let (mut error, mut largest): (f64, f64) = (0.0, 0.0);
+        for row in self.contacts.rows.iter_mut().filter(|row| row.acts()) {
+            let velocity = row.velocity(|body| self.bodies[body].velocity);
+            let assumed = row.linear.impulse_at(&(row.target - velocity));
+            (row.impulse, row.linear) = row.linearized(&velocity);
+            error = error.max((row.impulse - assumed).amax());
+            largest = largest.max(row.impulse[0]);
+        }
+        error <= TOLERANCE * largest
+    }
+
+    /// Lets friction and rebounds follow the normal impulses.
+    fn update_limits(&mut self) {
+        for row in &mut self.contacts.rows {
+            row.friction_limit = row.friction * row.impulse[0];
+            if row.rebounds() {
+                row.lead = row.least_compliance * row.impulse[0];
+            }
+        }
+    }
+}
+
+impl Row {
+    /// Whether one of the bodies can be moved.
+    pub(super) fn acts(&self) -> bool {
+        self.least_compliance > 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use geometry::Pose;
+    use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+    use test_support::random::Random;
+
+    use super::*;
+    use crate::linked_body::LinkedBody;
+    use crate::{
+        BodyMotion, BodyProperties, BodyState, Contact, JointKind, JointProperties, JointState,
+        Motor, Passive,
+    };
+
+    const STEP: f64 = 0.005;
+    const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
+
+    fn body_state(pose: Pose) -> BodyState {
+        BodyState {
+            motion: BodyMotion {
+                pose,
+                velocity: Vector6::zeros(),
+            },
+            force: Vector6::zeros(),
+            gyroscopic_velocity: Vector3::zeros(),
+            target: None,
+        }
+    }
+
+    /// A chassis on four wheels with axes along y, each of which touches the floor at two points; it moves at `velocity` along x and y.
+    fn wheels(velocity: [f64; 2], friction: f64) -> Mechanism {
+        let inertia = |of: f64| Matrix3::from_diagonal_element(of);
+        let mut bodies = vec![BodyProperties::dynamic(
+            10.0,
+            inertia(0.2),
+            Vector3::zeros(),
+        )];
+        bodies
+            .extend((0..4).map(|_| BodyProperties::dynamic(0.5, inertia(1e-3), Vector3::zeros())));
+        let places: Vec<Vector3<f64>> = [(-0.2, -0.2), (-0.2, 0.2), (0.2, -0.2), (0.2, 0.2)]
+            .map(|(x, y)| Vector3::new(x, y, -0.04))
+            .to_vec();
+        let along_y = UnitQuaternion::from_scaled_axis(Vector3::x() * -std::f64::consts::FRAC_PI_2);
+        let joint = |(wheel, place): (usize, &Vector3<f64>)| JointProperties {
+            kind: JointKind::Revolute,
+            bodies: [0, wheel + 1],
+            base: Pose::from_parts((*place).into(), along_y),
+            tip: Pose::from_parts(Vector3::zeros().into(), along_y),
+            pitch: 0.0,
+        };
+        let mut mechanism = Mechanism::new(bodies, places.iter().enumerate().map(joint).collect());
+        let mut states = vec![body_state(Pose::translation(0.0, 0.0, 0.12))];
+        states.extend(
+            places
+                .iter()
+                .map(|place| body_state(Pose::translation(place.x, place.y, place.z + 0.12))),
+        );
+        for state in &mut states {
+            (state.motion.velocity[0], state.motion.velocity[1]) = (velocity[0], velocity[1]);
+        }
+        let free = JointState {
+            position: 0.0,
+            velocity: 0.0,
+            motor: None,
+            limits: None,
+            passive: Passive::default(),
+        };
+        mechanism.begin(&states, &[free; 4], GRAVITY, STEP);
+        let touching = |(wheel, place): (usize, &Vector3<f64>)| {
+            let place = *place;
+            [-0.025, 0.025].map(move |y| Contact {
+                bodies: [Some(wheel + 1), None],
+                base: None,
+                point: [place.x, place.y + y, 0.0],
+                normal: [0.0, 0.0, 1.0],
+                distance: 0.0,
+                friction,
+                restitution: 0.0,
+                velocity: [0.0; 3],
+                impulse: [0.0; 3],
+            })
+        };
+        let contacts: Vec<Contact> = places.iter().enumerate().flat_map(touching).collect();
+        mechanism.set_contacts(&contacts);
+        mechanism
+    }
+
+    /// A guest of 1 kg between two fingers that press it along x with 20 N each.
+    fn clamp(friction: f64) -> Mechanism {
+        let inertia = Matrix3::from_diagonal_element(1e-3);
+        let body = || BodyProperties::dynamic(0.2, inertia, Vector3::zeros());
+        let bodies = vec![BodyProperties::immovable(Vector3::zeros()), body(), body()];
+        let along_x = UnitQuaternion::from_scaled_axis(Vector3::y() * std::f64::consts::FRAC_PI_2);
+        let turned = Pose::from_parts(Vector3::zeros().into(), along_x);
+        let slider = |finger: usize| JointProperties {
+            kind: JointKind::Prismatic,
+            bodies: [0, finger],
+            base: turned,
+            tip: turned,
+            pitch: 0.0,
+        };
+        let mut mechanism = Mechanism::new(bodies, vec![slider(1), slider(2)]);
+        mechanism.set_guests([BodyProperties::dynamic(1.0, inertia, Vector3::zeros())]);
+        let pressing = |velocity: f64| JointState {
+            position: 0.0,
+            velocity: 0.0,
+            motor: Some(Motor {
+                velocity,
+                max_force: 20.0,
+            }),
+            limits: None,
+            passive: Passive::default(),
+        };
+        let states = [body_state(Pose::identity()); 4];
+        mechanism.begin(&states, &[pressing(1.0), pressing(-1.0)], GRAVITY, STEP);
+        let corners = |finger: usize, x: f64| {
+            [[-0.01, -0.01], [-0.01, 0.01], [0.01, -0.01], [0.01, 0.01]].map(|[y, z]| Contact {
+                bodies: [Some(3), Some(finger)],
+                base: None,
+                point: [x, y, z],
+                normal: [-x.signum(), 0.0, 0.0],
+                distance: 0.0,
+                friction,
+                restitution: 0.0,
+                velocity: [0.0; 3],
+                impulse: [0.0; 3],
+            })
+        };
+        mechanism.set_contacts(&[corners(1, -0.02), corners(2, 0.02)].concat());
+        mechanism
+    }
+
+    #[test]
+    fn fingers_hold_what_friction_can_and_slow_the_rest() {
+        for (friction, held) in [(0.6, 1.0), (0.2, 8.0 / 9.81)] {
+            let mut mechanism = clamp(friction);
+            assert!(mechanism.solve() && !mechanism.contacts.are_swept);
+            let expected = 9.81 * STEP * (held - 1.0);
+            let velocity = mechanism.bodies[3].velocity;
+            assert!(
+                (velocity[2] - expected).abs() < 1e-5,
+                "{friction}: {velocity}"
+            );
+            assert!(velocity[0].abs() < 1e-6, "{velocity}");
+        }
+    }
+
+    fn total(mechanism: &Mechanism) -> Vector3<f64> {
+        mechanism.contact_impulses().map(Vector3::from).sum()
+    }
+
+    #[test]
+    fn wheels_bear_the_weight_and_roll() {
+        let mut mechanism = wheels([0.0; 2], 0.8);
+        assert!(mechanism.solve() && !mechanism.contacts.are_swept);
+        let weight = 12.0 * 9.81 * STEP;
+        assert!((total(&mechanism) - Vector3::z() * weight).amax() < 1e-4 * weight);
+        // Every point bears the same.
+        for impulse in mechanism.contact_impulses() {
+            assert!((impulse[2] - weight / 8.0).abs() < 1e-3 * weight);
+        }
+    }
+
+    #[test]
+    fn wheels_slide_across_and_are_slowed_by_friction() {
+        let mut mechanism = wheels([0.0, 2.0], 0.5);
+        assert!(mechanism.solve() && !mechanism.contacts.are_swept);
+        let total = total(&mechanism);
+        assert!(
+            (total[1] + 0.5 * total[2]).abs() < 1e-6 * total[2],
+            "{total}"
+        );
+        assert!(total[0].abs() < 1e-6 * total[2]);
+    }
+
+    /// Whether a contact of the solution is open, holds or slides as Coulomb says, to some digits.
+    fn check(row: &Row, bodies: &[LinkedBody], case: usize) {
+        let velocity = row.velocity(|body| bodies[body].velocity) - row.target;
+        let [normal, friction] = [row.impulse[0], row.impulse.fixed_rows::<2>(1).norm()];
+        let slip = velocity.fixed_rows::<2>(1).into_owned();
+        let limit = row.friction * normal;
+        assert!(normal >= 0.0 && friction <= limit * (1.0 + 1e-6), "{case}");
+        assert!(
+            velocity[0] > -1e-5 && velocity[0].min(normal) < 1e-6,
+            "{case}: {velocity}"
+        );
+        if friction < limit * 0.999 {
+            assert!(slip.norm() < 1e-5, "{case}: {slip}");
+        } else if slip.norm() > 1e-5 {
+            let along = row.impulse.fixed_rows::<2>(1).dot(&slip);
+            assert!(along < -0.9999 * friction * slip.norm(), "{case}: {along}");
+        }
+    }
+
+    #[test]
+    fn contacts_are_open_hold_or_slide() {
+        let mut random = Random::new(5);
+        for case in 0..300 {
+            let speed = 10f64.powf(-3.0 * random.unit());
+            let mut mechanism = wheels(
+                [random.signed() * speed, random.signed() * speed],
+                random.unit(),
+            );
+            assert!(mechanism.solve());
+            assert!(!mechanism.contacts.are_swept, "{case}");
+            for row in &mechanism.contacts.rows {
+                check(row, &mechanism.bodies, case);
+            }
+        }
+    }
+}
