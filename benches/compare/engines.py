@@ -1,6 +1,7 @@
 """One scene in one engine: `run(scene, watched)` gives (rows, seconds taken); a row is the time and 13 numbers per watched body:
 position, quaternion (x, y, z, w), velocity, angular velocity. Without watched bodies only the time counts."""
 
+import math
 import os
 import time
 
@@ -58,12 +59,16 @@ def mjcf(scene):
                      f'axis="{numbers(joint["axis"])}"/>')
         else:
             text += f'<freejoint name="j_{it["name"]}"/>'
-        half = numbers(np.multiply(it["size"], 0.5))
-        form = "sphere" if it.get("round") else "box"
-        text += f'<geom type="{form}" size="{half}" mass="{it["mass"]}" {friction}{solid}/>'
+        half = np.multiply(it["size"], 0.5)
+        form, turned = "sphere" if it.get("round") else "box", ""
+        if it.get("wheel"):
+            form, turned, half = "cylinder", ' euler="90 0 0"', half[:2]
+        text += f'<geom type="{form}"{turned} size="{numbers(half)}" mass="{it["mass"]}" {friction}{solid}/>'
         text += "".join(element(child, it["at"]) for child in scene["bodies"] if child.get("parent") == it["name"])
         if "target" in it:
             servos.append(f'<position joint="j_{it["name"]}" kp="{STIFFNESS}" kv="{DAMPING}" forcerange="-{FORCE} {FORCE}"/>')
+        if "drive" in it:
+            servos.append(f'<velocity joint="j_{it["name"]}" kv="{DAMPING}" forcerange="-{FORCE} {FORCE}"/>')
         placed[it["name"]] = it
         return text + "</body>"
 
@@ -91,7 +96,7 @@ def in_mujoco(scene, watched):
             data.qvel[start] = np.dot(it.get("spin", (0, 0, 0)), it["joint"]["axis"])
         else:
             data.qvel[start:start + 6] = [*it.get("velocity", (0, 0, 0)), *it.get("spin", (0, 0, 0))]
-    data.ctrl[:] = [it["target"] for it in scene["bodies"] if "target" in it]
+    data.ctrl[:] = [goal for it in scene["bodies"] for goal in [it.get("target", it.get("drive"))] if goal is not None]
     bodies = [model.body(name).id for name in watched]
     speed = np.zeros(6)
 
@@ -113,11 +118,16 @@ def bullet_form(scene, it):
         return -1
     if it.get("round"):
         return p.createCollisionShape(p.GEOM_SPHERE, radius=it["size"][0] / 2)
+    if it.get("wheel"):
+        return p.createCollisionShape(p.GEOM_CYLINDER, radius=it["size"][0] / 2, height=it["size"][1],
+                                      collisionFrameOrientation=[math.sqrt(0.5), 0, 0, math.sqrt(0.5)])
     return p.createCollisionShape(p.GEOM_BOX, halfExtents=np.multiply(it["size"], 0.5))
 
 
 def inertia(it):
     a, b, c = np.square(it["size"]) * it["mass"] / 12
+    if it.get("wheel"):
+        return [b + 0.75 * a, 1.5 * a, b + 0.75 * a]
     return [2 * b * 0.6] * 3 if it.get("round") else [b + c, a + c, a + b]
 
 
@@ -149,6 +159,8 @@ def bullet_tree(scene, root, links):
         p.resetJointState(body, i, 0, np.dot(it.get("spin", zero), it["joint"]["axis"]))
         if "target" in it:
             p.setJointMotorControl2(body, i, p.POSITION_CONTROL, targetPosition=it["target"], force=FORCE)
+        elif "drive" in it:
+            p.setJointMotorControl2(body, i, p.VELOCITY_CONTROL, targetVelocity=it["drive"], force=FORCE)
         else:
             p.setJointMotorControl2(body, i, p.VELOCITY_CONTROL, force=0)
     return ({root["name"]: (body, -1)} if root else {}) | {it["name"]: (body, i) for i, it in enumerate(links)}

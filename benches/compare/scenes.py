@@ -3,7 +3,8 @@
 A body is a solid box: name, size, at, mass. `joint` ties it to `parent` (a body, or None for the world) with the kind `hinge` or
 `weld` at a place about an axis; without one it is free. A body that is `round` is a ball, a `ghost` collides with nothing. Bodies that hang
 together by joints do not collide with each other. `velocity` and `spin` are those at the start. `target` is that of a position
-servo. `ties` close loops: two bodies and the point at which they meet.
+servo, `drive` the velocity of a motor. A `wheel` is a cylinder about y of the size (diameter, width, diameter).
+`ties` close loops: two bodies and the point at which they meet.
 """
 
 import math
@@ -98,6 +99,23 @@ def humanoid():
     return trunk + leg(1, -0.1) + leg(2, 0.1)
 
 
+def rover(drive):
+    """A chassis of 10 kg on four cylinders, whose motors turn at `drive` rad/s."""
+    chassis = free("chassis", (0, 0, 0.12), (0.5, 0.3, 0.1), 10)
+    return [chassis] + [
+        link(f"wheel{i}", "chassis", (x, y, 0.08), (0.16, 0.05, 0.16), 0.5, (x, y, 0.08), wheel=True, drive=drive)
+        for i, (x, y) in enumerate([(-0.2, -0.2), (-0.2, 0.2), (0.2, -0.2), (0.2, 0.2)])]
+
+
+def doors():
+    """100 boxes, each with a box on a hinge at its side, a little above the floor."""
+    def pair(i):
+        x, y = i % 10 * 0.4, i // 10 * 0.4
+        return [free(f"box{i}", (x, y, 0.06)),
+                link(f"door{i}", f"box{i}", (x + 0.11, y, 0.06), (0.1, 0.1, 0.1), 0.3, (x + 0.055, y, 0.11))]
+    return [body for i in range(100) for body in pair(i)]
+
+
 def four_bar():
     small = (0.02, 0.02, 0.2)
     return [link("crank", None, (0, 0, 1.1), small, 0.2, (0, 0, 1.0), spin=[0, 3, 0]),
@@ -123,4 +141,7 @@ SCENES = {
     "58 kg on feet of 5, 1, 0.3 and 0.1 kg": scene(10, feet([5, 1, 0.3, 0.1]), floor=True, friction=1),
     "quadruped": scene(10, quadruped(), floor=True, friction=0.8),
     "humanoid": scene(10, humanoid(), floor=True, friction=1),
+    "rover on cylinders": scene(10, rover(5.0), floor=True, friction=0.8),
+    "the same, standing": scene(10, rover(0.0), floor=True, friction=0.8),
+    "100 boxes with hinged boxes": scene(2, doors(), floor=True),
 }

@@ -4,9 +4,15 @@ sim = require 'sim'
 local handles = {}
 local AXIS <const> = {x = {0, math.pi / 2, 0}, y = {-math.pi / 2, 0, 0}, z = {0, 0, 0}}
 
+local function formOf(it)
+    return it.round and sim.primitiveshape_spheroid or it.wheel and sim.primitiveshape_cylinder or sim.primitiveshape_cuboid
+end
+
 local function shape(it, dynamic)
-    local handle = sim.createPrimitiveShape(it.round and sim.primitiveshape_spheroid or sim.primitiveshape_cuboid, it.size)
+    local size = it.wheel and {it.size[1], it.size[3], it.size[2]} or it.size
+    local handle = sim.createPrimitiveShape(formOf(it), size)
     sim.setObjectPosition(handle, it.at)
+    if it.wheel then sim.setObjectOrientation(handle, {math.pi / 2, 0, 0}) end
     sim.setBoolProperty(handle, 'dynamic', dynamic)
     sim.setBoolProperty(handle, 'respondable', SCENE.floor and not it.ghost)
     sim.setObjectInt32Param(handle, sim.shapeintparam_respondable_mask, 0xff00)
@@ -38,6 +44,10 @@ local function jointOf(it, anchor)
         sim.setIntProperty(handle, 'dynCtrlMode', sim.jointdynctrl_position)
         sim.setJointTargetForce(handle, 200)
         sim.setJointTargetPosition(handle, it.target)
+    elseif it.drive then
+        sim.setIntProperty(handle, 'dynCtrlMode', sim.jointdynctrl_velocity)
+        sim.setJointTargetForce(handle, 200)
+        sim.setJointTargetVelocity(handle, it.drive)
     end
     return handle
 end
