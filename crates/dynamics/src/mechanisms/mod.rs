@@ -7,6 +7,7 @@
 //! changes.
 
 pub(super) mod exact_contacts;
+mod face_contacts;
 mod ghosts;
 mod linked;
 mod linked_shape;

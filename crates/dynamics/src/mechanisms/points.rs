@@ -8,6 +8,7 @@ use rapier3d_f64::parry::query::{
 };
 use rapier3d_f64::prelude::{Collider, ColliderHandle};
 
+use super::face_contacts::update_at_face;
 use super::normals::{move_back, way_out};
 use crate::contacts::{ColliderPair, ContactResponse, pair_of};
 use crate::convert::{from_vector, to_vector};
@@ -96,8 +97,13 @@ impl Pair {
     /// Finds the points for where the shapes are, up to `reach` metres apart; whether there are any.
     pub(super) fn update(&mut self, first: &Collider, second: &Collider, reach: f64) -> bool {
         let apart = first.position().inv_mul(second.position());
-        let mut found = self.search(&apart, first, second, reach);
         let shapes = [first.shape(), second.shape()];
+        if let [manifold] = &mut self.manifolds[..]
+            && update_at_face(manifold, &apart, shapes, reach)
+        {
+            return self.is_within(reach);
+        }
+        let mut found = self.search(&apart, first, second, reach);
         let mut mistakes = self.manifolds.iter();
         if let Some(way) = mistakes.find_map(|manifold| way_out(manifold, &apart, shapes)) {
             let mut moved = apart;
@@ -111,8 +117,12 @@ impl Pair {
                 .iter_mut()
                 .for_each(|manifold| move_back(manifold, way));
         }
+        found && self.is_within(reach)
+    }
+
+    fn is_within(&self, reach: f64) -> bool {
         let mut points = self.manifolds.iter().flat_map(|manifold| &manifold.points);
-        found && points.any(|found| found.dist < reach)
+        points.any(|found| found.dist < reach)
     }
 
     fn search(
