@@ -29,7 +29,7 @@ impl Linearization {
 
     /// Whether it exerts anything.
     pub(crate) fn acts(&self) -> bool {
-        self.slope[(0, 0)] != 0.0
+        self.slope != Matrix3::zeros() || self.offset != Vector3::zeros()
     }
 
     /// `lag`: the target minus the velocity.
@@ -58,16 +58,13 @@ impl Row {
     pub(super) fn linearized(&self, velocity: &Vector3<f64>) -> (Vector3<f64>, Linearization) {
         let lag = self.target - velocity;
         let (normal, offset, slope) = self.normal_impulse(lag[0]);
-        if normal <= 0.0 {
-            return (Vector3::zeros(), Linearization::open());
-        }
         let (mut impulse, mut linear) = self.friction_impulse(&across(&lag));
-        linear.offset[0] = offset;
         for axis in 0..3 {
             (linear.slope[(0, axis)], linear.slope[(axis, 0)]) = (0.0, 0.0);
         }
-        linear.slope[(0, 0)] = slope;
-        impulse[0] = normal;
+        if normal > 0.0 {
+            (impulse[0], linear.offset[0], linear.slope[(0, 0)]) = (normal, offset, slope);
+        }
         (impulse, linear)
     }
 
@@ -75,9 +72,6 @@ impl Row {
     pub(super) fn exerted(&self, velocity: &Vector3<f64>) -> Vector3<f64> {
         let lag = self.target - velocity;
         let (normal, ..) = self.normal_impulse(lag[0]);
-        if normal <= 0.0 {
-            return Vector3::zeros();
-        }
         let needed = across(&self.warm) + across(&lag) / self.least_compliance;
         let length = needed.norm();
         let share = if length > self.friction_limit {
@@ -85,11 +79,14 @@ impl Row {
         } else {
             1.0
         };
-        needed * share + Vector3::new(normal, 0.0, 0.0)
+        needed * share + Vector3::new(normal.max(0.0), 0.0, 0.0)
     }
 
-    /// The part along the tangents.
+    /// The part along the tangents: up to its limit, whatever the normal impulse is, which keeps the function convex.
     fn friction_impulse(&self, lag: &Vector3<f64>) -> (Vector3<f64>, Linearization) {
+        if self.friction_limit == 0.0 {
+            return (Vector3::zeros(), Linearization::open());
+        }
         let stiffness = 1.0 / self.least_compliance;
         let warm = across(&self.warm);
         let needed = warm + lag * stiffness;

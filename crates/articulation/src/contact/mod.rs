@@ -10,6 +10,7 @@
 //! Neighbours at a joint that overlap where the joint lets neither of them escape do not push each other: neither where its motion does not
 //! separate them, nor where what separates them at one point brings them together at another one, as around a ball joint between two faces.
 
+mod friction_limits;
 mod line_search;
 mod linear_system;
 mod linearization;
