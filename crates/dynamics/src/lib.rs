@@ -40,6 +40,7 @@ use std::num::NonZero;
 use rapier3d_f64::math::Vector;
 
 use bodies::Bodies;
+pub use bodies::FormMaker;
 pub use contact_log::Contact;
 use contact_log::ContactLog;
 use contacts::ColliderPair;
@@ -85,6 +86,8 @@ pub struct Dynamics {
     known: Option<Mark>,
     call: Option<DynamicsCall>,
     workers: Workers,
+    /// How forms are made of meshes.
+    forms: FormMaker,
     /// Whether the engine has made a step since the plan was made: before it does not know new bodies.
     is_stepped: bool,
     /// Whether a joint of the engine depends on one that only the scene moves.
@@ -155,10 +158,11 @@ impl SubStep {
 }
 
 impl Dynamics {
-    /// An empty world that is computed on up to `threads` threads, which does not show in the results.
-    pub fn new(threads: NonZero<usize>) -> Self {
+    /// An empty world that is computed on up to `threads` threads, and its forms as `forms` says; neither shows in the results.
+    pub fn new(threads: NonZero<usize>, forms: FormMaker) -> Self {
         Self {
             workers: Workers::new(threads),
+            forms,
             ..Self::default()
         }
     }
@@ -167,6 +171,7 @@ impl Dynamics {
     pub fn reset(&mut self) {
         *self = Self {
             workers: std::mem::take(&mut self.workers),
+            forms: std::mem::take(&mut self.forms),
             ..Self::default()
         };
     }
@@ -218,7 +223,8 @@ impl Dynamics {
         let world = self.world.get_or_insert_with(Box::default);
         let plan = Plan::new(scene, &self.frozen);
         self.far = plan.far;
-        self.bodies.apply_plan(plan.bodies, world, scene);
+        self.bodies
+            .apply_plan(plan.bodies, world, scene, &self.forms);
         links::move_with_joints(&self.links, &plan.links, &self.bodies, world, scene);
         links::apply_plan(&mut self.links, plan.links, &self.bodies, world, scene);
         links::clear_resets(&self.links, scene);

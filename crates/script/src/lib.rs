@@ -73,7 +73,7 @@ pub use host::LevelChange;
 pub use host::Script;
 pub use log::console::{Console, LogLine, OutputStream, Silent};
 pub use lua_runtime::coverage::executable;
-pub use options::{Limits, Options};
+pub use options::{CacheFolder, Limits, Options};
 pub use property::{
     Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2,
     Vector3,

@@ -35,8 +35,8 @@ pub use native_script::{NativeScript, NativeScriptFactory};
 pub use perception::vision::{Channels, Picture};
 pub use run::{RunLimits, RunObserver, RunTotals};
 pub use script::{
-    Console, EmbeddedScript, Limits, LogLine, Options, PythonHost, RosOptions, ScriptCalls, Silent,
-    SimulationState, VideoFailure, VideoOptions, VideoView,
+    CacheFolder, Console, EmbeddedScript, Limits, LogLine, Options, PythonHost, RosOptions,
+    ScriptCalls, Silent, SimulationState, VideoFailure, VideoOptions, VideoView,
 };
 pub use viewing::PropertyRow;
 

@@ -15,7 +15,7 @@ use format::script_file;
 use format::ttt::FileError;
 use permissions::{Permissions, read_bounded};
 use script::log::verbosity;
-use simulator::{Error, Limits, Options, ScriptKind, ScriptRef, Simulator};
+use simulator::{CacheFolder, Error, Limits, Options, ScriptKind, ScriptRef, Simulator};
 
 /// Simulator options
 #[derive(clap::Args)]
@@ -50,6 +50,12 @@ pub(in crate::cli) struct Setup {
     /// Folder for persistent data of scripts [default: the user's data folder]
     #[arg(long, value_name = "FOLDER")]
     data_dir: Option<PathBuf>,
+    /// Folder for what takes long to compute, such as the convex pieces of meshes; results do not depend on it [default: the user's cache folder]
+    #[arg(long, value_name = "FOLDER")]
+    cache_dir: Option<PathBuf>,
+    /// Keep nothing that takes long to compute for the next run
+    #[arg(long, conflicts_with = "cache_dir")]
+    no_cache: bool,
     /// Folder with native plugins (libsimName.so), besides the scene's; may be repeated
     #[arg(long, value_name = "FOLDER")]
     plugin_path: Vec<PathBuf>,
@@ -163,6 +169,7 @@ impl Setup {
         let mut options = Options {
             named_params: self.define.iter().cloned().collect(),
             data_dir: self.data_dir.clone(),
+            cache: self.cache(),
             resources: self.resources.folder(),
             package_dirs: scene.map(Simulator::folder_of_scene).into_iter().collect(),
             plugin_dirs: self.plugin_path.clone(),
@@ -184,6 +191,14 @@ impl Setup {
         options.threads = options.render_threads.unwrap_or(options.threads);
         options.verbosity = self.verbosity.unwrap_or(options.verbosity);
         options
+    }
+
+    fn cache(&self) -> CacheFolder {
+        match &self.cache_dir {
+            Some(folder) => CacheFolder::Folder(folder.clone()),
+            None if self.no_cache => CacheFolder::None,
+            None => CacheFolder::User,
+        }
     }
 
     /// Add-ons come with the application, so they start first; then the scene and its script.

@@ -6,10 +6,10 @@
 use geometry::Mesh;
 use geometry::PrimitiveKind;
 use rapier3d_f64::math::{Pose as EnginePose, Rotation, Vector};
-use rapier3d_f64::parry::transformation::vhacd::{VHACD, VHACDParameters};
 use rapier3d_f64::prelude::SharedShape;
 
-use super::made_forms::{Making, form_of};
+use super::form_maker::Making;
+use super::made_forms::form_of;
 use crate::convert::{to_pose, to_vector};
 use crate::plan::PartForm;
 use scene::shape::Primitive;
@@ -19,13 +19,14 @@ const MIN_THICKNESS: f64 = 0.0001;
 /// Sizes of meshes that collide, metres; smaller and larger ones collide with nothing.
 const MESH_SIZES: std::ops::Range<f64> = 1e-6..1e6;
 
-/// Forms of one part, placed in the shape frame. Empty when the part has no volume and no surface.
+/// Forms of one part, placed in the shape frame; those of meshes were made. Empty when the part has no volume and no surface.
 pub(super) fn forms(part: &PartForm, dynamic: bool) -> Vec<(EnginePose, SharedShape)> {
     let frame = to_pose(&part.pose);
     if let Some(form) = part.primitive.as_ref().and_then(analytic) {
         return vec![(frame * form.0, form.1)];
     }
-    mesh_form(part, dynamic)
+    making(part, dynamic)
+        .and_then(|making| form_of(&part.mesh, making))
         .map(|form| vec![(frame, form)])
         .unwrap_or_default()
 }
@@ -53,48 +54,36 @@ fn analytic(primitive: &Primitive) -> Option<(EnginePose, SharedShape)> {
     })
 }
 
-fn mesh_form(part: &PartForm, dynamic: bool) -> Option<SharedShape> {
-    if part.mesh.vertices.len() < 3 || !has_size(&part.mesh) {
+/// What is to be made of the mesh of a part that collides; None where its form is analytic, or there is none.
+pub(super) fn making(part: &PartForm, dynamic: bool) -> Option<Making> {
+    if part.primitive.as_ref().and_then(analytic).is_some()
+        || part.mesh.vertices.len() < 3
+        || !has_size(&part.mesh)
+    {
         return None;
     }
-    let making = if part.convex {
+    Some(if part.convex {
         Making::Hull
     } else if dynamic && part.primitive.is_none() && has_volume(&part.mesh) {
         Making::Pieces
     } else {
         Making::Surface
-    };
-    form_of(&part.mesh, making, || make(&part.mesh, making))
+    })
 }
 
-fn make(mesh: &Mesh, making: Making) -> Option<SharedShape> {
+/// The convex hull of a mesh; None where it has no volume.
+pub(super) fn hull(mesh: &Mesh) -> Option<SharedShape> {
+    SharedShape::convex_hull(&points(mesh))
+}
+
+/// The triangles of a mesh.
+pub(super) fn surface(mesh: &Mesh) -> Option<SharedShape> {
+    SharedShape::trimesh(points(mesh), mesh.triangles.clone()).ok()
+}
+
+pub(super) fn points(mesh: &Mesh) -> Vec<Vector> {
     let vertices = mesh.vertices.iter();
-    let points: Vec<Vector> = vertices.map(|&vertex| to_vector(vertex)).collect();
-    let solid = match making {
-        Making::Hull => SharedShape::convex_hull(&points),
-        Making::Pieces => pieces(&points, mesh),
-        Making::Surface => None,
-    };
-    solid.or_else(|| surface(points, mesh))
-}
-
-/// The convex pieces of a mesh, if it has an inside.
-fn pieces(points: &[Vector], mesh: &Mesh) -> Option<SharedShape> {
-    let hulls = VHACD::decompose(&VHACDParameters::default(), points, &mesh.triangles, true)
-        .compute_exact_convex_hulls(points, &mesh.triangles);
-    let convex = |(points, triangles): (Vec<Vector>, Vec<[u32; 3]>)| {
-        SharedShape::convex_mesh(points, &triangles)
-    };
-    let parts: Vec<_> = hulls
-        .into_iter()
-        .filter_map(convex)
-        .map(|piece| (EnginePose::IDENTITY, piece))
-        .collect();
-    (!parts.is_empty()).then(|| SharedShape::compound(parts))
-}
-
-fn surface(points: Vec<Vector>, mesh: &Mesh) -> Option<SharedShape> {
-    SharedShape::trimesh(points, mesh.triangles.clone()).ok()
+    vertices.map(|&vertex| to_vector(vertex)).collect()
 }
 
 /// Whether the geometry of a mesh can be computed with.

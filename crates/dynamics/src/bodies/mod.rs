@@ -2,8 +2,11 @@
 
 mod colliders;
 mod forces;
+mod form_maker;
+mod kept_hulls;
 mod made_forms;
 mod mass;
+mod pieces;
 mod sweeps;
 mod tag;
 
@@ -18,6 +21,8 @@ use rapier3d_f64::prelude::{
 use super::convert::{from_pose, to_pose, to_vector};
 use super::plan::{BodyBuild, BodyPlan, FrictionRule, Surface, is_far};
 use super::world::{ALL_HOOKS, World};
+pub use form_maker::FormMaker;
+use made_forms::make_all;
 use mass::{carrier, mass_properties, massless};
 use scene::shape::Velocity;
 use scene::{Field, Handle, Pose, Scene};
@@ -93,7 +98,9 @@ impl Bodies {
         plan: Vec<(Handle, BodyPlan)>,
         world: &mut World,
         scene: &mut Scene,
+        maker: &FormMaker,
     ) {
+        make_forms(&plan, maker);
         let mut old: BTreeMap<Handle, Body> = std::mem::take(&mut self.all).into_iter().collect();
         self.places = plan
             .iter()
@@ -122,6 +129,17 @@ impl Bodies {
             world.remove_body(body.rigid);
         }
     }
+}
+
+/// Makes the forms of all meshes that collide.
+fn make_forms(plan: &[(Handle, BodyPlan)], maker: &FormMaker) {
+    let builds = plan.iter().map(|(_, plan)| &plan.build);
+    let parts = builds
+        .filter(|build| build.respondable)
+        .flat_map(|build| build.parts.iter().map(|part| (part, build.dynamic)));
+    let meshes =
+        parts.filter_map(|(part, dynamic)| Some((&part.mesh, colliders::making(part, dynamic)?)));
+    make_all(meshes, maker);
 }
 
 /// A static body that is reset stays, with its contacts, unless it was moved: then it is elsewhere at once, without a way there.

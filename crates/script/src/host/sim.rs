@@ -59,7 +59,8 @@ impl Sim {
         languages: Languages,
     ) -> Rc<Self> {
         let perception = RefCell::new(Perception::new(options.seed, options.render_threads));
-        let dynamics = RefCell::new(Some(Dynamics::new(options.threads)));
+        let dynamics = Dynamics::new(options.threads, options.form_maker());
+        let dynamics = RefCell::new(Some(dynamics));
         Rc::new(Self {
             perception,
             log: Log::new(console, options.verbosity),

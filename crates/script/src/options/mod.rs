@@ -1,5 +1,6 @@
 //! The options of a simulator.
 
+mod cache;
 mod waiting;
 
 use std::collections::BTreeMap;
@@ -12,6 +13,7 @@ use std::sync::atomic::AtomicBool;
 use crate::log::verbosity;
 use crate::random::Random;
 use crate::ros_options::RosOptions;
+pub use cache::CacheFolder;
 use permissions::Permissions;
 
 /// The options of a simulator.
@@ -25,6 +27,8 @@ pub struct Options {
     pub named_params: BTreeMap<String, String>,
     /// Folder of the data scripts keep beyond the life of the program; None: where the system keeps the user's.
     pub data_dir: Option<std::path::PathBuf>,
+    /// Where to keep what takes long to compute, for itself and for other processes.
+    pub cache: CacheFolder,
     /// Folder of an installation of CoppeliaSim, with its `models` and `lua`. Scripts read it where they may read the scene's folder.
     pub resources: Option<std::path::PathBuf>,
     /// Folders `require` looks into first.
@@ -45,7 +49,7 @@ pub struct Options {
     pub count_lines: bool,
     /// Whether the error for a missing module has CoppeliaSim's text, with every place that was searched.
     pub original_errors: bool,
-    /// Threads that draw pictures; None for as many as there are processor cores. Pictures do not depend on it.
+    /// Threads that draw pictures and divide meshes into convex pieces; None for as many as there are processor cores. Results do not depend on it.
     pub render_threads: Option<NonZero<usize>>,
     /// Threads that compute mechanisms that are apart, such as robots. Results do not depend on it.
     pub threads: NonZero<usize>,
@@ -64,6 +68,7 @@ impl Default for Options {
             verbosity: verbosity::SCRIPT_INFOS,
             named_params: BTreeMap::new(),
             data_dir: None,
+            cache: CacheFolder::default(),
             resources: None,
             package_dirs: Vec::new(),
             plugin_dirs: Vec::new(),

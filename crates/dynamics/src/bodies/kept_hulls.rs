@@ -1,0 +1,215 @@
+//! Convex hulls as bytes, to be kept in a file.
+//!
+//! All numbers are little-endian: the number of hulls (4 bytes); then for each its numbers of points and of triangles (4 each), the points
+//! (3 times 8) and the triangles (3 times 4).
+//!
+//! A file may have been written by anyone: what is read is a list of closed, convex surfaces, or nothing.
+
+use nalgebra::Vector3;
+
+/// The surface of a convex piece.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Hull {
+    /// Metres.
+    pub points: Vec<[f64; 3]>,
+    /// Indices into `points`, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// Volume by which two triangles beside each other may be less than convex, as a part of the cube around the origin with the hull in it: hulls
+/// are computed with rounding errors, which turn the normals of narrow triangles.
+const MAX_DENT: f64 = 1e-12;
+
+pub(super) fn encode(hulls: &[Hull]) -> Vec<u8> {
+    let mut bytes = (hulls.len() as u32).to_le_bytes().to_vec();
+    for hull in hulls {
+        bytes.extend((hull.points.len() as u32).to_le_bytes());
+        bytes.extend((hull.triangles.len() as u32).to_le_bytes());
+        let numbers = hull.points.iter().flatten();
+        bytes.extend(numbers.flat_map(|number| number.to_le_bytes()));
+        let indices = hull.triangles.iter().flatten();
+        bytes.extend(indices.flat_map(|index| index.to_le_bytes()));
+    }
+    bytes
+}
+
+/// None where the bytes are no list of hulls, or one of them is not convex.
+pub(super) fn decode(mut bytes: &[u8]) -> Option<Vec<Hull>> {
+    let mut hulls = Vec::new();
+    for _ in 0..count(&mut bytes)? {
+        hulls.push(hull(&mut bytes).filter(Hull::is_convex)?);
+    }
+    bytes.is_empty().then_some(hulls)
+}
+
+fn hull(bytes: &mut &[u8]) -> Option<Hull> {
+    let counts = [count(bytes)?, count(bytes)?];
+    Some(Hull {
+        points: triples(bytes, counts[0], f64::from_le_bytes)?,
+        triangles: triples(bytes, counts[1], u32::from_le_bytes)?,
+    })
+}
+
+fn count(bytes: &mut &[u8]) -> Option<usize> {
+    let (first, rest) = bytes.split_first_chunk()?;
+    *bytes = rest;
+    usize::try_from(u32::from_le_bytes(*first)).ok()
+}
+
+/// So many times three numbers of `N` bytes. Memory is only taken for what is there.
+fn triples<T, const N: usize>(
+    bytes: &mut &[u8],
+    count: usize,
+    number: fn([u8; N]) -> T,
+) -> Option<Vec<[T; 3]>> {
+    let (all, rest) = bytes.split_at_checked(count.checked_mul(3 * N)?)?;
+    *bytes = rest;
+    let of = |three: &[u8]| {
+        let mut numbers = three.as_chunks::<N>().0.iter().copied().map(number);
+        Some([numbers.next()?, numbers.next()?, numbers.next()?])
+    };
+    all.chunks_exact(3 * N).map(of).collect()
+}
+
+impl Hull {
+    /// Whether the triangles are one closed surface, on which all edges are convex.
+    fn is_convex(&self) -> bool {
+        let numbers = || self.points.iter().flatten().copied();
+        let Some(edges) = self.edges().filter(|_| numbers().all(f64::is_finite)) else {
+            return false;
+        };
+        // Euler's formula; each edge is here in both directions.
+        let is_sphere = self.points.len() + self.triangles.len() == edges.len() / 2 + 2;
+        let limit = MAX_DENT * numbers().map(f64::abs).fold(0.0, f64::max).powi(3);
+        let is_convex = |&([from, to], corner): &([u32; 2], u32)| {
+            let back = edges.binary_search_by_key(&[to, from], |(edge, _)| *edge);
+            back.is_ok_and(|back| self.volume(edges[back].1, [from, to, corner]) <= limit)
+        };
+        is_sphere && edges.iter().all(is_convex)
+    }
+
+    /// The directed edges with the third corners of their triangles, sorted; None where one occurs twice, or a corner does not exist.
+    fn edges(&self) -> Option<Vec<([u32; 2], u32)>> {
+        let mut edges = Vec::with_capacity(3 * self.triangles.len());
+        for &[a, b, c] in &self.triangles {
+            let is_there = |&corner: &u32| (corner as usize) < self.points.len();
+            if ![a, b, c].iter().all(is_there) || a == b || b == c || c == a {
+                return None;
+            }
+            edges.extend([([a, b], c), ([b, c], a), ([c, a], b)]);
+        }
+        edges.sort_unstable();
+        let are_different = edges.windows(2).all(|pair| pair[0].0 != pair[1].0);
+        are_different.then_some(edges)
+    }
+
+    /// Six times the volume between a triangle and a point in front of it, cubic metres; negative behind it.
+    fn volume(&self, point: u32, triangle: [u32; 3]) -> f64 {
+        let at = |index: u32| Vector3::from(self.points[index as usize]);
+        let [a, b, c] = triangle.map(at);
+        (b - a).cross(&(c - a)).dot(&(at(point) - a))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tetrahedron() -> Hull {
+        Hull {
+            points: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+        }
+    }
+
+    fn is_read(change: impl FnOnce(&mut Hull)) -> bool {
+        let mut hull = tetrahedron();
+        change(&mut hull);
+        decode(&encode(&[hull])).is_some()
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        for hulls in [vec![], vec![tetrahedron()], vec![tetrahedron(); 3]] {
+            assert_eq!(decode(&encode(&hulls)), Some(hulls));
+        }
+    }
+
+    #[test]
+    fn incomplete_bytes_are_nothing() {
+        let bytes = encode(&vec![tetrahedron(); 2]);
+        for length in 0..bytes.len() {
+            assert_eq!(decode(&bytes[..length]), None, "{length}");
+        }
+        assert_eq!(decode(&[&bytes[..], &[0]].concat()), None);
+    }
+
+    #[test]
+    fn large_counts_take_no_memory() {
+        for counts in [[u32::MAX, 0, 0], [1, u32::MAX, 1], [1, 1, u32::MAX]] {
+            let bytes: Vec<u8> = counts
+                .iter()
+                .flat_map(|count| count.to_le_bytes())
+                .collect();
+            assert_eq!(decode(&bytes), None);
+        }
+    }
+
+    #[test]
+    fn only_closed_convex_surfaces_are_read() {
+        assert!(is_read(|_| ()));
+        assert!(
+            !is_read(|hull| hull.triangles[0][0] = 4),
+            "a corner that is not there"
+        );
+        assert!(
+            !is_read(|hull| hull.triangles[0] = [0, 2, 2]),
+            "an edge without length"
+        );
+        assert!(!is_read(|hull| hull.triangles.truncate(3)), "an opening");
+        assert!(!is_read(|hull| hull.triangles.clear()), "no surface");
+        assert!(
+            !is_read(|hull| hull.triangles[0].swap(0, 1)),
+            "a face inside out"
+        );
+        assert!(
+            !is_read(|hull| hull.triangles.push([0, 2, 1])),
+            "a face twice"
+        );
+        assert!(
+            !is_read(|hull| hull.points.push([2.0; 3])),
+            "a point without faces"
+        );
+        assert!(
+            !is_read(|hull| hull.points[3] = [0.0, 0.0, -1.0]),
+            "faces inside out"
+        );
+        assert!(!is_read(|hull| hull.points[3][0] = f64::NAN), "no number");
+        assert!(
+            !is_read(|hull| hull.points[3][0] = f64::INFINITY),
+            "no number"
+        );
+    }
+
+    #[test]
+    fn two_hulls_are_not_one() {
+        let mut both = tetrahedron();
+        both.points.extend(tetrahedron().points);
+        let further = tetrahedron().triangles.into_iter();
+        both.triangles
+            .extend(further.map(|triangle| triangle.map(|corner| corner + 4)));
+        assert_eq!(decode(&encode(&[both])), None);
+    }
+
+    #[test]
+    fn a_dent_is_noticed() {
+        let mut dented = tetrahedron();
+        // The slanted face becomes three, around a point that lies further in.
+        dented.triangles.pop();
+        dented.points.push([0.2; 3]);
+        dented.triangles.extend([[1, 2, 4], [2, 3, 4], [3, 1, 4]]);
+        assert_eq!(decode(&encode(std::slice::from_ref(&dented))), None);
+        dented.points[4] = [0.5; 3];
+        assert!(decode(&encode(&[dented])).is_some());
+    }
+}
