@@ -6,9 +6,11 @@
 use geometry::Mesh;
 use geometry::PrimitiveKind;
 use rapier3d_f64::math::{Pose as EnginePose, Rotation, Vector};
+use rapier3d_f64::parry::shape::ConvexPolyhedron;
 use rapier3d_f64::prelude::SharedShape;
 
 use super::form_maker::Making;
+use super::hull_shape::hull_shape;
 use super::made_forms::form_of;
 use crate::convert::{to_pose, to_vector};
 use crate::plan::PartForm;
@@ -73,7 +75,7 @@ pub(super) fn making(part: &PartForm, dynamic: bool) -> Option<Making> {
 
 /// The convex hull of a mesh; None where it has no volume.
 pub(super) fn hull(mesh: &Mesh) -> Option<SharedShape> {
-    SharedShape::convex_hull(&points(mesh))
+    ConvexPolyhedron::from_convex_hull(&points(mesh)).map(hull_shape)
 }
 
 /// The triangles of a mesh.

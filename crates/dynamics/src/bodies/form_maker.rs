@@ -149,7 +149,7 @@ mod tests {
         let (form, new) = maker.pieces(mesh);
         let form = form.expect("the mesh has an inside");
         let parts = form.as_compound().expect("there are several").shapes();
-        let hulls = parts.iter().map(|(_, hull)| hull.as_convex_polyhedron());
+        let hulls = parts.iter().map(|(_, hull)| hull.as_typed_shape());
         (format!("{:?}", hulls.collect::<Vec<_>>()), new.is_some())
     }
 

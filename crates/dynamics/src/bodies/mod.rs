@@ -3,6 +3,7 @@
 mod colliders;
 mod forces;
 mod form_maker;
+mod hull_shape;
 mod kept_hulls;
 mod made_forms;
 mod mass;

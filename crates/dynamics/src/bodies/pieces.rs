@@ -3,9 +3,11 @@
 use file_cache::Key;
 use geometry::Mesh;
 use rapier3d_f64::math::{Pose as EnginePose, Vector};
+use rapier3d_f64::parry::shape::ConvexPolyhedron;
 use rapier3d_f64::parry::transformation::vhacd::{VHACD, VHACDParameters};
 use rapier3d_f64::prelude::SharedShape;
 
+use super::hull_shape::hull_shape;
 use super::kept_hulls::Hull;
 use crate::convert::{from_vector, to_vector};
 
@@ -53,7 +55,7 @@ pub(super) fn are_within(hulls: &[Hull], mesh: &Mesh) -> bool {
 pub(super) fn form(hulls: &[Hull]) -> Option<SharedShape> {
     let piece = |hull: &Hull| {
         let points = hull.points.iter().map(|&point| to_vector(point));
-        SharedShape::convex_mesh(points.collect(), &hull.triangles)
+        ConvexPolyhedron::from_convex_mesh(points.collect(), &hull.triangles).map(hull_shape)
     };
     let parts: Vec<_> = hulls
         .iter()
