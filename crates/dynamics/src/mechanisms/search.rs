@@ -103,7 +103,7 @@ impl<'a> Search<'a> {
     pub(super) fn run(&mut self, pairs: &mut BTreeMap<ColliderPair, Pair>) -> Option<()> {
         while let Some(collider) = self.queue.pop() {
             for colliders in self.world.near(collider, self.conditions.step) {
-                if self.seen.insert(pair_of(colliders)) {
+                if self.may_touch(colliders) && self.seen.insert(pair_of(colliders)) {
                     self.look_at(colliders, pairs)?;
                 }
             }
@@ -113,6 +113,16 @@ impl<'a> Search<'a> {
         }
         ghosts::remove_seams(&mut self.points, &self.world.colliders);
         Some(())
+    }
+
+    /// Whether two colliders are of different bodies and no mask forbids that they touch: the pieces of a robot's own links have hundreds of pairs.
+    fn may_touch(&self, colliders: [ColliderHandle; 2]) -> bool {
+        let Some([first, second]) = self.world.known.both(colliders) else {
+            return false;
+        };
+        let tags = [first, second].map(|known| Tag::unpack(known.tag));
+        let response = self.conditions.verdicts.response(tags[0], tags[1]);
+        first.body != second.body && response != ContactResponse::NoCollision
     }
 
     /// Adds the points of a pair, and its guest; None when the mechanism cannot solve it.
