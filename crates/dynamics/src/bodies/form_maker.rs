@@ -39,6 +39,9 @@ impl Default for FormMaker {
     }
 }
 
+/// What is to be made of which mesh; what convex pieces depend on.
+pub(super) type Order<'a> = (&'a Mesh, Making, Option<Key>);
+
 /// A form that was made, and what is to be kept of it.
 struct Made {
     form: Option<SharedShape>,
@@ -47,10 +50,8 @@ struct Made {
 
 impl FormMaker {
     /// The forms of meshes, in their order; None where there is none.
-    pub(super) fn make(&self, wanted: &[(&Mesh, Making)]) -> Vec<Option<SharedShape>> {
-        let made = for_each(self.threads, wanted, |(mesh, making)| {
-            self.form(mesh, *making)
-        });
+    pub(super) fn make(&self, wanted: &[Order<'_>]) -> Vec<Option<SharedShape>> {
+        let made = for_each(self.threads, wanted, |order| self.form(*order));
         let (forms, new): (Vec<_>, Vec<_>) =
             made.into_iter().map(|made| (made.form, made.new)).unzip();
         if let Some(kept) = &self.kept {
@@ -59,10 +60,10 @@ impl FormMaker {
         forms
     }
 
-    fn form(&self, mesh: &Mesh, making: Making) -> Made {
+    fn form(&self, (mesh, making, key): Order<'_>) -> Made {
         let (solid, new) = match making {
             Making::Hull => (colliders::hull(mesh), None),
-            Making::Pieces => self.pieces(mesh),
+            Making::Pieces => self.pieces(mesh, key),
             Making::Surface => (None, None),
         };
         let form = solid.or_else(|| colliders::surface(mesh));
@@ -70,11 +71,14 @@ impl FormMaker {
     }
 
     /// The pieces of a mesh, and what is to be kept where they were not.
-    fn pieces(&self, mesh: &Mesh) -> (Option<SharedShape>, Option<(Key, Vec<u8>)>) {
-        let Some(kept) = &self.kept else {
+    fn pieces(
+        &self,
+        mesh: &Mesh,
+        key: Option<Key>,
+    ) -> (Option<SharedShape>, Option<(Key, Vec<u8>)>) {
+        let Some((kept, key)) = self.kept.as_ref().zip(key) else {
             return (pieces::form(&pieces::hulls(mesh)), None);
         };
-        let key = pieces::key(mesh);
         if let Some(hulls) = kept.get(&key).and_then(|bytes| read(mesh, &bytes)) {
             return (pieces::form(&hulls), None);
         }
@@ -146,7 +150,7 @@ mod tests {
             kept: Some(kept.clone()),
             ..FormMaker::default()
         };
-        let (form, new) = maker.pieces(mesh);
+        let (form, new) = maker.pieces(mesh, Some(pieces::key(mesh)));
         let form = form.expect("the mesh has an inside");
         let parts = form.as_compound().expect("there are several").shapes();
         let hulls = parts.iter().map(|(_, hull)| hull.as_typed_shape());
@@ -163,7 +167,8 @@ mod tests {
             kept: Some(kept.clone()),
             ..FormMaker::default()
         };
-        assert!(maker.make(&[(&mesh, Making::Pieces)])[0].is_some());
+        let order = (&mesh, Making::Pieces, Some(pieces::key(&mesh)));
+        assert!(maker.make(&[order])[0].is_some());
         assert_eq!(pieces_of(&mesh, &kept), (computed, false));
     }
 

@@ -75,32 +75,20 @@ impl Hull {
     /// Whether the triangles are one closed surface, on which all edges are convex.
     fn is_convex(&self) -> bool {
         let numbers = || self.points.iter().flatten().copied();
-        let Some(edges) = self.edges().filter(|_| numbers().all(f64::is_finite)) else {
+        let Some(edges) = Edges::of(self).filter(|_| numbers().all(f64::is_finite)) else {
             return false;
         };
         // Euler's formula; each edge is here in both directions.
-        let is_sphere = self.points.len() + self.triangles.len() == edges.len() / 2 + 2;
+        let is_sphere = self.points.len() + self.triangles.len() == edges.all.len() / 2 + 2;
         let limit = MAX_DENT * numbers().map(f64::abs).fold(0.0, f64::max).powi(3);
-        let is_convex = |&([from, to], corner): &([u32; 2], u32)| {
-            let back = edges.binary_search_by_key(&[to, from], |(edge, _)| *edge);
-            back.is_ok_and(|back| self.volume(edges[back].1, [from, to, corner]) <= limit)
+        let is_convex = |&triangle: &[u32; 3]| {
+            let [a, b, c] = triangle;
+            let beyond = [[b, a], [c, b], [a, c]].map(|back| edges.corner(back));
+            let rises =
+                |point: Option<u32>| point.is_none_or(|point| self.volume(point, triangle) > limit);
+            !beyond.into_iter().any(rises)
         };
-        is_sphere && edges.iter().all(is_convex)
-    }
-
-    /// The directed edges with the third corners of their triangles, sorted; None where one occurs twice, or a corner does not exist.
-    fn edges(&self) -> Option<Vec<([u32; 2], u32)>> {
-        let mut edges = Vec::with_capacity(3 * self.triangles.len());
-        for &[a, b, c] in &self.triangles {
-            let is_there = |&corner: &u32| (corner as usize) < self.points.len();
-            if ![a, b, c].iter().all(is_there) || a == b || b == c || c == a {
-                return None;
-            }
-            edges.extend([([a, b], c), ([b, c], a), ([c, a], b)]);
-        }
-        edges.sort_unstable();
-        let are_different = edges.windows(2).all(|pair| pair[0].0 != pair[1].0);
-        are_different.then_some(edges)
+        is_sphere && self.triangles.iter().all(is_convex)
     }
 
     /// Six times the volume between a triangle and a point in front of it, cubic metres; negative behind it.
@@ -108,6 +96,53 @@ impl Hull {
         let at = |index: u32| Vector3::from(self.points[index as usize]);
         let [a, b, c] = triangle.map(at);
         (b - a).cross(&(c - a)).dot(&(at(point) - a))
+    }
+}
+
+/// The directed edges of triangles.
+struct Edges {
+    /// Where the edges from each point begin in `all`, and where those of the last one end.
+    starts: Vec<usize>,
+    /// Where an edge leads, and the third corner of its triangle; rising among those from one point.
+    all: Vec<(u32, u32)>,
+}
+
+impl Edges {
+    /// None where an edge occurs twice or has no length, or a corner does not exist.
+    fn of(hull: &Hull) -> Option<Self> {
+        let edges = || {
+            hull.triangles
+                .iter()
+                .flat_map(|&[a, b, c]| [[a, b, c], [b, c, a], [c, a, b]])
+        };
+        let mut starts = vec![0; hull.points.len() + 1];
+        for [from, to, _] in edges() {
+            *starts.get_mut(from as usize + 1).filter(|_| from != to)? += 1;
+        }
+        for point in 1..starts.len() {
+            starts[point] += starts[point - 1];
+        }
+        let mut ends = starts.clone();
+        let mut all = vec![(0, 0); 3 * hull.triangles.len()];
+        for [from, to, corner] in edges() {
+            let end = &mut ends[from as usize];
+            all[*end] = (to, corner);
+            *end += 1;
+        }
+        let are_different = starts.windows(2).all(|ends| {
+            let from_one = &mut all[ends[0]..ends[1]];
+            from_one.sort_unstable();
+            from_one.windows(2).all(|two| two[0].0 != two[1].0)
+        });
+        are_different.then_some(Self { starts, all })
+    }
+
+    /// The third corner of the triangle at an edge, if there is one.
+    fn corner(&self, [from, to]: [u32; 2]) -> Option<u32> {
+        let from = from as usize;
+        let edges = &self.all[self.starts[from]..self.starts[from + 1]];
+        let place = edges.binary_search_by_key(&to, |(to, _)| *to).ok()?;
+        Some(edges[place].1)
     }
 }
 

@@ -52,7 +52,7 @@ pub(super) fn make_all<'a>(
     let missing: Vec<_> = wanted.iter().filter(is_missing).collect();
     let order: Vec<_> = missing
         .iter()
-        .map(|wanted| (&**wanted.mesh, wanted.making))
+        .map(|wanted| (&**wanted.mesh, wanted.making, wanted.key))
         .collect();
     for (wanted, form) in missing.into_iter().zip(maker.make(&order)) {
         match wanted.key {

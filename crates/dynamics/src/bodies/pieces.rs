@@ -67,6 +67,7 @@ pub(super) fn form(hulls: &[Hull]) -> Option<SharedShape> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::kept_hulls::{decode, encode};
     use super::*;
 
     #[test]
@@ -80,6 +81,24 @@ mod tests {
             ALGORITHM.contains(&format!("parry3d-f64 {version},")),
             "another version of parry may divide meshes differently: name it in ALGORITHM"
         );
+    }
+
+    #[test]
+    fn what_is_read_from_damaged_bytes_is_a_form() {
+        let tetrahedron = Hull {
+            points: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+        };
+        let bytes = encode(&[tetrahedron.clone(), tetrahedron]);
+        let read = |bytes: &[u8]| decode(bytes).map(|hulls| form(&hulls).is_some());
+        for (at, bits) in (0..bytes.len()).flat_map(|at| [1, 2, 4, 0x80].map(|bits| (at, bits))) {
+            let mut damaged = bytes.clone();
+            damaged[at] ^= bits;
+            assert_ne!(read(&damaged), Some(false), "byte {at}");
+            let other = (at * 7 + usize::from(bits)) % bytes.len();
+            damaged.swap(at, other);
+            assert_ne!(read(&damaged), Some(false), "bytes {at} and {other}");
+        }
     }
 
     #[test]
