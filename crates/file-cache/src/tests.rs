@@ -1,3 +1,5 @@
+//! Files that are damaged, foreign, too many, or written by several at once.
+
 use super::*;
 
 const LIMIT: u64 = 1 << 16;
