@@ -101,7 +101,6 @@ impl Bodies {
         scene: &mut Scene,
         maker: &FormMaker,
     ) {
-        make_forms(&plan, maker);
         let mut old: BTreeMap<Handle, Body> = std::mem::take(&mut self.all).into_iter().collect();
         self.places = plan
             .iter()
@@ -109,15 +108,12 @@ impl Bodies {
             .map(|(place, (shape, _))| (*shape, place))
             .collect();
         self.are_in_fluid = plan.iter().any(|(_, plan)| plan.surface.fluid.is_some());
-        for (shape, plan) in plan {
-            let is_unchanged =
-                |body: &Body| body.build == plan.build && !wants_rebuild(scene, shape, body, world);
+        let stay = staying(&plan, &old, world, scene);
+        let made = plan.iter().zip(&stay).filter(|(_, stays)| !**stays);
+        make_forms(made.map(|((_, plan), _)| &plan.build), maker);
+        for ((shape, plan), stays) in plan.into_iter().zip(stay) {
             // Bodies that no longer exist stay in `old`, to be removed from the engine.
-            let existing = if old.get(&shape).is_some_and(is_unchanged) {
-                old.remove(&shape)
-            } else {
-                None
-            };
+            let existing = if stays { old.remove(&shape) } else { None };
             let body = match existing {
                 Some(body) => body
                     .with_surface(shape, plan.surface, world)
@@ -132,9 +128,23 @@ impl Bodies {
     }
 }
 
-/// Makes the forms of all meshes that collide.
-fn make_forms(plan: &[(Handle, BodyPlan)], maker: &FormMaker) {
-    let builds = plan.iter().map(|(_, plan)| &plan.build);
+/// Which bodies of the plan are there already, and go on as they are.
+fn staying(
+    plan: &[(Handle, BodyPlan)],
+    old: &BTreeMap<Handle, Body>,
+    world: &World,
+    scene: &Scene,
+) -> Vec<bool> {
+    let stays = |(shape, plan): &(Handle, BodyPlan)| {
+        let is_unchanged =
+            |body: &Body| body.build == plan.build && !wants_rebuild(scene, *shape, body, world);
+        old.get(shape).is_some_and(is_unchanged)
+    };
+    plan.iter().map(stays).collect()
+}
+
+/// Makes the forms of the meshes of bodies that collide.
+fn make_forms<'a>(builds: impl Iterator<Item = &'a BodyBuild>, maker: &FormMaker) {
     let parts = builds
         .filter(|build| build.respondable)
         .flat_map(|build| build.parts.iter().map(|part| (part, build.dynamic)));
