@@ -15,6 +15,7 @@ use super::tree::button_interfaces::ButtonInterfaces;
 use super::tree::calculation_objects::{CollisionObjects, DistanceObjects};
 use super::tree::collection::Collections;
 use super::tree::ik_groups::IkGroups;
+use super::tree::namesakes::Namesakes;
 use super::tree::old_names::OldNames;
 use super::tree::references::Referrers;
 use super::tree::selection::Selection;
@@ -31,6 +32,7 @@ pub struct Scene {
     mesh_owners: MeshOwners,
     pub(super) old_names: OldNames,
     pub(super) roots: Vec<Handle>,
+    pub(super) namesakes: Namesakes,
     pub(super) selection: Selection,
     pub(super) collections: Collections,
     pub(super) drawings: Drawings,
@@ -73,7 +75,7 @@ impl Scene {
         object.old_name = self
             .old_names
             .claim(std::mem::take(&mut object.old_name), handle);
-        self.enlist(handle, object);
+        self.enlist(handle, object)?;
         Ok(handle)
     }
 
@@ -81,19 +83,20 @@ impl Scene {
     pub(super) fn insert_unnumbered(&mut self, mut object: Object) -> SceneResult<Handle> {
         let handle = self.objects.free_handle()?;
         object.old_name.clear();
-        self.enlist(handle, object);
+        self.enlist(handle, object)?;
         Ok(handle)
     }
 
     /// Puts an object among the roots.
-    fn enlist(&mut self, handle: Handle, mut object: Object) {
-        (object.handle, object.parent) = (handle, None);
+    fn enlist(&mut self, handle: Handle, mut object: Object) -> SceneResult<()> {
+        object.handle = handle;
         object.children.clear();
         self.identify(&mut object);
         self.referrers.note(&object);
         self.objects.insert(object);
-        self.roots.push(handle);
+        self.join_siblings(handle, None)?;
         self.note(Change::Added(handle));
+        Ok(())
     }
 
     /// Assigns identifiers to a new object. A copy keeps the DNA of its original.

@@ -147,12 +147,9 @@ fn get_objects_in_tree(
 #[api("sim.getObjectHierarchyOrder")]
 fn get_object_hierarchy_order(cx: &Cx, object_handle: Handle) -> Result<(i64, i64)> {
     let scene = cx.scene();
-    let siblings = scene.siblings(object_handle)?;
-    let position = siblings
-        .iter()
-        .position(|&h| h == object_handle)
-        .unwrap_or_default();
-    Ok((numbers::count(position), numbers::count(siblings.len())))
+    let place = scene.place_among_siblings(object_handle)?;
+    let siblings = scene.siblings(object_handle)?.len();
+    Ok((numbers::count(place), numbers::count(siblings)))
 }
 
 /// Moves an object among its siblings.

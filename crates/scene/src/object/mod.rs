@@ -39,6 +39,8 @@ pub struct Object {
     pub(crate) old_name: String,
     pub(crate) parent: Option<Handle>,
     pub(crate) children: Vec<Handle>,
+    /// Rises along the list of children that the object is in.
+    pub(crate) rank: i64,
     /// In the parent's full frame (its moving side, for joints and force sensors).
     pub(crate) pose: Pose,
     pub(crate) place: PlaceInWorld,
@@ -220,6 +222,7 @@ impl Object {
             old_name: alias.to_owned(),
             parent: None,
             children: Vec::new(),
+            rank: 0,
             pose: Pose::identity(),
             place: PlaceInWorld::default(),
             object_property: kind.default_object_property(),

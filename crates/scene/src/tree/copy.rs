@@ -116,7 +116,6 @@ impl Scene {
         copies: &BTreeMap<Handle, Handle>,
         options: CopyOptions,
     ) -> SceneResult<(Handle, String)> {
-        let world = self.world_pose(original)?;
         let parent = self
             .ancestors(original)
             .find_map(|above| copies.get(&above).copied());
@@ -124,15 +123,18 @@ impl Scene {
             .object(original)?
             .parent()
             .is_some_and(|above| copies.contains_key(&above));
+        // What keeps its parent keeps its pose there: its place in the world would have to be composed of the poses of all above it.
+        let world = (!direct)
+            .then(|| self.world_pose(original))
+            .transpose()?;
         let mut object = self.object(original)?.clone();
         start_anew(&mut object, options);
         let (local, name) = (object.pose, std::mem::take(&mut object.old_name));
         let copy = self.insert_unnumbered(object)?;
         self.set_parent(copy, parent, false)?;
-        let pose = if direct {
-            local
-        } else {
-            self.parent_frame(copy)?.inverse() * world
+        let pose = match world {
+            None => local,
+            Some(world) => self.parent_frame(copy)?.inverse() * world,
         };
         self.object_mut(copy)?.pose = normalized(pose);
         self.store_state_of_copy(copy)?;

@@ -18,37 +18,10 @@ impl Scene {
         &self.roots
     }
 
-    /// The list `handle` is a member of: its parent's children, or the roots.
-    pub fn siblings(&self, handle: Handle) -> SceneResult<&[Handle]> {
-        match self.object(handle)?.parent() {
-            Some(parent) => Ok(self.object(parent)?.children()),
-            None => Ok(&self.roots),
-        }
-    }
-
-    /// The number of siblings before `handle` that have the same alias: the index in paths such as `/name[2]`. None for an alias that no
-    /// sibling has.
-    pub fn child_order(&self, handle: Handle) -> SceneResult<Option<usize>> {
-        let alias = self.object(handle)?.alias();
-        let is_namesake = |sibling: &&Handle| {
-            self.object(**sibling)
-                .is_ok_and(|object| object.alias() == alias)
-        };
-        let mut namesakes = self.siblings(handle)?.iter().filter(is_namesake);
-        let before = namesakes
-            .by_ref()
-            .take_while(|&&sibling| sibling != handle)
-            .count();
-        Ok((before > 0 || namesakes.next().is_some()).then_some(before))
-    }
-
     /// The children of `parent` (None: the roots), each with its [`child_order`](Self::child_order).
     pub fn child_orders(&self, parent: Option<Handle>) -> Vec<(Handle, Option<usize>)> {
-        let children = match parent {
-            None => &self.roots[..],
-            Some(parent) => self.object(parent).map_or(&[][..], crate::Object::children),
-        };
-        let named = children
+        let named = self
+            .children_of(parent)
             .iter()
             .filter_map(|&child| Some((child, self.object(child).ok()?.alias())));
         let named: Vec<(Handle, &str)> = named.collect();
@@ -65,18 +38,13 @@ impl Scene {
         ordered.collect()
     }
 
-    fn siblings_mut(&mut self, parent: Option<Handle>) -> SceneResult<&mut Vec<Handle>> {
-        match parent {
-            Some(parent) => Ok(&mut self.object_mut(parent)?.children),
-            None => Ok(&mut self.roots),
-        }
-    }
-
     /// Whether `ancestor` is `handle` or lies above it.
     pub fn is_ancestor_or_self(&self, ancestor: Handle, handle: Handle) -> bool {
-        std::iter::once(handle)
-            .chain(self.ancestors(handle))
-            .any(|h| h == ancestor)
+        let has_children = || {
+            self.object(ancestor)
+                .is_ok_and(|object| !object.children().is_empty())
+        };
+        ancestor == handle || has_children() && self.ancestors(handle).any(|h| h == ancestor)
     }
 
     /// Parent, grandparent, ... up to the root.
@@ -135,15 +103,14 @@ impl Scene {
         if old == parent {
             return Ok(());
         }
-        let world = self.world_pose(handle)?;
-        take_out(self.siblings_mut(old)?, handle);
-        self.siblings_mut(parent)?.push(handle);
-        self.object_mut(handle)?.parent = parent;
+        let world = keep_in_place.then(|| self.world_pose(handle)).transpose()?;
+        self.leave_siblings(handle)?;
+        self.join_siblings(handle, parent)?;
         self.set_dynamic_when_parented(handle)?;
         for end in [old, parent].into_iter().flatten() {
             self.clear_physics_error(end)?;
         }
-        if keep_in_place {
+        if let Some(world) = world {
             let local = self.parent_frame(handle)?.inverse() * world;
             self.object_mut(handle)?.pose = normalized(local);
         }
@@ -179,9 +146,7 @@ impl Scene {
     /// # Errors
     /// When the position lies outside of the list.
     pub fn set_hierarchy_order(&mut self, handle: Handle, position: i64) -> SceneResult<()> {
-        let parent = self.object(handle)?.parent();
-        let siblings = self.siblings_mut(parent)?;
-        let len = siblings.len() as i64;
+        let len = self.siblings(handle)?.len() as i64;
         let target = if position < 0 {
             len + position
         } else {
@@ -190,8 +155,7 @@ impl Scene {
         if !(0..len).contains(&target) {
             return Err(SceneError::OperationFailed);
         }
-        take_out(siblings, handle);
-        siblings.insert(target as usize, handle);
+        self.move_among_siblings(handle, target as usize)?;
         self.note(Change::Modified(handle, Field::Parent));
         Ok(())
     }
@@ -262,19 +226,8 @@ impl Scene {
             self.set_parent(orphan, heir, true)?;
         }
         self.forget_references(&removed);
-        let parents: BTreeSet<Option<Handle>> = handles
-            .iter()
-            .filter_map(|&handle| self.object(handle).ok().map(crate::Object::parent))
-            .collect();
-        for parent in parents {
-            self.siblings_mut(parent)?
-                .retain(|sibling| !removed.contains(sibling));
-        }
-        for &handle in handles {
-            // Its children are removed too, or elsewhere by now; they must not be looked up through it.
-            self.object_mut(handle)?.parent = None;
-            self.erase(handle);
-        }
+        self.leave_together(&removed)?;
+        handles.iter().for_each(|&handle| self.erase(handle));
         Ok(())
     }
 
@@ -288,12 +241,5 @@ impl Scene {
             .collect();
         orphans.sort_by_key(|object| object.uid());
         orphans.into_iter().map(crate::Object::handle).collect()
-    }
-}
-
-/// Removes a member from its list. New objects are last and move most often.
-fn take_out(list: &mut Vec<Handle>, member: Handle) {
-    if let Some(at) = list.iter().rposition(|&h| h == member) {
-        list.remove(at);
     }
 }

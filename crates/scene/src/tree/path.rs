@@ -2,21 +2,13 @@
 //!
 //! Who the emitter of a relative path is, is decided by the caller.
 
-use std::collections::HashMap;
-
+use super::search::{Component, Search};
 use crate::{Field, Handle, Object, Scene, SceneError, SceneResult};
 
 /// Paths with more parts than this are written in full.
 const SHORT_PATH_PARTS: usize = 8;
 /// Longer paths are abbreviated in log lines.
 const PRINT_PATH_LENGTH: usize = 40;
-
-/// One part of a path: a pattern, and which one of the siblings that match it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Component {
-    pattern: Vec<u8>,
-    sibling: Option<usize>,
-}
 
 /// Consecutive parts, and which one of their matches is meant.
 type Group = (Vec<Component>, usize);
@@ -42,9 +34,11 @@ impl Scene {
     pub fn set_alias(&mut self, handle: Handle, alias: &[u8]) -> SceneResult<()> {
         let alias = clean_alias(alias);
         let old_name = self.claim_old_name(handle, &alias)?;
+        self.forget_name(handle)?;
         self.modify(handle, Field::Alias, |object| {
             (object.alias, object.old_name) = (alias, old_name);
-        })
+        })?;
+        self.note_name(handle)
     }
 
     /// The object at `path`, relative paths starting at `emitter`; `index` picks another match than the first.
@@ -118,33 +112,13 @@ impl Scene {
 
     /// The `nth` object below `base` that `components` lead to.
     fn search(&self, base: Option<Handle>, components: &[Component], nth: usize) -> Option<Handle> {
-        Search {
-            scene: self,
-            hits: HashMap::new(),
-        }
-        .run(base, components, &mut { nth })
-    }
-
-    fn children_of(&self, base: Option<Handle>) -> &[Handle] {
-        base.map_or(self.roots(), |base| {
-            self.object(base).map_or(&[], Object::children)
-        })
-    }
-
-    /// Position of an object among its siblings of the same alias; None when it is the only one.
-    fn order_index(&self, handle: Handle) -> SceneResult<Option<usize>> {
-        let alias = self.object(handle)?.alias();
-        let same = |&&h: &&Handle| self.object(h).is_ok_and(|object| object.alias() == alias);
-        let mut twins = self.siblings(handle)?.iter().filter(same);
-        let position = twins.position(|&h| h == handle);
-        let alone = position == Some(0) && twins.next().is_none();
-        Ok(position.filter(|_| !alone))
+        Search::new(self).run(base, components, &mut { nth })
     }
 
     /// The alias, with `[i]` when siblings share it.
     pub fn indexed_alias(&self, handle: Handle) -> SceneResult<String> {
         let alias = self.object(handle)?.alias();
-        Ok(match self.order_index(handle)? {
+        Ok(match self.child_order(handle)? {
             Some(index) => format!("{alias}[{index}]"),
             None => alias.to_owned(),
         })
@@ -211,10 +185,7 @@ impl Scene {
     /// The alias if no other object has it, otherwise alias and handle.
     pub fn unique_alias(&self, handle: Handle) -> SceneResult<String> {
         let alias = self.object(handle)?.alias();
-        let shared = self
-            .objects()
-            .any(|object| object.handle() != handle && object.alias() == alias);
-        if shared {
+        if self.namesakes.count(alias) > 1 {
             self.handle_alias(handle)
         } else {
             Ok(alias.to_owned())
@@ -239,6 +210,10 @@ impl Scene {
     /// `alias{n}`: the n-th of its name below `base`; just the alias when it is the only one.
     fn counted_alias(&self, base: Option<Handle>, handle: Handle) -> SceneResult<String> {
         let alias = self.object(handle)?.alias();
+        if self.namesakes.only_parent(alias).is_some() {
+            let order = self.child_order(handle)?;
+            return Ok(order.map_or_else(|| alias.to_owned(), |n| format!("{alias}{{{n}}}")));
+        }
         let same = |&h: &Handle| self.object(h).is_ok_and(|object| object.alias() == alias);
         let hits: Vec<Handle> = self.search_order(base).into_iter().filter(same).collect();
         let position = hits.iter().position(|&h| h == handle);
@@ -258,73 +233,6 @@ impl Scene {
             pending.extend(children.iter().rev().map(|&child| Some(child)));
         }
         order
-    }
-}
-
-/// One lookup. Subtrees without a match are remembered, so that patterns such as `/*/*/*/x` visit each object once for each part.
-struct Search<'a> {
-    scene: &'a Scene,
-    /// Number of matches below an object for the last so many components.
-    hits: HashMap<(Option<Handle>, usize), usize>,
-}
-
-impl Search<'_> {
-    /// The match number `nth`; otherwise `nth` is lowered by the number of matches.
-    fn run(
-        &mut self,
-        base: Option<Handle>,
-        components: &[Component],
-        nth: &mut usize,
-    ) -> Option<Handle> {
-        let (first, rest) = components.split_first()?;
-        if let Some(hits) = self
-            .hits
-            .get(&(base, components.len()))
-            .filter(|&hits| hits <= nth)
-        {
-            *nth -= hits;
-            return None;
-        }
-        let index = *nth;
-        let mut pending = vec![base];
-        while let Some(base) = pending.pop() {
-            let children = self.scene.children_of(base);
-            let mut deeper = Vec::with_capacity(children.len());
-            let mut siblings = 0;
-            for &child in children {
-                let matches = self.matches(first, child);
-                if !matches || first.sibling.is_none() {
-                    deeper.push(Some(child));
-                }
-                siblings += usize::from(matches);
-                if !matches || first.sibling.is_some_and(|wanted| wanted + 1 != siblings) {
-                    continue;
-                }
-                if let Some(hit) = self.accept(child, rest, nth) {
-                    return Some(hit);
-                }
-            }
-            pending.extend(deeper.into_iter().rev());
-        }
-        self.hits.insert((base, components.len()), index - *nth);
-        None
-    }
-
-    fn accept(&mut self, child: Handle, rest: &[Component], nth: &mut usize) -> Option<Handle> {
-        if !rest.is_empty() {
-            return self.run(Some(child), rest, nth);
-        }
-        if *nth == 0 {
-            return Some(child);
-        }
-        *nth -= 1;
-        None
-    }
-
-    fn matches(&self, component: &Component, handle: Handle) -> bool {
-        self.scene
-            .object(handle)
-            .is_ok_and(|object| wildcard_match(&component.pattern, object.alias().as_bytes()))
     }
 }
 
@@ -349,14 +257,8 @@ fn groups(path: &str, index: Option<usize>) -> Vec<Group> {
 
 fn component(text: &str) -> Component {
     match numbered(text, '[', ']') {
-        Some((pattern, sibling)) => Component {
-            pattern: pattern.into(),
-            sibling: Some(sibling),
-        },
-        None => Component {
-            pattern: text.into(),
-            sibling: None,
-        },
+        Some((pattern, sibling)) => Component::new(pattern, Some(sibling)),
+        None => Component::new(text, None),
     }
 }
 
@@ -370,30 +272,6 @@ fn joined(parts: &[String]) -> String {
     parts.iter().rev().flat_map(|part| ["/", part]).collect()
 }
 
-/// Whether all of `text` fits `pattern`, in which `*` is any run of characters and `?` is one.
-fn wildcard_match(pattern: &[u8], text: &[u8]) -> bool {
-    let (mut p, mut t) = (0, 0);
-    // Behind the last star, and where its run ends for now.
-    let mut retry: Option<(usize, usize)> = None;
-    while t < text.len() {
-        match pattern.get(p) {
-            Some(b'*') => {
-                retry = Some((p + 1, t));
-                p += 1;
-            }
-            Some(&c) if c == b'?' || c == text[t] => (p, t) = (p + 1, t + 1),
-            _ => match &mut retry {
-                Some((after, end)) => {
-                    *end += 1;
-                    (p, t) = (*after, *end);
-                }
-                None => return false,
-            },
-        }
-    }
-    pattern[p..].iter().all(|&c| c == b'*')
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -404,28 +282,6 @@ mod tests {
         let handle = scene.add(alias, Kind::Dummy(Dummy::new(0.01))).unwrap();
         scene.set_parent(handle, parent, true).unwrap();
         handle
-    }
-
-    #[test]
-    fn wildcards() {
-        for (pattern, text) in [
-            ("a*", "a"),
-            ("*", ""),
-            ("a?c", "abc"),
-            ("*b*d", "abcd"),
-            ("a*b", "aabab"),
-        ] {
-            assert!(
-                wildcard_match(pattern.as_bytes(), text.as_bytes()),
-                "{pattern} {text}"
-            );
-        }
-        for (pattern, text) in [("a?", "a"), ("?", ""), ("a", "ab"), ("*c", "ab")] {
-            assert!(
-                !wildcard_match(pattern.as_bytes(), text.as_bytes()),
-                "{pattern} {text}"
-            );
-        }
     }
 
     #[test]
