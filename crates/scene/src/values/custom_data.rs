@@ -3,8 +3,9 @@
 //! A value is stored under a tag: the mark of its type followed by its name. Buffers have no mark, so that raw custom data of a name
 //! and its buffer property are the same.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
+use super::numbered::Numbered;
 use crate::{Data, Handle, Scene, SceneResult, ValueType};
 
 /// A modification of named values. Names have no mark of a type, tags have one.
@@ -38,14 +39,14 @@ impl Edited<'_> {
     }
 }
 
-/// Values of one owner, in the order they were created. Looking for a name takes no longer for many values.
+/// Values of one owner, in the order they were created. Looking for a name, or for the value in a position, takes no longer for many values.
 #[derive(Clone, Default)]
 pub struct CustomData {
     /// By number, which rises with each new value.
-    entries: BTreeMap<u64, Entry>,
+    entries: Numbered<Entry>,
     /// The numbers of the values of each name, which are of different types.
-    by_name: HashMap<String, Vec<u64>>,
-    next: u64,
+    by_name: HashMap<String, Vec<i64>>,
+    next: i64,
 }
 
 impl std::fmt::Debug for CustomData {
@@ -95,6 +96,21 @@ impl CustomData {
         self.entries.values().map(|entry| entry.name.as_str())
     }
 
+    /// How many values there are.
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Whether there is no value.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The name at a position in the order of their creation.
+    pub fn name_at(&self, position: usize) -> Option<&str> {
+        self.entries.nth(position).map(|entry| entry.name.as_str())
+    }
+
     /// Does `edit`. Writing what is there already is no change.
     pub fn edit<'a>(&mut self, edit: Edit<'a>) -> Edited<'a> {
         match edit {
@@ -117,15 +133,15 @@ impl CustomData {
     /// The values of a name, the oldest first.
     fn named(&self, name: &str) -> impl Iterator<Item = &Entry> {
         let numbers = self.by_name.get(name).into_iter().flatten();
-        numbers.filter_map(|number| self.entries.get(number))
+        numbers.filter_map(|&number| self.entries.get(number))
     }
 
     fn set(&mut self, ty: ValueType, name: &str, value: Data) -> bool {
         let numbers = self.by_name.get(name).into_iter().flatten();
         let old = numbers
             .copied()
-            .find(|number| self.entries[number].ty == ty);
-        if let Some(entry) = old.and_then(|number| self.entries.get_mut(&number)) {
+            .find(|&number| self.entries.get(number).is_some_and(|entry| entry.ty == ty));
+        if let Some(entry) = old.and_then(|number| self.entries.get_mut(number)) {
             let is_new = entry.value != value;
             entry.value = value;
             return is_new;
@@ -133,7 +149,7 @@ impl CustomData {
         let (number, name) = (self.next, name.to_owned());
         self.next += 1;
         self.by_name.entry(name.clone()).or_default().push(number);
-        self.entries.insert(number, Entry { ty, name, value });
+        self.entries.push(number, Entry { ty, name, value });
         true
     }
 
@@ -143,7 +159,7 @@ impl CustomData {
             return false;
         };
         let before = numbers.len();
-        numbers.retain(|number| {
+        numbers.retain(|&number| {
             let is_meant = self
                 .entries
                 .get(number)

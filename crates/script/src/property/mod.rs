@@ -258,11 +258,10 @@ impl Sim {
             return Some(listing(row));
         }
         let index = index - listed(before).count();
-        let stored = self.stored_names(target);
-        let Some(row) = index.checked_sub(stored.len()) else {
-            return Some((stored.into_iter().nth(index)?, before.last()?.class));
-        };
-        listed(after).nth(row).map(listing)
+        match self.stored_name_at(target, index) {
+            Ok(name) => Some((name, before.last()?.class)),
+            Err(count) => listed(after).nth(index - count).map(listing),
+        }
     }
 
     /// The static properties of a target in the order of enumeration: those before and those after custom data and signals.

@@ -9,6 +9,12 @@ use scene::{CustomData, Data, Edit, Handle, Holder, Namespace, ValueType};
 /// What the names of signals begin with that the older functions set: integers, floats, texts, doubles.
 pub const OLD_SIGNALS: [&str; 4] = ["ILEGACY.", "FLEGACY.", "SLEGACY.", "DLEGACY."];
 
+/// What the names of custom data and signals begin with.
+const PREFIXES: [(Namespace, &str); 2] = [
+    (Namespace::CustomData, "customData"),
+    (Namespace::Signal, "signal"),
+];
+
 /// Whether a new property may have that name.
 pub(crate) fn is_valid_name(name: &str) -> bool {
     !name.is_empty()
@@ -199,10 +205,7 @@ impl Sim {
             return Vec::new();
         };
         let mut names = Vec::new();
-        for (namespace, prefix) in [
-            (Namespace::CustomData, "customData"),
-            (Namespace::Signal, "signal"),
-        ] {
+        for (namespace, prefix) in PREFIXES {
             let found = self.with_stored(holder, namespace, |values| {
                 values
                     .names()
@@ -221,6 +224,32 @@ impl Sim {
             );
         }
         names
+    }
+
+    /// The name at a position in the list of [`Sim::stored_names`], or how long that list is.
+    pub(super) fn stored_name_at(
+        &self,
+        target: &PropertyTarget,
+        mut position: usize,
+    ) -> Result<String, usize> {
+        let holder = target.holder().ok_or(0_usize)?;
+        let mut count = 0;
+        for (namespace, prefix) in PREFIXES {
+            let found = self.with_stored(holder, namespace, |values| {
+                let name = values.name_at(position);
+                name.map_or(Err(values.len()), |name| Ok(format!("{prefix}.{name}")))
+            });
+            match found {
+                Ok(Ok(name)) => return Ok(name),
+                Ok(Err(len)) => (position, count) = (position - len, count + len),
+                Err(_) => {}
+            }
+        }
+        let app = self.app.borrow();
+        let params = Some(&app.named_params).filter(|_| holder == Holder::App);
+        let name = params.and_then(|params| params.keys().nth(position));
+        name.map(|name| format!("namedParam.{name}"))
+            .ok_or(count + params.map_or(0, |params| params.len()))
     }
 
     /// Removes the signals whose last writer's interpreter ends.
