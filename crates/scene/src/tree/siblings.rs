@@ -2,7 +2,7 @@
 //!
 //! Each object has a rank, and ranks rise along a list, so that the place of an object in it is found without going through all of it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::object::objects::Objects;
 use crate::{Handle, Object, Scene, SceneError, SceneResult};
@@ -11,6 +11,8 @@ use crate::{Handle, Object, Scene, SceneError, SceneResult};
 const STEP: i64 = 1 << 32;
 /// Between the ranks of an object and of the next one that is put between it and another, where there is room.
 const STEP_BETWEEN: i64 = 1 << 16;
+/// Members of a list that are less than this part of it are taken out one by one.
+const FEW: usize = 64;
 
 impl Scene {
     /// The list `handle` is a member of: its parent's children, or the roots.
@@ -69,20 +71,39 @@ impl Scene {
 
     /// Takes objects out of their lists. Their children are removed too, or elsewhere by now: they are not looked up through them any more.
     pub(super) fn leave_together(&mut self, leaving: &BTreeSet<Handle>) -> SceneResult<()> {
-        let mut parents = BTreeSet::new();
-        // From the end of the lists of namesakes, where most of those that came last are.
-        for &handle in leaving.iter().rev() {
-            self.forget_name(handle)?;
-            parents.insert(self.object(handle)?.parent());
+        let mut by_parent: BTreeMap<Option<Handle>, Vec<Handle>> = BTreeMap::new();
+        for &handle in leaving {
+            let siblings = by_parent.entry(self.object(handle)?.parent()).or_default();
+            siblings.push(handle);
         }
-        for parent in parents {
-            self.list_mut(parent)?
-                .retain(|sibling| !leaving.contains(sibling));
+        for (parent, some) in by_parent {
+            self.leave_list(parent, &some, leaving)?;
         }
         leaving.iter().try_for_each(|&handle| {
             self.object_mut(handle)?.parent = None;
             Ok(())
         })
+    }
+
+    /// Takes some out of the list of children of `parent`: those in it that are `leaving`.
+    fn leave_list(
+        &mut self,
+        parent: Option<Handle>,
+        some: &[Handle],
+        leaving: &BTreeSet<Handle>,
+    ) -> SceneResult<()> {
+        if some.len() < self.children_of(parent).len() / FEW {
+            return some
+                .iter()
+                .try_for_each(|&handle| self.leave_siblings(handle));
+        }
+        // From the end of the lists of namesakes, where most of those that came last are.
+        some.iter()
+            .rev()
+            .try_for_each(|&handle| self.forget_name(handle))?;
+        self.list_mut(parent)?
+            .retain(|sibling| !leaving.contains(sibling));
+        Ok(())
     }
 
     /// Moves an object to a place in its list, which has that many members at least.
