@@ -8,6 +8,7 @@ pub(crate) mod default_scene;
 pub(crate) mod hierarchy;
 pub mod ik_groups;
 pub(crate) mod namesakes;
+mod number_runs;
 pub(crate) mod old_names;
 pub(crate) mod path;
 pub(crate) mod references;

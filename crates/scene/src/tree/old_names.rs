@@ -1,8 +1,8 @@
 //! Names from before aliases (spec: vrep-era 1): unique in a scene; a number after `#`, the suffix, distinguishes the copies of a model.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
+use super::number_runs::NumberRuns;
 use crate::{Field, Handle, Scene, SceneError, SceneResult};
 
 /// Length of the longest name that a script may choose.
@@ -14,8 +14,8 @@ pub(crate) struct OldNames {
     handles: BTreeMap<String, Handle>,
     /// How many of them have a suffix, -1 for none.
     suffixes: BTreeMap<i64, usize>,
-    /// For names that end in a number, by what is before it: all smaller numbers are in use.
-    first_free: BTreeMap<String, u64>,
+    /// The numbers at the ends of names, by what is before them.
+    numbers: BTreeMap<String, NumberRuns>,
 }
 
 impl OldNames {
@@ -28,6 +28,7 @@ impl OldNames {
         };
         if self.handles.insert(name.clone(), handle).is_none() {
             *self.suffixes.entry(suffix(&name).0).or_default() += 1;
+            self.note_number(&name);
         }
         name
     }
@@ -36,10 +37,31 @@ impl OldNames {
     pub(crate) fn release(&mut self, name: &str) {
         if self.handles.remove(name).is_some() {
             self.forget_suffix(suffix(name).0);
+            self.forget_number(name);
         }
-        let (stem, number) = split_number(name);
-        if let (Some(number), Some(first)) = (number, self.first_free.get_mut(stem)) {
-            *first = number.min(*first);
+    }
+
+    fn note_number(&mut self, name: &str) {
+        let Some((stem, number)) = written_number(name) else {
+            return;
+        };
+        if let Some(numbers) = self.numbers.get_mut(stem) {
+            return numbers.insert(number);
+        }
+        let mut numbers = NumberRuns::default();
+        numbers.insert(number);
+        self.numbers.insert(stem.to_owned(), numbers);
+    }
+
+    fn forget_number(&mut self, name: &str) {
+        let Some((stem, number)) = written_number(name) else {
+            return;
+        };
+        if let Some(numbers) = self.numbers.get_mut(stem) {
+            numbers.remove(number);
+            if numbers.is_empty() {
+                self.numbers.remove(stem);
+            }
         }
     }
 
@@ -52,43 +74,25 @@ impl OldNames {
         }
     }
 
-    fn next_free(&mut self, taken: &str) -> String {
+    fn next_free(&self, taken: &str) -> String {
         let (stem, own) = split_number(taken);
-        let known = self.first_free.get(stem).copied().unwrap_or(0);
-        let begin = own.map_or(0, |own| own.saturating_add(1)).max(known);
-        let number = self.free_number(stem, begin);
-        if begin == known {
-            self.first_free.insert(stem.to_owned(), number + 1);
-        }
-        format!("{stem}{number}")
+        let begin = own.map_or(0, |own| own.saturating_add(1));
+        format!("{stem}{}", self.free_number(stem, begin))
     }
 
     /// The first number from `begin` on that makes a free name of a stem.
     fn free_number(&self, stem: &str, begin: u64) -> u64 {
-        let mut name = stem.to_owned();
-        let is_free = |number: &u64| {
-            name.truncate(stem.len());
-            write!(name, "{number}").expect("a string takes all");
-            !self.handles.contains_key(&name)
-        };
-        (begin..)
-            .find(is_free)
-            .expect("there are fewer objects than numbers")
+        let numbers = self.numbers.get(stem);
+        numbers.map_or(begin, |numbers| numbers.first_free(begin))
     }
 
     /// The first suffix with which a stem is free.
-    fn first_free_suffix(&mut self, stem: &str) -> i64 {
-        let stem = [stem, "#"].concat();
-        let known = self.first_free.get(&stem).copied().unwrap_or(0);
-        let number = self.free_number(&stem, known);
-        if number > known {
-            self.first_free.insert(stem, number);
-        }
-        number as i64
+    fn first_free_suffix(&self, stem: &str) -> i64 {
+        self.free_number(&[stem, "#"].concat(), 0) as i64
     }
 
     /// The smallest suffix with which all stems are free, up to `limit`, with which they are.
-    fn free_suffix(&mut self, stems: &[&str], limit: i64) -> i64 {
+    fn free_suffix(&self, stems: &[&str], limit: i64) -> i64 {
         if stems.iter().all(|stem| !self.handles.contains_key(*stem)) {
             return -1;
         }
@@ -118,6 +122,14 @@ impl OldNames {
 fn split_number(name: &str) -> (&str, Option<u64>) {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
     (stem, name[stem.len()..].parse().ok())
+}
+
+/// The same for a name that ends in a number as it is written here: without zeros in front.
+fn written_number(name: &str) -> Option<(&str, u64)> {
+    let (stem, number) = split_number(name);
+    let digits = &name[stem.len()..];
+    let is_plain = digits == "0" || !digits.starts_with('0');
+    number.filter(|_| is_plain).map(|number| (stem, number))
 }
 
 /// The name, or what is before its last digits with the first free number.
@@ -306,6 +318,9 @@ mod tests {
         assert_eq!(name(&scene, next), "dummy0");
         let arm = [add(&mut scene, "arm7"), add(&mut scene, "arm7")];
         assert_eq!(name(&scene, arm[1]), "arm8");
+        let padded = ["arm09", "arm9", "arm8", "arm09"].map(|name| add(&mut scene, name));
+        let padded = padded.map(|handle| name(&scene, handle));
+        assert_eq!(padded, ["arm09", "arm9", "arm10", "arm11"]);
     }
 
     #[test]
