@@ -2,6 +2,7 @@
 //!
 //! A shape keeps a flat list of parts; each knows the groups it is in. The frame of a group is that of its last part.
 
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use geometry::DecompositionParameters;
@@ -11,7 +12,7 @@ use geometry::PrimitiveKind;
 
 use super::reshape::box_of;
 use super::{Part, Shape};
-use crate::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
+use crate::{Handle, Kind, Object, Pose, Scene, SceneError, SceneResult};
 
 impl Shape {
     /// The parts with the mass each would have as a shape of its own, in the part's frame. Those of a group share the mass the group
@@ -122,17 +123,15 @@ impl Scene {
 
     /// Shapes among `handles`, each once.
     fn shapes_among(&self, handles: &[i64]) -> Vec<Handle> {
-        let mut shapes = Vec::new();
-        for handle in handles.iter().filter_map(|&raw| Handle::from_raw(raw)) {
-            if self
-                .object(handle)
+        let is_shape = |handle: &Handle| {
+            self.object(*handle)
                 .is_ok_and(|object| object.shape().is_ok())
-                && !shapes.contains(&handle)
-            {
-                shapes.push(handle);
-            }
-        }
-        shapes
+        };
+        let mut met = BTreeSet::new();
+        let given = handles.iter().filter_map(|&raw| Handle::from_raw(raw));
+        given
+            .filter(|handle| is_shape(handle) && met.insert(*handle))
+            .collect()
     }
 
     /// A new object with the given shape and the place, name, flags and children of `old`.
@@ -146,26 +145,15 @@ impl Scene {
 
     /// A new object with the given shape and the pose, parent, position among siblings, name and flags of `model`.
     fn add_beside(&mut self, model: Handle, shape: Shape) -> SceneResult<Handle> {
-        let source = self.object(model)?.clone();
-        let position = self
-            .siblings(model)?
-            .iter()
-            .position(|&h| h == model)
-            .unwrap_or(0);
-        let new = self.add(source.alias(), Kind::Shape(Box::new(shape)))?;
-        self.set_parent(new, source.parent(), false)?;
-        self.set_local_pose(new, source.pose())?;
-        self.set_hierarchy_order(new, position as i64)?;
-        self.modify(new, crate::Field::ObjectProperty, |object| {
-            object.object_property = source.object_property;
-            object.special_property = source.special_property;
-            object.model_property = source.model_property;
-            object.layer = source.layer;
-            object.size_factor = source.size_factor;
-            object.movement = source.movement;
-            object.inert = source.inert;
-            object.custom_data = source.custom_data;
-        })?;
+        let source = self.object(model)?;
+        let (alias, parent, pose) = (source.alias().to_owned(), source.parent(), source.pose());
+        let place = self.place_among_siblings(model)?;
+        let new = self.add(&alias, Kind::Shape(Box::new(shape)))?;
+        self.set_parent(new, parent, false)?;
+        self.set_local_pose(new, pose)?;
+        self.set_hierarchy_order(new, place as i64)?;
+        let make_alike = settings_of(self.object(model)?);
+        self.modify(new, crate::Field::ObjectProperty, make_alike)?;
         Ok(new)
     }
 
@@ -211,7 +199,9 @@ impl Scene {
                 parts,
                 bounding_box,
                 mass,
-                ..shape.clone()
+                dynamics: shape.dynamics.clone(),
+                material: shape.material.clone(),
+                ..*shape
             },
         )?;
         self.set_local_pose(group, frame * own)?;
@@ -337,6 +327,20 @@ impl Shape {
     }
 }
 
+/// Gives another object the flags and the lasting values of this one. Its shape, which may have very many parts, is not looked at.
+fn settings_of(source: &Object) -> impl FnOnce(&mut Object) + use<> {
+    let flags = (source.object_property, source.special_property);
+    let (model_property, layer) = (source.model_property, source.layer);
+    let (size_factor, movement) = (source.size_factor, source.movement);
+    let (inert, custom_data) = (source.inert.clone(), source.custom_data.clone());
+    move |object| {
+        (object.object_property, object.special_property) = flags;
+        (object.model_property, object.layer) = (model_property, layer);
+        (object.size_factor, object.movement) = (size_factor, movement);
+        (object.inert, object.custom_data) = (inert, custom_data);
+    }
+}
+
 /// A compound in the master's frame; `placed` are shapes with their poses in it.
 fn grouped(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
     let pure = placed.iter().all(|(_, shape)| shape.is_pure_solid());
@@ -391,63 +395,4 @@ fn merged(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn masses_add_up() {
-        let mut scene = Scene::new();
-        let mut cube = || {
-            let shape =
-                Shape::primitive(PrimitiveKind::Cuboid, [0.1; 3], Default::default()).unwrap();
-            scene.add("c", Kind::Shape(Box::new(shape))).unwrap()
-        };
-        let (a, b) = (cube(), cube());
-        scene
-            .set_world_pose(b, Pose::translation(0.4, 0.0, 0.0))
-            .unwrap();
-        let (group, members) = scene.group_shapes(&[a.raw(), 77, b.raw()], false).unwrap();
-        let shape = scene.object(group).unwrap().shape().unwrap();
-        assert_eq!((members, shape.parts.len()), (vec![a, b], 2));
-        assert!((shape.mass.mass - 1.0).abs() < 1e-12 && (shape.mass.com[0] + 0.2).abs() < 1e-12);
-        assert!(scene.group_shapes(&[a.raw()], false).is_err());
-    }
-
-    #[test]
-    fn groups_of_groups_come_apart_level_by_level() {
-        let mut scene = Scene::new();
-        let mut cube = |x: f64| {
-            let shape =
-                Shape::primitive(PrimitiveKind::Cuboid, [0.1; 3], Default::default()).unwrap();
-            let cube = scene.add("c", Kind::Shape(Box::new(shape))).unwrap();
-            scene
-                .set_world_pose(cube, Pose::translation(x, 0.0, 0.0))
-                .unwrap();
-            cube.raw()
-        };
-        let cubes = [cube(0.0), cube(1.0), cube(2.0), cube(3.0)];
-        let pair = scene.group_shapes(&cubes[..2], false).unwrap().0;
-        let three = scene
-            .group_shapes(&[pair.raw(), cubes[2]], false)
-            .unwrap()
-            .0;
-        let four = scene
-            .group_shapes(&[three.raw(), cubes[3]], false)
-            .unwrap()
-            .0;
-        let mut taken = |group| {
-            let pieces = scene.ungroup_shape(group).unwrap().unwrap();
-            let parts = |h: &Handle| scene.object(*h).unwrap().shape().unwrap().parts.len();
-            (
-                pieces.iter().map(parts).collect::<Vec<_>>(),
-                scene.world_pose(pieces[0]).unwrap().translation.x,
-                pieces[0],
-            )
-        };
-        let (sizes, x, three) = taken(four);
-        assert_eq!((sizes, x), (vec![3, 1], 2.0));
-        let (sizes, x, pair) = taken(three);
-        assert_eq!((sizes, x), (vec![2, 1], 1.0));
-        assert_eq!(taken(pair).0, [1, 1]);
-    }
-}
+mod tests;
