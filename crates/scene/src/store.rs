@@ -263,6 +263,15 @@ impl Scene {
         self.objects.iter()
     }
 
+    /// The object at a position in the order of creation, among those of type `object_type` (`sim.sceneobject_*`, or `sim.handle_all`).
+    pub fn nth_of_type(&self, object_type: i64, position: usize) -> Option<Handle> {
+        let object_type = match object_type {
+            super::special::ALL => None,
+            number => Some(usize::try_from(number).ok()?),
+        };
+        self.objects.nth(object_type, position)
+    }
+
     /// Whether there are proximity or vision sensors.
     pub fn has_sensors(&self) -> bool {
         self.objects.has_sensors()

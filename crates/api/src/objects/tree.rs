@@ -101,13 +101,10 @@ fn get_object_child(cx: &Cx, object_handle: Number, index: i64) -> Result<i64> {
 #[api("sim.getObjects")]
 fn get_objects(cx: &Cx, index: i64, object_type: i64) -> Result<i64> {
     let scene = cx.scene();
-    let mut objects = scene
-        .objects()
-        .filter(|object| object.is_of_type(object_type));
     let object = usize::try_from(index)
         .ok()
-        .and_then(|index| objects.nth(index));
-    Ok(object.map_or(-1, |object| object.handle().raw()))
+        .and_then(|index| scene.nth_of_type(object_type, index));
+    Ok(object.map_or(-1, Handle::raw))
 }
 
 /// Objects of a tree, breadth first.

@@ -3,11 +3,10 @@
 //! An object can only be changed by way of [`get_mut`](Objects::get_mut), after which all that hangs on it is taken to have moved, or
 //! [`get_in_place`](Objects::get_in_place), for changes that move nothing. So no cached world pose is out of date.
 
-use std::collections::BTreeMap;
-
 use super::{Kind, Object};
 use crate::joint::Joint;
 use crate::pose::world::{Moves, PlaceInWorld};
+use crate::values::numbered::Numbered;
 use crate::{Handle, SceneError, SceneResult, Uid};
 
 #[derive(Debug, Default)]
@@ -15,13 +14,18 @@ pub(crate) struct Objects {
     slots: Vec<Option<Box<Object>>>,
     live: usize,
     next_handle: u32,
-    by_uid: BTreeMap<Uid, Handle>,
-    joints: BTreeMap<Uid, Handle>,
-    paths: BTreeMap<Uid, Handle>,
+    by_uid: Numbered<Handle>,
+    /// The same for each type, at its number.
+    by_type: [Numbered<Handle>; TYPES],
     moves: Moves,
-    /// Proximity and vision sensors.
-    sensors: usize,
 }
+
+/// All `sim.sceneobject_*` are below.
+const TYPES: usize = 18;
+const JOINT: usize = 1;
+const PROXIMITY_SENSOR: usize = 5;
+const PATH: usize = 8;
+const VISION_SENSOR: usize = 9;
 
 impl Objects {
     /// Handles rise and start over at the end of the range, so that a freed one is not met again soon.
@@ -50,24 +54,16 @@ impl Objects {
         object.place = PlaceInWorld::default();
         self.moves.note(&mut object);
         self.live += 1;
-        self.sensors += usize::from(is_sensor(&object.kind));
-        self.by_uid.insert(object.uid, handle);
-        if object.joint().is_ok() {
-            self.joints.insert(object.uid, handle);
-        }
-        if object.path().is_ok() {
-            self.paths.insert(object.uid, handle);
-        }
+        self.by_uid.push(object.uid, handle);
+        self.of_type_mut(&object.kind).push(object.uid, handle);
         self.slots[index] = Some(Box::new(object));
     }
 
     pub(crate) fn remove(&mut self, handle: Handle) -> Option<Box<Object>> {
         let object = self.slots.get_mut(handle.index()).and_then(Option::take)?;
         self.live -= 1;
-        self.sensors -= usize::from(is_sensor(&object.kind));
-        self.by_uid.remove(&object.uid);
-        self.joints.remove(&object.uid);
-        self.paths.remove(&object.uid);
+        self.by_uid.remove(object.uid);
+        self.of_type_mut(&object.kind).remove(object.uid);
         Some(object)
     }
 
@@ -99,18 +95,18 @@ impl Objects {
 
     /// All joints in the order of their creation.
     pub(crate) fn joints(&self) -> impl Iterator<Item = (Handle, &Joint)> {
-        self.joints
+        self.by_type[JOINT]
             .values()
             .filter_map(|&handle| Some((handle, self.get(handle).ok()?.joint().ok()?)))
     }
 
     /// All paths in the order of their creation.
     pub(crate) fn paths(&self) -> impl Iterator<Item = Handle> {
-        self.paths.values().copied()
+        self.by_type[PATH].values().copied()
     }
 
     pub(crate) fn by_uid(&self, uid: Uid) -> Option<Handle> {
-        self.by_uid.get(&uid).copied()
+        self.by_uid.get(uid).copied()
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -118,7 +114,23 @@ impl Objects {
     }
 
     pub(crate) fn has_sensors(&self) -> bool {
-        self.sensors > 0
+        let sensors = [PROXIMITY_SENSOR, VISION_SENSOR];
+        sensors
+            .iter()
+            .any(|&sensor| !self.by_type[sensor].is_empty())
+    }
+
+    /// The object at a position in the order of creation, of those of a type or of all (None).
+    pub(crate) fn nth(&self, object_type: Option<usize>, position: usize) -> Option<Handle> {
+        let objects = match object_type {
+            None => &self.by_uid,
+            Some(object_type) => self.by_type.get(object_type)?,
+        };
+        objects.nth(position).copied()
+    }
+
+    fn of_type_mut(&mut self, kind: &Kind) -> &mut Numbered<Handle> {
+        &mut self.by_type[kind.type_number() as usize]
     }
 
     /// The object, unless the measurement of velocities in progress has met it before.
@@ -148,10 +160,6 @@ fn slot_mut(slots: &mut [Option<Box<Object>>], handle: Handle) -> SceneResult<&m
         .get_mut(handle.index())
         .and_then(Option::as_deref_mut)
         .ok_or(SceneError::NoSuchObject)
-}
-
-fn is_sensor(kind: &Kind) -> bool {
-    matches!(kind, Kind::ProximitySensor(_) | Kind::VisionSensor(_))
 }
 
 #[cfg(test)]

@@ -124,9 +124,7 @@ impl Scene {
             .parent()
             .is_some_and(|above| copies.contains_key(&above));
         // What keeps its parent keeps its pose there: its place in the world would have to be composed of the poses of all above it.
-        let world = (!direct)
-            .then(|| self.world_pose(original))
-            .transpose()?;
+        let world = (!direct).then(|| self.world_pose(original)).transpose()?;
         let mut object = self.object(original)?.clone();
         start_anew(&mut object, options);
         let (local, name) = (object.pose, std::mem::take(&mut object.old_name));
