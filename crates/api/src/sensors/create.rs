@@ -7,6 +7,7 @@ use scene::appearance::colour::ColourComponent;
 use scene::numbers;
 use scene::sensor::volume::VolumeType;
 use scene::sensor::{ProximityOptions, ProximitySensor, VisionOptions, VisionSensor};
+use scene::voxels::cloud_points::CloudPoints;
 use scene::voxels::octree::{OcTree, cell_size};
 use scene::voxels::options::StorageOptions;
 use scene::voxels::point_cloud::PointCloud;
@@ -112,7 +113,7 @@ fn create_point_cloud(
         uses_octree: !options.contains(StorageOptions::WITHOUT_OCTREE),
         display_fraction: 1.0,
         random_colours: options.contains(StorageOptions::RANDOM_COLOURS),
-        points: Vec::new(),
+        points: CloudPoints::default(),
     };
     cx.add_object("pointCloud", Kind::PointCloud(Box::new(cloud)))
 }

@@ -273,7 +273,7 @@ fn remove_points(
         .map(|points| points_in(&scene, point_cloud_handle, options, &points))
         .transpose()?;
     change_cloud(&mut scene, point_cloud_handle, |cloud| match points {
-        Some(points) => cloud.remove(points.into_iter(), tolerance),
+        Some(points) => cloud.remove(&points, tolerance),
         None => cloud.points.clear(),
     })
 }
@@ -296,7 +296,7 @@ fn intersect_points(
     let mut scene = cx.scene_mut();
     let points = points_in(&scene, point_cloud_handle, options, &points)?;
     change_cloud(&mut scene, point_cloud_handle, |cloud| {
-        cloud.intersect(points.into_iter(), tolerance);
+        cloud.intersect(&points, tolerance);
     })
 }
 

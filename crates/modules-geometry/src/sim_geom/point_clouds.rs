@@ -8,6 +8,7 @@ use super::{
     ApiError, ApiFn, Cx, Result, colour, factor, frame, functions, points, serialization,
     structures,
 };
+use scene::voxels::cloud_points::CloudPoints;
 use scene::voxels::point_cloud::{CloudPoint, PointCloud};
 use script::Bytes;
 
@@ -172,7 +173,7 @@ pub(super) fn empty(max_cell_size: f64, max_points_in_cell: i64) -> PointCloud {
         uses_octree: true,
         display_fraction: 1.0,
         random_colours: false,
-        points: Vec::new(),
+        points: CloudPoints::default(),
     }
 }
 

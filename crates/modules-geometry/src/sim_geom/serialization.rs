@@ -142,7 +142,7 @@ pub(super) fn of_point_cloud(cloud: &PointCloud) -> Result<Vec<u8>> {
     bytes.extend(cloud.max_cell_size.to_le_bytes());
     bytes.extend((cloud.max_points_in_cell.clamp(0, u32::MAX.into()) as u32).to_le_bytes());
     put_count(&mut bytes, cloud.points.len())?;
-    for point in &cloud.points {
+    for point in cloud.points.iter() {
         put_point(&mut bytes, &point.position);
         bytes.extend(point.colour);
     }

@@ -1,5 +1,6 @@
 //! Octrees and point clouds.
 
+pub mod cloud_points;
 pub mod octree;
 pub mod options;
 pub mod point_cloud;

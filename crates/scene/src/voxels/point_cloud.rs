@@ -1,10 +1,9 @@
 //! Point clouds.
 
-use std::collections::HashMap;
-
 use geometry::BoundingBox;
 
 use super::box_around;
+use super::cloud_points::CloudPoints;
 
 /// Points with colours, in the frame of the object.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +21,7 @@ pub struct PointCloud {
     /// Option of its creation, stored and read back; scripts choose the colours.
     pub random_colours: bool,
     /// The points in the order of insertion.
-    pub points: Vec<CloudPoint>,
+    pub points: CloudPoints,
 }
 
 /// A point of a cloud.
@@ -37,28 +36,18 @@ pub struct CloudPoint {
 impl PointCloud {
     /// Adds points, except for those that have another within `tolerance` metres. Points that are nowhere are left out.
     pub fn insert(&mut self, points: impl Iterator<Item = CloudPoint>, tolerance: f64) {
-        let mut near = NeighbourGrid::new(tolerance);
-        self.points
-            .iter()
-            .for_each(|point| near.add(point.position));
-        for point in points.filter(|point| point.position.iter().all(|c| c.is_finite())) {
-            if !near.finds(point.position) {
-                near.add(point.position);
-                self.points.push(point);
-            }
-        }
+        let finite = points.filter(|point| point.position.iter().all(|c| c.is_finite()));
+        self.points.insert(finite, tolerance);
     }
 
     /// Removes the points that lie within `tolerance` metres of one of `places`.
-    pub fn remove(&mut self, places: impl Iterator<Item = [f64; 3]>, tolerance: f64) {
-        let near = NeighbourGrid::of(places, tolerance);
-        self.points.retain(|point| !near.finds(point.position));
+    pub fn remove(&mut self, places: &[[f64; 3]], tolerance: f64) {
+        self.points.keep(false, places, tolerance);
     }
 
     /// Keeps only the points that lie within `tolerance` metres of one of `places`.
-    pub fn intersect(&mut self, places: impl Iterator<Item = [f64; 3]>, tolerance: f64) {
-        let near = NeighbourGrid::of(places, tolerance);
-        self.points.retain(|point| near.finds(point.position));
+    pub fn intersect(&mut self, places: &[[f64; 3]], tolerance: f64) {
+        self.points.keep(true, places, tolerance);
     }
 
     /// The box around all points, in the frame of the object.
@@ -69,59 +58,7 @@ impl PointCloud {
     /// Scales all lengths.
     pub fn scale(&mut self, factor: f64) {
         self.max_cell_size *= factor;
-        self.points
-            .iter_mut()
-            .for_each(|point| point.position = point.position.map(|c| factor * c));
-    }
-}
-
-/// Points in the cells of a grid as wide as the tolerance: neighbours are in the same cell or in one beside it.
-struct NeighbourGrid {
-    tolerance: f64,
-    cells: HashMap<[i64; 3], Vec<[f64; 3]>>,
-}
-
-impl NeighbourGrid {
-    fn new(tolerance: f64) -> Self {
-        Self {
-            tolerance: if tolerance > 0.0 { tolerance } else { 0.0 },
-            cells: HashMap::new(),
-        }
-    }
-
-    fn of(places: impl Iterator<Item = [f64; 3]>, tolerance: f64) -> Self {
-        let mut near = Self::new(tolerance);
-        places.for_each(|place| near.add(place));
-        near
-    }
-
-    /// With a tolerance of zero no point is near.
-    fn add(&mut self, place: [f64; 3]) {
-        if self.tolerance > 0.0 {
-            self.cells.entry(self.cell(place)).or_default().push(place);
-        }
-    }
-
-    fn finds(&self, place: [f64; 3]) -> bool {
-        let [x, y, z] = self.cell(place);
-        let close = |other: &[f64; 3]| {
-            (0..3).map(|i| (other[i] - place[i]).powi(2)).sum::<f64>() <= self.tolerance.powi(2)
-        };
-        let beside = |at: i64| at.saturating_sub(1)..=at.saturating_add(1);
-        !self.cells.is_empty()
-            && beside(x).any(|x| {
-                beside(y).any(|y| {
-                    beside(z).any(|z| {
-                        self.cells
-                            .get(&[x, y, z])
-                            .is_some_and(|cell| cell.iter().any(close))
-                    })
-                })
-            })
-    }
-
-    fn cell(&self, place: [f64; 3]) -> [i64; 3] {
-        place.map(|c| (c / self.tolerance).floor() as i64)
+        self.points.scale(factor);
     }
 }
 
@@ -137,7 +74,7 @@ mod tests {
             uses_octree: true,
             display_fraction: 1.0,
             random_colours: false,
-            points: Vec::new(),
+            points: CloudPoints::default(),
         }
     }
 
@@ -162,9 +99,9 @@ mod tests {
         let mut cloud = cloud();
         cloud.insert(points(&[-0.015, 0.0, 0.015, 1.0]), 0.0);
         let mut other = cloud.clone();
-        cloud.remove([[0.001, 0.0, 0.0]].into_iter(), 0.015);
+        cloud.remove(&[[0.001, 0.0, 0.0]], 0.015);
         assert_eq!(cloud.points.len(), 2);
-        other.intersect([[0.001, 0.0, 0.0]].into_iter(), 0.015);
+        other.intersect(&[[0.001, 0.0, 0.0]], 0.015);
         assert_eq!(other.points.len(), 2);
     }
 }

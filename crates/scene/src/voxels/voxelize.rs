@@ -250,7 +250,7 @@ impl Scene {
             Kind::OcTree(tree) => rest
                 .points
                 .retain(|point| !tree.is_within(local(&point.position), tolerance)),
-            _ => rest.remove(self.points_of(handle, cloud, 1.0)?.into_iter(), tolerance),
+            _ => rest.remove(&self.points_of(handle, cloud, 1.0)?, tolerance),
         }
         Ok(rest)
     }

@@ -2,6 +2,7 @@
 
 use crate::ttt::Counted;
 use crate::ttt::chunks as file;
+use scene::voxels::cloud_points::CloudPoints;
 use scene::voxels::octree::{OcTree, Voxel};
 use scene::voxels::point_cloud::{CloudPoint, PointCloud};
 
@@ -66,7 +67,7 @@ pub(in crate::scene_file) fn point_cloud(chunk: &file::PointCloud) -> Result<Poi
         uses_octree: flags & 0x10 == 0,
         display_fraction: chunk.display_ratio.unwrap_or(1.0),
         random_colours: flags & 4 != 0,
-        points: Vec::new(),
+        points: CloudPoints::default(),
     };
     let blobs = [
         (&chunk.cells_v3, true),
