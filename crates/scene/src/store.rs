@@ -10,6 +10,7 @@ use super::object::identity;
 use super::object::objects::Objects;
 use super::object::{Kind, Object};
 use super::shape::mesh_owners::MeshOwners;
+use super::shape::primitives::PrimitiveMeshes;
 use super::shape::{Part, Shape};
 use super::tree::button_interfaces::ButtonInterfaces;
 use super::tree::calculation_objects::{CollisionObjects, DistanceObjects};
@@ -30,6 +31,7 @@ pub struct Scene {
     pub(super) objects: Objects,
     last_uid: Uid,
     mesh_owners: MeshOwners,
+    pub(super) primitive_meshes: PrimitiveMeshes,
     pub(super) old_names: OldNames,
     pub(super) roots: Vec<Handle>,
     pub(super) namesakes: Namesakes,

@@ -45,7 +45,8 @@ fn create_primitive_shape(
     let Some(kind) = PrimitiveKind::from_code(primitive_type.0).filter(makeable) else {
         return Ok(-1);
     };
-    let shape = Shape::primitive(kind, sizes, PrimitiveOptions::from_bits_retain(options.0))?;
+    let options = PrimitiveOptions::from_bits_retain(options.0);
+    let shape = cx.scene_mut().primitive(kind, sizes, options)?;
     Ok(add(cx, kind.alias(), shape)?.raw())
 }
 
@@ -83,7 +84,7 @@ fn create_pure_shape(
     } else {
         sizes
     };
-    let mut shape = Shape::primitive(kind, sizes, options.primitive())?;
+    let mut shape = cx.scene_mut().primitive(kind, sizes, options.primitive())?;
     shape.mass.set_mass(mass);
     shape.dynamics.respondable = options.contains(PureShapeOptions::RESPONDABLE);
     shape.dynamics.is_static = options.contains(PureShapeOptions::STATIC);

@@ -5,19 +5,14 @@ use std::rc::Rc;
 use geometry::BoundingBox;
 use geometry::MassProperties;
 use geometry::Mesh;
-use geometry::primitive::{
-    PrimitiveKind, bounding_size, clamp_size, has_pure_size, heightfield, tessellate,
-};
+use geometry::primitive::{PrimitiveKind, heightfield};
 
 use super::options::PrimitiveOptions;
+use super::primitives::PrimitiveForm;
 use super::{Appearance, HeightField, Material, Part, Primitive, Shape, ShapeDynamics, Velocity};
 use crate::Pose;
 use crate::{SceneError, SceneResult};
 
-/// Density of new primitives, kg/m3.
-const DENSITY: f64 = 500.0;
-/// Thickness that flat primitives report, metres.
-const FLAT_THICKNESS: f64 = 1e-4;
 const GREY: [f32; 3] = [0.9; 3];
 const SAND: [f32; 3] = [0.68, 0.56, 0.36];
 
@@ -37,7 +32,7 @@ impl Shape {
         }
     }
 
-    /// A primitive of the given full extents (m), centred on its frame.
+    /// A primitive of the given full extents (m), centred on its frame. [`Scene::primitive`](crate::Scene::primitive) shares the meshes of equal ones.
     ///
     /// # Errors
     /// For height fields, which need heights.
@@ -46,48 +41,8 @@ impl Shape {
         size: [f64; 3],
         options: PrimitiveOptions,
     ) -> SceneResult<Self> {
-        let size = clamp_size(kind, size);
-        let has_ends = matches!(kind, PrimitiveKind::Cylinder | PrimitiveKind::Cone);
-        let open_ends = has_ends && options.contains(PrimitiveOptions::OPEN_ENDS);
-        let mut mesh = tessellate(kind, size, open_ends).ok_or(SceneError::InvalidArgument)?;
-        let mut appearance = Appearance::new([1.0; 3]);
-        appearance.culling = options.contains(PrimitiveOptions::CULLING);
-        if options.contains(PrimitiveOptions::SHARP_EDGES) {
-            (appearance.shading_angle, appearance.edge_angle) = (0.0, 0.0);
-        }
-        mesh.compute_normals(appearance.shading_angle);
-        let flat = matches!(kind, PrimitiveKind::Plane | PrimitiveKind::Disc);
-        let pure = !options.contains(PrimitiveOptions::PLAIN_MESH)
-            && !open_ends
-            && has_pure_size(kind, size);
-        let analytic = [
-            size[0],
-            size[1],
-            if flat { FLAT_THICKNESS } else { size[2] },
-        ];
-        let part = Part {
-            uid: 0,
-            mesh: Rc::new(mesh),
-            pose: Pose::identity(),
-            primitive: pure.then_some(Primitive {
-                kind,
-                size: analytic,
-                heights: None,
-            }),
-            convex: kind.is_convex() && !open_ends,
-            mass: MassProperties::of_primitive_at_creation(kind, size, DENSITY),
-            alias: String::new(),
-            group: Vec::new(),
-            appearance,
-            texture: None,
-        };
-        let bounding_box = BoundingBox {
-            size: bounding_size(kind, size),
-            pose: Pose::identity(),
-        };
-        let mut shape = Self::simple(part, bounding_box);
-        shape.material = Material::rest_stack_grasp();
-        Ok(shape)
+        let form = PrimitiveForm::new(kind, size, options);
+        Ok(form.shape(Rc::new(form.mesh()?), options))
     }
 
     /// A mesh whose vertices lie in the shape frame; its bounding box is turned to be the tightest.

@@ -7,6 +7,7 @@ pub(crate) mod group;
 pub(crate) mod hull_points;
 pub(crate) mod mesh_owners;
 pub mod options;
+pub(crate) mod primitives;
 pub mod reshape;
 
 use std::rc::Rc;
