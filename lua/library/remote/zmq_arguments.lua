@@ -3,7 +3,7 @@ Decodes the arguments of a request of the ZeroMQ remote API, including control w
 ]]
 
 local NIL <const> = '_*NIL*_'
-local CALLBACK <const> = '^(.*)@func$'
+local CALLBACK <const> = '@func' -- at the end of the name of a function of the client
 local MAX_SEARCHED <const> = 16 -- entries of a table that are looked through for callbacks
 local MAX_ARGUMENTS <const> = 100000
 
@@ -19,8 +19,9 @@ end
 
 local function withCallbacks(client, value, callbackOf, depth)
     if type(value) == 'string' then
-        local name = value:match(CALLBACK)
-        return name and callbackOf(client, name) or value
+        -- Not with a pattern: that would go through all of a long text.
+        local isCallback = value:sub(-#CALLBACK) == CALLBACK
+        return isCallback and callbackOf(client, value:sub(1, -#CALLBACK - 1)) or value
     end
     if depth == 0 and type(value) == 'table' and not getmetatable(value) then
         local looked = 0
