@@ -82,6 +82,19 @@ impl SysCall {
         matches!(self, Self::Actuation | Self::NonSimulation)
     }
 
+    /// Whether scripts need not be called that have nothing to do in it: callbacks without arguments, which come again and again.
+    pub(crate) const fn may_be_idle(self) -> bool {
+        matches!(
+            self,
+            Self::NonSimulation
+                | Self::Actuation
+                | Self::Sensing
+                | Self::Suspended
+                | Self::BeforeMainScript
+                | Self::RealTimeIdle
+        )
+    }
+
     /// Whether all other scripts are notified when a script has run this.
     pub(crate) const fn is_announced(self) -> bool {
         matches!(

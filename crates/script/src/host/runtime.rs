@@ -65,6 +65,12 @@ pub trait Interpreter {
         None
     }
 
+    /// Whether a callback that was just called does nothing, with the thread of the script, until code of the script runs again. It is not
+    /// defined then, or its function is empty.
+    fn is_idle(&self, _call: SysCall, _is_defined: bool) -> bool {
+        false
+    }
+
     /// Calls a hook of the script; false when there is no such function.
     ///
     /// # Errors

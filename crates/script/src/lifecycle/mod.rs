@@ -50,7 +50,10 @@ impl Sim {
         if !script.is_running() {
             return Reply::default();
         }
-        self.run_callback(script, call, args)
+        match script.idle.get().would_run(call) {
+            Some(ran) if args.is_empty() => Reply { ran, value: None },
+            _ => self.run_callback(script, call, args),
+        }
     }
 
     /// Whether a script is not to be called. The scene is only looked into after a change that can concern it.
@@ -147,12 +150,20 @@ impl Sim {
             && !call.resumes_threads()
             && !has_late_cleanup(&runtime, call)
         {
+            // Code of the script that runs now could give it a hook.
+            if call != SysCall::Cleanup && runtime.env.depth.get() == 0 {
+                script.idle.set(script.idle.get().with(call, false));
+            }
             return Reply::default();
         }
         if call == SysCall::Cleanup {
             script.set_base_state(state::ENDED);
         }
+        let idle = script.idle.get();
         let outcome = self.call_with_hooks(&runtime, call, args);
+        if call.may_be_idle() && outcome.did_nothing(&runtime, call) {
+            script.idle.set(idle.with(call, outcome.function_ran));
+        }
         if let Some(error) = ScriptError::joined(&outcome.errors) {
             self.fail(script, &error);
         } else if call.is_announced() && outcome.function_ran {
@@ -331,6 +342,16 @@ struct Outcome {
 }
 
 impl Outcome {
+    /// Whether the callback does nothing, this time and until code of the script runs again.
+    fn did_nothing(&self, runtime: &Runtime, call: SysCall) -> bool {
+        self.ran == self.function_ran
+            && self.value.is_none()
+            && self.errors.is_empty()
+            && runtime.env.depth.get() == 0
+            && !runtime.env.has_hooks(call)
+            && runtime.interpreter.is_idle(call, self.function_ran)
+    }
+
     fn resume_thread(&mut self, runtime: &Runtime) {
         if let Err(error) = runtime.interpreter.resume_thread() {
             self.errors.push(error);

@@ -4,6 +4,7 @@ mod bottom;
 mod buffers;
 pub(crate) mod coverage;
 mod functions;
+mod idle;
 mod implicit;
 mod library_globals;
 mod members;
@@ -32,6 +33,7 @@ use crate::host::{
 use crate::sys_call::SysCall;
 use bottom::Bottom;
 use coverage::Coverage;
+use idle::IdleFunctions;
 use permissions::Permissions;
 use scene::Data;
 use user_modules::UserModule;
@@ -74,6 +76,7 @@ impl LuaLanguage {
         LuaInterpreter {
             state,
             bottom: Bottom::default(),
+            idle: IdleFunctions::default(),
             user_modules,
         }
     }
@@ -114,6 +117,7 @@ impl Language for LuaLanguage {
 pub(crate) struct LuaInterpreter {
     state: State,
     bottom: Bottom,
+    idle: IdleFunctions,
     user_modules: Rc<[UserModule]>,
 }
 
@@ -206,6 +210,10 @@ impl Interpreter for LuaInterpreter {
             self.bottom.push_integers(stack, table);
             Ok(1)
         })
+    }
+
+    fn is_idle(&self, call: SysCall, is_defined: bool) -> bool {
+        !is_defined || self.on_stack(|stack| self.idle.is_idle(stack, call))
     }
 
     fn host_calls(&self) -> Option<u64> {

@@ -22,6 +22,7 @@ impl<'a> Level<'a> {
     /// A call the host makes. The outermost one begins a time slice and forgets locks; inner ones cannot yield.
     pub(crate) fn enter(scripts: &'a ScriptSet, env: &'a Env) -> Self {
         let too_deep = !scripts.enter();
+        env.script.idle.take();
         let depth = env.depth.get();
         env.depth.set(depth + 1);
         if depth == 0 {

@@ -4,6 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use crate::host::Runtime;
+use crate::sys_call::SysCall;
 use scene::Handle;
 use scene::object::script_object::{ExecutionPriority, ScriptType};
 
@@ -29,6 +30,8 @@ pub struct Script {
     /// Its type, which decides when its callbacks are called.
     pub script_type: ScriptType,
     pub(crate) removed: Cell<bool>,
+    /// Callbacks that do nothing, until code of the script runs.
+    pub(crate) idle: Cell<IdleCallbacks>,
     /// The scene object that holds text and flags; None for main, sandbox and add-ons.
     pub object: Option<Handle>,
     /// The data of a detached script, which has no object.
@@ -37,6 +40,31 @@ pub struct Script {
     pub file: RefCell<Option<String>>,
     /// The run counter of an old script, from before callbacks had one.
     pub execution_count: Cell<i64>,
+}
+
+/// Callbacks of a script that need not be called, as bits: their interpreters, of which there may be thousands, are not touched then.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct IdleCallbacks {
+    undefined: u64,
+    empty: u64,
+}
+
+impl IdleCallbacks {
+    /// The same with one more, which has an empty function or none.
+    pub(crate) fn with(mut self, call: SysCall, is_defined: bool) -> Self {
+        if is_defined {
+            self.empty |= call.bit();
+        } else {
+            self.undefined |= call.bit();
+        }
+        self
+    }
+
+    /// Whether a function would run if this one were called; None where it has to be called.
+    pub(crate) fn would_run(self, call: SysCall) -> Option<bool> {
+        let is_empty = self.empty & call.bit() != 0;
+        (is_empty || self.undefined & call.bit() != 0).then_some(is_empty)
+    }
 }
 
 /// Text and flags of a script that is no scene object.
@@ -104,6 +132,7 @@ impl Script {
             state: Cell::new(state::UNLOADED),
             runtime: RefCell::new(None),
             removed: Cell::new(false),
+            idle: Cell::default(),
             disabled: Cell::new((0, false)),
             file: RefCell::default(),
             execution_count: Cell::new(0),

@@ -57,6 +57,13 @@ impl Prototype<'_> {
     }
 }
 
+impl Prototype<'_> {
+    /// Whether the body is empty.
+    pub(crate) fn does_nothing(&self) -> bool {
+        matches!(self.code[..], [only] if only & 0x7f == op::RETURN0)
+    }
+}
+
 /// Whether an instruction does no more with the argument than read a field of it.
 fn only_reads_fields(instruction: u32) -> bool {
     let [a, b, c] = [7, 16, 24].map(|place| instruction >> place & 0xff == ARGUMENT);
@@ -91,6 +98,27 @@ mod tests {
         let code =
             Bytecode::compile(format!("local up return {function}").as_bytes(), "=test").unwrap();
         code.main_function().unwrap().inner[0].forgets_its_argument()
+    }
+
+    #[test]
+    fn only_an_empty_body_does_nothing() {
+        let does_nothing = |function: &str| {
+            let code = Bytecode::compile(format!("return {function}").as_bytes(), "=test").unwrap();
+            code.main_function().unwrap().inner[0].does_nothing()
+        };
+        assert!(does_nothing("function() end") && does_nothing("function(a, b) -- later\n end"));
+        for body in [
+            "return 1",
+            "return nil",
+            "local a",
+            "a = 1",
+            "f()",
+            "return f()",
+            "goto x ::x::  f()",
+        ] {
+            assert!(!does_nothing(&format!("function() {body} end")), "{body}");
+        }
+        assert!(!does_nothing("function(...) return ... end"));
     }
 
     #[test]

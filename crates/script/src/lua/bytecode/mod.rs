@@ -136,6 +136,19 @@ impl Stack<'_> {
         })
     }
 
+    /// Whether a call of the function on top does nothing at all: its body is empty, and the script has no hook that would see the call.
+    pub(crate) fn does_nothing(self) -> bool {
+        if super::api::lua_gethookmask(self) != 0 {
+            return false;
+        }
+        self.push_value(-1);
+        let code = self.dump();
+        code.is_some_and(|code| {
+            code.main_function()
+                .is_some_and(|function| function.does_nothing())
+        })
+    }
+
     /// Whether the function that called the running one, by a field of this name, drops its results.
     pub(in crate::lua) fn caller_drops_results_of(self, field: &str) -> bool {
         let Some(line) = self.push_caller() else {
