@@ -228,7 +228,8 @@ fn an_index_that_follows_answers_as_a_new_one() {
 fn change(scene: &mut Scene, objects: &mut Vec<Handle>, dice: &mut Dice) {
     let at = dice.below(objects.len());
     let object = objects[at];
-    match dice.below(6) {
+    match dice.below(9) {
+        5..=7 => grow_octrees(scene, dice),
         0 => {
             scene.remove(&[object]).unwrap();
             objects.remove(at);
@@ -256,6 +257,58 @@ fn change(scene: &mut Scene, objects: &mut Vec<Handle>, dice: &mut Dice) {
             .scale_objects(&[object], 1.1, true)
             .unwrap_or_default(),
         _ => scene.set_world_pose(object, dice.pose()).unwrap(),
+    }
+}
+
+/// More voxels for each octree, or fewer.
+fn grow_octrees(scene: &mut Scene, dice: &mut Dice) {
+    let is_octree = |object: &&scene::Object| object.octree().is_ok();
+    let octrees: Vec<Handle> = scene
+        .objects()
+        .filter(is_octree)
+        .map(scene::Object::handle)
+        .collect();
+    let (voxel, goes) = (
+        Voxel {
+            colour: [0; 3],
+            tag: 0,
+        },
+        dice.below(8) == 0,
+    );
+    for octree in octrees {
+        let points: Vec<[f64; 3]> = (0..1 + dice.below(3))
+            .map(|_| dice.pose().translation.vector.into())
+            .collect();
+        let grow = |object: &mut scene::Object| {
+            let tree = object.octree_mut().unwrap();
+            for point in points {
+                match goes {
+                    true => tree.remove(point),
+                    false => tree.insert(point, voxel),
+                }
+            }
+        };
+        scene.modify(octree, Field::Geometry, grow).unwrap();
+    }
+}
+
+#[test]
+fn an_octree_that_grows_is_prepared_in_few_parts() {
+    let mut scene = Scene::new();
+    let tree = Kind::OcTree(Box::new(OcTree::new(0.1, 1.0)));
+    let octree = scene.add("octree", tree).unwrap();
+    let mut index = crate::index::Index::default();
+    for number in 0..300 {
+        let point = [0.1 * f64::from(number) + 0.05, 0.0, 0.0];
+        let voxel = Voxel {
+            colour: [0; 3],
+            tag: 0,
+        };
+        let insert = |object: &mut scene::Object| object.octree_mut().unwrap().insert(point, voxel);
+        scene.modify(octree, Field::Geometry, insert).unwrap();
+        index.update(&scene);
+        let parts = index.body(octree).unwrap().parts().count();
+        assert!(parts <= 9, "{parts} parts of {number} voxels");
     }
 }
 

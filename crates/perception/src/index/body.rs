@@ -7,6 +7,7 @@ use std::rc::Rc;
 use geometry::Mesh;
 use proximity::{Bounds, Geometry, Placed, PointSet, TriangleMesh, VoxelGrid};
 
+use super::growth::Growth;
 use scene::{Kind, Object, Pose, Uid};
 
 /// A mesh, prepared for queries when the first one comes near. Copies of a shape share it.
@@ -53,12 +54,14 @@ impl Meshes {
 pub(crate) struct Body {
     pub(super) uid: Uid,
     parts: Vec<Part>,
+    /// Of an octree.
+    growth: Option<Growth>,
     /// In the world.
     pub(crate) bounds: Bounds,
 }
 
 #[derive(Debug)]
-struct Part {
+pub(super) struct Part {
     solid: Solid,
     /// In the frame of the object.
     local: Pose,
@@ -107,8 +110,17 @@ impl Body {
         Some(Self {
             uid: object.uid(),
             parts,
+            growth: object.octree().ok().map(Growth::of),
             bounds: Bounds::EMPTY,
         })
+    }
+
+    /// Follows an object whose geometry has changed; false when the body has to be made anew.
+    pub(super) fn follow(&mut self, object: &Object) -> bool {
+        let (Some(growth), Ok(tree)) = (&mut self.growth, object.octree()) else {
+            return false;
+        };
+        self.uid == object.uid() && growth.follow(tree, &mut self.parts)
     }
 
     /// Puts it at a pose in the world.
@@ -150,6 +162,10 @@ impl Part {
             pose: local,
             bounds: Bounds::EMPTY,
         }
+    }
+
+    pub(super) fn of_voxels(grid: VoxelGrid) -> Self {
+        Self::centred(Solid::Voxels(grid))
     }
 
     fn centred(solid: Solid) -> Self {

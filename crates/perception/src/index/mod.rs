@@ -4,6 +4,7 @@
 //! prepared when a query comes near them.
 
 mod body;
+mod growth;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -129,8 +130,13 @@ impl Index {
         self.tree.remove(handle.0);
     }
 
-    /// Makes the body of an object anew.
+    /// Makes the body of an object anew, or adds to it what has come.
     fn renew(&mut self, handle: Handle, scene: &Scene) {
+        let body = self.bodies.get_mut(&handle);
+        let object = scene.object(handle);
+        if body.is_some_and(|body| object.is_ok_and(|object| body.follow(object))) {
+            return self.place(handle, scene);
+        }
         self.remove(handle);
         let Ok(object) = scene.object(handle) else {
             return;

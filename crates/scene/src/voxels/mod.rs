@@ -1,6 +1,7 @@
 //! Octrees and point clouds.
 
 pub mod cloud_points;
+pub mod growth;
 pub mod octree;
 pub mod options;
 pub mod point_cloud;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use geometry::BoundingBox;
 
 use super::box_around;
+use super::growth::Growth;
 
 /// A grid of cubic cells along the axes of the object, with a boundary at its origin; some cells are voxels.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,10 +18,11 @@ pub struct OcTree {
     /// Option of its creation, stored and read back; scripts choose the colours.
     pub random_colours: bool,
     voxels: BTreeMap<Cell, Voxel>,
+    pub(super) growth: Growth,
 }
 
 /// How many cells from the origin: z, y, x, so that layers follow each other.
-type Cell = [i32; 3];
+pub(super) type Cell = [i32; 3];
 
 /// The content of an occupied cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,6 +43,7 @@ impl OcTree {
             shows_points: false,
             random_colours: false,
             voxels,
+            growth: Growth::default(),
         }
     }
 
@@ -53,7 +56,7 @@ impl OcTree {
     pub fn set_voxel_size(&mut self, size: f64) {
         let old: Vec<_> = self.voxels().collect();
         self.voxel_size = cell_size(size);
-        self.voxels.clear();
+        self.clear();
         old.into_iter()
             .for_each(|(centre, voxel)| self.insert(centre, voxel));
     }
@@ -61,25 +64,31 @@ impl OcTree {
     /// Scales all lengths.
     pub fn scale(&mut self, factor: f64) {
         self.voxel_size *= factor;
+        self.growth = Growth::default();
     }
 
     /// Occupies the cell a point is in. Points too far away for the grid are left out.
     pub fn insert(&mut self, point: [f64; 3], voxel: Voxel) {
-        if let Some(cell) = self.cell(point) {
-            self.voxels.insert(cell, voxel);
+        if let Some(cell) = self.cell(point)
+            && self.voxels.insert(cell, voxel).is_none()
+        {
+            self.growth.add(cell);
         }
     }
 
     /// Empties the cell a point is in.
     pub fn remove(&mut self, point: [f64; 3]) {
-        if let Some(cell) = self.cell(point) {
-            self.voxels.remove(&cell);
+        if let Some(cell) = self.cell(point)
+            && self.voxels.remove(&cell).is_some()
+        {
+            self.growth = Growth::default();
         }
     }
 
     /// Empties all cells.
     pub fn clear(&mut self) {
         self.voxels.clear();
+        self.growth = Growth::default();
     }
 
     /// Number of voxels.
@@ -99,10 +108,13 @@ impl OcTree {
 
     /// Centres in the frame of the object, and what is there.
     pub fn voxels(&self) -> impl Iterator<Item = ([f64; 3], Voxel)> {
-        let middle = |at: i32| (f64::from(at) + 0.5) * self.voxel_size;
         self.voxels
             .iter()
-            .map(move |([z, y, x], voxel)| ([*x, *y, *z].map(middle), *voxel))
+            .map(|(cell, voxel)| (self.centre(*cell), *voxel))
+    }
+
+    pub(super) fn centre(&self, [z, y, x]: Cell) -> [f64; 3] {
+        [x, y, z].map(|at| (f64::from(at) + 0.5) * self.voxel_size)
     }
 
     /// The box around all voxels, in the frame of the object.
@@ -115,10 +127,7 @@ impl OcTree {
         let layer = |height: f64| (height / self.voxel_size).floor() as i32;
         let (first, last) = (layer(low), layer(high));
         let cells = [first, i32::MIN, i32::MIN]..=[last.max(first), i32::MAX, i32::MAX];
-        let middle = |at: i32| (f64::from(at) + 0.5) * self.voxel_size;
-        self.voxels
-            .range(cells)
-            .map(move |([z, y, x], _)| [*x, *y, *z].map(middle))
+        self.voxels.range(cells).map(|(cell, _)| self.centre(*cell))
     }
 
     fn cell(&self, [x, y, z]: [f64; 3]) -> Option<Cell> {
