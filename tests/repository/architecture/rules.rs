@@ -41,6 +41,7 @@ const SCENE: Rooms = &[
             "sensor",
             "shape",
             "simulation",
+            "values",
             "voxels",
         ],
     ),

@@ -1,3 +1,5 @@
+//! What paths lead to, compared with a look at everything, and how much is looked at for it.
+
 use super::*;
 use crate::Kind;
 use crate::object::dummy::Dummy;
