@@ -1,14 +1,19 @@
 //! Which face is in front in each pixel of some rows.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
-use wide::{f32x8, u32x8};
+use wide::{f32x4, f32x8, u32x4, u32x8};
 
-use crate::coverage::face::{Block, Face};
+use crate::coverage::face::{Cover, Face, LANES};
 
 /// Faces that differ by a smaller part of their closeness lie in one plane: the one drawn first is seen. Their closeness is rounded, so
 /// that a plain comparison would show parts of both.
 pub const COPLANAR: f32 = 1.0 / (1 << 20) as f32;
+
+/// What is more than this many times as close lies in front. Closeness is not negative.
+const IN_FRONT: f32 = 1.0 + COPLANAR;
+
+const HAS_ROOM: &str = "rows have room for eight pixels more";
 
 /// The number where no face is.
 pub const NO_FACE: u32 = u32::MAX;
@@ -64,21 +69,15 @@ impl Band {
 
     /// Draws a face where it is closer than what is there.
     pub fn draw(&mut self, face: &Face, number: u32) {
-        face.cover(self.rows.clone(), |block| {
-            let (at, closeness) = (self.place(block), face.closeness_of_eight(self.ray(block)));
-            let (old_closeness, old_faces) =
-                (eight(&mut self.closeness, at), eight(&mut self.faces, at));
-            let mask = closeness.simd_gt(in_front_of(*old_closeness)) & block.mask;
-            if mask.to_bitmask() != 0 {
-                *old_closeness = mask
-                    .select(closeness, f32x8::from(*old_closeness))
-                    .to_array();
-                let mask: u32x8 = bytemuck::cast(mask);
-                *old_faces = mask
-                    .select(u32x8::splat(number), u32x8::from(*old_faces))
-                    .to_array();
-            }
-        });
+        let rows = self.rows.clone();
+        face.cover(
+            rows,
+            &mut Drawing {
+                band: self,
+                face,
+                number,
+            },
+        );
     }
 
     /// Lists the pixels where a face is closer than what is there, or all of its pixels.
@@ -89,48 +88,157 @@ impl Band {
         is_overlay: bool,
         fragments: &mut Vec<Fragment>,
     ) {
-        face.cover(self.rows.clone(), |block| {
-            let (at, closeness) = (self.place(block), face.closeness_of_eight(self.ray(block)));
-            let limit = if is_overlay {
-                f32x8::splat(-1.0)
-            } else {
-                in_front_of(*eight(&mut self.closeness, at))
-            };
-            let mask = (closeness.simd_gt(limit) & block.mask).to_bitmask();
-            for lane in (0..8).filter(|lane| mask >> lane & 1 == 1 && block.x + lane < self.width) {
-                let order = closeness.to_array()[lane].to_bits() | u32::from(is_overlay) << 31;
-                let (row, column) = (
-                    numbers::count_u32(block.y - self.rows.start),
-                    numbers::count_u32(block.x + lane),
-                );
-                fragments.push(Fragment {
-                    row,
-                    column,
-                    order,
-                    face: std::cmp::Reverse(number),
-                });
-            }
-        });
+        let rows = self.rows.clone();
+        let mut collecting = Collecting {
+            band: self,
+            face,
+            number,
+            is_overlay,
+            fragments,
+        };
+        face.cover(rows, &mut collecting);
     }
 
-    fn place(&self, block: Block) -> usize {
-        (block.y - self.rows.start) * self.stride + block.x
+    fn place(&self, x: usize, y: usize) -> usize {
+        (y - self.rows.start) * self.stride + x
     }
 
-    fn ray(&self, block: Block) -> [f64; 2] {
+    fn ray(&self, x: usize, y: usize) -> [f64; 2] {
         // From 32 bits, which is one instruction.
-        let [x, y] = [numbers::count_u32(block.x), numbers::count_u32(block.y)].map(f64::from);
+        let [x, y] = [numbers::count_u32(x), numbers::count_u32(y)].map(f64::from);
         [x + 0.5 - self.centre[0], y + 0.5 - self.centre[1]]
     }
 }
 
-/// The least closeness that is in front of what is there. Closeness is not negative.
-fn in_front_of(closeness: [f32; 8]) -> f32x8 {
-    f32x8::from(closeness) * f32x8::splat(1.0 + COPLANAR)
+/// A face that is drawn where it is closer than what is there.
+struct Drawing<'a> {
+    band: &'a mut Band,
+    face: &'a Face,
+    number: u32,
 }
 
-fn eight<T>(pixels: &mut [T], at: usize) -> &mut [T; 8] {
-    pixels[at..]
-        .first_chunk_mut()
-        .expect("rows have room for eight pixels more")
+impl Cover for Drawing<'_> {
+    #[inline(always)]
+    fn span(&mut self, y: usize, columns: RangeInclusive<usize>) {
+        let (first, count) = (*columns.start(), columns.end() + 1 - columns.start());
+        let (at, rest) = (self.band.place(first, y), count % 8);
+        let length = count - rest;
+        let mut ray = self.band.ray(first, y);
+        let (closeness, _) = self.band.closeness[at..][..length].as_chunks_mut();
+        let (faces, _) = self.band.faces[at..][..length].as_chunks_mut();
+        for (closeness, faces) in closeness.iter_mut().zip(faces) {
+            let closer = self.face.closeness_of_eight(ray);
+            draw_eight(closeness, faces, closer, None, self.number);
+            ray[0] += 8.0;
+        }
+        if rest > 0 {
+            let mask = LANES.simd_lt(f32x8::splat(rest as f32));
+            self.eight(first + length, y, mask);
+        }
+    }
+
+    #[inline(always)]
+    fn eight(&mut self, x: usize, y: usize, mask: f32x8) {
+        let at = self.band.place(x, y);
+        let closeness = self.face.closeness_of_eight(self.band.ray(x, y));
+        draw_eight(
+            chunk_mut(&mut self.band.closeness, at),
+            chunk_mut(&mut self.band.faces, at),
+            closeness,
+            Some(mask),
+            self.number,
+        );
+    }
+
+    #[inline(always)]
+    fn four(&mut self, x: usize, y: usize, mask: f32x4) {
+        let at = self.band.place(x, y);
+        let closeness = self.face.closeness_of_four(self.band.ray(x, y));
+        let old_closeness = chunk_mut(&mut self.band.closeness, at);
+        let old = f32x4::from(*old_closeness);
+        let mask = closeness.simd_gt(old * IN_FRONT) & mask;
+        if mask.to_bitmask() != 0 {
+            let faces = chunk_mut(&mut self.band.faces, at);
+            *old_closeness = mask.select(closeness, old).to_array();
+            let mask: u32x4 = bytemuck::cast(mask);
+            *faces = mask
+                .select(u32x4::splat(self.number), u32x4::from(*faces))
+                .to_array();
+        }
+    }
+}
+
+/// Draws a face in those of eight pixels where the mask says so, if there is one, and where it is closer.
+#[inline(always)]
+fn draw_eight(
+    old_closeness: &mut [f32; 8],
+    faces: &mut [u32; 8],
+    closeness: f32x8,
+    mask: Option<f32x8>,
+    number: u32,
+) {
+    let old = f32x8::from(*old_closeness);
+    let closer = closeness.simd_gt(old * IN_FRONT);
+    let mask = mask.map_or(closer, |mask| closer & mask);
+    if mask.to_bitmask() == 0 {
+        return;
+    }
+    *old_closeness = mask.select(closeness, old).to_array();
+    let mask: u32x8 = bytemuck::cast(mask);
+    *faces = mask
+        .select(u32x8::splat(number), u32x8::from(*faces))
+        .to_array();
+}
+
+/// A face whose pixels are listed where it is closer than what is there, or all of them.
+struct Collecting<'a> {
+    band: &'a Band,
+    face: &'a Face,
+    number: u32,
+    is_overlay: bool,
+    fragments: &'a mut Vec<Fragment>,
+}
+
+impl Cover for Collecting<'_> {
+    fn span(&mut self, y: usize, columns: RangeInclusive<usize>) {
+        let last = *columns.end();
+        for x in columns.step_by(8) {
+            let mask = LANES.simd_le(f32x8::splat((last - x) as f32));
+            self.eight(x, y, mask);
+        }
+    }
+
+    fn eight(&mut self, x: usize, y: usize, mask: f32x8) {
+        let band = self.band;
+        let closeness = self.face.closeness_of_eight(band.ray(x, y));
+        let limit = match self.is_overlay {
+            true => f32x8::splat(-1.0),
+            false => f32x8::from(*chunk(&band.closeness, band.place(x, y))) * IN_FRONT,
+        };
+        let mask = (closeness.simd_gt(limit) & mask).to_bitmask();
+        for lane in (0..8).filter(|lane| mask >> lane & 1 == 1 && x + lane < band.width) {
+            let order = closeness.to_array()[lane].to_bits() | u32::from(self.is_overlay) << 31;
+            self.fragments.push(Fragment {
+                row: numbers::count_u32(y - band.rows.start),
+                column: numbers::count_u32(x + lane),
+                order,
+                face: std::cmp::Reverse(self.number),
+            });
+        }
+    }
+
+    fn four(&mut self, x: usize, y: usize, mask: f32x4) {
+        self.eight(x, y, bytemuck::cast([mask, f32x4::ZERO]));
+    }
+}
+
+/// The pixels from a place on.
+#[inline(always)]
+fn chunk<T, const N: usize>(pixels: &[T], at: usize) -> &[T; N] {
+    pixels[at..].first_chunk().expect(HAS_ROOM)
+}
+
+#[inline(always)]
+fn chunk_mut<T, const N: usize>(pixels: &mut [T], at: usize) -> &mut [T; N] {
+    pixels[at..].first_chunk_mut().expect(HAS_ROOM)
 }

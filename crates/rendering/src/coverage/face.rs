@@ -5,9 +5,9 @@
 //! Two ways lead to the same pixels: small triangles evaluate edge functions in 32 bits for 8 pixels at a time (J. Pineda, *A parallel
 //! algorithm for polygon rasterization*, 1988); for others, the ends of each row are found by exact division in 64 bits.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
-use wide::{f32x8, i32x8};
+use wide::{f32x4, f32x8, i32x4, i32x8};
 
 /// Positions on the picture are multiples of 1 / `UNIT` pixel.
 pub const UNIT: i32 = 1 << UNIT_BITS;
@@ -62,33 +62,18 @@ pub struct Face {
     pub is_uniform: bool,
 }
 
-/// Pixels of a row that are covered together: of the eight from `x` on, those where `mask` says so.
-#[derive(Clone, Copy)]
-pub struct Block {
-    pub x: usize,
-    pub y: usize,
-    pub mask: f32x8,
+/// What is done with the pixels of a face, from the bottom up, in each row from the left to the right.
+pub trait Cover {
+    /// All pixels of a row from the first to the last column.
+    fn span(&mut self, y: usize, columns: RangeInclusive<usize>);
+    /// Those of the eight pixels from column `x` on where `mask` says so: some are covered.
+    fn eight(&mut self, x: usize, y: usize, mask: f32x8);
+    /// The same of four pixels.
+    fn four(&mut self, x: usize, y: usize, mask: f32x4);
 }
 
 /// The numbers of eight pixels.
 pub const LANES: f32x8 = f32x8::new([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
-
-/// Masks of up to four pixels by their bits.
-static NARROW: [f32x8; 16] = {
-    let mut masks = [f32x8::ZERO; 16];
-    let mut bits = 0;
-    while bits < 16 {
-        let mut lanes = [0.0; 8];
-        let mut lane = 0;
-        while lane < 4 {
-            lanes[lane] = f32::from_bits(if bits >> lane & 1 == 1 { u32::MAX } else { 0 });
-            lane += 1;
-        }
-        masks[bits] = f32x8::new(lanes);
-        bits += 1;
-    }
-    masks
-};
 
 impl Face {
     /// How close it is at a ray and at the seven pixels to the right.
@@ -100,8 +85,19 @@ impl Face {
             .fast_min(f32x8::splat(self.range[1]))
     }
 
-    /// Calls `emit` for the pixels that the face covers in some rows, from the bottom up, from the left to the right.
-    pub fn cover(&self, rows: Range<usize>, emit: impl FnMut(Block)) {
+    /// The same of four pixels.
+    pub fn closeness_of_four(&self, ray: [f64; 2]) -> f32x4 {
+        let start = f32x4::splat(numbers::single(self.closeness.at(ray)));
+        let lanes = f32x4::new([0.0, 1.0, 2.0, 3.0]);
+        let closeness = start + f32x4::splat(numbers::single(self.closeness.a)) * lanes;
+        closeness
+            .fast_max(f32x4::splat(self.range[0]))
+            .fast_min(f32x4::splat(self.range[1]))
+    }
+
+    /// Passes on the pixels that the face covers in some rows.
+    #[inline(always)]
+    pub fn cover(&self, rows: Range<usize>, cover: &mut impl Cover) {
         let [columns, own_rows] = self
             .bounds
             .map(|[first, last]| [usize::from(first), usize::from(last)]);
@@ -110,30 +106,33 @@ impl Face {
             return;
         }
         match self.is_small {
-            true => self.cover_small(columns, rows, emit),
-            false => self.cover_large(columns, rows, emit),
+            true if columns[1] - columns[0] < 4 => self.cover_narrow(columns[0], rows, cover),
+            true => self.cover_small(columns, rows, cover),
+            false => self.cover_large(columns, rows, cover),
         }
     }
 
-    fn cover_small(
-        &self,
-        [first, last]: [usize; 2],
-        rows: Range<usize>,
-        mut emit: impl FnMut(Block),
-    ) {
-        let [a, b, c] = self.corners;
-        let pixel = [
-            numbers::count_i32(first) * UNIT + UNIT / 2,
-            numbers::count_i32(rows.start) * UNIT + UNIT / 2,
-        ];
-        let edges = [
-            SmallEdge::new(a, b, pixel),
-            SmallEdge::new(b, c, pixel),
-            SmallEdge::new(c, a, pixel),
-        ];
-        if last - first < 4 {
-            return cover_narrow(&edges, [first, last], rows, emit);
+    /// Up to four columns: most triangles of a fine mesh are so narrow.
+    #[inline(always)]
+    fn cover_narrow(&self, x: usize, rows: Range<usize>, cover: &mut impl Cover) {
+        let edges = self.small_edges(x, rows.start);
+        let [mut a, mut b, mut c] = edges.map(|edge| {
+            let column = |at: i32| edge.start + at * edge.column;
+            i32x4::new([edge.start, column(1), column(2), column(3)])
+        });
+        let steps = edges.map(|edge| i32x4::splat(edge.row));
+        for y in rows {
+            let inside = (a | b | c).simd_gt(i32x4::splat(-1));
+            if inside.to_bitmask() != 0 {
+                cover.four(x, y, bytemuck::cast(inside));
+            }
+            (a, b, c) = (a + steps[0], b + steps[1], c + steps[2]);
         }
+    }
+
+    #[inline(always)]
+    fn cover_small(&self, [first, last]: [usize; 2], rows: Range<usize>, cover: &mut impl Cover) {
+        let edges = self.small_edges(first, rows.start);
         let lanes = i32x8::new([0, 1, 2, 3, 4, 5, 6, 7]);
         let mut at_row = edges.map(|edge| lanes * edge.column + edge.start);
         for y in rows {
@@ -141,11 +140,7 @@ impl Face {
             for x in (first..=last).step_by(8) {
                 let inside = (at[0] | at[1] | at[2]).simd_gt(i32x8::splat(-1));
                 if inside.to_bitmask() != 0 {
-                    emit(Block {
-                        x,
-                        y,
-                        mask: bytemuck::cast(inside),
-                    });
+                    cover.eight(x, y, bytemuck::cast(inside));
                 }
                 (0..3).for_each(|i| at[i] += edges[i].column * 8);
             }
@@ -153,22 +148,29 @@ impl Face {
         }
     }
 
-    fn cover_large(&self, columns: [usize; 2], rows: Range<usize>, mut emit: impl FnMut(Block)) {
+    #[inline(always)]
+    fn cover_large(&self, columns: [usize; 2], rows: Range<usize>, cover: &mut impl Cover) {
         let edges = self.edges();
         for y in rows {
             let (mut first, mut last) = (numbers::count(columns[0]), numbers::count(columns[1]));
             edges
                 .iter()
                 .for_each(|edge| edge.clip_row(numbers::count(y), &mut first, &mut last));
-            for x in (first..=last).step_by(8) {
-                let mask = LANES.simd_le(f32x8::splat((last - x) as f32));
-                emit(Block {
-                    x: numbers::place_of(x),
-                    y,
-                    mask,
-                });
+            if first <= last {
+                cover.span(y, numbers::place_of(first)..=numbers::place_of(last));
             }
         }
+    }
+
+    /// The edges from a pixel on.
+    fn small_edges(&self, column: usize, row: usize) -> [SmallEdge; 3] {
+        let [a, b, c] = self.corners;
+        let pixel = [column, row].map(|at| numbers::count_i32(at) * UNIT + UNIT / 2);
+        [
+            SmallEdge::new(a, b, pixel),
+            SmallEdge::new(b, c, pixel),
+            SmallEdge::new(c, a, pixel),
+        ]
     }
 
     fn edges(&self) -> [Edge; 3] {
@@ -241,30 +243,4 @@ impl SmallEdge {
 /// Whether centres on an edge belong to the triangle: that to the right of a left edge, or below a top edge.
 fn owns_border(dx: i32, dy: i32) -> bool {
     dy < 0 || (dy == 0 && dx < 0)
-}
-
-/// Up to four columns, pixel by pixel: most triangles of a fine mesh are so narrow.
-fn cover_narrow(
-    edges: &[SmallEdge; 3],
-    [first, last]: [usize; 2],
-    rows: Range<usize>,
-    mut emit: impl FnMut(Block),
-) {
-    let [mut a, mut b, mut c] = edges.map(|edge| edge.start);
-    for y in rows {
-        let mut bits = 0;
-        for lane in 0..=(last - first) {
-            let at =
-                |start: i32, edge: usize| start + edges[edge].column * numbers::count_i32(lane);
-            bits |= usize::from(at(a, 0) | at(b, 1) | at(c, 2) >= 0) << lane;
-        }
-        if bits != 0 {
-            emit(Block {
-                x: first,
-                y,
-                mask: NARROW[bits],
-            });
-        }
-        (a, b, c) = (a + edges[0].row, b + edges[1].row, c + edges[2].row);
-    }
 }

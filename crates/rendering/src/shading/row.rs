@@ -8,16 +8,16 @@ use std::ops::Range;
 
 use wide::f32x8;
 
-use crate::Material;
 use crate::coverage::band::NO_FACE;
 use crate::coverage::face::{Face, LANES};
-use crate::projection::owner::{Content, Owner};
-use crate::projection::strokes::unpacked;
+use crate::projection::surface::Surface;
 use crate::projection::view::View;
 use crate::shading::attributes::Attributes;
+use crate::shading::bytes;
 use crate::shading::lighting::Vectors;
-use crate::shading::visible::{Shading, runs};
+use crate::shading::visible::{Run, Shading};
 use crate::three::three;
+use crate::{Material, Texture};
 
 /// Number of faces whose attributes are kept from row to row.
 const MAX_CACHED_FACES: usize = 512;
@@ -25,8 +25,8 @@ const MAX_CACHED_FACES: usize = 512;
 /// The pixels of a row while they are shaded, with room for eight more.
 #[derive(Debug, Default)]
 pub struct Row {
-    y: usize,
-    pub colour: [Vec<f32>; 3],
+    pub y: usize,
+    colour: [Vec<f32>; 3],
     normal: [Vec<f32>; 3],
     uv: [Vec<f32>; 2],
     /// Metres; only where something depends on it.
@@ -37,17 +37,11 @@ pub struct Row {
 
 /// Values common to the pixels of a face.
 #[derive(Debug, Clone, Default)]
-struct Remembered {
+pub struct Remembered {
     face: Option<u32>,
     attributes: Attributes,
     /// Where it is the same everywhere.
-    colour: Option<[f32; 3]>,
-}
-
-/// Pixels of one surface whose normals are known, but not their light.
-struct Unlit<'a> {
-    pixels: Range<usize>,
-    surface: Option<&'a Material>,
+    pub colour: Option<[f32; 3]>,
 }
 
 impl Row {
@@ -65,51 +59,14 @@ impl Row {
             .resize(MAX_CACHED_FACES, Remembered::default());
     }
 
-    /// Computes the colours of a row from the numbers of its faces.
-    pub fn shade(&mut self, shading: &Shading, y: usize, faces: &[u32]) {
-        self.y = y;
-        let background = shading
-            .background
-            .row(y, numbers::place(shading.view.resolution[1]));
-        let mut unlit = Unlit {
-            pixels: 0..0,
-            surface: None,
-        };
-        for (run, number) in runs(faces) {
-            let Some((face, owner)) = shading.face(number) else {
-                self.light(shading, &mut unlit, None);
-                self.fill(run, background);
-                continue;
-            };
-            let material = owner.content.material();
-            let is_textured = material.is_some_and(|material| material.texture.is_some());
-            if !shading.lighting.is_uniform || shading.fog.is_some() || is_textured {
-                self.find_depths(shading.view, face, run.clone());
-            }
-            match (material, self.known_colour(shading, owner, face, number)) {
-                (Some(material), None) => {
-                    self.light(shading, &mut unlit, Some((material, run.start)));
-                    self.interpolate(number, is_textured, run.clone());
-                    unlit.pixels.end = run.end;
-                }
-                (_, colour) => {
-                    self.light(shading, &mut unlit, None);
-                    self.fill(run, colour.unwrap_or_default());
-                }
-            }
-        }
-        self.light(shading, &mut unlit, None);
-        self.cover_with_fog(shading, faces);
-    }
-
-    fn fill(&mut self, run: Range<usize>, colour: [f32; 3]) {
+    pub fn fill(&mut self, pixels: Range<usize>, colour: [f32; 3]) {
         self.colour
             .iter_mut()
             .zip(colour)
-            .for_each(|(list, part)| list[run.clone()].fill(part));
+            .for_each(|(list, part)| list[pixels.clone()].fill(part));
     }
 
-    fn find_depths(&mut self, view: &View, face: &Face, run: Range<usize>) {
+    pub fn find_depths(&mut self, view: &View, face: &Face, run: Range<usize>) {
         for x in run.step_by(8) {
             let closeness = face.closeness_of_eight(view.ray(x, self.y));
             let far = f32x8::splat(numbers::single(view.far));
@@ -122,23 +79,20 @@ impl Row {
         }
     }
 
-    /// The colour of a face where it is the same everywhere.
-    fn known_colour(
+    /// What the pixels of a face have in common.
+    pub fn remember(
         &mut self,
         shading: &Shading,
-        owner: &Owner,
+        surface: &Surface,
+        material: &Material,
         face: &Face,
         number: u32,
-    ) -> Option<[f32; 3]> {
-        let Content::Surface(surface, material) = &owner.content else {
-            return Some(unpacked(face.detail));
-        };
+    ) -> &Remembered {
         let entry = &mut self.remembered[numbers::place(number) % MAX_CACHED_FACES];
         if entry.face != Some(number) {
             let attributes =
                 Attributes::new(shading.view, surface, face, material.texture.is_some());
-            let is_uniform =
-                attributes.is_flat && shading.lighting.is_uniform && material.texture.is_none();
+            let is_uniform = attributes.is_flat && shading.lighting.is_uniform;
             let colour = is_uniform.then(|| {
                 let normals = attributes.normals(0, 0);
                 shading
@@ -152,19 +106,25 @@ impl Row {
                 colour,
             };
         }
-        entry.colour
+        entry
     }
 
-    fn interpolate(&mut self, number: u32, is_textured: bool, run: Range<usize>) {
+    /// The normals of pixels of a face that is remembered.
+    pub fn interpolate_normals(&mut self, number: u32, pixels: Range<usize>) {
         let attributes = &self.remembered[numbers::place(number) % MAX_CACHED_FACES].attributes;
-        for x in run.clone().step_by(8) {
+        for x in pixels.step_by(8) {
             let normals = attributes.normals(x, self.y);
             self.normal
                 .iter_mut()
                 .zip(normals)
                 .for_each(|(list, part)| store(list, x, part));
         }
-        for x in run.step_by(8).filter(|_| is_textured) {
+    }
+
+    /// The texture coordinates of pixels of a face that is remembered.
+    pub fn interpolate_uv(&mut self, number: u32, pixels: Range<usize>) {
+        let attributes = &self.remembered[numbers::place(number) % MAX_CACHED_FACES].attributes;
+        for x in pixels.step_by(8) {
             let uv = attributes.uv(x, self.y);
             self.uv
                 .iter_mut()
@@ -173,43 +133,23 @@ impl Row {
         }
     }
 
-    /// Lights what is unlit, unless what comes next is of the same surface.
-    fn light<'a>(
-        &mut self,
-        shading: &Shading,
-        unlit: &mut Unlit<'a>,
-        next: Option<(&'a Material, usize)>,
-    ) {
-        if let (Some(material), Some((other, _))) = (unlit.surface, next)
-            && std::ptr::eq(material, other)
-        {
-            return;
+    /// Lights pixels of a surface.
+    pub fn light(&mut self, shading: &Shading, material: &Material, pixels: Range<usize>) {
+        for x in pixels.clone().step_by(8) {
+            let normals = three(|i| load(&self.normal[i], x));
+            let points = self.points(shading, x);
+            let count = pixels.end - x;
+            let colours = shading.lighting.lit(material, normals, points, count);
+            self.store_colours(x, colours);
         }
-        if let Some(material) = unlit.surface {
-            for x in unlit.pixels.clone().step_by(8) {
-                let normals = three(|i| load(&self.normal[i], x));
-                let colours = shading.lighting.lit(
-                    material,
-                    normals,
-                    self.points(shading.view, x),
-                    unlit.pixels.end - x,
-                );
-                self.colour
-                    .iter_mut()
-                    .zip(colours)
-                    .for_each(|(list, part)| store(list, x, part));
-            }
-            self.apply_texture(shading.view, material, unlit.pixels.clone());
-        }
-        let start = next.map_or(0, |(_, start)| start);
-        *unlit = Unlit {
-            pixels: start..start,
-            surface: next.map(|(material, _)| material),
-        };
     }
 
-    /// Eight points in the camera's axes: right, up, depth; metres.
-    fn points(&self, view: &View, x: usize) -> Vectors {
+    /// Eight points in the camera's axes: right, up, depth; metres. Zero where nothing depends on them.
+    fn points(&self, shading: &Shading, x: usize) -> Vectors {
+        if shading.lighting.is_uniform {
+            return [f32x8::ZERO; 3];
+        }
+        let view = shading.view;
         let ray = view.ray(x, self.y);
         let ray = [
             numbers::single(ray[0] * view.over_scale),
@@ -221,56 +161,52 @@ impl Row {
         [column * spread, f32x8::splat(ray[1]) * spread, depth]
     }
 
-    fn apply_texture(&mut self, view: &View, material: &Material, pixels: Range<usize>) {
-        let Some(texture) = &material.texture else {
-            return;
-        };
-        for x in pixels {
-            let scale = if view.perspective { self.depth[x] } else { 1.0 };
-            let sample = texture.sample([self.uv[0][x] * scale, self.uv[1][x] * scale]);
-            let colour = texture.combine(three(|i| self.colour[i][x]), sample);
-            (0..3).for_each(|i| self.colour[i][x] = colour[i]);
+    pub fn apply_texture(&mut self, view: &View, texture: &Texture, pixels: Range<usize>) {
+        for x in pixels.step_by(8) {
+            let uv = [load(&self.uv[0], x), load(&self.uv[1], x)];
+            let uv = match view.perspective {
+                true => uv.map(|coordinate| coordinate * load(&self.depth, x)),
+                false => uv,
+            };
+            let lit = three(|i| load(&self.colour[i], x));
+            self.store_colours(x, texture.combine(lit, texture.sample(uv)));
         }
     }
 
-    fn cover_with_fog(&mut self, shading: &Shading, faces: &[u32]) {
+    fn store_colours(&mut self, x: usize, colours: Vectors) {
+        self.colour
+            .iter_mut()
+            .zip(colours)
+            .for_each(|(list, part)| store(list, x, part));
+    }
+
+    pub fn cover_with_fog(&mut self, shading: &Shading, runs: &[Run]) {
         let Some(fog) = &shading.fog else { return };
-        for x in (0..faces.len()).filter(|x| faces[*x] != NO_FACE) {
+        let seen = runs.iter().filter(|run| run.face != NO_FACE);
+        for x in seen.flat_map(|run| run.pixels.clone()) {
             let colour = fog.cover(three(|i| self.colour[i][x]), f64::from(self.depth[x]));
             (0..3).for_each(|i| self.colour[i][x] = colour[i]);
         }
     }
 
     /// Blends the pixels of another row over its own.
-    pub fn blend(&mut self, shading: &Shading, other: &Self, faces: &[u32]) {
-        for (run, number) in runs(faces) {
-            let Some((_, owner)) = shading.face(number) else {
+    pub fn blend(&mut self, shading: &Shading, other: &Self, runs: &[Run]) {
+        for Run { pixels, face } in runs {
+            let Some((_, owner)) = shading.face(*face) else {
                 continue;
             };
             for (own, other) in self.colour.iter_mut().zip(&other.colour) {
-                let pixels = own[run.clone()].iter_mut().zip(&other[run.clone()]);
+                let pixels = own[pixels.clone()].iter_mut().zip(&other[pixels.clone()]);
                 pixels.for_each(|(own, other)| *own += (other - *own) * owner.opacity);
             }
         }
     }
 
-    /// Writes red, green and blue in 8 bits: 0 to 1 becomes 0 to 255, rounded.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "the colours were limited to 0 to 255; this runs for every pixel"
-    )]
-    pub fn write_bytes(&self, pixels: &mut [u8]) {
-        for (at, block) in pixels.chunks_mut(3 * 8).enumerate() {
-            let parts = three(|i| {
-                let limited = load(&self.colour[i], 8 * at)
-                    .max(f32x8::ZERO)
-                    .min(f32x8::ONE);
-                (limited * 255.0 + 0.5).fast_trunc_int().to_array()
-            });
-            for (lane, pixel) in block.chunks_exact_mut(3).enumerate() {
-                pixel.copy_from_slice(&three(|i| parts[i][lane] as u8));
-            }
+    /// Writes the colours of some pixels of the row.
+    pub fn write_bytes(&self, pixels: Range<usize>, bytes: &mut [u8]) {
+        let bytes = &mut bytes[3 * pixels.start..3 * pixels.end];
+        for (x, eight) in pixels.step_by(8).zip(bytes.chunks_mut(3 * 8)) {
+            bytes::write(eight, three(|i| load(&self.colour[i], x)));
         }
     }
 }

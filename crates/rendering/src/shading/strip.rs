@@ -5,8 +5,9 @@ use std::ops::Range;
 use crate::coverage::band::{Band, Fragment, NO_FACE};
 use crate::projection::chunk::face_number;
 use crate::projection::owner::Pass;
+use crate::shading::painter::Painter;
 use crate::shading::row::Row;
-use crate::shading::visible::Shading;
+use crate::shading::visible::{Run, Shading, find_runs};
 
 /// Fragments whose memory is used again; that of more is freed, since each strip has its own.
 const KEPT_FRAGMENTS: usize = 1 << 16;
@@ -20,6 +21,7 @@ pub struct Strip {
     row: Row,
     /// The faces of the closest fragments.
     closest: Vec<u32>,
+    runs: Vec<Run>,
     layer: Vec<u32>,
     layer_row: Row,
 }
@@ -79,27 +81,40 @@ impl Strip {
                 .count();
             let fragments = first..first + count;
             first += count;
-            if !fragments.is_empty() {
-                self.find_closest(shading, at, fragments.clone());
-            }
-            let closest = if fragments.is_empty() {
-                self.band.row(at)
-            } else {
-                &self.closest
-            };
-            if let Some(ids) = pixels.ids.get_mut(at * width..(at + 1) * width) {
-                shading.ids(closest, ids);
-            }
-            if let Some(depths) = pixels.depth.get_mut(at * width..(at + 1) * width) {
-                shading.depths(self.band.rows.start + at, closest, depths);
-            }
-            if let Some(colours) = pixels.colour.get_mut(3 * at * width..3 * (at + 1) * width) {
-                self.row
-                    .shade(shading, self.band.rows.start + at, self.band.row(at));
-                self.blend(shading, at, fragments);
-                self.row.write_bytes(colours);
-            }
+            self.shade_row(shading, at, fragments, pixels);
         }
+    }
+
+    fn shade_row(
+        &mut self,
+        shading: &Shading,
+        at: usize,
+        fragments: Range<usize>,
+        pixels: &mut Pixels,
+    ) {
+        let (y, width) = (self.band.rows.start + at, self.band.row(at).len());
+        if fragments.is_empty() {
+            find_runs(self.band.row(at), &mut self.runs);
+        } else {
+            self.find_closest(shading, at, fragments.clone());
+            find_runs(&self.closest, &mut self.runs);
+        }
+        if let Some(ids) = pixels.ids.get_mut(at * width..(at + 1) * width) {
+            shading.ids(&self.runs, ids);
+        }
+        if let Some(depths) = pixels.depth.get_mut(at * width..(at + 1) * width) {
+            shading.depths(y, &self.runs, depths);
+        }
+        let Some(colours) = pixels.colour.get_mut(3 * at * width..3 * (at + 1) * width) else {
+            return;
+        };
+        if fragments.is_empty() && shading.fog.is_none() {
+            return Painter::new(shading, &mut self.row, y, Some(colours)).paint(&self.runs);
+        }
+        find_runs(self.band.row(at), &mut self.runs);
+        Painter::new(shading, &mut self.row, y, None).paint(&self.runs);
+        self.blend(shading, at, fragments);
+        self.row.write_bytes(0..width, colours);
     }
 
     /// Finds the closest faces of a row with fragments, for depths and ids.
@@ -126,9 +141,10 @@ impl Strip {
             for (_, fragment) in layer {
                 self.layer[numbers::place(fragment.column)] = fragment.face();
             }
-            self.layer_row
-                .shade(shading, self.band.rows.start + at, &self.layer);
-            self.row.blend(shading, &self.layer_row, &self.layer);
+            find_runs(&self.layer, &mut self.runs);
+            let y = self.band.rows.start + at;
+            Painter::new(shading, &mut self.layer_row, y, None).paint(&self.runs);
+            self.row.blend(shading, &self.layer_row, &self.runs);
         }
     }
 }

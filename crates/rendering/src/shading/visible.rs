@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use wide::u32x8;
+
 use crate::coverage::band::NO_FACE;
 use crate::coverage::face::Face;
 use crate::projection::chunk::{Chunk, face};
@@ -20,13 +22,46 @@ pub struct Shading<'a> {
     pub background: Background,
 }
 
-/// The runs of equal numbers in a row.
-pub fn runs(faces: &[u32]) -> impl Iterator<Item = (Range<usize>, u32)> {
+/// Neighbouring pixels of a row that show the same face, or none.
+#[derive(Debug, Clone)]
+pub struct Run {
+    pub pixels: Range<usize>,
+    pub face: u32,
+}
+
+/// Lists the runs of a row, from the left to the right.
+pub fn find_runs(faces: &[u32], runs: &mut Vec<Run>) {
+    runs.clear();
     let mut start = 0;
-    faces.chunk_by(|a, b| a == b).map(move |run| {
-        start += run.len();
-        (start - run.len()..start, run[0])
-    })
+    let mut end_run = |end: usize| {
+        runs.push(Run {
+            pixels: start..end,
+            face: faces[start],
+        });
+        start = end;
+    };
+    let Some((_, next)) = faces.split_first() else {
+        return;
+    };
+    let (blocks, rest) = next.as_chunks::<8>();
+    for (block, next) in blocks.iter().enumerate() {
+        let own = eight(&faces[8 * block..]);
+        let mut changes = !own.simd_eq(u32x8::from(*next)).to_bitmask() & 0xff;
+        while changes != 0 {
+            end_run(8 * block + numbers::place(changes.trailing_zeros()) + 1);
+            changes &= changes - 1;
+        }
+    }
+    for at in faces.len() - rest.len()..faces.len() {
+        if faces[at - 1] != faces[at] {
+            end_run(at);
+        }
+    }
+    end_run(faces.len());
+}
+
+fn eight(faces: &[u32]) -> u32x8 {
+    u32x8::from(*faces.first_chunk().expect("there are as many next ones"))
 }
 
 impl<'a> Shading<'a> {
@@ -37,28 +72,64 @@ impl<'a> Shading<'a> {
     }
 
     /// The ids of a row.
-    pub fn ids(&self, faces: &[u32], ids: &mut [u32]) {
-        for (run, number) in runs(faces) {
-            ids[run].fill(
-                self.face(number)
-                    .map_or(Picture::NOTHING, |(_, owner)| owner.id),
-            );
+    pub fn ids(&self, runs: &[Run], ids: &mut [u32]) {
+        for run in runs {
+            let owner = self.face(run.face).map(|(_, owner)| owner);
+            ids[run.pixels.clone()].fill(owner.map_or(Picture::NOTHING, |owner| owner.id));
         }
     }
 
     /// `(z - near) / (far - near)` of the pixels of a row.
-    pub fn depths(&self, y: usize, faces: &[u32], depths: &mut [f32]) {
-        for (run, number) in runs(faces) {
-            let Some((face, _)) = self.face(number) else {
-                depths[run].fill(1.0);
+    pub fn depths(&self, y: usize, runs: &[Run], depths: &mut [f32]) {
+        for Run { pixels, face } in runs {
+            let depths = &mut depths[pixels.clone()];
+            let Some((face, _)) = self.face(*face) else {
+                depths.fill(1.0);
                 continue;
             };
-            for (block, depths) in depths[run.clone()].chunks_mut(4).enumerate() {
-                let four = self
-                    .view
-                    .relative_depths(face, self.view.ray(run.start + 4 * block, y));
-                depths.copy_from_slice(&four[..depths.len()]);
+            let four = |at: usize| {
+                let ray = self.view.ray(pixels.start + at, y);
+                self.view.relative_depths(face, ray)
+            };
+            let (blocks, rest) = depths.as_chunks_mut::<4>();
+            let whole = 4 * blocks.len();
+            for (block, depths) in blocks.iter_mut().enumerate() {
+                *depths = four(4 * block);
             }
+            if !rest.is_empty() {
+                rest.copy_from_slice(&four(whole)[..rest.len()]);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_end_where_the_face_changes() {
+        for lengths in [
+            vec![],
+            vec![1],
+            vec![8],
+            vec![9],
+            vec![1, 1, 30, 2],
+            vec![7, 1, 1, 8, 16, 3],
+        ] {
+            let faces: Vec<u32> = (7..)
+                .zip(&lengths)
+                .flat_map(|(face, length)| vec![face; *length])
+                .collect();
+            let mut runs = Vec::new();
+            find_runs(&faces, &mut runs);
+            let found: Vec<usize> = runs.iter().map(|run| run.pixels.len()).collect();
+            assert_eq!(found, lengths);
+            let all: Vec<u32> = runs
+                .iter()
+                .flat_map(|run| vec![run.face; run.pixels.len()])
+                .collect();
+            assert_eq!(all, faces);
         }
     }
 }
