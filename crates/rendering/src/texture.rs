@@ -46,29 +46,67 @@ impl Texture {
         }
     }
 
-    /// The image's colour and opacity at eight places.
-    pub(crate) fn sample(&self, uv: [f32x8; 2]) -> Samples {
-        let size = self.image.size;
-        if !self.interpolate {
-            let [columns, rows] =
-                [0, 1].map(|axis| nearest(uv[axis], size[axis], self.repeat[axis]));
-            return self.image.pixels(columns, rows);
+    /// Combines lit colours with the colours and opacities of the image at eight places.
+    #[inline]
+    pub(crate) fn cover(&self, lit: [f32x8; 3], uv: [f32x8; 2]) -> [f32x8; 3] {
+        let samples = self.sample(uv);
+        match self.mode {
+            TextureMode::Modulate => three(|i| lit[i] * samples.channel(i)),
+            TextureMode::Decal => {
+                let opacity = samples.channel(3);
+                three(|i| lit[i] + (samples.channel(i) - lit[i]) * opacity)
+            }
         }
-        let [(columns, right), (rows, up)] =
-            [0, 1].map(|axis| neighbours(uv[axis], size[axis], self.repeat[axis]));
-        let [low, high] = rows.map(|row| {
-            let [left, other] = columns.map(|column| self.image.pixels(column, row));
-            mix(left, other, right)
-        });
-        mix(low, high, up)
     }
 
-    /// Combines lit colours with the colours and opacities of the image.
-    pub(crate) fn combine(&self, lit: [f32x8; 3], image: Samples) -> [f32x8; 3] {
-        three(|i| match self.mode {
-            TextureMode::Modulate => lit[i] * image[i],
-            TextureMode::Decal => lit[i] + (image[i] - lit[i]) * image[3],
-        })
+    #[inline]
+    fn sample(&self, [u, v]: [f32x8; 2]) -> Samples {
+        let ([width, height], image) = (self.image.size, &self.image);
+        if !self.interpolate {
+            let column = nearest(u, width, self.repeat[0]);
+            return Samples::Nearest(image.pixels(column, nearest(v, height, self.repeat[1])));
+        }
+        let ([left, right], to_right) = neighbours(u, width, self.repeat[0]);
+        let ([low, high], up) = neighbours(v, height, self.repeat[1]);
+        Samples::Interpolated {
+            low: [image.pixels(left, low), image.pixels(right, low)],
+            high: [image.pixels(left, high), image.pixels(right, high)],
+            to_right,
+            up,
+        }
+    }
+}
+
+/// Pixels of an image at eight places: red in the lowest byte of each number, then green, blue and opacity.
+enum Samples {
+    Nearest(i32x8),
+    /// Those around the places, and how far these are from the left to the right ones, and from the low to the high ones.
+    Interpolated {
+        low: [i32x8; 2],
+        high: [i32x8; 2],
+        to_right: f32x8,
+        up: f32x8,
+    },
+}
+
+impl Samples {
+    /// Red, green, blue or opacity, 0 to 1.
+    #[inline]
+    fn channel(&self, number: usize) -> f32x8 {
+        let shift = 8 * numbers::count_i32(number);
+        let part = |pixels: i32x8| ((pixels >> shift) & i32x8::splat(0xff)).round_float() / 255.0;
+        match self {
+            Self::Nearest(pixels) => part(*pixels),
+            Self::Interpolated {
+                low: [a, b],
+                high: [c, d],
+                to_right,
+                up,
+            } => {
+                let low = mix(part(*a), part(*b), *to_right);
+                mix(low, mix(part(*c), part(*d), *to_right), *up)
+            }
+        }
     }
 }
 
@@ -96,22 +134,20 @@ impl Image {
     }
 
     /// Eight of its pixels.
-    fn pixels(&self, columns: [u32; 8], rows: [u32; 8]) -> Samples {
-        let mut bits = [0; 8];
-        for (bits, (column, row)) in bits.iter_mut().zip(columns.into_iter().zip(rows)) {
-            let at = numbers::place(row) * numbers::place(self.size[0]) + numbers::place(column);
-            *bits = i32::from_le_bytes(self.pixels[at]);
+    #[inline]
+    fn pixels(&self, columns: [u32; 8], rows: [u32; 8]) -> i32x8 {
+        let width = numbers::place(self.size[0]);
+        let mut pixels = [0; 8];
+        for lane in 0..8 {
+            let at = numbers::place(rows[lane]) * width + numbers::place(columns[lane]);
+            pixels[lane] = i32::from_le_bytes(self.pixels[at]);
         }
-        let bits = i32x8::new(bits);
-        [0, 8, 16, 24]
-            .map(|shift: i32| ((bits >> shift) & i32x8::splat(0xff)).round_float() / 255.0)
+        i32x8::new(pixels)
     }
 }
 
-/// Red, green, blue and opacity at eight places, 0 to 1.
-type Samples = [f32x8; 4];
-
 /// The coordinates within the image along one axis, 0 to 1.
+#[inline]
 fn within(coordinates: f32x8, repeat: bool) -> f32x8 {
     if repeat {
         coordinates - floor(coordinates)
@@ -124,6 +160,7 @@ fn within(coordinates: f32x8, repeat: bool) -> f32x8 {
 }
 
 /// The two pixels around eight coordinates along one axis, and how far they are from the first to the second.
+#[inline]
 fn neighbours(coordinates: f32x8, size: u32, repeat: bool) -> ([[u32; 8]; 2], f32x8) {
     let at = within(coordinates, repeat) * size as f32 - 0.5;
     let first = floor(at);
@@ -139,6 +176,7 @@ fn neighbours(coordinates: f32x8, size: u32, repeat: bool) -> ([[u32; 8]; 2], f3
 }
 
 /// The pixels at eight coordinates along one axis.
+#[inline]
 fn nearest(coordinates: f32x8, size: u32, repeat: bool) -> [u32; 8] {
     let at = (within(coordinates, repeat) * size as f32).trunc_int();
     let last = i32x8::splat(size.cast_signed() - 1);
@@ -146,6 +184,7 @@ fn nearest(coordinates: f32x8, size: u32, repeat: bool) -> [u32; 8] {
 }
 
 /// The largest whole numbers that are not larger. Without SSE 4.1 that of `wide` calls a function for each number.
+#[inline]
 fn floor(numbers: f32x8) -> f32x8 {
     let whole = numbers.trunc_int().round_float();
     let floor = whole - (whole.simd_gt(numbers) & f32x8::ONE);
@@ -154,8 +193,9 @@ fn floor(numbers: f32x8) -> f32x8 {
     is_fractional.select(floor, numbers)
 }
 
-fn mix(a: Samples, b: Samples, part: f32x8) -> Samples {
-    [0, 1, 2, 3].map(|i| a[i] + (b[i] - a[i]) * part)
+#[inline]
+fn mix(a: f32x8, b: f32x8, part: f32x8) -> f32x8 {
+    a + (b - a) * part
 }
 
 #[cfg(test)]
@@ -200,10 +240,14 @@ mod tests {
         for (repeat, interpolate) in [(true, true), (true, false), (false, true), (false, false)] {
             let texture = texture(repeat, interpolate);
             for eight in COORDINATES.as_chunks::<8>().0 {
-                let [red, green, ..] = texture.sample([f32x8::new(*eight), f32x8::splat(0.4)]);
+                let samples = texture.sample([f32x8::new(*eight), f32x8::splat(0.4)]);
                 let expected = eight.map(|u| expected(u, repeat, interpolate));
-                assert_eq!(red.to_array(), expected, "{repeat} {interpolate}");
-                assert_eq!(green.to_array(), [3.0 / 255.0; 8]);
+                assert_eq!(
+                    samples.channel(0).to_array(),
+                    expected,
+                    "{repeat} {interpolate}"
+                );
+                assert_eq!(samples.channel(1).to_array(), [3.0 / 255.0; 8]);
             }
         }
     }

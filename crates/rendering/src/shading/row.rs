@@ -163,13 +163,14 @@ impl Row {
 
     pub fn apply_texture(&mut self, view: &View, texture: &Texture, pixels: Range<usize>) {
         for x in pixels.step_by(8) {
-            let uv = [load(&self.uv[0], x), load(&self.uv[1], x)];
-            let uv = match view.perspective {
-                true => uv.map(|coordinate| coordinate * load(&self.depth, x)),
-                false => uv,
+            let [u, v] = [load(&self.uv[0], x), load(&self.uv[1], x)];
+            let depth = if view.perspective {
+                load(&self.depth, x)
+            } else {
+                f32x8::ONE
             };
             let lit = three(|i| load(&self.colour[i], x));
-            self.store_colours(x, texture.combine(lit, texture.sample(uv)));
+            self.store_colours(x, texture.cover(lit, [u * depth, v * depth]));
         }
     }
 
