@@ -72,7 +72,7 @@ impl Area {
 }
 
 /// Mean of red, green and blue, rounded down.
-pub(super) fn grey_level(pixel: &[u8]) -> u8 {
+fn grey_level(pixel: &[u8]) -> u8 {
     (pixel.iter().map(|&part| u32::from(part)).sum::<u32>() / 3) as u8
 }
 

@@ -1,10 +1,15 @@
 //! The first packet of results: smallest, largest and mean values of a picture (spec: sensors 3).
 
 use super::VisionSensor;
-use super::picture::grey_level;
 
 /// Intensity, red, green, blue.
 const CHANNELS: usize = 4;
+
+/// Bytes of sixteen pixels: as many are compared and added at a time.
+const BLOCK: usize = 48;
+
+/// Blocks whose sums fit into 16 bits.
+const BLOCKS: usize = 256;
 
 struct Statistics {
     smallest: [u8; CHANNELS],
@@ -19,15 +24,48 @@ impl Statistics {
             largest: [0; CHANNELS],
             sums: [0; CHANNELS],
         };
-        for pixel in image.chunks_exact(3) {
-            let levels = [grey_level(pixel), pixel[0], pixel[1], pixel[2]];
-            for (channel, level) in levels.into_iter().enumerate() {
-                statistics.smallest[channel] = statistics.smallest[channel].min(level);
-                statistics.largest[channel] = statistics.largest[channel].max(level);
-                statistics.sums[channel] += u64::from(level);
+        for part in image.chunks(BLOCK * BLOCKS) {
+            statistics.add_intensities(part);
+            let (blocks, rest) = part.as_chunks();
+            statistics.add_colours(blocks);
+            for (at, level) in rest.iter().enumerate() {
+                statistics.add(1 + at % 3, *level, *level, (*level).into());
             }
         }
         statistics
+    }
+
+    fn add(&mut self, channel: usize, smallest: u8, largest: u8, sum: u64) {
+        self.smallest[channel] = self.smallest[channel].min(smallest);
+        self.largest[channel] = self.largest[channel].max(largest);
+        self.sums[channel] += sum;
+    }
+
+    /// Intensities are means of red, green and blue, rounded down; the order of their sums is theirs.
+    fn add_intensities(&mut self, image: &[u8]) {
+        let (mut least, mut most, mut sum) = (3 * 255, 0, 0);
+        for pixel in image.as_chunks::<3>().0 {
+            let [r, g, b] = pixel.map(u32::from);
+            let total = r + g + b;
+            least = least.min(total);
+            most = most.max(total);
+            sum += total / 3;
+        }
+        self.add(0, (least / 3) as u8, (most / 3) as u8, sum.into());
+    }
+
+    fn add_colours(&mut self, blocks: &[[u8; BLOCK]]) {
+        let (mut smallest, mut largest, mut sums) = ([255; BLOCK], [0; BLOCK], [0u16; BLOCK]);
+        for block in blocks {
+            for (at, level) in block.iter().enumerate() {
+                smallest[at] = (*level).min(smallest[at]);
+                largest[at] = (*level).max(largest[at]);
+                sums[at] += u16::from(*level);
+            }
+        }
+        for at in 0..BLOCK {
+            self.add(1 + at % 3, smallest[at], largest[at], sums[at].into());
+        }
     }
 }
 
@@ -85,6 +123,39 @@ mod tests {
             sensor.statistics()[10..],
             [level(45.0), level(127.0), 0.0, level(10.0), 0.375]
         );
+    }
+
+    /// Pixel by pixel.
+    fn expected(image: &[u8]) -> [[u8; 3]; CHANNELS] {
+        let grey =
+            |pixel: &[u8; 3]| (pixel.iter().map(|level| u32::from(*level)).sum::<u32>() / 3) as u8;
+        let (pixels, _) = image.as_chunks::<3>();
+        [0, 1, 2, 3].map(|channel| {
+            let level = |pixel: &[u8; 3]| {
+                if channel == 0 {
+                    grey(pixel)
+                } else {
+                    pixel[channel - 1]
+                }
+            };
+            let levels = || pixels.iter().map(level);
+            let mean = levels().map(u64::from).sum::<u64>() / pixels.len() as u64;
+            [levels().min().unwrap(), levels().max().unwrap(), mean as u8]
+        })
+    }
+
+    #[test]
+    fn all_pixels_of_large_and_odd_pictures_count() {
+        for pixels in [1, 15, 17, 16 * BLOCKS, 16 * BLOCKS + 5, 40_000] {
+            let mut image: Vec<u8> = (0..3 * pixels)
+                .map(|at| (at * at % 251 + 2) as u8)
+                .collect();
+            image[3 * pixels - 2..].copy_from_slice(&[255, 0]);
+            let found = Statistics::of(&image);
+            let mean = |channel: usize| (found.sums[channel] / pixels as u64) as u8;
+            let all = [0, 1, 2, 3].map(|at| [found.smallest[at], found.largest[at], mean(at)]);
+            assert_eq!(all, expected(&image), "{pixels}");
+        }
     }
 
     #[test]
