@@ -1,6 +1,6 @@
 //! From a world to a picture, in three passes: list what is in view, project its triangles, fill bands of rows.
 
-use crate::parallel;
+use crate::parallel::Workers;
 use crate::projection::chunk::Chunks;
 use crate::projection::owner::{Owner, owners};
 use crate::projection::view::View;
@@ -15,7 +15,7 @@ const STRIP_ROWS: usize = 512;
 /// Draws pictures. It keeps its memory between them.
 #[derive(Debug, Default)]
 pub struct Renderer {
-    threads: usize,
+    workers: Workers,
     chunks: Chunks,
     strips: Vec<Strip>,
 }
@@ -24,7 +24,7 @@ impl Renderer {
     /// On up to `threads` threads; the pictures do not depend on their number.
     pub fn new(threads: usize) -> Self {
         Self {
-            threads: threads.max(1),
+            workers: Workers::new(threads),
             ..Self::default()
         }
     }
@@ -58,7 +58,7 @@ impl Renderer {
         };
         let owners = owners(world, &view, channels);
         self.list_pieces(&owners, &view);
-        parallel::for_each(self.threads, self.chunks.all_mut(), |_, chunk| {
+        self.workers.for_each(self.chunks.all_mut(), |_, chunk| {
             chunk.project(&owners, &view);
         });
         let shading = Shading {
@@ -69,7 +69,7 @@ impl Renderer {
             fog: world.fog,
             background: world.background,
         };
-        fill(&shading, self.threads, &mut self.strips, picture);
+        fill(&shading, &self.workers, &mut self.strips, picture);
     }
 
     fn list_pieces(&mut self, owners: &[Owner], view: &View) {
@@ -87,11 +87,13 @@ impl Renderer {
 }
 
 /// Draws and shades all rows.
-fn fill(shading: &Shading, threads: usize, strips: &mut Vec<Strip>, picture: &mut Picture) {
+fn fill(shading: &Shading, workers: &Workers, strips: &mut Vec<Strip>, picture: &mut Picture) {
     let [width, height] = picture.resolution.map(numbers::place);
-    let rows = height
-        .div_ceil(if threads == 1 { 1 } else { 4 * threads })
-        .min(STRIP_ROWS);
+    let parts = match workers.count() {
+        1 => 1,
+        threads => 4 * threads,
+    };
+    let rows = height.div_ceil(parts).min(STRIP_ROWS);
     strips.resize_with(height.div_ceil(rows), Strip::default);
     let mut colour = picture.colour.chunks_mut(3 * width * rows);
     let mut depth = picture.depth.chunks_mut(width * rows);
@@ -105,7 +107,7 @@ fn fill(shading: &Shading, threads: usize, strips: &mut Vec<Strip>, picture: &mu
         (strip, Pixels { colour, depth, ids })
     });
     let mut parts: Vec<_> = parts.collect();
-    parallel::for_each(threads, &mut parts, |at, (strip, pixels)| {
+    workers.for_each(&mut parts, |at, (strip, pixels)| {
         strip.fill(shading, at * rows..height.min((at + 1) * rows), pixels);
     });
 }

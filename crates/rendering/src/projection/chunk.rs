@@ -8,7 +8,10 @@ use crate::projection::surface::Setup;
 use crate::projection::view::View;
 
 /// Triangles, points or lines of one chunk.
-const ELEMENTS: usize = 4096;
+const ELEMENTS: usize = 2048;
+
+/// Faces of a group, at most.
+const GROUP: usize = 32;
 
 /// Pieces of owners that are projected together, and the faces that they have.
 #[derive(Debug, Default)]
@@ -17,7 +20,7 @@ pub struct Chunk {
     pieces: Vec<(usize, usize)>,
     elements: usize,
     setup: Setup,
-    /// The faces of each piece that has any.
+    /// The faces of the pieces, few together, so that those in some rows are found soon.
     groups: Vec<Group>,
 }
 
@@ -79,18 +82,12 @@ impl Chunk {
             let first = self.setup.faces.len();
             owners[owner].content.project(view, piece, &mut self.setup);
             let faces = &self.setup.faces[first..];
-            if let Some(low) = faces.iter().map(|face| face.bounds[1][0]).min() {
-                let high = faces
-                    .iter()
-                    .map(|face| face.bounds[1][1])
-                    .max()
-                    .unwrap_or(low);
-                self.groups.push(Group {
-                    faces: first..self.setup.faces.len(),
-                    owner,
-                    rows: [low, high],
-                });
-            }
+            let groups = faces.chunks(GROUP).zip((first..).step_by(GROUP));
+            self.groups.extend(groups.map(|(faces, first)| Group {
+                faces: first..first + faces.len(),
+                owner,
+                rows: rows(faces),
+            }));
         }
     }
 
@@ -118,6 +115,13 @@ impl Chunk {
                 .map(move |at| (at, &self.setup.faces[at], owner))
         })
     }
+}
+
+/// The first and the last row of some faces.
+fn rows(faces: &[Face]) -> [u16; 2] {
+    faces.iter().fold([u16::MAX, 0], |[first, last], face| {
+        [first.min(face.bounds[1][0]), last.max(face.bounds[1][1])]
+    })
 }
 
 /// A number for a face of a chunk. A chunk has at most six faces for each of its elements, which is less than 2^16.
