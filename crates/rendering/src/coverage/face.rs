@@ -163,6 +163,7 @@ impl Face {
     }
 
     /// The edges from a pixel on.
+    #[inline(always)]
     fn small_edges(&self, column: usize, row: usize) -> [SmallEdge; 3] {
         let [a, b, c] = self.corners;
         let pixel = [column, row].map(|at| numbers::count_i32(at) * UNIT + UNIT / 2);

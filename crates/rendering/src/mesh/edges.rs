@@ -30,8 +30,8 @@ impl Mesh {
         let mut places = HashMap::new();
         for cluster in &self.clusters {
             let vertices = &self.vertices[cluster.vertices.clone()];
-            for triangle in &self.triangles[cluster.triangles.clone()] {
-                let corners = triangle.corners.map(|corner| vertices[usize::from(corner)]);
+            for corners in &self.corners[cluster.triangles.clone()] {
+                let corners = corners.map(|corner| vertices[usize::from(corner)]);
                 let normal = face_normal(&corners);
                 for ends in [
                     [corners[0], corners[1]],

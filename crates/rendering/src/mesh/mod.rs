@@ -21,6 +21,8 @@ const CLUSTER_TRIANGLES: usize = 512;
 #[derive(Debug, Clone)]
 pub struct Mesh {
     pub(crate) vertices: Vec<[f64; 3]>,
+    /// The corners of each triangle in its cluster: apart, since most triangles that are looked at are then not drawn.
+    pub(crate) corners: Vec<[u16; 3]>,
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) clusters: Vec<Cluster>,
     pub(crate) ball: Ball,
@@ -31,10 +33,9 @@ pub struct Mesh {
     tree: LazyTree,
 }
 
-/// A triangle: its corners in its cluster, and what belongs to each corner.
+/// What belongs to each corner of a triangle.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Triangle {
-    pub corners: [u16; 3],
     /// Whether the three normals are equal.
     pub is_flat: bool,
     pub normals: [[f32; 3]; 3],
@@ -91,6 +92,7 @@ impl Mesh {
         let closed = source.is_closed(&order, ball.centre.into());
         let mut mesh = Self {
             vertices: Vec::new(),
+            corners: Vec::new(),
             triangles: Vec::new(),
             clusters: Vec::new(),
             ball,
@@ -127,7 +129,8 @@ impl Mesh {
                     (self.vertices.len() - 1 - first_vertex) as u16
                 })
             });
-            self.triangles.push(source.triangle(at, corners));
+            self.corners.push(corners);
+            self.triangles.push(source.triangle(at));
         }
         let ball = Ball::around(self.vertices[first_vertex..].iter().copied());
         let (vertices, triangles) = (
@@ -189,7 +192,7 @@ impl Source<'_> {
             .is_some_and(|cross| cross.norm_squared() > 0.0 && cross.norm_squared().is_finite())
     }
 
-    fn triangle(&self, at: usize, corners: [u16; 3]) -> Triangle {
+    fn triangle(&self, at: usize) -> Triangle {
         let face = self.cross(at).unwrap_or_default().normalize();
         let normals =
             [0, 1, 2].map(|corner| self.normal(3 * at + corner, face).map(numbers::single));
@@ -201,7 +204,6 @@ impl Source<'_> {
         };
         let is_flat = normals[0] == normals[1] && normals[1] == normals[2];
         Triangle {
-            corners,
             is_flat,
             normals,
             uv: [0, 1, 2].map(|corner| uv(corner).unwrap_or_default()),

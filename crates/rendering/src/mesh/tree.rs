@@ -154,9 +154,9 @@ impl MeshTree {
         let corners = mesh.clusters.iter().flat_map(|cluster| {
             let vertices = &mesh.vertices[cluster.vertices.clone()];
             let corner = |at: u16| Vector3::from(vertices[usize::from(at)]).cast::<f32>();
-            mesh.triangles[cluster.triangles.clone()]
+            mesh.corners[cluster.triangles.clone()]
                 .iter()
-                .map(move |triangle| triangle.corners.map(corner))
+                .map(move |corners| corners.map(corner))
         });
         let triangles: Vec<[Vector3<f32>; 3]> = corners.collect();
         let bounds: Vec<Bounds> = triangles

@@ -25,7 +25,7 @@ impl Surface<'_> {
     /// The corners of a triangle in view coordinates.
     pub fn corners(&self, triangle: usize) -> [Vector3<f64>; 3] {
         let vertices = &self.mesh.vertices[self.mesh.cluster_of(triangle).vertices.clone()];
-        let corners = self.mesh.triangles[triangle].corners;
+        let corners = self.mesh.corners[triangle];
         three(|i| self.transform.apply(&vertices[usize::from(corners[i])]))
     }
 }
@@ -67,8 +67,9 @@ impl Setup {
                 .for_each(|at| add_wire_frame(&mut self.faces, view, surface, at));
         }
         self.transform(view, surface, cluster);
-        for at in cluster.triangles.clone() {
-            let corners = three(|i| usize::from(surface.mesh.triangles[at].corners[i]));
+        let corners = &surface.mesh.corners[cluster.triangles.clone()];
+        for (at, corners) in cluster.triangles.clone().zip(corners) {
+            let corners = three(|i| usize::from(corners[i]));
             let places = three(|i| self.places[corners[i]]);
             let origin = || Origin {
                 view,
