@@ -63,7 +63,11 @@ impl Attributes {
         let pixel = [face.bounds[0][0], face.bounds[1][0]];
         let ray = view.ray(pixel[0].into(), pixel[1].into());
         let ray = Vector3::new(ray[0], ray[1], 1.0);
-        let weights = weights(view, surface, face);
+        let weights = if triangle.is_flat && !is_textured {
+            Default::default()
+        } else {
+            weights(view, surface, face)
+        };
         let [a, b, c] = three(|i| Vector3::from(triangle.normals[i]).cast::<f64>());
         let side = if face.back { -1.0 } else { 1.0 };
         let to_camera =

@@ -31,6 +31,8 @@ pub struct Row {
     uv: [Vec<f32>; 2],
     /// Metres; only where something depends on it.
     depth: Vec<f32>,
+    /// How many pictures were begun.
+    picture: u64,
     /// By the last digits of the number of a face.
     remembered: Vec<Remembered>,
 }
@@ -38,7 +40,8 @@ pub struct Row {
 /// Values common to the pixels of a face.
 #[derive(Debug, Clone, Default)]
 pub struct Remembered {
-    face: Option<u32>,
+    /// The picture, counted from 1, and the number of the face in it.
+    face: (u64, u32),
     attributes: Attributes,
     /// Where it is the same everywhere.
     pub colour: Option<[f32; 3]>,
@@ -54,7 +57,7 @@ impl Row {
             .chain(&mut self.uv)
             .chain([&mut self.depth]);
         lists.for_each(|list| list.resize(width + 8, 0.0));
-        self.remembered.clear();
+        self.picture += 1;
         self.remembered
             .resize(MAX_CACHED_FACES, Remembered::default());
     }
@@ -89,7 +92,8 @@ impl Row {
         number: u32,
     ) -> &Remembered {
         let entry = &mut self.remembered[numbers::place(number) % MAX_CACHED_FACES];
-        if entry.face != Some(number) {
+        let face_now = (self.picture, number);
+        if entry.face != face_now {
             let attributes =
                 Attributes::new(shading.view, surface, face, material.texture.is_some());
             let is_uniform = attributes.is_flat && shading.lighting.is_uniform;
@@ -101,7 +105,7 @@ impl Row {
                     .map(|part| part.to_array()[0])
             });
             *entry = Remembered {
-                face: Some(number),
+                face: face_now,
                 attributes,
                 colour,
             };

@@ -72,7 +72,9 @@ impl Strip {
     fn shade(&mut self, shading: &Shading, pixels: &mut Pixels) {
         let width = numbers::place(shading.view.resolution[0]);
         self.row.begin(width);
-        self.layer_row.begin(width);
+        if !self.fragments.is_empty() {
+            self.layer_row.begin(width);
+        }
         let mut first = 0;
         for at in 0..self.band.rows.len() {
             let count = self.fragments[first..]
