@@ -30,19 +30,42 @@ impl Surface<'_> {
     }
 }
 
-/// The place of vertices that are too close or too far to the side.
-const OFF_PICTURE: [i32; 2] = [i32::MIN; 2];
-
 /// Makes faces; its memory is used again.
 #[derive(Debug, Default)]
 pub struct Setup {
     pub faces: Vec<Face>,
-    /// Of a cluster's vertices, in view coordinates.
-    points: Vec<Vector3<f64>>,
-    /// The same on the picture; `OFF_PICTURE` where a vertex must be clipped first.
-    places: Vec<[i32; 2]>,
+    /// Those of a cluster.
+    vertices: Vec<Vertex>,
     polygon: Vec<Vector3<f64>>,
     cut: Vec<Vector3<f64>>,
+}
+
+/// A vertex of a cluster.
+#[derive(Debug, Clone, Copy)]
+struct Vertex {
+    /// In view coordinates.
+    point: Vector3<f64>,
+    /// On the picture; `OFF_PICTURE` where it is too close or too far to the side, and must be clipped first.
+    place: [i32; 2],
+    closeness: f32,
+}
+
+const OFF_PICTURE: [i32; 2] = [i32::MIN; 2];
+
+impl Vertex {
+    #[inline(always)]
+    fn new(view: &View, point: Vector3<f64>) -> Self {
+        let place = view.project(&point);
+        Self {
+            point,
+            place: place.unwrap_or(OFF_PICTURE),
+            closeness: place.map_or(0.0, |_| numbers::single(view.closeness(point.z))),
+        }
+    }
+
+    fn is_off_picture(&self) -> bool {
+        self.place[0] == OFF_PICTURE[0]
+    }
 }
 
 /// Values common to the faces of one triangle.
@@ -50,6 +73,8 @@ struct Origin<'a> {
     view: &'a View,
     surface: &'a Surface<'a>,
     points: [Vector3<f64>; 3],
+    /// The least and the largest closeness of the points.
+    range: [f32; 2],
     detail: u32,
 }
 
@@ -66,35 +91,24 @@ impl Setup {
                 .clone()
                 .for_each(|at| add_wire_frame(&mut self.faces, view, surface, at));
         }
-        self.transform(view, surface, cluster);
+        let vertices = &surface.mesh.vertices[cluster.vertices.clone()];
+        let placed = vertices
+            .iter()
+            .map(|vertex| Vertex::new(view, surface.transform.apply(vertex)));
+        self.vertices.clear();
+        self.vertices.extend(placed);
         let corners = &surface.mesh.corners[cluster.triangles.clone()];
         for (at, corners) in cluster.triangles.clone().zip(corners) {
-            let corners = three(|i| usize::from(corners[i]));
-            let places = three(|i| self.places[corners[i]]);
-            let origin = || Origin {
-                view,
-                surface,
-                points: three(|i| self.points[corners[i]]),
-                detail: numbers::count_u32(at),
-            };
-            if places.contains(&OFF_PICTURE) {
-                let origin = origin();
-                self.add_clipped(&origin);
-            } else if let Some(outline) = Outline::new(view, surface.culling, places) {
-                let face = origin().face(outline);
+            let corners = three(|i| &self.vertices[usize::from(corners[i])]);
+            if corners.iter().any(|corner| corner.is_off_picture()) {
+                let points = three(|i| corners[i].point);
+                self.add_clipped(&Origin::clipped(view, surface, points, at));
+            } else if let Some(outline) =
+                Outline::new(view, surface.culling, three(|i| corners[i].place))
+            {
+                let face = Origin::new(view, surface, corners, at).face(outline);
                 self.faces.push(face);
             }
-        }
-    }
-
-    fn transform(&mut self, view: &View, surface: &Surface, cluster: &Cluster) {
-        self.points.clear();
-        self.places.clear();
-        for vertex in &surface.mesh.vertices[cluster.vertices.clone()] {
-            let point = surface.transform.apply(vertex);
-            self.points.push(point);
-            self.places
-                .push(view.project(&point).unwrap_or(OFF_PICTURE));
         }
     }
 
@@ -198,15 +212,39 @@ impl Outline {
     }
 }
 
-impl Origin<'_> {
+impl<'a> Origin<'a> {
+    #[inline(always)]
+    fn new(view: &'a View, surface: &'a Surface, corners: [&Vertex; 3], at: usize) -> Self {
+        let [a, b, c] = three(|i| corners[i].closeness);
+        Self {
+            view,
+            surface,
+            points: three(|i| corners[i].point),
+            range: [a.min(b).min(c), a.max(b).max(c)],
+            detail: numbers::count_u32(at),
+        }
+    }
+
+    /// Of a triangle that may reach behind the near plane.
+    fn clipped(view: &'a View, surface: &'a Surface, points: [Vector3<f64>; 3], at: usize) -> Self {
+        let [a, b, c] = three(|i| points[i].z.max(view.near));
+        Self {
+            view,
+            surface,
+            points,
+            range: [a.max(b).max(c), a.min(b).min(c)]
+                .map(|depth| numbers::single(view.closeness(depth))),
+            detail: numbers::count_u32(at),
+        }
+    }
+
     #[inline(always)]
     fn face(&self, outline: Outline) -> Face {
-        let (closeness, range) = self.closeness();
         Face {
             corners: outline.corners,
             bounds: outline.bounds,
-            closeness,
-            range,
+            closeness: self.closeness(),
+            range: self.range,
             owner: self.surface.owner,
             detail: self.detail,
             back: outline.back,
@@ -215,20 +253,17 @@ impl Origin<'_> {
         }
     }
 
-    /// The closeness on the plane of the triangle, and its limits on the triangle itself: on planes that are seen edge-on it would be
-    /// exaggerated by the rounding of corners.
+    /// The closeness on the plane of the triangle; it is limited by that of the corners: on planes that are seen edge-on it would be
+    /// exaggerated by their rounding.
     #[inline(always)]
-    fn closeness(&self) -> (Plane, [f32; 2]) {
-        let [a, b, c] = three(|i| self.points[i].z.max(self.view.near));
-        let range = [a.max(b).max(c), a.min(b).min(c)]
-            .map(|depth| numbers::single(self.view.closeness(depth)));
+    fn closeness(&self) -> Plane {
         let plane = self.view.closeness_on_plane(&self.points);
         let edge_on = Plane {
             a: 0.0,
             b: 0.0,
-            c: f64::from(range[0]),
+            c: f64::from(self.range[0]),
         };
-        (if plane.is_finite() { plane } else { edge_on }, range)
+        if plane.is_finite() { plane } else { edge_on }
     }
 }
 
