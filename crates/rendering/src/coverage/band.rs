@@ -128,7 +128,12 @@ impl Cover for Drawing<'_> {
         let (faces, _) = self.band.faces[at..][..length].as_chunks_mut();
         for (closeness, faces) in closeness.iter_mut().zip(faces) {
             let closer = self.face.closeness_of_eight(ray);
-            draw_eight(closeness, faces, closer, None, self.number);
+            if is_in_front(closer, closeness).all() {
+                *closeness = closer.to_array();
+                *faces = [self.number; 8];
+            } else {
+                draw_eight(closeness, faces, closer, None, self.number);
+            }
             ray[0] += 8.0;
         }
         if rest > 0 {
@@ -168,6 +173,11 @@ impl Cover for Drawing<'_> {
     }
 }
 
+#[inline(always)]
+fn is_in_front(closeness: f32x8, old: &[f32; 8]) -> f32x8 {
+    closeness.simd_gt(f32x8::from(*old) * IN_FRONT)
+}
+
 /// Draws a face in those of eight pixels where the mask says so, if there is one, and where it is closer.
 #[inline(always)]
 fn draw_eight(
@@ -178,7 +188,7 @@ fn draw_eight(
     number: u32,
 ) {
     let old = f32x8::from(*old_closeness);
-    let closer = closeness.simd_gt(old * IN_FRONT);
+    let closer = is_in_front(closeness, old_closeness);
     let mask = mask.map_or(closer, |mask| closer & mask);
     if mask.to_bitmask() == 0 {
         return;

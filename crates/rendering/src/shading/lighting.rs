@@ -79,17 +79,12 @@ impl<'a> Lighting<'a> {
             let cosine = dot(normals, incoming.to_light);
             add_scaled(
                 &mut diffuse,
-                cosine.max(f32x8::ZERO) * incoming.strength,
+                positive(cosine) * incoming.strength,
                 placed.light.diffuse,
             );
             if has_highlights && placed.light.specular != [0.0; 3] {
-                let highlight = power(
-                    dot(normals, incoming.half).max(f32x8::ZERO),
-                    material.shininess,
-                );
-                let highlight = cosine
-                    .simd_gt(f32x8::ZERO)
-                    .select(highlight * incoming.strength, f32x8::ZERO);
+                let highlight = power(positive(dot(normals, incoming.half)), material.shininess);
+                let highlight = highlight * incoming.strength & cosine.simd_gt(f32x8::ZERO);
                 add_scaled(&mut specular, highlight, placed.light.specular);
             }
         }
@@ -164,7 +159,7 @@ impl PlacedLight {
         };
         let cosine = dot(to_light, splat(self.to_light));
         let inside = cosine.simd_ge(f32x8::splat(self.cutoff_cosine));
-        inside.select(power(cosine.max(f32x8::ZERO), exponent), f32x8::ZERO)
+        power(positive(cosine), exponent) & inside
     }
 }
 
@@ -176,12 +171,16 @@ fn dot(a: Vectors, b: Vectors) -> f32x8 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// What is not positive becomes zero, what is no number too.
+fn positive(numbers: f32x8) -> f32x8 {
+    numbers & numbers.simd_gt(f32x8::ZERO)
+}
+
 /// Vectors of unit length; zero remains zero.
 fn normalized(vectors: Vectors) -> Vectors {
-    let scale = f32x8::ONE
-        / dot(vectors, vectors)
-            .max(f32x8::splat(f32::MIN_POSITIVE))
-            .sqrt();
+    let least = f32x8::splat(f32::MIN_POSITIVE);
+    let square = dot(vectors, vectors);
+    let scale = f32x8::ONE / square.simd_gt(least).select(square, least).sqrt();
     three(|i| vectors[i] * scale)
 }
 
