@@ -7,6 +7,7 @@ mod models;
 mod palette;
 mod projection;
 mod sensors;
+mod spares;
 mod subjects;
 mod surfaces;
 #[cfg(test)]
@@ -22,10 +23,12 @@ use rendering::{Camera, Fog, Instance, Lines, Material, Points, Projection, Rend
 use models::{Model, Models};
 use scene::sensor::View;
 use scene::{Handle, Pose, Scene};
+use spares::Spares;
 
 pub use drawings::item_colour;
 pub use lighting::{Backdrop, views_background};
 pub use rendering::{Channels, Picture};
+pub use sensors::SensorPicture;
 pub(crate) use subjects::Subjects;
 pub use surfaces::texture_coordinates;
 pub use views::{Viewpoint, first_camera, projection};
@@ -38,6 +41,7 @@ pub struct Vision {
     /// None for as many as there are processor cores.
     threads: Option<NonZero<usize>>,
     models: Models,
+    spares: Spares,
 }
 
 /// Content and viewpoint of a picture.
@@ -82,6 +86,11 @@ impl Vision {
             threads,
             ..Self::default()
         }
+    }
+
+    /// Takes the memory of pictures that are no longer needed, for those to come.
+    pub fn reuse(&mut self, colours: Vec<u8>, depths: Vec<f32>) {
+        self.spares.keep(colours, depths);
     }
 
     /// A picture of the scene; its ids are handles of objects.
@@ -150,7 +159,10 @@ impl Vision {
         let renderer = self
             .renderer
             .get_or_insert_with(|| Renderer::new(threads(self.threads)));
-        renderer.render(&world, &camera(shot), channels)
+        let camera = camera(shot);
+        let mut picture = self.spares.picture(camera.resolution, channels);
+        renderer.render_into(&world, &camera, channels, &mut picture);
+        picture
     }
 }
 

@@ -44,10 +44,25 @@ impl Vision {
             channels,
         );
         Ok(if by_handle {
-            of_handles(sensor, picture)
+            self.of_handles(sensor, picture)
         } else {
             of_colours(channels, picture)
         })
+    }
+
+    fn of_handles(&mut self, sensor: &VisionSensor, picture: Picture) -> SensorPicture {
+        let image = (!sensor.ignore_image).then(|| {
+            let mut image = self.spares.colours(picture.ids.len());
+            paint_handles(&picture.ids, &mut image);
+            image
+        });
+        let seen = Some(seen(&picture.ids));
+        self.spares.keep_ids(picture.ids);
+        SensorPicture {
+            image,
+            depth: (!sensor.ignore_depth).then_some(picture.depth),
+            seen,
+        }
     }
 }
 
@@ -89,23 +104,22 @@ fn of_colours(channels: Channels, picture: Picture) -> SensorPicture {
 }
 
 /// The handle of each pixel as a colour: the low byte is red, the next one green.
-fn of_handles(sensor: &VisionSensor, picture: Picture) -> SensorPicture {
-    let colour = |id: u32| match id {
-        Picture::NOTHING => NOTHING,
-        _ => [id as u8, (id >> 8) as u8, (id >> 16) as u8],
-    };
-    let mut seen: Vec<u32> = picture
-        .ids
-        .iter()
-        .copied()
-        .filter(|id| *id != Picture::NOTHING)
-        .collect();
+fn paint_handles(ids: &[u32], image: &mut [u8]) {
+    for (id, pixel) in ids.iter().zip(image.as_chunks_mut().0) {
+        let [r, g, b, _] = id.to_le_bytes();
+        *pixel = if *id == Picture::NOTHING {
+            NOTHING
+        } else {
+            [r, g, b]
+        };
+    }
+}
+
+/// The objects that are seen, each once, in the order of their handles.
+fn seen(ids: &[u32]) -> Vec<Handle> {
+    let mut seen: Vec<u32> = ids.chunk_by(|a, b| a == b).map(|run| run[0]).collect();
     seen.sort_unstable();
     seen.dedup();
-    SensorPicture {
-        image: (!sensor.ignore_image)
-            .then(|| picture.ids.iter().flat_map(|id| colour(*id)).collect()),
-        depth: (!sensor.ignore_depth).then_some(picture.depth),
-        seen: Some(seen.into_iter().map(Handle).collect()),
-    }
+    let objects = seen.into_iter().filter(|id| *id != Picture::NOTHING);
+    objects.map(Handle).collect()
 }

@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use crate::host::{Script, Sim};
 use crate::sys_call::SysCall;
+use perception::vision::SensorPicture;
 use scene::sensor::{Entity, VisionReading, VisionSensor};
 use scene::{Data, Field, Handle, SceneResult};
 
@@ -81,22 +82,31 @@ impl Sim {
             sensor,
             entity,
         )?;
+        let first = self.show_picture(sensor, picture)?;
+        self.evaluate_picture(sensor, first)
+    }
+
+    /// Gives a picture to a sensor; returns its first packet.
+    fn show_picture(&self, sensor: Handle, picture: SensorPicture) -> SceneResult<Vec<f32>> {
+        let (mut image, mut depth) = (picture.image, picture.depth);
         let first = self
             .scene
             .borrow_mut()
             .try_modify(sensor, Field::Measured, |object| {
                 let sensor = object.vision_sensor_mut()?;
-                sensor.image = picture
-                    .image
-                    .unwrap_or_else(|| std::mem::take(&mut sensor.image));
-                sensor.depth = picture
-                    .depth
-                    .unwrap_or_else(|| std::mem::take(&mut sensor.depth));
+                if let Some(image) = &mut image {
+                    std::mem::swap(image, &mut sensor.image);
+                }
+                if let Some(depth) = &mut depth {
+                    std::mem::swap(depth, &mut sensor.depth);
+                }
                 let handles =
                     |seen: Vec<Handle>| seen.into_iter().map(|handle| handle.0 as f32).collect();
                 Ok(picture.seen.map_or_else(|| sensor.first_packet(), handles))
             })?;
-        self.evaluate_picture(sensor, first)
+        let (image, depth) = (image.unwrap_or_default(), depth.unwrap_or_default());
+        self.perception.borrow_mut().vision.reuse(image, depth);
+        Ok(first)
     }
 
     /// Evaluates a picture that was set by a script, unless the scripts of the sensor are doing so already. That a script found something is

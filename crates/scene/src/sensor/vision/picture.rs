@@ -97,6 +97,9 @@ impl VisionSensor {
 
     /// Pixels of a part: red, green, blue or one grey level. With `alpha`, another byte follows: 255 up to that depth, 0 behind it.
     pub fn image_part(&self, area: Area, grey: bool, alpha: Option<f32>) -> Vec<u8> {
+        if !grey && alpha.is_none() {
+            return self.colours(area);
+        }
         let (image, depth) = (self.image(), self.depth());
         let mut part = Vec::with_capacity(
             area.pixels() * (if grey { 1 } else { 3 } + usize::from(alpha.is_some())),
@@ -112,14 +115,29 @@ impl VisionSensor {
         part
     }
 
+    /// Red, green, blue of each pixel of a part.
+    fn colours(&self, area: Area) -> Vec<u8> {
+        let image = self.image();
+        let mut part = Vec::with_capacity(3 * area.pixels());
+        for row in area.rows() {
+            part.extend_from_slice(&image[3 * row.start..3 * row.end]);
+        }
+        part
+    }
+
     /// Depths of a part, 0 near to 1 far, or in metres along the axis.
     pub fn depth_part(&self, area: Area, metres: bool) -> Vec<f32> {
         let (depth, [near, far]) = (self.depth(), self.view.clipping);
-        let value = |pixel: usize| match metres {
-            true => (near + f64::from(depth[pixel]) * (far - near)) as f32,
-            false => depth[pixel],
-        };
-        area.indices().map(value).collect()
+        let mut part = Vec::with_capacity(area.pixels());
+        for row in area.rows() {
+            let depths = depth[row].iter().copied();
+            if metres {
+                part.extend(depths.map(|depth| (near + f64::from(depth) * (far - near)) as f32));
+            } else {
+                part.extend(depths);
+            }
+        }
+        part
     }
 
     /// Replaces the pixels of a part; false, and nothing changes, when there are not as many bytes as it needs.
