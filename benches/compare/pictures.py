@@ -1,6 +1,6 @@
-"""Pictures per second of MuJoCo's renderer and of PyBullet's TinyRenderer, of the scene of `cargo bench -p swanilda-rendering`: a floor, 49 boxes
-and a bumpy ball. Run both one after the other on the same machine: `MUJOCO_GL=osmesa python pictures.py` (or egl); what is not installed
-is left out."""
+"""Pictures of MuJoCo's renderer, of PyBullet's TinyRenderer and of sensors in Swanilda that a script handles (SWANILDA: the command, otherwise
+target/release/swanilda), of the scene of `cargo bench -p swanilda-rendering`: a floor, 49 boxes and a bumpy ball. Run all one after the
+other on the same machine: `MUJOCO_GL=osmesa python pictures.py` (or egl); what is not installed is left out."""
 
 import math
 import tempfile
@@ -8,9 +8,19 @@ import time
 
 import numpy as np
 
+from lua_scene import run_lua
+
 SIZES = [(256, 256), (640, 480)]
 RINGS = {"1k": 16, "20k": 71, "200k": 224}
 EYE, TARGET = (1.6, -1.6, 1.2), (0.0, 0.0, 0.15)
+# Name, width, height, cameras, with masks.
+SENSORS = [
+    ("one of 256x256, colour and depth", 256, 256, 1, False),
+    ("one of 640x480, colour and depth", 640, 480, 1, False),
+    ("four of 128x128, colour and depth", 128, 128, 4, False),
+    ("four of 128x128, colour, depth and masks", 128, 128, 4, True),
+    ("three of 1024x1024, colour and depth", 1024, 1024, 3, False),
+]
 BOXES = [(i % 7 * 0.4 - 1.2, i // 7 * 0.4 - 1.2, 0.15) for i in range(49)]
 
 
@@ -45,14 +55,12 @@ def mujoco_rows(name, vertices, faces):
     import mujoco
 
     boxes = "".join(f'<geom type="box" size=".075 .075 .15" pos="{x} {y} {z}" rgba=".2 .3 .8 1"/>' for x, y, z in BOXES)
-    numbers = lambda array: " ".join(map(str, array.ravel()))
-    right = np.cross(np.subtract(TARGET, EYE), (0, 0, 1))
-    up = np.cross(right, np.subtract(TARGET, EYE))
+    cameras = "".join(f'<camera name="{i}" {numbers_of_camera(i / 4)} fovy="60"/>' for i in range(4))
     model = mujoco.MjModel.from_xml_string(f"""<mujoco>
-        <visual><quality offsamples="0" shadowsize="0"/><global offwidth="640" offheight="480" fovy="60"/></visual>
+        <visual><quality offsamples="0" shadowsize="0"/><global offwidth="1024" offheight="1024" fovy="60"/></visual>
         <asset><mesh name="ball" vertex="{numbers(vertices)}" face="{numbers(faces)}"/></asset>
         <worldbody><light directional="true" pos="1 -2 3" dir="-1 2 -3" castshadow="false"/>
-        <camera name="eye" pos="{numbers(np.array(EYE))}" xyaxes="{numbers(right)} {numbers(up)}" fovy="60"/>
+        {cameras}
         <geom type="box" size="3 3 .05" pos="0 0 -.05" rgba=".6 .6 .6 1"/>
         <geom type="mesh" mesh="ball" pos="0 0 .6" rgba=".8 .2 .1 1"/>{boxes}</worldbody></mujoco>""")
     data = mujoco.MjData(model)
@@ -60,18 +68,47 @@ def mujoco_rows(name, vertices, faces):
     for width, height in SIZES:
         with mujoco.Renderer(model, height, width) as renderer:
             for what in ["colour", "depth", "segmentation"]:
-                renderer.disable_depth_rendering()
-                renderer.disable_segmentation_rendering()
-                if what == "depth":
-                    renderer.enable_depth_rendering()
-                if what == "segmentation":
-                    renderer.enable_segmentation_rendering()
+                result = milliseconds(lambda: mujoco_picture(renderer, data, "0", what))
+                print(f"MuJoCo, {name} triangles, {width}x{height}, {what}: {result:.2f} ms", flush=True)
+    for what, width, height, count, masks in SENSORS:
+        channels = ["colour", "depth", "segmentation"][: 3 if masks else 2]
+        with mujoco.Renderer(model, height, width) as renderer:
 
-                def render():
-                    renderer.update_scene(data, "eye")
-                    renderer.render()
+            def render():
+                for i in range(count):
+                    for channel in channels:
+                        mujoco_picture(renderer, data, str(i), channel)
 
-                print(f"MuJoCo, {name} triangles, {width}x{height}, {what}: {milliseconds(render):.2f} ms", flush=True)
+            print(f"MuJoCo, {name} triangles, {what}: {milliseconds(render):.2f} ms", flush=True)
+
+
+def mujoco_picture(renderer, data, camera, what):
+    renderer.disable_depth_rendering()
+    renderer.disable_segmentation_rendering()
+    if what == "depth":
+        renderer.enable_depth_rendering()
+    if what == "segmentation":
+        renderer.enable_segmentation_rendering()
+    renderer.update_scene(data, camera)
+    renderer.render()
+
+
+def numbers(array):
+    return " ".join(map(str, np.ravel(array)))
+
+
+def numbers_of_camera(turns):
+    """Place and axes of a camera after so many turns around the scene."""
+    c, s = math.cos(2 * math.pi * turns), math.sin(2 * math.pi * turns)
+    eye = np.array([EYE[0] * c - EYE[1] * s, EYE[0] * s + EYE[1] * c, EYE[2]])
+    right = np.cross(TARGET - eye, (0, 0, 1))
+    up = np.cross(right, TARGET - eye)
+    return f'pos="{numbers(eye)}" xyaxes="{numbers(right)} {numbers(up)}"'
+
+
+def swanilda_rows(name, rings):
+    for words in run_lua("pictures.lua", {"RINGS": rings, "CASES": SENSORS}, 0.05):
+        print(f"Swanilda, {name} triangles, {' '.join(words[:-1]).rstrip(',')}: {float(words[-1]):.2f} ms", flush=True)
 
 
 def pybullet_rows(name, vertices, faces):
@@ -101,6 +138,7 @@ def pybullet_rows(name, vertices, faces):
 
 
 for name, rings in RINGS.items():
+    swanilda_rows(name, rings)
     for rows in [mujoco_rows, pybullet_rows]:
         try:
             rows(name, *bumpy_ball(rings))
