@@ -12,6 +12,9 @@ use crate::{Camera, Channels, Picture, World};
 /// Rows of a strip, at most. The fragments of a strip are in memory at the same time.
 const STRIP_ROWS: usize = 512;
 
+/// Pixels of a strip, at least: for less, other threads are not woken.
+const STRIP_PIXELS: usize = 2048;
+
 /// Draws pictures. It keeps its memory between them.
 #[derive(Debug, Default)]
 pub struct Renderer {
@@ -89,16 +92,15 @@ impl Renderer {
 /// Draws and shades all rows.
 fn fill(shading: &Shading, workers: &Workers, strips: &mut Vec<Strip>, picture: &mut Picture) {
     let [width, height] = picture.resolution.map(numbers::place);
-    let parts = match workers.count() {
-        1 => 1,
-        threads => 4 * threads,
-    };
-    let rows = height.div_ceil(parts).min(STRIP_ROWS);
-    strips.resize_with(height.div_ceil(rows), Strip::default);
+    let rows = strip_rows([width, height], workers.count());
+    let count = height.div_ceil(rows);
+    if strips.len() < count {
+        strips.resize_with(count, Strip::default);
+    }
     let mut colour = picture.colour.chunks_mut(3 * width * rows);
     let mut depth = picture.depth.chunks_mut(width * rows);
     let mut ids = picture.ids.chunks_mut(width * rows);
-    let parts = strips.iter_mut().map(|strip| {
+    let parts = strips[..count].iter_mut().map(|strip| {
         let (colour, depth, ids) = (
             colour.next().unwrap_or_default(),
             depth.next().unwrap_or_default(),
@@ -110,4 +112,13 @@ fn fill(shading: &Shading, workers: &Workers, strips: &mut Vec<Strip>, picture: 
     workers.for_each(&mut parts, |at, (strip, pixels)| {
         strip.fill(shading, at * rows..height.min((at + 1) * rows), pixels);
     });
+}
+
+/// How many rows a strip has.
+fn strip_rows([width, height]: [usize; 2], threads: usize) -> usize {
+    let strips = if threads == 1 { 1 } else { 4 * threads };
+    height
+        .div_ceil(strips)
+        .max(STRIP_PIXELS.div_ceil(width))
+        .min(STRIP_ROWS)
 }

@@ -84,7 +84,7 @@ impl<'a> Lighting<'a> {
             );
             if has_highlights && placed.light.specular != [0.0; 3] {
                 let highlight = power(positive(dot(normals, incoming.half)), material.shininess);
-                let highlight = highlight * incoming.strength & cosine.simd_gt(f32x8::ZERO);
+                let highlight = (highlight * incoming.strength) & cosine.simd_gt(f32x8::ZERO);
                 add_scaled(&mut specular, highlight, placed.light.specular);
             }
         }
