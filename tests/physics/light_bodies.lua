@@ -28,9 +28,11 @@ for index, name in ipairs(NAMES) do
 end
 
 -- Groups of parts, with the moments of a pen.
-local function group(count, at, mass)
+local function group(count, at, mass, turn)
     local parts = {}
-    for i = 1, count do parts[i] = bench.body{size = {0.01, 0.02, 0.02}, at = {0.02 * i, 0.01 * i * i, 0.01 * i}} end
+    for i = 1, count do
+        parts[i] = bench.body{size = {0.01, 0.02, 0.02}, at = {0.02 * i, 0.01 * i * i, 0.01 * i}, turn = {turn * i, 2 * turn * i, turn}}
+    end
     local body = sim.groupShapes(parts)
     sim.relocateShapeFrame(body, {0, 0, 0, 0, 0, 0, 1})
     sim.setObjectPosition(body, at)
@@ -41,12 +43,14 @@ local function group(count, at, mass)
     sim.setBoolProperty(body, 'respondable', true)
     return body
 end
-for count = 2, 4 do
-    local name = ('group of %d'):format(count)
+-- Number of parts, and by how much they are turned.
+for _, parts in ipairs{{2, 0}, {3, 0}, {4, 0}, {2, 0.3}, {4, 0.3}} do
+    local count, turn = table.unpack(parts)
+    local name = (turn > 0 and 'group of %d turned parts' or 'group of %d'):format(count)
     NAMES[#NAMES + 1] = name
     for m, mass in ipairs(MASSES) do
         for axis = 1, 3 do
-            local body = group(count, {2 * (#NAMES + 10), 2 * m, 2 * axis}, mass)
+            local body = group(count, {2 * (#NAMES + 10), 2 * m, 2 * axis}, mass, turn)
             bodies[#bodies + 1] = {name = name, mass = mass, axis = axis, body = body, moment = mass * SHAPES.pen[3][axis]}
         end
     end

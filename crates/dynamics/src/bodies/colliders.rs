@@ -104,3 +104,26 @@ fn has_volume(mesh: &Mesh) -> bool {
     mesh.aabb()
         .is_some_and(|(low, high)| (0..3).all(|axis| high[axis] - low[axis] > MIN_THICKNESS))
 }
+/// The same forms, but none turned where several are: as a part of one that is not. A collider that is turned cannot be without mass to the last digit (see
+/// [`carrier`](super::mass::carrier)).
+pub(super) fn without_several_turned(
+    forms: Vec<(EnginePose, SharedShape)>,
+) -> Vec<(EnginePose, SharedShape)> {
+    let is_turned = |pose: &EnginePose| pose.rotation != EnginePose::IDENTITY.rotation;
+    if forms.iter().filter(|(pose, _)| is_turned(pose)).count() < 2 {
+        return forms;
+    }
+    let upright = |(pose, form): (EnginePose, SharedShape)| {
+        let parts = match form.as_compound() {
+            Some(group) => group
+                .shapes()
+                .iter()
+                .map(|(place, part)| (pose * *place, part.clone()))
+                .collect(),
+            None if form.is_convex() => vec![(pose, form)],
+            None => return (pose, form),
+        };
+        (EnginePose::IDENTITY, SharedShape::compound(parts))
+    };
+    forms.into_iter().map(upright).collect()
+}

@@ -219,7 +219,7 @@ impl Body {
             .parts
             .iter()
             .flat_map(|part| colliders::forms(part, self.build.dynamic));
-        let forms = forms.collect::<Vec<_>>();
+        let forms = colliders::without_several_turned(forms.collect());
         let carrier = carrier(forms.iter().map(|(pose, _)| pose));
         for (index, (pose, form)) in forms.into_iter().enumerate() {
             let builder = ColliderBuilder::new(form).position(pose);
