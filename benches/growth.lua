@@ -278,7 +278,7 @@ function cases.octree_in_pieces(n)
     end
 end
 
---- A sensor looks after each voxel.
+--- A sensor detects after each voxel that is added.
 function cases.octree_seen_in_pieces(n)
     local octree = sim.createOctree(0.05, 0, 1)
     local box = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1})

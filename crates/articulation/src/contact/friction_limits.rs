@@ -33,7 +33,7 @@ impl FrictionLimits {
         let limits = DVector::from_iterator(rows.len(), rows.iter().map(|row| row.friction_limit));
         for (row, found) in rows.iter_mut().zip(&found) {
             row.friction_limit = *found;
-            if row.rebounds() {
+            if row.has_restitution() {
                 row.lead = row.least_compliance * row.impulse[0];
             }
         }

@@ -189,7 +189,7 @@ impl Mechanism {
 
     /// Makes rebounds of free bodies smaller if they gain energy.
     fn limit_restitution(&mut self) {
-        if self.contacts.rows.iter().any(Row::rebounds) {
+        if self.contacts.rows.iter().any(Row::has_restitution) {
             self.prepare_sweeps();
             self.contacts.limit_restitution();
             self.take_swept();

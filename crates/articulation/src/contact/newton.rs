@@ -113,6 +113,26 @@ mod tests {
         }
     }
 
+    /// A contact at rest without overlap.
+    fn touching(
+        bodies: [Option<usize>; 2],
+        point: [f64; 3],
+        normal: [f64; 3],
+        friction: f64,
+    ) -> Contact {
+        Contact {
+            bodies,
+            base: None,
+            point,
+            normal,
+            distance: 0.0,
+            friction,
+            restitution: 0.0,
+            velocity: [0.0; 3],
+            impulse: [0.0; 3],
+        }
+    }
+
     /// A chassis on four wheels with axes along y, each of which touches the floor at two points; it moves at `velocity` along x and y.
     fn wheels(velocity: [f64; 2], friction: f64) -> Mechanism {
         let inertia = |of: f64| Matrix3::from_diagonal_element(of);
@@ -152,21 +172,18 @@ mod tests {
             passive: Passive::default(),
         };
         mechanism.begin(&states, &[free; 4], GRAVITY, STEP);
-        let touching = |(wheel, place): (usize, &Vector3<f64>)| {
+        let of_wheel = |(wheel, place): (usize, &Vector3<f64>)| {
             let place = *place;
-            [-0.025, 0.025].map(move |y| Contact {
-                bodies: [Some(wheel + 1), None],
-                base: None,
-                point: [place.x, place.y + y, 0.0],
-                normal: [0.0, 0.0, 1.0],
-                distance: 0.0,
-                friction,
-                restitution: 0.0,
-                velocity: [0.0; 3],
-                impulse: [0.0; 3],
+            [-0.025, 0.025].map(move |y| {
+                touching(
+                    [Some(wheel + 1), None],
+                    [place.x, place.y + y, 0.0],
+                    [0.0, 0.0, 1.0],
+                    friction,
+                )
             })
         };
-        let contacts: Vec<Contact> = places.iter().enumerate().flat_map(touching).collect();
+        let contacts: Vec<Contact> = places.iter().enumerate().flat_map(of_wheel).collect();
         mechanism.set_contacts(&contacts);
         mechanism
     }
@@ -200,16 +217,13 @@ mod tests {
         let states = [body_state(Pose::identity()); 4];
         mechanism.begin(&states, &[pressing(1.0), pressing(-1.0)], GRAVITY, STEP);
         let corners = |finger: usize, x: f64| {
-            [[-0.01, -0.01], [-0.01, 0.01], [0.01, -0.01], [0.01, 0.01]].map(|[y, z]| Contact {
-                bodies: [Some(3), Some(finger)],
-                base: None,
-                point: [x, y, z],
-                normal: [-x.signum(), 0.0, 0.0],
-                distance: 0.0,
-                friction,
-                restitution: 0.0,
-                velocity: [0.0; 3],
-                impulse: [0.0; 3],
+            [[-0.01, -0.01], [-0.01, 0.01], [0.01, -0.01], [0.01, 0.01]].map(|[y, z]| {
+                touching(
+                    [Some(3), Some(finger)],
+                    [x, y, z],
+                    [-x.signum(), 0.0, 0.0],
+                    friction,
+                )
             })
         };
         mechanism.set_contacts(&[corners(1, -0.02), corners(2, 0.02)].concat());
@@ -247,17 +261,12 @@ mod tests {
         let mut state = body_state(Pose::translation(0.0, 0.0, z));
         (state.motion.velocity[0], state.motion.velocity[2]) = (-10.0, -0.5);
         rod.begin(&[state], &[], GRAVITY, STEP);
-        rod.set_contacts(&[Contact {
-            bodies: [Some(0), None],
-            base: None,
-            point: [x, 0.0, 0.0],
-            normal: [0.0, 0.0, 1.0],
-            distance: 0.0,
+        rod.set_contacts(&[touching(
+            [Some(0), None],
+            [x, 0.0, 0.0],
+            [0.0, 0.0, 1.0],
             friction,
-            restitution: 0.0,
-            velocity: [0.0; 3],
-            impulse: [0.0; 3],
-        }]);
+        )]);
         assert!(rod.solve() && !rod.contacts.are_swept);
         let (along_normal, by_friction) = (1.0 + x * x / inertia, x * z / inertia);
         let expected = (0.5 + 9.81 * STEP) / (along_normal + friction * by_friction);

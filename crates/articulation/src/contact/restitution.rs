@@ -45,7 +45,7 @@ impl Contacts {
     }
 
     fn scale_restitution(&mut self, share: f64) {
-        for row in self.rows.iter_mut().filter(|row| row.rebounds()) {
+        for row in self.rows.iter_mut().filter(|row| row.has_restitution()) {
             row.target[0] = row.obstacle[0] + row.restitution_velocity * share;
         }
         self.sweep_to_rest();

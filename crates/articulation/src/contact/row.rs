@@ -44,7 +44,7 @@ pub(crate) struct Row {
     pub least_compliance: f64,
     /// The impulse of the step before, and what the contact does near the last velocity.
     pub warm: Vector3<f64>,
-    /// What is added to the least normal velocity so that a rebound does not lose what the compliance takes.
+    /// What is added to the least normal velocity so that restitution does not lose what the compliance takes.
     pub lead: f64,
     /// The largest impulse of friction, for the normal impulse that was found last.
     pub friction_limit: f64,
@@ -200,7 +200,7 @@ impl Row {
     }
 
     /// Whether the bodies leave each other by restitution.
-    pub(super) fn rebounds(&self) -> bool {
+    pub(super) fn has_restitution(&self) -> bool {
         self.restitution_velocity != 0.0
     }
 

@@ -1,4 +1,4 @@
-//! A convex hull that knows its mass properties. rapier asks for the centroid of every convex piece of a fast body in each sub-step, before it looks for what
+//! A convex hull that knows its mass properties. rapier asks for the centroid of every convex piece of a fast body in each sub-step, before it searches for what
 //! is in the way, and parry would compute it anew from all faces each time.
 
 use std::sync::OnceLock;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-/// A set of numbers, kept as runs without gaps, so that the next number outside of it is found at once.
+/// A set of numbers, kept as runs of consecutive numbers, so that the next number outside of it is found at once.
 #[derive(Debug, Default)]
 pub(super) struct NumberRuns {
     /// The first number of each run, and the last one.

@@ -126,7 +126,7 @@ impl NeighbourGrid {
         }
     }
 
-    /// Whether one of the places is near. `at` tells where each of them is.
+    /// Whether one of the places is near. `at`: the position of each of them.
     fn finds(&self, place: [f64; 3], at: impl Fn(usize) -> [f64; 3]) -> bool {
         let [x, y, z] = self.cell(place);
         let close = |number: u32| {

@@ -40,7 +40,7 @@ pub struct Seen {
 }
 
 impl OcTree {
-    /// What is known to someone who looks at all voxels now.
+    /// What is known to an index of all voxels now.
     pub fn seen(&self) -> Seen {
         Seen {
             beginning: Rc::clone(&self.growth.beginning),

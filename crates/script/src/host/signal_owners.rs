@@ -8,7 +8,7 @@ use scene::Holder;
 #[derive(Default)]
 pub struct SignalOwners {
     owners: BTreeMap<Holder, BTreeMap<String, i64>>,
-    /// The same the other way round, so that a script that ends does not look at the signals of others.
+    /// The same the other way round, so that a script that ends does not go through the signals of others.
     owned: BTreeMap<i64, BTreeSet<(Holder, String)>>,
 }
 

@@ -5,15 +5,15 @@ use std::cell::Cell;
 use crate::lua::{Stack, Type};
 use crate::sys_call::SysCall;
 
-/// So often functions are looked at, at most: a script that goes on after that has other things to do.
-const MAX_LOOKS: u32 = 16;
+/// Largest number of checks of the functions of a script: one that needs more has other things to do.
+const MAX_CHECKS: u32 = 16;
 
 /// What is known of the functions of the callbacks.
 #[derive(Default)]
 pub(super) struct IdleFunctions {
     /// Callbacks whose function had something to do, as bits.
     busy: Cell<u64>,
-    looks: Cell<u32>,
+    checks: Cell<u32>,
 }
 
 impl IdleFunctions {
@@ -22,8 +22,8 @@ impl IdleFunctions {
         if self.busy.get() & call.bit() != 0 {
             return false;
         }
-        self.looks.set(self.looks.get() + 1);
-        let is_idle = self.looks.get() <= MAX_LOOKS
+        self.checks.set(self.checks.get() + 1);
+        let is_idle = self.checks.get() <= MAX_CHECKS
             && stack.push_global(call.name()) == Type::Function
             && stack.does_nothing();
         if !is_idle {

@@ -1,4 +1,4 @@
-//! What paths lead to, compared with a look at everything, and how much is looked at for it.
+//! What paths lead to, compared with a search of everything, and how many objects are visited for it.
 
 use super::*;
 use crate::Kind;
