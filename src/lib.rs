@@ -6,9 +6,9 @@ pub use mlua;
 pub use permissions::{Denied, HostRule, Permissions};
 pub use scene;
 pub use simulator::{
-    ApiFunction, Builder, CacheFolder, Caller, Channels, Console, EmbeddedScript, Error, Limits,
-    LogLine, ModuleMember, NativeScript, NativeScriptFactory, Options, Picture, Progress,
-    PythonHost, RosOptions, RunLimits, RunObserver, RunTotals, ScriptCalls, ScriptKind, ScriptRef,
-    Silent, SimulationState, Simulator, VideoFailure, VideoOptions, VideoView,
+    ApiFunction, Builder, CacheFolder, Caller, ChangedValue, Channels, Console, EmbeddedScript,
+    Error, Limits, LogLine, ModuleMember, NativeScript, NativeScriptFactory, Options, Picture,
+    Progress, PythonHost, RosOptions, RunLimits, RunObserver, RunTotals, ScriptCalls, ScriptKind,
+    ScriptRef, Silent, SimulationState, Simulator, VideoFailure, VideoOptions, VideoView,
 };
 pub use view::Viewer;

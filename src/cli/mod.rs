@@ -36,8 +36,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 use session::{
-    fallen, graphs, interrupt, launch, live, output, permissions, progress, recording, resources,
-    setup, video, watchdog,
+    fallen, graphs, hashes, interrupt, launch, live, output, permissions, progress, recording,
+    resources, setup, video, watchdog,
 };
 use standard_output::say;
 
@@ -56,7 +56,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Run(run::Args),
+    Run(Box<run::Args>),
     Export(export::Args),
     Render(render::Args),
     View(view::Args),

@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use super::fallen::Fallen;
 use super::graphs::GraphArgs;
+use super::hashes::{Compared, HashArgs};
 use super::interrupt::Interrupt;
 use super::launch::Launch;
 use super::live::Live;
@@ -26,6 +27,8 @@ use view::Viewer;
 
 /// Exit code when a script raised an error.
 const SCRIPT_ERROR: u8 = 1;
+/// Exit code when a step is another one than in the file of --expect-hash.
+const DIFFERENT: u8 = 3;
 
 /// Run a scene
 #[derive(clap::Args)]
@@ -56,6 +59,8 @@ pub(super) struct Args {
     record: RecordArgs,
     #[command(flatten)]
     graphs: GraphArgs,
+    #[command(flatten)]
+    hashes: HashArgs,
     #[command(flatten)]
     remote: Remote,
     #[command(flatten)]
@@ -115,6 +120,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         ..
     } = launch;
     let recorder = args.record.start(&sim)?;
+    let hashes = args.hashes.start()?;
     args.video.start(&mut sim, &args.scene);
     let viewer = args.view.start(&sim, &args.remote, &output, &watchdog)?;
     let mut session = Session {
@@ -127,6 +133,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         } else {
             Fallen::default()
         },
+        hashes,
     };
     let totals = args.simulate(&mut sim, viewer, &mut session);
     session.progress.finish();
@@ -136,7 +143,11 @@ pub(super) fn run(args: &Args) -> Outcome {
         .finish(&mut sim)
         .and(args.graphs.write(&sim))
         .and(recorded);
+    let last = session.hashes.last();
+    let compared = session.hashes.finish();
     let (errors, code) = end(sim, &written, &interrupt);
+    let code = tell(compared, code);
+    output.hash(last);
     output.summary(totals, args.time, begun.elapsed(), errors, code);
     Ok(ExitCode::from(code))
 }
@@ -160,6 +171,21 @@ fn end(mut sim: Simulator, written: &Result<(), String>, interrupt: &Interrupt) 
         _ => SCRIPT_ERROR,
     };
     (errors, code)
+}
+
+/// Says what became of the comparison of hashes; the exit code of the run with that.
+fn tell(compared: Result<Option<Compared>, String>, code: u8) -> u8 {
+    match compared {
+        Ok(None) => code,
+        Ok(Some(compared)) => {
+            complain(&compared.text);
+            if compared.is_equal { code } else { DIFFERENT }
+        }
+        Err(reason) => {
+            complain(&reason);
+            USAGE
+        }
+    }
 }
 
 /// A whole number, zero or more.

@@ -44,6 +44,7 @@ mod person;
 mod plugins;
 mod present;
 mod property;
+mod state_hash;
 mod step;
 mod video;
 
@@ -80,6 +81,7 @@ pub use property::{
 };
 pub use python_runtime::{EmbeddedScript, PythonHost, ScriptCalls};
 pub use ros_options::RosOptions;
+pub use state_hash::ChangedValue;
 pub use sys_call::SysCall;
 pub use test_bench::TestBench;
 pub use video::{VideoFailure, VideoOptions, VideoView};

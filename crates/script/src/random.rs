@@ -8,6 +8,8 @@ use rand_mt::Mt;
 /// The Mersenne twister behind `sim.getRandom`: 32 bits per number, so that the sequences are those scripts know.
 pub struct Random {
     seed: u32,
+    /// How many numbers were drawn since the seed: with it all that is to come is known.
+    drawn: u64,
     /// Made with the first number: it has 2.5 kB, and most scripts want none.
     generator: Option<Box<Mt>>,
 }
@@ -25,8 +27,14 @@ impl Random {
     pub(crate) fn new(seed: u32) -> Self {
         Self {
             seed,
+            drawn: 0,
             generator: None,
         }
+    }
+
+    /// The place in the sequence: the seed, and how many numbers were drawn since.
+    pub(crate) fn place(&self) -> (u32, u64) {
+        (self.seed, self.drawn)
     }
 
     /// Begins another sequence.
@@ -39,6 +47,7 @@ impl Random {
         let generator = self
             .generator
             .get_or_insert_with(|| Box::new(Mt::new(self.seed)));
+        self.drawn += 1;
         f64::from(generator.next_u32()) / 4_294_967_296.0
     }
 

@@ -2,6 +2,7 @@
 
 mod builder;
 mod caller;
+pub mod hash_file;
 #[cfg(test)]
 mod journal_tests;
 #[cfg(test)]
@@ -13,6 +14,8 @@ mod picture;
 mod run;
 mod scene;
 mod servers;
+#[cfg(test)]
+mod state_hash_tests;
 mod ui;
 mod viewing;
 
@@ -35,8 +38,8 @@ pub use native_script::{NativeScript, NativeScriptFactory};
 pub use perception::vision::{Channels, Picture};
 pub use run::{RunLimits, RunObserver, RunTotals};
 pub use script::{
-    CacheFolder, Console, EmbeddedScript, Limits, LogLine, Options, PythonHost, RosOptions,
-    ScriptCalls, Silent, SimulationState, VideoFailure, VideoOptions, VideoView,
+    CacheFolder, ChangedValue, Console, EmbeddedScript, Limits, LogLine, Options, PythonHost,
+    RosOptions, ScriptCalls, Silent, SimulationState, VideoFailure, VideoOptions, VideoView,
 };
 pub use viewing::PropertyRow;
 
@@ -349,6 +352,20 @@ impl Simulator {
     /// Whether a script asked to end the program.
     pub fn quit_requested(&self) -> bool {
         self.sim.clock.quit_is_requested()
+    }
+
+    /// A hash (xxh3, 64 bits) of what scripts can observe: poses, velocities, joints, readings, properties, custom data, signals, the
+    /// tree, time and state of the simulation, random numbers. Simulators that are in the same state have the same hash, on every
+    /// processor.
+    ///
+    /// The first call looks at everything; from then on changes are followed, and a call costs as much as there are changes.
+    pub fn state_hash(&self) -> u64 {
+        self.sim.state_hash()
+    }
+
+    /// The same; `sink` gets each value that changed since the last call of this function, all of them at the first one.
+    pub fn state_hash_with(&self, sink: impl FnMut(ChangedValue<'_>)) -> u64 {
+        self.sim.state_hash_with(sink)
     }
 
     /// The named parameters, as text.

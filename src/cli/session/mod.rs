@@ -2,6 +2,7 @@
 
 pub(super) mod fallen;
 pub(super) mod graphs;
+pub(super) mod hashes;
 pub(super) mod interrupt;
 pub(super) mod launch;
 pub(super) mod live;
@@ -18,6 +19,7 @@ pub(super) mod watchdog;
 use std::time::{Duration, Instant};
 
 use fallen::Fallen;
+use hashes::Hashes;
 use interrupt::Interrupt;
 use output::Output;
 use progress::Progress;
@@ -37,6 +39,7 @@ pub(super) struct Session<'a> {
     pub output: &'a Output,
     pub reminder: Reminder,
     pub fallen: Fallen,
+    pub hashes: Hashes,
 }
 
 /// Says once how to end a run that has no end of its own.
@@ -69,12 +72,15 @@ impl Reminder {
 
 impl RunObserver for Session<'_> {
     fn should_stop(&self, sim: &Simulator) -> bool {
-        self.interrupt.is_requested() || sim.video_failure().is_some()
+        self.interrupt.is_requested() || sim.video_failure().is_some() || self.hashes.end_the_run()
     }
 
     fn iterated(&mut self, sim: &Simulator, stepped: bool) {
         if !stepped {
             rest(sim);
+        }
+        if stepped {
+            self.hashes.look(sim, self.progress.is_at_end(sim));
         }
         if stepped && let Some(text) = self.fallen.look(sim) {
             self.output.note(&text, sim.time());

@@ -157,6 +157,19 @@ impl Output {
         }
     }
 
+    /// The hash of the state after the last step.
+    pub(in crate::cli) fn hash(&self, last: Option<(u64, u64)>) {
+        let Some((step, hash)) = last else { return };
+        match self.format {
+            Format::Text | Format::OriginalText => {
+                self.write_line(format!("state hash {hash:016x} after step {step}").as_bytes());
+            }
+            Format::Json => self.write_json(
+                &json!({ "type": "hash", "step": step, "hash": format!("{hash:016x}") }),
+            ),
+        }
+    }
+
     /// The last line: steps, times and errors of the run.
     pub(in crate::cli) fn summary(
         &self,

@@ -33,6 +33,11 @@ impl Progress {
         }
     }
 
+    /// Whether the run is as long as was asked for.
+    pub(in crate::cli) fn is_at_end(&self, sim: &Simulator) -> bool {
+        self.limits.are_reached(sim)
+    }
+
     /// The bar, for callers that write to the terminal while it shows.
     pub(in crate::cli) fn bar(&self) -> ProgressBar {
         self.bar.clone()

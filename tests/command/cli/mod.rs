@@ -9,6 +9,7 @@ mod commands;
 #[cfg(target_os = "linux")]
 mod full_disk;
 mod graphs;
+mod hashes;
 #[cfg(unix)]
 mod interrupts;
 mod messages;

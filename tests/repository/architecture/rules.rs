@@ -211,6 +211,7 @@ const SCRIPT: Rooms = &[
         "property",
         &["binding", "error", "event_stream", "host", "log", "random"],
     ),
+    ("state_hash", &["host", "property"]),
     ("events", &["event_stream", "host", "property", "sys_call"]),
     (
         "lifecycle",

@@ -229,7 +229,7 @@ impl Graph {
     }
 
     /// When the slots were recorded, seconds of simulation time, the oldest first.
-    pub fn times(&self) -> impl ExactSizeIterator<Item = f64> {
+    pub fn times(&self) -> impl ExactSizeIterator<Item = f64> + DoubleEndedIterator {
         self.times.iter().copied()
     }
 

@@ -172,6 +172,16 @@ impl Topics {
         self.0 & 1 << topic.index() != 0
     }
 
+    /// Whether there is a topic in both sets.
+    pub const fn intersects(self, other: Self) -> bool {
+        self.0 & other.0 != 0
+    }
+
+    /// The topics of this set that are not in the other.
+    pub const fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
     /// Whether there is no topic in the set.
     pub const fn is_empty(self) -> bool {
         self.0 == 0

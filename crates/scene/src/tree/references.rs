@@ -120,6 +120,12 @@ impl Scene {
         })
     }
 
+    /// Objects that may contain handles of others, apart from parent and children. The removal of those others changes them, which
+    /// the journal does not say.
+    pub fn referring_objects(&self) -> impl Iterator<Item = Handle> {
+        self.referrers.0.iter().copied()
+    }
+
     /// Removes references to objects that are being removed: links, dependencies, selection, collections, lists of handles. The drawing
     /// objects that move with them are removed.
     pub(crate) fn forget_references(&mut self, removed: &BTreeSet<Handle>) {

@@ -81,9 +81,12 @@ impl CustomData {
 
     /// The value `name` of whatever type.
     pub fn typed(&self, name: &str) -> Option<(ValueType, &Data)> {
-        self.named(name)
-            .next()
-            .map(|entry| (entry.ty, &entry.value))
+        self.all_typed(name).next()
+    }
+
+    /// The values `name` of all types, the oldest first: raw custom data may have one of each.
+    pub fn all_typed(&self, name: &str) -> impl Iterator<Item = (ValueType, &Data)> {
+        self.named(name).map(|entry| (entry.ty, &entry.value))
     }
 
     /// The tags in the order of their creation.

@@ -59,6 +59,11 @@ pub trait Interpreter {
         self.call_callback(call, &[table.to_data()])
     }
 
+    /// The state of the random numbers of the language's own library, as far as it can be known.
+    fn random_state(&self) -> Option<[u64; 4]> {
+        None
+    }
+
     /// How often code of the script has called functions of the host: without them it changes nothing but its own variables. None when
     /// they are not counted.
     fn host_calls(&self) -> Option<u64> {

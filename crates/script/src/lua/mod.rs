@@ -23,6 +23,7 @@ mod object;
 mod owner;
 mod permissions;
 mod pool;
+mod random_state;
 mod seal;
 mod stack;
 mod state;

@@ -7,6 +7,7 @@ use std::rc::Rc;
 use mlua::{Lua, LuaOptions, StdLib, ffi};
 
 use super::pool::{Allocator, Pool};
+use super::random_state::RandomState;
 use super::{Owner, Stack};
 use crate::budget::Budget;
 
@@ -14,6 +15,7 @@ use crate::budget::Budget;
 pub(crate) struct State {
     lua: Lua,
     main: NonNull<ffi::lua_State>,
+    random: RandomState,
 }
 
 /// Data that a state needs until it is closed. It is application data of mlua, which drops it after closing.
@@ -52,7 +54,14 @@ impl State {
         // SAFETY: opens libraries in a protected call; the closure owns nothing.
         let opened = unsafe { lua.exec_raw::<()>((), |raw| ffi::luaL_openlibs(raw)) };
         opened.expect("the standard libraries open in an empty state");
-        Self { lua, main }
+        // SAFETY: the state lives, and its libraries are as Lua made them.
+        let random = RandomState::of(unsafe { Stack::from_raw(main.as_ptr()) });
+        Self { lua, main, random }
+    }
+
+    /// The state of `math.random`; None where Lua keeps it in another way.
+    pub(crate) fn random_state(&self) -> Option<[u64; 4]> {
+        self.random.read()
     }
 
     /// The virtual machine, for what is not hot.

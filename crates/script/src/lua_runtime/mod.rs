@@ -216,6 +216,10 @@ impl Interpreter for LuaInterpreter {
         !is_defined || self.on_stack(|stack| self.idle.is_idle(stack, call))
     }
 
+    fn random_state(&self) -> Option<[u64; 4]> {
+        self.state.random_state()
+    }
+
     fn host_calls(&self) -> Option<u64> {
         Some(self.stack().owner().host_calls.get())
     }

@@ -344,6 +344,10 @@ impl Interpreter for PythonInterpreter {
         Ok(CallbackResult::Returned(results.pop()))
     }
 
+    fn random_state(&self) -> Option<[u64; 4]> {
+        self.lua.random_state()
+    }
+
     fn call_hook(&self, hook: &Hook, args: &[Data]) -> Result<bool, ScriptError> {
         let ran = match hook.function {
             Some(_) => self.lua.call_hook(hook, args),

@@ -125,6 +125,11 @@ impl ScriptSet {
         self.by_id.borrow().values().cloned().collect()
     }
 
+    /// Shows all scripts in the order of [`all`](Self::all), while none comes or goes.
+    pub(crate) fn for_each(&self, look: impl FnMut(&Rc<Script>)) {
+        self.by_id.borrow().values().for_each(look);
+    }
+
     /// The one script of that type without an object: main or sandbox.
     pub fn detached(&self, script_type: ScriptType) -> Option<Rc<Script>> {
         self.detached
