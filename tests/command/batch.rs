@@ -153,6 +153,11 @@ def sysCall_sensing():
     order = '-'.join({'alpha', 'beta', 'gamma', 'delta', 'epsilon'})
     sim.setNamedStringParam('result.order', order)
     sim.setNamedStringParam('result.number', str(random.random()))
+    own = [random.Random().random(), random.Random(7).random()]
+    random.seed()
+    own += [random.random(), random.Random().random()]
+    assert len(set(own)) == 4 and own[1] == 0.32383276483316237, own
+    sim.setNamedStringParam('result.own', repr(sum(own)))
     sim.stopSimulation()
 ";
 
@@ -178,9 +183,10 @@ fn scripts_in_python_have_the_same_row_in_each_batch() {
         let values = rows[1..].iter().map(|row| row.split(',').nth(column));
         values.collect::<std::collections::BTreeSet<_>>().len()
     };
-    assert_eq!(rows[0], "run,seed,error,steps,time,number,order");
+    assert_eq!(rows[0], "run,seed,error,steps,time,number,order,own");
     assert_eq!(distinct(5), 4, "each seed has its own numbers: {rows:?}");
     assert!(distinct(6) > 1, "and its own order of sets: {rows:?}");
+    assert_eq!(distinct(7), 4, "and its own generators: {rows:?}");
 }
 
 #[test]

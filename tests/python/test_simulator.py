@@ -38,7 +38,7 @@ def test_the_same_seed_is_the_same_run():
             s.start()
             s.step(50)
             sim = s.require("sim")
-            return sim.getObjectPose(sim.getObject("/Pole"), -1)
+            return sim.getObjectPose(sim.getObject("/Pole"), -1), s.state_hash()
 
     assert run() == run()
 

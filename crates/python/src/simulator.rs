@@ -231,6 +231,11 @@ impl Simulator {
         Ok(self.world()?.main.caller.steps())
     }
 
+    /// The hash of what scripts can observe, 64 bits: simulators in the same state have the same one.
+    fn state_hash(&self, py: Python<'_>) -> PyResult<u64> {
+        self.detached(py, |simulator| simulator.state_hash())
+    }
+
     /// Number of uncaught script errors.
     #[getter]
     fn errors(&self) -> PyResult<u64> {

@@ -25,6 +25,8 @@ pub struct Situation<'a> {
     pub steps: u64,
     /// Uncaught errors of scripts.
     pub errors: u64,
+    /// The hash of the state after a step, for watchers.
+    pub state_hash: Option<u64>,
 }
 
 /// What happened up to the end of a step.
@@ -66,6 +68,14 @@ impl Sim {
 
     /// Calls `observe` with the present state and what has happened since the last call.
     pub fn with_present<T>(&self, observe: impl FnOnce(&Present<'_>) -> T) -> T {
+        self.with_present_of(None, observe)
+    }
+
+    fn with_present_of<T>(
+        &self,
+        state_hash: Option<u64>,
+        observe: impl FnOnce(&Present<'_>) -> T,
+    ) -> T {
         let watching = self.watching();
         let mut shown = watching.lines.get();
         let lines = self.log.recent_since(&mut shown);
@@ -75,7 +85,10 @@ impl Sim {
         let contacts = contacts.unwrap_or_default();
         let scene = self.scene.borrow();
         observe(&Present {
-            now: self.situation(&scene),
+            now: Situation {
+                state_hash,
+                ..self.situation(&scene)
+            },
             lines,
             signals: scene
                 .signals
@@ -97,11 +110,12 @@ impl Sim {
             time: self.clock.time(),
             steps: self.clock.steps(),
             errors: self.log.errors(),
+            state_hash: None,
         }
     }
 
     /// Shows the state after a step to the watcher.
-    pub(crate) fn show_to_watcher(&self) {
+    pub(crate) fn show_to_watcher(self: &Rc<Self>) {
         // The end of a simulation restores what was before it: observers are to see its last step.
         if self.clock.is_stopped() {
             return;
@@ -111,7 +125,8 @@ impl Sim {
         };
         let watcher = watching.watcher.take();
         if let Some(mut watcher) = watcher {
-            self.with_present(|present| watcher(present));
+            let hash = self.state_hash();
+            self.with_present_of(Some(hash), |present| watcher(present));
             watching.watcher.replace(Some(watcher));
         }
     }

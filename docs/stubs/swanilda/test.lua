@@ -20,6 +20,7 @@
 ---     t.run_until(condition, timeout = 10)    steps until the function returns true; fails after that simulated time. Returns the time
 ---     t.at(time, fn)              calls a function when the simulation reaches that time
 ---     t.start(), t.stop(), t.time()
+---     t.hash()                    hash of the state that scripts can observe, a text: the same after the same steps of the same scene
 ---
 --- Runs of their own
 ---     t.run(file, options)        runs a scene or a script as `swanilda run` does, in another simulator, to its end. Returns output (one text),
@@ -93,6 +94,8 @@ function t.gauss() end
 ---@param options? table
 ---@return table recording
 function t.golden(name, quantities, options) end
+
+function t.hash() end
 
 ---@param sensor any
 ---@param options? table

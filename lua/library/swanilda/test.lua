@@ -17,6 +17,7 @@ Time
     t.run_until(condition, timeout = 10)    steps until the function returns true; fails after that simulated time. Returns the time
     t.at(time, fn)              calls a function when the simulation reaches that time
     t.start(), t.stop(), t.time()
+    t.hash()                    hash of the state that scripts can observe, a text: the same after the same steps of the same scene
 
 Runs of their own
     t.run(file, options)        runs a scene or a script as `swanilda run` does, in another simulator, to its end. Returns output (one text),
@@ -136,6 +137,8 @@ function t.allow_script_errors(allowed) allowErrors = allowed ~= false end
 
 -- @api float time = swanilda.test.time()
 function t.time() return sim.getSimulationTime() end
+
+function t.hash() return native.hash() end
 
 local function isAdvancing() return sim.getSimulationState() & sim.simulation_advancing ~= 0 end
 

@@ -291,7 +291,7 @@ fn random_numbers_of_numpy_follow_the_seed() {
     let scene = "import numpy as np
 early = np.random.rand()
 def sysCall_init():
-    print(early, np.random.rand())
+    print(early, np.random.rand(), np.random.default_rng().random(), np.random.default_rng(1).random())
     require('sim').quitSimulator()
 ";
     let files = folder(&[("scene.py", scene)]);
@@ -305,6 +305,7 @@ def sysCall_init():
     };
     let numbers = with("5");
     assert!(numbers.starts_with("0."), "{numbers}");
+    assert!(numbers.contains("0.5118216247002567"), "{numbers}");
     assert_eq!(with("5"), numbers);
     assert_ne!(with("6"), numbers);
 }

@@ -207,6 +207,25 @@ fn each_test_of_a_robot_has_a_fresh_simulator() {
 }
 
 #[test]
+fn the_hash_tells_whether_states_are_the_same() {
+    let suite = simulating(
+        "it('is that of the state', function()
+            local dummy = sim.createDummy(0.1)
+            local before = t.hash()
+            assert.is_truthy(before:find('^%x+$') and #before == 16)
+            sim.setObjectPosition(dummy, {1, 0, 0})
+            assert.not_equal(before, t.hash())
+            sim.setObjectPosition(dummy, {0, 0, 0})
+            assert.equal(before, t.hash())
+            t.step()
+            assert.not_equal(before, t.hash())
+        end)",
+    );
+    let (code, output) = run(&[("hash_test.lua", &suite)], &[]);
+    assert_eq!(code, 0, "{output}");
+}
+
+#[test]
 fn the_fixture_drives_simulation_and_scripts() {
     let scene = "sim = require 'sim'
         gain = 2

@@ -205,7 +205,7 @@ const SCRIPT: Rooms = &[
         ],
     ),
     ("person", &["host"]),
-    ("present", &["clock", "host", "log"]),
+    ("present", &["clock", "host", "log", "state_hash"]),
     ("video", &["clock", "host", "log"]),
     (
         "property",
@@ -300,6 +300,7 @@ const SCRIPT: Rooms = &[
             "person",
             "plugins",
             "property",
+            "state_hash",
             "step",
             "sys_call",
             "test_bench",

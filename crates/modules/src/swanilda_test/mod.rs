@@ -20,7 +20,7 @@ pub(super) static MODULE: Module = Module {
 };
 
 const FUNCTIONS: &[ApiFn] = functions![
-    is_test, iterate, errors, lines, kill, file, time_limit, golden, image
+    is_test, iterate, errors, hash, lines, kill, file, time_limit, golden, image
 ];
 
 fn bench(cx: &Cx) -> Result<Rc<TestBench>> {
@@ -62,6 +62,14 @@ fn iterate(cx: &mut Cx) -> Result<()> {
 #[api("swanilda.test.errors")]
 fn errors(cx: &Cx) -> Result<i64> {
     Ok(cx.errors() as i64)
+}
+
+/// The hash of the state that scripts can observe, as `swanilda run --hash` prints it.
+///
+/// @return hash 16 hexadecimal digits
+#[api("swanilda.test.hash")]
+fn hash(cx: &Cx) -> Result<String> {
+    Ok(format!("{:016x}", cx.state_hash()))
 }
 
 /// Captured prints and log lines.

@@ -15,6 +15,11 @@ impl Cx<'_> {
         &self.sim.clock
     }
 
+    /// The hash of what scripts can observe now.
+    pub fn state_hash(&self) -> u64 {
+        self.sim.state_hash()
+    }
+
     /// Starts a stopped simulation or resumes a paused one; otherwise nothing.
     pub fn start_simulation(&mut self) {
         self.sim.start();

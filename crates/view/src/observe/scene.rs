@@ -51,7 +51,7 @@ impl<'a> Source<'a> {
         } else {
             &settings.path
         };
-        json!({
+        let mut scene = json!({
             "name": name,
             "path": path,
             "state": state_name(self.now.state),
@@ -67,8 +67,11 @@ impl<'a> Source<'a> {
             "mode": self.mode,
             "readOnly": self.is_read_only,
             "errors": self.now.errors,
-        })
-        .to_string()
+        });
+        if let Some(hash) = self.now.state_hash {
+            scene["hash"] = format!("{hash:016x}").into();
+        }
+        scene.to_string()
     }
 }
 

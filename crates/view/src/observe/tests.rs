@@ -46,6 +46,7 @@ impl Stage {
                 time: 0.0,
                 steps: 0,
                 errors: 0,
+                state_hash: Some(255),
             },
             is_read_only: false,
             mode: "live",
@@ -69,6 +70,12 @@ impl Stage {
 
 fn handles(objects: &[(i64, ObservedObject)]) -> Vec<i64> {
     objects.iter().map(|(handle, _)| *handle).collect()
+}
+
+#[test]
+fn what_has_a_hash_shows_it() {
+    let mut stage = Stage::new();
+    assert_eq!(stage.update()["scene"]["hash"], "00000000000000ff");
 }
 
 #[test]
