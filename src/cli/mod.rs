@@ -21,6 +21,7 @@ mod isolated;
 mod python_uses;
 mod remote;
 mod render;
+mod replay;
 mod run;
 mod serve;
 mod session;
@@ -36,8 +37,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 use session::{
-    fallen, graphs, hashes, interrupt, launch, live, output, permissions, progress, recording,
-    resources, setup, video, watchdog,
+    capture, fallen, graphs, hashes, interrupt, launch, live, output, permissions, progress,
+    recording, resources, setup, video, watchdog,
 };
 use standard_output::say;
 
@@ -59,6 +60,7 @@ enum Command {
     Run(Box<run::Args>),
     Export(export::Args),
     Render(render::Args),
+    Replay(replay::Args),
     View(view::Args),
     Serve(serve::Args),
     Test(test::Args),
@@ -123,6 +125,7 @@ impl Command {
             Self::Run(args) => run::run(&args),
             Self::Export(args) => export::export(&args),
             Self::Render(args) => render::render(&args),
+            Self::Replay(args) => replay::replay(&args),
             Self::View(args) => view::view(&args),
             Self::Serve(args) => serve::serve(&args),
             Self::Test(args) => Ok(test::test(&args)),

@@ -140,28 +140,23 @@ impl Remote {
         output: &Output,
         interrupt: &Interrupt,
     ) -> Result<(), String> {
-        let failed = |error| format!("the remote API cannot start: {error}");
+        let at = |api: &Api, port| self.listener(setup, api, port);
         if zmq && !ZMQ.is_refused(setup) {
-            let listener = self.listener(setup, &ZMQ, self.remote_api.flatten())?;
-            output.listening(
-                ZMQ.name,
-                sim.serve_zmq(listener, interrupt.flag()).map_err(failed)?,
-            );
+            let listen = || at(&ZMQ, self.remote_api.flatten());
+            output.listening(ZMQ.name, sim.serve_zmq_by(listen, interrupt.flag())?);
         }
         if let Some(port) = self.ws_remote_api.filter(|_| !WS.is_refused(setup)) {
-            let listener = self.listener(setup, &WS, port)?;
-            output.listening(WS.name, sim.serve_ws(listener).map_err(failed)?);
+            output.listening(WS.name, sim.serve_ws_by(|| at(&WS, port))?);
         }
         for &port in &self.legacy_remote_api {
-            let listener = listener_at(self.bind, port)?;
-            output.listening("Legacy", sim.serve_legacy(listener).map_err(failed)?);
+            let listen = || listener_at(self.bind, port);
+            output.listening("Legacy", sim.serve_legacy_by(listen)?);
         }
         if let Some(port) = self
             .visualization_stream
             .filter(|_| !STREAM.is_refused(setup))
         {
-            let listener = self.listener(setup, &STREAM, port)?;
-            output.streaming(sim.serve_visualization_stream(listener).map_err(failed)?);
+            output.streaming(sim.serve_visualization_stream_by(|| at(&STREAM, port))?);
         }
         Ok(())
     }

@@ -10,6 +10,7 @@ use super::run::Kind;
 use super::setup::{Setup, seconds};
 use super::video::picture_size;
 use super::{Outcome, say};
+use capture::Tape;
 use format::picture::{self, Layout, PictureError};
 use format::scene_file::write_whole;
 use perception::vision::first_camera;
@@ -66,7 +67,14 @@ pub(super) fn render(args: &Args) -> Outcome {
         limits,
         args.setup.quiet || args.setup.json || args.time == 0.0,
     );
-    let mut launch = Launch::new(&args.setup, None, Some(&args.scene), &progress, None)?;
+    let mut launch = Launch::new(
+        &args.setup,
+        None,
+        Some(&args.scene),
+        &progress,
+        None,
+        &Tape::default(),
+    )?;
     launch.fill(args.kind.into());
     let Launch {
         mut sim, interrupt, ..

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
+use super::capture::{CaptureArgs, finish};
 use super::fallen::Fallen;
 use super::graphs::GraphArgs;
 use super::hashes::{Compared, HashArgs};
@@ -15,7 +16,7 @@ use super::live::Live;
 use super::progress::Progress;
 use super::recording::RecordArgs;
 use super::remote::Remote;
-use super::session::{Reminder, Session};
+use super::session::{END, Reminder, Session};
 use super::setup::{Setup, seconds};
 use super::video::VideoArgs;
 use super::view::ViewArgs;
@@ -60,13 +61,15 @@ pub(super) struct Args {
     #[command(flatten)]
     graphs: GraphArgs,
     #[command(flatten)]
-    hashes: HashArgs,
+    pub(super) hashes: HashArgs,
     #[command(flatten)]
     remote: Remote,
     #[command(flatten)]
     view: ViewArgs,
     #[command(flatten)]
-    setup: Setup,
+    pub(super) capture: CaptureArgs,
+    #[command(flatten)]
+    pub(super) setup: Setup,
 }
 
 /// Script type of a Lua file.
@@ -94,9 +97,11 @@ impl From<Kind> for ScriptKind {
 /// Runs the scene; the exit code reports the outcome.
 pub(super) fn run(args: &Args) -> Outcome {
     let plugin_note = isolated::note();
-    if args.isolate && plugin_note.is_none() {
+    let is_replay = args.capture.tape.is_on();
+    if args.isolate && !is_replay && plugin_note.is_none() {
         return Ok(isolated::run());
     }
+    let tape = args.capture.tape()?;
     let progress = Progress::new(
         args.limits(),
         args.setup.quiet || args.setup.json || args.no_start,
@@ -107,9 +112,11 @@ pub(super) fn run(args: &Args) -> Outcome {
         Some(&args.scene),
         &progress,
         plugin_note,
+        &tape,
     )?;
     let begun = Instant::now();
-    let is_robot = RobotFile::is_one(&args.scene, &Permissions::all());
+    let permissions = Permissions::all().on_tape(&tape);
+    let is_robot = RobotFile::is_one(&args.scene, &permissions);
     launch.fill(args.kind.into());
     launch.serve(&args.remote, args.remote.asks_for_zmq())?;
     let Launch {
@@ -119,15 +126,20 @@ pub(super) fn run(args: &Args) -> Outcome {
         watchdog,
         ..
     } = launch;
-    let recorder = args.record.start(&sim)?;
     let hashes = args.hashes.start()?;
-    args.video.start(&mut sim, &args.scene);
+    // A replay writes no files.
+    let recorder = if is_replay {
+        None
+    } else {
+        args.video.start(&mut sim, &args.scene);
+        args.record.start(&sim)?
+    };
     let viewer = args.view.start(&sim, &args.remote, &output, &watchdog)?;
     let mut session = Session {
         interrupt: &interrupt,
         progress,
         output: &output,
-        reminder: args.reminder(),
+        reminder: args.reminder(is_replay),
         fallen: if is_robot {
             Fallen::watch(&sim)
         } else {
@@ -138,14 +150,16 @@ pub(super) fn run(args: &Args) -> Outcome {
     let totals = args.simulate(&mut sim, viewer, &mut session);
     session.progress.finish();
     let recorded = args.record.finish(&sim, recorder);
-    let written = args
-        .video
-        .finish(&mut sim)
-        .and(args.graphs.write(&sim))
-        .and(recorded);
+    let graphs = if is_replay {
+        Ok(())
+    } else {
+        args.graphs.write(&sim)
+    };
+    let written = args.video.finish(&mut sim).and(graphs).and(recorded);
     let last = session.hashes.last();
     let compared = session.hashes.finish();
     let (errors, code) = end(sim, &written, &interrupt);
+    finish(&tape);
     let code = tell(compared, code);
     output.hash(last);
     output.summary(totals, args.time, begun.elapsed(), errors, code);
@@ -154,7 +168,7 @@ pub(super) fn run(args: &Args) -> Outcome {
 
 /// Ends a run; the number of script errors, and the exit code.
 fn end(mut sim: Simulator, written: &Result<(), String>, interrupt: &Interrupt) -> (u64, u8) {
-    if interrupt.is_requested() {
+    if sim.tape().signal(END, || interrupt.is_requested()) {
         sim.request_stop();
         // Scripts that outlive a run clean up when their scene is closed.
         sim.clear_scene();
@@ -205,9 +219,13 @@ impl Args {
     }
 
     /// Remote clients and --no-start end a run their own way.
-    fn reminder(&self) -> Reminder {
+    fn reminder(&self, is_replay: bool) -> Reminder {
         Reminder::new(
-            self.has_end() || self.no_start || self.remote.asks_for_zmq() || self.setup.json,
+            is_replay
+                || self.has_end()
+                || self.no_start
+                || self.remote.asks_for_zmq()
+                || self.setup.json,
         )
     }
 
@@ -217,8 +235,8 @@ impl Args {
         viewer: Option<Viewer>,
         session: &mut Session,
     ) -> RunTotals {
-        if let Some(viewer) = viewer {
-            self.run_viewed(sim, Live::new(Some(viewer)), session.interrupt)
+        if self.view.is_asked_for() {
+            self.run_viewed(sim, Live::new(viewer), session.interrupt)
         } else if self.no_start {
             sim.loop_freely(self.loops, session)
         } else if sim.errors() > 0 && !self.has_end() {
@@ -242,15 +260,16 @@ impl Args {
             sim.start();
         }
         while !sim.quit_requested() {
+            let wants_end = sim.tape().signal(END, || interrupt.is_requested());
             let is_over = if self.no_start {
                 loops >= self.loops
             } else {
                 sim.state() == SimulationState::Stopped
             };
-            if is_over || interrupt.is_requested() && self.no_start {
+            if is_over || wants_end && self.no_start {
                 break;
             }
-            if !stops && (interrupt.is_requested() || self.limits().are_reached(sim)) {
+            if !stops && (wants_end || self.limits().are_reached(sim)) {
                 stops = true;
                 sim.request_stop();
             }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::Outcome;
+use super::capture::{CaptureArgs, finish};
 use super::launch::Launch;
 use super::live::Live;
 use super::progress::Progress;
@@ -24,11 +25,14 @@ pub(super) struct Args {
     #[command(flatten)]
     view: ViewArgs,
     #[command(flatten)]
-    setup: Setup,
+    pub(super) capture: CaptureArgs,
+    #[command(flatten)]
+    pub(super) setup: Setup,
 }
 
 /// Serves until ctrl-c, SIGTERM or `quitSimulator()`.
 pub(super) fn serve(args: &Args) -> Outcome {
+    let tape = args.capture.tape()?;
     let progress = Progress::new(RunLimits::default(), true);
     let mut launch = Launch::new(
         &args.setup,
@@ -36,6 +40,7 @@ pub(super) fn serve(args: &Args) -> Outcome {
         args.scene.as_deref(),
         &progress,
         None,
+        &tape,
     )?;
     launch.fill(ScriptKind::Customization);
     launch.serve(&args.remote, !args.no_remote_api)?;
@@ -47,5 +52,8 @@ pub(super) fn serve(args: &Args) -> Outcome {
         ..
     } = launch;
     let viewer = args.view.start(&sim, &args.remote, &output, &watchdog)?;
-    Ok(Live::new(viewer).run(&mut sim, &interrupt))
+    let code = Live::new(viewer).run(&mut sim, &interrupt);
+    drop(sim);
+    finish(&tape);
+    Ok(code)
 }

@@ -6,6 +6,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use super::Outcome;
+use super::capture::{CaptureArgs, finish};
 use super::interrupt::Interrupt;
 use super::launch::Launch;
 use super::live::Live;
@@ -52,7 +53,9 @@ pub(super) struct Args {
     #[command(flatten)]
     remote: Remote,
     #[command(flatten)]
-    setup: Setup,
+    pub(super) capture: CaptureArgs,
+    #[command(flatten)]
+    pub(super) setup: Setup,
 }
 
 /// Viewer options
@@ -85,13 +88,19 @@ impl ViewArgs {
         output: &Output,
         watchdog: &Watchdog,
     ) -> Result<Option<Viewer>, String> {
-        self.view
-            .map(|mode| start(sim, mode, self.port, remote, output, watchdog))
-            .transpose()
+        match self.view {
+            Some(mode) => start(sim, mode, self.port, remote, output, watchdog),
+            None => Ok(None),
+        }
+    }
+
+    /// Whether it is asked for.
+    pub(super) fn is_asked_for(&self) -> bool {
+        self.view.is_some()
     }
 }
 
-/// Starts a viewer and prints its address.
+/// Starts a viewer and prints its address. A replay has none.
 fn start(
     sim: &Simulator,
     mode: Mode,
@@ -99,13 +108,16 @@ fn start(
     remote: &Remote,
     output: &Output,
     watchdog: &Watchdog,
-) -> Result<Viewer, String> {
+) -> Result<Option<Viewer>, String> {
+    if sim.tape().is_replaying() {
+        return Ok(None);
+    }
     let failed = |error: std::io::Error| format!("the viewer cannot start at port {port}: {error}");
     let listener = TcpListener::bind((remote.address(), port)).map_err(failed)?;
     let viewer = Viewer::start(sim, listener, mode == Mode::ReadOnly).map_err(failed)?;
     watchdog.show_on(viewer.busy_sign());
     output.viewing(&viewer.url());
-    Ok(viewer)
+    Ok(Some(viewer))
 }
 
 /// Shows the scene until ctrl-c, SIGTERM or `quitSimulator()`.
@@ -115,7 +127,15 @@ pub(super) fn view(args: &Args) -> Outcome {
         return view_recording(args, recording);
     }
     let progress = Progress::new(RunLimits::default(), true);
-    let mut launch = Launch::new(&args.setup, Some(&args.remote), scene, &progress, None)?;
+    let tape = args.capture.tape()?;
+    let mut launch = Launch::new(
+        &args.setup,
+        Some(&args.remote),
+        scene,
+        &progress,
+        None,
+        &tape,
+    )?;
     // Before the scripts, so that pages have their first lines as well.
     let viewer = start(
         &launch.sim,
@@ -131,11 +151,16 @@ pub(super) fn view(args: &Args) -> Outcome {
         mut sim, interrupt, ..
     } = launch;
     sim.set_pace(args.speed);
-    args.open_browser(&viewer.url());
+    if let Some(viewer) = &viewer {
+        args.open_browser(&viewer.url());
+    }
     if !args.paused {
         sim.start();
     }
-    Ok(Live::new(Some(viewer)).run(&mut sim, &interrupt))
+    let code = Live::new(viewer).run(&mut sim, &interrupt);
+    drop(sim);
+    finish(&tape);
+    Ok(code)
 }
 
 fn is_recording(path: &Path) -> bool {

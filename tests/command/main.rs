@@ -3,6 +3,7 @@
 mod bad;
 mod batch;
 mod c_modules;
+mod capture;
 mod cli;
 mod conformance;
 mod physics;

@@ -14,7 +14,7 @@ mod scripts;
 mod sensors;
 pub(crate) mod shapes;
 
-use script::{Hooks, Module};
+use script::{Hooks, Module, Outside};
 
 pub use script::ApiFn;
 pub(crate) use script::{ApiError, ApiResult as Result, Args, Cx, FromScript, functions};
@@ -110,6 +110,18 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Banners and views of cameras", display::banners::FUNCTIONS),
 ];
 
+/// What calls devices and other programs.
+const OUTSIDE: &[&str] = &[
+    "sim._serialOpen",
+    "sim._serialClose",
+    "sim._serialRead",
+    "sim._serialRest",
+    "sim.serialSend",
+    "sim.serialCheck",
+    "sim.launchExecutable",
+    "sim.systemSemaphore",
+];
+
 /// The module `sim`, with the global functions that come along with it.
 pub static SIM: Module = Module {
     functions: CATEGORIES,
@@ -123,6 +135,7 @@ pub static SIM: Module = Module {
         end_of_simulation: Some(files::serial::end_simulation),
         ..Hooks::NONE
     },
+    outside: Outside::Only(OUTSIDE),
     ..Module::new("sim")
 };
 

@@ -49,6 +49,7 @@ const INNER: &[&str] = &[
     "remote/zmq_functions",
     "remote/zmq_steps",
     "remote/zmq_waits",
+    "captured",
     "restricted",
     "seal",
     "shared_process",

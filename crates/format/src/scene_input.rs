@@ -8,7 +8,7 @@ use super::scene_file::{self, SceneFile, ScriptSources};
 use super::scene_folder;
 use super::script_file;
 use super::ttt::{File, FileResult};
-use permissions::{Permissions, read_bounded};
+use permissions::Permissions;
 
 /// A scene or model that has been read, from which any number of simulators can be filled.
 #[derive(Debug)]
@@ -86,7 +86,7 @@ impl SceneInput {
         permissions
             .check_read(path)
             .map_err(|denied| denied.to_string())?;
-        let input = if path.is_dir() {
+        let input = if permissions.is_dir(path) {
             read_folder(path, permissions)
         } else {
             read_file(path, bases, permissions)
@@ -116,7 +116,7 @@ impl SceneInput {
 }
 
 fn read_folder(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
-    if !scene_folder::is_scene(path) {
+    if !scene_folder::is_read_as_scene(path, permissions) {
         return Err("it is a folder, and no unpacked scene: scene.json is missing".into());
     }
     let (file, sources) = (
@@ -159,7 +159,9 @@ fn read_file(path: &Path, bases: Bases, permissions: &Permissions) -> Result<Sce
         let (file, messages) = GltfFile::open(path, permissions)?.model(path)?;
         return Ok(model_input(file, messages, false));
     }
-    let bytes = read_bounded(path).map_err(|error| error.to_string())?;
+    let bytes = permissions
+        .read_checked(path)
+        .map_err(|error| error.to_string())?;
     if !scene_file::is_scene(&bytes) || script_file::check_no_xacro(path).is_err() {
         script_file::check(path, &bytes).map_err(|reason| reason.to_string())?;
         return Ok(SceneInput::Script(bytes));

@@ -252,11 +252,11 @@ fn save_binary(cx: &mut Cx, filepath: String) -> Result<bool> {
 
 fn save(cx: &mut Cx, name: &str, bytes: &[u8]) -> bool {
     let path = Path::new(name);
-    let written = cx
-        .permissions()
+    let permissions = cx.permissions();
+    let written = permissions
         .check_write(path)
         .map_err(Into::into)
-        .and_then(|()| write_whole(path, bytes));
+        .and_then(|()| permissions.write(path, || write_whole(path, bytes)));
     if let Err(error) = &written {
         cx.env().log(
             verbosity::SCRIPT_ERRORS,

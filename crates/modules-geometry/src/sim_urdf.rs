@@ -41,7 +41,8 @@ fn import(
     #[default(None)] package_str_replace: Option<String>,
 ) -> Result<(String, Vec<Handle>)> {
     let file = if urdf.trim_start().starts_with("<?xml") {
-        let beside = std::path::absolute("robot.urdf").unwrap_or_default();
+        let beside = cx.permissions().absolute(Path::new("robot.urdf"));
+        let beside = beside.unwrap_or_default();
         RobotFile::parse(
             urdf.as_bytes(),
             RobotFormat::Urdf,
@@ -102,7 +103,9 @@ fn export_model(
     for file in files {
         let path = path.with_file_name(&file.name);
         cx.permissions().check_write(&path)?;
-        let written = std::fs::write(&path, &file.bytes);
+        let written = cx
+            .permissions()
+            .write(&path, || std::fs::write(&path, &file.bytes));
         written.map_err(|error| {
             ApiError::Other(format!("cannot write {}: {error}", path.display()))
         })?;

@@ -9,11 +9,17 @@ use api_macro::api;
 
 use super::{ApiFn, Cx, Module, Result, functions, sim_ws};
 use io::{Incoming, ZmqServer};
-use script::{Bytes, States, Text};
+use script::{Bytes, Outside, States, Text};
 
 /// The module `remote.zmq`.
 pub static ZMQ: Module = Module {
     inner: &[FUNCTIONS, TYPES, NAMES],
+    outside: Outside::Only(&[
+        "remote.zmq.receive",
+        "remote.zmq.reply",
+        "remote.zmq.closed",
+        "remote.zmq.others",
+    ]),
     ..Module::new("remote.zmq")
 };
 /// What the library of scripts in Python needs.

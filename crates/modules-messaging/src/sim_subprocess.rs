@@ -12,12 +12,13 @@ use api_macro::api;
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 use io::{Process, ProcessError, Program};
 use scene::Data;
-use script::{Bytes, Nil, Results, Table};
+use script::{Bytes, Nil, Outside, Results, Table};
 
 /// The module `simSubprocess`.
 pub static MODULE: Module = Module {
     about: "Starts programs, where that is allowed (`--allow-run`).",
     functions: &[("Programs", FUNCTIONS)],
+    outside: Outside::AllBut(&[]),
     ..Module::new("simSubprocess")
 };
 

@@ -1,19 +1,23 @@
 //! Permissions of scripts: files, programs, the network, native code.
 //!
 //! Whoever calls the operating system for a script asks here first, with what the call is going to be made with. Values, cheap to
-//! clone; a simulator has one for all its scripts (`Options::permissions`).
+//! clone; a simulator has one for all its scripts (`Options::permissions`). With them goes the tape of the simulator, on which what is read of files is
+//! captured and replayed.
 //!
 //! A path is judged by where it leads: links and `..` are followed first (`resolve`). Between that and the call nothing a restricted
 //! script can do makes the path lead elsewhere, since it can neither make symbolic links nor change the working directory. Not covered:
 //! other programs that swap links meanwhile, and what a permission itself brings along (a program or a library may do anything).
 
 mod bounded;
+mod files;
 mod network;
 mod resolve;
 
 use std::fmt;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
+
+use capture::Tape;
 
 pub use bounded::read_bounded;
 pub use network::HostRule;
@@ -29,6 +33,7 @@ pub struct Permissions {
     run: bool,
     native: bool,
     reads_scene_folder: bool,
+    tape: Tape,
 }
 
 /// Everything, or what is listed.
@@ -67,6 +72,7 @@ impl Permissions {
             run: true,
             native: true,
             reads_scene_folder: true,
+            tape: Tape::default(),
         }
     }
 
@@ -79,6 +85,7 @@ impl Permissions {
             run: false,
             native: false,
             reads_scene_folder: false,
+            tape: Tape::default(),
         }
     }
 
@@ -88,6 +95,20 @@ impl Permissions {
             reads_scene_folder: true,
             ..Self::none()
         }
+    }
+
+    /// The same on a tape: what is read of files by these permissions is captured, or replayed.
+    #[must_use]
+    pub fn on_tape(self, tape: &Tape) -> Self {
+        Self {
+            tape: tape.clone(),
+            ..self
+        }
+    }
+
+    /// The tape on which everything comes from outside.
+    pub fn tape(&self) -> &Tape {
+        &self.tape
     }
 
     /// The same for a scene in `folder`, which can be read where the set says so.
@@ -195,27 +216,27 @@ impl Permissions {
 impl Permissions {
     /// A file is read.
     pub fn check_read(&self, path: &Path) -> Result<(), Denied> {
-        READ.check(&self.read, path, resolve, Path::parent)
+        READ.check(&self.tape, &self.read, path, resolve, Path::parent)
     }
 
     /// The names in a folder, or what is known of a path, are read.
     pub fn check_inspect(&self, path: &Path) -> Result<(), Denied> {
-        READ.check(&self.read, path, resolve, itself)
+        READ.check(&self.tape, &self.read, path, resolve, itself)
     }
 
     /// A symbolic link is read, not followed.
     pub fn check_inspect_link(&self, path: &Path) -> Result<(), Denied> {
-        READ.check(&self.read, path, resolve_entry, itself)
+        READ.check(&self.tape, &self.read, path, resolve_entry, itself)
     }
 
     /// A file is made or changed.
     pub fn check_write(&self, path: &Path) -> Result<(), Denied> {
-        WRITE.check(&self.write, path, resolve, Path::parent)
+        WRITE.check(&self.tape, &self.write, path, resolve, Path::parent)
     }
 
     /// An entry of a folder is made, removed or renamed; where a link leads does not matter.
     pub fn check_write_entry(&self, path: &Path) -> Result<(), Denied> {
-        WRITE.check(&self.write, path, resolve_entry, Path::parent)
+        WRITE.check(&self.tape, &self.write, path, resolve_entry, Path::parent)
     }
 
     /// An entry of a folder gets another place, where it may be read.
@@ -227,8 +248,8 @@ impl Permissions {
 
     /// A socket or a device, which is read and written.
     pub fn check_device(&self, path: &Path) -> Result<(), Denied> {
-        READ.check(&self.read, path, resolve, itself)?;
-        WRITE.check(&self.write, path, resolve, itself)
+        READ.check(&self.tape, &self.read, path, resolve, itself)?;
+        WRITE.check(&self.tape, &self.write, path, resolve, itself)
     }
 
     /// Something changes where other paths lead: a symbolic link, the working directory.
@@ -292,15 +313,6 @@ impl Permissions {
         } else {
             Err(denied())
         }
-    }
-
-    /// The bytes of a file, which is checked first.
-    ///
-    /// # Errors
-    /// When it may not or cannot be read.
-    pub fn read_file(&self, path: &Path) -> std::io::Result<Vec<u8>> {
-        self.check_read(path)?;
-        read_bounded(path)
     }
 }
 
@@ -371,6 +383,7 @@ impl Access {
     /// `suggested` says which part of the path the option would name.
     fn check(
         &self,
+        tape: &Tape,
         scope: &Scope<PathBuf>,
         path: &Path,
         follow: fn(&Path) -> std::io::Result<PathBuf>,
@@ -379,6 +392,23 @@ impl Access {
         let Scope::Only(roots) = scope else {
             return Ok(());
         };
+        // Where links lead is the system's to say.
+        let checked = tape.input("permission", || {
+            let checked = self.check_roots(roots, path, follow, suggested);
+            checked.map_err(|denied| denied.0)
+        });
+        checked
+            .unwrap_or_else(|lost| Err(lost.to_string()))
+            .map_err(Denied)
+    }
+
+    fn check_roots(
+        &self,
+        roots: &[PathBuf],
+        path: &Path,
+        follow: fn(&Path) -> std::io::Result<PathBuf>,
+        suggested: fn(&Path) -> Option<&Path>,
+    ) -> Result<(), Denied> {
         let is_allowed = |resolved: PathBuf| roots.iter().any(|root| resolved.starts_with(root));
         // The system refuses an empty name itself.
         if path.as_os_str().is_empty() || follow(path).is_ok_and(is_allowed) {

@@ -345,3 +345,32 @@ fn everything_is_all_of_it() {
     assert!(without(grants.len()).is_all());
     assert!((0..grants.len()).all(|missing| !without(missing).is_all()));
 }
+
+#[test]
+fn a_replay_looks_at_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, capture) = (folder.path().join("a.txt"), folder.path().join("run.swc"));
+    let ask = |permissions: &Permissions| {
+        (
+            permissions.read_file(&path).map_err(|error| error.kind()),
+            permissions.exists(&path),
+            permissions.is_file(&path),
+            permissions.is_dir(folder.path()),
+            permissions.absolute(Path::new("x")).unwrap(),
+            permissions.check_read(Path::new("/elsewhere")).is_ok(),
+        )
+    };
+    std::fs::write(&path, "text").unwrap();
+    let permissions = Permissions::none().allow_read(folder.path());
+    let tape = capture::Tape::capturing(&capture, &capture::Header::default()).unwrap();
+    let first = ask(&permissions.clone().on_tape(&tape));
+    assert_eq!(first, ask(&permissions), "a capture changes nothing");
+    tape.finish().unwrap();
+    std::fs::remove_file(&path).unwrap();
+    let (tape, _) = capture::Tape::replaying(&capture).unwrap();
+    // Even the permissions come from the capture.
+    assert_eq!(ask(&permissions.clone().on_tape(&tape)), first);
+    let verdict = tape.finish().unwrap();
+    assert_eq!(verdict, Some(capture::Verdict::Same { steps: 0 }));
+    assert_ne!(ask(&permissions), first);
+}

@@ -3,6 +3,8 @@
 use std::cell::Cell;
 use std::time::Instant;
 
+use capture::Tape;
+
 use crate::wall_clock;
 
 /// The state of the simulation; numbers are `sim.simulation_*` of 4.10.
@@ -62,10 +64,12 @@ pub struct Clock {
     /// Wall-clock seconds at which a run in real time had simulation time zero.
     real_time_origin: Cell<f64>,
     created: Instant,
+    tape: Tape,
 }
 
 impl Clock {
-    pub(crate) fn new() -> Self {
+    /// Wall time comes by the tape.
+    pub(crate) fn new(tape: &Tape) -> Self {
         Self {
             state: Cell::new(SimulationState::Stopped),
             time: Cell::new(0.0),
@@ -79,6 +83,7 @@ impl Clock {
             waiting_for_trigger: Cell::new(false),
             real_time_origin: Cell::new(0.0),
             created: wall_clock::now(),
+            tape: tape.clone(),
         }
     }
 
@@ -104,7 +109,8 @@ impl Clock {
 
     /// Seconds since this simulator was made, by the wall clock.
     pub fn wall_seconds(&self) -> f64 {
-        self.created.elapsed().as_secs_f64()
+        let elapsed = || self.created.elapsed().as_secs_f64();
+        self.tape.input("the clock", elapsed).unwrap_or_default()
     }
 
     /// Whether the simulation was asked to end.

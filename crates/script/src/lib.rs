@@ -29,6 +29,7 @@ mod options;
 mod random;
 mod ros_options;
 mod sys_call;
+mod tape;
 pub mod test_bench;
 pub mod wall_clock;
 
@@ -59,7 +60,7 @@ pub use binding::args::{
     ScriptFunction, Table,
 };
 pub use binding::hooks::{Hooks, Host, ModuleHook};
-pub use binding::module::Module;
+pub use binding::module::{Module, Outside};
 pub use binding::operand::{Operand, arranged};
 pub use binding::param::{DefaultValue, Param};
 pub use binding::returns::{IntoScript, Nil, Results};
@@ -83,6 +84,7 @@ pub use python_runtime::{EmbeddedScript, PythonHost, ScriptCalls};
 pub use ros_options::RosOptions;
 pub use state_hash::ChangedValue;
 pub use sys_call::SysCall;
+pub use tape::Taped;
 pub use test_bench::TestBench;
 pub use video::{VideoFailure, VideoOptions, VideoView};
 

@@ -5,6 +5,7 @@ use std::rc::Rc;
 use std::sync::atomic::Ordering;
 
 use crate::host::Sim;
+use crate::tape::Taped;
 use scene::Data;
 use ui::Question;
 
@@ -24,8 +25,13 @@ impl Sim {
 
     /// The answer of a user; None without one. The calling script waits meanwhile.
     pub(crate) fn ask_person(&self, question: &Question) -> Option<Data> {
-        let person = self.modules.states.existing::<Person>()?;
-        let ask = person.0.borrow().clone()?;
-        ask(question, &|| self.options.stop.load(Ordering::Relaxed))
+        let ask = || {
+            let person = self.modules.states.existing::<Person>()?;
+            let ask = person.0.borrow().clone()?;
+            ask(question, &|| self.options.stop.load(Ordering::Relaxed)).map(Taped)
+        };
+        let tape = self.options.permissions.tape();
+        let answer = tape.input("the answer to a dialog", ask).ok().flatten();
+        answer.map(|answer| answer.0)
     }
 }

@@ -26,6 +26,7 @@ use std::rc::Rc;
 
 use ::scene::object::script_object::{ScriptObject, ScriptType};
 use ::scene::{Data, Handle, Kind, Scene};
+pub use capture::Tape;
 use format::scene_file::SceneFile;
 use format::script_file;
 use script::coverage::LineCounts;
@@ -327,6 +328,11 @@ impl Simulator {
     /// Whether the simulation is stopped, runs or is paused.
     pub fn state(&self) -> SimulationState {
         self.sim.clock.state()
+    }
+
+    /// The tape on which everything comes from outside: off, unless the permissions of the options have another.
+    pub fn tape(&self) -> &Tape {
+        self.sim.options.permissions.tape()
     }
 
     /// Simulated time, seconds.

@@ -30,9 +30,24 @@ impl Simulator {
         listener: TcpListener,
         stop: Arc<AtomicBool>,
     ) -> std::io::Result<SocketAddr> {
-        let address = listener.local_addr()?;
-        let server = ZmqServer::start(self.sim.event_loop.get()?, listener, stop)?;
-        modules_messaging::remote::set_zmq_server(&self.sim.modules.states, server);
+        self.serve_zmq_by(|| Ok(listener), stop)
+            .map_err(std::io::Error::other)
+    }
+
+    /// The same at a listener that `listen` opens; a replay opens none.
+    ///
+    /// # Errors
+    /// Those of `listen`, and when the server cannot start.
+    pub fn serve_zmq_by(
+        &mut self,
+        listen: impl FnOnce() -> Result<TcpListener, String>,
+        stop: Arc<AtomicBool>,
+    ) -> Result<SocketAddr, String> {
+        let address = self.listen("the ZeroMQ remote API", listen, |sim, listener| {
+            let server = ZmqServer::start(sim.sim.event_loop.get()?, listener, stop)?;
+            modules_messaging::remote::set_zmq_server(&sim.sim.modules.states, server);
+            Ok(())
+        })?;
         self.name_port("zmqRemoteApi.rpcPort", address);
         self.start_server("ZMQ remote API server@addOnScript", ZMQ_ADD_ON);
         Ok(address)
@@ -43,8 +58,22 @@ impl Simulator {
     /// # Errors
     /// When the listener cannot be used.
     pub fn serve_ws(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
-        let address = listener.local_addr()?;
-        modules_messaging::remote::set_web_socket_listener(&self.sim.modules.states, listener);
+        self.serve_ws_by(|| Ok(listener))
+            .map_err(std::io::Error::other)
+    }
+
+    /// The same at a listener that `listen` opens; a replay opens none.
+    ///
+    /// # Errors
+    /// Those of `listen`, and when the listener cannot be used.
+    pub fn serve_ws_by(
+        &mut self,
+        listen: impl FnOnce() -> Result<TcpListener, String>,
+    ) -> Result<SocketAddr, String> {
+        let address = self.listen("the WebSocket remote API", listen, |sim, listener| {
+            modules_messaging::remote::set_web_socket_listener(&sim.sim.modules.states, listener);
+            Ok(())
+        })?;
         self.name_port("wsRemoteApi.port", address);
         self.start_server("WebSocket remote API server@addOnScript", WS_ADD_ON);
         Ok(address)
@@ -55,12 +84,29 @@ impl Simulator {
     /// # Errors
     /// When the listener cannot be used.
     pub fn serve_legacy(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
-        let event_loop = self.sim.event_loop.get()?;
+        self.serve_legacy_by(|| Ok(listener))
+            .map_err(std::io::Error::other)
+    }
+
+    /// The same at a listener that `listen` opens; a replay opens none.
+    ///
+    /// # Errors
+    /// Those of `listen`, and when the listener cannot be used.
+    pub fn serve_legacy_by(
+        &mut self,
+        listen: impl FnOnce() -> Result<TcpListener, String>,
+    ) -> Result<SocketAddr, String> {
+        let event_loop = self
+            .sim
+            .event_loop
+            .get()
+            .map_err(|error| error.to_string())?;
         let age = Duration::from_secs_f64(self.sim.clock.wall_seconds());
         modules_messaging::sim_remote_api::serve(
             &self.sim.modules.states,
             &event_loop,
-            listener,
+            self.tape(),
+            listen,
             age,
         )
     }
@@ -73,11 +119,46 @@ impl Simulator {
         &mut self,
         listener: TcpListener,
     ) -> std::io::Result<SocketAddr> {
-        let address = listener.local_addr()?;
-        modules_messaging::remote::set_visualization_listener(&self.sim.modules.states, listener);
+        self.serve_visualization_stream_by(|| Ok(listener))
+            .map_err(std::io::Error::other)
+    }
+
+    /// The same at a listener that `listen` opens; a replay opens none.
+    ///
+    /// # Errors
+    /// Those of `listen`, and when the listener cannot be used.
+    pub fn serve_visualization_stream_by(
+        &mut self,
+        listen: impl FnOnce() -> Result<TcpListener, String>,
+    ) -> Result<SocketAddr, String> {
+        let address = self.listen("the visualization stream", listen, |sim, listener| {
+            let states = &sim.sim.modules.states;
+            modules_messaging::remote::set_visualization_listener(states, listener);
+            Ok(())
+        })?;
         self.name_port("visualizationStream.ws.port", address);
         self.start_server("Visualization stream@addOnScript", VISUALIZATION_ADD_ON);
         Ok(address)
+    }
+
+    /// Where a server listens, which `serve` starts; a replay knows it from the capture.
+    fn listen(
+        &self,
+        what: &str,
+        listen: impl FnOnce() -> Result<TcpListener, String>,
+        serve: impl FnOnce(&Self, TcpListener) -> std::io::Result<()>,
+    ) -> Result<SocketAddr, String> {
+        let address = self.tape().input(&format!("the address of {what}"), || {
+            let listener = listen()?;
+            let address = listener.local_addr();
+            let address = address.and_then(|address| serve(self, listener).map(|()| address));
+            let failed = |error| format!("the remote API cannot start: {error}");
+            address.map_err(failed).map(|address| address.to_string())
+        });
+        let address = address.map_err(|lost| lost.to_string())??;
+        address
+            .parse()
+            .map_err(|_| format!("'{address}' is no address"))
     }
 
     /// Waits until a socket has received something, at most `timeout`, and says whether it waited; without sockets it returns false at once.

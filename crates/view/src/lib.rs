@@ -25,3 +25,4 @@ pub use busy::BusySign;
 pub use server::page_file;
 pub use viewer::RecordedViewer;
 pub use viewer::Viewer;
+pub use viewer::replay_requests;

@@ -1,6 +1,7 @@
 //! Requests of pages, from any bytes: each is checked before the simulation's thread sees it.
 
-use serde_json::{Map, Value};
+use capture::{Input, Recorded};
+use serde_json::{Map, Value, json};
 
 /// Code and texts of a page, bytes.
 const MAX_TEXT_LENGTH: usize = 100_000;
@@ -47,6 +48,21 @@ pub(crate) enum Action {
     },
 }
 
+/// As a page would send it.
+impl Recorded for Action {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.to_json().to_string().write(out);
+    }
+
+    fn read(input: &mut Input<'_>) -> Option<Self> {
+        let value = serde_json::from_str(&String::read(input)?).ok()?;
+        let Value::Object(members) = value else {
+            return None;
+        };
+        action(&members).ok()
+    }
+}
+
 /// A request with the number that its reply has.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Request {
@@ -63,6 +79,37 @@ pub(crate) struct Refusal {
 }
 
 impl Action {
+    fn to_json(&self) -> Value {
+        match self {
+            Self::Play => json!({ "do": "play" }),
+            Self::Pause => json!({ "do": "pause" }),
+            Self::Stop => json!({ "do": "stop" }),
+            Self::Step(count) => json!({ "do": "step", "count": count }),
+            Self::Speed(factor) => json!({ "do": "speed", "factor": factor }),
+            Self::Select(handles) => json!({ "do": "select", "handles": handles }),
+            Self::Inspect(handle) => json!({ "do": "inspect", "handle": handle.unwrap_or(-1) }),
+            Self::Set {
+                handle,
+                name,
+                value,
+            } => json!({ "do": "set", "handle": handle, "name": name, "value": value }),
+            Self::Script(handle) => json!({ "do": "script", "handle": handle }),
+            Self::Configure(handle) => json!({ "do": "configure", "handle": handle }),
+            Self::Watch(handles) => json!({ "do": "watch", "handles": handles }),
+            Self::Show { contacts } => json!({ "do": "show", "contacts": contacts }),
+            Self::Graph(handle) => json!({ "do": "graph", "handle": handle }),
+            Self::Ui {
+                window,
+                widget,
+                input,
+            } => json!({ "do": "ui", "window": window, "widget": widget, "input": input }),
+            Self::Run(code) => json!({ "do": "run", "code": code }),
+            Self::Answer { question, answer } => {
+                json!({ "do": "answer", "question": question, "answer": answer })
+            }
+        }
+    }
+
     /// Whether it may change something, which pages that only read must not.
     pub(crate) fn changes_something(&self) -> bool {
         !matches!(
@@ -279,6 +326,33 @@ mod tests {
             );
         }
         assert!(Request::parse(&[0xff, 0xfe]).is_err());
+    }
+
+    #[test]
+    fn requests_come_back_from_a_capture() {
+        for text in [
+            r#"{"id":1,"do":"play"}"#,
+            r#"{"id":1,"do":"pause"}"#,
+            r#"{"id":1,"do":"stop"}"#,
+            r#"{"id":1,"do":"step","count":3}"#,
+            r#"{"id":1,"do":"speed","factor":0.25}"#,
+            r#"{"id":1,"do":"select","handles":[3,4]}"#,
+            r#"{"id":1,"do":"inspect","handle":-1}"#,
+            r#"{"id":1,"do":"inspect","handle":7}"#,
+            r#"{"id":1,"do":"set","handle":3,"name":"alias","value":[1,2.5,"x",null]}"#,
+            r#"{"id":1,"do":"script","handle":7}"#,
+            r#"{"id":1,"do":"configure","handle":7}"#,
+            r#"{"id":1,"do":"watch","handles":[]}"#,
+            r#"{"id":1,"do":"show","contacts":true}"#,
+            r#"{"id":1,"do":"graph","handle":7}"#,
+            r#"{"id":1,"do":"ui","window":1,"widget":2,"input":{"type":"click"}}"#,
+            r#"{"id":1,"do":"run","code":"x = 1"}"#,
+            r#"{"id":1,"do":"answer","question":1,"answer":null}"#,
+        ] {
+            let (action, mut bytes) = (parse(text).unwrap(), Vec::new());
+            action.write(&mut bytes);
+            assert_eq!(Action::read(&mut Input::new(&bytes)), Some(action));
+        }
     }
 
     #[test]

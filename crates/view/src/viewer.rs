@@ -28,6 +28,21 @@ const IMAGE: Duration = Duration::from_millis(100);
 /// The same for values of properties, at most 5 a second.
 const VALUES: Duration = Duration::from_millis(200);
 
+/// What a request of a page is called in a capture.
+const REQUEST: &str = "a request of a page";
+
+/// Performs what pages asked for at this place of a captured run, without pages.
+pub fn replay_requests(sim: &mut Simulator) {
+    let tape = sim.tape().clone();
+    while tape.next_is(REQUEST) {
+        let Ok(action) = tape.input(REQUEST, || Action::Pause) else {
+            return;
+        };
+        // Only pages look at the answer.
+        let _ = perform(sim, &action, &mut Vec::new());
+    }
+}
+
 /// Shows a simulator to pages. They are told of the end when this is dropped.
 pub struct Viewer {
     observer: Observer,
@@ -109,6 +124,7 @@ impl Viewer {
         while let Some(pending) = self.shared.next_request(timeout) {
             timeout = Duration::ZERO;
             answered = true;
+            sim.tape().add(REQUEST, &pending.action);
             let result = perform(sim, &pending.action, &mut self.lines);
             pending.answer(result);
             // Code may run for a long time: its effects are shown before the next request.

@@ -62,6 +62,11 @@ impl HashArgs {
         })
     }
 
+    /// As a capture is replayed: no files.
+    pub(in crate::cli) fn without_files(&mut self) {
+        (self.hash_file, self.expect_hash) = (None, None);
+    }
+
     fn target(&self) -> Result<Target, String> {
         if let Some(path) = &self.hash_file {
             let file = File::create(path)

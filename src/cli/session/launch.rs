@@ -8,6 +8,7 @@ use super::progress::Progress;
 use super::setup::{Setup, Sources};
 use super::watchdog::Watchdog;
 use crate::cli::remote::Remote;
+use capture::Tape;
 use simulator::{Options, ScriptKind, Simulator};
 
 /// A simulator of the command line, and what reports about it.
@@ -23,7 +24,7 @@ pub(in crate::cli) struct Launch<'a> {
 
 impl<'a> Launch<'a> {
     /// Reads the files, and makes a simulator without a scene. Without `remote`, nothing listens, and scripts may do everything. `plugin_note`: see
-    /// [`Options::plugin_note`].
+    /// [`Options::plugin_note`]. Everything comes from outside by the tape.
     ///
     /// # Errors
     /// When a file cannot be read.
@@ -33,8 +34,9 @@ impl<'a> Launch<'a> {
         scene: Option<&'a Path>,
         progress: &Progress,
         plugin_note: Option<PathBuf>,
+        tape: &Tape,
     ) -> Result<Self, String> {
-        let sources = setup.sources(scene)?;
+        let sources = setup.sources(scene, tape)?;
         let interrupt = Interrupt::of_scripts_here();
         let watchdog = interrupt.watchdog(setup.has_own_messages());
         let output = setup.output(progress, &interrupt);
@@ -45,6 +47,10 @@ impl<'a> Launch<'a> {
         let options = match remote {
             Some(remote) => remote.guard(options),
             None => options,
+        };
+        let options = Options {
+            permissions: options.permissions.on_tape(tape),
+            ..options
         };
         let sim = Simulator::with_console(options, Box::new(output.clone()));
         Ok(Self {

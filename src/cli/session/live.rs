@@ -3,9 +3,10 @@
 use std::process::ExitCode;
 use std::time::Duration;
 
+use super::END;
 use super::interrupt::Interrupt;
 use simulator::Simulator;
-use view::Viewer;
+use view::{Viewer, replay_requests};
 
 /// Longest wait for a request before an idle loop iteration.
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
@@ -26,7 +27,8 @@ impl Live {
 
     /// Iterates until ctrl-c, SIGTERM or `quitSimulator()`, then ends the simulation and closes the scene. The exit code says which.
     pub(in crate::cli) fn run(mut self, sim: &mut Simulator, interrupt: &Interrupt) -> ExitCode {
-        while !interrupt.is_requested() && !sim.quit_requested() {
+        let wants_end = |sim: &Simulator| sim.tape().signal(END, || interrupt.is_requested());
+        while !wants_end(sim) && !sim.quit_requested() {
             self.iterate(sim);
         }
         sim.stop();
@@ -58,6 +60,9 @@ impl Live {
     }
 
     fn rest(&mut self, sim: &mut Simulator, timeout: Duration) {
+        if sim.tape().is_replaying() {
+            return replay_requests(sim);
+        }
         let has_rested = !timeout.is_zero() && sim.wait_for_request(timeout);
         let rest = if has_rested { Duration::ZERO } else { timeout };
         match &mut self.viewer {

@@ -1,5 +1,6 @@
 //! The loop of `swanilda run` during a simulation: shows progress, waits for real time, and listens for ctrl-c.
 
+pub(super) mod capture;
 pub(super) mod fallen;
 pub(super) mod graphs;
 pub(super) mod hashes;
@@ -31,6 +32,9 @@ const REAL_TIME_POLL_INTERVAL: Duration = Duration::from_millis(1);
 
 /// Wall time after which a run without an end mentions that.
 const REMINDER_DELAY: Duration = Duration::from_secs(2);
+
+/// What a request to end the program is called in a capture.
+pub(super) const END: &str = "a request to end the program";
 
 /// The command line as an observer of the run.
 pub(super) struct Session<'a> {
@@ -72,7 +76,12 @@ impl Reminder {
 
 impl RunObserver for Session<'_> {
     fn should_stop(&self, sim: &Simulator) -> bool {
-        self.interrupt.is_requested() || sim.video_failure().is_some() || self.hashes.end_the_run()
+        let wants_end = || {
+            self.interrupt.is_requested()
+                || sim.video_failure().is_some()
+                || self.hashes.end_the_run()
+        };
+        sim.tape().signal(END, wants_end)
     }
 
     fn iterated(&mut self, sim: &Simulator, stepped: bool) {
@@ -96,6 +105,9 @@ impl RunObserver for Session<'_> {
 
 /// Sleeps after a loop iteration without a step: the next step is not due yet, or a remote client delays it.
 fn rest(sim: &Simulator) {
+    if sim.tape().is_replaying() {
+        return;
+    }
     if !sim.wait_for_request(REAL_TIME_POLL_INTERVAL) && sim.scene().settings().real_time {
         std::thread::sleep(REAL_TIME_POLL_INTERVAL);
     }

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::cli::replay::reads_capture;
+
 /// Where models and Lua files of CoppeliaSim are.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub(in crate::cli) struct ResourceArgs {
@@ -18,7 +20,7 @@ impl ResourceArgs {
 }
 
 fn folder(text: &str) -> Result<PathBuf, String> {
-    if !Path::new(text).is_dir() {
+    if !Path::new(text).is_dir() && !reads_capture() {
         return Err("there is no such folder".into());
     }
     std::path::absolute(text).map_err(|error| error.to_string())

@@ -9,11 +9,12 @@ use super::progress::Progress;
 use super::resources::ResourceArgs;
 use super::ros::RosArgs;
 use crate::cli::complain;
+use capture::Tape;
 use format::scene_file::{self, SceneFile};
 use format::scene_input::{Bases, SceneInput};
 use format::script_file;
 use format::ttt::FileError;
-use permissions::{Permissions, read_bounded};
+use permissions::Permissions;
 use script::log::verbosity;
 use simulator::{CacheFolder, Error, Limits, Options, ScriptKind, ScriptRef, Simulator};
 
@@ -114,14 +115,19 @@ impl Setup {
     ///
     /// # Errors
     /// When one cannot be read.
-    pub(in crate::cli) fn sources(&self, scene: Option<&Path>) -> Result<Sources, String> {
+    pub(in crate::cli) fn sources(
+        &self,
+        scene: Option<&Path>,
+        tape: &Tape,
+    ) -> Result<Sources, String> {
+        let permissions = Permissions::all().on_tape(tape);
         let add_ons = self
             .addon
             .iter()
-            .map(|path| read(path).map(|source| self.up_to_date(source)));
+            .map(|path| read(path, &permissions).map(|source| self.up_to_date(source)));
         let add_ons = add_ons.collect::<Result<_, _>>()?;
         let scene = scene
-            .map(|path| read_scene(path, bases(self.fix_base)))
+            .map(|path| read_scene(path, bases(self.fix_base), &permissions))
             .transpose()?
             .map(|scene| match scene {
                 Scene::Script(source) => Scene::Script(self.up_to_date(source)),
@@ -193,6 +199,12 @@ impl Setup {
         options
     }
 
+    /// As a capture is replayed: nothing is kept in files.
+    pub(in crate::cli) fn for_replay(&mut self, threads: Option<u16>) {
+        (self.no_cache, self.cache_dir) = (true, None);
+        self.threads = threads.or(self.threads);
+    }
+
     fn cache(&self) -> CacheFolder {
         match &self.cache_dir {
             Some(folder) => CacheFolder::Folder(folder.clone()),
@@ -249,11 +261,13 @@ impl Setup {
     }
 
     fn apply_settings(&self, sim: &mut Simulator, scene: Option<&Path>) {
+        let permissions = Permissions::all().on_tape(sim.tape());
         sim.scene_mut().modify_settings(|settings| {
             settings.time_step = self.dt.unwrap_or(settings.time_step);
             settings.real_time |= self.realtime;
             if let Some(scene) = scene {
-                settings.path = std::path::absolute(scene)
+                settings.path = permissions
+                    .absolute(scene)
                     .unwrap_or_default()
                     .to_string_lossy()
                     .into_owned();
@@ -262,10 +276,11 @@ impl Setup {
     }
 }
 
-fn read(path: impl AsRef<Path>) -> Result<Source, String> {
-    let path = path.as_ref();
+fn read(path: &Path, permissions: &Permissions) -> Result<Source, String> {
     let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
-    let code = read_bounded(path).map_err(|error| unreadable(error.to_string()))?;
+    let code = permissions
+        .read_checked(path)
+        .map_err(|error| unreadable(error.to_string()))?;
     script_file::check(path, &code).map_err(|reason| unreadable(reason.to_string()))?;
     Ok(Source {
         name: name_of(path),
@@ -291,9 +306,9 @@ pub(in crate::cli) fn bases(are_fixed: bool) -> Bases {
     }
 }
 
-fn read_scene(path: &Path, bases: Bases) -> Result<Scene, String> {
+fn read_scene(path: &Path, bases: Bases, permissions: &Permissions) -> Result<Scene, String> {
     let unreadable = |error: FileError| format!("cannot read {}: {error}", path.display());
-    match SceneInput::read_with(path, bases, &Permissions::all())? {
+    match SceneInput::read_with(path, bases, permissions)? {
         SceneInput::Script(code) => Ok(Scene::Script(Source {
             name: name_of(path),
             code,

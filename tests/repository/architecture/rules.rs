@@ -175,6 +175,8 @@ const SCRIPT: Rooms = &[
     ("event_loop", &[]),
     ("ros_options", &[]),
     ("coverage", &[]),
+    // What comes from outside, on the tape.
+    ("tape", &["error"]),
     ("clock", &["wall_clock"]),
     (
         "options",
@@ -184,7 +186,7 @@ const SCRIPT: Rooms = &[
     ("event_stream", &["log"]),
     ("test_bench", &["coverage", "log", "options"]),
     ("lua", &["budget", "function_ref"]),
-    ("binding", &["error", "function_ref", "lua"]),
+    ("binding", &["error", "function_ref", "lua", "tape"]),
     (
         "host",
         &[
@@ -204,7 +206,7 @@ const SCRIPT: Rooms = &[
             "test_bench",
         ],
     ),
-    ("person", &["host"]),
+    ("person", &["host", "tape"]),
     ("present", &["clock", "host", "log", "state_hash"]),
     ("video", &["clock", "host", "log"]),
     (
@@ -260,6 +262,7 @@ const SCRIPT: Rooms = &[
             "log",
             "plugins",
             "present",
+            "state_hash",
             "sys_call",
             "video",
         ],
@@ -276,6 +279,7 @@ const SCRIPT: Rooms = &[
             "log",
             "lua",
             "sys_call",
+            "tape",
             "test_bench",
         ],
     ),

@@ -8,7 +8,6 @@ use scene::numbers;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use format::picture::{Layout, Picture, PictureError};
 use format::scene_file::write_whole;
-use permissions::read_bounded;
 use script::{Bytes, IntPair, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -64,7 +63,8 @@ fn load_image(cx: &Cx, options: i64, filename: Bytes) -> Result<(Bytes, IntPair)
 pub(crate) fn read_file(cx: &Cx, name: &[u8]) -> Result<Vec<u8>> {
     let name = String::from_utf8_lossy(name);
     cx.permissions().check_read(Path::new(&*name))?;
-    read_bounded(Path::new(&*name))
+    cx.permissions()
+        .read_checked(Path::new(&*name))
         .map_err(|error| ApiError::Other(format!("cannot read {name}: {error}.")))
 }
 
@@ -109,7 +109,9 @@ fn save_image(
 
 fn write_file(cx: &Cx, name: &str, content: &[u8]) -> Result<()> {
     cx.permissions().check_write(Path::new(name))?;
-    write_whole(Path::new(name), content)
+    let path = Path::new(name);
+    cx.permissions()
+        .write(path, || write_whole(path, content))
         .map_err(|error| ApiError::Other(format!("cannot write {name}: {error}.")))
 }
 

@@ -10,7 +10,6 @@ use crate::{ApiError, ApiFn, Cx, Result, functions};
 use format::robot_file::RobotFile;
 use format::scene_file::{SceneFile, read_file};
 use format::scene_input::SceneInput;
-use permissions::read_bounded;
 use scene::{Data, Handle, SceneError, special};
 use script::log::verbosity;
 use script::{SceneSource, readable_bytes};
@@ -41,7 +40,7 @@ fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
         FileOrBytes::Name(name) if name.is_empty() => (SceneSource::Default, None),
         FileOrBytes::Name(name) => {
             let name = located(cx, &name);
-            (named_scene(cx, &name)?, Some(absolute(&name)))
+            (named_scene(cx, &name)?, Some(absolute(cx, &name)))
         }
         FileOrBytes::Bytes(bytes) => (scene_source(cx, "the buffer", bytes, None)?, None),
     };
@@ -128,7 +127,8 @@ impl FileOrBytes {
 
 fn read(cx: &Cx, name: &str) -> Result<Vec<u8>> {
     cx.permissions().check_read(Path::new(name))?;
-    read_bounded(Path::new(name)).map_err(|error| match error.kind() {
+    let read = cx.permissions().read_checked(Path::new(name));
+    read.map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => {
             cx.note_missing_file(name);
             ApiError::Other("file does not exist.".into())
@@ -144,7 +144,8 @@ fn located(cx: &Cx, name: &str) -> String {
         .resources
         .as_ref()
         .and_then(|resources| installed_file(resources, name));
-    let is_there = |path: &Path| cx.permissions().check_read(path).is_ok() && path.exists();
+    let is_there =
+        |path: &Path| cx.permissions().check_read(path).is_ok() && cx.permissions().exists(path);
     match installed.filter(|path| !is_there(Path::new(name)) && is_there(path)) {
         Some(path) => path.to_string_lossy().into_owned(),
         None => name.to_owned(),
@@ -168,7 +169,7 @@ fn named_scene(cx: &Cx, name: &str) -> Result<SceneSource> {
 
 fn named_model(cx: &Cx, name: &str) -> Result<SceneFile> {
     let is_robot = RobotFile::is_one(Path::new(name), cx.permissions());
-    if is_folder(cx, name)? || is_robot && Path::new(name).exists() {
+    if is_folder(cx, name)? || is_robot && cx.permissions().exists(Path::new(name)) {
         input(cx, name)
     } else {
         scene_file(cx, name, &read(cx, name)?, folder_of(name))
@@ -177,7 +178,7 @@ fn named_model(cx: &Cx, name: &str) -> Result<SceneFile> {
 
 fn is_folder(cx: &Cx, name: &str) -> Result<bool> {
     cx.permissions().check_read(Path::new(name))?;
-    Ok(Path::new(name).is_dir())
+    Ok(cx.permissions().is_dir(Path::new(name)))
 }
 
 /// A folder made by `swanilda unpack`, or a robot, of which the log says what was guessed.
@@ -207,7 +208,7 @@ fn scene_source(cx: &Cx, name: &str, bytes: Vec<u8>, folder: Option<&Path>) -> R
         }),
         Some("py") => Ok(SceneSource::Script {
             code: bytes,
-            python_file: Some(absolute(name)),
+            python_file: Some(absolute(cx, name)),
         }),
         _ => Ok(SceneSource::File(Box::new(scene_file(
             cx, name, &bytes, folder,
@@ -226,8 +227,9 @@ fn folder_of(name: &str) -> Option<&Path> {
 }
 
 /// The path as scripts read it as the scene's.
-fn absolute(filename: &str) -> String {
-    std::path::absolute(filename).map_or_else(
+fn absolute(cx: &Cx, filename: &str) -> String {
+    let path = cx.permissions().absolute(Path::new(filename));
+    path.map_or_else(
         |_| filename.to_owned(),
         |path| path.to_string_lossy().into_owned(),
     )

@@ -294,6 +294,7 @@ fn export_ik(cx: &Cx, path_and_filename: String) -> Result<i64> {
     cx.permissions().check_write(path)?;
     let bytes = export(&cx.scene())?;
     let failed = |error| ApiError::Other(format!("cannot write {path_and_filename}: {error}."));
-    write_whole(path, &bytes).map_err(failed)?;
+    let written = cx.permissions().write(path, || write_whole(path, &bytes));
+    written.map_err(failed)?;
     Ok(1)
 }

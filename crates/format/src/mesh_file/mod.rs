@@ -162,7 +162,7 @@ pub fn store(
         let written = permissions
             .check_write(&path)
             .map_err(Into::into)
-            .and_then(|()| write_whole(&path, &file.bytes));
+            .and_then(|()| permissions.write(&path, || write_whole(&path, &file.bytes)));
         written
             .map_err(|error| MeshFileError::Write(path.to_string_lossy().into_owned(), error))?;
     }

@@ -86,7 +86,9 @@ impl MeshFiles {
     }
 
     fn find(&self, name: &str) -> Result<PathBuf, String> {
-        let may_be_read = |path: &Path| self.permissions.check_read(path).is_ok() && path.is_file();
+        let may_be_read = |path: &Path| {
+            self.permissions.check_read(path).is_ok() && self.permissions.is_file(path)
+        };
         self.search
             .find(name, &may_be_read)
             .map_err(|missing| missing.to_string())
@@ -136,7 +138,10 @@ impl MeshFiles {
 )]
 pub(super) fn variable(name: &str, permissions: &Permissions) -> Option<String> {
     permissions.check_environment().ok()?;
-    std::env::var(name).ok()
+    let read = permissions
+        .tape()
+        .input("the environment", || std::env::var(name).ok());
+    read.ok().flatten()
 }
 
 /// A file with its coordinates multiplied by a factor for each axis. Triangles that are mirrored by that keep their outer sides.

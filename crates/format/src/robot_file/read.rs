@@ -52,7 +52,7 @@ impl RobotFile {
             .extension()
             .is_some_and(|ending| ending.eq_ignore_ascii_case("xml"));
         // What cannot be read is no robot; whoever reads it then says why.
-        let start = if is_xml && path.is_file() {
+        let start = if is_xml && permissions.is_file(path) {
             permissions.read_file(path).unwrap_or_default()
         } else {
             Vec::new()
@@ -86,7 +86,9 @@ impl RobotFile {
         let bytes = permissions
             .read_file(path)
             .map_err(|error| error.to_string())?;
-        let path = std::path::absolute(path).map_err(|error| error.to_string())?;
+        let path = permissions
+            .absolute(path)
+            .map_err(|error| error.to_string())?;
         let said = format.or_else(|| RobotFormat::of(&path, &bytes));
         Self::parse(
             &bytes,
@@ -243,11 +245,12 @@ fn of_sdf(model: sdf::Model) -> Description {
 
 /// The file of an `<include>`: of a folder, that of its `model.sdf`.
 fn included(uri: &str, search: &Search, permissions: &Permissions) -> Result<Included, String> {
-    let may_be_read = |path: &Path| permissions.check_read(path).is_ok() && path.exists();
+    let may_be_read =
+        |path: &Path| permissions.check_read(path).is_ok() && permissions.exists(path);
     let found = search
         .find(uri, &may_be_read)
         .map_err(|missing| missing.to_string())?;
-    let file = if found.is_dir() {
+    let file = if permissions.is_dir(&found) {
         found.join("model.sdf")
     } else {
         found

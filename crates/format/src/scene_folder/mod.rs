@@ -32,6 +32,11 @@ pub fn is_scene(folder: &Path) -> bool {
     folder.join(TREE).is_file()
 }
 
+/// The same where permissions say what is read.
+pub(crate) fn is_read_as_scene(folder: &Path, permissions: &Permissions) -> bool {
+    permissions.is_file(&folder.join(TREE))
+}
+
 /// Writes a file as a folder, in place of an earlier one.
 ///
 /// # Errors

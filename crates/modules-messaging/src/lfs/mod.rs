@@ -16,13 +16,14 @@ use super::{ApiFn, Cx, Module, Result, functions};
 use lock::system_words;
 use permissions::Denied;
 use scene::{Data, Key};
-use script::Results;
+use script::{Outside, Results};
 
 /// The module `lfs`.
 pub static LFS: Module = Module {
     about: "Files and folders, with the interface of LuaFileSystem.",
     functions: &[("Files", FUNCTIONS), ("Files", lock::FUNCTIONS)],
     inner: &[INNER],
+    outside: Outside::AllBut(&[]),
     ..Module::new("lfs")
 };
 
@@ -30,6 +31,7 @@ pub static LFS: Module = Module {
 pub static LFSX: Module = Module {
     about: "lfs with functions on paths and folder trees: `require 'lfsx'` adds them to lfs.",
     functions: &[("Paths", PATHS)],
+    outside: Outside::AllBut(&[]),
     ..Module::new("lfsx")
 };
 

@@ -1,5 +1,7 @@
 //! The commands of the legacy remote API by their numbers (spec: legacy-remote-api 5).
 
+use capture::{Input, Recorded};
+
 use super::call::{Call, Failure, Outcome};
 use super::direct::DIRECT;
 use super::service::Service;
@@ -56,13 +58,57 @@ static SPECIAL: &[Special] = &[
     (0x3401, script_call::call),
 ];
 
+/// A command of a client.
+pub(super) struct Asked {
+    pub(super) id: u16,
+    pub(super) key: Vec<u8>,
+    pub(super) data: Vec<u8>,
+    pub(super) order: ByteOrder,
+    /// The reply has no room for its results.
+    pub(super) is_full: bool,
+}
+
+impl Asked {
+    pub(super) fn new(command: &Command, order: ByteOrder, is_full: bool) -> Self {
+        Self {
+            id: command.id,
+            key: command.key.clone(),
+            data: command.data.clone(),
+            order,
+            is_full,
+        }
+    }
+}
+
+impl Recorded for Asked {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.id.write(out);
+        self.key.write(out);
+        self.data.write(out);
+        (self.order == ByteOrder::Big, self.is_full).write(out);
+    }
+
+    fn read(input: &mut Input<'_>) -> Option<Self> {
+        let (id, key, data) = Recorded::read(input)?;
+        let (is_big, is_full) = Recorded::read(input)?;
+        let order = if is_big {
+            ByteOrder::Big
+        } else {
+            ByteOrder::Little
+        };
+        Some(Self {
+            id,
+            key,
+            data,
+            order,
+            is_full,
+        })
+    }
+}
+
 /// Executes a command of a client.
-pub(super) fn execute(
-    host: &Host<'_>,
-    service: &Service,
-    command: &Command,
-    order: ByteOrder,
-) -> Answer {
+pub(super) fn execute(host: &Host<'_>, service: &Service, command: &Asked) -> Answer {
+    let order = command.order;
     let (key, data) = (
         FieldReader::new(&command.key, order),
         FieldReader::new(&command.data, order),

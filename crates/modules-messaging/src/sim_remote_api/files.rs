@@ -64,14 +64,19 @@ fn place(call: &Call<'_>, name: &str) -> Result<PathBuf, Failure> {
 pub(super) fn transfer(call: &mut Call<'_>) -> Outcome {
     let name = call.name()?;
     let path = place(call, &name)?;
-    std::fs::write(path, call.data.rest()).map_err(|error| unusable(&name, &error))
+    let permissions = &call.host.options().permissions;
+    let content = call.data.rest();
+    let written = permissions.write(&path, || std::fs::write(&path, content));
+    written.map_err(|error| unusable(&name, &error))
 }
 
 /// Removes it.
 pub(super) fn erase(call: &mut Call<'_>) -> Outcome {
     let name = call.name()?;
     let path = place(call, &name)?;
-    std::fs::remove_file(path).map_err(|error| unusable(&name, &error))
+    let permissions = &call.host.options().permissions;
+    let removed = permissions.write(&path, || std::fs::remove_file(&path));
+    removed.map_err(|error| unusable(&name, &error))
 }
 
 fn unusable(name: &str, error: &std::io::Error) -> Failure {

@@ -19,6 +19,7 @@ use std::net::{SocketAddr, TcpListener};
 use std::time::Duration;
 
 use api_macro::api;
+use capture::Tape;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 use io::EventLoop;
@@ -26,7 +27,7 @@ use scene::Data;
 use scene::numbers;
 use scene::object::script_object::ScriptType;
 use script::log::verbosity;
-use script::{Hooks, Results, States};
+use script::{Hooks, Outside, Results, States};
 use service::{Lifetime, Service, Settings};
 use services::Services;
 use wire::simx::VERSION;
@@ -41,6 +42,7 @@ pub static MODULE: Module = Module {
         after_step: None,
         end_of_simulation: Some(services::end_of_simulation),
     },
+    outside: Outside::Only(&["simRemoteApi.status"]),
     ..Module::new("simRemoteApi")
 };
 
@@ -49,22 +51,24 @@ const FUNCTIONS: &[ApiFn] = functions![start, stop, reset, status];
 /// Bytes of a packet that servers may use.
 const PACKET_SIZES: std::ops::RangeInclusive<i64> = 200..=30_000;
 
-/// Serves a client by the legacy remote API as long as the simulator lives. Returns where it listens.
+/// Serves a client by the legacy remote API as long as the simulator lives, at a listener that `listen` opens. Returns where it listens.
 ///
 /// # Errors
 /// When the listener cannot be used.
 pub fn serve(
     states: &States,
     event_loop: &EventLoop,
-    listener: TcpListener,
+    tape: &Tape,
+    listen: impl FnOnce() -> std::result::Result<TcpListener, String>,
     age: Duration,
-) -> std::io::Result<SocketAddr> {
+) -> std::result::Result<SocketAddr, String> {
     let settings = Settings {
         max_packet: 1300,
         is_monitored: false,
         may_synchronize: true,
     };
-    let service = Service::start(event_loop, listener, settings, Lifetime::Simulator, age)?;
+    let lifetime = Lifetime::Simulator;
+    let service = Service::start(event_loop, tape, listen, settings, lifetime, age)?;
     let address = service.address();
     states.get::<Services>().add(service);
     Ok(address)
@@ -109,8 +113,11 @@ fn start(
         _ => Lifetime::Call,
     };
     let age = Duration::from_secs_f64(cx.clock().wall_seconds());
-    let service = TcpListener::bind((address, port))
-        .and_then(|listener| Service::start(&*cx.event_loop()?, listener, settings, lifetime, age));
+    let listen = || TcpListener::bind((address, port)).map_err(|error| error.to_string());
+    let tape = cx.permissions().tape();
+    let event_loop = cx.event_loop().map_err(|error| error.to_string());
+    let service = event_loop
+        .and_then(|event_loop| Service::start(&event_loop, tape, listen, settings, lifetime, age));
     match service {
         Ok(service) => services(cx).add(service),
         Err(error) => {
@@ -187,7 +194,7 @@ fn status(cx: &Cx, port: i64) -> Result<Results> {
             Data::Int(-1),
         ]));
     };
-    Ok(Results(service.with_session(|session| {
+    let status = service.with_session(|session| {
         let traffic = session.traffic();
         let [request, reply] =
             [traffic.commands_in_request, traffic.commands_in_reply].map(numbers::count);
@@ -210,7 +217,8 @@ fn status(cx: &Cx, port: i64) -> Result<Results> {
             Data::Int(client_version),
             Data::text(peer),
         ]
-    })))
+    });
+    Ok(Results(status.unwrap_or_default()))
 }
 
 fn services(cx: &Cx) -> std::rc::Rc<Services> {

@@ -4,9 +4,10 @@ use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::VecDeque;
 use std::io;
 use std::net::{SocketAddr, TcpListener};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use capture::{Recorded, Tape};
 use tempfile::TempDir;
 
 use super::call::Failure;
@@ -41,11 +42,13 @@ pub(super) struct Settings {
 
 /// A server at a port.
 pub(super) struct Service {
-    listener: TcpListener,
+    /// None in a replay.
+    listener: Option<TcpListener>,
     address: SocketAddr,
     settings: Settings,
     lifetime: Lifetime,
-    server: RefCell<SimxServer>,
+    server: RefCell<Option<SimxServer>>,
+    tape: Tape,
     synchronous: Cell<Option<Synchronous>>,
     errors: RefCell<VecDeque<String>>,
     /// The auxiliary console of a server that is monitored.
@@ -53,7 +56,14 @@ pub(super) struct Service {
     /// Commands of this server are being executed.
     pub(super) is_executing: Cell<bool>,
     /// Files of the client.
-    files: OnceCell<TempDir>,
+    files: OnceCell<Files>,
+}
+
+/// The folder for files of the client.
+struct Files {
+    path: PathBuf,
+    /// It is removed with the server; None in a replay, which has no folder.
+    _folder: Option<TempDir>,
 }
 
 /// The synchronous mode of a client.
@@ -66,22 +76,38 @@ struct Synchronous {
 }
 
 impl Service {
+    /// A server at a listener that `listen` opens; a replay opens none.
+    ///
     /// # Errors
-    /// When the listener cannot be used.
+    /// Those of `listen`, and when the listener cannot be used.
     pub(super) fn start(
         event_loop: &EventLoop,
-        listener: TcpListener,
+        tape: &Tape,
+        listen: impl FnOnce() -> Result<TcpListener, String>,
         settings: Settings,
         lifetime: Lifetime,
         age: Duration,
-    ) -> io::Result<Self> {
-        let server = run(event_loop, &listener, settings, age)?;
+    ) -> Result<Self, String> {
+        let (mut listener, mut server) = (None, None);
+        let address = tape.input("the address of the legacy remote API", || {
+            let opened = listen()?;
+            let address = opened.local_addr();
+            let text = |error: io::Error| error.to_string();
+            server = Some(run(event_loop, &opened, settings, age).map_err(text)?);
+            listener = Some(opened);
+            address.map_err(text).map(|address| address.to_string())
+        });
+        let address = address.map_err(|lost| lost.to_string())??;
+        let address = address
+            .parse()
+            .map_err(|_| format!("'{address}' is no address"))?;
         Ok(Self {
-            address: listener.local_addr()?,
+            address,
             listener,
             settings,
             lifetime,
             server: server.into(),
+            tape: tape.clone(),
             synchronous: Cell::new(None),
             errors: RefCell::default(),
             console: Cell::new(None),
@@ -95,7 +121,14 @@ impl Service {
     /// # Errors
     /// When the listener cannot be used.
     pub(super) fn reset(&self, event_loop: &EventLoop, age: Duration) -> io::Result<()> {
-        let server = run(event_loop, &self.listener, self.settings, age)?;
+        let mut server = None;
+        let restarted = self.tape.input("a reset of the legacy remote API", || {
+            if let Some(listener) = &self.listener {
+                server = Some(run(event_loop, listener, self.settings, age)?);
+            }
+            Ok::<_, io::Error>(())
+        });
+        restarted??;
         self.synchronous.set(None);
         self.errors.borrow_mut().clear();
         drop(self.server.replace(server));
@@ -118,19 +151,42 @@ impl Service {
         self.settings.is_monitored
     }
 
-    /// The client waits meanwhile.
-    pub(super) fn with_session<R>(&self, look: impl FnOnce(&mut Session) -> R) -> R {
-        look(&mut self.server.borrow().session())
+    /// What is known of the client, who waits meanwhile; None in a replay.
+    pub(super) fn with_session<R>(&self, look: impl FnOnce(&mut Session) -> R) -> Option<R> {
+        let server = self.server.borrow();
+        Some(look(&mut server.as_ref()?.session()))
+    }
+
+    /// The same, captured and replayed.
+    pub(super) fn ask<R: Recorded + Default>(
+        &self,
+        what: &str,
+        look: impl FnOnce(&mut Session) -> R,
+    ) -> R {
+        let answer = self
+            .tape
+            .input(what, || self.with_session(look).unwrap_or_default());
+        answer.unwrap_or_default()
     }
 
     /// The simulator is about to take the commands that wait.
     pub(super) fn acknowledge(&self) {
-        self.server.borrow().acknowledge();
+        if let Some(server) = &*self.server.borrow() {
+            server.acknowledge();
+        }
     }
 
     /// Results are there.
     pub(super) fn note_executed(&self) {
-        self.server.borrow().note_executed();
+        if let Some(server) = &*self.server.borrow() {
+            server.note_executed();
+        }
+    }
+
+    fn connection(&self) -> Option<u64> {
+        self.ask("a client of the legacy remote API", |session| {
+            session.connection()
+        })
     }
 
     /// Switches the synchronous mode on or off.
@@ -143,8 +199,7 @@ impl Service {
                 "the synchronous mode is not enabled for this server.".into(),
             ));
         }
-        let connection = self.with_session(|session| session.connection());
-        let synchronous = connection.map(|connection| Synchronous {
+        let synchronous = self.connection().map(|connection| Synchronous {
             connection,
             triggered_at: None,
         });
@@ -181,8 +236,7 @@ impl Service {
     /// The mode of the client that is connected.
     fn present_synchronous(&self) -> Option<Synchronous> {
         let synchronous = self.synchronous.get()?;
-        let connection = self.with_session(|session| session.connection());
-        (connection == Some(synchronous.connection)).then_some(synchronous)
+        (self.connection() == Some(synchronous.connection)).then_some(synchronous)
     }
 
     /// Remembers why a command failed.
@@ -205,17 +259,30 @@ impl Service {
     /// When it cannot be made.
     pub(super) fn folder(&self, host: &Host<'_>) -> Result<&Path, Failure> {
         if let Some(folder) = self.files.get() {
-            return Ok(folder.path());
+            return Ok(&folder.path);
         }
-        let parent = std::env::temp_dir();
-        host.options()
-            .permissions
-            .check_write(&parent)
-            .map_err(|denied| Failure::Text(denied.to_string()))?;
-        let folder = TempDir::with_prefix("swanilda-remote-api-")
-            .map_err(|error| Failure::Text(error.to_string()))?;
-        Ok(self.files.get_or_init(|| folder).path())
+        let mut made = None;
+        let path = self.tape.input("a folder of the legacy remote API", || {
+            let folder = temporary_folder(host)?;
+            let path = folder.path().to_string_lossy().into_owned();
+            made = Some(folder);
+            Ok(path)
+        });
+        let path = path.map_err(|lost| Failure::Text(lost.to_string()))?;
+        let folder = Files {
+            path: path.map_err(Failure::Text)?.into(),
+            _folder: made,
+        };
+        Ok(&self.files.get_or_init(|| folder).path)
     }
+}
+
+fn temporary_folder(host: &Host<'_>) -> Result<TempDir, String> {
+    let permissions = &host.options().permissions;
+    permissions
+        .check_write(&std::env::temp_dir())
+        .map_err(|denied| denied.to_string())?;
+    TempDir::with_prefix("swanilda-remote-api-").map_err(|error| error.to_string())
 }
 
 fn run(

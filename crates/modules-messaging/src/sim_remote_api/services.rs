@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::commands;
+use super::commands::{self, Asked};
 use super::service::{Lifetime, Service};
 use scene::numbers;
 use scene::{Data, SceneError};
@@ -103,20 +103,31 @@ fn execute(host: &Host<'_>, service: &Service) {
     if service.is_monitored() {
         show_monitor(host, service);
     }
-    let Some(mut batch) = service.with_session(|session| session.due(stamp(host))) else {
-        return;
-    };
-    while let Some(command) = batch.next() {
-        let is_full = batch.is_full();
-        let answer = if is_full {
+    let stamp = stamp(host);
+    let mut batch = service.with_session(|session| session.due(stamp)).flatten();
+    let tape = host.options().permissions.tape();
+    loop {
+        // A replay has no batch: it knows the commands from the capture.
+        let next = || {
+            let batch = batch.as_mut()?;
+            let command = batch.next()?;
+            Some(Asked::new(&command, batch.order, batch.is_full()))
+        };
+        let next = tape.input("a command of the legacy remote API", next);
+        let Ok(Some(command)) = next else { break };
+        let answer = if command.is_full {
             Answer::failure()
         } else {
-            commands::execute(host, service, &command, batch.order)
+            commands::execute(host, service, &command)
         };
-        batch.answer(answer);
+        if let Some(batch) = &mut batch {
+            batch.answer(answer);
+        }
     }
-    service.with_session(|session| session.complete(batch));
-    service.note_executed();
+    if let Some(batch) = batch {
+        service.with_session(|session| session.complete(batch));
+        service.note_executed();
+    }
 }
 
 fn stamp(host: &Host<'_>) -> Stamp {
@@ -151,7 +162,10 @@ fn milliseconds(seconds: f64) -> i32 {
 
 /// Prints to the console of a server what happened.
 fn show_monitor(host: &Host<'_>, service: &Service) {
-    let lines = service.with_session(wire::simx::Session::take_lines);
+    let lines = service.ask(
+        "what a monitor of the legacy remote API shows",
+        wire::simx::Session::take_lines,
+    );
     if lines.is_empty() {
         return;
     }

@@ -4,10 +4,11 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::{Rc, Weak};
 
-use io::{HttpReply, IdCounter, SendError, WsEndpoint, WsEvent};
+use io::{HttpReply, IdCounter, SendError, WsEndpoint};
 use scene::Data;
 use script::{Cx, Handler, Host, Script};
 
+use super::event::{Event, EventKind};
 use super::log;
 
 /// The endpoints of a simulator, in the order of their creation.
@@ -61,7 +62,7 @@ pub(super) struct Endpoint {
     pub(super) role: Role,
     /// Where handlers given by name are looked up.
     script: Rc<Script>,
-    /// None once it is stopped.
+    /// None once it is stopped, and in a replay.
     socket: RefCell<Option<WsEndpoint>>,
     handlers: RefCell<BTreeMap<HandlerKind, Rc<Handler>>>,
 }
@@ -106,8 +107,8 @@ impl Endpoint {
         self.socket.borrow().as_ref().map_or(0, WsEndpoint::arrived)
     }
 
-    fn next(&self) -> Option<WsEvent> {
-        self.socket.borrow().as_ref()?.next()
+    fn next(&self) -> Option<Event> {
+        self.socket.borrow().as_ref()?.next().map(Event::from)
     }
 }
 
@@ -141,16 +142,19 @@ impl Drop for Ownership {
     }
 }
 
-/// Adds an endpoint of the calling script.
-pub(super) fn add(cx: &mut Cx, role: Role, socket: WsEndpoint) -> Rc<Endpoint> {
+/// Adds an endpoint of the calling script; a replay has no sockets.
+pub(super) fn add(cx: &mut Cx, role: Role, socket: Option<WsEndpoint>) -> Rc<Endpoint> {
     let sockets = cx.module_state::<WebSockets>();
-    let number = sockets.numbers.next();
+    // Connections take numbers as well, whenever they come.
+    let tape = cx.permissions().tape();
+    let number = tape.input("a number of a WebSocket", || sockets.numbers.next());
+    let number = number.unwrap_or_default();
     let script = cx.script().clone();
     let endpoint = Rc::new(Endpoint {
         number,
         role,
         script,
-        socket: RefCell::new(Some(socket)),
+        socket: RefCell::new(socket),
         handlers: RefCell::default(),
     });
     sockets
@@ -173,31 +177,38 @@ pub(super) fn start_of_iteration(host: &Host) {
     let endpoints = host
         .module_state::<WebSockets>()
         .map_or_else(Vec::new, |sockets| sockets.all());
-    let Some(event_loop) = (!endpoints.is_empty())
-        .then(|| host.event_loop().ok())
-        .flatten()
-    else {
+    if endpoints.is_empty() {
         return;
-    };
-    event_loop.turn();
-    let batches: Vec<usize> = endpoints
-        .iter()
-        .map(|endpoint| endpoint.arrived())
-        .collect();
-    for (endpoint, count) in endpoints.iter().zip(&batches) {
-        for event in (0..*count).map_while(|_| endpoint.next()) {
+    }
+    let tape = host.options().permissions.tape();
+    let arrived = tape.poll("arrivals of WebSockets", 0, || arrivals(host, &endpoints));
+    let Some(arrived) = arrived else { return };
+    for (endpoint, count) in endpoints.iter().zip(arrived) {
+        let next = || tape.input("an event of a WebSocket", || endpoint.next());
+        for event in (0..count).map_while(|_| next().ok().flatten()) {
             handle(host, endpoint, event);
         }
     }
-    if batches.iter().any(|&count| count > 0) {
+    if !tape.is_replaying()
+        && let Ok(event_loop) = host.event_loop()
+    {
         // Answers leave in the same iteration.
         event_loop.turn();
     }
 }
 
-fn handle(host: &Host, endpoint: &Endpoint, event: WsEvent) {
+/// How many events of each endpoint have arrived, if any have.
+fn arrivals(host: &Host, endpoints: &[Rc<Endpoint>]) -> Option<Vec<usize>> {
+    host.event_loop().ok()?.turn();
+    let counts = endpoints.iter().map(|endpoint| endpoint.arrived());
+    let counts: Vec<usize> = counts.collect();
+    counts.iter().any(|&count| count > 0).then_some(counts)
+}
+
+fn handle(host: &Host, endpoint: &Endpoint, event: Event) {
     log::log_event(host, endpoint, &event);
-    let call = |kind, connection, more: &[Data]| {
+    let connection = event.connection;
+    let call = |kind, more: &[Data]| {
         let handler = endpoint.handlers.borrow().get(&kind).cloned()?;
         let handles = [
             Data::text(&endpoint.handle()),
@@ -206,29 +217,26 @@ fn handle(host: &Host, endpoint: &Endpoint, event: WsEvent) {
         let args = [&handles, more].concat();
         Some(host.call_handler(&endpoint.script, &handler, &args))
     };
-    match event {
-        WsEvent::Open(connection) => drop(call(HandlerKind::Open, connection, &[])),
-        WsEvent::Fail(connection, _)
-        | WsEvent::Unreachable(connection, _)
-        | WsEvent::Refused(connection, _) => drop(call(HandlerKind::Fail, connection, &[])),
-        WsEvent::Close(connection) => drop(call(HandlerKind::Close, connection, &[])),
-        WsEvent::Message(connection, data) => drop(call(
-            HandlerKind::Message,
-            connection,
-            &[Data::Buffer(data)],
-        )),
-        WsEvent::Http {
-            connection,
+    match event.kind {
+        EventKind::Open => drop(call(HandlerKind::Open, &[])),
+        EventKind::Fail(_) | EventKind::Unreachable(_) | EventKind::Refused(_) => {
+            drop(call(HandlerKind::Fail, &[]));
+        }
+        EventKind::Close => drop(call(HandlerKind::Close, &[])),
+        EventKind::Message(data) => drop(call(HandlerKind::Message, &[Data::Buffer(data)])),
+        EventKind::Http {
             resource,
             body,
-            requester,
+            answer,
         } => {
             let results = call(
                 HandlerKind::Http,
-                connection,
                 &[Data::text(&resource), Data::Buffer(body)],
             );
-            requester.answer(results.map_or_else(|| HttpReply::status(404), http_reply));
+            let reply = results.map_or_else(|| HttpReply::status(404), http_reply);
+            if let Some(answer) = answer {
+                answer(reply);
+            }
         }
     }
 }

@@ -3,15 +3,15 @@
 use std::io;
 
 use super::endpoints::Endpoint;
-use ::io::WsEvent;
+use super::event::{Event, EventKind};
 use script::Host;
 use script::log::verbosity;
 use script::wall_clock;
 
-pub(super) fn log_event(host: &Host, endpoint: &Endpoint, event: &WsEvent) {
-    match event {
-        WsEvent::Refused(_, origin) => log_refused_page(host, endpoint, origin),
-        WsEvent::Unreachable(_, error) => log_unreachable(host, error),
+pub(super) fn log_event(host: &Host, endpoint: &Endpoint, event: &Event) {
+    match &event.kind {
+        EventKind::Refused(origin) => log_refused_page(host, endpoint, origin),
+        EventKind::Unreachable(error) => log_unreachable(host, error),
         _ => log_access(host, endpoint, event),
     }
 }
@@ -25,33 +25,31 @@ fn log_refused_page(host: &Host, endpoint: &Endpoint, origin: &str) {
 }
 
 fn log_unreachable(host: &Host, error: &io::Error) {
+    let tape = host.options().permissions.tape();
     for line in unreachable(error) {
-        let line = format!("[{}] {line}", wall_clock::utc_date_and_time());
+        let now = tape.input("the time of a log line", wall_clock::utc_date_and_time);
+        let line = format!("[{}] {line}", now.unwrap_or_default());
         host.log(verbosity::SCRIPT_WARNINGS | verbosity::UNDECORATED, &line);
     }
 }
 
 /// The access log, for those who ask for it.
-fn log_access(host: &Host, endpoint: &Endpoint, event: &WsEvent) {
+fn log_access(host: &Host, endpoint: &Endpoint, event: &Event) {
     let verbose = host
         .named_param("simWS.verbose")
         .is_some_and(|value| value != b"0");
-    let text = match event {
+    let what = match &event.kind {
         _ if !verbose => return,
-        WsEvent::Open(connection) => format!("{connection:x} is open"),
-        WsEvent::Refused(..) | WsEvent::Unreachable(..) => return,
-        WsEvent::Fail(connection, reason) => format!("{connection:x} has failed: {reason}"),
-        WsEvent::Close(connection) => format!("{connection:x} is closed"),
-        WsEvent::Message(..) => return,
-        WsEvent::Http {
-            connection,
-            resource,
-            ..
-        } => format!("{connection:x} asks for {resource}"),
+        EventKind::Refused(_) | EventKind::Unreachable(_) | EventKind::Message(_) => return,
+        EventKind::Open => "is open".to_owned(),
+        EventKind::Fail(reason) => format!("has failed: {reason}"),
+        EventKind::Close => "is closed".to_owned(),
+        EventKind::Http { resource, .. } => format!("asks for {resource}"),
     };
+    let connection = event.connection;
     host.log(
         verbosity::SCRIPT_INFOS,
-        &format!("{}: connection {text}", endpoint.handle()),
+        &format!("{}: connection {connection:x} {what}", endpoint.handle()),
     );
 }
 

@@ -1,6 +1,7 @@
 //! The native part of the Lua module `simWS`: WebSocket servers and clients.
 
 mod endpoints;
+mod event;
 mod log;
 
 use std::net::TcpListener;
@@ -11,7 +12,7 @@ use api_macro::api;
 use super::{ApiError, ApiFn, Cx, Module, Result, functions, remote};
 use endpoints::{Endpoint, HandlerKind, Role, WebSockets, handle_number};
 use io::{IdCounter, SendError, WsEndpoint, WsPages, WsRequest};
-use script::{Bytes, Handler, Hooks, ScriptFunction};
+use script::{Bytes, Handler, Hooks, Outside, ScriptFunction};
 
 /// The module `simWS`.
 pub static MODULE: Module = Module {
@@ -22,6 +23,7 @@ pub static MODULE: Module = Module {
         start_of_iteration: Some(endpoints::start_of_iteration),
         ..Hooks::NONE
     },
+    outside: Outside::Only(&["simWS.send", "simWS.getPort"]),
     ..Module::new("simWS")
 };
 
@@ -55,8 +57,11 @@ fn start(cx: &mut Cx, listen_port: i64) -> Result<String> {
     let address = cx.options().listen_address;
     cx.permissions()
         .check_net(&address.to_string(), Some(port))?;
-    serve(cx, TcpListener::bind((address, port)), WsPages::All)
-        .map_err(|error| unusable(&format!("{address}:{port}"), &error))
+    let listen = |_: &Cx| {
+        TcpListener::bind((address, port))
+            .map_err(|error| unusable(&format!("{address}:{port}"), &error))
+    };
+    serve(cx, &format!("{address}:{port}"), listen, WsPages::All)
 }
 
 /// The port of a server. Not in CoppeliaSim.
@@ -76,10 +81,13 @@ fn get_port(cx: &Cx, server_handle: String) -> Result<i64> {
 /// @return serverHandle
 #[api("remote.ws.start")]
 fn start_remote(cx: &mut Cx) -> Result<String> {
-    let listener = remote::listener(cx)
-        .ok_or_else(|| ApiError::Other("there is no port for the remote API.".into()))?;
+    let place = "the remote API's port";
+    let listen = |cx: &Cx| {
+        let listener = remote::listener(cx).ok_or("there is no port for the remote API.")?;
+        listener.map_err(|error| unusable(place, &error))
+    };
     let pages = WsPages::Own(cx.options().web_origins.clone());
-    serve(cx, listener, pages).map_err(|error| unusable("the remote API's port", &error))
+    serve(cx, place, listen, pages)
 }
 
 /// Starts a server at the port of the visualization stream.
@@ -87,26 +95,38 @@ fn start_remote(cx: &mut Cx) -> Result<String> {
 /// @return serverHandle
 #[api("remote.visualization.start")]
 fn start_stream(cx: &mut Cx) -> Result<String> {
-    let listener = remote::visualization_listener(cx)
-        .ok_or_else(|| ApiError::Other("there is no port for the visualization stream.".into()))?;
+    let place = "the port of the visualization stream";
+    let listen = |cx: &Cx| {
+        let listener = remote::visualization_listener(cx)
+            .ok_or("there is no port for the visualization stream.")?;
+        listener.map_err(|error| unusable(place, &error))
+    };
     let pages = WsPages::Own(cx.options().web_origins.clone());
-    serve(cx, listener, pages)
-        .map_err(|error| unusable("the port of the visualization stream", &error))
+    serve(cx, place, listen, pages)
 }
 
+/// A server at `place`, where `listen` opens a port.
 fn serve(
     cx: &mut Cx,
-    listener: std::io::Result<TcpListener>,
+    place: &str,
+    listen: impl FnOnce(&Cx) -> std::result::Result<TcpListener, String>,
     pages: WsPages,
-) -> std::io::Result<String> {
-    let socket = WsEndpoint::listen(cx.event_loop()?, listener?, pages, numbers(cx))?;
+) -> Result<String> {
+    let mut socket = None;
+    let opened = cx.permissions().tape().input("a WebSocket server", || {
+        let listener = listen(cx)?;
+        let served = cx
+            .event_loop()
+            .and_then(|event_loop| WsEndpoint::listen(event_loop, listener, pages, numbers(cx)));
+        socket = Some(served.map_err(|error| unusable(place, &error))?);
+        Ok(())
+    });
+    opened?.map_err(ApiError::Other)?;
     Ok(endpoints::add(cx, Role::Server, socket).handle())
 }
 
-fn unusable(address: &str, error: &std::io::Error) -> ApiError {
-    ApiError::Other(format!(
-        "Underlying Transport Error: cannot listen at {address}: {error}"
-    ))
+fn unusable(address: &str, error: &std::io::Error) -> String {
+    format!("Underlying Transport Error: cannot listen at {address}: {error}")
 }
 
 /// Stops a server; its connections end at once.
@@ -133,18 +153,28 @@ fn connect(cx: &mut Cx, uri: String) -> Result<String> {
         .get("simWS.userAgent")
         .cloned()
         .unwrap_or_default();
+    let mut socket = None;
+    let opened = cx.permissions().tape().input("a WebSocket client", || {
+        let client = connected(cx, &uri, &String::from_utf8_lossy(&agent));
+        socket = Some(client.map_err(|error| error.to_string())?);
+        Ok(())
+    });
+    opened?.map_err(ApiError::Other)?;
+    Ok(endpoints::add(cx, Role::Client, socket).handle())
+}
+
+/// A client on its way to a server.
+fn connected(cx: &Cx, uri: &str, agent: &str) -> Result<WsEndpoint> {
     let numbers = numbers(cx);
     let refused =
         |reason: String| ApiError::Other(format!("Could not create connection: {reason}"));
-    let request =
-        WsRequest::new(&uri, &String::from_utf8_lossy(&agent), numbers.next()).map_err(refused)?;
+    let request = WsRequest::new(uri, agent, numbers.next()).map_err(refused)?;
     let (host, port) = request.place();
     cx.permissions().check_net(host, Some(port))?;
     let event_loop = cx
         .event_loop()
         .map_err(|error| refused(error.to_string()))?;
-    let socket = WsEndpoint::connect(event_loop, request, numbers);
-    Ok(endpoints::add(cx, Role::Client, socket).handle())
+    Ok(WsEndpoint::connect(event_loop, request, numbers))
 }
 
 /// Ends a client at once.

@@ -16,7 +16,7 @@ use super::{ApiFn, Cx, Module, Result, functions};
 use io::zmq::{self, ERRORS};
 use objects::objects;
 use scene::{Data, Key};
-use script::{Bytes, Number, Param, Table, Text};
+use script::{Bytes, Number, Outside, Param, Table, Text};
 
 pub use objects::has_sockets;
 
@@ -31,6 +31,7 @@ pub static MODULE: Module = Module {
     ],
     inner: &[INNER, contexts::INNER],
     constants: include_str!("constants.tsv"),
+    outside: Outside::AllBut(&[]),
     ..Module::new("simZMQ")
 };
 

@@ -26,9 +26,12 @@ use scene::Data;
 use scene::numbers;
 use script::Source;
 use script::wall_clock;
-use script::{ApiError, ByHandle, LuaNumber, LuaObject, Results};
+use script::{ApiError, ByHandle, LuaNumber, LuaObject, Outside, Results};
 
 use results::{Created, Outcome};
+
+/// An object that is collected is none of the run's doing.
+const OUTSIDE: Outside = Outside::AllBut(&["socket.core.collect"]);
 
 /// The core of LuaSocket: `lua/network/socket/core.lua` makes classes of these functions.
 pub static CORE: Module = Module {
@@ -41,11 +44,13 @@ pub static CORE: Module = Module {
         option::FUNCTIONS,
         dns::FUNCTIONS,
     ],
+    outside: OUTSIDE,
     ..Module::new("socket.core")
 };
 /// The module `socket.unix`.
 pub static UNIX: Module = Module {
     inner: &[FUNCTIONS],
+    outside: OUTSIDE,
     ..Module::new("socket.unix")
 };
 /// The module `ssl`.
@@ -56,6 +61,7 @@ pub static SSL: Module = Module {
         methods::FUNCTIONS,
         stream::FUNCTIONS,
     ],
+    outside: OUTSIDE,
     ..Module::new("ssl")
 };
 

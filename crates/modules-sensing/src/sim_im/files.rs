@@ -10,7 +10,6 @@ use super::objects::images;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use format::picture::{Layout, Picture};
 use format::scene_file::write_whole;
-use permissions::read_bounded;
 use script::Text;
 use wire::mime::{encode_base64, finish_base64};
 
@@ -27,7 +26,8 @@ const QUALITY: u8 = 95;
 fn read(cx: &Cx, filename: String) -> Result<String> {
     let path = Path::new(&filename);
     cx.permissions().check_read(path)?;
-    let file = read_bounded(path).map_err(|_| refused("invalid image"))?;
+    let read = cx.permissions().read_checked(path);
+    let file = read.map_err(|_| refused("invalid image"))?;
     let picture = Picture::decode(&file, Layout::Rgb).map_err(|_| refused("invalid image"))?;
     let size = picture.resolution().map(|side| side as usize);
     let image = Matrix::from_bytes(size, 3, turned(&picture.into_bytes(), 3))?;
@@ -49,7 +49,8 @@ fn write(cx: &Cx, handle: String, filename: String) -> Result<()> {
         .to_lowercase();
     let file = file_of(&image, &extension)?;
     cx.permissions().check_write(path)?;
-    write_whole(path, &file).map_err(|error| refused(&format!("cannot write {filename}: {error}")))
+    let written = cx.permissions().write(path, || write_whole(path, &file));
+    written.map_err(|error| refused(&format!("cannot write {filename}: {error}")))
 }
 
 /// The content of an image file.

@@ -8,7 +8,6 @@ use scene::numbers;
 use super::arguments::WindowHandle;
 use crate::{ApiError, ApiFn, Cx, Result, functions};
 use format::picture::{Layout, Picture};
-use permissions::read_bounded;
 use script::Bytes;
 use script::log::verbosity;
 use ui::{Image, Svg, UiError};
@@ -141,7 +140,9 @@ fn file_of(cx: &Cx, file: &str) -> std::result::Result<Vec<u8>, String> {
     cx.permissions()
         .check_read(path)
         .map_err(|denied| denied.to_string())?;
-    read_bounded(path).map_err(|error| error.to_string())
+    cx.permissions()
+        .read_checked(path)
+        .map_err(|error| error.to_string())
 }
 
 /// The picture of a file, scaled to a size that is positive.

@@ -7,6 +7,7 @@ use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use capture::{Input, Recorded};
 use fs4::{FileExt, TryLockError};
 
 use super::{Blocks, Contents};
@@ -151,6 +152,17 @@ fn set_aside(path: PathBuf) -> Failure {
     match fs::rename(&path, &aside) {
         Ok(()) => Failure::Corrupt { path, aside },
         Err(error) => Failure::Unusable { path, error },
+    }
+}
+
+/// As in the file.
+impl Recorded for Contents {
+    fn write(&self, out: &mut Vec<u8>) {
+        cbor::encode(&encode(self)).write(out);
+    }
+
+    fn read(input: &mut Input<'_>) -> Option<Self> {
+        decode(&cbor::decode(input.bytes()?).ok()?)
     }
 }
 

@@ -43,6 +43,9 @@ enum Dirty {
     Block(StorageSection, String),
 }
 
+/// A line for the log: its level and text.
+type Notice = (i64, String);
+
 /// The file as scripts see it.
 #[derive(Default)]
 pub struct AppStorage {
@@ -54,7 +57,7 @@ pub struct AppStorage {
     /// Saving failed, and nothing was changed since: it would fail again.
     failed: bool,
     /// Warnings for the user.
-    pub(crate) notices: Vec<(i64, String)>,
+    pub(crate) notices: Vec<Notice>,
 }
 
 impl Contents {
@@ -158,21 +161,21 @@ impl AppStorage {
         if std::mem::replace(&mut self.loaded, true) {
             return;
         }
-        let Some(folder) = &self.folder else { return };
-        match file::check_read(folder, &self.permissions).and_then(|()| file::read(folder)) {
-            Ok(contents) => self.contents = contents,
-            Err(failure) => self.report(failure),
+        let tape = self.permissions.tape().clone();
+        match tape.input("persistent data", || self.read()) {
+            Ok(Ok(contents)) => self.contents = contents,
+            Ok(Err(notice)) => self.notices.push(notice),
+            Err(_) => {}
         }
     }
 
-    /// Logs an error of the file; a corrupt one has been renamed by then, and is replaced by an empty one.
-    fn report(&mut self, failure: Failure) {
-        let level = if matches!(failure, Failure::Corrupt { .. }) {
-            verbosity::WARNINGS
-        } else {
-            verbosity::ERRORS
+    fn read(&self) -> Result<Contents, Notice> {
+        let Some(folder) = &self.folder else {
+            return Ok(Contents::default());
         };
-        self.notices.push((level, failure.to_string()));
+        file::check_read(folder, &self.permissions)
+            .and_then(|()| file::read(folder))
+            .map_err(|failure| notice_of(&failure))
     }
 
     /// Brings the file up to date.
@@ -180,6 +183,23 @@ impl AppStorage {
         if self.dirty.is_empty() || self.failed {
             return;
         }
+        let tape = self.permissions.tape().clone();
+        match tape.input("writing persistent data", || self.write()) {
+            Ok(Ok((contents, notice))) => {
+                self.contents = contents;
+                self.dirty.clear();
+                self.notices.extend(notice);
+            }
+            Ok(Err(notice)) => {
+                self.failed = true;
+                self.notices.push(notice);
+            }
+            Err(_) => self.failed = true,
+        }
+    }
+
+    /// What the file holds then, and what was wrong with it before.
+    fn write(&self) -> Result<(Contents, Option<Notice>), Notice> {
         let saved = match &self.folder {
             None => Err(Failure::NoFolder),
             Some(folder) => file::check_write(folder, &self.permissions).and_then(|()| {
@@ -190,18 +210,20 @@ impl AppStorage {
                 })
             }),
         };
-        match saved {
-            Ok((contents, failure)) => {
-                self.contents = contents;
-                self.dirty.clear();
-                failure.into_iter().for_each(|failure| self.report(failure));
-            }
-            Err(failure) => {
-                self.failed = true;
-                self.report(failure);
-            }
-        }
+        saved
+            .map(|(contents, failure)| (contents, failure.as_ref().map(notice_of)))
+            .map_err(|failure| notice_of(&failure))
     }
+}
+
+/// An error of the file as it is logged; a corrupt one has been renamed by then, and is replaced by an empty one.
+fn notice_of(failure: &Failure) -> Notice {
+    let level = if matches!(failure, Failure::Corrupt { .. }) {
+        verbosity::WARNINGS
+    } else {
+        verbosity::ERRORS
+    };
+    (level, failure.to_string())
 }
 
 #[cfg(test)]

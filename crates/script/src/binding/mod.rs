@@ -10,6 +10,7 @@ pub(crate) mod embedded;
 pub(crate) mod hooks;
 pub(crate) mod module;
 pub(crate) mod operand;
+mod outside;
 pub(crate) mod param;
 pub(crate) mod registry;
 pub(crate) mod returns;

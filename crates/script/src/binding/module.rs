@@ -30,6 +30,8 @@ pub struct Module {
     pub lua_members: Option<&'static str>,
     /// What the module does without being called.
     pub hooks: Hooks,
+    /// Which of its functions call the world outside: what they return is captured, and they are not called in a replay.
+    pub outside: Outside,
     /// Whether wrong arguments are refused in the words that plugins of CoppeliaSim have in common.
     pub plugin_errors: bool,
 }
@@ -49,6 +51,7 @@ impl Module {
             old_names: "",
             lua_members: None,
             hooks: Hooks::NONE,
+            outside: Outside::Nothing,
             plugin_errors: false,
         }
     }
@@ -84,6 +87,29 @@ impl Module {
             .iter()
             .copied()
             .filter(move |(path, _)| folder.is_some_and(|folder| path.starts_with(folder)))
+    }
+}
+
+/// Functions of a module that call the world outside: files, sockets, devices, programs. They call no scripts, change nothing that scripts see, and what they
+/// return is all that scripts learn from them.
+#[derive(Debug, Clone, Copy)]
+pub enum Outside {
+    /// None.
+    Nothing,
+    /// All, inner ones as well, but those with these names.
+    AllBut(&'static [&'static str]),
+    /// Those with these names.
+    Only(&'static [&'static str]),
+}
+
+impl Outside {
+    /// Whether a function is one of them.
+    pub fn has(self, name: &str) -> bool {
+        match self {
+            Self::Nothing => false,
+            Self::AllBut(names) => !names.contains(&name),
+            Self::Only(names) => names.contains(&name),
+        }
     }
 }
 

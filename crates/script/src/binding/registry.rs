@@ -88,6 +88,8 @@ pub(crate) struct Bound {
     pub replacement: Option<&'static str>,
     /// As of its module.
     pub plugin_errors: bool,
+    /// Whether it calls the world outside.
+    pub is_outside: bool,
 }
 
 /// A member of a module.

@@ -2,7 +2,6 @@
 
 use std::rc::Rc;
 
-use crate::binding::args::Args;
 use crate::binding::registry::{Bound, Member};
 use crate::error::{ApiError, ApiResult};
 use crate::host::{Level, Runtime, Script, Sim};
@@ -84,9 +83,8 @@ impl Sim {
 }
 
 fn call_native(runtime: &Runtime, bound: &Bound, args: &[Data]) -> ApiResult<Vec<Data>> {
-    let results = (bound.function.call_data)(
-        &mut Args::new(runtime.env.values(args)).for_plugin(bound.plugin_errors),
-    );
+    let env = &runtime.env;
+    let results = bound.call_data(env.tape(), env.values(args), || env.script_name());
     if bound.function.mutates {
         runtime.env.collect_events();
     }

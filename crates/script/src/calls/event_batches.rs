@@ -28,7 +28,9 @@ impl Sim {
         }
         let mut events = self.events.queue.borrow_mut().take();
         self.fill_in_lists(&mut events);
-        let now = int_entry("time", wall_clock::unix_milliseconds());
+        let tape = self.options.permissions.tape();
+        let now = tape.input("the time of an event", wall_clock::unix_milliseconds);
+        let now = int_entry("time", now.unwrap_or_default());
         events.push(Event::new("msgDispatchTime", Source::NONE, vec![now]));
         let first = self.events.take_numbers(events.len());
         self.deliver_events(&events, first);

@@ -44,7 +44,10 @@ impl Sim {
         let info = Data::map([("file", Data::text(path)), ("regularSave", true.into())]);
         self.broadcast(SysCall::BeforeSave, std::slice::from_ref(&info));
         self.write_named(&self.scene_file()?, name)?;
-        let path = std::path::absolute(path)
+        let path = self
+            .options
+            .permissions
+            .absolute(Path::new(path))
             .map_or_else(|_| path.to_owned(), |p| p.to_string_lossy().into_owned());
         self.scene
             .borrow_mut()
@@ -71,8 +74,13 @@ impl Sim {
     fn write_named(&self, file: &File, name: &str) -> ApiResult<()> {
         let (variant, path) = Variant::of_name(name);
         self.options.permissions.check_write(Path::new(path))?;
-        write_whole(Path::new(path), &readable_bytes(file, variant)?)
-            .map_err(|error| ApiError::Other(format!("'{path}' could not be written: {error}.")))
+        let bytes = readable_bytes(file, variant)?;
+        let place = Path::new(path);
+        let written = self
+            .options
+            .permissions
+            .write(place, || write_whole(place, &bytes));
+        written.map_err(|error| ApiError::Other(format!("'{path}' could not be written: {error}.")))
     }
 
     fn check_unlocked(&self) -> ApiResult<()> {

@@ -50,6 +50,15 @@ pub struct Sim {
     pub line_counts: RefCell<LineCounts>,
 }
 
+/// The log, with a hash of its lines where runs are compared.
+fn log_of(console: Box<dyn Console>, options: &Options) -> Log {
+    let log = Log::new(console, options.verbosity);
+    if options.permissions.tape().is_on() {
+        log.keep_hash();
+    }
+    log
+}
+
 impl Sim {
     /// A simulator with an empty scene and without main script and sandbox.
     pub fn new(
@@ -59,11 +68,12 @@ impl Sim {
         languages: Languages,
     ) -> Rc<Self> {
         let perception = RefCell::new(Perception::new(options.seed, options.render_threads));
+        let clock = Clock::new(options.permissions.tape());
         let dynamics = Dynamics::new(options.threads, options.form_maker());
         let dynamics = RefCell::new(Some(dynamics));
         Rc::new(Self {
             perception,
-            log: Log::new(console, options.verbosity),
+            log: log_of(console, &options),
             app: RefCell::new(AppData::new(&options)),
             scripts: ScriptSet::new(
                 languages,
@@ -75,7 +85,7 @@ impl Sim {
                 states: States::default(),
             },
             scene: RefCell::new(Scene::new()),
-            clock: Clock::new(),
+            clock,
             dynamics,
             removals: Removals::default(),
             signal_owners: RefCell::default(),

@@ -17,6 +17,7 @@ use located::ScriptFiles;
 use missed::Missed;
 use recent::Recent;
 pub use recent::RecentLine;
+use twox_hash::XxHash3_64;
 
 /// The way to the console of one simulator.
 pub struct Log {
@@ -30,6 +31,8 @@ pub struct Log {
     /// The path that the last look-up of an object did not find.
     missed: RefCell<Option<Missed>>,
     recent: RefCell<Recent>,
+    /// The hash of all lines so far; None where nobody compares it.
+    hash: Cell<Option<u64>>,
 }
 
 impl Log {
@@ -42,7 +45,24 @@ impl Log {
             files: RefCell::default(),
             missed: RefCell::default(),
             recent: RefCell::default(),
+            hash: Cell::new(None),
         }
+    }
+
+    /// Keeps a hash of all lines from now on.
+    pub(crate) fn keep_hash(&self) {
+        self.hash.set(Some(0));
+    }
+
+    /// The hash of all lines since then; 0 without one.
+    pub(crate) fn hash(&self) -> u64 {
+        self.hash.get().unwrap_or_default()
+    }
+
+    fn add_to_hash(&self, line: &[u8]) {
+        let hash = self.hash.get();
+        let next = hash.map(|hash| XxHash3_64::oneshot_with_seed(hash, line));
+        self.hash.set(next);
     }
 
     /// Lines above this level are not shown.
@@ -95,6 +115,7 @@ impl Log {
     /// Shows a line, unless the verbosity is below its level; `script` is the handle of the script it comes from.
     pub(super) fn show(&self, line: &LogLine<'_>, script: Option<i64>) {
         if verbosity::plain(line.level) <= self.verbosity() {
+            self.add_to_hash(line.text.as_bytes());
             self.recent
                 .borrow_mut()
                 .push(|| RecentLine::of_log(line, script));
@@ -110,6 +131,7 @@ impl Log {
         script: i64,
         origin: impl FnOnce() -> String,
     ) {
+        self.add_to_hash(line);
         self.recent.borrow_mut().push(|| RecentLine {
             time,
             level: None,
@@ -143,6 +165,7 @@ impl Log {
 
     /// Output of a script to a stream of the process.
     pub(super) fn write(&self, text: &[u8], stream: OutputStream, time: f64) {
+        self.add_to_hash(text);
         self.console.borrow_mut().write(text, stream, time);
     }
 }

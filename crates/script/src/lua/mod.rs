@@ -46,7 +46,7 @@ pub(crate) use hooks::running::{RunningCallback, running_callback_number};
 pub use hooks::running::{calls_begun, is_call};
 pub use object::LuaObject;
 pub(crate) use owner::Owner;
-pub(crate) use permissions::restrict_libraries;
+pub(crate) use permissions::{restrict_libraries, search_by_permissions};
 pub(crate) use seal::seal_argument;
 pub(crate) use stack::tables::MAX_LIST_LENGTH;
 pub use stack::{Stack, Type};

@@ -5,6 +5,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use super::{Budget, Stack};
+use capture::Tape;
 use permissions::Permissions;
 
 /// The owner of a state: what its code may do and use, what it has done, and the host's side of it, of which only the type is known.
@@ -48,6 +49,11 @@ impl Owner {
 }
 
 impl<'a> Stack<'a> {
+    /// The tape on which everything comes from outside.
+    pub(crate) fn tape(self) -> &'a Tape {
+        self.owner().permissions.tape()
+    }
+
     /// The host's side of the state.
     ///
     /// # Panics

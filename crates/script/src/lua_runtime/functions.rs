@@ -2,7 +2,6 @@
 
 use std::ffi::c_int;
 
-use crate::binding::args::Args;
 use crate::binding::registry::{Bound, FunctionId};
 use crate::error::ApiError;
 use crate::lua::{Stack, Type, push_callback};
@@ -41,7 +40,8 @@ fn call_without_notice(stack: Stack<'_>, number: usize) -> Result<c_int, String>
 }
 
 fn call_bound(stack: Stack<'_>, bound: &Bound) -> Result<c_int, String> {
-    let result = (bound.function.call)(&mut Args::new(stack).for_plugin(bound.plugin_errors))
+    let result = bound
+        .call(stack, || stack.env().script_name())
         .or_else(|error| fail(stack, bound, &bound.worded(error)));
     if bound.function.mutates {
         stack.env().collect_events();

@@ -14,6 +14,7 @@ mod reused;
 mod shared_process;
 mod stand_ins;
 mod startup;
+mod taped;
 mod test_file;
 pub(crate) mod threads;
 pub(crate) mod user_modules;

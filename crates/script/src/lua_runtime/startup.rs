@@ -11,8 +11,8 @@ use super::members::{SIM, install_globals, install_sim, push_missing};
 use super::reference_modules::ReferenceModule;
 use super::user_modules::UserModule;
 use super::{
-    buffers, coverage, implicit, library_globals, shared_process, stand_ins, test_file, threads,
-    user_modules,
+    buffers, coverage, implicit, library_globals, shared_process, stand_ins, taped, test_file,
+    threads, user_modules,
 };
 use crate::binding::registry::{Member, Namespace};
 use crate::host::{Script, Sim};
@@ -41,8 +41,14 @@ pub(super) fn fill(
         }
     });
     let is_restricted = !sim.options.permissions.is_all();
+    let is_taped = stack.tape().is_on();
+    if is_taped {
+        taped::prepare(stack);
+    }
     if is_restricted {
         lua::restrict_libraries(stack);
+    } else if is_taped {
+        lua::search_by_permissions(stack);
     }
     library_globals::install(stack);
     user_modules::install(user_modules, sim, stack)?;
@@ -55,7 +61,12 @@ pub(super) fn fill(
     stack.push_int(name_suffix(sim, &stack.env().script));
     stack.set_global("sim_script_name_index");
     run_base(sim, stack)?;
-    if is_restricted {
+    if is_taped {
+        load_module(stack, sim, "captured")?;
+        taped::push_functions(stack);
+        stack.protected_call(1, 0)?;
+    }
+    if is_restricted || is_taped {
         load_module(stack, sim, "restricted")?;
         stack.push_bool(sim.options.permissions.can_load_native());
         stack.protected_call(1, 0)?;
@@ -111,6 +122,7 @@ fn scrambled(seed: u32) -> i64 {
 /// Modules that CoppeliaSim has not, or no longer, and files that are no modules: a script's own file of that name goes first.
 const LAST: &[&str] = &[
     "base",
+    "captured",
     "cbor",
     "class",
     "deprecate",
@@ -230,8 +242,9 @@ fn is_the_scene_s(stack: Stack<'_>, name: &str) -> bool {
         return false;
     };
     let has = |folder: &Path| {
-        folder.join(name).with_extension("lua").exists()
-            || folder.join(name).join("init.lua").exists()
+        let permissions = &sim.options.permissions;
+        permissions.exists(&folder.join(name).with_extension("lua"))
+            || permissions.exists(&folder.join(name).join("init.lua"))
     };
     sim.options.package_dirs.iter().any(|folder| has(folder))
 }

@@ -5,7 +5,6 @@ use std::time::Duration;
 
 use super::link::Link;
 use super::message::{self, Message};
-use crate::binding::args::Args;
 use crate::binding::registry::{Bound, Member};
 use crate::error::ApiError;
 use crate::host::{Env, Level, ScriptError};
@@ -170,9 +169,9 @@ impl Conversation<'_> {
         if bound.replacement.is_some() {
             return None;
         }
-        let results = (bound.function.call_data)(
-            &mut Args::new(self.env.values(args)).for_plugin(bound.plugin_errors),
-        );
+        let results = bound.call_data(self.env.tape(), self.env.values(args), || {
+            self.env.script_name()
+        });
         if bound.function.mutates {
             self.env.collect_events();
         }

@@ -93,7 +93,8 @@ pub(super) fn scene_folders(sim: &Sim, script: &Script) -> Vec<PathBuf> {
         .filter(|folder| folder != Path::new(""));
     let mut all: Vec<PathBuf> = Vec::new();
     for folder in folders.chain(sim.options.package_dirs.iter().cloned()) {
-        let folder = std::path::absolute(&folder).unwrap_or(folder);
+        let absolute = sim.options.permissions.absolute(&folder);
+        let folder = absolute.unwrap_or(folder);
         if !all.contains(&folder) {
             all.push(folder);
         }

@@ -6,6 +6,8 @@ use std::process::ExitStatus;
 use std::rc::Rc;
 use std::time::Duration;
 
+use capture::{Recorded, Tape};
+
 use super::embedding::EmbeddedScript;
 use super::message::Message;
 use crate::error::ApiError;
@@ -32,12 +34,16 @@ const MAX_QUEUED: usize = 1000;
 pub(super) enum Peer {
     Process(PeerProcess),
     Embedded(Rc<dyn EmbeddedScript>),
+    /// What a process has sent is in the capture that is replayed.
+    Captured,
 }
 
 /// The connection; a state of the script.
 #[derive(Default)]
 pub(super) struct Link {
     peer: RefCell<Option<Peer>>,
+    /// The tape on which the messages of a process come.
+    tape: RefCell<Tape>,
     /// The thread of the script is running: the process has the turn, and the simulator does not wait for it.
     pub busy: Cell<bool>,
     /// A message of the running thread that was received and not handled yet.
@@ -55,7 +61,10 @@ pub(super) struct Link {
 }
 
 impl Link {
-    pub(super) fn open(&self, peer: Peer) {
+    pub(super) fn open(&self, peer: Peer, tape: &Tape) {
+        if !matches!(peer, Peer::Embedded(_)) {
+            self.tape.replace(tape.clone());
+        }
         self.peer.replace(Some(peer));
     }
 
@@ -85,7 +94,7 @@ impl Link {
         match peer {
             Some(Peer::Process(mut process)) => process.kill(),
             Some(Peer::Embedded(script)) => script.close(),
-            None => {}
+            Some(Peer::Captured) | None => {}
         }
     }
 
@@ -108,11 +117,14 @@ impl Link {
         if let Some(script) = self.embedded() {
             return script.hand_over(message).map_err(ScriptError::new);
         }
-        let sent = match &mut *self.peer.borrow_mut() {
-            Some(Peer::Process(process)) => process.send(message),
-            _ => Err(PeerError::Closed),
+        let send = || {
+            let sent = match &mut *self.peer.borrow_mut() {
+                Some(Peer::Process(process)) => process.send(message),
+                _ => Err(PeerError::Closed),
+            };
+            sent.map_err(|error| self.ended(&error))
         };
-        sent.map_err(|error| self.ended(&error))
+        self.taped("a message to Python", send)
     }
 
     /// The next message that is no output; None when there is none within `limit`. Output is shown.
@@ -138,7 +150,9 @@ impl Link {
                 return Ok(Some(message));
             }
             let begun = *begun.get_or_insert_with(wall_clock::now);
-            if limit.is_some_and(|limit| begun.elapsed() + wait >= limit) {
+            let is_late = || limit.is_some_and(|limit| begun.elapsed() + wait >= limit);
+            let tape = self.tape.borrow().clone();
+            if tape.input("the patience with Python", is_late) != Ok(false) {
                 return Ok(None);
             }
             self.check_interruption(env)?;
@@ -160,11 +174,27 @@ impl Link {
     fn next_message(&self, limit: Duration) -> Result<Option<Message>, ScriptError> {
         let bytes = match self.embedded() {
             Some(script) => script.take(limit).map_err(ScriptError::new)?,
-            None => self
-                .receive_of_process(limit)
-                .map_err(|error| self.ended(&error))?,
+            None => self.taped("a message of Python", || {
+                self.receive_of_process(limit)
+                    .map_err(|error| self.ended(&error))
+            })?,
         };
         bytes.map(|bytes| self.read(&bytes)).transpose()
+    }
+
+    /// What is asked of the process. When it has ended, a replay is without it as well.
+    fn taped<T: Recorded>(
+        &self,
+        kind: &str,
+        ask: impl FnOnce() -> Result<T, String>,
+    ) -> Result<T, ScriptError> {
+        let tape = self.tape.borrow().clone();
+        let answer = tape.input(kind, ask);
+        let answer = answer.unwrap_or_else(|lost| Err(lost.to_string()));
+        answer.map_err(|reason| {
+            self.peer.take();
+            ScriptError::new(reason)
+        })
     }
 
     fn receive_of_process(&self, limit: Duration) -> Result<Option<Vec<u8>>, PeerError> {
@@ -224,10 +254,16 @@ impl Link {
 
     /// Logs what the process and programs it started wrote past the script's own output.
     fn show_rest(&self, env: &Env) {
-        let (text, lost) = match &*self.peer.borrow() {
+        if self.embedded().is_some() {
+            return;
+        }
+        let take = || match &*self.peer.borrow() {
             Some(Peer::Process(process)) => process.take_output(),
-            _ => return,
+            _ => Default::default(),
         };
+        let tape = self.tape.borrow().clone();
+        let output = tape.input("the output beside Python", take);
+        let (text, lost) = output.unwrap_or_default();
         if text.is_empty() {
             return;
         }
@@ -263,9 +299,9 @@ impl Link {
     }
 
     /// Why the process is not there any more.
-    fn ended(&self, error: &PeerError) -> ScriptError {
+    fn ended(&self, error: &PeerError) -> String {
         let Some(Peer::Process(mut process)) = self.peer.take() else {
-            return ScriptError::new("the Python process of this script has ended.");
+            return "the Python process of this script has ended.".into();
         };
         let status = process.wait_for_end(END_TIMEOUT);
         let reason = match (error, status) {
@@ -284,7 +320,7 @@ impl Link {
             "the Python process of this script has ended: {reason}.\n{}",
             output.trim_end()
         );
-        ScriptError::new(text.trim_end())
+        text.trim_end().to_owned()
     }
 }
 

@@ -29,10 +29,8 @@ use crate::sys_call::SysCall;
 use conversation::{Conversation, LIBRARY};
 pub use embedding::is_short;
 pub use embedding::{EmbeddedScript, PythonHost, ScriptCalls};
-use launch::LaunchError;
 use line_counts::Own;
 use link::{Link, Peer};
-use permissions::read_bounded;
 use scene::Data;
 
 /// How long the start of a script may take, seconds.
@@ -175,7 +173,7 @@ impl PythonInterpreter {
                 .chain(scene.iter().map(AsRef::as_ref));
             let path = folders
                 .map(|folder| folder.join(file))
-                .find(|path| path.is_file());
+                .find(|path| sim.options.permissions.is_file(path));
             let path = path.ok_or_else(|| {
                 ScriptError::new(format!("the included file '{file}' was not found."))
             })?;
@@ -183,7 +181,10 @@ impl PythonInterpreter {
                 .permissions
                 .check_read(&path)
                 .map_err(|denied| ScriptError::new(denied.to_string()))?;
-            let text = read_bounded(&path)
+            let text = sim
+                .options
+                .permissions
+                .read_checked(&path)
                 .map_err(|error| ScriptError::new(format!("{}: {error}", path.display())))?;
             texts.push(Data::Array(vec![
                 Data::text(&path.to_string_lossy()),
@@ -216,7 +217,7 @@ impl PythonInterpreter {
         let texts = self.texts(&sim, &settings, &parts.python, name)?;
         let peer = self.peer(&sim, settings.executable.take(), counted_as.is_some());
         self.link
-            .open(peer.map_err(|error| ScriptError::new(error.to_string()))?);
+            .open(peer.map_err(ScriptError::new)?, self.env.tape());
         self.own.replace(counted_as.map(|path| Own {
             name: name.to_owned(),
             path: path.clone(),
@@ -239,18 +240,23 @@ impl PythonInterpreter {
         sim: &Sim,
         executable: Option<String>,
         is_counted: bool,
-    ) -> Result<Peer, LaunchError> {
+    ) -> Result<Peer, String> {
         let chosen = launch::chosen_interpreter(sim, executable);
-        match (&self.host, &chosen) {
-            (Some(host), None) if !is_counted => {
-                launch::embed(sim, &**host, &self.env).map(Peer::Embedded)
-            }
-            _ => {
-                let default =
-                    || launch::default_interpreter(&launch::scene_folders(sim, &self.env.script));
-                launch::start(sim, &chosen.unwrap_or_else(default)).map(Peer::Process)
-            }
+        if let (Some(host), None, false) = (&self.host, &chosen, is_counted) {
+            self.env.tape().lacks("scripts in the program's own Python");
+            let embedded = launch::embed(sim, &**host, &self.env).map(Peer::Embedded);
+            return embedded.map_err(|error| error.to_string());
         }
+        let folders = launch::scene_folders(sim, &self.env.script);
+        let mut process = None;
+        let started = self.env.tape().input("starting Python", || {
+            let chosen = chosen.unwrap_or_else(|| launch::default_interpreter(&folders));
+            let started = launch::start(sim, &chosen).map_err(|error| error.to_string())?;
+            process = Some(started);
+            Ok(())
+        });
+        started.unwrap_or_else(|lost| Err(lost.to_string()))?;
+        Ok(process.map_or(Peer::Captured, Peer::Process))
     }
 
     fn note_functions(&self, functions: &[Data], frequent: u64) -> Result<(), ScriptError> {

@@ -5,6 +5,7 @@ pub(crate) mod dynamics;
 mod hooks;
 pub(crate) mod joint_motion;
 mod proximity;
+mod taped;
 
 use std::rc::Rc;
 
@@ -19,6 +20,7 @@ use scene::object::script_object::ScriptType;
 impl Sim {
     /// One iteration of the application's loop: idle, paused or advancing.
     pub fn loop_iteration(self: &Rc<Self>) {
+        self.options.permissions.tape().turn();
         self.notify_plugins_of_pass();
         self.run_hooks(|hooks| hooks.start_of_iteration);
         if !self.clock.state().is_advancing() {
@@ -48,6 +50,7 @@ impl Sim {
             self.simulation_step();
             self.run_hooks(|hooks| hooks.after_step);
             self.advance();
+            self.options.permissions.tape().step(|| self.taped_hash());
             self.film();
             self.show_to_watcher();
         }

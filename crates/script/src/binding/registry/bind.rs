@@ -29,12 +29,7 @@ impl Registry {
             self.add_function(&mut namespace, function, &deprecated);
         }
         for function in module.inner.iter().copied().flatten() {
-            let id = self.add(
-                function.name.into(),
-                function,
-                None,
-                namespace.module.plugin_errors,
-            );
+            let id = self.add(function.name.into(), function, None, namespace.module);
             namespace.inner.push((last_part(function.name), id));
         }
         for (old, new) in pairs(module.old_names) {
@@ -67,13 +62,14 @@ impl Registry {
         name: Cow<'static, str>,
         function: &'static ApiFn,
         replacement: Option<&'static str>,
-        plugin_errors: bool,
+        module: &Module,
     ) -> FunctionId {
         self.functions.push(Bound {
             name,
             function,
             replacement,
-            plugin_errors,
+            plugin_errors: module.plugin_errors,
+            is_outside: module.outside.has(function.name),
         });
         FunctionId(self.functions.len() - 1)
     }
@@ -85,12 +81,7 @@ impl Registry {
         deprecated: &HashMap<&str, &'static str>,
     ) {
         if !function.name.contains('.') {
-            let id = self.add(
-                function.name.into(),
-                function,
-                None,
-                namespace.module.plugin_errors,
-            );
+            let id = self.add(function.name.into(), function, None, namespace.module);
             if function.name.starts_with("sim") {
                 namespace.old_functions.insert(function.name, id);
             } else {
@@ -103,7 +94,7 @@ impl Registry {
             function.name.into(),
             function,
             deprecated.get(member).copied(),
-            namespace.module.plugin_errors,
+            namespace.module,
         );
         namespace.members.insert(member, Member::Native(id));
         namespace.listed.push(member);
@@ -124,7 +115,7 @@ impl Registry {
                         name,
                         self.bound(id).function,
                         replacement,
-                        namespace.module.plugin_errors,
+                        namespace.module,
                     ))
                 }
                 Some(Member::Lua { file, function, .. }) => Member::Lua {

@@ -8,6 +8,8 @@ use std::collections::{BTreeMap, HashSet};
 use std::rc::{Rc, Weak};
 use std::sync::Arc;
 
+use capture::Tape;
+
 use super::{Runtime, Script, Sim};
 use crate::binding::registry::Registry;
 use crate::binding::source::Values;
@@ -55,6 +57,7 @@ pub struct Env {
     warned: RefCell<HashSet<&'static str>>,
     warned_deprecated: RefCell<HashSet<usize>>,
     watched: bool,
+    tape: Tape,
 }
 
 /// Functions that run before and after callbacks. The lists are shared with the callback that is running, which may change them.
@@ -99,6 +102,7 @@ impl Env {
             warned: RefCell::default(),
             warned_deprecated: RefCell::default(),
             watched: sim.options.limits.is_some(),
+            tape: sim.options.permissions.tape().clone(),
         }
     }
 
@@ -147,6 +151,21 @@ impl Env {
     /// The simulator, until it is gone.
     pub fn simulator(&self) -> Option<Rc<Sim>> {
         self.sim.upgrade()
+    }
+
+    /// The tape on which everything comes from outside.
+    pub(crate) fn tape(&self) -> &Tape {
+        &self.tape
+    }
+
+    /// The script in the words of a message.
+    pub(crate) fn script_name(&self) -> String {
+        let sim = self.sim.upgrade();
+        let scene = sim.as_ref().and_then(|sim| sim.scene.try_borrow().ok());
+        scene.map_or_else(
+            || "a script".into(),
+            |scene| format!("script {}", self.script.log_name(&scene)),
+        )
     }
 
     /// The interpreter this belongs to, until it is closed.

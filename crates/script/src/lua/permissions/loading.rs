@@ -3,6 +3,7 @@
 
 use std::ffi::c_int;
 use std::fs::File;
+use std::path::Path;
 
 use super::super::calls::callback::push_callback;
 use super::super::calls::guard::{Next, guarded, install as guard};
@@ -17,6 +18,13 @@ pub(super) fn install(stack: Stack<'_>) {
     stack.pop(1);
     stack.push_global("package");
     guard::<{ guarded::LOAD_LIBRARY }, _>(stack, "loadlib", load_library);
+    stack.pop(1);
+    install_search(stack);
+}
+
+/// Puts ours in place of Lua's search for files.
+pub(super) fn install_search(stack: Stack<'_>) {
+    stack.push_global("package");
     push_callback(stack, search_path, 0);
     stack.raw_set_field(-2, "searchpath");
     stack.pop(1);
@@ -90,7 +98,7 @@ fn search_path(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
         let file = replaced(template, b"?", &name);
         let path = c_path(&file);
         let checked = permissions(stack).check_read(&path);
-        if checked.is_ok() && File::open(&path).is_ok() {
+        if checked.is_ok() && can_be_opened(stack, &path) {
             stack.push_bytes(&file);
             return Ok(1);
         }
@@ -108,6 +116,16 @@ fn search_path(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     stack.push_nil();
     stack.push_bytes(&missing.join(b"\n\t".as_slice()));
     Ok(2)
+}
+
+fn can_be_opened(stack: Stack<'_>, path: &Path) -> bool {
+    let tape = stack.tape();
+    if !tape.is_on() {
+        return File::open(path).is_ok();
+    }
+    let kind = format!("whether there is a file {}", path.display());
+    let opened = tape.input(&kind, || File::open(path).is_ok());
+    opened.unwrap_or_default()
 }
 
 fn replaced(text: &[u8], pattern: &[u8], replacement: &[u8]) -> Vec<u8> {

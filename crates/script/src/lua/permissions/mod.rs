@@ -19,6 +19,11 @@ pub(crate) fn restrict_libraries(stack: Stack<'_>) {
     loading::install(stack);
 }
 
+/// Only finds files by permissions, and so by the tape of the simulator.
+pub(crate) fn search_by_permissions(stack: Stack<'_>) {
+    loading::install_search(stack);
+}
+
 fn permissions(stack: Stack<'_>) -> &Permissions {
     &stack.owner().permissions
 }
