@@ -24,8 +24,7 @@ pub(crate) struct Capturing {
 
 impl Capturing {
     pub(crate) fn create(path: &Path, header: &Header) -> io::Result<Self> {
-        let writer = Writer::create(path)?;
-        writer.add(|out| Record::Header(header.clone()).write(out));
+        let writer = Writer::create(path, &Record::Header(header.clone()))?;
         Ok(Self {
             writer,
             kinds: HashMap::new(),

@@ -11,6 +11,8 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use crate::frame::{frame, head};
+use crate::record::Record;
+use crate::value::Recorded;
 
 /// Time between two frames.
 const INTERVAL: Duration = Duration::from_millis(50);
@@ -46,13 +48,15 @@ impl Shared {
 }
 
 impl Writer {
-    /// Makes the file.
+    /// Makes the file, which begins with that record at once.
     ///
     /// # Errors
     /// When it cannot be made, or there is no thread for it.
-    pub(crate) fn create(path: &Path) -> io::Result<Self> {
+    pub(crate) fn create(path: &Path, first: &Record) -> io::Result<Self> {
         let mut file = File::create(path)?;
-        file.write_all(&head())?;
+        let mut records = Vec::new();
+        first.write(&mut records);
+        file.write_all(&[&head()[..], &frame(&records)?].concat())?;
         let shared = Arc::<Shared>::default();
         let writing = Arc::clone(&shared);
         let thread = std::thread::Builder::new().name("capture".into());
@@ -134,15 +138,17 @@ fn write(shared: &Shared, mut file: File) {
 mod tests {
     use super::*;
     use crate::reader::Reader;
-    use crate::record::{Header, Record};
-    use crate::value::Recorded;
+    use crate::record::Header;
+
+    fn header() -> Record {
+        Record::Header(Header::default())
+    }
 
     #[test]
     fn what_was_added_is_in_the_file_before_it_is_closed() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.swc");
-        let writer = Writer::create(&path).unwrap();
-        writer.add(|out| Record::Header(Header::default()).write(out));
+        let writer = Writer::create(&path, &header()).unwrap();
         writer.add(|out| Record::Turn.write(out));
         let is_there = || {
             Reader::open(&path)
@@ -161,8 +167,7 @@ mod tests {
     fn more_than_may_wait_waits_for_the_disk() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.swc");
-        let mut writer = Writer::create(&path).unwrap();
-        writer.add(|out| Record::Header(Header::default()).write(out));
+        let mut writer = Writer::create(&path, &header()).unwrap();
         for _ in 0..40 {
             writer.add(|out| {
                 Record::Content {
@@ -185,7 +190,7 @@ mod tests {
     #[test]
     #[cfg(target_os = "linux")]
     fn a_full_disk_is_said_at_the_end() {
-        let mut writer = Writer::create(Path::new("/dev/null")).unwrap();
+        let mut writer = Writer::create(Path::new("/dev/null"), &header()).unwrap();
         writer.shared.lock().failure = Some(io::Error::other("full"));
         writer.add(|out| Record::Turn.write(out));
         assert_eq!(writer.close().unwrap_err().to_string(), "full");

@@ -90,7 +90,7 @@ fn outcome(capture: &Path) -> (String, u64, String) {
     (word("outcome"), step, word("text"))
 }
 
-const ASKS_FOR_EVERYTHING: &str = r#"
+const ASKS_FOR_EVERYTHING: &str = r"
 sim = require 'sim'
 local part = require 'part'
 function sysCall_init()
@@ -121,7 +121,7 @@ function sysCall_init()
 end
 function sysCall_actuation() print(sim.getSimulationTime(), sim.getSystemTime()) end
 function sysCall_cleanup() print('end', os.time()) end
-"#;
+";
 
 #[test]
 fn a_replay_asks_nobody() {

@@ -5,6 +5,7 @@ mod imports;
 mod page;
 mod rules;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use imports::{
@@ -12,8 +13,8 @@ use imports::{
     sources, without_tests, without_texts,
 };
 use rules::{
-    FUNCTIONS_FOR_SCRIPTS, LUA_NAMES, LUA_ROOMS, NO_PERMISSION_NEEDED, ROOMS, ROOTS_FOR_OTHERS,
-    Rooms, SYSTEM_CALLS,
+    FUNCTIONS_FOR_SCRIPTS, INPUTS, LUA_NAMES, LUA_ROOMS, NO_PERMISSION_NEEDED, ROOMS,
+    ROOTS_FOR_OTHERS, Rooms, SYSTEM_CALLS,
 };
 
 #[test]
@@ -150,6 +151,28 @@ fn who_calls_the_operating_system_asks_for_permission() {
         wrong.is_empty(),
         "ask `cx.permissions()` first:\n{}",
         wrong.join("\n")
+    );
+}
+
+/// A replay is the same run because all that comes from outside comes by the tape: here is where.
+#[test]
+fn the_tape_has_few_inputs() {
+    const METHODS: &[&str] = &[".input(", ".input_for(", ".content(", ".poll(", ".signal("];
+    let on_tape = |file: &PathBuf| {
+        let text = without_tests(&read(file));
+        crate_of(file).as_deref() != Some("capture")
+            && has_word(&text, "tape")
+            && METHODS.iter().any(|method| text.contains(method))
+    };
+    let found: BTreeSet<String> = sources()
+        .iter()
+        .filter(|file| !is_test(file) && on_tape(file))
+        .map(|file| relative(file).display().to_string())
+        .collect();
+    let named: BTreeSet<String> = INPUTS.iter().map(|(file, _)| (*file).to_owned()).collect();
+    assert_eq!(
+        found, named,
+        "see INPUTS in tests/repository/architecture/rules.rs"
     );
 }
 

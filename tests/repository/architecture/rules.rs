@@ -360,6 +360,69 @@ pub const LUA_NAMES: &[&str] = &[
 /// `&mut Cx` changes something or calls scripts.
 pub const FUNCTIONS_FOR_SCRIPTS: &[&str] = &["api", "modules"];
 
+/// Where values from outside get onto the tape of a simulator, with what comes there. Functions that modules mark as `outside` do so in
+/// `binding/outside.rs`, whatever they call.
+pub const INPUTS: &[(&str, &str)] = &[
+    (
+        "crates/format/src/robot_file/mesh_files.rs",
+        "where packages of ROS are",
+    ),
+    (
+        "crates/modules-messaging/src/sim_remote_api/service.rs",
+        "clients of the legacy remote API",
+    ),
+    (
+        "crates/modules-messaging/src/sim_remote_api/services.rs",
+        "their commands",
+    ),
+    (
+        "crates/modules-messaging/src/sim_ws/endpoints.rs",
+        "events of WebSockets",
+    ),
+    (
+        "crates/modules-messaging/src/sim_ws/log.rs",
+        "times of log lines",
+    ),
+    (
+        "crates/modules-messaging/src/sim_ws/mod.rs",
+        "whether ports are free",
+    ),
+    ("crates/permissions/src/files.rs", "files"),
+    ("crates/permissions/src/lib.rs", "where links lead"),
+    ("crates/script/src/app_storage/mod.rs", "persistent data"),
+    (
+        "crates/script/src/binding/outside.rs",
+        "results of functions that call the world outside",
+    ),
+    (
+        "crates/script/src/calls/event_batches.rs",
+        "times of events",
+    ),
+    ("crates/script/src/clock.rs", "the clock"),
+    (
+        "crates/script/src/lua/permissions/loading.rs",
+        "files of modules",
+    ),
+    (
+        "crates/script/src/lua_runtime/taped.rs",
+        "Lua's own libraries",
+    ),
+    ("crates/script/src/person.rs", "answers to dialogs"),
+    (
+        "crates/script/src/python_runtime/link.rs",
+        "messages of Python's processes",
+    ),
+    (
+        "crates/script/src/python_runtime/mod.rs",
+        "whether Python starts",
+    ),
+    ("crates/simulator/src/servers.rs", "addresses of servers"),
+    ("crates/view/src/viewer.rs", "requests of pages"),
+    ("src/cli/run.rs", "requests to end the program"),
+    ("src/cli/session/live.rs", "requests to end the program"),
+    ("src/cli/session/mod.rs", "requests to end the program"),
+];
+
 /// What a script may need a permission for, as code writes it.
 pub const SYSTEM_CALLS: &[&str] = &[
     "std::fs",

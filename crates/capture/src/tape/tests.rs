@@ -1,3 +1,5 @@
+//! Capturing, replaying, and what makes a difference.
+
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
