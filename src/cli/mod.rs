@@ -11,6 +11,7 @@ mod batch;
 mod batch_ray;
 mod built;
 mod convert;
+mod debug;
 mod diff;
 mod doctor;
 mod export;
@@ -63,6 +64,7 @@ enum Command {
     Replay(replay::Args),
     View(view::Args),
     Serve(serve::Args),
+    Debug(debug::Args),
     Test(test::Args),
     Batch(batch::Args),
     Api(api::Args),
@@ -128,6 +130,7 @@ impl Command {
             Self::Replay(args) => replay::replay(&args),
             Self::View(args) => view::view(&args),
             Self::Serve(args) => serve::serve(&args),
+            Self::Debug(args) => debug::debug(&args),
             Self::Test(args) => Ok(test::test(&args)),
             Self::Batch(args) => batch::batch(&args),
             Self::Api(args) => api::api(&args),

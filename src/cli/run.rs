@@ -13,6 +13,7 @@ use super::hashes::{Compared, HashArgs};
 use super::interrupt::Interrupt;
 use super::launch::Launch;
 use super::live::Live;
+use super::output::Output;
 use super::progress::Progress;
 use super::recording::RecordArgs;
 use super::remote::Remote;
@@ -23,7 +24,9 @@ use super::view::ViewArgs;
 use super::{Outcome, USAGE, complain, isolated};
 use format::robot_file::RobotFile;
 use permissions::Permissions;
-use simulator::{RunLimits, RunTotals, ScriptKind, SimulationState, Simulator};
+use simulator::{
+    Builder, RunLimits, RunObserver, RunTotals, ScriptKind, SimulationState, Simulator,
+};
 use view::Viewer;
 
 /// Exit code when a script raised an error.
@@ -209,7 +212,50 @@ fn count(text: &str) -> Result<u64, String> {
 }
 
 impl Args {
-    fn limits(&self) -> RunLimits {
+    /// A simulator with the scene in it; `build` adds to what is made of the options.
+    ///
+    /// # Errors
+    /// When a file cannot be read.
+    pub(super) fn simulator(
+        &self,
+        interrupt: &Interrupt,
+        build: impl FnOnce(Builder) -> Builder,
+    ) -> Result<Simulator, String> {
+        let sources = self.setup.sources(Some(&self.scene))?;
+        let options = self.setup.options(Some(&self.scene), interrupt);
+        let options = self.remote.guard(options);
+        let mut sim = build(Simulator::builder().options(options)).build();
+        let kind = self.kind.into();
+        self.setup.fill(&mut sim, sources, kind, Some(&self.scene));
+        Ok(sim)
+    }
+
+    /// Starts the remote APIs that are asked for.
+    ///
+    /// # Errors
+    /// When a port is not free.
+    pub(super) fn serve(
+        &self,
+        sim: &mut Simulator,
+        output: &Output,
+        interrupt: &Interrupt,
+    ) -> Result<(), String> {
+        let zmq = self.remote.asks_for_zmq();
+        self.remote.serve(zmq, &self.setup, sim, output, interrupt)
+    }
+
+    /// Runs the simulation to its end.
+    pub(super) fn go(&self, sim: &mut Simulator, observer: &mut dyn RunObserver) -> RunTotals {
+        if self.no_start {
+            sim.loop_freely(self.loops, observer)
+        } else if sim.errors() > 0 && !self.has_end() {
+            RunTotals::default()
+        } else {
+            sim.run(self.limits(), observer)
+        }
+    }
+
+    pub(super) fn limits(&self) -> RunLimits {
         RunLimits {
             steps: self.steps,
             time: self.time,

@@ -6,6 +6,7 @@ mod c_modules;
 mod capture;
 mod cli;
 mod conformance;
+mod debugger;
 mod physics;
 mod plugins;
 mod python;

@@ -12,9 +12,10 @@ use modules::ALL;
 const INNER: &[&str] = &[
     "base",
     "checkargs/check",
+    "debug_names",
     "deprecate",
     "json_scanner",
-    "coverage_loaders",
+    "loaders",
     "defaultMainScript",
     "functional/functions",
     "luassert/arguments",

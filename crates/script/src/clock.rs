@@ -65,6 +65,8 @@ pub struct Clock {
     real_time_origin: Cell<f64>,
     created: Instant,
     tape: Tape,
+    /// Wall-clock seconds that did not count, since a debugger had stopped everything.
+    stood_still: Cell<f64>,
 }
 
 impl Clock {
@@ -84,6 +86,7 @@ impl Clock {
             real_time_origin: Cell::new(0.0),
             created: wall_clock::now(),
             tape: tape.clone(),
+            stood_still: Cell::new(0.0),
         }
     }
 
@@ -109,8 +112,13 @@ impl Clock {
 
     /// Seconds since this simulator was made, by the wall clock.
     pub fn wall_seconds(&self) -> f64 {
-        let elapsed = || self.created.elapsed().as_secs_f64();
+        let elapsed = || self.created.elapsed().as_secs_f64() - self.stood_still.get();
         self.tape.input("the clock", elapsed).unwrap_or_default()
+    }
+
+    /// Leaves out wall-clock seconds in which everything stood still.
+    pub fn leave_out(&self, seconds: f64) {
+        self.stood_still.set(self.stood_still.get() + seconds);
     }
 
     /// Whether the simulation was asked to end.

@@ -100,6 +100,10 @@ pub use event_stream::EventFilters;
 pub use files::scene_save::readable_bytes;
 pub use files::scene_switch::SceneSource;
 pub use host::{
+    Armed, CodeLevel, Container, Debuggee, Debugger, Frame, FrameId, LoadedText, Page, PageKind,
+    Place, Variable,
+};
+pub use host::{
     CallError, CallbackResult, Callee, Interpreter, Language, Languages, Runtime, ScriptError, Sim,
     SourceText,
 };
@@ -107,8 +111,8 @@ pub use host::{Detached, Env, Hook, ScriptGroup, changed_level};
 pub use log::auxiliary_consoles::AuxiliaryConsole;
 pub use log::suggestion::nearest;
 pub use lua::{
-    LuaObject, Stack, Type as LuaType, calls_begun, interrupt_running_code, is_call, only_ask,
-    place_is_exact, place_of_interruption,
+    LuaObject, Stack, Type as LuaType, ask_running_code, calls_begun, interrupt_running_code,
+    is_call, only_ask, place_is_exact, place_of_interruption,
 };
 pub use lua_runtime::reference_modules::ReferenceModule;
 pub use lua_runtime::user_modules::UserModule;

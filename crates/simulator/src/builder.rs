@@ -5,7 +5,8 @@ use std::rc::Rc;
 use super::{NativeLanguage, NativeScripts, Simulator};
 use permissions::Permissions;
 use script::{
-    Console, Languages, LuaLanguage, Options, PythonHost, PythonLanguage, Silent, Sim, UserModule,
+    Console, Debugger, Languages, LuaLanguage, Options, PythonHost, PythonLanguage, Silent, Sim,
+    UserModule,
 };
 
 /// Collects what a [`Simulator`] is made of; see [`Simulator::builder`].
@@ -15,6 +16,7 @@ pub struct Builder {
     console: Box<dyn Console>,
     modules: Vec<UserModule>,
     python: Option<Rc<dyn PythonHost>>,
+    debugger: Option<Rc<dyn Debugger>>,
 }
 
 impl Default for Builder {
@@ -24,6 +26,7 @@ impl Default for Builder {
             console: Box::new(Silent),
             modules: Vec::new(),
             python: None,
+            debugger: None,
         }
     }
 }
@@ -99,6 +102,14 @@ impl Builder {
         }
     }
 
+    /// Who decides where Lua scripts stop.
+    pub fn debugger(self, debugger: Rc<dyn Debugger>) -> Self {
+        Self {
+            debugger: Some(debugger),
+            ..self
+        }
+    }
+
     /// A simulator with an empty scene.
     pub fn build(self) -> Simulator {
         let native_scripts = Rc::<NativeScripts>::default();
@@ -109,6 +120,10 @@ impl Builder {
             Box::new(NativeLanguage(Rc::clone(&native_scripts))),
         ]);
         let sim = Sim::new(self.options, modules::registry(), self.console, languages);
+        if let Some(debugger) = self.debugger {
+            // The simulator was just made, so it has none.
+            let _ = sim.scripts.debugger.set(debugger);
+        }
         Simulator::with_main_and_sandbox(sim, native_scripts)
     }
 }

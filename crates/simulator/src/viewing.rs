@@ -8,7 +8,7 @@ use scene::object::script_object::ScriptType;
 use scene::{Data, Scene, ValueType};
 use script::log::RecentLine;
 use script::property_table::flags;
-use script::{ApiError, Ask, Present, Situation, SysCall, Watcher};
+use script::{ApiError, Ask, Present, Sim, Situation, SysCall, Watcher};
 
 /// A property of an object, of the scene or of the application.
 pub struct PropertyRow {
@@ -82,43 +82,7 @@ impl Simulator {
     /// # Errors
     /// When there is nothing with that handle.
     pub fn property_rows(&self, handle: i64) -> Result<Vec<PropertyRow>, ApiError> {
-        let sim = &self.sim;
-        let target = sim.property_target(handle, &self.the(ScriptType::Sandbox).0)?;
-        let (before, after) = sim.rows_of(&target)?;
-        let is_shown = |name: &str| !NOT_SHOWN.contains(&name);
-        let statics = before
-            .iter()
-            .chain(after)
-            .filter(|row| row.flags & flags::DEPRECATED == 0 && is_shown(row.name));
-        let mut rows: Vec<PropertyRow> = statics
-            .filter_map(|row| {
-                let value = sim.read_row(&target, row).ok()?;
-                let is_writable = row.flags & flags::NOT_WRITABLE == 0;
-                Some(PropertyRow {
-                    name: row.name.to_owned(),
-                    class: row.class,
-                    ty: row.ty,
-                    value,
-                    is_writable,
-                })
-            })
-            .collect();
-        for name in sim.stored_names(&target) {
-            let Some((ty, _)) = sim.property_info(&target, &name) else {
-                continue;
-            };
-            let Ok(value) = sim.read_property(&target, &name, ty) else {
-                continue;
-            };
-            rows.push(PropertyRow {
-                name,
-                class: "data",
-                ty,
-                value,
-                is_writable: true,
-            });
-        }
-        Ok(rows)
+        property_rows(&self.sim, handle)
     }
 
     /// The type of a property.
@@ -199,5 +163,73 @@ impl Simulator {
         all.into_iter()
             .filter(|contact| Some(contact.sub_step) == last)
             .collect()
+    }
+}
+
+/// The properties of what has that handle, as [`Simulator::property_rows`].
+///
+/// # Errors
+/// When there is nothing with that handle.
+pub fn property_rows(sim: &Rc<Sim>, handle: i64) -> Result<Vec<PropertyRow>, ApiError> {
+    let sandbox = sim
+        .scripts
+        .detached(ScriptType::Sandbox)
+        .ok_or(ApiError::NoSuchScript)?;
+    let target = sim.property_target(handle, &sandbox)?;
+    let (before, after) = sim.rows_of(&target)?;
+    let is_shown = |name: &str| !NOT_SHOWN.contains(&name);
+    let statics = before
+        .iter()
+        .chain(after)
+        .filter(|row| row.flags & flags::DEPRECATED == 0 && is_shown(row.name));
+    let mut rows: Vec<PropertyRow> = statics
+        .filter_map(|row| {
+            let value = sim.read_row(&target, row).ok()?;
+            let is_writable = row.flags & flags::NOT_WRITABLE == 0;
+            Some(PropertyRow {
+                name: row.name.to_owned(),
+                class: row.class,
+                ty: row.ty,
+                value,
+                is_writable,
+            })
+        })
+        .collect();
+    for name in sim.stored_names(&target) {
+        let Some((ty, _)) = sim.property_info(&target, &name) else {
+            continue;
+        };
+        let Ok(value) = sim.read_property(&target, &name, ty) else {
+            continue;
+        };
+        rows.push(PropertyRow {
+            name,
+            class: "data",
+            ty,
+            value,
+            is_writable: true,
+        });
+    }
+    Ok(rows)
+}
+
+/// The function with which scripts set a property of that type.
+pub fn property_setter(ty: ValueType) -> &'static str {
+    match ty {
+        ValueType::Bool => "sim.setBoolProperty",
+        ValueType::Int => "sim.setIntProperty",
+        ValueType::Long => "sim.setLongProperty",
+        ValueType::Float => "sim.setFloatProperty",
+        ValueType::String => "sim.setStringProperty",
+        ValueType::Buffer => "sim.setBufferProperty",
+        ValueType::Table => "sim.setTableProperty",
+        ValueType::Vector2 => "sim.setVector2Property",
+        ValueType::Vector3 => "sim.setVector3Property",
+        ValueType::Quaternion => "sim.setQuaternionProperty",
+        ValueType::Pose => "sim.setPoseProperty",
+        ValueType::Color => "sim.setColorProperty",
+        ValueType::FloatArray => "sim.setFloatArrayProperty",
+        ValueType::IntArray => "sim.setIntArrayProperty",
+        ValueType::IntArray2 => "sim.setIntArray2Property",
     }
 }

@@ -104,7 +104,7 @@ impl RunObserver for Session<'_> {
 }
 
 /// Sleeps after a loop iteration without a step: the next step is not due yet, or a remote client delays it.
-fn rest(sim: &Simulator) {
+pub(super) fn rest(sim: &Simulator) {
     if sim.tape().is_replaying() {
         return;
     }

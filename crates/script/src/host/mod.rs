@@ -5,6 +5,7 @@
 
 mod app;
 mod broadcasts;
+mod debugging;
 mod env;
 mod hints;
 mod line_counts;
@@ -16,6 +17,10 @@ mod signal_owners;
 mod sim;
 
 pub use app::AppData;
+pub use debugging::{
+    Armed, Container, Debuggee, Debugger, Frame, FrameId, Level as CodeLevel, LoadedText, Page,
+    PageKind, Place, Variable,
+};
 pub(crate) use env::level::Level;
 pub use env::yields::{LevelChange, changed_level};
 pub use env::{Env, Hook};

@@ -5,7 +5,7 @@
 
 use std::rc::Rc;
 
-use super::{Env, Hook, Sim};
+use super::{Debuggee, Env, Hook, Sim};
 use crate::coverage::LineCounts;
 use crate::error::ApiError;
 use crate::function_ref::FunctionRef;
@@ -126,6 +126,11 @@ pub trait Interpreter {
 
     /// The calls in progress, as the language shows them.
     fn traceback(&self) -> String;
+
+    /// The script, to look into while everything stands still; None where the language has no such thing.
+    fn debuggee(&self) -> Option<&dyn Debuggee> {
+        None
+    }
 
     /// Returns the counts of lines that ran since the last time. Only called where lines are counted.
     fn take_line_counts(&self, _sim: &Sim) -> LineCounts {

@@ -19,6 +19,7 @@ mod bytecode;
 mod calls;
 mod file;
 mod hooks;
+mod live;
 mod object;
 mod owner;
 mod permissions;
@@ -44,6 +45,9 @@ pub use hooks::interrupt::{
 pub(crate) use hooks::resume::report_dropped_errors;
 pub(crate) use hooks::running::{RunningCallback, running_callback_number};
 pub use hooks::running::{calls_begun, is_call};
+pub use hooks::told::ask_running_code;
+pub(crate) use hooks::told::listen;
+pub(crate) use live::{Call, LiveCode};
 pub use object::LuaObject;
 pub(crate) use owner::Owner;
 pub(crate) use permissions::{restrict_libraries, search_by_permissions};

@@ -45,6 +45,7 @@ fn call_bound(stack: Stack<'_>, bound: &Bound) -> Result<c_int, String> {
         .or_else(|error| fail(stack, bound, &bound.worded(error)));
     if bound.function.mutates {
         stack.env().collect_events();
+        stack.env().tell_of_change();
     }
     result
 }

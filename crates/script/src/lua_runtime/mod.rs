@@ -3,6 +3,7 @@
 mod bottom;
 mod buffers;
 pub(crate) mod coverage;
+mod debugging;
 mod functions;
 mod idle;
 mod implicit;
@@ -28,8 +29,8 @@ use super::lua::{
 };
 use crate::function_ref::FunctionRef;
 use crate::host::{
-    CallError, CallbackResult, Callee, Env, Hook, Integers, Interpreter, Language, Runtime,
-    ScriptError, Sim, SourceText,
+    CallError, CallbackResult, Callee, Debuggee, Env, Hook, Integers, Interpreter, Language,
+    Runtime, ScriptError, Sim, SourceText,
 };
 use crate::sys_call::SysCall;
 use bottom::Bottom;
@@ -167,6 +168,7 @@ impl Interpreter for LuaInterpreter {
         if let Some(path) = &source.counted_as {
             coverage::begin(stack, source, path);
         }
+        debugging::begin(stack, source.text);
         if old_calls::are_expected_by(source.text) {
             Ok(old_calls::begin(stack, &*self.sim()?)?)
         } else {
@@ -254,6 +256,7 @@ impl Interpreter for LuaInterpreter {
     fn run(&self, text: &[u8], chunk_name: &str) -> Result<(), ScriptError> {
         let stack = self.stack();
         stack.load_text(text, chunk_name)?;
+        debugging::begin(stack, text);
         Ok(stack.protected_call(0, 0)?)
     }
 
@@ -287,6 +290,10 @@ impl Interpreter for LuaInterpreter {
 
     fn traceback(&self) -> String {
         self.stack().traceback()
+    }
+
+    fn debuggee(&self) -> Option<&dyn Debuggee> {
+        debugging::is_installed(self.stack()).then_some(self)
     }
 
     fn take_line_counts(&self, sim: &Sim) -> LineCounts {

@@ -11,7 +11,8 @@ use super::members::{SIM, install_globals, install_sim, push_missing};
 use super::reference_modules::ReferenceModule;
 use super::user_modules::UserModule;
 use super::{
-    buffers, coverage, implicit, library_globals, shared_process, stand_ins, taped, test_file,
+    buffers, coverage, debugging, implicit, library_globals, shared_process, stand_ins, taped,
+    test_file,
     threads, user_modules,
 };
 use crate::binding::registry::{Member, Namespace};
@@ -73,6 +74,9 @@ pub(super) fn fill(
     }
     if sim.options.count_lines {
         coverage::install(sim, stack)?;
+    }
+    if sim.scripts.debugger.get().is_some() {
+        debugging::install(sim, stack)?;
     }
     if sim.options.limits.is_some() {
         shared_process::install(sim, stack)?;

@@ -13,7 +13,7 @@ const MAX_POLL_INTERVAL: Duration = Duration::from_millis(5);
 
 impl Options {
     /// Whether the program is being stopped.
-    pub(crate) fn is_interrupted(&self) -> bool {
+    pub fn is_interrupted(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 

@@ -11,7 +11,7 @@ use super::observe::handle_of;
 use super::request::Action;
 use scene::{Data, Handle};
 use script::log::RecentLine;
-use simulator::Simulator;
+use simulator::{Simulator, property_setter};
 
 pub(crate) use inspector::rows;
 
@@ -105,7 +105,7 @@ fn set(sim: &mut Simulator, handle: i64, name: &str, value: &Value) -> Result<()
     let data =
         values::from_json(ty, value).ok_or_else(|| format!("{name} is {}", values::kind(ty)))?;
     let arguments = [Data::Int(handle), Data::text(name), data];
-    sim.call_api(values::setter(ty), &arguments)
+    sim.call_api(property_setter(ty), &arguments)
         .map(drop)
         .map_err(|error| error.to_string())
 }

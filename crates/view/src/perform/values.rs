@@ -85,24 +85,3 @@ pub(super) fn kind(ty: ValueType) -> &'static str {
         ValueType::Buffer | ValueType::Table => "not written by pages",
     }
 }
-
-/// The function with which scripts set a property of that type.
-pub(super) fn setter(ty: ValueType) -> &'static str {
-    match ty {
-        ValueType::Bool => "sim.setBoolProperty",
-        ValueType::Int => "sim.setIntProperty",
-        ValueType::Long => "sim.setLongProperty",
-        ValueType::Float => "sim.setFloatProperty",
-        ValueType::String => "sim.setStringProperty",
-        ValueType::Buffer => "sim.setBufferProperty",
-        ValueType::Table => "sim.setTableProperty",
-        ValueType::Vector2 => "sim.setVector2Property",
-        ValueType::Vector3 => "sim.setVector3Property",
-        ValueType::Quaternion => "sim.setQuaternionProperty",
-        ValueType::Pose => "sim.setPoseProperty",
-        ValueType::Color => "sim.setColorProperty",
-        ValueType::FloatArray => "sim.setFloatArrayProperty",
-        ValueType::IntArray => "sim.setIntArrayProperty",
-        ValueType::IntArray2 => "sim.setIntArray2Property",
-    }
-}

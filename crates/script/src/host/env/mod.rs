@@ -58,6 +58,7 @@ pub struct Env {
     warned_deprecated: RefCell<HashSet<usize>>,
     watched: bool,
     tape: Tape,
+    is_debugged: bool,
 }
 
 /// Functions that run before and after callbacks. The lists are shared with the callback that is running, which may change them.
@@ -103,6 +104,7 @@ impl Env {
             warned_deprecated: RefCell::default(),
             watched: sim.options.limits.is_some(),
             tape: sim.options.permissions.tape().clone(),
+            is_debugged: sim.scripts.debugger.get().is_some(),
         }
     }
 
@@ -166,6 +168,15 @@ impl Env {
             || "a script".into(),
             |scene| format!("script {}", self.script.log_name(&scene)),
         )
+    }
+
+    /// Tells a debugger that a call of the script may have changed the scene.
+    pub(crate) fn tell_of_change(&self) {
+        if self.is_debugged
+            && let Some(sim) = self.sim.upgrade()
+        {
+            sim.tell_debugger(|debugger| debugger.scene_changed(&sim, Some(&self.script)));
+        }
     }
 
     /// The interpreter this belongs to, until it is closed.

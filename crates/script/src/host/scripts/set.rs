@@ -1,12 +1,12 @@
 //! The scripts of a simulator: execution order, callbacks in use, call depth.
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::order::OrderCache;
 use crate::budget::Budget;
-use crate::host::{Detached, Languages, Script, Sim};
+use crate::host::{Debugger, Detached, Languages, Script, Sim};
 use crate::sys_call::SysCall;
 use scene::object::script_object::ScriptType;
 use scene::{Field, Handle, Mark, Scene, Topics};
@@ -27,6 +27,8 @@ pub(crate) type EndOfScript = fn(&Rc<Sim>, &Script);
 pub struct ScriptSet {
     /// The languages they can be written in.
     pub(crate) languages: Languages,
+    /// Who decides where they stop; set before they start.
+    pub debugger: OnceCell<Rc<dyn Debugger>>,
     /// The memory all of them share.
     pub(crate) budget: Rc<Budget>,
     by_id: RefCell<BTreeMap<i64, Rc<Script>>>,
@@ -57,6 +59,7 @@ impl ScriptSet {
         Self {
             languages,
             budget: Rc::new(Budget::new(memory)),
+            debugger: OnceCell::new(),
             by_id: RefCell::default(),
             detached: RefCell::default(),
             next_detached: Cell::new(FIRST_DETACHED),

@@ -3,6 +3,7 @@
 //! Parts that need no interpretation are copied as bytes.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// Signature, version, format, check data, sizes, two check numbers.
 const HEADER_SIZE: usize = 4 + 1 + 1 + 6 + 3 + 8 + 8;
@@ -138,6 +139,22 @@ impl Prototype<'_> {
 
     pub(super) fn constant_count(&self) -> usize {
         self.constants.len()
+    }
+
+    /// Makes the local variables that are live at instruction `place` live in these further instructions too, which come after all others.
+    pub(super) fn repeat_locals(&mut self, place: usize, instructions: &Range<usize>) {
+        let is_live = |local: &&Local<'_>| (local.begin..local.end).contains(&place);
+        let repeated: Vec<_> = self
+            .locals
+            .iter()
+            .filter(is_live)
+            .map(|local| Local {
+                name: local.name,
+                begin: instructions.start,
+                end: instructions.end,
+            })
+            .collect();
+        self.locals.extend(repeated);
     }
 
     /// Updates the live ranges of locals after instructions moved to `place`.

@@ -8,6 +8,7 @@ mod chunk;
 mod probes;
 mod statement;
 mod stubs;
+mod traps;
 
 use std::collections::BTreeSet;
 use std::ffi::{CStr, CString, c_int};
@@ -20,6 +21,7 @@ use super::stack::Stack;
 use chunk::Chunk;
 pub(crate) use chunk::Prototype;
 pub(crate) use stubs::PassedFunction;
+pub(crate) use traps::{FunctionTraps, Trap};
 
 /// A function compiled by Lua.
 #[derive(Debug, PartialEq, Eq)]
@@ -72,6 +74,16 @@ impl Bytecode {
             bytecode: Self(bytes),
             upvalue,
         })
+    }
+
+    /// The function with traps on these lines, which are not armed; None where there is no room for them.
+    pub(crate) fn with_traps(
+        &self,
+        lines: &BTreeSet<u32>,
+    ) -> Option<(Instrumented, FunctionTraps)> {
+        let (bytes, upvalue, traps) = traps::with_traps(&self.0, lines)?;
+        let bytecode = Self(bytes);
+        Some((Instrumented { bytecode, upvalue }, traps))
     }
 }
 

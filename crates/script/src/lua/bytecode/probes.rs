@@ -11,12 +11,13 @@ use super::chunk::{Chunk, Prototype};
 /// The table as debuggers see it.
 const NAME: &str = "(coverage)";
 
-mod op {
+pub(super) mod op {
     pub const LOADI: u32 = 1;
     pub const LFALSESKIP: u32 = 6;
     pub const GETUPVAL: u32 = 9;
     pub const SETTABUP: u32 = 15;
     pub const SETTABLE: u32 = 16;
+    pub const SETI: u32 = 17;
     pub const ADDI: u32 = 21;
     pub const MMBIN: u32 = 46;
     pub const MMBINK: u32 = 48;
@@ -61,22 +62,22 @@ fn add_to(function: &mut Prototype<'_>, outer: u8, lines: &BTreeSet<u32>) -> Opt
     Some(upvalue)
 }
 
-fn code(instruction: u32) -> u32 {
+pub(super) fn code(instruction: u32) -> u32 {
     instruction & 0x7f
 }
 
 /// The last field of eight bits.
-fn c(instruction: u32) -> u32 {
+pub(super) fn c(instruction: u32) -> u32 {
     instruction >> 24
 }
 
 /// The field of seventeen bits.
-fn bx(instruction: u32) -> i64 {
+pub(super) fn bx(instruction: u32) -> i64 {
     i64::from(instruction >> 15)
 }
 
 /// The instruction that may run next, other than the one after it.
-fn target(place: usize, instruction: u32) -> Option<usize> {
+pub(super) fn target(place: usize, instruction: u32) -> Option<usize> {
     let next = numbers::count(place) + 1;
     let target = match code(instruction) {
         op::JMP => next + i64::from(instruction >> 7) - ZERO_25,
@@ -92,7 +93,7 @@ fn target(place: usize, instruction: u32) -> Option<usize> {
 }
 
 /// The instruction with another jump target; instructions without one are unchanged.
-fn aimed(instruction: u32, place: usize, target: usize) -> Option<u32> {
+pub(super) fn aimed(instruction: u32, place: usize, target: usize) -> Option<u32> {
     let (next, target) = (numbers::count(place) + 1, numbers::count(target));
     let in_17 = |distance: i64| {
         let distance = (0..=MAX_17)
@@ -193,7 +194,7 @@ fn places(function: &Prototype<'_>, counted: &BTreeSet<u32>) -> Vec<Vec<u32>> {
     places
 }
 
-fn entered_from_other_lines(function: &Prototype<'_>) -> Vec<bool> {
+pub(super) fn entered_from_other_lines(function: &Prototype<'_>) -> Vec<bool> {
     let mut entered = vec![false; function.code.len()];
     for (i, &instruction) in function.code.iter().enumerate() {
         if let Some(target) = target(i, instruction)
@@ -209,7 +210,7 @@ fn entered_from_other_lines(function: &Prototype<'_>) -> Vec<bool> {
 }
 
 /// The end of a numeric loop on the same line as its beginning, which has run before.
-fn is_recorded_before(function: &Prototype<'_>, i: usize) -> bool {
+pub(super) fn is_recorded_before(function: &Prototype<'_>, i: usize) -> bool {
     let begin = target(i, function.code[i]).and_then(|body| body.checked_sub(1));
     code(function.code[i]) == op::FORLOOP
         && begin.is_some_and(|begin| {
@@ -219,7 +220,7 @@ fn is_recorded_before(function: &Prototype<'_>, i: usize) -> bool {
 
 /// Whether a probe can be inserted before an instruction: not if the previous instruction requires it to be next, or leaves a variable
 /// number of values for it.
-fn accepts_probe_before(function: &Prototype<'_>, i: usize) -> bool {
+pub(super) fn accepts_probe_before(function: &Prototype<'_>, i: usize) -> bool {
     let belongs = matches!(
         code(function.code[i]),
         op::MMBIN..=op::MMBINK | op::EXTRAARG | op::TFORCALL | op::TFORLOOP

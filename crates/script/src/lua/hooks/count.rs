@@ -6,6 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use mlua::ffi;
 
 use super::interrupt::{answer_signal, place_of_interruption};
+use super::told;
 use crate::lua::Stack;
 use crate::lua::api::{self, Hook};
 use crate::lua::calls::callback::panic_message;
@@ -145,6 +146,7 @@ pub(super) fn next_step(stack: Stack<'_>) -> Step {
     let budget = stack.budget();
     let before = budget.enter(true);
     let step = step(stack, || {
+        told::of_question(stack);
         answer_signal(stack).unwrap_or_else(|| on_count(stack, api::lua_isyieldable(stack) != 0))
     });
     budget.leave(before);

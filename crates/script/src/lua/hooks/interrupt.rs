@@ -117,7 +117,7 @@ pub(super) fn answer_signal(stack: Stack<'_>) -> Option<HookAction> {
 }
 
 /// The coroutine that the function written in C on top of the calls has resumed: its first argument, or what it was made for.
-fn resumed_by(coroutine: Stack<'_>) -> Option<Stack<'_>> {
+pub(in crate::lua) fn resumed_by(coroutine: Stack<'_>) -> Option<Stack<'_>> {
     if !coroutine.frame(0, Facts::SOURCE)?.is_native() {
         return None;
     }

@@ -6,3 +6,4 @@ pub(super) mod debug_library;
 pub(super) mod interrupt;
 pub(super) mod resume;
 pub(super) mod running;
+pub(super) mod told;

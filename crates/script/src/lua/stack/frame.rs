@@ -22,6 +22,7 @@ impl Facts {
     pub(in crate::lua) const NAME: Self = Self(c"n");
     pub(in crate::lua) const SOURCE: Self = Self(c"S");
     pub(in crate::lua) const ALL: Self = Self(c"nSl");
+    pub(in crate::lua) const EVERYTHING: Self = Self(c"nSlt");
 }
 
 impl<'a> Stack<'a> {
@@ -62,6 +63,16 @@ impl Frame<'_> {
     /// The line being executed; -1 for a function written in C.
     pub(in crate::lua) fn line(&self) -> c_int {
         self.record.currentline
+    }
+
+    /// The first line of its text; 0 for the main function of a text.
+    pub(in crate::lua) fn defined_at(&self) -> c_int {
+        self.record.linedefined
+    }
+
+    /// Whether it took the place of the function that called it.
+    pub(in crate::lua) fn is_tail_call(&self) -> bool {
+        self.record.istailcall != 0
     }
 
     /// The name it was called by.

@@ -46,9 +46,10 @@ struct Own {
 /// Counts the lines of every text that a state loads from now on.
 pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
     stack.lua().set_app_data(Coverage::default());
-    load_module(stack, sim, "coverage_loaders")?;
+    load_module(stack, sim, "loaders")?;
     push_callback(stack, count, 0);
-    stack.protected_call(1, 0)
+    stack.push_bytes(b"(coverage)");
+    stack.protected_call(2, 0)
 }
 
 /// Instruments a function that was just loaded.

@@ -1,17 +1,17 @@
 --[[
-With coverage, instruments code that scripts load. Internal.
+With coverage or a debugger, instruments code that scripts load. Internal.
 ]]
 
-local count = ...
+local count, upvalue, table_ = ...
 local type, error, pcall = type, error, pcall
 local getupvalue, setupvalue = debug.getupvalue, debug.setupvalue
 
--- A function that was dumped has lost the table its probes write to.
+-- A function that was dumped has lost the table its probes or traps write to.
 local function withTable(chunk)
     for i = 1, 255 do
         local name = getupvalue(chunk, i)
         if not name then return end
-        if name == '(coverage)' then setupvalue(chunk, i, {}) end
+        if name == upvalue then setupvalue(chunk, i, table_ or {}) end
     end
 end
 

@@ -1,0 +1,21 @@
+//! A debugger of running simulations: an adapter for clients that speak the Debug Adapter Protocol.
+//!
+//! Lua scripts stop at traps in their bytecode (`script::Debugger`); this crate decides where, and answers the client. While code
+//! stands still, so do all scripts, the physics, the simulation time and the clients of the simulator, since one thread owns them all.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "what a person waits for is no part of the simulation"
+)]
+
+mod breakpoints;
+pub mod framing;
+mod link;
+mod objects;
+mod references;
+pub mod request;
+mod session;
+mod sources;
+mod stepping;
+
+pub use link::{Incoming, Link, Wake};
+pub use session::{Ending, Launch, Position, Session};

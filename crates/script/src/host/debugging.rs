@@ -1,0 +1,229 @@
+//! The interface between running scripts and a debugger.
+//!
+//! The interpreters of a simulator with a [`Debugger`] tell it what they load, and when code reaches a place it wants to know of. While it
+//! answers, everything stands still: it is called on the thread of the simulator, in the middle of the code. It looks at the scripts by
+//! [`Debuggee`].
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::rc::Rc;
+
+use super::{Script, Sim};
+use crate::coverage::FunctionLines;
+use scene::Data;
+
+/// Decides where code stops, and for how long.
+pub trait Debugger {
+    /// A script has loaded a text, which does not run yet. Its traps are not armed.
+    fn text_loaded(&self, sim: &Rc<Sim>, script: &Rc<Script>, text: &Rc<LoadedText>);
+
+    /// Code is about to run a line with an armed trap.
+    fn line_reached(&self, sim: &Rc<Sim>, place: &Place<'_>);
+
+    /// Code has raised an error that it does not catch, or that `is_caught`. The calls are those where it was raised.
+    fn error_raised(&self, sim: &Rc<Sim>, script: &Rc<Script>, message: &str, is_caught: bool);
+
+    /// A call of a script has perhaps changed the scene.
+    fn scene_changed(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>);
+
+    /// Nothing runs, or code runs that does not end; `script` is the one that does.
+    fn look(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>);
+}
+
+/// A text whose lines can have traps.
+#[derive(Debug)]
+pub struct LoadedText {
+    /// Its name in the interpreter.
+    pub chunk_name: Vec<u8>,
+    /// The text, with bytes as it was loaded.
+    pub text: Vec<u8>,
+    /// The file it is from; None for a text of the scene.
+    pub file: Option<PathBuf>,
+    /// What people call it: the file, or the path of the script.
+    pub title: String,
+    /// The lines with code.
+    pub lines: BTreeSet<u32>,
+    /// The functions of the text.
+    pub functions: Vec<FunctionLines>,
+}
+
+/// Where code is about to run a line.
+pub struct Place<'a> {
+    /// The script.
+    pub script: &'a Rc<Script>,
+    /// The text.
+    pub text: &'a Rc<LoadedText>,
+    /// The line, from 1.
+    pub line: u32,
+    /// The first line of the function; 0 for the main function of a text.
+    pub function: u32,
+    /// Whether the function took the place of its caller.
+    pub is_tail_call: bool,
+    /// Counts the functions below.
+    pub(crate) level: &'a dyn Fn() -> Level,
+}
+
+impl Place<'_> {
+    /// The coroutine, and how many functions run below this one in it: counted when it is asked for, since there may be many.
+    pub fn level(&self) -> Level {
+        (self.level)()
+    }
+}
+
+/// A coroutine, and a number of functions that run in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Level {
+    /// Identifies the coroutine of a script as long as it is alive.
+    pub coroutine: usize,
+    /// Functions that run below.
+    pub below: i32,
+}
+
+/// Which traps of a text are armed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Armed {
+    /// Those of all lines.
+    All,
+    /// Those of these lines.
+    Lines(BTreeSet<u32>),
+}
+
+/// A running function: a coroutine of the script by its place among those that have resumed each other, and the functions below.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FrameId {
+    /// 0 is the main coroutine.
+    pub coroutine: usize,
+    /// Functions that run below it in its coroutine.
+    pub below: i32,
+}
+
+/// A running function, as people see it.
+#[derive(Debug, Clone)]
+pub struct Frame {
+    /// For questions about it.
+    pub id: FrameId,
+    /// Its name, as far as it is known.
+    pub name: String,
+    /// Its text; None where that is not one with traps.
+    pub text: Option<Rc<LoadedText>>,
+    /// The name of its text.
+    pub chunk_name: Vec<u8>,
+    /// The line it is at.
+    pub line: u32,
+}
+
+/// Something with variables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Container {
+    /// Local variables of a function.
+    Locals(FrameId),
+    /// Variables of functions around a function.
+    Upvalues(FrameId),
+    /// Global variables.
+    Globals,
+    /// A value that was shown before.
+    Value(u32),
+}
+
+/// Which variables of a container.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Page {
+    /// Only items of a list, or only the others.
+    pub kind: Option<PageKind>,
+    /// So many are left out.
+    pub start: usize,
+    /// At most so many; 0 for all.
+    pub count: usize,
+}
+
+/// The halves of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PageKind {
+    /// Items of a list.
+    Indexed,
+    /// Everything else.
+    Named,
+}
+
+/// A variable, as people see it.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Variable {
+    /// Its name, or the key in brackets.
+    pub name: String,
+    /// Its value.
+    pub value: String,
+    /// The type of the value.
+    pub kind: &'static str,
+    /// The number of the value where it has variables.
+    pub contents: Option<u32>,
+    /// The number of its items.
+    pub indexed: usize,
+    /// The number of its other variables.
+    pub named: usize,
+}
+
+/// A script that can be looked into while everything stands still.
+pub trait Debuggee {
+    /// Arms and disarms traps.
+    fn arm(&self, wanted: &dyn Fn(&LoadedText) -> Armed);
+
+    /// The functions that run in the script, innermost first, up to `count`; those of its thread where it waits.
+    fn frames(&self, count: usize) -> Vec<Frame>;
+
+    /// Remembers the running coroutine, for [`remembered`](Self::remembered).
+    fn remember(&self);
+
+    /// The remembered coroutine and the number of functions that run in it, less one: -1 when it has ended.
+    fn remembered(&self) -> Option<Level>;
+
+    /// The variables of a container.
+    fn variables(&self, of: Container, page: Page) -> Vec<Variable>;
+
+    /// The value of an expression, or what statements return, where variables are those of the function. Without one they are global.
+    ///
+    /// # Errors
+    /// The text of the error.
+    fn evaluate(&self, frame: Option<FrameId>, code: &str) -> Result<Variable, String>;
+
+    /// The same as plain data.
+    ///
+    /// # Errors
+    /// The text of the error.
+    fn evaluate_data(&self, frame: Option<FrameId>, code: &str) -> Result<Data, String>;
+
+    /// Sets the variable of a container to the value of an expression, and returns it.
+    ///
+    /// # Errors
+    /// When there is no such variable, or the text of the error.
+    fn assign(
+        &self,
+        of: Container,
+        name: &str,
+        frame: Option<FrameId>,
+        code: &str,
+    ) -> Result<Variable, String>;
+
+    /// Forgets the numbers of values.
+    fn forget_values(&self);
+}
+
+impl Sim {
+    /// Calls `tell` with the debugger, if there is one.
+    pub(crate) fn tell_debugger(self: &Rc<Self>, tell: impl FnOnce(&Rc<dyn Debugger>)) {
+        if let Some(debugger) = self.scripts.debugger.get() {
+            tell(debugger);
+        }
+    }
+
+    /// All scripts that have been looked up, with names as in the log: objects first, then those that are none.
+    pub fn named_scripts(&self) -> Vec<(Rc<Script>, String)> {
+        let Ok(scene) = self.scene.try_borrow() else {
+            return Vec::new();
+        };
+        let named = |script: Rc<Script>| {
+            let name = script.log_name(&scene);
+            (script, name)
+        };
+        self.scripts.all().into_iter().map(named).collect()
+    }
+}
