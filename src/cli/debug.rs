@@ -7,15 +7,14 @@ use std::rc::Rc;
 
 use clap::Parser;
 
+use super::debugging::{listen, standard_streams};
 use super::interrupt::Interrupt;
 use super::progress::Progress;
 use super::session::rest;
 use super::{Outcome, USAGE, run};
-use debugger::{Ending, Launch, Link, Session, Wake};
-use io::signals::{InterruptibleThread, reserve_standard_output};
+use debugger::{Ending, Launch, Link, Session};
 use script::log::verbosity;
-use script::{ask_running_code, interrupt_running_code};
-use simulator::{Console, LogLine, RunObserver, Simulator};
+use simulator::{Console, LogLine, Options, RunObserver, Simulator};
 
 /// Run a scene for an editor: breakpoints, steps and variables of Lua scripts
 ///
@@ -27,6 +26,9 @@ pub(super) struct Args {
     /// Listen on this port instead of standard input (0: any free port, which is printed)
     #[arg(long, value_name = "PORT")]
     port: Option<u16>,
+    /// Let scripts in Python listen for debugpy, which has to be installed; each prints its port
+    #[arg(long)]
+    debug_python: bool,
     /// Options of `swanilda run`, after `--`
     #[arg(last = true, value_name = "OPTIONS")]
     options: Vec<OsString>,
@@ -59,24 +61,7 @@ pub(super) fn debug(args: &Args) -> Outcome {
 }
 
 fn connect(args: &Args) -> Result<Link, String> {
-    let simulator = InterruptibleThread::current(interrupt_running_code);
-    let wake: Wake = Box::new(move || {
-        ask_running_code();
-        simulator.wake();
-    });
-    let failed = |error: std::io::Error| format!("the debugger cannot listen: {error}");
-    match args.port {
-        Some(port) => {
-            let (link, address) = Link::listen(port, wake).map_err(failed)?;
-            super::say(format!("Debugger at {address}\n").as_bytes());
-            Ok(link)
-        }
-        None => match reserve_standard_output() {
-            Some(output) => Link::of_streams(std::io::stdin(), output, wake),
-            None => Link::of_streams(std::io::stdin(), std::io::stdout(), wake),
-        }
-        .map_err(failed),
-    }
+    args.port.map_or_else(standard_streams, listen)
 }
 
 /// One run from its beginning to its end; the exit code.
@@ -93,9 +78,16 @@ fn run_once(
     let launched = command_line(args, launch)?;
     let progress = Progress::new(launched.run.limits(), true);
     let output = launched.run.setup.output(&progress, interrupt);
-    let mut sim = launched.run.simulator(interrupt, |builder| {
-        let console = Box::new(Printer(Rc::clone(session)));
-        builder.console(console).debugger(session.clone())
+    let debug_python = args.debug_python || launch.debug_python;
+    let mut sim = launched.run.simulator(interrupt, |options| {
+        Simulator::builder()
+            .options(Options {
+                debug_python,
+                ..options
+            })
+            .console(Box::new(Printer(Rc::clone(session))))
+            .debugger(session.clone())
+            .build()
     })?;
     launched.run.serve(&mut sim, &output, interrupt)?;
     let mut observer = Observer { session, interrupt };

@@ -38,8 +38,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 use session::{
-    capture, fallen, graphs, hashes, interrupt, launch, live, output, permissions, progress,
-    recording, resources, setup, video, watchdog,
+    capture, debugging, fallen, graphs, hashes, interrupt, launch, live, output, permissions,
+    progress, recording, resources, setup, video, watchdog,
 };
 use standard_output::say;
 

@@ -22,10 +22,11 @@ use super::setup::{Setup, seconds};
 use super::video::VideoArgs;
 use super::view::ViewArgs;
 use super::{Outcome, USAGE, complain, isolated};
+use capture::Tape;
 use format::robot_file::RobotFile;
 use permissions::Permissions;
 use simulator::{
-    Builder, RunLimits, RunObserver, RunTotals, ScriptKind, SimulationState, Simulator,
+    Options, RunLimits, RunObserver, RunTotals, ScriptKind, SimulationState, Simulator,
 };
 use view::Viewer;
 
@@ -212,19 +213,21 @@ fn count(text: &str) -> Result<u64, String> {
 }
 
 impl Args {
-    /// A simulator with the scene in it; `build` adds to what is made of the options.
+    /// A simulator with the scene in it, which `build` makes of the options.
     ///
     /// # Errors
     /// When a file cannot be read.
     pub(super) fn simulator(
         &self,
         interrupt: &Interrupt,
-        build: impl FnOnce(Builder) -> Builder,
+        build: impl FnOnce(Options) -> Simulator,
     ) -> Result<Simulator, String> {
-        let sources = self.setup.sources(Some(&self.scene))?;
+        self.capture.refuse("swanilda debug")?;
+        self.setup.debug.refuse("swanilda debug")?;
+        let sources = self.setup.sources(Some(&self.scene), &Tape::default())?;
         let options = self.setup.options(Some(&self.scene), interrupt);
         let options = self.remote.guard(options);
-        let mut sim = build(Simulator::builder().options(options)).build();
+        let mut sim = build(options);
         let kind = self.kind.into();
         self.setup.fill(&mut sim, sources, kind, Some(&self.scene));
         Ok(sim)

@@ -14,7 +14,7 @@ const VALIDATOR: &str = "gltf-validator@2.0.0-dev.3.10";
 
 #[test]
 fn khronos_validator_finds_no_fault() {
-    let Some(modules) = validator() else {
+    let Some(modules) = installed("gltf-validator", VALIDATOR) else {
         return skipped_outside_of_ci("there is no node with npm");
     };
     let files = tempfile::tempdir().expect("a temporary folder can be made");
@@ -33,8 +33,8 @@ fn khronos_validator_finds_no_fault() {
     assert_eq!(run_bounded(&mut node).as_deref(), Ok("4 files\n"));
 }
 
-/// The folder of node's modules with the validator; None where there is no node.
-fn validator() -> Option<PathBuf> {
+/// The folder of node's modules with a package, which is installed in a folder of that name; None where there is no node.
+pub fn installed(name: &str, package: &str) -> Option<PathBuf> {
     let works = |program: &str| {
         let status = Command::new(program)
             .arg("--version")
@@ -45,9 +45,10 @@ fn validator() -> Option<PathBuf> {
     if !(works("node") && works("npm")) {
         return None;
     }
-    let dir = Path::new(env!("CARGO_TARGET_TMPDIR")).join("gltf-validator");
+    let dir = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let modules = dir.join("node_modules");
-    if !modules.join("gltf-validator/package.json").exists() {
+    let without_version = package.rsplit_once('@').map_or(package, |(name, _)| name);
+    if !modules.join(without_version).join("package.json").exists() {
         let mut install = Command::new("npm");
         install
             .args([
@@ -55,7 +56,7 @@ fn validator() -> Option<PathBuf> {
                 "--no-audit",
                 "--no-fund",
                 "--silent",
-                VALIDATOR,
+                package,
                 "--prefix",
             ])
             .arg(&dir);

@@ -8,6 +8,7 @@
     reason = "tests start programs and look at the environment"
 )]
 
+mod debugger;
 mod foreign;
 mod gltf;
 mod motion;

@@ -8,11 +8,12 @@
 )]
 
 mod breakpoints;
-pub mod framing;
+mod data;
+mod framing;
 mod link;
 mod objects;
 mod references;
-pub mod request;
+mod request;
 mod session;
 mod sources;
 mod stepping;

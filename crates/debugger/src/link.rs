@@ -18,9 +18,11 @@ const MAX_WAITING: usize = 10_000;
 /// How long a request may wait before code that runs is asked to let it be looked at, and how often that is done.
 const PATIENCE: Duration = Duration::from_millis(30);
 const MAX_ASKED: u32 = 20;
+/// How long code may go on when the run is to end.
+const LAST_PATIENCE: Duration = Duration::from_secs(2);
 
 /// Lets the simulation look at requests in the middle of code that runs.
-pub type Wake = Box<dyn Fn() + Send>;
+pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 /// What comes from a client.
 #[derive(Debug, Clone, PartialEq)]
@@ -192,6 +194,39 @@ impl Reader {
     }
 
     fn pass(&self, incoming: Incoming) {
+        let command = match &incoming {
+            Incoming::Message(message) => {
+                message["command"].as_str().unwrap_or_default().to_owned()
+            }
+            Incoming::Gone(_) => "disconnect".into(),
+            Incoming::Connected => String::new(),
+        };
+        self.hand_over(incoming);
+        match command.as_str() {
+            // The code has had time to come to a trap; a loop in one line has none.
+            "pause" => {
+                std::thread::sleep(PATIENCE);
+                (self.wake)();
+            }
+            "terminate" | "restart" | "disconnect" => self.insist(),
+            _ => {}
+        }
+    }
+
+    /// Code that goes on for long after the end is asked again and again.
+    fn insist(&self) {
+        let wake = Arc::clone(&self.wake);
+        let ask = move || {
+            for _ in 0..MAX_ASKED {
+                std::thread::sleep(LAST_PATIENCE);
+                wake();
+            }
+        };
+        // Without a thread, the code ends by itself or with the process.
+        let _ = std::thread::Builder::new().spawn(ask);
+    }
+
+    fn hand_over(&self, incoming: Incoming) {
         self.unread.fetch_add(1, Ordering::AcqRel);
         if self.to_simulator.send(incoming).is_err() {
             return;
@@ -223,7 +258,7 @@ mod tests {
     fn a_client_comes_speaks_and_goes() {
         let input = [framed(&json!(1)), b"nonsense\r\n\r\n".to_vec()].concat();
         let link =
-            Link::of_streams(Cursor::new(input), Vec::new(), Box::new(|| {})).expect("threads");
+            Link::of_streams(Cursor::new(input), Vec::new(), Arc::new(|| {})).expect("threads");
         let next = || link.receive(Duration::from_secs(20));
         assert_eq!(next(), Some(Incoming::Connected));
         assert_eq!(next(), Some(Incoming::Message(json!(1))));

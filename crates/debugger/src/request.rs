@@ -84,11 +84,6 @@ impl Request {
     pub fn list(&self, name: &str) -> &[Value] {
         self.get(name).as_array().map_or(&[], Vec::as_slice)
     }
-
-    /// Whether an argument is `true`.
-    pub fn is_set(&self, name: &str) -> bool {
-        self.get(name) == &Value::Bool(true)
-    }
 }
 
 /// An event; `seq` is set when it is sent.

@@ -59,7 +59,9 @@ impl Debugger for Looker {
 
     fn scene_changed(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) {}
 
-    fn look(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) {}
+    fn look(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) -> bool {
+        false
+    }
 }
 
 #[derive(Clone, Default)]

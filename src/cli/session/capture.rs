@@ -20,6 +20,17 @@ pub(in crate::cli) struct CaptureArgs {
 }
 
 impl CaptureArgs {
+    /// For commands that cannot be repeated.
+    ///
+    /// # Errors
+    /// When a capture is asked for.
+    pub(in crate::cli) fn refuse(&self, command: &str) -> Result<(), String> {
+        match self.capture {
+            Some(_) => Err(format!("{command} makes no captures")),
+            None => Ok(()),
+        }
+    }
+
     /// The tape of the run: that of a replay, one that captures, or one that is off.
     ///
     /// # Errors

@@ -52,7 +52,13 @@ impl<'a> Launch<'a> {
             permissions: options.permissions.on_tape(tape),
             ..options
         };
-        let sim = Simulator::with_console(options, Box::new(output.clone()));
+        let builder = Simulator::builder()
+            .options(options)
+            .console(Box::new(output.clone()));
+        let sim = match setup.debug.session()? {
+            Some(session) => builder.debugger(session).build(),
+            None => builder.build(),
+        };
         Ok(Self {
             setup,
             scene,

@@ -1,6 +1,7 @@
 //! The loop of `swanilda run` during a simulation: shows progress, waits for real time, and listens for ctrl-c.
 
 pub(super) mod capture;
+pub(super) mod debugging;
 pub(super) mod fallen;
 pub(super) mod graphs;
 pub(super) mod hashes;

@@ -3,6 +3,7 @@
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
+use super::debugging::DebugArgs;
 use super::interrupt::Interrupt;
 use super::output::{Format, Output};
 use super::progress::Progress;
@@ -62,6 +63,8 @@ pub(in crate::cli) struct Setup {
     plugin_path: Vec<PathBuf>,
     #[command(flatten)]
     resources: ResourceArgs,
+    #[command(flatten)]
+    pub debug: DebugArgs,
     #[command(flatten)]
     ros: RosArgs,
     /// Lua file to load as an add-on; may be repeated

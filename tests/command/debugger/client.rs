@@ -35,7 +35,11 @@ impl Client {
 
     /// The same over a port.
     pub fn start_on_port(arguments: &[&str]) -> Self {
-        let mut command = spawn(&[&["--port", "0"], arguments].concat());
+        Self::connect(spawn(&[&["--port", "0"], arguments].concat()))
+    }
+
+    /// Connects to the address that a command prints first.
+    fn connect(mut command: Child) -> Self {
         let mut line = String::new();
         let mut said = BufReader::new(command.stdout.take().expect("a pipe"));
         said.read_line(&mut line).expect("the address is printed");
@@ -48,6 +52,11 @@ impl Client {
         // Whoever reads it no longer closes it.
         std::mem::forget(said);
         Self::of(command, input, stream)
+    }
+
+    /// The same for another command that listens, `swanilda serve` for instance.
+    pub fn attach(arguments: &[&str]) -> Self {
+        Self::connect(spawn_command(arguments))
     }
 
     fn of(
@@ -98,13 +107,24 @@ impl Client {
 
     /// Sends a request and returns the answer.
     pub fn answer(&mut self, command: &str, arguments: Value) -> Value {
+        let seq = self.send(command, arguments);
+        self.answer_to(seq)
+    }
+
+    /// The answer to the request with that number.
+    pub fn answer_to(&mut self, seq: i64) -> Value {
+        self.take("an answer", |message| message["request_seq"] == seq)
+    }
+
+    /// Sends a request; its number.
+    pub fn send(&mut self, command: &str, arguments: Value) -> i64 {
         self.seq += 1;
         let seq = self.seq;
         let request =
             json!({"seq": seq, "type": "request", "command": command, "arguments": arguments});
         let text = request.to_string();
         self.write(format!("Content-Length: {}\r\n\r\n{text}", text.len()).as_bytes());
-        self.take(command, |message| message["request_seq"] == seq)
+        seq
     }
 
     /// The same for a request that is done; what is in the answer.
@@ -259,8 +279,11 @@ impl Stopped {
 }
 
 fn spawn(arguments: &[&str]) -> Child {
+    spawn_command(&[&["debug"], arguments].concat())
+}
+
+fn spawn_command(arguments: &[&str]) -> Child {
     Command::new(env!("CARGO_BIN_EXE_swanilda"))
-        .arg("debug")
         .args(arguments)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

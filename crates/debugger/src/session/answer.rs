@@ -16,6 +16,7 @@ type Answer = Result<(Value, Flow), Refusal>;
 fn capabilities() -> Value {
     json!({
         "supportsConfigurationDoneRequest": true,
+        "supportsCancelRequest": true,
         "supportsFunctionBreakpoints": true,
         "supportsConditionalBreakpoints": true,
         "supportsHitConditionalBreakpoints": true,
@@ -30,6 +31,7 @@ fn capabilities() -> Value {
         "supportsDelayedStackTraceLoading": true,
         "supportsBreakpointLocationsRequest": true,
         "supportsVariablePaging": true,
+        "supportsDataBreakpoints": true,
         "supportTerminateDebuggee": true,
         "supportsStepBack": false,
         "exceptionBreakpointFilters": [
@@ -70,6 +72,7 @@ impl Session {
             "setVariable" => self.set_variable(sim, request),
             "setExpression" => self.set_expression(sim, request),
             "exceptionInfo" => self.exception_info(),
+            "dataBreakpointInfo" => self.data_breakpoint_info(sim, request),
             _ => return self.perform_control(sim, request),
         };
         body.map(|body| (body, Flow::Stay))
@@ -84,6 +87,8 @@ impl Session {
         Some(match request.command.as_str() {
             "initialize" => Ok(capabilities()),
             "launch" | "attach" => self.note_launch(request),
+            // What it is about has ended already.
+            "cancel" => Ok(Value::Null),
             "configurationDone" => {
                 self.launch.borrow_mut().is_configured = true;
                 Ok(Value::Null)
@@ -104,6 +109,11 @@ impl Session {
                     uncaught: filters.contains(&json!("uncaught")),
                 });
                 Ok(Value::Null)
+            }
+            "setDataBreakpoints" => {
+                let list = request.list("breakpoints");
+                let set = self.data.borrow_mut().set(sim, list);
+                Ok(json!({"breakpoints": set}))
             }
             "breakpointLocations" => self.breakpoint_locations(request),
             "loadedSources" => Ok(json!({"sources": self.sources.borrow().all()})),
@@ -169,8 +179,17 @@ impl Session {
             "stepIn" => self.step(sim, |_| Mode::Into),
             "pause" => {
                 self.pause.set(true);
+                self.pause_is_late.set(false);
                 self.arm_all(Some(sim));
                 Ok((Value::Null, Flow::Stay))
+            }
+            "terminate" if self.is_attached => {
+                sim.stop();
+                self.set_mode(Some(sim), Mode::Run);
+                gone_on(Value::Null)
+            }
+            "restart" if self.is_attached => {
+                Err("only what the debugger has launched can be restarted".into())
             }
             "terminate" => {
                 self.end(Some(sim), Ending::Terminate);

@@ -6,6 +6,7 @@ use script::{Container, Debuggee, Page, PageKind, Runtime, Sim, Variable};
 use serde_json::{Value, json};
 
 use super::Session;
+use crate::data;
 use crate::objects;
 use crate::references::{FrameOf, Node};
 use crate::request::{Refusal, Request};
@@ -183,6 +184,34 @@ impl Session {
         }
         let stopped = self.stop.borrow().as_ref().and_then(|stop| stop.script);
         Ok((stopped.unwrap_or_else(|| objects::sandbox(sim)), None))
+    }
+
+    /// Whether a variable, or what `name` alone names, is a property that can be watched.
+    pub(super) fn data_breakpoint_info(
+        &self,
+        sim: &Rc<Sim>,
+        request: &Request,
+    ) -> Result<Value, Refusal> {
+        let name = request.text("name")?;
+        let property = match request.get("variablesReference").as_i64() {
+            Some(reference) if reference > 0 => {
+                match self.references.borrow().find_node(reference)? {
+                    Node::Object(handle) => data::name(sim, handle, name),
+                    _ => None,
+                }
+            }
+            _ => Some(name.to_owned()),
+        };
+        Ok(
+            match property.filter(|property| data::exists(sim, property)) {
+                Some(property) => json!({
+                    "dataId": property, "description": property, "accessTypes": ["write"], "canPersist": true,
+                }),
+                None => json!({
+                    "dataId": null, "description": "only properties of objects can be watched, such as /Box.pose",
+                }),
+            },
+        )
     }
 
     pub(super) fn evaluate(&self, sim: &Rc<Sim>, request: &Request) -> Result<Value, Refusal> {

@@ -10,6 +10,7 @@ mod launching;
 mod stop;
 
 use std::cell::{Cell, RefCell};
+use std::collections::{BTreeSet, VecDeque};
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::Duration;
@@ -18,6 +19,7 @@ use script::{Armed, Debugger, LoadedText, Place, Script, Sim};
 use serde_json::{Value, json};
 
 use crate::breakpoints::Breakpoints;
+use crate::data::DataBreakpoints;
 use crate::link::{Incoming, Link};
 use crate::references::References;
 use crate::request::{Request, event};
@@ -28,6 +30,8 @@ use stop::Stop;
 
 /// How long to wait for a message before looking whether the program is to end.
 const POLL: Duration = Duration::from_millis(100);
+/// How often to wait that long for the last message of a client.
+const LAST_POLLS: u32 = 30;
 /// How long to wait for the last messages to be written.
 const LAST_WORDS: Duration = Duration::from_secs(2);
 
@@ -59,6 +63,8 @@ pub struct Session {
     seq: Cell<i64>,
     mode: Cell<Mode>,
     pause: Cell<bool>,
+    /// Code was asked to pause, and has not come to a line since.
+    pause_is_late: Cell<bool>,
     position: Cell<Position>,
     ending: Cell<Option<Ending>>,
     /// Code of the client runs, or the session is over: nothing stops.
@@ -66,6 +72,11 @@ pub struct Session {
     has_client: Cell<bool>,
     exceptions: Cell<Exceptions>,
     breakpoints: RefCell<Breakpoints>,
+    data: RefCell<DataBreakpoints>,
+    /// The last error that was told of: who passes it on raises it again.
+    last_error: RefCell<String>,
+    /// What came while an expression of the client was evaluated.
+    postponed: RefCell<VecDeque<Incoming>>,
     sources: RefCell<Sources>,
     texts: RefCell<Vec<Rc<LoadedText>>>,
     references: RefCell<References>,
@@ -96,12 +107,16 @@ impl Session {
             seq: Cell::new(0),
             mode: Cell::default(),
             pause: Cell::new(false),
+            pause_is_late: Cell::new(false),
             position: Cell::default(),
             ending: Cell::new(None),
             is_deaf: Cell::new(false),
             has_client: Cell::new(false),
             exceptions: Cell::default(),
             breakpoints: RefCell::default(),
+            data: RefCell::default(),
+            last_error: RefCell::default(),
+            postponed: RefCell::default(),
             sources: RefCell::default(),
             texts: RefCell::default(),
             references: RefCell::default(),
@@ -130,11 +145,40 @@ impl Session {
         }
     }
 
-    /// Says that the run is over, and with which exit code; everything is written when this returns.
+    /// Says that the run is over, and with which exit code, and waits a moment for the client to say goodbye; everything is written when this
+    /// returns.
     pub fn finish(&self, exit_code: u8) {
+        let has_client = self.has_client.get();
         self.send(event("exited", json!({"exitCode": exit_code})));
         self.send(event("terminated", Value::Null));
+        for _ in 0..LAST_POLLS {
+            if !has_client || self.hears_goodbye() {
+                break;
+            }
+        }
         self.link.finish(LAST_WORDS);
+    }
+
+    /// Answers what comes after the end; whether the client is done.
+    fn hears_goodbye(&self) -> bool {
+        match self.link.receive(POLL) {
+            Some(Incoming::Gone(_)) => true,
+            Some(Incoming::Message(message)) => {
+                let Some(request) = Request::parse(&message) else {
+                    return false;
+                };
+                let is_goodbye = request.command == "disconnect";
+                let over = "the run is over".to_owned();
+                let result = if is_goodbye {
+                    Ok(Value::Null)
+                } else {
+                    Err(over)
+                };
+                self.send(request.answer(result));
+                is_goodbye
+            }
+            Some(Incoming::Connected) | None => false,
+        }
     }
 
     /// Prepares for another run with the same breakpoints.
@@ -181,6 +225,7 @@ impl Session {
     fn lose_client(&self, sim: Option<&Rc<Sim>>) -> Flow {
         self.has_client.set(false);
         self.breakpoints.borrow_mut().clear();
+        self.data.replace(DataBreakpoints::default());
         self.exceptions.set(Exceptions::default());
         if self.is_attached {
             self.set_mode(sim, Mode::Run);
@@ -224,7 +269,7 @@ impl Session {
 
     fn armed(&self, text: &LoadedText) -> Armed {
         if self.is_deaf.get() {
-            Armed::Lines(std::collections::BTreeSet::new())
+            Armed::Lines(BTreeSet::new())
         } else if self.mode.get().steps() || self.pause.get() {
             Armed::All
         } else {
@@ -275,6 +320,7 @@ impl Debugger for Session {
 
     fn line_reached(&self, sim: &Rc<Sim>, place: &Place<'_>) {
         self.advance(sim);
+        self.last_error.borrow_mut().clear();
         if !self.is_deaf.get() {
             self.consider_line(sim, place);
         }
@@ -282,23 +328,60 @@ impl Debugger for Session {
 
     fn error_raised(&self, sim: &Rc<Sim>, script: &Rc<Script>, message: &str, is_caught: bool) {
         let Exceptions { caught, uncaught } = self.exceptions.get();
-        if !self.is_deaf.get() && if is_caught { caught } else { uncaught } {
+        let last = self.last_error.replace(message.to_owned());
+        let is_passed_on = !last.is_empty() && message != last && message.contains(&last);
+        let matters = if is_caught { caught } else { uncaught };
+        if matters && !is_passed_on && !self.is_deaf.get() {
             self.stop_at_error(sim, script, message, is_caught);
         }
     }
 
-    fn scene_changed(&self, _: &Rc<Sim>, _: Option<&Rc<Script>>) {}
+    fn scene_changed(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>) {
+        if !self.is_deaf.get() && !self.data.borrow().is_empty() && self.stop.borrow().is_none() {
+            self.consider_changes(sim, script);
+        }
+    }
 
-    fn look(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>) {
+    fn look(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>) -> bool {
         if self.stop.borrow().is_some() {
-            return;
+            return self.looks_while_stopped();
         }
         while let Some(incoming) = self.link.try_receive() {
             self.receive(Some(sim), incoming);
         }
-        if self.pause.get() && !self.is_deaf.get() {
+        if script.is_none() {
+            self.scene_changed(sim, None);
+        }
+        // In the middle of code, the next line is a better place, if there is one: expressions can be interrupted there.
+        let waits_for_line = script.is_some() && !self.pause_is_late.replace(true);
+        if self.pause.get() && !waits_for_line && !self.is_deaf.get() {
             self.stop_for_pause(sim, script);
         }
+        self.ending.get().is_some()
+    }
+}
+
+impl Session {
+    /// An expression of the client takes long. It ends when the client does not want to wait for it.
+    fn looks_while_stopped(&self) -> bool {
+        let mut postponed = self.postponed.borrow_mut();
+        while let Some(incoming) = self.link.try_receive() {
+            postponed.push_back(incoming);
+        }
+        postponed.iter().any(|incoming| match incoming {
+            Incoming::Message(message) => {
+                let command = message["command"].as_str().unwrap_or_default();
+                ["cancel", "disconnect", "terminate", "restart", "continue"].contains(&command)
+            }
+            Incoming::Gone(_) => true,
+            Incoming::Connected => false,
+        })
+    }
+
+    /// The next message, after those that came while an expression was evaluated.
+    fn next_incoming(&self) -> Option<Incoming> {
+        let postponed = self.postponed.borrow_mut().pop_front();
+        postponed.or_else(|| self.link.receive(POLL))
     }
 }
 

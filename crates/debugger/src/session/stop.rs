@@ -6,7 +6,7 @@ use std::time::Instant;
 use script::{Place, Script, Sim, wall_clock};
 use serde_json::{Value, json};
 
-use super::{Flow, POLL, Session};
+use super::{Flow, Session};
 use crate::breakpoints::Rule;
 use crate::request::event;
 use crate::stepping::{Mode, Origin};
@@ -146,6 +146,33 @@ impl Session {
         ));
     }
 
+    /// Stops if a watched property has changed: by the call that the script has just made, or without one.
+    pub(super) fn consider_changes(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>) {
+        let changes = self.data.borrow_mut().changes(sim);
+        if changes.is_empty() {
+            return;
+        }
+        let by = match script {
+            Some(_) => "",
+            None => ", by the simulation",
+        };
+        let texts: Vec<String> = changes
+            .iter()
+            .map(|change| format!("{}{by}", change.text))
+            .collect();
+        let reason = Reason {
+            description: Some(texts.join("\n")),
+            breakpoints: changes.iter().map(|change| change.id).collect(),
+            ..Reason::new("data breakpoint")
+        };
+        let stop = Stop {
+            script: script.map(|script| script.id),
+            origin: None,
+            error: None,
+        };
+        self.stopped_at_position(sim, stop, &reason);
+    }
+
     /// Stops where an error was raised.
     pub(super) fn stop_at_error(
         &self,
@@ -189,7 +216,7 @@ impl Session {
         self.stop.replace(Some(stop));
         self.send(stopped_event(thread, reason));
         while !sim.options.is_interrupted() {
-            let Some(incoming) = self.link.receive(POLL) else {
+            let Some(incoming) = self.next_incoming() else {
                 continue;
             };
             if self.receive(Some(sim), incoming) == Flow::GoOn {

@@ -26,8 +26,9 @@ pub trait Debugger {
     /// A call of a script has perhaps changed the scene.
     fn scene_changed(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>);
 
-    /// Nothing runs, or code runs that does not end; `script` is the one that does.
-    fn look(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>);
+    /// Nothing runs, or code runs that does not end, also code that the debugger has asked for; `script` is the one that does. Returns whether
+    /// the code is to end with an error.
+    fn look(&self, sim: &Rc<Sim>, script: Option<&Rc<Script>>) -> bool;
 }
 
 /// A text whose lines can have traps.

@@ -22,6 +22,11 @@ impl ScriptFiles {
         self.by_name.insert(shown(chunk_name), file.to_owned());
     }
 
+    /// The file with the text of that name.
+    pub(crate) fn file_of(&self, chunk_name: &str) -> Option<&str> {
+        self.by_name.get(&shown(chunk_name)).map(String::as_str)
+    }
+
     /// The error with files in its positions, and a hint below the message. A line of the library never stands for one of the script: the nearest call in a script does.
     pub(crate) fn locate(
         &self,

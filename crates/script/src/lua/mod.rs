@@ -46,7 +46,7 @@ pub(crate) use hooks::resume::report_dropped_errors;
 pub(crate) use hooks::running::{RunningCallback, running_callback_number};
 pub use hooks::running::{calls_begun, is_call};
 pub use hooks::told::ask_running_code;
-pub(crate) use hooks::told::listen;
+pub(crate) use hooks::told::{Catcher, Listener, listen, tell_of_caught_errors};
 pub(crate) use live::{Call, LiveCode};
 pub use object::LuaObject;
 pub(crate) use owner::Owner;

@@ -12,8 +12,7 @@ use super::reference_modules::ReferenceModule;
 use super::user_modules::UserModule;
 use super::{
     buffers, coverage, debugging, implicit, library_globals, shared_process, stand_ins, taped,
-    test_file,
-    threads, user_modules,
+    test_file, threads, user_modules,
 };
 use crate::binding::registry::{Member, Namespace};
 use crate::host::{Script, Sim};
@@ -36,6 +35,10 @@ pub(super) fn fill(
         stack.env().log(verbosity::SCRIPT_WARNINGS, &warning);
     });
     lua::restrict_debug(stack);
+    if sim.scripts.debugger.get().is_some() {
+        // Before the library puts a function of its own in front of it.
+        lua::tell_of_caught_errors(stack);
+    }
     lua::report_closed_pipes(stack, |stack| {
         if let Some(sim) = stack.env().simulator() {
             sim.log.pipe_closed();

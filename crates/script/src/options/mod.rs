@@ -47,6 +47,8 @@ pub struct Options {
     pub limits: Option<Limits>,
     /// Whether to count the lines of scripts that run. Scripts are slower meanwhile.
     pub count_lines: bool,
+    /// Whether processes of scripts in Python listen for a debugger of Python (debugpy).
+    pub debug_python: bool,
     /// Whether the error for a missing module has CoppeliaSim's text, with every place that was searched.
     pub original_errors: bool,
     /// Threads that draw pictures and divide meshes into convex pieces; None for as many as there are processor cores. Results do not depend on it.
@@ -78,6 +80,7 @@ impl Default for Options {
             stop: Arc::default(),
             limits: None,
             count_lines: false,
+            debug_python: false,
             original_errors: false,
             render_threads: None,
             threads: NonZero::<usize>::MIN,

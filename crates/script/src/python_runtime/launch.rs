@@ -33,6 +33,9 @@ const EMBEDDED: (&str, &str) = (
 /// The variable from which Python takes the start of its hashes, which is otherwise different in every process.
 const HASH_SEED: &str = "PYTHONHASHSEED";
 
+/// The variable with which a process listens for a debugger.
+const DEBUG: &str = "SWANILDA_DEBUG_PYTHON";
+
 /// Where virtual environments have their Python.
 const VIRTUAL_ENVIRONMENTS: [&str; 2] = [".venv/bin/python", "venv/bin/python"];
 
@@ -141,8 +144,11 @@ pub(super) fn start(sim: &Sim, interpreter: &str) -> Result<PeerProcess, LaunchE
         reason,
     };
     let seed = sim.options.seed.to_string();
-    let mut process =
-        PeerProcess::start(program, &args, None, &[(HASH_SEED, &seed)]).map_err(failed)?;
+    let mut variables = vec![(HASH_SEED, seed.as_str())];
+    if sim.options.debug_python {
+        variables.push((DEBUG, "1"));
+    }
+    let mut process = PeerProcess::start(program, &args, None, &variables).map_err(failed)?;
     // One that has ended already is noticed when it is to load the script.
     let _ = process.send(&modules(&[]));
     Ok(process)

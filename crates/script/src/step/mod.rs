@@ -20,7 +20,9 @@ use scene::object::script_object::ScriptType;
 impl Sim {
     /// One iteration of the application's loop: idle, paused or advancing.
     pub fn loop_iteration(self: &Rc<Self>) {
-        self.tell_debugger(|debugger| debugger.look(self, None));
+        self.tell_debugger(|debugger| {
+            debugger.look(self, None);
+        });
         self.options.permissions.tape().turn();
         self.notify_plugins_of_pass();
         self.run_hooks(|hooks| hooks.start_of_iteration);

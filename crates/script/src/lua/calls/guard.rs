@@ -51,7 +51,8 @@ pub(in crate::lua) mod guarded {
     pub const UNPACK: usize = 37;
     pub const TO_NUMBER: usize = 38;
     pub const COROUTINE_RESUME: usize = 39;
-    pub const COUNT: usize = 40;
+    pub const PCALL: usize = 40;
+    pub const COUNT: usize = 41;
 }
 
 /// The action after a guard.
@@ -82,7 +83,17 @@ pub(in crate::lua) fn install<const FUNCTION: usize, F: Guard>(
     name: &str,
     guard: F,
 ) {
-    stack.raw_get_field(-1, name);
+    install_with::<FUNCTION, F>(stack, name, name, guard);
+}
+
+/// The same where another function of the table continues, with what the guard has made of the arguments.
+pub(in crate::lua) fn install_with<const FUNCTION: usize, F: Guard>(
+    stack: Stack<'_>,
+    name: &str,
+    original: &str,
+    guard: F,
+) {
+    stack.raw_get_field(-1, original);
     let original = Original::at(stack, -1);
     stack.pop(1);
     if let Some(original) = original {

@@ -173,7 +173,7 @@ impl Stack<'_> {
 /// Adds the traceback to string errors, and to those of Rust functions, and leaves other values alone, as `debug.traceback` does.
 fn message_handler(stack: Stack<'_>) -> Exit {
     seal_top(stack);
-    told::of_error(stack);
+    told::of_error(stack, told::Catcher::Host);
     if let Some(mut message) = stack.text(-1) {
         // Up to the first NUL, as in Lua.
         message.truncate(

@@ -146,7 +146,10 @@ pub(super) fn next_step(stack: Stack<'_>) -> Step {
     let budget = stack.budget();
     let before = budget.enter(true);
     let step = step(stack, || {
-        told::of_question(stack);
+        if told::of_question(stack) {
+            restore_count_hook(stack);
+            return HookAction::Fail("ended by the debugger");
+        }
         answer_signal(stack).unwrap_or_else(|| on_count(stack, api::lua_isyieldable(stack) != 0))
     });
     budget.leave(before);

@@ -2,6 +2,7 @@
 //! statement drops them.
 
 use super::running::enter_coroutine;
+use super::told::{self, Catcher};
 use crate::lua::calls::guard::{Next, guarded, install};
 use crate::lua::{Stack, Type};
 
@@ -32,6 +33,9 @@ pub(crate) fn report_dropped_errors(stack: Stack<'_>, on_dropped: OnDropped) {
 fn look_at_results(stack: Stack<'_>) {
     enter_coroutine(stack);
     let failed = stack.top() >= 2 && stack.kind(-2) == Type::Boolean && !stack.truthy(-2);
+    if failed {
+        told::of_error(stack, Catcher::Resume);
+    }
     if !failed || !stack.caller_drops_results_of("resume") {
         return;
     }

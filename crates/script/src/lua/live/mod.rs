@@ -100,7 +100,16 @@ impl Stack<'_> {
 
     /// The coroutine that this one is waiting for.
     fn resumed(self) -> Option<Self> {
-        super::hooks::interrupt::resumed_by(self)
+        super::hooks::interrupt::resumed_by(self).or_else(|| self.failed())
+    }
+
+    /// The coroutine whose error the function written in C on top of the calls is looking at.
+    fn failed(self) -> Option<Self> {
+        if !self.frame(0, Facts::SOURCE)?.is_native() {
+            return None;
+        }
+        let coroutine = self.coroutine(api::Slot::FIRST)?;
+        (coroutine.has_failed() && coroutine.frame(0, Facts::SOURCE).is_some()).then_some(coroutine)
     }
 
     /// An address that identifies this coroutine as long as it is alive.

@@ -10,7 +10,11 @@ const THREAD: &str = "__coroutine__";
 /// The coroutine on which code of the script runs now, or would.
 pub(super) fn innermost(main: Stack<'_>) -> Stack<'_> {
     let chain = main.resumed_coroutines();
-    chain[chain.len() - 1]
+    let mut alive = chain
+        .iter()
+        .rev()
+        .filter(|coroutine| !coroutine.has_failed());
+    *alive.next().unwrap_or(&main)
 }
 
 /// The coroutine with that place; the one behind the last is the thread of the script, which waits.

@@ -20,8 +20,11 @@ use crate::host::{
     Armed, CodeLevel, Container, Debuggee, Env, Frame, FrameId, LoadedText, Page, Place, Sim,
     Variable,
 };
-use crate::lua::{self, LiveCode, LuaError, Outcome, Stack, Type, push_callback, push_plain};
+use crate::lua::{
+    self, Catcher, Listener, LiveCode, LuaError, Outcome, Stack, Type, push_callback, push_plain,
+};
 use scene::Data;
+use scene::object::script_object::ScriptType;
 
 /// Most functions with traps that a state loads: Lua code can load as many as it likes.
 const MAX_TEXTS: usize = 1000;
@@ -59,7 +62,10 @@ impl Debugged {
 
 /// Adds traps to every text that a state loads from now on.
 pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
-    lua::listen(error_raised, asked);
+    lua::listen(Listener {
+        on_error: error_raised,
+        on_question: asked,
+    });
     stack.lua().set_app_data(Rc::<Debugged>::default());
     stack.new_table(0, 0);
     stack.new_table(0, 1);
@@ -131,15 +137,27 @@ fn read(sim: &Sim, env: &Env, chunk_name: Vec<u8>, own: Option<&[u8]>) -> Option
     let named = chunk_name
         .strip_prefix(b"@")
         .map(|name| PathBuf::from(&*String::from_utf8_lossy(name)));
-    let of_script = env.script.file.borrow().clone().map(PathBuf::from);
+    let of_script = || {
+        let files = sim.log.files.borrow();
+        let name = String::from_utf8_lossy(&chunk_name);
+        files.file_of(&name).map(PathBuf::from)
+    };
     let (text, file) = match own {
-        Some(text) => (text.to_vec(), named.or(of_script)),
+        Some(text) => (text.to_vec(), named.or_else(of_script)),
         None => match named {
             Some(file) => (read_text(&file)?, Some(file)),
             // Without a name, the text is the name.
             None => (chunk_name.clone(), None),
         },
     };
+    // What the simulator has added itself is nothing to look at.
+    let has_object = !matches!(
+        env.script.script_type,
+        ScriptType::Main | ScriptType::Sandbox | ScriptType::AddOn
+    );
+    if own.is_some() && file.is_none() && !has_object {
+        return None;
+    }
     let functions = executable(&text)?;
     let title = match &file {
         Some(file) => file.display().to_string(),
@@ -187,28 +205,43 @@ fn reached(stack: Stack<'_>) -> Outcome {
     Outcome::Results(0)
 }
 
-/// An error is on top that nobody in the script catches.
-fn error_raised(stack: Stack<'_>) {
-    tell_of_error(stack, false);
+/// An error is on top.
+fn error_raised(stack: Stack<'_>, catcher: Catcher) {
+    let watched = Debugged::of(stack).filter(|debugged| !debugged.is_evaluating.get());
+    let (Some(debugged), Some(sim)) = (watched, stack.env().sim.upgrade()) else {
+        return;
+    };
+    let is_caught = match catcher {
+        Catcher::Host => false,
+        // What the library catches is its own affair.
+        Catcher::Protected if !is_called_by_script(&debugged, stack) => return,
+        Catcher::Protected => true,
+        // The library resumes the thread of a script, and passes its errors on.
+        Catcher::Resume => is_called_by_script(&debugged, stack),
+    };
+    let message = match stack.text(-1) {
+        Some(text) => String::from_utf8_lossy(&text).into_owned(),
+        None => "an error that is no text".into(),
+    };
+    let script = &stack.env().script;
+    sim.tell_debugger(|debugger| debugger.error_raised(&sim, script, &message, is_caught));
 }
 
-fn tell_of_error(stack: Stack<'_>, is_caught: bool) {
-    let is_watched = Debugged::of(stack).is_some_and(|debugged| !debugged.is_evaluating.get());
-    if let Some(sim) = stack.env().sim.upgrade().filter(|_| is_watched) {
-        let message = match stack.text(-1) {
-            Some(text) => String::from_utf8_lossy(&text).into_owned(),
-            None => "an error that is no text".into(),
-        };
-        let script = &stack.env().script;
-        sim.tell_debugger(|debugger| debugger.error_raised(&sim, script, &message, is_caught));
-    }
+/// Whether the innermost code is that of a text with traps.
+fn is_called_by_script(debugged: &Debugged, stack: Stack<'_>) -> bool {
+    stack
+        .call_at(0)
+        .is_some_and(|(_, call)| debugged.text(&call.chunk).is_some())
 }
 
-/// Somebody wants to look at the code that runs.
-fn asked(stack: Stack<'_>) {
-    if let Some(sim) = stack.env().sim.upgrade() {
-        sim.tell_debugger(|debugger| debugger.look(&sim, Some(&stack.env().script)));
-    }
+/// Somebody wants to look at the code that runs; whether it is to end with an error.
+fn asked(stack: Stack<'_>) -> bool {
+    let debugger = |sim: Rc<Sim>| {
+        let debugger = sim.scripts.debugger.get()?;
+        Some(debugger.look(&sim, Some(&stack.env().script)))
+    };
+    let is_to_end = stack.env().sim.upgrade().and_then(debugger);
+    is_to_end.unwrap_or(false)
 }
 
 impl Debuggee for LuaInterpreter {

@@ -109,12 +109,25 @@ def functions():
     return [name for name, value in scope.items() if callable(value) and name.startswith('sysCall_')]
 
 
+def listen_for_debugger():
+    """With --debug-python, a debugger of Python can come at any time; nothing waits for it."""
+    if 'SWANILDA_DEBUG_PYTHON' not in os.environ:
+        return
+    try:
+        import debugpy
+    except ImportError:
+        raise ImportError('--debug-python needs debugpy: %s -m pip install debugpy' % sys.executable) from None
+    host, port = debugpy.listen(('127.0.0.1', 0))
+    print_line('debugpy listens at %s:%d' % (host, port))
+
+
 def load(texts, paths, counts):
     """Runs the script: its texts, each with the name of its file, the last of which is the script's own."""
     global scope
     surroundings.import_from(paths)
     begin_scope(texts[-1][0])
     scope = api.script_globals = as_module()
+    listen_for_debugger()
     if counts:
         coverage.begin(texts, paths)
     for name, text in texts:
