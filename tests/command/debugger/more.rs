@@ -253,3 +253,54 @@ fn a_client_comes_to_a_simulation_that_runs_and_goes() {
     client.close();
     assert_eq!(client.exit_code(), Some(0));
 }
+
+/// A script that makes another one, and calls it.
+const CALLER: &str = "\
+sim = require 'sim'
+function sysCall_init()
+    other = sim.createScript(sim.scripttype_customization, [[
+function double(x)
+    local y = 2 * x
+    return y
+end
+]])
+    sim.setObjectAlias(other, 'Inner')
+    sim.initScript(other)
+end
+function sysCall_actuation()
+    local a = sim.callScriptFunction('double', other, 4)
+    local b = a
+end
+";
+
+#[test]
+fn steps_go_into_other_scripts_over_and_out_of_them() {
+    let (_folder, file) = file(CALLER);
+    let mut client = start(&file);
+    client.launch(json!({}));
+    client.set_breakpoints(&file, json!([{"line": 13}]));
+    client.run();
+    let caller = client.stopped("breakpoint");
+    client.go("stepIn", &caller);
+    let called = client.stopped("step");
+    assert_eq!(called.calls(), ["double:2"]);
+    assert_ne!(called.thread, caller.thread);
+    assert_eq!(client.evaluate(&called, "x"), "4");
+    // The caller waits, and can be looked at.
+    let waits = client.at(caller.thread.clone());
+    assert_eq!(waits.calls(), ["sysCall_actuation:13"]);
+    assert_eq!(client.evaluate(&waits, "other ~= nil and x == nil"), "true");
+    client.go("stepOut", &called);
+    let back = client.stopped("step");
+    assert_eq!(
+        (back.calls()[0].as_str(), &back.thread),
+        ("sysCall_actuation:14", &caller.thread)
+    );
+    assert_eq!(client.evaluate(&back, "a"), "8");
+    client.go("continue", &back);
+    let again = client.stopped("breakpoint");
+    client.go("next", &again);
+    assert_eq!(client.stopped("step").calls()[0], "sysCall_actuation:14");
+    client.request("terminate", json!({}));
+    assert_eq!(client.end(), Some(0));
+}

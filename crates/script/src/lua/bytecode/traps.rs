@@ -168,3 +168,51 @@ fn moved(function: &Prototype<'_>, place: usize, at: usize) -> Option<Vec<u32>> 
 fn jump(place: usize, to: usize) -> Option<u32> {
     aimed(op::JMP, place, to)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::{Chunk, with_traps};
+    use crate::lua::Bytecode;
+
+    const TEXT: &str = "local x = 1
+for i = 1, 2 do
+    x = x + i
+end
+while x > 0 do
+    x = x - 1
+end
+for k, v in pairs({}) do local a = k == v end
+return function(...)
+    if x and ... then return x end
+    return {...}
+end
+";
+
+    #[test]
+    fn code_stays_in_its_place_and_lines_have_traps_where_they_begin() {
+        let plain = Bytecode::compile(TEXT.as_bytes(), "=text").expect("it compiles");
+        let all: BTreeSet<u32> = (1..=12).collect();
+        let (_, _, traps) = with_traps(&plain.0, &all).expect("there is room");
+        let main = Chunk::read(&plain.0).expect("bytecode").main;
+        for (traps, before) in [(&traps, &main.code), (&traps.inner[0], &main.inner[0].code)] {
+            assert_eq!(traps.code[..before.len()], before[..]);
+            let are_original = |trap: &super::Trap| before[trap.place] == trap.original;
+            assert!(traps.traps.iter().all(are_original));
+        }
+        let lines = |traps: &super::FunctionTraps| -> Vec<u32> {
+            traps.traps.iter().map(|trap| trap.line).collect()
+        };
+        assert_eq!(lines(&traps), [1, 2, 3, 5, 6, 8, 12]);
+        assert_eq!(lines(&traps.inner[0]), [10, 11, 12]);
+    }
+
+    #[test]
+    fn without_lines_there_are_no_traps() {
+        let plain = Bytecode::compile(TEXT.as_bytes(), "=text").expect("it compiles");
+        let (_, _, traps) = with_traps(&plain.0, &BTreeSet::new()).expect("there is room");
+        let main = Chunk::read(&plain.0).expect("bytecode").main;
+        assert!(traps.traps.is_empty() && traps.code == main.code);
+    }
+}
