@@ -30,8 +30,8 @@ use script::{ApiError, ByHandle, LuaNumber, LuaObject, Outside, Results};
 
 use results::{Created, Outcome};
 
-/// An object that is collected is none of the run's doing.
-const OUTSIDE: Outside = Outside::AllBut(&["socket.core.collect"]);
+/// Objects are the state's, in a replay too; when one is collected is none of the run's doing.
+const OUTSIDE: Outside = Outside::AllBut(&["socket.core.collect", "socket.core.define"]);
 
 /// The core of LuaSocket: `lua/network/socket/core.lua` makes classes of these functions.
 pub static CORE: Module = Module {

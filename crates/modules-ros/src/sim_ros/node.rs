@@ -132,6 +132,7 @@ pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
         return Ok(running.clone());
     }
     let settings = settings(cx)?;
+    cx.permissions().tape().lacks("what comes by simROS");
     let running = match ros1::Node::new(&settings) {
         Err(error @ ros1::Error::Master { .. }) if !cx.options().ros.needs_master => {
             let warning = format!(

@@ -3,8 +3,9 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
+use capture::{Input, Recorded};
 use ros_interfaces::{Layout, Record, cdr};
-use rtps::{Correlation, EntityId, Guid, Qos, Sample, SampleIdentity, Timestamp, Written};
+use rtps::{Core, Correlation, EntityId, Guid, Qos, Sample, SampleIdentity, Timestamp, Written};
 
 use super::names;
 use super::node::Running;
@@ -18,39 +19,45 @@ pub(super) struct Endpoint {
 
 impl Drop for Endpoint {
     fn drop(&mut self) {
-        self.node.participant.with(|core| core.remove(self.entity));
+        self.node.core(|core| core.remove(self.entity));
     }
 }
 
 impl Endpoint {
     pub(super) fn writer(node: &Rc<Running>, topic: &str, layout: &Layout, qos: Qos) -> Self {
         let type_name = names::type_name(&layout.name);
-        let entity = node
-            .participant
-            .with(|core| core.create_writer(topic, &type_name, qos, &[]));
+        let entity = node.core(|core| core.create_writer(topic, &type_name, qos, &[]));
         Self {
             node: node.clone(),
-            entity,
+            entity: entity.unwrap_or_default(),
         }
     }
 
     pub(super) fn reader(node: &Rc<Running>, topic: &str, layout: &Layout, qos: Qos) -> Self {
         let type_name = names::type_name(&layout.name);
-        let entity = node
-            .participant
-            .with(|core| core.create_reader(topic, &type_name, qos, &[]));
+        let entity = node.core(|core| core.create_reader(topic, &type_name, qos, &[]));
         Self {
             node: node.clone(),
-            entity,
+            entity: entity.unwrap_or_default(),
         }
     }
 
-    pub(super) fn take(&self) -> Option<Sample> {
-        self.node.participant.with(|core| core.take(self.entity))
+    pub(super) fn take(&self) -> Option<Arrived> {
+        let take = || {
+            let sample = self.node.core(|core| core.take(self.entity));
+            sample.flatten().map(Arrived::from)
+        };
+        self.node.tape.input("a message of ROS 2", take).ok()?
     }
 
     pub(super) fn waiting(&self) -> usize {
-        self.node.participant.with(|core| core.waiting(self.entity))
+        let waiting = || self.node.core(|core| core.waiting(self.entity));
+        let count = || waiting().unwrap_or_default();
+        let count = self
+            .node
+            .tape
+            .input("how many messages of ROS 2 wait", count);
+        count.unwrap_or_default()
     }
 
     pub(super) fn publish(&self, record: &Record) {
@@ -63,15 +70,13 @@ impl Endpoint {
             call,
             time: now(),
         };
-        self.node
-            .participant
-            .with(|core| core.write(self.entity, &written));
+        self.node.core(|core| core.write(self.entity, &written));
     }
 
     /// Writes a request whose answer comes to `replies`. Returns its number.
     pub(super) fn request(&self, record: &Record, replies: &Self, client: u64) -> i64 {
         let payload: Arc<[u8]> = cdr::encode(record).into();
-        self.node.participant.with(|core| {
+        let send = |core: &mut Core| {
             let sequence = core.next_sequence(self.entity);
             let related = SampleIdentity {
                 guid: core.guid(replies.entity),
@@ -90,16 +95,80 @@ impl Endpoint {
                 },
             );
             sequence
-        })
+        };
+        let send = || self.node.core(send).unwrap_or_default();
+        let sent = self
+            .node
+            .tape
+            .input("the number of a request of ROS 2", send);
+        sent.unwrap_or_default()
     }
 
     pub(super) fn guid(&self) -> Guid {
-        self.node.participant.with(|core| core.guid(self.entity))
+        let guid = || {
+            let guid = self.node.core(|core| core.guid(self.entity));
+            guid.unwrap_or_default().to_bytes().to_vec()
+        };
+        let guid = self.node.tape.input("an identity of ROS 2", guid);
+        let bytes = guid.ok().and_then(|bytes| bytes.try_into().ok());
+        bytes.map(Guid::from_bytes).unwrap_or_default()
+    }
+}
+
+/// A message that has arrived.
+pub(super) struct Arrived {
+    writer: Guid,
+    sequence: i64,
+    pub(super) payload: Vec<u8>,
+    related: Option<SampleIdentity>,
+    has_call_header: bool,
+}
+
+impl From<Sample> for Arrived {
+    fn from(sample: Sample) -> Self {
+        Self {
+            writer: sample.writer,
+            sequence: sample.sequence,
+            payload: sample.payload,
+            related: sample.related,
+            has_call_header: sample.has_call_header,
+        }
+    }
+}
+
+impl Recorded for Arrived {
+    fn write(&self, out: &mut Vec<u8>) {
+        let bytes = |guid: Guid| guid.to_bytes().to_vec();
+        let related = self.related;
+        let related = related.map(|related| (bytes(related.guid), related.sequence));
+        (bytes(self.writer), self.sequence, related).write(out);
+        self.payload.write(out);
+        self.has_call_header.write(out);
+    }
+
+    fn read(input: &mut Input<'_>) -> Option<Self> {
+        type Identity = (Vec<u8>, i64);
+        let guid = |bytes: Vec<u8>| Some(Guid::from_bytes(bytes.try_into().ok()?));
+        let (writer, sequence, related) = <(Vec<u8>, i64, Option<Identity>)>::read(input)?;
+        let related = match related {
+            Some((bytes, sequence)) => Some(SampleIdentity {
+                guid: guid(bytes)?,
+                sequence,
+            }),
+            None => None,
+        };
+        Some(Self {
+            writer: guid(writer)?,
+            sequence,
+            payload: Recorded::read(input)?,
+            related,
+            has_call_header: Recorded::read(input)?,
+        })
     }
 }
 
 /// Whose request a message is, and the message itself without what says so.
-pub(super) fn request_of(sample: Sample) -> Option<(Correlation, Vec<u8>)> {
+pub(super) fn request_of(sample: Arrived) -> Option<(Correlation, Vec<u8>)> {
     if sample.has_call_header {
         let (client, sequence, payload) = without_header(&sample)?;
         let related = SampleIdentity {
@@ -133,7 +202,7 @@ pub(super) fn request_of(sample: Sample) -> Option<(Correlation, Vec<u8>)> {
 }
 
 /// The message of a reply, if it answers a request of this client.
-pub(super) fn reply_to(sample: Sample, own: [Guid; 2], client: u64) -> Option<(i64, Vec<u8>)> {
+pub(super) fn reply_to(sample: Arrived, own: [Guid; 2], client: u64) -> Option<(i64, Vec<u8>)> {
     if sample.has_call_header {
         let (whose, sequence, payload) = without_header(&sample)?;
         return (whose == client).then_some((sequence, payload));
@@ -145,7 +214,7 @@ pub(super) fn reply_to(sample: Sample, own: [Guid; 2], client: u64) -> Option<(i
 }
 
 /// Client and number at the start of the payload, and the payload without them.
-fn without_header(sample: &Sample) -> Option<(u64, i64, Vec<u8>)> {
+fn without_header(sample: &Arrived) -> Option<(u64, i64, Vec<u8>)> {
     let (head, rest) = sample.payload.split_first_chunk::<4>()?;
     let (client, rest) = rest.split_first_chunk::<8>()?;
     let (number, body) = rest.split_first_chunk::<8>()?;

@@ -3,8 +3,9 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use capture::Tape;
 use ros_interfaces::{Catalogue, Generation, Layout};
-use rtps::{Network, Participant, Qos};
+use rtps::{Core, Network, Participant, Qos};
 
 use super::actions::{ActionClient, ActionServer};
 use super::endpoint::Endpoint;
@@ -29,7 +30,9 @@ pub(super) struct Node {
 
 /// The node in its domain.
 pub(super) struct Running {
-    pub(super) participant: Participant,
+    /// None in a replay.
+    participant: Option<Participant>,
+    pub(super) tape: Tape,
     pub(super) place: Place,
 }
 
@@ -74,6 +77,11 @@ impl Node {
 }
 
 impl Running {
+    /// What the participant does; None in a replay.
+    pub(super) fn core<T>(&self, action: impl FnOnce(&mut Core) -> T) -> Option<T> {
+        Some(self.participant.as_ref()?.with(action))
+    }
+
     /// The writer of a topic of ROS.
     pub(super) fn publisher(
         self: &Rc<Self>,
@@ -155,10 +163,17 @@ pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
             Network::Address(address)
         }
     };
-    let participant = Participant::new(domain, network, &name, b"enclave=/;")
-        .map_err(|error| ApiError::Other(format!("ROS 2: {error}")))?;
+    let mut participant = None;
+    let tape = cx.permissions().tape().clone();
+    let made = tape.input("a node of ROS 2", || {
+        let made = Participant::new(domain, network, &name, b"enclave=/;");
+        participant = Some(made.map_err(|error| error.to_string())?);
+        Ok(())
+    });
+    made?.map_err(|error: String| ApiError::Other(format!("ROS 2: {error}")))?;
     let running = Rc::new(Running {
         participant,
+        tape,
         place: Place::new(&options.namespace, &name),
     });
     *node.running.borrow_mut() = Some(running.clone());

@@ -74,10 +74,15 @@ impl Client {
 
     pub(super) fn has_server(&self) -> bool {
         let (writer, reader) = (self.requests.entity, self.replies.entity);
-        self.requests
-            .node
-            .participant
-            .with(|core| core.has_partner(writer, reader))
+        let node = &self.requests.node;
+        let has_partner = || {
+            let has_partner = node.core(|core| core.has_partner(writer, reader));
+            has_partner.unwrap_or_default()
+        };
+        let answer = node
+            .tape
+            .input("whether a service of ROS 2 is there", has_partner);
+        answer.unwrap_or_default()
     }
 
     /// Sends a request. Returns its number.

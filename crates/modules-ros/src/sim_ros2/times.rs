@@ -1,6 +1,7 @@
 //! Clocks, and the node itself.
 
 use api_macro::api;
+use capture::Tape;
 
 use super::node::{node, running};
 use super::{ApiError, ApiFn, Cx, Result, functions};
@@ -21,7 +22,7 @@ const STEADY: i64 = 4874;
 #[api("simROS2.getTime", snake_case)]
 fn get_time(cx: &Cx, #[default(4872, "simROS2.clock_type.ros")] clock_type: i64) -> Result<Data> {
     match clock_type {
-        ROS | SYSTEM => Ok(to_data(ros_time())),
+        ROS | SYSTEM => Ok(to_data(ros_time(cx.permissions().tape()))),
         STEADY => Ok(to_data(cx.clock().wall_seconds())),
         _ => Err(ApiError::Other(format!("unknown clock_type: {clock_type}"))),
     }
@@ -36,8 +37,9 @@ fn spin_some(cx: &mut Cx) -> Result<()> {
 }
 
 /// Seconds since 1970.
-pub(super) fn ros_time() -> f64 {
-    wall_clock::unix_seconds()
+pub(super) fn ros_time(tape: &Tape) -> f64 {
+    let now = tape.input("the time of ROS", wall_clock::unix_seconds);
+    now.unwrap_or_default()
 }
 
 /// As messages have times.

@@ -21,10 +21,20 @@ impl Bound {
         if !self.is_outside || !stack.tape().is_on() {
             return (self.function.call)(&mut args);
         }
-        let call = || Outcome((self.function.call)(&mut args).map(|count| results(stack, count)));
+        let mut returned = None;
+        let call = || {
+            let count = (self.function.call)(&mut args);
+            returned = count.as_ref().ok().copied();
+            Outcome(count.map(|count| results(stack, count)))
+        };
         let outcome = stack.tape().input_for(self.function.name, who, call);
         let outputs = outcome.map_or_else(|lost| Err(lost.into()), |outcome| outcome.0)?;
-        // What is pushed again after a capture is what a replay pushes: tables have the same order.
+        if let Some(count) = returned
+            && !outputs.iter().any(is_table)
+        {
+            return Ok(count);
+        }
+        // What is pushed again after a capture is what a replay pushes: tables have the same order. Objects are not: each is collected once.
         stack.set_top(0);
         outputs.iter().for_each(|output| push(stack, output));
         Ok(stack.top())
@@ -55,6 +65,11 @@ impl From<capture::Lost> for ApiError {
     fn from(lost: capture::Lost) -> Self {
         Self::Other(lost.to_string())
     }
+}
+
+/// Whether it is a table. No function returns objects beside tables.
+fn is_table(output: &Output) -> bool {
+    matches!(output, Output::Plain(Data::Map(_) | Data::Array(_)))
 }
 
 fn plain(output: Output) -> ApiResult<Data> {

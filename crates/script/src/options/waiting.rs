@@ -35,13 +35,20 @@ impl Options {
             let left = limit.map_or(MAX_POLL_INTERVAL, |limit| {
                 limit.saturating_sub(begun.elapsed())
             });
-            if left.is_zero() {
+            let tape = self.permissions.tape();
+            let end = tape.input("the end of a wait", || {
+                (left.is_zero(), self.is_interrupted())
+            });
+            let (is_late, is_interrupted) = end.unwrap_or((false, true));
+            if is_late {
                 return Ok(None);
             }
-            if self.is_interrupted() {
+            if is_interrupted {
                 return Err(ApiError::Interrupted);
             }
-            wall_clock::pause(pause.min(left));
+            if !tape.is_replaying() {
+                wall_clock::pause(pause.min(left));
+            }
             pause = MAX_POLL_INTERVAL.min(pause * 2);
         }
     }

@@ -153,7 +153,7 @@ impl ActionServer {
             Some(Data::Int(ACCEPT_AND_DEFER)) => Some(Status::Accepted),
             _ => None,
         };
-        let stamp = times::ros_time();
+        let stamp = times::ros_time(&self.feedback.node.tape);
         if let Some(status) = status {
             let (goal, waiting) = (goal.clone(), Vec::new());
             self.goals.borrow_mut().push(Goal {
