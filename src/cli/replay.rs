@@ -57,7 +57,8 @@ pub(super) fn replay(args: &Args) -> Outcome {
         tell(verdict, is_json, is_quiet);
         std::process::exit(i32::from(code_of(verdict)));
     });
-    args.perform(command, &tape).map_err(unreadable)??;
+    args.perform(command, &header, &tape)
+        .map_err(unreadable)??;
     let verdict = tape.finish().ok().flatten();
     let verdict = verdict.unwrap_or(Verdict::Unreadable("the run has no end".into()));
     tell(&verdict, is_json, is_quiet);
@@ -76,7 +77,7 @@ impl Args {
     }
 
     /// Performs the captured command; an error in the first place when captures have no such command.
-    fn perform(&self, command: Command, tape: &Tape) -> Result<Outcome, String> {
+    fn perform(&self, command: Command, header: &Header, tape: &Tape) -> Result<Outcome, String> {
         Ok(match command {
             Command::Run(mut run) => {
                 run.hashes.without_files();
@@ -90,6 +91,10 @@ impl Args {
             Command::View(mut view) => {
                 self.adapt(&mut view.setup, &mut view.capture, tape);
                 super::view::view(&view)
+            }
+            Command::Test(test) => {
+                super::test::replay(&test, header, tape)?;
+                Ok(ExitCode::SUCCESS)
             }
             _ => return Err("it is the capture of a command that runs nothing".into()),
         })

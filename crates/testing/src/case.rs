@@ -109,6 +109,8 @@ pub struct Outcome {
     pub comparisons: Vec<Comparison>,
     /// The page that plays what happened, where failures are recorded.
     pub recording: Option<PathBuf>,
+    /// The file from which it can be run again, where failures are captured.
+    pub capture: Option<PathBuf>,
     /// Results of a run of a batch.
     pub results: BTreeMap<String, String>,
     /// The names of the parameters that a batch's run has read.
@@ -137,6 +139,7 @@ impl Outcome {
             goldens: Vec::new(),
             comparisons: Vec::new(),
             recording: None,
+            capture: None,
             results: BTreeMap::new(),
             params_read: BTreeSet::new(),
             line_counts: LineCounts::default(),

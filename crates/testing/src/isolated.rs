@@ -94,6 +94,7 @@ fn outcome(text: &str, test: &Arc<TestCase>) -> Option<Outcome> {
     outcome.trace = string(&value["trace"]);
     outcome.line = value["line"].as_u64().map(|line| line as u32);
     outcome.recording = value["recording"].as_str().map(Into::into);
+    outcome.capture = value["capture"].as_str().map(Into::into);
     outcome.script = value["script"].as_str().map(str::to_owned);
     outcome.time = value["time"].as_f64().unwrap_or(f64::NAN);
     outcome.steps = value["steps"].as_u64().unwrap_or_default();

@@ -5,6 +5,7 @@
 
 mod apart;
 pub mod batch;
+mod captures;
 mod case;
 mod coverage;
 mod discover;
@@ -24,6 +25,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+pub use captures::{Captures, replay};
 pub use case::{Outcome, Status, TestCase};
 pub use coverage::{Coverage, FileCoverage};
 pub use discover::find_files;
@@ -64,6 +66,8 @@ pub struct Config {
     pub artifacts: PathBuf,
     /// Where recordings of failed tests go, if they are wanted.
     pub record_failures: Option<PathBuf>,
+    /// Where captures of failed tests go, if they are wanted.
+    pub captures: Option<Captures>,
     /// The file for the report of which lines ran, if that is wanted.
     pub coverage: Option<PathBuf>,
     /// Limits of a test.
@@ -103,6 +107,7 @@ impl Config {
             update_golden: false,
             artifacts: PathBuf::new(),
             record_failures: None,
+            captures: None,
             coverage: None,
             allowance,
             permissions: Permissions::all(),

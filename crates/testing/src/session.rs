@@ -7,6 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::Config;
 use super::apart::run_apart;
+use super::captures::TestCapture;
 use super::case::{Outcome, Status, TestCase};
 use super::excerpt::{Excerpt, positions};
 use super::plan::{Collection, Found};
@@ -14,7 +15,7 @@ use super::recording::TestRecording;
 use scene::Data;
 use script::TestBench;
 use script::test_bench::CompiledFile;
-use simulator::{Limits, Options, ScriptKind, ScriptRef, Simulator};
+use simulator::{Limits, Options, ScriptKind, ScriptRef, Simulator, Tape};
 
 /// A simulator that has loaded a test file.
 pub(super) struct Session {
@@ -23,13 +24,21 @@ pub(super) struct Session {
     bench: Rc<TestBench>,
     /// Folder of recordings of failed tests.
     recordings: Option<PathBuf>,
+    /// What is captured of the simulator; completed after it.
+    capture: Option<TestCapture>,
     /// Folder of persistent data of scripts; it is removed after the simulator.
     _data: Option<tempfile::TempDir>,
 }
 
 impl Session {
-    /// A fresh simulator for the tests of `file`. Setting `stop` ends whatever runs in it.
-    pub(super) fn new(config: &Config, file: &Path, seed: u32, stop: Arc<AtomicBool>) -> Self {
+    /// A fresh simulator for the tests of `file`, to which everything comes from outside by the tape. Setting `stop` ends whatever runs in it.
+    pub(super) fn new(
+        config: &Config,
+        file: &Path,
+        seed: u32,
+        stop: Arc<AtomicBool>,
+        tape: &Tape,
+    ) -> Self {
         let name = file.to_string_lossy().into_owned();
         let bench = TestBench::new(name, config.allowance.simulated, Some(run_apart));
         let folder = file
@@ -48,7 +57,7 @@ impl Session {
             count_lines: config.coverage.is_some(),
             package_dirs: vec![folder.to_owned()],
             // The file itself is read by Lua.
-            permissions: config.permissions_in(folder).allow_read(file),
+            permissions: config.permissions_in(folder).allow_read(file).on_tape(tape),
             resources: config.resources.clone(),
             data_dir: data.as_ref().map(|data| data.path().to_owned()),
             ..Options::default()
@@ -61,8 +70,35 @@ impl Session {
             sandbox,
             bench,
             recordings: config.record_failures.clone(),
+            capture: None,
             _data: data,
         }
+    }
+
+    /// The same for those tests; a failed one is captured where that is asked for. The outcome of a test when that cannot be.
+    pub(super) fn of_tests(
+        config: &Config,
+        tests: &[Arc<TestCase>],
+        stop: Arc<AtomicBool>,
+    ) -> Result<Self, Box<Outcome>> {
+        let (file, seed) = (&tests[0].file, tests[0].seed);
+        let Some(captures) = &config.captures else {
+            return Ok(Self::new(config, file, seed, stop, &Tape::default()));
+        };
+        let capture = TestCapture::start(captures, file, tests).map_err(|error| {
+            let message = format!("the test cannot be captured: {error}");
+            Box::new(Outcome::new(Arc::clone(&tests[0]), Status::Error, message))
+        })?;
+        let session = Self::new(config, file, seed, stop, capture.tape());
+        Ok(Self {
+            capture: Some(capture),
+            ..session
+        })
+    }
+
+    /// Whether a file that was compiled before may be loaded: a capture has the text.
+    pub(super) fn takes_compiled(&self) -> bool {
+        self.capture.is_none()
     }
 
     /// Loads the file and returns its tests.
@@ -128,6 +164,13 @@ impl Session {
         let mut outcome = self.run_unrecorded(test);
         recording.finish(&self.sim, &mut outcome, &folder);
         outcome
+    }
+
+    /// Says in the outcome of a failed test where its capture is.
+    pub(super) fn note_capture(&mut self, outcome: &mut Outcome) {
+        if let Some(capture) = &mut self.capture {
+            capture.note(outcome);
+        }
     }
 
     fn run_unrecorded(&mut self, test: &Arc<TestCase>) -> Outcome {

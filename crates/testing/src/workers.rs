@@ -22,7 +22,7 @@ use super::case::{Outcome, Status, TestCase};
 use super::isolated;
 use super::plan::{Collection, Job};
 use super::session::Session;
-use simulator::Simulator;
+use simulator::{Simulator, Tape};
 
 /// How often the clock is looked at.
 const TICK: Duration = Duration::from_millis(20);
@@ -314,8 +314,9 @@ impl Worker {
         let test = Arc::new(TestCase::of_file(file));
         let stop = Arc::new(AtomicBool::new(false));
         self.begin(&test, Job::none(), &stop);
+        let config = &self.shared.config;
         let collect =
-            || Session::new(&self.shared.config, file, self.shared.config.seed, stop).collect(file);
+            || Session::new(config, file, config.seed, stop, &Tape::default()).collect(file);
         let collection = catch_unwind(AssertUnwindSafe(collect))
             .unwrap_or_else(|_| Collection::broken(Outcome::new(test, Status::Error, CRASHED)));
         self.send(WorkerEvent::Ready(Message::Collected(Box::new(collection))));
@@ -355,14 +356,17 @@ impl Worker {
         let Some(first) = job.left().first().cloned() else {
             return job;
         };
-        let mut session = Session::new(
-            &self.shared.config,
-            &first.file,
-            first.seed,
-            Arc::clone(stop),
-        );
+        let session = Session::of_tests(&self.shared.config, job.left(), Arc::clone(stop));
+        let mut session = match session {
+            Ok(session) => session,
+            Err(outcome) => {
+                self.finished(*outcome);
+                return job.rest();
+            }
+        };
         let only = (job.left().len() == 1).then_some(first.index);
-        let loaded = session.load(&first.file, job.compiled.clone(), only);
+        let compiled = job.compiled.clone().filter(|_| session.takes_compiled());
+        let loaded = session.load(&first.file, compiled, only);
         while let Some(test) = job.left().first().cloned()
             && !stop.load(Ordering::Relaxed)
             && !self.is_to_end()
@@ -381,6 +385,7 @@ impl Worker {
                 session.finish(&mut outcome);
             }
             session.take_line_counts(&mut outcome);
+            session.note_capture(&mut outcome);
             if is_last || stop.load(Ordering::Relaxed) {
                 // A hang or crash while the simulator is closed counts as a failure of the test.
                 drop(session);

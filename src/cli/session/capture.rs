@@ -57,7 +57,7 @@ pub(in crate::cli) fn finish(tape: &Tape) {
 ///
 /// # Errors
 /// When an argument is no text.
-fn header() -> Result<Header, String> {
+pub(in crate::cli) fn header() -> Result<Header, String> {
     let args = std::env::args_os().skip(1).map(|arg| {
         arg.into_string()
             .map_err(|_| "arguments that are no UTF-8 cannot be captured".to_owned())

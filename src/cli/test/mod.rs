@@ -6,12 +6,14 @@ use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
+use super::capture::header;
 use super::interrupt::Interrupt;
 use super::permissions::PermissionArgs;
 use super::resources::ResourceArgs;
 use super::setup::seconds;
+use capture::{Header, Tape};
 use simulator::Options;
-use testing::{self, Allowance, Config, Summary};
+use testing::{self, Allowance, Captures, Config, Summary};
 
 mod coverage;
 mod failure;
@@ -82,6 +84,9 @@ pub(super) struct Args {
     /// Record tests that fail: a recording and a page that plays it for each, in this folder [default FOLDER: test-recordings]
     #[arg(long, value_name = "FOLDER", num_args = 0..=1, require_equals = true, default_missing_value = "test-recordings")]
     record_failures: Option<PathBuf>,
+    /// Capture tests that fail, to run them again with `swanilda replay FILE`: a file for each, in this folder [default FOLDER: test-captures]
+    #[arg(long, value_name = "FOLDER", num_args = 0..=1, require_equals = true, default_missing_value = "test-captures")]
+    capture_failures: Option<PathBuf>,
     /// Measure line coverage of scripts and Lua files and write it in LCOV format [default FILE: lcov.info]
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "lcov.info")]
     coverage: Option<PathBuf>,
@@ -112,6 +117,10 @@ pub(super) fn test(args: &Args) -> ExitCode {
     }
     let interrupt = Interrupt::install(INTERRUPTED);
     let mut config = args.config(&interrupt);
+    match args.captures() {
+        Ok(captures) => config.captures = captures,
+        Err(reason) => return refuse(&reason),
+    }
     if args.isolate && isolate::restrict(&mut config) {
         isolate::run(&config);
     }
@@ -141,6 +150,24 @@ fn run(args: &Args, config: &Config) -> Result<u8, String> {
     Ok(exit_code(config, &summary))
 }
 
+/// Runs the tests of a capture again, and prints what they and their scripts print.
+///
+/// # Errors
+/// When it is no capture of tests.
+pub(super) fn replay(args: &Args, header: &Header, tape: &Tape) -> Result<(), String> {
+    let mut config = args.config(&Interrupt::install(INTERRUPTED));
+    (config.record_failures, config.coverage) = (None, None);
+    for outcome in testing::replay(&config, header, tape)? {
+        for line in &outcome.console {
+            super::say(format!("{}\n", line.text).as_bytes());
+        }
+        if outcome.is_bad() {
+            super::complain(&format!("the test has failed: {}", outcome.message));
+        }
+    }
+    Ok(())
+}
+
 fn watch(args: &Args, config: &Config, interrupt: &Interrupt) -> Result<u8, String> {
     let watch = Watch::new(&config.paths).map_err(|error| error.to_string())?;
     let mut code = run(args, config)?;
@@ -164,6 +191,16 @@ fn init() -> ExitCode {
 }
 
 impl Args {
+    fn captures(&self) -> Result<Option<Captures>, String> {
+        let capture = |folder: &PathBuf| {
+            Ok(Captures {
+                folder: folder.clone(),
+                header: header()?,
+            })
+        };
+        self.capture_failures.as_ref().map(capture).transpose()
+    }
+
     fn config(&self, interrupt: &Interrupt) -> Config {
         Config {
             paths: self.paths.clone(),
@@ -177,6 +214,7 @@ impl Args {
             update_golden: self.update_golden,
             artifacts: self.artifacts.clone(),
             record_failures: self.record_failures.clone(),
+            captures: None,
             coverage: self.coverage.clone(),
             allowance: Allowance {
                 wall: Duration::from_secs_f64(self.timeout),

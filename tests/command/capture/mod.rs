@@ -1,6 +1,9 @@
 //! `--capture` and `swanilda replay`: the same run again, without the world outside.
 
+#[cfg(unix)]
+mod clients;
 mod scenes;
+mod tests;
 
 use std::ffi::OsStr;
 use std::fs;

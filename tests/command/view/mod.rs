@@ -5,9 +5,9 @@
     reason = "tests start programs and wait for them"
 )]
 
-mod page;
+pub mod page;
 mod recorded;
-mod served;
+pub mod served;
 mod stream;
 
 use page::{Page, get, raw, send};

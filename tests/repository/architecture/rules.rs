@@ -387,6 +387,22 @@ pub const INPUTS: &[(&str, &str)] = &[
         "crates/modules-messaging/src/sim_ws/mod.rs",
         "whether ports are free",
     ),
+    (
+        "crates/modules-ros/src/sim_ros2/endpoint.rs",
+        "messages of ROS 2",
+    ),
+    (
+        "crates/modules-ros/src/sim_ros2/node.rs",
+        "whether there is a node of ROS 2",
+    ),
+    (
+        "crates/modules-ros/src/sim_ros2/services.rs",
+        "whether its services are there",
+    ),
+    (
+        "crates/modules-ros/src/sim_ros2/times.rs",
+        "the time of ROS",
+    ),
     ("crates/permissions/src/files.rs", "files"),
     ("crates/permissions/src/lib.rs", "where links lead"),
     ("crates/script/src/app_storage/mod.rs", "persistent data"),
@@ -407,6 +423,7 @@ pub const INPUTS: &[(&str, &str)] = &[
         "crates/script/src/lua_runtime/taped.rs",
         "Lua's own libraries",
     ),
+    ("crates/script/src/options/waiting.rs", "how long is waited"),
     ("crates/script/src/person.rs", "answers to dialogs"),
     (
         "crates/script/src/python_runtime/link.rs",

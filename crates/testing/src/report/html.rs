@@ -113,7 +113,7 @@ fn test(outcome: &Outcome, folder: &Path) -> String {
     let wall = duration(outcome.wall.as_secs_f64());
     format!(
         "<details class=\"test {word}\"{open}>\n<summary><span class=\"status\">{word}</span> \
-        <span class=\"name\">{}</span> <span class=\"time\">{wall}</span></summary>\n<div>\n{}{}{}{}{}{}{}</div>\n</details>\n",
+        <span class=\"name\">{}</span> <span class=\"time\">{wall}</span></summary>\n<div>\n{}{}{}{}{}{}{}{}</div>\n</details>\n",
         Quoted(&title),
         message(outcome),
         outcome.excerpts.iter().map(excerpt).collect::<String>(),
@@ -122,6 +122,10 @@ fn test(outcome: &Outcome, folder: &Path) -> String {
             .recording
             .as_deref()
             .map_or_else(String::new, |page| recording(page, folder)),
+        outcome
+            .capture
+            .as_deref()
+            .map_or_else(String::new, |file| captured(file, folder)),
         outcome.comparisons.iter().map(plot).collect::<String>(),
         console(&outcome.console),
         folded("trace", "Traceback", outcome.trace.trim()),
@@ -182,6 +186,17 @@ fn recording(page: &Path, folder: &Path) -> String {
     format!(
         "<p class=\"recording\"><a href=\"{}\">Play the recording</a></p>\n",
         Quoted(&address)
+    )
+}
+
+/// A link to the file from which a failed test can be run again.
+fn captured(file: &Path, folder: &Path) -> String {
+    let address = address_below(folder, file);
+    let name = file.to_string_lossy();
+    format!(
+        "<p class=\"recording\"><a href=\"{}\">The capture</a>: <code>swanilda replay {}</code></p>\n",
+        Quoted(&address),
+        Quoted(&name)
     )
 }
 

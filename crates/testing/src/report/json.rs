@@ -40,6 +40,7 @@ pub(crate) fn test_value(outcome: &Outcome) -> Value {
         "line": outcome.line,
         "script": outcome.script,
         "recording": outcome.recording,
+        "capture": outcome.capture,
         "excerpts": outcome.excerpts.iter().map(excerpt).collect::<Vec<_>>(),
         "trace": outcome.trace,
         "time": outcome.time,

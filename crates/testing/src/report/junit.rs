@@ -84,6 +84,10 @@ fn write_properties(xml: &mut Xml, outcome: &Outcome) -> io::Result<()> {
         properties.push(("simulated_time", seconds(outcome.time)));
         properties.push(("steps", outcome.steps.to_string()));
     }
+    properties.extend(outcome.capture.as_deref().map(|file| {
+        let name = file.to_string_lossy();
+        ("capture", clean(&name).into_owned())
+    }));
     properties.extend(
         outcome
             .script

@@ -1,0 +1,161 @@
+//! Captures of failed tests: files from which `swanilda replay` runs a test again, with all that came from outside.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use capture::{Header, Tape};
+use tempfile::NamedTempFile;
+
+use super::Config;
+use super::case::{Outcome, TestCase};
+use super::session::Session;
+
+/// Where captures of failed tests go, and how this program was started.
+#[derive(Debug, Clone)]
+pub struct Captures {
+    /// The folder for them; made for the first one.
+    pub folder: PathBuf,
+    /// What each of them begins with.
+    pub header: Header,
+}
+
+/// Facts of a capture's header.
+const FILE: &str = "test file";
+const TESTS: &str = "tests";
+
+/// A simulator of tests that is being captured. What was captured is removed when this is dropped, unless a test has failed.
+pub(super) struct TestCapture {
+    tape: Tape,
+    file: NamedTempFile,
+    folder: PathBuf,
+    /// The place of the capture, once a test has failed.
+    kept: Option<PathBuf>,
+}
+
+impl TestCapture {
+    /// Of a simulator that will run those tests of a file.
+    ///
+    /// # Errors
+    /// When there is no place for it.
+    pub(super) fn start(
+        captures: &Captures,
+        file: &Path,
+        tests: &[Arc<TestCase>],
+    ) -> io::Result<Self> {
+        let place = NamedTempFile::new()?;
+        let mut header = captures.header.clone();
+        let tests: Vec<String> = tests.iter().map(|test| numbers(test)).collect();
+        header.facts.extend([
+            (FILE.to_owned(), file.to_string_lossy().into_owned()),
+            (TESTS.to_owned(), tests.join(",")),
+        ]);
+        Ok(Self {
+            tape: Tape::capturing(place.path(), &header)?,
+            file: place,
+            folder: captures.folder.clone(),
+            kept: None,
+        })
+    }
+
+    pub(super) fn tape(&self) -> &Tape {
+        &self.tape
+    }
+
+    /// Says in the outcome of a failed test where the capture will be.
+    pub(super) fn note(&mut self, outcome: &mut Outcome) {
+        if outcome.is_bad() {
+            let place = || self.folder.join(file_name(&outcome.test));
+            outcome.capture = Some(self.kept.get_or_insert_with(place).clone());
+        }
+    }
+}
+
+impl Drop for TestCapture {
+    fn drop(&mut self) {
+        let Some(kept) = &self.kept else { return };
+        // The outcome has the path: whoever looks for the file sees that it could not be written.
+        let _ = self
+            .tape
+            .finish()
+            .and_then(|_| std::fs::create_dir_all(&self.folder))
+            .and_then(|()| std::fs::copy(self.file.path(), kept));
+    }
+}
+
+/// `index:repetition:seed`.
+fn numbers(test: &TestCase) -> String {
+    format!("{}:{}:{}", test.index, test.repetition, test.seed)
+}
+
+/// Named after the file of the test, its number and its title; without what file systems treat in a special way.
+pub(super) fn file_name(test: &TestCase) -> String {
+    const MAX_LENGTH: usize = 80;
+    let stem = test.file.file_stem().unwrap_or_default().to_string_lossy();
+    let title = test.name.join("-");
+    let text = format!("{stem}-{}-{}-{title}", test.index, test.repetition);
+    let plain = text
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '-' });
+    plain.take(MAX_LENGTH).collect::<String>() + ".swc"
+}
+
+/// Runs the tests of a capture again, on its tape. Their outcomes.
+///
+/// # Errors
+/// When it is no capture of tests; in words.
+pub fn replay(config: &Config, header: &Header, tape: &Tape) -> Result<Vec<Outcome>, String> {
+    let fact = |name: &str| {
+        let found = header.facts.iter().find(|(fact, _)| fact == name);
+        found.map(|(_, value)| value.as_str())
+    };
+    let file = PathBuf::from(fact(FILE).ok_or("it is no capture of a test")?);
+    let tests = fact(TESTS).unwrap_or_default().split(',');
+    let tests: Option<Vec<_>> = tests.map(|numbers| test_of(&file, numbers)).collect();
+    let tests = tests.ok_or("its tests have no numbers")?;
+    let seed = tests.first().map_or(config.seed, |test| test.seed);
+    let stop = Arc::new(AtomicBool::new(false));
+    let mut session = Session::new(config, &file, seed, stop, tape);
+    let only = (tests.len() == 1).then_some(tests[0].index);
+    if let Err(broken) = session.load(&file, None, only) {
+        return Ok(vec![*broken]);
+    }
+    let mut outcomes: Vec<_> = tests.iter().map(|test| session.run(test)).collect();
+    if let Some(last) = outcomes.last_mut() {
+        session.finish(last);
+    }
+    Ok(outcomes)
+}
+
+fn test_of(file: &Path, numbers: &str) -> Option<Arc<TestCase>> {
+    let mut numbers = numbers.split(':').map(str::parse::<u32>);
+    let mut number = || numbers.next()?.ok();
+    Some(Arc::new(TestCase {
+        index: usize::try_from(number()?).ok()?,
+        repetition: number()?,
+        seed: number()?,
+        ..TestCase::of_file(file)
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tests_come_back_by_their_numbers() {
+        let file = Path::new("a_test.lua");
+        let test = TestCase {
+            index: 3,
+            repetition: 1,
+            seed: 4_000_000_000,
+            ..TestCase::of_file(file)
+        };
+        assert_eq!(test_of(file, &numbers(&test)).as_deref(), Some(&test));
+        for bad in ["", "1", "1:2", "1:2:x", "-1:0:0"] {
+            assert!(test_of(file, bad).is_none(), "{bad}");
+        }
+        assert_eq!(file_name(&test), "a-test-3-1--file-.swc");
+    }
+}
