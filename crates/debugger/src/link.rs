@@ -3,7 +3,7 @@
 use std::io::{Read, Write};
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{
     Receiver, RecvTimeoutError, Sender, SyncSender, TryRecvError, channel, sync_channel,
 };
@@ -39,6 +39,7 @@ pub enum Incoming {
 pub struct Link {
     incoming: Receiver<Incoming>,
     unread: Arc<AtomicUsize>,
+    insists: Arc<AtomicBool>,
     outgoing: SyncSender<Outgoing>,
     finished: Receiver<()>,
 }
@@ -101,18 +102,26 @@ impl Link {
             .name("debugger, output".into())
             .spawn(move || write_all(&to_client, &finish))?;
         let unread = Arc::<AtomicUsize>::default();
+        let insists = Arc::<AtomicBool>::default();
         let reader = Reader {
             to_simulator,
             unread: Arc::clone(&unread),
+            insists: Arc::clone(&insists),
             wake,
         };
         let link = Self {
             incoming,
             unread,
+            insists,
             outgoing,
             finished,
         };
         Ok((link, reader))
+    }
+
+    /// From now on code that goes on for long after the client wants the end is asked again and again.
+    pub(crate) fn insist_on_end(&self) {
+        self.insists.store(true, Ordering::Release);
     }
 
     /// What has come, if anything has.
@@ -171,6 +180,7 @@ fn write_all(messages: &Receiver<Outgoing>, finish: &Sender<()>) {
 struct Reader {
     to_simulator: Sender<Incoming>,
     unread: Arc<AtomicUsize>,
+    insists: Arc<AtomicBool>,
     wake: Wake,
 }
 
@@ -208,7 +218,9 @@ impl Reader {
                 std::thread::sleep(PATIENCE);
                 (self.wake)();
             }
-            "terminate" | "restart" | "disconnect" => self.insist(),
+            "terminate" | "restart" | "disconnect" if self.insists.load(Ordering::Acquire) => {
+                self.insist();
+            }
             _ => {}
         }
     }

@@ -101,6 +101,9 @@ enum Flow {
 impl Session {
     /// A session with the client of a connection. `is_attached`: the simulation does not wait for it, and goes on without it.
     pub fn new(link: Link, is_attached: bool) -> Rc<Self> {
+        if !is_attached {
+            link.insist_on_end();
+        }
         Rc::new(Self {
             link,
             is_attached,
